@@ -1,0 +1,33 @@
+# mortise_add_unit_tests(<package> USES <targets>)
+# tests/unit/<package>/*_test.cpp make one executable that runs on one rank; each *_test.np<digits>.cpp makes its own and runs on as many
+# ranks as each digit says (np123: on 1, 2 and 3).
+find_package(GTest REQUIRED)
+
+function(mortise_add_mpi_test name executable ranks)
+  add_test(NAME ${name} COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} $<TARGET_FILE:${executable}> ${ARGN})
+  set_tests_properties(${name} PROPERTIES PROCESSORS ${ranks}
+    ENVIRONMENT "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_rmaps_base_oversubscribe=1;OMPI_MCA_btl_vader_single_copy_mechanism=none;OMP_NUM_THREADS=1;OPENBLAS_NUM_THREADS=1")
+endfunction()
+
+function(mortise_add_unit_tests package)
+  cmake_parse_arguments(PARSE_ARGV 1 test "" "" "USES")
+  file(GLOB serial CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp")
+  if(serial)
+    add_executable(test_${package} ${serial})
+    target_link_libraries(test_${package} PRIVATE ${test_USES} mortise_test_main)
+    mortise_add_mpi_test(unit.${package} test_${package} 1)
+  endif()
+  file(GLOB parallel CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*_test.np*.cpp")
+  foreach(source ${parallel})
+    get_filename_component(file ${source} NAME)
+    string(REGEX MATCH "^(.*)_test\\.np([0-9]+)\\.cpp$" matched "${file}")
+    set(stem "${CMAKE_MATCH_1}")
+    set(digits "${CMAKE_MATCH_2}")
+    add_executable(test_${package}_${stem} ${source})
+    target_link_libraries(test_${package}_${stem} PRIVATE ${test_USES} mortise_test_main)
+    string(REGEX MATCHALL "[0-9]" digits "${digits}")
+    foreach(ranks ${digits})
+      mortise_add_mpi_test(unit.${package}.${stem}.np${ranks} test_${package}_${stem} ${ranks})
+    endforeach()
+  endforeach()
+endfunction()

@@ -1,0 +1,120 @@
+#pragma once
+// All contact pairs of a model: their residuals, their blocks of the linearised system, the condensation of the multipliers.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mortise/core/error.hpp"
+#include "mortise/core/parameters.hpp"
+#include "mortise/core/timers.hpp"
+#include "mortise/core/types.hpp"
+#include "mortise/mortar/mortar_interface.hpp"
+
+namespace mortise {
+
+/// Which configuration carries the contact geometry.
+enum class ContactGeometry { current, reference };
+
+/// Options of one pair that do not depend on the mesh.
+struct ContactOptions {
+  MortarOptions mortar;
+  ContactGeometry geometry = ContactGeometry::current;
+  std::optional<double> complementarity_constant;  ///< c_n; default E / (h A_j)
+  void describe(Parameters& parameters);
+};
+
+/// One pair as the host application gives it.
+struct ContactPair {
+  std::string name;
+  Place place;
+  SurfaceFacets slave, master;  ///< as MortarInterface wants them
+  double youngs_modulus = 0.0;  ///< of the softer side: sets c_n and the start rule, no solution depends on it
+  ContactOptions options;
+};
+
+/// Norms and counts after an evaluation, over all ranks.
+struct ContactNorms {
+  double gap = 0.0;              ///< max |g_j| / (A_j h) over closed nodes
+  double complementarity = 0.0;  ///< max |C| relative to max |z| (with a floor)
+  double force = 0.0;            ///< |f_c|
+  int active = 0;                ///< closed nodes
+  int changed = 0;               ///< nodes whose state is not that of the last committed Newton iterate
+};
+
+/// What can be known of an owned slave node after a solve.
+struct ContactNodeState {
+  GlobalOrdinal node = 0;
+  LocalOrdinal owned_node = 0;
+  std::array<double, 2> traction{};  ///< multiplier z (compression positive along the normal), force per area
+  std::array<double, 2> normal{};
+  double pressure = 0.0;             ///< z . n
+  double gap = 0.0;                  ///< weighted gap / A_j
+  double weight = 0.0;               ///< A_j
+  bool closed = false;
+  std::array<double, 2> force{};     ///< D_jj z_j, force of this node's multiplier on the slave side is -force
+};
+
+/// All pairs. z holds `dimension` components for each owned slave node that may carry a multiplier.
+/// Displacements are given on the owned dofs. Collective in all members but the accessors.
+class ContactSystem {
+ public:
+  /// @param dofs       owned dofs (dimension * node + component) of `owned_nodes`
+  /// @param reference  [owned nodes x 2] reference positions
+  /// @param fixed      [owned nodes x 2] 1 where prescribed
+  /// @throws InputError for a slave node in two pairs, a node that is slave in one pair and master in another, and what
+  ///         MortarInterface refuses
+  ContactSystem(RCP<const Map> owned_nodes, RCP<const Map> dofs, RCP<const MultiVector> reference, RCP<const MultiVector> fixed,
+                const InterfaceMeasure& measure, std::vector<ContactPair> pairs, const Timers& timers);
+  ~ContactSystem();
+
+  std::size_t pairs() const;
+  const std::string& pair_name(std::size_t pair) const;
+  /// Map of z: ids lie above all dof ids.
+  const RCP<const Map>& multiplier_map() const;
+
+  /// Integrals at displacement d (kept until the next call); searches where needed.
+  void evaluate(const Vector& d, bool derivatives, std::optional<StepFailure>& failure);
+
+  /// Graph of the condensed system: `bulk` and what the pairs couple. `changed` is set if it differs from the one of the last call.
+  RCP<const Graph> system_graph(const RCP<const Graph>& bulk, bool& changed);
+
+  /// r += f_c(d, z) on the owned dofs, d of the last evaluate.
+  void add_contact_force(const Vector& z, Vector& r) const;
+  /// C(d, z), d of the last evaluate; rows in units of traction.
+  void complementarity(const Vector& z, Vector& C) const;
+  ContactNorms norms(const Vector& z) const;
+
+  /// Takes the states at z as those that `changed` counts against.
+  void mark_states(const Vector& z);
+
+  /// K += C~ = d(f_c)/dd at fixed z. `system` has system_graph(). Needs evaluate(d, true).
+  void add_stiffness(const Vector& z, Matrix& system);
+
+  /// Turns `system` (K~, Dirichlet rows untouched) and `rhs` (-r without f_c) into the condensed system; keeps what recover() needs.
+  void condense(const Vector& z, Matrix& system, Vector& rhs);
+  /// z^{k+1} from the displacement increment.
+  void recover(const Vector& increment, Vector& z_new) const;
+
+  /// The blocks of the saddle point form, for tests and embedding: f_c = B(d) z, C_d, C_z on the maps of d and z.
+  struct SaddlePointBlocks {
+    RCP<Matrix> B, C_d, C_z;
+  };
+  SaddlePointBlocks saddle_point_blocks(const Vector& z) const;
+
+  /// Start rule: multipliers of nodes that touch, and seeds for bodies that only contact holds, are set to a small pressure.
+  /// @param unheld_bodies  for each owned node whether it belongs to a body that nothing but contact holds
+  void start_step(const Vector& d, const std::vector<char>& unheld, Vector& z);
+
+  /// States of the owned slave nodes of a pair.
+  std::vector<ContactNodeState> node_states(std::size_t pair, const Vector& z) const;
+  /// Resultant (over all ranks) of the contact forces on the slave side of a pair.
+  std::array<double, 2> resultant(std::size_t pair, const Vector& z) const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace mortise

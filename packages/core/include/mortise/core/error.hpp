@@ -1,0 +1,80 @@
+#pragma once
+// Errors with a place, and the exit codes of the program.
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "mortise/core/types.hpp"
+
+namespace mortise {
+
+/// Exit codes of `mortise` (documented in the README and in docs/program.md).
+enum class ExitCode { done = 0, usage = 1, invalid_input = 2, not_converged = 3, check_missed = 4, files = 5, internal = 70 };
+
+/// Where in a scene something was said: file, line (1-based; 0 if unknown) and path of list names, e.g. "contact/die".
+struct Place {
+  std::string file;
+  int line = 0;
+  std::string path;
+};
+
+/// One thing that is wrong with the input.
+struct Diagnostic {
+  Place place;
+  std::string message;
+};
+
+/// "scene.xml:14: error: contact/die: unknown parameter ..."
+std::string to_string(const Diagnostic& diagnostic);
+
+/// Everything that is wrong with the input, found in one go; what() is all of it, one line each. Exit code 2.
+class InputError : public std::runtime_error {
+ public:
+  explicit InputError(std::vector<Diagnostic> diagnostics);
+  InputError(Place place, std::string message);
+  const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
+
+ private:
+  std::vector<Diagnostic> diagnostics_;
+};
+
+/// A file that cannot be read or written. Exit code 5.
+class FileError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Why a step (one Newton solve) has to be undone. Names stand in newton.csv.
+enum class FailureKind {
+  inverted_element,      ///< det F <= 0 or det F0 <= 0
+  material,              ///< a law that found no stress
+  inverted_facet,        ///< a surface facet without length or normal
+  projection,            ///< a projection that has no solution
+  lost_contact,          ///< closed nodes that moved beyond the reach of their master surface
+  linear_solver,         ///< true residual of a linear solve too large, or a singular matrix
+  not_finite,            ///< NaN or Inf
+  diverged,
+  too_many_iterations,
+  cycling_active_set
+};
+std::string to_string(FailureKind kind);
+
+/// A step that cannot be finished; the load stepper undoes it and takes a smaller one. Thrown on every rank or on none.
+class StepFailure : public std::runtime_error {
+ public:
+  StepFailure(FailureKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+  FailureKind kind() const { return kind_; }
+
+ private:
+  FailureKind kind_;
+};
+
+/// Collective: if any rank holds a failure, every rank throws the one of the lowest such rank.
+void throw_if_any(const Communicator& comm, const std::optional<StepFailure>& failure);
+
+/// Collective: if any rank holds diagnostics, every rank throws all of them (in rank order, without repeats).
+void throw_if_any(const Communicator& comm, const std::vector<Diagnostic>& diagnostics);
+
+}  // namespace mortise

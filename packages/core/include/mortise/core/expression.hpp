@@ -1,0 +1,48 @@
+#pragma once
+// A scalar function of pseudo-time and reference position, given as text.
+
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mortise/core/error.hpp"
+
+namespace mortise {
+
+/// Piecewise linear function of one argument, constant beyond its ends. `times` ascend strictly.
+struct Table {
+  std::vector<double> times, values;
+  double operator()(double time) const;
+};
+
+/// What expressions may name besides t, x, y, z and the usual functions: numbers by name, and tables called as `name(t)`.
+struct Symbols {
+  std::map<std::string, double> variables;
+  std::map<std::string, Table> tables;
+};
+
+/// A function f(t, x, y, z) parsed by muParser. Copies are cheap and share the parsed form.
+class Expression {
+ public:
+  /// The constant `value`.
+  Expression(double value = 0.0);
+
+  /// Parses `source`. Throws InputError at `place` with what is wrong and what may be named.
+  Expression(const std::string& source, const Symbols& symbols, const Place& place = {});
+
+  /// Value at pseudo-time t and reference position (x, y, z). Throws InputError if it is not finite.
+  double operator()(double t = 0.0, double x = 0.0, double y = 0.0, double z = 0.0) const;
+
+  bool is_constant() const;          ///< depends on neither t nor position
+  bool depends_on_position() const;
+  const std::string& source() const;  ///< as given; of a constant its shortest exact text
+  const Place& place() const;
+
+ private:
+  struct Parsed;
+  std::shared_ptr<Parsed> parsed_;
+};
+
+}  // namespace mortise

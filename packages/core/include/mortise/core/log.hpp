@@ -1,0 +1,36 @@
+#pragma once
+// A rank-aware log that is handed in; nothing below `simulation` prints in any other way.
+
+#include <memory>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace mortise {
+
+enum class Verbosity { quiet, normal, verbose };
+
+/// Writes lines to its sinks on the rank that holds them (rank 0); on all other ranks it has no sink and does nothing.
+class Log {
+ public:
+  /// A log without sinks: silent.
+  Log() = default;
+  explicit Log(Verbosity verbosity) : verbosity_(verbosity) {}
+
+  /// Adds a sink (not owned). `threshold` is the verbosity from which on a line of level `normal` reaches it.
+  void add_sink(std::ostream& sink, Verbosity verbosity);
+
+  void info(const std::string& line) const;     ///< reaches sinks of verbosity normal and verbose
+  void detail(const std::string& line) const;   ///< reaches sinks of verbosity verbose
+  void warning(const std::string& line) const;  ///< reaches every sink, with "warning: " before it
+
+ private:
+  struct Sink {
+    std::ostream* stream;
+    Verbosity verbosity;
+  };
+  Verbosity verbosity_ = Verbosity::normal;
+  std::vector<Sink> sinks_;
+};
+
+}  // namespace mortise

@@ -1,0 +1,197 @@
+#pragma once
+// Parameters declared once: every options struct has one `describe(Parameters&)` that names each of its parameters. Reading and checking a
+// scene, the list of all errors, `mortise describe`, the reference documentation, the RELAX NG schema and effective.xml all come from it.
+
+#include <Teuchos_ParameterList.hpp>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mortise/core/error.hpp"
+#include "mortise/core/expression.hpp"
+
+namespace mortise {
+
+class Parameters;
+
+/// Options that are reached through a base class (see Choice).
+struct Described {
+  virtual ~Described() = default;
+  virtual void describe(Parameters& parameters) = 0;
+};
+
+/// What a parameter is: one sentence, its unit and the values it may take. Built by chaining:
+/// Says("relative bound on the momentum residual").unit("-").above(0.0)
+class Says {
+ public:
+  Says(std::string sentence) : sentence_(std::move(sentence)) {}
+  Says(const char* sentence) : sentence_(sentence) {}
+  Says& unit(std::string unit) { return unit_ = std::move(unit), *this; }
+  Says& above(double bound) { return lower_ = bound, lower_open_ = true, *this; }
+  Says& at_least(double bound) { return lower_ = bound, lower_open_ = false, *this; }
+  Says& below(double bound) { return upper_ = bound, upper_open_ = true, *this; }
+  Says& at_most(double bound) { return upper_ = bound, upper_open_ = false, *this; }
+  /// The scene has to give it; there is no default.
+  Says& required() { return required_ = true, *this; }
+
+  const std::string& sentence() const { return sentence_; }
+  const std::string& unit() const { return unit_; }
+  const std::optional<double>& lower() const { return lower_; }
+  const std::optional<double>& upper() const { return upper_; }
+  bool lower_open() const { return lower_open_; }
+  bool upper_open() const { return upper_open_; }
+  bool is_required() const { return required_; }
+
+ private:
+  std::string sentence_, unit_;
+  std::optional<double> lower_, upper_;
+  bool lower_open_ = false, upper_open_ = false, required_ = false;
+};
+
+/// A value that remembers where the scene gave it, for errors that are found later.
+template <class T>
+struct Located {
+  T value{};
+  Place place;
+};
+
+/// An entry of a list whose members the user names (materials, bodies, contact pairs, ...). `value` has a `describe`.
+template <class T>
+struct Named {
+  std::string name;
+  Place place;
+  T value{};
+};
+
+/// Named factories of everything that can stand behind a parameter "type". Adding a kind is one line where the registry is made.
+template <class Base>
+class Registry {
+ public:
+  struct Entry {
+    std::string name, sentence;
+    std::function<std::shared_ptr<Base>()> make;
+  };
+  template <class Kind>
+  Registry& add(std::string name, std::string sentence) {
+    entries_.push_back({std::move(name), std::move(sentence), [] { return std::make_shared<Kind>(); }});
+    return *this;
+  }
+  const std::vector<Entry>& entries() const { return entries_; }
+
+ private:
+  std::vector<Entry> entries_;
+};
+
+/// One of several kinds of options, told apart by a parameter "type" that stands in the same list as the kind's own parameters.
+template <class Base>
+struct Choice {
+  std::string type;              ///< name in the registry; empty: not given
+  std::shared_ptr<Base> options;  ///< null only if the scene gave no valid type
+  Place place;
+};
+
+/// The visitor that `describe` functions call. Names are lower case with spaces. A default is the value the member has when visited.
+class Parameters {
+ public:
+  virtual ~Parameters() = default;
+
+  virtual void add(const std::string& name, double& value, const Says& says) = 0;
+  virtual void add(const std::string& name, int& value, const Says& says) = 0;
+  virtual void add(const std::string& name, bool& value, const Says& says) = 0;
+  virtual void add(const std::string& name, std::string& value, const Says& says) = 0;
+  virtual void add(const std::string& name, Expression& value, const Says& says) = 0;           ///< of t, x, y, z and the scene's variables
+  virtual void add(const std::string& name, std::optional<double>& value, const Says& says) = 0;  ///< no value: chosen by the program, as the sentence says
+  virtual void add(const std::string& name, std::vector<double>& value, const Says& says) = 0;  ///< "1, 2*a, 3" (expressions allowed)
+  virtual void add(const std::string& name, std::vector<std::string>& value, const Says& says) = 0;  ///< "a, b, c"
+
+  /// One of named values of an enumeration.
+  template <class Enum>
+  void add(const std::string& name, Enum& value, const std::vector<std::pair<std::string, Enum>>& choices, const Says& says) {
+    std::vector<std::string> names;
+    std::size_t index = 0;
+    for (std::size_t i = 0; i < choices.size(); ++i) {
+      names.push_back(choices[i].first);
+      if (choices[i].second == value) index = i;
+    }
+    add_enumeration(name, index, names, says);
+    value = choices[index].second;
+  }
+
+  template <class T>
+  void add(const std::string& name, Located<T>& value, const Says& says) {
+    add(name, value.value, says);
+    value.place = place(name);
+  }
+
+  /// A list of parameters: `options` has a `describe`.
+  template <class Options>
+  void list(const std::string& name, Options& options, const Says& says) {
+    if (!begin_list(name, says)) return;
+    options.describe(*this);
+    end_list();
+  }
+
+  /// A list of lists whose names the user chooses.
+  template <class T>
+  void named(const std::string& name, std::vector<Named<T>>& entries, const Says& says) {
+    NamedAccess access;
+    access.size = [&] { return entries.size(); };
+    access.name = [&](std::size_t i) { return entries[i].name; };
+    access.append = [&](std::string entry, Place place) { entries.push_back({std::move(entry), std::move(place), T{}}); };
+    access.describe = [&](std::size_t i, Parameters& visitor) { entries[i].value.describe(visitor); };
+    access.describe_prototype = [](Parameters& visitor) { T{}.describe(visitor); };
+    named_lists(name, access, says);
+  }
+
+  /// The parameter "type" and the parameters of the kind it selects, in the current list.
+  template <class Base>
+  void choose(Choice<Base>& choice, const Registry<Base>& registry, const Says& says) {
+    ChoiceAccess access;
+    for (const auto& entry : registry.entries()) access.kinds.push_back({entry.name, entry.sentence});
+    access.type = choice.type;
+    access.select = [&](std::size_t i, Place place) {
+      choice.type = registry.entries()[i].name;
+      choice.options = registry.entries()[i].make();
+      choice.place = std::move(place);
+    };
+    access.describe = [&](Parameters& visitor) { choice.options->describe(visitor); };
+    access.describe_prototype = [&](std::size_t i, Parameters& visitor) { registry.entries()[i].make()->describe(visitor); };
+    choice_of("type", access, says);
+  }
+
+  /// A list handed on as it is to the package that owns its meaning (MueLu, Belos, NOX), which checks it.
+  virtual void verbatim(const std::string& name, Teuchos::ParameterList& list, const Says& says) = 0;
+
+  /// Place of the parameter `name` of the current list: where the scene gives it, or the list's own if it does not. Empty when not reading.
+  virtual Place place(const std::string& name) const = 0;
+
+  /// Says that something is wrong with what was just read (bounds between parameters, meaningless combinations). Does nothing when not reading.
+  virtual void error(const std::string& name, const std::string& message) = 0;
+
+ protected:
+  struct NamedAccess {
+    std::function<std::size_t()> size;
+    std::function<std::string(std::size_t)> name;
+    std::function<void(std::string, Place)> append;
+    std::function<void(std::size_t, Parameters&)> describe;
+    std::function<void(Parameters&)> describe_prototype;
+  };
+  struct ChoiceAccess {
+    std::vector<std::pair<std::string, std::string>> kinds;  ///< name and sentence
+    std::string type;                                        ///< the current one, or empty
+    std::function<void(std::size_t, Place)> select;
+    std::function<void(Parameters&)> describe;
+    std::function<void(std::size_t, Parameters&)> describe_prototype;
+  };
+  virtual void add_enumeration(const std::string& name, std::size_t& index, const std::vector<std::string>& names, const Says& says) = 0;
+  virtual bool begin_list(const std::string& name, const Says& says) = 0;  ///< false: skip it
+  virtual void end_list() = 0;
+  virtual void named_lists(const std::string& name, const NamedAccess& access, const Says& says) = 0;
+  virtual void choice_of(const std::string& name, const ChoiceAccess& access, const Says& says) = 0;
+};
+
+}  // namespace mortise

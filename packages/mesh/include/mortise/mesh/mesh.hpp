@@ -1,0 +1,58 @@
+#pragma once
+// One rank's part of a distributed mesh.
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "mortise/core/types.hpp"
+#include "mortise/shape/cell.hpp"
+
+namespace mortise {
+
+/// Elements of one body on this rank. First the owned ones, then ghosts: every element that touches a node owned by this rank is here.
+struct Block {
+  std::string name;  ///< the body's name
+  CellShape shape = CellShape::quadrilateral4;
+  int nodes_per_element = 4;
+  std::vector<LocalOrdinal> connectivity;     ///< [elements x nodes_per_element] local nodes
+  std::vector<GlobalOrdinal> element_ids;     ///< [elements] unique over all blocks
+  LocalOrdinal owned = 0;                     ///< number of owned elements
+
+  LocalOrdinal size() const { return static_cast<LocalOrdinal>(element_ids.size()); }
+  const LocalOrdinal* nodes(LocalOrdinal element) const { return connectivity.data() + element * nodes_per_element; }
+};
+
+/// A side of an element.
+struct Side {
+  LocalOrdinal block = 0, element = 0;
+  int side = 0;
+};
+
+/// Sides of elements on this rank: first those of owned elements, then those of ghosts.
+struct SideSet {
+  std::vector<Side> sides;
+  LocalOrdinal owned = 0;
+};
+
+/// One rank's part of a mesh. Local nodes are the owned ones, in the order of `owned_nodes`, followed by ghosts.
+struct Mesh {
+  int dimension = 2;
+  RCP<const Communicator> comm;
+  RCP<const Map> owned_nodes;  ///< one to one
+  RCP<const Map> local_nodes;  ///< owned, then ghosts
+  std::vector<std::array<double, 3>> coordinates;  ///< [local nodes] reference positions; z = 0 in 2D
+  std::vector<Block> blocks;                       ///< the same, in the same order, on every rank (possibly empty)
+  std::map<std::string, SideSet> side_sets;        ///< "body/side"; the same names on every rank
+  std::map<std::string, std::vector<LocalOrdinal>> node_sets;  ///< local nodes (owned and ghosts), ascending; every side set is one too
+  std::vector<int> body_of_node;                   ///< [local nodes] index of the block that the node belongs to
+
+  LocalOrdinal owned_count() const { return static_cast<LocalOrdinal>(owned_nodes->getNodeNumElements()); }
+  LocalOrdinal local_count() const { return static_cast<LocalOrdinal>(local_nodes->getNodeNumElements()); }
+
+  /// Local nodes of a side, outward normal on the right of the direction of travel.
+  std::vector<LocalOrdinal> side_nodes(const Side& side) const;
+};
+
+}  // namespace mortise

@@ -1,0 +1,111 @@
+#pragma once
+// Mortar coupling of a slave and a master surface, distributed over MPI: search, segment integrals, dual basis, nodal normals.
+
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "mortise/core/error.hpp"
+#include "mortise/core/parameters.hpp"
+#include "mortise/core/types.hpp"
+
+namespace mortise {
+
+/// Which functions weight the gap.
+enum class GapWeighting { dual, standard };
+
+/// The measure on the interface: thickness t, or 2 pi r of the current slave radius.
+struct InterfaceMeasure {
+  bool axisymmetric = false;
+  double thickness = 1.0;
+};
+
+/// Options of the mortar integrals of one pair.
+struct MortarOptions {
+  GapWeighting gap_weighting = GapWeighting::dual;
+  std::optional<double> search_reach;  ///< distance up to which facets can touch; default: the longest facet of the pair
+  int gauss_points = 5;                ///< per overlap of two facets
+  void describe(Parameters& parameters);
+};
+
+/// Facets of a surface in 2D: two node ids each, in the order that has the outward normal on the right of the direction of travel,
+/// n = (t_y, -t_x).
+using SurfaceFacets = std::vector<std::array<GlobalOrdinal, 2>>;
+
+/// Values of one slave facet and, if asked for, their first derivatives with respect to nodal positions.
+/// Nodes are local indices of MortarInterface::local_nodes(). phi_j are the dual functions of the facet (formed on its covered part only;
+/// the share of a node without multiplier is given to the facet's other nodes); rows of nodes without multiplier are zero.
+struct FacetCoupling {
+  std::array<LocalOrdinal, 2> slave{};
+  std::vector<LocalOrdinal> master;   ///< nodes of the master facets that the slave facet overlaps, without repeats
+  std::vector<LocalOrdinal> columns;  ///< nodes on whose positions the values depend: slave, ring (neighbours that shape the normals), master
+  Eigen::Matrix2d D = Eigen::Matrix2d::Zero();  ///< D(j,k) = int phi_j N_k; off-diagonal only next to a node without multiplier
+  Eigen::Matrix<double, 2, Eigen::Dynamic> M;   ///< [2 x master] M(j,l) = int phi_j N_l
+  Eigen::Vector2d gap = Eigen::Vector2d::Zero();  ///< int w_j g, w the gap weighting
+  /// Derivatives; column 2 c + i belongs to component i of columns[c]. Empty if not asked for.
+  Eigen::Matrix<double, 4, Eigen::Dynamic> dD;  ///< row 2 j + k
+  Eigen::MatrixXd dM;                           ///< [2 master.size() x 2 columns.size()], row j * master.size() + l
+  Eigen::Matrix<double, 2, Eigen::Dynamic> dgap;
+};
+
+/// Averaged unit normal of an owned slave node and its derivative.
+struct NodalNormal {
+  Eigen::Vector2d normal = Eigen::Vector2d::Zero();
+  std::vector<LocalOrdinal> columns;
+  Eigen::Matrix<double, 2, Eigen::Dynamic> derivative;  ///< [2 x 2 columns.size()]
+};
+
+/// An owned slave node. Constant during the life of the interface.
+struct SlaveNode {
+  GlobalOrdinal id = 0;
+  LocalOrdinal owned_node = 0;        ///< local index in the map of owned nodes
+  LocalOrdinal local_node = 0;        ///< local index in local_nodes(); the same number for ever
+  std::array<bool, 2> fixed{};        ///< components with a prescribed displacement
+  bool carries_multiplier = true;     ///< false: prescribed in every direction its normal could push it
+  double weight = 0.0;                ///< A_j = int N_j over the whole reference slave surface (with t or 2 pi R)
+};
+
+/// One contact pair's coupling. Collective in all members but the accessors.
+class MortarInterface {
+ public:
+  /// @param owned_nodes    one-to-one map of all nodes of the model
+  /// @param reference      [owned nodes x 2] reference positions
+  /// @param fixed          [owned nodes x 2] 1 where the displacement is prescribed, else 0
+  /// @param slave          every slave facet with a node owned by this rank (so a facet may stand on two ranks)
+  /// @param master         the master facets of this rank, each on exactly one rank
+  /// @throws InputError (at `place`) for a slave facet whose nodes all lack a multiplier ("make this side the master"), a facet of zero
+  ///         length, an empty surface, a node on both sides
+  MortarInterface(RCP<const Map> owned_nodes, RCP<const MultiVector> reference, RCP<const MultiVector> fixed, const SurfaceFacets& slave,
+                  const SurfaceFacets& master, const InterfaceMeasure& measure, const MortarOptions& options, const Place& place);
+  ~MortarInterface();
+
+  /// Finds, for the positions `x` [owned nodes x 2], the master facets each slave facet may touch. Cheap when no node moved further
+  /// than the margin since the last real search. Returns (the same on every rank) whether local_nodes() or candidates() changed.
+  bool search(const MultiVector& x);
+
+  /// Nodes this rank needs: owned slave nodes first, then ring and master nodes. Rebuilt by search().
+  const RCP<const Map>& local_nodes() const;
+
+  /// Owned slave nodes, ascending by owned_node. slave_nodes()[s].local_node == s.
+  const std::vector<SlaveNode>& slave_nodes() const;
+
+  /// For owned slave node s: every local node that may appear in `master` or `columns` of its facets' couplings: the sparsity pattern.
+  const std::vector<LocalOrdinal>& coupled_nodes(std::size_t s) const;
+
+  /// Facet couplings of all facets that touch an owned slave node and overlap a master facet, and the normals of the owned slave nodes
+  /// [slave nodes], at positions `x` [local nodes x 2]. No communication. Local failures (inverted facet, projection) go to `failure`.
+  void evaluate(const MultiVector& x, bool derivatives, std::vector<FacetCoupling>& couplings, std::vector<NodalNormal>& normals,
+                std::optional<StepFailure>& failure) const;
+
+  /// Length of the shortest and of the longest facet, over all ranks, in the reference configuration.
+  double shortest_facet() const;
+  double longest_facet() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace mortise

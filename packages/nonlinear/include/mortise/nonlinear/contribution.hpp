@@ -1,0 +1,49 @@
+#pragma once
+// What may add to the residual of momentum and to its Jacobian.
+
+#include <optional>
+#include <string>
+
+#include "mortise/core/error.hpp"
+#include "mortise/core/types.hpp"
+
+namespace mortise {
+
+/// Where a residual is evaluated.
+struct Configuration {
+  double time;
+  const Vector& displacement;        ///< on the owned dofs
+  const Vector& local_displacement;  ///< on owned dofs followed by ghosts
+};
+
+/// A summand of the residual r = f_int - f_ext (+ f_c). The scene builds only those it names.
+/// Evaluation never changes committed state; failures are put into `failure` (first one kept), the caller agrees on them over the ranks.
+class Contribution {
+ public:
+  enum class Kind { internal, external };
+  virtual ~Contribution() = default;
+
+  virtual std::string name() const = 0;
+  virtual Kind kind() const = 0;
+
+  /// residual += this contribution with its sign in r (external forces enter with a minus). Owned dofs; no communication.
+  virtual void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) = 0;
+
+  /// jacobian += d(residual)/d(displacement). `jacobian` has the graph that the system was built with and is open for local sums.
+  virtual void add_jacobian(const Configuration& at, Matrix& jacobian, std::optional<StepFailure>& failure) = 0;
+
+  /// The step that ended at `at` is accepted.
+  virtual void commit(const Configuration&) {}
+};
+
+/// Prescribed displacements of owned dofs.
+class PrescribedDisplacements {
+ public:
+  virtual ~PrescribedDisplacements() = default;
+  /// Owned dofs (local indices in the map of owned dofs), ascending; constant in time.
+  virtual const std::vector<LocalOrdinal>& dofs() const = 0;
+  /// Their values at pseudo-time `time`, in the same order.
+  virtual std::vector<double> values(double time) const = 0;
+};
+
+}  // namespace mortise

@@ -1,0 +1,56 @@
+#pragma once
+// One interface for every way to solve the condensed linear system.
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "mortise/core/error.hpp"
+#include "mortise/core/parameters.hpp"
+#include "mortise/core/timers.hpp"
+#include "mortise/core/types.hpp"
+
+namespace mortise {
+
+/// What one solve did.
+struct LinearSolveReport {
+  int iterations = 0;              ///< 0 for a direct solver
+  double relative_residual = 0.0;  ///< true one, |b - A x| / |b|
+};
+
+/// Near null space and coordinates for multigrid, on the current configuration.
+struct NearNullSpace {
+  RCP<const MultiVector> rigid_body_modes;  ///< on the dofs of the matrix
+  RCP<const MultiVector> coordinates;       ///< on the nodes, `dimension` columns
+};
+
+/// A strategy. Collective in all its members.
+class LinearSolver {
+ public:
+  virtual ~LinearSolver() = default;
+  virtual std::string name() const = 0;
+
+  /// Takes the matrix of the next solves. `graph_changed`: the pattern is not that of the last call, so nothing symbolic may be reused.
+  /// The matrix must live, unchanged, until the next call.
+  virtual void set_matrix(const RCP<const Matrix>& matrix, bool graph_changed, const NearNullSpace& near_null_space) = 0;
+
+  /// Solves A x = b and checks the true residual. Throws StepFailure(linear_solver), on every rank, if the matrix is singular or the
+  /// true relative residual exceeds `bound` (of the options).
+  virtual LinearSolveReport solve(const Vector& b, Vector& x) = 0;
+};
+
+/// Which solver, and how.
+struct LinearSolverOptions {
+  enum class Kind { automatic, mumps, klu2, iterative };
+  Kind kind = Kind::automatic;
+  double residual_bound = 1e-8;  ///< of the direct solvers' true relative residual
+  double tolerance = 1e-10;      ///< of the iterative solver
+  int maximum_iterations = 500;
+  Teuchos::ParameterList muelu, belos;
+  void describe(Parameters& parameters);
+};
+
+/// Makes the solver that `options` ask for; throws InputError where that cannot work (KLU2 on more than one rank).
+std::unique_ptr<LinearSolver> make_linear_solver(const LinearSolverOptions& options, const RCP<const Communicator>& comm, const Timers& timers);
+
+}  // namespace mortise

@@ -1,0 +1,46 @@
+#pragma once
+// One Newton solve by NOX on a SemiSmoothSystem.
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mortise/core/log.hpp"
+#include "mortise/core/parameters.hpp"
+#include "mortise/nonlinear/semi_smooth_system.hpp"
+
+namespace mortise {
+
+/// When a Newton solve is done, and when it is given up.
+struct NewtonOptions {
+  int maximum_iterations = 20;
+  double momentum_tolerance = 1e-9;         ///< |r| / max(|f_int|, |f_ext|, |f_c|)
+  double gap_tolerance = 1e-9;              ///< |g_j| / (A_j h) of closed nodes
+  double complementarity_tolerance = 1e-9;  ///< |C| / max |z|
+  double increment_tolerance = 1e-8;        ///< |du|_max / size of the model
+  double divergence = 1e8;                  ///< growth of |r| over its first value at which the solve is given up
+  int cycle_length = 6;                     ///< longest cycle of active sets that is looked for
+  void describe(Parameters& parameters);
+};
+
+/// One line of the Newton table and of newton.csv.
+struct NewtonIteration {
+  int iteration = 0;
+  ResidualNorms norms;
+  double increment = 0.0;  ///< max |du|; 0 in iteration 0
+  int linear_iterations = 0;
+  double seconds = 0.0;
+};
+
+struct NewtonReport {
+  std::vector<NewtonIteration> iterations;
+  int newton_steps() const { return static_cast<int>(iterations.size()) - 1; }
+};
+
+/// Solves F(x) = 0 from the given x at `time`, in place. Calls `observer` after each iteration.
+/// Throws StepFailure (on every rank) naming why; x is then undefined. `report` holds what was done in either case.
+void solve_newton(SemiSmoothSystem& system, double time, const NewtonOptions& options, Vector& x, NewtonReport& report,
+                  const std::function<void(const NewtonIteration&)>& observer);
+
+}  // namespace mortise

@@ -1,0 +1,74 @@
+#pragma once
+// The system F(x) = 0, x = (d, z), and its semi-smooth Newton step, without NOX types.
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "mortise/contact/contact_system.hpp"
+#include "mortise/core/timers.hpp"
+#include "mortise/core/types.hpp"
+#include "mortise/nonlinear/contribution.hpp"
+#include "mortise/nonlinear/linear_solver.hpp"
+
+namespace mortise {
+
+/// Sizes of the residual's blocks at one iterate, over all ranks; what the status tests and newton.csv show.
+struct ResidualNorms {
+  double momentum = 0.0;         ///< |r| on free dofs relative to max(|f_int|, |f_ext|, |f_c|), reactions included
+  double momentum_absolute = 0.0;
+  double prescribed = 0.0;       ///< max |d - prescribed| relative to the size of the model
+  double gap = 0.0, complementarity = 0.0;
+  int active = 0, changed = 0;
+  bool finite = true;
+};
+
+/// What a nonlinear system is made of. Shared by all groups that NOX clones.
+struct SystemParts {
+  RCP<const Map> dofs, local_dofs;  ///< owned; owned then ghosts
+  RCP<const Graph> bulk_graph;      ///< rows `dofs`; what the contributions' Jacobians write into
+  std::vector<std::shared_ptr<Contribution>> contributions;
+  std::shared_ptr<PrescribedDisplacements> prescribed;
+  std::shared_ptr<ContactSystem> contact;  ///< null: no contact in the scene
+  std::shared_ptr<LinearSolver> linear_solver;
+  std::function<NearNullSpace(const Vector& displacement)> near_null_space;
+  double length = 1.0;  ///< size of the model
+};
+
+/// F, J and the Newton step of x = (d, z). Stateless but for buffers: everything is a function of x, time and committed history.
+class SemiSmoothSystem {
+ public:
+  SemiSmoothSystem(SystemParts parts, Timers timers);
+  ~SemiSmoothSystem();
+
+  const SystemParts& parts() const;
+  /// Map of x: owned dofs, then owned multipliers.
+  const RCP<const Map>& map() const;
+  /// Views into the two parts of x (they share its memory).
+  RCP<const Vector> displacement(const Vector& x) const;
+  RCP<Vector> displacement(Vector& x) const;
+  RCP<const Vector> multipliers(const Vector& x) const;
+  RCP<Vector> multipliers(Vector& x) const;
+
+  void set_time(double time);
+  double time() const;
+
+  /// F(x) = (r, C); Dirichlet rows hold s (d - prescribed). Throws StepFailure on every rank.
+  void residual(const Vector& x, Vector& F, ResidualNorms& norms);
+  /// Prepares J at x.
+  void jacobian(const Vector& x);
+  /// y = J v by the saddle point blocks.
+  void apply(const Vector& v, Vector& y) const;
+  /// Newton direction: solves J dx = -F at the x of the last jacobian() by condensation.
+  LinearSolveReport newton_direction(const Vector& F, Vector& direction);
+
+  /// f_int - f_ext + f_c on all owned dofs at x, without Dirichlet rows: on prescribed dofs these are the reactions.
+  void forces(const Vector& x, Vector& r);
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace mortise
