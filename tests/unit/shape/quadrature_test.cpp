@@ -1,0 +1,61 @@
+#include "mortise/shape/quadrature.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace mortise {
+namespace {
+
+/// int_{-1}^{1} x^p dx.
+double line_monomial(int p) { return p % 2 == 0 ? 2.0 / (p + 1) : 0.0; }
+
+TEST(GaussLegendre, IsExactToDegreeTwoNMinusOneAndNotBeyond) {
+  for (int n = 1; n <= 16; ++n) {
+    const auto rule = gauss_legendre(n);
+    ASSERT_EQ(static_cast<int>(rule.size()), n);
+    for (int p = 0; p <= 2 * n; ++p) {
+      double sum = 0.0;
+      for (const auto& point : rule) sum += point.weight * std::pow(point.xi, p);
+      if (p < 2 * n) {
+        EXPECT_NEAR(sum, line_monomial(p), 1e-14) << n << " points, degree " << p;
+      } else {
+        // The error of x^(2n) is the squared norm of the monic Legendre polynomial: 2^(2n+1) (n!)^4 / ((2n+1) ((2n)!)^2).
+        const double error =
+            std::exp((2 * n + 1) * std::log(2.0) + 4.0 * std::lgamma(n + 1.0) - std::log(2.0 * n + 1.0) - 2.0 * std::lgamma(2.0 * n + 1.0));
+        EXPECT_NEAR(line_monomial(p) - sum, error, 1e-14) << n << " points";
+      }
+    }
+    for (int i = 1; i < n; ++i) EXPECT_LT(rule[i - 1].xi, rule[i].xi);
+  }
+}
+
+TEST(QuadrilateralRule, IsExactInEachDirection) {
+  for (int n = 1; n <= 3; ++n)
+    for (int p = 0; p < 2 * n; ++p)
+      for (int q = 0; q < 2 * n; ++q) {
+        double sum = 0.0;
+        for (const auto& point : quadrilateral_rule(n)) sum += point.weight * std::pow(point.xi[0], p) * std::pow(point.xi[1], q);
+        EXPECT_NEAR(sum, line_monomial(p) * line_monomial(q), 1e-14);
+      }
+}
+
+TEST(TriangleRule, IsExactToItsDegree) {
+  for (const auto& [points, degree] : {std::pair(1, 1), std::pair(3, 2)})
+    for (int p = 0; p <= degree; ++p)
+      for (int q = 0; p + q <= degree; ++q) {
+        double sum = 0.0;
+        for (const auto& point : triangle_rule(points)) sum += point.weight * std::pow(point.xi[0], p) * std::pow(point.xi[1], q);
+        // int x^p y^q = p! q! / (p + q + 2)!
+        EXPECT_NEAR(sum, std::tgamma(p + 1.0) * std::tgamma(q + 1.0) / std::tgamma(p + q + 3.0), 1e-15);
+      }
+}
+
+TEST(Rules, RefuseWhatTheyDoNotHave) {
+  EXPECT_THROW(gauss_legendre(0), std::invalid_argument);
+  EXPECT_THROW(quadrilateral_rule(-1), std::invalid_argument);
+  EXPECT_THROW(triangle_rule(2), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace mortise
