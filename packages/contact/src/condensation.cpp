@@ -1,0 +1,201 @@
+// The linearised contact: C~, condensation of the multipliers, their recovery, and the start rule.
+
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
+#include <Tpetra_Vector.hpp>
+#include <cmath>
+
+#include "implementation.hpp"
+
+namespace mortise {
+namespace {
+
+using detail::NodePositions;
+using detail::NodeRow;
+using detail::PairCoupling;
+
+// A local row of a filled matrix, copied.
+void copy_row(const Matrix& matrix, LocalOrdinal row, std::vector<LocalOrdinal>& columns, std::vector<double>& values) {
+  Matrix::local_inds_host_view_type column_view;
+  Matrix::values_host_view_type value_view;
+  matrix.getLocalRowView(row, column_view, value_view);
+  columns.assign(column_view.data(), column_view.data() + column_view.extent(0));
+  values.assign(value_view.data(), value_view.data() + value_view.extent(0));
+}
+
+void replace_row(Matrix& matrix, LocalOrdinal row, const std::vector<LocalOrdinal>& columns, const std::vector<double>& values) {
+  matrix.replaceLocalValues(row, static_cast<LocalOrdinal>(columns.size()), values.data(), columns.data());
+}
+
+// values (at sorted `columns`) += factor * gradient of a slave node's scalar
+void add_gradient(const std::vector<LocalOrdinal>& columns, std::vector<double>& values, const std::vector<LocalOrdinal>& coupled,
+                  const NodePositions& positions, const std::function<double(std::size_t)>& entry) {
+  for (std::size_t c = 0; c < coupled.size(); ++c)
+    for (int i = 0; i < 2; ++i) {
+      const LocalOrdinal column = positions.column[2 * coupled[c] + i];
+      const auto found = std::lower_bound(columns.begin(), columns.end(), column);
+      values[found - columns.begin()] += entry(2 * c + i);
+    }
+}
+
+}  // namespace
+
+// C~ = d(f_c)/dd at fixed z: rows of slave k: z_j dD_jk, rows of master l: -z_j dM_jl. All slave nodes with z != 0, just opened ones too.
+void ContactSystem::add_stiffness(const Vector& z, Matrix& system) {
+  Implementation& self = *implementation_;
+  const auto scope = self.timers.scope("condensation");
+  const auto z_values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
+  std::vector<LocalOrdinal> columns;
+  std::vector<double> values;
+  for (std::size_t p = 0; p < self.pairs.size(); ++p) {
+    const NodePositions& positions = self.scatter->positions(p);
+    for (const FacetCoupling& facet : self.pairs[p]->couplings()) {
+      columns.clear();
+      for (const LocalOrdinal node : facet.columns)
+        for (int i = 0; i < 2; ++i) columns.push_back(positions.column[2 * node + i]);
+      values.resize(columns.size());
+      for (int j = 0; j < 2; ++j) {
+        if (static_cast<std::size_t>(facet.slave[j]) >= self.multiplier_of[p].size()) continue;
+        const Eigen::Vector2d zj = self.z_of(z_values, p, facet.slave[j]);
+        if (zj.isZero(0.0)) continue;
+        const auto add = [&](LocalOrdinal node, const auto& gradient, double sign) {
+          for (int i = 0; i < 2; ++i) {
+            for (std::size_t c = 0; c < columns.size(); ++c) values[c] = sign * zj[i] * gradient(c);
+            self.scatter->add(system, positions, node, i, columns, values);
+          }
+        };
+        for (int k = 0; k < 2; ++k)
+          if (k == j || !facet.D.row(j).isZero(0.0)) add(facet.slave[k], facet.dD.row(2 * j + k), 1.0);
+        for (std::size_t l = 0; l < facet.master.size(); ++l) add(facet.master[l], facet.dM.row(j * facet.master.size() + l), -1.0);
+      }
+    }
+  }
+  self.scatter->finish(system);
+}
+
+// For a closed node j with the linearised momentum rows  D z = rhs_j - K~_j dd  (rhs = -r without f_c, free components) and the linearised
+// C_tau = 0  (fixed components):
+//   z^{k+1} = b + S dd.
+// Rows of the nodes m it is coupled to:  A_m += c_jm S,  rhs_m -= c_jm b.   Its own rows, in the frame (n, tau), turned back to x, y:
+//   normal       -A_j c_n dg dd = A_j c_n g
+//   tangential   (tau . K~_j - D z . dtau) dd = tau . rhs_j
+// A node with a fixed component f: the free row holds the normal condition alone, z_f comes from C_tau, row f stays Dirichlet's.
+// Open nodes: z^{k+1} = 0, their rows stay momentum rows.
+void ContactSystem::condense(const Vector& z, Matrix& system, Vector& rhs) {
+  Implementation& self = *implementation_;
+  const auto scope = self.timers.scope("condensation");
+  const auto z_values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
+  self.recovery.clear();
+
+  std::vector<double> momentum[2], constraint[2], row_values[2];
+  for (std::size_t p = 0; p < self.pairs.size(); ++p) {
+    const PairCoupling& pair = *self.pairs[p];
+    const NodePositions& positions = self.scatter->positions(p);
+    for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
+      const Eigen::Vector2d zs = self.z_of(z_values, p, s);
+      if (self.multiplier_of[p][s] < 0 || !pair.closed(s, zs)) continue;
+      const SlaveNode& slave = pair.slave_nodes()[s];
+      const NodeRow& node = pair.rows()[s];
+      const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
+      const LocalOrdinal first_row = 2 * slave.owned_node;
+      const Complementarity law = self.complementarity(p, s, zs);
+
+      RecoveryRow recovery;
+      recovery.multiplier = self.multiplier_of[p][s];
+      Eigen::Vector2d rhs_s;
+      {
+        const auto view = rhs.getLocalViewHost(Tpetra::Access::ReadOnly);
+        rhs_s = {view(first_row, 0), view(first_row + 1, 0)};
+      }
+      for (int i = 0; i < 2; ++i) copy_row(system, first_row + i, recovery.columns, momentum[i]);
+      const std::vector<LocalOrdinal>& columns = recovery.columns;
+
+      // Linearised complementarity: constraint . dd + (C - C_z z) + C_z z^{k+1} = 0
+      for (int i = 0; i < 2; ++i) constraint[i].assign(columns.size(), 0.0);
+      add_gradient(columns, constraint[0], coupled, positions, [&](std::size_t c) { return law.gap_factor * node.dgap[c]; });
+      add_gradient(columns, constraint[1], coupled, positions, [&](std::size_t c) { return law.normal_factor.dot(node.dnormal.col(c)); });
+      const Eigen::Vector2d constant = law.C - law.C_z * zs;
+
+      // E z^{k+1} = e - L dd, one row for each component: momentum where free, C_tau where fixed.
+      Eigen::Matrix2d E = Eigen::Matrix2d::Zero();
+      Eigen::Vector2d e;
+      const std::vector<double>* L[2];
+      for (int i = 0; i < 2; ++i) {
+        if (slave.fixed[i]) {
+          E.row(i) = law.C_z.row(1);
+          e[i] = -constant[1];
+          L[i] = &constraint[1];
+        } else {
+          E(i, i) = node.D;
+          e[i] = rhs_s[i];
+          L[i] = &momentum[i];
+        }
+      }
+      const Eigen::Matrix2d inverse = E.inverse();
+      recovery.b = inverse * e;
+      for (int i = 0; i < 2; ++i) {
+        recovery.S[i].resize(columns.size());
+        for (std::size_t c = 0; c < columns.size(); ++c) recovery.S[i][c] = -(inverse(i, 0) * (*L[0])[c] + inverse(i, 1) * (*L[1])[c]);
+      }
+
+      for (std::size_t c = 0; c < coupled.size(); ++c) {
+        const double coefficient = node.coefficients[c];
+        if (coefficient == 0.0) continue;
+        for (int i = 0; i < 2; ++i) {
+          row_values[i].resize(columns.size());
+          for (std::size_t k = 0; k < columns.size(); ++k) row_values[i][k] = coefficient * recovery.S[i][k];
+          self.scatter->add(system, positions, coupled[c], i, columns, row_values[i]);
+          self.scatter->add(rhs, positions, coupled[c], i, -coefficient * recovery.b[i]);
+        }
+      }
+
+      // Own rows. Equation a: constraint_a dd + constant_a + C_z,a (b + S dd) = 0, scaled to forces.
+      const double scale[2] = {-slave.weight, -node.D};
+      double right[2];
+      for (int a = 0; a < 2; ++a) {
+        row_values[a].resize(columns.size());
+        for (std::size_t k = 0; k < columns.size(); ++k)
+          row_values[a][k] = scale[a] * (constraint[a][k] + law.C_z(a, 0) * recovery.S[0][k] + law.C_z(a, 1) * recovery.S[1][k]);
+        right[a] = -scale[a] * (constant[a] + law.C_z.row(a).dot(recovery.b));
+      }
+      const Eigen::Vector2d frame[2] = {node.normal, tangent(node.normal)};
+      const bool partly_fixed = slave.fixed[0] || slave.fixed[1];
+      const auto out = rhs.getLocalViewHost(Tpetra::Access::ReadWrite);
+      for (int i = 0; i < 2; ++i) {
+        if (slave.fixed[i]) continue;
+        const double weight[2] = {partly_fixed ? std::copysign(1.0, node.normal[i]) : frame[0][i], partly_fixed ? 0.0 : frame[1][i]};
+        std::vector<double>& values = momentum[i];
+        for (std::size_t k = 0; k < columns.size(); ++k) values[k] = weight[0] * row_values[0][k] + weight[1] * row_values[1][k];
+        replace_row(system, first_row + i, columns, values);
+        out(first_row + i, 0) = weight[0] * right[0] + weight[1] * right[1];
+      }
+      self.recovery.push_back(std::move(recovery));
+    }
+  }
+  self.scatter->finish(system);
+  self.scatter->finish(rhs);
+}
+
+void ContactSystem::recover(const Vector& increment, Vector& z_new) const {
+  const Implementation& self = *implementation_;
+  const auto scope = self.timers.scope("condensation");
+  const Graph& graph = *self.scatter->graph();
+  Vector on_columns(graph.getColMap());
+  if (graph.getImporter().is_null())
+    Tpetra::deep_copy(on_columns, increment);
+  else
+    on_columns.doImport(increment, *graph.getImporter(), Tpetra::REPLACE);
+  const auto d = on_columns.getLocalViewHost(Tpetra::Access::ReadOnly);
+  z_new.putScalar(0.0);
+  const auto z = z_new.getLocalViewHost(Tpetra::Access::ReadWrite);
+  for (const RecoveryRow& row : self.recovery)
+    for (int i = 0; i < 2; ++i) {
+      double value = row.b[i];
+      for (std::size_t k = 0; k < row.columns.size(); ++k) value += row.S[i][k] * d(row.columns[k], 0);
+      z(row.multiplier + i, 0) = value;
+    }
+}
+
+}  // namespace mortise

@@ -1,0 +1,220 @@
+#include "mortise/contact/contact_system.hpp"
+
+#include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
+#include <Tpetra_Vector.hpp>
+#include <algorithm>
+#include <cmath>
+
+#include "checks.hpp"
+#include "implementation.hpp"
+#include "mortise/core/dof_map.hpp"
+
+namespace mortise {
+
+void ContactOptions::describe(Parameters& parameters) {
+  parameters.add("geometry", geometry, {{"current", ContactGeometry::current}, {"reference", ContactGeometry::reference}},
+                 "configuration that carries the contact geometry: current, or reference for small displacements");
+  parameters.add("complementarity constant", complementarity_constant,
+                 Says("c_n times A_j: weighs gap against pressure in the choice of the active set; changes no solution; default: Young's modulus "
+                      "of the softer side over the shortest slave facet")
+                     .unit("stress / length")
+                     .above(0.0));
+  mortar.describe(parameters);
+}
+
+RCP<MultiVector> ContactSystem::Implementation::positions(const Vector& d) const {
+  const auto x = rcp(new MultiVector(*reference, Teuchos::Copy));
+  const auto u = d.getLocalViewHost(Tpetra::Access::ReadOnly);
+  const auto view = x->getLocalViewHost(Tpetra::Access::ReadWrite);
+  for (std::size_t node = 0; node < view.extent(0); ++node)
+    for (std::size_t i = 0; i < 2; ++i) view(node, i) += u(2 * node + i, 0);
+  return x;
+}
+
+Complementarity ContactSystem::Implementation::complementarity(std::size_t pair, std::size_t s, const Eigen::Vector2d& z) const {
+  const detail::PairCoupling& coupling = *pairs[pair];
+  return frictionless(coupling.closed(s, z), coupling.complementarity_constant(s), coupling.rows()[s].gap, coupling.rows()[s].normal, z);
+}
+
+double ContactSystem::Implementation::sum(double value) const {
+  double all = 0.0;
+  Teuchos::reduceAll(*dofs->getComm(), Teuchos::REDUCE_SUM, value, Teuchos::outArg(all));
+  return all;
+}
+
+double ContactSystem::Implementation::maximum(double value) const {
+  double all = 0.0;
+  Teuchos::reduceAll(*dofs->getComm(), Teuchos::REDUCE_MAX, value, Teuchos::outArg(all));
+  return all;
+}
+
+ContactSystem::ContactSystem(RCP<const Map> owned_nodes, RCP<const Map> dofs, RCP<const MultiVector> reference, RCP<const MultiVector> fixed,
+                             const InterfaceMeasure& measure, std::vector<ContactPair> pairs, const Timers& timers)
+    : implementation_(std::make_unique<Implementation>()) {
+  Implementation& self = *implementation_;
+  self.owned_nodes = std::move(owned_nodes);
+  self.dofs = std::move(dofs);
+  self.reference = std::move(reference);
+  self.timers = timers;
+  detail::refuse_shared_nodes(*self.owned_nodes, pairs);
+  for (ContactPair& pair : pairs)
+    self.pairs.push_back(std::make_unique<detail::PairCoupling>(self.owned_nodes, self.reference, fixed, measure, std::move(pair)));
+
+  // Ids of z: those of the nodes' dofs, beyond all dofs.
+  const GlobalOrdinal offset = self.dofs->getMaxAllGlobalIndex() + 1;
+  std::vector<GlobalOrdinal> ids;
+  for (const auto& pair : self.pairs) {
+    std::vector<LocalOrdinal> first;
+    for (const SlaveNode& slave : pair->slave_nodes()) {
+      first.push_back(slave.carries_multiplier ? static_cast<LocalOrdinal>(ids.size()) : -1);
+      if (!slave.carries_multiplier) continue;
+      for (int i = 0; i < 2; ++i) ids.push_back(offset + 2 * slave.id + i);
+    }
+    self.multiplier_of.push_back(std::move(first));
+    self.marked.emplace_back(pair->slave_nodes().size(), 0);
+  }
+  const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
+  self.multipliers = rcp(new Map(invalid, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, self.dofs->getComm()));
+}
+
+ContactSystem::~ContactSystem() = default;
+
+std::size_t ContactSystem::pairs() const { return implementation_->pairs.size(); }
+const std::string& ContactSystem::pair_name(std::size_t pair) const { return implementation_->pairs[pair]->definition().name; }
+const RCP<const Map>& ContactSystem::multiplier_map() const { return implementation_->multipliers; }
+
+void ContactSystem::evaluate(const Vector& d, bool derivatives, std::optional<StepFailure>& failure) {
+  Implementation& self = *implementation_;
+  const auto scope = self.timers.scope("contact integrals");
+  const RCP<MultiVector> x = self.positions(d);
+  for (const auto& pair : self.pairs) self.pattern_changed |= pair->evaluate(*x, derivatives, failure);
+}
+
+RCP<const Graph> ContactSystem::system_graph(const RCP<const Graph>& bulk, bool& changed) {
+  Implementation& self = *implementation_;
+  changed = self.pattern_changed || !self.scatter;
+  if (changed) {
+    const auto scope = self.timers.scope("contact graph");
+    std::vector<detail::PairCoupling*> pairs;
+    for (const auto& pair : self.pairs) pairs.push_back(pair.get());
+    self.scatter = std::make_unique<detail::SystemScatter>(self.owned_nodes, bulk, pairs);
+    self.pattern_changed = false;
+  }
+  return self.scatter->graph();
+}
+
+// f_c = sum_j c_jm z_j at each node m that slave node j is coupled to, D_jj z_j at j itself.
+void ContactSystem::add_contact_force(const Vector& z, Vector& r) const {
+  const Implementation& self = *implementation_;
+  const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (std::size_t p = 0; p < self.pairs.size(); ++p) {
+    const detail::PairCoupling& pair = *self.pairs[p];
+    const RCP<const Map> force_map = make_dof_map(*pair.interface().local_nodes(), 2);
+    Vector force(force_map);
+    {
+      const auto view = force.getLocalViewHost(Tpetra::Access::ReadWrite);
+      for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
+        const Eigen::Vector2d zs = self.z_of(values, p, s);
+        if (zs.isZero(0.0)) continue;
+        const detail::NodeRow& row = pair.rows()[s];
+        const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
+        for (int i = 0; i < 2; ++i) {
+          view(2 * pair.slave_nodes()[s].local_node + i, 0) += row.D * zs[i];
+          for (std::size_t c = 0; c < coupled.size(); ++c) view(2 * coupled[c] + i, 0) += row.coefficients[c] * zs[i];
+        }
+      }
+    }
+    const Export exporter(force_map, self.dofs);
+    r.doExport(force, exporter, Tpetra::ADD);
+  }
+}
+
+void ContactSystem::complementarity(const Vector& z, Vector& C) const {
+  const Implementation& self = *implementation_;
+  const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
+  const auto result = C.getLocalViewHost(Tpetra::Access::OverwriteAll);
+  for (std::size_t p = 0; p < self.pairs.size(); ++p)
+    for (std::size_t s = 0; s < self.multiplier_of[p].size(); ++s) {
+      const LocalOrdinal first = self.multiplier_of[p][s];
+      if (first < 0) continue;
+      const Eigen::Vector2d value = self.complementarity(p, s, self.z_of(values, p, s)).C;
+      result(first, 0) = value[0];
+      result(first + 1, 0) = value[1];
+    }
+}
+
+ContactNorms ContactSystem::norms(const Vector& z) const {
+  const Implementation& self = *implementation_;
+  const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
+  double gap = 0.0, violation = 0.0, traction = 0.0, floor = 0.0;
+  double active = 0.0, changed = 0.0;
+  for (std::size_t p = 0; p < self.pairs.size(); ++p) {
+    const detail::PairCoupling& pair = *self.pairs[p];
+    floor = std::max(floor, 1e-9 * pair.definition().youngs_modulus);
+    for (std::size_t s = 0; s < self.multiplier_of[p].size(); ++s) {
+      if (self.multiplier_of[p][s] < 0) continue;
+      const Eigen::Vector2d zs = self.z_of(values, p, s);
+      const bool closed = pair.closed(s, zs);
+      const Eigen::Vector2d C = self.complementarity(p, s, zs).C;
+      traction = std::max(traction, zs.norm());
+      violation = std::max(violation, closed ? std::abs(C[1]) : C.norm());
+      if (closed) gap = std::max(gap, std::abs(pair.rows()[s].gap) / (pair.slave_nodes()[s].weight * pair.size()));
+      active += closed;
+      changed += closed != static_cast<bool>(self.marked[p][s]);
+    }
+  }
+  ContactNorms norms;
+  norms.gap = self.maximum(gap);
+  norms.complementarity = self.maximum(violation) / std::max(self.maximum(traction), self.maximum(floor));
+  norms.active = static_cast<int>(self.sum(active));
+  norms.changed = static_cast<int>(self.sum(changed));
+  Vector force(self.dofs);
+  add_contact_force(z, force);
+  norms.force = force.norm2();
+  return norms;
+}
+
+void ContactSystem::mark_states(const Vector& z) {
+  Implementation& self = *implementation_;
+  const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (std::size_t p = 0; p < self.pairs.size(); ++p)
+    for (std::size_t s = 0; s < self.multiplier_of[p].size(); ++s)
+      self.marked[p][s] = self.multiplier_of[p][s] >= 0 && self.pairs[p]->closed(s, self.z_of(values, p, s));
+}
+
+std::vector<ContactNodeState> ContactSystem::node_states(std::size_t pair, const Vector& z) const {
+  const Implementation& self = *implementation_;
+  const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
+  std::vector<ContactNodeState> states;
+  for (std::size_t s = 0; s < self.multiplier_of[pair].size(); ++s) {
+    const SlaveNode& slave = self.pairs[pair]->slave_nodes()[s];
+    const detail::NodeRow& row = self.pairs[pair]->rows()[s];
+    const Eigen::Vector2d zs = self.z_of(values, pair, s);
+    ContactNodeState state;
+    state.node = slave.id;
+    state.owned_node = slave.owned_node;
+    state.traction = {zs[0], zs[1]};
+    state.normal = {row.normal[0], row.normal[1]};
+    state.pressure = zs.dot(row.normal);
+    state.gap = row.gap / slave.weight;
+    state.weight = slave.weight;
+    state.closed = slave.carries_multiplier && self.pairs[pair]->closed(s, zs);
+    state.force = {row.D * zs[0], row.D * zs[1]};
+    states.push_back(state);
+  }
+  return states;
+}
+
+// The force on the slave side is -sum_j (sum_k D_jk) z_j.
+std::array<double, 2> ContactSystem::resultant(std::size_t pair, const Vector& z) const {
+  const Implementation& self = *implementation_;
+  const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
+  Eigen::Vector2d mine = Eigen::Vector2d::Zero();
+  for (std::size_t s = 0; s < self.multiplier_of[pair].size(); ++s) mine -= self.pairs[pair]->rows()[s].covered * self.z_of(values, pair, s);
+  return {self.sum(mine[0]), self.sum(mine[1])};
+}
+
+}  // namespace mortise

@@ -1,0 +1,48 @@
+#pragma once
+// What ContactSystem holds.
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "mortise/contact/contact_system.hpp"
+#include "mortise/contact/frictionless.hpp"
+#include "pair_coupling.hpp"
+#include "system_scatter.hpp"
+
+namespace mortise {
+
+/// The affine map z^{k+1} = b + S dd of a closed node, kept by condense() for recover(). Rows of S stand in the local columns of the system.
+struct RecoveryRow {
+  LocalOrdinal multiplier = 0;  ///< local index of the first component in z
+  Eigen::Vector2d b = Eigen::Vector2d::Zero();
+  std::vector<LocalOrdinal> columns;
+  std::vector<double> S[2];
+};
+
+struct ContactSystem::Implementation {
+  RCP<const Map> owned_nodes, dofs, multipliers;
+  RCP<const MultiVector> reference;
+  Timers timers;
+  std::vector<std::unique_ptr<detail::PairCoupling>> pairs;
+  std::vector<std::vector<LocalOrdinal>> multiplier_of;  ///< [pair][slave node] local index of the first component in z, -1: none
+  std::vector<std::vector<char>> marked;                 ///< [pair][slave node] closed when last marked
+  std::unique_ptr<detail::SystemScatter> scatter;
+  bool pattern_changed = true;
+  std::vector<RecoveryRow> recovery;
+
+  /// Positions X + d on the owned nodes.
+  RCP<MultiVector> positions(const Vector& d) const;
+  /// z of slave node s of a pair (0 without multiplier), from a host view of z.
+  template <class View>
+  Eigen::Vector2d z_of(const View& z, std::size_t pair, std::size_t s) const {
+    const LocalOrdinal first = multiplier_of[pair][s];
+    return first < 0 ? Eigen::Vector2d(0.0, 0.0) : Eigen::Vector2d(z(first, 0), z(first + 1, 0));
+  }
+  Complementarity complementarity(std::size_t pair, std::size_t s, const Eigen::Vector2d& z) const;
+  /// Sums over ranks.
+  double sum(double value) const;
+  double maximum(double value) const;
+};
+
+}  // namespace mortise

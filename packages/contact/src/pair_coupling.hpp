@@ -1,0 +1,72 @@
+#pragma once
+// One pair at one configuration: the facets' couplings summed to one row per owned slave node.
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "mortise/contact/contact_system.hpp"
+
+namespace mortise::detail {
+
+/// Derivatives of one scalar of a slave node with respect to the positions of its coupled nodes; entry 2 c + i is component i of node c.
+using PositionGradient = std::vector<double>;
+
+/// A slave node's share of the contact residual. Row j of D and M is kept as coefficients c_jm of "f_c += c_jm z_j at node m":
+/// c_jj = D_jj, c_jk = D_jk, c_jl = -M_jl.
+struct NodeRow {
+  double D = 0.0;    ///< D_jj
+  double covered = 0.0;  ///< sum_k D_jk = sum_l M_jl
+  double gap = 0.0;  ///< weighted gap g_j
+  Eigen::Vector2d normal = Eigen::Vector2d::Zero();
+  std::vector<double> coefficients;                        ///< [coupled nodes] c_jm, 0 at j itself
+  PositionGradient dgap;                                   ///< [2 coupled nodes]; empty without derivatives
+  Eigen::Matrix<double, 2, Eigen::Dynamic> dnormal;        ///< [2 x 2 coupled nodes]; empty without derivatives
+};
+
+/// A pair, its interface and what was last evaluated.
+class PairCoupling {
+ public:
+  PairCoupling(RCP<const Map> owned_nodes, RCP<const MultiVector> reference, RCP<const MultiVector> fixed, const InterfaceMeasure& measure,
+               ContactPair pair);
+
+  /// Searches and evaluates at the positions x [owned nodes x 2]. Returns whether the pattern changed, the same on every rank.
+  bool evaluate(const MultiVector& x, bool derivatives, std::optional<StepFailure>& failure);
+
+  const ContactPair& definition() const { return pair_; }
+  const MortarInterface& interface() const { return *interface_; }
+  const std::vector<SlaveNode>& slave_nodes() const { return interface_->slave_nodes(); }
+  const std::vector<NodeRow>& rows() const { return rows_; }
+  /// Couplings of facets with derivatives; empty when the geometry is frozen.
+  const std::vector<FacetCoupling>& couplings() const { return couplings_; }
+
+  /// Element size h of the scaling and of the start rule.
+  double size() const { return size_; }
+  /// c_n of slave node s: E / (h A_j) unless given.
+  double complementarity_constant(std::size_t s) const;
+  /// Whether node s has a multiplier and its dual function anything to act on: D_jj / A_j > 1e-12.
+  bool covered(std::size_t s) const;
+  /// Closed: covered and z_n - c_n g > 0.
+  bool closed(std::size_t s, const Eigen::Vector2d& z) const;
+
+ private:
+  void sum_to_rows(bool derivatives);
+  void freeze();
+  void evaluate_frozen(const MultiVector& x);
+
+  ContactPair pair_;
+  RCP<const Map> owned_nodes_;
+  RCP<const MultiVector> reference_;
+  std::unique_ptr<MortarInterface> interface_;
+  RCP<const Import> import_;
+  RCP<MultiVector> local_positions_;
+  std::vector<FacetCoupling> couplings_;
+  std::vector<NodalNormal> normals_;
+  std::vector<NodeRow> rows_;
+  std::vector<double> frozen_gap_;
+  std::vector<LocalOrdinal> position_in_row_;
+  double size_ = 1.0;
+  bool frozen_ = false;
+};
+
+}  // namespace mortise::detail

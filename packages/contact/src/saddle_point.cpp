@@ -1,0 +1,69 @@
+// The blocks of the saddle point form: the same linearisation, multipliers kept.
+
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Export.hpp>
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+
+#include "implementation.hpp"
+#include "mortise/core/dof_map.hpp"
+
+namespace mortise {
+
+ContactSystem::SaddlePointBlocks ContactSystem::saddle_point_blocks(const Vector& z) const {
+  const Implementation& self = *implementation_;
+  const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
+
+  std::vector<GlobalOrdinal> rows;  // of B, also of other ranks' nodes
+  std::size_t widest = 1;
+  for (const auto& pair : self.pairs) {
+    const auto nodes = pair->interface().local_nodes()->getNodeElementList();
+    for (const GlobalOrdinal node : nodes)
+      for (int i = 0; i < 2; ++i) rows.push_back(2 * node + i);
+    for (std::size_t s = 0; s < pair->slave_nodes().size(); ++s) widest = std::max(widest, 2 * pair->interface().coupled_nodes(s).size());
+  }
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
+  const auto row_map = rcp(new Map(invalid, rows.data(), static_cast<LocalOrdinal>(rows.size()), 0, self.dofs->getComm()));
+
+  Matrix B(row_map, std::max<std::size_t>(1, self.multipliers->getNodeNumElements()));
+  SaddlePointBlocks blocks;
+  blocks.C_d = rcp(new Matrix(self.multipliers, widest));
+  blocks.C_z = rcp(new Matrix(self.multipliers, 2));
+  for (std::size_t p = 0; p < self.pairs.size(); ++p) {
+    const detail::PairCoupling& pair = *self.pairs[p];
+    const Map& nodes = *pair.interface().local_nodes();
+    for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
+      const LocalOrdinal first = self.multiplier_of[p][s];
+      if (first < 0) continue;
+      const detail::NodeRow& row = pair.rows()[s];
+      const Complementarity law = self.complementarity(p, s, self.z_of(values, p, s));
+      const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
+      for (int i = 0; i < 2; ++i) {
+        const GlobalOrdinal multiplier = self.multipliers->getGlobalElement(first + i);
+        B.insertGlobalValues(2 * pair.slave_nodes()[s].id + i, 1, &row.D, &multiplier);
+        for (std::size_t c = 0; c < coupled.size(); ++c)
+          if (row.coefficients[c] != 0.0)
+            B.insertGlobalValues(2 * nodes.getGlobalElement(coupled[c]) + i, 1, &row.coefficients[c], &multiplier);
+        const GlobalOrdinal both[2] = {self.multipliers->getGlobalElement(first), self.multipliers->getGlobalElement(first + 1)};
+        const double C_z[2] = {law.C_z(i, 0), law.C_z(i, 1)};
+        blocks.C_z->insertGlobalValues(multiplier, 2, C_z, both);
+        for (std::size_t c = 0; c < coupled.size(); ++c)
+          for (int k = 0; k < 2; ++k) {
+            const double value = i == 0 ? law.gap_factor * row.dgap[2 * c + k] : law.normal_factor.dot(row.dnormal.col(2 * c + k));
+            const GlobalOrdinal dof = 2 * nodes.getGlobalElement(coupled[c]) + k;
+            blocks.C_d->insertGlobalValues(multiplier, 1, &value, &dof);
+          }
+      }
+    }
+  }
+  B.fillComplete(self.multipliers, self.dofs);
+  blocks.B = Tpetra::exportAndFillCompleteCrsMatrix<Matrix>(rcp(&B, false), Export(row_map, self.dofs), self.multipliers, self.dofs);
+  blocks.C_d->fillComplete(self.dofs, self.multipliers);
+  blocks.C_z->fillComplete(self.multipliers, self.multipliers);
+  return blocks;
+}
+
+}  // namespace mortise

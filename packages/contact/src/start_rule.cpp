@@ -1,0 +1,72 @@
+// The initial guess of a step. Only the guess: no residual is changed by it.
+
+#include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "implementation.hpp"
+
+namespace mortise {
+namespace {
+
+constexpr double touching = 1e-8;      // |g_j| / (A_j h) below which a node touches: then the sign of g is round-off
+constexpr double small_strain = 1e-6;  // the pressure it starts with, over Young's modulus
+constexpr double near = 0.1;           // distance over h up to which nodes of an unheld body are seeded
+
+bool touches_unheld_body(const detail::PairCoupling& pair, const Map& owned_nodes, const std::vector<char>& unheld) {
+  for (const SlaveNode& slave : pair.slave_nodes())
+    if (unheld[slave.owned_node]) return true;
+  for (const auto& facet : pair.definition().master)
+    for (const GlobalOrdinal node : facet) {
+      const LocalOrdinal owned = owned_nodes.getLocalElement(node);
+      if (owned >= 0 && unheld[owned]) return true;
+    }
+  return false;
+}
+
+}  // namespace
+
+// A node whose gap is zero up to round-off would be open or closed at random: it starts closed, at a pressure that no result can see.
+// Where a body that only contact holds has no closed node, its system is singular: the nodes nearest to contact start closed,
+// z_n = c_n g + 1e-6 E.
+void ContactSystem::start_step(const Vector& d, const std::vector<char>& unheld, Vector& z) {
+  Implementation& self = *implementation_;
+  std::optional<StepFailure> failure;
+  evaluate(d, false, failure);
+  throw_if_any(*self.dofs->getComm(), failure);
+
+  const auto values = z.getLocalViewHost(Tpetra::Access::ReadWrite);
+  for (std::size_t p = 0; p < self.pairs.size(); ++p) {
+    const detail::PairCoupling& pair = *self.pairs[p];
+    const double pressure = small_strain * pair.definition().youngs_modulus;
+    const auto set = [&](std::size_t s, double z_n) {
+      const LocalOrdinal first = self.multiplier_of[p][s];
+      for (int i = 0; i < 2; ++i) values(first + i, 0) = z_n * pair.rows()[s].normal[i];
+    };
+    double active = 0.0, nearest = std::numeric_limits<double>::max();
+    for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
+      if (!pair.covered(s)) continue;
+      const double gap = pair.rows()[s].gap / pair.slave_nodes()[s].weight;
+      bool closed = pair.closed(s, self.z_of(values, p, s));
+      if (!closed && std::abs(gap) < touching * pair.size()) {
+        set(s, pressure);
+        closed = true;
+      }
+      active += closed;
+      nearest = std::min(nearest, gap);
+    }
+    const bool needed = self.maximum(touches_unheld_body(pair, *self.owned_nodes, unheld)) > 0.0;
+    if (!needed || self.sum(active) > 0.0) continue;
+    nearest = -self.maximum(-nearest);
+    const double reach = std::max(near * pair.size(), nearest + touching * pair.size());
+    for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
+      if (!pair.covered(s) || pair.rows()[s].gap > reach * pair.slave_nodes()[s].weight) continue;
+      set(s, std::max(0.0, pair.complementarity_constant(s) * pair.rows()[s].gap) + pressure);
+    }
+  }
+}
+
+}  // namespace mortise

@@ -1,0 +1,191 @@
+#include "system_scatter.hpp"
+
+#include <Tpetra_CrsGraph.hpp>
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Export.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+#include "mortise/core/dof_map.hpp"
+
+namespace mortise::detail {
+namespace {
+
+constexpr int dimension = 2;
+using Columns = std::vector<GlobalOrdinal>;
+
+void sort_unique(Columns& columns) {
+  std::sort(columns.begin(), columns.end());
+  columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+}
+
+Columns bulk_columns(const Graph& bulk, LocalOrdinal row) {
+  Graph::local_inds_host_view_type local;
+  bulk.getLocalRowView(row, local);
+  Columns columns(local.extent(0));
+  for (std::size_t k = 0; k < columns.size(); ++k) columns[k] = bulk.getColMap()->getGlobalElement(local(k));
+  return columns;
+}
+
+// Columns that condensation adds to a node's rows, by node id: the same for all components of the node.
+std::map<GlobalOrdinal, Columns> coupled_columns(const Graph& bulk, const std::vector<PairCoupling*>& pairs) {
+  std::map<GlobalOrdinal, Columns> columns_of_node;
+  for (const PairCoupling* pair : pairs) {
+    const Map& nodes = *pair->interface().local_nodes();
+    for (std::size_t s = 0; s < pair->slave_nodes().size(); ++s) {
+      const SlaveNode& slave = pair->slave_nodes()[s];
+      if (!slave.carries_multiplier) continue;
+      Columns columns = bulk_columns(bulk, dimension * slave.owned_node);
+      for (const LocalOrdinal node : pair->interface().coupled_nodes(s))
+        for (int i = 0; i < dimension; ++i) columns.push_back(dimension * nodes.getGlobalElement(node) + i);
+      sort_unique(columns);
+      for (const LocalOrdinal node : pair->interface().coupled_nodes(s)) {
+        Columns& into = columns_of_node[nodes.getGlobalElement(node)];
+        into.insert(into.end(), columns.begin(), columns.end());
+      }
+    }
+  }
+  for (auto& [node, columns] : columns_of_node) sort_unique(columns);
+  return columns_of_node;
+}
+
+RCP<Graph> remote_graph(const std::map<GlobalOrdinal, Columns>& columns_of_node, const Map& owned_nodes, const RCP<const Map>& dofs) {
+  std::vector<GlobalOrdinal> rows;
+  std::vector<std::size_t> sizes;
+  for (const auto& [node, columns] : columns_of_node) {
+    if (owned_nodes.isNodeGlobalElement(node)) continue;
+    for (int i = 0; i < dimension; ++i) {
+      rows.push_back(dimension * node + i);
+      sizes.push_back(columns.size());
+    }
+  }
+  const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
+  const auto map = rcp(new Map(invalid, rows.data(), static_cast<LocalOrdinal>(rows.size()), 0, dofs->getComm()));
+  const auto graph = rcp(new Graph(map, Teuchos::arrayViewFromVector(sizes)));
+  for (const GlobalOrdinal row : rows) {
+    const Columns& columns = columns_of_node.at(row / dimension);
+    graph->insertGlobalIndices(row, static_cast<LocalOrdinal>(columns.size()), columns.data());
+  }
+  graph->fillComplete(dofs, dofs);
+  return graph;
+}
+
+// Rows that other ranks ask of this one, merged into `columns_of_node`.
+void receive(const Graph& remote, const Export& exporter, const RCP<const Map>& dofs, std::map<GlobalOrdinal, Columns>& columns_of_node) {
+  Graph incoming(dofs, 0);
+  incoming.doExport(remote, exporter, Tpetra::INSERT);
+  const LocalOrdinal rows = static_cast<LocalOrdinal>(dofs->getNodeNumElements());
+  for (LocalOrdinal row = 0; row < rows; row += dimension) {
+    const GlobalOrdinal id = dofs->getGlobalElement(row);
+    std::size_t count = incoming.getNumEntriesInGlobalRow(id);
+    if (count == 0 || count == Teuchos::OrdinalTraits<std::size_t>::invalid()) continue;
+    Graph::nonconst_global_inds_host_view_type columns("columns", count);
+    incoming.getGlobalRowCopy(id, columns, count);
+    Columns& into = columns_of_node[id / dimension];
+    into.insert(into.end(), columns.data(), columns.data() + count);
+    sort_unique(into);
+  }
+}
+
+}  // namespace
+
+SystemScatter::SystemScatter(const RCP<const Map>& owned_nodes, const RCP<const Graph>& bulk, const std::vector<PairCoupling*>& pairs) {
+  const RCP<const Map> dofs = bulk->getRowMap();
+  parallel_ = dofs->getComm()->getSize() > 1;
+  std::map<GlobalOrdinal, Columns> columns_of_node = coupled_columns(*bulk, pairs);
+
+  if (parallel_) {
+    const RCP<Graph> remote = remote_graph(columns_of_node, *owned_nodes, dofs);
+    export_ = rcp(new Export(remote->getRowMap(), dofs));
+    receive(*remote, *export_, dofs, columns_of_node);
+    remote_matrix_ = rcp(new Matrix(remote));
+    remote_vector_ = rcp(new Vector(remote->getRowMap()));
+  }
+
+  const LocalOrdinal rows = static_cast<LocalOrdinal>(dofs->getNodeNumElements());
+  std::vector<std::size_t> sizes(rows);
+  std::map<LocalOrdinal, Columns> merged;  // rows that differ from the bulk's
+  for (const auto& [node, columns] : columns_of_node) {
+    const LocalOrdinal owned = owned_nodes->getLocalElement(node);
+    if (owned < 0) continue;
+    for (int i = 0; i < dimension; ++i) {
+      Columns all = bulk_columns(*bulk, dimension * owned + i);
+      all.insert(all.end(), columns.begin(), columns.end());
+      sort_unique(all);
+      merged[dimension * owned + i] = std::move(all);
+    }
+  }
+  for (LocalOrdinal row = 0; row < rows; ++row) sizes[row] = bulk->getNumEntriesInLocalRow(row);
+  for (const auto& [row, columns] : merged) sizes[row] = columns.size();
+
+  const auto graph = rcp(new Graph(dofs, Teuchos::arrayViewFromVector(sizes)));
+  for (LocalOrdinal row = 0; row < rows; ++row) {
+    const auto found = merged.find(row);
+    const Columns columns = found == merged.end() ? bulk_columns(*bulk, row) : found->second;
+    graph->insertGlobalIndices(dofs->getGlobalElement(row), static_cast<LocalOrdinal>(columns.size()), columns.data());
+  }
+  graph->fillComplete(dofs, dofs);
+  graph_ = graph;
+
+  const RCP<const Map> columns = graph_->getColMap();
+  if (parallel_) {
+    remote_column_of_.resize(columns->getNodeNumElements());
+    for (std::size_t c = 0; c < remote_column_of_.size(); ++c)
+      remote_column_of_[c] = remote_matrix_->getColMap()->getLocalElement(columns->getGlobalElement(static_cast<LocalOrdinal>(c)));
+  }
+  for (const PairCoupling* pair : pairs) {
+    const Map& nodes = *pair->interface().local_nodes();
+    NodePositions positions;
+    for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(nodes.getNodeNumElements()); ++node) {
+      const GlobalOrdinal id = nodes.getGlobalElement(node);
+      const LocalOrdinal owned = owned_nodes->getLocalElement(id);
+      positions.row.push_back(owned < 0 ? -1 : dimension * owned);
+      positions.remote_row.push_back(owned < 0 && parallel_ ? remote_matrix_->getRowMap()->getLocalElement(dimension * id) : -1);
+      for (int i = 0; i < dimension; ++i) {
+        positions.column.push_back(columns->getLocalElement(dimension * id + i));
+        positions.remote_column.push_back(parallel_ ? remote_matrix_->getColMap()->getLocalElement(dimension * id + i) : -1);
+      }
+    }
+    positions_.push_back(std::move(positions));
+  }
+}
+
+void SystemScatter::add(Matrix& system, const NodePositions& positions, LocalOrdinal node, int component,
+                        const std::vector<LocalOrdinal>& columns, const std::vector<double>& values) {
+  const auto count = static_cast<LocalOrdinal>(columns.size());
+  LocalOrdinal summed;
+  if (positions.row[node] >= 0) {
+    summed = system.sumIntoLocalValues(positions.row[node] + component, count, values.data(), columns.data());
+  } else {
+    column_buffer_.resize(columns.size());
+    std::transform(columns.begin(), columns.end(), column_buffer_.begin(), [this](LocalOrdinal c) { return remote_column_of_[c]; });
+    summed = remote_matrix_->sumIntoLocalValues(positions.remote_row[node] + component, count, values.data(), column_buffer_.data());
+  }
+  if (summed != count) throw std::logic_error("contact: an entry of the condensed system has no place in its graph");
+}
+
+void SystemScatter::add(Vector& vector, const NodePositions& positions, LocalOrdinal node, int component, double value) {
+  if (positions.row[node] >= 0)
+    vector.sumIntoLocalValue(positions.row[node] + component, value);
+  else
+    remote_vector_->sumIntoLocalValue(positions.remote_row[node] + component, value);
+}
+
+void SystemScatter::finish(Matrix& system) {
+  if (!parallel_) return;
+  remote_matrix_->fillComplete(system.getDomainMap(), system.getRangeMap());
+  system.doExport(*remote_matrix_, *export_, Tpetra::ADD);
+  remote_matrix_->resumeFill();
+  remote_matrix_->setAllToScalar(0.0);
+}
+
+void SystemScatter::finish(Vector& vector) {
+  if (!parallel_) return;
+  vector.doExport(*remote_vector_, *export_, Tpetra::ADD);
+  remote_vector_->putScalar(0.0);
+}
+
+}  // namespace mortise::detail

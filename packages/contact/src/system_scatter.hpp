@@ -1,0 +1,50 @@
+#pragma once
+// Where the nodes of the interfaces stand in the rows and columns of the system, and sums into rows of other ranks.
+
+#include <vector>
+
+#include "mortise/core/types.hpp"
+#include "pair_coupling.hpp"
+
+namespace mortise::detail {
+
+/// Positions of one pair's local nodes. Entries of rows and columns are of the node's first component unless said otherwise.
+struct NodePositions {
+  std::vector<LocalOrdinal> row;           ///< [nodes] local row of the system, -1 if another rank owns the node
+  std::vector<LocalOrdinal> remote_row;    ///< [nodes] local row of the remote matrix, -1 if owned here
+  std::vector<LocalOrdinal> column;        ///< [2 nodes] local columns of the system
+  std::vector<LocalOrdinal> remote_column; ///< [2 nodes] local columns of the remote matrix
+};
+
+/// The condensed system's graph, and the rows this rank adds to on behalf of other ranks.
+class SystemScatter {
+ public:
+  /// Builds the graph of the condensed system: the bulk's rows; for each slave node s the columns of its own bulk row and of the nodes
+  /// it is coupled to; the same columns in the rows of all these nodes (they receive the slave's row by condensation).
+  SystemScatter(const RCP<const Map>& owned_nodes, const RCP<const Graph>& bulk, const std::vector<PairCoupling*>& pairs);
+
+  const RCP<const Graph>& graph() const { return graph_; }
+  const NodePositions& positions(std::size_t pair) const { return positions_[pair]; }
+
+  /// row `component` of node `node` of a pair: += values at local columns of the system.
+  void add(Matrix& system, const NodePositions& positions, LocalOrdinal node, int component, const std::vector<LocalOrdinal>& columns,
+           const std::vector<double>& values);
+  /// The same for a right-hand side (or any vector on the dofs).
+  void add(Vector& vector, const NodePositions& positions, LocalOrdinal node, int component, double value);
+
+  /// Collective: sends what was added to rows of other ranks.
+  void finish(Matrix& system);
+  void finish(Vector& vector);
+
+ private:
+  RCP<const Graph> graph_;
+  std::vector<NodePositions> positions_;
+  RCP<Matrix> remote_matrix_;
+  RCP<Vector> remote_vector_;
+  RCP<const Export> export_;
+  std::vector<LocalOrdinal> remote_column_of_;  ///< [columns of the system] in the remote matrix, -1: not there
+  std::vector<LocalOrdinal> column_buffer_;
+  bool parallel_ = false;
+};
+
+}  // namespace mortise::detail
