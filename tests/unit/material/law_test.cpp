@@ -1,0 +1,193 @@
+// Every law: stress against the derivative of its energy, tangent against the derivative of its stress.
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <string>
+#include <vector>
+
+#include "mortise/material/materials.hpp"
+#include "mortise/material/plane_stress.hpp"
+
+namespace mortise {
+namespace {
+
+constexpr double step = 1e-5;  // central differences: truncation step^2, round-off 1e-16 / step
+constexpr double bound = 1e-6;
+
+struct State {
+  std::string name;
+  Matrix3 F;
+};
+
+Matrix3 rotation(double angle) { return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix(); }
+
+/// Plane states with a hoop stretch: random, (nearly) equal principal stretches, large rotations.
+std::vector<State> plane_states() {
+  std::mt19937 generator(7);
+  std::uniform_real_distribution<double> uniform(-0.3, 0.3);
+  std::vector<State> states;
+  for (int n = 0; n < 5; ++n) {
+    Matrix3 F = Matrix3::Identity();
+    for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < 2; ++j) F(i, j) += uniform(generator);
+    F(2, 2) += uniform(generator);
+    states.push_back({"random " + std::to_string(n), F});
+    states.push_back({"rotated " + std::to_string(n), rotation(2.5) * F});
+  }
+  states.push_back({"undeformed", Matrix3::Identity()});
+  for (double difference : {0.0, 1e-14, 1e-10, 1e-7, 1e-4}) {
+    const Eigen::Vector3d two(1.2, 1.2 + difference, 0.8), three(1.2, 1.2 + difference, 1.2 - 2.0 * difference);
+    states.push_back({"two stretches apart by " + std::to_string(difference), rotation(0.4) * Matrix3(two.asDiagonal()) * rotation(1.1)});
+    states.push_back({"three stretches apart by " + std::to_string(difference), rotation(0.4) * Matrix3(three.asDiagonal()) * rotation(1.1)});
+  }
+  return states;
+}
+
+std::vector<State> solid_states() {
+  std::vector<State> states = plane_states();
+  const Matrix3 tilt = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, 2.0, -1.0).normalized()).toRotationMatrix();
+  for (State& state : states) state.F = tilt * state.F * tilt.transpose();
+  return states;
+}
+
+/// d f / dF_kl by central differences.
+template <class Function>
+auto difference(const Function& function, const Matrix3& F, int k, int l) {
+  Matrix3 plus = F, minus = F;
+  plus(k, l) += step;
+  minus(k, l) -= step;
+  return decltype(function(F))((function(plus) - function(minus)) / (2.0 * step));
+}
+
+/// Largest deviation of the tangent from the difference of the stress, relative to the largest entry.
+template <class Components, class AnyLaw>
+double tangent_error(const AnyLaw& law, const Matrix3& F) {
+  const auto result = law.template stress_and_tangent<Components>(F);
+  EXPECT_LE((result.stress - law.stress(F)).norm(), 1e-13 * (1.0 + result.stress.norm()));
+  double error = 0.0, largest = 0.0;
+  for (int q = 0; q < Components::size; ++q) {
+    const int k = Components::row[q], l = Components::column[q];
+    // Direction dF = (e_k e_l^T) F, or e_k e_l^T where the geometry is frozen.
+    const auto along = [&](double t) {
+      Matrix3 L = Matrix3::Zero();
+      L(k, l) = t;
+      return AnyLaw::small_strain ? Matrix3(F + L) : Matrix3(F + L * F);
+    };
+    const Matrix3 slope = (law.stress(along(step)) - law.stress(along(-step))) / (2.0 * step);
+    for (int p = 0; p < Components::size; ++p) {
+      const int i = Components::row[p], j = Components::column[p];
+      const double geometric = AnyLaw::small_strain || j != k ? 0.0 : result.stress(i, l);
+      error = std::max(error, std::abs(result.tangent(p, q) - (slope(i, j) - geometric)));
+      largest = std::max(largest, std::abs(result.tangent(p, q)));
+    }
+  }
+  return error / largest;
+}
+
+template <class Kind>
+class EveryLaw : public testing::Test {};
+using Kinds = testing::Types<Hencky, NeoHooke, StVenantKirchhoff, SmallStrainLinear>;
+TYPED_TEST_SUITE(EveryLaw, Kinds);
+
+TYPED_TEST(EveryLaw, StressIsTheDerivativeOfTheEnergy) {
+  for (double nu : {-0.5, 0.0, 0.3, 0.49}) {
+    const TypeParam law(ElasticConstants{1000.0, nu});
+    for (const State& state : solid_states()) {
+      Matrix3 P;
+      for (int k = 0; k < 3; ++k)
+        for (int l = 0; l < 3; ++l) P(k, l) = difference([&](const Matrix3& F) { return law.energy(F); }, state.F, k, l);
+      const Matrix3 stress = TypeParam::small_strain ? P : Matrix3(P * state.F.transpose());
+      EXPECT_LE((law.stress(state.F) - stress).norm(), bound * (law.stress(state.F).norm() + 1000.0)) << state.name << " nu " << nu;
+    }
+  }
+}
+
+TYPED_TEST(EveryLaw, TangentIsTheDerivativeOfTheStress) {
+  for (double nu : {-0.5, 0.0, 0.3, 0.49}) {
+    const Unconstrained<TypeParam> law{TypeParam(ElasticConstants{1000.0, nu})};
+    for (const State& state : plane_states()) {
+      EXPECT_LE(tangent_error<PlaneComponents>(law, state.F), bound) << state.name << " nu " << nu;
+      EXPECT_LE(tangent_error<AxisymmetricComponents>(law, state.F), bound) << state.name << " nu " << nu;
+    }
+    for (const State& state : solid_states()) EXPECT_LE(tangent_error<SolidComponents>(law, state.F), bound) << state.name << " nu " << nu;
+  }
+}
+
+TYPED_TEST(EveryLaw, ObeysHookesLawAtTheReferenceState) {
+  const ElasticConstants constants{210.0, 0.3};
+  const TypeParam law(constants);
+  const auto tangent = law.template stress_and_tangent<SolidComponents>(Matrix3::Identity()).tangent;
+  for (int q = 0; q < 9; ++q)
+    for (int p = 0; p < 9; ++p) {
+      const int i = p / 3, j = p % 3, k = q / 3, l = q % 3;
+      const double hooke = constants.lame_lambda() * (i == j && k == l) + constants.shear_modulus() * ((i == k && j == l) + (i == l && j == k));
+      EXPECT_NEAR(tangent(p, q), hooke, 1e-12 * 210.0);
+    }
+  EXPECT_LE(law.stress(Matrix3::Identity()).norm(), 1e-13 * 210.0);
+}
+
+template <class Kind>
+class FiniteStrainLaw : public testing::Test {};
+using FiniteStrainKinds = testing::Types<Hencky, NeoHooke, StVenantKirchhoff>;
+TYPED_TEST_SUITE(FiniteStrainLaw, FiniteStrainKinds);
+
+TYPED_TEST(FiniteStrainLaw, IsObjective) {
+  const TypeParam law(ElasticConstants{1000.0, 0.3});
+  for (const State& state : solid_states()) {
+    const Matrix3 Q = Eigen::AngleAxisd(2.0, Eigen::Vector3d(1.0, -1.0, 0.5).normalized()).toRotationMatrix();
+    EXPECT_LE((law.stress(Q * state.F) - Q * law.stress(state.F) * Q.transpose()).norm(), 1e-11 * 1000.0) << state.name;
+    EXPECT_LE(law.stress(Q).norm(), 1e-12 * 1000.0);
+  }
+}
+
+template <class Kind>
+class PlaneStressLaw : public testing::Test {};
+using PlaneStressKinds = testing::Types<StVenantKirchhoff, SmallStrainLinear>;
+TYPED_TEST_SUITE(PlaneStressLaw, PlaneStressKinds);
+
+TYPED_TEST(PlaneStressLaw, HasNoStressOutOfPlaneAndTheReducedLawInPlane) {
+  const ElasticConstants constants{1000.0, 0.3};
+  const PlaneStress<TypeParam> law{TypeParam(constants)};
+  for (const State& state : plane_states()) {
+    const Matrix3 stress = law.stress(state.F);
+    EXPECT_NEAR(stress(2, 2), 0.0, 1e-12 * 1000.0) << state.name;
+    // The in-plane law with lambda* = 2 lambda mu / (lambda + 2 mu), written down on its own.
+    const Eigen::Matrix2d F = state.F.topLeftCorner<2, 2>(), I = Eigen::Matrix2d::Identity();
+    const Eigen::Matrix2d E =
+        TypeParam::small_strain ? Eigen::Matrix2d(0.5 * (F + F.transpose()) - I) : Eigen::Matrix2d(0.5 * (F.transpose() * F - I));
+    const Eigen::Matrix2d S = constants.plane_stress_lambda() * E.trace() * I + 2.0 * constants.shear_modulus() * E;
+    const Eigen::Matrix2d expected = TypeParam::small_strain ? S : Eigen::Matrix2d(F * S * F.transpose());
+    EXPECT_LE((stress.topLeftCorner<2, 2>() - expected).norm(), 1e-11 * 1000.0) << state.name;
+    EXPECT_LE(tangent_error<PlaneComponents>(law, state.F), bound) << state.name;
+  }
+}
+
+TEST(NeoHooke, IsContinuousInPoissonsRatioAtZero) {
+  const Matrix3 F = plane_states()[0].F;
+  const NeoHooke at(ElasticConstants{1000.0, 0.0}), near(ElasticConstants{1000.0, 1e-9});
+  EXPECT_NEAR(at.energy(F), near.energy(F), 1e-8 * 1000.0);
+  EXPECT_LE((at.stress(F) - near.stress(F)).norm(), 1e-8 * 1000.0);
+}
+
+TEST(Hencky, UniaxialStressIsYoungsModulusTimesLogarithmicStrain) {
+  // tau = E ln(stretch) with lateral stretches stretch^-nu: the defining property of the law.
+  const double stretch = 1.7, nu = 0.3, lateral = std::pow(stretch, -nu);
+  const Hencky law(ElasticConstants{1000.0, nu});
+  const Matrix3 stress = law.stress(Eigen::Vector3d(stretch, lateral, lateral).asDiagonal());
+  EXPECT_NEAR(stress(0, 0), 1000.0 * std::log(stretch), 1e-10);
+  EXPECT_NEAR(stress(1, 1), 0.0, 1e-10);
+}
+
+TEST(MaterialRegistry, NamesEveryLawAndMakesIt) {
+  ASSERT_EQ(material_registry().entries().size(), std::variant_size_v<Law>);
+  for (std::size_t n = 0; n < material_registry().entries().size(); ++n) {
+    const auto& entry = material_registry().entries()[n];
+    const auto options = entry.make();
+    EXPECT_EQ(options->law().index(), n);
+    EXPECT_EQ(entry.name, std::visit([](const auto& law) { return std::string(law.name); }, options->law()));
+  }
+}
+
+}  // namespace
+}  // namespace mortise
