@@ -1,0 +1,249 @@
+// The linearised contact against central differences, and the condensed step against that of the whole saddle point system.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "two_surfaces.hpp"
+
+namespace mortise {
+namespace {
+
+using test::Fixture;
+using test::TwoSurfaces;
+
+double wiggle(GlobalOrdinal id) { return std::sin(12.9898 * static_cast<double>(id) + 0.7); }
+
+struct Case {
+  std::string name;
+  TwoSurfaces surfaces;
+};
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  all.push_back({"current", test::arch_on_ground()});
+  all.push_back({"standard weighting", test::arch_on_ground()});
+  all.back().surfaces.options.mortar.gap_weighting = GapWeighting::standard;
+  all.push_back({"partly fixed", test::arch_on_ground()});
+  all.back().surfaces.fixed[0] = {true, false};
+  all.push_back({"crosspoint", test::arch_on_ground()});
+  all.back().surfaces.fixed[2] = {true, true};
+  all.push_back({"axisymmetric", test::arch_on_ground()});
+  all.back().surfaces.measure = {true, 1.0};
+  all.push_back({"reference", test::arch_on_ground()});
+  all.back().surfaces.options.geometry = ContactGeometry::reference;
+  for (Case& one : all) one.surfaces.options.mortar.search_reach = 1.0;
+  return all;
+}
+
+// Some nodes pressed, some open; the tangential part is not zero, as it is before Newton has converged.
+double pressure(std::size_t node) { return node == 1 || node == 2 || node == 3 || node == 4 ? 3.0 + node : (node == 0 ? 2.0 : 0.0); }
+
+class Linearisation : public ::testing::TestWithParam<int> {};
+
+TEST_P(Linearisation, AgreesWithCentralDifferences) {
+  const Case one = cases()[GetParam()];
+  SCOPED_TRACE(one.name);
+  Fixture fixture(one.surfaces, Tpetra::getDefaultComm());
+  ContactSystem& contact = *fixture.contact;
+  std::optional<StepFailure> failure;
+  const auto d = Fixture::vector(fixture.dofs, [](GlobalOrdinal id) { return 0.01 * wiggle(id); });
+  const auto v = Fixture::vector(fixture.dofs, [](GlobalOrdinal id) { return wiggle(3 * id + 1); });
+  const auto z = fixture.multipliers(pressure);
+  const auto w = Fixture::vector(contact.multiplier_map(), [](GlobalOrdinal id) { return wiggle(5 * id + 2); });
+
+  contact.evaluate(*d, true, failure);
+  ASSERT_FALSE(failure);
+  bool changed = false;
+  const auto system = rcp(new Matrix(contact.system_graph(fixture.bulk, changed)));
+  contact.add_stiffness(*z, *system);
+  system->fillComplete(fixture.dofs, fixture.dofs);
+  const auto blocks = contact.saddle_point_blocks(*z);
+  Vector force(fixture.dofs), law(contact.multiplier_map());
+  system->apply(*v, force);
+  blocks.B->apply(*w, force, Teuchos::NO_TRANS, 1.0, 1.0);
+  blocks.C_d->apply(*v, law);
+  blocks.C_z->apply(*w, law, Teuchos::NO_TRANS, 1.0, 1.0);
+  const ContactNorms norms = contact.norms(*z);
+  EXPECT_GT(norms.active, 0);
+  EXPECT_LT(norms.active, 6);
+
+  const double h = 1e-6;
+  Vector force_difference(fixture.dofs), law_difference(contact.multiplier_map());
+  for (const double sign : {1.0, -1.0}) {
+    Vector d_h(*d, Teuchos::Copy), z_h(*z, Teuchos::Copy), f(fixture.dofs), C(contact.multiplier_map());
+    d_h.update(sign * h, *v, 1.0);
+    z_h.update(sign * h, *w, 1.0);
+    contact.evaluate(d_h, false, failure);
+    contact.add_contact_force(z_h, f);
+    contact.complementarity(z_h, C);
+    force_difference.update(sign / (2.0 * h), f, 1.0);
+    law_difference.update(sign / (2.0 * h), C, 1.0);
+  }
+  ASSERT_FALSE(failure);
+  const double force_size = force.norm2(), law_size = law.norm2();
+  force_difference.update(-1.0, force, 1.0);
+  law_difference.update(-1.0, law, 1.0);
+  EXPECT_GT(force_size, 0.0);
+  EXPECT_GT(law_size, 0.0);
+  EXPECT_LE(force_difference.norm2(), 1e-6 * force_size);
+  EXPECT_LE(law_difference.norm2(), 1e-6 * law_size);
+}
+
+TEST_P(Linearisation, CondensedStepEqualsSaddlePointStep) {
+  const Case one = cases()[GetParam()];
+  SCOPED_TRACE(one.name);
+  Fixture fixture(one.surfaces, Tpetra::getDefaultComm());
+  ContactSystem& contact = *fixture.contact;
+  std::optional<StepFailure> failure;
+  const auto d = Fixture::vector(fixture.dofs, [](GlobalOrdinal id) { return 0.01 * wiggle(id); });
+  const auto r = Fixture::vector(fixture.dofs, [](GlobalOrdinal id) { return 5.0 * wiggle(7 * id + 3); });  // without f_c
+  const auto z = fixture.multipliers(pressure);
+  contact.evaluate(*d, true, failure);
+  ASSERT_FALSE(failure);
+  bool changed = false;
+  const auto graph = contact.system_graph(fixture.bulk, changed);
+
+  const auto dof_ids = Fixture::all_ids(*fixture.dofs);
+  const auto z_ids = Fixture::all_ids(*contact.multiplier_map());
+  const Eigen::Index n = dof_ids.size(), m = z_ids.size();
+  std::vector<Eigen::Index> fixed;
+  for (std::size_t node = 0; node < one.surfaces.size(); ++node)
+    for (int i = 0; i < 2; ++i)
+      if (one.surfaces.fixed[node][i]) fixed.push_back(2 * node + i);
+
+  // The whole system: [K + C~, B; C_d, C_z] (dd, dz) = -(r + f_c, C), Dirichlet rows dd = 0.
+  const auto full = fixture.springs(graph);
+  contact.add_stiffness(*z, *full);
+  const auto blocks = contact.saddle_point_blocks(*z);
+  Vector total(*r, Teuchos::Copy), C(contact.multiplier_map());
+  contact.add_contact_force(*z, total);
+  contact.complementarity(*z, C);
+  Eigen::MatrixXd A(n + m, n + m);
+  A << Fixture::dense(*full, dof_ids, dof_ids), Fixture::dense(*blocks.B, dof_ids, z_ids), Fixture::dense(*blocks.C_d, z_ids, dof_ids),
+      Fixture::dense(*blocks.C_z, z_ids, z_ids);
+  Eigen::VectorXd b(n + m);
+  b << -Fixture::dense(total, dof_ids), -Fixture::dense(C, z_ids);
+  for (const Eigen::Index row : fixed) {
+    A.row(row).setZero();
+    A(row, row) = 1.0;
+    b[row] = 0.0;
+  }
+  const Eigen::VectorXd whole = A.fullPivLu().solve(b);
+
+  // Condensed.
+  const auto system = fixture.springs(graph);
+  Vector rhs(*r, Teuchos::Copy);
+  rhs.scale(-1.0);
+  contact.add_stiffness(*z, *system);
+  contact.condense(*z, *system, rhs);
+  Eigen::MatrixXd condensed = Fixture::dense(*system, dof_ids, dof_ids);
+  Eigen::VectorXd right = Fixture::dense(rhs, dof_ids);
+  for (const Eigen::Index row : fixed) {
+    condensed.row(row).setZero();
+    condensed(row, row) = 1.0;
+    right[row] = 0.0;
+  }
+  const Eigen::VectorXd increment = condensed.fullPivLu().solve(right);
+  const auto step = Fixture::vector(fixture.dofs, [&](GlobalOrdinal id) { return increment[id]; });
+  Vector z_new(contact.multiplier_map());
+  contact.recover(*step, z_new);
+  z_new.update(-1.0, *z, 1.0);
+
+  EXPECT_LE((increment - whole.head(n)).norm(), 1e-11 * whole.head(n).norm());
+  EXPECT_LE((Fixture::dense(z_new, z_ids) - whole.tail(m)).norm(), 1e-11 * whole.tail(m).norm());
+  // Every diagonal of the condensed matrix is positive, as relaxation needs it.
+  EXPECT_GT(condensed.diagonal().minCoeff(), 0.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, Linearisation, ::testing::Range(0, static_cast<int>(cases().size())),
+                         [](const auto& info) {
+                           std::string name = cases()[info.param].name;
+                           std::replace(name.begin(), name.end(), ' ', '_');
+                           return name;
+                         });
+
+TEST(ReferenceGeometry, GapIsTheTransposeOfTheForce) {
+  TwoSurfaces surfaces = test::arch_on_ground();
+  surfaces.options.geometry = ContactGeometry::reference;
+  surfaces.options.mortar.search_reach = 1.0;
+  Fixture fixture(surfaces, Tpetra::getDefaultComm());
+  ContactSystem& contact = *fixture.contact;
+  std::optional<StepFailure> failure;
+  Vector d(fixture.dofs);
+  contact.evaluate(d, true, failure);
+  bool changed = false;
+  contact.system_graph(fixture.bulk, changed);
+  const auto z = fixture.multipliers([](std::size_t) { return 1e3; });  // all closed
+  const auto blocks = contact.saddle_point_blocks(*z);
+  const auto dof_ids = Fixture::all_ids(*fixture.dofs), z_ids = Fixture::all_ids(*contact.multiplier_map());
+  const Eigen::MatrixXd B = Fixture::dense(*blocks.B, dof_ids, z_ids), C_d = Fixture::dense(*blocks.C_d, z_ids, dof_ids);
+  const Eigen::MatrixXd C_z = Fixture::dense(*blocks.C_z, z_ids, z_ids);
+  int closed = 0;
+  for (Eigen::Index j = 0; j < C_d.rows(); j += 2) {
+    if (C_d.row(j).isZero(0.0)) continue;
+    ++closed;
+    // The normal from the tangential row of C_z; the row of C_d is -c_n times the force of a unit pressure.
+    const Eigen::Vector2d normal(C_z(j + 1, j + 1), -C_z(j + 1, j));
+    const Eigen::VectorXd push = B.middleCols(j, 2) * normal;
+    const double factor = C_d.row(j).norm() / push.norm();
+    EXPECT_LE((C_d.row(j).transpose() + factor * push).norm(), 1e-13 * C_d.row(j).norm());
+  }
+  EXPECT_GE(closed, 4);
+}
+
+TEST(StartRule, ClosesNodesThatTouchAndSeedsUnheldBodies) {
+  TwoSurfaces flat;
+  for (int i = 0; i < 5; ++i) flat.slave.push_back({1.0 * i, 0.0});
+  for (int i = 0; i < 4; ++i) flat.master.push_back({4.0 * (3 - i) / 3.0, 0.0});
+  flat.fixed.assign(flat.size(), {false, false});
+  Fixture fixture(flat, Tpetra::getDefaultComm());
+  const std::vector<char> held(fixture.nodes->getNodeNumElements(), 0), unheld(held.size(), 1);
+  Vector d(fixture.dofs), z(fixture.contact->multiplier_map());
+  fixture.contact->start_step(d, held, z);
+  EXPECT_EQ(fixture.contact->norms(z).active, 5);
+
+  // Lifted by 0.05 h: nothing touches; only a body that nothing else holds is seeded.
+  const GlobalOrdinal slave_dofs = 10;
+  const auto lifted = Fixture::vector(fixture.dofs, [&](GlobalOrdinal id) { return id < slave_dofs && id % 2 == 1 ? 0.05 : 0.0; });
+  z.putScalar(0.0);
+  fixture.contact->start_step(*lifted, held, z);
+  EXPECT_EQ(fixture.contact->norms(z).active, 0);
+  fixture.contact->start_step(*lifted, unheld, z);
+  EXPECT_EQ(fixture.contact->norms(z).active, 5);
+
+  // Tilted and lifted beyond 0.1 h: at least the nearest node.
+  const auto tilted = Fixture::vector(fixture.dofs, [&](GlobalOrdinal id) { return id < slave_dofs && id % 2 == 1 ? 0.2 + 0.02 * id : 0.0; });
+  z.putScalar(0.0);
+  fixture.contact->start_step(*tilted, unheld, z);
+  EXPECT_GE(fixture.contact->norms(z).active, 1);
+  EXPECT_LE(fixture.contact->norms(z).active, 2);
+}
+
+TEST(SharedNodes, AreRefused) {
+  const auto comm = Tpetra::getDefaultComm();
+  const auto nodes = rcp(new const Map(8, 0, comm));
+  const auto dofs = make_dof_map(*nodes, 2);
+  const auto reference = rcp(new MultiVector(nodes, 2)), fixed = rcp(new MultiVector(nodes, 2));
+  const auto pair = [&](const std::string& name, int line, std::array<GlobalOrdinal, 2> slave, std::array<GlobalOrdinal, 2> master) {
+    ContactPair result;
+    result.name = name;
+    result.place = {"scene.xml", line, "contact/" + name};
+    result.youngs_modulus = 1.0;
+    if (nodes->isNodeGlobalElement(slave[0]) || nodes->isNodeGlobalElement(slave[1])) result.slave = {slave};
+    if (nodes->isNodeGlobalElement(master[0])) result.master = {master};
+    return result;
+  };
+  const auto message = [&](std::vector<ContactPair> pairs) -> std::string {
+    try {
+      ContactSystem(nodes, dofs, reference, fixed, {}, std::move(pairs), Timers());
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(message({pair("one", 3, {0, 1}, {2, 3}), pair("two", 9, {1, 4}, {6, 7})}), ::testing::HasSubstr("scene.xml:9: error: contact/two: node 1 is a slave"));
+  EXPECT_THAT(message({pair("one", 3, {0, 1}, {2, 3}), pair("two", 9, {4, 5}, {1, 6})}), ::testing::HasSubstr("scene.xml:3: error: contact/one: node 1 is a slave here and a master"));
+}
+
+}  // namespace
+}  // namespace mortise

@@ -1,0 +1,153 @@
+#pragma once
+// A slave and a master polyline facing each other, spread over the ranks, on a made-up bulk of springs.
+
+#include <Eigen/Dense>
+#include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_Core.hpp>
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
+#include <Tpetra_Vector.hpp>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "mortise/contact/contact_system.hpp"
+#include "mortise/core/dof_map.hpp"
+
+namespace mortise::test {
+
+using Point = std::array<double, 2>;
+
+/// Node ids: slave nodes first, then master nodes. The slave lies above, travelling to +x with its outward normal down; the master below,
+/// travelling to -x with its outward normal up.
+struct TwoSurfaces {
+  std::vector<Point> slave, master;
+  std::vector<std::array<bool, 2>> fixed;  ///< [all nodes]
+  ContactOptions options;
+  InterfaceMeasure measure;
+
+  std::size_t size() const { return slave.size() + master.size(); }
+};
+
+/// Slave: 6 nodes on a gentle arch over [0.1, 5.1]; master: 8 nodes over [0, 4.6], so the slave runs off at the right.
+inline TwoSurfaces arch_on_ground() {
+  TwoSurfaces surfaces;
+  for (int i = 0; i < 6; ++i) surfaces.slave.push_back({0.1 + i, 0.02 * (i - 2.0) * (i - 2.0) - 0.03});
+  for (int i = 0; i < 8; ++i) surfaces.master.push_back({4.6 * (7 - i) / 7.0, 0.03 * std::sin(1.3 * i)});
+  surfaces.fixed.assign(surfaces.size(), {false, false});
+  return surfaces;
+}
+
+/// Everything that is made from TwoSurfaces on `comm`. Node n belongs to rank n mod size.
+class Fixture {
+ public:
+  Fixture(const TwoSurfaces& surfaces, RCP<const Communicator> comm) : surfaces_(surfaces) {
+    std::vector<GlobalOrdinal> ids;
+    for (std::size_t n = 0; n < surfaces.size(); ++n)
+      if (static_cast<int>(n) % comm->getSize() == comm->getRank()) ids.push_back(static_cast<GlobalOrdinal>(n));
+    nodes = rcp(new Map(surfaces.size(), ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, comm));
+    dofs = make_dof_map(*nodes, 2);
+    const auto reference = rcp(new MultiVector(nodes, 2));
+    const auto fixed = rcp(new MultiVector(nodes, 2));
+    for (std::size_t n = 0; n < ids.size(); ++n)
+      for (int i = 0; i < 2; ++i) {
+        const std::size_t id = static_cast<std::size_t>(ids[n]);
+        reference->replaceLocalValue(n, i, id < surfaces.slave.size() ? surfaces.slave[id][i] : surfaces.master[id - surfaces.slave.size()][i]);
+        fixed->replaceLocalValue(n, i, surfaces.fixed[id][i] ? 1.0 : 0.0);
+      }
+    ContactPair pair;
+    pair.name = "pair";
+    pair.youngs_modulus = 100.0;
+    pair.options = surfaces.options;
+    const auto mine = [&](std::size_t n) { return nodes->isNodeGlobalElement(static_cast<GlobalOrdinal>(n)); };
+    const GlobalOrdinal slaves = static_cast<GlobalOrdinal>(surfaces.slave.size());
+    for (GlobalOrdinal i = 0; i + 1 < slaves; ++i)
+      if (mine(i) || mine(i + 1)) pair.slave.push_back({i, i + 1});
+    for (GlobalOrdinal i = slaves; i + 1 < static_cast<GlobalOrdinal>(surfaces.size()); ++i)
+      if (mine(i)) pair.master.push_back({i, i + 1});
+    contact = std::make_unique<ContactSystem>(nodes, dofs, reference, fixed, surfaces.measure, std::vector<ContactPair>{pair}, Timers());
+
+    const auto graph = rcp(new Graph(dofs, 14));
+    for (const GlobalOrdinal row : dofs->getNodeElementList())
+      for (GlobalOrdinal column = std::max<GlobalOrdinal>(0, row / 2 * 2 - 4); column < std::min<GlobalOrdinal>(2 * surfaces.size(), row / 2 * 2 + 6); ++column)
+        graph->insertGlobalIndices(row, 1, &column);
+    graph->fillComplete(dofs, dofs);
+    bulk = graph;
+  }
+
+  /// A vector on `map` from a function of the global id; the same on any number of ranks.
+  static RCP<Vector> vector(const RCP<const Map>& map, const std::function<double(GlobalOrdinal)>& value) {
+    const auto result = rcp(new Vector(map));
+    for (const GlobalOrdinal id : map->getNodeElementList()) result->replaceGlobalValue(id, value(id));
+    return result;
+  }
+
+  /// Multipliers: pressure times the outward normal down, with a tangential part.
+  RCP<Vector> multipliers(const std::function<double(std::size_t)>& pressure) const {
+    const GlobalOrdinal offset = dofs->getMaxAllGlobalIndex() + 1;
+    return vector(contact->multiplier_map(), [&](GlobalOrdinal id) {
+      const auto node = static_cast<std::size_t>((id - offset) / 2);
+      return (id - offset) % 2 == 0 ? 0.07 * pressure(node) : -pressure(node);
+    });
+  }
+
+  /// K of springs: symmetric part with a dominant diagonal, and an antisymmetric one, on the condensed system's graph.
+  RCP<Matrix> springs(const RCP<const Graph>& graph) const {
+    const auto K = rcp(new Matrix(graph));
+    for (const GlobalOrdinal row : dofs->getNodeElementList())
+      for (GlobalOrdinal column = std::max<GlobalOrdinal>(0, row / 2 * 2 - 4); column < std::min<GlobalOrdinal>(2 * surfaces_.size(), row / 2 * 2 + 6); ++column) {
+        const double value = row == column ? 900.0 + 7.0 * row : -60.0 * std::cos(0.3 * (row + column)) + 11.0 * std::sin(0.9 * (row - column));
+        K->sumIntoGlobalValues(row, 1, &value, &column);
+      }
+    return K;
+  }
+
+  /// Whole dense copy on every rank.
+  static Eigen::MatrixXd dense(const Matrix& matrix, const std::vector<GlobalOrdinal>& rows, const std::vector<GlobalOrdinal>& columns) {
+    Eigen::MatrixXd mine = Eigen::MatrixXd::Zero(rows.size(), columns.size()), all = mine;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      const LocalOrdinal row = matrix.getRowMap()->getLocalElement(rows[r]);
+      if (row < 0) continue;
+      Matrix::local_inds_host_view_type indices;
+      Matrix::values_host_view_type values;
+      matrix.getLocalRowView(row, indices, values);
+      for (std::size_t k = 0; k < indices.extent(0); ++k) {
+        const GlobalOrdinal id = matrix.getColMap()->getGlobalElement(indices(k));
+        mine(r, std::find(columns.begin(), columns.end(), id) - columns.begin()) += values(k);
+      }
+    }
+    Teuchos::reduceAll(*matrix.getComm(), Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), all.data());
+    return all;
+  }
+  static Eigen::VectorXd dense(const Vector& vector, const std::vector<GlobalOrdinal>& ids) {
+    Eigen::VectorXd mine = Eigen::VectorXd::Zero(ids.size()), all = mine;
+    const auto view = vector.getLocalViewHost(Tpetra::Access::ReadOnly);
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      const LocalOrdinal local = vector.getMap()->getLocalElement(ids[k]);
+      if (local >= 0) mine[k] = view(local, 0);
+    }
+    Teuchos::reduceAll(*vector.getMap()->getComm(), Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), all.data());
+    return all;
+  }
+  /// All ids of a one-to-one map, ascending, on every rank.
+  static std::vector<GlobalOrdinal> all_ids(const Map& map) {
+    std::vector<int> mine(map.getMaxAllGlobalIndex() + 1, 0), all = mine;
+    for (const GlobalOrdinal id : map.getNodeElementList()) mine[id] = 1;
+    Teuchos::reduceAll(*map.getComm(), Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), all.data());
+    std::vector<GlobalOrdinal> ids;
+    for (std::size_t id = 0; id < all.size(); ++id)
+      if (all[id]) ids.push_back(static_cast<GlobalOrdinal>(id));
+    return ids;
+  }
+
+  RCP<const Map> nodes, dofs;
+  RCP<const Graph> bulk;
+  std::unique_ptr<ContactSystem> contact;
+
+ private:
+  TwoSurfaces surfaces_;
+};
+
+}  // namespace mortise::test
