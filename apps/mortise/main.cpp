@@ -1,0 +1,46 @@
+// mortise: contact between bodies that deform. `mortise --help` says what it can do.
+
+#include <Tpetra_Core.hpp>
+#include <iostream>
+
+#include "program.hpp"
+
+namespace {
+
+constexpr const char* examples = R"(Examples:
+  mortise run inputs/paper/patch_test.xml                    results in results/patch_test
+  mortise run inputs/paper/hertz_elastic.xml --set variables/n=8 -o fine
+  mpirun -n 4 mortise run inputs/paper/hertz_elastic.xml     the same in parallel
+  mortise check scene.xml                                    reads, meshes, lists the effects; solves nothing
+  mortise describe contact                                   every parameter with default, unit and meaning
+  mortise list materials
+
+Exit codes: 0 done, 1 usage, 2 invalid input, 3 not converged, 4 a check of the scene missed, 5 files, 70 internal)";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tpetra::ScopeGuard scope(&argc, &argv);
+  mortise::Program program;
+  program.comm = Tpetra::getDefaultComm();
+  program.exit_comm = program.comm->duplicate();
+
+  CLI::App app("Mortise: contact between bodies that deform, slide and yield", "mortise");
+  app.set_version_flag("--version", "mortise " MORTISE_VERSION);
+  app.footer(examples);
+  app.require_subcommand(1);
+  mortise::add_run_command(app, program);
+  mortise::add_check_command(app, program);
+  mortise::add_describe_command(app, program);
+  mortise::add_list_command(app, program);
+  mortise::add_doctor_command(app, program);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    // All ranks read the same command line; one of them answers.
+    const bool asked_for_help = error.get_exit_code() == 0;
+    if (program.is_first_rank()) app.exit(error);
+    return static_cast<int>(asked_for_help ? mortise::ExitCode::done : mortise::ExitCode::usage);
+  }
+  return mortise::agree_on_exit(program, mortise::run_action(program));
+}

@@ -1,0 +1,45 @@
+#pragma once
+// What the commands of the program share.
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+
+#include "mortise/core/error.hpp"
+#include "mortise/core/types.hpp"
+
+namespace mortise {
+
+/// One run of the program: the command line selects the action, main runs it.
+struct Program {
+  RCP<const Communicator> comm;
+  RCP<const Communicator> exit_comm;  ///< a duplicate that carries nothing but the agreement on the exit code
+  std::function<ExitCode()> action;
+
+  bool is_first_rank() const { return comm->getRank() == 0; }
+};
+
+/// Prints on the first rank only.
+void print(const Program& program, const std::string& text);
+
+/// Each adds its command to the command line and sets program.action when it is chosen.
+void add_run_command(CLI::App& app, Program& program);
+void add_check_command(CLI::App& app, Program& program);
+void add_describe_command(CLI::App& app, Program& program);
+void add_list_command(CLI::App& app, Program& program);
+void add_doctor_command(CLI::App& app, Program& program);
+
+/// How a rank's action ended; the message is empty unless it failed.
+struct Outcome {
+  ExitCode code = ExitCode::done;
+  std::string message;
+};
+
+/// Runs the action; an exception becomes its exit code and message, which the first rank prints.
+Outcome run_action(const Program& program);
+
+/// Collective: agrees on the largest of all ranks' codes. A rank that finds itself alone here (another one is stuck in a collective call that
+/// this rank will never join) says why and ends the whole program with code 70 instead of waiting for ever.
+int agree_on_exit(const Program& program, const Outcome& outcome);
+
+}  // namespace mortise

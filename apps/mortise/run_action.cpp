@@ -1,0 +1,38 @@
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "program.hpp"
+
+namespace mortise {
+
+void print(const Program& program, const std::string& text) {
+  if (program.is_first_rank()) std::cout << text << std::flush;
+}
+
+Outcome run_action(const Program& program) {
+  Outcome outcome;
+  try {
+    outcome.code = program.action();
+  } catch (const InputError& error) {
+    outcome = {ExitCode::invalid_input, error.what()};
+  } catch (const FileError& error) {
+    outcome = {ExitCode::files, error.what()};
+  } catch (const StepFailure& failure) {
+    outcome = {ExitCode::not_converged, failure.what()};
+  } catch (const std::bad_alloc&) {
+    outcome = {ExitCode::internal, "out of memory"};
+  } catch (const std::exception& error) {
+    outcome = {ExitCode::internal, error.what()};
+  } catch (...) {
+    outcome = {ExitCode::internal, "unknown exception"};
+  }
+  // Errors of input, files and steps are thrown on every rank with the same text; anything else may be one rank's alone.
+  if (outcome.code == ExitCode::internal)
+    std::cerr << "mortise: internal error on rank " << program.comm->getRank() << ": " << outcome.message << std::endl;
+  else if (!outcome.message.empty() && program.is_first_rank())
+    std::cerr << outcome.message << std::endl;
+  return outcome;
+}
+
+}  // namespace mortise

@@ -1,0 +1,31 @@
+#pragma once
+// Finds, before anything is solved, the bodies that nothing holds: the rigid modes of all bodies against what the scene holds them with.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "mortise/core/error.hpp"
+#include "mortise/mesh/mesh.hpp"
+#include "mortise/mortar/mortar_interface.hpp"
+
+namespace mortise {
+
+/// Two surfaces that may touch, as ContactPair holds them.
+struct HoldingPair {
+  const SurfaceFacets* slave = nullptr;   ///< slave facets with a node owned by this rank
+  const SurfaceFacets* master = nullptr;  ///< master facets of this rank
+  double reach = 0.0;                     ///< distance within which a slave facet counts; 0: the longest facet of the pair
+};
+
+/// Collective. Each body may move by its rigid modes q (plane: two translations and the rotation about its centre, over its size;
+/// axisymmetric: the translation along the axis). Held is what costs: every prescribed dof adds (mode at the dof)^2, every slave facet in
+/// reach of its master adds (n . (mode_slave - mode_master))^2 to the Gram matrix of q; a null vector of it is a motion that nothing holds.
+/// @param fixed        [owned nodes x 2] 1 where the displacement is prescribed
+/// @param body_places  where the scene gives each body (mesh.blocks order)
+/// @returns for each body (mesh.blocks order) whether only contact holds it
+/// @throws InputError naming body and mode for each motion that nothing holds
+std::vector<char> check_held(const Mesh& mesh, bool axisymmetric, const MultiVector& fixed, const std::vector<HoldingPair>& pairs,
+                             const std::vector<Place>& body_places);
+
+}  // namespace mortise

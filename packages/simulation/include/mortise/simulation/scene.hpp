@@ -1,0 +1,94 @@
+#pragma once
+// A scene: everything a run is made of, as the scene file says it. Each list of the file is one struct here.
+
+#include <string>
+#include <vector>
+
+#include "mortise/contact/contact_system.hpp"
+#include "mortise/core/parameters.hpp"
+#include "mortise/material/materials.hpp"
+#include "mortise/mesh/derived_sets.hpp"
+#include "mortise/mesh/mesh_options.hpp"
+#include "mortise/nonlinear/linear_solver.hpp"
+#include "mortise/nonlinear/load_stepper.hpp"
+#include "mortise/nonlinear/newton_solver.hpp"
+#include "mortise/simulation/checks.hpp"
+#include "mortise/simulation/quantity.hpp"
+#include "mortise/solid/boundary_conditions.hpp"
+#include "mortise/solid/element_type.hpp"
+#include "mortise/solid/loads.hpp"
+
+namespace mortise {
+
+/// A body: what it is made of and its mesh.
+struct BodyOptions {
+  Located<std::string> material;
+  ElementType element = ElementType::q4;
+  Choice<MeshOptions> mesh;
+  void describe(Parameters& parameters);
+};
+
+/// A material by name; the kind of law stands behind "type".
+struct MaterialChoice {
+  Choice<MaterialOptions> law;
+  void describe(Parameters& parameters);
+};
+
+/// A part of a body or of one of its sides, as a set of its own.
+struct SetOptions {
+  Located<std::string> of;
+  Expression where{1.0};
+  SetKind kind = SetKind::sides;
+  void describe(Parameters& parameters);
+};
+
+/// A load; its kind stands behind "type".
+struct LoadChoice {
+  Choice<LoadOptions> load;
+  void describe(Parameters& parameters);
+};
+
+/// Two surfaces that may touch.
+struct ContactPairOptions {
+  Located<std::string> slave, master;
+  ContactOptions contact;
+  void describe(Parameters& parameters);
+};
+
+/// What is written besides the summary.
+struct OutputOptions {
+  Located<std::vector<std::string>> fields{{"displacement", "contact_pressure", "cauchy_stress"}, {}};
+  int every_step = 1;         ///< fields are written after every so many steps and at the end; 0: at the output times and the end only
+  void describe(Parameters& parameters);
+};
+
+/// A quantity; its kind stands behind "type".
+struct QuantityChoice {
+  Choice<Quantity> quantity;
+  void describe(Parameters& parameters);
+};
+
+/// A scene file's content. Variables and tables are read before all the rest and stand in `symbols`.
+struct Scene {
+  std::string name;  ///< of the scene file's outermost list
+  Symbols symbols;
+
+  Kinematics kinematics = Kinematics::plane_strain;
+  double thickness = 1.0;
+  std::vector<Named<MaterialChoice>> materials;
+  std::vector<Named<BodyOptions>> bodies;
+  std::vector<Named<SetOptions>> sets;
+  std::vector<Named<BoundaryConditionOptions>> boundary_conditions;
+  std::vector<Named<LoadChoice>> loads;
+  std::vector<Named<ContactPairOptions>> contact;
+  SteppingOptions stepping;
+  NewtonOptions newton;
+  LinearSolverOptions linear_solver;
+  OutputOptions output;
+  std::vector<Named<QuantityChoice>> quantities;
+  std::vector<Named<CheckOptions>> checks;
+
+  void describe(Parameters& parameters);
+};
+
+}  // namespace mortise

@@ -1,0 +1,164 @@
+#include "mortise/simulation/hold_check.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mortise {
+namespace {
+
+using Position = Eigen::Vector2d;
+/// A null vector has an eigenvalue below this, relative to the largest one.
+constexpr double rank_tolerance = 1e-12;
+
+/// Rigid modes of all bodies: mode m of body b is column 3 b + m (axisymmetric: b alone).
+class RigidModes {
+ public:
+  RigidModes(const Mesh& mesh, bool axisymmetric) : axisymmetric_(axisymmetric), bodies_(mesh.blocks.size()) {
+    // Bounding boxes over all ranks: the largest of (x, y, -x, -y).
+    std::vector<double> mine(4 * bodies_, -std::numeric_limits<double>::max()), all(4 * bodies_);
+    for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node) {
+      double* box = &mine[4 * mesh.body_of_node[node]];
+      for (int i = 0; i < 2; ++i) {
+        box[i] = std::max(box[i], mesh.coordinates[node][i]);
+        box[2 + i] = std::max(box[2 + i], -mesh.coordinates[node][i]);
+      }
+    }
+    Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, static_cast<int>(mine.size()), mine.data(), all.data());
+    for (std::size_t b = 0; b < bodies_; ++b) {
+      const Position high(all[4 * b], all[4 * b + 1]), low(-all[4 * b + 2], -all[4 * b + 3]);
+      centres_.push_back(0.5 * (low + high));
+      sizes_.push_back(std::max(0.5 * (high - low).norm(), std::numeric_limits<double>::min()));
+    }
+  }
+
+  int per_body() const { return axisymmetric_ ? 1 : 3; }
+  int count() const { return per_body() * static_cast<int>(bodies_); }
+  const char* name(int mode) const {
+    static const char* names[] = {"translation in x", "translation in y", "rotation"};
+    return axisymmetric_ ? "translation along the axis" : names[mode % 3];
+  }
+
+  /// row += direction . modes of `body` at position x.
+  void add(int body, const Position& x, const Position& direction, Eigen::RowVectorXd& row) const {
+    if (axisymmetric_) {
+      row(body) += direction.y();
+      return;
+    }
+    const Position arm = (x - centres_[body]) / sizes_[body];
+    row.segment<3>(3 * body) += Eigen::RowVector3d(direction.x(), direction.y(), arm.x() * direction.y() - arm.y() * direction.x());
+  }
+
+ private:
+  bool axisymmetric_;
+  std::size_t bodies_;
+  std::vector<Position> centres_;
+  std::vector<double> sizes_;
+};
+
+Position position(const Mesh& mesh, LocalOrdinal node) { return {mesh.coordinates[node][0], mesh.coordinates[node][1]}; }
+
+Eigen::MatrixXd prescribed_gram(const Mesh& mesh, const RigidModes& modes, const MultiVector& fixed) {
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(modes.count(), modes.count());
+  const auto values = fixed.getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node)
+    for (int i = 0; i < 2; ++i) {
+      if (values(node, i) == 0.0) continue;
+      Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(modes.count());
+      modes.add(mesh.body_of_node[node], position(mesh, node), Position::Unit(i), row);
+      gram += row.transpose() * row;
+    }
+  return gram;
+}
+
+/// Slave facets in the bounding box of the master surface, widened by the reach: what can touch at the start. Collective.
+Eigen::MatrixXd contact_gram(const Mesh& mesh, const RigidModes& modes, const HoldingPair& pair) {
+  const auto ends = [&](const std::array<GlobalOrdinal, 2>& facet) {
+    return std::array<LocalOrdinal, 2>{mesh.local_nodes->getLocalElement(facet[0]), mesh.local_nodes->getLocalElement(facet[1])};
+  };
+  // (x, y, -x, -y) of the master nodes, longest facet, body of the master: largest over all ranks.
+  std::array<double, 6> mine, all;
+  mine.fill(-std::numeric_limits<double>::max());
+  for (const auto* facets : {pair.slave, pair.master})
+    for (const auto& facet : *facets) {
+      const auto [a, b] = ends(facet);
+      mine[4] = std::max(mine[4], (position(mesh, b) - position(mesh, a)).norm());
+    }
+  for (const auto& facet : *pair.master)
+    for (const LocalOrdinal node : ends(facet)) {
+      const Position x = position(mesh, node);
+      for (int i = 0; i < 2; ++i) mine[i] = std::max(mine[i], x(i)), mine[2 + i] = std::max(mine[2 + i], -x(i));
+      mine[5] = std::max<double>(mine[5], mesh.body_of_node[node]);
+    }
+  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, 6, mine.data(), all.data());
+  const double reach = pair.reach > 0.0 ? pair.reach : all[4];
+  const int master_body = static_cast<int>(all[5]);
+
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(modes.count(), modes.count());
+  for (const auto& facet : *pair.slave) {
+    const auto [a, b] = ends(facet);
+    const Position middle = 0.5 * (position(mesh, a) + position(mesh, b)), along = (position(mesh, b) - position(mesh, a)).normalized();
+    bool near = true;
+    for (int i = 0; i < 2; ++i) near = near && middle(i) <= all[i] + reach && -middle(i) <= all[2 + i] + reach;
+    if (!near) continue;
+    const Position normal(along.y(), -along.x());
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(modes.count());
+    modes.add(mesh.body_of_node[a], middle, normal, row);
+    modes.add(master_body, middle, -normal, row);
+    gram += row.transpose() * row;
+  }
+  return gram;
+}
+
+Eigen::MatrixXd sum_over_ranks(const Mesh& mesh, const Eigen::MatrixXd& gram) {
+  Eigen::MatrixXd sum(gram.rows(), gram.cols());
+  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, static_cast<int>(gram.size()), gram.data(), sum.data());
+  return sum;
+}
+
+/// Columns span the null space.
+Eigen::MatrixXd null_space(const Eigen::MatrixXd& gram) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);
+  const double bound = std::max(rank_tolerance * solver.eigenvalues().cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
+  const auto count = (solver.eigenvalues().array() < bound).count();
+  return solver.eigenvectors().leftCols(count);
+}
+
+}  // namespace
+
+std::vector<char> check_held(const Mesh& mesh, bool axisymmetric, const MultiVector& fixed, const std::vector<HoldingPair>& pairs,
+                             const std::vector<Place>& body_places) {
+  const RigidModes modes(mesh, axisymmetric);
+  const Eigen::MatrixXd prescribed = sum_over_ranks(mesh, prescribed_gram(mesh, modes, fixed));
+  Eigen::MatrixXd contact = Eigen::MatrixXd::Zero(modes.count(), modes.count());
+  for (const auto& pair : pairs) contact += contact_gram(mesh, modes, pair);
+
+  // One free motion at a time: the mode with the greatest part in what is left of the null space is named and taken out.
+  Eigen::MatrixXd free_motions = null_space(prescribed + sum_over_ranks(mesh, contact));
+  std::vector<Diagnostic> diagnostics;
+  for (Eigen::Index left = free_motions.cols(); left > 0; --left) {
+    Eigen::Index mode = 0;
+    free_motions.rowwise().squaredNorm().maxCoeff(&mode);
+    const Eigen::Index body = mode / modes.per_body();
+    diagnostics.push_back({body_places[body], fmt::format("body '{}' can move: {}; neither boundary conditions nor contact hold it",
+                                                          mesh.blocks[body].name, modes.name(static_cast<int>(mode % modes.per_body())))});
+    const Eigen::VectorXd taken = free_motions.row(mode).transpose().normalized();
+    free_motions -= (free_motions * taken).eval() * taken.transpose();
+  }
+  if (!diagnostics.empty()) throw InputError(diagnostics);
+
+  std::vector<char> only_contact;
+  for (Eigen::Index body = 0; body < static_cast<Eigen::Index>(mesh.blocks.size()); ++body) {
+    const auto block = prescribed.block(modes.per_body() * body, modes.per_body() * body, modes.per_body(), modes.per_body());
+    only_contact.push_back(null_space(block).cols() > 0);
+  }
+  return only_contact;
+}
+
+}  // namespace mortise

@@ -1,0 +1,29 @@
+#include "mortise/simulation/newton_table.hpp"
+
+#include <fmt/format.h>
+
+namespace mortise {
+
+std::string step_header(int step, int steps, double time, double dt) {
+  return steps > 0 ? fmt::format("step {}/{}  t={:.6g}  dt={:.6g}", step, steps, time, dt)
+                   : fmt::format("step {}  t={:.6g}  dt={:.6g}", step, time, dt);
+}
+
+std::string newton_header() { return " it   |r|/|r0|    |gap|     |du|    active  changed   lin      s"; }
+
+std::string newton_line(const NewtonIteration& iteration, double first_momentum) {
+  const auto& norms = iteration.norms;
+  const double relative = first_momentum > 0.0 ? norms.momentum_absolute / first_momentum : norms.momentum_absolute;
+  const std::string increment = iteration.iteration == 0 ? "-" : fmt::format("{:.1e}", iteration.increment);
+  const std::string linear = iteration.linear_iterations == 0 ? "-" : fmt::format("{}", iteration.linear_iterations);
+  return fmt::format("{:3d}   {:.2e}   {:.1e}  {:>8}   {:6d}   {:6d}  {:>4}  {:5.2f}", iteration.iteration, relative, norms.gap, increment,
+                     norms.active, norms.changed, linear, iteration.seconds);
+}
+
+std::string step_footer(const StepReport& report) {
+  double seconds = 0.0;
+  for (const auto& iteration : report.newton.iterations) seconds += iteration.seconds;
+  return fmt::format("  done in {} iterations, {:.2f} s", report.newton.newton_steps(), seconds);
+}
+
+}  // namespace mortise

@@ -1,0 +1,65 @@
+#include "mortise/simulation/scene.hpp"
+
+#include "mortise/simulation/field_names.hpp"
+
+namespace mortise {
+
+void MaterialChoice::describe(Parameters& parameters) { parameters.choose(law, material_registry(), "the law"); }
+
+namespace {
+/// The list "mesh" of a body.
+struct MeshList {
+  Choice<MeshOptions>& mesh;
+  void describe(Parameters& parameters) { parameters.choose(mesh, mesh_registry(), "the shape of the body"); }
+};
+}  // namespace
+
+void BodyOptions::describe(Parameters& parameters) {
+  parameters.add("material", material, Says("name of one of the scene's materials").required());
+  parameters.add("element", element, element_names(), "what the body is discretised with");
+  MeshList list{mesh};
+  parameters.list("mesh", list, "the mesh of the body; its sides become the sets \"body/side\"");
+}
+
+void SetOptions::describe(Parameters& parameters) {
+  parameters.add("of", of, Says("the set that this one is a part of: \"body/side\", a body, or a set above").required());
+  parameters.add("where", where, "a node, or a side by its middle, belongs to the set where this expression of x and y (reference) is above 0");
+  parameters.add("kind", kind, {{"sides", SetKind::sides}, {"nodes", SetKind::nodes}}, "what the set holds");
+}
+
+void LoadChoice::describe(Parameters& parameters) { parameters.choose(load, load_registry(), "the kind of load"); }
+
+void ContactPairOptions::describe(Parameters& parameters) {
+  parameters.add("slave", slave, Says("side set that carries the multipliers: the finer, softer or shorter one").required());
+  parameters.add("master", master, Says("side set that it may touch").required());
+  contact.describe(parameters);
+}
+
+void OutputOptions::describe(Parameters& parameters) {
+  parameters.add("fields", fields, "fields written to fields.xdmf; an empty text writes none");
+  for (const auto& field : fields.value)
+    if (const auto wrong = wrong_field_name(field); !wrong.empty()) parameters.error("fields", wrong);
+  parameters.add("every step", every_step,
+                 Says("fields are written after every so many steps, and at the end; 0: at the output times and the end only").at_least(0));
+}
+
+void QuantityChoice::describe(Parameters& parameters) { parameters.choose(quantity, quantity_registry(), "the kind of quantity"); }
+
+void Scene::describe(Parameters& parameters) {
+  parameters.add("kinematics", kinematics, kinematics_names(), "how the third direction behaves; axisymmetric: x is the radius, y the axis");
+  parameters.add("thickness", thickness, Says("thickness of the model out of the plane; axisymmetric scenes do not use it").unit("length").above(0.0));
+  parameters.named("materials", materials, "the materials, by names of your choice");
+  parameters.named("bodies", bodies, "the bodies, by names of your choice; each is meshed by itself");
+  parameters.named("sets", sets, "parts of sides and bodies, by names of your choice");
+  parameters.named("boundary conditions", boundary_conditions, "prescribed displacements");
+  parameters.named("loads", loads, "loads, by names of your choice");
+  parameters.named("contact", contact, "contact pairs, by names of your choice");
+  parameters.list("stepping", stepping, "pseudo-time and its steps");
+  parameters.list("newton", newton, "when a Newton solve is done, and when it is given up");
+  parameters.list("linear solver", linear_solver, "how linear systems are solved");
+  parameters.list("output", output, "what is written besides the summary");
+  parameters.named("quantities", quantities, "numbers wanted of the run: every step's in history.csv, the last ones in summary.json");
+  parameters.named("checks", checks, "bounds on quantities at the end; a run that misses one ends with exit code 4");
+}
+
+}  // namespace mortise
