@@ -1,0 +1,99 @@
+#pragma once
+// Deforming bodies: unknowns, internal forces, stiffness, stresses.
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "mortise/core/error.hpp"
+#include "mortise/core/types.hpp"
+#include "mortise/mesh/mesh.hpp"
+#include "mortise/solid/element_type.hpp"
+#include "mortise/solid/nodal_sparsity.hpp"
+
+namespace mortise {
+
+class ElementBlock;
+
+/// One quadrature point of an element at a given displacement.
+struct MaterialPoint {
+  LocalOrdinal block = 0, element = 0;  ///< element: index in the block
+  int point = 0;
+  std::array<double, 2> reference_position{}, position{};  ///< (x, y), or (r, z)
+  double weight = 0.0;                                     ///< reference volume: quadrature weight x area x thickness or 2 pi R
+  double volume_ratio = 1.0;                               ///< current / reference volume: det F; 1 for small strain
+  Matrix3 deformation_gradient;  ///< F that the law sees: with the hoop or out-of-plane stretch as component 33, of F-bar elements the modified one
+  Matrix3 cauchy_stress;         ///< [stress]
+  double energy = 0.0;           ///< stored energy per reference volume, of deformation_gradient
+};
+
+/// All bodies of a scene. Two unknowns a node: dof id = 2 * node id + component.
+///
+/// Each rank computes every element that touches one of its nodes and writes only the rows it owns: assembly does not communicate.
+/// Displacement arguments live on local_dofs(): owned, then ghosts.
+class Bodies {
+ public:
+  /// `thickness` [length] counts for the plane kinematics. One entry of `bodies` for each block of the mesh, in the same order.
+  /// Collective. Throws InputError for combinations without meaning and for reference elements with det J <= 0, naming the body at its place.
+  Bodies(RCP<const Mesh> mesh, Kinematics kinematics, double thickness, std::vector<BodyProperties> bodies);
+  ~Bodies();
+  Bodies(const Bodies&) = delete;
+  Bodies& operator=(const Bodies&) = delete;
+
+  const RCP<const Mesh>& mesh() const { return mesh_; }
+  Kinematics kinematics() const { return kinematics_; }
+  double thickness() const { return thickness_; }
+  const std::vector<BodyProperties>& properties() const { return properties_; }
+  /// Factor that makes a length in the plane at radius r an area: the thickness, or 2 pi r.
+  double depth(double radius) const;
+
+  const RCP<const Map>& dofs() const { return dofs_; }
+  const RCP<const Map>& local_dofs() const { return local_dofs_; }
+  /// From dofs() to local_dofs().
+  const RCP<const Import>& ghost_import() const { return ghost_import_; }
+  const NodalSparsity& sparsity() const { return *sparsity_; }
+  const RCP<const Graph>& graph() const { return sparsity_->graph(); }
+
+  /// residual += f_int, f_int = integral of tau : grad eta dV0, on owned dofs.
+  /// det F <= 0 (or at the centre, det F0 <= 0) is put into `failure` if that is empty; the sum is then of no use.
+  void add_internal_force(const Vector& local_displacement, Vector& residual, std::optional<StepFailure>& failure) const;
+
+  /// matrix += d f_int / d displacement. `matrix` has graph().
+  void add_stiffness(const Vector& local_displacement, Matrix& matrix, std::optional<StepFailure>& failure) const;
+
+  /// Calls `visit` for each quadrature point of each owned element, in order.
+  void visit_points(const Vector& local_displacement, const std::function<void(const MaterialPoint&)>& visit) const;
+
+  /// Volume-weighted mean Cauchy stress of each owned element of a block: xx, yy, zz, xy (axisymmetric: rr, zz, hoop, rz).
+  std::vector<std::array<double, 4>> element_stresses(const Vector& local_displacement, LocalOrdinal block) const;
+
+  /// Volume-weighted mean Cauchy stress around each owned node: columns xx, yy, zz, xy on mesh()->owned_nodes.
+  RCP<MultiVector> nodal_stresses(const Vector& local_displacement) const;
+
+  /// Stored energy of each body, summed over all ranks. Collective.
+  std::vector<double> stored_energies(const Vector& local_displacement) const;
+
+  /// Integral of N_a dV0 over the body `block`, for each owned node a.
+  std::vector<double> nodal_volumes(LocalOrdinal block) const;
+
+ private:
+  RCP<const Mesh> mesh_;
+  Kinematics kinematics_;
+  double thickness_;
+  std::vector<BodyProperties> properties_;
+  RCP<const Map> dofs_, local_dofs_;
+  RCP<const Import> ghost_import_;
+  std::unique_ptr<NodalSparsity> sparsity_;
+  std::vector<std::unique_ptr<ElementBlock>> blocks_;
+};
+
+/// The rigid body modes about the current configuration, on the owned dofs. Plane: translations in x and y and the rotation (-y, x) about the
+/// centre of the current nodes; axisymmetric: the translation in z. Collective.
+RCP<MultiVector> rigid_body_modes(const Bodies& bodies, const Vector& displacement);
+
+/// Current positions of the owned nodes, two columns. `displacement` is on the owned dofs.
+RCP<MultiVector> current_coordinates(const Bodies& bodies, const Vector& displacement);
+
+}  // namespace mortise

@@ -1,0 +1,46 @@
+#pragma once
+// What a body can be made of: kinematics, elements, and which of their combinations with a law have a meaning.
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mortise/core/error.hpp"
+#include "mortise/material/materials.hpp"
+#include "mortise/shape/cell.hpp"
+
+namespace mortise {
+
+/// How the third direction behaves. Axisymmetric: x is the radius r, y the axis z.
+enum class Kinematics { plane_strain, plane_stress, axisymmetric };
+
+/// F-bar takes the volume change of an element from its centre, which ends volumetric locking.
+enum class ElementFormulation { standard, f_bar };
+
+enum class ElementType { q4, q4_f_bar, t3 };
+
+/// "plane strain", "plane stress", "axisymmetric".
+const std::vector<std::pair<std::string, Kinematics>>& kinematics_names();
+
+/// "Q4", "Q4 F-bar", "T3".
+const std::vector<std::pair<std::string, ElementType>>& element_names();
+
+CellShape cell_shape(ElementType type);
+ElementFormulation formulation(ElementType type);
+std::string to_string(ElementType type);
+std::string to_string(Kinematics kinematics);
+
+/// What one body is made of. The body's mesh is the block of the same index.
+struct BodyProperties {
+  std::string name;
+  Place place;
+  std::shared_ptr<const MaterialOptions> material;
+  ElementType element = ElementType::q4;
+};
+
+/// Says what has no meaning: F-bar with small strain or plane stress, a law without a plane stress form under plane stress.
+/// Empty if all is well. No communication.
+std::vector<Diagnostic> check_combination(const BodyProperties& body, Kinematics kinematics);
+
+}  // namespace mortise

@@ -1,0 +1,158 @@
+#include "element_block.hpp"
+
+#include <fmt/format.h>
+
+#include "element_kernel.hpp"
+#include "mortise/shape/quadrilateral4.hpp"
+#include "mortise/shape/triangle3.hpp"
+
+namespace mortise {
+namespace {
+
+template <class Cell, Kinematics kinematics, ElementFormulation formulation, class PlainLaw>
+class KernelBlock final : public ElementBlock {
+  using Kernel = ElementKernel<Cell, kinematics, formulation, PlainLaw>;
+  using Positions = typename Kernel::Positions;
+  static constexpr int nodes = Kernel::nodes;
+
+ public:
+  KernelBlock(const BlockContext& context, const PlainLaw& law, double thickness)
+      : context_(context), kernel_(law, thickness), owned_nodes_(context.mesh.owned_count()) {
+    const Block& block = context_.block;
+    positions_.reserve(static_cast<std::size_t>(block.size()) * nodes * nodes);
+    for (LocalOrdinal element = 0; element < block.size(); ++element)
+      for (int a = 0; a < nodes; ++a)
+        for (int b = 0; b < nodes; ++b) positions_.push_back(context_.sparsity.position(block.nodes(element)[a], block.nodes(element)[b]));
+  }
+
+  void add_internal_force(const double* displacement, double* force, std::optional<StepFailure>& failure) const override {
+    typename Kernel::Stiffness unused;
+    for (LocalOrdinal element = 0; element < context_.block.size(); ++element) {
+      const LocalOrdinal* node = context_.block.nodes(element);
+      if (!touches_owned(node)) continue;
+      typename Kernel::Force element_force{};
+      const double determinant = kernel_.template add<false>(reference(node), gather(node, displacement), element_force, unused);
+      if (!(determinant > 0.0)) report(element, determinant, failure);
+      for (int a = 0; a < nodes; ++a)
+        if (node[a] < owned_nodes_)
+          for (int i = 0; i < 2; ++i) force[2 * node[a] + i] += element_force[2 * a + i];
+    }
+  }
+
+  void add_stiffness(const double* displacement, const NodalSparsity::Values& matrix, std::optional<StepFailure>& failure) const override {
+    for (LocalOrdinal element = 0; element < context_.block.size(); ++element) {
+      const LocalOrdinal* node = context_.block.nodes(element);
+      if (!touches_owned(node)) continue;
+      typename Kernel::Force unused{};
+      typename Kernel::Stiffness stiffness{};
+      const double determinant = kernel_.template add<true>(reference(node), gather(node, displacement), unused, stiffness);
+      if (!(determinant > 0.0)) report(element, determinant, failure);
+      const LocalOrdinal* position = positions_.data() + static_cast<std::size_t>(element) * nodes * nodes;
+      for (int a = 0; a < nodes; ++a) {
+        if (node[a] >= owned_nodes_) continue;
+        for (int i = 0; i < 2; ++i)
+          for (int b = 0; b < nodes; ++b) {
+            double* entries = matrix.at(node[a], i, position[a * nodes + b]);
+            entries[0] += stiffness[2 * a + i][2 * b];
+            entries[1] += stiffness[2 * a + i][2 * b + 1];
+          }
+      }
+    }
+  }
+
+  void visit_points(const double* displacement, LocalOrdinal count, const std::function<void(const MaterialPoint&)>& visit) const override {
+    for (LocalOrdinal element = 0; element < count; ++element) {
+      const LocalOrdinal* node = context_.block.nodes(element);
+      const Positions X = reference(node), u = gather(node, displacement);
+      for (int q = 0; q < Kernel::points; ++q) {
+        MaterialPoint point = kernel_.material_point(q, X, u);
+        point.block = context_.index;
+        point.element = element;
+        visit(point);
+      }
+    }
+  }
+
+  void add_nodal_volumes(std::vector<double>& volumes) const override {
+    for (LocalOrdinal element = 0; element < context_.block.size(); ++element) {
+      const LocalOrdinal* node = context_.block.nodes(element);
+      std::array<double, nodes> element_volumes{};
+      kernel_.add_volumes(reference(node), element_volumes);
+      for (int a = 0; a < nodes; ++a)
+        if (node[a] < owned_nodes_) volumes[node[a]] += element_volumes[a];
+    }
+  }
+
+  std::pair<LocalOrdinal, double> smallest_reference_determinant() const override {
+    std::pair<LocalOrdinal, double> smallest{-1, std::numeric_limits<double>::infinity()};
+    for (LocalOrdinal element = 0; element < context_.block.size(); ++element) {
+      const double determinant = kernel_.smallest_reference_determinant(reference(context_.block.nodes(element)));
+      if (!(determinant >= smallest.second)) smallest = {element, determinant};
+    }
+    return smallest;
+  }
+
+ private:
+  bool touches_owned(const LocalOrdinal* node) const {
+    for (int a = 0; a < nodes; ++a)
+      if (node[a] < owned_nodes_) return true;
+    return false;
+  }
+
+  Positions reference(const LocalOrdinal* node) const {
+    Positions X;
+    for (int a = 0; a < nodes; ++a) X[a] = {context_.mesh.coordinates[node[a]][0], context_.mesh.coordinates[node[a]][1]};
+    return X;
+  }
+
+  static Positions gather(const LocalOrdinal* node, const double* displacement) {
+    Positions u;
+    for (int a = 0; a < nodes; ++a) u[a] = {displacement[2 * node[a]], displacement[2 * node[a] + 1]};
+    return u;
+  }
+
+  void report(LocalOrdinal element, double determinant, std::optional<StepFailure>& failure) const {
+    if (failure) return;
+    failure.emplace(FailureKind::inverted_element, fmt::format("body \"{}\": element {} is turned inside out, det F = {:.3g}", context_.block.name,
+                                                               context_.block.element_ids[element], determinant));
+  }
+
+  BlockContext context_;
+  Kernel kernel_;
+  LocalOrdinal owned_nodes_;
+  std::vector<LocalOrdinal> positions_;  ///< [elements x nodes x nodes] NodalSparsity::position
+};
+
+template <class Cell, ElementFormulation formulation, class PlainLaw>
+std::unique_ptr<ElementBlock> make_for(const BlockContext& context, const PlainLaw& law, Kinematics kinematics, double thickness) {
+  constexpr bool f_bar = formulation == ElementFormulation::f_bar;
+  if constexpr (!(f_bar && PlainLaw::small_strain)) {
+    if (kinematics == Kinematics::plane_strain)
+      return std::make_unique<KernelBlock<Cell, Kinematics::plane_strain, formulation, PlainLaw>>(context, law, thickness);
+    if (kinematics == Kinematics::axisymmetric)
+      return std::make_unique<KernelBlock<Cell, Kinematics::axisymmetric, formulation, PlainLaw>>(context, law, thickness);
+    if constexpr (PlainLaw::plane_stress && !f_bar)
+      return std::make_unique<KernelBlock<Cell, Kinematics::plane_stress, formulation, PlainLaw>>(context, law, thickness);
+  }
+  throw std::logic_error("a combination of element, kinematics and law that check_combination refuses");
+}
+
+}  // namespace
+
+std::unique_ptr<ElementBlock> make_element_block(const BlockContext& context, const BodyProperties& body, Kinematics kinematics, double thickness) {
+  return std::visit(
+      [&](const auto& law) -> std::unique_ptr<ElementBlock> {
+        switch (body.element) {
+          case ElementType::q4:
+            return make_for<Quadrilateral4, ElementFormulation::standard>(context, law, kinematics, thickness);
+          case ElementType::q4_f_bar:
+            return make_for<Quadrilateral4, ElementFormulation::f_bar>(context, law, kinematics, thickness);
+          case ElementType::t3:
+            return make_for<Triangle3, ElementFormulation::standard>(context, law, kinematics, thickness);
+        }
+        throw std::logic_error("an element type without elements");
+      },
+      body.material->law());
+}
+
+}  // namespace mortise

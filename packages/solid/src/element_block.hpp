@@ -1,0 +1,38 @@
+#pragma once
+// The elements of one body behind one virtual call a block; inside, nothing is virtual and nothing is allocated.
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "mortise/solid/bodies.hpp"
+
+namespace mortise {
+
+/// What the loops of a block are given.
+struct BlockContext {
+  const Mesh& mesh;
+  const Block& block;
+  LocalOrdinal index;  ///< of the block in the mesh
+  const NodalSparsity& sparsity;
+};
+
+/// `displacement`: on the local dofs; `force`: on the owned dofs. See Bodies for what the members do.
+class ElementBlock {
+ public:
+  virtual ~ElementBlock() = default;
+  virtual void add_internal_force(const double* displacement, double* force, std::optional<StepFailure>& failure) const = 0;
+  virtual void add_stiffness(const double* displacement, const NodalSparsity::Values& matrix, std::optional<StepFailure>& failure) const = 0;
+  /// Points of the first `count` elements.
+  virtual void visit_points(const double* displacement, LocalOrdinal count, const std::function<void(const MaterialPoint&)>& visit) const = 0;
+  /// volumes[owned node] += integral of N_a dV0.
+  virtual void add_nodal_volumes(std::vector<double>& volumes) const = 0;
+  /// The element with the smallest det dX/dxi and that value; element -1 if the block is empty.
+  virtual std::pair<LocalOrdinal, double> smallest_reference_determinant() const = 0;
+};
+
+/// The block of elements that `body` asks for; check_combination() has to be content with it.
+std::unique_ptr<ElementBlock> make_element_block(const BlockContext& context, const BodyProperties& body, Kinematics kinematics, double thickness);
+
+}  // namespace mortise
