@@ -21,12 +21,6 @@ void BodyOptions::describe(Parameters& parameters) {
   parameters.list("mesh", list, "the mesh of the body; its sides become the sets \"body/side\"");
 }
 
-void SetOptions::describe(Parameters& parameters) {
-  parameters.add("of", of, Says("the set that this one is a part of: \"body/side\", a body, or a set above").required());
-  parameters.add("where", where, "a node, or a side by its middle, belongs to the set where this expression of x and y (reference) is above 0");
-  parameters.add("kind", kind, {{"sides", SetKind::sides}, {"nodes", SetKind::nodes}}, "what the set holds");
-}
-
 void LoadChoice::describe(Parameters& parameters) { parameters.choose(load, load_registry(), "the kind of load"); }
 
 void ContactPairOptions::describe(Parameters& parameters) {

@@ -7,16 +7,16 @@
 #include "mortise/contact/contact_system.hpp"
 #include "mortise/core/parameters.hpp"
 #include "mortise/material/materials.hpp"
-#include "mortise/mesh/derived_sets.hpp"
 #include "mortise/mesh/mesh_options.hpp"
+#include "mortise/mesh/sets.hpp"
 #include "mortise/nonlinear/linear_solver.hpp"
 #include "mortise/nonlinear/load_stepper.hpp"
 #include "mortise/nonlinear/newton_solver.hpp"
 #include "mortise/simulation/checks.hpp"
 #include "mortise/simulation/quantity.hpp"
-#include "mortise/solid/boundary_conditions.hpp"
 #include "mortise/solid/element_type.hpp"
 #include "mortise/solid/loads.hpp"
+#include "mortise/solid/prescribed_motion.hpp"
 
 namespace mortise {
 
@@ -31,14 +31,6 @@ struct BodyOptions {
 /// A material by name; the kind of law stands behind "type".
 struct MaterialChoice {
   Choice<MaterialOptions> law;
-  void describe(Parameters& parameters);
-};
-
-/// A part of a body or of one of its sides, as a set of its own.
-struct SetOptions {
-  Located<std::string> of;
-  Expression where{1.0};
-  SetKind kind = SetKind::sides;
   void describe(Parameters& parameters);
 };
 

@@ -1,0 +1,44 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "mortise/simulation/model.hpp"
+#include "names.hpp"
+
+namespace mortise {
+namespace {
+
+template <class T>
+const Named<T>* find(const std::vector<Named<T>>& entries, const std::string& name) {
+  const auto found = std::find_if(entries.begin(), entries.end(), [&](const auto& entry) { return entry.name == name; });
+  return found == entries.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+std::vector<Diagnostic> check_scene(const Scene& scene) {
+  std::vector<Diagnostic> diagnostics;
+  if (scene.bodies.empty()) diagnostics.push_back({{}, "the scene has no bodies; please add the list \"bodies\""});
+  for (const auto& body : scene.bodies) {
+    const auto& wanted = body.value.material;
+    const auto* material = find(scene.materials, wanted.value);
+    if (material == nullptr) {
+      diagnostics.push_back({wanted.place, unknown_name("material", wanted.value, names_of(scene.materials))});
+      continue;
+    }
+    if (material->value.law.options == nullptr) continue;  // said when it was read
+    const auto wrong = check_combination({body.name, body.place, material->value.law.options, body.value.element}, scene.kinematics);
+    diagnostics.insert(diagnostics.end(), wrong.begin(), wrong.end());
+  }
+  for (const auto& pair : scene.contact)
+    if (pair.value.slave.value == pair.value.master.value)
+      diagnostics.push_back({pair.value.master.place, fmt::format("slave and master are the same set \"{}\"", pair.value.slave.value)});
+  for (const auto& check : scene.checks) {
+    const auto& wanted = check.value.quantity;
+    if (find(scene.quantities, wanted.value) == nullptr)
+      diagnostics.push_back({wanted.place, unknown_name("quantity", wanted.value, names_of(scene.quantities))});
+  }
+  return diagnostics;
+}
+
+}  // namespace mortise

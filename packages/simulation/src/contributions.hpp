@@ -1,0 +1,70 @@
+#pragma once
+// What `solid` computes, as contributions to the nonlinear system.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mortise/core/timers.hpp"
+#include "mortise/nonlinear/contribution.hpp"
+#include "mortise/solid/bodies.hpp"
+#include "mortise/solid/loads.hpp"
+#include "mortise/solid/prescribed_motion.hpp"
+
+namespace mortise {
+
+/// A contribution that counts its evaluations.
+class CountedContribution : public Contribution {
+ public:
+  CountedContribution(std::string name, Timers timers) : name_(std::move(name)), timers_(std::move(timers)) {}
+  std::string name() const final { return name_; }
+  long calls() const { return calls_; }
+
+ protected:
+  Timers::Scope count(const char* timer) {
+    ++calls_;
+    return timers_.scope(timer);
+  }
+
+ private:
+  std::string name_;
+  Timers timers_;
+  long calls_ = 0;
+};
+
+/// f_int of all bodies.
+class BulkContribution final : public CountedContribution {
+ public:
+  BulkContribution(std::shared_ptr<const Bodies> bodies, const Timers& timers);
+  Kind kind() const override { return Kind::internal; }
+  void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) override;
+  void add_jacobian(const Configuration& at, Matrix& jacobian, std::optional<StepFailure>& failure) override;
+
+ private:
+  std::shared_ptr<const Bodies> bodies_;
+};
+
+/// - f_ext of one load.
+class LoadContribution final : public CountedContribution {
+ public:
+  LoadContribution(std::string name, std::unique_ptr<Load> load, const Timers& timers);
+  Kind kind() const override { return Kind::external; }
+  void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) override;
+  void add_jacobian(const Configuration& at, Matrix& jacobian, std::optional<StepFailure>& failure) override;
+
+ private:
+  std::unique_ptr<Load> load_;
+};
+
+/// Boundary conditions.
+class PrescribedBoundary final : public PrescribedDisplacements {
+ public:
+  explicit PrescribedBoundary(PrescribedMotion motion) : motion_(std::move(motion)) {}
+  const std::vector<LocalOrdinal>& dofs() const override { return motion_.dofs(); }
+  std::vector<double> values(double time) const override { return motion_.values(time); }
+
+ private:
+  PrescribedMotion motion_;
+};
+
+}  // namespace mortise

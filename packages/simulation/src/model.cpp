@@ -1,0 +1,177 @@
+#include "mortise/simulation/model.hpp"
+
+#include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_CrsGraph.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
+#include <Tpetra_Vector.hpp>
+#include <algorithm>
+
+#include "contributions.hpp"
+#include "mortise/simulation/hold_check.hpp"
+
+namespace mortise {
+namespace {
+
+/// Runs the parts of the construction one after the other and keeps what each of them finds wrong.
+class Collector {
+ public:
+  template <class Function>
+  void operator()(const Function& function) {
+    try {
+      function();
+    } catch (const InputError& error) {
+      diagnostics_.insert(diagnostics_.end(), error.diagnostics().begin(), error.diagnostics().end());
+    }
+  }
+  /// Collective.
+  void throw_found(const Communicator& comm) const { throw_if_any(comm, diagnostics_); }
+
+ private:
+  std::vector<Diagnostic> diagnostics_;
+};
+
+const MaterialChoice& material_of(const Scene& scene, const BodyOptions& body) {
+  const auto found = std::find_if(scene.materials.begin(), scene.materials.end(), [&](const auto& m) { return m.name == body.material.value; });
+  return found->value;
+}
+
+RCP<Mesh> make_mesh(const RCP<const Communicator>& comm, const Scene& scene) {
+  std::vector<BodyDescription> descriptions;
+  for (const auto& body : scene.bodies)
+    descriptions.push_back({body.name, body.place, body.value.mesh.options, cell_shape(body.value.element)});
+  std::vector<std::string> contact_sides;
+  const auto add = [&](std::string name) {
+    // A set of the scene is balanced as the side that it is a part of.
+    for (auto set = scene.sets.rbegin(); set != scene.sets.rend(); ++set)
+      if (set->name == name) name = set->value.of.value;
+    contact_sides.push_back(name);
+  };
+  for (const auto& pair : scene.contact) add(pair.value.slave.value), add(pair.value.master.value);
+  const auto mesh = build_mesh(comm, descriptions, contact_sides);
+  Collector collect;
+  for (const auto& set : scene.sets) collect([&] { add_set(*mesh, set); });
+  collect.throw_found(*comm);
+  return mesh;
+}
+
+RCP<MultiVector> reference_positions(const Mesh& mesh) {
+  const auto positions = rcp(new MultiVector(mesh.owned_nodes, 2));
+  const auto view = positions->getLocalViewHost(Tpetra::Access::OverwriteAll);
+  for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node)
+    for (int i = 0; i < 2; ++i) view(node, i) = mesh.coordinates[node][i];
+  return positions;
+}
+
+RCP<MultiVector> fixed_components(const Mesh& mesh, const PrescribedDisplacements& prescribed) {
+  const auto fixed = rcp(new MultiVector(mesh.owned_nodes, 2));
+  const auto view = fixed->getLocalViewHost(Tpetra::Access::ReadWrite);
+  for (const LocalOrdinal dof : prescribed.dofs()) view(dof / 2, dof % 2) = 1.0;
+  return fixed;
+}
+
+/// Young's modulus of the softest body with a facet in `facets`, over all ranks.
+double softest(const Mesh& mesh, const Bodies& bodies, const SurfaceFacets& facets) {
+  double mine = std::numeric_limits<double>::max(), least = mine;
+  for (const auto& facet : facets) {
+    const int body = mesh.body_of_node[mesh.local_nodes->getLocalElement(facet[0])];
+    mine = std::min(mine, bodies.properties()[body].material->youngs_modulus);
+  }
+  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MIN, mine, Teuchos::outArg(least));
+  return least;
+}
+
+/// Collective.
+ContactPair make_pair(const Mesh& mesh, const Bodies& bodies, const Named<ContactPairOptions>& options) {
+  ContactPair pair;
+  pair.name = options.name;
+  pair.place = options.place;
+  pair.options = options.value.contact;
+  Collector collect;
+  collect([&] { pair.slave = facets_at_owned_nodes(mesh, require_side_set(mesh, options.value.slave)); });
+  collect([&] { pair.master = facets_of_owned_elements(mesh, require_side_set(mesh, options.value.master)); });
+  collect.throw_found(*mesh.comm);
+  pair.youngs_modulus = std::min(softest(mesh, bodies, pair.slave), softest(mesh, bodies, pair.master));
+  return pair;
+}
+
+Effects effects_of(const Scene& scene, const Bodies& bodies) {
+  std::vector<std::string> finite, small, f_bar, pairs, loads, conditions;
+  for (const auto& body : bodies.properties()) {
+    const bool small_strain = std::visit([](const auto& law) { return law.small_strain; }, body.material->law());
+    (small_strain ? small : finite).push_back(body.name);
+    if (formulation(body.element) == ElementFormulation::f_bar) f_bar.push_back(body.name);
+  }
+  for (const auto& pair : scene.contact) pairs.push_back(pair.name);
+  for (const auto& load : scene.loads) loads.push_back(load.name);
+  for (const auto& condition : scene.boundary_conditions) conditions.push_back(condition.name);
+  return {{"finite strain", finite}, {"small strain", small}, {"F-bar", f_bar}, {"contact", pairs}, {"loads", loads}, {"boundary conditions", conditions}};
+}
+
+}  // namespace
+
+Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Timers& timers) {
+  throw_if_any(*comm, check_scene(scene));
+  {
+    const auto timer = timers.scope("mesh");
+    mesh_ = make_mesh(comm, scene);
+    size_ = mesh_size(*mesh_);
+  }
+  std::vector<BodyProperties> properties;
+  std::vector<Place> places;
+  for (const auto& body : scene.bodies) {
+    properties.push_back({body.name, body.place, material_of(scene, body.value).law.options, body.value.element});
+    places.push_back(body.place);
+  }
+  bodies_ = std::make_shared<const Bodies>(mesh_, scene.kinematics, scene.thickness, properties);
+  effects_ = effects_of(scene, *bodies_);
+
+  parts_.dofs = bodies_->dofs();
+  parts_.local_dofs = bodies_->local_dofs();
+  parts_.bulk_graph = bodies_->graph();
+  parts_.length = size_.length;
+  parts_.near_null_space = [bodies = bodies_](const Vector& displacement) {
+    return NearNullSpace{rigid_body_modes(*bodies, displacement), current_coordinates(*bodies, displacement)};
+  };
+  parts_.contributions.push_back(std::make_shared<BulkContribution>(bodies_, timers));
+
+  Collector collect;
+  for (const auto& load : scene.loads)
+    collect([&] {
+      parts_.contributions.push_back(std::make_shared<LoadContribution>(load.name, load.value.load.options->make(bodies_), timers));
+    });
+  collect([&] { parts_.prescribed = std::make_shared<PrescribedBoundary>(PrescribedMotion(*bodies_, scene.boundary_conditions, scene.symbols)); });
+  std::vector<ContactPair> pairs;
+  for (const auto& pair : scene.contact) collect([&] { pairs.push_back(make_pair(*mesh_, *bodies_, pair)); });
+  collect([&] { parts_.linear_solver = make_linear_solver(scene.linear_solver, comm, timers); });
+  collect.throw_found(*comm);
+
+  const auto fixed = fixed_components(*mesh_, *parts_.prescribed);
+  const bool axisymmetric = scene.kinematics == Kinematics::axisymmetric;
+  std::vector<HoldingPair> holding;
+  for (const auto& pair : pairs) holding.push_back({&pair.slave, &pair.master, pair.options.mortar.search_reach.value_or(0.0)});
+  const auto only_contact = check_held(*mesh_, axisymmetric, *fixed, holding, places);
+  for (LocalOrdinal node = 0; node < mesh_->owned_count(); ++node) held_by_contact_only_.push_back(only_contact[mesh_->body_of_node[node]]);
+
+  if (pairs.empty()) return;
+  const InterfaceMeasure measure{axisymmetric, scene.thickness};
+  parts_.contact =
+      std::make_shared<ContactSystem>(mesh_->owned_nodes, bodies_->dofs(), reference_positions(*mesh_), fixed, measure, std::move(pairs), timers);
+}
+
+Model::~Model() = default;
+
+GlobalOrdinal Model::dofs() const { return static_cast<GlobalOrdinal>(parts_.dofs->getGlobalNumElements()); }
+
+GlobalOrdinal Model::slave_nodes() const {
+  return parts_.contact ? static_cast<GlobalOrdinal>(parts_.contact->multiplier_map()->getGlobalNumElements()) / 2 : 0;
+}
+
+std::map<std::string, long> Model::calls() const {
+  std::map<std::string, long> calls;
+  for (const auto& contribution : parts_.contributions)
+    calls[contribution->name()] += static_cast<const CountedContribution&>(*contribution).calls();
+  return calls;
+}
+
+}  // namespace mortise

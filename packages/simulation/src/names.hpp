@@ -1,0 +1,26 @@
+#pragma once
+// Names of a scene that do not exist.
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "mortise/core/did_you_mean.hpp"
+#include "mortise/core/parameters.hpp"
+
+namespace mortise {
+
+template <class T>
+std::vector<std::string> names_of(const std::vector<Named<T>>& entries) {
+  std::vector<std::string> names;
+  for (const auto& entry : entries) names.push_back(entry.name);
+  return names;
+}
+
+/// there is no material "stel"; did you mean "steel"?
+inline std::string unknown_name(const std::string& what, const std::string& name, const std::vector<std::string>& known) {
+  return fmt::format("there is no {} \"{}\"{}", what, name, did_you_mean(name, known));
+}
+
+}  // namespace mortise
