@@ -1,0 +1,72 @@
+#pragma once
+// External loads: nodal forces, dead tractions, follower pressures, gravity.
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "mortise/core/parameters.hpp"
+#include "mortise/solid/bodies.hpp"
+
+namespace mortise {
+
+/// A load on bodies. Every rank computes the sides and elements that touch its nodes and writes only the rows it owns.
+/// An expression without a finite value is put into `failure` if that is empty (kind not_finite); nothing throws on one rank only.
+class Load {
+ public:
+  virtual ~Load() = default;
+
+  /// residual -= f_ext on owned dofs, at pseudo-time `time`.
+  virtual void add_residual(double time, const Vector& local_displacement, Vector& residual, std::optional<StepFailure>& failure) const = 0;
+
+  /// matrix -= d f_ext / d displacement; `matrix` has the graph of the bodies. Does nothing for loads that do not follow the deformation.
+  virtual void add_jacobian(double, const Vector& /*local_displacement*/, Matrix& /*matrix*/, std::optional<StepFailure>& /*failure*/) const {}
+
+  /// Whether add_jacobian does something.
+  virtual bool follows() const { return false; }
+};
+
+/// A load of a scene; each kind declares its parameters.
+struct LoadOptions : Described {
+  /// Makes the load. Collective. Throws InputError on all ranks for sets and bodies that do not exist.
+  virtual std::unique_ptr<Load> make(const std::shared_ptr<const Bodies>& bodies) const = 0;
+};
+
+/// The same force on each node of a set. Axisymmetric: the force on the whole circle. [force]
+struct NodalForceOptions : LoadOptions {
+  Located<std::string> set;
+  Expression x, y;  ///< of t and the node's reference position
+  void describe(Parameters& parameters) override;
+  std::unique_ptr<Load> make(const std::shared_ptr<const Bodies>& bodies) const override;
+};
+
+/// Force per reference area, of fixed direction. [stress]
+struct DeadTractionOptions : LoadOptions {
+  Located<std::string> set;
+  Expression x, y;  ///< of t and the reference position
+  void describe(Parameters& parameters) override;
+  std::unique_ptr<Load> make(const std::shared_ptr<const Bodies>& bodies) const override;
+};
+
+/// Pressure on the current surface, against its current outward normal. [stress]
+/// f_ext_a = - integral of N_a p n dgamma; in the plane the thickness is the reference one.
+struct FollowerPressureOptions : LoadOptions {
+  Located<std::string> set;
+  Expression pressure;  ///< of t and the reference position
+  void describe(Parameters& parameters) override;
+  std::unique_ptr<Load> make(const std::shared_ptr<const Bodies>& bodies) const override;
+};
+
+/// Weight: density times acceleration. [length / time^2]
+struct GravityOptions : LoadOptions {
+  Located<std::string> body;  ///< empty: every body
+  Expression x, y;            ///< acceleration, of t
+  void describe(Parameters& parameters) override;
+  std::unique_ptr<Load> make(const std::shared_ptr<const Bodies>& bodies) const override;
+};
+
+/// All kinds by name: "nodal force", "dead traction", "follower pressure", "gravity".
+const Registry<LoadOptions>& load_registry();
+
+}  // namespace mortise

@@ -1,0 +1,44 @@
+#pragma once
+// Dirichlet conditions: components of the displacement prescribed on sets of nodes.
+
+#include <string>
+#include <vector>
+
+#include "mortise/core/parameters.hpp"
+#include "mortise/solid/bodies.hpp"
+
+namespace mortise {
+
+/// One condition of a scene. A component without an expression is free. Axisymmetric: x is r, y is z.
+struct BoundaryConditionOptions {
+  Located<std::string> set;   ///< node or side set
+  Located<std::string> x, y;  ///< displacement [length] as an expression of t, x, y; empty: free
+  void describe(Parameters& parameters);
+};
+
+/// All prescribed dofs of this rank and their values over time.
+class PrescribedMotion {
+ public:
+  /// `symbols`: what the expressions may name. Collective. Throws InputError on all ranks: a set that does not exist, a broken expression, a
+  /// condition that prescribes nothing, a dof that two conditions prescribe differently (naming both).
+  PrescribedMotion(const Bodies& bodies, const std::vector<Named<BoundaryConditionOptions>>& conditions, const Symbols& symbols);
+
+  /// Owned dofs (local indices in Bodies::dofs()), ascending.
+  const std::vector<LocalOrdinal>& dofs() const { return dofs_; }
+
+  /// Their values at pseudo-time `time`, in the same order; NaN where an expression has no finite value.
+  std::vector<double> values(double time) const;
+
+ private:
+  struct Source {
+    LocalOrdinal expression;
+    std::array<double, 2> position;
+  };
+  double value(const Source& source, double time) const;
+
+  std::vector<Expression> expressions_;
+  std::vector<LocalOrdinal> dofs_;
+  std::vector<Source> sources_;  ///< one for each dof
+};
+
+}  // namespace mortise

@@ -1,0 +1,138 @@
+// Loads that do not follow the deformation: nodal force, dead traction, gravity.
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "host_view.hpp"
+#include "load_support.hpp"
+
+namespace mortise {
+namespace {
+
+class NodalForce final : public Load {
+ public:
+  NodalForce(std::shared_ptr<const Bodies> bodies, const NodalForceOptions& options) : bodies_(std::move(bodies)), components_{options.x, options.y} {
+    const Mesh& mesh = *bodies_->mesh();
+    look_up(mesh, [&] {
+      for (LocalOrdinal node : require_node_set(mesh, options.set))
+        if (node < mesh.owned_count()) nodes_.push_back(node);
+    });
+  }
+
+  void add_residual(double time, const Vector&, Vector& residual, std::optional<StepFailure>& failure) const override {
+    const HostWriteView r(residual);
+    for (LocalOrdinal node : nodes_) {
+      const auto& X = bodies_->mesh()->coordinates[node];
+      for (int i = 0; i < 2; ++i) r.data()[2 * node + i] -= evaluate(components_[i], time, {X[0], X[1]}, failure);
+    }
+  }
+
+ private:
+  std::shared_ptr<const Bodies> bodies_;
+  std::array<Expression, 2> components_;
+  std::vector<LocalOrdinal> nodes_;
+};
+
+/// f_a = integral of N_a T dGamma0, dGamma0 = reference length x thickness or 2 pi R.
+class DeadTraction final : public Load {
+ public:
+  DeadTraction(std::shared_ptr<const Bodies> bodies, const DeadTractionOptions& options)
+      : bodies_(std::move(bodies)), components_{options.x, options.y}, lines_(sides_at_owned_nodes(*bodies_->mesh(), options.set)) {}
+
+  void add_residual(double time, const Vector&, Vector& residual, std::optional<StepFailure>& failure) const override {
+    const Mesh& mesh = *bodies_->mesh();
+    const HostWriteView r(residual);
+    for (const LineNodes& line : lines_) {
+      const auto &A = mesh.coordinates[line[0]], &B = mesh.coordinates[line[1]];
+      const double length = std::hypot(B[0] - A[0], B[1] - A[1]);
+      for (const LineRulePoint& point : line_rule()) {
+        const std::array<double, 2> X{point.N[0] * A[0] + point.N[1] * B[0], point.N[0] * A[1] + point.N[1] * B[1]};
+        const double area = point.weight * length * bodies_->depth(X[0]);
+        for (int i = 0; i < 2; ++i) {
+          const double traction = evaluate(components_[i], time, X, failure);
+          for (int a = 0; a < 2; ++a)
+            if (line[a] < mesh.owned_count()) r.data()[2 * line[a] + i] -= area * point.N[a] * traction;
+        }
+      }
+    }
+  }
+
+ private:
+  std::shared_ptr<const Bodies> bodies_;
+  std::array<Expression, 2> components_;
+  std::vector<LineNodes> lines_;
+};
+
+/// f_a = integral of rho g N_a dV0.
+class Gravity final : public Load {
+ public:
+  Gravity(const std::shared_ptr<const Bodies>& bodies, const GravityOptions& options)
+      : components_{options.x, options.y}, masses_(bodies->mesh()->owned_count(), 0.0) {
+    bool found = false;
+    std::string names;
+    for (std::size_t n = 0; n < bodies->properties().size(); ++n) {
+      const BodyProperties& body = bodies->properties()[n];
+      names += (n ? ", " : "") + body.name;
+      if (!options.body.value.empty() && options.body.value != body.name) continue;
+      found = true;
+      const std::vector<double> volumes = bodies->nodal_volumes(static_cast<LocalOrdinal>(n));
+      for (std::size_t node = 0; node < masses_.size(); ++node) masses_[node] += body.material->density * volumes[node];
+    }
+    if (!found) throw InputError(options.body.place, fmt::format("there is no body \"{}\"; the bodies are: {}", options.body.value, names));
+  }
+
+  void add_residual(double time, const Vector&, Vector& residual, std::optional<StepFailure>& failure) const override {
+    const HostWriteView r(residual);
+    for (int i = 0; i < 2; ++i) {
+      const double acceleration = evaluate(components_[i], time, {0.0, 0.0}, failure);
+      for (std::size_t node = 0; node < masses_.size(); ++node) r.data()[2 * node + i] -= masses_[node] * acceleration;
+    }
+  }
+
+ private:
+  std::array<Expression, 2> components_;
+  std::vector<double> masses_;  ///< of the owned nodes
+};
+
+}  // namespace
+
+void NodalForceOptions::describe(Parameters& parameters) {
+  parameters.add("set", set, Says("node or side set; each of its nodes gets the whole force").required());
+  parameters.add("x", x, Says("force on each node in x (axisymmetric: r, on the whole circle), of t and the reference position").unit("force"));
+  parameters.add("y", y, Says("force on each node in y (axisymmetric: z, on the whole circle), of t and the reference position").unit("force"));
+}
+
+void DeadTractionOptions::describe(Parameters& parameters) {
+  parameters.add("set", set, Says("side set that carries the traction").required());
+  parameters.add("x", x, Says("force per reference area in x (axisymmetric: r), of t and the reference position").unit("stress"));
+  parameters.add("y", y, Says("force per reference area in y (axisymmetric: z), of t and the reference position").unit("stress"));
+}
+
+void GravityOptions::describe(Parameters& parameters) {
+  parameters.add("body", body, Says("the body that has weight; left out: every body"));
+  parameters.add("x", x, Says("acceleration in x (axisymmetric: r), of t").unit("length / time^2"));
+  parameters.add("y", y, Says("acceleration in y (axisymmetric: z), of t").unit("length / time^2"));
+  if (x.depends_on_position()) parameters.error("x", "gravity may depend on t, not on the position");
+  if (y.depends_on_position()) parameters.error("y", "gravity may depend on t, not on the position");
+}
+
+std::unique_ptr<Load> NodalForceOptions::make(const std::shared_ptr<const Bodies>& bodies) const {
+  return std::make_unique<NodalForce>(bodies, *this);
+}
+std::unique_ptr<Load> DeadTractionOptions::make(const std::shared_ptr<const Bodies>& bodies) const {
+  return std::make_unique<DeadTraction>(bodies, *this);
+}
+std::unique_ptr<Load> GravityOptions::make(const std::shared_ptr<const Bodies>& bodies) const { return std::make_unique<Gravity>(bodies, *this); }
+
+const Registry<LoadOptions>& load_registry() {
+  static const Registry<LoadOptions> registry =
+      Registry<LoadOptions>()
+          .add<NodalForceOptions>("nodal force", "the same force on each node of a set")
+          .add<DeadTractionOptions>("dead traction", "force per reference area, of fixed direction")
+          .add<FollowerPressureOptions>("follower pressure", "pressure on the current surface, against its outward normal")
+          .add<GravityOptions>("gravity", "density times acceleration");
+  return registry;
+}
+
+}  // namespace mortise

@@ -1,0 +1,91 @@
+#include "mortise/solid/prescribed_motion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "mortise/mesh/sets.hpp"
+
+namespace mortise {
+namespace {
+
+/// Two conditions on one dof must agree; they are compared at these pseudo-times.
+constexpr double compared_times[] = {0.0, 0.37, 1.0};
+
+bool agree(double a, double b) { return a == b || std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b)); }
+
+}  // namespace
+
+void BoundaryConditionOptions::describe(Parameters& parameters) {
+  parameters.add("set", set, Says("node or side set whose displacement is prescribed").required());
+  parameters.add("x", x, Says("displacement in x (axisymmetric: r), an expression of t, x, y; left out: free").unit("length"));
+  parameters.add("y", y, Says("displacement in y (axisymmetric: z), an expression of t, x, y; left out: free").unit("length"));
+}
+
+PrescribedMotion::PrescribedMotion(const Bodies& bodies, const std::vector<Named<BoundaryConditionOptions>>& conditions, const Symbols& symbols) {
+  const Mesh& mesh = *bodies.mesh();
+  std::vector<Diagnostic> diagnostics;
+  struct Prescribed {
+    Source source;
+    std::size_t condition;
+  };
+  std::map<LocalOrdinal, Prescribed> prescribed;
+  for (std::size_t n = 0; n < conditions.size(); ++n) {
+    const auto& condition = conditions[n];
+    if (condition.value.x.value.empty() && condition.value.y.value.empty())
+      diagnostics.push_back(
+          {condition.place, fmt::format("boundary condition \"{}\" prescribes nothing; give \"x\", \"y\" or both", condition.name)});
+    try {
+      const auto& nodes = require_node_set(mesh, condition.value.set);
+      for (int component = 0; component < 2; ++component) {
+        const auto& text = component == 0 ? condition.value.x : condition.value.y;
+        if (text.value.empty()) continue;
+        expressions_.emplace_back(text.value, symbols, text.place);
+        for (LocalOrdinal node : nodes) {
+          if (node >= mesh.owned_count()) continue;
+          const Source source{static_cast<LocalOrdinal>(expressions_.size() - 1), {mesh.coordinates[node][0], mesh.coordinates[node][1]}};
+          const auto [other, is_new] = prescribed.try_emplace(2 * node + component, Prescribed{source, n});
+          if (is_new) continue;
+          const bool same = std::all_of(std::begin(compared_times), std::end(compared_times),
+                                        [&](double t) { return agree(value(source, t), value(other->second.source, t)); });
+          if (same) continue;
+          const auto& first = conditions[other->second.condition];
+          diagnostics.push_back({condition.place, fmt::format("boundary conditions \"{}\" ({}:{}) and \"{}\" prescribe {} differently at the node of "
+                                                              "reference position ({:g}, {:g})",
+                                                              first.name, first.place.file, first.place.line, condition.name,
+                                                              component == 0 ? "x" : "y", source.position[0], source.position[1])});
+          break;
+        }
+      }
+    } catch (const InputError& error) {
+      diagnostics.insert(diagnostics.end(), error.diagnostics().begin(), error.diagnostics().end());
+    }
+  }
+  throw_if_any(*mesh.comm, diagnostics);
+  for (const auto& [dof, entry] : prescribed) {
+    dofs_.push_back(dof);
+    sources_.push_back(entry.source);
+  }
+}
+
+double PrescribedMotion::value(const Source& source, double time) const {
+  try {
+    return expressions_[source.expression](time, source.position[0], source.position[1]);
+  } catch (const InputError&) {
+    // Only this rank may be affected: a value that is not finite is found by all ranks together, in the residual.
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+std::vector<double> PrescribedMotion::values(double time) const {
+  std::vector<double> values;
+  values.reserve(sources_.size());
+  for (const Source& source : sources_) values.push_back(value(source, time));
+  return values;
+}
+
+}  // namespace mortise
