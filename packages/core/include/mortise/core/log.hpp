@@ -13,11 +13,7 @@ enum class Verbosity { quiet, normal, verbose };
 /// Writes lines to its sinks on the rank that holds them (rank 0); on all other ranks it has no sink and does nothing.
 class Log {
  public:
-  /// A log without sinks: silent.
-  Log() = default;
-  explicit Log(Verbosity verbosity) : verbosity_(verbosity) {}
-
-  /// Adds a sink (not owned). `threshold` is the verbosity from which on a line of level `normal` reaches it.
+  /// Adds a sink (not owned) and how much it is told. A log without sinks is silent.
   void add_sink(std::ostream& sink, Verbosity verbosity);
 
   void info(const std::string& line) const;     ///< reaches sinks of verbosity normal and verbose
@@ -29,7 +25,6 @@ class Log {
     std::ostream* stream;
     Verbosity verbosity;
   };
-  Verbosity verbosity_ = Verbosity::normal;
   std::vector<Sink> sinks_;
 };
 

@@ -1,0 +1,96 @@
+#include "mortise/core/error.hpp"
+
+#include <fmt/format.h>
+
+#include <Teuchos_CommHelpers.hpp>
+#include <algorithm>
+
+namespace mortise {
+namespace {
+
+std::string joined(const std::vector<Diagnostic>& diagnostics) {
+  std::string text;
+  for (const Diagnostic& diagnostic : diagnostics) text += (text.empty() ? "" : "\n") + to_string(diagnostic);
+  return text;
+}
+
+std::string broadcast(const Communicator& comm, int root, std::string text) {
+  int size = static_cast<int>(text.size());
+  Teuchos::broadcast(comm, root, Teuchos::outArg(size));
+  text.resize(size);
+  Teuchos::broadcast(comm, root, size, text.data());
+  return text;
+}
+
+int broadcast(const Communicator& comm, int root, int value) {
+  Teuchos::broadcast(comm, root, Teuchos::outArg(value));
+  return value;
+}
+
+}  // namespace
+
+std::string to_string(const Diagnostic& diagnostic) {
+  const Place& place = diagnostic.place;
+  std::string text;
+  if (!place.file.empty()) text = place.line > 0 ? fmt::format("{}:{}: ", place.file, place.line) : place.file + ": ";
+  text += "error: ";
+  if (!place.path.empty()) text += place.path + ": ";
+  return text + diagnostic.message;
+}
+
+InputError::InputError(std::vector<Diagnostic> diagnostics) : std::runtime_error(joined(diagnostics)), diagnostics_(std::move(diagnostics)) {}
+
+InputError::InputError(Place place, std::string message) : InputError(std::vector<Diagnostic>{{std::move(place), std::move(message)}}) {}
+
+std::string to_string(FailureKind kind) {
+  switch (kind) {
+    case FailureKind::inverted_element: return "inverted element";
+    case FailureKind::material: return "material";
+    case FailureKind::inverted_facet: return "inverted facet";
+    case FailureKind::projection: return "projection";
+    case FailureKind::lost_contact: return "lost contact";
+    case FailureKind::linear_solver: return "linear solver";
+    case FailureKind::not_finite: return "not finite";
+    case FailureKind::diverged: return "diverged";
+    case FailureKind::too_many_iterations: return "too many iterations";
+    case FailureKind::cycling_active_set: return "cycling active set";
+  }
+  return "unknown";
+}
+
+void throw_if_any(const Communicator& comm, const std::optional<StepFailure>& failure) {
+  const int mine = failure ? comm.getRank() : comm.getSize();
+  int lowest = mine;
+  Teuchos::reduceAll(comm, Teuchos::REDUCE_MIN, mine, Teuchos::outArg(lowest));
+  if (lowest == comm.getSize()) return;
+  const bool here = lowest == comm.getRank();
+  const int kind = broadcast(comm, lowest, here ? static_cast<int>(failure->kind()) : 0);
+  throw StepFailure(static_cast<FailureKind>(kind), broadcast(comm, lowest, here ? std::string(failure->what()) : std::string()));
+}
+
+void throw_if_any(const Communicator& comm, const std::vector<Diagnostic>& diagnostics) {
+  const int mine = static_cast<int>(diagnostics.size());
+  int most = 0;
+  Teuchos::reduceAll(comm, Teuchos::REDUCE_MAX, mine, Teuchos::outArg(most));
+  if (most == 0) return;
+  std::vector<Diagnostic> all;
+  std::vector<std::string> seen;
+  for (int rank = 0; rank < comm.getSize(); ++rank) {
+    const bool here = rank == comm.getRank();
+    const int count = broadcast(comm, rank, mine);
+    for (int i = 0; i < count; ++i) {
+      Diagnostic one = here ? diagnostics[i] : Diagnostic{};
+      one.place.file = broadcast(comm, rank, one.place.file);
+      one.place.line = broadcast(comm, rank, one.place.line);
+      one.place.path = broadcast(comm, rank, one.place.path);
+      one.message = broadcast(comm, rank, one.message);
+      const std::string text = to_string(one);
+      if (std::find(seen.begin(), seen.end(), text) != seen.end()) continue;
+      seen.push_back(text);
+      all.push_back(std::move(one));
+    }
+  }
+  throw InputError(std::move(all));
+}
+
+}  // namespace mortise
