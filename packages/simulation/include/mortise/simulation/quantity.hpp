@@ -1,0 +1,47 @@
+#pragma once
+// Numbers that a scene wants of its run.
+
+#include <string>
+#include <vector>
+
+#include "mortise/contact/contact_system.hpp"
+#include "mortise/core/parameters.hpp"
+#include "mortise/solid/bodies.hpp"
+
+namespace mortise {
+
+/// Side sets of a contact pair.
+struct PairSurfaces {
+  std::string name;
+  std::string slave, master;
+};
+
+/// What a quantity may look at. The vectors are null while quantities are prepared.
+struct QuantityContext {
+  const Bodies& bodies;
+  ContactSystem* contact = nullptr;  ///< evaluated at `displacement`; null: the scene has no contact
+  std::vector<PairSurfaces> pairs;   ///< in the order of `contact`
+  double time = 0.0;
+  const Vector* displacement = nullptr;        ///< owned dofs
+  const Vector* local_displacement = nullptr;  ///< owned dofs, then ghosts
+  const Vector* multipliers = nullptr;         ///< z; null without contact
+  const Vector* reaction = nullptr;            ///< f_int - f_ext + f_c on owned dofs: on prescribed ones the force of the support on the body
+  const Vector* external_force = nullptr;      ///< f_ext on owned dofs
+  const std::vector<LocalOrdinal>* prescribed = nullptr;  ///< prescribed owned dofs
+
+  const Mesh& mesh() const { return *bodies.mesh(); }
+};
+
+/// One number, by its name in the scene. Kinds are found in quantity_registry().
+struct Quantity : Described {
+  /// Resolves names of sets, bodies and pairs. Collective, once, before anything is solved. Throws InputError on all ranks.
+  virtual void prepare(const QuantityContext& context) = 0;
+
+  /// The value, the same on every rank. Collective, after each accepted step. NaN: it has no value at this time (a ratio to nothing).
+  virtual double evaluate(const QuantityContext& context) = 0;
+};
+
+/// All kinds by name.
+const Registry<Quantity>& quantity_registry();
+
+}  // namespace mortise
