@@ -1,0 +1,51 @@
+#pragma once
+// Scene files as trees of lists and parameters with the lines they stand on. The dialect is Teuchos':
+// <ParameterList name="..."> and <Parameter name="..." type="..." value="..."/>.
+
+#include <string>
+#include <vector>
+
+#include "mortise/core/error.hpp"
+#include "mortise/core/expression.hpp"
+
+namespace mortise {
+
+/// <Parameter name= type= value=/>
+struct XmlParameter {
+  std::string name, type, value;
+  Place place;  ///< path: of the list it stands in
+};
+
+/// <ParameterList name=>
+struct XmlList {
+  std::string name;
+  Place place;  ///< path: of the list itself, below the outermost one
+  std::vector<XmlParameter> parameters;
+  std::vector<XmlList> lists;
+
+  const XmlParameter* parameter(const std::string& name) const;
+  const XmlList* list(const std::string& name) const;
+};
+
+/// Collective: the text of a file, read by rank 0. Throws FileError on every rank.
+std::string read_text(const Communicator& comm, const std::string& path);
+
+/// Parses a scene's text. No external entities are loaded and nothing is fetched. Throws InputError with everything that is wrong: malformed
+/// XML, unknown elements and attributes, missing or repeated names.
+XmlList parse_xml(const std::string& text, const std::string& file);
+
+/// Applies `--set path=value`, path being list names and a parameter's name separated by "/". Lists and parameters that do not stand in the file
+/// are made; the reader then says whether they mean anything. Throws InputError if there is no "=".
+void apply_override(XmlList& root, const std::string& assignment);
+
+/// Takes the lists "variables" (numbers, each may use the ones before it) and "tables" ({times, values}) of a scene, and appends what is wrong
+/// with them to `diagnostics`.
+Symbols read_symbols(const XmlList& root, std::vector<Diagnostic>& diagnostics);
+
+/// "; did you mean "..."?" if one of `candidates` is close to `name`, else "".
+std::string did_you_mean(const std::string& name, const std::vector<std::string>& candidates);
+
+/// "a", "b", "c"
+std::string quoted_list(const std::vector<std::string>& names);
+
+}  // namespace mortise

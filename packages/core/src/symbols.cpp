@@ -1,0 +1,137 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/algorithm/string/trim.hpp>
+#include <cctype>
+#include <numeric>
+
+#include "mortise/core/xml.hpp"
+#include "split.hpp"
+
+namespace mortise {
+namespace {
+
+bool valid_name(const std::string& name) {
+  return !name.empty() && (std::isalpha(static_cast<unsigned char>(name[0])) || name[0] == '_') &&
+         std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) || c == '_'; });
+}
+
+// Reserved because expressions use them.
+const std::vector<std::string> reserved = {"t",     "x",    "y",    "z",    "pi",   "sin",  "cos",  "tan",  "asin", "acos", "atan", "sinh", "cosh", "tanh", "asinh",
+                                           "acosh", "atanh", "log2", "log10", "log",  "ln",   "exp",  "sqrt", "sign", "rint", "abs",  "min",  "max",  "sum",  "avg"};
+
+std::string wrong_name(const std::string& name) {
+  if (!valid_name(name)) return fmt::format("\"{}\" cannot be named in expressions; please use letters, digits and underscores", name);
+  if (std::find(reserved.begin(), reserved.end(), name) != reserved.end()) return fmt::format("\"{}\" already has a meaning in expressions; please choose another name", name);
+  return "";
+}
+
+std::vector<double> numbers(const XmlParameter* parameter, const Symbols& symbols) {
+  std::vector<double> values;
+  for (const std::string& one : split(parameter->value)) {
+    const Expression expression(one, symbols, parameter->place);
+    if (!expression.is_constant()) throw InputError(parameter->place, fmt::format("\"{}\" may depend on variables only", one));
+    values.push_back(expression());
+  }
+  return values;
+}
+
+Table read_table(const XmlList& list, const Symbols& symbols) {
+  for (const char* name : {"times", "values"})
+    if (!list.parameter(name)) throw InputError(list.place, fmt::format("a table needs \"times\" and \"values\"; \"{}\" is missing", name));
+  for (const XmlParameter& parameter : list.parameters)
+    if (parameter.name != "times" && parameter.name != "values")
+      throw InputError(parameter.place, fmt::format("unknown parameter \"{}\"{}; a table has \"times\" and \"values\"", parameter.name, did_you_mean(parameter.name, {"times", "values"})));
+  const Table table{numbers(list.parameter("times"), symbols), numbers(list.parameter("values"), symbols)};
+  if (table.times.empty()) throw InputError(list.place, "the table is empty");
+  if (table.times.size() != table.values.size())
+    throw InputError(list.parameter("values")->place, fmt::format("{} times but {} values", table.times.size(), table.values.size()));
+  for (std::size_t i = 1; i < table.times.size(); ++i)
+    if (table.times[i] <= table.times[i - 1])
+      throw InputError(list.parameter("times")->place, fmt::format("times have to ascend, but {} follows {}", table.times[i], table.times[i - 1]));
+  return table;
+}
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substitute = diagonal + (a[i - 1] != b[j - 1]);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitute});
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> parts;
+  std::string part;
+  int depth = 0;
+  for (const char c : text) {
+    depth += c == '(';
+    depth -= c == ')';
+    if (c == ',' && depth == 0) {
+      parts.push_back(boost::algorithm::trim_copy(part));
+      part.clear();
+    } else {
+      part += c;
+    }
+  }
+  boost::algorithm::trim(part);
+  if (!part.empty() || !parts.empty()) parts.push_back(part);
+  return parts;
+}
+
+Symbols read_symbols(const XmlList& root, std::vector<Diagnostic>& diagnostics) {
+  Symbols symbols;
+  const auto attempt = [&](const Place& place, const std::string& name, const auto& read) {
+    if (const std::string wrong = wrong_name(name); !wrong.empty()) {
+      diagnostics.push_back({place, wrong});
+      return;
+    }
+    try {
+      read();
+    } catch (const InputError& error) {
+      diagnostics.insert(diagnostics.end(), error.diagnostics().begin(), error.diagnostics().end());
+    }
+  };
+  if (const XmlList* variables = root.list("variables")) {
+    for (const XmlList& list : variables->lists) diagnostics.push_back({list.place, "a variable is a parameter, not a list"});
+    for (const XmlParameter& one : variables->parameters)
+      attempt(one.place, one.name, [&] {
+        const std::vector<double> value = numbers(&one, symbols);
+        if (value.size() != 1) throw InputError(one.place, fmt::format("variable \"{}\" is \"{}\"; please give one number", one.name, one.value));
+        symbols.variables[one.name] = value[0];
+      });
+  }
+  if (const XmlList* tables = root.list("tables"))
+    for (const XmlList& list : tables->lists) attempt(list.place, list.name, [&] { symbols.tables[list.name] = read_table(list, symbols); });
+  return symbols;
+}
+
+std::string did_you_mean(const std::string& name, const std::vector<std::string>& candidates) {
+  std::size_t best = name.size() / 3 + 2;
+  std::string closest;
+  for (const std::string& candidate : candidates) {
+    const std::size_t distance = edit_distance(name, candidate);
+    if (distance < best) {
+      best = distance;
+      closest = candidate;
+    }
+  }
+  return closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest);
+}
+
+std::string quoted_list(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "\"" : ", \"") + name + "\"";
+  return text;
+}
+
+}  // namespace mortise
