@@ -1,0 +1,257 @@
+#include "mortise/core/read_parameters.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "split.hpp"
+
+namespace mortise {
+namespace {
+
+std::string joined_path(const std::string& path, const std::string& name) { return path.empty() ? name : path + "/" + name; }
+
+std::string range_text(const Says& says) {
+  std::string text;
+  if (says.lower()) text = fmt::format("{} {}", says.lower_open() ? ">" : ">=", *says.lower());
+  if (says.upper()) text += fmt::format("{}{} {}", text.empty() ? "" : " and ", says.upper_open() ? "<" : "<=", *says.upper());
+  return text;
+}
+
+bool in_range(double value, const Says& says) {
+  if (says.lower() && (says.lower_open() ? value <= *says.lower() : value < *says.lower())) return false;
+  if (says.upper() && (says.upper_open() ? value >= *says.upper() : value > *says.upper())) return false;
+  return true;
+}
+
+Teuchos::ParameterList to_teuchos(const XmlList& list, const Symbols& symbols, std::vector<Diagnostic>& diagnostics) {
+  Teuchos::ParameterList result(list.name);
+  for (const XmlParameter& one : list.parameters) {
+    try {
+      if (one.type == "bool" || ((one.value == "true" || one.value == "false") && one.type.empty())) {
+        if (one.value != "true" && one.value != "false") throw InputError(one.place, fmt::format("\"{}\" is \"{}\"; please write true or false", one.name, one.value));
+        result.set(one.name, one.value == "true");
+      } else if (one.type == "int" || one.type == "double") {
+        const Expression value(one.value, symbols, one.place);
+        if (one.type == "double") {
+          result.set(one.name, value());
+        } else {
+          if (value() != std::round(value())) throw InputError(one.place, fmt::format("\"{}\" is {}; an int has to be whole", one.name, one.value));
+          result.set(one.name, static_cast<int>(value()));
+        }
+      } else {
+        result.set(one.name, one.value);
+      }
+    } catch (const InputError& error) {
+      diagnostics.insert(diagnostics.end(), error.diagnostics().begin(), error.diagnostics().end());
+    }
+  }
+  for (const XmlList& one : list.lists) result.sublist(one.name) = to_teuchos(one, symbols, diagnostics);
+  return result;
+}
+
+}  // namespace
+
+ReadParameters::ReadParameters(const XmlList& root, const Symbols& symbols, const std::vector<std::string>& ignored) : symbols_(symbols) {
+  frames_.push_back({&root, root.place, ignored, true});
+}
+
+Place ReadParameters::place(const std::string& name) const {
+  const XmlParameter* parameter = frame().list ? frame().list->parameter(name) : nullptr;
+  return parameter ? parameter->place : frame().place;
+}
+
+void ReadParameters::error(const std::string& name, const std::string& message) { say(place(name), message); }
+
+const XmlParameter* ReadParameters::find(const std::string& name, const Says& says, const std::vector<std::string>& types) {
+  frame().known.push_back(name);
+  const XmlParameter* parameter = frame().list ? frame().list->parameter(name) : nullptr;
+  if (!parameter) {
+    if (frame().list && frame().list->list(name)) {
+      say(frame().list->list(name)->place, fmt::format("\"{}\" is a parameter, not a list: {}", name, says.sentence()));
+    } else if (says.is_required()) {
+      say(frame().place, fmt::format("\"{}\" is missing; please add it: {}", name, says.sentence()));
+    }
+    return nullptr;
+  }
+  // An empty type is the command line's; a string may hold an expression for any kind.
+  if (!parameter->type.empty() && parameter->type != "string" && std::find(types.begin(), types.end(), parameter->type) == types.end()) {
+    say(parameter->place, fmt::format("parameter \"{}\" has type \"{}\"; please give {}", name, parameter->type, quoted_list(types)));
+    return nullptr;
+  }
+  return parameter;
+}
+
+std::optional<double> ReadParameters::number(const XmlParameter& parameter, const std::string& text, const Says& says) {
+  try {
+    const Expression expression(text, symbols_, parameter.place);
+    if (!expression.is_constant()) {
+      say(parameter.place, fmt::format("\"{}\" is \"{}\"; it may depend on variables, but not on t, x, y or z", parameter.name, text));
+      return std::nullopt;
+    }
+    if (!in_range(expression(), says)) {
+      say(parameter.place, fmt::format("\"{}\" is {}; allowed: {}", parameter.name, expression(), range_text(says)));
+      return std::nullopt;
+    }
+    return expression();
+  } catch (const InputError& error) {
+    for (const Diagnostic& one : error.diagnostics()) say(one.place, fmt::format("\"{}\": {}", parameter.name, one.message));
+    return std::nullopt;
+  }
+}
+
+void ReadParameters::add(const std::string& name, double& value, const Says& says) {
+  if (const XmlParameter* parameter = find(name, says, {"double", "int"}))
+    if (const auto read = number(*parameter, parameter->value, says)) value = *read;
+}
+
+void ReadParameters::add(const std::string& name, std::optional<double>& value, const Says& says) {
+  if (const XmlParameter* parameter = find(name, says, {"double", "int"}))
+    if (const auto read = number(*parameter, parameter->value, says)) value = *read;
+}
+
+void ReadParameters::add(const std::string& name, int& value, const Says& says) {
+  const XmlParameter* parameter = find(name, says, {"int"});
+  if (!parameter) return;
+  const auto read = number(*parameter, parameter->value, says);
+  if (!read) return;
+  if (*read != std::round(*read) || std::abs(*read) > 2147483647.0)
+    say(parameter->place, fmt::format("\"{}\" is {}; it has to be a whole number", name, *read));
+  else
+    value = static_cast<int>(*read);
+}
+
+void ReadParameters::add(const std::string& name, bool& value, const Says& says) {
+  const XmlParameter* parameter = find(name, says, {"bool"});
+  if (!parameter) return;
+  if (parameter->value == "true" || parameter->value == "false")
+    value = parameter->value == "true";
+  else
+    say(parameter->place, fmt::format("\"{}\" is \"{}\"; please write true or false", name, parameter->value));
+}
+
+void ReadParameters::add(const std::string& name, std::string& value, const Says& says) {
+  const XmlParameter* parameter = find(name, says, {"string"});
+  if (!parameter) return;
+  if (says.is_required() && parameter->value.empty()) say(parameter->place, fmt::format("\"{}\" is empty", name));
+  value = parameter->value;
+}
+
+void ReadParameters::add(const std::string& name, Expression& value, const Says& says) {
+  const XmlParameter* parameter = find(name, says, {"double", "int"});
+  if (!parameter) return;
+  try {
+    Expression read(parameter->value, symbols_, parameter->place);
+    if (read.is_constant() && !in_range(read(), says))
+      say(parameter->place, fmt::format("\"{}\" is {}; allowed: {}", name, read(), range_text(says)));
+    else
+      value = std::move(read);
+  } catch (const InputError& error) {
+    for (const Diagnostic& one : error.diagnostics()) say(one.place, fmt::format("\"{}\": {}", name, one.message));
+  }
+}
+
+void ReadParameters::add(const std::string& name, std::vector<double>& value, const Says& says) {
+  const XmlParameter* parameter = find(name, says, {"double", "int"});
+  if (!parameter) return;
+  std::vector<double> all;
+  for (const std::string& part : split(parameter->value)) {
+    const auto read = number(*parameter, part, says);
+    if (!read) return;
+    all.push_back(*read);
+  }
+  value = std::move(all);
+}
+
+void ReadParameters::add(const std::string& name, std::vector<std::string>& value, const Says& says) {
+  if (const XmlParameter* parameter = find(name, says, {"string"})) value = split(parameter->value);
+}
+
+void ReadParameters::add_enumeration(const std::string& name, std::size_t& index, const std::vector<std::string>& names, const Says& says) {
+  const XmlParameter* parameter = find(name, says, {"string"});
+  if (!parameter) return;
+  const auto found = std::find(names.begin(), names.end(), parameter->value);
+  if (found == names.end())
+    say(parameter->place, fmt::format("\"{}\" is \"{}\"; allowed: {}{}", name, parameter->value, quoted_list(names), did_you_mean(parameter->value, names)));
+  else
+    index = static_cast<std::size_t>(found - names.begin());
+}
+
+void ReadParameters::verbatim(const std::string& name, Teuchos::ParameterList& list, const Says&) {
+  frame().known.push_back(name);
+  if (const XmlList* given = frame().list ? frame().list->list(name) : nullptr) list.setParameters(to_teuchos(*given, symbols_, diagnostics_));
+}
+
+bool ReadParameters::begin_list(const std::string& name, const Says& says) {
+  frame().known.push_back(name);
+  if (frame().list && frame().list->parameter(name)) say(place(name), fmt::format("\"{}\" is a list, not a parameter: {}", name, says.sentence()));
+  const XmlList* given = frame().list ? frame().list->list(name) : nullptr;
+  Place where = given ? given->place : frame().place;
+  if (!given) where.path = joined_path(where.path, name);
+  frames_.push_back({given, where, {}, true});
+  return true;
+}
+
+void ReadParameters::end_list() {
+  report_unknown(frame());
+  frames_.pop_back();
+}
+
+void ReadParameters::named_lists(const std::string& name, const NamedAccess& access, const Says& says) {
+  frame().known.push_back(name);
+  if (frame().list && frame().list->parameter(name)) say(place(name), fmt::format("\"{}\" is a list, not a parameter: {}", name, says.sentence()));
+  const XmlList* given = frame().list ? frame().list->list(name) : nullptr;
+  if (!given) {
+    if (says.is_required()) say(frame().place, fmt::format("the list \"{}\" is missing; please add it: {}", name, says.sentence()));
+    return;
+  }
+  for (const XmlParameter& parameter : given->parameters)
+    say(parameter.place, fmt::format("unknown parameter \"{}\"; the list \"{}\" holds lists with names of your choice", parameter.name, name));
+  for (const XmlList& entry : given->lists) {
+    access.append(entry.name, entry.place);
+    frames_.push_back({&entry, entry.place, {}, true});
+    access.describe(access.size() - 1, *this);
+    end_list();
+  }
+}
+
+void ReadParameters::choice_of(const std::string& name, const ChoiceAccess& access, const Says& says) {
+  std::vector<std::string> kinds;
+  for (const auto& kind : access.kinds) kinds.push_back(kind.first);
+  frame().known.push_back(name);
+  const XmlParameter* parameter = frame().list ? frame().list->parameter(name) : nullptr;
+  if (!parameter) {
+    frame().check_unknown = false;
+    say(frame().place, fmt::format("\"{}\" is missing; please add it: {}; one of {}", name, says.sentence(), quoted_list(kinds)));
+    return;
+  }
+  const auto found = std::find(kinds.begin(), kinds.end(), parameter->value);
+  if (found == kinds.end()) {
+    frame().check_unknown = false;  // what else stands here belongs to a kind nobody knows
+    say(parameter->place, fmt::format("\"{}\" is \"{}\"; allowed: {}{}", name, parameter->value, quoted_list(kinds), did_you_mean(parameter->value, kinds)));
+    return;
+  }
+  access.select(static_cast<std::size_t>(found - kinds.begin()), parameter->place);
+  access.describe(*this);
+}
+
+void ReadParameters::report_unknown(const Frame& frame) {
+  if (!frame.list || !frame.check_unknown) return;
+  const auto unknown = [&](const Place& place, const char* what, const std::string& name) {
+    if (std::find(frame.known.begin(), frame.known.end(), name) != frame.known.end()) return;
+    std::string hint = did_you_mean(name, frame.known);
+    if (hint.empty()) hint = "; known here: " + quoted_list(frame.known);
+    say(place, fmt::format("unknown {} \"{}\"{}", what, name, hint));
+  };
+  for (const XmlParameter& parameter : frame.list->parameters) unknown(parameter.place, "parameter", parameter.name);
+  for (const XmlList& list : frame.list->lists) unknown(list.place, "list", list.name);
+}
+
+std::vector<Diagnostic> ReadParameters::finish() {
+  report_unknown(frame());
+  std::stable_sort(diagnostics_.begin(), diagnostics_.end(), [](const Diagnostic& a, const Diagnostic& b) { return a.place.line < b.place.line; });
+  return diagnostics_;
+}
+
+}  // namespace mortise
