@@ -1,0 +1,99 @@
+#pragma once
+// What options consist of, as data: the source of `describe`, of the reference pages, of the schema and of effective.xml.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mortise/core/parameters.hpp"
+
+namespace mortise {
+
+/// A parameter and its value.
+struct ParameterRecord {
+  enum class Kind { number, integer, boolean, text, expression, optional_number, numbers, texts, enumeration };
+  std::string name;
+  Kind kind = Kind::text;
+  std::string value;  ///< as one would write it; empty for an optional number without a value
+  Says says{""};
+  std::vector<std::string> choices;
+
+  /// Type attribute of the XML dialect.
+  std::string type() const;
+  /// "number", "expression of t, x, y", "one of ..." for people.
+  std::string kind_text() const;
+  std::string range_text() const;
+};
+
+/// A list of parameters and lists.
+struct ListRecord {
+  enum class Kind { list, named, verbatim };
+  std::string name;
+  Says says{""};
+  Kind kind = Kind::list;  ///< named: `lists` are the entries, or one prototype "<name>"
+  std::vector<ParameterRecord> parameters;
+  std::vector<ListRecord> lists;
+  /// Kinds behind a parameter "type": name, sentence and the parameters of each kind. With values: only the one chosen, already merged.
+  std::vector<std::pair<std::string, ListRecord>> kinds;
+  Teuchos::ParameterList verbatim;
+};
+
+/// Visitor that writes down what it visits.
+class CollectParameters : public Parameters {
+ public:
+  enum class What {
+    declarations,  ///< all kinds of every choice, one prototype of every named list
+    values         ///< what the options hold now
+  };
+  CollectParameters(std::string name, What what);
+
+  void add(const std::string& name, double& value, const Says& says) override;
+  void add(const std::string& name, int& value, const Says& says) override;
+  void add(const std::string& name, bool& value, const Says& says) override;
+  void add(const std::string& name, std::string& value, const Says& says) override;
+  void add(const std::string& name, Expression& value, const Says& says) override;
+  void add(const std::string& name, std::optional<double>& value, const Says& says) override;
+  void add(const std::string& name, std::vector<double>& value, const Says& says) override;
+  void add(const std::string& name, std::vector<std::string>& value, const Says& says) override;
+  using Parameters::add;
+  void verbatim(const std::string& name, Teuchos::ParameterList& list, const Says& says) override;
+  Place place(const std::string&) const override { return {}; }
+  void error(const std::string&, const std::string&) override {}
+
+  const ListRecord& tree() const { return stack_.front(); }
+
+ protected:
+  void add_enumeration(const std::string& name, std::size_t& index, const std::vector<std::string>& names, const Says& says) override;
+  bool begin_list(const std::string& name, const Says& says) override;
+  void end_list() override;
+  void named_lists(const std::string& name, const NamedAccess& access, const Says& says) override;
+  void choice_of(const std::string& name, const ChoiceAccess& access, const Says& says) override;
+
+ private:
+  void record(const std::string& name, ParameterRecord::Kind kind, std::string value, const Says& says, std::vector<std::string> choices = {});
+  ListRecord& here() { return stack_.back(); }
+
+  What what_;
+  std::vector<ListRecord> stack_;
+};
+
+/// The part of a tree below a path of list names ("contact/<name>" or "contact"); null if there is none.
+const ListRecord* find_list(const ListRecord& tree, const std::string& path);
+
+std::string to_text(const ListRecord& tree);          ///< for a terminal
+std::string to_markdown(const ListRecord& tree);      ///< tables, one for each list
+std::string to_relax_ng(const ListRecord& tree);      ///< schema in RELAX NG's XML syntax; from declarations
+/// A scene with everything spelled out; from values. `extra` are lists put first ("variables", "tables").
+std::string to_scene_xml(const ListRecord& tree, const std::vector<ListRecord>& extra);
+/// The lists "variables" and "tables" of symbols.
+std::vector<ListRecord> symbol_lists(const Symbols& symbols);
+
+/// The tree of options that have a `describe`.
+template <class Options>
+ListRecord collect_parameters(const std::string& name, Options& options, CollectParameters::What what) {
+  CollectParameters collector(name, what);
+  options.describe(collector);
+  return collector.tree();
+}
+
+}  // namespace mortise
