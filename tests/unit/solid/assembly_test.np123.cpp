@@ -1,0 +1,134 @@
+// The assembled residual, matrix and loads on several ranks are those of one rank.
+
+#include <gtest/gtest.h>
+
+#include "mortise/solid/loads.hpp"
+#include "mortise/solid/prescribed_motion.hpp"
+#include "solid_test_support.hpp"
+
+namespace mortise {
+namespace {
+
+std::array<double, 2> field(double X, double Y) { return {0.05 * std::sin(X + 2.0 * Y), 0.08 * std::cos(3.0 * X - Y)}; }
+
+/// Residual (bulk and all loads), J v, nodal stresses, prescribed values: on the owned dofs, in one vector for each of them.
+struct Assembled {
+  std::shared_ptr<Bodies> bodies;
+  std::vector<Eigen::VectorXd> columns;
+  std::vector<std::pair<GlobalOrdinal, double>> prescribed;
+  double energy = 0.0;
+};
+
+Assembled assemble(const RCP<const Communicator>& comm, const BodySetup& setup) {
+  Assembled result;
+  const auto bodies = result.bodies = make_test_bodies(comm, setup);
+  Vector u(bodies->dofs()), local(bodies->local_dofs());
+  {
+    auto view = u.getLocalViewHost(Tpetra::Access::OverwriteAll);
+    for (LocalOrdinal node = 0; node < bodies->mesh()->owned_count(); ++node) {
+      const auto value = field(bodies->mesh()->coordinates[node][0], bodies->mesh()->coordinates[node][1]);
+      for (int i = 0; i < 2; ++i) view(2 * node + i, 0) = value[i];
+    }
+  }
+  local.doImport(u, *bodies->ghost_import(), Tpetra::INSERT);  // what a Newton iteration does
+
+  Vector residual(bodies->dofs()), product(bodies->dofs());
+  Matrix matrix(bodies->graph());
+  std::optional<StepFailure> failure;
+  bodies->add_internal_force(local, residual, failure);
+  bodies->add_stiffness(local, matrix, failure);
+
+  NodalForceOptions nodal;
+  nodal.set.value = "body/top";
+  nodal.x = Expression("x*t", {});
+  DeadTractionOptions traction;
+  traction.set.value = "body/right";
+  traction.y = Expression("1+y", {});
+  FollowerPressureOptions pressure;
+  pressure.set.value = "body/surface";
+  pressure.pressure = Expression("3+x*y", {});
+  GravityOptions gravity;
+  gravity.y = -9.81;
+  for (const LoadOptions* options : std::initializer_list<const LoadOptions*>{&nodal, &traction, &pressure, &gravity}) {
+    const auto load = options->make(bodies);
+    load->add_residual(0.5, local, residual, failure);
+    load->add_jacobian(0.5, local, matrix, failure);
+  }
+  EXPECT_FALSE(failure);
+  matrix.fillComplete(bodies->dofs(), bodies->dofs());
+  matrix.apply(u, product);
+  result.columns = {to_eigen(residual), to_eigen(product)};
+  const auto modes = rigid_body_modes(*bodies, u);
+  for (std::size_t n = 0; n < modes->getNumVectors(); ++n) result.columns.push_back(to_eigen(*modes->getVector(n)));
+  const auto stresses = bodies->nodal_stresses(local);
+  for (int pair = 0; pair < 2; ++pair) {
+    const auto view = stresses->getLocalViewHost(Tpetra::Access::ReadOnly);
+    Eigen::VectorXd column(2 * bodies->mesh()->owned_count());
+    for (LocalOrdinal node = 0; node < bodies->mesh()->owned_count(); ++node)
+      for (int i = 0; i < 2; ++i) column(2 * node + i) = view(node, 2 * pair + i);
+    result.columns.push_back(column);
+  }
+  const Named<BoundaryConditionOptions> left{"left", {}, {{"body/left", {}}, {"t*y", {}}, {}}};
+  const PrescribedMotion motion(*bodies, {left}, {});
+  const auto values = motion.values(0.3);
+  for (std::size_t n = 0; n < values.size(); ++n) result.prescribed.emplace_back(bodies->dofs()->getGlobalElement(motion.dofs()[n]), values[n]);
+  result.energy = bodies->stored_energies(local)[0];
+  return result;
+}
+
+class Assembly : public testing::TestWithParam<std::pair<ElementType, Kinematics>> {};
+
+INSTANTIATE_TEST_SUITE_P(Ranks, Assembly,
+                         testing::Values(std::pair(ElementType::q4, Kinematics::plane_strain),
+                                         std::pair(ElementType::q4_f_bar, Kinematics::axisymmetric),
+                                         std::pair(ElementType::t3, Kinematics::plane_stress)));
+
+TEST_P(Assembly, AgreesWithOneRank) {
+  BodySetup setup;
+  setup.element = GetParam().first;
+  setup.kinematics = GetParam().second;
+  setup.law = setup.kinematics == Kinematics::plane_stress ? "st venant kirchhoff" : "hencky";
+  setup.cells_x = 9;
+  setup.cells_y = 7;
+  const Assembled one = assemble(self(), setup), shared = assemble(world(), setup);
+  const auto& whole = *one.bodies->dofs();
+  const auto& part = *shared.bodies->dofs();
+  ASSERT_EQ(one.columns.size(), shared.columns.size());
+  for (std::size_t c = 0; c < one.columns.size(); ++c) {
+    const double scale = one.columns[c].cwiseAbs().maxCoeff();
+    for (LocalOrdinal dof = 0; dof < static_cast<LocalOrdinal>(part.getNodeNumElements()); ++dof)
+      EXPECT_NEAR(shared.columns[c](dof), one.columns[c](whole.getLocalElement(part.getGlobalElement(dof))), 1e-12 * scale) << "column " << c;
+  }
+  EXPECT_NEAR(shared.energy, one.energy, 1e-13 * one.energy);
+  // Each prescribed dof stands on the one rank that owns it, with the same value.
+  int mine = static_cast<int>(shared.prescribed.size()), all = 0;
+  Teuchos::reduceAll(*world(), Teuchos::REDUCE_SUM, 1, &mine, &all);
+  EXPECT_EQ(all, static_cast<int>(one.prescribed.size()));
+  for (const auto& entry : shared.prescribed)
+    EXPECT_TRUE(std::any_of(one.prescribed.begin(), one.prescribed.end(),
+                            [&](const auto& other) { return other.first == entry.first && std::abs(other.second - entry.second) < 1e-14; }));
+  EXPECT_EQ(static_cast<std::size_t>(shared.bodies->graph()->getGlobalNumEntries()), one.bodies->graph()->getGlobalNumEntries());
+}
+
+TEST(Failures, OnOneRankSurfaceOnAll) {
+  BodySetup setup;
+  setup.cells_x = setup.cells_y = 6;
+  const auto bodies = make_test_bodies(world(), setup);
+  // Only the elements at the right end are inverted.
+  const Vector u = local_field(*bodies, [](double X, double) -> std::array<double, 2> { return {X > 2.99 ? -1.5 : 0.0, 0.0}; });
+  Vector residual(bodies->dofs());
+  std::optional<StepFailure> failure;
+  bodies->add_internal_force(u, residual, failure);
+  EXPECT_THROW(throw_if_any(*world(), failure), StepFailure);
+}
+
+TEST(Refusals, OfABodyAreThrownOnEveryRank) {
+  const auto mesh = make_test_mesh(world(), {});
+  EXPECT_THROW(Bodies(mesh, Kinematics::plane_stress, 1.0, {{"body", {}, make_material("hencky"), ElementType::q4}}), InputError);
+  const auto bodies = make_test_bodies(world(), {});
+  const Named<BoundaryConditionOptions> missing{"left", {}, {{"body/lefd", {}}, {"0", {}}, {}}};
+  EXPECT_THROW(PrescribedMotion(*bodies, {missing}, {}), InputError);
+}
+
+}  // namespace
+}  // namespace mortise

@@ -1,0 +1,133 @@
+#pragma once
+// Small bodies with distorted meshes, displacement fields and dense views for the tests of `solid`.
+
+#include <Eigen/Dense>
+#include <Teuchos_DefaultMpiComm.hpp>
+#include <Tpetra_Core.hpp>
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Vector.hpp>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "mortise/mesh/build_mesh.hpp"
+#include "mortise/mesh/generators.hpp"
+#include "mortise/solid/bodies.hpp"
+
+namespace mortise {
+
+inline std::shared_ptr<const MaterialOptions> make_material(const std::string& law, double youngs_modulus = 1000.0, double poissons_ratio = 0.3) {
+  for (const auto& entry : material_registry().entries())
+    if (entry.name == law) {
+      auto material = entry.make();
+      material->youngs_modulus = youngs_modulus;
+      material->poissons_ratio = poissons_ratio;
+      material->density = 2.0;
+      return material;
+    }
+  throw std::logic_error("no law " + law);
+}
+
+struct BodySetup {
+  ElementType element = ElementType::q4;
+  std::string law = "hencky";
+  Kinematics kinematics = Kinematics::plane_strain;
+  int cells_x = 2, cells_y = 2;
+  double width = 1.0, height = 1.0, left = 2.0;  ///< left > 0 keeps an axisymmetric body off the axis
+  double poissons_ratio = 0.3, thickness = 0.7, distortion = 0.15;
+};
+
+inline RCP<const Communicator> world() { return Tpetra::getDefaultComm(); }
+inline RCP<const Communicator> self() { return rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF)); }
+
+/// A rectangle [left, left + width] x [0, height] whose inner nodes are displaced by a smooth function.
+inline RCP<Mesh> make_test_mesh(const RCP<const Communicator>& comm, const BodySetup& setup) {
+  auto block = std::make_shared<BlockMesh>();
+  block->width = setup.width;
+  block->height = setup.height;
+  block->cells_x = setup.cells_x;
+  block->cells_y = setup.cells_y;
+  block->translation = {setup.left, 0.0};
+  auto mesh = build_mesh(comm, {{"body", {}, block, cell_shape(setup.element)}}, {});
+  for (auto& X : mesh->coordinates) {
+    const double s = (X[0] - setup.left) / setup.width, t = X[1] / setup.height, bubble = 16.0 * s * (1.0 - s) * t * (1.0 - t);
+    X[0] += setup.distortion * bubble * setup.width / setup.cells_x * std::cos(3.0 * s + 5.0 * t);
+    X[1] += setup.distortion * bubble * setup.height / setup.cells_y * std::sin(4.0 * s - 2.0 * t + 1.0);
+  }
+  return mesh;
+}
+
+inline std::shared_ptr<Bodies> make_test_bodies(const RCP<const Communicator>& comm, const BodySetup& setup) {
+  return std::make_shared<Bodies>(make_test_mesh(comm, setup), setup.kinematics, setup.thickness,
+                                  std::vector<BodyProperties>{{"body", {}, make_material(setup.law, 1000.0, setup.poissons_ratio), setup.element}});
+}
+
+using Field = std::function<std::array<double, 2>(double, double)>;
+
+/// u(X) on the local dofs.
+inline Vector local_field(const Bodies& bodies, const Field& field) {
+  Vector u(bodies.local_dofs());
+  auto view = u.getLocalViewHost(Tpetra::Access::OverwriteAll);
+  for (LocalOrdinal node = 0; node < bodies.mesh()->local_count(); ++node) {
+    const auto value = field(bodies.mesh()->coordinates[node][0], bodies.mesh()->coordinates[node][1]);
+    view(2 * node, 0) = value[0];
+    view(2 * node + 1, 0) = value[1];
+  }
+  return u;
+}
+
+inline Eigen::VectorXd to_eigen(const Vector& vector) {
+  const auto view = vector.getLocalViewHost(Tpetra::Access::ReadOnly);
+  return Eigen::Map<const Eigen::VectorXd>(view.data(), view.extent(0));
+}
+
+inline Vector to_local(const Bodies& bodies, const Eigen::VectorXd& values) {
+  Vector vector(bodies.local_dofs());
+  auto view = vector.getLocalViewHost(Tpetra::Access::OverwriteAll);
+  for (Eigen::Index n = 0; n < values.size(); ++n) view(n, 0) = values(n);
+  return vector;
+}
+
+/// One rank: the whole matrix.
+inline Eigen::MatrixXd to_dense(const Matrix& matrix) {
+  const auto local = const_cast<Matrix&>(matrix).getLocalMatrixHost();
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(local.numRows(), local.numCols());
+  for (LocalOrdinal row = 0; row < local.numRows(); ++row)
+    for (auto n = local.graph.row_map(row); n < local.graph.row_map(row + 1); ++n) dense(row, local.graph.entries(n)) += local.values(n);
+  return dense;
+}
+
+/// Central differences of f at u, column by column. Step: cube root of the round-off times a length of 1.
+inline Eigen::MatrixXd central_differences(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& f, const Eigen::VectorXd& u,
+                                           double step = 1e-6) {
+  Eigen::MatrixXd J(f(u).size(), u.size());
+  for (Eigen::Index n = 0; n < u.size(); ++n) {
+    Eigen::VectorXd plus = u, minus = u;
+    plus(n) += step;
+    minus(n) -= step;
+    J.col(n) = (f(plus) - f(minus)) / (plus(n) - minus(n));
+  }
+  return J;
+}
+
+inline Eigen::VectorXd internal_force(const Bodies& bodies, const Eigen::VectorXd& u) {
+  Vector residual(bodies.dofs());
+  std::optional<StepFailure> failure;
+  bodies.add_internal_force(to_local(bodies, u), residual, failure);
+  if (failure) throw *failure;
+  return to_eigen(residual);
+}
+
+inline Eigen::MatrixXd stiffness(const Bodies& bodies, const Eigen::VectorXd& u) {
+  Matrix matrix(bodies.graph());
+  std::optional<StepFailure> failure;
+  bodies.add_stiffness(to_local(bodies, u), matrix, failure);
+  if (failure) throw *failure;
+  return to_dense(matrix);
+}
+
+}  // namespace mortise
