@@ -1,0 +1,27 @@
+#pragma once
+// Files that one rank writes for all: failures surface on every rank.
+
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "mortise/core/types.hpp"
+
+namespace mortise {
+
+/// Collective: if any rank holds a reason, every rank throws FileError "<what> <path>: <reason>" with the reason of the lowest such rank.
+void throw_if_any_file_error(const Communicator& comm, const std::string& what, const std::string& path, const std::optional<std::string>& reason);
+
+/// Writes `content` to `path` by way of a temporary file beside it that is renamed, so that no reader ever sees half a file. No communication.
+/// Returns why it could not.
+std::optional<std::string> replace_file(const std::string& path, const std::string& content);
+
+/// The same for all ranks: rank 0 writes what `content` gives there. Collective. Throws FileError on all ranks.
+void write_file(const Communicator& comm, const std::string& path, const std::function<std::string()>& content);
+
+/// Writes `json`, indented by two, on rank 0; numbers in full precision, those that are not finite as null. Collective. Throws FileError on all
+/// ranks.
+void write_json(const Communicator& comm, const std::string& path, const nlohmann::json& json);
+
+}  // namespace mortise

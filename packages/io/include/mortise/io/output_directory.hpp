@@ -1,0 +1,34 @@
+#pragma once
+// Where a run leaves its files.
+
+#include <string>
+
+#include "mortise/core/types.hpp"
+
+namespace mortise {
+
+/// A directory for the files of one run.
+class OutputDirectory {
+ public:
+  /// Creates the directory if it does not exist and makes sure that files can be made in it. Nothing that is there is touched. Collective.
+  /// @param keep  refuse a directory that holds files of a run
+  /// @throws FileError on all ranks: not a directory, not writable, refused
+  OutputDirectory(RCP<const Communicator> comm, std::string path, bool keep);
+
+  /// Removes the files of an earlier run, whole; files that no run writes are left. Collective. Throws FileError on all ranks.
+  void remove_earlier_run();
+
+  const std::string& path() const { return path_; }
+  /// Path of a file in the directory.
+  std::string file(const std::string& name) const { return path_ + "/" + name; }
+
+ private:
+  RCP<const Communicator> comm_;
+  std::string path_;
+};
+
+/// Whether a run writes a file of this name: summary.json, newton.csv, history.csv, fields.xdmf, fields.h5, effective.xml, log.txt,
+/// checkpoint-*.h5.
+bool is_run_file(const std::string& name);
+
+}  // namespace mortise
