@@ -1,0 +1,253 @@
+// Fields written by several ranks, read back by rank 0 through the references that the XDMF file makes.
+
+#include "mortise/io/field_writer.hpp"
+
+#include <gmock/gmock.h>
+#include <hdf5.h>
+#include <libxml/parser.h>
+#include <libxml/xpath.h>
+
+#include <Tpetra_Core.hpp>
+#include <Tpetra_Map.hpp>
+#include <map>
+
+#include "mortise/core/error.hpp"
+#include "mortise/mesh/build_mesh.hpp"
+#include "mortise/mesh/generators.hpp"
+#include "scratch_directory.hpp"
+
+namespace mortise {
+namespace {
+
+RCP<const Communicator> world() { return Tpetra::getDefaultComm(); }
+
+/// A block of 4 x 3 quadrilaterals and, on top of it, one of 3 x 2 squares cut into triangles. Ids do not depend on the number of ranks.
+RCP<Mesh> two_blocks() {
+  const auto below = std::make_shared<BlockMesh>(), above = std::make_shared<BlockMesh>();
+  below->width = 4.0, below->height = 3.0, below->cells_x = 4, below->cells_y = 3;
+  above->width = 3.0, above->height = 2.0, above->cells_x = 3, above->cells_y = 2, above->translation = {0.0, 3.0};
+  return build_mesh(world(), {{"lower & <first>", {}, below, CellShape::quadrilateral4}, {"upper", {}, above, CellShape::triangle3}}, {});
+}
+
+template <class Value>
+std::vector<double> on_nodes(const Mesh& mesh, const Value& value) {
+  std::vector<double> values;
+  for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node)
+    for (const double v : value(mesh.coordinates[node][0], mesh.coordinates[node][1])) values.push_back(v);
+  return values;
+}
+
+/// value(block, global id of the element).
+template <class Value>
+std::vector<double> on_elements(const Mesh& mesh, const Value& value) {
+  std::vector<double> values;
+  for (std::size_t block = 0; block < mesh.blocks.size(); ++block)
+    for (LocalOrdinal element = 0; element < mesh.blocks[block].owned; ++element)
+      for (const double v : value(block, mesh.blocks[block].element_ids[element])) values.push_back(v);
+  return values;
+}
+
+struct Dataset {
+  std::vector<hsize_t> size;
+  std::vector<double> values;
+};
+
+Dataset read_dataset(const std::string& file_path, const std::string& path) {
+  const hid_t file = H5Fopen(file_path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  EXPECT_GE(file, 0) << file_path;
+  const hid_t dataset = H5Dopen2(file, path.c_str(), H5P_DEFAULT);
+  EXPECT_GE(dataset, 0) << path;
+  Dataset result;
+  if (dataset < 0) return result;
+  const hid_t space = H5Dget_space(dataset);
+  result.size.resize(H5Sget_simple_extent_ndims(space));
+  H5Sget_simple_extent_dims(space, result.size.data(), nullptr);
+  result.values.resize(H5Sget_simple_extent_npoints(space));
+  EXPECT_GE(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, result.values.data()), 0);
+  H5Sclose(space), H5Dclose(dataset), H5Fclose(file);
+  return result;
+}
+
+/// The XDMF file as rank 0 sees it.
+class Xdmf {
+ public:
+  explicit Xdmf(std::string directory) : directory_(std::move(directory)), document_(xmlReadFile((directory_ + "/fields.xdmf").c_str(), nullptr, 0)) {
+    EXPECT_NE(document_, nullptr);
+    context_ = xmlXPathNewContext(document_);
+  }
+  ~Xdmf() { xmlXPathFreeContext(context_), xmlFreeDoc(document_); }
+  Xdmf(const Xdmf&) = delete;
+  Xdmf& operator=(const Xdmf&) = delete;
+
+  std::vector<std::string> texts(const std::string& expression) const {
+    auto* object = xmlXPathEvalExpression(reinterpret_cast<const xmlChar*>(expression.c_str()), context_);
+    std::vector<std::string> result;
+    for (int i = 0; object->nodesetval != nullptr && i < object->nodesetval->nodeNr; ++i) {
+      auto* content = xmlNodeGetContent(object->nodesetval->nodeTab[i]);
+      result.emplace_back(reinterpret_cast<const char*>(content));
+      xmlFree(content);
+    }
+    xmlXPathFreeObject(object);
+    return result;
+  }
+  std::string text(const std::string& expression) const {
+    const auto found = texts(expression);
+    EXPECT_EQ(found.size(), 1u) << expression;
+    return found.empty() ? "" : found.front();
+  }
+  /// What the DataItem below `parent` refers to; its dimensions have to be those that the XDMF file says.
+  Dataset data(const std::string& parent) const {
+    const std::string reference = text(parent + "/DataItem"), dimensions = text(parent + "/DataItem/@Dimensions");
+    const auto colon = reference.find(':');
+    const auto dataset = read_dataset(directory_ + "/" + reference.substr(0, colon), reference.substr(colon + 1));
+    std::string found;
+    for (const auto n : dataset.size) found += (found.empty() ? "" : " ") + std::to_string(n);
+    EXPECT_EQ(found, dimensions) << reference;
+    return dataset;
+  }
+
+ private:
+  std::string directory_;
+  xmlDocPtr document_;
+  xmlXPathContextPtr context_ = nullptr;
+};
+
+std::vector<Field> fields_at(const Mesh& mesh, double time) {
+  std::vector<Field> fields;
+  fields.push_back({"displacement", Field::Center::node, FieldKind::vector, 2, on_nodes(mesh, [&](double x, double y) {
+                      return std::array<double, 2>{time * x, 0.1 * x * y};
+                    })});
+  fields.push_back({"contact_state", Field::Center::node, FieldKind::integer, 1,
+                    on_nodes(mesh, [](double x, double) { return std::array<double, 1>{x > 1.5 ? 2.0 : 0.0}; })});
+  fields.push_back({"cauchy_stress", Field::Center::cell, FieldKind::symmetric_tensor, 4, on_elements(mesh, [&](std::size_t, GlobalOrdinal id) {
+                      return std::array<double, 4>{time + id, 100.0 + id, 200.0 + id, 300.0 + id};  // xx, yy, zz, xy
+                    })});
+  fields.push_back({"von_mises", Field::Center::cell, FieldKind::scalar, 1,
+                    on_elements(mesh, [&](std::size_t block, GlobalOrdinal id) { return std::array<double, 1>{1000.0 * block + id}; })});
+  return fields;
+}
+
+TEST(FieldWriter, ReadsBackThroughItsReferences) {
+  const auto mesh = two_blocks();
+  const test::ScratchDirectory scratch(world());
+  FieldWriter writer(mesh, scratch.path());
+  const std::vector<double> times{0.0, 0.1, 1.0 / 3.0};
+  for (const double time : times) writer.write(time, fields_at(*mesh, time));
+  world()->barrier();
+  if (world()->getRank() != 0) return;
+
+  constexpr std::size_t nodes = 5 * 4 + 4 * 3, quadrilaterals = 12, triangles = 12, elements = quadrilaterals + triangles;
+  const Xdmf xdmf(scratch.path());
+  const std::string series = "/Xdmf/Domain/Grid[@CollectionType='Temporal']/Grid";
+  EXPECT_EQ(xdmf.text("/Xdmf/@Version"), "3.0");
+  EXPECT_EQ(xdmf.text("/Xdmf/Domain/Information[1]/@Value"), "lower & <first>");
+  const auto written_times = xdmf.texts(series + "/Time/@Value");
+  ASSERT_EQ(written_times.size(), times.size());
+  for (std::size_t step = 0; step < times.size(); ++step) EXPECT_EQ(std::stod(written_times[step]), times[step]);
+
+  for (std::size_t step = 0; step < times.size(); ++step) {
+    const std::string grid = series + "[" + std::to_string(step + 1) + "]";
+    const auto coordinates = xdmf.data(grid + "/Geometry");
+    ASSERT_EQ(coordinates.values.size(), 3 * nodes);
+    const auto topology = xdmf.data(grid + "/Topology").values;
+    ASSERT_EQ(topology.size(), 5 * quadrilaterals + 4 * triangles);
+    ASSERT_EQ(xdmf.text(grid + "/Topology/@NumberOfElements"), std::to_string(elements));
+    const auto body = xdmf.data(grid + "/Attribute[@Name='body']").values;
+
+    // The cells fill their bodies, counterclockwise, and lie where their body lies.
+    double area[2] = {0.0, 0.0};
+    std::size_t at = 0;
+    for (std::size_t element = 0; element < elements; ++element) {
+      ASSERT_TRUE(topology[at] == 4.0 || topology[at] == 5.0);
+      const int count = topology[at] == 4.0 ? 3 : 4;
+      EXPECT_EQ(body[element], element < quadrilaterals ? 0.0 : 1.0);
+      double cell = 0.0, middle = 0.0;
+      for (int a = 0; a < count; ++a) {
+        const auto p = 3 * static_cast<std::size_t>(topology[at + 1 + a]), q = 3 * static_cast<std::size_t>(topology[at + 1 + (a + 1) % count]);
+        cell += 0.5 * (coordinates.values.at(p) * coordinates.values.at(q + 1) - coordinates.values.at(q) * coordinates.values.at(p + 1));
+        middle += coordinates.values.at(p + 1) / count;
+      }
+      EXPECT_GT(cell, 0.0);
+      EXPECT_EQ(middle > 3.0, body[element] == 1.0);
+      area[static_cast<int>(body[element])] += cell;
+      at += 1 + count;
+    }
+    EXPECT_EQ(at, topology.size());
+    EXPECT_NEAR(area[0], 12.0, 1e-12);
+    EXPECT_NEAR(area[1], 6.0, 1e-12);
+
+    const auto displacement = xdmf.data(grid + "/Attribute[@Name='displacement' and @AttributeType='Vector' and @Center='Node']").values;
+    const auto state = xdmf.data(grid + "/Attribute[@Name='contact_state' and @AttributeType='Scalar' and @Center='Node']").values;
+    ASSERT_EQ(displacement.size(), 3 * nodes);
+    ASSERT_EQ(state.size(), nodes);
+    for (std::size_t node = 0; node < nodes; ++node) {
+      const double x = coordinates.values[3 * node], y = coordinates.values[3 * node + 1];
+      EXPECT_EQ(displacement[3 * node], times[step] * x);
+      EXPECT_EQ(displacement[3 * node + 1], 0.1 * x * y);
+      EXPECT_EQ(displacement[3 * node + 2], 0.0);
+      EXPECT_EQ(state[node], x > 1.5 ? 2.0 : 0.0);
+    }
+    const auto stress = xdmf.data(grid + "/Attribute[@Name='cauchy_stress' and @AttributeType='Tensor6' and @Center='Cell']").values;
+    const auto von_mises = xdmf.data(grid + "/Attribute[@Name='von_mises' and @Center='Cell']").values;
+    ASSERT_EQ(stress.size(), 6 * elements);
+    for (std::size_t element = 0; element < elements; ++element) {
+      const double id = static_cast<double>(element);
+      const std::vector<double> expected{times[step] + id, 300.0 + id, 0.0, 100.0 + id, 0.0, 200.0 + id};  // xx, xy, xz, yy, yz, zz
+      EXPECT_EQ(std::vector<double>(stress.begin() + 6 * element, stress.begin() + 6 * element + 6), expected);
+      EXPECT_EQ(von_mises[element], 1000.0 * body[element] + id);
+    }
+  }
+}
+
+TEST(FieldWriter, FilesAreCompleteAfterEachStep) {
+  const auto mesh = two_blocks();
+  const test::ScratchDirectory scratch(world());
+  FieldWriter writer(mesh, scratch.path());
+  for (std::size_t step = 0; step < 3; ++step) {
+    writer.write(0.5 * step, fields_at(*mesh, 0.5 * step));
+    world()->barrier();
+    if (world()->getRank() == 0) {
+      const Xdmf xdmf(scratch.path());
+      const std::string series = "/Xdmf/Domain/Grid/Grid";
+      EXPECT_EQ(xdmf.texts(series).size(), step + 1);
+      EXPECT_EQ(xdmf.data(series + "[" + std::to_string(step + 1) + "]/Attribute[@Name='von_mises']").values.size(), 24u);
+    }
+    world()->barrier();
+  }
+}
+
+TEST(FieldWriter, WhatDoesNotFitIsRefusedOnAllRanks) {
+  const auto mesh = two_blocks();
+  const test::ScratchDirectory scratch(world());
+  FieldWriter writer(mesh, scratch.path());
+  const bool last = world()->getRank() == world()->getSize() - 1;
+  Field field{"gap", Field::Center::node, FieldKind::scalar, 1, std::vector<double>(mesh->owned_count() + (last ? 1 : 0))};
+  EXPECT_THROW(writer.write(0.0, {field}), std::invalid_argument);
+  field.values.resize(mesh->owned_count());
+  EXPECT_THROW(writer.write(0.0, {field, field}), std::invalid_argument);
+  EXPECT_NO_THROW(writer.write(0.0, {field}));
+}
+
+TEST(FieldWriter, UnwritableDirectoryIsAFileErrorOnAllRanks) {
+  const test::ScratchDirectory scratch(world());
+  const auto mesh = two_blocks();
+  try {
+    FieldWriter writer(mesh, scratch.file("missing"));
+    ADD_FAILURE() << "no FileError on rank " << world()->getRank();
+  } catch (const FileError& error) {
+    EXPECT_THAT(error.what(), ::testing::AllOf(::testing::HasSubstr(scratch.file("missing") + "/fields.h5"), ::testing::HasSubstr("No such file")));
+  }
+}
+
+TEST(FieldWriter, FileThatVanishesBetweenStepsIsAFileErrorOnAllRanks) {
+  const test::ScratchDirectory scratch(world());
+  const auto mesh = two_blocks();
+  FieldWriter writer(mesh, scratch.path());
+  world()->barrier();
+  if (world()->getRank() == 0) std::filesystem::remove(scratch.file("fields.h5"));
+  world()->barrier();
+  EXPECT_THROW(writer.write(0.0, fields_at(*mesh, 0.0)), FileError);
+}
+
+}  // namespace
+}  // namespace mortise

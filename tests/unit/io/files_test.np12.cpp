@@ -1,0 +1,125 @@
+// Files that rank 0 writes for all, and what happens on all ranks if it cannot.
+
+#include "mortise/io/files.hpp"
+
+#include <gmock/gmock.h>
+
+#include <Tpetra_Core.hpp>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "mortise/core/error.hpp"
+#include "mortise/io/csv_writer.hpp"
+#include "mortise/io/output_directory.hpp"
+#include "scratch_directory.hpp"
+
+namespace mortise {
+namespace {
+
+using test::content;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+RCP<const Communicator> world() { return Tpetra::getDefaultComm(); }
+
+/// what() of the FileError that `action` throws; a failure if it throws none. Every rank calls it.
+template <class Action>
+std::string file_error(const Action& action) {
+  try {
+    action();
+  } catch (const FileError& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "no FileError on rank " << world()->getRank();
+  return {};
+}
+
+TEST(Files, ErrorOfOneRankReachesAll) {
+  const auto comm = world();
+  const int last = comm->getSize() - 1;
+  const auto reason = comm->getRank() == last ? std::optional<std::string>("the disk is full") : std::nullopt;
+  EXPECT_EQ(file_error([&] { throw_if_any_file_error(*comm, "cannot write", "a/b", reason); }), "cannot write a/b: the disk is full");
+  EXPECT_NO_THROW(throw_if_any_file_error(*comm, "cannot write", "a/b", std::nullopt));
+}
+
+TEST(Files, JsonIsReplacedWholeAndReadsBackExactly) {
+  const test::ScratchDirectory scratch(world());
+  const std::string path = scratch.file("summary.json");
+  const double third = 1.0 / 3.0, tiny = 4.9e-324;
+  write_json(*world(), path, {{"old", std::string(100000, 'x')}});
+  write_json(*world(), path, {{"third", third}, {"tiny", tiny}, {"nothing", std::nan("")}, {"text", "bad \xff byte"}});
+  world()->barrier();
+  const auto json = nlohmann::json::parse(content(path));
+  EXPECT_EQ(json["third"].get<double>(), third);
+  EXPECT_EQ(json["tiny"].get<double>(), tiny);
+  EXPECT_TRUE(json["nothing"].is_null());
+  EXPECT_FALSE(json.contains("old"));
+  EXPECT_FALSE(std::filesystem::exists(path + ".part"));
+}
+
+TEST(Files, UnwritablePathNamesPathAndReasonOnAllRanks) {
+  const test::ScratchDirectory scratch(world());
+  const std::string path = scratch.file("no/such/directory/summary.json");
+  EXPECT_THAT(file_error([&] { write_json(*world(), path, {}); }), AllOf(HasSubstr(path), HasSubstr("No such file or directory")));
+  EXPECT_THAT(file_error([&] { CsvWriter(world(), path, {"a"}); }), AllOf(HasSubstr(path), HasSubstr("No such file or directory")));
+}
+
+TEST(Files, DiskFullIsAnErrorOfTheRow) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  EXPECT_THAT(file_error([&] { CsvWriter(world(), "/dev/full", {"a"}); }), HasSubstr("No space left on device"));
+}
+
+TEST(CsvWriter, NumbersReadBackExactlyAndTextIsQuoted) {
+  const test::ScratchDirectory scratch(world());
+  CsvWriter csv(world(), scratch.file("history.csv"), {"time", "peak, pressure", "count"});
+  const double value = 0.1 + 0.2;
+  csv.row({value, std::string("say \"no\""), 12345678901LL});
+  world()->barrier();
+  EXPECT_EQ(content(csv.path()), "time,\"peak, pressure\",count\n0.30000000000000004,\"say \"\"no\"\"\",12345678901\n");
+  csv.row({-1e-300, std::numeric_limits<double>::quiet_NaN(), 0LL});
+  world()->barrier();
+  EXPECT_THAT(content(csv.path()), ::testing::EndsWith("\n-1e-300,nan,0\n"));
+  EXPECT_THAT(file_error([&] { csv.row({1.0}); }), HasSubstr("1 values for 3 columns"));
+}
+
+TEST(OutputDirectory, IsMadeWithItsParents) {
+  const test::ScratchDirectory scratch(world());
+  const OutputDirectory directory(world(), scratch.file("results/patch"), false);
+  EXPECT_TRUE(std::filesystem::is_directory(directory.path()));
+  EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
+  EXPECT_EQ(directory.file("log.txt"), scratch.file("results/patch") + "/log.txt");
+}
+
+TEST(OutputDirectory, ReplacesARunWholeAndLeavesTheRest) {
+  const test::ScratchDirectory scratch(world());
+  if (world()->getRank() == 0)
+    for (const char* name : {"summary.json", "fields.h5", "checkpoint-12.h5", "notes.txt", "checkpoint-.h5"})
+      std::ofstream(scratch.file(name)) << "old";
+  world()->barrier();
+  OutputDirectory directory(world(), scratch.path(), false);
+  EXPECT_EQ(content(scratch.file("summary.json")), "old") << "opening must not remove anything";
+  world()->barrier();
+  directory.remove_earlier_run();
+  for (const char* name : {"summary.json", "fields.h5", "checkpoint-12.h5"}) EXPECT_FALSE(std::filesystem::exists(scratch.file(name))) << name;
+  for (const char* name : {"notes.txt", "checkpoint-.h5"}) EXPECT_TRUE(std::filesystem::exists(scratch.file(name))) << name;
+}
+
+TEST(OutputDirectory, KeepRefusesARun) {
+  const test::ScratchDirectory scratch(world());
+  EXPECT_NO_THROW(OutputDirectory(world(), scratch.path(), true));
+  if (world()->getRank() == 0) std::ofstream(scratch.file("newton.csv")) << "old";
+  world()->barrier();
+  EXPECT_THAT(file_error([&] { OutputDirectory(world(), scratch.path(), true); }), AllOf(HasSubstr(scratch.path()), HasSubstr("newton.csv")));
+}
+
+TEST(OutputDirectory, WhatIsNoDirectoryIsRefused) {
+  const test::ScratchDirectory scratch(world());
+  if (world()->getRank() == 0) std::ofstream(scratch.file("taken")) << "a file";
+  world()->barrier();
+  EXPECT_THAT(file_error([&] { OutputDirectory(world(), scratch.file("taken"), false); }), HasSubstr("not a directory"));
+  EXPECT_THAT(file_error([&] { OutputDirectory(world(), scratch.file("taken/below"), false); }), HasSubstr(scratch.file("taken/below")));
+}
+
+}  // namespace
+}  // namespace mortise
