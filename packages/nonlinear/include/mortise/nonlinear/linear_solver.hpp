@@ -30,27 +30,35 @@ class LinearSolver {
   virtual ~LinearSolver() = default;
   virtual std::string name() const = 0;
 
+  /// Whether set_matrix() looks at its near null space (so that nobody computes one in vain).
+  virtual bool uses_near_null_space() const { return false; }
+
+  /// How often the work that depends on the pattern alone was done (analysis of a direct solver, set-up of multigrid).
+  virtual int symbolic_setups() const = 0;
+
   /// Takes the matrix of the next solves. `graph_changed`: the pattern is not that of the last call, so nothing symbolic may be reused.
   /// The matrix must live, unchanged, until the next call.
   virtual void set_matrix(const RCP<const Matrix>& matrix, bool graph_changed, const NearNullSpace& near_null_space) = 0;
 
-  /// Solves A x = b and checks the true residual. Throws StepFailure(linear_solver), on every rank, if the matrix is singular or the
-  /// true relative residual exceeds `bound` (of the options).
+  /// Solves A x = b (the first solve after set_matrix() factorises) and checks the true residual. Throws StepFailure(linear_solver), on
+  /// every rank, if the matrix or b is not finite, the matrix is singular or the true relative residual exceeds the bound of the options
+  /// (the iterative solver: ten times its tolerance).
   virtual LinearSolveReport solve(const Vector& b, Vector& x) = 0;
 };
 
-/// Which solver, and how.
+/// Which solver, and how. `automatic` is MUMPS.
 struct LinearSolverOptions {
   enum class Kind { automatic, mumps, klu2, iterative };
   Kind kind = Kind::automatic;
   double residual_bound = 1e-8;  ///< of the direct solvers' true relative residual
   double tolerance = 1e-10;      ///< of the iterative solver
   int maximum_iterations = 500;
-  Teuchos::ParameterList muelu, belos;
+  Teuchos::ParameterList muelu, belos;  ///< override what Mortise sets; checked by MueLu and Belos
   void describe(Parameters& parameters);
 };
 
-/// Makes the solver that `options` ask for; throws InputError where that cannot work (KLU2 on more than one rank).
+/// Makes the solver that `options` ask for; throws InputError where that cannot work (KLU2 on more than one rank, a parameter that MueLu or
+/// Belos does not know).
 std::unique_ptr<LinearSolver> make_linear_solver(const LinearSolverOptions& options, const RCP<const Communicator>& comm, const Timers& timers);
 
 }  // namespace mortise

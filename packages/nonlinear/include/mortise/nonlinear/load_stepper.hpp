@@ -13,29 +13,29 @@ namespace mortise {
 /// Pseudo-time and its steps.
 struct SteppingOptions {
   double end_time = 1.0;
-  double step = 1.0;                    ///< first step, and the largest unless `maximum_step` says otherwise
-  std::optional<double> maximum_step;   ///< default: `step`
-  std::optional<double> minimum_step;   ///< default: step / 1024
-  int easy_iterations = 6;              ///< a step that took no more may be followed by one twice as long
-  std::vector<double> output_times;     ///< hit exactly
+  double step = 1.0;                   ///< first step, and the largest unless `maximum_step` says otherwise
+  std::optional<double> maximum_step;  ///< default: `step`
+  std::optional<double> minimum_step;  ///< default: step / 1024
+  int easy_iterations = 6;             ///< a step that took no more may be followed by one twice as long
+  std::vector<double> output_times;    ///< hit exactly
   void describe(Parameters& parameters);
 };
 
 /// A finished step.
 struct StepReport {
-  int step = 0;          ///< from 1
+  int step = 0;  ///< from 1
   double time = 0.0, dt = 0.0;
-  int cutbacks = 0;      ///< tries undone before this one
+  int cutbacks = 0;                 ///< tries undone before this one
   std::vector<std::string> undone;  ///< why, one for each cutback
   NewtonReport newton;
 };
 
 /// What the stepper calls.
 struct StepperObserver {
-  std::function<void(int step, double time, double dt)> begin;             ///< before each try
+  std::function<void(int step, double time, double dt)> begin;  ///< before each try
   std::function<void(const NewtonIteration&)> iteration;
-  std::function<void(const StepReport&, const Vector& x)> accepted;        ///< after commit
-  std::function<void(const StepReport&, const StepFailure&)> undone;       ///< a try failed
+  std::function<void(const StepReport&, const Vector& x)> accepted;   ///< after commit
+  std::function<void(const StepReport&, const StepFailure&)> undone;  ///< a try failed
 };
 
 /// Runs from time 0 to the end. On return x is the last converged state. Returns true at the end time; false when the smallest step failed

@@ -16,11 +16,12 @@ namespace mortise {
 
 /// Sizes of the residual's blocks at one iterate, over all ranks; what the status tests and newton.csv show.
 struct ResidualNorms {
-  double momentum = 0.0;         ///< |r| on free dofs relative to max(|f_int|, |f_ext|, |f_c|), reactions included
+  double momentum = 0.0;  ///< |r| on free dofs relative to max(|f_int|, |f_ext|, |f_c|, 1e-6 s |d|), reactions included
   double momentum_absolute = 0.0;
-  double prescribed = 0.0;       ///< max |d - prescribed| relative to the size of the model
+  double prescribed = 0.0;  ///< max |d - prescribed| relative to the size of the model
   double gap = 0.0, complementarity = 0.0;
   int active = 0, changed = 0;
+  std::array<long long, 2> active_set{};  ///< two hashes of the set of closed nodes, independent of the partition
   bool finite = true;
 };
 
@@ -37,6 +38,8 @@ struct SystemParts {
 };
 
 /// F, J and the Newton step of x = (d, z). Stateless but for buffers: everything is a function of x, time and committed history.
+/// The stiffness scale s of the Dirichlet rows is the mean |diagonal| of the first stiffness that is assembled, and stays.
+/// Collective in all members but the accessors and views.
 class SemiSmoothSystem {
  public:
   SemiSmoothSystem(SystemParts parts, Timers timers);
@@ -56,15 +59,19 @@ class SemiSmoothSystem {
 
   /// F(x) = (r, C); Dirichlet rows hold s (d - prescribed). Throws StepFailure on every rank.
   void residual(const Vector& x, Vector& F, ResidualNorms& norms);
-  /// Prepares J at x.
+  /// Prepares J at x, and takes the states of the nodes at x as those that ResidualNorms::changed counts against.
   void jacobian(const Vector& x);
-  /// y = J v by the saddle point blocks.
+  /// y = J v by the saddle point blocks, at the x of the last jacobian().
   void apply(const Vector& v, Vector& y) const;
-  /// Newton direction: solves J dx = -F at the x of the last jacobian() by condensation.
+  /// Newton direction: solves J dx = -F at the x of the last jacobian() by condensation. F is F(x): the rows of C are formed by the
+  /// contact itself. Throws StepFailure(linear_solver) on every rank.
   LinearSolveReport newton_direction(const Vector& F, Vector& direction);
 
   /// f_int - f_ext + f_c on all owned dofs at x, without Dirichlet rows: on prescribed dofs these are the reactions.
   void forces(const Vector& x, Vector& r);
+
+  /// The step that ended at x is accepted: hands it to the contributions.
+  void commit(const Vector& x);
 
  private:
   struct Implementation;

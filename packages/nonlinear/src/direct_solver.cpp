@@ -1,0 +1,145 @@
+#include "direct_solver.hpp"
+
+#include <Amesos2.hpp>
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+#include <functional>
+
+#include "linear_system_checks.hpp"
+
+namespace mortise::detail {
+namespace {
+
+/// Analysis, factorisation, solve, one step of iterative refinement if the true residual asks for it.
+class DirectSolver : public LinearSolver {
+ public:
+  DirectSolver(std::string name, double residual_bound, const Timers& timers) : name_(std::move(name)), bound_(residual_bound), timers_(timers) {}
+
+  std::string name() const override { return name_; }
+  int symbolic_setups() const override { return symbolic_setups_; }
+
+  void set_matrix(const RCP<const Matrix>& matrix, bool graph_changed, const NearNullSpace&) override {
+    matrix_ = matrix;
+    factored_ = false;
+    if (graph_changed) amesos2_ = Teuchos::null;
+  }
+
+  LinearSolveReport solve(const Vector& b, Vector& x) override {
+    const double size = check_finite(*matrix_, b, name_);
+    if (size == 0.0) {
+      x.putScalar(0.0);
+      return {};
+    }
+    LinearSolveReport report;
+    try {
+      if (!factored_) {
+        const auto scope = timers_.scope("linear setup");
+        factor();
+      }
+      const auto scope = timers_.scope("linear solve");
+      amesos2_->solve(&x, &b);
+      Vector r(b.getMap());
+      report.relative_residual = true_residual(*matrix_, b, x, r) / size;
+      if (!(report.relative_residual <= bound_)) {
+        Vector correction(x.getMap());
+        amesos2_->solve(&correction, &r);
+        x.update(1.0, correction, 1.0);
+        report.relative_residual = true_residual(*matrix_, b, x, r) / size;
+      }
+    } catch (const std::exception& error) {
+      fail(error.what());
+    }
+    if (!(report.relative_residual <= bound_))
+      fail("the true relative residual is " + std::to_string(report.relative_residual) + " after one step of refinement (bound " +
+           std::to_string(bound_) + "): the matrix is singular or nearly so");
+    return report;
+  }
+
+ protected:
+  virtual RCP<Amesos2Solver> make(const RCP<const Matrix>& matrix) = 0;
+  virtual void factor_numerically(Amesos2Solver& amesos2) { amesos2.numericFactorization(); }
+
+ private:
+  // Amesos2 reads the values of a matrix in its analysis and, from then on, once before each numeric factorisation that follows a solve:
+  // every factorisation here is followed by a solve, and a solver that failed is dropped.
+  void factor() {
+    if (amesos2_.is_null()) {
+      amesos2_ = make(matrix_);
+      amesos2_->symbolicFactorization();
+      ++symbolic_setups_;
+    } else {
+      amesos2_->setA(matrix_, Amesos2::SYMBFACT);
+    }
+    factor_numerically(*amesos2_);
+    factored_ = true;
+  }
+
+  [[noreturn]] void fail(const std::string& why) {
+    amesos2_ = Teuchos::null;
+    factored_ = false;
+    throw StepFailure(FailureKind::linear_solver, name_ + ": " + why);
+  }
+
+  std::string name_;
+  double bound_;
+  Timers timers_;
+  RCP<const Matrix> matrix_;
+  RCP<Amesos2Solver> amesos2_;
+  bool factored_ = false;
+  int symbolic_setups_ = 0;
+};
+
+class MumpsSolver : public DirectSolver {
+ public:
+  using DirectSolver::DirectSolver;
+
+ protected:
+  RCP<Amesos2Solver> make(const RCP<const Matrix>& matrix) override { return make_mumps_adapter(matrix); }
+
+  // Pivoting may need more work space than the analysis foresaw: ICNTL(14) is raised and the factorisation repeated.
+  void factor_numerically(Amesos2Solver& mumps) override {
+    for (int percent = 50;; percent *= 4) {
+      set_mumps_work_space(mumps, percent);
+      try {
+        mumps.numericFactorization();
+        return;
+      } catch (const MumpsError& error) {
+        if (!error.needs_work_space() || percent > 1000) throw;
+      }
+    }
+  }
+};
+
+class Klu2Solver : public DirectSolver {
+ public:
+  using DirectSolver::DirectSolver;
+
+ protected:
+  RCP<Amesos2Solver> make(const RCP<const Matrix>& matrix) override {
+    const auto klu2 = Amesos2::create<Matrix, MultiVector>("KLU2", matrix);
+    if (!ids_have_no_gaps(*matrix->getRowMap())) {
+      const auto list = Teuchos::parameterList("Amesos2");
+      list->sublist("KLU2").set("IsContiguous", false);
+      klu2->setParameters(list);
+    }
+    return klu2;
+  }
+};
+
+}  // namespace
+
+bool ids_have_no_gaps(const Map& map) {
+  const GlobalOrdinal interval = map.getMaxAllGlobalIndex() - map.getMinAllGlobalIndex() + 1;
+  return map.getMinAllGlobalIndex() == map.getIndexBase() && interval == static_cast<GlobalOrdinal>(map.getGlobalNumElements());
+}
+
+std::unique_ptr<LinearSolver> make_mumps_solver(const LinearSolverOptions& options, const Timers& timers, const std::string& name) {
+  return std::make_unique<MumpsSolver>(name, options.residual_bound, timers);
+}
+
+std::unique_ptr<LinearSolver> make_klu2_solver(const LinearSolverOptions& options, const Timers& timers) {
+  return std::make_unique<Klu2Solver>("KLU2", options.residual_bound, timers);
+}
+
+}  // namespace mortise::detail

@@ -1,0 +1,193 @@
+#include "iterative_solver.hpp"
+
+#include <BelosConfigDefs.hpp>
+#include <BelosLinearProblem.hpp>
+#include <BelosSolverFactory_Tpetra.hpp>
+#include <BelosTpetraAdapter.hpp>
+#include <MueLu_CreateTpetraPreconditioner.hpp>
+#include <MueLu_ParameterListInterpreter.hpp>
+#include <MueLu_TpetraOperator.hpp>
+#include <algorithm>
+
+#include "linear_system_checks.hpp"
+
+namespace mortise::detail {
+namespace {
+
+using Preconditioner = MueLu::TpetraOperator<Scalar, LocalOrdinal, GlobalOrdinal, NodeType>;
+using LinearProblem = Belos::LinearProblem<Scalar, MultiVector, Operator>;
+
+// Smoothed aggregation. Aggregates do not cross where the coordinates say that two bodies are far apart ("cut"), whatever contact couples;
+// the matrix that smooths the prolongator is the whole one all the same.
+Teuchos::ParameterList muelu_defaults(int equations, GlobalOrdinal rows, int ranks) {
+  Teuchos::ParameterList list("MueLu");
+  list.set("verbosity", "none");
+  list.set("problem: type", "unknown");
+  list.set("number of equations", equations);
+  list.set("max levels", 8);
+  list.set("multigrid algorithm", "sa");
+  list.set("sa: use filtered matrix", false);
+  list.set("aggregation: drop scheme", "distance laplacian");
+  list.set("aggregation: drop tol", 1e-8);
+  list.set("smoother: type", "RELAXATION");
+  list.sublist("smoother: params").set("relaxation: type", "Symmetric Gauss-Seidel");
+  list.sublist("smoother: params").set("relaxation: sweeps", 1);
+  // The coarse solver is KLU2, which is right on one rank only: all coarse levels but very large ones go to one rank, and there is always
+  // one.
+  list.set("coarse: max size", static_cast<int>(ranks == 1 ? 2000 : std::clamp<GlobalOrdinal>(rows / 5, 1, 2000)));
+  if (ranks > 1) {
+    list.set("repartition: enable", true);
+    list.set("repartition: partitioner", "zoltan2");
+    list.set("repartition: start level", 1);
+    list.set("repartition: min rows per proc", 100000);
+  }
+  return list;
+}
+
+Teuchos::ParameterList belos_defaults(const LinearSolverOptions& options) {
+  Teuchos::ParameterList list("Belos");
+  list.set("Convergence Tolerance", options.tolerance);
+  list.set("Maximum Iterations", options.maximum_iterations);
+  list.set("Num Blocks", std::min(options.maximum_iterations, 200));
+  list.set("Verbosity", 0);
+  return list;
+}
+
+class IterativeSolver : public LinearSolver {
+ public:
+  IterativeSolver(const LinearSolverOptions& options, const Timers& timers) : options_(options), timers_(timers) {}
+
+  std::string name() const override { return "GMRES + MueLu smoothed aggregation"; }
+  bool uses_near_null_space() const override { return true; }
+  int symbolic_setups() const override { return setups_; }
+
+  void set_matrix(const RCP<const Matrix>& matrix, bool, const NearNullSpace& near_null_space) override {
+    matrix_ = matrix;
+    near_null_space_ = near_null_space;
+    preconditioner_ = Teuchos::null;
+  }
+
+  LinearSolveReport solve(const Vector& b, Vector& x) override {
+    const double size = check_finite(*matrix_, b, name());
+    x.putScalar(0.0);
+    if (size == 0.0) return {};
+    LinearSolveReport report;
+    std::optional<StepFailure> failure;
+    try {
+      if (preconditioner_.is_null()) {
+        const auto scope = timers_.scope("linear setup");
+        set_up();
+      }
+      const auto scope = timers_.scope("linear solve");
+      report.iterations = iterate(b, x);
+    } catch (const std::exception& error) {
+      preconditioner_ = Teuchos::null;
+      failure = StepFailure(FailureKind::linear_solver, name() + ": " + error.what());
+    }
+    throw_if_any(*matrix_->getComm(), failure);
+
+    Vector r(b.getMap());
+    report.relative_residual = true_residual(*matrix_, b, x, r) / size;
+    if (!(report.relative_residual <= 10.0 * options_.tolerance))
+      throw StepFailure(FailureKind::linear_solver, name() + ": true relative residual " + std::to_string(report.relative_residual) + " after " +
+                                                        std::to_string(report.iterations) + " iterations");
+    return report;
+  }
+
+ private:
+  void set_up() {
+    const auto matrix = Teuchos::rcp_const_cast<Matrix>(matrix_);
+    const auto rows = static_cast<GlobalOrdinal>(matrix->getGlobalNumRows());
+    int equations = 1;
+    if (!near_null_space_.coordinates.is_null())
+      equations = static_cast<int>(rows / static_cast<GlobalOrdinal>(near_null_space_.coordinates->getGlobalLength()));
+
+    Teuchos::ParameterList list = muelu_defaults(equations, rows, matrix->getComm()->getSize());
+    auto& user_data = list.sublist("user data");
+    if (near_null_space_.coordinates.is_null()) {
+      list.set("aggregation: drop scheme", "classical");
+      list.set("aggregation: drop tol", 0.0);
+      const auto line = rcp(new MultiVector(matrix->getRowMap(), 1));  // the partitioner of coarse levels asks for coordinates
+      for (std::size_t row = 0; row < line->getLocalLength(); ++row)
+        line->replaceLocalValue(static_cast<LocalOrdinal>(row), 0, static_cast<double>(matrix->getRowMap()->getGlobalElement(row)));
+      user_data.set("Coordinates", line);
+    } else {
+      user_data.set("Coordinates", rcp(new MultiVector(*near_null_space_.coordinates, Teuchos::Copy)));
+    }
+    if (!near_null_space_.rigid_body_modes.is_null()) user_data.set("Nullspace", modes_without_fixed_rows());
+    list.setParameters(options_.muelu);
+
+    const RCP<Operator> as_operator = matrix;
+    preconditioner_ = MueLu::CreateTpetraPreconditioner<Scalar, LocalOrdinal, GlobalOrdinal, NodeType>(as_operator, list);
+    ++setups_;
+  }
+
+  // A row that is a multiple of the identity's (Dirichlet) takes no part in a rigid motion.
+  RCP<MultiVector> modes_without_fixed_rows() const {
+    const auto modes = rcp(new MultiVector(*near_null_space_.rigid_body_modes, Teuchos::Copy));
+    const auto view = modes->getLocalViewHost(Tpetra::Access::ReadWrite);
+    const auto local = matrix_->getLocalMatrixHost();
+    const auto local_columns = matrix_->getColMap()->getLocalMap();
+    const auto local_rows = matrix_->getRowMap()->getLocalMap();
+    for (LocalOrdinal row = 0; row < local.numRows(); ++row) {
+      const auto entries = local.rowConst(row);
+      bool fixed = true;
+      for (LocalOrdinal k = 0; k < entries.length && fixed; ++k)
+        fixed = entries.value(k) == 0.0 || local_columns.getGlobalElement(entries.colidx(k)) == local_rows.getGlobalElement(row);
+      if (!fixed) continue;
+      for (std::size_t mode = 0; mode < view.extent(1); ++mode) view(row, mode) = 0.0;
+    }
+    return modes;
+  }
+
+  int iterate(const Vector& b, Vector& x) {
+    const auto problem = rcp(new LinearProblem(matrix_, rcp(&x, false), rcp(&b, false)));
+    problem->setRightPrec(preconditioner_);
+    if (!problem->setProblem()) throw std::runtime_error("Belos refuses the linear problem");
+    const auto list = rcp(new Teuchos::ParameterList(belos_defaults(options_)));
+    list->setParameters(options_.belos);
+    Belos::TpetraSolverFactory<Scalar, MultiVector, Operator> factory;
+    const auto gmres = factory.create("GMRES", list);
+    gmres->setProblem(problem);
+    gmres->solve();
+    return gmres->getNumIters();
+  }
+
+  LinearSolverOptions options_;
+  Timers timers_;
+  RCP<const Matrix> matrix_;
+  NearNullSpace near_null_space_;
+  RCP<Preconditioner> preconditioner_;
+  int setups_ = 0;
+};
+
+// Both packages check names and types; asked here, with no matrix at hand, so that a misspelt name is found before the mesh is made.
+void check_lists(const LinearSolverOptions& options, const RCP<const Communicator>& comm) {
+  std::vector<Diagnostic> found;
+  try {
+    Teuchos::ParameterList list = muelu_defaults(2, 1000, comm->getSize());
+    list.setParameters(options.muelu);
+    MueLu::ParameterListInterpreter<Scalar, LocalOrdinal, GlobalOrdinal, NodeType>(list, comm);
+  } catch (const std::exception& error) {
+    found.push_back({Place{{}, 0, "linear solver/muelu"}, error.what()});
+  }
+  try {
+    const auto list = rcp(new Teuchos::ParameterList(belos_defaults(options)));
+    list->setParameters(options.belos);
+    Belos::TpetraSolverFactory<Scalar, MultiVector, Operator> factory;
+    const auto gmres = factory.create("GMRES", Teuchos::null);
+    list->validateParameters(*gmres->getValidParameters());
+  } catch (const std::exception& error) {
+    found.push_back({Place{{}, 0, "linear solver/belos"}, error.what()});
+  }
+  if (!found.empty()) throw InputError(std::move(found));
+}
+
+}  // namespace
+
+std::unique_ptr<LinearSolver> make_iterative_solver(const LinearSolverOptions& options, const RCP<const Communicator>& comm, const Timers& timers) {
+  check_lists(options, comm);
+  return std::make_unique<IterativeSolver>(options, timers);
+}
+
+}  // namespace mortise::detail

@@ -1,0 +1,37 @@
+#include "mortise/nonlinear/linear_solver.hpp"
+
+#include "direct_solver.hpp"
+#include "iterative_solver.hpp"
+
+namespace mortise {
+
+void LinearSolverOptions::describe(Parameters& parameters) {
+  parameters.add("type", kind, {{"automatic", Kind::automatic}, {"mumps", Kind::mumps}, {"klu2", Kind::klu2}, {"iterative", Kind::iterative}},
+                 "automatic: MUMPS; mumps: direct, on any number of ranks; klu2: direct, on one rank; iterative: GMRES with algebraic multigrid");
+  parameters.add("residual bound", residual_bound,
+                 Says("largest true relative residual |b - A x| / |b| of a direct solver; beyond it the step is undone").unit("-").above(0.0));
+  parameters.add("tolerance", tolerance, Says("relative residual at which the iterative solver stops").unit("-").above(0.0).below(1.0));
+  parameters.add("maximum iterations", maximum_iterations, Says("of the iterative solver; beyond them the step is undone").at_least(1));
+  parameters.verbatim("muelu", muelu, "parameters of MueLu that replace or add to those Mortise sets");
+  parameters.verbatim("belos", belos, "parameters of Belos that replace or add to those Mortise sets");
+}
+
+std::unique_ptr<LinearSolver> make_linear_solver(const LinearSolverOptions& options, const RCP<const Communicator>& comm, const Timers& timers) {
+  using Kind = LinearSolverOptions::Kind;
+  switch (options.kind) {
+    case Kind::klu2:
+      if (comm->getSize() > 1)
+        throw InputError(Place{{}, 0, "linear solver/type"},
+                         "klu2 runs on one rank only: on more, this Trilinos' KLU2 returns wrong solutions without an error; use mumps");
+      return detail::make_klu2_solver(options, timers);
+    case Kind::iterative:
+      return detail::make_iterative_solver(options, comm, timers);
+    case Kind::automatic:
+      return detail::make_mumps_solver(options, timers, "automatic: MUMPS");
+    case Kind::mumps:
+      break;
+  }
+  return detail::make_mumps_solver(options, timers, "MUMPS");
+}
+
+}  // namespace mortise
