@@ -21,21 +21,22 @@ std::vector<Diagnostic> check_scene(const Scene& scene) {
   if (scene.bodies.empty()) diagnostics.push_back({{}, "the scene has no bodies; please add the list \"bodies\""});
   for (const auto& body : scene.bodies) {
     const auto& wanted = body.value.material;
+    if (wanted.value.empty()) continue;  // said when it was read
     const auto* material = find(scene.materials, wanted.value);
     if (material == nullptr) {
       diagnostics.push_back({wanted.place, unknown_name("material", wanted.value, names_of(scene.materials))});
       continue;
     }
-    if (material->value.law.options == nullptr) continue;  // said when it was read
+    if (material->value.law.options == nullptr) continue;
     const auto wrong = check_combination({body.name, body.place, material->value.law.options, body.value.element}, scene.kinematics);
     diagnostics.insert(diagnostics.end(), wrong.begin(), wrong.end());
   }
   for (const auto& pair : scene.contact)
-    if (pair.value.slave.value == pair.value.master.value)
+    if (!pair.value.slave.value.empty() && pair.value.slave.value == pair.value.master.value)
       diagnostics.push_back({pair.value.master.place, fmt::format("slave and master are the same set \"{}\"", pair.value.slave.value)});
   for (const auto& check : scene.checks) {
     const auto& wanted = check.value.quantity;
-    if (find(scene.quantities, wanted.value) == nullptr)
+    if (!wanted.value.empty() && find(scene.quantities, wanted.value) == nullptr)
       diagnostics.push_back({wanted.place, unknown_name("quantity", wanted.value, names_of(scene.quantities))});
   }
   return diagnostics;

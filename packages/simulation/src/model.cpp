@@ -38,8 +38,7 @@ const MaterialChoice& material_of(const Scene& scene, const BodyOptions& body) {
 
 RCP<Mesh> make_mesh(const RCP<const Communicator>& comm, const Scene& scene) {
   std::vector<BodyDescription> descriptions;
-  for (const auto& body : scene.bodies)
-    descriptions.push_back({body.name, body.place, body.value.mesh.options, cell_shape(body.value.element)});
+  for (const auto& body : scene.bodies) descriptions.push_back({body.name, body.place, body.value.mesh.options, cell_shape(body.value.element)});
   std::vector<std::string> contact_sides;
   const auto add = [&](std::string name) {
     // A set of the scene is balanced as the side that it is a part of.
@@ -105,13 +104,13 @@ Effects effects_of(const Scene& scene, const Bodies& bodies) {
   for (const auto& pair : scene.contact) pairs.push_back(pair.name);
   for (const auto& load : scene.loads) loads.push_back(load.name);
   for (const auto& condition : scene.boundary_conditions) conditions.push_back(condition.name);
-  return {{"finite strain", finite}, {"small strain", small}, {"F-bar", f_bar}, {"contact", pairs}, {"loads", loads}, {"boundary conditions", conditions}};
+  return {{"finite strain", finite}, {"small strain", small}, {"F-bar", f_bar},
+          {"contact", pairs},        {"loads", loads},        {"boundary conditions", conditions}};
 }
 
 }  // namespace
 
 Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Timers& timers) {
-  throw_if_any(*comm, check_scene(scene));
   {
     const auto timer = timers.scope("mesh");
     mesh_ = make_mesh(comm, scene);
@@ -137,9 +136,7 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
 
   Collector collect;
   for (const auto& load : scene.loads)
-    collect([&] {
-      parts_.contributions.push_back(std::make_shared<LoadContribution>(load.name, load.value.load.options->make(bodies_), timers));
-    });
+    collect([&] { parts_.contributions.push_back(std::make_shared<LoadContribution>(load.name, load.value.load.options->make(bodies_), timers)); });
   collect([&] { parts_.prescribed = std::make_shared<PrescribedBoundary>(PrescribedMotion(*bodies_, scene.boundary_conditions, scene.symbols)); });
   std::vector<ContactPair> pairs;
   for (const auto& pair : scene.contact) collect([&] { pairs.push_back(make_pair(*mesh_, *bodies_, pair)); });
@@ -169,8 +166,7 @@ GlobalOrdinal Model::slave_nodes() const {
 
 std::map<std::string, long> Model::calls() const {
   std::map<std::string, long> calls;
-  for (const auto& contribution : parts_.contributions)
-    calls[contribution->name()] += static_cast<const CountedContribution&>(*contribution).calls();
+  for (const auto& contribution : parts_.contributions) calls[contribution->name()] += static_cast<const CountedContribution&>(*contribution).calls();
   return calls;
 }
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "mortise/core/did_you_mean.hpp"
 #include "mortise/core/parameters.hpp"
+#include "mortise/core/xml.hpp"
 
 namespace mortise {
 

@@ -1,6 +1,9 @@
 #include "mortise/simulation/scene.hpp"
 
-#include "mortise/simulation/field_names.hpp"
+#include <algorithm>
+
+#include "fields.hpp"
+#include "names.hpp"
 
 namespace mortise {
 
@@ -30,9 +33,11 @@ void ContactPairOptions::describe(Parameters& parameters) {
 }
 
 void OutputOptions::describe(Parameters& parameters) {
-  parameters.add("fields", fields, "fields written to fields.xdmf; an empty text writes none");
-  for (const auto& field : fields.value)
-    if (const auto wrong = wrong_field_name(field); !wrong.empty()) parameters.error("fields", wrong);
+  std::vector<std::string> known;
+  for (const auto& [name, sentence] : field_names()) known.push_back(name);
+  parameters.add("fields", fields, "fields written to fields.xdmf and fields.h5: any of " + quoted_list(known) + "; an empty text: no such files");
+  for (const auto& field : fields)
+    if (std::find(known.begin(), known.end(), field) == known.end()) parameters.error("fields", unknown_name("field", field, known));
   parameters.add("every step", every_step,
                  Says("fields are written after every so many steps, and at the end; 0: at the output times and the end only").at_least(0));
 }
@@ -41,7 +46,8 @@ void QuantityChoice::describe(Parameters& parameters) { parameters.choose(quanti
 
 void Scene::describe(Parameters& parameters) {
   parameters.add("kinematics", kinematics, kinematics_names(), "how the third direction behaves; axisymmetric: x is the radius, y the axis");
-  parameters.add("thickness", thickness, Says("thickness of the model out of the plane; axisymmetric scenes do not use it").unit("length").above(0.0));
+  parameters.add("thickness", thickness,
+                 Says("thickness of the model out of the plane; axisymmetric scenes do not use it").unit("length").above(0.0));
   parameters.named("materials", materials, "the materials, by names of your choice");
   parameters.named("bodies", bodies, "the bodies, by names of your choice; each is meshed by itself");
   parameters.named("sets", sets, "parts of sides and bodies, by names of your choice");

@@ -49,8 +49,8 @@ struct ContactPairOptions {
 
 /// What is written besides the summary.
 struct OutputOptions {
-  Located<std::vector<std::string>> fields{{"displacement", "contact_pressure", "cauchy_stress"}, {}};
-  int every_step = 1;         ///< fields are written after every so many steps and at the end; 0: at the output times and the end only
+  std::vector<std::string> fields{"displacement", "contact_pressure", "cauchy_stress"};
+  int every_step = 1;  ///< fields are written after every so many steps and at the end; 0: at the output times and the end only
   void describe(Parameters& parameters);
 };
 

@@ -1,0 +1,44 @@
+#include <memory>
+
+#include "mortise/io/files.hpp"
+#include "mortise/simulation/describe_scene.hpp"
+#include "program.hpp"
+
+namespace mortise {
+
+void add_describe_command(CLI::App& app, Program& program) {
+  struct Options {
+    std::string path, directory;
+    DescriptionFormat format = DescriptionFormat::text;
+  };
+  auto* command = app.add_subcommand("describe", "say every parameter with its default, unit, range and meaning");
+  const auto options = std::make_shared<Options>();
+  command->add_option("PATH", options->path, "a list of the scene, e.g. contact or stepping; default: all of it");
+  const std::map<std::string, DescriptionFormat> formats{
+      {"text", DescriptionFormat::text}, {"md", DescriptionFormat::markdown}, {"rng", DescriptionFormat::relax_ng}};
+  command->add_option("--format", options->format, "text, md (Markdown) or rng (RELAX NG schema)")
+      ->transform(CLI::CheckedTransformer(formats))
+      ->option_text("FORMAT");
+  command->add_option("-o,--output", options->directory, "write the whole reference, a page for each list, and the schema into this directory")
+      ->type_name("DIR");
+  command->footer("Example: mortise describe contact");
+  command->callback([&program, options] {
+    program.action = [&program, options] {
+      if (options->directory.empty()) {
+        print(program, describe_scene(options->path, options->format));
+        return ExitCode::done;
+      }
+      for (const auto& page : reference_pages()) write_file(*program.comm, options->directory + "/" + page.file, [&] { return page.content; });
+      return ExitCode::done;
+    };
+  });
+}
+
+void add_list_command(CLI::App& app, Program& program) {
+  auto* command = app.add_subcommand("list", "say what can be chosen in a scene");
+  const auto topic = std::make_shared<std::string>();
+  command->add_option("TOPIC", *topic, "what to list")->required()->check(CLI::IsMember(choice_topics()));
+  command->callback([&program, topic] { program.action = [&program, topic] { return print(program, list_choices(*topic)), ExitCode::done; }; });
+}
+
+}  // namespace mortise

@@ -1,0 +1,31 @@
+#pragma once
+// A scene from its file to its results.
+
+#include <string>
+#include <vector>
+
+#include "mortise/core/error.hpp"
+#include "mortise/core/log.hpp"
+#include "mortise/core/types.hpp"
+
+namespace mortise {
+
+/// How a scene is run.
+struct RunOptions {
+  std::string scene;                  ///< file
+  std::vector<std::string> settings;  ///< "path=value", as `--set` takes them
+  std::string directory;              ///< where results go; empty: results/<name of the scene file>
+  bool keep = false;                  ///< refuse a directory that holds results instead of replacing them
+  Verbosity verbosity = Verbosity::normal;
+  std::string version;  ///< of the program, for the summary
+};
+
+/// Collective. Leaves in the directory: summary.json, newton.csv, history.csv, effective.xml, log.txt and, if the scene names fields,
+/// fields.xdmf and fields.h5. A scene that cannot be run leaves the directory as it was.
+/// Returns done, not_converged or check_missed. Throws InputError and FileError on all ranks.
+ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& options);
+
+/// Collective. Reads a scene, builds its mesh and all else that a run needs, says on rank 0 what it found; solves nothing, writes nothing.
+void inspect_scene(const RCP<const Communicator>& comm, const RunOptions& options);
+
+}  // namespace mortise

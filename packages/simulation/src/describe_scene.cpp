@@ -1,0 +1,133 @@
+#include "mortise/simulation/describe_scene.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "fields.hpp"
+#include "mortise/core/parameter_tree.hpp"
+#include "mortise/simulation/scene.hpp"
+#include "names.hpp"
+
+namespace mortise {
+namespace {
+
+ListRecord scene_tree() {
+  Scene scene;
+  return collect_parameters("scene", scene, CollectParameters::What::declarations);
+}
+
+std::string formatted(const ListRecord& list, DescriptionFormat format) {
+  return format == DescriptionFormat::markdown ? to_markdown(list) : to_text(list);
+}
+
+std::string file_name(std::string list) {
+  std::replace(list.begin(), list.end(), ' ', '_');
+  return list + ".md";
+}
+
+using Choices = std::vector<std::pair<std::string, std::string>>;
+
+template <class Base>
+Choices choices_of(const Registry<Base>& registry) {
+  Choices choices;
+  for (const auto& entry : registry.entries()) choices.emplace_back(entry.name, entry.sentence);
+  return choices;
+}
+
+Choices elements() {
+  return {
+      {"Q4", "bilinear quadrilateral; every law and kinematics"},
+      {"Q4 F-bar",
+       "bilinear quadrilateral with the volume change of its centre, for nearly incompressible states; finite strain, plane strain and axisymmetric"},
+      {"T3", "linear triangle; every law and kinematics"}};
+}
+
+Choices contact_choices() {
+  return {{"frictionless", "normal contact; the only law so far, nothing to choose"},
+          {"geometry: current | reference", "configuration that carries the contact geometry"},
+          {"gap weighting: dual | standard", "functions that weight the gap"}};
+}
+
+Choices solvers() {
+  return {{"automatic", "MUMPS"},
+          {"mumps", "direct, any number of ranks"},
+          {"klu2", "direct, one rank only"},
+          {"iterative", "Belos GMRES preconditioned by MueLu with rigid body modes"}};
+}
+
+struct Topic {
+  std::string name;
+  std::function<Choices()> choices;
+};
+
+const std::vector<Topic>& topics() {
+  static const std::vector<Topic> all{{"materials", [] { return choices_of(material_registry()); }},
+                                      {"elements", elements},
+                                      {"meshes", [] { return choices_of(mesh_registry()); }},
+                                      {"loads", [] { return choices_of(load_registry()); }},
+                                      {"contact", contact_choices},
+                                      {"solvers", solvers},
+                                      {"quantities", [] { return choices_of(quantity_registry()); }},
+                                      {"exact", [] { return choices_of(exact_solution_registry()); }},
+                                      {"fields", [] { return field_names(); }}};
+  return all;
+}
+
+}  // namespace
+
+std::string describe_scene(const std::string& path, DescriptionFormat format) {
+  const ListRecord tree = scene_tree();
+  if (format == DescriptionFormat::relax_ng) return to_relax_ng(tree);
+  const ListRecord* list = path.empty() ? &tree : find_list(tree, path);
+  if (list == nullptr) {
+    std::vector<std::string> names;
+    for (const auto& known : tree.lists) names.push_back(known.name);
+    throw InputError({{}, unknown_name("list", path, names) + "; the scene's lists are " + quoted_list(names)});
+  }
+  return formatted(*list, format);
+}
+
+std::vector<ReferencePage> reference_pages() {
+  const ListRecord tree = scene_tree();
+  std::vector<ReferencePage> pages;
+  std::string index =
+      "# Reference\n\nEvery parameter of a scene, made by `mortise describe --format md -o docs/reference`; do not edit. The same is said by\n"
+      "`mortise describe [LIST]` in a terminal, and `scene.rng` is a RELAX NG schema for editors.\n\n";
+  ListRecord top = tree;
+  top.lists.clear();
+  index += to_markdown(top) + "\n## Lists\n\n";
+  for (const auto& list : tree.lists) {
+    index += fmt::format("- [{}]({}): {}\n", list.name, file_name(list.name), list.says.sentence());
+    pages.push_back({file_name(list.name), to_markdown(list)});
+  }
+  pages.push_back({"index.md", index});
+  pages.push_back({"scene.rng", to_relax_ng(tree)});
+  return pages;
+}
+
+const std::vector<std::string>& choice_topics() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> list;
+    for (const auto& topic : topics()) list.push_back(topic.name);
+    return list;
+  }();
+  return names;
+}
+
+std::string list_choices(const std::string& topic) {
+  for (const auto& known : topics()) {
+    if (known.name != topic) continue;
+    const Choices choices = known.choices();
+    std::size_t width = 0;
+    for (const auto& [name, sentence] : choices) width = std::max(width, name.size());
+    std::string text;
+    for (const auto& [name, sentence] : choices) text += fmt::format("{:<{}}  {}\n", name, width, sentence);
+    return text;
+  }
+  throw InputError({{}, unknown_name("topic", topic, choice_topics()) + "; there are " + quoted_list(choice_topics())});
+}
+
+}  // namespace mortise

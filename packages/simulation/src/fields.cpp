@@ -1,0 +1,94 @@
+#include "fields.hpp"
+
+#include <Tpetra_Vector.hpp>
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+
+namespace mortise {
+namespace {
+
+using Values = std::vector<double>;
+
+Values displacement(const FieldState& state) {
+  const auto view = state.displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
+  return Values(view.data(), view.data() + view.extent(0));
+}
+
+/// `put(node, values of the node)` for every owned slave node of every pair.
+Values on_slave_nodes(const FieldState& state, int components, const std::function<void(const ContactNodeState&, double*)>& put) {
+  Values values(static_cast<std::size_t>(state.bodies.mesh()->owned_count()) * components, 0.0);
+  if (state.contact == nullptr) return values;
+  for (std::size_t pair = 0; pair < state.contact->pairs(); ++pair)
+    for (const auto& node : state.contact->node_states(pair, *state.multipliers)) put(node, &values[components * node.owned_node]);
+  return values;
+}
+
+/// Components xx, yy, zz, xy of each owned element of all blocks.
+Values stresses(const FieldState& state) {
+  Values values;
+  for (LocalOrdinal block = 0; block < static_cast<LocalOrdinal>(state.bodies.mesh()->blocks.size()); ++block)
+    for (const auto& stress : state.bodies.element_stresses(state.local_displacement, block))
+      values.insert(values.end(), stress.begin(), stress.end());
+  return values;
+}
+
+/// q = sqrt(3/2 dev sigma : dev sigma) of the element's mean stress.
+Values von_mises(const FieldState& state) {
+  const Values s = stresses(state);
+  Values values(s.size() / 4);
+  for (std::size_t e = 0; e < values.size(); ++e) {
+    const double xx = s[4 * e], yy = s[4 * e + 1], zz = s[4 * e + 2], xy = s[4 * e + 3];
+    values[e] = std::sqrt(0.5 * ((xx - yy) * (xx - yy) + (yy - zz) * (yy - zz) + (zz - xx) * (zz - xx)) + 3.0 * xy * xy);
+  }
+  return values;
+}
+
+struct Kind {
+  std::string name, sentence;
+  Field::Center center;
+  FieldKind kind;
+  int components;
+  std::function<Values(const FieldState&)> values;
+};
+
+const std::vector<Kind>& kinds() {
+  using Center = Field::Center;
+  static const std::vector<Kind> all{
+      {"displacement", "displacement of the nodes", Center::node, FieldKind::vector, 2, displacement},
+      {"contact_traction", "multiplier of the slave nodes, force per area, compression positive along the slave's normal", Center::node,
+       FieldKind::vector, 2,
+       [](const FieldState& state) {
+         return on_slave_nodes(state, 2, [](const ContactNodeState& node, double* v) { v[0] = node.traction[0], v[1] = node.traction[1]; });
+       }},
+      {"contact_pressure", "normal part of the contact traction of the slave nodes", Center::node, FieldKind::scalar, 1,
+       [](const FieldState& state) { return on_slave_nodes(state, 1, [](const ContactNodeState& node, double* v) { *v = node.pressure; }); }},
+      {"gap", "weighted gap over weight of the slave nodes; 0 on all others", Center::node, FieldKind::scalar, 1,
+       [](const FieldState& state) { return on_slave_nodes(state, 1, [](const ContactNodeState& node, double* v) { *v = node.gap; }); }},
+      {"contact_state", "0 open, 2 closed and free to slip", Center::node, FieldKind::integer, 1,
+       [](const FieldState& state) {
+         return on_slave_nodes(state, 1, [](const ContactNodeState& node, double* v) { *v = node.closed ? 2.0 : 0.0; });
+       }},
+      {"cauchy_stress", "volume mean of the Cauchy stress of each element", Center::cell, FieldKind::symmetric_tensor, 4, stresses},
+      {"von_mises", "von Mises stress of each element's mean Cauchy stress", Center::cell, FieldKind::scalar, 1, von_mises}};
+  return all;
+}
+
+}  // namespace
+
+const std::vector<std::pair<std::string, std::string>>& field_names() {
+  static const std::vector<std::pair<std::string, std::string>> names = [] {
+    std::vector<std::pair<std::string, std::string>> list;
+    for (const auto& kind : kinds()) list.emplace_back(kind.name, kind.sentence);
+    return list;
+  }();
+  return names;
+}
+
+Field make_field(const std::string& name, const FieldState& state) {
+  for (const auto& kind : kinds())
+    if (kind.name == name) return {kind.name, kind.center, kind.kind, kind.components, kind.values(state)};
+  throw std::invalid_argument("no field " + name);
+}
+
+}  // namespace mortise

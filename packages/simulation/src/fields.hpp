@@ -1,0 +1,28 @@
+#pragma once
+// The fields that a run can write.
+
+#include <string>
+#include <vector>
+
+#include "mortise/contact/contact_system.hpp"
+#include "mortise/io/field_writer.hpp"
+#include "mortise/solid/bodies.hpp"
+
+namespace mortise {
+
+/// Names of all fields, each with one sentence.
+const std::vector<std::pair<std::string, std::string>>& field_names();
+
+/// The state that fields are made of.
+struct FieldState {
+  const Bodies& bodies;
+  const ContactSystem* contact;      ///< null: contact fields are zero, and the gap is too
+  const Vector& displacement;        ///< owned dofs
+  const Vector& local_displacement;  ///< owned dofs, then ghosts
+  const Vector* multipliers;         ///< null without contact
+};
+
+/// The values of the field `name`, one of field_names().
+Field make_field(const std::string& name, const FieldState& state);
+
+}  // namespace mortise

@@ -1,0 +1,25 @@
+#include <fmt/format.h>
+
+#include "mortise/simulation/model.hpp"
+#include "mortise/simulation/read_scene.hpp"
+#include "mortise/simulation/run.hpp"
+#include "report_model.hpp"
+#include "run_log.hpp"
+#include "step_evaluation.hpp"
+
+namespace mortise {
+
+void inspect_scene(const RCP<const Communicator>& comm, const RunOptions& options) {
+  RunLog log(comm, options.verbosity);
+  const Timers timers;
+  const Scene scene = read_scene(*comm, options.scene, options.settings);
+  const Model model(comm, scene, timers);
+  SemiSmoothSystem system(model.parts(), timers);
+  const StepEvaluation evaluation(scene, model, system);
+  report_model(options.scene, scene, model, log);
+  log.info(fmt::format("  diagonal of the model {:.6g}, shortest side of an element {:.6g}", model.size().length, model.size().shortest_side));
+  log.info(fmt::format("  about {:.0f} MiB for matrices and factors", estimated_memory_mib(model)));
+  log.info("no errors");
+}
+
+}  // namespace mortise

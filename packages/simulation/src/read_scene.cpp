@@ -1,0 +1,23 @@
+#include "mortise/simulation/read_scene.hpp"
+
+#include "mortise/core/read_parameters.hpp"
+#include "mortise/core/xml.hpp"
+#include "mortise/simulation/model.hpp"
+
+namespace mortise {
+
+Scene read_scene(const Communicator& comm, const std::string& file, const std::vector<std::string>& settings) {
+  XmlList root = parse_xml(read_text(comm, file), file);
+  for (const auto& setting : settings) apply_override(root, setting);
+  std::vector<Diagnostic> diagnostics;
+  Scene scene;
+  scene.name = root.name;
+  scene.symbols = read_symbols(root, diagnostics);
+  read_parameters(scene, root, scene.symbols, {"variables", "tables"}, diagnostics);
+  const auto wrong = check_scene(scene);
+  diagnostics.insert(diagnostics.end(), wrong.begin(), wrong.end());
+  if (!diagnostics.empty()) throw InputError(diagnostics);
+  return scene;
+}
+
+}  // namespace mortise

@@ -1,0 +1,78 @@
+#include "run_record.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace mortise {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON knows no NaN and no infinity: null.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json step_json(const StepReport& step) {
+  Json iterations = Json::array();
+  for (const auto& iteration : step.newton.iterations) {
+    const auto& norms = iteration.norms;
+    iterations.push_back({{"momentum", number(norms.momentum)},
+                          {"constraint", number(std::max(norms.gap, norms.complementarity))},
+                          {"increment", number(iteration.increment)},
+                          {"active", norms.active},
+                          {"stick", 0},
+                          {"slip", norms.active},
+                          {"changed", norms.changed},
+                          {"linear_iterations", iteration.linear_iterations}});
+  }
+  return {{"time", step.time}, {"dt", step.dt}, {"cutbacks", step.cutbacks}, {"undone", step.undone}, {"newton", iterations}};
+}
+
+Json check_json(const CheckResult& check) {
+  Json json{{"name", check.name}, {"quantity", check.quantity}, {"value", number(check.value)}};
+  json["low"] = check.low ? number(*check.low) : Json(nullptr);
+  json["high"] = check.high ? number(*check.high) : Json(nullptr);
+  json["ok"] = check.ok;
+  return json;
+}
+
+Json effects_json(const Effects& effects) {
+  Json json = Json::object();
+  for (const auto& [effect, members] : effects) json[effect] = members;
+  // What this program does not do is said, so that a reader of summaries need not know its version.
+  for (const char* effect : {"plasticity", "friction"}) json[effect] = Json::array();
+  json["inertia"] = false;
+  return json;
+}
+
+}  // namespace
+
+Json summary(const RunRecord& record, const Model& model) {
+  Json json;
+  json["scene"] = record.scene;
+  json["version"] = record.version;
+  json["ranks"] = model.mesh()->comm->getSize();
+  json["dofs"] = model.dofs();
+  json["elements"] = model.size().elements;
+  json["slave_nodes"] = model.slave_nodes();
+  json["converged"] = record.converged;
+  json["exit"] = static_cast<int>(record.exit);
+  json["linear_solver"] = model.parts().linear_solver->name();
+  json["effects"] = effects_json(model.effects());
+  json["steps"] = Json::array();
+  for (const auto& step : record.steps) json["steps"].push_back(step_json(step));
+  json["quantities"] = Json::object();
+  for (const auto& name : record.quantity_order)
+    if (const auto found = record.quantities.find(name); found != record.quantities.end()) json["quantities"][name] = number(found->second);
+  json["checks"] = Json::array();
+  for (const auto& check : record.checks) json["checks"].push_back(check_json(check));
+  json["time"] = record.seconds;
+  json["memory_peak_mib"] = record.memory_peak_mib;
+  json["calls"] = model.calls();
+  // History that is committed with each step; elastic bodies and frictionless pairs have none.
+  Json bytes = Json::object();
+  for (const auto& [effect, calls] : model.calls()) bytes[effect] = 0;
+  json["bytes"] = bytes;
+  return json;
+}
+
+}  // namespace mortise

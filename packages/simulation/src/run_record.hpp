@@ -1,0 +1,31 @@
+#pragma once
+// What a run leaves in summary.json.
+
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "mortise/nonlinear/load_stepper.hpp"
+#include "mortise/simulation/checks.hpp"
+#include "mortise/simulation/model.hpp"
+
+namespace mortise {
+
+/// Everything that happened, gathered while the run goes on.
+struct RunRecord {
+  std::string scene, version;
+  bool converged = false;
+  ExitCode exit = ExitCode::internal;
+  std::vector<StepReport> steps;
+  std::map<std::string, double> quantities;  ///< at the end
+  std::vector<std::string> quantity_order;
+  std::vector<CheckResult> checks;
+  std::map<std::string, double> seconds;  ///< by timer
+  double memory_peak_mib = 0.0;           ///< of the rank that took most
+};
+
+/// The summary with the names that docs/output.md lists.
+nlohmann::ordered_json summary(const RunRecord& record, const Model& model);
+
+}  // namespace mortise

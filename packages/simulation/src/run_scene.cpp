@@ -1,0 +1,206 @@
+#include <fmt/format.h>
+
+#include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "memory.hpp"
+#include "mortise/core/parameter_tree.hpp"
+#include "mortise/io/csv_writer.hpp"
+#include "mortise/io/field_writer.hpp"
+#include "mortise/io/files.hpp"
+#include "mortise/io/output_directory.hpp"
+#include "mortise/simulation/model.hpp"
+#include "mortise/simulation/newton_table.hpp"
+#include "mortise/simulation/read_scene.hpp"
+#include "mortise/simulation/run.hpp"
+#include "report_model.hpp"
+#include "run_log.hpp"
+#include "run_record.hpp"
+#include "step_evaluation.hpp"
+#include "timer_sums.hpp"
+
+namespace mortise {
+namespace {
+
+std::string default_directory(const std::string& scene) { return "results/" + std::filesystem::path(scene).stem().string(); }
+
+std::string effective_xml(Scene& scene) {
+  const std::string name = scene.name;
+  return to_scene_xml(collect_parameters(name, scene, CollectParameters::What::values), symbol_lists(scene.symbols));
+}
+
+/// Everything that follows the steps: table, newton.csv, history.csv, fields.
+class Observers {
+ public:
+  Observers(const RCP<const Communicator>& comm, const Scene& scene, const OutputDirectory& directory, const RCP<const Mesh>& mesh,
+            StepEvaluation& evaluation, RunLog& log, RunRecord& record, const Timers& timers)
+      : scene_(scene),
+        evaluation_(evaluation),
+        log_(log),
+        record_(record),
+        timers_(timers),
+        newton_(comm, directory.file("newton.csv"),
+                {"step", "try", "time", "dt", "iteration", "momentum", "momentum_absolute", "gap", "complementarity", "increment", "active",
+                 "changed", "linear_iterations", "seconds"}),
+        history_(comm, directory.file("history.csv"), history_columns(evaluation)) {
+    if (!scene.output.fields.empty()) fields_ = std::make_unique<FieldWriter>(mesh, directory.path());
+    steps_ = static_cast<int>(std::ceil(scene.stepping.end_time / scene.stepping.step - 1e-9));
+  }
+
+  StepperObserver functions() {
+    StepperObserver observer;
+    observer.begin = [this](int step, double time, double dt) { begin(step, time, dt); };
+    observer.iteration = [this](const NewtonIteration& iteration) { add(iteration); };
+    observer.accepted = [this](const StepReport& report, const Vector& x) { accept(report, x); };
+    observer.undone = [this](const StepReport&, const StepFailure& failure) {
+      log_.info(fmt::format("  step {} undone: {}", step_, failure.what()));
+      ++try_;
+    };
+    return observer;
+  }
+
+  /// Writes the fields of the last accepted state, if that has not been done.
+  void finish(const Vector& x) {
+    if (record_.steps.empty() || written_ == record_.steps.back().step) return;
+    write_fields(record_.steps.back(), x);
+  }
+
+ private:
+  static std::vector<std::string> history_columns(const StepEvaluation& evaluation) {
+    std::vector<std::string> columns{"step", "time", "newton_iterations"};
+    for (const auto& name : evaluation.names()) columns.push_back(name);
+    return columns;
+  }
+
+  void begin(int step, double time, double dt) {
+    if (step != step_) try_ = 0;
+    step_ = step, time_ = time, dt_ = dt;
+    log_.info(step_header(step, steps_, time, dt));
+    log_.info(newton_header());
+  }
+
+  void add(const NewtonIteration& iteration) {
+    const auto timer = timers_.scope("output");
+    const auto& norms = iteration.norms;
+    if (iteration.iteration == 0) first_momentum_ = norms.momentum_absolute;
+    log_.info(newton_line(iteration, first_momentum_));
+    const auto count = [](int value) { return static_cast<long long>(value); };
+    newton_.row({count(step_), count(try_), time_, dt_, count(iteration.iteration), norms.momentum, norms.momentum_absolute, norms.gap,
+                 norms.complementarity, iteration.increment, count(norms.active), count(norms.changed), count(iteration.linear_iterations),
+                 iteration.seconds});
+  }
+
+  void accept(const StepReport& report, const Vector& x) {
+    const auto timer = timers_.scope("output");
+    record_.steps.push_back(report);
+    const auto names = evaluation_.names();
+    const auto values = evaluation_.quantities(x, report.time);
+    std::vector<CsvValue> row{static_cast<long long>(report.step), report.time, static_cast<long long>(report.newton.newton_steps())};
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      row.emplace_back(values[i]);
+      record_.quantities[names[i]] = values[i];
+    }
+    history_.row(row);
+    log_.info(step_footer(report));
+    if (wants_fields(report)) write_fields(report, x);
+  }
+
+  bool wants_fields(const StepReport& report) const {
+    if (scene_.output.every_step > 0 && report.step % scene_.output.every_step == 0) return true;
+    for (const double time : scene_.stepping.output_times)
+      if (std::abs(report.time - time) <= 1e-12 * scene_.stepping.end_time) return true;
+    return false;
+  }
+
+  void write_fields(const StepReport& report, const Vector& x) {
+    written_ = report.step;
+    if (fields_) fields_->write(report.time, evaluation_.fields(x, scene_.output.fields));
+  }
+
+  const Scene& scene_;
+  StepEvaluation& evaluation_;
+  RunLog& log_;
+  RunRecord& record_;
+  Timers timers_;
+  CsvWriter newton_, history_;
+  std::unique_ptr<FieldWriter> fields_;
+  int steps_ = 0, step_ = 0, try_ = 0, written_ = 0;
+  double time_ = 0.0, dt_ = 0.0, first_momentum_ = 0.0;
+};
+
+ExitCode exit_code(const RunRecord& record) {
+  if (!record.converged) return ExitCode::not_converged;
+  for (const auto& check : record.checks)
+    if (!check.ok) return ExitCode::check_missed;
+  return ExitCode::done;
+}
+
+void report_end(const RunRecord& record, const std::optional<StepFailure>& failure, const std::string& directory, RunLog& log) {
+  for (const auto& name : record.quantity_order)
+    if (const auto found = record.quantities.find(name); found != record.quantities.end()) log.info(fmt::format("{} = {:.10g}", name, found->second));
+  for (const auto& check : record.checks) {
+    const std::string low = check.low ? fmt::format("{:g} <= ", *check.low) : "", high = check.high ? fmt::format(" <= {:g}", *check.high) : "";
+    log.info(fmt::format("check {}: {}{}{}: {:.10g}: {}", check.name, low, check.quantity, high, check.value, check.ok ? "ok" : "MISSED"));
+  }
+  if (!record.converged)
+    log.warning(fmt::format("not converged; the last converged state is that of time {:g}{}", record.steps.empty() ? 0.0 : record.steps.back().time,
+                            failure ? fmt::format(": {}", failure->what()) : ""));
+  int iterations = 0;
+  for (const auto& step : record.steps) iterations += step.newton.newton_steps();
+  const auto total = record.seconds.find("total");
+  log.info(fmt::format("{} steps, {} Newton iterations, {:.2f} s, {:.0f} MiB; results in {}", record.steps.size(), iterations,
+                       total == record.seconds.end() ? 0.0 : total->second, record.memory_peak_mib, directory));
+}
+
+}  // namespace
+
+ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& options) {
+  RunLog log(comm, options.verbosity);
+  const Timers timers;
+  Scene scene = read_scene(*comm, options.scene, options.settings);
+  OutputDirectory directory(comm, options.directory.empty() ? default_directory(options.scene) : options.directory, options.keep);
+  const Model model(comm, scene, timers);
+  SemiSmoothSystem system(model.parts(), timers);
+  StepEvaluation evaluation(scene, model, system);
+
+  // From here on the scene is one that can be run: what an earlier run left makes room.
+  directory.remove_earlier_run();
+  log.open(directory.file("log.txt"));
+  report_model(options.scene, scene, model, log);
+  write_file(*comm, directory.file("effective.xml"), [&] { return effective_xml(scene); });
+
+  RunRecord record;
+  record.scene = options.scene;
+  record.version = options.version;
+  record.quantity_order = evaluation.names();
+  Observers observers(comm, scene, directory, model.mesh(), evaluation, log, record, timers);
+  Vector x(system.map());
+  std::optional<StepFailure> failure;
+  const auto start_step = [&](Vector& at) {
+    if (model.contact())
+      model.contact()->start_step(*system.displacement(static_cast<const Vector&>(at)), model.held_by_contact_only(), *system.multipliers(at));
+  };
+  {
+    const auto timer = timers.scope("steps");
+    record.converged = run_steps(system, scene.stepping, scene.newton, x, start_step, observers.functions(), failure);
+    observers.finish(x);
+  }
+  if (!record.steps.empty()) record.checks = evaluate_checks(scene.checks, record.quantities);
+  record.exit = exit_code(record);
+
+  timers.stacked().stopBaseTimer();
+  record.seconds = seconds_by_name(timers, comm);
+  const double mine = peak_memory_mib();
+  Teuchos::reduceAll(*comm, Teuchos::REDUCE_MAX, mine, Teuchos::outArg(record.memory_peak_mib));
+  log.detail(timer_report(timers, comm));
+  report_end(record, failure, directory.path(), log);
+  write_file(*comm, directory.file("summary.json"),
+             [&, json = summary(record, model)] { return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"; });
+  return record.exit;
+}
+
+}  // namespace mortise

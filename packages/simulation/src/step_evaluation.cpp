@@ -1,0 +1,82 @@
+#include "step_evaluation.hpp"
+
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Vector.hpp>
+
+namespace mortise {
+
+StepEvaluation::StepEvaluation(const Scene& scene, const Model& model, SemiSmoothSystem& system) : scene_(scene), model_(model), system_(system) {
+  std::vector<Diagnostic> diagnostics;
+  const QuantityContext at = context();
+  for (const auto& quantity : scene_.quantities) {
+    try {
+      quantity.value.quantity.options->prepare(at);
+    } catch (const InputError& error) {
+      diagnostics.insert(diagnostics.end(), error.diagnostics().begin(), error.diagnostics().end());
+    }
+  }
+  throw_if_any(*model_.mesh()->comm, diagnostics);
+}
+
+std::vector<std::string> StepEvaluation::names() const {
+  std::vector<std::string> names;
+  for (const auto& quantity : scene_.quantities) names.push_back(quantity.name);
+  return names;
+}
+
+QuantityContext StepEvaluation::context() const {
+  QuantityContext context{*model_.bodies(), model_.contact().get(), {}};
+  for (const auto& pair : scene_.contact) context.pairs.push_back({pair.name, pair.value.slave.value, pair.value.master.value});
+  context.prescribed = &model_.parts().prescribed->dofs();
+  return context;
+}
+
+RCP<Vector> StepEvaluation::local(const Vector& displacement) const {
+  const auto values = rcp(new Vector(model_.bodies()->local_dofs()));
+  values->doImport(displacement, *model_.bodies()->ghost_import(), Tpetra::INSERT);
+  return values;
+}
+
+std::vector<double> StepEvaluation::quantities(const Vector& x, double time) {
+  if (scene_.quantities.empty()) return {};
+  const auto displacement = system_.displacement(x);
+  const auto multipliers = model_.contact() ? system_.multipliers(x) : Teuchos::null;
+  const auto local_displacement = local(*displacement);
+  Vector reaction(model_.bodies()->dofs()), external(model_.bodies()->dofs());
+  system_.set_time(time);
+  system_.forces(x, reaction);  // leaves the contact evaluated at x
+  std::optional<StepFailure> failure;
+  const Configuration at{time, *displacement, *local_displacement};
+  for (const auto& contribution : model_.parts().contributions)
+    if (contribution->kind() == Contribution::Kind::external) contribution->add_residual(at, external, failure);
+  throw_if_any(*model_.mesh()->comm, failure);
+  external.scale(-1.0);
+
+  QuantityContext context = this->context();
+  context.time = time;
+  context.displacement = displacement.get();
+  context.local_displacement = local_displacement.get();
+  context.multipliers = multipliers.get();
+  context.reaction = &reaction;
+  context.external_force = &external;
+  std::vector<double> values;
+  for (const auto& quantity : scene_.quantities) values.push_back(quantity.value.quantity.options->evaluate(context));
+  return values;
+}
+
+std::vector<Field> StepEvaluation::fields(const Vector& x, const std::vector<std::string>& names) {
+  const auto displacement = system_.displacement(x);
+  const auto multipliers = model_.contact() ? system_.multipliers(x) : Teuchos::null;
+  const auto local_displacement = local(*displacement);
+  if (model_.contact()) {
+    std::optional<StepFailure> failure;
+    model_.contact()->evaluate(*displacement, false, failure);
+    throw_if_any(*model_.mesh()->comm, failure);
+  }
+  std::vector<Field> fields;
+  const FieldState state{*model_.bodies(), model_.contact().get(), *displacement, *local_displacement, multipliers.get()};
+  for (const auto& name : names) fields.push_back(make_field(name, state));
+  return fields;
+}
+
+}  // namespace mortise

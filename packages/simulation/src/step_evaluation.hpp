@@ -1,0 +1,34 @@
+#pragma once
+// Quantities and fields of an accepted step.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "fields.hpp"
+#include "mortise/nonlinear/semi_smooth_system.hpp"
+#include "mortise/simulation/model.hpp"
+
+namespace mortise {
+
+/// Evaluates what a scene wants to know of a state. Collective in all members.
+class StepEvaluation {
+ public:
+  /// Prepares the quantities. Throws InputError on all ranks for sets, bodies and pairs that do not exist.
+  StepEvaluation(const Scene& scene, const Model& model, SemiSmoothSystem& system);
+
+  std::vector<std::string> names() const;
+  /// In the order of names(), at x and pseudo-time `time`.
+  std::vector<double> quantities(const Vector& x, double time);
+  std::vector<Field> fields(const Vector& x, const std::vector<std::string>& names);
+
+ private:
+  QuantityContext context() const;
+  RCP<Vector> local(const Vector& displacement) const;
+
+  const Scene& scene_;
+  const Model& model_;
+  SemiSmoothSystem& system_;
+};
+
+}  // namespace mortise
