@@ -1,0 +1,186 @@
+#pragma once
+// The kinds of quantities.
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "mortise/simulation/exact_solution.hpp"
+#include "mortise/simulation/quantity.hpp"
+
+namespace mortise {
+
+/// A Cartesian component: x, y (axisymmetric: r, z).
+enum class Component { x, y };
+
+/// Sum over the nodes of a set of the forces by which supports act on the bodies: f_int - f_ext + f_c. [force]
+struct Reaction : Quantity {
+  Located<std::string> set;
+  Component component = Component::y;
+  void describe(Parameters& parameters) override;
+  void prepare(const QuantityContext& context) override;
+  double evaluate(const QuantityContext& context) override;
+};
+
+/// Sum of the contact forces on the slave side of a pair. [force]
+struct ContactForce : Quantity {
+  Located<std::string> pair;  ///< empty: the only one
+  Component component = Component::y;
+  void describe(Parameters& parameters) override;
+  void prepare(const QuantityContext& context) override;
+  double evaluate(const QuantityContext& context) override;
+
+ private:
+  std::size_t pair_ = 0;
+};
+
+/// How far forces are from balance. With f_c the contact forces on all nodes:
+///   contact: |sum f_c| / (1/2 sum |f_c|);   total: |sum of loads + sum of reactions on prescribed dofs| / the larger sum of absolute values;
+///   both: the larger of the two. Components in which bodies balance: both, axisymmetric the axial one (total).
+struct MomentumImbalance : Quantity {
+  enum class Of { contact, total, both };
+  Of of = Of::both;
+  void describe(Parameters& parameters) override;
+  void prepare(const QuantityContext& context) override;
+  double evaluate(const QuantityContext& context) override;
+};
+
+/// A number at points: at nodes (displacement), at quadrature points (stress), at slave nodes (contact).
+enum class PointField {
+  displacement_x,
+  displacement_y,
+  displacement_magnitude,
+  stress_xx,
+  stress_yy,
+  stress_zz,
+  stress_xy,
+  von_mises,
+  contact_pressure,
+  gap
+};
+
+/// What Extremum and Mean look at.
+struct FieldQuantity : Quantity {
+  PointField field = PointField::von_mises;
+  Located<std::string> on;  ///< a set of nodes or a body (displacement), a body (stress), a pair (contact); empty: everywhere
+  void describe(Parameters& parameters) override;
+  void prepare(const QuantityContext& context) override;
+
+ protected:
+  /// Calls visit(value, weight) for the points of this rank. Weights: 1, current volume, or A_j.
+  void visit(const QuantityContext& context, const std::function<void(double, double)>& visit) const;
+
+ private:
+  std::optional<LocalOrdinal> body_;
+  std::optional<std::size_t> pair_;
+};
+
+struct Extremum : FieldQuantity {
+  enum class Which { maximum, minimum, maximum_absolute };
+  Which which = Which::maximum;
+  void describe(Parameters& parameters) override;
+  double evaluate(const QuantityContext& context) override;
+};
+
+/// Of displacement the mean over nodes; of stress over volume; of contact over the slave surface's reference area.
+struct Mean : FieldQuantity {
+  double evaluate(const QuantityContext& context) override;
+};
+
+/// max |sigma_ij - mean sigma_ij| / max |mean sigma_kl| over all quadrature points, all components (33 as well); the mean is weighted by volume.
+struct Spread : Quantity {
+  Located<std::vector<std::string>> bodies;  ///< empty: all
+  void describe(Parameters& parameters) override;
+  void prepare(const QuantityContext& context) override;
+  double evaluate(const QuantityContext& context) override;
+
+ private:
+  std::vector<char> chosen_;  ///< [blocks]
+};
+
+/// Displacement of a point, given by its reference position, interpolated in the element that holds it. [length]
+struct PointDisplacement : Quantity {
+  Located<double> x, y;
+  Located<std::string> body;  ///< empty: any
+  Component component = Component::y;
+  void describe(Parameters& parameters) override;
+  void prepare(const QuantityContext& context) override;
+  double evaluate(const QuantityContext& context) override;
+
+ private:
+  int owner_ = 0;                    ///< rank whose element holds the point
+  std::vector<LocalOrdinal> nodes_;  ///< of the element, on that rank
+  std::vector<double> shares_;       ///< N_a at the point
+};
+
+/// || u_h - u || / || u ||, L2: of the contact pressure p_h = sum N_j z_n,j along the current slave surface, of displacement or stress over bodies.
+/// NaN where || u || = 0.
+struct ErrorNorm : Quantity {
+  enum class Of { contact_pressure, displacement, stress };
+  enum class Unit { length, half_width };
+  Of of = Of::contact_pressure;
+  Located<std::string> on;         ///< pair, or body (empty: the only pair, all bodies)
+  std::optional<double> from, to;  ///< range of x (contact pressure): a length, or half widths of the exact contact zone from its centre
+  Unit unit = Unit::length;
+  Choice<ExactSolution> exact;
+  void describe(Parameters& parameters) override;
+  void prepare(const QuantityContext& context) override;
+  double evaluate(const QuantityContext& context) override;
+
+ private:
+  bool is_known(double time) const;
+  double pressure_error(const QuantityContext& context) const;
+  double body_error(const QuantityContext& context) const;
+  std::optional<LocalOrdinal> body_;
+  std::size_t pair_ = 0;
+};
+
+/// What quantities of one pair share.
+struct PairQuantity : Quantity {
+  Located<std::string> pair;  ///< empty: the only one
+  void describe(Parameters& parameters) override;
+  void prepare(const QuantityContext& context) override;
+
+ protected:
+  std::size_t pair_ = 0;
+};
+
+/// 2 sqrt(int p (x - center)^2 ds / int p ds) along the current slave surface: the half width of a Hertzian pressure. [length]
+struct HalfWidth : PairQuantity {
+  double center = 0.0;
+  void describe(Parameters& parameters) override;
+  double evaluate(const QuantityContext& context) override;
+};
+
+/// Largest nodal pressure; that of p_h = sum N_j z_n,j is the same, as p_h is linear between nodes. [stress]
+struct PeakPressure : PairQuantity {
+  double evaluate(const QuantityContext& context) override;
+};
+
+/// Current length of the slave surface that belongs to closed nodes: of each facet one half for each closed end. [length]
+struct ContactLength : PairQuantity {
+  double evaluate(const QuantityContext& context) override;
+};
+
+/// Number of closed slave nodes.
+struct ActiveCount : PairQuantity {
+  double evaluate(const QuantityContext& context) override;
+};
+
+/// Stored energy of a body or of all, or the work that loads and supports have done since the start (trapezoidal rule over the steps). [work]
+struct Energy : Quantity {
+  enum class Of { stored, external_work };
+  Of of = Of::stored;
+  Located<std::string> body;  ///< empty: all
+  void describe(Parameters& parameters) override;
+  void prepare(const QuantityContext& context) override;
+  double evaluate(const QuantityContext& context) override;
+
+ private:
+  std::optional<LocalOrdinal> body_;
+  double work_ = 0.0;
+  std::shared_ptr<Vector> force_, displacement_;  ///< at the last step
+};
+
+}  // namespace mortise

@@ -1,0 +1,55 @@
+// Quantities of one contact pair.
+
+#include <algorithm>
+#include <cmath>
+
+#include "mortise/shape/quadrature.hpp"
+#include "quantity_support.hpp"
+
+namespace mortise {
+
+void PairQuantity::describe(Parameters& parameters) { parameters.add("pair", pair, "contact pair; may be left out if the scene has one only"); }
+
+void PairQuantity::prepare(const QuantityContext& context) { pair_ = find_pair(context, pair); }
+
+void HalfWidth::describe(Parameters& parameters) {
+  PairQuantity::describe(parameters);
+  parameters.add("center", center, Says("x of the middle of the contact zone").unit("length"));
+}
+
+double HalfWidth::evaluate(const QuantityContext& context) {
+  // p is linear and x is linear on a facet: p x^2 is a cubic, which two points integrate exactly.
+  static const auto rule = gauss_legendre(2);
+  double force = 0.0, moment = 0.0;
+  for (const PressedFacet& facet : pressed_facets(context, pair_))
+    for (const LinePoint& point : rule) {
+      const double left = 0.5 * (1.0 - point.xi), right = 0.5 * (1.0 + point.xi);
+      const double x = left * facet.position[0][0] + right * facet.position[1][0] - center;
+      const double p = (left * facet.pressure[0] + right * facet.pressure[1]) * 0.5 * facet.length() * point.weight;
+      force += p;
+      moment += p * x * x;
+    }
+  force = sum_over_ranks(context.mesh(), force);
+  moment = sum_over_ranks(context.mesh(), moment);
+  return force > 0.0 ? 2.0 * std::sqrt(std::max(0.0, moment / force)) : 0.0;
+}
+
+double PeakPressure::evaluate(const QuantityContext& context) {
+  double peak = 0.0;
+  for (const auto& state : context.contact->node_states(pair_, *context.multipliers)) peak = std::max(peak, state.pressure);
+  return largest_over_ranks(context.mesh(), peak);
+}
+
+double ContactLength::evaluate(const QuantityContext& context) {
+  double length = 0.0;
+  for (const PressedFacet& facet : pressed_facets(context, pair_)) length += 0.5 * facet.length() * (int(facet.closed[0]) + int(facet.closed[1]));
+  return sum_over_ranks(context.mesh(), length);
+}
+
+double ActiveCount::evaluate(const QuantityContext& context) {
+  double count = 0.0;
+  for (const auto& state : context.contact->node_states(pair_, *context.multipliers)) count += state.closed ? 1.0 : 0.0;
+  return sum_over_ranks(context.mesh(), count);
+}
+
+}  // namespace mortise

@@ -1,0 +1,153 @@
+// Extrema, means and spreads of fields.
+
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mortise/mesh/sets.hpp"
+#include "quantity_support.hpp"
+
+namespace mortise {
+namespace {
+
+enum class Carrier { nodes, points, slave_nodes };
+
+Carrier carrier(PointField field) {
+  if (field <= PointField::displacement_magnitude) return Carrier::nodes;
+  return field <= PointField::von_mises ? Carrier::points : Carrier::slave_nodes;
+}
+
+/// sqrt(3/2 s : s), s the deviator.
+double von_mises(const Matrix3& stress) {
+  const Matrix3 deviator = stress - stress.trace() / 3.0 * Matrix3::Identity();
+  return std::sqrt(1.5) * deviator.norm();
+}
+
+double stress_component(PointField field, const Matrix3& stress) {
+  switch (field) {
+    case PointField::stress_xx:
+      return stress(0, 0);
+    case PointField::stress_yy:
+      return stress(1, 1);
+    case PointField::stress_zz:
+      return stress(2, 2);
+    case PointField::stress_xy:
+      return stress(0, 1);
+    default:
+      return von_mises(stress);
+  }
+}
+
+}  // namespace
+
+void FieldQuantity::describe(Parameters& parameters) {
+  parameters.add("field", field,
+                 {{"displacement x", PointField::displacement_x},
+                  {"displacement y", PointField::displacement_y},
+                  {"displacement magnitude", PointField::displacement_magnitude},
+                  {"stress xx", PointField::stress_xx},
+                  {"stress yy", PointField::stress_yy},
+                  {"stress zz", PointField::stress_zz},
+                  {"stress xy", PointField::stress_xy},
+                  {"von mises", PointField::von_mises},
+                  {"contact pressure", PointField::contact_pressure},
+                  {"gap", PointField::gap}},
+                 "displacement at nodes, Cauchy stress at quadrature points, pressure and gap at slave nodes");
+  parameters.add("on", on, "a set of nodes or a body (displacement), a body (stress), a contact pair (pressure, gap); empty: everywhere");
+}
+
+void FieldQuantity::prepare(const QuantityContext& context) {
+  body_.reset();
+  pair_.reset();
+  const Carrier kind = carrier(field);
+  if (kind == Carrier::slave_nodes && context.pairs.empty()) throw InputError(on.place, "the scene has no contact");
+  if (on.value.empty()) return;
+  if (kind == Carrier::nodes) require_node_set(context.mesh(), on);
+  if (kind == Carrier::points) body_ = find_body(context, on);
+  if (kind == Carrier::slave_nodes) pair_ = find_pair(context, on);
+}
+
+void FieldQuantity::visit(const QuantityContext& context, const std::function<void(double, double)>& visit) const {
+  const Mesh& mesh = context.mesh();
+  switch (carrier(field)) {
+    case Carrier::nodes: {
+      const auto displacement = context.displacement->getLocalViewHost(Tpetra::Access::ReadOnly);
+      const auto visit_node = [&](LocalOrdinal node) {
+        const double x = displacement(2 * node, 0), y = displacement(2 * node + 1, 0);
+        visit(field == PointField::displacement_x ? x : field == PointField::displacement_y ? y : std::hypot(x, y), 1.0);
+      };
+      if (on.value.empty()) {
+        for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node) visit_node(node);
+      } else {
+        for (const LocalOrdinal node : require_node_set(mesh, on))
+          if (node < mesh.owned_count()) visit_node(node);
+      }
+      break;
+    }
+    case Carrier::points:
+      context.bodies.visit_points(*context.local_displacement, [&](const MaterialPoint& point) {
+        if (!body_ || point.block == *body_) visit(stress_component(field, point.cauchy_stress), point.weight * point.volume_ratio);
+      });
+      break;
+    case Carrier::slave_nodes:
+      for (std::size_t pair = 0; pair < context.pairs.size(); ++pair)
+        if (!pair_ || pair == *pair_)
+          for (const auto& state : context.contact->node_states(pair, *context.multipliers))
+            visit(field == PointField::gap ? state.gap : state.pressure, state.weight);
+      break;
+  }
+}
+
+void Extremum::describe(Parameters& parameters) {
+  FieldQuantity::describe(parameters);
+  parameters.add("which", which, {{"maximum", Which::maximum}, {"minimum", Which::minimum}, {"maximum absolute", Which::maximum_absolute}},
+                 "which extremum");
+}
+
+double Extremum::evaluate(const QuantityContext& context) {
+  const double sign = which == Which::minimum ? -1.0 : 1.0;
+  double largest = -std::numeric_limits<double>::infinity();
+  visit(context, [&](double value, double) { largest = std::max(largest, which == Which::maximum_absolute ? std::abs(value) : sign * value); });
+  return sign * largest_over_ranks(context.mesh(), largest);
+}
+
+double Mean::evaluate(const QuantityContext& context) {
+  double sum = 0.0, weights = 0.0;
+  visit(context, [&](double value, double weight) { sum += weight * value, weights += weight; });
+  return sum_over_ranks(context.mesh(), sum) / sum_over_ranks(context.mesh(), weights);
+}
+
+void Spread::describe(Parameters& parameters) { parameters.add("bodies", bodies, "bodies whose stresses are compared; empty: all"); }
+
+void Spread::prepare(const QuantityContext& context) {
+  chosen_.assign(context.mesh().blocks.size(), bodies.value.empty() ? 1 : 0);
+  for (const auto& body : bodies.value) chosen_[find_body(context, {body, bodies.place})] = 1;
+}
+
+double Spread::evaluate(const QuantityContext& context) {
+  const Mesh& mesh = context.mesh();
+  Matrix3 mean = Matrix3::Zero();
+  double volume = 0.0;
+  const auto visit = [&](const std::function<void(const MaterialPoint&)>& visitor) {
+    context.bodies.visit_points(*context.local_displacement, [&](const MaterialPoint& point) {
+      if (chosen_[point.block]) visitor(point);
+    });
+  };
+  visit([&](const MaterialPoint& point) {
+    const double weight = point.weight * point.volume_ratio;
+    mean += weight * point.cauchy_stress;
+    volume += weight;
+  });
+  volume = sum_over_ranks(mesh, volume);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) mean(i, j) = sum_over_ranks(mesh, mean(i, j)) / volume;
+  double deviation = 0.0;
+  visit([&](const MaterialPoint& point) { deviation = std::max(deviation, (point.cauchy_stress - mean).cwiseAbs().maxCoeff()); });
+  const double scale = mean.cwiseAbs().maxCoeff();
+  deviation = largest_over_ranks(mesh, deviation);
+  return scale > 0.0 ? deviation / scale : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace mortise

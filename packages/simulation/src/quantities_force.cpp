@@ -1,0 +1,101 @@
+// Reactions, contact forces, balance.
+
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+#include <algorithm>
+#include <cmath>
+
+#include "mortise/mesh/sets.hpp"
+#include "quantity_support.hpp"
+
+namespace mortise {
+
+void Reaction::describe(Parameters& parameters) {
+  parameters.add("set", set, Says("nodes whose supports are summed up").required());
+  parameters.add("component", component, component_names(), "direction of the force");
+}
+
+void Reaction::prepare(const QuantityContext& context) { require_node_set(context.mesh(), set); }
+
+double Reaction::evaluate(const QuantityContext& context) {
+  const Mesh& mesh = context.mesh();
+  const auto reaction = context.reaction->getLocalViewHost(Tpetra::Access::ReadOnly);
+  double sum = 0.0;
+  for (const LocalOrdinal node : require_node_set(mesh, set))
+    if (node < mesh.owned_count()) sum += reaction(2 * node + static_cast<int>(component), 0);
+  return sum_over_ranks(mesh, sum);
+}
+
+void ContactForce::describe(Parameters& parameters) {
+  parameters.add("pair", pair, "contact pair; may be left out if the scene has one only");
+  parameters.add("component", component, component_names(), "direction of the force on the slave side");
+}
+
+void ContactForce::prepare(const QuantityContext& context) { pair_ = find_pair(context, pair); }
+
+double ContactForce::evaluate(const QuantityContext& context) {
+  return context.contact->resultant(pair_, *context.multipliers)[static_cast<int>(component)];
+}
+
+namespace {
+
+using Sums = std::array<double, 2>;
+
+Sums over_ranks(const Mesh& mesh, const Sums& mine) { return {sum_over_ranks(mesh, mine[0]), sum_over_ranks(mesh, mine[1])}; }
+
+double contact_imbalance(const QuantityContext& context) {
+  if (context.contact == nullptr) return 0.0;
+  Vector force(context.bodies.dofs());
+  context.contact->add_contact_force(*context.multipliers, force);
+  const auto values = force.getLocalViewHost(Tpetra::Access::ReadOnly);
+  Sums sum{}, absolute{};
+  for (std::size_t dof = 0; dof < values.extent(0); ++dof) {
+    sum[dof % 2] += values(dof, 0);
+    absolute[dof % 2] += std::abs(values(dof, 0));
+  }
+  sum = over_ranks(context.mesh(), sum);
+  absolute = over_ranks(context.mesh(), absolute);
+  const double scale = 0.5 * std::max(absolute[0], absolute[1]);
+  return scale > 0.0 ? std::hypot(sum[0], sum[1]) / scale : 0.0;
+}
+
+double total_imbalance(const QuantityContext& context) {
+  const auto load = context.external_force->getLocalViewHost(Tpetra::Access::ReadOnly);
+  const auto reaction = context.reaction->getLocalViewHost(Tpetra::Access::ReadOnly);
+  Sums sum{}, loads{}, reactions{};
+  for (std::size_t dof = 0; dof < load.extent(0); ++dof) {
+    sum[dof % 2] += load(dof, 0);
+    loads[dof % 2] += std::abs(load(dof, 0));
+  }
+  for (const LocalOrdinal dof : *context.prescribed) {
+    sum[dof % 2] += reaction(dof, 0);
+    reactions[dof % 2] += std::abs(reaction(dof, 0));
+  }
+  const Mesh& mesh = context.mesh();
+  sum = over_ranks(mesh, sum), loads = over_ranks(mesh, loads), reactions = over_ranks(mesh, reactions);
+  // Radial forces on a ring do not sum to zero: the hoop stress carries them.
+  double largest = 0.0, scale = 0.0;
+  for (int i = context.bodies.kinematics() == Kinematics::axisymmetric ? 1 : 0; i < 2; ++i) {
+    largest = std::max(largest, std::abs(sum[i]));
+    scale = std::max({scale, loads[i], reactions[i]});
+  }
+  return scale > 0.0 ? largest / scale : 0.0;
+}
+
+}  // namespace
+
+void MomentumImbalance::describe(Parameters& parameters) {
+  parameters.add("of", of, {{"both", Of::both}, {"contact", Of::contact}, {"total", Of::total}},
+                 "contact: forces on slave against those on master; total: loads against reactions; both: the larger one");
+}
+
+void MomentumImbalance::prepare(const QuantityContext&) {}
+
+double MomentumImbalance::evaluate(const QuantityContext& context) {
+  double imbalance = 0.0;
+  if (of != Of::total) imbalance = std::max(imbalance, contact_imbalance(context));
+  if (of != Of::contact) imbalance = std::max(imbalance, total_imbalance(context));
+  return imbalance;
+}
+
+}  // namespace mortise

@@ -1,0 +1,104 @@
+// The displacement of a point.
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mortise/shape/quadrilateral4.hpp"
+#include "mortise/shape/triangle3.hpp"
+#include "quantity_support.hpp"
+
+namespace mortise {
+namespace {
+
+/// How far outside, in reference coordinates, a point still counts as inside: round-off of points on sides and nodes.
+constexpr double inside_tolerance = 1e-8;
+
+bool is_inside(CellShape shape, const std::array<double, 2>& xi) {
+  if (shape == CellShape::triangle3) return std::min({xi[0], xi[1], 1.0 - xi[0] - xi[1]}) >= -inside_tolerance;
+  return std::max(std::abs(xi[0]), std::abs(xi[1])) <= 1.0 + inside_tolerance;
+}
+
+/// Shares N_a of an element's nodes at the point, or nothing if it lies outside. Newton's method for X(xi) = point; linear on triangles.
+template <class Cell>
+std::vector<double> shares_at(const Mesh& mesh, const LocalOrdinal* nodes, const Eigen::Vector2d& point) {
+  Eigen::Matrix<double, 2, Cell::nodes> corners;
+  for (int a = 0; a < Cell::nodes; ++a) corners.col(a) << mesh.coordinates[nodes[a]][0], mesh.coordinates[nodes[a]][1];
+  const Eigen::Vector2d low = corners.rowwise().minCoeff(), high = corners.rowwise().maxCoeff();
+  const double margin = inside_tolerance * (high - low).norm();
+  if (((low.array() - margin) > point.array()).any() || ((high.array() + margin) < point.array()).any()) return {};
+  std::array<double, 2> xi = Cell::centroid;
+  for (int iteration = 0; iteration < 30; ++iteration) {
+    const auto values = Cell::values(xi);
+    const auto gradients = Cell::gradients(xi);
+    Eigen::Vector2d residual = -point;
+    Eigen::Matrix2d jacobian = Eigen::Matrix2d::Zero();
+    for (int a = 0; a < Cell::nodes; ++a) {
+      residual += values[a] * corners.col(a);
+      for (int i = 0; i < 2; ++i) jacobian.col(i) += gradients[a][i] * corners.col(a);
+    }
+    const Eigen::Vector2d step = jacobian.inverse() * residual;
+    for (int i = 0; i < 2; ++i) xi[i] -= step[i];
+    if (!(step.norm() > 1e-14)) break;
+  }
+  if (!is_inside(Cell::shape, xi)) return {};
+  const auto values = Cell::values(xi);
+  return std::vector<double>(values.begin(), values.end());
+}
+
+}  // namespace
+
+void PointDisplacement::describe(Parameters& parameters) {
+  parameters.add("x", x, Says("reference position of the point").unit("length").required());
+  parameters.add("y", y, Says("reference position of the point").unit("length").required());
+  parameters.add("body", body, "body that the point belongs to; empty: the first one that holds it");
+  parameters.add("component", component, component_names(), "component of the displacement");
+}
+
+void PointDisplacement::prepare(const QuantityContext& context) {
+  const Mesh& mesh = context.mesh();
+  const auto wanted = find_optional_body(context, body);
+  const Eigen::Vector2d point(x.value, y.value);
+  // The body first, then the element of the lowest id: the same one on any number of ranks.
+  const GlobalOrdinal none = std::numeric_limits<GlobalOrdinal>::max();
+  GlobalOrdinal mine = none;
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    const Block& block = mesh.blocks[b];
+    if (wanted && static_cast<LocalOrdinal>(b) != *wanted) continue;
+    for (LocalOrdinal element = 0; element < block.owned; ++element) {
+      if (block.element_ids[element] >= mine) continue;
+      const LocalOrdinal* nodes = block.nodes(element);
+      const auto shares =
+          block.shape == CellShape::triangle3 ? shares_at<Triangle3>(mesh, nodes, point) : shares_at<Quadrilateral4>(mesh, nodes, point);
+      if (shares.empty()) continue;
+      mine = block.element_ids[element];
+      shares_ = shares;
+      nodes_.assign(nodes, nodes + block.nodes_per_element);
+    }
+  }
+  GlobalOrdinal first = none;
+  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MIN, mine, Teuchos::outArg(first));
+  if (first == none) {
+    const std::string where = body.value.empty() ? "in no body" : fmt::format("not in the body \"{}\"", body.value);
+    throw InputError(x.place, fmt::format("the point ({:g}, {:g}) lies {}", x.value, y.value, where));
+  }
+  const int candidate = mine == first ? mesh.comm->getRank() : mesh.comm->getSize();
+  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MIN, candidate, Teuchos::outArg(owner_));
+}
+
+double PointDisplacement::evaluate(const QuantityContext& context) {
+  const auto displacement = context.local_displacement->getLocalViewHost(Tpetra::Access::ReadOnly);
+  double value = 0.0;
+  if (context.mesh().comm->getRank() == owner_)
+    for (std::size_t a = 0; a < nodes_.size(); ++a) value += shares_[a] * displacement(2 * nodes_[a] + static_cast<int>(component), 0);
+  Teuchos::broadcast(*context.mesh().comm, owner_, Teuchos::outArg(value));
+  return value;
+}
+
+}  // namespace mortise

@@ -1,0 +1,28 @@
+#include "mortise/simulation/quantity.hpp"
+
+#include "mortise/simulation/quantity_kinds.hpp"
+
+namespace mortise {
+
+const Registry<Quantity>& quantity_registry() {
+  static const Registry<Quantity> registry = [] {
+    Registry<Quantity> kinds;
+    kinds.add<Reaction>("reaction", "force of the supports on a set of nodes");
+    kinds.add<ContactForce>("contact force", "sum of the contact forces on the slave side of a pair");
+    kinds.add<MomentumImbalance>("momentum imbalance", "how far forces are from balance, relative");
+    kinds.add<Extremum>("extremum", "largest or smallest value of a field");
+    kinds.add<Mean>("mean", "mean of a field: over nodes, over volume, over the slave surface");
+    kinds.add<Spread>("spread", "max|sigma_ij - mean sigma_ij| / max|mean sigma_kl| over all quadrature points");
+    kinds.add<PointDisplacement>("displacement", "displacement of a point");
+    kinds.add<ErrorNorm>("error norm", "relative L2 error of a field against a named exact solution");
+    kinds.add<HalfWidth>("half width", "half width of the contact zone from the second moment of the pressure: 2 sqrt(int p x^2 / int p)");
+    kinds.add<PeakPressure>("peak pressure", "largest contact pressure of a pair");
+    kinds.add<ContactLength>("contact length", "current length of the slave surface that belongs to closed nodes");
+    kinds.add<ActiveCount>("active count", "number of closed slave nodes of a pair");
+    kinds.add<Energy>("energy", "stored energy, or work done from outside");
+    return kinds;
+  }();
+  return registry;
+}
+
+}  // namespace mortise

@@ -1,0 +1,91 @@
+#include "quantity_support.hpp"
+
+#include <fmt/format.h>
+
+#include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
+#include <Tpetra_Vector.hpp>
+#include <cmath>
+
+#include "names.hpp"
+
+namespace mortise {
+
+const std::vector<std::pair<std::string, Component>>& component_names() {
+  static const std::vector<std::pair<std::string, Component>> names{{"x", Component::x}, {"y", Component::y}};
+  return names;
+}
+
+double sum_over_ranks(const Mesh& mesh, double mine) {
+  double all = 0.0;
+  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, mine, Teuchos::outArg(all));
+  return all;
+}
+
+double largest_over_ranks(const Mesh& mesh, double mine) {
+  double all = mine;
+  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, mine, Teuchos::outArg(all));
+  return all;
+}
+
+LocalOrdinal find_body(const QuantityContext& context, const Located<std::string>& name) {
+  std::vector<std::string> known;
+  for (const Block& block : context.mesh().blocks) {
+    if (block.name == name.value) return static_cast<LocalOrdinal>(known.size());
+    known.push_back(block.name);
+  }
+  throw InputError(name.place, unknown_name("body", name.value, known));
+}
+
+std::optional<LocalOrdinal> find_optional_body(const QuantityContext& context, const Located<std::string>& name) {
+  if (name.value.empty()) return {};
+  return find_body(context, name);
+}
+
+std::size_t find_pair(const QuantityContext& context, const Located<std::string>& name) {
+  if (context.pairs.empty()) throw InputError(name.place, "the scene has no contact");
+  std::vector<std::string> known;
+  for (const auto& pair : context.pairs) {
+    if (pair.name == name.value) return known.size();
+    known.push_back(pair.name);
+  }
+  if (!name.value.empty()) throw InputError(name.place, unknown_name("contact pair", name.value, known));
+  if (known.size() > 1) throw InputError(name.place, fmt::format("please add which contact pair: one of \"{}\"", fmt::join(known, "\", \"")));
+  return 0;
+}
+
+double PressedFacet::length() const { return std::hypot(position[1][0] - position[0][0], position[1][1] - position[0][1]); }
+
+std::vector<PressedFacet> pressed_facets(const QuantityContext& context, std::size_t pair) {
+  const Mesh& mesh = context.mesh();
+  MultiVector owned(mesh.owned_nodes, 2), local(mesh.local_nodes, 2);
+  {
+    const auto values = owned.getLocalViewHost(Tpetra::Access::OverwriteAll);
+    for (std::size_t node = 0; node < values.extent(0); ++node) values(node, 0) = values(node, 1) = 0.0;
+    for (const auto& state : context.contact->node_states(pair, *context.multipliers)) {
+      values(state.owned_node, 0) = state.pressure;
+      values(state.owned_node, 1) = state.closed ? 1.0 : 0.0;
+    }
+  }
+  local.doImport(owned, Import(mesh.owned_nodes, mesh.local_nodes), Tpetra::INSERT);
+  const auto values = local.getLocalViewHost(Tpetra::Access::ReadOnly);
+  const auto displacement = context.local_displacement->getLocalViewHost(Tpetra::Access::ReadOnly);
+
+  const SideSet& slave = mesh.side_sets.at(context.pairs[pair].slave);
+  std::vector<PressedFacet> facets;
+  for (LocalOrdinal side = 0; side < slave.owned; ++side) {
+    const auto nodes = mesh.side_nodes(slave.sides[side]);
+    PressedFacet facet;
+    for (int end = 0; end < 2; ++end) {
+      for (int i = 0; i < 2; ++i) facet.position[end][i] = mesh.coordinates[nodes[end]][i] + displacement(2 * nodes[end] + i, 0);
+      facet.pressure[end] = values(nodes[end], 0);
+      facet.closed[end] = values(nodes[end], 1) != 0.0;
+    }
+    facets.push_back(facet);
+  }
+  return facets;
+}
+
+}  // namespace mortise

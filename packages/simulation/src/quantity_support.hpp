@@ -1,0 +1,39 @@
+#pragma once
+// What the kinds of quantities share: names of bodies and pairs, sums over ranks, the slave surface with its pressures.
+
+#include <array>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mortise/simulation/quantity_kinds.hpp"
+
+namespace mortise {
+
+const std::vector<std::pair<std::string, Component>>& component_names();
+
+/// Sum and largest over all ranks. Collective.
+double sum_over_ranks(const Mesh& mesh, double mine);
+double largest_over_ranks(const Mesh& mesh, double mine);
+
+/// Index of a body. Throws InputError at the name's place.
+LocalOrdinal find_body(const QuantityContext& context, const Located<std::string>& name);
+/// The same; an empty name is no body.
+std::optional<LocalOrdinal> find_optional_body(const QuantityContext& context, const Located<std::string>& name);
+
+/// Index of a pair; an empty name is the only pair. Throws InputError at the name's place.
+std::size_t find_pair(const QuantityContext& context, const Located<std::string>& name);
+
+/// A slave facet in its current position, with the pressures of its ends, in the order of travel.
+struct PressedFacet {
+  std::array<std::array<double, 2>, 2> position{};
+  std::array<double, 2> pressure{};
+  std::array<bool, 2> closed{};
+  double length() const;
+};
+
+/// The slave facets of a pair, each on exactly one rank. Collective.
+std::vector<PressedFacet> pressed_facets(const QuantityContext& context, std::size_t pair);
+
+}  // namespace mortise
