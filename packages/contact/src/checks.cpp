@@ -3,38 +3,17 @@
 #include <fmt/format.h>
 
 #include <Teuchos_RCPDecl.hpp>
-#include <Tpetra_Export.hpp>
 #include <Tpetra_Map.hpp>
-#include <Tpetra_Vector.hpp>
-#include <set>
+
+#include "mortise/mortar/surface_nodes.hpp"
 
 namespace mortise::detail {
-namespace {
-
-// For each owned node whether any rank has it in its `facets`.
-std::vector<char> belongs_to(const RCP<const Map>& owned_nodes, const SurfaceFacets& facets) {
-  std::set<GlobalOrdinal> mine;
-  for (const auto& facet : facets) mine.insert(facet.begin(), facet.end());
-  const std::vector<GlobalOrdinal> ids(mine.begin(), mine.end());
-  const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
-  const auto map = rcp(new Map(invalid, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, owned_nodes->getComm()));
-  Vector source(map), target(owned_nodes);
-  source.putScalar(1.0);
-  target.doExport(source, Export(map, owned_nodes), Tpetra::ADD);
-  const auto view = target.getLocalViewHost(Tpetra::Access::ReadOnly);
-  std::vector<char> belongs(view.extent(0));
-  for (std::size_t node = 0; node < belongs.size(); ++node) belongs[node] = view(node, 0) > 0.0;
-  return belongs;
-}
-
-}  // namespace
-
 void refuse_shared_nodes(const Map& owned_nodes, const std::vector<ContactPair>& pairs) {
   const auto nodes = Teuchos::rcpFromRef(owned_nodes);
   std::vector<std::vector<char>> slave, master;
   for (const ContactPair& pair : pairs) {
-    slave.push_back(belongs_to(nodes, pair.slave));
-    master.push_back(belongs_to(nodes, pair.master));
+    slave.push_back(nodes_on_surface(nodes, pair.slave));
+    master.push_back(nodes_on_surface(nodes, pair.master));
   }
   std::vector<Diagnostic> diagnostics;
   const auto first_common = [&](const std::vector<char>& one, const std::vector<char>& other) -> std::optional<GlobalOrdinal> {

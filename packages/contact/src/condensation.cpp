@@ -5,7 +5,10 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "implementation.hpp"
 
@@ -67,7 +70,7 @@ void ContactSystem::add_stiffness(const Vector& z, Matrix& system) {
           }
         };
         for (int k = 0; k < 2; ++k)
-          if (k == j || !facet.D.row(j).isZero(0.0)) add(facet.slave[k], facet.dD.row(2 * j + k), 1.0);
+          if (k == j || facet.D(j, k) != 0.0) add(facet.slave[k], facet.dD.row(2 * j + k), 1.0);
         for (std::size_t l = 0; l < facet.master.size(); ++l) add(facet.master[l], facet.dM.row(j * facet.master.size() + l), -1.0);
       }
     }

@@ -127,8 +127,10 @@ void ContactSystem::add_contact_force(const Vector& z, Vector& r) const {
         }
       }
     }
-    const Export exporter(force_map, self.dofs);
-    r.doExport(force, exporter, Tpetra::ADD);
+    // An export with ADD replaces what the rank itself sends to itself: hence a vector in between that starts at zero.
+    Vector on_dofs(self.dofs);
+    on_dofs.doExport(force, Export(force_map, self.dofs), Tpetra::ADD);
+    r.update(1.0, on_dofs, 1.0);
   }
 }
 

@@ -42,7 +42,7 @@ std::map<GlobalOrdinal, Columns> coupled_columns(const Graph& bulk, const std::v
       for (const LocalOrdinal node : pair->interface().coupled_nodes(s))
         for (int i = 0; i < dimension; ++i) columns.push_back(dimension * nodes.getGlobalElement(node) + i);
       sort_unique(columns);
-      for (const LocalOrdinal node : pair->interface().coupled_nodes(s)) {
+      for (const LocalOrdinal node : pair->interface().loaded_nodes(s)) {
         Columns& into = columns_of_node[nodes.getGlobalElement(node)];
         into.insert(into.end(), columns.begin(), columns.end());
       }

@@ -20,7 +20,7 @@ struct NodePositions {
 class SystemScatter {
  public:
   /// Builds the graph of the condensed system: the bulk's rows; for each slave node s the columns of its own bulk row and of the nodes
-  /// it is coupled to; the same columns in the rows of all these nodes (they receive the slave's row by condensation).
+  /// it is coupled to; the same columns in the rows of the nodes its multiplier loads (they receive the slave's row by condensation).
   SystemScatter(const RCP<const Map>& owned_nodes, const RCP<const Graph>& bulk, const std::vector<PairCoupling*>& pairs);
 
   const RCP<const Graph>& graph() const { return graph_; }

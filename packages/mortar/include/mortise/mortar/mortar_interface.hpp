@@ -94,6 +94,10 @@ class MortarInterface {
   /// For owned slave node s: every local node that may appear in `master` or `columns` of its facets' couplings: the sparsity pattern.
   const std::vector<LocalOrdinal>& coupled_nodes(std::size_t s) const;
 
+  /// For owned slave node s: the nodes on which its multiplier may act, the rows of its column of D^T and M^T: itself, its facets' nodes
+  /// without multiplier, and master nodes. A part of coupled_nodes(s).
+  const std::vector<LocalOrdinal>& loaded_nodes(std::size_t s) const;
+
   /// Facet couplings of all facets that touch an owned slave node and overlap a master facet, and the normals of the owned slave nodes
   /// [slave nodes], at positions `x` [local nodes x 2]. No communication. Local failures (inverted facet, projection) go to `failure`.
   void evaluate(const MultiVector& x, bool derivatives, std::vector<FacetCoupling>& couplings, std::vector<NodalNormal>& normals,

@@ -1,0 +1,301 @@
+#include "mortise/mortar/mortar_interface.hpp"
+
+#include <fmt/format.h>
+
+#include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "facet_coupling_2d.hpp"
+#include "mortise/mortar/surface_nodes.hpp"
+#include "slave_surface_2d.hpp"
+#include "surface_search.hpp"
+
+namespace mortise {
+namespace {
+
+using FacetIds = std::array<GlobalOrdinal, 2>;
+
+RCP<const Map> map_of(const std::vector<GlobalOrdinal>& ids, const RCP<const Communicator>& comm) {
+  const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
+  return rcp(new Map(invalid, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, comm));
+}
+
+// Positions of some nodes of all ranks.
+class Gathered {
+ public:
+  Gathered(const RCP<const Map>& owned_nodes, std::vector<GlobalOrdinal> ids)
+      : map_(map_of(ids, owned_nodes->getComm())), import_(owned_nodes, map_), positions_(map_, 2) {}
+
+  Positions operator()(const MultiVector& x) {
+    positions_.doImport(x, import_, Tpetra::REPLACE);
+    const auto view = positions_.getLocalViewHost(Tpetra::Access::ReadOnly);
+    Positions result(view.extent(0));
+    for (std::size_t n = 0; n < result.size(); ++n) result[n] = {view(n, 0), view(n, 1)};
+    return result;
+  }
+  LocalOrdinal local(GlobalOrdinal node) const { return map_->getLocalElement(node); }
+
+ private:
+  RCP<const Map> map_;
+  Import import_;
+  MultiVector positions_;
+};
+
+std::vector<GlobalOrdinal> nodes_of(const SurfaceFacets& facets) {
+  std::set<GlobalOrdinal> nodes;
+  for (const FacetIds& facet : facets) nodes.insert(facet.begin(), facet.end());
+  return {nodes.begin(), nodes.end()};
+}
+
+// Whether the master facet b may lie under the slave facet a, seen along its normals, when nodes move by `margin`.
+bool may_overlap(const std::array<Eigen::Vector2d, 2>& a, const std::array<Eigen::Vector2d, 2>& b, const std::array<Eigen::Vector2d, 2>& normals,
+                 double distance, double margin) {
+  const double length = (a[1] - a[0]).norm();
+  const Eigen::Vector2d t = (a[1] - a[0]) / length, n(t.y(), -t.x());
+  double slope = 0.0;  // how far nodal normals lean over to the sides
+  for (const Eigen::Vector2d& normal : normals) slope = std::max(slope, std::abs(normal.dot(t)) / std::max(normal.dot(n), 0.1));
+  const double low = std::min((b[0] - a[0]).dot(t), (b[1] - a[0]).dot(t)), high = std::max((b[0] - a[0]).dot(t), (b[1] - a[0]).dot(t));
+  const double slack = margin + slope * (distance + length + margin);
+  return high >= -slack && low <= length + slack;
+}
+
+}  // namespace
+
+// Candidates of a slave facet, kept from search to search: a superset of the master facets it can touch now. Which of them take part is
+// decided in evaluate() from positions alone, so no result depends on the margin:
+//   the facet takes part if a master facet lies within the reach; then all within reach + its length do.
+struct MortarInterface::Implementation {
+  RCP<const Map> owned_nodes;
+  InterfaceMeasure measure;
+  MortarOptions options;
+  SlaveSurface2d slave;
+  SurfaceFacets master;
+  double shortest = 0.0, longest = 0.0, reach = 0.0;
+
+  std::unique_ptr<Gathered> slave_positions, master_positions;
+  std::vector<std::vector<FacetIds>> candidate_ids;                        ///< [facets] ascending
+  std::vector<std::vector<std::array<LocalOrdinal, 2>>> candidates;        ///< [facets] as local nodes
+  std::vector<std::vector<LocalOrdinal>> coupled, loaded;                  ///< [owned slave nodes]
+  RCP<const Map> local_nodes;
+  RCP<MultiVector> searched_at;                                            ///< owned positions of the last real search
+  mutable FacetIntegrator2d integrator;
+
+  Implementation(const InterfaceMeasure& m, const MortarOptions& o) : measure(m), options(o), integrator(m, o) {}
+
+  double generous(double length) const { return reach + length; }
+  void measure_facets(const MultiVector& reference, const Place& place);
+  bool moved(const MultiVector& x) const;
+  std::vector<std::vector<FacetIds>> find(const Positions& x, const std::vector<PlacedFacet>& placed_master, double margin_share) const;
+  void number_nodes();
+};
+
+void MortarInterface::Implementation::measure_facets(const MultiVector& reference, const Place& place) {
+  const Positions slave_x = (*slave_positions)(reference), master_x = (*master_positions)(reference);
+  double extent[2] = {-std::numeric_limits<double>::max(), 0.0}, all[2];  // -shortest, longest
+  std::vector<Diagnostic> diagnostics;
+  const auto take = [&](double length) {
+    extent[0] = std::max(extent[0], -length);
+    extent[1] = std::max(extent[1], length);
+  };
+  std::array<double, 2> own{};
+  for (const auto& facet : slave.facets) {
+    const double length = (slave_x[facet[1]] - slave_x[facet[0]]).norm();
+    take(length);
+  }
+  const double counts[2] = {static_cast<double>(slave.facets.size()), static_cast<double>(master.size())};
+  Teuchos::reduceAll(*owned_nodes->getComm(), Teuchos::REDUCE_SUM, 2, counts, own.data());
+  if (own[0] == 0.0) diagnostics.push_back({place, "the slave surface is empty"});
+  if (own[1] == 0.0) diagnostics.push_back({place, "the master surface is empty"});
+  Teuchos::reduceAll(*owned_nodes->getComm(), Teuchos::REDUCE_MAX, 2, extent, all);
+  shortest = -all[0];
+  for (const FacetIds& facet : master) {
+    const double length = (master_x[master_positions->local(facet[1])] - master_x[master_positions->local(facet[0])]).norm();
+    if (!(length > 0.0)) diagnostics.push_back({place, fmt::format("the master facet between nodes {} and {} has no length", facet[0], facet[1])});
+    extent[1] = std::max(extent[1], length);
+  }
+  Teuchos::reduceAll(*owned_nodes->getComm(), Teuchos::REDUCE_MAX, 1, &extent[1], &longest);
+  throw_if_any(*owned_nodes->getComm(), diagnostics);
+  reach = options.search_reach.value_or(longest);
+}
+
+MortarInterface::MortarInterface(RCP<const Map> owned_nodes, RCP<const MultiVector> reference, RCP<const MultiVector> fixed, const SurfaceFacets& slave,
+                                 const SurfaceFacets& master, const InterfaceMeasure& measure, const MortarOptions& options, const Place& place)
+    : implementation_(std::make_unique<Implementation>(measure, options)) {
+  Implementation& self = *implementation_;
+  self.owned_nodes = owned_nodes;
+  self.master = master;
+  std::vector<Diagnostic> diagnostics;
+  const std::vector<char> on_slave = nodes_on_surface(owned_nodes, slave), on_master = nodes_on_surface(owned_nodes, master);
+  for (std::size_t node = 0; node < on_slave.size() && diagnostics.empty(); ++node)
+    if (on_slave[node] && on_master[node])
+      diagnostics.push_back({place, fmt::format("node {} lies on the slave and on the master surface; the two have to be disjoint",
+                                                owned_nodes->getGlobalElement(static_cast<LocalOrdinal>(node)))});
+  throw_if_any(*owned_nodes->getComm(), diagnostics);
+
+  self.slave = make_slave_surface_2d(owned_nodes, reference, fixed, slave, measure, place);
+  self.slave_positions = std::make_unique<Gathered>(owned_nodes, self.slave.node_ids);
+  self.master_positions = std::make_unique<Gathered>(owned_nodes, nodes_of(master));
+  self.measure_facets(*reference, place);
+  self.candidate_ids.resize(self.slave.facets.size());
+  self.number_nodes();
+}
+
+MortarInterface::~MortarInterface() = default;
+
+bool MortarInterface::Implementation::moved(const MultiVector& x) const {
+  if (searched_at.is_null()) return true;
+  MultiVector difference(x, Teuchos::Copy);
+  difference.update(-1.0, *searched_at, 1.0);
+  Teuchos::Array<double> largest(2);
+  difference.normInf(largest());
+  return std::hypot(largest[0], largest[1]) > 0.25 * shortest;
+}
+
+// With margin_share of each slave facet's length as margin. Collective.
+std::vector<std::vector<FacetIds>> MortarInterface::Implementation::find(const Positions& x, const std::vector<PlacedFacet>& placed_master,
+                                                                         double margin_share) const {
+  std::vector<PlacedFacet> placed;
+  std::vector<double> radius;
+  for (const auto& facet : slave.facets) {
+    const Eigen::Vector2d &a = x[facet[0]], &b = x[facet[1]];
+    placed.push_back({{slave.node_ids[facet[0]], slave.node_ids[facet[1]]}, {{{a.x(), a.y()}, {b.x(), b.y()}}}});
+    const double length = (b - a).norm();
+    radius.push_back(generous(length) + margin_share * length);
+  }
+  std::vector<std::vector<PlacedFacet>> near = facets_within(*owned_nodes->getComm(), placed, radius, placed_master);
+  std::vector<std::vector<FacetIds>> result(near.size());
+  for (std::size_t f = 0; f < near.size(); ++f) {
+    const std::array<Eigen::Vector2d, 2> a = {x[slave.facets[f][0]], x[slave.facets[f][1]]};
+    const double margin = margin_share * (a[1] - a[0]).norm();
+    std::array<Eigen::Vector2d, 2> normals;
+    bool lean = true;
+    for (int j = 0; j < 2; ++j) {
+      NodalNormal normal;
+      lean = average_normal(slave.stencils[slave.facets[f][j]], x, false, normal) && lean;
+      normals[j] = normal.normal;
+    }
+    if (!lean) normals.fill(facet_normal(a[0], a[1]));  // evaluate() says what is wrong
+    for (const PlacedFacet& one : near[f]) {
+      const std::array<Eigen::Vector2d, 2> b = {Eigen::Vector2d(one.x[0][0], one.x[0][1]), Eigen::Vector2d(one.x[1][0], one.x[1][1])};
+      if (may_overlap(a, b, normals, segment_distance(a, b), margin)) result[f].push_back(one.nodes);
+    }
+  }
+  return result;
+}
+
+void MortarInterface::Implementation::number_nodes() {
+  std::vector<GlobalOrdinal> ids = slave.node_ids;
+  std::map<GlobalOrdinal, LocalOrdinal> local_of;
+  candidates.assign(slave.facets.size(), {});
+  for (std::size_t f = 0; f < slave.facets.size(); ++f)
+    for (const FacetIds& facet : candidate_ids[f]) {
+      std::array<LocalOrdinal, 2> local;
+      for (int l = 0; l < 2; ++l) {
+        const auto [found, is_new] = local_of.insert({facet[l], static_cast<LocalOrdinal>(ids.size())});
+        if (is_new) ids.push_back(facet[l]);
+        local[l] = found->second;
+      }
+      candidates[f].push_back(local);
+    }
+  local_nodes = map_of(ids, owned_nodes->getComm());
+  coupled.assign(slave.owned.size(), {});
+  loaded.assign(slave.owned.size(), {});
+  for (std::size_t s = 0; s < slave.owned.size(); ++s) {
+    loaded[s].push_back(slave.owned[s].local_node);
+    for (const std::size_t f : slave.facets_of[s]) {
+      for (const LocalOrdinal node : slave.facets[f]) {
+        const auto& columns = slave.stencils[node].columns;
+        coupled[s].insert(coupled[s].end(), columns.begin(), columns.end());
+        if (!slave.carries[node]) loaded[s].push_back(node);
+      }
+      for (const auto& facet : candidates[f]) loaded[s].insert(loaded[s].end(), facet.begin(), facet.end());
+    }
+    coupled[s].insert(coupled[s].end(), loaded[s].begin(), loaded[s].end());
+    for (std::vector<LocalOrdinal>* nodes : {&coupled[s], &loaded[s]}) {
+      std::sort(nodes->begin(), nodes->end());
+      nodes->erase(std::unique(nodes->begin(), nodes->end()), nodes->end());
+    }
+  }
+}
+
+bool MortarInterface::search(const MultiVector& x) {
+  Implementation& self = *implementation_;
+  if (!self.moved(x)) return false;
+  const bool first = self.searched_at.is_null();
+  self.searched_at = rcp(new MultiVector(x, Teuchos::Copy));
+  const Positions slave_x = (*self.slave_positions)(x), master_x = (*self.master_positions)(x);
+  std::vector<PlacedFacet> placed;
+  for (const FacetIds& facet : self.master) {
+    const Eigen::Vector2d &a = master_x[self.master_positions->local(facet[0])], &b = master_x[self.master_positions->local(facet[1])];
+    placed.push_back({facet, {{{a.x(), a.y()}, {b.x(), b.y()}}}});
+  }
+  // What is needed until the next search has to stand among the candidates; only then they, and the pattern, may stay as they are.
+  const auto needed = self.find(slave_x, placed, 0.5);
+  double missing = first, any = 0.0;
+  for (std::size_t f = 0; f < needed.size(); ++f)
+    if (!std::includes(self.candidate_ids[f].begin(), self.candidate_ids[f].end(), needed[f].begin(), needed[f].end())) missing = 1.0;
+  Teuchos::reduceAll(*self.owned_nodes->getComm(), Teuchos::REDUCE_MAX, missing, Teuchos::outArg(any));
+  if (any == 0.0) return false;
+  self.candidate_ids = self.find(slave_x, placed, 1.0);
+  self.number_nodes();
+  return true;
+}
+
+const RCP<const Map>& MortarInterface::local_nodes() const { return implementation_->local_nodes; }
+const std::vector<SlaveNode>& MortarInterface::slave_nodes() const { return implementation_->slave.owned; }
+const std::vector<LocalOrdinal>& MortarInterface::coupled_nodes(std::size_t s) const { return implementation_->coupled[s]; }
+const std::vector<LocalOrdinal>& MortarInterface::loaded_nodes(std::size_t s) const { return implementation_->loaded[s]; }
+double MortarInterface::shortest_facet() const { return implementation_->shortest; }
+double MortarInterface::longest_facet() const { return implementation_->longest; }
+
+void MortarInterface::evaluate(const MultiVector& x, bool derivatives, std::vector<FacetCoupling>& couplings, std::vector<NodalNormal>& normals,
+                               std::optional<StepFailure>& failure) const {
+  const Implementation& self = *implementation_;
+  const SlaveSurface2d& slave = self.slave;
+  const auto view = x.getLocalViewHost(Tpetra::Access::ReadOnly);
+  Positions positions(view.extent(0));
+  for (std::size_t n = 0; n < positions.size(); ++n) positions[n] = {view(n, 0), view(n, 1)};
+
+  normals.resize(slave.nodes_with_normal);
+  for (std::size_t n = 0; n < slave.nodes_with_normal; ++n)
+    if (!average_normal(slave.stencils[n], positions, derivatives, normals[n]) && !failure)
+      failure = StepFailure(FailureKind::inverted_facet,
+                            fmt::format("the slave surface has no normal at node {}: a facet lost its length, or facets folded onto one another", slave.node_ids[n]));
+  std::size_t used = 0;
+  if (!failure) {
+    std::vector<std::array<LocalOrdinal, 2>> masters;
+    for (std::size_t f = 0; f < slave.facets.size(); ++f) {
+      const auto& nodes = slave.facets[f];
+      const std::array<Eigen::Vector2d, 2> a = {positions[nodes[0]], positions[nodes[1]]};
+      const double generous = self.generous((a[1] - a[0]).norm());
+      double nearest = std::numeric_limits<double>::max();
+      masters.clear();
+      for (const auto& facet : self.candidates[f]) {
+        const double distance = segment_distance(a, {positions[facet[0]], positions[facet[1]]});
+        nearest = std::min(nearest, distance);
+        if (distance <= generous) masters.push_back(facet);
+      }
+      if (nearest > self.reach) continue;
+      SlaveFacetData data;
+      data.nodes = nodes;
+      data.weights = slave.facet_weights[f];
+      for (int j = 0; j < 2; ++j) {
+        data.normals[j] = &normals[nodes[j]];
+        data.carries[j] = slave.carries[nodes[j]];
+      }
+      if (used == couplings.size()) couplings.emplace_back();
+      used += self.integrator.integrate(data, masters, positions, derivatives, couplings[used]);
+    }
+  }
+  couplings.resize(used);
+  normals.resize(slave.owned.size());
+}
+
+}  // namespace mortise

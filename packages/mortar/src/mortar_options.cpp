@@ -1,0 +1,14 @@
+#include "mortise/mortar/mortar_interface.hpp"
+
+namespace mortise {
+
+void MortarOptions::describe(Parameters& parameters) {
+  parameters.add("gap weighting", gap_weighting, {{"dual", GapWeighting::dual}, {"standard", GapWeighting::standard}},
+                 "functions that weight the gap: the dual ones of the multiplier, or the standard shape functions, which keep the gap's sign on "
+                 "strongly curved coarse facets");
+  parameters.add("search reach", search_reach,
+                 Says("distance up to which facets can touch; default: the length of the pair's longest facet").unit("length").above(0.0));
+  parameters.add("gauss points", gauss_points, Says("quadrature points on each overlap of two facets").unit("-").at_least(2.0).at_most(20.0));
+}
+
+}  // namespace mortise
