@@ -1,5 +1,7 @@
 #include "direct_solver.hpp"
 
+#include <fmt/format.h>
+
 #include <Amesos2.hpp>
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Map.hpp>
@@ -51,8 +53,8 @@ class DirectSolver : public LinearSolver {
       fail(error.what());
     }
     if (!(report.relative_residual <= bound_))
-      fail("the true relative residual is " + std::to_string(report.relative_residual) + " after one step of refinement (bound " +
-           std::to_string(bound_) + "): the matrix is singular or nearly so");
+      fail(fmt::format("the true relative residual is {:.1e} after one step of refinement (bound {:.1e}): the matrix is singular or nearly so",
+                       report.relative_residual, bound_));
     return report;
   }
 
@@ -116,15 +118,9 @@ class Klu2Solver : public DirectSolver {
   using DirectSolver::DirectSolver;
 
  protected:
-  RCP<Amesos2Solver> make(const RCP<const Matrix>& matrix) override {
-    const auto klu2 = Amesos2::create<Matrix, MultiVector>("KLU2", matrix);
-    if (!ids_have_no_gaps(*matrix->getRowMap())) {
-      const auto list = Teuchos::parameterList("Amesos2");
-      list->sublist("KLU2").set("IsContiguous", false);
-      klu2->setParameters(list);
-    }
-    return klu2;
-  }
+  // On one rank Amesos2 hands KLU2 the matrix's own arrays, whatever the global ids are, unless it is told that they have gaps: then it takes
+  // the path of many ranks, whose results are wrong.
+  RCP<Amesos2Solver> make(const RCP<const Matrix>& matrix) override { return Amesos2::create<Matrix, MultiVector>("KLU2", matrix); }
 };
 
 }  // namespace

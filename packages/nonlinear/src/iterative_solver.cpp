@@ -1,5 +1,7 @@
 #include "iterative_solver.hpp"
 
+#include <fmt/format.h>
+
 #include <BelosConfigDefs.hpp>
 #include <BelosLinearProblem.hpp>
 #include <BelosSolverFactory_Tpetra.hpp>
@@ -89,8 +91,8 @@ class IterativeSolver : public LinearSolver {
     Vector r(b.getMap());
     report.relative_residual = true_residual(*matrix_, b, x, r) / size;
     if (!(report.relative_residual <= 10.0 * options_.tolerance))
-      throw StepFailure(FailureKind::linear_solver, name() + ": true relative residual " + std::to_string(report.relative_residual) + " after " +
-                                                        std::to_string(report.iterations) + " iterations");
+      throw StepFailure(FailureKind::linear_solver, fmt::format("{}: the true relative residual is {:.1e} after {} iterations (tolerance {:.1e})",
+                                                                name(), report.relative_residual, report.iterations, options_.tolerance));
     return report;
   }
 

@@ -1,0 +1,28 @@
+#pragma once
+// Which step of pseudo-time comes next.
+
+#include <vector>
+
+#include "mortise/nonlinear/load_stepper.hpp"
+
+namespace mortise {
+
+/// Sizes of steps, without any solver: proposes a time, learns whether it worked. Output times and the end are hit exactly.
+class StepSchedule {
+ public:
+  explicit StepSchedule(const SteppingOptions& options);
+
+  double time() const { return time_; }  ///< of the last accepted step
+  bool finished() const { return time_ >= targets_.back(); }
+  double next_time() const;  ///< where the next try ends
+  /// The try worked; an easy one may be followed by a step twice as long.
+  void accept(bool easy);
+  /// The try failed: the next one is half as long. False if that is shorter than the smallest step.
+  bool cut();
+
+ private:
+  std::vector<double> targets_;  ///< output times and the end, ascending
+  double time_ = 0.0, step_, maximum_, minimum_;
+};
+
+}  // namespace mortise

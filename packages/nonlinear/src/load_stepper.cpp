@@ -1,0 +1,59 @@
+#include "mortise/nonlinear/load_stepper.hpp"
+
+#include <Tpetra_Vector.hpp>
+
+#include "mortise/nonlinear/step_schedule.hpp"
+
+namespace mortise {
+
+void SteppingOptions::describe(Parameters& parameters) {
+  parameters.add("end time", end_time, Says("pseudo-time at which the run ends; it starts at 0").unit("time").above(0.0));
+  parameters.add("step", step, Says("first step, and the largest unless `maximum step` says otherwise").unit("time").above(0.0));
+  parameters.add("maximum step", maximum_step, Says("largest step; default: `step`").unit("time").above(0.0));
+  parameters.add("minimum step", minimum_step, Says("smallest step; the run stops if it fails; default: `step` / 1024").unit("time").above(0.0));
+  parameters.add("easy iterations", easy_iterations,
+                 Says("a step that took no more Newton iterations may be followed by one twice as long").at_least(0));
+  parameters.add("output times", output_times, Says("times that are hit exactly").unit("time"));
+  if (maximum_step && *maximum_step < step) parameters.error("maximum step", "is smaller than `step`");
+  if (minimum_step && *minimum_step > step) parameters.error("minimum step", "is larger than `step`");
+  for (const double time : output_times)
+    if (!(time > 0.0 && time <= end_time)) {
+      parameters.error("output times", "lie after 0 and not after `end time`; please remove " + std::to_string(time));
+      break;
+    }
+}
+
+bool run_steps(SemiSmoothSystem& system, const SteppingOptions& stepping, const NewtonOptions& newton, Vector& x,
+               const std::function<void(Vector& x)>& start_step, const StepperObserver& observer, std::optional<StepFailure>& last_failure) {
+  StepSchedule schedule(stepping);
+  Vector tried(x.getMap());
+  for (int step = 1; !schedule.finished(); ++step) {
+    StepReport report;
+    report.step = step;
+    for (;;) {
+      report.time = schedule.next_time();
+      report.dt = report.time - schedule.time();
+      Tpetra::deep_copy(tried, x);
+      try {
+        if (observer.begin) observer.begin(step, report.time, report.dt);
+        if (start_step) start_step(tried);
+        solve_newton(system, report.time, newton, tried, report.newton, observer.iteration);
+        break;
+      } catch (const StepFailure& failure) {
+        last_failure = failure;
+        ++report.cutbacks;
+        report.undone.push_back(to_string(failure.kind()) + ": " + failure.what());
+        if (observer.undone) observer.undone(report, failure);
+        if (!schedule.cut()) return false;
+      }
+    }
+    last_failure.reset();
+    system.commit(tried);
+    Tpetra::deep_copy(x, tried);
+    schedule.accept(report.newton.newton_steps() <= stepping.easy_iterations);
+    if (observer.accepted) observer.accepted(report, x);
+  }
+  return true;
+}
+
+}  // namespace mortise

@@ -1,0 +1,93 @@
+#include "matrix_values.hpp"
+
+#include <Tpetra_CrsGraph.hpp>
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+#include <stdexcept>
+
+namespace mortise::detail {
+namespace {
+
+RCP<const Vector> on_columns(const Graph& graph, const RCP<const Vector>& on_rows) {
+  if (graph.getImporter().is_null()) return on_rows;
+  const auto result = rcp(new Vector(graph.getColMap()));
+  result->doImport(*on_rows, *graph.getImporter(), Tpetra::REPLACE);
+  return result;
+}
+
+}  // namespace
+
+ValueCopy::ValueCopy(const Graph& from, const Graph& to) {
+  const auto source = from.getLocalGraphHost(), target = to.getLocalGraphHost();
+  const auto source_columns = from.getColMap()->getLocalMap(), target_columns = to.getColMap()->getLocalMap();
+  std::vector<LocalOrdinal> column(source_columns.getNodeNumElements());
+  for (std::size_t c = 0; c < column.size(); ++c)
+    column[c] = target_columns.getLocalElement(source_columns.getGlobalElement(static_cast<LocalOrdinal>(c)));
+  std::vector<std::size_t> place(target_columns.getNodeNumElements());
+  const std::size_t nowhere = target.entries.extent(0);
+  std::fill(place.begin(), place.end(), nowhere);
+  offsets_.resize(source.entries.extent(0));
+  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(source.numRows()); ++row) {
+    for (std::size_t k = target.row_map(row); k < target.row_map(row + 1); ++k) place[target.entries(k)] = k;
+    for (std::size_t k = source.row_map(row); k < source.row_map(row + 1); ++k) {
+      const LocalOrdinal c = column[source.entries(k)];
+      offsets_[k] = c < 0 ? nowhere : place[c];
+      if (offsets_[k] == nowhere) throw std::logic_error("the system's graph does not hold an entry of the bulk's");
+    }
+    for (std::size_t k = target.row_map(row); k < target.row_map(row + 1); ++k) place[target.entries(k)] = nowhere;
+  }
+}
+
+void ValueCopy::apply(const Matrix& from, Matrix& to) const {
+  to.setAllToScalar(0.0);
+  const auto source = from.getLocalMatrixHost().values;
+  const auto target = to.getLocalMatrixHost().values;
+  for (std::size_t k = 0; k < offsets_.size(); ++k) target(offsets_[k]) = source(k);
+}
+
+DirichletElimination::DirichletElimination(const Graph& graph, const std::vector<LocalOrdinal>& rows) : rows_(rows) {
+  const auto flags = rcp(new Vector(graph.getRowMap()));
+  for (const LocalOrdinal row : rows) flags->replaceLocalValue(row, 1.0);
+  const RCP<const Vector> column_flags = on_columns(graph, flags);
+  const auto fixed_row = flags->getLocalViewHost(Tpetra::Access::ReadOnly);
+  const auto fixed_column = column_flags->getLocalViewHost(Tpetra::Access::ReadOnly);
+
+  const auto local = graph.getLocalGraphHost();
+  const auto row_ids = graph.getRowMap()->getLocalMap(), column_ids = graph.getColMap()->getLocalMap();
+  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(local.numRows()); ++row) {
+    const std::size_t begin = local.row_map(row), end = local.row_map(row + 1);
+    if (fixed_row(row, 0) == 0.0) {
+      for (std::size_t k = begin; k < end; ++k)
+        if (fixed_column(local.entries(k), 0) != 0.0) entries_.push_back({k, row, local.entries(k)});
+      continue;
+    }
+    const LocalOrdinal own = column_ids.getLocalElement(row_ids.getGlobalElement(row));
+    std::size_t diagonal = end;
+    for (std::size_t k = begin; k < end; ++k)
+      if (local.entries(k) == own) diagonal = k;
+    if (diagonal == end) throw std::logic_error("a prescribed row has no diagonal in the system's graph");
+    row_begin_.push_back(begin);
+    row_end_.push_back(end);
+    diagonal_.push_back(diagonal);
+  }
+}
+
+void DirichletElimination::impose(Matrix& matrix, const Vector& increment, double diagonal, Vector& rhs) const {
+  const RCP<const Vector> columns = on_columns(*matrix.getCrsGraph(), rcp(&increment, false));
+  const auto values = matrix.getLocalMatrixHost().values;
+  const auto step = columns->getLocalViewHost(Tpetra::Access::ReadOnly);
+  const auto right = rhs.getLocalViewHost(Tpetra::Access::ReadWrite);
+  for (const Entry& entry : entries_) {
+    right(entry.row, 0) -= values(entry.offset) * step(entry.column, 0);
+    values(entry.offset) = 0.0;
+  }
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    for (std::size_t k = row_begin_[i]; k < row_end_[i]; ++k) values(k) = 0.0;
+    values(diagonal_[i]) = diagonal;
+    right(rows_[i], 0) = 0.0;
+  }
+}
+
+}  // namespace mortise::detail

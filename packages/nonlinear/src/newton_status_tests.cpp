@@ -1,0 +1,107 @@
+#include "newton_status_tests.hpp"
+
+#include <NOX_Abstract_Group.H>
+#include <NOX_Solver_Generic.H>
+#include <fmt/format.h>
+
+#include <Teuchos_Time.hpp>
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+#include "semi_smooth_newton_group.hpp"
+
+namespace mortise::detail {
+
+NewtonHistory::NewtonHistory(NewtonReport& report) : report_(report), last_time_(Teuchos::Time::wallTime()) { report_.iterations.clear(); }
+
+const std::vector<NewtonIteration>& NewtonHistory::update(const NOX::Solver::Generic& solver) {
+  auto& iterations = report_.iterations;
+  if (static_cast<int>(iterations.size()) > solver.getNumIterations()) return iterations;
+  const auto& group = dynamic_cast<const SemiSmoothNewtonGroup&>(solver.getSolutionGroup());
+  const double now = Teuchos::Time::wallTime();
+  NewtonIteration iteration;
+  iteration.iteration = solver.getNumIterations();
+  iteration.norms = group.norms();
+  iteration.increment = std::max(0.0, group.increment());
+  iteration.linear_iterations = group.linear_solve().iterations;
+  iteration.seconds = now - last_time_;
+  last_time_ = now;
+  iterations.push_back(iteration);
+  return iterations;
+}
+
+NOX::StatusTest::StatusType IterateTest::checkStatus(const NOX::Solver::Generic& solver, NOX::StatusTest::CheckType type) {
+  const auto& iterates = history_.update(solver);
+  status_ = type == NOX::StatusTest::None ? NOX::StatusTest::Unevaluated : check(iterates);
+  return status_;
+}
+
+std::ostream& IterateTest::print(std::ostream& stream, int indent) const {
+  return stream << std::string(static_cast<std::size_t>(indent), ' ') << status_ << name_ << '\n';
+}
+
+std::vector<ConvergenceCriterion> convergence_criteria(const NewtonOptions& options, double length) {
+  std::vector<ConvergenceCriterion> criteria;
+  const auto bounded = [&](const std::string& name, double ResidualNorms::*norm, double tolerance) {
+    criteria.push_back({fmt::format("{} (tolerance {:.1e})", name, tolerance), [=](const NewtonIteration& at) { return at.norms.*norm <= tolerance; },
+                        [=](const NewtonIteration& at) { return fmt::format("{:.2e}", at.norms.*norm); }});
+  };
+  bounded("momentum", &ResidualNorms::momentum, options.momentum_tolerance);
+  bounded("prescribed displacements", &ResidualNorms::prescribed, options.increment_tolerance);
+  bounded("gap", &ResidualNorms::gap, options.gap_tolerance);
+  bounded("complementarity", &ResidualNorms::complementarity, options.complementarity_tolerance);
+  // The correction that led to an iterate says how wrong the one before was. If the residual is far below its tolerance the iterate itself is
+  // known to be right, and computing a correction that only confirms it would be one iteration for nothing.
+  criteria.push_back({fmt::format("increment (tolerance {:.1e})", options.increment_tolerance),
+                      [=](const NewtonIteration& at) {
+                        const bool small = at.iteration > 0 && at.increment <= options.increment_tolerance * length;
+                        return small || at.norms.momentum <= 1e-3 * options.momentum_tolerance;
+                      },
+                      [=](const NewtonIteration& at) { return fmt::format("{:.2e}", at.increment / length); }});
+  // The starting point has no active set before it; its complementarity has been tested above.
+  criteria.push_back({"active set settled", [](const NewtonIteration& at) { return at.iteration == 0 || at.norms.changed == 0; },
+                      [](const NewtonIteration& at) { return fmt::format("{} of {} active nodes changed", at.norms.changed, at.norms.active); }});
+  return criteria;
+}
+
+NOX::StatusTest::StatusType ConvergenceTest::check(const Iterates& iterates) {
+  return criterion_.met(iterates.back()) ? NOX::StatusTest::Converged : NOX::StatusTest::Unconverged;
+}
+
+std::optional<StepFailure> reason_to_give_up(const std::vector<NewtonIteration>& iterates, const NewtonOptions& options,
+                                             const std::vector<ConvergenceCriterion>& criteria) {
+  const NewtonIteration& last = iterates.back();
+  if (!last.norms.finite || !std::isfinite(last.increment))
+    return StepFailure(FailureKind::not_finite, fmt::format("residual or increment is not finite in Newton iteration {}", last.iteration));
+
+  // Iterate 0 is in equilibrium but for what has just been prescribed, so its |r| alone is no measure of the problem.
+  if (iterates.size() > 2) {
+    const double first = std::max(iterates[0].norms.momentum_absolute, iterates[1].norms.momentum_absolute);
+    if (last.norms.momentum_absolute > options.divergence * first)
+      return StepFailure(FailureKind::diverged, fmt::format("|r| has grown from {:.2e} to {:.2e} in Newton iteration {}", first,
+                                                            last.norms.momentum_absolute, last.iteration));
+  }
+
+  CycleDetector detector(options.cycle_length);
+  for (const NewtonIteration& iterate : iterates) detector.add(iterate.norms.active_set, iterate.increment);
+  if (const int length = detector.cycle(); length > 0)
+    return StepFailure(FailureKind::cycling_active_set,
+                       fmt::format("the active set repeats itself every {} Newton iterations ({} active nodes, {} changed last)", length,
+                                   last.norms.active, last.norms.changed));
+
+  if (last.iteration >= options.maximum_iterations) {
+    std::string missed;
+    for (const ConvergenceCriterion& criterion : criteria)
+      if (!criterion.met(last)) missed += fmt::format("{}{}: {}", missed.empty() ? "" : ", ", criterion.name, criterion.value(last));
+    return StepFailure(FailureKind::too_many_iterations, fmt::format("not converged after {} Newton iterations: {}", last.iteration, missed));
+  }
+  return std::nullopt;
+}
+
+NOX::StatusTest::StatusType GiveUpTest::check(const Iterates& iterates) {
+  reason_ = reason_to_give_up(iterates, options_, criteria_);
+  return reason_ ? NOX::StatusTest::Failed : NOX::StatusTest::Unconverged;
+}
+
+}  // namespace mortise::detail

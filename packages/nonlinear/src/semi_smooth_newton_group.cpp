@@ -1,0 +1,122 @@
+#include "semi_smooth_newton_group.hpp"
+
+#include <Thyra_TpetraThyraWrappers.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+#include <stdexcept>
+
+namespace mortise::detail {
+namespace {
+
+using Extraction = ::Thyra::TpetraOperatorVectorExtraction<Scalar, LocalOrdinal, GlobalOrdinal, NodeType>;
+
+RCP<NOX::Thyra::Vector> cloned(const NOX::Thyra::Vector& vector, NOX::CopyType type) {
+  return Teuchos::rcp_dynamic_cast<NOX::Thyra::Vector>(vector.clone(type), true);
+}
+
+}  // namespace
+
+RCP<Vector> tpetra_vector(NOX::Abstract::Vector& vector) {
+  return Extraction::getTpetraVector(Teuchos::dyn_cast<NOX::Thyra::Vector>(vector).getThyraRCPVector());
+}
+
+RCP<const Vector> tpetra_vector(const NOX::Abstract::Vector& vector) {
+  return Extraction::getConstTpetraVector(Teuchos::dyn_cast<const NOX::Thyra::Vector>(vector).getThyraRCPVector());
+}
+
+NOX::Thyra::Vector nox_vector(const RCP<Vector>& vector) {
+  const auto space = ::Thyra::createVectorSpace<Scalar, LocalOrdinal, GlobalOrdinal, NodeType>(vector->getMap());
+  return NOX::Thyra::Vector(::Thyra::createVector<Scalar, LocalOrdinal, GlobalOrdinal, NodeType>(vector, space));
+}
+
+SemiSmoothNewtonGroup::SemiSmoothNewtonGroup(SemiSmoothSystem& system, const NOX::Thyra::Vector& x)
+    : system_(&system),
+      shared_(std::make_shared<Shared>()),
+      number_(shared_->next++),
+      x_(cloned(x, NOX::DeepCopy)),
+      F_(cloned(x, NOX::ShapeCopy)),
+      newton_(cloned(x, NOX::ShapeCopy)) {}
+
+SemiSmoothNewtonGroup::SemiSmoothNewtonGroup(const SemiSmoothNewtonGroup& other, NOX::CopyType type)
+    : system_(other.system_),
+      shared_(other.shared_),
+      number_(shared_->next++),
+      x_(cloned(*other.x_, NOX::ShapeCopy)),
+      F_(cloned(*other.F_, NOX::ShapeCopy)),
+      newton_(cloned(*other.newton_, NOX::ShapeCopy)) {
+  if (type == NOX::DeepCopy) *this = static_cast<const NOX::Abstract::Group&>(other);
+}
+
+NOX::Abstract::Group& SemiSmoothNewtonGroup::operator=(const NOX::Abstract::Group& other) {
+  const auto& from = dynamic_cast<const SemiSmoothNewtonGroup&>(other);
+  if (&from == this) return *this;
+  number_ = from.number_;
+  *x_ = *from.x_;
+  has_F_ = from.has_F_;
+  has_newton_ = from.has_newton_;
+  if (has_F_) *F_ = *from.F_;
+  if (has_newton_) *newton_ = *from.newton_;
+  norm_F_ = from.norm_F_;
+  increment_ = from.increment_;
+  norms_ = from.norms_;
+  linear_solve_ = from.linear_solve_;
+  newton_solve_ = from.newton_solve_;
+  return *this;
+}
+
+RCP<NOX::Abstract::Group> SemiSmoothNewtonGroup::clone(NOX::CopyType type) const { return rcp(new SemiSmoothNewtonGroup(*this, type)); }
+
+void SemiSmoothNewtonGroup::become_new_iterate() {
+  number_ = shared_->next++;
+  has_F_ = has_newton_ = false;
+  increment_ = -1.0;
+  linear_solve_ = {};
+}
+
+void SemiSmoothNewtonGroup::setX(const NOX::Abstract::Vector& y) {
+  become_new_iterate();
+  *x_ = y;
+}
+
+void SemiSmoothNewtonGroup::computeX(const NOX::Abstract::Group& group, const NOX::Abstract::Vector& direction, double step) {
+  const auto& from = dynamic_cast<const SemiSmoothNewtonGroup&>(group);
+  const LinearSolveReport solve = from.newton_solve_;
+  become_new_iterate();
+  x_->update(1.0, *from.x_, step, direction);
+  increment_ = step * system_->displacement(*tpetra_vector(direction))->normInf();
+  linear_solve_ = solve;
+}
+
+NOX::Abstract::Group::ReturnType SemiSmoothNewtonGroup::computeF() {
+  if (has_F_) return Ok;
+  system_->residual(*tpetra_vector(static_cast<const NOX::Abstract::Vector&>(*x_)), *tpetra_vector(*F_), norms_);
+  norm_F_ = F_->norm();
+  has_F_ = true;
+  return Ok;
+}
+
+NOX::Abstract::Group::ReturnType SemiSmoothNewtonGroup::computeJacobian() {
+  if (isJacobian()) return Ok;
+  shared_->jacobian = 0;
+  system_->jacobian(*tpetra_vector(static_cast<const NOX::Abstract::Vector&>(*x_)));
+  shared_->jacobian = number_;
+  return Ok;
+}
+
+NOX::Abstract::Group::ReturnType SemiSmoothNewtonGroup::computeNewton(Teuchos::ParameterList&) {
+  if (has_newton_) return Ok;
+  if (!has_F_ || !isJacobian()) return BadDependency;
+  newton_solve_ = system_->newton_direction(*tpetra_vector(static_cast<const NOX::Abstract::Vector&>(*F_)), *tpetra_vector(*newton_));
+  has_newton_ = true;
+  return Ok;
+}
+
+NOX::Abstract::Group::ReturnType SemiSmoothNewtonGroup::applyJacobian(const NOX::Abstract::Vector& input, NOX::Abstract::Vector& result) const {
+  if (!isJacobian()) return BadDependency;
+  system_->apply(*tpetra_vector(input), *tpetra_vector(result));
+  return Ok;
+}
+
+const NOX::Abstract::Vector& SemiSmoothNewtonGroup::getGradient() const { throw std::logic_error("a semi-smooth residual has no gradient"); }
+
+}  // namespace mortise::detail

@@ -1,0 +1,72 @@
+#pragma once
+// The semi-smooth system as NOX sees it.
+
+#include <NOX_Abstract_Group.H>
+#include <NOX_Thyra_Vector.H>
+
+#include <memory>
+
+#include "mortise/nonlinear/semi_smooth_system.hpp"
+
+namespace mortise::detail {
+
+/// The Tpetra vector inside a NOX vector.
+RCP<Vector> tpetra_vector(NOX::Abstract::Vector& vector);
+RCP<const Vector> tpetra_vector(const NOX::Abstract::Vector& vector);
+/// A NOX vector that shares the memory of a Tpetra vector.
+NOX::Thyra::Vector nox_vector(const RCP<Vector>& vector);
+
+/// An iterate x = (d, z) with F(x) and, once computed, the Newton direction. All clones share one system and so one Jacobian; each iterate has
+/// a number, and the Jacobian remembers the number of the iterate it was built for. StepFailure passes through NOX.
+class SemiSmoothNewtonGroup : public NOX::Abstract::Group {
+ public:
+  SemiSmoothNewtonGroup(SemiSmoothSystem& system, const NOX::Thyra::Vector& x);
+  SemiSmoothNewtonGroup(const SemiSmoothNewtonGroup& other, NOX::CopyType type);
+  NOX::Abstract::Group& operator=(const NOX::Abstract::Group& other) override;
+  RCP<NOX::Abstract::Group> clone(NOX::CopyType type = NOX::DeepCopy) const override;
+
+  void setX(const NOX::Abstract::Vector& y) override;
+  void computeX(const NOX::Abstract::Group& group, const NOX::Abstract::Vector& direction, double step) override;
+  ReturnType computeF() override;
+  ReturnType computeJacobian() override;
+  /// By condensation, for -F(x) alone: the rows of C are formed by the contact, so there is no applyJacobianInverse for other vectors.
+  ReturnType computeNewton(Teuchos::ParameterList& parameters) override;
+  ReturnType applyJacobian(const NOX::Abstract::Vector& input, NOX::Abstract::Vector& result) const override;
+
+  bool isF() const override { return has_F_; }
+  bool isJacobian() const override { return shared_->jacobian == number_; }
+  bool isGradient() const override { return false; }
+  bool isNewton() const override { return has_newton_; }
+  const NOX::Abstract::Vector& getX() const override { return *x_; }
+  const NOX::Abstract::Vector& getF() const override { return *F_; }
+  double getNormF() const override { return norm_F_; }
+  const NOX::Abstract::Vector& getGradient() const override;
+  const NOX::Abstract::Vector& getNewton() const override { return *newton_; }
+  RCP<const NOX::Abstract::Vector> getXPtr() const override { return x_; }
+  RCP<const NOX::Abstract::Vector> getFPtr() const override { return F_; }
+  RCP<const NOX::Abstract::Vector> getGradientPtr() const override { return Teuchos::null; }
+  RCP<const NOX::Abstract::Vector> getNewtonPtr() const override { return newton_; }
+
+  const ResidualNorms& norms() const { return norms_; }
+  /// max |du| of the step that led here; negative if none did.
+  double increment() const { return increment_; }
+  /// Of the linear solve that led here.
+  const LinearSolveReport& linear_solve() const { return linear_solve_; }
+
+ private:
+  struct Shared {
+    unsigned long next = 1, jacobian = 0;
+  };
+  void become_new_iterate();
+
+  SemiSmoothSystem* system_;
+  std::shared_ptr<Shared> shared_;
+  unsigned long number_;
+  RCP<NOX::Thyra::Vector> x_, F_, newton_;
+  bool has_F_ = false, has_newton_ = false;
+  double norm_F_ = 0.0, increment_ = -1.0;
+  ResidualNorms norms_;
+  LinearSolveReport linear_solve_, newton_solve_;
+};
+
+}  // namespace mortise::detail

@@ -1,0 +1,276 @@
+// Linear solvers: the true residual on any number of ranks, what is reused, what is refused.
+
+#include <gtest/gtest.h>
+
+#include <Tpetra_Core.hpp>
+
+#include "spring_grid.hpp"
+
+namespace mortise {
+namespace {
+
+using test::Numbering;
+using test::SpringGrid;
+using Kind = LinearSolverOptions::Kind;
+
+// K of the springs plus a skew part, so that the matrix is not symmetric; the nodes of the lower edge are fixed if `held`.
+RCP<Matrix> stiffness(const std::shared_ptr<SpringGrid>& grid, bool held, double scale = 1.0) {
+  const auto matrix = rcp(new Matrix(grid->graph));
+  Vector zero(grid->dofs), local_zero(grid->local_dofs);
+  std::optional<StepFailure> failure;
+  test::Springs(grid, scale).add_jacobian({0.0, zero, local_zero}, *matrix, failure);
+  for (const int node : grid->owned_nodes())
+    for (const int other : grid->neighbours(node)) {
+      const double skew = 0.1 * scale * (node < other ? 1.0 : -1.0);
+      const GlobalOrdinal column = grid->dof(other, 1);
+      matrix->sumIntoGlobalValues(grid->dof(node, 0), 1, &skew, &column);
+      const GlobalOrdinal other_column = grid->dof(other, 0);
+      matrix->sumIntoGlobalValues(grid->dof(node, 1), 1, &skew, &other_column);
+    }
+  if (held)
+    for (const int node : grid->owned_nodes()) {
+      if (node >= grid->nx()) continue;
+      for (int i = 0; i < 2; ++i) {
+        const LocalOrdinal row = grid->dofs->getLocalElement(grid->dof(node, i));
+        const auto local = matrix->getLocalMatrixHost().row(row);
+        for (LocalOrdinal k = 0; k < local.length; ++k)
+          local.value(k) = matrix->getColMap()->getGlobalElement(local.colidx(k)) == grid->dof(node, i) ? scale : 0.0;
+      }
+    }
+  matrix->fillComplete(grid->dofs, grid->dofs);
+  return matrix;
+}
+
+RCP<Vector> loads(const SpringGrid& grid) {
+  const auto b = rcp(new Vector(grid.dofs));
+  for (const GlobalOrdinal id : grid.dofs->getNodeElementList()) b->replaceGlobalValue(id, std::sin(0.7 * id) + 0.3);
+  return b;
+}
+
+double true_residual(const Matrix& matrix, const Vector& b, const Vector& x) {
+  Vector r(b, Teuchos::Copy);
+  matrix.apply(x, r, Teuchos::NO_TRANS, -1.0, 1.0);
+  return r.norm2() / b.norm2();
+}
+
+// The iterative one coarsens small grids too, as it would large ones.
+std::unique_ptr<LinearSolver> solver_of(Kind kind, double tolerance = 1e-10, int iterations = 500) {
+  LinearSolverOptions options;
+  options.kind = kind;
+  options.tolerance = tolerance;
+  options.maximum_iterations = iterations;
+  options.muelu.set("coarse: max size", 100);
+  return make_linear_solver(options, Tpetra::getDefaultComm(), Timers());
+}
+
+std::string failure_of(LinearSolver& solver, const Vector& b, Vector& x) {
+  try {
+    solver.solve(b, x);
+  } catch (const StepFailure& failure) {
+    EXPECT_EQ(failure.kind(), FailureKind::linear_solver);
+    return failure.what();
+  }
+  return {};
+}
+
+class Mumps : public ::testing::TestWithParam<Numbering> {};
+
+// A backward stable solver leaves a residual of round-off times the condition number, here about 1e3.
+TEST_P(Mumps, SolvesToRoundOff) {
+  const auto grid = std::make_shared<SpringGrid>(Tpetra::getDefaultComm(), 17, 13, GetParam());
+  const auto matrix = stiffness(grid, true);
+  const auto b = loads(*grid);
+  Vector x(grid->dofs);
+  const auto solver = solver_of(Kind::automatic);
+  EXPECT_EQ(solver->name(), "automatic: MUMPS");
+  EXPECT_FALSE(solver->uses_near_null_space());
+  solver->set_matrix(matrix, true, {});
+  const LinearSolveReport report = solver->solve(*b, x);
+  EXPECT_LE(true_residual(*matrix, *b, x), 1e-12);
+  EXPECT_LE(report.relative_residual, 1e-12);
+  EXPECT_EQ(report.iterations, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Numberings, Mumps, ::testing::Values(Numbering::blocks, Numbering::scattered, Numbering::with_gaps));
+
+TEST(MumpsReuse, AnalysisStandsWhileTheGraphDoes) {
+  const auto comm = Tpetra::getDefaultComm();
+  const auto grid = std::make_shared<SpringGrid>(comm, 9, 9);
+  const auto b = loads(*grid);
+  Vector x(grid->dofs);
+  const auto solver = solver_of(Kind::mumps);
+  EXPECT_EQ(solver->symbolic_setups(), 0);
+  for (const double scale : {1.0, 7.0, 0.01}) {
+    const auto matrix = stiffness(grid, true, scale);
+    solver->set_matrix(matrix, scale == 1.0, {});
+    for (int repetition = 0; repetition < 2; ++repetition) {
+      x.putScalar(0.0);
+      solver->solve(*b, x);
+      EXPECT_LE(true_residual(*matrix, *b, x), 1e-12);
+    }
+    EXPECT_EQ(solver->symbolic_setups(), 1);
+  }
+  // A matrix that is set and never solved with leaves no trace.
+  solver->set_matrix(stiffness(grid, true, 3.0), false, {});
+  const auto last = stiffness(grid, true, 5.0);
+  solver->set_matrix(last, false, {});
+  solver->solve(*b, x);
+  EXPECT_LE(true_residual(*last, *b, x), 1e-12);
+
+  const auto wider = std::make_shared<SpringGrid>(comm, 11, 8);
+  const auto matrix = stiffness(wider, true);
+  const auto other_b = loads(*wider);
+  Vector other_x(wider->dofs);
+  solver->set_matrix(matrix, true, {});
+  solver->solve(*other_b, other_x);
+  EXPECT_LE(true_residual(*matrix, *other_b, other_x), 1e-12);
+  EXPECT_EQ(solver->symbolic_setups(), 2);
+}
+
+TEST(Singular, IsAStepFailureAndTheSolverGoesOn) {
+  const auto grid = std::make_shared<SpringGrid>(Tpetra::getDefaultComm(), 8, 7);
+  const auto b = loads(*grid);
+  Vector x(grid->dofs);
+  const auto zero = rcp(new Matrix(grid->graph));
+  zero->fillComplete(grid->dofs, grid->dofs);
+  // Springs alone, held nowhere: rigid motions, and loads that are not in equilibrium.
+  const auto floating = rcp(new Matrix(grid->graph));
+  std::optional<StepFailure> failure;
+  Vector local_zero(grid->local_dofs);
+  test::Springs(grid, 1.0).add_jacobian({0.0, x, local_zero}, *floating, failure);
+  floating->fillComplete(grid->dofs, grid->dofs);
+
+  const auto solver = solver_of(Kind::mumps);
+  for (const auto& matrix : {zero, floating}) {
+    solver->set_matrix(matrix, true, {});
+    testing::internal::CaptureStderr();
+    testing::internal::CaptureStdout();
+    const std::string message = failure_of(*solver, *b, x);
+    EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    EXPECT_NE(message.find("singular"), std::string::npos) << message;
+  }
+  const auto matrix = stiffness(grid, true);
+  solver->set_matrix(matrix, false, {});
+  solver->solve(*b, x);
+  EXPECT_LE(true_residual(*matrix, *b, x), 1e-12);
+}
+
+TEST(NotFinite, IsAStepFailure) {
+  const auto grid = std::make_shared<SpringGrid>(Tpetra::getDefaultComm(), 5, 5);
+  Vector x(grid->dofs);
+  const auto b = loads(*grid);
+  for (const Kind kind : {Kind::mumps, Kind::iterative}) {
+    const auto solver = solver_of(kind);
+    const auto broken = stiffness(grid, true);
+    broken->resumeFill();
+    if (grid->dofs->isNodeGlobalElement(grid->dof(12, 0)))  // on one rank
+      broken->getLocalMatrixHost().row(grid->dofs->getLocalElement(grid->dof(12, 0))).value(0) = std::nan("");
+    broken->fillComplete(grid->dofs, grid->dofs);
+    solver->set_matrix(broken, true, grid->near_null_space());
+    EXPECT_NE(failure_of(*solver, *b, x).find("not finite"), std::string::npos);
+    Vector nan(*b, Teuchos::Copy);
+    if (grid->dofs->isNodeGlobalElement(grid->dof(12, 0))) nan.replaceGlobalValue(grid->dof(12, 0), std::nan(""));
+    solver->set_matrix(stiffness(grid, true), true, grid->near_null_space());
+    EXPECT_NE(failure_of(*solver, nan, x).find("not finite"), std::string::npos);
+  }
+}
+
+TEST(ZeroRightHandSide, HasTheZeroSolution) {
+  const auto grid = std::make_shared<SpringGrid>(Tpetra::getDefaultComm(), 5, 5);
+  for (const Kind kind : {Kind::mumps, Kind::iterative}) {
+    const auto solver = solver_of(kind);
+    Vector b(grid->dofs), x(grid->dofs);
+    x.putScalar(1.0);
+    solver->set_matrix(stiffness(grid, true), true, grid->near_null_space());
+    solver->solve(b, x);
+    EXPECT_EQ(x.norm2(), 0.0);
+  }
+}
+
+// The number of iterations of multigrid does not depend on the size of the grid: it may double at most, while the number of unknowns grows
+// sixteenfold (that of GMRES alone would grow fourfold).
+TEST(Iterative, SolvesInAboutAsManyIterationsOnFinerGrids) {
+  std::vector<int> iterations;
+  for (const int n : {24, 96}) {
+    const auto grid = std::make_shared<SpringGrid>(Tpetra::getDefaultComm(), n, n, Numbering::blocks);
+    const auto matrix = stiffness(grid, true);
+    const auto b = loads(*grid);
+    Vector x(grid->dofs);
+    const auto solver = solver_of(Kind::iterative);
+    EXPECT_TRUE(solver->uses_near_null_space());
+    solver->set_matrix(matrix, true, grid->near_null_space());
+    const LinearSolveReport report = solver->solve(*b, x);
+    EXPECT_LE(true_residual(*matrix, *b, x), 1e-9);
+    EXPECT_GT(report.iterations, 0);
+    iterations.push_back(report.iterations);
+    RecordProperty("iterations_" + std::to_string(n), report.iterations);
+  }
+  EXPECT_LE(iterations[1], 2 * iterations[0]);
+}
+
+TEST(Iterative, WorksWithoutCoordinatesAndModes) {
+  const auto grid = std::make_shared<SpringGrid>(Tpetra::getDefaultComm(), 12, 12, Numbering::scattered);
+  const auto matrix = stiffness(grid, true);
+  const auto b = loads(*grid);
+  Vector x(grid->dofs);
+  const auto solver = solver_of(Kind::iterative);
+  solver->set_matrix(matrix, true, {});
+  solver->solve(*b, x);
+  EXPECT_LE(true_residual(*matrix, *b, x), 1e-9);
+}
+
+TEST(Iterative, GivesUpWithAStepFailure) {
+  const auto grid = std::make_shared<SpringGrid>(Tpetra::getDefaultComm(), 24, 24, Numbering::blocks);
+  Vector x(grid->dofs);
+  const auto solver = solver_of(Kind::iterative, 1e-12, 2);
+  solver->set_matrix(stiffness(grid, true), true, grid->near_null_space());
+  EXPECT_NE(failure_of(*solver, *loads(*grid), x).find("the true relative residual"), std::string::npos);
+}
+
+TEST(Iterative, RefusesParametersItsPackagesDoNotKnow) {
+  LinearSolverOptions options;
+  options.kind = Kind::iterative;
+  options.muelu.set("max levels", 3);
+  options.belos.set("Num Blocks", 30);
+  EXPECT_NO_THROW(make_linear_solver(options, Tpetra::getDefaultComm(), Timers()));
+  options.muelu.set("max levles", 3);
+  options.belos.set("Num Blokcs", 30);
+  try {
+    make_linear_solver(options, Tpetra::getDefaultComm(), Timers());
+    FAIL() << "unknown parameters were taken";
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.diagnostics().size(), 2u);
+    EXPECT_NE(error.diagnostics()[0].message.find("max levles"), std::string::npos);
+    EXPECT_NE(error.diagnostics()[1].message.find("Num Blokcs"), std::string::npos);
+  }
+}
+
+TEST(Klu2, RunsOnOneRankAndIsRefusedOnMore) {
+  if (Tpetra::getDefaultComm()->getSize() > 1) {
+    EXPECT_THROW(solver_of(Kind::klu2), InputError);
+    return;
+  }
+  for (const Numbering numbering : {Numbering::blocks, Numbering::with_gaps}) {
+    SCOPED_TRACE(static_cast<int>(numbering));
+    const auto grid = std::make_shared<SpringGrid>(Tpetra::getDefaultComm(), 13, 9, numbering);
+    const auto b = loads(*grid);
+    Vector x(grid->dofs);
+    const auto solver = solver_of(Kind::klu2);
+    for (const double scale : {1.0, 3.0}) {
+      SCOPED_TRACE(scale);
+      const auto matrix = stiffness(grid, true, scale);
+      solver->set_matrix(matrix, scale == 1.0, {});
+      EXPECT_EQ(failure_of(*solver, *b, x), "");
+      EXPECT_LE(true_residual(*matrix, *b, x), 1e-12);
+      EXPECT_EQ(solver->symbolic_setups(), 1);
+    }
+    const auto zero = rcp(new Matrix(grid->graph));
+    zero->fillComplete(grid->dofs, grid->dofs);
+    solver->set_matrix(zero, false, {});
+    EXPECT_NE(failure_of(*solver, *b, x), "");
+  }
+}
+
+}  // namespace
+}  // namespace mortise

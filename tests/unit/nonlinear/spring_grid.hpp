@@ -1,0 +1,255 @@
+#pragma once
+// A grid of springs in the plane with large displacements, distributed over the ranks: a small nonlinear solid for tests.
+
+#include <Teuchos_CommHelpers.hpp>
+#include <Teuchos_DefaultMpiComm.hpp>
+#include <Tpetra_CrsGraph.hpp>
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
+#include <Tpetra_Vector.hpp>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <set>
+
+#include "mortise/nonlinear/semi_smooth_system.hpp"
+
+namespace mortise::test {
+
+inline RCP<const Communicator> this_rank_only() { return rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF)); }
+
+/// How nodes are given to ranks, and how they are numbered.
+enum class Numbering { blocks, scattered, with_gaps };
+
+/// nx x ny nodes at unit distance; springs to all eight neighbours.
+class SpringGrid {
+ public:
+  SpringGrid(const RCP<const Communicator>& comm, int nx, int ny, Numbering numbering = Numbering::scattered)
+      : nx_(nx), ny_(ny), stride_(numbering == Numbering::with_gaps ? 3 : 1) {
+    std::vector<GlobalOrdinal> owned;
+    const int ranks = comm->getSize(), count = nx * ny;
+    for (int node = 0; node < count; ++node) {
+      const int owner = numbering == Numbering::blocks ? node * ranks / count : node % ranks;
+      if (owner == comm->getRank()) nodes_.push_back(node), owned.push_back(stride_ * node);
+    }
+    std::set<int> ghosts;
+    for (const int node : nodes_)
+      for (const int other : neighbours(node))
+        if (!std::binary_search(nodes_.begin(), nodes_.end(), other)) ghosts.insert(other);
+    node_map = map(comm, nodes_, 1);
+    dofs = map(comm, nodes_, 2);
+    std::vector<int> local = nodes_;
+    local.insert(local.end(), ghosts.begin(), ghosts.end());
+    local_dofs = map(comm, local, 2);
+
+    const auto built = rcp(new Graph(dofs, 18));
+    for (const int node : nodes_) {
+      std::vector<GlobalOrdinal> columns = {dof(node, 0), dof(node, 1)};
+      for (const int other : neighbours(node)) columns.insert(columns.end(), {dof(other, 0), dof(other, 1)});
+      for (int i = 0; i < 2; ++i) built->insertGlobalIndices(dof(node, i), static_cast<LocalOrdinal>(columns.size()), columns.data());
+    }
+    built->fillComplete(dofs, dofs);
+    graph = built;
+  }
+
+  GlobalOrdinal dof(int node, int component) const { return 2 * stride_ * node + component; }
+  const std::vector<int>& owned_nodes() const { return nodes_; }
+  int nx() const { return nx_; }
+  int ny() const { return ny_; }
+  std::array<double, 2> position(int node) const { return {static_cast<double>(node % nx_), static_cast<double>(node / nx_)}; }
+
+  std::vector<int> neighbours(int node) const {
+    std::vector<int> result;
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) {
+        const int x = node % nx_ + dx, y = node / nx_ + dy;
+        if ((dx != 0 || dy != 0) && x >= 0 && x < nx_ && y >= 0 && y < ny_) result.push_back(y * nx_ + x);
+      }
+    return result;
+  }
+
+  NearNullSpace near_null_space() const {
+    const auto modes = rcp(new MultiVector(dofs, 3));
+    const auto coordinates = rcp(new MultiVector(node_map, 2));
+    for (std::size_t n = 0; n < nodes_.size(); ++n) {
+      const auto x = position(nodes_[n]);
+      const auto row = static_cast<LocalOrdinal>(2 * n);
+      modes->replaceLocalValue(row, 0, 1.0);
+      modes->replaceLocalValue(row + 1, 1, 1.0);
+      modes->replaceLocalValue(row, 2, -x[1]);
+      modes->replaceLocalValue(row + 1, 2, x[0]);
+      for (int i = 0; i < 2; ++i) coordinates->replaceLocalValue(static_cast<LocalOrdinal>(n), i, x[i]);
+    }
+    return {modes, coordinates};
+  }
+
+  RCP<const Map> node_map, dofs, local_dofs;
+  RCP<const Graph> graph;
+
+ private:
+  RCP<const Map> map(const RCP<const Communicator>& comm, const std::vector<int>& nodes, int components) const {
+    std::vector<GlobalOrdinal> ids;
+    for (const int node : nodes)
+      for (int i = 0; i < components; ++i) ids.push_back(components * stride_ * node + i);
+    const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
+    return rcp(new Map(invalid, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, comm));
+  }
+
+  int nx_, ny_, stride_;
+  std::vector<int> nodes_;
+};
+
+/// Springs of energy 1/2 k L^2 e^2 with e = (l^2 - L^2) / (2 L^2): force k e D on the end that D = x_b - x_a points to,
+/// derivative k (e I + D D^T / L^2). Fails (inverted element) when a spring has lost nine tenths of its length.
+class Springs : public Contribution {
+ public:
+  Springs(std::shared_ptr<const SpringGrid> grid, double stiffness) : grid_(std::move(grid)), stiffness_(stiffness) {}
+  std::string name() const override { return "springs"; }
+  Kind kind() const override { return Kind::internal; }
+
+  void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) override {
+    for_each(at, failure, [&](int a, int, const auto& D, double e, double) {
+      for (int i = 0; i < 2; ++i) residual.sumIntoGlobalValue(grid_->dof(a, i), -stiffness_ * e * D[i]);
+    });
+  }
+
+  void add_jacobian(const Configuration& at, Matrix& jacobian, std::optional<StepFailure>& failure) override {
+    for_each(at, failure, [&](int a, int b, const auto& D, double e, double L2) {
+      for (int i = 0; i < 2; ++i)
+        for (int j = 0; j < 2; ++j) {
+          const double value = stiffness_ * ((i == j ? e : 0.0) + D[i] * D[j] / L2), minus = -value;
+          const GlobalOrdinal own = grid_->dof(a, j), other = grid_->dof(b, j);
+          jacobian.sumIntoGlobalValues(grid_->dof(a, i), 1, &value, &own);
+          jacobian.sumIntoGlobalValues(grid_->dof(a, i), 1, &minus, &other);
+        }
+    });
+  }
+
+ private:
+  template <class Visit>
+  void for_each(const Configuration& at, std::optional<StepFailure>& failure, const Visit& visit) const {
+    const auto u = at.local_displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
+    const auto position = [&](int node) {
+      auto x = grid_->position(node);
+      for (int i = 0; i < 2; ++i) x[i] += u(grid_->local_dofs->getLocalElement(grid_->dof(node, i)), 0);
+      return x;
+    };
+    for (const int a : grid_->owned_nodes())
+      for (const int b : grid_->neighbours(a)) {
+        const auto A = grid_->position(a), B = grid_->position(b), xa = position(a), xb = position(b);
+        const std::array<double, 2> D = {xb[0] - xa[0], xb[1] - xa[1]};
+        const double L2 = std::pow(B[0] - A[0], 2) + std::pow(B[1] - A[1], 2), l2 = D[0] * D[0] + D[1] * D[1];
+        if (l2 < 0.01 * L2 && !failure) failure = StepFailure(FailureKind::inverted_element, "spring " + std::to_string(a));
+        visit(a, b, D, 0.5 * (l2 - L2) / L2, L2);
+      }
+  }
+
+  std::shared_ptr<const SpringGrid> grid_;
+  double stiffness_;
+};
+
+/// A dead load on each node of the upper edge, growing with time.
+class EdgeLoad : public Contribution {
+ public:
+  EdgeLoad(std::shared_ptr<const SpringGrid> grid, std::array<double, 2> force) : grid_(std::move(grid)), force_(force) {}
+  std::string name() const override { return "edge load"; }
+  Kind kind() const override { return Kind::external; }
+  void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>&) override {
+    for (const int node : grid_->owned_nodes())
+      if (node / grid_->nx() == grid_->ny() - 1)
+        for (int i = 0; i < 2; ++i) residual.sumIntoGlobalValue(grid_->dof(node, i), -at.time * force_[i]);
+  }
+  void add_jacobian(const Configuration&, Matrix&, std::optional<StepFailure>&) override {}
+
+ private:
+  std::shared_ptr<const SpringGrid> grid_;
+  std::array<double, 2> force_;
+};
+
+/// Adds no force, but fails on the rank that owns it if a displacement went further than `reach` since the last commit.
+class Brittle : public Contribution {
+ public:
+  Brittle(std::shared_ptr<const SpringGrid> grid, double reach) : committed(grid->dofs), reach_(reach) {}
+  std::string name() const override { return "brittle"; }
+  Kind kind() const override { return Kind::internal; }
+  void add_residual(const Configuration& at, Vector&, std::optional<StepFailure>& failure) override {
+    const auto now = at.displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
+    const auto then = committed.getLocalViewHost(Tpetra::Access::ReadOnly);
+    for (std::size_t i = 0; i < now.extent(0); ++i)
+      if (std::abs(now(i, 0) - then(i, 0)) > reach_ && !failure) failure = StepFailure(FailureKind::material, "too far at once");
+  }
+  void add_jacobian(const Configuration&, Matrix&, std::optional<StepFailure>&) override {}
+  void commit(const Configuration& at) override {
+    Tpetra::deep_copy(committed, at.displacement);
+    times.push_back(at.time);
+  }
+
+  Vector committed;
+  std::vector<double> times;
+
+ private:
+  double reach_;
+};
+
+/// The lower edge is fixed; the upper one, if `motion` is given, moves by time * motion.
+class Edges : public PrescribedDisplacements {
+ public:
+  Edges(const SpringGrid& grid, std::optional<std::array<double, 2>> motion) {
+    for (const int node : grid.owned_nodes()) {
+      const bool lower = node < grid.nx(), upper = node / grid.nx() == grid.ny() - 1;
+      if (!lower && !(upper && motion)) continue;
+      for (int i = 0; i < 2; ++i) {
+        dofs_.push_back(grid.dofs->getLocalElement(grid.dof(node, i)));
+        rates_.push_back(lower ? 0.0 : (*motion)[i]);
+      }
+    }
+  }
+  const std::vector<LocalOrdinal>& dofs() const override { return dofs_; }
+  std::vector<double> values(double time) const override {
+    std::vector<double> result = rates_;
+    for (double& value : result) value *= time;
+    return result;
+  }
+
+ private:
+  std::vector<LocalOrdinal> dofs_;
+  std::vector<double> rates_;
+};
+
+/// A grid with its lower edge fixed, pulled at its upper edge by forces or by a motion.
+struct Problem {
+  std::shared_ptr<SpringGrid> grid;
+  std::shared_ptr<Brittle> brittle;
+  std::unique_ptr<SemiSmoothSystem> system;
+  RCP<Vector> x;
+
+  struct Choices {
+    int nx = 6, ny = 5;
+    std::optional<std::array<double, 2>> force, motion;
+    double stiffness = 1.0;
+    double reach = 1e30;
+    LinearSolverOptions linear_solver;
+    Numbering numbering = Numbering::scattered;
+  };
+
+  Problem(const RCP<const Communicator>& comm, const Choices& choices) {
+    grid = std::make_shared<SpringGrid>(comm, choices.nx, choices.ny, choices.numbering);
+    brittle = std::make_shared<Brittle>(grid, choices.reach);
+    SystemParts parts;
+    parts.dofs = grid->dofs;
+    parts.local_dofs = grid->local_dofs;
+    parts.bulk_graph = grid->graph;
+    parts.contributions = {std::make_shared<Springs>(grid, choices.stiffness), brittle};
+    if (choices.force) parts.contributions.push_back(std::make_shared<EdgeLoad>(grid, *choices.force));
+    parts.prescribed = std::make_shared<Edges>(*grid, choices.motion);
+    parts.linear_solver = make_linear_solver(choices.linear_solver, comm, Timers());
+    parts.near_null_space = [grid = grid](const Vector&) { return grid->near_null_space(); };
+    parts.length = choices.ny;
+    system = std::make_unique<SemiSmoothSystem>(std::move(parts), Timers());
+    x = rcp(new Vector(system->map()));
+  }
+};
+
+}  // namespace mortise::test
