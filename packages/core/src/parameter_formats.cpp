@@ -100,8 +100,9 @@ class RelaxNg {
     std::string types = "<value>string</value>";
     if (one.type() != "string") types += fmt::format("<value>{}</value>", one.type());
     if (one.type() == "double" || one.kind == ParameterRecord::Kind::numbers) types += "<value>int</value>";
-    if (one.kind == ParameterRecord::Kind::expression || one.kind == ParameterRecord::Kind::numbers) types += "<value>double</value>";
-    if (one.kind == ParameterRecord::Kind::expression) types += "<value>int</value>";
+    const bool expression = one.kind == ParameterRecord::Kind::expression || one.kind == ParameterRecord::Kind::optional_expression;
+    if (expression || one.kind == ParameterRecord::Kind::numbers) types += "<value>double</value>";
+    if (expression) types += "<value>int</value>";
     line(fmt::format("<attribute name=\"type\"><choice>{}</choice></attribute>", types));
     std::string values;
     if (!fixed_value.empty()) {
@@ -182,7 +183,7 @@ void verbatim_of(const Teuchos::ParameterList& list, const std::string& indent, 
 void scene_of(const ListRecord& list, const std::string& indent, std::string& out) {
   out += fmt::format("{}<ParameterList name=\"{}\">\n", indent, escaped(list.name));
   for (const ParameterRecord& one : list.parameters) {
-    if (one.kind == ParameterRecord::Kind::optional_number && one.value.empty()) continue;  // chosen by the program
+    if (one.optional() && one.value.empty()) continue;  // chosen by the program
     out += fmt::format("{}  <Parameter name=\"{}\" type=\"{}\" value=\"{}\"/>\n", indent, escaped(one.name), one.type(), escaped(one.value));
   }
   if (list.kind == Kind::verbatim) verbatim_of(list.verbatim, indent + "  ", out);

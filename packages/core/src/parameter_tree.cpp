@@ -28,7 +28,8 @@ std::string ParameterRecord::kind_text() const {
     case Kind::integer: return "whole number";
     case Kind::boolean: return "true or false";
     case Kind::text: return "text";
-    case Kind::expression: return "expression of t, x, y, z";
+    case Kind::expression:
+    case Kind::optional_expression: return "expression of t, x, y, z";
     case Kind::numbers: return "numbers, separated by commas";
     case Kind::texts: return "names, separated by commas";
     case Kind::enumeration: return "one of " + quoted_list(choices);
@@ -59,6 +60,9 @@ void CollectParameters::add(const std::string& name, std::string& value, const S
 void CollectParameters::add(const std::string& name, Expression& value, const Says& says) { record(name, Kind::expression, value.source(), says); }
 void CollectParameters::add(const std::string& name, std::optional<double>& value, const Says& says) {
   record(name, Kind::optional_number, value ? fmt::format("{}", *value) : "", says);
+}
+void CollectParameters::add(const std::string& name, std::optional<Expression>& value, const Says& says) {
+  record(name, Kind::optional_expression, value ? value->source() : "", says);
 }
 void CollectParameters::add(const std::string& name, std::vector<double>& value, const Says& says) {
   record(name, Kind::numbers, fmt::format("{}", fmt::join(value, ", ")), says);

@@ -152,6 +152,16 @@ void ReadParameters::add(const std::string& name, Expression& value, const Says&
   }
 }
 
+void ReadParameters::add(const std::string& name, std::optional<Expression>& value, const Says& says) {
+  if (!frame().list || !frame().list->parameter(name)) {
+    frame().known.push_back(name);
+    return;
+  }
+  Expression read;
+  add(name, read, says);
+  value = std::move(read);
+}
+
 void ReadParameters::add(const std::string& name, std::vector<double>& value, const Says& says) {
   const XmlParameter* parameter = find(name, says, {"double", "int"});
   if (!parameter) return;

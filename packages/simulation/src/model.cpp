@@ -137,7 +137,7 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   Collector collect;
   for (const auto& load : scene.loads)
     collect([&] { parts_.contributions.push_back(std::make_shared<LoadContribution>(load.name, load.value.load.options->make(bodies_), timers)); });
-  collect([&] { parts_.prescribed = std::make_shared<PrescribedBoundary>(PrescribedMotion(*bodies_, scene.boundary_conditions, scene.symbols)); });
+  collect([&] { parts_.prescribed = std::make_shared<PrescribedBoundary>(PrescribedMotion(*bodies_, scene.boundary_conditions)); });
   std::vector<ContactPair> pairs;
   for (const auto& pair : scene.contact) collect([&] { pairs.push_back(make_pair(*mesh_, *bodies_, pair)); });
   collect([&] { parts_.linear_solver = make_linear_solver(scene.linear_solver, comm, timers); });

@@ -26,7 +26,7 @@ void BoundaryConditionOptions::describe(Parameters& parameters) {
   parameters.add("y", y, Says("displacement in y (axisymmetric: z), an expression of t, x, y; left out: free").unit("length"));
 }
 
-PrescribedMotion::PrescribedMotion(const Bodies& bodies, const std::vector<Named<BoundaryConditionOptions>>& conditions, const Symbols& symbols) {
+PrescribedMotion::PrescribedMotion(const Bodies& bodies, const std::vector<Named<BoundaryConditionOptions>>& conditions) {
   const Mesh& mesh = *bodies.mesh();
   std::vector<Diagnostic> diagnostics;
   struct Prescribed {
@@ -36,15 +36,15 @@ PrescribedMotion::PrescribedMotion(const Bodies& bodies, const std::vector<Named
   std::map<LocalOrdinal, Prescribed> prescribed;
   for (std::size_t n = 0; n < conditions.size(); ++n) {
     const auto& condition = conditions[n];
-    if (condition.value.x.value.empty() && condition.value.y.value.empty())
+    if (!condition.value.x && !condition.value.y)
       diagnostics.push_back(
           {condition.place, fmt::format("boundary condition \"{}\" prescribes nothing; give \"x\", \"y\" or both", condition.name)});
     try {
       const auto& nodes = require_node_set(mesh, condition.value.set);
       for (int component = 0; component < 2; ++component) {
-        const auto& text = component == 0 ? condition.value.x : condition.value.y;
-        if (text.value.empty()) continue;
-        expressions_.emplace_back(text.value, symbols, text.place);
+        const auto& expression = component == 0 ? condition.value.x : condition.value.y;
+        if (!expression) continue;
+        expressions_.push_back(*expression);
         for (LocalOrdinal node : nodes) {
           if (node >= mesh.owned_count()) continue;
           const Source source{static_cast<LocalOrdinal>(expressions_.size() - 1), {mesh.coordinates[node][0], mesh.coordinates[node][1]}};

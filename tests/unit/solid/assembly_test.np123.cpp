@@ -68,8 +68,8 @@ Assembled assemble(const RCP<const Communicator>& comm, const BodySetup& setup) 
       for (int i = 0; i < 2; ++i) column(2 * node + i) = view(node, 2 * pair + i);
     result.columns.push_back(column);
   }
-  const Named<BoundaryConditionOptions> left{"left", {}, {{"body/left", {}}, {"t*y", {}}, {}}};
-  const PrescribedMotion motion(*bodies, {left}, {});
+  const Named<BoundaryConditionOptions> left{"left", {}, {{"body/left", {}}, Expression("t*y", {}), {}}};
+  const PrescribedMotion motion(*bodies, {left});
   const auto values = motion.values(0.3);
   for (std::size_t n = 0; n < values.size(); ++n) result.prescribed.emplace_back(bodies->dofs()->getGlobalElement(motion.dofs()[n]), values[n]);
   result.energy = bodies->stored_energies(local)[0];
@@ -126,8 +126,8 @@ TEST(Refusals, OfABodyAreThrownOnEveryRank) {
   const auto mesh = make_test_mesh(world(), {});
   EXPECT_THROW(Bodies(mesh, Kinematics::plane_stress, 1.0, {{"body", {}, make_material("hencky"), ElementType::q4}}), InputError);
   const auto bodies = make_test_bodies(world(), {});
-  const Named<BoundaryConditionOptions> missing{"left", {}, {{"body/lefd", {}}, {"0", {}}, {}}};
-  EXPECT_THROW(PrescribedMotion(*bodies, {missing}, {}), InputError);
+  const Named<BoundaryConditionOptions> missing{"left", {}, {{"body/lefd", {}}, Expression(0.0), {}}};
+  EXPECT_THROW(PrescribedMotion(*bodies, {missing}), InputError);
 }
 
 }  // namespace

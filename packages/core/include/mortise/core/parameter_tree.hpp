@@ -11,10 +11,10 @@ namespace mortise {
 
 /// A parameter and its value.
 struct ParameterRecord {
-  enum class Kind { number, integer, boolean, text, expression, optional_number, numbers, texts, enumeration };
+  enum class Kind { number, integer, boolean, text, expression, optional_expression, optional_number, numbers, texts, enumeration };
   std::string name;
   Kind kind = Kind::text;
-  std::string value;  ///< as one would write it; empty for an optional number without a value
+  std::string value;  ///< as one would write it; empty for an optional one without a value
   Says says{""};
   std::vector<std::string> choices;
 
@@ -23,6 +23,8 @@ struct ParameterRecord {
   /// "number", "expression of t, x, y", "one of ..." for people.
   std::string kind_text() const;
   std::string range_text() const;
+  /// Whether it may be left without a value.
+  bool optional() const { return kind == Kind::optional_number || kind == Kind::optional_expression; }
 };
 
 /// A list of parameters and lists.
@@ -53,6 +55,7 @@ class CollectParameters : public Parameters {
   void add(const std::string& name, std::string& value, const Says& says) override;
   void add(const std::string& name, Expression& value, const Says& says) override;
   void add(const std::string& name, std::optional<double>& value, const Says& says) override;
+  void add(const std::string& name, std::optional<Expression>& value, const Says& says) override;
   void add(const std::string& name, std::vector<double>& value, const Says& says) override;
   void add(const std::string& name, std::vector<std::string>& value, const Says& says) override;
   using Parameters::add;

@@ -104,6 +104,7 @@ class Parameters {
   virtual void add(const std::string& name, bool& value, const Says& says) = 0;
   virtual void add(const std::string& name, std::string& value, const Says& says) = 0;
   virtual void add(const std::string& name, Expression& value, const Says& says) = 0;           ///< of t, x, y, z and the scene's variables
+  virtual void add(const std::string& name, std::optional<Expression>& value, const Says& says) = 0;  ///< no value: not given, as the sentence says
   virtual void add(const std::string& name, std::optional<double>& value, const Says& says) = 0;  ///< no value: chosen by the program, as the sentence says
   virtual void add(const std::string& name, std::vector<double>& value, const Says& says) = 0;  ///< "1, 2*a, 3" (expressions allowed)
   virtual void add(const std::string& name, std::vector<std::string>& value, const Says& says) = 0;  ///< "a, b, c"

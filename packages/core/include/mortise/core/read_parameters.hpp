@@ -22,6 +22,7 @@ class ReadParameters : public Parameters {
   void add(const std::string& name, std::string& value, const Says& says) override;
   void add(const std::string& name, Expression& value, const Says& says) override;
   void add(const std::string& name, std::optional<double>& value, const Says& says) override;
+  void add(const std::string& name, std::optional<Expression>& value, const Says& says) override;
   void add(const std::string& name, std::vector<double>& value, const Says& says) override;
   void add(const std::string& name, std::vector<std::string>& value, const Says& says) override;
   using Parameters::add;

@@ -1,6 +1,7 @@
 #pragma once
 // Dirichlet conditions: components of the displacement prescribed on sets of nodes.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,17 +12,17 @@ namespace mortise {
 
 /// One condition of a scene. A component without an expression is free. Axisymmetric: x is r, y is z.
 struct BoundaryConditionOptions {
-  Located<std::string> set;   ///< node or side set
-  Located<std::string> x, y;  ///< displacement [length] as an expression of t, x, y; empty: free
+  Located<std::string> set;        ///< node or side set
+  std::optional<Expression> x, y;  ///< displacement [length]; no value: free
   void describe(Parameters& parameters);
 };
 
 /// All prescribed dofs of this rank and their values over time.
 class PrescribedMotion {
  public:
-  /// `symbols`: what the expressions may name. Collective. Throws InputError on all ranks: a set that does not exist, a broken expression, a
-  /// condition that prescribes nothing, a dof that two conditions prescribe differently (naming both).
-  PrescribedMotion(const Bodies& bodies, const std::vector<Named<BoundaryConditionOptions>>& conditions, const Symbols& symbols);
+  /// Collective. Throws InputError on all ranks: a set that does not exist, a condition that prescribes nothing, a dof that two conditions
+  /// prescribe differently (naming both).
+  PrescribedMotion(const Bodies& bodies, const std::vector<Named<BoundaryConditionOptions>>& conditions);
 
   /// Owned dofs (local indices in Bodies::dofs()), ascending.
   const std::vector<LocalOrdinal>& dofs() const { return dofs_; }

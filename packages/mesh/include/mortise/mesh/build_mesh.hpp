@@ -1,0 +1,38 @@
+#pragma once
+// From descriptions of bodies to a distributed mesh.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mortise/mesh/mesh.hpp"
+#include "mortise/mesh/mesh_options.hpp"
+
+namespace mortise {
+
+/// A body to be meshed.
+struct BodyDescription {
+  std::string name;
+  Place place;
+  std::shared_ptr<const MeshOptions> mesh;
+  CellShape shape = CellShape::quadrilateral4;
+};
+
+/// Builds the mesh of all bodies. Collective. Node and element ids are contiguous per body, in the order of `bodies`, and do not depend on
+/// the number of ranks. On more than one rank the elements are shared out by METIS so that both their number and that of the elements on
+/// `contact_sides` ("body/side") are balanced; names that are no sides of the bodies are passed over (see require_side_set).
+/// Besides its named sides each body gets a side set "body/surface" (all of them) and a node set "body" (all its nodes).
+/// @throws InputError on all ranks: no body, repeated names, shapes without meaning, an inverted element (with its det J).
+RCP<Mesh> build_mesh(const RCP<const Communicator>& comm, const std::vector<BodyDescription>& bodies, const std::vector<std::string>& contact_sides);
+
+/// Size of a mesh over all ranks.
+struct MeshSize {
+  GlobalOrdinal nodes = 0, elements = 0;
+  std::vector<GlobalOrdinal> elements_of_block;
+  double length = 0.0;         ///< diagonal of the box around all reference positions: the characteristic length
+  double shortest_side = 0.0;  ///< of all elements
+};
+/// Collective.
+MeshSize mesh_size(const Mesh& mesh);
+
+}  // namespace mortise

@@ -1,0 +1,34 @@
+#pragma once
+// All bodies of a mesh under one numbering.
+
+#include <vector>
+
+#include "mortise/mesh/build_mesh.hpp"
+
+namespace mortise {
+
+/// The descriptions of all bodies with the first node and element id of each. A pure description: the same on every rank, of a size that
+/// does not grow with the mesh.
+class BodySet {
+ public:
+  explicit BodySet(const std::vector<BodyDescription>& bodies);
+
+  int size() const { return static_cast<int>(complexes_.size()); }
+  const PatchComplex& complex(int body) const { return complexes_[body]; }
+  GlobalOrdinal first_node(int body) const { return first_node_[body]; }
+  GlobalOrdinal first_element(int body) const { return first_element_[body]; }
+  GlobalOrdinal node_count() const { return first_node_.back(); }
+  GlobalOrdinal element_count() const { return first_element_.back(); }
+  int body_of_node(GlobalOrdinal node) const;
+  int body_of_element(GlobalOrdinal element) const;
+
+  /// Global node ids of an element; the first nodes_per_element(element) count.
+  std::array<GlobalOrdinal, 4> element_nodes(GlobalOrdinal element) const;
+  int nodes_per_element(int body) const { return topology(complexes_[body].shape()).nodes; }
+
+ private:
+  std::vector<PatchComplex> complexes_;
+  std::vector<GlobalOrdinal> first_node_{0}, first_element_{0};
+};
+
+}  // namespace mortise

@@ -1,0 +1,213 @@
+#include "mortise/mesh/build_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <Teuchos_CommHelpers.hpp>
+#include <Teuchos_OrdinalTraits.hpp>
+#include <Tpetra_Map.hpp>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "body_set.hpp"
+#include "partition.hpp"
+
+namespace mortise {
+namespace {
+
+void check_names(const std::vector<BodyDescription>& bodies) {
+  if (bodies.empty()) throw InputError(Place{}, "there is no body to be meshed");
+  std::vector<Diagnostic> diagnostics;
+  std::set<std::string> names;
+  for (const auto& body : bodies) {
+    if (!names.insert(body.name).second) diagnostics.push_back({body.place, fmt::format("there is already a body named \"{}\"", body.name)});
+    if (!body.mesh) diagnostics.push_back({body.place, fmt::format("body \"{}\" has no mesh", body.name)});
+  }
+  if (!diagnostics.empty()) throw InputError(diagnostics);
+}
+
+/// Elements that touch an owned node without being owned, by body; ascending.
+std::vector<std::vector<GlobalOrdinal>> ghost_elements(const BodySet& bodies, const Map& owned_nodes,
+                                                       const std::vector<GlobalOrdinal>& owned_elements) {
+  std::vector<std::vector<GlobalOrdinal>> ghosts(bodies.size());
+  for (const GlobalOrdinal node : owned_nodes.getNodeElementList()) {
+    const int body = bodies.body_of_node(node);
+    for (const GlobalOrdinal inside : bodies.complex(body).elements_of_node(node - bodies.first_node(body))) {
+      const GlobalOrdinal element = bodies.first_element(body) + inside;
+      if (!std::binary_search(owned_elements.begin(), owned_elements.end(), element)) ghosts[body].push_back(element);
+    }
+  }
+  for (auto& elements : ghosts) {
+    std::sort(elements.begin(), elements.end());
+    elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
+  }
+  return ghosts;
+}
+
+/// Owned nodes, then all other nodes of the local elements, ascending.
+RCP<const Map> local_node_map(const BodySet& bodies, const RCP<const Map>& owned_nodes, const std::vector<Block>& blocks) {
+  const auto owned = owned_nodes->getNodeElementList();
+  std::vector<GlobalOrdinal> ids(owned.begin(), owned.end()), ghosts;
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    for (const GlobalOrdinal element : blocks[b].element_ids) {
+      const auto nodes = bodies.element_nodes(element);
+      for (int a = 0; a < blocks[b].nodes_per_element; ++a)
+        if (!owned_nodes->isNodeGlobalElement(nodes[a])) ghosts.push_back(nodes[a]);
+    }
+  std::sort(ghosts.begin(), ghosts.end());
+  ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
+  ids.insert(ids.end(), ghosts.begin(), ghosts.end());
+  return rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(), Teuchos::arrayViewFromVector(ids), 0, owned_nodes->getComm()));
+}
+
+/// The smallest det J of the map from the reference cell, taken at the corners: on a bilinear cell det J is linear in each reference
+/// coordinate without a mixed term, so that it is positive everywhere if it is so there.
+std::pair<double, int> smallest_determinant(const Mesh& mesh, const Block& block, LocalOrdinal element) {
+  const int n = block.nodes_per_element;
+  const LocalOrdinal* nodes = block.nodes(element);
+  std::pair<double, int> smallest{std::numeric_limits<double>::infinity(), 0};
+  for (int a = 0; a < n; ++a) {
+    const auto &x = mesh.coordinates[nodes[a]], &next = mesh.coordinates[nodes[(a + 1) % n]], &previous = mesh.coordinates[nodes[(a + n - 1) % n]];
+    const double cross = (next[0] - x[0]) * (previous[1] - x[1]) - (next[1] - x[1]) * (previous[0] - x[0]);
+    // Reference edges have length 2 in quadrilaterals and 1 in triangles.
+    const double determinant = n == 4 ? 0.25 * cross : cross;
+    if (!(determinant >= smallest.first)) smallest = {determinant, a};
+  }
+  return smallest;
+}
+
+/// The first inverted element of each body on this rank.
+std::vector<Diagnostic> inverted_elements(const Mesh& mesh, const BodySet& set, const std::vector<BodyDescription>& bodies) {
+  std::vector<Diagnostic> diagnostics;
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    const auto& block = mesh.blocks[b];
+    for (LocalOrdinal e = 0; e < block.owned; ++e) {
+      const auto [determinant, corner] = smallest_determinant(mesh, block, e);
+      if (determinant > 0.0) continue;
+      const auto& x = mesh.coordinates[block.nodes(e)[corner]];
+      diagnostics.push_back(
+          {bodies[b].place, fmt::format("body \"{}\": element {} is inverted: det J = {:.6g} at ({:.6g}, {:.6g}); corners have to go "
+                                        "round counterclockwise and edges must not cross",
+                                        block.name, block.element_ids[e] - set.first_element(static_cast<int>(b)), determinant, x[0], x[1])});
+      break;
+    }
+  }
+  return diagnostics;
+}
+
+void fill_blocks(Mesh& mesh, const BodySet& set, const std::vector<BodyDescription>& bodies, const std::vector<GlobalOrdinal>& owned_elements) {
+  const auto ghosts = ghost_elements(set, *mesh.owned_nodes, owned_elements);
+  for (int b = 0; b < set.size(); ++b) {
+    Block block;
+    block.name = bodies[b].name;
+    block.shape = bodies[b].shape;
+    block.nodes_per_element = set.nodes_per_element(b);
+    const auto first = std::lower_bound(owned_elements.begin(), owned_elements.end(), set.first_element(b));
+    const auto last = std::lower_bound(first, owned_elements.end(), set.first_element(b + 1));
+    block.element_ids.assign(first, last);
+    block.owned = block.size();
+    block.element_ids.insert(block.element_ids.end(), ghosts[b].begin(), ghosts[b].end());
+    mesh.blocks.push_back(std::move(block));
+  }
+  mesh.local_nodes = local_node_map(set, mesh.owned_nodes, mesh.blocks);
+  for (auto& block : mesh.blocks)
+    for (const GlobalOrdinal element : block.element_ids) {
+      const auto nodes = set.element_nodes(element);
+      for (int a = 0; a < block.nodes_per_element; ++a) block.connectivity.push_back(mesh.local_nodes->getLocalElement(nodes[a]));
+    }
+}
+
+void fill_nodes(Mesh& mesh, const BodySet& set) {
+  for (const GlobalOrdinal node : mesh.local_nodes->getNodeElementList()) {
+    const int body = set.body_of_node(node);
+    const Point x = set.complex(body).coordinate(node - set.first_node(body));
+    mesh.coordinates.push_back({x[0], x[1], 0.0});
+    mesh.body_of_node.push_back(body);
+  }
+}
+
+void fill_sets(Mesh& mesh, const BodySet& set) {
+  for (int b = 0; b < set.size(); ++b) {
+    const auto& complex = set.complex(b);
+    const auto& block = mesh.blocks[b];
+    std::string surface = block.name + "/surface";
+    std::vector<std::string> names;
+    for (const auto& name : complex.side_names()) names.push_back(block.name + "/" + name);
+    for (const auto& name : names) mesh.side_sets[name], mesh.node_sets[name];
+    mesh.side_sets[surface], mesh.node_sets[surface], mesh.node_sets[block.name];
+    for (LocalOrdinal e = 0; e < block.size(); ++e)
+      for (const auto& side : complex.surface_sides(block.element_ids[e] - set.first_element(b)))
+        for (const std::string& name : {names[side.name], surface}) {
+          auto& sides = mesh.side_sets[name];
+          sides.sides.push_back({b, e, side.side});
+          if (e < block.owned) ++sides.owned;
+        }
+  }
+  for (LocalOrdinal n = 0; n < mesh.local_count(); ++n) {
+    const int b = mesh.body_of_node[n];
+    const auto& complex = set.complex(b);
+    const auto& body = mesh.blocks[b].name;
+    mesh.node_sets[body].push_back(n);
+    const auto sides = complex.sides_of_node(mesh.local_nodes->getGlobalElement(n) - set.first_node(b));
+    for (const int side : sides) mesh.node_sets[body + "/" + complex.side_names()[side]].push_back(n);
+    if (!sides.empty()) mesh.node_sets[body + "/surface"].push_back(n);
+  }
+}
+
+}  // namespace
+
+RCP<Mesh> build_mesh(const RCP<const Communicator>& comm, const std::vector<BodyDescription>& bodies, const std::vector<std::string>& contact_sides) {
+  // The descriptions are the same on every rank, and so are errors in them.
+  check_names(bodies);
+  const BodySet set(bodies);
+  std::vector<std::vector<bool>> is_contact;
+  for (int b = 0; b < set.size(); ++b) {
+    is_contact.emplace_back();
+    for (const auto& side : set.complex(b).side_names()) {
+      const bool whole = std::find(contact_sides.begin(), contact_sides.end(), bodies[b].name + "/surface") != contact_sides.end();
+      is_contact.back().push_back(whole || std::find(contact_sides.begin(), contact_sides.end(), bodies[b].name + "/" + side) != contact_sides.end());
+    }
+  }
+  const auto owned_elements = share_out_elements(*comm, set, is_contact);
+  auto mesh = rcp(new Mesh);
+  mesh->comm = comm;
+  mesh->owned_nodes = share_out_nodes(comm, set, owned_elements);
+  fill_blocks(*mesh, set, bodies, owned_elements);
+  fill_nodes(*mesh, set);
+  throw_if_any(*comm, inverted_elements(*mesh, set, bodies));
+  fill_sets(*mesh, set);
+  return mesh;
+}
+
+MeshSize mesh_size(const Mesh& mesh) {
+  MeshSize size;
+  size.nodes = static_cast<GlobalOrdinal>(mesh.owned_nodes->getGlobalNumElements());
+  std::vector<GlobalOrdinal> local;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  // Minima over the ranks: of x, y, -x, -y and of the squared side lengths.
+  std::array<double, 5> low, global_low;
+  low.fill(infinity);
+  for (const auto& x : mesh.coordinates)
+    for (int i = 0; i < 2; ++i) {
+      low[i] = std::min(low[i], x[i]);
+      low[2 + i] = std::min(low[2 + i], -x[i]);
+    }
+  for (const auto& block : mesh.blocks) {
+    local.push_back(block.owned);
+    for (LocalOrdinal e = 0; e < block.owned; ++e)
+      for (int a = 0; a < block.nodes_per_element; ++a) {
+        const auto &x = mesh.coordinates[block.nodes(e)[a]], &y = mesh.coordinates[block.nodes(e)[(a + 1) % block.nodes_per_element]];
+        low[4] = std::min(low[4], (x[0] - y[0]) * (x[0] - y[0]) + (x[1] - y[1]) * (x[1] - y[1]));
+      }
+  }
+  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MIN, 5, low.data(), global_low.data());
+  size.elements_of_block.resize(local.size());
+  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, static_cast<int>(local.size()), local.data(), size.elements_of_block.data());
+  for (const auto count : size.elements_of_block) size.elements += count;
+  size.length = std::hypot(global_low[2] + global_low[0], global_low[3] + global_low[1]);
+  size.shortest_side = std::sqrt(global_low[4]);
+  return size;
+}
+
+}  // namespace mortise

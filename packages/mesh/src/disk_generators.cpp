@@ -1,0 +1,109 @@
+// Quarter and half disks around an inner patch, so that no cell degenerates at the centre.
+
+#include <boost/math/constants/constants.hpp>
+#include <cmath>
+
+#include "mortise/mesh/generators.hpp"
+
+namespace mortise {
+namespace {
+
+// Corners of the inner patch, as shares of the radius: on the axes, and both coordinates on the diagonal.
+constexpr double inner_axis = 0.5, inner_diagonal = 0.38;
+
+}  // namespace
+
+void DiskMesh::describe_shape(Parameters& parameters) {
+  parameters.add("radius", radius, Says("radius of the disk").unit("length").above(0.0));
+  parameters.add("cells along", cells_along,
+                 Says("number of cells on the arc between the lowest point and 45 degrees; 0: as \"grading along\" asks for").at_least(0));
+  parameters.add("cells beyond", cells_beyond,
+                 Says("number of cells on the arc between 45 degrees and the diameter; 0: as fits the others").at_least(0));
+  parameters.add("cells across", cells_across,
+                 Says("number of cells between the arc and the inner patch; 0: as \"grading across\" asks for").at_least(0));
+  parameters.list("grading along", grading_along, Says("grading of the arc from the lowest point (its start) to 45 degrees"));
+  parameters.list("grading across", grading_across, Says("grading from the lowest point (its start) to the inner patch, half the radius above"));
+  if (cells_along == 0 && !grading_along.smallest_cell)
+    parameters.error("cells along", "give \"cells along\", or a \"smallest cell\" in \"grading along\"");
+  if (cells_along != 0 && grading_along.smallest_cell)
+    parameters.error("cells along", "give either \"cells along\" or a \"smallest cell\" in \"grading along\"");
+  if (cells_across == 0 && !grading_across.smallest_cell)
+    parameters.error("cells across", "give \"cells across\", or a \"smallest cell\" in \"grading across\"");
+  if (cells_across != 0 && grading_across.smallest_cell)
+    parameters.error("cells across", "give either \"cells across\" or a \"smallest cell\" in \"grading across\"");
+}
+
+PatchComplex DiskMesh::build_quarters(CellShape cell, const Place& place, bool lower_left, bool upper_right) const {
+  const double R = radius, p = inner_axis * R, d = inner_diagonal * R, m = R * std::sqrt(0.5);
+  const double eighth = R * boost::math::constants::quarter_pi<double>();
+  const Spacing along = grading_along.spacing(eighth, cells_along, place);
+  const Spacing across = grading_across.spacing(R - p, cells_across, place);
+  // Beyond 45 degrees: cells as long as the longer of an average cell of the inner patch's side and the last one along the arc.
+  const double last = 1.0 - along.position(along.cells() - 1);
+  const int fitting = std::max(1, static_cast<int>(std::lround(1.0 / std::max(last, 1.0 / along.cells()))));
+  const Spacing beyond(cells_beyond > 0 ? cells_beyond : fitting);
+  const Spacing inner(along.cells()), radial(across.cells());
+  const Point center{0.0, 0.0};
+
+  std::vector<Point> corners;
+  std::vector<PatchComplex::Edge> edges;
+  std::vector<PatchComplex::Patch> patches;
+  const auto corner = [&](double x, double y) { return corners.push_back({x, y}), static_cast<int>(corners.size()) - 1; };
+  const int o = corner(0.0, 0.0), s = corner(p, 0.0), b = corner(R, 0.0);
+  edges.push_back({o, s, inner});
+  edges.push_back({s, b, radial});
+  const std::string horizontal = upper_right ? "" : "diameter", vertical = lower_left ? "" : "axis";
+
+  // A quarter between the vertical half axis o-v-a and the horizontal one o-h-e, with q and m on the diagonal. Mirrored quarters run
+  // clockwise, so their patches are listed the other way round.
+  const auto quarter = [&](int v, int a, int h, int e, double sx, double sy, const Spacing& arc) {
+    const int q = corner(sx * d, sy * d), middle = corner(sx * m, sy * m);
+    edges.push_back({v, q, inner});
+    edges.push_back({q, h, beyond});
+    edges.push_back({middle, q, radial});
+    edges.push_back({a, middle, arc, center});
+    edges.push_back({middle, e, beyond, center});
+    const auto patch = [&](const std::array<int, 4>& c, const std::array<std::string, 4>& names) {
+      const bool counterclockwise = sx * sy < 0.0;
+      if (counterclockwise)
+        patches.push_back({c, names});
+      else
+        patches.push_back({{c[1], c[0], c[3], c[2]}, {names[0], names[3], names[2], names[1]}});
+    };
+    patch({v, q, h, o}, {"", "", horizontal, vertical});
+    patch({a, middle, q, v}, {"arc", "", "", vertical});
+    patch({middle, e, h, q}, {"arc", horizontal, "", ""});
+  };
+
+  const int v = corner(0.0, -p), a = corner(0.0, -R);
+  edges.push_back({o, v, beyond});
+  edges.push_back({a, v, across});
+  quarter(v, a, s, b, 1.0, -1.0, along);
+  if (lower_left) {
+    const int h = corner(-p, 0.0), e = corner(-R, 0.0);
+    edges.push_back({o, h, inner});
+    edges.push_back({h, e, radial});
+    quarter(v, a, h, e, -1.0, -1.0, along);
+  }
+  if (upper_right) {
+    const int top_v = corner(0.0, p), top = corner(0.0, R);
+    edges.push_back({o, top_v, beyond});
+    edges.push_back({top, top_v, radial});
+    quarter(top_v, top, s, b, 1.0, 1.0, inner);
+  }
+  return PatchComplex(cell, std::move(corners), std::move(edges), std::move(patches), placement());
+}
+
+PatchComplex QuarterDiskMesh::build(CellShape cell, const Place& place) const { return build_quarters(cell, place, false, false); }
+
+void HalfDiskMesh::describe_shape(Parameters& parameters) {
+  DiskMesh::describe_shape(parameters);
+  parameters.add("half", half, {{"lower", DiskHalf::lower}, {"right", DiskHalf::right}},
+                 Says("lower: y <= 0, its flat side \"diameter\" on top; right: x >= 0, its flat side \"axis\" on x = 0"));
+}
+
+PatchComplex HalfDiskMesh::build(CellShape cell, const Place& place) const {
+  return build_quarters(cell, place, half == DiskHalf::lower, half == DiskHalf::right);
+}
+
+}  // namespace mortise

@@ -1,0 +1,155 @@
+#include "partition.hpp"
+
+#include <metis.h>
+
+#include <Teuchos_CommHelpers.hpp>
+#include <Teuchos_OrdinalTraits.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_TieBreak.hpp>
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <stdexcept>
+
+namespace mortise {
+namespace {
+
+bool on_contact(const BodySet& bodies, const std::vector<std::vector<bool>>& is_contact, GlobalOrdinal element) {
+  const int body = bodies.body_of_element(element);
+  for (const auto& side : bodies.complex(body).surface_sides(element - bodies.first_element(body)))
+    if (is_contact[body][side.name]) return true;
+  return false;
+}
+
+struct MetisFree {
+  void operator()(idx_t* memory) const { METIS_Free(memory); }
+};
+
+/// Rank of each element. Only called on rank 0.
+std::vector<idx_t> partition(const BodySet& bodies, const std::vector<std::vector<bool>>& is_contact, int ranks) {
+  if (bodies.element_count() > std::numeric_limits<idx_t>::max() / 8) throw std::runtime_error("the mesh has more elements than METIS can number");
+  idx_t elements = static_cast<idx_t>(bodies.element_count()), nodes = static_cast<idx_t>(bodies.node_count());
+  std::vector<idx_t> part(elements);
+  if (elements < ranks) {
+    std::iota(part.begin(), part.end(), 0);
+    return part;
+  }
+  // Dual graph: elements that share a side (two nodes).
+  std::unique_ptr<idx_t, MetisFree> offsets, neighbours;
+  {
+    std::vector<idx_t> element_offsets{0}, element_nodes;
+    for (idx_t e = 0; e < elements; ++e) {
+      const auto ids = bodies.element_nodes(e);
+      element_nodes.insert(element_nodes.end(), ids.begin(), ids.begin() + bodies.nodes_per_element(bodies.body_of_element(e)));
+      element_offsets.push_back(static_cast<idx_t>(element_nodes.size()));
+    }
+    idx_t shared = 2, numbering = 0, *rows = nullptr, *columns = nullptr;
+    if (METIS_MeshToDual(&elements, &nodes, element_offsets.data(), element_nodes.data(), &shared, &numbering, &rows, &columns) != METIS_OK)
+      throw std::runtime_error("METIS could not build the graph of elements");
+    offsets.reset(rows);
+    neighbours.reset(columns);
+  }
+  // Two weights to be balanced: elements, and elements on contact sides.
+  std::vector<idx_t> weights;
+  idx_t contact_elements = 0;
+  for (idx_t e = 0; e < elements; ++e) {
+    const bool contact = on_contact(bodies, is_contact, e);
+    weights.push_back(1);
+    weights.push_back(contact ? 1 : 0);
+    contact_elements += contact;
+  }
+  idx_t constraints = 2;
+  if (contact_elements < ranks) {
+    constraints = 1;
+    weights.assign(elements, 1);
+  }
+  idx_t options[METIS_NOPTIONS], parts = ranks, cut = 0;
+  METIS_SetDefaultOptions(options);
+  options[METIS_OPTION_SEED] = 1;
+  options[METIS_OPTION_NUMBERING] = 0;
+  // Recursive bisection balances several weights better; the k-way method is faster for many ranks.
+  const auto method = ranks <= 8 ? METIS_PartGraphRecursive : METIS_PartGraphKway;
+  const int status = method(&elements, &constraints, offsets.get(), neighbours.get(), weights.data(), nullptr, nullptr, &parts, nullptr, nullptr,
+                            options, &cut, part.data());
+  if (status != METIS_OK) throw std::runtime_error("METIS could not partition the mesh");
+  return part;
+}
+
+/// Chooses among the ranks that hold a node by their numbers alone.
+class AlternatingOwner : public Tpetra::Details::TieBreak<LocalOrdinal, GlobalOrdinal> {
+ public:
+  bool mayHaveSideEffects() const override { return false; }
+  std::size_t selectedIndex(GlobalOrdinal, const std::vector<std::pair<int, LocalOrdinal>>& holders) const override {
+    std::vector<std::size_t> order(holders.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return holders[a].first < holders[b].first; });
+    std::size_t sum = 0;
+    for (const auto& holder : holders) sum += holder.first;
+    return order[sum % order.size()];
+  }
+};
+
+RCP<const Map> map_of(const RCP<const Communicator>& comm, const std::vector<GlobalOrdinal>& ids) {
+  return rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(), Teuchos::arrayViewFromVector(ids), 0, comm));
+}
+
+}  // namespace
+
+std::vector<GlobalOrdinal> share_out_elements(const Communicator& comm, const BodySet& bodies, const std::vector<std::vector<bool>>& is_contact) {
+  std::vector<GlobalOrdinal> owned;
+  const int ranks = comm.getSize();
+  if (ranks == 1) {
+    owned.resize(bodies.element_count());
+    std::iota(owned.begin(), owned.end(), 0);
+    return owned;
+  }
+  // Rank 0 sorts the elements by rank; everyone gets the count, then the ids.
+  std::vector<GlobalOrdinal> sorted;
+  std::vector<int> counts(ranks, 0), offsets(ranks, 0);
+  std::string failure;
+  if (comm.getRank() == 0) {
+    try {
+      const auto part = partition(bodies, is_contact, ranks);
+      for (const auto rank : part) ++counts[rank];
+      std::partial_sum(counts.begin(), counts.end() - 1, offsets.begin() + 1);
+      sorted.resize(part.size());
+      auto next = offsets;
+      for (std::size_t e = 0; e < part.size(); ++e) sorted[next[part[e]]++] = static_cast<GlobalOrdinal>(e);
+    } catch (const std::exception& error) {
+      failure = error.what();
+      counts.assign(ranks, -1);
+    }
+  }
+  Teuchos::broadcast(comm, 0, ranks, counts.data());
+  const int mine = counts[comm.getRank()];
+  if (mine < 0) throw std::runtime_error(failure.empty() ? "the mesh could not be partitioned; rank 0 says why" : failure);
+  owned.resize(mine);
+  if (comm.getRank() == 0) {
+    std::copy_n(sorted.begin(), mine, owned.begin());
+    for (int rank = 1; rank < ranks; ++rank)
+      if (counts[rank] > 0) Teuchos::send(comm, counts[rank], sorted.data() + offsets[rank], rank);
+  } else if (mine > 0) {
+    Teuchos::receive(comm, 0, mine, owned.data());
+  }
+  return owned;
+}
+
+RCP<const Map> share_out_nodes(const RCP<const Communicator>& comm, const BodySet& bodies, const std::vector<GlobalOrdinal>& owned_elements) {
+  std::vector<GlobalOrdinal> ids;
+  for (const auto element : owned_elements) {
+    const auto nodes = bodies.element_nodes(element);
+    ids.insert(ids.end(), nodes.begin(), nodes.begin() + bodies.nodes_per_element(bodies.body_of_element(element)));
+  }
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  const auto overlapping = map_of(comm, ids);
+  if (comm->getSize() == 1) return overlapping;
+  const auto one_to_one = Tpetra::createOneToOne(overlapping, AlternatingOwner());
+  const auto view = one_to_one->getNodeElementList();
+  ids.assign(view.begin(), view.end());
+  std::sort(ids.begin(), ids.end());
+  return map_of(comm, ids);
+}
+
+}  // namespace mortise
