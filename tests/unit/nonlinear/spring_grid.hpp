@@ -168,17 +168,18 @@ class EdgeLoad : public Contribution {
   std::array<double, 2> force_;
 };
 
-/// Adds no force, but fails on the rank that owns it if a displacement went further than `reach` since the last commit.
+/// Adds no force, but fails on the rank that owns a displacement that went further than `reach` since the last commit, or beyond `limit` in all.
 class Brittle : public Contribution {
  public:
-  Brittle(std::shared_ptr<const SpringGrid> grid, double reach) : committed(grid->dofs), reach_(reach) {}
+  Brittle(const SpringGrid& grid, double reach, double limit) : committed(grid.dofs), reach_(reach), limit_(limit) {}
   std::string name() const override { return "brittle"; }
   Kind kind() const override { return Kind::internal; }
   void add_residual(const Configuration& at, Vector&, std::optional<StepFailure>& failure) override {
     const auto now = at.displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
     const auto then = committed.getLocalViewHost(Tpetra::Access::ReadOnly);
     for (std::size_t i = 0; i < now.extent(0); ++i)
-      if (std::abs(now(i, 0) - then(i, 0)) > reach_ && !failure) failure = StepFailure(FailureKind::material, "too far at once");
+      if ((std::abs(now(i, 0) - then(i, 0)) > reach_ || std::abs(now(i, 0)) > limit_) && !failure)
+        failure = StepFailure(FailureKind::material, "too far at once");
   }
   void add_jacobian(const Configuration&, Matrix&, std::optional<StepFailure>&) override {}
   void commit(const Configuration& at) override {
@@ -190,7 +191,7 @@ class Brittle : public Contribution {
   std::vector<double> times;
 
  private:
-  double reach_;
+  double reach_, limit_;
 };
 
 /// The lower edge is fixed; the upper one, if `motion` is given, moves by time * motion.
@@ -229,14 +230,14 @@ struct Problem {
     int nx = 6, ny = 5;
     std::optional<std::array<double, 2>> force, motion;
     double stiffness = 1.0;
-    double reach = 1e30;
+    double reach = 1e30, limit = 1e30;
     LinearSolverOptions linear_solver;
     Numbering numbering = Numbering::scattered;
   };
 
   Problem(const RCP<const Communicator>& comm, const Choices& choices) {
     grid = std::make_shared<SpringGrid>(comm, choices.nx, choices.ny, choices.numbering);
-    brittle = std::make_shared<Brittle>(grid, choices.reach);
+    brittle = std::make_shared<Brittle>(*grid, choices.reach, choices.limit);
     SystemParts parts;
     parts.dofs = grid->dofs;
     parts.local_dofs = grid->local_dofs;

@@ -1,0 +1,148 @@
+// Steps that work, steps that are undone, and the end.
+
+#include "mortise/nonlinear/load_stepper.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Tpetra_Core.hpp>
+
+#include "spring_grid.hpp"
+
+namespace mortise {
+namespace {
+
+using test::Problem;
+
+Problem::Choices moved(double reach) {
+  Problem::Choices choices;
+  choices.motion = {1.0, 0.5};
+  choices.reach = reach;
+  return choices;
+}
+
+struct Walk {
+  bool finished = false;
+  std::vector<StepReport> accepted;
+  std::vector<std::string> undone;
+  int begun = 0;
+  std::optional<StepFailure> last_failure;
+};
+
+Walk walk(Problem& problem, const SteppingOptions& stepping, const std::function<void(Vector&)>& start_step = {}) {
+  Walk result;
+  StepperObserver observer;
+  observer.begin = [&](int, double, double) { ++result.begun; };
+  observer.accepted = [&](const StepReport& report, const Vector&) { result.accepted.push_back(report); };
+  observer.undone = [&](const StepReport&, const StepFailure& failure) { result.undone.push_back(failure.what()); };
+  result.finished = run_steps(*problem.system, stepping, {}, *problem.x, start_step, observer, result.last_failure);
+  return result;
+}
+
+TEST(Stepper, WalksToTheEndThroughOutputTimes) {
+  Problem problem(Tpetra::getDefaultComm(), moved(1e30));
+  SteppingOptions stepping;
+  stepping.step = 0.4;
+  stepping.output_times = {0.5};
+  const Walk result = walk(problem, stepping);
+  EXPECT_TRUE(result.finished);
+  EXPECT_EQ(problem.brittle->times, (std::vector<double>{0.4, 0.5, 0.9, 1.0}));
+  ASSERT_EQ(result.accepted.size(), 4u);
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_EQ(result.accepted[k].step, static_cast<int>(k) + 1);
+    EXPECT_EQ(result.accepted[k].time, problem.brittle->times[k]);
+    EXPECT_EQ(result.accepted[k].cutbacks, 0);
+    EXPECT_GT(result.accepted[k].newton.newton_steps(), 0);
+  }
+  EXPECT_FALSE(result.last_failure);
+  EXPECT_DOUBLE_EQ(problem.x->normInf(), 1.0);
+}
+
+// The upper edge may move by 0.3 in a step: a whole step of 1 fails, and 0.5; 0.25 works; the next of 0.5 fails again, ...
+TEST(Stepper, UndoesAndHalvesAndTheResultIsThatOfSmallSteps) {
+  Problem problem(Tpetra::getDefaultComm(), moved(0.3));
+  const Walk result = walk(problem, {});
+  EXPECT_TRUE(result.finished);
+  ASSERT_FALSE(result.accepted.empty());
+  EXPECT_EQ(result.accepted[0].cutbacks, 2);
+  EXPECT_EQ(result.accepted[0].undone.size(), 2u);
+  EXPECT_NE(result.accepted[0].undone[0].find("too far at once"), std::string::npos);
+  EXPECT_EQ(result.accepted[0].time, 0.25);
+  EXPECT_EQ(problem.brittle->times.back(), 1.0);
+  EXPECT_EQ(result.begun, static_cast<int>(result.accepted.size() + result.undone.size()));
+
+  // The springs are elastic, so the way does not matter.
+  Problem direct(Tpetra::getDefaultComm(), moved(1e30));
+  SteppingOptions small;
+  small.step = 0.25;
+  walk(direct, small);
+  direct.x->update(-1.0, *problem.x, 1.0);
+  EXPECT_LE(direct.x->normInf(), 1e-7);  // increments are converged to 1e-8 of the model's size of 5
+  Vector committed(problem.brittle->committed, Teuchos::Copy);
+  committed.update(-1.0, *problem.x, 1.0);
+  EXPECT_EQ(committed.normInf(), 0.0);
+}
+
+TEST(Stepper, StopsAtTheSmallestStepWithTheLastGoodState) {
+  Problem::Choices choices = moved(1e30);
+  choices.limit = 0.6;  // reached at t = 0.6 by the upper edge
+  Problem problem(Tpetra::getDefaultComm(), choices);
+  SteppingOptions stepping;
+  stepping.step = 0.25;
+  stepping.minimum_step = 0.01;
+  const Walk result = walk(problem, stepping);
+  EXPECT_FALSE(result.finished);
+  ASSERT_TRUE(result.last_failure);
+  EXPECT_EQ(result.last_failure->what(), result.undone.back());
+  // Steps are halved until half of one would be less than 0.01: the last state is nearer to the limit than 0.02.
+  ASSERT_FALSE(problem.brittle->times.empty());
+  EXPECT_GT(problem.brittle->times.back(), 0.58);
+  EXPECT_LE(problem.brittle->times.back(), 0.6);
+  EXPECT_DOUBLE_EQ(problem.x->normInf(), problem.brittle->times.back());
+  Vector committed(problem.brittle->committed, Teuchos::Copy);
+  committed.update(-1.0, *problem.x, 1.0);
+  EXPECT_EQ(committed.normInf(), 0.0);
+}
+
+TEST(Stepper, EachTryStartsFromTheLastGoodStateAndMayPrepareIt) {
+  Problem problem(Tpetra::getDefaultComm(), moved(0.3));
+  int calls = 0;
+  const Walk result = walk(problem, {}, [&](Vector& x) {
+    ++calls;
+    Vector difference(x, Teuchos::Copy);
+    difference.update(-1.0, problem.brittle->committed, 1.0);
+    EXPECT_EQ(difference.normInf(), 0.0);
+    x.putScalar(0.0);  // a poor guess, which a failed try must not leave behind
+  });
+  EXPECT_EQ(calls, result.begun);
+}
+
+// A start that throws is a failed try like any other.
+TEST(Stepper, AFailingStartIsAFailedTry) {
+  Problem problem(Tpetra::getDefaultComm(), moved(1e30));
+  int calls = 0;
+  const Walk result = walk(problem, {}, [&](Vector&) {
+    if (++calls == 1) throw StepFailure(FailureKind::projection, "no start");
+  });
+  EXPECT_TRUE(result.finished);
+  EXPECT_EQ(result.undone, std::vector<std::string>{"no start"});
+  EXPECT_EQ(result.accepted[0].time, 0.5);
+}
+
+TEST(Stepper, AgreesWithOneRank) {
+  Problem problem(Tpetra::getDefaultComm(), moved(0.3)), alone(test::this_rank_only(), moved(0.3));
+  const Walk result = walk(problem, {}), alone_result = walk(alone, {});
+  ASSERT_EQ(result.accepted.size(), alone_result.accepted.size());
+  for (std::size_t k = 0; k < result.accepted.size(); ++k) {
+    EXPECT_EQ(result.accepted[k].time, alone_result.accepted[k].time);
+    EXPECT_EQ(result.accepted[k].cutbacks, alone_result.accepted[k].cutbacks);
+    EXPECT_EQ(result.accepted[k].newton.newton_steps(), alone_result.accepted[k].newton.newton_steps());
+  }
+  const auto mine = problem.x->getData(), whole = alone.x->getData();
+  for (std::size_t i = 0; i < problem.x->getLocalLength(); ++i) {
+    const GlobalOrdinal id = problem.grid->dofs->getGlobalElement(static_cast<LocalOrdinal>(i));
+    EXPECT_NEAR(mine[i], whole[alone.grid->dofs->getLocalElement(id)], 1e-10);
+  }
+}
+
+}  // namespace
+}  // namespace mortise
