@@ -1,0 +1,419 @@
+// Every kind of quantity on fields made by hand, with values known beforehand; the same on any number of ranks.
+
+#include <gmock/gmock.h>
+
+#include <Tpetra_Core.hpp>
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
+#include <Tpetra_Vector.hpp>
+#include <cmath>
+#include <functional>
+
+#include "mortise/core/read_parameters.hpp"
+#include "mortise/mesh/build_mesh.hpp"
+#include "mortise/mesh/generators.hpp"
+#include "mortise/mesh/sets.hpp"
+#include "mortise/simulation/quantity_kinds.hpp"
+
+namespace mortise {
+namespace {
+
+using ::testing::HasSubstr;
+using Point = std::array<double, 2>;
+
+constexpr double youngs_modulus = 100.0, poissons_ratio = 0.25, thickness = 2.0, width = 4.0;
+constexpr double lambda = 40.0, mu = 40.0;  // of the constants above
+constexpr int upper_cells = 5;
+
+/// "lower" [0, 4] x [0, 1] of 4 x 2 squares and "upper" [0, 4] x [1, 2] of 10 x 4 triangles; the underside of "upper" is the slave.
+class TwoBlocks {
+ public:
+  explicit TwoBlocks(Kinematics kinematics = Kinematics::plane_strain) {
+    const auto lower = std::make_shared<BlockMesh>(), upper = std::make_shared<BlockMesh>();
+    lower->width = upper->width = width;
+    lower->cells_x = 4, lower->cells_y = upper->cells_y = 2, upper->cells_x = upper_cells;
+    upper->translation = {0.0, 1.0};
+    mesh = build_mesh(Tpetra::getDefaultComm(), {{"lower", {}, lower, CellShape::quadrilateral4}, {"upper", {}, upper, CellShape::triangle3}},
+                      {"lower/top", "upper/bottom"});
+    const std::shared_ptr<MaterialOptions> material = std::make_shared<ElasticMaterialOptions<SmallStrainLinear>>();
+    material->youngs_modulus = youngs_modulus, material->poissons_ratio = poissons_ratio;
+    bodies = std::make_unique<Bodies>(
+        mesh, kinematics, thickness, std::vector<BodyProperties>{{"lower", {}, material, ElementType::q4}, {"upper", {}, material, ElementType::t3}});
+
+    ContactPair pair;
+    pair.name = "pair";
+    pair.slave = facets_at_owned_nodes(*mesh, mesh->side_sets.at("upper/bottom"));
+    pair.master = facets_of_owned_elements(*mesh, mesh->side_sets.at("lower/top"));
+    pair.youngs_modulus = youngs_modulus;
+    const auto reference = rcp(new MultiVector(mesh->owned_nodes, 2));
+    for (LocalOrdinal node = 0; node < mesh->owned_count(); ++node)
+      for (int i = 0; i < 2; ++i) reference->replaceLocalValue(node, i, mesh->coordinates[node][i]);
+    const InterfaceMeasure measure{kinematics == Kinematics::axisymmetric, thickness};
+    contact = std::make_unique<ContactSystem>(mesh->owned_nodes, bodies->dofs(), reference, rcp(new MultiVector(mesh->owned_nodes, 2)), measure,
+                                              std::vector<ContactPair>{pair}, Timers());
+    multipliers = rcp(new Vector(contact->multiplier_map()));
+    displacement = nodal([](int, const Point&) { return Point{0.0, 0.0}; });
+    reaction = nodal([](int, const Point&) { return Point{0.0, 0.0}; });
+    external = nodal([](int, const Point&) { return Point{0.0, 0.0}; });
+    move([](int, const Point&) { return Point{0.0, 0.0}; });
+  }
+
+  using Function = std::function<Point(int body, const Point& X)>;
+  /// A vector on the owned dofs.
+  RCP<Vector> nodal(const Function& value) const {
+    const auto vector = rcp(new Vector(bodies->dofs()));
+    for (LocalOrdinal node = 0; node < mesh->owned_count(); ++node) {
+      const Point at = value(mesh->body_of_node[node], {mesh->coordinates[node][0], mesh->coordinates[node][1]});
+      for (int i = 0; i < 2; ++i) vector->replaceLocalValue(2 * node + i, at[i]);
+    }
+    return vector;
+  }
+
+  void move(const Function& u) {
+    displacement = nodal(u);
+    local_displacement = rcp(new Vector(bodies->local_dofs()));
+    local_displacement->doImport(*displacement, *bodies->ghost_import(), Tpetra::INSERT);
+    std::optional<StepFailure> failure;
+    contact->evaluate(*displacement, false, failure);
+    throw_if_any(*mesh->comm, failure);
+  }
+
+  /// z = p n with n = (0, -1); p of x.
+  void press(const std::function<double(double)>& pressure) {
+    const GlobalOrdinal offset = bodies->dofs()->getMaxAllGlobalIndex() + 1;
+    for (const GlobalOrdinal id : multipliers->getMap()->getNodeElementList()) {
+      const LocalOrdinal node = mesh->owned_nodes->getLocalElement((id - offset) / 2);
+      multipliers->replaceGlobalValue(id, (id - offset) % 2 == 0 ? 0.0 : -pressure(mesh->coordinates[node][0]));
+    }
+  }
+
+  QuantityContext context(double time = 1.0) const {
+    QuantityContext context{*bodies};
+    context.contact = contact.get();
+    context.pairs = {{"pair", "upper/bottom", "lower/top"}};
+    context.time = time;
+    context.displacement = displacement.get();
+    context.local_displacement = local_displacement.get();
+    context.multipliers = multipliers.get();
+    context.reaction = reaction.get();
+    context.external_force = external.get();
+    context.prescribed = &prescribed;
+    return context;
+  }
+
+  double value(Quantity&& quantity, double time = 1.0) const {
+    quantity.prepare(context(time));
+    return quantity.evaluate(context(time));
+  }
+
+  /// Owned dofs of a set.
+  std::vector<LocalOrdinal> dofs(const std::string& set) const {
+    std::vector<LocalOrdinal> dofs;
+    for (const LocalOrdinal node : mesh->node_sets.at(set))
+      if (node < mesh->owned_count()) dofs.insert(dofs.end(), {2 * node, 2 * node + 1});
+    return dofs;
+  }
+
+  RCP<Mesh> mesh;
+  std::unique_ptr<Bodies> bodies;
+  std::unique_ptr<ContactSystem> contact;
+  RCP<Vector> displacement, local_displacement, multipliers, reaction, external;
+  std::vector<LocalOrdinal> prescribed;
+};
+
+/// u of uniform strain: xx 0.01, yy -0.02, u_x,y = 0.006.
+Point uniform_strain(const Point& X) { return {0.01 * X[0] + 0.006 * X[1], -0.02 * X[1]}; }
+constexpr double stress_xx = lambda * -0.01 + 2.0 * mu * 0.01, stress_yy = lambda * -0.01 + 2.0 * mu * -0.02, stress_zz = lambda * -0.01,
+                 stress_xy = mu * 0.006;
+
+template <class Kind>
+Kind field(PointField field, const std::string& on) {
+  Kind quantity;
+  quantity.field = field;
+  quantity.on = {on, {}};
+  return quantity;
+}
+
+template <class Action>
+std::string input_error(const Action& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "no InputError";
+  return {};
+}
+
+TEST(Quantity, StressOfUniformStrain) {
+  TwoBlocks blocks;
+  blocks.move([](int, const Point& X) { return uniform_strain(X); });
+  EXPECT_NEAR(blocks.value(field<Mean>(PointField::stress_xx, "")), stress_xx, 1e-13);
+  EXPECT_NEAR(blocks.value(field<Mean>(PointField::stress_yy, "upper")), stress_yy, 1e-13);
+  EXPECT_NEAR(blocks.value(field<Extremum>(PointField::stress_zz, "lower")), stress_zz, 1e-13);
+  EXPECT_NEAR(blocks.value(field<Extremum>(PointField::stress_xy, "")), stress_xy, 1e-13);
+  const double von_mises =
+      std::sqrt(0.5 * (std::pow(stress_xx - stress_yy, 2) + std::pow(stress_yy - stress_zz, 2) + std::pow(stress_zz - stress_xx, 2)) +
+                3.0 * stress_xy * stress_xy);
+  EXPECT_NEAR(blocks.value(field<Extremum>(PointField::von_mises, "")), von_mises, 1e-13);
+  EXPECT_LT(blocks.value(Spread()), 1e-12);
+}
+
+// Strain e below and 2 e above, equal volumes: the mean is 1.5 sigma(e), every deviation 0.5 sigma(e).
+TEST(Quantity, SpreadOfTwoStresses) {
+  TwoBlocks blocks;
+  blocks.move([](int body, const Point& X) {
+    const Point u = uniform_strain(X);
+    return Point{(1.0 + body) * u[0], (1.0 + body) * u[1]};
+  });
+  EXPECT_NEAR(blocks.value(Spread()), 1.0 / 3.0, 1e-12);
+  Spread upper;
+  upper.bodies.value = {"upper"};
+  EXPECT_LT(blocks.value(std::move(upper)), 1e-12);
+  Spread unknown;
+  unknown.bodies = {{"uper"}, {"scene.xml", 5, "quantities/spread"}};
+  EXPECT_THAT(input_error([&] { blocks.value(std::move(unknown)); }),
+              ::testing::AllOf(HasSubstr("scene.xml:5"), HasSubstr("did you mean \"upper\"")));
+  EXPECT_TRUE(std::isnan(TwoBlocks().value(Spread()))) << "without stress there is nothing to compare with";
+}
+
+TEST(Quantity, DisplacementOfNodes) {
+  TwoBlocks blocks;
+  blocks.move([](int body, const Point& X) { return Point{0.01 * X[0] - 0.02, body == 0 ? 0.003 * X[1] : -0.05}; });
+  EXPECT_NEAR(blocks.value(field<Extremum>(PointField::displacement_x, "")), 0.02, 1e-16);
+  Extremum least = field<Extremum>(PointField::displacement_x, "lower/top");
+  least.which = Extremum::Which::minimum;
+  EXPECT_NEAR(blocks.value(std::move(least)), -0.02, 1e-16);
+  Extremum largest = field<Extremum>(PointField::displacement_y, "");
+  largest.which = Extremum::Which::maximum_absolute;
+  EXPECT_NEAR(blocks.value(std::move(largest)), 0.05, 1e-16);
+  EXPECT_NEAR(blocks.value(field<Mean>(PointField::displacement_x, "lower/top")), 0.0, 1e-16);
+  EXPECT_NEAR(blocks.value(field<Extremum>(PointField::displacement_magnitude, "upper")), std::hypot(0.02, 0.05), 1e-16);
+  EXPECT_THAT(input_error([&] { blocks.value(field<Mean>(PointField::displacement_x, "lower/topp")); }), HasSubstr("lower/top"));
+}
+
+TEST(Quantity, DisplacementOfAPoint) {
+  TwoBlocks blocks;
+  blocks.move([](int body, const Point& X) { return body == 0 ? uniform_strain(X) : Point{0.1, 0.2 * X[0]}; });
+  const auto at = [](double x, double y, Component component, const std::string& body = "") {
+    PointDisplacement point;
+    point.x.value = x, point.y.value = y, point.component = component, point.body.value = body;
+    return point;
+  };
+  for (const Point& X : {Point{0.0, 0.0}, {1.3, 0.2}, {3.999, 0.71}, {2.0, 0.5}}) {
+    EXPECT_NEAR(blocks.value(at(X[0], X[1], Component::x)), uniform_strain(X)[0], 1e-14);
+    EXPECT_NEAR(blocks.value(at(X[0], X[1], Component::y)), uniform_strain(X)[1], 1e-14);
+  }
+  EXPECT_NEAR(blocks.value(at(2.7, 1.6, Component::y)), 0.54, 1e-14);
+  EXPECT_NEAR(blocks.value(at(2.7, 1.0, Component::x)), uniform_strain({2.7, 1.0})[0], 1e-14) << "on the interface: the first body";
+  EXPECT_NEAR(blocks.value(at(2.7, 1.0, Component::x, "upper")), 0.1, 1e-14);
+  EXPECT_THAT(input_error([&] { blocks.value(at(5.0, 0.5, Component::x)); }), HasSubstr("(5, 0.5) lies in no body"));
+  EXPECT_THAT(input_error([&] { blocks.value(at(1.0, 0.5, Component::x, "upper")); }), HasSubstr("not in the body \"upper\""));
+}
+
+TEST(Quantity, ReactionsOfASet) {
+  TwoBlocks blocks;
+  blocks.reaction = blocks.nodal([](int body, const Point& X) { return Point{1.0 + body, X[0]}; });
+  Reaction reaction;
+  reaction.set.value = "lower/bottom";  // 5 nodes at x = 0 ... 4
+  EXPECT_NEAR(blocks.value(Reaction(reaction)), 10.0, 1e-14);
+  reaction.component = Component::x;
+  EXPECT_NEAR(blocks.value(Reaction(reaction)), 5.0, 1e-14);
+  reaction.set.value = "lower/botom";
+  EXPECT_THAT(input_error([&] { blocks.value(Reaction(reaction)); }), HasSubstr("lower/bottom"));
+}
+
+TEST(Quantity, BalanceOfLoadsAndReactions) {
+  TwoBlocks blocks;
+  blocks.prescribed = blocks.dofs("lower/bottom");
+  blocks.external = blocks.nodal([](int, const Point& X) { return Point{0.0, X[1] == 2.0 ? -5.0 : 0.0}; });  // 6 nodes: -30
+  // 5 supported nodes carry 6 each: balance. What stands on free dofs is no reaction.
+  blocks.reaction = blocks.nodal([](int, const Point& X) { return Point{0.0, X[1] == 0.0 ? 6.0 : 100.0}; });
+  MomentumImbalance imbalance;
+  imbalance.of = MomentumImbalance::Of::total;
+  EXPECT_NEAR(blocks.value(MomentumImbalance(imbalance)), 0.0, 1e-15);
+  blocks.reaction = blocks.nodal([](int, const Point& X) { return Point{X[1] == 0.0 ? 0.3 : 0.0, X[1] == 0.0 ? 6.0 : 0.0}; });
+  EXPECT_NEAR(blocks.value(MomentumImbalance(imbalance)), 1.5 / 30.0, 1e-15);
+
+  TwoBlocks rings(Kinematics::axisymmetric);
+  rings.external = rings.nodal([](int, const Point&) { return Point{7.0, 0.0}; });
+  EXPECT_EQ(rings.value(MomentumImbalance(imbalance)), 0.0) << "radial forces do not have to balance";
+}
+
+TEST(Quantity, UniformPressure) {
+  TwoBlocks blocks;
+  blocks.press([](double) { return 3.0; });
+  ContactForce force;
+  EXPECT_NEAR(blocks.value(ContactForce(force)), 3.0 * width * thickness, 1e-12);
+  force.component = Component::x;
+  EXPECT_NEAR(blocks.value(ContactForce(force)), 0.0, 1e-12);
+  MomentumImbalance imbalance;
+  imbalance.of = MomentumImbalance::Of::contact;
+  EXPECT_LT(blocks.value(std::move(imbalance)), 1e-12);
+  EXPECT_NEAR(blocks.value(PeakPressure()), 3.0, 1e-14);
+  EXPECT_EQ(blocks.value(ActiveCount()), upper_cells + 1);
+  EXPECT_NEAR(blocks.value(ContactLength()), width, 1e-14);
+  EXPECT_NEAR(blocks.value(field<Mean>(PointField::contact_pressure, "pair")), 3.0, 1e-13);
+}
+
+// p = 3 (1 - x / L) on [0, L]: int p x^2 / int p = L^2 / 6, exactly so for p_h. The last node, without pressure, is open.
+TEST(Quantity, LinearPressure) {
+  TwoBlocks blocks;
+  blocks.press([](double x) { return 3.0 * (1.0 - x / width); });
+  EXPECT_NEAR(blocks.value(HalfWidth()), 2.0 * std::sqrt(width * width / 6.0), 1e-12);
+  HalfWidth shifted;
+  shifted.center = 1.0;  // int p (x - 1)^2 / int p = L^2/6 - 2 L/3 + 1
+  EXPECT_NEAR(blocks.value(std::move(shifted)), 2.0 * std::sqrt(width * width / 6.0 - 2.0 * width / 3.0 + 1.0), 1e-12);
+  EXPECT_NEAR(blocks.value(PeakPressure()), 3.0, 1e-14);
+  EXPECT_EQ(blocks.value(ActiveCount()), upper_cells);
+  EXPECT_NEAR(blocks.value(ContactLength()), width - 0.5 * width / upper_cells, 1e-14);
+  EXPECT_NEAR(blocks.value(ContactForce()), 1.5 * width * thickness, 1e-12);
+}
+
+TEST(Quantity, GapOfALiftedBody) {
+  TwoBlocks blocks;
+  blocks.move([](int body, const Point&) { return Point{0.0, body == 1 ? 0.125 : 0.0}; });
+  EXPECT_NEAR(blocks.value(field<Extremum>(PointField::gap, "pair")), 0.125, 1e-12);
+  EXPECT_NEAR(blocks.value(field<Mean>(PointField::gap, "")), 0.125, 1e-12);
+  EXPECT_EQ(blocks.value(ActiveCount()), 0.0);
+  EXPECT_EQ(blocks.value(PeakPressure()), 0.0);
+  EXPECT_EQ(blocks.value(HalfWidth()), 0.0);
+}
+
+TEST(Quantity, NamesOfPairs) {
+  TwoBlocks blocks;
+  PeakPressure peak;
+  peak.pair = {"piar", {"scene.xml", 9, "quantities/peak"}};
+  EXPECT_THAT(input_error([&] { blocks.value(PeakPressure(peak)); }), ::testing::AllOf(HasSubstr("scene.xml:9"), HasSubstr("did you mean \"pair\"")));
+  auto context = blocks.context();
+  context.pairs.push_back({"other", "upper/bottom", "lower/top"});
+  EXPECT_THAT(input_error([&] { PeakPressure().prepare(context); }), HasSubstr("\"pair\", \"other\""));
+  context.pairs.clear();
+  EXPECT_THAT(input_error([&] { PeakPressure().prepare(context); }), HasSubstr("no contact"));
+}
+
+TEST(ErrorNorm, OfDisplacementAndStress) {
+  TwoBlocks blocks;
+  blocks.move([](int, const Point& X) { return uniform_strain(X); });
+  const auto linear = std::make_shared<LinearDisplacement>();
+  const auto uniform = std::make_shared<UniformState>();
+  const auto scaled = [&](double factor) {  // u_h = factor^-1 of the exact one: the error is 1 - 1/factor
+    linear->xx = Expression(0.01 * factor), linear->xy = Expression(0.006 * factor), linear->yy = Expression(-0.02 * factor);
+    uniform->xx = Expression(stress_xx * factor), uniform->yy = Expression(stress_yy * factor);
+    uniform->zz = Expression(stress_zz * factor), uniform->xy = Expression(stress_xy * factor);
+  };
+  ErrorNorm displacement, stress;
+  displacement.of = ErrorNorm::Of::displacement, displacement.exact = {"linear displacement", linear, {}};
+  stress.of = ErrorNorm::Of::stress, stress.exact = {"uniform", uniform, {}};
+  scaled(1.0);
+  EXPECT_LT(blocks.value(ErrorNorm(displacement)), 1e-13);
+  EXPECT_LT(blocks.value(ErrorNorm(stress)), 1e-13);
+  scaled(2.0);
+  EXPECT_NEAR(blocks.value(ErrorNorm(displacement)), 0.5, 1e-13);
+  stress.on.value = "upper";
+  EXPECT_NEAR(blocks.value(ErrorNorm(stress)), 0.5, 1e-13);
+  displacement.exact = {"uniform", uniform, {}};
+  EXPECT_THAT(input_error([&] { blocks.value(ErrorNorm(displacement)); }), HasSubstr("\"uniform\" knows no displacement"));
+}
+
+// p_h = 2 (1 - x / L) against p = 2: the squared error over [a, b] is (b^3 - a^3) / (3 L^2 (b - a)); a and b lie inside facets.
+TEST(ErrorNorm, OfPressureOverARange) {
+  TwoBlocks blocks;
+  blocks.press([](double x) { return 2.0 * (1.0 - x / width); });
+  const auto uniform = std::make_shared<UniformState>();
+  uniform->contact_pressure = Expression("2*t", {});
+  ErrorNorm error;
+  error.exact = {"uniform", uniform, {}};
+  EXPECT_NEAR(blocks.value(ErrorNorm(error)), std::sqrt(1.0 / 3.0), 1e-13);
+  error.from = 0.3, error.to = 2.9;
+  EXPECT_NEAR(blocks.value(ErrorNorm(error)), std::sqrt((std::pow(2.9, 3) - std::pow(0.3, 3)) / (3.0 * width * width * 2.6)), 1e-13);
+  EXPECT_TRUE(std::isnan(blocks.value(ErrorNorm(error), 0.0))) << "no pressure to compare with";
+  error.unit = ErrorNorm::Unit::half_width;
+  EXPECT_THAT(input_error([&] { blocks.value(ErrorNorm(error)); }), HasSubstr("no half width"));
+}
+
+// p_h = c against Hertz over [0, 1.5 a]: |error|^2 = (1.5 c^2 a - 2 c p0 a pi/4 + 2/3 p0^2 a) / (2/3 p0^2 a). Eight Gauss points miss the integral of
+// sqrt(1 - x/a) up to the end of its range by less than 1e-3 relative, those of its square and of a constant not at all.
+TEST(ErrorNorm, OfPressureAgainstHertz) {
+  TwoBlocks blocks;
+  const auto hertz = std::make_shared<HertzLineContact>();
+  hertz->load = Expression(100.0), hertz->radius = 1.0;
+  hertz->first_youngs_modulus = hertz->second_youngs_modulus = youngs_modulus;
+  const double a = hertz->half_width(1.0), p0 = hertz->peak(1.0), c = 0.4 * p0, pi = std::acos(-1.0);
+  ASSERT_LT(1.5 * a, width) << "the range has to lie on the surface";
+  ErrorNorm error;
+  error.exact = {"hertz line contact", hertz, {}};
+  error.from = 0.0, error.to = 1.5, error.unit = ErrorNorm::Unit::half_width;
+  EXPECT_NEAR(blocks.value(ErrorNorm(error)), 1.0, 1e-14) << "without pressure all of it is missing";
+  blocks.press([&](double) { return c; });
+  const double reference = 2.0 / 3.0 * p0 * p0;
+  EXPECT_NEAR(blocks.value(ErrorNorm(error)), std::sqrt((1.5 * c * c - 0.5 * pi * c * p0 + reference) / reference), 1e-3);
+}
+
+TEST(Energy, StoredIsHalfStressTimesStrain) {
+  TwoBlocks blocks;
+  blocks.move([](int body, const Point& X) { return body == 0 ? uniform_strain(X) : Point{0.3, 0.3}; });
+  const double expected = 0.5 * (stress_xx * 0.01 + stress_yy * -0.02 + stress_xy * 0.006) * width * thickness;
+  Energy energy;
+  EXPECT_NEAR(blocks.value(Energy(energy)), expected, 1e-13);
+  energy.body.value = "upper";
+  EXPECT_NEAR(blocks.value(Energy(energy)), 0.0, 1e-13);
+}
+
+// A load F on one corner that grows with its displacement, F = d: W = d^2/2; and a support that moves on under a constant force.
+TEST(Energy, WorkFromOutsideAddsUpOverSteps) {
+  TwoBlocks blocks;
+  blocks.prescribed = blocks.dofs("lower/bottom");
+  Energy work;
+  work.of = Energy::Of::external_work;
+  work.prepare(blocks.context());
+  const auto corner = [](int, const Point& X, double value) { return Point{X[0] == width && X[1] == 2.0 ? value : 0.0, 0.0}; };
+  for (const double d : {0.25, 1.0}) {
+    blocks.external = blocks.nodal([&](int body, const Point& X) { return corner(body, X, d); });
+    blocks.move([&](int body, const Point& X) { return corner(body, X, d); });
+    EXPECT_NEAR(work.evaluate(blocks.context()), 0.5 * d * d, 1e-15);
+    EXPECT_NEAR(work.evaluate(blocks.context()), 0.5 * d * d, 1e-15) << "asked twice";
+  }
+  // The supports push with 2 at each of 5 nodes; only their last motion, by 0.1, meets the whole force.
+  blocks.reaction = blocks.nodal([](int, const Point&) { return Point{0.0, 2.0}; });
+  EXPECT_NEAR(work.evaluate(blocks.context()), 0.5, 1e-15);
+  blocks.move([&](int body, const Point& X) { return Point{corner(body, X, 1.0)[0], X[1] == 0.0 ? 0.1 : 0.0}; });
+  EXPECT_NEAR(work.evaluate(blocks.context()), 0.5 + 5 * 2.0 * 0.1, 1e-14);
+}
+
+/// An entry of a scene's list "quantities".
+struct Entry {
+  Choice<Quantity> quantity;
+  void describe(Parameters& parameters) { parameters.choose(quantity, quantity_registry(), "the kind of quantity"); }
+};
+
+TEST(Registry, AnErrorNormIsReadWithItsExactSolution) {
+  const auto read = [](const std::string& field, Entry& entry) {
+    const std::string text =
+        "<ParameterList name=\"q\"><Parameter name=\"type\" type=\"string\" value=\"error norm\"/>"
+        "<Parameter name=\"field\" type=\"string\" value=\"" +
+        field +
+        "\"/>"
+        "<Parameter name=\"to\" type=\"double\" value=\"1.5\"/><Parameter name=\"unit\" type=\"string\" value=\"half width\"/>"
+        "<ParameterList name=\"exact\"><Parameter name=\"type\" type=\"string\" value=\"hertz line contact\"/>"
+        "<Parameter name=\"load\" type=\"double\" value=\"F*t\"/></ParameterList></ParameterList>";
+    Symbols symbols;
+    symbols.variables["F"] = 7.0;
+    std::vector<Diagnostic> diagnostics;
+    read_parameters(entry, parse_xml(text, "scene.xml"), symbols, {}, diagnostics);
+    return diagnostics;
+  };
+  Entry good, bad;
+  EXPECT_TRUE(read("contact pressure", good).empty());
+  const auto norm = std::dynamic_pointer_cast<ErrorNorm>(good.quantity.options);
+  ASSERT_NE(norm, nullptr);
+  EXPECT_EQ(norm->to, 1.5);
+  const auto hertz = std::dynamic_pointer_cast<HertzLineContact>(norm->exact.options);
+  ASSERT_NE(hertz, nullptr);
+  EXPECT_EQ(hertz->load(2.0), 14.0);
+  EXPECT_EQ(read("stress", bad).size(), 1u) << "a range means nothing to a stress";
+}
+
+}  // namespace
+}  // namespace mortise
