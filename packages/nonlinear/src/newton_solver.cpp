@@ -22,7 +22,7 @@ void NewtonOptions::describe(Parameters& parameters) {
   parameters.add("increment tolerance", increment_tolerance,
                  Says("bound on the last correction of a displacement over the size of the model").unit("-").above(0.0));
   parameters.add("divergence", divergence,
-                 Says("growth of |r| over the larger of its first two values at which the step is undone").unit("-").above(1.0));
+                 Says("growth of |r| over its first values (or the force of the first correction) at which the step is undone").unit("-").above(1.0));
   parameters.add("cycle length", cycle_length,
                  Says("longest cycle of active sets that is looked for; a step that cycles is undone; 0 or 1: none").at_least(0));
 }
@@ -37,7 +37,7 @@ void solve_newton(SemiSmoothSystem& system, double time, const NewtonOptions& op
   const auto criteria = detail::convergence_criteria(options, system.parts().length);
   const auto converged = rcp(new Combo(Combo::AND));
   for (const auto& criterion : criteria) converged->addStatusTest(rcp(new detail::ConvergenceTest(history, criterion)));
-  const auto give_up = rcp(new detail::GiveUpTest(history, options, criteria));
+  const auto give_up = rcp(new detail::GiveUpTest(history, system, options, criteria));
   const auto test = rcp(new Combo(Combo::OR));
   test->addStatusTest(converged);
   test->addStatusTest(give_up);

@@ -70,14 +70,15 @@ NOX::StatusTest::StatusType ConvergenceTest::check(const Iterates& iterates) {
 }
 
 std::optional<StepFailure> reason_to_give_up(const std::vector<NewtonIteration>& iterates, const NewtonOptions& options,
-                                             const std::vector<ConvergenceCriterion>& criteria) {
+                                             const std::vector<ConvergenceCriterion>& criteria, double stiffness) {
   const NewtonIteration& last = iterates.back();
   if (!last.norms.finite || !std::isfinite(last.increment))
     return StepFailure(FailureKind::not_finite, fmt::format("residual or increment is not finite in Newton iteration {}", last.iteration));
 
-  // Iterate 0 is in equilibrium but for what has just been prescribed, so its |r| alone is no measure of the problem.
+  // Iterate 0 may be in equilibrium but for what has just been prescribed, and iterate 1 again if that moved a body as a whole up to contact:
+  // their |r| alone are no measure of the problem, the force that the first correction would take is.
   if (iterates.size() > 2) {
-    const double first = std::max(iterates[0].norms.momentum_absolute, iterates[1].norms.momentum_absolute);
+    const double first = std::max({iterates[0].norms.momentum_absolute, iterates[1].norms.momentum_absolute, stiffness * iterates[1].increment});
     if (last.norms.momentum_absolute > options.divergence * first)
       return StepFailure(FailureKind::diverged, fmt::format("|r| has grown from {:.2e} to {:.2e} in Newton iteration {}", first,
                                                             last.norms.momentum_absolute, last.iteration));
@@ -100,7 +101,7 @@ std::optional<StepFailure> reason_to_give_up(const std::vector<NewtonIteration>&
 }
 
 NOX::StatusTest::StatusType GiveUpTest::check(const Iterates& iterates) {
-  reason_ = reason_to_give_up(iterates, options_, criteria_);
+  reason_ = reason_to_give_up(iterates, options_, criteria_, system_.stiffness_scale());
   return reason_ ? NOX::StatusTest::Failed : NOX::StatusTest::Unconverged;
 }
 

@@ -67,21 +67,22 @@ class ConvergenceTest : public IterateTest {
   ConvergenceCriterion criterion_;
 };
 
-/// Why a solve is given up at its last iterate, or nothing.
+/// Why a solve is given up at its last iterate, or nothing. `stiffness`: the system's scale s.
 std::optional<StepFailure> reason_to_give_up(const std::vector<NewtonIteration>& iterates, const NewtonOptions& options,
-                                             const std::vector<ConvergenceCriterion>& criteria);
+                                             const std::vector<ConvergenceCriterion>& criteria, double stiffness);
 
 /// NOX's view on it: failed if there is a reason.
 class GiveUpTest : public IterateTest {
  public:
-  GiveUpTest(NewtonHistory& history, const NewtonOptions& options, std::vector<ConvergenceCriterion> criteria)
-      : IterateTest(history, "no reason to give up"), options_(options), criteria_(std::move(criteria)) {}
+  GiveUpTest(NewtonHistory& history, const SemiSmoothSystem& system, const NewtonOptions& options, std::vector<ConvergenceCriterion> criteria)
+      : IterateTest(history, "no reason to give up"), system_(system), options_(options), criteria_(std::move(criteria)) {}
   const std::optional<StepFailure>& reason() const { return reason_; }
 
  protected:
   NOX::StatusTest::StatusType check(const Iterates& iterates) override;
 
  private:
+  const SemiSmoothSystem& system_;
   NewtonOptions options_;
   std::vector<ConvergenceCriterion> criteria_;
   std::optional<StepFailure> reason_;

@@ -159,6 +159,7 @@ RCP<Vector> SemiSmoothSystem::multipliers(Vector& x) const {
   return x.offsetViewNonConst(implementation_->multipliers, implementation_->parts.dofs->getNodeNumElements());
 }
 double SemiSmoothSystem::time() const { return implementation_->time; }
+double SemiSmoothSystem::stiffness_scale() const { return implementation_->stiffness_scale; }
 
 // Whoever changes time may have used the contact for itself: nothing that it holds is relied upon any more.
 void SemiSmoothSystem::set_time(double time) {

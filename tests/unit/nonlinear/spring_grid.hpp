@@ -23,11 +23,12 @@ inline RCP<const Communicator> this_rank_only() { return rcp(new Teuchos::MpiCom
 /// How nodes are given to ranks, and how they are numbered.
 enum class Numbering { blocks, scattered, with_gaps };
 
-/// nx x ny nodes at unit distance; springs to all eight neighbours.
+/// nx x ny nodes at unit distance; springs to all eight neighbours. With a cut, the rows from `cut` on are a body of their own: narrower, so
+/// that nodes do not match, and just above the rows below.
 class SpringGrid {
  public:
-  SpringGrid(const RCP<const Communicator>& comm, int nx, int ny, Numbering numbering = Numbering::scattered)
-      : nx_(nx), ny_(ny), stride_(numbering == Numbering::with_gaps ? 3 : 1) {
+  SpringGrid(const RCP<const Communicator>& comm, int nx, int ny, Numbering numbering = Numbering::scattered, int cut = 0)
+      : nx_(nx), ny_(ny), cut_(cut), stride_(numbering == Numbering::with_gaps ? 3 : 1) {
     std::vector<GlobalOrdinal> owned;
     const int ranks = comm->getSize(), count = nx * ny;
     for (int node = 0; node < count; ++node) {
@@ -58,14 +59,20 @@ class SpringGrid {
   const std::vector<int>& owned_nodes() const { return nodes_; }
   int nx() const { return nx_; }
   int ny() const { return ny_; }
-  std::array<double, 2> position(int node) const { return {static_cast<double>(node % nx_), static_cast<double>(node / nx_)}; }
+  int cut() const { return cut_; }
+  std::array<double, 2> position(int node) const {
+    const double x = node % nx_, y = node / nx_;
+    if (cut_ == 0 || node / nx_ < cut_) return {x, y};
+    return {0.77 + 0.8 * x, y - 1.0 + 0.05};
+  }
 
   std::vector<int> neighbours(int node) const {
     std::vector<int> result;
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx) {
         const int x = node % nx_ + dx, y = node / nx_ + dy;
-        if ((dx != 0 || dy != 0) && x >= 0 && x < nx_ && y >= 0 && y < ny_) result.push_back(y * nx_ + x);
+        const bool inside = x >= 0 && x < nx_ && y >= 0 && y < ny_, same_body = (y >= cut_) == (node / nx_ >= cut_);
+        if ((dx != 0 || dy != 0) && inside && same_body) result.push_back(y * nx_ + x);
       }
     return result;
   }
@@ -97,7 +104,7 @@ class SpringGrid {
     return rcp(new Map(invalid, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, comm));
   }
 
-  int nx_, ny_, stride_;
+  int nx_, ny_, cut_, stride_;
   std::vector<int> nodes_;
 };
 
@@ -233,10 +240,29 @@ struct Problem {
     double reach = 1e30, limit = 1e30;
     LinearSolverOptions linear_solver;
     Numbering numbering = Numbering::scattered;
+    int cut = 0;  ///< with contact between the two bodies
   };
 
+  /// The lower edge of the upper body (slave) on the upper edge of the lower one.
+  static std::shared_ptr<ContactSystem> contact(const SpringGrid& grid, const PrescribedDisplacements& prescribed, double stiffness) {
+    const auto reference = rcp(new MultiVector(grid.node_map, 2)), fixed = rcp(new MultiVector(grid.node_map, 2));
+    for (std::size_t n = 0; n < grid.owned_nodes().size(); ++n)
+      for (int i = 0; i < 2; ++i) reference->replaceLocalValue(static_cast<LocalOrdinal>(n), i, grid.position(grid.owned_nodes()[n])[i]);
+    for (const LocalOrdinal dof : prescribed.dofs()) fixed->replaceLocalValue(dof / 2, dof % 2, 1.0);
+    ContactPair pair;
+    pair.name = "pair";
+    pair.youngs_modulus = stiffness;
+    const auto mine = [&](int node) { return std::binary_search(grid.owned_nodes().begin(), grid.owned_nodes().end(), node); };
+    for (int i = 0; i + 1 < grid.nx(); ++i) {
+      const int slave = grid.cut() * grid.nx() + i, master = slave - grid.nx();
+      if (mine(slave) || mine(slave + 1)) pair.slave.push_back({slave, slave + 1});
+      if (mine(master)) pair.master.push_back({master + 1, master});
+    }
+    return std::make_shared<ContactSystem>(grid.node_map, grid.dofs, reference, fixed, InterfaceMeasure{}, std::vector<ContactPair>{pair}, Timers());
+  }
+
   Problem(const RCP<const Communicator>& comm, const Choices& choices) {
-    grid = std::make_shared<SpringGrid>(comm, choices.nx, choices.ny, choices.numbering);
+    grid = std::make_shared<SpringGrid>(comm, choices.nx, choices.ny, choices.numbering, choices.cut);
     brittle = std::make_shared<Brittle>(*grid, choices.reach, choices.limit);
     SystemParts parts;
     parts.dofs = grid->dofs;
@@ -245,6 +271,7 @@ struct Problem {
     parts.contributions = {std::make_shared<Springs>(grid, choices.stiffness), brittle};
     if (choices.force) parts.contributions.push_back(std::make_shared<EdgeLoad>(grid, *choices.force));
     parts.prescribed = std::make_shared<Edges>(*grid, choices.motion);
+    if (choices.cut > 0) parts.contact = contact(*grid, *parts.prescribed, choices.stiffness);
     parts.linear_solver = make_linear_solver(choices.linear_solver, comm, Timers());
     parts.near_null_space = [grid = grid](const Vector&) { return grid->near_null_space(); };
     parts.length = choices.ny;

@@ -19,7 +19,7 @@ struct NewtonOptions {
   double gap_tolerance = 1e-9;              ///< |g_j| / (A_j h) of closed nodes
   double complementarity_tolerance = 1e-9;  ///< |C| / max |z|
   double increment_tolerance = 1e-8;        ///< |du|_max / size of the model
-  double divergence = 1e8;                  ///< growth of |r| over the larger of its first two values at which the solve is given up
+  double divergence = 1e8;                  ///< growth of |r| over max(|r_0|, |r_1|, s |du_1|) at which the solve is given up
   int cycle_length = 6;                     ///< longest cycle of active sets that is looked for
   void describe(Parameters& parameters);
 };

@@ -56,6 +56,8 @@ class SemiSmoothSystem {
 
   void set_time(double time);
   double time() const;
+  /// s, a stiffness; 0 before the first residual.
+  double stiffness_scale() const;
 
   /// F(x) = (r, C); Dirichlet rows hold s (d - prescribed). Throws StepFailure on every rank.
   void residual(const Vector& x, Vector& F, ResidualNorms& norms);

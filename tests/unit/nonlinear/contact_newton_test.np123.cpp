@@ -1,0 +1,195 @@
+// The semi-smooth system and its Newton iteration with contact: a narrower body of springs pressed on another one.
+
+#include <gtest/gtest.h>
+
+#include <Tpetra_Core.hpp>
+
+#include "mortise/nonlinear/load_stepper.hpp"
+#include "spring_grid.hpp"
+
+namespace mortise {
+namespace {
+
+using test::Problem;
+
+Problem::Choices pressed(double down, double sideways = 0.0, double stiffness = 1.0) {
+  Problem::Choices choices;
+  choices.nx = 8;
+  choices.ny = 8;
+  choices.cut = 4;
+  choices.motion = {sideways, -down};
+  choices.stiffness = stiffness;
+  return choices;
+}
+
+// An iterate with closed and open nodes: the upper body is pushed in unevenly, multipliers are of either sign.
+void mix_states(Problem& problem) {
+  const auto d = problem.system->displacement(*problem.x), z = problem.system->multipliers(*problem.x);
+  for (const GlobalOrdinal id : d->getMap()->getNodeElementList()) {
+    const bool upper = id / 2 >= problem.grid->cut() * problem.grid->nx();
+    d->replaceGlobalValue(id, 0.02 * std::sin(0.7 * id) - (upper && id % 2 == 1 ? 0.05 : 0.0));
+  }
+  for (const GlobalOrdinal id : z->getMap()->getNodeElementList()) z->replaceGlobalValue(id, 0.05 * std::cos(1.1 * (id / 2)) - 0.01 * (id % 2));
+}
+
+TEST(ContactSystem, JacobianAgreesWithCentralDifferences) {
+  Problem problem(Tpetra::getDefaultComm(), pressed(0.2));
+  SemiSmoothSystem& system = *problem.system;
+  system.set_time(1.0);
+  mix_states(problem);
+  Vector v(system.map()), J_v(system.map()), difference(system.map()), F(system.map());
+  for (const GlobalOrdinal id : system.map()->getNodeElementList()) v.replaceGlobalValue(id, std::sin(0.91 * id));
+  ResidualNorms norms;
+  system.residual(*problem.x, F, norms);
+  EXPECT_GT(norms.active, 0);
+  EXPECT_LT(norms.active, 8);
+  const double h = 1e-6;
+  for (const double sign : {1.0, -1.0}) {
+    Vector x(*problem.x, Teuchos::Copy);
+    x.update(sign * h, v, 1.0);
+    system.residual(x, F, norms);
+    difference.update(sign / (2.0 * h), F, 1.0);
+  }
+  system.jacobian(*problem.x);
+  system.residual(*problem.x, F, norms);
+  EXPECT_EQ(norms.changed, 0);
+  system.apply(v, J_v);
+  const double size = system.displacement(J_v)->norm2(), law_size = system.multipliers(J_v)->norm2();
+  difference.update(-1.0, J_v, 1.0);
+  EXPECT_LE(system.displacement(difference)->norm2(), 1e-6 * size);
+  EXPECT_LE(system.multipliers(difference)->norm2(), 1e-6 * law_size);
+}
+
+// The condensed step solves the whole system, prescribed rows and rows of C included.
+TEST(ContactSystem, DirectionSolvesTheSaddlePointSystem) {
+  Problem problem(Tpetra::getDefaultComm(), pressed(0.2, 0.1));
+  SemiSmoothSystem& system = *problem.system;
+  system.set_time(1.0);
+  mix_states(problem);
+  Vector F(system.map()), direction(system.map()), J_dx(system.map());
+  ResidualNorms norms;
+  system.residual(*problem.x, F, norms);
+  system.jacobian(*problem.x);
+  for (int repetition = 0; repetition < 2; ++repetition) {
+    system.newton_direction(F, direction);
+    system.apply(direction, J_dx);
+    const double size = F.norm2();
+    J_dx.update(1.0, F, 1.0);
+    EXPECT_LE(J_dx.norm2(), 1e-11 * size);
+  }
+}
+
+struct Solved {
+  NewtonReport report;
+  double reaction[2][2] = {};  // of the lower and the upper edge
+};
+
+Solved solve(Problem& problem) {
+  Solved solved;
+  solve_newton(*problem.system, 1.0, {}, *problem.x, solved.report, {});
+  Vector r(problem.grid->dofs);
+  problem.system->forces(*problem.x, r);
+  double mine[4] = {};
+  for (const int node : problem.grid->owned_nodes())
+    for (int i = 0; i < 2; ++i) {
+      const double value = r.getData()[problem.grid->dofs->getLocalElement(problem.grid->dof(node, i))];
+      if (node < problem.grid->nx()) mine[i] += value;
+      if (node / problem.grid->nx() == problem.grid->ny() - 1) mine[2 + i] += value;
+    }
+  Teuchos::reduceAll(*problem.grid->dofs->getComm(), Teuchos::REDUCE_SUM, 4, mine, &solved.reaction[0][0]);
+  return solved;
+}
+
+TEST(ContactNewton, ConvergesQuadraticallyOnceTheSetHasSettled) {
+  Problem problem(Tpetra::getDefaultComm(), pressed(0.25));
+  const Solved solved = solve(problem);
+  const auto& iterations = solved.report.iterations;
+  EXPECT_GT(iterations.back().norms.active, 0);
+  EXPECT_EQ(iterations.back().norms.changed, 0);
+  EXPECT_LE(iterations.back().norms.gap, 1e-9);
+  EXPECT_LE(iterations.back().norms.complementarity, 1e-9);
+  int pairs = 0;
+  for (std::size_t k = 1; k + 1 < iterations.size(); ++k) {
+    const double before = iterations[k].norms.momentum, after = iterations[k + 1].norms.momentum;
+    if (iterations[k].norms.changed > 0 || iterations[k + 1].norms.changed > 0 || before > 1e-2 || after < 1e-13) continue;
+    EXPECT_LE(after, 100.0 * before * before) << "iteration " << k;
+    ++pairs;
+  }
+  EXPECT_GE(pairs, 1);
+}
+
+// What the upper body is pushed with arrives below; without friction on a level interface nothing goes sideways.
+TEST(ContactNewton, ForcesPassThroughTheInterface) {
+  Problem problem(Tpetra::getDefaultComm(), pressed(0.25));
+  const Solved solved = solve(problem);
+  const double force = -solved.reaction[1][1];
+  EXPECT_GT(force, 0.0);
+  EXPECT_NEAR(solved.reaction[0][1], force, 1e-8 * force);
+  EXPECT_NEAR(solved.reaction[0][0], -solved.reaction[1][0], 1e-8 * force);
+}
+
+TEST(ContactNewton, ABodyThatDoesNotReachFeelsNothing) {
+  Problem problem(Tpetra::getDefaultComm(), pressed(0.04));  // the distance is 0.05
+  const Solved solved = solve(problem);
+  EXPECT_EQ(solved.report.iterations.back().norms.active, 0);
+  EXPECT_NEAR(solved.reaction[1][1], 0.0, 1e-12);
+}
+
+TEST(ContactNewton, AgreesWithOneRankAndInOtherUnits) {
+  Problem alone(test::this_rank_only(), pressed(0.25, 0.3));
+  const Solved whole = solve(alone);
+  for (const double stiffness : {1.0, 2e11, 3e-4}) {
+    Problem problem(Tpetra::getDefaultComm(), pressed(0.25, 0.3, stiffness));
+    const Solved solved = solve(problem);
+    EXPECT_EQ(solved.report.newton_steps(), whole.report.newton_steps());
+    for (int edge = 0; edge < 2; ++edge)
+      for (int i = 0; i < 2; ++i) EXPECT_NEAR(solved.reaction[edge][i] / stiffness, whole.reaction[edge][i], 1e-10 * std::abs(whole.reaction[1][1]));
+    for (std::size_t k = 0; k < std::min(solved.report.iterations.size(), whole.report.iterations.size()); ++k) {
+      EXPECT_EQ(solved.report.iterations[k].norms.active, whole.report.iterations[k].norms.active);
+      EXPECT_EQ(solved.report.iterations[k].norms.active_set, whole.report.iterations[k].norms.active_set);
+    }
+  }
+}
+
+// The upper body slides over two nodes of the lower one: candidates, and with them the graph, change on the way, but not in each iteration.
+TEST(ContactNewton, SlidesOverManyFacets) {
+  Problem::Choices choices = pressed(0.15, 2.2);
+  Problem problem(Tpetra::getDefaultComm(), choices);
+  SteppingOptions stepping;
+  stepping.step = 0.125;
+  std::optional<StepFailure> failure;
+  int iterations = 0, cutbacks = 0;
+  StepperObserver observer;
+  observer.iteration = [&](const NewtonIteration& iteration) { iterations += iteration.iteration > 0; };
+  observer.accepted = [&](const StepReport& report, const Vector&) { cutbacks += report.cutbacks; };
+  const std::vector<char> unheld(problem.grid->owned_nodes().size(), 0);
+  const auto start = [&](Vector& x) {
+    problem.system->parts().contact->start_step(*problem.system->displacement(x), unheld, *problem.system->multipliers(x));
+  };
+  EXPECT_TRUE(run_steps(*problem.system, stepping, {}, *problem.x, start, observer, failure));
+  EXPECT_EQ(cutbacks, 0);
+  EXPECT_LT(problem.system->parts().linear_solver->symbolic_setups(), iterations);
+  RecordProperty("iterations", iterations);
+  RecordProperty("symbolic_setups", problem.system->parts().linear_solver->symbolic_setups());
+}
+
+TEST(ContactNewton, IterativeAndDirectSolversAgree) {
+  Problem::Choices choices = pressed(0.25);
+  choices.nx = 16;
+  choices.ny = 16;
+  choices.cut = 8;
+  choices.numbering = test::Numbering::blocks;
+  Problem direct(Tpetra::getDefaultComm(), choices);
+  const Solved with_direct = solve(direct);
+  choices.linear_solver.kind = LinearSolverOptions::Kind::iterative;
+  choices.linear_solver.muelu.set("coarse: max size", 100);
+  Problem iterative(Tpetra::getDefaultComm(), choices);
+  const Solved with_iterative = solve(iterative);
+  EXPECT_EQ(with_iterative.report.newton_steps(), with_direct.report.newton_steps());
+  EXPECT_GT(with_iterative.report.iterations.back().linear_iterations, 0);
+  RecordProperty("linear_iterations", with_iterative.report.iterations.back().linear_iterations);
+  EXPECT_NEAR(with_iterative.reaction[1][1], with_direct.reaction[1][1], 1e-8 * std::abs(with_direct.reaction[1][1]));
+}
+
+}  // namespace
+}  // namespace mortise
