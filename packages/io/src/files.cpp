@@ -55,9 +55,9 @@ void write_file(const Communicator& comm, const std::string& path, const std::fu
   throw_if_any_file_error(comm, "cannot write", path, reason);
 }
 
-void write_json(const Communicator& comm, const std::string& path, const nlohmann::json& json) {
+void write_json(const Communicator& comm, const std::string& path, const nlohmann::ordered_json& json) {
   // Names from a scene may hold any bytes: those that are no UTF-8 are replaced rather than thrown at.
-  write_file(comm, path, [&] { return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"; });
+  write_file(comm, path, [&] { return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n"; });
 }
 
 }  // namespace mortise

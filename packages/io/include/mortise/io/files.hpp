@@ -20,8 +20,8 @@ std::optional<std::string> replace_file(const std::string& path, const std::stri
 /// The same for all ranks: rank 0 writes what `content` gives there. Collective. Throws FileError on all ranks.
 void write_file(const Communicator& comm, const std::string& path, const std::function<std::string()>& content);
 
-/// Writes `json`, indented by two, on rank 0; numbers in full precision, those that are not finite as null. Collective. Throws FileError on all
-/// ranks.
-void write_json(const Communicator& comm, const std::string& path, const nlohmann::json& json);
+/// Writes `json`, indented by two, on rank 0; names in their order, numbers in full precision, those that are not finite as null. Collective. Throws
+/// FileError on all ranks.
+void write_json(const Communicator& comm, const std::string& path, const nlohmann::ordered_json& json);
 
 }  // namespace mortise
