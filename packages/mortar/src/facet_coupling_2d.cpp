@@ -23,7 +23,7 @@ constexpr double negligible_cover = 1e-12;
 FacetIntegrator2d::FacetIntegrator2d(const InterfaceMeasure& measure, const MortarOptions& options)
     : measure_(measure), gap_weighting_(options.gap_weighting), rule_(gauss_legendre(options.gauss_points)) {}
 
-bool FacetIntegrator2d::integrate(const SlaveFacetData& slave, const std::vector<std::array<LocalOrdinal, 2>>& masters,
+bool FacetIntegrator2d::integrate(const SlaveFacetData& slave, const std::vector<NearFacet>& masters, double reach,
                                   const std::vector<Eigen::Vector2d>& x, bool derivatives, FacetCoupling& coupling) {
   for (int node = 0; node < 2; ++node) {
     line_.x[node] = point(x[slave.nodes[node]]);
@@ -32,7 +32,7 @@ bool FacetIntegrator2d::integrate(const SlaveFacetData& slave, const std::vector
   coupling.slave = slave.nodes;
   coupling.master.clear();
   coupling.columns.clear();
-  find_pairs(masters, x, coupling);
+  find_pairs(masters, reach, x, coupling);
   if (pairs_.empty()) return false;
   Interval covered = pairs_.front().overlap.interval;
   for (const Pair& pair : pairs_) {
@@ -44,19 +44,22 @@ bool FacetIntegrator2d::integrate(const SlaveFacetData& slave, const std::vector
   return combine(slave, covered, derivatives, coupling);
 }
 
-void FacetIntegrator2d::find_pairs(const std::vector<std::array<LocalOrdinal, 2>>& masters, const std::vector<Eigen::Vector2d>& x,
+void FacetIntegrator2d::find_pairs(const std::vector<NearFacet>& masters, double reach, const std::vector<Eigen::Vector2d>& x,
                                    FacetCoupling& coupling) {
   pairs_.clear();
-  for (const auto& nodes : masters) {
+  bool touches = false;
+  for (const auto& [nodes, distance] : masters) {
     Pair pair;
     pair.line = {{point(x[nodes[0]]), point(x[nodes[1]])}};
     const auto overlap = find_overlap(line_, pair.line);
     if (!overlap) continue;
+    touches = touches || distance <= reach;
     pair.nodes = nodes;
     pair.overlap = *overlap;
     for (int l = 0; l < 2; ++l) pair.place[l] = place_of(coupling.master, nodes[l]);
     pairs_.push_back(pair);
   }
+  if (!touches) pairs_.clear();
 }
 
 void FacetIntegrator2d::accumulate(const Interval& covered, std::size_t masters, bool derivatives) {

@@ -15,6 +15,12 @@ struct SlaveFacetData {
   std::array<double, 2> weights{};  ///< int N_j over the facet in the reference configuration
 };
 
+/// A master facet and its distance from the slave facet.
+struct NearFacet {
+  std::array<LocalOrdinal, 2> nodes{};
+  double distance = 0.0;
+};
+
 /// Integrates facet by facet; keeps its work space between facets.
 class FacetIntegrator2d {
  public:
@@ -22,8 +28,9 @@ class FacetIntegrator2d {
 
   /// @param x        positions of the local nodes
   /// @param masters  master facets that may overlap (local nodes)
-  /// @return false if none does; then `coupling` has no meaning
-  bool integrate(const SlaveFacetData& slave, const std::vector<std::array<LocalOrdinal, 2>>& masters, const std::vector<Eigen::Vector2d>& x,
+  /// @param reach    at least one that does overlap has to be this near
+  /// @return false if there is none; then `coupling` has no meaning
+  bool integrate(const SlaveFacetData& slave, const std::vector<NearFacet>& masters, double reach, const std::vector<Eigen::Vector2d>& x,
                  bool derivatives, FacetCoupling& coupling);
 
  private:
@@ -33,7 +40,7 @@ class FacetIntegrator2d {
     MasterLine<double> line;
     Overlap overlap;
   };
-  void find_pairs(const std::vector<std::array<LocalOrdinal, 2>>& masters, const std::vector<Eigen::Vector2d>& x, FacetCoupling& coupling);
+  void find_pairs(const std::vector<NearFacet>& masters, double reach, const std::vector<Eigen::Vector2d>& x, FacetCoupling& coupling);
   void accumulate(const Interval& covered, std::size_t masters, bool derivatives);
   void chain(const SlaveFacetData& slave, FacetCoupling& coupling);
   bool combine(const SlaveFacetData& slave, const Interval& covered, bool derivatives, FacetCoupling& coupling) const;

@@ -54,23 +54,34 @@ std::vector<GlobalOrdinal> nodes_of(const SurfaceFacets& facets) {
   return {nodes.begin(), nodes.end()};
 }
 
-// Whether the master facet b may lie under the slave facet a, seen along its normals, when nodes move by `margin`.
+/// Between two real searches no node moves further than this share of the shortest facet.
+constexpr double free_motion = 0.1;
+
+// What such motions can do to a pair of facets: ends come nearer by `approach`, facets and so nodal normals turn by `turn`.
+struct Motion {
+  double approach, turn;
+};
+
+// Whether the master facet b may lie under the slave facet a, seen along its nodal normals, after a motion.
 bool may_overlap(const std::array<Eigen::Vector2d, 2>& a, const std::array<Eigen::Vector2d, 2>& b, const std::array<Eigen::Vector2d, 2>& normals,
-                 double distance, double margin) {
+                 const Motion& motion) {
   const double length = (a[1] - a[0]).norm();
-  const Eigen::Vector2d t = (a[1] - a[0]) / length, n(t.y(), -t.x());
-  double slope = 0.0;  // how far nodal normals lean over to the sides
-  for (const Eigen::Vector2d& normal : normals) slope = std::max(slope, std::abs(normal.dot(t)) / std::max(normal.dot(n), 0.1));
-  const double low = std::min((b[0] - a[0]).dot(t), (b[1] - a[0]).dot(t)), high = std::max((b[0] - a[0]).dot(t), (b[1] - a[0]).dot(t));
-  const double slack = margin + slope * (distance + length + margin);
-  return high >= -slack && low <= length + slack;
+  const Eigen::Vector2d n = facet_normal(a[0], a[1]), t(-n.y(), n.x());
+  double lean = 0.0;  // of the nodal normals to the sides, as an angle
+  for (const Eigen::Vector2d& normal : normals) lean = std::max(lean, std::atan2(std::abs(normal.dot(t)), normal.dot(n)));
+  lean += 2.0 * motion.turn;  // the normal's own turn and that of the facet
+  if (lean > 1.5) return true;
+  const Eigen::Vector2d start = b[0] - a[0], end = b[1] - a[0];
+  const double height = std::max(std::abs(start.dot(n)), std::abs(end.dot(n)));
+  const double slack = 2.0 * motion.approach + std::tan(lean) * (height + 2.0 * motion.approach);
+  return std::max(start.dot(t), end.dot(t)) >= -slack && std::min(start.dot(t), end.dot(t)) <= length + slack;
 }
 
 }  // namespace
 
-// Candidates of a slave facet, kept from search to search: a superset of the master facets it can touch now. Which of them take part is
-// decided in evaluate() from positions alone, so no result depends on the margin:
-//   the facet takes part if a master facet lies within the reach; then all within reach + its length do.
+// Candidates of a slave facet, kept from search to search: a superset of the master facets it can overlap now. Which of them take part is
+// decided in evaluate() from positions alone, so no result depends on when the last search was:
+//   the facet takes part if a master facet that it overlaps lies within the reach; then all within reach + its length do.
 struct MortarInterface::Implementation {
   RCP<const Map> owned_nodes;
   InterfaceMeasure measure;
@@ -80,11 +91,12 @@ struct MortarInterface::Implementation {
   double shortest = 0.0, longest = 0.0, reach = 0.0;
 
   std::unique_ptr<Gathered> slave_positions, master_positions;
-  std::vector<std::vector<FacetIds>> candidate_ids;                        ///< [facets] ascending
-  std::vector<std::vector<std::array<LocalOrdinal, 2>>> candidates;        ///< [facets] as local nodes
-  std::vector<std::vector<LocalOrdinal>> coupled, loaded;                  ///< [owned slave nodes]
+  std::vector<std::vector<FacetIds>> candidate_ids;                  ///< [facets] ascending
+  std::vector<std::vector<std::array<LocalOrdinal, 2>>> candidates;  ///< [facets] as local nodes
+  std::vector<std::vector<LocalOrdinal>> coupled, loaded;            ///< [owned slave nodes]
   RCP<const Map> local_nodes;
-  RCP<MultiVector> searched_at;                                            ///< owned positions of the last real search
+  RCP<MultiVector> searched_at;  ///< owned positions of the last real search
+  double free_distance = 0.0;    ///< that every node may move from there without another one
   mutable FacetIntegrator2d integrator;
 
   Implementation(const InterfaceMeasure& m, const MortarOptions& o) : measure(m), options(o), integrator(m, o) {}
@@ -92,7 +104,8 @@ struct MortarInterface::Implementation {
   double generous(double length) const { return reach + length; }
   void measure_facets(const MultiVector& reference, const Place& place);
   bool moved(const MultiVector& x) const;
-  std::vector<std::vector<FacetIds>> find(const Positions& x, const std::vector<PlacedFacet>& placed_master, double margin_share) const;
+  double shortest_now(const Positions& slave_x, const std::vector<PlacedFacet>& placed_master) const;
+  std::vector<std::vector<FacetIds>> find(const Positions& x, const std::vector<PlacedFacet>& placed_master, const Motion& motion) const;
   void number_nodes();
 };
 
@@ -125,8 +138,9 @@ void MortarInterface::Implementation::measure_facets(const MultiVector& referenc
   reach = options.search_reach.value_or(longest);
 }
 
-MortarInterface::MortarInterface(RCP<const Map> owned_nodes, RCP<const MultiVector> reference, RCP<const MultiVector> fixed, const SurfaceFacets& slave,
-                                 const SurfaceFacets& master, const InterfaceMeasure& measure, const MortarOptions& options, const Place& place)
+MortarInterface::MortarInterface(RCP<const Map> owned_nodes, RCP<const MultiVector> reference, RCP<const MultiVector> fixed,
+                                 const SurfaceFacets& slave, const SurfaceFacets& master, const InterfaceMeasure& measure,
+                                 const MortarOptions& options, const Place& place)
     : implementation_(std::make_unique<Implementation>(measure, options)) {
   Implementation& self = *implementation_;
   self.owned_nodes = owned_nodes;
@@ -155,36 +169,43 @@ bool MortarInterface::Implementation::moved(const MultiVector& x) const {
   difference.update(-1.0, *searched_at, 1.0);
   Teuchos::Array<double> largest(2);
   difference.normInf(largest());
-  return std::hypot(largest[0], largest[1]) > 0.25 * shortest;
+  return std::hypot(largest[0], largest[1]) > free_distance;
 }
 
-// With margin_share of each slave facet's length as margin. Collective.
+// Over all ranks, in the given positions; 0 if a facet has no length. Collective.
+double MortarInterface::Implementation::shortest_now(const Positions& slave_x, const std::vector<PlacedFacet>& placed_master) const {
+  double mine = std::numeric_limits<double>::max(), all = 0.0;
+  for (const auto& facet : slave.facets) mine = std::min(mine, (slave_x[facet[1]] - slave_x[facet[0]]).norm());
+  for (const PlacedFacet& facet : placed_master) mine = std::min(mine, std::hypot(facet.x[1][0] - facet.x[0][0], facet.x[1][1] - facet.x[0][1]));
+  Teuchos::reduceAll(*owned_nodes->getComm(), Teuchos::REDUCE_MIN, mine, Teuchos::outArg(all));
+  return all;
+}
+
+// The master facets that each slave facet may overlap within reach + its length after a motion. Collective.
 std::vector<std::vector<FacetIds>> MortarInterface::Implementation::find(const Positions& x, const std::vector<PlacedFacet>& placed_master,
-                                                                         double margin_share) const {
+                                                                         const Motion& motion) const {
   std::vector<PlacedFacet> placed;
   std::vector<double> radius;
   for (const auto& facet : slave.facets) {
     const Eigen::Vector2d &a = x[facet[0]], &b = x[facet[1]];
     placed.push_back({{slave.node_ids[facet[0]], slave.node_ids[facet[1]]}, {{{a.x(), a.y()}, {b.x(), b.y()}}}});
-    const double length = (b - a).norm();
-    radius.push_back(generous(length) + margin_share * length);
+    radius.push_back(generous((b - a).norm()) + 2.0 * motion.approach);  // the distance shrinks, the facet grows
   }
   std::vector<std::vector<PlacedFacet>> near = facets_within(*owned_nodes->getComm(), placed, radius, placed_master);
   std::vector<std::vector<FacetIds>> result(near.size());
   for (std::size_t f = 0; f < near.size(); ++f) {
     const std::array<Eigen::Vector2d, 2> a = {x[slave.facets[f][0]], x[slave.facets[f][1]]};
-    const double margin = margin_share * (a[1] - a[0]).norm();
     std::array<Eigen::Vector2d, 2> normals;
-    bool lean = true;
+    bool sound = true;
     for (int j = 0; j < 2; ++j) {
       NodalNormal normal;
-      lean = average_normal(slave.stencils[slave.facets[f][j]], x, false, normal) && lean;
+      sound = average_normal(slave.stencils[slave.facets[f][j]], x, false, normal) && sound;
       normals[j] = normal.normal;
     }
-    if (!lean) normals.fill(facet_normal(a[0], a[1]));  // evaluate() says what is wrong
+    if (!sound) continue;  // evaluate() says what is wrong
     for (const PlacedFacet& one : near[f]) {
       const std::array<Eigen::Vector2d, 2> b = {Eigen::Vector2d(one.x[0][0], one.x[0][1]), Eigen::Vector2d(one.x[1][0], one.x[1][1])};
-      if (may_overlap(a, b, normals, segment_distance(a, b), margin)) result[f].push_back(one.nodes);
+      if (may_overlap(a, b, normals, motion)) result[f].push_back(one.nodes);
     }
   }
   return result;
@@ -228,22 +249,29 @@ void MortarInterface::Implementation::number_nodes() {
 bool MortarInterface::search(const MultiVector& x) {
   Implementation& self = *implementation_;
   if (!self.moved(x)) return false;
+  Teuchos::Array<double> sizes(2);
+  x.norm1(sizes());
+  if (!std::isfinite(sizes[0] + sizes[1])) return false;  // evaluate() says what is wrong
   const bool first = self.searched_at.is_null();
-  self.searched_at = rcp(new MultiVector(x, Teuchos::Copy));
   const Positions slave_x = (*self.slave_positions)(x), master_x = (*self.master_positions)(x);
   std::vector<PlacedFacet> placed;
   for (const FacetIds& facet : self.master) {
     const Eigen::Vector2d &a = master_x[self.master_positions->local(facet[0])], &b = master_x[self.master_positions->local(facet[1])];
     placed.push_back({facet, {{{a.x(), a.y()}, {b.x(), b.y()}}}});
   }
+  const double shortest = self.shortest_now(slave_x, placed);
+  self.searched_at = rcp(new MultiVector(x, Teuchos::Copy));
+  self.free_distance = free_motion * shortest;
+  const Motion until_next = {2.0 * self.free_distance, std::asin(2.0 * free_motion)};
+  const Motion longer = {4.0 * self.free_distance, std::asin(4.0 * free_motion)};
   // What is needed until the next search has to stand among the candidates; only then they, and the pattern, may stay as they are.
-  const auto needed = self.find(slave_x, placed, 0.5);
+  const auto needed = self.find(slave_x, placed, until_next);
   double missing = first, any = 0.0;
   for (std::size_t f = 0; f < needed.size(); ++f)
     if (!std::includes(self.candidate_ids[f].begin(), self.candidate_ids[f].end(), needed[f].begin(), needed[f].end())) missing = 1.0;
   Teuchos::reduceAll(*self.owned_nodes->getComm(), Teuchos::REDUCE_MAX, missing, Teuchos::outArg(any));
   if (any == 0.0) return false;
-  self.candidate_ids = self.find(slave_x, placed, 1.0);
+  self.candidate_ids = self.find(slave_x, placed, longer);
   self.number_nodes();
   return true;
 }
@@ -266,23 +294,23 @@ void MortarInterface::evaluate(const MultiVector& x, bool derivatives, std::vect
   normals.resize(slave.nodes_with_normal);
   for (std::size_t n = 0; n < slave.nodes_with_normal; ++n)
     if (!average_normal(slave.stencils[n], positions, derivatives, normals[n]) && !failure)
-      failure = StepFailure(FailureKind::inverted_facet,
-                            fmt::format("the slave surface has no normal at node {}: a facet lost its length, or facets folded onto one another", slave.node_ids[n]));
+      failure = StepFailure(
+          FailureKind::inverted_facet,
+          fmt::format("the slave surface has no normal at node {}: a facet lost its length, or facets folded onto one another", slave.node_ids[n]));
+  for (std::size_t n = 0; n < positions.size() && !failure; ++n)
+    if (!positions[n].allFinite()) failure = StepFailure(FailureKind::not_finite, "a position on the contact surfaces is not a number");
   std::size_t used = 0;
   if (!failure) {
-    std::vector<std::array<LocalOrdinal, 2>> masters;
+    std::vector<NearFacet> masters;
     for (std::size_t f = 0; f < slave.facets.size(); ++f) {
       const auto& nodes = slave.facets[f];
       const std::array<Eigen::Vector2d, 2> a = {positions[nodes[0]], positions[nodes[1]]};
       const double generous = self.generous((a[1] - a[0]).norm());
-      double nearest = std::numeric_limits<double>::max();
       masters.clear();
       for (const auto& facet : self.candidates[f]) {
         const double distance = segment_distance(a, {positions[facet[0]], positions[facet[1]]});
-        nearest = std::min(nearest, distance);
-        if (distance <= generous) masters.push_back(facet);
+        if (distance <= generous) masters.push_back({facet, distance});
       }
-      if (nearest > self.reach) continue;
       SlaveFacetData data;
       data.nodes = nodes;
       data.weights = slave.facet_weights[f];
@@ -291,7 +319,7 @@ void MortarInterface::evaluate(const MultiVector& x, bool derivatives, std::vect
         data.carries[j] = slave.carries[nodes[j]];
       }
       if (used == couplings.size()) couplings.emplace_back();
-      used += self.integrator.integrate(data, masters, positions, derivatives, couplings[used]);
+      used += self.integrator.integrate(data, masters, self.reach, positions, derivatives, couplings[used]);
     }
   }
   couplings.resize(used);

@@ -19,11 +19,16 @@ using FacetIds = std::array<GlobalOrdinal, 2>;
 constexpr double no_free_normal = 0.1;  // share of the averaged normal that free directions keep, below which nothing can be pushed
 constexpr double two_pi = 6.283185307179586476925286766559;
 
-// All slave facets of nodes that belong to other ranks: their owners know them.
-std::vector<FacetIds> facets_of_foreign_nodes(const Map& owned_nodes, const std::vector<GlobalOrdinal>& foreign, const SurfaceFacets& facets) {
+// All slave facets of nodes that belong to other ranks: their owners know them. Throws InputError for a node without owner.
+std::vector<FacetIds> facets_of_foreign_nodes(const Map& owned_nodes, const std::vector<GlobalOrdinal>& foreign, const SurfaceFacets& facets,
+                                              const Place& place) {
   const Communicator& comm = *owned_nodes.getComm();
   std::vector<int> owners(foreign.size());
   owned_nodes.getRemoteIndexList(Teuchos::arrayViewFromVector(foreign), Teuchos::arrayViewFromVector(owners));
+  std::vector<Diagnostic> diagnostics;
+  for (std::size_t n = 0; n < foreign.size(); ++n)
+    if (owners[n] < 0) diagnostics.push_back({place, fmt::format("the slave surface names node {}, which the model does not have", foreign[n])});
+  throw_if_any(comm, diagnostics);
   std::vector<std::vector<GlobalOrdinal>> ask(comm.getSize());
   for (std::size_t n = 0; n < foreign.size(); ++n) ask[owners[n]].push_back(foreign[n]);
   std::multimap<GlobalOrdinal, FacetIds> known;
@@ -68,7 +73,7 @@ SlaveSurface2d make_slave_surface_2d(const RCP<const Map>& owned_nodes, const RC
   surface.nodes_with_normal = surface.node_ids.size();
 
   std::set<FacetIds> all_facets(facets.begin(), facets.end());
-  for (const FacetIds& facet : facets_of_foreign_nodes(*owned_nodes, foreign, facets)) all_facets.insert(facet);
+  for (const FacetIds& facet : facets_of_foreign_nodes(*owned_nodes, foreign, facets, place)) all_facets.insert(facet);
   std::map<GlobalOrdinal, LocalOrdinal> local_of;
   for (std::size_t n = 0; n < surface.node_ids.size(); ++n) local_of[surface.node_ids[n]] = static_cast<LocalOrdinal>(n);
   for (const FacetIds& facet : all_facets)
@@ -103,8 +108,9 @@ SlaveSurface2d make_slave_surface_2d(const RCP<const Map>& owned_nodes, const RC
   for (std::size_t n = 0; n < surface.nodes_with_normal; ++n) {
     NodalNormal normal;
     if (!average_normal(surface.stencils[n], x, false, normal)) {
-      diagnostics.push_back({place, fmt::format("the slave surface has no normal at node {} ({}, {}): a facet without length, or facets folded onto one another",
-                                                surface.node_ids[n], x[n].x(), x[n].y())});
+      diagnostics.push_back(
+          {place, fmt::format("the slave surface has no normal at node {} ({}, {}): a facet without length, or facets folded onto one another",
+                              surface.node_ids[n], x[n].x(), x[n].y())});
       continue;
     }
     const std::array<bool, 2> is_fixed = {F_view(n, 0) != 0.0, F_view(n, 1) != 0.0};
@@ -128,9 +134,10 @@ SlaveSurface2d make_slave_surface_2d(const RCP<const Map>& owned_nodes, const RC
   for (const FacetIds& ids : facets) {
     const std::array<LocalOrdinal, 2> facet = {local_of[ids[0]], local_of[ids[1]]};
     if (!surface.carries[facet[0]] && !surface.carries[facet[1]])
-      diagnostics.push_back({place, fmt::format("the slave facet between nodes {} ({}, {}) and {} ({}, {}) has prescribed displacements at all its nodes, so it "
-                                                "can carry no contact; please make this side the master",
-                                                ids[0], x[facet[0]].x(), x[facet[0]].y(), ids[1], x[facet[1]].x(), x[facet[1]].y())});
+      diagnostics.push_back(
+          {place, fmt::format("the slave facet between nodes {} ({}, {}) and {} ({}, {}) has prescribed displacements at all its nodes, so it "
+                              "can carry no contact; please make this side the master",
+                              ids[0], x[facet[0]].x(), x[facet[0]].y(), ids[1], x[facet[1]].x(), x[facet[1]].y())});
     const std::array<double, 2> weight = weights(x[facet[0]], x[facet[1]], measure);
     for (int j = 0; j < 2; ++j) {
       if (static_cast<std::size_t>(facet[j]) >= surface.owned.size()) continue;

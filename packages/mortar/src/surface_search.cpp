@@ -45,7 +45,7 @@ double segment_distance(const std::array<Eigen::Vector2d, 2>& a, const std::arra
 }
 
 std::vector<std::vector<PlacedFacet>> facets_within(const Communicator& comm, const std::vector<PlacedFacet>& slave,
-                                                                     const std::vector<double>& radius, const std::vector<PlacedFacet>& master) {
+                                                    const std::vector<double>& radius, const std::vector<PlacedFacet>& master) {
   const auto boxes = gather_boxes(comm, slave, radius);
   std::vector<std::vector<PlacedFacet>> send(boxes.size());
   for (const PlacedFacet& facet : master) {

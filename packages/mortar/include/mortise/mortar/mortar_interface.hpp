@@ -41,8 +41,8 @@ struct FacetCoupling {
   std::array<LocalOrdinal, 2> slave{};
   std::vector<LocalOrdinal> master;   ///< nodes of the master facets that the slave facet overlaps, without repeats
   std::vector<LocalOrdinal> columns;  ///< nodes on whose positions the values depend: slave, ring (neighbours that shape the normals), master
-  Eigen::Matrix2d D = Eigen::Matrix2d::Zero();  ///< D(j,k) = int phi_j N_k; off-diagonal only next to a node without multiplier
-  Eigen::Matrix<double, 2, Eigen::Dynamic> M;   ///< [2 x master] M(j,l) = int phi_j N_l
+  Eigen::Matrix2d D = Eigen::Matrix2d::Zero();    ///< D(j,k) = int phi_j N_k; off-diagonal only next to a node without multiplier
+  Eigen::Matrix<double, 2, Eigen::Dynamic> M;     ///< [2 x master] M(j,l) = int phi_j N_l
   Eigen::Vector2d gap = Eigen::Vector2d::Zero();  ///< int w_j g, w the gap weighting
   /// Derivatives; column 2 c + i belongs to component i of columns[c]. Empty if not asked for.
   Eigen::Matrix<double, 4, Eigen::Dynamic> dD;  ///< row 2 j + k
@@ -60,11 +60,11 @@ struct NodalNormal {
 /// An owned slave node. Constant during the life of the interface.
 struct SlaveNode {
   GlobalOrdinal id = 0;
-  LocalOrdinal owned_node = 0;        ///< local index in the map of owned nodes
-  LocalOrdinal local_node = 0;        ///< local index in local_nodes(); the same number for ever
-  std::array<bool, 2> fixed{};        ///< components with a prescribed displacement
-  bool carries_multiplier = true;     ///< false: prescribed in every direction its normal could push it
-  double weight = 0.0;                ///< A_j = int N_j over the whole reference slave surface (with t or 2 pi R)
+  LocalOrdinal owned_node = 0;     ///< local index in the map of owned nodes
+  LocalOrdinal local_node = 0;     ///< local index in local_nodes(); the same number for ever
+  std::array<bool, 2> fixed{};     ///< components with a prescribed displacement
+  bool carries_multiplier = true;  ///< false: prescribed in every direction its normal could push it
+  double weight = 0.0;             ///< A_j = int N_j over the whole reference slave surface (with t or 2 pi R)
 };
 
 /// One contact pair's coupling. Collective in all members but the accessors.

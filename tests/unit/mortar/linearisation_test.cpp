@@ -1,0 +1,124 @@
+// Derivatives of D, M, the weighted gap and the nodal normals against central differences.
+
+#include <gtest/gtest.h>
+
+#include "surface_pair.hpp"
+
+namespace mortise {
+namespace {
+
+using namespace test;
+
+/// Slave: a gentle arch of `slave_facets` over [0.13, 4.9]; master: `master_facets` over [low, high]; `height` of the slave over the master.
+TwoLines arch(const std::string& name, int slave_facets, int master_facets, double height, double low = -0.4, double high = 5.6) {
+  TwoLines lines;
+  lines.name = name;
+  lines.slave = line(slave_facets, 0.13, 4.9, [&](double x) { return height + 0.03 * (x - 2.2) * (x - 2.2); });
+  lines.master = line(
+      master_facets, low, high, [](double x) { return 0.06 * std::sin(1.7 * x); }, true);
+  lines.options.search_reach = 1.5;
+  // off every tie of nodes with normals of nodes
+  for (std::size_t n = 0; n < lines.slave.size(); ++n) lines.slave[n] += Eigen::Vector2d(0.02 * disorder(2 * n), 0.01 * disorder(2 * n + 1));
+  for (std::size_t n = 0; n < lines.master.size(); ++n) lines.master[n] += Eigen::Vector2d(0.02 * disorder(3 * n + 5), 0.01 * disorder(3 * n + 6));
+  return lines;
+}
+
+std::vector<TwoLines> cases() {
+  std::vector<TwoLines> all;
+  all.push_back(arch("open", 5, 7, 0.3));
+  all.push_back(arch("closed", 5, 7, -0.4));
+  all.push_back(arch("mixed", 5, 7, -0.08));
+  all.push_back(arch("running off at the right", 5, 7, 0.0, -0.4, 4.37));
+  all.push_back(arch("running off at both sides", 5, 6, 0.0, 1.61, 4.37));
+  all.push_back(arch("one master facet, less than a slave facet", 4, 1, 0.0, 1.5, 2.1));
+  all.push_back(arch("many masters for a slave facet", 2, 14, 0.0));
+  all.push_back(arch("many slave facets for a master", 14, 2, 0.0));
+  all.push_back(arch("partly fixed", 5, 7, 0.0));
+  all.back().fixed_x = {0};
+  all.push_back(arch("crosspoint at the end", 5, 7, 0.0));
+  all.back().fixed_x = all.back().fixed_y = {5};
+  all.push_back(arch("crosspoint inside", 5, 7, 0.0));
+  all.back().fixed_x = all.back().fixed_y = {2};
+  all.push_back(arch("axisymmetric", 5, 7, 0.0));
+  all.back().measure.axisymmetric = true;
+  all.push_back(arch("thick", 5, 7, 0.0));
+  all.back().measure.thickness = 3.5;
+  TwoLines curved = arch("strongly curved", 0 + 6, 9, 0.0);
+  for (std::size_t n = 0; n < curved.slave.size(); ++n) {
+    const double angle = -2.5 + 1.9 * static_cast<double>(n) / 6.0;
+    curved.slave[n] = {2.0 + 2.0 * std::cos(angle), 2.05 + 2.0 * std::sin(angle)};
+  }
+  all.push_back(curved);
+  // sliding: the master moved along by much more than a facet
+  TwoLines sliding = arch("sliding", 5, 20, 0.0, -6.0, 14.0);
+  for (auto& x : sliding.slave) x.x() += 5.37;
+  all.push_back(sliding);
+  const std::size_t count = all.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    all.push_back(all[i]);
+    all.back().name += ", standard weighting";
+    all.back().options.gap_weighting = GapWeighting::standard;
+  }
+  return all;
+}
+
+class MortarLinearisation : public ::testing::TestWithParam<std::size_t> {};
+
+TEST_P(MortarLinearisation, AgreesWithCentralDifferences) {
+  const TwoLines lines = cases()[GetParam()];
+  SCOPED_TRACE(lines.name);
+  const auto pair = evaluated(lines, true);
+  ASSERT_FALSE(pair->failure);
+  const Eigen::MatrixXd exact = pair->dense_derivative();
+  ASSERT_GT(pair->dense().D.trace(), 0.0);
+
+  const auto slaves = static_cast<Eigen::Index>(lines.slave.size()), masters = static_cast<Eigen::Index>(lines.master.size());
+  const double h = 1e-6;
+  Eigen::MatrixXd difference(exact.rows(), exact.cols());
+  for (Eigen::Index c = 0; c < exact.cols(); ++c) {
+    Points points = lines.points();
+    double& coordinate = points[static_cast<std::size_t>(c / 2)][c % 2];
+    const double at = coordinate;
+    coordinate = at + h;
+    pair->evaluate(points, false);
+    const Eigen::VectorXd up = pair->dense().stacked();
+    coordinate = at - h;
+    pair->evaluate(points, false);
+    difference.col(c) = (up - pair->dense().stacked()) / (2.0 * h);
+  }
+  const std::pair<const char*, std::pair<Eigen::Index, Eigen::Index>> parts[] = {{"D", {0, slaves * slaves}},
+                                                                                 {"M", {slaves * slaves, slaves * masters}},
+                                                                                 {"gap", {slaves * (slaves + masters), slaves}},
+                                                                                 {"normal", {slaves * (slaves + masters + 1), 2 * slaves}}};
+  for (const auto& [name, rows] : parts) {
+    const Eigen::MatrixXd a = exact.middleRows(rows.first, rows.second), b = difference.middleRows(rows.first, rows.second);
+    const double scale = a.cwiseAbs().maxCoeff();
+    EXPECT_GT(scale, 0.0) << name;
+    EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 1e-6 * scale) << name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, MortarLinearisation, ::testing::Range(std::size_t{0}, cases().size()), [](const auto& info) {
+  std::string name = cases()[info.param].name;
+  for (char& letter : name)
+    if (!std::isalnum(static_cast<unsigned char>(letter))) letter = '_';
+  return name;
+});
+
+// The pattern handed out for the sparse graph holds everything that a derivative or a force can touch.
+TEST(MortarPattern, HoldsAllColumnsAndLoadedNodes) {
+  for (const TwoLines& lines : cases()) {
+    SCOPED_TRACE(lines.name);
+    const auto pair = evaluated(lines, true);
+    for (const FacetCoupling& coupling : pair->couplings)
+      for (const LocalOrdinal slave : coupling.slave) {
+        const auto& coupled = pair->interface->coupled_nodes(static_cast<std::size_t>(slave));
+        const auto& loaded = pair->interface->loaded_nodes(static_cast<std::size_t>(slave));
+        for (const LocalOrdinal node : coupling.columns) EXPECT_TRUE(std::binary_search(coupled.begin(), coupled.end(), node));
+        for (const LocalOrdinal node : coupling.master) EXPECT_TRUE(std::binary_search(loaded.begin(), loaded.end(), node));
+      }
+  }
+}
+
+}  // namespace
+}  // namespace mortise
