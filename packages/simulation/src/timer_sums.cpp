@@ -1,5 +1,6 @@
 #include "timer_sums.hpp"
 
+#include <algorithm>
 #include <regex>
 #include <sstream>
 
@@ -12,7 +13,12 @@ std::map<std::string, double> seconds_by_name(const Timers& timers, const RCP<co
   const std::string text = xml.str();
   std::map<std::string, double> seconds;
   static const std::regex timing("<timing name=\"([^\"]*)\" value=\"([^\"]*)\"");
-  for (std::sregex_iterator match(text.begin(), text.end(), timing), end; match != end; ++match) seconds[(*match)[1]] += std::stod((*match)[2]);
+  for (std::sregex_iterator match(text.begin(), text.end(), timing), end; match != end; ++match) {
+    std::string name = (*match)[1];
+    if (name == "Remainder") continue;  // what StackedTimer calls the time of a timer that none of its children accounts for
+    std::replace(name.begin(), name.end(), ' ', '_');
+    seconds[name] += std::stod((*match)[2]);
+  }
   return seconds;
 }
 

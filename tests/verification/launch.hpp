@@ -1,0 +1,16 @@
+#pragma once
+// Runs programs as a user would.
+
+#include <string>
+#include <vector>
+
+/// How a program ended and what it said (stdout and stderr together).
+struct Ending {
+  int code = -1;
+  std::string output;
+};
+
+/// Runs a command and waits for it; `seconds` later it is ended, with code 124.
+Ending launch(const std::vector<std::string>& command, int seconds = 300);
+
+std::string read_file(const std::string& path);

@@ -1,0 +1,196 @@
+// The commands and the exit codes of the program.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "launch.hpp"
+
+namespace {
+
+Ending mortise(std::vector<std::string> words, int ranks = 1) {
+  std::vector<std::string> command{MPIEXEC, "-n", std::to_string(ranks), MORTISE};
+  command.insert(command.end(), words.begin(), words.end());
+  return launch(command, 60);
+}
+
+/// A block pressed by `force`; `more` stands in its outermost list.
+std::string write_scene(const std::string& name, const std::string& more) {
+  const std::filesystem::path directory = std::filesystem::path(SCRATCH) / "commands";
+  std::filesystem::create_directories(directory);
+  const auto path = directory / (name + ".xml");
+  std::ofstream(path) << R"(<ParameterList name="block">
+  <ParameterList name="variables"><Parameter name="force" type="double" value="1"/></ParameterList>
+  <ParameterList name="materials"><ParameterList name="soft">
+    <Parameter name="type" type="string" value="neo hooke"/>
+    <Parameter name="young's modulus" type="double" value="1000"/>
+    <Parameter name="poisson's ratio" type="double" value="0.3"/>
+  </ParameterList></ParameterList>
+  <ParameterList name="bodies"><ParameterList name="block">
+    <Parameter name="material" type="string" value="soft"/>
+    <ParameterList name="mesh">
+      <Parameter name="type" type="string" value="block"/>
+      <Parameter name="cells x" type="int" value="3"/>
+      <Parameter name="cells y" type="int" value="2"/>
+    </ParameterList>
+  </ParameterList></ParameterList>
+  <ParameterList name="boundary conditions"><ParameterList name="floor">
+    <Parameter name="set" type="string" value="block/bottom"/>
+    <Parameter name="x" type="double" value="0"/>
+    <Parameter name="y" type="double" value="0"/>
+  </ParameterList></ParameterList>
+  <ParameterList name="loads"><ParameterList name="press">
+    <Parameter name="type" type="string" value="dead traction"/>
+    <Parameter name="set" type="string" value="block/top"/>
+    <Parameter name="y" type="string" value="-force*t"/>
+  </ParameterList></ParameterList>
+  <ParameterList name="quantities"><ParameterList name="support">
+    <Parameter name="type" type="string" value="reaction"/>
+    <Parameter name="set" type="string" value="block/bottom"/>
+    <Parameter name="component" type="string" value="y"/>
+  </ParameterList></ParameterList>
+)" << more << "</ParameterList>\n";
+  return path;
+}
+
+std::string check_list(const std::string& bounds) {
+  return R"(<ParameterList name="checks"><ParameterList name="support"><Parameter name="quantity" type="string" value="support"/>)" + bounds +
+         "</ParameterList></ParameterList>\n";
+}
+
+nlohmann::json summary_of(const std::string& directory) { return nlohmann::json::parse(read_file(directory + "/summary.json")); }
+
+TEST(Program, HelpHasExamples) {
+  const Ending ending = mortise({"--help"});
+  EXPECT_EQ(ending.code, 0);
+  EXPECT_NE(ending.output.find("Examples:"), std::string::npos);
+}
+
+TEST(Program, WrongUsageIsCode1) {
+  EXPECT_EQ(mortise({}).code, 1);
+  EXPECT_EQ(mortise({"rum"}).code, 1);
+  EXPECT_EQ(mortise({"run"}).code, 1);
+  EXPECT_EQ(mortise({"run", "scene.xml", "--colour"}, 2).code, 1);
+  EXPECT_EQ(mortise({"list", "animals"}).code, 1);
+}
+
+TEST(Program, DescribesAListInEveryFormat) {
+  for (const char* format : {"text", "md", "rng"}) {
+    const Ending ending = mortise({"describe", "stepping", "--format", format});
+    EXPECT_EQ(ending.code, 0);
+    EXPECT_NE(ending.output.find("end time"), std::string::npos) << ending.output;
+  }
+  const Ending ending = mortise({"describe", "steping"});
+  EXPECT_EQ(ending.code, 2);
+  EXPECT_NE(ending.output.find("did you mean \"stepping\""), std::string::npos) << ending.output;
+}
+
+TEST(Program, ListsWhatCanBeChosen) {
+  EXPECT_NE(mortise({"list", "materials"}).output.find("neo hooke"), std::string::npos);
+  EXPECT_NE(mortise({"list", "exact"}).output.find("hertz line contact"), std::string::npos);
+  EXPECT_NE(mortise({"list", "quantities"}).output.find("momentum imbalance"), std::string::npos);
+}
+
+TEST(Program, DoctorNamesTheSolvers) {
+  const Ending ending = mortise({"doctor"}, 2);
+  EXPECT_EQ(ending.code, 0) << ending.output;
+  EXPECT_NE(ending.output.find("Trilinos"), std::string::npos);
+  EXPECT_NE(ending.output.find("klu2"), std::string::npos);
+}
+
+TEST(Program, CheckSolvesAndWritesNothing) {
+  const std::string scene = write_scene("only_checked", "");
+  const Ending ending = mortise({"check", scene}, 2);
+  EXPECT_EQ(ending.code, 0) << ending.output;
+  EXPECT_NE(ending.output.find("24 dofs"), std::string::npos) << ending.output;
+  EXPECT_NE(ending.output.find("MiB"), std::string::npos) << ending.output;
+}
+
+TEST(Program, RunLeavesItsFilesAndABalancedSupport) {
+  const std::string directory = std::string(SCRATCH) + "/commands/balanced";
+  for (const int ranks : {1, 2}) {
+    const Ending ending = mortise({"run", write_scene("balanced", check_list(R"(<Parameter name="low" type="double" value="1.999"/>)")), "--set",
+                                   "variables/force=2", "-o", directory},
+                                  ranks);
+    EXPECT_EQ(ending.code, 0) << ending.output;
+    for (const char* file : {"summary.json", "newton.csv", "history.csv", "effective.xml", "log.txt", "fields.xdmf", "fields.h5"})
+      EXPECT_TRUE(std::filesystem::exists(directory + "/" + file)) << file;
+    const auto summary = summary_of(directory);
+    EXPECT_EQ(summary.at("ranks"), ranks);
+    EXPECT_EQ(summary.at("dofs"), 24);
+    EXPECT_EQ(summary.at("exit"), 0);
+    EXPECT_EQ(summary.at("converged"), true);
+    EXPECT_NEAR(summary.at("quantities").at("support").get<double>(), 2.0, 1e-8);
+    EXPECT_TRUE(summary.at("effects").at("contact").empty());
+    EXPECT_EQ(summary.at("slave_nodes"), 0);
+    EXPECT_GT(summary.at("time").at("total").get<double>(), 0.0);
+    EXPECT_GT(summary.at("calls").at("bulk").get<long>(), 1);
+    EXPECT_GT(summary.at("memory_peak_mib").get<double>(), 1.0);
+  }
+}
+
+TEST(Program, EffectiveSceneGivesTheSameRun) {
+  const std::string directory = std::string(SCRATCH) + "/commands/";
+  ASSERT_EQ(mortise({"run", write_scene("first", ""), "-o", directory + "first"}).code, 0);
+  const Ending again = mortise({"run", directory + "first/effective.xml", "-o", directory + "again"});
+  ASSERT_EQ(again.code, 0) << again.output;
+  EXPECT_EQ(summary_of(directory + "first").at("quantities"), summary_of(directory + "again").at("quantities"));
+  EXPECT_EQ(read_file(directory + "first/effective.xml"), read_file(directory + "again/effective.xml"));
+}
+
+TEST(Program, AMissedCheckIsCode4) {
+  const std::string directory = std::string(SCRATCH) + "/commands/missed";
+  for (const int ranks : {1, 2}) {
+    const Ending ending =
+        mortise({"run", write_scene("missed", check_list(R"(<Parameter name="low" type="double" value="3"/>)")), "-o", directory}, ranks);
+    EXPECT_EQ(ending.code, 4) << ending.output;
+    const auto summary = summary_of(directory);
+    EXPECT_EQ(summary.at("exit"), 4);
+    EXPECT_EQ(summary.at("checks").at(0).at("ok"), false);
+  }
+}
+
+TEST(Program, ARunThatDoesNotConvergeIsCode3AndKeepsTheLastGoodState) {
+  // Pulling with a dead load of ten times the modulus turns elements over long before the end.
+  const std::string directory = std::string(SCRATCH) + "/commands/diverging";
+  for (const int ranks : {1, 2}) {
+    const Ending ending =
+        mortise({"run", write_scene("diverging", R"(<ParameterList name="stepping"><Parameter name="step" type="double" value="0.01"/>
+      <Parameter name="minimum step" type="double" value="0.005"/></ParameterList>)"),
+                 "--set", "variables/force=100000", "-o", directory},
+                ranks);
+    EXPECT_EQ(ending.code, 3) << ending.output;
+    const auto summary = summary_of(directory);
+    EXPECT_EQ(summary.at("exit"), 3);
+    EXPECT_EQ(summary.at("converged"), false);
+  }
+}
+
+TEST(Program, KeepRefusesADirectoryWithResults) {
+  const std::string directory = std::string(SCRATCH) + "/commands/kept", scene = write_scene("kept", "");
+  std::filesystem::remove_all(directory);
+  ASSERT_EQ(mortise({"run", scene, "-o", directory, "--keep"}).code, 0);
+  const std::string before = read_file(directory + "/summary.json");
+  EXPECT_EQ(mortise({"run", scene, "-o", directory, "--keep"}, 2).code, 5);
+  EXPECT_EQ(read_file(directory + "/summary.json"), before);
+}
+
+TEST(Program, BadInputLeavesEarlierResultsAlone) {
+  const std::string directory = std::string(SCRATCH) + "/commands/earlier";
+  ASSERT_EQ(mortise({"run", write_scene("earlier", ""), "-o", directory}).code, 0);
+  const std::string before = read_file(directory + "/summary.json");
+  EXPECT_EQ(mortise({"run", write_scene("earlier_bad", "<Parameter name=\"colour\" type=\"int\" value=\"1\"/>"), "-o", directory}).code, 2);
+  EXPECT_EQ(read_file(directory + "/summary.json"), before);
+}
+
+TEST(Program, ARankThatFailsAloneEndsAllWithCode70) {
+  for (const int ranks : {2, 3}) {
+    const Ending ending = launch({MPIEXEC, "-n", std::to_string(ranks), ONE_RANK_FAILS}, 60);
+    EXPECT_EQ(ending.code, 70) << ending.output;
+    EXPECT_NE(ending.output.find("this rank alone"), std::string::npos) << ending.output;
+  }
+}
+
+}  // namespace

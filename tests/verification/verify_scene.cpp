@@ -1,0 +1,93 @@
+// Runs a scene on several numbers of ranks: exit code 0 (so all its checks hold) on each, quantities equal to 1e-10 of their scale (their value
+// on the first number of ranks, or what --scale says), equal Newton counts.
+// verify_scene MPIEXEC MORTISE SCENE DIRECTORY RANKS... [--set path=value]... [--scale quantity=scale]...
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "launch.hpp"
+
+namespace {
+
+using Json = nlohmann::json;
+constexpr double tolerance = 1e-10;
+
+struct Arguments {
+  std::string mpiexec, mortise, scene, directory;
+  std::vector<std::string> ranks, settings;
+  std::map<std::string, double> scales;
+};
+
+Arguments parse(int argc, char** argv) {
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  Arguments arguments{words.at(0), words.at(1), words.at(2), words.at(3), {}, {}, {}};
+  for (std::size_t i = 4; i < words.size(); ++i) {
+    if (words[i] == "--set") {
+      arguments.settings.push_back(words.at(++i));
+    } else if (words[i] == "--scale") {
+      const std::string& scale = words.at(++i);
+      const auto equals = scale.find('=');
+      arguments.scales[scale.substr(0, equals)] = std::stod(scale.substr(equals + 1));
+    } else {
+      arguments.ranks.push_back(words[i]);
+    }
+  }
+  return arguments;
+}
+
+/// Newton iterations of each step.
+std::vector<std::size_t> newton_counts(const Json& summary) {
+  std::vector<std::size_t> counts;
+  for (const auto& step : summary.at("steps")) counts.push_back(step.at("newton").size());
+  return counts;
+}
+
+int compare(const Json& reference, const Json& other, const std::string& ranks, const std::map<std::string, double>& scales) {
+  int failures = 0;
+  if (newton_counts(reference) != newton_counts(other)) {
+    fmt::print("{} ranks: other Newton counts\n", ranks);
+    ++failures;
+  }
+  for (const auto& [name, value] : reference.at("quantities").items()) {
+    const double a = value.get<double>(), b = other.at("quantities").at(name).get<double>();
+    const auto given = scales.find(name);
+    const double scale = given == scales.end() ? std::abs(a) : given->second;
+    const bool equal = std::abs(a - b) <= tolerance * scale;
+    fmt::print("{} ranks: {} = {:.16g}, difference {:.2e} of its scale{}\n", ranks, name, b, std::abs(a - b) / scale, equal ? "" : " TOO LARGE");
+    failures += !equal;
+  }
+  return failures;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const Arguments arguments = parse(argc, argv);
+  int failures = 0;
+  Json reference;
+  for (const auto& ranks : arguments.ranks) {
+    const std::string directory = arguments.directory + "/np" + ranks;
+    std::vector<std::string> command{arguments.mpiexec, "-n", ranks, arguments.mortise, "run", arguments.scene, "-o", directory};
+    for (const auto& setting : arguments.settings) command.insert(command.end(), {"--set", setting});
+    const Ending ending = launch(command);
+    if (ending.code != 0) {
+      fmt::print("{} ranks: exit code {}\n{}\n", ranks, ending.code, ending.output);
+      ++failures;
+      continue;
+    }
+    const Json summary = Json::parse(read_file(directory + "/summary.json"));
+    if (summary.at("checks").empty()) {
+      fmt::print("{} has no checks\n", arguments.scene);
+      ++failures;
+    }
+    for (const auto& check : summary.at("checks")) fmt::print("{} ranks: check {}\n", ranks, check.dump());
+    if (reference.is_null())
+      reference = summary;
+    else
+      failures += compare(reference, summary, ranks, arguments.scales);
+  }
+  return failures == 0 ? 0 : 1;
+}
