@@ -82,7 +82,8 @@ class MortarInterface {
   ~MortarInterface();
 
   /// Finds, for the positions `x` [owned nodes x 2], the master facets each slave facet may touch. Cheap when no node moved further
-  /// than the margin since the last real search. Returns (the same on every rank) whether local_nodes() or candidates() changed.
+  /// than a tenth of the shortest facet since the last real search. Returns (the same on every rank) whether local_nodes() and the
+  /// pattern were rebuilt. Does nothing if a position is not finite; evaluate() then reports it.
   bool search(const MultiVector& x);
 
   /// Nodes this rank needs: owned slave nodes first, then ring and master nodes. Rebuilt by search().
@@ -103,7 +104,7 @@ class MortarInterface {
   void evaluate(const MultiVector& x, bool derivatives, std::vector<FacetCoupling>& couplings, std::vector<NodalNormal>& normals,
                 std::optional<StepFailure>& failure) const;
 
-  /// Length of the shortest and of the longest facet, over all ranks, in the reference configuration.
+  /// Lengths over all ranks in the reference configuration: of the shortest slave facet, and of the longest facet of either side.
   double shortest_facet() const;
   double longest_facet() const;
 
