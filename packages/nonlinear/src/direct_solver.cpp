@@ -6,7 +6,7 @@
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
-#include <functional>
+#include <algorithm>
 
 #include "linear_system_checks.hpp"
 
@@ -94,23 +94,28 @@ class DirectSolver : public LinearSolver {
 
 class MumpsSolver : public DirectSolver {
  public:
-  using DirectSolver::DirectSolver;
+  MumpsSolver(std::string name, double residual_bound, const Timers& timers, int work_space)
+      : DirectSolver(std::move(name), residual_bound, timers), work_space_(work_space) {}
 
  protected:
   RCP<Amesos2Solver> make(const RCP<const Matrix>& matrix) override { return make_mumps_adapter(matrix); }
 
-  // Pivoting may need more work space than the analysis foresaw: ICNTL(14) is raised and the factorisation repeated.
+  // Pivoting may need more work space than the analysis foresaw: ICNTL(14) is raised and the factorisation repeated. What was needed once is
+  // given from then on.
   void factor_numerically(Amesos2Solver& mumps) override {
-    for (int percent = 50;; percent *= 4) {
-      set_mumps_work_space(mumps, percent);
+    for (;; work_space_ = std::max(50, 4 * work_space_)) {
+      set_mumps_work_space(mumps, work_space_);
       try {
         mumps.numericFactorization();
         return;
       } catch (const MumpsError& error) {
-        if (!error.needs_work_space() || percent > 1000) throw;
+        if (!error.needs_work_space() || work_space_ > 1000) throw;
       }
     }
   }
+
+ private:
+  int work_space_;
 };
 
 class Klu2Solver : public DirectSolver {
@@ -130,8 +135,8 @@ bool ids_have_no_gaps(const Map& map) {
   return map.getMinAllGlobalIndex() == map.getIndexBase() && interval == static_cast<GlobalOrdinal>(map.getGlobalNumElements());
 }
 
-std::unique_ptr<LinearSolver> make_mumps_solver(const LinearSolverOptions& options, const Timers& timers, const std::string& name) {
-  return std::make_unique<MumpsSolver>(name, options.residual_bound, timers);
+std::unique_ptr<LinearSolver> make_mumps_solver(const LinearSolverOptions& options, const Timers& timers, const std::string& name, int work_space) {
+  return std::make_unique<MumpsSolver>(name, options.residual_bound, timers, work_space);
 }
 
 std::unique_ptr<LinearSolver> make_klu2_solver(const LinearSolverOptions& options, const Timers& timers) {

@@ -122,7 +122,7 @@ TEST(Newton, IterativeAndDirectSolversAgree) {
   EXPECT_LE(iterative.x->normInf(), 1e-8 * direct.x->normInf());
 }
 
-// The same problem in N, m; N, mm; and with a stiffness a million times larger and forces to match: the same path.
+// Another unit of force: stiffness and forces change by one factor, the path of the iteration does not.
 TEST(Newton, UnitsDoNotMatter) {
   std::vector<std::vector<double>> paths;
   for (const double stiffness : {1.0, 1e-3, 1e9}) {
