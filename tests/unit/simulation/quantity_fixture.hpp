@@ -1,0 +1,120 @@
+#pragma once
+// Two blocks in contact with displacements, pressures and forces made by hand, and the quantities of them.
+
+#include <Tpetra_Core.hpp>
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
+#include <Tpetra_Vector.hpp>
+#include <functional>
+
+#include "mortise/mesh/build_mesh.hpp"
+#include "mortise/mesh/generators.hpp"
+#include "mortise/mesh/sets.hpp"
+#include "mortise/simulation/quantity_kinds.hpp"
+
+namespace mortise::test {
+
+using Point = std::array<double, 2>;
+
+inline constexpr double youngs_modulus = 100.0, poissons_ratio = 0.25, thickness = 2.0, width = 4.0;
+inline constexpr double lambda = 40.0, mu = 40.0;  // of the constants above
+inline constexpr int upper_cells = 5;
+
+/// "lower" [0, 4] x [0, 1] of 4 x 2 squares and "upper" [0, 4] x [1, 2] of 10 x 4 triangles; the underside of "upper" is the slave.
+class TwoBlocks {
+ public:
+  explicit TwoBlocks(Kinematics kinematics = Kinematics::plane_strain) {
+    const auto lower = std::make_shared<BlockMesh>(), upper = std::make_shared<BlockMesh>();
+    lower->width = upper->width = width;
+    lower->cells_x = 4, lower->cells_y = upper->cells_y = 2, upper->cells_x = upper_cells;
+    upper->translation = {0.0, 1.0};
+    mesh = build_mesh(Tpetra::getDefaultComm(), {{"lower", {}, lower, CellShape::quadrilateral4}, {"upper", {}, upper, CellShape::triangle3}},
+                      {"lower/top", "upper/bottom"});
+    const std::shared_ptr<MaterialOptions> material = std::make_shared<ElasticMaterialOptions<SmallStrainLinear>>();
+    material->youngs_modulus = youngs_modulus, material->poissons_ratio = poissons_ratio;
+    bodies = std::make_unique<Bodies>(
+        mesh, kinematics, thickness, std::vector<BodyProperties>{{"lower", {}, material, ElementType::q4}, {"upper", {}, material, ElementType::t3}});
+
+    ContactPair pair;
+    pair.name = "pair";
+    pair.slave = facets_at_owned_nodes(*mesh, mesh->side_sets.at("upper/bottom"));
+    pair.master = facets_of_owned_elements(*mesh, mesh->side_sets.at("lower/top"));
+    pair.youngs_modulus = youngs_modulus;
+    const auto reference = rcp(new MultiVector(mesh->owned_nodes, 2));
+    for (LocalOrdinal node = 0; node < mesh->owned_count(); ++node)
+      for (int i = 0; i < 2; ++i) reference->replaceLocalValue(node, i, mesh->coordinates[node][i]);
+    const InterfaceMeasure measure{kinematics == Kinematics::axisymmetric, thickness};
+    contact = std::make_unique<ContactSystem>(mesh->owned_nodes, bodies->dofs(), reference, rcp(new MultiVector(mesh->owned_nodes, 2)), measure,
+                                              std::vector<ContactPair>{pair}, Timers());
+    multipliers = rcp(new Vector(contact->multiplier_map()));
+    displacement = nodal([](int, const Point&) { return Point{0.0, 0.0}; });
+    reaction = nodal([](int, const Point&) { return Point{0.0, 0.0}; });
+    external = nodal([](int, const Point&) { return Point{0.0, 0.0}; });
+    move([](int, const Point&) { return Point{0.0, 0.0}; });
+  }
+
+  using Function = std::function<Point(int body, const Point& X)>;
+  /// A vector on the owned dofs.
+  RCP<Vector> nodal(const Function& value) const {
+    const auto vector = rcp(new Vector(bodies->dofs()));
+    for (LocalOrdinal node = 0; node < mesh->owned_count(); ++node) {
+      const Point at = value(mesh->body_of_node[node], {mesh->coordinates[node][0], mesh->coordinates[node][1]});
+      for (int i = 0; i < 2; ++i) vector->replaceLocalValue(2 * node + i, at[i]);
+    }
+    return vector;
+  }
+
+  void move(const Function& u) {
+    displacement = nodal(u);
+    local_displacement = rcp(new Vector(bodies->local_dofs()));
+    local_displacement->doImport(*displacement, *bodies->ghost_import(), Tpetra::INSERT);
+    std::optional<StepFailure> failure;
+    contact->evaluate(*displacement, false, failure);
+    throw_if_any(*mesh->comm, failure);
+  }
+
+  /// z = p n with n = (0, -1); p of x.
+  void press(const std::function<double(double)>& pressure) {
+    const GlobalOrdinal offset = bodies->dofs()->getMaxAllGlobalIndex() + 1;
+    for (const GlobalOrdinal id : multipliers->getMap()->getNodeElementList()) {
+      const LocalOrdinal node = mesh->owned_nodes->getLocalElement((id - offset) / 2);
+      multipliers->replaceGlobalValue(id, (id - offset) % 2 == 0 ? 0.0 : -pressure(mesh->coordinates[node][0]));
+    }
+  }
+
+  QuantityContext context(double time = 1.0) const {
+    QuantityContext context{*bodies};
+    context.contact = contact.get();
+    context.pairs = {{"pair", "upper/bottom", "lower/top"}};
+    context.time = time;
+    context.displacement = displacement.get();
+    context.local_displacement = local_displacement.get();
+    context.multipliers = multipliers.get();
+    context.reaction = reaction.get();
+    context.external_force = external.get();
+    context.prescribed = &prescribed;
+    return context;
+  }
+
+  double value(Quantity&& quantity, double time = 1.0) const {
+    quantity.prepare(context(time));
+    return quantity.evaluate(context(time));
+  }
+
+  /// Owned dofs of a set.
+  std::vector<LocalOrdinal> dofs(const std::string& set) const {
+    std::vector<LocalOrdinal> dofs;
+    for (const LocalOrdinal node : mesh->node_sets.at(set))
+      if (node < mesh->owned_count()) dofs.insert(dofs.end(), {2 * node, 2 * node + 1});
+    return dofs;
+  }
+
+  RCP<Mesh> mesh;
+  std::unique_ptr<Bodies> bodies;
+  std::unique_ptr<ContactSystem> contact;
+  RCP<Vector> displacement, local_displacement, multipliers, reaction, external;
+  std::vector<LocalOrdinal> prescribed;
+};
+
+}  // namespace mortise::test
