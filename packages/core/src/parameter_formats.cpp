@@ -73,11 +73,11 @@ class RelaxNg {
   std::string grammar(const ListRecord& tree) {
     line("<?xml version=\"1.0\" encoding=\"UTF-8\"?>");
     line("<grammar xmlns=\"http://relaxng.org/ns/structure/1.0\" datatypeLibrary=\"http://www.w3.org/2001/XMLSchema-datatypes\">");
-    line("<start><element name=\"ParameterList\"><optional><attribute name=\"name\"/></optional><interleave>");
+    line("<start><element name=\"ParameterList\"><optional><attribute name=\"name\"/></optional><zeroOrMore><choice>");
     free_list("variables", false);
     free_list("tables", true);
-    content(tree);
-    line("</interleave></element></start>");
+    alternatives(tree);
+    line("</choice></zeroOrMore></element></start>");
     line("<define name=\"anything\"><zeroOrMore><choice><ref name=\"parameter\"/><element name=\"ParameterList\"><attribute name=\"name\"/>"
          "<ref name=\"anything\"/></element></choice></zeroOrMore></define>");
     line("<define name=\"parameter\"><element name=\"Parameter\"><attribute name=\"name\"/><attribute name=\"type\"/><attribute name=\"value\"/></element></define>");
@@ -89,13 +89,11 @@ class RelaxNg {
   void line(const std::string& text) { out_ += text + "\n"; }
 
   void free_list(const std::string& name, bool lists) {
-    line(fmt::format("<optional><element name=\"ParameterList\"><attribute name=\"name\"><value>{}</value></attribute>{}</element></optional>", name,
+    line(fmt::format("<element name=\"ParameterList\"><attribute name=\"name\"><value>{}</value></attribute>{}</element>", name,
                      lists ? "<ref name=\"anything\"/>" : "<zeroOrMore><ref name=\"parameter\"/></zeroOrMore>"));
   }
 
   void parameter(const ParameterRecord& one, const std::string& fixed_value) {
-    const bool required = one.says.is_required();
-    if (!required) line("<optional>");
     line(fmt::format("<element name=\"Parameter\"><attribute name=\"name\"><value>{}</value></attribute>", escaped(one.name)));
     std::string types = "<value>string</value>";
     if (one.type() != "string") types += fmt::format("<value>{}</value>", one.type());
@@ -114,37 +112,42 @@ class RelaxNg {
       values = "<text/>";
     }
     line("<attribute name=\"value\">" + values + "</attribute></element>");
-    if (!required) line("</optional>");
   }
 
+  // What may stand in a list, in any order. RELAX NG cannot interleave elements of one name, so that each parameter stands once and none is
+  // missing is left to the reader.
   void content(const ListRecord& list) {
-    for (const ParameterRecord& one : list.parameters)
-      if (list.kinds.empty() || one.name != "type") parameter(one, "");
-    if (!list.kinds.empty()) {
-      const auto& type = *std::find_if(list.parameters.begin(), list.parameters.end(), [](const ParameterRecord& one) { return one.name == "type"; });
+    if (list.kind == Kind::verbatim) {
+      line("<ref name=\"anything\"/>");
+    } else if (list.kind == Kind::named) {
+      line("<zeroOrMore><element name=\"ParameterList\"><attribute name=\"name\"/>");
+      content(list.lists.front());
+      line("</element></zeroOrMore>");
+    } else if (list.kinds.empty()) {
+      line("<zeroOrMore><choice><notAllowed/>");
+      alternatives(list);
+      line("</choice></zeroOrMore>");
+    } else {
+      const auto type = std::find_if(list.parameters.begin(), list.parameters.end(), [](const ParameterRecord& one) { return one.name == "type"; });
       line("<choice>");
       for (const auto& [name, kind] : list.kinds) {
-        line("<interleave>");
-        parameter(type, name);
-        content(kind);
-        line("</interleave>");
+        line("<zeroOrMore><choice>");
+        parameter(*type, name);
+        alternatives(list);
+        alternatives(kind);
+        line("</choice></zeroOrMore>");
       }
       line("</choice>");
     }
+  }
+
+  void alternatives(const ListRecord& list) {
+    for (const ParameterRecord& one : list.parameters)
+      if (list.kinds.empty() || one.name != "type") parameter(one, "");
     for (const ListRecord& one : list.lists) {
-      line(fmt::format("<optional><element name=\"ParameterList\"><attribute name=\"name\"><value>{}</value></attribute>", escaped(one.name)));
-      if (one.kind == Kind::verbatim) {
-        line("<ref name=\"anything\"/>");
-      } else if (one.kind == Kind::named) {
-        line("<zeroOrMore><element name=\"ParameterList\"><attribute name=\"name\"/><interleave>");
-        content(one.lists.front());
-        line("<empty/></interleave></element></zeroOrMore>");
-      } else {
-        line("<interleave>");
-        content(one);
-        line("<empty/></interleave>");
-      }
-      line("</element></optional>");
+      line(fmt::format("<element name=\"ParameterList\"><attribute name=\"name\"><value>{}</value></attribute>", escaped(one.name)));
+      content(one);
+      line("</element>");
     }
   }
 

@@ -1,0 +1,213 @@
+// Scenes that say too much, too little or the wrong thing: every error with its line, all at once.
+
+#include "mortise/core/read_parameters.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "mortise/core/parameter_tree.hpp"
+
+namespace mortise {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+enum class Colour { red, green };
+
+struct Shape : Described {
+  double size = 1.0;
+  void describe(Parameters& parameters) override { parameters.add("size", size, Says("how large").unit("mm").above(0.0)); }
+};
+struct Ball : Shape {};
+struct Box : Shape {
+  int corners = 8;
+  void describe(Parameters& parameters) override {
+    Shape::describe(parameters);
+    parameters.add("corners", corners, Says("how many").at_least(4));
+  }
+};
+const Registry<Shape>& shapes() {
+  static const Registry<Shape> registry = Registry<Shape>().add<Ball>("ball", "round").add<Box>("box", "not round");
+  return registry;
+}
+
+struct Entry {
+  Choice<Shape> shape;
+  Located<std::string> of;
+  void describe(Parameters& parameters) {
+    parameters.choose(shape, shapes(), "the shape");
+    parameters.add("of", of, "what of");
+  }
+};
+
+struct Inner {
+  bool on = true;
+  std::vector<double> weights{1.0, 2.0};
+  void describe(Parameters& parameters) {
+    parameters.add("on", on, "whether");
+    parameters.add("weights", weights, "how heavy");
+  }
+};
+
+struct Options {
+  double tolerance = 1e-9;
+  int count = 3;
+  Colour colour = Colour::red;
+  Expression load{0.0};
+  std::optional<double> reach;
+  std::optional<Expression> motion;
+  std::vector<std::string> names{"a", "b"};
+  Inner inner;
+  std::vector<Named<Entry>> entries;
+  Teuchos::ParameterList solver;
+  std::string needed;
+
+  void describe(Parameters& parameters) {
+    parameters.add("tolerance", tolerance, Says("how exact").above(0.0).below(1.0));
+    parameters.add("count", count, Says("how many").at_least(1));
+    parameters.add("colour", colour, {{"red", Colour::red}, {"green", Colour::green}}, "which colour");
+    parameters.add("load", load, Says("how strong").unit("N"));
+    parameters.add("reach", reach, Says("how far").above(0.0));
+    parameters.add("motion", motion, "where to");
+    parameters.add("names", names, "who");
+    parameters.add("needed", needed, Says("what nobody can guess").required());
+    parameters.list("inner", inner, "inside");
+    parameters.named("entries", entries, "things");
+    parameters.verbatim("solver", solver, "handed on");
+  }
+};
+
+struct Read {
+  Options options;
+  std::string errors;
+  Symbols symbols;
+};
+
+Read read(const std::string& body, const std::vector<std::string>& overrides = {}) {
+  Read result;
+  std::vector<Diagnostic> diagnostics;
+  try {
+    XmlList root = parse_xml("<ParameterList name=\"scene\">\n" + body + "</ParameterList>\n", "scene.xml");
+    for (const std::string& one : overrides) apply_override(root, one);
+    result.symbols = read_symbols(root, diagnostics);
+    read_parameters(result.options, root, result.symbols, {"variables", "tables"}, diagnostics);
+  } catch (const InputError& error) {
+    diagnostics.insert(diagnostics.end(), error.diagnostics().begin(), error.diagnostics().end());
+  }
+  for (const Diagnostic& one : diagnostics) result.errors += to_string(one) + "\n";
+  return result;
+}
+
+std::string parameter(const std::string& name, const std::string& type, const std::string& value) {
+  return "<Parameter name=\"" + name + "\" type=\"" + type + "\" value=\"" + value + "\"/>\n";
+}
+std::string list(const std::string& name, const std::string& body) { return "<ParameterList name=\"" + name + "\">\n" + body + "</ParameterList>\n"; }
+const std::string needed = parameter("needed", "string", "this");
+
+TEST(ReadParameters, FillsEveryKind) {
+  const Read result = read(list("variables", parameter("n", "int", "4") + parameter("half", "string", "n/8")) +
+                           list("tables", list("ramp", parameter("times", "string", "0, 1") + parameter("values", "string", "0, 2*n"))) + needed +
+                           parameter("tolerance", "string", "half/10") + parameter("count", "int", "2*n") + parameter("colour", "string", "green") +
+                           parameter("load", "string", "ramp(t)*x") + parameter("reach", "double", "1.5") + parameter("motion", "int", "3") +
+                           parameter("names", "string", "u, v, w") + list("inner", parameter("on", "bool", "false") + parameter("weights", "string", "n, max(1,2)")) +
+                           list("entries", list("first", parameter("type", "string", "box") + parameter("corners", "int", "6") + parameter("of", "string", "wood"))) +
+                           list("solver", parameter("max levels", "int", "3") + list("deep", parameter("flag", "bool", "true"))));
+  EXPECT_EQ(result.errors, "");
+  const Options& options = result.options;
+  EXPECT_DOUBLE_EQ(options.tolerance, 0.05);
+  EXPECT_EQ(options.count, 8);
+  EXPECT_EQ(options.colour, Colour::green);
+  EXPECT_DOUBLE_EQ(options.load(0.5, 3.0), 12.0);
+  EXPECT_DOUBLE_EQ(options.reach.value(), 1.5);
+  EXPECT_DOUBLE_EQ((*options.motion)(), 3.0);
+  EXPECT_EQ(options.names, (std::vector<std::string>{"u", "v", "w"}));
+  EXPECT_FALSE(options.inner.on);
+  EXPECT_EQ(options.inner.weights, (std::vector<double>{4.0, 2.0}));
+  ASSERT_EQ(options.entries.size(), 1u);
+  EXPECT_EQ(options.entries[0].name, "first");
+  EXPECT_EQ(dynamic_cast<const Box&>(*options.entries[0].value.shape.options).corners, 6);
+  EXPECT_EQ(options.entries[0].value.of.value, "wood");
+  EXPECT_GT(options.entries[0].value.of.place.line, 1);
+  EXPECT_EQ(options.solver.get<int>("max levels"), 3);
+  EXPECT_TRUE(options.solver.sublist("deep").get<bool>("flag"));
+}
+
+TEST(ReadParameters, SaysAllErrorsAtOnceWithTheirLines) {
+  const std::string errors = read(parameter("tolerence", "double", "1e-3") +        // 2
+                                  parameter("count", "int", "0") +                  // 3
+                                  parameter("colour", "string", "gren") +           // 4
+                                  parameter("load", "string", "2*") +               // 5
+                                  parameter("reach", "double", "5x") +              // 6
+                                  list("inner", parameter("on", "double", "1")) +   // 7, 8
+                                  list("entries", list("one", parameter("type", "string", "bal")) +  // 10, 11, 12
+                                                      list("two", parameter("of", "string", "x")))).errors;  // 14
+  EXPECT_THAT(errors, HasSubstr("scene.xml:2: error: unknown parameter \"tolerence\"; did you mean \"tolerance\"?"));
+  EXPECT_THAT(errors, HasSubstr("scene.xml:3: error: \"count\" is 0; allowed: >= 1"));
+  EXPECT_THAT(errors, HasSubstr("scene.xml:4: error: \"colour\" is \"gren\"; allowed: \"red\", \"green\"; did you mean \"green\"?"));
+  EXPECT_THAT(errors, HasSubstr("scene.xml:5: error: \"load\": cannot evaluate \"2*\""));
+  EXPECT_THAT(errors, HasSubstr("scene.xml:6: error: \"reach\": cannot evaluate \"5x\""));
+  EXPECT_THAT(errors, HasSubstr("scene.xml:8: error: inner: parameter \"on\" has type \"double\""));
+  EXPECT_THAT(errors, HasSubstr("entries/one: \"type\" is \"bal\"; allowed: \"ball\", \"box\"; did you mean \"ball\"?"));
+  EXPECT_THAT(errors, HasSubstr("entries/two: \"type\" is missing"));
+  EXPECT_THAT(errors, HasSubstr("scene.xml:1: error: \"needed\" is missing; please add it: what nobody can guess"));
+}
+
+TEST(ReadParameters, RefusesWhatIsNoNumber) {
+  EXPECT_THAT(read(needed + parameter("tolerance", "double", "0/0")).errors, HasSubstr("not a finite number"));
+  EXPECT_THAT(read(needed + parameter("tolerance", "string", "t")).errors, HasSubstr("may depend on variables"));
+  EXPECT_THAT(read(needed + parameter("count", "int", "1.5")).errors, HasSubstr("whole number"));
+  EXPECT_THAT(read(needed + parameter("tolerance", "double", "unknown")).errors, HasSubstr("known names: t, x, y, z, pi"));
+  EXPECT_THAT(read(needed + list("tables", list("r", parameter("times", "string", "0, 0") + parameter("values", "string", "1, 2")))).errors, HasSubstr("ascend"));
+  EXPECT_THAT(read(needed + list("tables", list("r", parameter("times", "string", "0, 1") + parameter("values", "string", "1, sqrt(-1)")))).errors,
+              HasSubstr("not a finite number"));
+  EXPECT_THAT(read(needed + list("variables", parameter("x", "int", "1"))).errors, HasSubstr("already has a meaning"));
+}
+
+TEST(ReadParameters, RefusesBrokenXml) {
+  EXPECT_THAT(read("<Parameter name=\"a\"").errors, HasSubstr("scene.xml:2: error: not well-formed XML"));
+  EXPECT_THAT(read(needed + needed).errors, HasSubstr("scene.xml:3: error: \"needed\" is given twice"));
+  EXPECT_THAT(read("<Parametr name=\"a\"/>\n").errors, HasSubstr("unknown element <Parametr>"));
+  EXPECT_THAT(read("<Parameter name=\"a\" typ=\"int\" value=\"1\"/>\n").errors, HasSubstr("unknown attribute \"typ\""));
+  EXPECT_THAT(read(parameter("needed", "strng", "1")).errors, HasSubstr("unknown type \"strng\""));
+  EXPECT_THAT(read("stray text\n").errors, HasSubstr("text outside of elements"));
+}
+
+TEST(ReadParameters, TakesOverridesFromTheCommandLine) {
+  const std::string scene = list("variables", parameter("n", "int", "4")) + needed + parameter("count", "string", "n");
+  EXPECT_EQ(read(scene, {"variables/n=7"}).options.count, 7);
+  EXPECT_EQ(read(scene, {"inner/weights=1,2,3"}).options.inner.weights.size(), 3u);
+  EXPECT_THAT(read(scene, {"inner/wieghts=1"}).errors, HasSubstr("command line: --set inner/wieghts=1: error: inner: unknown parameter \"wieghts\"; did you mean \"weights\"?"));
+  EXPECT_THAT(read(scene, {"count"}).errors, HasSubstr("please write --set path=value"));
+}
+
+TEST(ParameterTree, EffectiveSceneReadsBackTheSame) {
+  Read first = read(list("variables", parameter("n", "int", "4")) + needed + parameter("load", "string", "n*t &lt; 2") + parameter("motion", "string", "t") +
+                    list("entries", list("one", parameter("type", "string", "ball") + parameter("size", "string", "n/3"))) +
+                    list("solver", parameter("max levels", "int", "3")));
+  ASSERT_EQ(first.errors, "");
+  const auto text_of = [](Read& one) {
+    return to_scene_xml(collect_parameters("scene", one.options, CollectParameters::What::values), symbol_lists(one.symbols));
+  };
+  const std::string text = text_of(first);
+  Read second;
+  std::vector<Diagnostic> diagnostics;
+  const XmlList root = parse_xml(text, "effective.xml");
+  second.symbols = read_symbols(root, diagnostics);
+  read_parameters(second.options, root, second.symbols, {"variables", "tables"}, diagnostics);
+  EXPECT_THAT(diagnostics, IsEmpty());
+  EXPECT_EQ(text_of(second), text);
+  EXPECT_DOUBLE_EQ(second.options.entries[0].value.shape.options->size, 4.0 / 3.0);
+}
+
+TEST(ParameterTree, DescribesEverything) {
+  Options options;
+  const ListRecord tree = collect_parameters("scene", options, CollectParameters::What::declarations);
+  for (const std::string& text : {to_text(tree), to_markdown(tree)})
+    for (const char* word : {"tolerance", "how exact", "> 0", "red", "what nobody can guess", "corners", "not round", "handed on"}) EXPECT_THAT(text, HasSubstr(word));
+  ASSERT_NE(find_list(tree, "entries/any/box"), nullptr);
+  EXPECT_EQ(find_list(tree, "nothing"), nullptr);
+}
+
+}  // namespace
+}  // namespace mortise
