@@ -1,0 +1,8 @@
+# find_package(Mortise) for applications that use the libraries: the targets Mortise::<package>.
+include(CMakePackageConfigHelpers)
+set(config_directory "${CMAKE_INSTALL_LIBDIR}/cmake/Mortise")
+configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/MortiseConfig.cmake.in" "${PROJECT_BINARY_DIR}/MortiseConfig.cmake"
+  INSTALL_DESTINATION "${config_directory}")
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/MortiseConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
+install(FILES "${PROJECT_BINARY_DIR}/MortiseConfig.cmake" "${PROJECT_BINARY_DIR}/MortiseConfigVersion.cmake" DESTINATION "${config_directory}")
+install(EXPORT MortiseTargets NAMESPACE Mortise:: DESTINATION "${config_directory}")
