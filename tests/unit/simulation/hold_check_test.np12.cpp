@@ -1,0 +1,137 @@
+#include "mortise/simulation/hold_check.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Tpetra_Core.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
+
+#include "mortise/mesh/build_mesh.hpp"
+#include "mortise/mesh/generators.hpp"
+#include "mortise/mesh/sets.hpp"
+
+namespace mortise {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+/// A block of 2 x 1 on one of 3 x 1, the interface at y = 1 and a gap between them.
+struct TwoBlocks {
+  RCP<Mesh> mesh;
+  RCP<MultiVector> fixed;
+  SurfaceFacets slave, master;
+  std::vector<Place> places{{"scene.xml", 3, "bodies/lower"}, {"scene.xml", 7, "bodies/upper"}};
+
+  explicit TwoBlocks(double gap = 0.0, double rotation = 0.0) {
+    const auto block = [&](double width, int cells, double y) {
+      auto options = std::make_shared<BlockMesh>();
+      options->width = width;
+      options->cells_x = cells;
+      options->cells_y = 2;
+      options->corners = {0.0, y, width, y, width, y + 1.0, 0.0, y + 1.0};
+      options->rotation = rotation;
+      return options;
+    };
+    mesh = build_mesh(Tpetra::getDefaultComm(), {{"lower", places[0], block(3.0, 5, 0.0)}, {"upper", places[1], block(2.0, 3, 1.0 + gap)}}, {});
+    fixed = rcp(new MultiVector(mesh->owned_nodes, 2));
+    slave = facets_at_owned_nodes(*mesh, mesh->side_sets.at("upper/bottom"));
+    master = facets_of_owned_elements(*mesh, mesh->side_sets.at("lower/top"));
+  }
+
+  void fix(const std::string& set, int component) {
+    const auto values = fixed->getLocalViewHost(Tpetra::Access::ReadWrite);
+    for (const LocalOrdinal node : mesh->node_sets.at(set))
+      if (node < mesh->owned_count()) values(node, component) = 1.0;
+  }
+
+  std::vector<char> check(bool with_contact, bool axisymmetric = false) const {
+    std::vector<HoldingPair> pairs;
+    if (with_contact) pairs.push_back({&slave, &master, 0.0});
+    return check_held(*mesh, axisymmetric, *fixed, pairs, places);
+  }
+
+  std::vector<std::string> complaints(bool with_contact, bool axisymmetric = false) const {
+    std::vector<std::string> messages;
+    try {
+      check(with_contact, axisymmetric);
+    } catch (const InputError& error) {
+      for (const auto& diagnostic : error.diagnostics()) messages.push_back(to_string(diagnostic));
+    }
+    return messages;
+  }
+};
+
+TEST(HoldCheck, ClampedBodiesAreHeld) {
+  TwoBlocks blocks;
+  for (const char* set : {"lower/bottom", "upper/top"})
+    for (int i = 0; i < 2; ++i) blocks.fix(set, i);
+  EXPECT_THAT(blocks.check(false), ElementsAre(0, 0));
+}
+
+TEST(HoldCheck, ContactHoldsAcrossTheInterfaceAndNotAlongIt) {
+  TwoBlocks blocks;
+  blocks.fix("lower/bottom", 0);
+  blocks.fix("lower/bottom", 1);
+  EXPECT_THAT(blocks.complaints(true), ElementsAre(HasSubstr("scene.xml:7: error: bodies/upper: body 'upper' can move: translation in x")));
+  blocks.fix("upper/left", 0);
+  EXPECT_THAT(blocks.check(true), ElementsAre(0, 1));
+}
+
+TEST(HoldCheck, WithoutContactEveryFreeModeIsNamed) {
+  TwoBlocks blocks;
+  blocks.fix("lower/bottom", 0);
+  blocks.fix("lower/bottom", 1);
+  EXPECT_EQ(blocks.complaints(false).size(), 3u);
+  blocks.fix("upper/left", 0);  // holds x and the rotation
+  EXPECT_THAT(blocks.complaints(false), ElementsAre(HasSubstr("body 'upper' can move: translation in y")));
+}
+
+TEST(HoldCheck, RollersLeaveOneDirection) {
+  TwoBlocks blocks;
+  blocks.fix("lower/bottom", 1);
+  blocks.fix("upper/top", 0);
+  blocks.fix("upper/top", 1);
+  EXPECT_THAT(blocks.complaints(false), ElementsAre(HasSubstr("body 'lower' can move: translation in x")));
+}
+
+TEST(HoldCheck, OnePinLeavesTheRotation) {
+  TwoBlocks blocks;
+  blocks.fix("upper/top", 0);
+  blocks.fix("upper/top", 1);
+  const auto values = blocks.fixed->getLocalViewHost(Tpetra::Access::ReadWrite);
+  for (LocalOrdinal node = 0; node < blocks.mesh->owned_count(); ++node) {
+    const auto& x = blocks.mesh->coordinates[node];
+    if (x[0] == 0.0 && x[1] == 0.0) values(node, 0) = values(node, 1) = 1.0;
+  }
+  EXPECT_EQ(blocks.complaints(false).size(), 1u);
+  EXPECT_THAT(blocks.complaints(false), ElementsAre(HasSubstr("body 'lower' can move")));
+}
+
+TEST(HoldCheck, ContactOutOfReachHoldsNothing) {
+  TwoBlocks blocks(50.0);
+  blocks.fix("lower/bottom", 0);
+  blocks.fix("lower/bottom", 1);
+  blocks.fix("upper/left", 0);
+  EXPECT_THAT(blocks.complaints(true), ElementsAre(HasSubstr("body 'upper' can move: translation in y")));
+}
+
+TEST(HoldCheck, AnInclinedInterfaceHoldsWithOneComponentElsewhere) {
+  TwoBlocks blocks(0.0, 30.0);
+  blocks.fix("lower/bottom", 0);
+  blocks.fix("lower/bottom", 1);
+  EXPECT_EQ(blocks.complaints(true).size(), 1u);
+  blocks.fix("upper/top", 0);  // fixes sliding: x is not normal to the interface
+  EXPECT_THAT(blocks.check(true), ElementsAre(0, 1));
+}
+
+TEST(HoldCheck, AxisymmetricBodiesMoveAlongTheAxisOnly) {
+  TwoBlocks blocks;
+  blocks.fix("lower/bottom", 1);
+  EXPECT_THAT(blocks.complaints(false, true), ElementsAre(HasSubstr("body 'upper' can move: translation along the axis")));
+  EXPECT_THAT(blocks.check(true, true), ElementsAre(0, 1));
+}
+
+}  // namespace
+}  // namespace mortise
