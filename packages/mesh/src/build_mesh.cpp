@@ -131,7 +131,7 @@ void fill_sets(Mesh& mesh, const BodySet& set) {
   for (int b = 0; b < set.size(); ++b) {
     const auto& complex = set.complex(b);
     const auto& block = mesh.blocks[b];
-    std::string surface = block.name + "/surface";
+    const std::string surface = block.name + "/surface";
     std::vector<std::string> names;
     for (const auto& name : complex.side_names()) names.push_back(block.name + "/" + name);
     for (const auto& name : names) mesh.side_sets[name], mesh.node_sets[name];
