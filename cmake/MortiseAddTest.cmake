@@ -1,12 +1,16 @@
 # mortise_add_unit_tests(<package> USES <targets>)
 # tests/unit/<package>/*_test.cpp make one executable that runs on one rank; each *_test.np<digits>.cpp makes its own and runs on as many
-# ranks as each digit says (np123: on 1, 2 and 3).
+# ranks as each digit says (np123: on 1, 2 and 3). Their label is the package: ctest -L mortar.
 find_package(GTest REQUIRED)
+
+# More ranks than cores are fine: they are not bound to cores (two tests at a time would share one) and yield when they wait.
+set(MORTISE_MPI_ENVIRONMENT OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
+  OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_btl_vader_single_copy_mechanism=none OMPI_MCA_mpi_yield_when_idle=1 OMP_NUM_THREADS=1
+  OPENBLAS_NUM_THREADS=1)
 
 function(mortise_add_mpi_test name executable ranks)
   add_test(NAME ${name} COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} $<TARGET_FILE:${executable}> ${ARGN})
-  set_tests_properties(${name} PROPERTIES PROCESSORS ${ranks}
-    ENVIRONMENT "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_rmaps_base_oversubscribe=1;OMPI_MCA_btl_vader_single_copy_mechanism=none;OMPI_MCA_mpi_yield_when_idle=1;OMP_NUM_THREADS=1;OPENBLAS_NUM_THREADS=1")
+  set_tests_properties(${name} PROPERTIES PROCESSORS ${ranks} TIMEOUT 300 ENVIRONMENT "${MORTISE_MPI_ENVIRONMENT}")
 endfunction()
 
 function(mortise_add_unit_tests package)
@@ -15,7 +19,9 @@ function(mortise_add_unit_tests package)
   if(serial)
     add_executable(test_${package} ${serial})
     target_link_libraries(test_${package} PRIVATE ${test_USES} mortise_test_main)
+    mortise_use_precompiled_headers(test_${package})
     mortise_add_mpi_test(unit.${package} test_${package} 1)
+    set_tests_properties(unit.${package} PROPERTIES LABELS ${package})
   endif()
   file(GLOB parallel CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*_test.np*.cpp")
   foreach(source ${parallel})
@@ -25,9 +31,12 @@ function(mortise_add_unit_tests package)
     set(digits "${CMAKE_MATCH_2}")
     add_executable(test_${package}_${stem} ${source})
     target_link_libraries(test_${package}_${stem} PRIVATE ${test_USES} mortise_test_main)
+    mortise_use_precompiled_headers(test_${package}_${stem})
     string(REGEX MATCHALL "[0-9]" digits "${digits}")
     foreach(ranks ${digits})
-      mortise_add_mpi_test(unit.${package}.${stem}.np${ranks} test_${package}_${stem} ${ranks})
+      set(name unit.${package}.${stem}.np${ranks})
+      mortise_add_mpi_test(${name} test_${package}_${stem} ${ranks})
+      set_tests_properties(${name} PROPERTIES LABELS ${package})
     endforeach()
   endforeach()
 endfunction()
