@@ -55,6 +55,13 @@ void Bodies::add_stiffness(const Vector& local_displacement, Matrix& matrix, std
   for (const auto& block : blocks_) block->add_stiffness(displacement.data(), values, failure);
 }
 
+void Bodies::commit(const Vector& local_displacement) {
+  const HostReadView displacement(local_displacement);
+  for (const auto& block : blocks_) block->commit(displacement.data());
+}
+
+std::size_t Bodies::history_bytes(LocalOrdinal block) const { return blocks_.at(block)->history_bytes(); }
+
 void Bodies::visit_points(const Vector& local_displacement, const std::function<void(const MaterialPoint&)>& visit) const {
   const HostReadView displacement(local_displacement);
   for (std::size_t n = 0; n < blocks_.size(); ++n) blocks_[n]->visit_points(displacement.data(), mesh_->blocks[n].owned, visit);
@@ -97,6 +104,19 @@ std::vector<std::array<double, 4>> Bodies::element_stresses(const Vector& local_
   for (LocalOrdinal element = 0; element < owned; ++element)
     for (double& component : stresses[element]) component /= volumes[element];
   return stresses;
+}
+
+std::vector<double> Bodies::element_plastic_strains(const Vector& local_displacement, LocalOrdinal block) const {
+  const LocalOrdinal owned = mesh_->blocks.at(block).owned;
+  std::vector<double> strains(owned, 0.0), volumes(owned, 0.0);
+  if (history_bytes(block) == 0) return strains;
+  const HostReadView displacement(local_displacement);
+  blocks_[block]->visit_points(displacement.data(), owned, [&](const MaterialPoint& point) {
+    volumes[point.element] += point.weight;
+    strains[point.element] += point.weight * point.equivalent_plastic_strain;
+  });
+  for (LocalOrdinal element = 0; element < owned; ++element) strains[element] /= volumes[element];
+  return strains;
 }
 
 RCP<MultiVector> Bodies::nodal_stresses(const Vector& local_displacement) const {

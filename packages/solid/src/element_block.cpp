@@ -23,6 +23,7 @@ class KernelBlock final : public ElementBlock {
     for (LocalOrdinal element = 0; element < block.size(); ++element)
       for (int a = 0; a < nodes; ++a)
         for (int b = 0; b < nodes; ++b) positions_.push_back(context_.sparsity.position(block.nodes(element)[a], block.nodes(element)[b]));
+    if constexpr (Kernel::history) history_.resize(block.size());
   }
 
   void add_internal_force(const double* displacement, double* force, std::optional<StepFailure>& failure) const override {
@@ -31,8 +32,8 @@ class KernelBlock final : public ElementBlock {
       const LocalOrdinal* node = context_.block.nodes(element);
       if (!touches_owned(node)) continue;
       typename Kernel::Force element_force{};
-      const double determinant = kernel_.template add<false>(reference(node), gather(node, displacement), element_force, unused);
-      if (!(determinant > 0.0)) report(element, determinant, failure);
+      const ElementTrouble trouble = kernel_.template add<false>(reference(node), gather(node, displacement), states(element), element_force, unused);
+      if (trouble) report(element, trouble, failure);
       for (int a = 0; a < nodes; ++a)
         if (node[a] < owned_nodes_)
           for (int i = 0; i < 2; ++i) force[2 * node[a] + i] += element_force[2 * a + i];
@@ -45,8 +46,8 @@ class KernelBlock final : public ElementBlock {
       if (!touches_owned(node)) continue;
       typename Kernel::Force unused{};
       typename Kernel::Stiffness stiffness{};
-      const double determinant = kernel_.template add<true>(reference(node), gather(node, displacement), unused, stiffness);
-      if (!(determinant > 0.0)) report(element, determinant, failure);
+      const ElementTrouble trouble = kernel_.template add<true>(reference(node), gather(node, displacement), states(element), unused, stiffness);
+      if (trouble) report(element, trouble, failure);
       const LocalOrdinal* position = positions_.data() + static_cast<std::size_t>(element) * nodes * nodes;
       for (int a = 0; a < nodes; ++a) {
         if (node[a] >= owned_nodes_) continue;
@@ -65,13 +66,23 @@ class KernelBlock final : public ElementBlock {
       const LocalOrdinal* node = context_.block.nodes(element);
       const Positions X = reference(node), u = gather(node, displacement);
       for (int q = 0; q < Kernel::points; ++q) {
-        MaterialPoint point = kernel_.material_point(q, X, u);
+        MaterialPoint point = kernel_.material_point(q, X, u, states(element));
         point.block = context_.index;
         point.element = element;
         visit(point);
       }
     }
   }
+
+  void commit([[maybe_unused]] const double* displacement) override {
+    if constexpr (Kernel::history)
+      for (LocalOrdinal element = 0; element < context_.block.size(); ++element) {
+        const LocalOrdinal* node = context_.block.nodes(element);
+        kernel_.commit(reference(node), gather(node, displacement), history_[element]);
+      }
+  }
+
+  std::size_t history_bytes() const override { return history_.capacity() * sizeof(typename Kernel::States); }
 
   void add_nodal_volumes(std::vector<double>& volumes) const override {
     for (LocalOrdinal element = 0; element < context_.block.size(); ++element) {
@@ -111,16 +122,32 @@ class KernelBlock final : public ElementBlock {
     return u;
   }
 
-  void report(LocalOrdinal element, double determinant, std::optional<StepFailure>& failure) const {
+  const typename Kernel::States& states([[maybe_unused]] LocalOrdinal element) const {
+    if constexpr (Kernel::history) {
+      return history_[element];
+    } else {
+      static constexpr typename Kernel::States none{};
+      return none;
+    }
+  }
+
+  void report(LocalOrdinal element, const ElementTrouble& trouble, std::optional<StepFailure>& failure) const {
     if (failure) return;
-    failure.emplace(FailureKind::inverted_element, fmt::format("body \"{}\": element {} is turned inside out, det F = {:.3g}", context_.block.name,
-                                                               context_.block.element_ids[element], determinant));
+    const GlobalOrdinal id = context_.block.element_ids[element];
+    if (trouble.kind == ElementTrouble::Kind::inverted)
+      failure.emplace(FailureKind::inverted_element,
+                      fmt::format("body \"{}\": element {} is turned inside out, det F = {:.3g}", context_.block.name, id, trouble.determinant));
+    else
+      failure.emplace(FailureKind::material,
+                      fmt::format("body \"{}\": the law \"{}\" finds no stress at point {} of element {}, where det F = {:.3g}", context_.block.name,
+                                  PlainLaw::name, trouble.point, id, trouble.determinant));
   }
 
   BlockContext context_;
   Kernel kernel_;
   LocalOrdinal owned_nodes_;
-  std::vector<LocalOrdinal> positions_;  ///< [elements x nodes x nodes] NodalSparsity::position
+  std::vector<typename Kernel::States> history_;  ///< [elements] of the last committed step; empty for laws without a history
+  std::vector<LocalOrdinal> positions_;           ///< [elements x nodes x nodes] NodalSparsity::position
 };
 
 template <class Cell, ElementFormulation formulation, class PlainLaw>

@@ -2,7 +2,6 @@
 // The one element: residual, tangent and point data for every cell, kinematics, formulation and law.
 
 #include <array>
-#include <limits>
 #include <type_traits>
 
 #include "mortise/material/plane_stress.hpp"
@@ -16,6 +15,15 @@ inline constexpr int quadrature_points(CellShape shape, Kinematics kinematics) {
   return shape == CellShape::quadrilateral4 ? 4 : kinematics == Kinematics::axisymmetric ? 3 : 1;
 }
 
+/// Why an element has no residual.
+struct ElementTrouble {
+  enum class Kind { none, inverted, no_stress };
+  Kind kind = Kind::none;
+  int point = -1;            ///< -1: the centre
+  double determinant = 1.0;  ///< det F there
+  explicit operator bool() const { return kind != Kind::none; }
+};
+
 template <class Cell, Kinematics kinematics, ElementFormulation formulation, class PlainLaw>
 class ElementKernel {
  public:
@@ -23,7 +31,9 @@ class ElementKernel {
   static constexpr bool axisymmetric = kinematics == Kinematics::axisymmetric, f_bar = formulation == ElementFormulation::f_bar;
   using Components = std::conditional_t<axisymmetric, AxisymmetricComponents, PlaneComponents>;
   using AnyLaw = std::conditional_t<kinematics == Kinematics::plane_stress, PlaneStress<PlainLaw>, Unconstrained<PlainLaw>>;
-  static constexpr bool small_strain = AnyLaw::small_strain;
+  static constexpr bool small_strain = AnyLaw::small_strain, history = has_history<PlainLaw>;
+  using State = typename AnyLaw::State;
+  using States = std::array<State, points>;  ///< what the points of an element remember
 
   using Positions = std::array<std::array<double, 2>, nodes>;  ///< of the nodes, or their displacements
   using Force = std::array<double, dofs>;
@@ -47,19 +57,18 @@ class ElementKernel {
 
   const AnyLaw& law() const { return law_; }
 
-  /// Adds f_int to `force` and, with_tangent, d f_int / du to `stiffness`. Returns the first det F <= 0 it meets (nothing of use is then added),
-  /// +infinity if there is none.
+  /// Adds f_int to `force` and, with_tangent, d f_int / du to `stiffness`. In trouble nothing of use is added.
   template <bool with_tangent>
-  double add(const Positions& X, const Positions& u, Force& force, Stiffness& stiffness) const {
+  ElementTrouble add(const Positions& X, const Positions& u, const States& states, Force& force, Stiffness& stiffness) const {
     [[maybe_unused]] Centre centre = centre_point(X, u);
     if constexpr (f_bar) {
-      if (!(centre.determinant > 0.0)) return centre.determinant;
+      if (!(centre.determinant > 0.0)) return {ElementTrouble::Kind::inverted, -1, centre.determinant};
       push_forward(centre);
     }
-    for (const ShapeAtPoint& shape : rule_) {
-      Point at = point(shape, X, u);
+    for (int q = 0; q < points; ++q) {
+      Point at = point(rule_[q], X, u);
       if constexpr (!small_strain) {
-        if (!(determinant_of_law(at) > 0.0)) return determinant_of_law(at);
+        if (!(determinant_of_law(at) > 0.0)) return {ElementTrouble::Kind::inverted, q, determinant_of_law(at)};
         push_forward(at);
       }
       // f = integral of sigma(F_law) : grad eta det F dV0; sigma = tau / det F_law, det F_law = det F0 for F-bar.
@@ -67,18 +76,27 @@ class ElementKernel {
       if constexpr (f_bar) weight *= at.determinant / centre.determinant;
       const Matrix3 F = deformation_gradient_of_law(at, centre);
       if constexpr (with_tangent) {
-        const auto response = law_.template stress_and_tangent<Components>(F);
+        const auto response = law_.template stress_and_tangent<Components>(F, states[q]);
+        if (!has_stress(response.stress)) return {ElementTrouble::Kind::no_stress, q, at.determinant};
         add_force(at, response.stress, weight, force);
         add_stiffness(at, centre, response, weight, stiffness);
       } else {
-        add_force(at, law_.stress(F), weight, force);
+        const Matrix3 stress = law_.stress(F, states[q]);
+        if (!has_stress(stress)) return {ElementTrouble::Kind::no_stress, q, at.determinant};
+        add_force(at, stress, weight, force);
       }
     }
-    return std::numeric_limits<double>::infinity();
+    return {};
+  }
+
+  /// What the points remember if the step that ends at u is accepted. Only for laws with a history.
+  void commit(const Positions& X, const Positions& u, States& states) const {
+    const Centre centre = centre_point(X, u);
+    for (int q = 0; q < points; ++q) states[q] = law_.law.updated(deformation_gradient_of_law(point(rule_[q], X, u), centre), states[q]);
   }
 
   /// Point q for output.
-  MaterialPoint material_point(int q, const Positions& X, const Positions& u) const {
+  MaterialPoint material_point(int q, const Positions& X, const Positions& u, const States& states) const {
     const Centre centre = centre_point(X, u);
     const Point at = point(rule_[q], X, u);
     MaterialPoint result;
@@ -94,8 +112,9 @@ class ElementKernel {
     result.volume_ratio = small_strain ? 1.0 : determinant_of_law(at);
     double law_volume_ratio = result.volume_ratio;
     if constexpr (f_bar) law_volume_ratio = centre.determinant;
-    result.cauchy_stress = law_.stress(F) / law_volume_ratio;
-    result.energy = law_.energy(F);
+    result.cauchy_stress = law_.stress(F, states[q]) / law_volume_ratio;
+    result.energy = law_.energy(F, states[q]);
+    if constexpr (history) result.equivalent_plastic_strain = law_.law.equivalent_plastic_strain(F, states[q]);
     return result;
   }
 
@@ -117,6 +136,14 @@ class ElementKernel {
  private:
   struct Nothing {};
   using Centre = std::conditional_t<f_bar, Point, Nothing>;
+
+  /// Elastic laws have a stress wherever det F > 0.
+  static bool has_stress([[maybe_unused]] const Matrix3& stress) {
+    if constexpr (history)
+      return stress.allFinite();
+    else
+      return true;
+  }
 
   struct ShapeAtPoint {
     std::array<double, nodes> N;

@@ -4,7 +4,9 @@
 #include <variant>
 
 #include "mortise/core/parameters.hpp"
+#include "mortise/material/finite_j2.hpp"
 #include "mortise/material/hencky.hpp"
+#include "mortise/material/history.hpp"
 #include "mortise/material/neo_hooke.hpp"
 #include "mortise/material/small_strain_linear.hpp"
 #include "mortise/material/st_venant_kirchhoff.hpp"
@@ -12,7 +14,7 @@
 namespace mortise {
 
 /// Every law there is. Element loops are instantiated for each of them.
-using Law = std::variant<Hencky, NeoHooke, StVenantKirchhoff, SmallStrainLinear>;
+using Law = std::variant<Hencky, NeoHooke, StVenantKirchhoff, SmallStrainLinear, FiniteJ2>;
 
 /// A material of a scene.
 struct MaterialOptions : Described {
@@ -33,6 +35,14 @@ struct MaterialOptions : Described {
 template <class Kind>
 struct ElasticMaterialOptions : MaterialOptions {
   Law law() const override { return Kind(elastic_constants()); }
+};
+
+/// Options of J2 plasticity: elastic constants and a hardening law.
+struct FiniteJ2Options : MaterialOptions {
+  Choice<HardeningOptions> hardening;
+  void describe(Parameters& parameters) override;
+  /// Without a valid hardening law, which reading has reported, that of perfect plasticity.
+  Law law() const override { return FiniteJ2(elastic_constants(), hardening.options ? hardening.options->hardening() : Hardening()); }
 };
 
 /// All laws by name.

@@ -26,7 +26,8 @@ struct MaterialPoint {
   double volume_ratio = 1.0;                               ///< current / reference volume: det F; 1 for small strain
   Matrix3 deformation_gradient;  ///< F that the law sees: with the hoop or out-of-plane stretch as component 33, of F-bar elements the modified one
   Matrix3 cauchy_stress;         ///< [stress]
-  double energy = 0.0;           ///< stored energy per reference volume, of deformation_gradient
+  double equivalent_plastic_strain = 0.0;  ///< alpha; 0 for laws without plasticity
+  double energy = 0.0;                     ///< stored energy per reference volume, of deformation_gradient
 };
 
 /// All bodies of a scene. Two unknowns a node: dof id = 2 * node id + component.
@@ -63,11 +64,21 @@ class Bodies {
   /// matrix += d f_int / d displacement. `matrix` has graph().
   void add_stiffness(const Vector& local_displacement, Matrix& matrix, std::optional<StepFailure>& failure) const;
 
+  /// The step that ended at this displacement is accepted: material points with a history move on to it. Everything else that is asked for at a
+  /// displacement takes it as the end of a step from the last committed one.
+  void commit(const Vector& local_displacement);
+
+  /// Bytes that the history of a body takes on this rank; 0 for laws without.
+  std::size_t history_bytes(LocalOrdinal block) const;
+
   /// Calls `visit` for each quadrature point of each owned element, in order.
   void visit_points(const Vector& local_displacement, const std::function<void(const MaterialPoint&)>& visit) const;
 
   /// Volume-weighted mean Cauchy stress of each owned element of a block: xx, yy, zz, xy (axisymmetric: rr, zz, hoop, rz).
   std::vector<std::array<double, 4>> element_stresses(const Vector& local_displacement, LocalOrdinal block) const;
+
+  /// Volume-weighted mean accumulated plastic strain of each owned element of a block; 0 for laws without plasticity.
+  std::vector<double> element_plastic_strains(const Vector& local_displacement, LocalOrdinal block) const;
 
   /// Volume-weighted mean Cauchy stress around each owned node: columns xx, yy, zz, xy on mesh()->owned_nodes.
   RCP<MultiVector> nodal_stresses(const Vector& local_displacement) const;

@@ -1,0 +1,46 @@
+#pragma once
+// The list of hardening laws: yield stress sigma_y as a function of the accumulated plastic strain alpha. A new law: its own header in hardening/,
+// and its name in `Hardening` below.
+
+#include <variant>
+
+#include "mortise/core/parameters.hpp"
+#include "mortise/material/hardening/linear.hpp"
+#include "mortise/material/hardening/linear_voce.hpp"
+#include "mortise/material/hardening/ludwik.hpp"
+#include "mortise/material/hardening/perfect.hpp"
+#include "mortise/material/hardening/swift.hpp"
+#include "mortise/material/hardening/table.hpp"
+#include "mortise/material/hardening/voce.hpp"
+
+namespace mortise {
+
+/// Every hardening law there is. Each has yield_stress(alpha) and slope(alpha) >= 0; one that may be arbitrarily steep also plastic_strain(stress),
+/// the inverse.
+using Hardening =
+    std::variant<PerfectPlasticity, LinearHardening, LudwikHardening, SwiftHardening, VoceHardening, LinearVoceHardening, TableHardening>;
+
+/// sigma_y(alpha) [stress].
+double yield_stress(const Hardening& hardening, double alpha);
+
+/// What the return map finds.
+struct PlasticIncrement {
+  double strain = 0.0;  ///< increment of alpha; NaN: there is none
+  double slope = 0.0;   ///< d sigma_y / d alpha at the end; may be infinite
+};
+
+/// Solves trial_stress - stiffness x - sigma_y(alpha + x) = 0 for x in [0, (trial_stress - sigma_y(alpha)) / stiffness], with
+/// trial_stress > sigma_y(alpha) and stiffness = 3 G > 0. The left side falls in x: there is exactly one root. It is bracketed all the way
+/// (Alefeld, Potra, Shi 1995, TOMS 748). For laws with an inverse the unknown is the stress s, s + stiffness (alpha(s) - alpha) = trial_stress on
+/// [sigma_y(alpha), trial_stress]: x itself may be as small as 1e-42.
+PlasticIncrement return_map(const Hardening& hardening, double trial_stress, double alpha, double stiffness);
+
+/// A hardening law of a scene.
+struct HardeningOptions : Described {
+  virtual Hardening hardening() const = 0;
+};
+
+/// All hardening laws by name.
+const Registry<HardeningOptions>& hardening_registry();
+
+}  // namespace mortise

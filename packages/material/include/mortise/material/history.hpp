@@ -1,0 +1,26 @@
+#pragma once
+// Which laws remember something.
+
+#include <type_traits>
+
+namespace mortise {
+
+/// Of laws whose stress depends on the current deformation alone.
+struct NoState {};
+
+/// Law::State, what a point of the law remembers of the last converged step; NoState for laws without. The members stress, energy,
+/// stress_and_tangent of a law with a state take it as their last argument; updated(F, state) is what the next step starts from, and
+/// equivalent_plastic_strain(F, state) what it shows.
+template <class Law, class = void>
+struct StateOf {
+  using type = NoState;
+};
+template <class Law>
+struct StateOf<Law, std::void_t<typename Law::State>> {
+  using type = typename Law::State;
+};
+
+template <class Law>
+inline constexpr bool has_history = !std::is_same_v<typename StateOf<Law>::type, NoState>;
+
+}  // namespace mortise
