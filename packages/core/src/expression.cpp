@@ -4,6 +4,7 @@
 #include <muParser.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 namespace mortise {
@@ -12,8 +13,12 @@ namespace {
 // What a table's function gets as user data.
 double evaluate_table(void* table, double time) { return (*static_cast<const Table*>(table))(time); }
 
-std::string names_of(const Symbols& symbols) {
-  std::string names = "t, x, y, z, pi";
+const std::vector<std::string> time_and_position{"t", "x", "y", "z"};
+
+std::string names_of(const std::vector<std::string>& arguments, const Symbols& symbols) {
+  std::string names;
+  for (const auto& name : arguments) names += name + ", ";
+  names += "pi";
   for (const auto& [name, value] : symbols.variables) names += ", " + name;
   for (const auto& [name, table] : symbols.tables) names += ", " + name + "(t)";
   return names;
@@ -34,43 +39,53 @@ struct Expression::Parsed {
   Place place;
   bool constant = true, positional = false;
   double value = 0.0;
-  std::array<double, 4> arguments{};  // t, x, y, z
+  std::vector<double> arguments;  // never resized: the parser holds the addresses
   std::map<std::string, Table> tables;
   mu::Parser parser;
+
+  Parsed(const std::string& text, const std::vector<std::string>& names, const Symbols& symbols, const Place& where)
+      : source(text), place(where), arguments(names.size(), 0.0), tables(symbols.tables) {
+    try {
+      for (std::size_t i = 0; i < names.size(); ++i)
+        if (!names[i].empty() && !std::isdigit(static_cast<unsigned char>(names[i].front())) &&
+            names[i].find_first_not_of(parser.ValidNameChars()) == std::string::npos)
+          parser.DefineVar(names[i], &arguments[i]);
+      parser.DefineConst("pi", std::acos(-1.0));
+      for (const auto& [name, number] : symbols.variables) parser.DefineConst(name, number);
+      for (auto& [name, table] : tables) parser.DefineFunUserData(name, evaluate_table, &table);
+      parser.SetExpr(source);
+      value = parser.Eval();
+      for (const auto& [name, address] : parser.GetUsedVar()) {
+        constant = false;
+        positional |= name != "t";
+      }
+    } catch (const mu::Parser::exception_type& error) {
+      throw InputError(place, fmt::format("cannot evaluate \"{}\": {}; known names: {}", source, error.GetMsg(), names_of(names, symbols)));
+    }
+    if (constant && !std::isfinite(value)) throw InputError(place, fmt::format("\"{}\" is {}, not a finite number", source, value));
+  }
+  explicit Parsed(double number) : source(fmt::format("{}", number)), value(number) {}
 };
 
-Expression::Expression(double value) : parsed_(std::make_shared<Parsed>()) {
-  parsed_->value = value;
-  parsed_->source = fmt::format("{}", value);
+Expression::Expression(double value) : parsed_(std::make_shared<Parsed>(value)) {}
+
+Expression::Expression(const std::string& source, const Symbols& symbols, const Place& place)
+    : parsed_(std::make_shared<Parsed>(source, time_and_position, symbols, place)) {}
+
+Expression Expression::of(const std::vector<std::string>& arguments, const std::string& source, const Symbols& symbols, const Place& place) {
+  return Expression(std::make_shared<Parsed>(source, arguments, symbols, place));
 }
 
-Expression::Expression(const std::string& source, const Symbols& symbols, const Place& place) : parsed_(std::make_shared<Parsed>()) {
-  Parsed& self = *parsed_;
-  self.source = source;
-  self.place = place;
-  self.tables = symbols.tables;
-  static constexpr const char* argument_names[4] = {"t", "x", "y", "z"};
-  try {
-    for (int i = 0; i < 4; ++i) self.parser.DefineVar(argument_names[i], &self.arguments[i]);
-    self.parser.DefineConst("pi", std::acos(-1.0));
-    for (const auto& [name, value] : symbols.variables) self.parser.DefineConst(name, value);
-    for (auto& [name, table] : self.tables) self.parser.DefineFunUserData(name, evaluate_table, &table);
-    self.parser.SetExpr(source);
-    self.value = self.parser.Eval();
-    for (const auto& [name, address] : self.parser.GetUsedVar()) {
-      self.constant = false;
-      self.positional |= name != "t";
-    }
-  } catch (const mu::Parser::exception_type& error) {
-    throw InputError(place, fmt::format("cannot evaluate \"{}\": {}; known names: {}", source, error.GetMsg(), names_of(symbols)));
-  }
-  if (self.constant && !std::isfinite(self.value)) throw InputError(place, fmt::format("\"{}\" is {}, not a finite number", source, self.value));
+double Expression::at(const std::vector<double>& arguments) const {
+  if (parsed_->constant) return parsed_->value;
+  // The parser holds the addresses of these numbers.
+  std::copy(arguments.begin(), arguments.end(), parsed_->arguments.begin());
+  return parsed_->parser.Eval();
 }
 
 double Expression::operator()(double t, double x, double y, double z) const {
   if (parsed_->constant) return parsed_->value;
-  parsed_->arguments = {t, x, y, z};
-  const double value = parsed_->parser.Eval();
+  const double value = at({t, x, y, z});
   if (!std::isfinite(value))
     throw InputError(parsed_->place, fmt::format("\"{}\" is {} at t = {}, x = {}, y = {}, z = {}", parsed_->source, value, t, x, y, z));
   return value;

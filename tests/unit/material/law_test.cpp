@@ -15,7 +15,7 @@ namespace {
 constexpr double step = 1e-5;  // central differences: truncation step^2, round-off 1e-16 / step
 constexpr double bound = 1e-6;
 
-struct State {
+struct Deformation {
   std::string name;
   Matrix3 F;
 };
@@ -23,10 +23,10 @@ struct State {
 Matrix3 rotation(double angle) { return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix(); }
 
 /// Plane states with a hoop stretch: random, (nearly) equal principal stretches, large rotations.
-std::vector<State> plane_states() {
+std::vector<Deformation> plane_states() {
   std::mt19937 generator(7);
   std::uniform_real_distribution<double> uniform(-0.3, 0.3);
-  std::vector<State> states;
+  std::vector<Deformation> states;
   for (int n = 0; n < 5; ++n) {
     Matrix3 F = Matrix3::Identity();
     for (int i = 0; i < 2; ++i)
@@ -44,10 +44,10 @@ std::vector<State> plane_states() {
   return states;
 }
 
-std::vector<State> solid_states() {
-  std::vector<State> states = plane_states();
+std::vector<Deformation> solid_states() {
+  std::vector<Deformation> states = plane_states();
   const Matrix3 tilt = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, 2.0, -1.0).normalized()).toRotationMatrix();
-  for (State& state : states) state.F = tilt * state.F * tilt.transpose();
+  for (Deformation& state : states) state.F = tilt * state.F * tilt.transpose();
   return states;
 }
 
@@ -60,11 +60,11 @@ auto difference(const Function& function, const Matrix3& F, int k, int l) {
   return decltype(function(F))((function(plus) - function(minus)) / (2.0 * step));
 }
 
-/// Largest deviation of the tangent from the difference of the stress, relative to the largest entry.
+/// Largest deviation of the tangent from the difference of the stress at a history, relative to the largest entry.
 template <class Components, class AnyLaw>
-double tangent_error(const AnyLaw& law, const Matrix3& F) {
-  const auto result = law.template stress_and_tangent<Components>(F);
-  EXPECT_LE((result.stress - law.stress(F)).norm(), 1e-13 * (1.0 + result.stress.norm()));
+double tangent_error(const AnyLaw& law, const Matrix3& F, const typename AnyLaw::State& history = {}) {
+  const auto result = law.template stress_and_tangent<Components>(F, history);
+  EXPECT_LE((result.stress - law.stress(F, history)).norm(), 1e-13 * (1.0 + result.stress.norm()));
   double error = 0.0, largest = 0.0;
   for (int q = 0; q < Components::size; ++q) {
     const int k = Components::row[q], l = Components::column[q];
@@ -74,7 +74,7 @@ double tangent_error(const AnyLaw& law, const Matrix3& F) {
       L(k, l) = t;
       return AnyLaw::small_strain ? Matrix3(F + L) : Matrix3(F + L * F);
     };
-    const Matrix3 slope = (law.stress(along(step)) - law.stress(along(-step))) / (2.0 * step);
+    const Matrix3 slope = (law.stress(along(step), history) - law.stress(along(-step), history)) / (2.0 * step);
     for (int p = 0; p < Components::size; ++p) {
       const int i = Components::row[p], j = Components::column[p];
       const double geometric = AnyLaw::small_strain || j != k ? 0.0 : result.stress(i, l);
@@ -93,7 +93,7 @@ TYPED_TEST_SUITE(EveryLaw, Kinds);
 TYPED_TEST(EveryLaw, StressIsTheDerivativeOfTheEnergy) {
   for (double nu : {-0.5, 0.0, 0.3, 0.49}) {
     const TypeParam law(ElasticConstants{1000.0, nu});
-    for (const State& state : solid_states()) {
+    for (const Deformation& state : solid_states()) {
       Matrix3 P;
       for (int k = 0; k < 3; ++k)
         for (int l = 0; l < 3; ++l) P(k, l) = difference([&](const Matrix3& F) { return law.energy(F); }, state.F, k, l);
@@ -106,11 +106,11 @@ TYPED_TEST(EveryLaw, StressIsTheDerivativeOfTheEnergy) {
 TYPED_TEST(EveryLaw, TangentIsTheDerivativeOfTheStress) {
   for (double nu : {-0.5, 0.0, 0.3, 0.49}) {
     const Unconstrained<TypeParam> law{TypeParam(ElasticConstants{1000.0, nu})};
-    for (const State& state : plane_states()) {
+    for (const Deformation& state : plane_states()) {
       EXPECT_LE(tangent_error<PlaneComponents>(law, state.F), bound) << state.name << " nu " << nu;
       EXPECT_LE(tangent_error<AxisymmetricComponents>(law, state.F), bound) << state.name << " nu " << nu;
     }
-    for (const State& state : solid_states()) EXPECT_LE(tangent_error<SolidComponents>(law, state.F), bound) << state.name << " nu " << nu;
+    for (const Deformation& state : solid_states()) EXPECT_LE(tangent_error<SolidComponents>(law, state.F), bound) << state.name << " nu " << nu;
   }
 }
 
@@ -134,7 +134,7 @@ TYPED_TEST_SUITE(FiniteStrainLaw, FiniteStrainKinds);
 
 TYPED_TEST(FiniteStrainLaw, IsObjective) {
   const TypeParam law(ElasticConstants{1000.0, 0.3});
-  for (const State& state : solid_states()) {
+  for (const Deformation& state : solid_states()) {
     const Matrix3 Q = Eigen::AngleAxisd(2.0, Eigen::Vector3d(1.0, -1.0, 0.5).normalized()).toRotationMatrix();
     EXPECT_LE((law.stress(Q * state.F) - Q * law.stress(state.F) * Q.transpose()).norm(), 1e-11 * 1000.0) << state.name;
     EXPECT_LE(law.stress(Q).norm(), 1e-12 * 1000.0);
@@ -149,8 +149,8 @@ TYPED_TEST_SUITE(PlaneStressLaw, PlaneStressKinds);
 TYPED_TEST(PlaneStressLaw, HasNoStressOutOfPlaneAndTheReducedLawInPlane) {
   const ElasticConstants constants{1000.0, 0.3};
   const PlaneStress<TypeParam> law{TypeParam(constants)};
-  for (const State& state : plane_states()) {
-    const Matrix3 stress = law.stress(state.F);
+  for (const Deformation& state : plane_states()) {
+    const Matrix3 stress = law.stress(state.F, {});
     EXPECT_NEAR(stress(2, 2), 0.0, 1e-12 * 1000.0) << state.name;
     // The in-plane law with lambda* = 2 lambda mu / (lambda + 2 mu), written down on its own.
     const Eigen::Matrix2d F = state.F.topLeftCorner<2, 2>(), I = Eigen::Matrix2d::Identity();

@@ -1,7 +1,6 @@
 #pragma once
 // A scalar function of pseudo-time and reference position, given as text.
 
-#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -32,6 +31,12 @@ class Expression {
   /// Parses `source`. Throws InputError at `place` with what is wrong and what may be named.
   Expression(const std::string& source, const Symbols& symbols, const Place& place = {});
 
+  /// A function of `arguments` instead of t, x, y, z. Arguments whose names cannot stand in an expression are left out.
+  static Expression of(const std::vector<std::string>& arguments, const std::string& source, const Symbols& symbols, const Place& place = {});
+
+  /// Value at the arguments given to of(), in their order; not finite where the expression is not.
+  double at(const std::vector<double>& arguments) const;
+
   /// Value at pseudo-time t and reference position (x, y, z). Throws InputError if it is not finite.
   double operator()(double t = 0.0, double x = 0.0, double y = 0.0, double z = 0.0) const;
 
@@ -42,6 +47,7 @@ class Expression {
 
  private:
   struct Parsed;
+  explicit Expression(std::shared_ptr<Parsed> parsed) : parsed_(std::move(parsed)) {}
   std::shared_ptr<Parsed> parsed_;
 };
 
