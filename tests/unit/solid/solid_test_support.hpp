@@ -20,10 +20,15 @@
 
 namespace mortise {
 
+/// J2 plasticity that yields at 2 % of Young's modulus 1000 and hardens with a curve.
+struct YieldingMaterial : MaterialOptions {
+  Law law() const override { return FiniteJ2(elastic_constants(), SwiftHardening{20.0, 0.02, 0.3}); }
+};
+
 inline std::shared_ptr<const MaterialOptions> make_material(const std::string& law, double youngs_modulus = 1000.0, double poissons_ratio = 0.3) {
   for (const auto& entry : material_registry().entries())
     if (entry.name == law) {
-      auto material = entry.make();
+      std::shared_ptr<MaterialOptions> material = law == FiniteJ2::name ? std::make_shared<YieldingMaterial>() : entry.make();
       material->youngs_modulus = youngs_modulus;
       material->poissons_ratio = poissons_ratio;
       material->density = 2.0;
