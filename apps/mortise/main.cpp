@@ -20,7 +20,8 @@ Exit codes: 0 done, 1 usage, 2 invalid input, 3 not converged, 4 a check of the 
 }  // namespace
 
 int main(int argc, char** argv) {
-  Tpetra::ScopeGuard scope(&argc, &argv);
+  int first_word = 1;  // Kokkos would answer to --help as well
+  Tpetra::ScopeGuard scope(&first_word, &argv);
   mortise::Program program;
   program.comm = Tpetra::getDefaultComm();
   program.exit_comm = program.comm->duplicate();

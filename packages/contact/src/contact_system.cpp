@@ -152,7 +152,7 @@ ContactNorms ContactSystem::norms(const Vector& z) const {
   const Implementation& self = *implementation_;
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
   double gap = 0.0, violation = 0.0, traction = 0.0, floor = 0.0;
-  double active = 0.0, changed = 0.0;
+  double active = 0.0, changed = 0.0, squares = 0.0;
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
     const detail::PairCoupling& pair = *self.pairs[p];
     floor = std::max(floor, 1e-9 * pair.definition().youngs_modulus);
@@ -161,6 +161,7 @@ ContactNorms ContactSystem::norms(const Vector& z) const {
       const Eigen::Vector2d zs = self.z_of(values, p, s);
       const bool closed = pair.closed(s, zs);
       const Eigen::Vector2d C = self.complementarity(p, s, zs).C;
+      squares += std::pow(pair.slave_nodes()[s].weight, 2) * C.squaredNorm();
       traction = std::max(traction, zs.norm());
       violation = std::max(violation, closed ? std::abs(C[1]) : C.norm());
       if (closed) gap = std::max(gap, std::abs(pair.rows()[s].gap) / (pair.slave_nodes()[s].weight * pair.size()));
@@ -171,6 +172,7 @@ ContactNorms ContactSystem::norms(const Vector& z) const {
   ContactNorms norms;
   norms.gap = self.maximum(gap);
   norms.complementarity = self.maximum(violation) / std::max(self.maximum(traction), self.maximum(floor));
+  norms.violation = std::sqrt(self.sum(squares));
   norms.active = static_cast<int>(self.sum(active));
   norms.changed = static_cast<int>(self.sum(changed));
   Vector force(self.dofs);

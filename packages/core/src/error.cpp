@@ -51,6 +51,7 @@ std::string to_string(FailureKind kind) {
     case FailureKind::lost_contact: return "lost contact";
     case FailureKind::linear_solver: return "linear solver";
     case FailureKind::not_finite: return "not finite";
+    case FailureKind::line_search: return "line search";
     case FailureKind::diverged: return "diverged";
     case FailureKind::too_many_iterations: return "too many iterations";
     case FailureKind::cycling_active_set: return "cycling active set";

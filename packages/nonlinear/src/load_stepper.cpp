@@ -14,6 +14,8 @@ void SteppingOptions::describe(Parameters& parameters) {
   parameters.add("easy iterations", easy_iterations,
                  Says("a step that took no more Newton iterations may be followed by one twice as long").at_least(0));
   parameters.add("output times", output_times, Says("times that are hit exactly").unit("time"));
+  parameters.add("predictor", predictor, {{"none", Predictor::none}, {"linear", Predictor::linear}},
+                 "where Newton's iterations start: at the last state, or at the line through the last two, which suits motion that goes on as before");
   if (maximum_step && *maximum_step < step) parameters.error("maximum step", "is smaller than `step`");
   if (minimum_step && *minimum_step > step) parameters.error("minimum step", "is larger than `step`");
   for (const double time : output_times)
@@ -27,6 +29,7 @@ bool run_steps(SemiSmoothSystem& system, const SteppingOptions& stepping, const 
                const std::function<void(Vector& x)>& start_step, const StepperObserver& observer, std::optional<StepFailure>& last_failure) {
   StepSchedule schedule(stepping);
   Vector tried(x.getMap());
+  RCP<Vector> rate;  // of the last accepted step
   for (int step = 1; !schedule.finished(); ++step) {
     StepReport report;
     report.step = step;
@@ -36,6 +39,7 @@ bool run_steps(SemiSmoothSystem& system, const SteppingOptions& stepping, const 
       Tpetra::deep_copy(tried, x);
       try {
         if (observer.begin) observer.begin(step, report.time, report.dt);
+        if (!rate.is_null()) tried.update(report.dt, *rate, 1.0);
         if (start_step) start_step(tried);
         solve_newton(system, report.time, newton, tried, report.newton, observer.iteration);
         break;
@@ -49,6 +53,10 @@ bool run_steps(SemiSmoothSystem& system, const SteppingOptions& stepping, const 
     }
     last_failure.reset();
     system.commit(tried);
+    if (stepping.predictor == Predictor::linear) {
+      if (rate.is_null()) rate = rcp(new Vector(x.getMap()));
+      rate->update(1.0 / report.dt, tried, -1.0 / report.dt, x, 0.0);
+    }
     Tpetra::deep_copy(x, tried);
     schedule.accept(report.newton.newton_steps() <= stepping.easy_iterations);
     if (observer.accepted) observer.accepted(report, x);

@@ -4,12 +4,17 @@
 #include <NOX_Solver_Generic.H>
 #include <NOX_StatusTest_Combo.H>
 
+#include <fmt/format.h>
+
 #include <Tpetra_Vector.hpp>
 
 #include "newton_status_tests.hpp"
 #include "semi_smooth_newton_group.hpp"
 
 namespace mortise {
+
+// A semi-smooth step that has to be shorter leads nowhere: a smaller load step is cheaper.
+constexpr double smallest_step_length = 1.0 / 1024.0;
 
 void NewtonOptions::describe(Parameters& parameters) {
   parameters.add("maximum iterations", maximum_iterations, Says("Newton iterations after which the step is undone").at_least(1));
@@ -25,6 +30,12 @@ void NewtonOptions::describe(Parameters& parameters) {
                  Says("growth of |r| over its first values (or the force of the first correction) at which the step is undone").unit("-").above(1.0));
   parameters.add("cycle length", cycle_length,
                  Says("longest cycle of active sets that is looked for; a step that cycles is undone; 0 or 1: none").at_least(0));
+  parameters.add("line search", line_search, {{"none", LineSearch::none}, {"backtrack", LineSearch::backtrack}},
+                 "none: full Newton steps; backtrack: a step is halved until the residual falls, for scenes whose first corrections are far too long");
+  parameters.add("largest increment", largest_increment,
+                 Says("a correction that moves a node by more is shortened as a whole; default: corrections are taken as they are")
+                     .unit("length")
+                     .above(0.0));
 }
 
 void solve_newton(SemiSmoothSystem& system, double time, const NewtonOptions& options, Vector& x, NewtonReport& report,
@@ -32,7 +43,9 @@ void solve_newton(SemiSmoothSystem& system, double time, const NewtonOptions& op
   using NOX::StatusTest::Combo;
   system.set_time(time);
   detail::NewtonHistory history(report);
-  const auto group = rcp(new detail::SemiSmoothNewtonGroup(system, detail::nox_vector(rcp(&x, false))));
+  const bool backtrack = options.line_search == LineSearch::backtrack;
+  const detail::StepControl control{options.largest_increment, backtrack};
+  const auto group = rcp(new detail::SemiSmoothNewtonGroup(system, detail::nox_vector(rcp(&x, false)), control));
 
   const auto criteria = detail::convergence_criteria(options, system.parts().length);
   const auto converged = rcp(new Combo(Combo::AND));
@@ -44,7 +57,9 @@ void solve_newton(SemiSmoothSystem& system, double time, const NewtonOptions& op
 
   const auto list = rcp(new Teuchos::ParameterList);
   list->set("Nonlinear Solver", "Line Search Based");
-  list->sublist("Line Search").set("Method", "Full Step");
+  list->sublist("Line Search").set("Method", backtrack ? "Backtrack" : "Full Step");
+  // NOX would go on with the recovery step where no step makes the residual fall; with that of 0 it says that it failed.
+  if (backtrack) list->sublist("Line Search").sublist("Backtrack").set("Minimum Step", smallest_step_length).set("Recovery Step", 0.0);
   list->sublist("Direction").set("Method", "Newton");
   list->sublist("Printing").set("Output Information", 0);
   list->sublist("Printing").set("MyPID", system.map()->getComm()->getRank());
@@ -52,8 +67,10 @@ void solve_newton(SemiSmoothSystem& system, double time, const NewtonOptions& op
   // NOX looks at the starting point only within its first step; here it is an iterate like the others, so it is evaluated and tested first.
   group->computeF();
   const auto solver = NOX::Solver::buildSolver(group, test, list);
-  const auto observe = [&] {
-    if (observer) observer(report.iterations.back());
+  std::size_t observed = 0;
+  const auto observe = [&] {  // a step that fails leads to no new iterate
+    if (observer && report.iterations.size() > observed) observer(report.iterations.back());
+    observed = report.iterations.size();
   };
   NOX::StatusTest::StatusType status = test->checkStatus(*solver, NOX::StatusTest::Minimal);
   observe();
@@ -63,7 +80,9 @@ void solve_newton(SemiSmoothSystem& system, double time, const NewtonOptions& op
   }
   if (status != NOX::StatusTest::Converged) {
     if (give_up->reason()) throw *give_up->reason();
-    throw StepFailure(FailureKind::diverged, "NOX gave up");
+    throw StepFailure(FailureKind::line_search,
+                      fmt::format("no step of {:g} or more along the Newton direction makes the residual fall in Newton iteration {}",
+                                  smallest_step_length, report.newton_steps() + 1));
   }
   Tpetra::deep_copy(x, *detail::tpetra_vector(solver->getSolutionGroup().getX()));
 }

@@ -24,6 +24,7 @@ const std::vector<NewtonIteration>& NewtonHistory::update(const NOX::Solver::Gen
   iteration.iteration = solver.getNumIterations();
   iteration.norms = group.norms();
   iteration.increment = std::max(0.0, group.increment());
+  iteration.step_length = group.step_length();
   iteration.linear_iterations = group.linear_solve().iterations;
   iteration.seconds = now - last_time_;
   last_time_ = now;

@@ -29,9 +29,9 @@ NOX::Thyra::Vector nox_vector(const RCP<Vector>& vector) {
   return NOX::Thyra::Vector(::Thyra::createVector<Scalar, LocalOrdinal, GlobalOrdinal, NodeType>(vector, space));
 }
 
-SemiSmoothNewtonGroup::SemiSmoothNewtonGroup(SemiSmoothSystem& system, const NOX::Thyra::Vector& x)
+SemiSmoothNewtonGroup::SemiSmoothNewtonGroup(SemiSmoothSystem& system, const NOX::Thyra::Vector& x, const StepControl& control)
     : system_(&system),
-      shared_(std::make_shared<Shared>()),
+      shared_(std::make_shared<Shared>(Shared{control})),
       number_(shared_->next++),
       x_(cloned(x, NOX::DeepCopy)),
       F_(cloned(x, NOX::ShapeCopy)),
@@ -56,8 +56,9 @@ NOX::Abstract::Group& SemiSmoothNewtonGroup::operator=(const NOX::Abstract::Grou
   has_newton_ = from.has_newton_;
   if (has_F_) *F_ = *from.F_;
   if (has_newton_) *newton_ = *from.newton_;
-  norm_F_ = from.norm_F_;
   increment_ = from.increment_;
+  step_length_ = from.step_length_;
+  shortened_ = from.shortened_;
   norms_ = from.norms_;
   linear_solve_ = from.linear_solve_;
   newton_solve_ = from.newton_solve_;
@@ -70,6 +71,7 @@ void SemiSmoothNewtonGroup::become_new_iterate() {
   number_ = shared_->next++;
   has_F_ = has_newton_ = false;
   increment_ = -1.0;
+  step_length_ = shortened_ = 1.0;
   linear_solve_ = {};
 }
 
@@ -81,16 +83,24 @@ void SemiSmoothNewtonGroup::setX(const NOX::Abstract::Vector& y) {
 void SemiSmoothNewtonGroup::computeX(const NOX::Abstract::Group& group, const NOX::Abstract::Vector& direction, double step) {
   const auto& from = dynamic_cast<const SemiSmoothNewtonGroup&>(group);
   const LinearSolveReport solve = from.newton_solve_;
+  const double shortened = from.shortened_;
   become_new_iterate();
   x_->update(1.0, *from.x_, step, direction);
   increment_ = step * system_->displacement(*tpetra_vector(direction))->normInf();
+  step_length_ = step * shortened;
   linear_solve_ = solve;
 }
 
 NOX::Abstract::Group::ReturnType SemiSmoothNewtonGroup::computeF() {
   if (has_F_) return Ok;
-  system_->residual(*tpetra_vector(static_cast<const NOX::Abstract::Vector&>(*x_)), *tpetra_vector(*F_), norms_);
-  norm_F_ = F_->norm();
+  try {
+    system_->residual(*tpetra_vector(static_cast<const NOX::Abstract::Vector&>(*x_)), *tpetra_vector(*F_), norms_);
+  } catch (const StepFailure&) {  // on every rank
+    if (!shared_->control.trial || increment_ < 0.0) throw;
+    norms_ = {};
+    norms_.finite = false;
+    norms_.merit = std::numeric_limits<double>::infinity();
+  }
   has_F_ = true;
   return Ok;
 }
@@ -107,6 +117,14 @@ NOX::Abstract::Group::ReturnType SemiSmoothNewtonGroup::computeNewton(Teuchos::P
   if (has_newton_) return Ok;
   if (!has_F_ || !isJacobian()) return BadDependency;
   newton_solve_ = system_->newton_direction(*tpetra_vector(static_cast<const NOX::Abstract::Vector&>(*F_)), *tpetra_vector(*newton_));
+  shortened_ = 1.0;
+  if (const auto& limit = shared_->control.largest_increment) {
+    const double increment = system_->displacement(*tpetra_vector(static_cast<const NOX::Abstract::Vector&>(*newton_)))->normInf();
+    if (increment > *limit) {
+      shortened_ = *limit / increment;
+      newton_->scale(shortened_);
+    }
+  }
   has_newton_ = true;
   return Ok;
 }

@@ -4,7 +4,9 @@
 #include <NOX_Abstract_Group.H>
 #include <NOX_Thyra_Vector.H>
 
+#include <limits>
 #include <memory>
+#include <optional>
 
 #include "mortise/nonlinear/semi_smooth_system.hpp"
 
@@ -16,11 +18,17 @@ RCP<const Vector> tpetra_vector(const NOX::Abstract::Vector& vector);
 /// A NOX vector that shares the memory of a Tpetra vector.
 NOX::Thyra::Vector nox_vector(const RCP<Vector>& vector);
 
+/// What is done with a Newton direction beyond solving for it.
+struct StepControl {
+  std::optional<double> largest_increment;  ///< max |du| of a direction; longer ones are scaled down as a whole
+  bool trial = false;                       ///< a line search tries iterates: one that has no residual has an infinite norm instead of a failure
+};
+
 /// An iterate x = (d, z) with F(x) and, once computed, the Newton direction. All clones share one system and so one Jacobian; each iterate has
 /// a number, and the Jacobian remembers the number of the iterate it was built for. StepFailure passes through NOX.
 class SemiSmoothNewtonGroup : public NOX::Abstract::Group {
  public:
-  SemiSmoothNewtonGroup(SemiSmoothSystem& system, const NOX::Thyra::Vector& x);
+  SemiSmoothNewtonGroup(SemiSmoothSystem& system, const NOX::Thyra::Vector& x, const StepControl& control);
   SemiSmoothNewtonGroup(const SemiSmoothNewtonGroup& other, NOX::CopyType type);
   NOX::Abstract::Group& operator=(const NOX::Abstract::Group& other) override;
   RCP<NOX::Abstract::Group> clone(NOX::CopyType type = NOX::DeepCopy) const override;
@@ -39,7 +47,8 @@ class SemiSmoothNewtonGroup : public NOX::Abstract::Group {
   bool isNewton() const override { return has_newton_; }
   const NOX::Abstract::Vector& getX() const override { return *x_; }
   const NOX::Abstract::Vector& getF() const override { return *F_; }
-  double getNormF() const override { return norm_F_; }
+  /// ResidualNorms::merit, what a line search looks at: |F| itself adds forces and pressures.
+  double getNormF() const override { return norms_.merit; }
   const NOX::Abstract::Vector& getGradient() const override;
   const NOX::Abstract::Vector& getNewton() const override { return *newton_; }
   RCP<const NOX::Abstract::Vector> getXPtr() const override { return x_; }
@@ -50,11 +59,14 @@ class SemiSmoothNewtonGroup : public NOX::Abstract::Group {
   const ResidualNorms& norms() const { return norms_; }
   /// max |du| of the step that led here; negative if none did.
   double increment() const { return increment_; }
+  /// Share of the Newton direction that led here.
+  double step_length() const { return step_length_; }
   /// Of the linear solve that led here.
   const LinearSolveReport& linear_solve() const { return linear_solve_; }
 
  private:
   struct Shared {
+    StepControl control;
     unsigned long next = 1, jacobian = 0;
   };
   void become_new_iterate();
@@ -64,7 +76,8 @@ class SemiSmoothNewtonGroup : public NOX::Abstract::Group {
   unsigned long number_;
   RCP<NOX::Thyra::Vector> x_, F_, newton_;
   bool has_F_ = false, has_newton_ = false;
-  double norm_F_ = 0.0, increment_ = -1.0;
+  double increment_ = -1.0, step_length_ = 1.0;
+  double shortened_ = 1.0;  ///< share of the Newton direction that `newton_` is
   ResidualNorms norms_;
   LinearSolveReport linear_solve_, newton_solve_;
 };

@@ -177,7 +177,7 @@ void SemiSmoothSystem::residual(const Vector& x, Vector& F, ResidualNorms& norms
   const RCP<Vector> r = displacement(F);
   r->update(1.0, self.internal, 1.0, self.external, 0.0);
   double force = std::max(self.internal.norm2(), self.external.norm2());
-  double other = 0.0;
+  double other = 0.0, violation = 0.0;
   if (self.parts.contact) {
     self.evaluate_contact(*d, true);
     self.contact_force.putScalar(0.0);
@@ -189,6 +189,7 @@ void SemiSmoothSystem::residual(const Vector& x, Vector& F, ResidualNorms& norms
     const ContactNorms contact = self.parts.contact->norms(*z);
     norms.gap = contact.gap;
     norms.complementarity = contact.complementarity;
+    violation = contact.violation;
     norms.active = contact.active;
     norms.changed = contact.changed;
     norms.active_set = detail::active_set_hash(*self.parts.contact, *z, self.comm());
@@ -216,7 +217,9 @@ void SemiSmoothSystem::residual(const Vector& x, Vector& F, ResidualNorms& norms
     const auto rows = r->getLocalViewHost(Tpetra::Access::ReadWrite);
     for (std::size_t i = 0; i < self.fixed.size(); ++i) rows(self.fixed[i], 0) = self.stiffness_scale * deviation[i];
   }
-  norms.finite = std::isfinite(r->norm2()) && std::isfinite(force) && std::isfinite(other);
+  const double rows = r->norm2();
+  norms.finite = std::isfinite(rows) && std::isfinite(force) && std::isfinite(other);
+  norms.merit = norms.finite ? std::hypot(rows, violation) : std::numeric_limits<double>::infinity();
 }
 
 void SemiSmoothSystem::forces(const Vector& x, Vector& r) {

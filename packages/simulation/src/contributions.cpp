@@ -2,7 +2,7 @@
 
 namespace mortise {
 
-BulkContribution::BulkContribution(std::shared_ptr<const Bodies> bodies, const Timers& timers)
+BulkContribution::BulkContribution(std::shared_ptr<Bodies> bodies, const Timers& timers)
     : CountedContribution("bulk", timers), bodies_(std::move(bodies)) {}
 
 void BulkContribution::add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) {

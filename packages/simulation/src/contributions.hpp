@@ -35,13 +35,14 @@ class CountedContribution : public Contribution {
 /// f_int of all bodies.
 class BulkContribution final : public CountedContribution {
  public:
-  BulkContribution(std::shared_ptr<const Bodies> bodies, const Timers& timers);
+  BulkContribution(std::shared_ptr<Bodies> bodies, const Timers& timers);
   Kind kind() const override { return Kind::internal; }
   void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) override;
   void add_jacobian(const Configuration& at, Matrix& jacobian, std::optional<StepFailure>& failure) override;
+  void commit(const Configuration& at) override { bodies_->commit(at.local_displacement); }
 
  private:
-  std::shared_ptr<const Bodies> bodies_;
+  std::shared_ptr<Bodies> bodies_;
 };
 
 /// - f_ext of one load.

@@ -44,6 +44,13 @@ Values von_mises(const FieldState& state) {
   return values;
 }
 
+Values plastic_strains(const FieldState& state) {
+  Values values;
+  for (LocalOrdinal block = 0; block < static_cast<LocalOrdinal>(state.bodies.mesh()->blocks.size()); ++block)
+    for (const double strain : state.bodies.element_plastic_strains(state.local_displacement, block)) values.push_back(strain);
+  return values;
+}
+
 struct Kind {
   std::string name, sentence;
   Field::Center center;
@@ -70,7 +77,9 @@ const std::vector<Kind>& kinds() {
          return on_slave_nodes(state, 1, [](const ContactNodeState& node, double* v) { *v = node.closed ? 2.0 : 0.0; });
        }},
       {"cauchy_stress", "volume mean of the Cauchy stress of each element", Center::cell, FieldKind::symmetric_tensor, 4, stresses},
-      {"von_mises", "von Mises stress of each element's mean Cauchy stress", Center::cell, FieldKind::scalar, 1, von_mises}};
+      {"von_mises", "von Mises stress of each element's mean Cauchy stress", Center::cell, FieldKind::scalar, 1, von_mises},
+      {"equivalent_plastic_strain", "volume mean of the accumulated plastic strain of each element; 0 in elastic bodies", Center::cell,
+       FieldKind::scalar, 1, plastic_strains}};
   return all;
 }
 

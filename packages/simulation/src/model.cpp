@@ -95,17 +95,18 @@ ContactPair make_pair(const Mesh& mesh, const Bodies& bodies, const Named<Contac
 }
 
 Effects effects_of(const Scene& scene, const Bodies& bodies) {
-  std::vector<std::string> finite, small, f_bar, pairs, loads, conditions;
+  std::vector<std::string> finite, small, f_bar, plastic, pairs, loads, conditions;
   for (const auto& body : bodies.properties()) {
     const bool small_strain = std::visit([](const auto& law) { return law.small_strain; }, body.material->law());
     (small_strain ? small : finite).push_back(body.name);
     if (formulation(body.element) == ElementFormulation::f_bar) f_bar.push_back(body.name);
+    if (std::visit([](const auto& law) { return has_history<std::decay_t<decltype(law)>>; }, body.material->law())) plastic.push_back(body.name);
   }
   for (const auto& pair : scene.contact) pairs.push_back(pair.name);
   for (const auto& load : scene.loads) loads.push_back(load.name);
   for (const auto& condition : scene.boundary_conditions) conditions.push_back(condition.name);
-  return {{"finite strain", finite}, {"small strain", small}, {"F-bar", f_bar},
-          {"contact", pairs},        {"loads", loads},        {"boundary conditions", conditions}};
+  return {{"finite strain", finite}, {"small strain", small}, {"F-bar", f_bar}, {"plasticity", plastic},
+          {"contact", pairs}, {"loads", loads}, {"boundary conditions", conditions}};
 }
 
 }  // namespace
@@ -122,7 +123,8 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
     properties.push_back({body.name, body.place, material_of(scene, body.value).law.options, body.value.element});
     places.push_back(body.place);
   }
-  bodies_ = std::make_shared<const Bodies>(mesh_, scene.kinematics, scene.thickness, properties);
+  const auto bodies = std::make_shared<Bodies>(mesh_, scene.kinematics, scene.thickness, properties);
+  bodies_ = bodies;
   effects_ = effects_of(scene, *bodies_);
 
   parts_.dofs = bodies_->dofs();
@@ -132,7 +134,7 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   parts_.near_null_space = [bodies = bodies_](const Vector& displacement) {
     return NearNullSpace{rigid_body_modes(*bodies, displacement), current_coordinates(*bodies, displacement)};
   };
-  parts_.contributions.push_back(std::make_shared<BulkContribution>(bodies_, timers));
+  parts_.contributions.push_back(std::make_shared<BulkContribution>(bodies, timers));
 
   Collector collect;
   for (const auto& load : scene.loads)
@@ -168,6 +170,20 @@ std::map<std::string, long> Model::calls() const {
   std::map<std::string, long> calls;
   for (const auto& contribution : parts_.contributions) calls[contribution->name()] += static_cast<const CountedContribution&>(*contribution).calls();
   return calls;
+}
+
+std::vector<BodyHistory> Model::histories() const {
+  const auto blocks = static_cast<LocalOrdinal>(mesh_->blocks.size());
+  std::vector<double> mine(2 * blocks), all(2 * blocks);
+  for (LocalOrdinal block = 0; block < blocks; ++block) {
+    mine[2 * block] = static_cast<double>(bodies_->history_bytes(block));
+    mine[2 * block + 1] = static_cast<double>(bodies_->history_evaluations(block));
+  }
+  Teuchos::reduceAll(*mesh_->comm, Teuchos::REDUCE_SUM, 2 * blocks, mine.data(), all.data());
+  std::vector<BodyHistory> histories;
+  for (LocalOrdinal block = 0; block < blocks; ++block)
+    histories.push_back({mesh_->blocks[block].name, static_cast<long>(all[2 * block]), static_cast<long>(all[2 * block + 1])});
+  return histories;
 }
 
 }  // namespace mortise

@@ -16,7 +16,7 @@ enum class Carrier { nodes, points, slave_nodes };
 
 Carrier carrier(PointField field) {
   if (field <= PointField::displacement_magnitude) return Carrier::nodes;
-  return field <= PointField::von_mises ? Carrier::points : Carrier::slave_nodes;
+  return field <= PointField::equivalent_plastic_strain ? Carrier::points : Carrier::slave_nodes;
 }
 
 /// sqrt(3/2 s : s), s the deviator.
@@ -25,8 +25,11 @@ double von_mises(const Matrix3& stress) {
   return std::sqrt(1.5) * deviator.norm();
 }
 
-double stress_component(PointField field, const Matrix3& stress) {
+double value_at(PointField field, const MaterialPoint& point) {
+  const Matrix3& stress = point.cauchy_stress;
   switch (field) {
+    case PointField::equivalent_plastic_strain:
+      return point.equivalent_plastic_strain;
     case PointField::stress_xx:
       return stress(0, 0);
     case PointField::stress_yy:
@@ -52,10 +55,11 @@ void FieldQuantity::describe(Parameters& parameters) {
                   {"stress zz", PointField::stress_zz},
                   {"stress xy", PointField::stress_xy},
                   {"von mises", PointField::von_mises},
+                  {"equivalent plastic strain", PointField::equivalent_plastic_strain},
                   {"contact pressure", PointField::contact_pressure},
                   {"gap", PointField::gap}},
-                 "displacement at nodes, Cauchy stress at quadrature points, pressure and gap at slave nodes");
-  parameters.add("on", on, "a set of nodes or a body (displacement), a body (stress), a contact pair (pressure, gap); empty: everywhere");
+                 "displacement at nodes, Cauchy stress and accumulated plastic strain at quadrature points, pressure and gap at slave nodes");
+  parameters.add("on", on, "a set of nodes or a body (displacement), a body (stress, plastic strain), a contact pair (pressure, gap); empty: everywhere");
 }
 
 void FieldQuantity::prepare(const QuantityContext& context) {
@@ -88,7 +92,7 @@ void FieldQuantity::visit(const QuantityContext& context, const std::function<vo
     }
     case Carrier::points:
       context.bodies.visit_points(*context.local_displacement, [&](const MaterialPoint& point) {
-        if (!body_ || point.block == *body_) visit(stress_component(field, point.cauchy_stress), point.weight * point.volume_ratio);
+        if (!body_ || point.block == *body_) visit(value_at(field, point), point.weight * point.volume_ratio);
       });
       break;
     case Carrier::slave_nodes:
@@ -102,8 +106,13 @@ void FieldQuantity::visit(const QuantityContext& context, const std::function<vo
 
 void Extremum::describe(Parameters& parameters) {
   FieldQuantity::describe(parameters);
-  parameters.add("which", which, {{"maximum", Which::maximum}, {"minimum", Which::minimum}, {"maximum absolute", Which::maximum_absolute}},
-                 "which extremum");
+  parameters.add("which", which, names(), "which extremum");
+}
+
+const std::vector<std::pair<std::string, Extremum::Which>>& Extremum::names() {
+  static const std::vector<std::pair<std::string, Which>> names{
+      {"maximum", Which::maximum}, {"minimum", Which::minimum}, {"maximum absolute", Which::maximum_absolute}};
+  return names;
 }
 
 double Extremum::evaluate(const QuantityContext& context) {

@@ -19,6 +19,8 @@ const Registry<Quantity>& quantity_registry() {
     kinds.add<PeakPressure>("peak pressure", "largest contact pressure of a pair");
     kinds.add<ContactLength>("contact length", "current length of the slave surface that belongs to closed nodes");
     kinds.add<ActiveCount>("active count", "number of closed slave nodes of a pair");
+    kinds.add<FormulaQuantity>("formula", "an expression of t, the scene's variables and the quantities before it");
+    kinds.add<OverTime>("over time", "the largest or smallest value that a quantity before it had at the end of any step");
     kinds.add<Energy>("energy", "stored energy, or work done from outside");
     return kinds;
   }();

@@ -39,7 +39,7 @@ Json effects_json(const Effects& effects) {
   Json json = Json::object();
   for (const auto& [effect, members] : effects) json[effect] = members;
   // What this program does not do is said, so that a reader of summaries need not know its version.
-  for (const char* effect : {"plasticity", "friction"}) json[effect] = Json::array();
+  json["friction"] = Json::array();
   json["inertia"] = false;
   return json;
 }
@@ -67,11 +67,19 @@ Json summary(const RunRecord& record, const Model& model) {
   for (const auto& check : record.checks) json["checks"].push_back(check_json(check));
   json["time"] = record.seconds;
   json["memory_peak_mib"] = record.memory_peak_mib;
+  // By contribution, and what plasticity adds to that of the bodies. Contributions without a history are said to have none.
   json["calls"] = model.calls();
-  // History that is committed with each step; elastic bodies and frictionless pairs have none.
-  Json bytes = Json::object();
-  for (const auto& [effect, calls] : model.calls()) bytes[effect] = 0;
-  json["bytes"] = bytes;
+  json["bytes"] = Json::object();
+  for (const auto& [name, calls] : model.calls()) json["bytes"][name] = 0;
+  json["bodies"] = Json::object();
+  long bytes = 0, evaluations = 0;
+  for (const BodyHistory& history : model.histories()) {
+    json["bodies"][history.body] = {{"history_bytes", history.bytes}, {"history_evaluations", history.evaluations}};
+    bytes += history.bytes;
+    evaluations += history.evaluations;
+  }
+  json["calls"]["plasticity"] = evaluations;
+  json["bytes"]["plasticity"] = bytes;
   return json;
 }
 

@@ -25,7 +25,7 @@ struct RunRecord {
   double memory_peak_mib = 0.0;           ///< of the rank that took most
 };
 
-/// The summary with the names that docs/output.md lists.
+/// The summary with the names that docs/output.md lists. Collective.
 nlohmann::ordered_json summary(const RunRecord& record, const Model& model);
 
 }  // namespace mortise

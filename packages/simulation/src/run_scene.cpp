@@ -44,8 +44,8 @@ class Observers {
         record_(record),
         timers_(timers),
         newton_(comm, directory.file("newton.csv"),
-                {"step", "try", "time", "dt", "iteration", "momentum", "momentum_absolute", "gap", "complementarity", "increment", "active",
-                 "changed", "linear_iterations", "seconds"}),
+                {"step", "try", "time", "dt", "iteration", "momentum", "momentum_absolute", "gap", "complementarity", "increment",
+                 "step_length", "active", "changed", "linear_iterations", "seconds", "undone"}),
         history_(comm, directory.file("history.csv"), history_columns(evaluation)) {
     if (!scene.output.fields.empty()) fields_ = std::make_unique<FieldWriter>(mesh, directory.path());
     steps_ = static_cast<int>(std::ceil(scene.stepping.end_time / scene.stepping.step - 1e-9));
@@ -57,6 +57,10 @@ class Observers {
     observer.iteration = [this](const NewtonIteration& iteration) { add(iteration); };
     observer.accepted = [this](const StepReport& report, const Vector& x) { accept(report, x); };
     observer.undone = [this](const StepReport&, const StepFailure& failure) {
+      const auto count = [](int value) { return static_cast<long long>(value); };
+      if (last_iteration_.empty())  // it ended before the first residual
+        last_iteration_ = {count(step_), count(try_), time_, dt_, count(0), "", "", "", "", "", "", "", "", "", "", ""};
+      write_last_iteration(to_string(failure.kind()));
       log_.info(fmt::format("  step {} undone: {}", step_, failure.what()));
       ++try_;
     };
@@ -78,6 +82,7 @@ class Observers {
 
   void begin(int step, double time, double dt) {
     if (step != step_) try_ = 0;
+    last_iteration_.clear();
     step_ = step, time_ = time, dt_ = dt;
     log_.info(step_header(step, steps_, time, dt));
     log_.info(newton_header());
@@ -89,13 +94,36 @@ class Observers {
     if (iteration.iteration == 0) first_momentum_ = norms.momentum_absolute;
     log_.info(newton_line(iteration, first_momentum_));
     const auto count = [](int value) { return static_cast<long long>(value); };
-    newton_.row({count(step_), count(try_), time_, dt_, count(iteration.iteration), norms.momentum, norms.momentum_absolute, norms.gap,
-                 norms.complementarity, iteration.increment, count(norms.active), count(norms.changed), count(iteration.linear_iterations),
-                 iteration.seconds});
+    write_last_iteration("");
+    last_iteration_ = {count(step_),
+                       count(try_),
+                       time_,
+                       dt_,
+                       count(iteration.iteration),
+                       norms.momentum,
+                       norms.momentum_absolute,
+                       norms.gap,
+                       norms.complementarity,
+                       iteration.increment,
+                       iteration.step_length,
+                       count(norms.active),
+                       count(norms.changed),
+                       count(iteration.linear_iterations),
+                       iteration.seconds,
+                       ""};
+  }
+
+  /// An iteration's row waits for what follows, as the last one of a try that is undone says why.
+  void write_last_iteration(const std::string& undone) {
+    if (last_iteration_.empty()) return;
+    last_iteration_.back() = undone;
+    newton_.row(last_iteration_);
+    last_iteration_.clear();
   }
 
   void accept(const StepReport& report, const Vector& x) {
     const auto timer = timers_.scope("output");
+    write_last_iteration("");
     record_.steps.push_back(report);
     const auto names = evaluation_.names();
     const auto values = evaluation_.quantities(x, report.time);
@@ -127,6 +155,7 @@ class Observers {
   RunRecord& record_;
   Timers timers_;
   CsvWriter newton_, history_;
+  std::vector<CsvValue> last_iteration_;
   std::unique_ptr<FieldWriter> fields_;
   int steps_ = 0, step_ = 0, try_ = 0, written_ = 0;
   double time_ = 0.0, dt_ = 0.0, first_momentum_ = 0.0;

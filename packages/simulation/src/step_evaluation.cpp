@@ -7,13 +7,14 @@ namespace mortise {
 
 StepEvaluation::StepEvaluation(const Scene& scene, const Model& model, SemiSmoothSystem& system) : scene_(scene), model_(model), system_(system) {
   std::vector<Diagnostic> diagnostics;
-  const QuantityContext at = context();
+  QuantityContext at = context();
   for (const auto& quantity : scene_.quantities) {
     try {
       quantity.value.quantity.options->prepare(at);
     } catch (const InputError& error) {
       diagnostics.insert(diagnostics.end(), error.diagnostics().begin(), error.diagnostics().end());
     }
+    at.earlier.push_back(quantity.name);
   }
   throw_if_any(*model_.mesh()->comm, diagnostics);
 }
@@ -28,6 +29,7 @@ QuantityContext StepEvaluation::context() const {
   QuantityContext context{*model_.bodies(), model_.contact().get(), {}};
   for (const auto& pair : scene_.contact) context.pairs.push_back({pair.name, pair.value.slave.value, pair.value.master.value});
   context.prescribed = &model_.parts().prescribed->dofs();
+  context.symbols = &scene_.symbols;
   return context;
 }
 
@@ -59,9 +61,12 @@ std::vector<double> StepEvaluation::quantities(const Vector& x, double time) {
   context.multipliers = multipliers.get();
   context.reaction = &reaction;
   context.external_force = &external;
-  std::vector<double> values;
-  for (const auto& quantity : scene_.quantities) values.push_back(quantity.value.quantity.options->evaluate(context));
-  return values;
+  for (const auto& quantity : scene_.quantities) {
+    const double value = quantity.value.quantity.options->evaluate(context);
+    context.earlier.push_back(quantity.name);
+    context.earlier_values.push_back(value);
+  }
+  return context.earlier_values;
 }
 
 std::vector<Field> StepEvaluation::fields(const Vector& x, const std::vector<std::string>& names) {

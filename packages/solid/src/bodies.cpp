@@ -62,6 +62,8 @@ void Bodies::commit(const Vector& local_displacement) {
 
 std::size_t Bodies::history_bytes(LocalOrdinal block) const { return blocks_.at(block)->history_bytes(); }
 
+long Bodies::history_evaluations(LocalOrdinal block) const { return blocks_.at(block)->history_evaluations(); }
+
 void Bodies::visit_points(const Vector& local_displacement, const std::function<void(const MaterialPoint&)>& visit) const {
   const HostReadView displacement(local_displacement);
   for (std::size_t n = 0; n < blocks_.size(); ++n) blocks_[n]->visit_points(displacement.data(), mesh_->blocks[n].owned, visit);

@@ -27,6 +27,7 @@ class KernelBlock final : public ElementBlock {
   }
 
   void add_internal_force(const double* displacement, double* force, std::optional<StepFailure>& failure) const override {
+    count_history_evaluation();
     typename Kernel::Stiffness unused;
     for (LocalOrdinal element = 0; element < context_.block.size(); ++element) {
       const LocalOrdinal* node = context_.block.nodes(element);
@@ -41,6 +42,7 @@ class KernelBlock final : public ElementBlock {
   }
 
   void add_stiffness(const double* displacement, const NodalSparsity::Values& matrix, std::optional<StepFailure>& failure) const override {
+    count_history_evaluation();
     for (LocalOrdinal element = 0; element < context_.block.size(); ++element) {
       const LocalOrdinal* node = context_.block.nodes(element);
       if (!touches_owned(node)) continue;
@@ -75,6 +77,7 @@ class KernelBlock final : public ElementBlock {
   }
 
   void commit([[maybe_unused]] const double* displacement) override {
+    count_history_evaluation();
     if constexpr (Kernel::history)
       for (LocalOrdinal element = 0; element < context_.block.size(); ++element) {
         const LocalOrdinal* node = context_.block.nodes(element);
@@ -83,6 +86,7 @@ class KernelBlock final : public ElementBlock {
   }
 
   std::size_t history_bytes() const override { return history_.capacity() * sizeof(typename Kernel::States); }
+  long history_evaluations() const override { return history_evaluations_; }
 
   void add_nodal_volumes(std::vector<double>& volumes) const override {
     for (LocalOrdinal element = 0; element < context_.block.size(); ++element) {
@@ -108,6 +112,10 @@ class KernelBlock final : public ElementBlock {
     for (int a = 0; a < nodes; ++a)
       if (node[a] < owned_nodes_) return true;
     return false;
+  }
+
+  void count_history_evaluation() const {
+    if constexpr (Kernel::history) ++history_evaluations_;
   }
 
   Positions reference(const LocalOrdinal* node) const {
@@ -147,6 +155,7 @@ class KernelBlock final : public ElementBlock {
   Kernel kernel_;
   LocalOrdinal owned_nodes_;
   std::vector<typename Kernel::States> history_;  ///< [elements] of the last committed step; empty for laws without a history
+  mutable long history_evaluations_ = 0;
   std::vector<LocalOrdinal> positions_;           ///< [elements x nodes x nodes] NodalSparsity::position
 };
 

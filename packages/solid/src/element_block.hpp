@@ -28,6 +28,7 @@ class ElementBlock {
   virtual void visit_points(const double* displacement, LocalOrdinal count, const std::function<void(const MaterialPoint&)>& visit) const = 0;
   virtual void commit(const double* displacement) = 0;
   virtual std::size_t history_bytes() const = 0;
+  virtual long history_evaluations() const = 0;
   /// volumes[owned node] += integral of N_a dV0.
   virtual void add_nodal_volumes(std::vector<double>& volumes) const = 0;
   /// The element with the smallest det dX/dxi and that value; element -1 if the block is empty.

@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 
+#include "mortise/mesh/build_mesh.hpp"
 #include "mortise/mesh/sets.hpp"
 
 namespace mortise {
@@ -16,7 +17,10 @@ namespace {
 /// Two conditions on one dof must agree; they are compared at these pseudo-times.
 constexpr double compared_times[] = {0.0, 0.37, 1.0};
 
-bool agree(double a, double b) { return a == b || std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b)); }
+/// To the round-off of positions in a model of size `length`, from which values may be made.
+bool agree(double a, double b, double length) {
+  return a == b || std::abs(a - b) <= 1e-12 * std::max({std::abs(a), std::abs(b), length});
+}
 
 }  // namespace
 
@@ -28,6 +32,7 @@ void BoundaryConditionOptions::describe(Parameters& parameters) {
 
 PrescribedMotion::PrescribedMotion(const Bodies& bodies, const std::vector<Named<BoundaryConditionOptions>>& conditions) {
   const Mesh& mesh = *bodies.mesh();
+  const double length = mesh_size(mesh).length;
   std::vector<Diagnostic> diagnostics;
   struct Prescribed {
     Source source;
@@ -51,7 +56,7 @@ PrescribedMotion::PrescribedMotion(const Bodies& bodies, const std::vector<Named
           const auto [other, is_new] = prescribed.try_emplace(2 * node + component, Prescribed{source, n});
           if (is_new) continue;
           const bool same = std::all_of(std::begin(compared_times), std::end(compared_times),
-                                        [&](double t) { return agree(value(source, t), value(other->second.source, t)); });
+                                        [&](double t) { return agree(value(source, t), value(other->second.source, t), length); });
           if (same) continue;
           const auto& first = conditions[other->second.condition];
           diagnostics.push_back({condition.place, fmt::format("boundary conditions \"{}\" ({}:{}) and \"{}\" prescribe {} differently at the node of "

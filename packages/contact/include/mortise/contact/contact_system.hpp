@@ -39,6 +39,7 @@ struct ContactNorms {
   double gap = 0.0;              ///< max |g_j| / (A_j h) over closed nodes
   double complementarity = 0.0;  ///< max |C| relative to max |z| (with a floor)
   double force = 0.0;            ///< |f_c|
+  double violation = 0.0;        ///< |A_j C_j| over all nodes [force]
   int active = 0;                ///< closed nodes
   int changed = 0;               ///< nodes whose state is not that of the last committed Newton iterate
 };

@@ -55,6 +55,7 @@ enum class FailureKind {
   lost_contact,          ///< closed nodes that moved beyond the reach of their master surface
   linear_solver,         ///< true residual of a linear solve too large, or a singular matrix
   not_finite,            ///< NaN or Inf
+  line_search,           ///< no step along the Newton direction makes the residual smaller
   diverged,
   too_many_iterations,
   cycling_active_set

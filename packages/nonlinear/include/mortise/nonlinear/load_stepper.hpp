@@ -10,6 +10,12 @@
 
 namespace mortise {
 
+/// Where the Newton iterations of a step start.
+enum class Predictor {
+  none,   ///< at the last accepted state
+  linear  ///< at the line through the last two accepted states: points that flow start flowing
+};
+
 /// Pseudo-time and its steps.
 struct SteppingOptions {
   double end_time = 1.0;
@@ -18,6 +24,7 @@ struct SteppingOptions {
   std::optional<double> minimum_step;  ///< default: step / 1024
   int easy_iterations = 6;             ///< a step that took no more may be followed by one twice as long
   std::vector<double> output_times;    ///< hit exactly
+  Predictor predictor = Predictor::linear;
   void describe(Parameters& parameters);
 };
 

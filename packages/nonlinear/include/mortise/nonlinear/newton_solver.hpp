@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,12 @@
 #include "mortise/nonlinear/semi_smooth_system.hpp"
 
 namespace mortise {
+
+/// What is done with a Newton direction.
+enum class LineSearch {
+  none,      ///< the full step
+  backtrack  ///< halved until ResidualNorms::merit falls and no element is turned inside out
+};
 
 /// When a Newton solve is done, and when it is given up.
 struct NewtonOptions {
@@ -21,6 +28,8 @@ struct NewtonOptions {
   double increment_tolerance = 1e-8;        ///< |du|_max / size of the model
   double divergence = 1e8;                  ///< growth of |r| over max(|r_0|, |r_1|, s |du_1|) at which the solve is given up
   int cycle_length = 6;                     ///< longest cycle of active sets that is looked for
+  LineSearch line_search = LineSearch::none;
+  std::optional<double> largest_increment;  ///< [length] of any displacement in one iteration; longer corrections are shortened
   void describe(Parameters& parameters);
 };
 
@@ -29,6 +38,7 @@ struct NewtonIteration {
   int iteration = 0;
   ResidualNorms norms;
   double increment = 0.0;  ///< max |du|; 0 in iteration 0
+  double step_length = 1.0;  ///< share of the Newton direction that was taken
   int linear_iterations = 0;
   double seconds = 0.0;
 };

@@ -18,6 +18,13 @@ namespace mortise {
 /// Which effect is on for what: ("finite strain", bodies), ("contact", pairs), ... in the order in which they are shown.
 using Effects = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
+/// What a body remembers between the steps, over all ranks. Ranks remember their ghost elements as well.
+struct BodyHistory {
+  std::string body;
+  long bytes = 0;
+  long evaluations = 0;  ///< of forces, stiffness and history by code that knows of history
+};
+
 /// Everything that a run solves for and with.
 class Model {
  public:
@@ -43,6 +50,9 @@ class Model {
 
   /// How often each contribution has been evaluated on this rank, by its name.
   std::map<std::string, long> calls() const;
+
+  /// Of all bodies, in the order of the scene. Collective.
+  std::vector<BodyHistory> histories() const;
 
  private:
   RCP<const Mesh> mesh_;

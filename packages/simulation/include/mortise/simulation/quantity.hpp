@@ -28,6 +28,9 @@ struct QuantityContext {
   const Vector* reaction = nullptr;            ///< f_int - f_ext + f_c on owned dofs: on prescribed ones the force of the support on the body
   const Vector* external_force = nullptr;      ///< f_ext on owned dofs
   const std::vector<LocalOrdinal>* prescribed = nullptr;  ///< prescribed owned dofs
+  const Symbols* symbols = nullptr;                       ///< variables and tables of the scene
+  std::vector<std::string> earlier;                       ///< quantities that the scene names before this one
+  std::vector<double> earlier_values;                     ///< theirs at this time; empty while quantities are prepared
 
   const Mesh& mesh() const { return *bodies.mesh(); }
 };

@@ -56,6 +56,7 @@ enum class PointField {
   stress_zz,
   stress_xy,
   von_mises,
+  equivalent_plastic_strain,
   contact_pressure,
   gap
 };
@@ -78,6 +79,7 @@ struct FieldQuantity : Quantity {
 
 struct Extremum : FieldQuantity {
   enum class Which { maximum, minimum, maximum_absolute };
+  static const std::vector<std::pair<std::string, Which>>& names();
   Which which = Which::maximum;
   void describe(Parameters& parameters) override;
   double evaluate(const QuantityContext& context) override;
@@ -166,6 +168,30 @@ struct ContactLength : PairQuantity {
 /// Number of closed slave nodes.
 struct ActiveCount : PairQuantity {
   double evaluate(const QuantityContext& context) override;
+};
+
+/// A formula of t, the scene's variables and the quantities that the scene names before this one. Not a number where the formula has no value.
+struct FormulaQuantity : Quantity {
+  Located<std::string> value;
+  void describe(Parameters& parameters) override;
+  void prepare(const QuantityContext& context) override;
+  double evaluate(const QuantityContext& context) override;
+
+ private:
+  std::optional<Expression> formula_;
+};
+
+/// The largest or smallest value that another quantity had at the end of any step so far; steps at which it was not a number are left out.
+struct OverTime : Quantity {
+  Located<std::string> quantity;  ///< named before this one
+  Extremum::Which which = Extremum::Which::maximum;
+  void describe(Parameters& parameters) override;
+  void prepare(const QuantityContext& context) override;
+  double evaluate(const QuantityContext& context) override;
+
+ private:
+  std::size_t index_ = 0;
+  std::optional<double> extreme_;
 };
 
 /// Stored energy of a body or of all, or the work that loads and supports have done since the start (trapezoidal rule over the steps). [work]

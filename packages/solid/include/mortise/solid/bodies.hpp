@@ -71,6 +71,9 @@ class Bodies {
   /// Bytes that the history of a body takes on this rank; 0 for laws without.
   std::size_t history_bytes(LocalOrdinal block) const;
 
+  /// How often the forces, the stiffness or the history of a body with a history were computed on this rank; 0 for laws without.
+  long history_evaluations(LocalOrdinal block) const;
+
   /// Calls `visit` for each quadrature point of each owned element, in order.
   void visit_points(const Vector& local_displacement, const std::function<void(const MaterialPoint&)>& visit) const;
 
