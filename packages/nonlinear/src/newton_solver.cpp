@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <Teuchos_oblackholestream.hpp>
 #include <Tpetra_Vector.hpp>
 
 #include "newton_status_tests.hpp"
@@ -62,6 +63,9 @@ void solve_newton(SemiSmoothSystem& system, double time, const NewtonOptions& op
   if (backtrack) list->sublist("Line Search").sublist("Backtrack").set("Minimum Step", smallest_step_length).set("Recovery Step", 0.0);
   list->sublist("Direction").set("Method", "Newton");
   list->sublist("Printing").set("Output Information", 0);
+  const RCP<std::ostream> nowhere = rcp(new Teuchos::oblackholestream);  // what fails is thrown
+  list->sublist("Printing").set("Output Stream", nowhere);
+  list->sublist("Printing").set("Error Stream", nowhere);
   list->sublist("Printing").set("MyPID", system.map()->getComm()->getRank());
 
   // NOX looks at the starting point only within its first step; here it is an iterate like the others, so it is evaluated and tested first.

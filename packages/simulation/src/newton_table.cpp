@@ -9,14 +9,13 @@ std::string step_header(int step, int steps, double time, double dt) {
                    : fmt::format("step {}  t={:.6g}  dt={:.6g}", step, time, dt);
 }
 
-std::string newton_header() { return " it   |r|/|r0|    |gap|     |du|    active  changed   lin      s"; }
+std::string newton_header() { return " it     |r|/|f|    |gap|     |du|    active  changed   lin      s"; }
 
-std::string newton_line(const NewtonIteration& iteration, double first_momentum) {
+std::string newton_line(const NewtonIteration& iteration) {
   const auto& norms = iteration.norms;
-  const double relative = first_momentum > 0.0 ? norms.momentum_absolute / first_momentum : norms.momentum_absolute;
   const std::string increment = iteration.iteration == 0 ? "-" : fmt::format("{:.1e}", iteration.increment);
   const std::string linear = iteration.linear_iterations == 0 ? "-" : fmt::format("{}", iteration.linear_iterations);
-  return fmt::format("{:3d}   {:.2e}   {:.1e}  {:>8}   {:6d}   {:6d}  {:>4}  {:5.2f}", iteration.iteration, relative, norms.gap, increment,
+  return fmt::format("{:3d}   {:.2e}   {:.1e}  {:>8}   {:6d}   {:6d}  {:>4}  {:5.2f}", iteration.iteration, norms.momentum, norms.gap, increment,
                      norms.active, norms.changed, linear, iteration.seconds);
 }
 

@@ -91,8 +91,7 @@ class Observers {
   void add(const NewtonIteration& iteration) {
     const auto timer = timers_.scope("output");
     const auto& norms = iteration.norms;
-    if (iteration.iteration == 0) first_momentum_ = norms.momentum_absolute;
-    log_.info(newton_line(iteration, first_momentum_));
+    log_.info(newton_line(iteration));
     const auto count = [](int value) { return static_cast<long long>(value); };
     write_last_iteration("");
     last_iteration_ = {count(step_),
@@ -158,7 +157,7 @@ class Observers {
   std::vector<CsvValue> last_iteration_;
   std::unique_ptr<FieldWriter> fields_;
   int steps_ = 0, step_ = 0, try_ = 0, written_ = 0;
-  double time_ = 0.0, dt_ = 0.0, first_momentum_ = 0.0;
+  double time_ = 0.0, dt_ = 0.0;
 };
 
 ExitCode exit_code(const RunRecord& record) {

@@ -106,7 +106,9 @@ TEST(Stepper, StopsAtTheSmallestStepWithTheLastGoodState) {
 TEST(Stepper, EachTryStartsFromTheLastGoodStateAndMayPrepareIt) {
   Problem problem(Tpetra::getDefaultComm(), moved(0.3));
   int calls = 0;
-  const Walk result = walk(problem, {}, [&](Vector& x) {
+  SteppingOptions stepping;
+  stepping.predictor = Predictor::none;
+  const Walk result = walk(problem, stepping, [&](Vector& x) {
     ++calls;
     Vector difference(x, Teuchos::Copy);
     difference.update(-1.0, problem.brittle->committed, 1.0);
@@ -114,6 +116,36 @@ TEST(Stepper, EachTryStartsFromTheLastGoodStateAndMayPrepareIt) {
     x.putScalar(0.0);  // a poor guess, which a failed try must not leave behind
   });
   EXPECT_EQ(calls, result.begun);
+}
+
+// The line through the last two states, also where the next step is of another length.
+TEST(Stepper, ALinearPredictorContinuesTheLastStep) {
+  Problem plain(Tpetra::getDefaultComm(), moved(1e30)), predicted(Tpetra::getDefaultComm(), moved(1e30));
+  SteppingOptions stepping;
+  stepping.step = 0.2;
+  stepping.output_times = {0.5};
+  stepping.predictor = Predictor::none;
+  const Walk without = walk(plain, stepping);
+  stepping.predictor = Predictor::linear;
+  // The states of the last two commits, seen when the step after them starts.
+  std::vector<Vector> states{Vector(predicted.x->getMap())};
+  const std::vector<double> times{0.0, 0.2, 0.4, 0.5, 0.7, 0.9, 1.0};
+  const Walk with = walk(predicted, stepping, [&](Vector& x) {
+    const std::size_t done = predicted.brittle->times.size();
+    if (done == 0) return;
+    states.emplace_back(predicted.brittle->committed, Teuchos::Copy);
+    const double ratio = (times.at(done + 1) - times[done]) / (times[done] - times[done - 1]);
+    Vector expected(states[done], Teuchos::Copy);
+    expected.update(-ratio, states[done - 1], 1.0 + ratio);
+    expected.update(-1.0, x, 1.0);
+    EXPECT_LE(expected.normInf(), 1e-14);
+  });
+  int steps_without = 0, steps_with = 0;
+  for (const auto& report : without.accepted) steps_without += report.newton.newton_steps();
+  for (const auto& report : with.accepted) steps_with += report.newton.newton_steps();
+  EXPECT_LT(steps_with, steps_without);
+  plain.x->update(-1.0, *predicted.x, 1.0);
+  EXPECT_LE(plain.x->normInf(), 1e-7);
 }
 
 // A start that throws is a failed try like any other.

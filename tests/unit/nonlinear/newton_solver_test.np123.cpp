@@ -183,6 +183,67 @@ TEST(Newton, FailuresOfTheLinearSolverPassThroughNox) {
   EXPECT_EQ(failure_of(problem, {}, report), FailureKind::linear_solver);
 }
 
+// Under a large load at once full steps turn springs inside out; shorter ones go around.
+TEST(Newton, BacktrackingArrivesWhereFullStepsDoNot) {
+  Problem::Choices choices = loaded();
+  choices.force = {1.0, 0.2};
+  Problem full(Tpetra::getDefaultComm(), choices), searched(Tpetra::getDefaultComm(), choices);
+  NewtonOptions options;
+  options.maximum_iterations = 60;
+  NewtonReport report;
+  EXPECT_EQ(failure_of(full, options, report), FailureKind::inverted_element);
+  options.line_search = LineSearch::backtrack;
+  const NewtonReport found = solve(searched, options);
+  double shortest = 1.0;
+  for (std::size_t k = 1; k < found.iterations.size(); ++k) {
+    EXPECT_LT(found.iterations[k].norms.merit, found.iterations[k - 1].norms.merit);
+    shortest = std::min(shortest, found.iterations[k].step_length);
+  }
+  EXPECT_LT(shortest, 1.0);
+  EXPECT_EQ(found.iterations.back().step_length, 1.0);  // quadratic in the end
+  EXPECT_LE(found.iterations.back().norms.momentum, options.momentum_tolerance);
+}
+
+TEST(Newton, BacktrackingChangesNothingWhereFullStepsFall) {
+  Problem full(Tpetra::getDefaultComm(), moved()), searched(Tpetra::getDefaultComm(), moved());
+  NewtonOptions options;
+  options.line_search = LineSearch::backtrack;
+  EXPECT_EQ(solve(full).newton_steps(), solve(searched, options).newton_steps());
+  full.x->update(-1.0, *searched.x, 1.0);
+  EXPECT_LE(full.x->normInf(), 1e-14);
+}
+
+TEST(Newton, ALineSearchThatFindsNothingIsAFailureOfItsOwn) {
+  Problem::Choices choices = moved();
+  choices.reach = 1e-5;  // less than a thousandth of the motion
+  Problem problem(Tpetra::getDefaultComm(), choices);
+  NewtonOptions options;
+  options.line_search = LineSearch::backtrack;
+  std::vector<int> seen;
+  NewtonReport report;
+  try {
+    solve_newton(*problem.system, 1.0, options, *problem.x, report, [&](const NewtonIteration& iteration) { seen.push_back(iteration.iteration); });
+    FAIL() << "converged";
+  } catch (const StepFailure& failure) {
+    EXPECT_EQ(failure.kind(), FailureKind::line_search) << failure.what();
+  }
+  EXPECT_EQ(seen, std::vector<int>{0});
+}
+
+TEST(Newton, CorrectionsAreShortenedToTheLargestIncrement) {
+  Problem free(Tpetra::getDefaultComm(), moved()), limited(Tpetra::getDefaultComm(), moved());
+  solve(free);
+  NewtonOptions options;
+  options.largest_increment = 0.2;
+  options.maximum_iterations = 40;
+  const NewtonReport report = solve(limited, options);
+  EXPECT_LT(report.iterations[1].step_length, 1.0);
+  for (const auto& iteration : report.iterations) EXPECT_LE(iteration.increment, 0.2 * (1.0 + 1e-14));
+  EXPECT_EQ(report.iterations.back().step_length, 1.0);
+  free.x->update(-1.0, *limited.x, 1.0);
+  EXPECT_LE(free.x->normInf(), 1e-7);  // increments are converged to 1e-8 of the model's size of 5
+}
+
 TEST(Newton, NotFiniteIsAFailure) {
   Problem::Choices choices = loaded();
   choices.force = {std::numeric_limits<double>::quiet_NaN(), 0.0};

@@ -13,8 +13,8 @@ std::string step_header(int step, int steps, double time, double dt);
 /// Names of the table's columns.
 std::string newton_header();
 
-/// One line per iteration; `first_momentum` is |r| of iteration 0, which |r|/|r0| refers to.
-std::string newton_line(const NewtonIteration& iteration, double first_momentum);
+/// One line per iteration; |r|/|f| is ResidualNorms::momentum, the number that has a tolerance.
+std::string newton_line(const NewtonIteration& iteration);
 
 /// What a finished step says: iterations and time.
 std::string step_footer(const StepReport& report);
