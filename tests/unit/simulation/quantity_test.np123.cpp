@@ -279,6 +279,56 @@ struct Entry {
   void describe(Parameters& parameters) { parameters.choose(quantity, quantity_registry(), "the kind of quantity"); }
 };
 
+TEST(Derived, AFormulaKnowsTimeVariablesAndEarlierQuantities) {
+  TwoBlocks blocks;
+  Symbols symbols;
+  symbols.variables["length"] = 4.0;
+  QuantityContext context = blocks.context(0.5);
+  context.symbols = &symbols;
+  context.earlier = {"first", "with a space", "second"};
+  FormulaQuantity formula;
+  formula.value = {"second/length + t*first", {}};
+  formula.prepare(context);
+  context.earlier_values = {3.0, 100.0, 8.0};
+  EXPECT_DOUBLE_EQ(formula.evaluate(context), 2.0 + 1.5);
+  formula.value = {"first/(second - 8)", {}};
+  formula.prepare(context);
+  EXPECT_TRUE(std::isnan(formula.evaluate(context)));
+  formula.value = {"third", {"scene.xml", 7, "quantities/third"}};
+  const std::string message = input_error([&] { formula.prepare(context); });
+  EXPECT_THAT(message, HasSubstr("scene.xml:7"));
+  EXPECT_THAT(message, HasSubstr("known names: t, first"));
+}
+
+TEST(Derived, ExtremesOverTimeSkipWhatIsNoNumber) {
+  TwoBlocks blocks;
+  QuantityContext context = blocks.context();
+  context.earlier = {"force"};
+  const std::vector<double> history{std::nan(""), -2.0, 3.0, std::nan(""), -5.0, 1.0};
+  const auto extreme = [&](Extremum::Which which) {
+    OverTime quantity;
+    quantity.quantity = {"force", {}};
+    quantity.which = which;
+    std::vector<double> values;
+    for (int run = 0; run < 2; ++run) {  // prepare() starts anew
+      quantity.prepare(context);
+      values.clear();
+      for (const double value : history) {
+        context.earlier_values = {value};
+        values.push_back(quantity.evaluate(context));
+      }
+    }
+    EXPECT_TRUE(std::isnan(values[0]));
+    return std::vector<double>(values.begin() + 1, values.end());
+  };
+  EXPECT_EQ(extreme(Extremum::Which::maximum), (std::vector<double>{-2.0, 3.0, 3.0, 3.0, 3.0}));
+  EXPECT_EQ(extreme(Extremum::Which::minimum), (std::vector<double>{-2.0, -2.0, -2.0, -5.0, -5.0}));
+  EXPECT_EQ(extreme(Extremum::Which::maximum_absolute), (std::vector<double>{2.0, 3.0, 3.0, 5.0, 5.0}));
+  OverTime unknown;
+  unknown.quantity = {"forse", {"scene.xml", 9, ""}};
+  EXPECT_THAT(input_error([&] { unknown.prepare(context); }), HasSubstr("did you mean \"force\"?"));
+}
+
 TEST(Registry, AnErrorNormIsReadWithItsExactSolution) {
   const auto read = [](const std::string& field, Entry& entry) {
     const std::string text =
