@@ -56,7 +56,7 @@ TEST(PointDriver, UniaxialPlasticityIsTheCurveOfTheHardeningLaw) {
       }
 }
 
-TEST(PointDriver, UniaxialElasticityIsHookesLawInTheLawsOwnStrain) {
+TEST(PointDriver, UniaxialElasticityIsTheClosedForm) {
   const double E = soft.youngs_modulus, nu = soft.poissons_ratio;
   for (const double final_stretch : {1.6, 0.7}) {
     UniaxialPath path;
@@ -65,6 +65,11 @@ TEST(PointDriver, UniaxialElasticityIsHookesLawInTheLawsOwnStrain) {
     for (const PointRecord& record : drive(Hencky(soft), path)) {
       EXPECT_NEAR(record.kirchhoff(0, 0), E * std::log(record.F(0, 0)), 1e-10 * E);
       EXPECT_NEAR(record.F(1, 1), std::pow(record.F(0, 0), -nu), 1e-10);
+    }
+    for (const PointRecord& record : drive(NeoHooke(soft), path)) {
+      const double stretch = record.F(0, 0);
+      EXPECT_NEAR(record.kirchhoff(0, 0), soft.shear_modulus() * (stretch * stretch - std::pow(stretch, -2.0 * nu)), 1e-10 * E);
+      EXPECT_NEAR(record.F(1, 1), std::pow(stretch, -nu), 1e-10);
     }
     for (const PointRecord& record : drive(SmallStrainLinear(soft), path)) {
       EXPECT_NEAR(record.cauchy(0, 0), E * (record.F(0, 0) - 1.0), 1e-10 * E);
