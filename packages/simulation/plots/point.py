@@ -9,10 +9,15 @@ indices = "".join("₀₁₂₃"[int(digit)] for digit in component)
 strain, alpha = column("strain_" + component), column("equivalent_plastic_strain")
 
 figure, axes = panels(2 if any(alpha) else 1, title)
-axes[0].plot(strain, column("cauchy_" + component), label=f"Cauchy stress σ{indices}")
-axes[0].plot(strain, column("von_mises"), label="von Mises stress")
-axes[0].set_ylabel("stress" + (f" / {unit}" if unit else ""))
-axes[0].legend()
+stress, von_mises = column("cauchy_" + component), column("von_mises")
+name = f"Cauchy stress σ{indices}"
+axes[0].plot(strain, stress, label=name)
+# Of one stress alone von Mises' is its size.
+if any(abs(one - abs(other)) > 1e-6 * max(von_mises) for one, other in zip(von_mises, stress)):
+    axes[0].plot(strain, von_mises, label="von Mises stress")
+    axes[0].legend()
+    name = "stress"
+axes[0].set_ylabel(name + (f" / {unit}" if unit else ""))
 if any(alpha):
     axes[1].plot(strain, alpha)
     axes[1].set_ylabel("equivalent plastic strain α")
