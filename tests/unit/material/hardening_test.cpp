@@ -92,6 +92,23 @@ TEST(ReturnMap, IsTheClosedFormOfLinearHardening) {
   EXPECT_NEAR(return_map(PerfectPlasticity{10.0}, 14.0, 0.02, 1200.0).strain, 4.0 / 1200.0, 1e-16);
 }
 
+TEST(ReturnMap, MeetsTheYieldConditionFromAnyState) {
+  // q_tr - 3 G x = sigma_y(alpha + x) to round-off, alpha over 12 decades and the excess over 12.
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> decades(0.0, 1.0);
+  const double stiffness = 3.0 * soft.shear_modulus();
+  for (const auto& [name, law] : every_hardening())
+    for (int n = 0; n < 2000; ++n) {
+      const double alpha = std::pow(10.0, -12.0 + 12.5 * decades(generator)), yield = yield_stress(law, alpha);
+      const double trial = yield * (1.0 + std::pow(10.0, -10.0 + 12.0 * decades(generator)));
+      const PlasticIncrement found = return_map(law, trial, alpha, stiffness);
+      EXPECT_GE(found.strain, 0.0) << name;
+      EXPECT_LE(found.strain, (trial - yield) / stiffness * (1.0 + 1e-12)) << name;
+      EXPECT_NEAR(trial - stiffness * found.strain, yield_stress(law, alpha + found.strain), 1e-13 * trial) << name << " alpha " << alpha;
+      EXPECT_EQ(found.slope, slope_of(law, alpha + found.strain)) << name;
+    }
+}
+
 TEST(ReturnMap, FindsNothingForAStressThatIsNotFinite) {
   for (const auto& [name, law] : every_hardening()) {
     EXPECT_TRUE(std::isnan(return_map(law, std::numeric_limits<double>::quiet_NaN(), 0.0, 1200.0).strain)) << name;
