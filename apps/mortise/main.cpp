@@ -12,6 +12,7 @@ constexpr const char* examples = R"(Examples:
   mortise run inputs/paper/hertz_elastic.xml --set variables/n=8 -o fine
   mpirun -n 4 mortise run inputs/paper/hertz_elastic.xml     the same in parallel
   mortise check scene.xml                                    reads, meshes, lists the effects; solves nothing
+  mortise point inputs/tutorial/point_steel.xml              stress-strain curve of one material point
   mortise describe contact                                   every parameter with default, unit and meaning
   mortise list materials
 
@@ -32,6 +33,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   mortise::add_run_command(app, program);
   mortise::add_check_command(app, program);
+  mortise::add_point_command(app, program);
   mortise::add_describe_command(app, program);
   mortise::add_list_command(app, program);
   mortise::add_doctor_command(app, program);

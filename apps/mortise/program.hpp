@@ -10,6 +10,8 @@
 
 namespace mortise {
 
+struct RunOptions;
+
 /// One run of the program: the command line selects the action, main runs it.
 struct Program {
   RCP<const Communicator> comm;
@@ -25,9 +27,15 @@ void print(const Program& program, const std::string& text);
 /// Each adds its command to the command line and sets program.action when it is chosen.
 void add_run_command(CLI::App& app, Program& program);
 void add_check_command(CLI::App& app, Program& program);
+void add_point_command(CLI::App& app, Program& program);
 void add_describe_command(CLI::App& app, Program& program);
 void add_list_command(CLI::App& app, Program& program);
 void add_doctor_command(CLI::App& app, Program& program);
+
+/// Arguments of the commands that run an input file: the file itself, called `file`, and --set; -o, --keep, --quiet, --verbose. The options have to
+/// live as long as the command.
+void add_input_arguments(CLI::App& command, const std::string& file, const std::string& meaning, RunOptions& options);
+void add_output_arguments(CLI::App& command, const std::string& file, RunOptions& options);
 
 /// How a rank's action ended; the message is empty unless it failed.
 struct Outcome {

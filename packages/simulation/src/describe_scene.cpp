@@ -9,6 +9,7 @@
 #include "fields.hpp"
 #include "mortise/core/parameter_tree.hpp"
 #include "mortise/simulation/exact_solution.hpp"
+#include "mortise/simulation/point.hpp"
 #include "mortise/simulation/scene.hpp"
 #include "names.hpp"
 
@@ -18,6 +19,11 @@ namespace {
 ListRecord scene_tree() {
   Scene scene;
   return collect_parameters("scene", scene, CollectParameters::What::declarations);
+}
+
+ListRecord point_tree() {
+  PointFile point;
+  return collect_parameters("point", point, CollectParameters::What::declarations);
 }
 
 std::string formatted(const ListRecord& list, DescriptionFormat format) {
@@ -66,6 +72,8 @@ struct Topic {
 
 const std::vector<Topic>& topics() {
   static const std::vector<Topic> all{{"materials", [] { return choices_of(material_registry()); }},
+                                      {"hardening", [] { return choices_of(hardening_registry()); }},
+                                      {"paths", [] { return choices_of(point_path_registry()); }},
                                       {"elements", elements},
                                       {"meshes", [] { return choices_of(mesh_registry()); }},
                                       {"loads", [] { return choices_of(load_registry()); }},
@@ -80,13 +88,15 @@ const std::vector<Topic>& topics() {
 }  // namespace
 
 std::string describe_scene(const std::string& path, DescriptionFormat format) {
-  const ListRecord tree = scene_tree();
+  const bool of_point = path == "point" || path.rfind("point/", 0) == 0;
+  const ListRecord tree = of_point ? point_tree() : scene_tree();
   if (format == DescriptionFormat::relax_ng) return to_relax_ng(tree);
-  const ListRecord* list = path.empty() ? &tree : find_list(tree, path);
+  const ListRecord* list = path.empty() || path == "point" ? &tree : find_list(tree, of_point ? path.substr(std::string("point/").size()) : path);
   if (list == nullptr) {
     std::vector<std::string> names;
     for (const auto& known : tree.lists) names.push_back(known.name);
-    throw InputError({{}, unknown_name("list", path, names) + "; the scene's lists are " + quoted_list(names)});
+    throw InputError(
+        {{}, unknown_name("list", path, names) + (of_point ? "; a point file's lists are " : "; the scene's lists are ") + quoted_list(names)});
   }
   return formatted(*list, format);
 }
@@ -104,6 +114,11 @@ std::vector<ReferencePage> reference_pages() {
     index += fmt::format("- [{}]({}): {}\n", list.name, file_name(list.name), list.says.sentence());
     pages.push_back({file_name(list.name), to_markdown(list)});
   }
+  index +=
+      "\n## Point files\n\n- [point](point.md): what `mortise point` reads: one material and the path of one point of it; \"variables\" and "
+      "\"tables\" as "
+      "in a scene\n";
+  pages.push_back({"point.md", to_markdown(point_tree())});
   pages.push_back({"index.md", index});
   pages.push_back({"scene.rng", to_relax_ng(tree)});
   return pages;

@@ -26,8 +26,6 @@
 namespace mortise {
 namespace {
 
-std::string default_directory(const std::string& scene) { return "results/" + std::filesystem::path(scene).stem().string(); }
-
 std::string effective_xml(Scene& scene) {
   const std::string name = scene.name;
   return to_scene_xml(collect_parameters(name, scene, CollectParameters::What::values), symbol_lists(scene.symbols));
@@ -185,6 +183,8 @@ void report_end(const RunRecord& record, const std::optional<StepFailure>& failu
 }
 
 }  // namespace
+
+std::string default_directory(const std::string& file) { return "results/" + std::filesystem::path(file).stem().string(); }
 
 ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& options) {
   RunLog log(comm, options.verbosity);

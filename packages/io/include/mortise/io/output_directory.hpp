@@ -28,7 +28,7 @@ class OutputDirectory {
 };
 
 /// Whether a run writes a file of this name: summary.json, newton.csv, history.csv, fields.xdmf, fields.h5, effective.xml, log.txt,
-/// checkpoint-*.h5.
+/// checkpoint-*.h5, point.csv, point.svg, point.png.
 bool is_run_file(const std::string& name);
 
 }  // namespace mortise

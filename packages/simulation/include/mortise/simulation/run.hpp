@@ -10,15 +10,18 @@
 
 namespace mortise {
 
-/// How a scene is run.
+/// How a scene or a point file is run.
 struct RunOptions {
   std::string scene;                  ///< file
   std::vector<std::string> settings;  ///< "path=value", as `--set` takes them
-  std::string directory;              ///< where results go; empty: results/<name of the scene file>
+  std::string directory;              ///< where results go; empty: default_directory(scene)
   bool keep = false;                  ///< refuse a directory that holds results instead of replacing them
   Verbosity verbosity = Verbosity::normal;
   std::string version;  ///< of the program, for the summary
 };
+
+/// results/<name of the file without its ending>.
+std::string default_directory(const std::string& file);
 
 /// Collective. Leaves in the directory: summary.json, newton.csv, history.csv, effective.xml, log.txt and, if the scene names fields,
 /// fields.xdmf and fields.h5. A scene that cannot be run leaves the directory as it was.
@@ -27,5 +30,10 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
 
 /// Collective. Reads a scene, builds its mesh and all else that a run needs, says on rank 0 what it found; solves nothing, writes nothing.
 void inspect_scene(const RCP<const Communicator>& comm, const RunOptions& options);
+
+/// Collective. Drives one material point as a point file (options.scene) says. Leaves in the directory: point.csv, summary.json, effective.xml and,
+/// if python3 with matplotlib is here, point.svg and point.png. A file that cannot be run leaves the directory as it was.
+/// Returns done or not_converged, with what came before in the files. Throws InputError and FileError on all ranks.
+ExitCode run_point(const RCP<const Communicator>& comm, const RunOptions& options);
 
 }  // namespace mortise

@@ -20,12 +20,13 @@ struct TableHardening {
     parameters.add("plastic strains", strains, Says("values of alpha, ascending from 0").unit("-").required());
     parameters.add("yield stresses", stresses, Says("yield stress at each of them, never falling").unit("stress").required());
     if (strains.empty() || strains.front() != 0.0 || std::adjacent_find(strains.begin(), strains.end(), std::greater_equal<>()) != strains.end())
-      parameters.error("plastic strains", "start at 0 and ascend");
+      parameters.error("plastic strains", "\"plastic strains\" have to start at 0 and ascend");
     if (stresses.size() != strains.size())
-      parameters.error("yield stresses", std::to_string(stresses.size()) + " values for " + std::to_string(strains.size()) + " plastic strains");
-    if (stresses.empty() || !(stresses.front() > 0.0)) parameters.error("yield stresses", "are larger than 0");
+      parameters.error("yield stresses", "there are " + std::to_string(stresses.size()) + " \"yield stresses\" for " +
+                                             std::to_string(strains.size()) + " \"plastic strains\"");
+    if (stresses.empty() || !(stresses.front() > 0.0)) parameters.error("yield stresses", "\"yield stresses\" have to be larger than 0");
     if (std::adjacent_find(stresses.begin(), stresses.end(), std::greater<>()) != stresses.end())
-      parameters.error("yield stresses", "fall: softening has no unique solution and is refused");
+      parameters.error("yield stresses", "\"yield stresses\" fall: softening has no unique solution and is refused");
   }
   double yield_stress(double alpha) const { return table(alpha); }
   /// Slope of the piece that starts at or contains alpha.
