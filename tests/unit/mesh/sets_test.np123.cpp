@@ -108,6 +108,10 @@ TEST(Sets, ErrorsAreTheSameOnEveryRank) {
               ::testing::AllOf(HasSubstr("scene.xml:3: error: contact/die"), HasSubstr("did you mean \"block/top\""),
                                HasSubstr("low arc, lower half disk/arc")));
   EXPECT_THAT(input_error_of([&] { require_node_set(*mesh, {"blocc", {}}); }), HasSubstr("did you mean \"block\""));
+  EXPECT_THAT(input_error_of([&] {
+                require_node_set(*mesh, {"nothing like it", {}});
+              }),
+              HasSubstr("\"nothing like it\"; the node sets are: block, "));
 }
 
 }  // namespace
