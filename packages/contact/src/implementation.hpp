@@ -39,6 +39,7 @@ struct ContactSystem::Implementation {
     const LocalOrdinal first = multiplier_of[pair][s];
     return first < 0 ? Eigen::Vector2d(0.0, 0.0) : Eigen::Vector2d(z(first, 0), z(first + 1, 0));
   }
+  void add_contact_force(const Vector& z, Vector& r) const;
   Complementarity complementarity(std::size_t pair, std::size_t s, const Eigen::Vector2d& z) const;
   /// Sums over ranks.
   double sum(double value) const;
