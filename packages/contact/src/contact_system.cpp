@@ -75,6 +75,7 @@ ContactSystem::ContactSystem(RCP<const Map> owned_nodes, RCP<const Map> dofs, RC
     }
     self.multiplier_of.push_back(std::move(first));
     self.marked.emplace_back(pair->slave_nodes().size(), 0);
+    self.accepted.emplace_back(pair->slave_nodes().size(), 0);
   }
   const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
   self.multipliers = rcp(new Map(invalid, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, self.dofs->getComm()));
@@ -98,6 +99,7 @@ void ContactSystem::evaluate(const Vector& d, bool derivatives, std::optional<St
     const auto part = self.timers.scope("contact integrals");
     pair->evaluate(*x, derivatives, failure);
   }
+  self.find_lost_contact(*x, failure);
 }
 
 RCP<const Graph> ContactSystem::system_graph(const RCP<const Graph>& bulk, bool& changed) {
@@ -196,13 +198,18 @@ ContactNorms ContactSystem::norms(const Vector& z) const {
   return norms;
 }
 
-void ContactSystem::mark_states(const Vector& z) {
-  Implementation& self = *implementation_;
+std::vector<std::vector<char>> ContactSystem::Implementation::closed(const Vector& z) const {
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
-  for (std::size_t p = 0; p < self.pairs.size(); ++p)
-    for (std::size_t s = 0; s < self.multiplier_of[p].size(); ++s)
-      self.marked[p][s] = self.multiplier_of[p][s] >= 0 && self.pairs[p]->closed(s, self.z_of(values, p, s));
+  std::vector<std::vector<char>> closed;
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    closed.emplace_back(multiplier_of[p].size(), 0);
+    for (std::size_t s = 0; s < multiplier_of[p].size(); ++s) closed[p][s] = multiplier_of[p][s] >= 0 && pairs[p]->closed(s, z_of(values, p, s));
+  }
+  return closed;
 }
+
+void ContactSystem::mark_states(const Vector& z) { implementation_->marked = implementation_->closed(z); }
+void ContactSystem::accept_states(const Vector& z) { implementation_->accepted = implementation_->closed(z); }
 
 std::vector<ContactNodeState> ContactSystem::node_states(std::size_t pair, const Vector& z) const {
   const Implementation& self = *implementation_;
