@@ -85,6 +85,7 @@ ContactSystem::~ContactSystem() = default;
 
 std::size_t ContactSystem::pairs() const { return implementation_->pairs.size(); }
 const std::string& ContactSystem::pair_name(std::size_t pair) const { return implementation_->pairs[pair]->definition().name; }
+ContactGeometry ContactSystem::geometry(std::size_t pair) const { return implementation_->pairs[pair]->definition().options.geometry; }
 const RCP<const Map>& ContactSystem::multiplier_map() const { return implementation_->multipliers; }
 
 void ContactSystem::evaluate(const Vector& d, bool derivatives, std::optional<StepFailure>& failure) {

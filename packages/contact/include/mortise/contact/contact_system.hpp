@@ -71,6 +71,8 @@ class ContactSystem {
 
   std::size_t pairs() const;
   const std::string& pair_name(std::size_t pair) const;
+  /// Which configuration carries the geometry of a pair: the one in which its multipliers are pressures.
+  ContactGeometry geometry(std::size_t pair) const;
   /// Map of z: ids lie above all dof ids.
   const RCP<const Map>& multiplier_map() const;
 
