@@ -181,8 +181,8 @@ TEST(ContactNewton, IterativeAndDirectSolversAgree) {
   choices.numbering = test::Numbering::blocks;
   Problem direct(Tpetra::getDefaultComm(), choices);
   const Solved with_direct = solve(direct);
-  choices.linear_solver.kind = LinearSolverOptions::Kind::iterative;
-  choices.linear_solver.muelu.set("coarse: max size", 100);
+  choices.linear_solver.kind.value = LinearSolverOptions::Kind::iterative;
+  choices.linear_solver.muelu.value.set("coarse: max size", 100);
   Problem iterative(Tpetra::getDefaultComm(), choices);
   const Solved with_iterative = solve(iterative);
   EXPECT_EQ(with_iterative.report.newton_steps(), with_direct.report.newton_steps());
