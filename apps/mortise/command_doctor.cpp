@@ -39,7 +39,7 @@ int ranks_on_node() {
 /// Whether the solver can be made here; why not otherwise. Collective.
 std::string state_of(LinearSolverOptions::Kind kind, const RCP<const Communicator>& comm) {
   LinearSolverOptions options;
-  options.kind = kind;
+  options.kind.value = kind;
   try {
     return "present: " + make_linear_solver(options, comm, Timers())->name();
   } catch (const InputError& error) {

@@ -180,6 +180,33 @@ TEST_P(BadInput, IsRefusedWithFileAndLine) {
 INSTANTIATE_TEST_SUITE_P(Scenes, BadInput, ::testing::Combine(::testing::ValuesIn(cases), ::testing::Values(1, 2)),
                          [](const auto& info) { return fmt::format("{}_np{}", std::get<0>(info.param).name, std::get<1>(info.param)); });
 
+/// The good scene with a linear solver, as `inner` says.
+std::string with_solver(const std::string& inner) {
+  return replaced(good_scene, R"xml(  <ParameterList name="contact">)xml",
+                  "  <ParameterList name=\"linear solver\">\n" + inner + "\n  </ParameterList>\n  <ParameterList name=\"contact\">");
+}
+
+TEST(LinearSolver, Klu2OnTwoRanksIsRefusedWithFileAndLine) {
+  const std::string type = R"xml(<Parameter name="type" type="string" value="klu2"/>)xml", scene = with_solver(type);
+  const files::path directory = files::path(SCRATCH) / "klu2";
+  EXPECT_EQ(run(directory, scene, 1).code, 0);
+  const Ending ending = run(directory, scene, 2);
+  EXPECT_EQ(ending.code, 2);
+  EXPECT_NE(ending.output.find(fmt::format("scene.xml:{}: error: linear solver", line_of(scene, type))), std::string::npos) << ending.output;
+  EXPECT_NE(ending.output.find("klu2 runs on one rank only"), std::string::npos) << ending.output;
+}
+
+TEST(LinearSolver, AMisspeltParameterOfMueLuIsRefusedWithFileAndLine) {
+  const std::string muelu = R"xml(<ParameterList name="muelu">)xml";
+  const std::string scene = with_solver(R"xml(<Parameter name="type" type="string" value="iterative"/>)xml"
+                                        "\n" +
+                                        muelu + R"xml(<Parameter name="max levles" type="int" value="3"/></ParameterList>)xml");
+  const Ending ending = run(files::path(SCRATCH) / "muelu", scene, 1);
+  EXPECT_EQ(ending.code, 2);
+  EXPECT_NE(ending.output.find(fmt::format("scene.xml:{}: error: linear solver/muelu", line_of(scene, muelu))), std::string::npos) << ending.output;
+  EXPECT_NE(ending.output.find("max levles"), std::string::npos) << ending.output;
+}
+
 TEST(GoodScene, Runs) {
   for (const int ranks : {1, 2}) {
     const Ending ending = run(files::path(SCRATCH) / fmt::format("good_np{}", ranks), good_scene, ranks);

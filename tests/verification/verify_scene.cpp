@@ -1,5 +1,5 @@
 // Runs a scene on several numbers of ranks: exit code 0 (so all its checks hold) on each, quantities equal to 1e-10 of their scale (their value
-// on the first number of ranks, or what --scale says), equal Newton counts.
+// on the first number of ranks, or what --scale says), equal Newton counts, times of contact where there is contact.
 // Ranks may be followed by a linear solver, "2:iterative"; iterative solvers have to agree to 1e-8 and may need other numbers of Newton iterations.
 // verify_scene MPIEXEC MORTISE SCENE DIRECTORY RANKS[:SOLVER]... [--set path=value]... [--scale quantity=scale]...
 
@@ -46,6 +46,18 @@ std::vector<std::size_t> newton_counts(const Json& summary) {
   return counts;
 }
 
+/// Whether what contact costs is there to be read, in whole and in parts.
+bool contact_is_timed(const Json& summary) {
+  if (summary.at("slave_nodes") == 0) return true;
+  const Json& time = summary.at("time");
+  double parts = 0.0;
+  for (const char* part : {"search", "contact_integrals", "contact_graph", "contact_residual"}) {
+    if (time.value(part, 0.0) <= 0.0) return false;
+    parts += time.at(part).get<double>();
+  }
+  return time.value("condensation", 0.0) > 0.0 && time.value("contact", 0.0) >= (1.0 - tolerance) * parts;
+}
+
 int compare(const Json& reference, const Json& other, const std::string& ranks, const std::map<std::string, double>& scales, bool iterative) {
   int failures = 0;
   if (!iterative && newton_counts(reference) != newton_counts(other)) {
@@ -85,6 +97,10 @@ int main(int argc, char** argv) {
     const Json summary = Json::parse(read_file(directory + "/summary.json"));
     if (summary.at("checks").empty()) {
       fmt::print("{} has no checks\n", arguments.scene);
+      ++failures;
+    }
+    if (!contact_is_timed(summary)) {
+      fmt::print("{} ranks: times of contact are missing: {}\n", ranks, summary.at("time").dump());
       ++failures;
     }
     for (const auto& check : summary.at("checks")) fmt::print("{} ranks: check {}\n", ranks, check.dump());

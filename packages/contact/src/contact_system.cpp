@@ -75,6 +75,7 @@ ContactSystem::ContactSystem(RCP<const Map> owned_nodes, RCP<const Map> dofs, RC
     }
     self.multiplier_of.push_back(std::move(first));
     self.marked.emplace_back(pair->slave_nodes().size(), 0);
+    self.accepted.emplace_back(pair->slave_nodes().size(), 0);
   }
   const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
   self.multipliers = rcp(new Map(invalid, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, self.dofs->getComm()));
@@ -84,20 +85,30 @@ ContactSystem::~ContactSystem() = default;
 
 std::size_t ContactSystem::pairs() const { return implementation_->pairs.size(); }
 const std::string& ContactSystem::pair_name(std::size_t pair) const { return implementation_->pairs[pair]->definition().name; }
+ContactGeometry ContactSystem::geometry(std::size_t pair) const { return implementation_->pairs[pair]->definition().options.geometry; }
 const RCP<const Map>& ContactSystem::multiplier_map() const { return implementation_->multipliers; }
 
 void ContactSystem::evaluate(const Vector& d, bool derivatives, std::optional<StepFailure>& failure) {
   Implementation& self = *implementation_;
-  const auto scope = self.timers.scope("contact integrals");
+  const auto scope = self.timers.scope("contact");
   const RCP<MultiVector> x = self.positions(d);
-  for (const auto& pair : self.pairs) self.pattern_changed |= pair->evaluate(*x, derivatives, failure);
+  for (const auto& pair : self.pairs) {
+    {
+      const auto part = self.timers.scope("search");
+      self.pattern_changed |= pair->search(*x);
+    }
+    const auto part = self.timers.scope("contact integrals");
+    pair->evaluate(*x, derivatives, failure);
+  }
+  self.find_lost_contact(*x, failure);
 }
 
 RCP<const Graph> ContactSystem::system_graph(const RCP<const Graph>& bulk, bool& changed) {
   Implementation& self = *implementation_;
   changed = self.pattern_changed || !self.scatter;
   if (changed) {
-    const auto scope = self.timers.scope("contact graph");
+    const auto scope = self.timers.scope("contact");
+    const auto part = self.timers.scope("contact graph");
     std::vector<detail::PairCoupling*> pairs;
     for (const auto& pair : self.pairs) pairs.push_back(pair.get());
     self.scatter = std::make_unique<detail::SystemScatter>(self.owned_nodes, bulk, pairs);
@@ -107,17 +118,16 @@ RCP<const Graph> ContactSystem::system_graph(const RCP<const Graph>& bulk, bool&
 }
 
 // f_c = sum_j c_jm z_j at each node m that slave node j is coupled to, D_jj z_j at j itself.
-void ContactSystem::add_contact_force(const Vector& z, Vector& r) const {
-  const Implementation& self = *implementation_;
+void ContactSystem::Implementation::add_contact_force(const Vector& z, Vector& r) const {
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
-  for (std::size_t p = 0; p < self.pairs.size(); ++p) {
-    const detail::PairCoupling& pair = *self.pairs[p];
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    const detail::PairCoupling& pair = *pairs[p];
     const RCP<const Map> force_map = make_dof_map(*pair.interface().local_nodes(), 2);
     Vector force(force_map);
     {
       const auto view = force.getLocalViewHost(Tpetra::Access::ReadWrite);
       for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
-        const Eigen::Vector2d zs = self.z_of(values, p, s);
+        const Eigen::Vector2d zs = z_of(values, p, s);
         if (zs.isZero(0.0)) continue;
         const detail::NodeRow& row = pair.rows()[s];
         const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
@@ -128,14 +138,22 @@ void ContactSystem::add_contact_force(const Vector& z, Vector& r) const {
       }
     }
     // An export with ADD replaces what the rank itself sends to itself: hence a vector in between that starts at zero.
-    Vector on_dofs(self.dofs);
-    on_dofs.doExport(force, Export(force_map, self.dofs), Tpetra::ADD);
+    Vector on_dofs(dofs);
+    on_dofs.doExport(force, Export(force_map, dofs), Tpetra::ADD);
     r.update(1.0, on_dofs, 1.0);
   }
 }
 
+void ContactSystem::add_contact_force(const Vector& z, Vector& r) const {
+  const auto scope = implementation_->timers.scope("contact");
+  const auto part = implementation_->timers.scope("contact residual");
+  implementation_->add_contact_force(z, r);
+}
+
 void ContactSystem::complementarity(const Vector& z, Vector& C) const {
   const Implementation& self = *implementation_;
+  const auto scope = self.timers.scope("contact");
+  const auto part = self.timers.scope("contact residual");
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto result = C.getLocalViewHost(Tpetra::Access::OverwriteAll);
   for (std::size_t p = 0; p < self.pairs.size(); ++p)
@@ -150,6 +168,8 @@ void ContactSystem::complementarity(const Vector& z, Vector& C) const {
 
 ContactNorms ContactSystem::norms(const Vector& z) const {
   const Implementation& self = *implementation_;
+  const auto scope = self.timers.scope("contact");
+  const auto part = self.timers.scope("contact residual");
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
   double gap = 0.0, violation = 0.0, traction = 0.0, floor = 0.0;
   double active = 0.0, changed = 0.0, squares = 0.0;
@@ -176,18 +196,23 @@ ContactNorms ContactSystem::norms(const Vector& z) const {
   norms.active = static_cast<int>(self.sum(active));
   norms.changed = static_cast<int>(self.sum(changed));
   Vector force(self.dofs);
-  add_contact_force(z, force);
+  self.add_contact_force(z, force);
   norms.force = force.norm2();
   return norms;
 }
 
-void ContactSystem::mark_states(const Vector& z) {
-  Implementation& self = *implementation_;
+std::vector<std::vector<char>> ContactSystem::Implementation::closed(const Vector& z) const {
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
-  for (std::size_t p = 0; p < self.pairs.size(); ++p)
-    for (std::size_t s = 0; s < self.multiplier_of[p].size(); ++s)
-      self.marked[p][s] = self.multiplier_of[p][s] >= 0 && self.pairs[p]->closed(s, self.z_of(values, p, s));
+  std::vector<std::vector<char>> closed;
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    closed.emplace_back(multiplier_of[p].size(), 0);
+    for (std::size_t s = 0; s < multiplier_of[p].size(); ++s) closed[p][s] = multiplier_of[p][s] >= 0 && pairs[p]->closed(s, z_of(values, p, s));
+  }
+  return closed;
 }
+
+void ContactSystem::mark_states(const Vector& z) { implementation_->marked = implementation_->closed(z); }
+void ContactSystem::accept_states(const Vector& z) { implementation_->accepted = implementation_->closed(z); }
 
 std::vector<ContactNodeState> ContactSystem::node_states(std::size_t pair, const Vector& z) const {
   const Implementation& self = *implementation_;

@@ -8,8 +8,8 @@ namespace mortise::detail {
 PairCoupling::PairCoupling(RCP<const Map> owned_nodes, RCP<const MultiVector> reference, RCP<const MultiVector> fixed,
                            const InterfaceMeasure& measure, ContactPair pair)
     : pair_(std::move(pair)), owned_nodes_(std::move(owned_nodes)), reference_(std::move(reference)) {
-  interface_ = std::make_unique<MortarInterface>(owned_nodes_, reference_, std::move(fixed), pair_.slave, pair_.master, measure,
-                                                 pair_.options.mortar, pair_.place);
+  interface_ = std::make_unique<MortarInterface>(owned_nodes_, reference_, std::move(fixed), pair_.slave, pair_.master, measure, pair_.options.mortar,
+                                                 pair_.place);
   size_ = interface_->shortest_facet();
   rows_.resize(slave_nodes().size());
 }
@@ -27,17 +27,22 @@ bool PairCoupling::closed(std::size_t s, const Eigen::Vector2d& z) const {
   return covered(s) && z.dot(rows_[s].normal) - complementarity_constant(s) * rows_[s].gap > 0.0;
 }
 
-bool PairCoupling::evaluate(const MultiVector& x, bool derivatives, std::optional<StepFailure>& failure) {
-  const bool reference = pair_.options.geometry == ContactGeometry::reference;
-  if (reference && frozen_) {
-    evaluate_frozen(x);
-    return false;
-  }
-  const bool changed = interface_->search(reference ? *reference_ : x) || import_.is_null();
+bool PairCoupling::search(const MultiVector& x) {
+  if (frozen_) return false;
+  const bool changed = interface_->search(uses_reference() ? *reference_ : x) || import_.is_null();
   if (changed) {
     import_ = rcp(new Import(owned_nodes_, interface_->local_nodes()));
     local_positions_ = rcp(new MultiVector(interface_->local_nodes(), 2));
     position_in_row_.assign(interface_->local_nodes()->getNodeNumElements(), -1);
+  }
+  return changed;
+}
+
+void PairCoupling::evaluate(const MultiVector& x, bool derivatives, std::optional<StepFailure>& failure) {
+  const bool reference = uses_reference();
+  if (frozen_) {
+    evaluate_frozen(x);
+    return;
   }
   local_positions_->doImport(reference ? *reference_ : x, *import_, Tpetra::REPLACE);
   interface_->evaluate(*local_positions_, derivatives || reference, couplings_, normals_, failure);
@@ -46,7 +51,6 @@ bool PairCoupling::evaluate(const MultiVector& x, bool derivatives, std::optiona
     freeze();
     evaluate_frozen(x);
   }
-  return changed;
 }
 
 void PairCoupling::sum_to_rows(bool derivatives) {

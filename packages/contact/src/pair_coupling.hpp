@@ -15,13 +15,13 @@ using PositionGradient = std::vector<double>;
 /// A slave node's share of the contact residual. Row j of D and M is kept as coefficients c_jm of "f_c += c_jm z_j at node m":
 /// c_jj = D_jj, c_jk = D_jk, c_jl = -M_jl.
 struct NodeRow {
-  double D = 0.0;    ///< D_jj
+  double D = 0.0;        ///< D_jj
   double covered = 0.0;  ///< sum_k D_jk = sum_l M_jl
-  double gap = 0.0;  ///< weighted gap g_j
+  double gap = 0.0;      ///< weighted gap g_j
   Eigen::Vector2d normal = Eigen::Vector2d::Zero();
-  std::vector<double> coefficients;                        ///< [coupled nodes] c_jm, 0 at j itself
-  PositionGradient dgap;                                   ///< [2 coupled nodes]; empty without derivatives
-  Eigen::Matrix<double, 2, Eigen::Dynamic> dnormal;        ///< [2 x 2 coupled nodes]; empty without derivatives
+  std::vector<double> coefficients;                  ///< [coupled nodes] c_jm, 0 at j itself
+  PositionGradient dgap;                             ///< [2 coupled nodes]; empty without derivatives
+  Eigen::Matrix<double, 2, Eigen::Dynamic> dnormal;  ///< [2 x 2 coupled nodes]; empty without derivatives
 };
 
 /// A pair, its interface and what was last evaluated.
@@ -30,8 +30,10 @@ class PairCoupling {
   PairCoupling(RCP<const Map> owned_nodes, RCP<const MultiVector> reference, RCP<const MultiVector> fixed, const InterfaceMeasure& measure,
                ContactPair pair);
 
-  /// Searches and evaluates at the positions x [owned nodes x 2]. Returns whether the pattern changed, the same on every rank.
-  bool evaluate(const MultiVector& x, bool derivatives, std::optional<StepFailure>& failure);
+  /// Searches at the positions x [owned nodes x 2]. Returns whether the pattern changed, the same on every rank.
+  bool search(const MultiVector& x);
+  /// Evaluates at x, the positions of the last search().
+  void evaluate(const MultiVector& x, bool derivatives, std::optional<StepFailure>& failure);
 
   const ContactPair& definition() const { return pair_; }
   const MortarInterface& interface() const { return *interface_; }
@@ -50,6 +52,7 @@ class PairCoupling {
   bool closed(std::size_t s, const Eigen::Vector2d& z) const;
 
  private:
+  bool uses_reference() const { return pair_.options.geometry == ContactGeometry::reference; }
   void sum_to_rows(bool derivatives);
   void freeze();
   void evaluate_frozen(const MultiVector& x);

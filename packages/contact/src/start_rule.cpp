@@ -34,6 +34,7 @@ bool touches_unheld_body(const detail::PairCoupling& pair, const Map& owned_node
 // z_n = c_n g + 1e-6 E.
 void ContactSystem::start_step(const Vector& d, const std::vector<char>& unheld, Vector& z) {
   Implementation& self = *implementation_;
+  self.marked = self.accepted;  // after a step that was undone
   std::optional<StepFailure> failure;
   evaluate(d, false, failure);
   throw_if_any(*self.dofs->getComm(), failure);

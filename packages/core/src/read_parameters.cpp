@@ -30,7 +30,8 @@ Teuchos::ParameterList to_teuchos(const XmlList& list, const Symbols& symbols, s
   for (const XmlParameter& one : list.parameters) {
     try {
       if (one.type == "bool" || ((one.value == "true" || one.value == "false") && one.type.empty())) {
-        if (one.value != "true" && one.value != "false") throw InputError(one.place, fmt::format("\"{}\" is \"{}\"; please write true or false", one.name, one.value));
+        if (one.value != "true" && one.value != "false")
+          throw InputError(one.place, fmt::format("\"{}\" is \"{}\"; please write true or false", one.name, one.value));
         result.set(one.name, one.value == "true");
       } else if (one.type == "int" || one.type == "double") {
         const Expression value(one.value, symbols, one.place);
@@ -58,8 +59,10 @@ ReadParameters::ReadParameters(const XmlList& root, const Symbols& symbols, cons
 }
 
 Place ReadParameters::place(const std::string& name) const {
-  const XmlParameter* parameter = frame().list ? frame().list->parameter(name) : nullptr;
-  return parameter ? parameter->place : frame().place;
+  if (!frame().list) return frame().place;
+  if (const XmlParameter* parameter = frame().list->parameter(name)) return parameter->place;
+  const XmlList* list = frame().list->list(name);
+  return list ? list->place : frame().place;
 }
 
 void ReadParameters::error(const std::string& name, const std::string& message) { say(place(name), message); }
@@ -183,7 +186,8 @@ void ReadParameters::add_enumeration(const std::string& name, std::size_t& index
   if (!parameter) return;
   const auto found = std::find(names.begin(), names.end(), parameter->value);
   if (found == names.end())
-    say(parameter->place, fmt::format("\"{}\" is \"{}\"; allowed: {}{}", name, parameter->value, quoted_list(names), did_you_mean(parameter->value, names)));
+    say(parameter->place,
+        fmt::format("\"{}\" is \"{}\"; allowed: {}{}", name, parameter->value, quoted_list(names), did_you_mean(parameter->value, names)));
   else
     index = static_cast<std::size_t>(found - names.begin());
 }
@@ -239,7 +243,8 @@ void ReadParameters::choice_of(const std::string& name, const ChoiceAccess& acce
   const auto found = std::find(kinds.begin(), kinds.end(), parameter->value);
   if (found == kinds.end()) {
     frame().check_unknown = false;  // what else stands here belongs to a kind nobody knows
-    say(parameter->place, fmt::format("\"{}\" is \"{}\"; allowed: {}{}", name, parameter->value, quoted_list(kinds), did_you_mean(parameter->value, kinds)));
+    say(parameter->place,
+        fmt::format("\"{}\" is \"{}\"; allowed: {}{}", name, parameter->value, quoted_list(kinds), did_you_mean(parameter->value, kinds)));
     return;
   }
   access.select(static_cast<std::size_t>(found - kinds.begin()), parameter->place);

@@ -8,25 +8,11 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
-#include <numeric>
+
+#include "mortise/core/xml.hpp"
 
 namespace mortise {
 namespace {
-
-/// Levenshtein's distance: insertions, deletions and replacements that turn one text into the other.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-    }
-  }
-  return row.back();
-}
 
 template <class Sets>
 const typename Sets::mapped_type& require(const Sets& sets, const Located<std::string>& name, const std::string& kind) {
@@ -34,15 +20,9 @@ const typename Sets::mapped_type& require(const Sets& sets, const Located<std::s
   if (found != sets.end()) return found->second;
   std::vector<std::string> names;
   for (const auto& entry : sets) names.push_back(entry.first);
-  std::string message = fmt::format("there is no {} set \"{}\"", kind, name.value);
-  if (!names.empty()) {
-    const auto nearest = *std::min_element(names.begin(), names.end(),
-                                           [&](const auto& a, const auto& b) { return edit_distance(a, name.value) < edit_distance(b, name.value); });
-    if (edit_distance(nearest, name.value) <= std::max<std::size_t>(2, name.value.size() / 3))
-      message += fmt::format("; did you mean \"{}\"?", nearest);
-    message += fmt::format(" The {} sets are: {}", kind, fmt::join(names, ", "));
-  }
-  throw InputError(name.place, message);
+  const std::string hint = did_you_mean(name.value, names);
+  throw InputError(name.place, fmt::format("there is no {0} set \"{1}\"{2} {3} {0} sets are: {4}", kind, name.value, hint.empty() ? ";" : hint,
+                                           hint.empty() ? "the" : "The", fmt::join(names, ", ")));
 }
 
 /// Runs `select` on every rank; an error of any rank (a `where` that is not finite somewhere) surfaces on all.

@@ -104,6 +104,7 @@ struct MortarInterface::Implementation {
   double generous(double length) const { return reach + length; }
   void measure_facets(const MultiVector& reference, const Place& place);
   bool moved(const MultiVector& x) const;
+  std::vector<PlacedFacet> place_master(const MultiVector& x) const;
   double shortest_now(const Positions& slave_x, const std::vector<PlacedFacet>& placed_master) const;
   std::vector<std::vector<FacetIds>> find(const Positions& x, const std::vector<PlacedFacet>& placed_master, const Motion& motion) const;
   void number_nodes();
@@ -170,6 +171,17 @@ bool MortarInterface::Implementation::moved(const MultiVector& x) const {
   Teuchos::Array<double> largest(2);
   difference.normInf(largest());
   return std::hypot(largest[0], largest[1]) > free_distance;
+}
+
+// The master facets of this rank. Collective.
+std::vector<PlacedFacet> MortarInterface::Implementation::place_master(const MultiVector& x) const {
+  const Positions master_x = (*master_positions)(x);
+  std::vector<PlacedFacet> placed;
+  for (const FacetIds& facet : master) {
+    const Eigen::Vector2d &a = master_x[master_positions->local(facet[0])], &b = master_x[master_positions->local(facet[1])];
+    placed.push_back({facet, {{{a.x(), a.y()}, {b.x(), b.y()}}}});
+  }
+  return placed;
 }
 
 // Over all ranks, in the given positions; 0 if a facet has no length. Collective.
@@ -253,12 +265,8 @@ bool MortarInterface::search(const MultiVector& x) {
   x.norm1(sizes());
   if (!std::isfinite(sizes[0] + sizes[1])) return false;  // evaluate() says what is wrong
   const bool first = self.searched_at.is_null();
-  const Positions slave_x = (*self.slave_positions)(x), master_x = (*self.master_positions)(x);
-  std::vector<PlacedFacet> placed;
-  for (const FacetIds& facet : self.master) {
-    const Eigen::Vector2d &a = master_x[self.master_positions->local(facet[0])], &b = master_x[self.master_positions->local(facet[1])];
-    placed.push_back({facet, {{{a.x(), a.y()}, {b.x(), b.y()}}}});
-  }
+  const Positions slave_x = (*self.slave_positions)(x);
+  const std::vector<PlacedFacet> placed = self.place_master(x);
   const double shortest = self.shortest_now(slave_x, placed);
   self.searched_at = rcp(new MultiVector(x, Teuchos::Copy));
   self.free_distance = free_motion * shortest;
@@ -276,10 +284,24 @@ bool MortarInterface::search(const MultiVector& x) {
   return true;
 }
 
+std::vector<std::optional<double>> MortarInterface::distances_to_master(const MultiVector& x, const std::vector<std::size_t>& nodes,
+                                                                        const std::vector<Eigen::Vector2d>& normals) const {
+  const Implementation& self = *implementation_;
+  const std::vector<PlacedFacet> placed = self.place_master(x);
+  const auto positions = x.getLocalViewHost(Tpetra::Access::ReadOnly);
+  std::vector<NormalLine> lines;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const LocalOrdinal node = slave_nodes()[nodes[n]].owned_node;
+    lines.push_back({{positions(node, 0), positions(node, 1)}, normals[n]});
+  }
+  return distances_along_normals(*self.owned_nodes->getComm(), lines, placed);
+}
+
 const RCP<const Map>& MortarInterface::local_nodes() const { return implementation_->local_nodes; }
 const std::vector<SlaveNode>& MortarInterface::slave_nodes() const { return implementation_->slave.owned; }
 const std::vector<LocalOrdinal>& MortarInterface::coupled_nodes(std::size_t s) const { return implementation_->coupled[s]; }
 const std::vector<LocalOrdinal>& MortarInterface::loaded_nodes(std::size_t s) const { return implementation_->loaded[s]; }
+double MortarInterface::reach() const { return implementation_->reach; }
 double MortarInterface::shortest_facet() const { return implementation_->shortest; }
 double MortarInterface::longest_facet() const { return implementation_->longest; }
 

@@ -13,11 +13,6 @@ constexpr double facing_tolerance = 0.05;
 
 using Dual = Sacado::Fad::SFad<double, 12>;
 
-bool faces(const MasterLine<double>& master, const Point2<double>& normal) {
-  const Point2<double> travel = difference(master.y[1], master.y[0]);
-  return cross(travel, normal) > facing_tolerance * std::hypot(travel[0], travel[1]);
-}
-
 template <class S>
 void integrate(const SlaveLine<S>& slave, const MasterLine<S>& master, const S& low, const S& high, const Interval& basis,
                const InterfaceMeasure& measure, const std::vector<LinePoint>& rule, std::array<S, SegmentIntegrals::count>& sum) {
@@ -55,6 +50,11 @@ void integrate(const SlaveLine<S>& slave, const MasterLine<S>& master, const S& 
 }
 
 }  // namespace
+
+bool faces(const MasterLine<double>& master, const Point2<double>& normal) {
+  const Point2<double> travel = difference(master.y[1], master.y[0]);
+  return cross(travel, normal) > facing_tolerance * std::hypot(travel[0], travel[1]);
+}
 
 std::optional<Overlap> find_overlap(const SlaveLine<double>& slave, const MasterLine<double>& master) {
   if (!faces(master, slave.normal[0]) || !faces(master, slave.normal[1])) return std::nullopt;

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
+#include <cmath>
 #include <limits>
 
 #include "exchange.hpp"
+#include "mortise/mortar/segment_2d.hpp"
 
 namespace mortise {
 namespace {
@@ -73,6 +75,41 @@ std::vector<std::vector<PlacedFacet>> facets_within(const Communicator& comm, co
     std::sort(result[f].begin(), result[f].end(), [](const PlacedFacet& a, const PlacedFacet& b) { return a.nodes < b.nodes; });
   }
   return result;
+}
+
+// No facet that a line meets is further from its node than the diagonal of the box of all nodes and facets: the line is cut off there.
+std::vector<std::optional<double>> distances_along_normals(const Communicator& comm, const std::vector<NormalLine>& lines,
+                                                           const std::vector<PlacedFacet>& master) {
+  constexpr double on_facet = 1e-9;  // beyond the ends of a facet in its coordinate: no line passes between two facets
+  std::array<double, 4> mine, box;   // -x low, -y low, x high, y high
+  mine.fill(-std::numeric_limits<double>::max());
+  const auto enclose = [&mine](double x, double y) {
+    mine = {std::max(mine[0], -x), std::max(mine[1], -y), std::max(mine[2], x), std::max(mine[3], y)};
+  };
+  for (const NormalLine& line : lines) enclose(line.x.x(), line.x.y());
+  for (const PlacedFacet& facet : master)
+    for (const auto& x : facet.x) enclose(x[0], x[1]);
+  Teuchos::reduceAll(comm, Teuchos::REDUCE_MAX, 4, mine.data(), box.data());
+  const double diagonal = std::hypot(box[0] + box[2], box[1] + box[3]);
+
+  std::vector<PlacedFacet> cut_off;
+  for (const NormalLine& line : lines) {
+    const Eigen::Vector2d back = line.x - diagonal * line.normal, ahead = line.x + diagonal * line.normal;
+    cut_off.push_back({{}, {{{back.x(), back.y()}, {ahead.x(), ahead.y()}}}});
+  }
+  const auto near = facets_within(comm, cut_off, std::vector<double>(lines.size(), on_facet * diagonal), master);
+  std::vector<std::optional<double>> distances(lines.size());
+  for (std::size_t n = 0; n < lines.size(); ++n) {
+    const Point2<double> x{lines[n].x.x(), lines[n].x.y()}, normal{lines[n].normal.x(), lines[n].normal.y()};
+    for (const PlacedFacet& facet : near[n]) {
+      const MasterLine<double> line{facet.x};
+      if (!faces(line, normal)) continue;
+      const auto hit = project_onto(line, x, normal);
+      if (std::abs(hit.eta) > 1.0 + on_facet) continue;
+      if (!distances[n] || std::abs(hit.distance) < std::abs(*distances[n])) distances[n] = hit.distance;
+    }
+  }
+  return distances;
 }
 
 }  // namespace mortise

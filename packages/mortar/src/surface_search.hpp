@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "mortise/core/types.hpp"
@@ -23,5 +24,15 @@ double segment_distance(const std::array<Eigen::Vector2d, 2>& a, const std::arra
 /// @param radius  [slave] > 0
 std::vector<std::vector<PlacedFacet>> facets_within(const Communicator& comm, const std::vector<PlacedFacet>& slave,
                                                     const std::vector<double>& radius, const std::vector<PlacedFacet>& master);
+
+/// A straight line through a slave node along its unit normal.
+struct NormalLine {
+  Eigen::Vector2d x, normal;
+};
+
+/// Collective: for each line the distance along its normal (negative: behind x) of the nearest master facet, of all ranks and however far, that
+/// faces the normal and that the line meets; no value if there is none. Master facets travel as in facets_within().
+std::vector<std::optional<double>> distances_along_normals(const Communicator& comm, const std::vector<NormalLine>& lines,
+                                                           const std::vector<PlacedFacet>& master);
 
 }  // namespace mortise

@@ -117,7 +117,7 @@ class IterativeSolver : public LinearSolver {
       user_data.set("Coordinates", rcp(new MultiVector(*near_null_space_.coordinates, Teuchos::Copy)));
     }
     if (!near_null_space_.rigid_body_modes.is_null()) user_data.set("Nullspace", modes_without_fixed_rows());
-    list.setParameters(options_.muelu);
+    list.setParameters(options_.muelu.value);
 
     const RCP<Operator> as_operator = matrix;
     preconditioner_ = MueLu::CreateTpetraPreconditioner<Scalar, LocalOrdinal, GlobalOrdinal, NodeType>(as_operator, list);
@@ -147,7 +147,7 @@ class IterativeSolver : public LinearSolver {
     problem->setRightPrec(preconditioner_);
     if (!problem->setProblem()) throw std::runtime_error("Belos refuses the linear problem");
     const auto list = rcp(new Teuchos::ParameterList(belos_defaults(options_)));
-    list->setParameters(options_.belos);
+    list->setParameters(options_.belos.value);
     Belos::TpetraSolverFactory<Scalar, MultiVector, Operator> factory;
     const auto gmres = factory.create("GMRES", list);
     gmres->setProblem(problem);
@@ -168,19 +168,19 @@ void check_lists(const LinearSolverOptions& options, const RCP<const Communicato
   std::vector<Diagnostic> found;
   try {
     Teuchos::ParameterList list = muelu_defaults(2, 1000, comm->getSize());
-    list.setParameters(options.muelu);
+    list.setParameters(options.muelu.value);
     MueLu::ParameterListInterpreter<Scalar, LocalOrdinal, GlobalOrdinal, NodeType>(list, comm);
   } catch (const std::exception& error) {
-    found.push_back({Place{{}, 0, "linear solver/muelu"}, error.what()});
+    found.push_back({options.muelu.place, error.what()});
   }
   try {
     const auto list = rcp(new Teuchos::ParameterList(belos_defaults(options)));
-    list->setParameters(options.belos);
+    list->setParameters(options.belos.value);
     Belos::TpetraSolverFactory<Scalar, MultiVector, Operator> factory;
     const auto gmres = factory.create("GMRES", Teuchos::null);
     list->validateParameters(*gmres->getValidParameters());
   } catch (const std::exception& error) {
-    found.push_back({Place{{}, 0, "linear solver/belos"}, error.what()});
+    found.push_back({options.belos.place, error.what()});
   }
   if (!found.empty()) throw InputError(std::move(found));
 }

@@ -18,10 +18,10 @@ void LinearSolverOptions::describe(Parameters& parameters) {
 
 std::unique_ptr<LinearSolver> make_linear_solver(const LinearSolverOptions& options, const RCP<const Communicator>& comm, const Timers& timers) {
   using Kind = LinearSolverOptions::Kind;
-  switch (options.kind) {
+  switch (options.kind.value) {
     case Kind::klu2:
       if (comm->getSize() > 1)
-        throw InputError(Place{{}, 0, "linear solver/type"},
+        throw InputError(options.kind.place,
                          "klu2 runs on one rank only: on more, this Trilinos' KLU2 returns wrong solutions without an error; use mumps");
       return detail::make_klu2_solver(options, timers);
     case Kind::iterative:

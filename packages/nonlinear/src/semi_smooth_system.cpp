@@ -238,6 +238,9 @@ void SemiSmoothSystem::commit(const Vector& x) {
   const RCP<const Vector> d = displacement(x);
   const Configuration at = implementation_->configuration(*d);
   for (const auto& contribution : implementation_->parts.contributions) contribution->commit(at);
+  if (!implementation_->parts.contact) return;
+  implementation_->evaluate_contact(*d, true);
+  implementation_->parts.contact->accept_states(*multipliers(x));
 }
 
 void SemiSmoothSystem::jacobian(const Vector& x) {

@@ -35,7 +35,9 @@ void ErrorNorm::describe(Parameters& parameters) {
   parameters.add("field", of, {{"contact pressure", Of::contact_pressure}, {"displacement", Of::displacement}, {"stress", Of::stress}},
                  "the pressure p_h = sum N_j z_n,j on the slave surface, or a field over bodies");
   parameters.add("on", on, "contact pair (may be left out if there is one only) or body (empty: all)");
-  parameters.add("from", from, Says("start of the range of x (current position) that counts for the contact pressure; default: all of the surface"));
+  parameters.add("from", from,
+                 Says("start of the range of x (where the pair's geometry is: current or reference position) that counts for the contact pressure; "
+                      "default: all of the surface"));
   parameters.add("to", to, Says("end of that range"));
   parameters.add("unit", unit, {{"length", Unit::length}, {"half width", Unit::half_width}},
                  "unit of the range: a length, or half widths of the exact contact zone, from its centre");

@@ -17,7 +17,7 @@ const Registry<Quantity>& quantity_registry() {
     kinds.add<ErrorNorm>("error norm", "relative L2 error of a field against a named exact solution");
     kinds.add<HalfWidth>("half width", "half width of the contact zone from the second moment of the pressure: 2 sqrt(int p x^2 / int p)");
     kinds.add<PeakPressure>("peak pressure", "largest contact pressure of a pair");
-    kinds.add<ContactLength>("contact length", "current length of the slave surface that belongs to closed nodes");
+    kinds.add<ContactLength>("contact length", "length of the slave surface, where the pair's geometry is, that belongs to closed nodes");
     kinds.add<ActiveCount>("active count", "number of closed slave nodes of a pair");
     kinds.add<FormulaQuantity>("formula", "an expression of t, the scene's variables and the quantities before it");
     kinds.add<OverTime>("over time", "the largest or smallest value that a quantity before it had at the end of any step");

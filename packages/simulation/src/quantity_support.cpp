@@ -73,13 +73,14 @@ std::vector<PressedFacet> pressed_facets(const QuantityContext& context, std::si
   const auto values = local.getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto displacement = context.local_displacement->getLocalViewHost(Tpetra::Access::ReadOnly);
 
+  const double moves = context.contact->geometry(pair) == ContactGeometry::current ? 1.0 : 0.0;
   const SideSet& slave = mesh.side_sets.at(context.pairs[pair].slave);
   std::vector<PressedFacet> facets;
   for (LocalOrdinal side = 0; side < slave.owned; ++side) {
     const auto nodes = mesh.side_nodes(slave.sides[side]);
     PressedFacet facet;
     for (int end = 0; end < 2; ++end) {
-      for (int i = 0; i < 2; ++i) facet.position[end][i] = mesh.coordinates[nodes[end]][i] + displacement(2 * nodes[end] + i, 0);
+      for (int i = 0; i < 2; ++i) facet.position[end][i] = mesh.coordinates[nodes[end]][i] + moves * displacement(2 * nodes[end] + i, 0);
       facet.pressure[end] = values(nodes[end], 0);
       facet.closed[end] = values(nodes[end], 1) != 0.0;
     }

@@ -25,7 +25,7 @@ std::optional<LocalOrdinal> find_optional_body(const QuantityContext& context, c
 /// Index of a pair; an empty name is the only pair. Throws InputError at the name's place.
 std::size_t find_pair(const QuantityContext& context, const Located<std::string>& name);
 
-/// A slave facet in its current position, with the pressures of its ends, in the order of travel.
+/// A slave facet where the geometry of its pair is (current or reference configuration), with the pressures of its ends, in the order of travel.
 struct PressedFacet {
   std::array<std::array<double, 2>, 2> position{};
   std::array<double, 2> pressure{};

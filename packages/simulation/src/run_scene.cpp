@@ -222,8 +222,6 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
 
   timers.stacked().stopBaseTimer();
   record.seconds = seconds_by_name(timers, comm);
-  for (const char* part : {"contact_integrals", "contact_graph"})
-    if (const auto found = record.seconds.find(part); found != record.seconds.end()) record.seconds["contact"] += found->second;
   const double mine = peak_memory_mib();
   Teuchos::reduceAll(*comm, Teuchos::REDUCE_MAX, mine, Teuchos::outArg(record.memory_peak_mib));
   log.detail(timer_report(timers, comm));

@@ -1,4 +1,4 @@
-// Distributed meshes: areas, sides, ownership, ghosts, balance, sets, errors.
+// Distributed meshes: areas, sides, ownership, ghosts; the same for every number of ranks; errors.
 
 #include "mortise/mesh/build_mesh.hpp"
 
@@ -6,13 +6,12 @@
 #include <gtest/gtest.h>
 
 #include <Teuchos_CommHelpers.hpp>
+#include <Teuchos_DefaultSerialComm.hpp>
 #include <Tpetra_Core.hpp>
 #include <Tpetra_Map.hpp>
 #include <cmath>
-#include <set>
 
-#include "mortise/mesh/generators.hpp"
-#include "mortise/mesh/sets.hpp"
+#include "mesh_test_support.hpp"
 
 namespace mortise {
 namespace {
@@ -47,36 +46,12 @@ double length(const Mesh& mesh, const std::string& name) {
   return sum(mesh, mine);
 }
 
-double smallest_angle(const Mesh& mesh) {
-  double mine = 180.0, all = 0.0;
-  for (const Block& block : mesh.blocks)
-    for (LocalOrdinal e = 0; e < block.owned; ++e)
-      for (int a = 0; a < block.nodes_per_element; ++a) {
-        const int n = block.nodes_per_element;
-        const auto& p = mesh.coordinates[block.nodes(e)[a]];
-        const auto& q = mesh.coordinates[block.nodes(e)[(a + 1) % n]];
-        const auto& r = mesh.coordinates[block.nodes(e)[(a + n - 1) % n]];
-        const double ux = q[0] - p[0], uy = q[1] - p[1], vx = r[0] - p[0], vy = r[1] - p[1];
-        mine = std::min(mine, std::atan2(ux * vy - uy * vx, ux * vx + uy * vy) * 180.0 / std::acos(-1.0));
-      }
-  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MIN, mine, Teuchos::outArg(all));
-  return all;
-}
-
 std::shared_ptr<BlockMesh> block(double width, double height, int nx, int ny) {
   auto result = std::make_shared<BlockMesh>();
   result->width = width;
   result->height = height;
   result->cells_x = nx;
   result->cells_y = ny;
-  return result;
-}
-
-std::shared_ptr<QuarterDiskMesh> quarter_disk(int cells) {
-  auto result = std::make_shared<QuarterDiskMesh>();
-  result->radius = 2.0;
-  result->cells_along = cells;
-  result->cells_across = cells;
   return result;
 }
 
@@ -121,73 +96,57 @@ TEST(BuildMesh, OwnedNodesHaveAllTheirElementsHere) {
   }
 }
 
-TEST(BuildMesh, PositionsDoNotDependOnTheNumberOfRanks) {
-  const auto world = Tpetra::getDefaultComm();
-  const std::vector<BodyDescription> bodies = {{"disk", {}, quarter_disk(4), CellShape::quadrilateral4}};
-  const auto mesh = build_mesh(world, bodies, {"disk/arc"});
-  const auto whole = build_mesh(rcp(new Teuchos::SerialComm<int>()), bodies, {"disk/arc"});
-  for (LocalOrdinal node = 0; node < mesh->local_count(); ++node) {
-    const LocalOrdinal there = whole->local_nodes->getLocalElement(mesh->local_nodes->getGlobalElement(node));
-    ASSERT_GE(there, 0);
-    EXPECT_EQ(mesh->coordinates[node], whole->coordinates[there]);
-  }
-}
-
-TEST(BuildMesh, DiskHasItsAreaToSecondOrderAndNoDegeneratePoint) {
-  const auto comm = Tpetra::getDefaultComm();
-  double last = 0.0;
-  for (const int cells : {4, 8, 16}) {
-    const auto mesh = build_mesh(comm, {{"disk", {}, quarter_disk(cells), CellShape::quadrilateral4}}, {});
-    const double error = std::abs(area(*mesh) - std::acos(-1.0));
-    EXPECT_GT(smallest_angle(*mesh), 20.0);
-    if (last > 0.0) EXPECT_NEAR(std::log2(last / error), 2.0, 0.1);
-    last = error;
-    EXPECT_NEAR(length(*mesh, "disk/axis"), 2.0, 1e-12);
-    EXPECT_NEAR(length(*mesh, "disk/diameter"), 2.0, 1e-12);
-  }
-}
-
-TEST(BuildMesh, BalancesTheContactSurface) {
-  const auto comm = Tpetra::getDefaultComm();
-  const auto mesh = build_mesh(comm, {{"body", {}, block(4.0, 2.0, 60, 30), CellShape::quadrilateral4}}, {"body/top"});
-  const auto most = [&](double mine) {
-    double all = 0.0;
-    Teuchos::reduceAll(*comm, Teuchos::REDUCE_MAX, mine, Teuchos::outArg(all));
-    return all;
-  };
-  EXPECT_LE(most(mesh->blocks[0].owned), 1.1 * 1800.0 / comm->getSize());
-  EXPECT_LE(most(mesh->side_sets.at("body/top").owned), 1.3 * 60.0 / comm->getSize());
-}
-
-TEST(Sets, AreMadeFromPositionsAndMissingOnesAreNamed) {
-  const auto comm = Tpetra::getDefaultComm();
-  const auto mesh = build_mesh(comm, {{"body", {}, block(4.0, 2.0, 4, 2), CellShape::quadrilateral4}}, {});
-  add_set(*mesh, {"half", {}, {{"body/top", {}}, Expression("x - 2", {}), SetKind::sides}});
-  EXPECT_NEAR(length(*mesh, "half"), 2.0, 1e-12);
-  const auto message = [&](const auto& call) -> std::string {
-    try {
-      call();
-    } catch (const InputError& error) {
-      return error.what();
+TEST(BuildMesh, IsTheSameOnAnyNumberOfRanks) {
+  const auto bodies = all_kinds(CellShape::triangle3);
+  const auto mesh = build_mesh(Tpetra::getDefaultComm(), bodies, {"quarter disk/arc", "block/top"});
+  const auto whole = build_mesh(rcp(new Teuchos::SerialComm<int>()), bodies, {});
+  GlobalOrdinal first = 0;
+  for (std::size_t b = 0; b < mesh->blocks.size(); ++b) {
+    const auto &block = mesh->blocks[b], &all = whole->blocks[b];
+    EXPECT_EQ(mesh_size(*mesh).elements_of_block[b], all.size());
+    for (LocalOrdinal e = 0; e < block.size(); ++e) {
+      const GlobalOrdinal inside = block.element_ids[e] - first;
+      ASSERT_TRUE(inside >= 0 && inside < all.size());
+      for (int a = 0; a < block.nodes_per_element; ++a)
+        EXPECT_EQ(mesh->local_nodes->getGlobalElement(block.nodes(e)[a]),
+                  whole->local_nodes->getGlobalElement(all.nodes(static_cast<LocalOrdinal>(inside))[a]));
     }
-    return "";
-  };
-  const Place place{"scene.xml", 7, "sets/none"};
-  EXPECT_THAT(message([&] { add_set(*mesh, {"none", place, {{"body/top", place}, Expression("x - 9", {}), SetKind::sides}}); }), ::testing::HasSubstr("scene.xml:7: error"));
-  EXPECT_THAT(message([&] { require_side_set(*mesh, {"body/tpo", place}); }), ::testing::HasSubstr("body/top"));
-
-  // Each facet of the surface stands on one rank as a master's, and wherever a node of it is owned as a slave's.
-  const SideSet& top = mesh->side_sets.at("body/top");
-  EXPECT_EQ(sum(*mesh, static_cast<double>(facets_of_owned_elements(*mesh, top).size())), 4.0);
-  for (const auto& facet : facets_at_owned_nodes(*mesh, top))
-    EXPECT_TRUE(mesh->owned_nodes->isNodeGlobalElement(facet[0]) || mesh->owned_nodes->isNodeGlobalElement(facet[1]));
+    first += all.size();
+  }
+  for (LocalOrdinal node = 0; node < mesh->local_count(); ++node)
+    EXPECT_EQ(mesh->coordinates[node], whole->coordinates[whole->local_nodes->getLocalElement(mesh->local_nodes->getGlobalElement(node))]);
+  const MeshSize size = mesh_size(*mesh), reference = mesh_size(*whole);
+  EXPECT_EQ(size.nodes, reference.nodes);
+  EXPECT_EQ(size.elements, first);
+  EXPECT_EQ(size.length, reference.length);
+  EXPECT_EQ(size.shortest_side, reference.shortest_side);
 }
 
-TEST(BuildMesh, RefusesInvertedElements) {
-  auto twisted = std::make_shared<BlockMesh>();
-  twisted->corners = {0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 1.0};  // two corners exchanged
-  twisted->cells_x = twisted->cells_y = 2;
-  EXPECT_THROW(build_mesh(Tpetra::getDefaultComm(), {{"body", {"scene.xml", 5, "bodies/body"}, twisted, CellShape::quadrilateral4}}, {}), InputError);
+TEST(BuildMesh, RefusesBodiesWithoutMeaningOnEveryRank) {
+  using ::testing::HasSubstr;
+  const auto comm = Tpetra::getDefaultComm();
+  const Place place{"scene.xml", 5, "bodies/die"};
+  auto crossed = std::make_shared<BlockMesh>();
+  crossed->corners = {0.0, 0.0, 1.0, 0.0, 0.4, 0.4, 0.0, 1.0};  // a reentrant corner: only the cells next to it are inverted
+  crossed->cells_x = crossed->cells_y = 8;
+  EXPECT_THAT(input_error_of([&] {
+                build_mesh(comm, {{"die", place, crossed, CellShape::quadrilateral4}}, {});
+              }),
+              ::testing::AllOf(HasSubstr("scene.xml:5: error: bodies/die"), HasSubstr("body \"die\": element "), HasSubstr("det J = -")));
+  const auto good = example_meshes()[1].options;
+  EXPECT_THAT(input_error_of([&] {
+                build_mesh(comm, {{"die", {}, good, {}}, {"die", place, good, {}}}, {});
+              }),
+              HasSubstr("already a body named \"die\""));
+  EXPECT_THAT(input_error_of([&] { build_mesh(comm, {}, {}); }), HasSubstr("no body"));
+}
+
+TEST(BuildMesh, HoldsFewerElementsThanRanks) {
+  auto block = std::make_shared<BlockMesh>();
+  block->cells_x = block->cells_y = 1;
+  const auto mesh = build_mesh(Tpetra::getDefaultComm(), {{"body", {}, block, CellShape::quadrilateral4}}, {"body/top"});
+  EXPECT_EQ(mesh_size(*mesh).nodes, 4);
+  EXPECT_EQ(mesh_size(*mesh).elements, 1);
 }
 
 }  // namespace

@@ -181,14 +181,41 @@ TEST(ContactNewton, IterativeAndDirectSolversAgree) {
   choices.numbering = test::Numbering::blocks;
   Problem direct(Tpetra::getDefaultComm(), choices);
   const Solved with_direct = solve(direct);
-  choices.linear_solver.kind = LinearSolverOptions::Kind::iterative;
-  choices.linear_solver.muelu.set("coarse: max size", 100);
+  choices.linear_solver.kind.value = LinearSolverOptions::Kind::iterative;
+  choices.linear_solver.muelu.value.set("coarse: max size", 100);
   Problem iterative(Tpetra::getDefaultComm(), choices);
   const Solved with_iterative = solve(iterative);
   EXPECT_EQ(with_iterative.report.newton_steps(), with_direct.report.newton_steps());
   EXPECT_GT(with_iterative.report.iterations.back().linear_iterations, 0);
   RecordProperty("linear_iterations", with_iterative.report.iterations.back().linear_iterations);
   EXPECT_NEAR(with_iterative.reaction[1][1], with_direct.reaction[1][1], 1e-8 * std::abs(with_direct.reaction[1][1]));
+}
+
+// What was closed in the accepted state may not go through the other body: the upper body is put three rows deep into the lower one, beyond
+// the reach of one facet.
+TEST(ContactSystem, ContactLostSinceTheAcceptedStateIsAFailureOnAllRanks) {
+  Problem problem(Tpetra::getDefaultComm(), pressed(0.2));
+  SemiSmoothSystem& system = *problem.system;
+  Vector F(system.map());
+  ResidualNorms norms;
+  const auto sink = [&](double depth) {
+    const auto d = system.displacement(*problem.x);
+    for (const GlobalOrdinal id : d->getMap()->getNodeElementList())
+      d->replaceGlobalValue(id, id / 2 >= problem.grid->cut() * problem.grid->nx() && id % 2 == 1 ? -depth : 0.0);
+    system.residual(*problem.x, F, norms);
+  };
+  sink(3.0);  // nothing was closed so far
+  EXPECT_EQ(norms.active, 0);
+  sink(0.06);  // a hundredth beyond the first gap
+  EXPECT_GT(norms.active, 0);
+  system.commit(*problem.x);
+  sink(0.0);
+  try {
+    sink(3.0);
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const StepFailure& failure) {
+    EXPECT_EQ(failure.kind(), FailureKind::lost_contact);
+  }
 }
 
 }  // namespace

@@ -56,10 +56,10 @@ double true_residual(const Matrix& matrix, const Vector& b, const Vector& x) {
 // The iterative one coarsens small grids too, as it would large ones.
 std::unique_ptr<LinearSolver> solver_of(Kind kind, double tolerance = 1e-10, int iterations = 500) {
   LinearSolverOptions options;
-  options.kind = kind;
+  options.kind.value = kind;
   options.tolerance = tolerance;
   options.maximum_iterations = iterations;
-  options.muelu.set("coarse: max size", 100);
+  options.muelu.value.set("coarse: max size", 100);
   return make_linear_solver(options, Tpetra::getDefaultComm(), Timers());
 }
 
@@ -230,12 +230,12 @@ TEST(Iterative, GivesUpWithAStepFailure) {
 
 TEST(Iterative, RefusesParametersItsPackagesDoNotKnow) {
   LinearSolverOptions options;
-  options.kind = Kind::iterative;
-  options.muelu.set("max levels", 3);
-  options.belos.set("Num Blocks", 30);
+  options.kind.value = Kind::iterative;
+  options.muelu.value.set("max levels", 3);
+  options.belos.value.set("Num Blocks", 30);
   EXPECT_NO_THROW(make_linear_solver(options, Tpetra::getDefaultComm(), Timers()));
-  options.muelu.set("max levles", 3);
-  options.belos.set("Num Blokcs", 30);
+  options.muelu.value.set("max levles", 3);
+  options.belos.value.set("Num Blokcs", 30);
   try {
     make_linear_solver(options, Tpetra::getDefaultComm(), Timers());
     FAIL() << "unknown parameters were taken";

@@ -113,7 +113,7 @@ TEST(Newton, IterativeAndDirectSolversAgree) {
   choices.numbering = test::Numbering::blocks;
   choices.force = {0.002, 0.01};
   Problem direct(Tpetra::getDefaultComm(), choices);
-  choices.linear_solver.kind = LinearSolverOptions::Kind::iterative;
+  choices.linear_solver.kind.value = LinearSolverOptions::Kind::iterative;
   Problem iterative(Tpetra::getDefaultComm(), choices);
   const NewtonReport direct_report = solve(direct), iterative_report = solve(iterative);
   EXPECT_EQ(direct_report.newton_steps(), iterative_report.newton_steps());

@@ -48,8 +48,10 @@ TEST(Options, AreReadFromAScene) {
   EXPECT_FALSE(all.stepping.minimum_step);
   EXPECT_EQ(all.stepping.output_times, (std::vector<double>{0.3, 1.5, 2.0}));
   EXPECT_EQ(all.newton.maximum_iterations, 9);
-  EXPECT_EQ(all.linear_solver.kind, LinearSolverOptions::Kind::iterative);
-  EXPECT_EQ(all.linear_solver.muelu.get<int>("max levels"), 3);
+  EXPECT_EQ(all.linear_solver.kind.value, LinearSolverOptions::Kind::iterative);
+  EXPECT_EQ(all.linear_solver.kind.place.line, 11);
+  EXPECT_EQ(all.linear_solver.muelu.value.get<int>("max levels"), 3);
+  EXPECT_EQ(all.linear_solver.muelu.place.line, 12);
 }
 
 TEST(Options, ThatMakeNoSenseAreAllNamed) {

@@ -69,7 +69,7 @@ TEST(System, DirectionSolvesTheLinearisedSystem) {
   EXPECT_LE(J_dx.norm2(), 1e-12 * F.norm2());
   system.newton_direction(F, again);
   again.update(-1.0, direction, 1.0);
-  EXPECT_EQ(again.norm2(), 0.0);
+  EXPECT_LE(again.norm2(), 1e-12 * direction.norm2());  // on several ranks MUMPS sums in the order in which messages arrive
 
   Vector x(*problem.x, Teuchos::Copy);
   x.update(1.0, direction, 1.0);

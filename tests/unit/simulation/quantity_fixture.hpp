@@ -24,7 +24,7 @@ inline constexpr int upper_cells = 5;
 /// "lower" [0, 4] x [0, 1] of 4 x 2 squares and "upper" [0, 4] x [1, 2] of 10 x 4 triangles; the underside of "upper" is the slave.
 class TwoBlocks {
  public:
-  explicit TwoBlocks(Kinematics kinematics = Kinematics::plane_strain) {
+  explicit TwoBlocks(Kinematics kinematics = Kinematics::plane_strain, ContactGeometry geometry = ContactGeometry::current) {
     const auto lower = std::make_shared<BlockMesh>(), upper = std::make_shared<BlockMesh>();
     lower->width = upper->width = width;
     lower->cells_x = 4, lower->cells_y = upper->cells_y = 2, upper->cells_x = upper_cells;
@@ -38,6 +38,7 @@ class TwoBlocks {
 
     ContactPair pair;
     pair.name = "pair";
+    pair.options.geometry = geometry;
     pair.slave = facets_at_owned_nodes(*mesh, mesh->side_sets.at("upper/bottom"));
     pair.master = facets_of_owned_elements(*mesh, mesh->side_sets.at("lower/top"));
     pair.youngs_modulus = youngs_modulus;

@@ -224,6 +224,24 @@ TEST(ErrorNorm, OfPressureOverARange) {
   EXPECT_THAT(input_error([&] { blocks.value(ErrorNorm(error)); }), HasSubstr("no half width"));
 }
 
+// p_h = 2 (1 - X / L) on blocks stretched to three halves: the surface is L long in the reference configuration and 3/2 L in the current one.
+TEST(ErrorNorm, SurfaceQuantitiesStandWhereTheGeometryOfThePairIs) {
+  for (const auto& [geometry, stretch] : {std::pair(ContactGeometry::current, 1.5), std::pair(ContactGeometry::reference, 1.0)}) {
+    TwoBlocks blocks(Kinematics::plane_strain, geometry);
+    blocks.press([](double X) { return 2.0 * (1.0 - X / width); });
+    blocks.move([](int, const Point& X) { return Point{0.5 * X[0], 0.0}; });
+    EXPECT_NEAR(blocks.value(HalfWidth()), stretch * 2.0 * std::sqrt(width * width / 6.0), 1e-12);
+    EXPECT_NEAR(blocks.value(ContactLength()), stretch * (width - 0.5 * width / upper_cells), 1e-13);
+    const auto uniform = std::make_shared<UniformState>();
+    uniform->contact_pressure = Expression(2.0);
+    ErrorNorm error;
+    error.exact = {"uniform", uniform, {}};
+    error.from = 0.3, error.to = 2.9;
+    const double a = 0.3 / stretch, b = 2.9 / stretch;
+    EXPECT_NEAR(blocks.value(std::move(error)), std::sqrt((std::pow(b, 3) - std::pow(a, 3)) / (3.0 * width * width * (b - a))), 1e-13);
+  }
+}
+
 // p_h = c against Hertz over [0, 1.5 a]: |error|^2 = (1.5 c^2 a - 2 c p0 a pi/4 + 2/3 p0^2 a) / (2/3 p0^2 a). Eight Gauss points miss the integral of
 // sqrt(1 - x/a) up to the end of its range by less than 1e-3 relative, those of its square and of a constant not at all.
 TEST(ErrorNorm, OfPressureAgainstHertz) {

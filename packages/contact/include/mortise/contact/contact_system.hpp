@@ -50,11 +50,11 @@ struct ContactNodeState {
   LocalOrdinal owned_node = 0;
   std::array<double, 2> traction{};  ///< multiplier z (compression positive along the normal), force per area
   std::array<double, 2> normal{};
-  double pressure = 0.0;             ///< z . n
-  double gap = 0.0;                  ///< weighted gap / A_j
-  double weight = 0.0;               ///< A_j
+  double pressure = 0.0;  ///< z . n
+  double gap = 0.0;       ///< weighted gap / A_j
+  double weight = 0.0;    ///< A_j
   bool closed = false;
-  std::array<double, 2> force{};     ///< D_jj z_j, force of this node's multiplier on the slave side is -force
+  std::array<double, 2> force{};  ///< D_jj z_j, force of this node's multiplier on the slave side is -force
 };
 
 /// All pairs. z holds `dimension` components for each owned slave node that may carry a multiplier.
@@ -72,10 +72,14 @@ class ContactSystem {
 
   std::size_t pairs() const;
   const std::string& pair_name(std::size_t pair) const;
+  /// Which configuration carries the geometry of a pair: the one in which its multipliers are pressures.
+  ContactGeometry geometry(std::size_t pair) const;
   /// Map of z: ids lie above all dof ids.
   const RCP<const Map>& multiplier_map() const;
 
-  /// Integrals at displacement d (kept until the next call); searches where needed.
+  /// Integrals at displacement d (kept until the next call); searches where needed. Local failures go to `failure`: those of
+  /// MortarInterface, and lost contact: a node closed in the accepted state or when last marked that went through the master surface so far
+  /// that nothing is within reach any more. A node that opened or ran off the master's edge is not lost.
   void evaluate(const Vector& d, bool derivatives, std::optional<StepFailure>& failure);
 
   /// Graph of the condensed system: `bulk` and what the pairs couple. `changed` is set if it differs from the one of the last call.
@@ -87,8 +91,10 @@ class ContactSystem {
   void complementarity(const Vector& z, Vector& C) const;
   ContactNorms norms(const Vector& z) const;
 
-  /// Takes the states at z as those that `changed` counts against.
+  /// Takes the states at z, d of the last evaluate, as those that `changed` counts against: once for each Newton iterate.
   void mark_states(const Vector& z);
+  /// Takes the states at z, d of the last evaluate, as those of the accepted state that the next step starts from.
+  void accept_states(const Vector& z);
 
   /// K += C~ = d(f_c)/dd at fixed z. `system` has system_graph(). Needs evaluate(d, true).
   void add_stiffness(const Vector& z, Matrix& system);
@@ -104,7 +110,8 @@ class ContactSystem {
   };
   SaddlePointBlocks saddle_point_blocks(const Vector& z) const;
 
-  /// Start rule: multipliers of nodes that touch, and seeds for bodies that only contact holds, are set to a small pressure.
+  /// Goes back to the accepted states, and start rule: multipliers of nodes that touch, and seeds for bodies that only contact holds, are set to a
+  /// small pressure.
   /// @param unheld_bodies  for each owned node whether it belongs to a body that nothing but contact holds
   void start_step(const Vector& d, const std::vector<char>& unheld, Vector& z);
 

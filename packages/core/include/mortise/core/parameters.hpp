@@ -89,7 +89,7 @@ class Registry {
 /// One of several kinds of options, told apart by a parameter "type" that stands in the same list as the kind's own parameters.
 template <class Base>
 struct Choice {
-  std::string type;              ///< name in the registry; empty: not given
+  std::string type;               ///< name in the registry; empty: not given
   std::shared_ptr<Base> options;  ///< null only if the scene gave no valid type
   Place place;
 };
@@ -103,10 +103,11 @@ class Parameters {
   virtual void add(const std::string& name, int& value, const Says& says) = 0;
   virtual void add(const std::string& name, bool& value, const Says& says) = 0;
   virtual void add(const std::string& name, std::string& value, const Says& says) = 0;
-  virtual void add(const std::string& name, Expression& value, const Says& says) = 0;           ///< of t, x, y, z and the scene's variables
+  virtual void add(const std::string& name, Expression& value, const Says& says) = 0;                 ///< of t, x, y, z and the scene's variables
   virtual void add(const std::string& name, std::optional<Expression>& value, const Says& says) = 0;  ///< no value: not given, as the sentence says
-  virtual void add(const std::string& name, std::optional<double>& value, const Says& says) = 0;  ///< no value: chosen by the program, as the sentence says
-  virtual void add(const std::string& name, std::vector<double>& value, const Says& says) = 0;  ///< "1, 2*a, 3" (expressions allowed)
+  virtual void add(const std::string& name, std::optional<double>& value,
+                   const Says& says) = 0;  ///< no value: chosen by the program, as the sentence says
+  virtual void add(const std::string& name, std::vector<double>& value, const Says& says) = 0;       ///< "1, 2*a, 3" (expressions allowed)
   virtual void add(const std::string& name, std::vector<std::string>& value, const Says& says) = 0;  ///< "a, b, c"
 
   /// One of named values of an enumeration.
@@ -125,6 +126,12 @@ class Parameters {
   template <class T>
   void add(const std::string& name, Located<T>& value, const Says& says) {
     add(name, value.value, says);
+    value.place = place(name);
+  }
+
+  template <class Enum>
+  void add(const std::string& name, Located<Enum>& value, const std::vector<std::pair<std::string, Enum>>& choices, const Says& says) {
+    add(name, value.value, choices, says);
     value.place = place(name);
   }
 
@@ -166,8 +173,12 @@ class Parameters {
 
   /// A list handed on as it is to the package that owns its meaning (MueLu, Belos, NOX), which checks it.
   virtual void verbatim(const std::string& name, Teuchos::ParameterList& list, const Says& says) = 0;
+  void verbatim(const std::string& name, Located<Teuchos::ParameterList>& list, const Says& says) {
+    verbatim(name, list.value, says);
+    list.place = place(name);
+  }
 
-  /// Place of the parameter `name` of the current list: where the scene gives it, or the list's own if it does not. Empty when not reading.
+  /// Place of the parameter or list `name` of the current list: where the scene gives it, or the list's own if it does not. Empty when not reading.
   virtual Place place(const std::string& name) const = 0;
 
   /// Says that something is wrong with what was just read (bounds between parameters, meaningless combinations). Does nothing when not reading.

@@ -104,6 +104,15 @@ class MortarInterface {
   void evaluate(const MultiVector& x, bool derivatives, std::vector<FacetCoupling>& couplings, std::vector<NodalNormal>& normals,
                 std::optional<StepFailure>& failure) const;
 
+  /// Collective. For some owned slave nodes (indices into slave_nodes()) the distance along the given unit normals, at positions `x`
+  /// [owned nodes x 2, finite], of the nearest master facet that faces the normal; negative: it stands behind the node, which has gone through
+  /// it. However far, other than evaluate(). No value: no such facet.
+  std::vector<std::optional<double>> distances_to_master(const MultiVector& x, const std::vector<std::size_t>& nodes,
+                                                         const std::vector<Eigen::Vector2d>& normals) const;
+
+  /// Distance up to which facets can touch.
+  double reach() const;
+
   /// Lengths over all ranks in the reference configuration: of the shortest slave facet, and of the longest facet of either side.
   double shortest_facet() const;
   double longest_facet() const;

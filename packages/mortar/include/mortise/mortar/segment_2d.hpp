@@ -23,6 +23,9 @@ struct Overlap {
   bool low_is_master = false, high_is_master = false;  ///< which ends move with the master's nodes
 };
 
+/// Whether the master facet's outward normal points against a slave normal, far enough from being perpendicular to be projected on along it.
+bool faces(const MasterLine<double>& master, const Point2<double>& normal);
+
 /// The overlap, or none. None also where the master facet does not face the nodal normals.
 std::optional<Overlap> find_overlap(const SlaveLine<double>& slave, const MasterLine<double>& master);
 

@@ -49,11 +49,11 @@ class LinearSolver {
 /// Which solver, and how. `automatic` is MUMPS.
 struct LinearSolverOptions {
   enum class Kind { automatic, mumps, klu2, iterative };
-  Kind kind = Kind::automatic;
+  Located<Kind> kind{Kind::automatic, {}};
   double residual_bound = 1e-8;  ///< of the direct solvers' true relative residual
   double tolerance = 1e-10;      ///< of the iterative solver
   int maximum_iterations = 500;
-  Teuchos::ParameterList muelu, belos;  ///< override what Mortise sets; checked by MueLu and Belos
+  Located<Teuchos::ParameterList> muelu, belos;  ///< override what Mortise sets; checked by MueLu and Belos
   void describe(Parameters& parameters);
 };
 

@@ -116,7 +116,7 @@ struct PointDisplacement : Quantity {
   std::vector<double> shares_;       ///< N_a at the point
 };
 
-/// || u_h - u || / || u ||, L2: of the contact pressure p_h = sum N_j z_n,j along the current slave surface, of displacement or stress over bodies.
+/// || u_h - u || / || u ||, L2: of the contact pressure p_h = sum N_j z_n,j along the slave surface, of displacement or stress over bodies.
 /// NaN where || u || = 0.
 struct ErrorNorm : Quantity {
   enum class Of { contact_pressure, displacement, stress };
@@ -138,7 +138,7 @@ struct ErrorNorm : Quantity {
   std::size_t pair_ = 0;
 };
 
-/// What quantities of one pair share.
+/// What quantities of one pair share. Its slave surface stands where the pair's geometry is: in the current or in the reference configuration.
 struct PairQuantity : Quantity {
   Located<std::string> pair;  ///< empty: the only one
   void describe(Parameters& parameters) override;
@@ -148,7 +148,7 @@ struct PairQuantity : Quantity {
   std::size_t pair_ = 0;
 };
 
-/// 2 sqrt(int p (x - center)^2 ds / int p ds) along the current slave surface: the half width of a Hertzian pressure. [length]
+/// 2 sqrt(int p (x - center)^2 ds / int p ds) along the slave surface: the half width of a Hertzian pressure. [length]
 struct HalfWidth : PairQuantity {
   double center = 0.0;
   void describe(Parameters& parameters) override;

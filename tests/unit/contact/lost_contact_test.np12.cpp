@@ -1,0 +1,112 @@
+// Which closed nodes that find nothing within reach any more are lost, and which have opened or run off.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "two_surfaces.hpp"
+
+namespace mortise {
+namespace {
+
+using test::Fixture;
+using ::testing::HasSubstr;
+
+constexpr int slaves = 6, masters = 9;
+constexpr double reach = 0.5;
+
+/// A flat slave over [0, 5] that touches a flat master over [-1.5, 6.5].
+struct Flat {
+  Flat() : fixture(surfaces(), Tpetra::getDefaultComm()), contact(*fixture.contact) {}
+
+  static test::TwoSurfaces surfaces() {
+    test::TwoSurfaces flat;
+    for (int i = 0; i < slaves; ++i) flat.slave.push_back({1.0 * i, 0.0});
+    for (int i = 0; i < masters; ++i) flat.master.push_back({6.5 - i, 0.0});
+    flat.fixed.assign(flat.size(), {false, false});
+    flat.options.mortar.search_reach = reach;
+    return flat;
+  }
+
+  /// The slave moved by (x, y).
+  RCP<Vector> moved(double x, double y) const {
+    return Fixture::vector(fixture.dofs, [&](GlobalOrdinal id) { return id >= 2 * slaves ? 0.0 : id % 2 == 0 ? x : y; });
+  }
+  RCP<Vector> pressed(double pressure) const {
+    return fixture.multipliers([&](std::size_t) { return pressure; });
+  }
+
+  /// Evaluates there; what was thrown on all ranks, empty if nothing was.
+  std::string failure_at(double x, double y) {
+    std::optional<StepFailure> failure;
+    contact.evaluate(*moved(x, y), true, failure);
+    try {
+      throw_if_any(*fixture.nodes->getComm(), failure);
+    } catch (const StepFailure& lost) {
+      EXPECT_EQ(lost.kind(), FailureKind::lost_contact);
+      return lost.what();
+    }
+    return {};
+  }
+
+  Fixture fixture;
+  ContactSystem& contact;
+};
+
+TEST(LostContact, AClosedNodeBehindTheMasterBeyondReachFails) {
+  Flat flat;
+  ASSERT_EQ(flat.failure_at(0.0, 0.0), "");
+  flat.contact.mark_states(*flat.pressed(1.0));
+  EXPECT_EQ(flat.failure_at(0.0, -0.9 * reach), "") << "within reach contact pushes it back";
+  for (const double depth : {0.75, 30.0}) {  // a facet's candidates lie nearer than its length plus the reach
+    const std::string text = flat.failure_at(0.0, -depth);
+    EXPECT_THAT(text, HasSubstr("contact \"pair\": node "));
+    EXPECT_THAT(text, HasSubstr(depth == 30.0 ? "-30), 30 behind" : "-0.75), 0.75 behind"));
+    EXPECT_THAT(text, HasSubstr("out of its reach 0.5"));
+  }
+}
+
+TEST(LostContact, ANodeThatOpensIsNotLost) {
+  Flat flat;
+  ASSERT_EQ(flat.failure_at(0.0, 0.0), "");
+  flat.contact.mark_states(*flat.pressed(1.0));
+  for (const double height : {0.4, 0.75, 30.0}) EXPECT_EQ(flat.failure_at(0.0, height), "") << height;
+}
+
+TEST(LostContact, ANodeThatRunsOffTheEdgeIsNotLost) {
+  Flat flat;
+  ASSERT_EQ(flat.failure_at(0.0, 0.0), "");
+  flat.contact.mark_states(*flat.pressed(1.0));
+  for (const double height : {0.0, -0.75, -30.0}) EXPECT_EQ(flat.failure_at(6.6, height), "") << height;
+  EXPECT_EQ(flat.failure_at(1.5, 0.0), "") << "the last node just at the edge";
+  EXPECT_THAT(flat.failure_at(3.0, -0.75), HasSubstr("0.75 behind")) << "some have run off, the others have gone through";
+}
+
+TEST(LostContact, AnOpenNodeHasNothingToLose) {
+  Flat flat;
+  ASSERT_EQ(flat.failure_at(0.0, 0.1), "");
+  flat.contact.mark_states(*flat.pressed(0.0));
+  EXPECT_EQ(flat.failure_at(0.0, -0.75), "");
+}
+
+// Closed in the accepted state, open in an iterate, behind the master in the next. An undone step goes back to the accepted states.
+TEST(LostContact, AcceptedStatesCountUntilTheNextOnes) {
+  Flat flat;
+  ASSERT_EQ(flat.failure_at(0.0, 0.0), "");
+  flat.contact.accept_states(*flat.pressed(1.0));
+  ASSERT_EQ(flat.failure_at(0.0, 0.1), "");
+  flat.contact.mark_states(*flat.pressed(0.0));
+  EXPECT_NE(flat.failure_at(0.0, -0.75), "");
+
+  ASSERT_EQ(flat.failure_at(0.0, 0.1), "");
+  flat.contact.accept_states(*flat.pressed(0.0));
+  EXPECT_EQ(flat.failure_at(0.0, -0.75), "");
+  ASSERT_EQ(flat.failure_at(0.0, 0.0), "");
+  flat.contact.mark_states(*flat.pressed(1.0));
+  EXPECT_NE(flat.failure_at(0.0, -0.75), "");
+  const auto z = flat.pressed(0.0);
+  flat.contact.start_step(*flat.moved(0.0, 0.1), std::vector<char>(flat.fixture.nodes->getNodeNumElements(), 0), *z);
+  EXPECT_EQ(flat.failure_at(0.0, -0.75), "");
+}
+
+}  // namespace
+}  // namespace mortise
