@@ -14,8 +14,9 @@ void SteppingOptions::describe(Parameters& parameters) {
   parameters.add("easy iterations", easy_iterations,
                  Says("a step that took no more Newton iterations may be followed by one twice as long").at_least(0));
   parameters.add("output times", output_times, Says("times that are hit exactly").unit("time"));
-  parameters.add("predictor", predictor, {{"none", Predictor::none}, {"linear", Predictor::linear}},
-                 "where Newton's iterations start: at the last state, or at the line through the last two, which suits motion that goes on as before");
+  parameters.add(
+      "predictor", predictor, {{"none", Predictor::none}, {"linear", Predictor::linear}},
+      "where Newton's iterations start: at the last state, or at the line through the last two, which suits motion that goes on as before");
   if (maximum_step && *maximum_step < step) parameters.error("maximum step", "is smaller than `step`");
   if (minimum_step && *minimum_step > step) parameters.error("minimum step", "is larger than `step`");
   for (const double time : output_times)

@@ -3,7 +3,6 @@
 #include <NOX_Solver_Factory.H>
 #include <NOX_Solver_Generic.H>
 #include <NOX_StatusTest_Combo.H>
-
 #include <fmt/format.h>
 
 #include <Teuchos_oblackholestream.hpp>
@@ -31,12 +30,12 @@ void NewtonOptions::describe(Parameters& parameters) {
                  Says("growth of |r| over its first values (or the force of the first correction) at which the step is undone").unit("-").above(1.0));
   parameters.add("cycle length", cycle_length,
                  Says("longest cycle of active sets that is looked for; a step that cycles is undone; 0 or 1: none").at_least(0));
-  parameters.add("line search", line_search, {{"none", LineSearch::none}, {"backtrack", LineSearch::backtrack}},
-                 "none: full Newton steps; backtrack: a step is halved until the residual falls, for scenes whose first corrections are far too long");
-  parameters.add("largest increment", largest_increment,
-                 Says("a correction that moves a node by more is shortened as a whole; default: corrections are taken as they are")
-                     .unit("length")
-                     .above(0.0));
+  parameters.add(
+      "line search", line_search, {{"none", LineSearch::none}, {"backtrack", LineSearch::backtrack}},
+      "none: full Newton steps; backtrack: a step is halved until the residual falls, for scenes whose first corrections are far too long");
+  parameters.add(
+      "largest increment", largest_increment,
+      Says("a correction that moves a node by more is shortened as a whole; default: corrections are taken as they are").unit("length").above(0.0));
 }
 
 void solve_newton(SemiSmoothSystem& system, double time, const NewtonOptions& options, Vector& x, NewtonReport& report,

@@ -105,8 +105,9 @@ Effects effects_of(const Scene& scene, const Bodies& bodies) {
   for (const auto& pair : scene.contact) pairs.push_back(pair.name);
   for (const auto& load : scene.loads) loads.push_back(load.name);
   for (const auto& condition : scene.boundary_conditions) conditions.push_back(condition.name);
-  return {{"finite strain", finite}, {"small strain", small}, {"F-bar", f_bar}, {"plasticity", plastic},
-          {"contact", pairs}, {"loads", loads}, {"boundary conditions", conditions}};
+  return {
+      {"finite strain", finite},          {"small strain", small}, {"F-bar", f_bar}, {"plasticity", plastic}, {"contact", pairs}, {"loads", loads},
+      {"boundary conditions", conditions}};
 }
 
 }  // namespace

@@ -59,7 +59,8 @@ void FieldQuantity::describe(Parameters& parameters) {
                   {"contact pressure", PointField::contact_pressure},
                   {"gap", PointField::gap}},
                  "displacement at nodes, Cauchy stress and accumulated plastic strain at quadrature points, pressure and gap at slave nodes");
-  parameters.add("on", on, "a set of nodes or a body (displacement), a body (stress, plastic strain), a contact pair (pressure, gap); empty: everywhere");
+  parameters.add("on", on,
+                 "a set of nodes or a body (displacement), a body (stress, plastic strain), a contact pair (pressure, gap); empty: everywhere");
 }
 
 void FieldQuantity::prepare(const QuantityContext& context) {

@@ -42,8 +42,8 @@ class Observers {
         record_(record),
         timers_(timers),
         newton_(comm, directory.file("newton.csv"),
-                {"step", "try", "time", "dt", "iteration", "momentum", "momentum_absolute", "gap", "complementarity", "increment",
-                 "step_length", "active", "changed", "linear_iterations", "seconds", "undone"}),
+                {"step", "try", "time", "dt", "iteration", "momentum", "momentum_absolute", "gap", "complementarity", "increment", "step_length",
+                 "active", "changed", "linear_iterations", "seconds", "undone"}),
         history_(comm, directory.file("history.csv"), history_columns(evaluation)) {
     if (!scene.output.fields.empty()) fields_ = std::make_unique<FieldWriter>(mesh, directory.path());
     steps_ = static_cast<int>(std::ceil(scene.stepping.end_time / scene.stepping.step - 1e-9));

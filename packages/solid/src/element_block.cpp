@@ -156,7 +156,7 @@ class KernelBlock final : public ElementBlock {
   LocalOrdinal owned_nodes_;
   std::vector<typename Kernel::States> history_;  ///< [elements] of the last committed step; empty for laws without a history
   mutable long history_evaluations_ = 0;
-  std::vector<LocalOrdinal> positions_;           ///< [elements x nodes x nodes] NodalSparsity::position
+  std::vector<LocalOrdinal> positions_;  ///< [elements x nodes x nodes] NodalSparsity::position
 };
 
 template <class Cell, ElementFormulation formulation, class PlainLaw>

@@ -18,9 +18,7 @@ namespace {
 constexpr double compared_times[] = {0.0, 0.37, 1.0};
 
 /// To the round-off of positions in a model of size `length`, from which values may be made.
-bool agree(double a, double b, double length) {
-  return a == b || std::abs(a - b) <= 1e-12 * std::max({std::abs(a), std::abs(b), length});
-}
+bool agree(double a, double b, double length) { return a == b || std::abs(a - b) <= 1e-12 * std::max({std::abs(a), std::abs(b), length}); }
 
 }  // namespace
 

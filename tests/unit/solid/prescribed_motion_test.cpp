@@ -59,8 +59,7 @@ TEST(PrescribedMotion, TakesTheSameValueTwiceButNotTwoValues) {
 
 TEST(PrescribedMotion, SaysAllThatIsWrong) {
   const auto bodies = make_test_bodies(self(), {});
-  const std::string error =
-      error_of(*bodies, {condition("a", 3, "body/lefd", "0", ""), condition("b", 4, "body/left", "", "")});
+  const std::string error = error_of(*bodies, {condition("a", 3, "body/lefd", "0", ""), condition("b", 4, "body/left", "", "")});
   for (const char* place : {"scene.xml:3", "scene.xml:4"}) EXPECT_NE(error.find(place), std::string::npos) << error;
 }
 

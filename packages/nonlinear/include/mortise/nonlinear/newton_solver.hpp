@@ -37,7 +37,7 @@ struct NewtonOptions {
 struct NewtonIteration {
   int iteration = 0;
   ResidualNorms norms;
-  double increment = 0.0;  ///< max |du|; 0 in iteration 0
+  double increment = 0.0;    ///< max |du|; 0 in iteration 0
   double step_length = 1.0;  ///< share of the Newton direction that was taken
   int linear_iterations = 0;
   double seconds = 0.0;
