@@ -115,10 +115,10 @@ std::vector<ReferencePage> reference_pages() {
     pages.push_back({file_name(list.name), to_markdown(list)});
   }
   index +=
-      "\n## Point files\n\n- [point](point.md): what `mortise point` reads: one material and the path of one point of it; \"variables\" and "
-      "\"tables\" as "
-      "in a scene\n";
-  pages.push_back({"point.md", to_markdown(point_tree())});
+      "\n## Point files\n\n- [point](point.md): what `mortise point` reads: a material and the path of one point of it. Its schema is `point.rng`.\n";
+  const ListRecord point = point_tree();
+  pages.push_back({"point.md", to_markdown(point)});
+  pages.push_back({"point.rng", to_relax_ng(point)});
   pages.push_back({"index.md", index});
   pages.push_back({"scene.rng", to_relax_ng(tree)});
   return pages;

@@ -17,7 +17,7 @@ std::string describe_scene(const std::string& path, DescriptionFormat format);
 struct ReferencePage {
   std::string file, content;
 };
-/// All pages: index.md and one for each list of the scene, point.md, and scene.rng.
+/// All pages: index.md and one for each list of the scene, and scene.rng; point.md and point.rng.
 std::vector<ReferencePage> reference_pages();
 
 /// What `list_choices` knows: "materials", "elements", "meshes", ...
