@@ -100,6 +100,29 @@ TEST(Program, DoctorNamesTheSolvers) {
   EXPECT_NE(ending.output.find("klu2"), std::string::npos);
 }
 
+// The pieces of XML on the page about scene files are, put together, a scene that runs.
+TEST(Program, TheDocumentedSceneRuns) {
+  const std::string page = read_file(std::string(DOCS) + "/scenes.md"), begin = "```xml\n", end = "```";
+  std::string scene;
+  for (std::size_t at = page.find(begin); at != std::string::npos; at = page.find(begin, at)) {
+    at += begin.size();
+    scene += page.substr(at, page.find(end, at) - at);
+  }
+  const std::filesystem::path directory = std::filesystem::path(SCRATCH) / "documented";
+  std::filesystem::create_directories(directory);
+  std::ofstream(directory / "stamp.xml") << scene;
+  for (const int ranks : {1, 2}) {
+    const Ending ending = mortise({"run", directory / "stamp.xml", "-o", directory / "results"}, ranks);
+    EXPECT_EQ(ending.code, 0) << ending.output;
+  }
+  const Ending set = mortise({"check", directory / "stamp.xml", "--set", "variables/n=8", "--set", "contact/interface/gap weighting=standard"});
+  EXPECT_EQ(set.code, 0) << set.output;
+  const Ending wrong = mortise({"check", directory / "stamp.xml", "--set", "materials/rubber/poisson's ratio=0.7"});
+  EXPECT_EQ(wrong.code, 2);
+  const std::string message = wrong.output.substr(wrong.output.find("command line:"));
+  EXPECT_NE(page.find(message.substr(0, message.find('\n'))), std::string::npos) << message;
+}
+
 TEST(Program, CheckSolvesAndWritesNothing) {
   const std::string scene = write_scene("only_checked", "");
   const Ending ending = mortise({"check", scene}, 2);

@@ -100,6 +100,7 @@ void ContactSystem::evaluate(const Vector& d, bool derivatives, std::optional<St
     const auto part = self.timers.scope("contact integrals");
     pair->evaluate(*x, derivatives, failure);
   }
+  const auto part = self.timers.scope("search");
   self.find_lost_contact(*x, failure);
 }
 
