@@ -83,7 +83,7 @@ void ContactSystem::add_stiffness(const Vector& z, Matrix& system) {
 //   z^{k+1} = b + S dd.
 // Rows of the nodes m it is coupled to:  A_m += c_jm S,  rhs_m -= c_jm b.   Its own rows, in the frame (n, tau), turned back to x, y:
 //   normal       -A_j c_n dg dd = A_j c_n g
-//   tangential   (tau . K~_j - D z . dtau) dd = tau . rhs_j
+//   tangential   without friction (tau . K~_j - D z . dtau) dd = tau . rhs_j,   sticking D_jj c_t du dd = -D_jj c_t u
 // A node with a fixed component f: the free row holds the normal condition alone, z_f comes from C_tau, row f stays Dirichlet's.
 // Open nodes: z^{k+1} = 0, their rows stay momentum rows.
 void ContactSystem::condense(const Vector& z, Matrix& system, Vector& rhs) {
@@ -103,7 +103,7 @@ void ContactSystem::condense(const Vector& z, Matrix& system, Vector& rhs) {
       const NodeRow& node = pair.rows()[s];
       const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
       const LocalOrdinal first_row = 2 * slave.owned_node;
-      const Complementarity law = self.complementarity(p, s, zs);
+      const Complementarity law = pair.complementarity(s, zs);
 
       RecoveryRow recovery;
       recovery.multiplier = self.multiplier_of[p][s];
@@ -117,8 +117,11 @@ void ContactSystem::condense(const Vector& z, Matrix& system, Vector& rhs) {
 
       // Linearised complementarity: constraint . dd + (C - C_z z) + C_z z^{k+1} = 0
       for (int i = 0; i < 2; ++i) constraint[i].assign(columns.size(), 0.0);
-      add_gradient(columns, constraint[0], coupled, positions, [&](std::size_t c) { return law.gap_factor * node.dgap[c]; });
-      add_gradient(columns, constraint[1], coupled, positions, [&](std::size_t c) { return law.normal_factor.dot(node.dnormal.col(c)); });
+      for (int a = 0; a < 2; ++a)
+        add_gradient(columns, constraint[a], coupled, positions,
+                     [&](std::size_t c) { return law.gap_factor[a] * node.dgap[c] + law.normal_factor.row(a).dot(node.dnormal.col(c)); });
+      if (law.slip_factor != 0.0)
+        add_gradient(columns, constraint[1], coupled, positions, [&](std::size_t c) { return law.slip_factor * node.dslip[c]; });
       const Eigen::Vector2d constant = law.C - law.C_z * zs;
 
       // E z^{k+1} = e - L dd, one row for each component: momentum where free, C_tau where fixed.

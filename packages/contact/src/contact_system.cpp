@@ -14,6 +14,14 @@
 
 namespace mortise {
 
+namespace {
+/// The list "friction" of a pair.
+struct FrictionList {
+  Choice<FrictionLaw>& friction;
+  void describe(Parameters& parameters) { parameters.choose(friction, friction_registry(), "the friction law"); }
+};
+}  // namespace
+
 void ContactOptions::describe(Parameters& parameters) {
   parameters.add("geometry", geometry, {{"current", ContactGeometry::current}, {"reference", ContactGeometry::reference}},
                  "configuration that carries the contact geometry: current, or reference for small displacements");
@@ -23,6 +31,8 @@ void ContactOptions::describe(Parameters& parameters) {
                      .unit("stress / length")
                      .above(0.0));
   mortar.describe(parameters);
+  FrictionList list{friction};
+  parameters.list("friction", list, "shear tractions of closed nodes");
 }
 
 RCP<MultiVector> ContactSystem::Implementation::positions(const Vector& d) const {
@@ -32,11 +42,6 @@ RCP<MultiVector> ContactSystem::Implementation::positions(const Vector& d) const
   for (std::size_t node = 0; node < view.extent(0); ++node)
     for (std::size_t i = 0; i < 2; ++i) view(node, i) += u(2 * node + i, 0);
   return x;
-}
-
-Complementarity ContactSystem::Implementation::complementarity(std::size_t pair, std::size_t s, const Eigen::Vector2d& z) const {
-  const detail::PairCoupling& coupling = *pairs[pair];
-  return frictionless(coupling.closed(s, z), coupling.complementarity_constant(s), coupling.rows()[s].gap, coupling.rows()[s].normal, z);
 }
 
 double ContactSystem::Implementation::sum(double value) const {
@@ -74,8 +79,8 @@ ContactSystem::ContactSystem(RCP<const Map> owned_nodes, RCP<const Map> dofs, RC
       for (int i = 0; i < 2; ++i) ids.push_back(offset + 2 * slave.id + i);
     }
     self.multiplier_of.push_back(std::move(first));
-    self.marked.emplace_back(pair->slave_nodes().size(), 0);
-    self.accepted.emplace_back(pair->slave_nodes().size(), 0);
+    self.marked.emplace_back(pair->slave_nodes().size(), ContactState::open);
+    self.accepted.emplace_back(pair->slave_nodes().size(), ContactState::open);
   }
   const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
   self.multipliers = rcp(new Map(invalid, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, self.dofs->getComm()));
@@ -161,7 +166,7 @@ void ContactSystem::complementarity(const Vector& z, Vector& C) const {
     for (std::size_t s = 0; s < self.multiplier_of[p].size(); ++s) {
       const LocalOrdinal first = self.multiplier_of[p][s];
       if (first < 0) continue;
-      const Eigen::Vector2d value = self.complementarity(p, s, self.z_of(values, p, s)).C;
+      const Eigen::Vector2d value = self.pairs[p]->complementarity(s, self.z_of(values, p, s)).C;
       result(first, 0) = value[0];
       result(first + 1, 0) = value[1];
     }
@@ -173,21 +178,23 @@ ContactNorms ContactSystem::norms(const Vector& z) const {
   const auto part = self.timers.scope("contact residual");
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
   double gap = 0.0, violation = 0.0, traction = 0.0, floor = 0.0;
-  double active = 0.0, changed = 0.0, squares = 0.0;
+  double active = 0.0, sticking = 0.0, changed = 0.0, squares = 0.0;
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
     const detail::PairCoupling& pair = *self.pairs[p];
     floor = std::max(floor, 1e-9 * pair.definition().youngs_modulus);
     for (std::size_t s = 0; s < self.multiplier_of[p].size(); ++s) {
       if (self.multiplier_of[p][s] < 0) continue;
       const Eigen::Vector2d zs = self.z_of(values, p, s);
-      const bool closed = pair.closed(s, zs);
-      const Eigen::Vector2d C = self.complementarity(p, s, zs).C;
+      const Complementarity law = pair.complementarity(s, zs);
+      const bool closed = law.state != ContactState::open;
+      const Eigen::Vector2d& C = law.C;
       squares += std::pow(pair.slave_nodes()[s].weight, 2) * C.squaredNorm();
       traction = std::max(traction, zs.norm());
       violation = std::max(violation, closed ? std::abs(C[1]) : C.norm());
       if (closed) gap = std::max(gap, std::abs(pair.rows()[s].gap) / (pair.slave_nodes()[s].weight * pair.size()));
       active += closed;
-      changed += closed != static_cast<bool>(self.marked[p][s]);
+      sticking += law.state == ContactState::stick;
+      changed += law.state != self.marked[p][s];
     }
   }
   ContactNorms norms;
@@ -195,6 +202,7 @@ ContactNorms ContactSystem::norms(const Vector& z) const {
   norms.complementarity = self.maximum(violation) / std::max(self.maximum(traction), self.maximum(floor));
   norms.violation = std::sqrt(self.sum(squares));
   norms.active = static_cast<int>(self.sum(active));
+  norms.sticking = static_cast<int>(self.sum(sticking));
   norms.changed = static_cast<int>(self.sum(changed));
   Vector force(self.dofs);
   self.add_contact_force(z, force);
@@ -202,18 +210,42 @@ ContactNorms ContactSystem::norms(const Vector& z) const {
   return norms;
 }
 
-std::vector<std::vector<char>> ContactSystem::Implementation::closed(const Vector& z) const {
+std::vector<std::vector<ContactState>> ContactSystem::Implementation::states(const Vector& z) const {
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
-  std::vector<std::vector<char>> closed;
+  std::vector<std::vector<ContactState>> states;
   for (std::size_t p = 0; p < pairs.size(); ++p) {
-    closed.emplace_back(multiplier_of[p].size(), 0);
-    for (std::size_t s = 0; s < multiplier_of[p].size(); ++s) closed[p][s] = multiplier_of[p][s] >= 0 && pairs[p]->closed(s, z_of(values, p, s));
+    states.emplace_back(multiplier_of[p].size(), ContactState::open);
+    for (std::size_t s = 0; s < multiplier_of[p].size(); ++s)
+      if (multiplier_of[p][s] >= 0) states[p][s] = pairs[p]->complementarity(s, z_of(values, p, s)).state;
   }
-  return closed;
+  return states;
 }
 
-void ContactSystem::mark_states(const Vector& z) { implementation_->marked = implementation_->closed(z); }
-void ContactSystem::accept_states(const Vector& z) { implementation_->accepted = implementation_->closed(z); }
+void ContactSystem::mark_states(const Vector& z) { implementation_->marked = implementation_->states(z); }
+
+void ContactSystem::accept_states(const Vector& z) {
+  Implementation& self = *implementation_;
+  self.accepted = self.states(z);
+  const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (std::size_t p = 0; p < self.pairs.size(); ++p)
+    if (self.pairs[p]->friction() != nullptr)
+      for (std::size_t s = 0; s < self.accepted[p].size(); ++s) self.pairs[p]->accept_slip(s, self.z_of(values, p, s), self.accepted[p][s]);
+}
+
+double ContactSystem::friction_work(std::size_t pair) const {
+  double work = 0.0;
+  for (const detail::SlipHistory& history : implementation_->pairs[pair]->slip_histories()) work += history.work;
+  return implementation_->sum(work);
+}
+
+std::size_t ContactSystem::friction_bytes(std::size_t pair) const {
+  const auto& histories = implementation_->pairs[pair]->slip_histories();
+  std::size_t bytes = histories.capacity() * sizeof(detail::SlipHistory);
+  for (const detail::SlipHistory& history : histories)
+    bytes += history.nodes.capacity() * sizeof(GlobalOrdinal) + history.coefficients.capacity() * sizeof(double) +
+             history.positions.capacity() * sizeof(LocalOrdinal);
+  return bytes;
+}
 
 std::vector<ContactNodeState> ContactSystem::node_states(std::size_t pair, const Vector& z) const {
   const Implementation& self = *implementation_;
@@ -231,7 +263,13 @@ std::vector<ContactNodeState> ContactSystem::node_states(std::size_t pair, const
     state.pressure = zs.dot(row.normal);
     state.gap = row.gap / slave.weight;
     state.weight = slave.weight;
-    state.closed = slave.carries_multiplier && self.pairs[pair]->closed(s, zs);
+    if (slave.carries_multiplier) state.state = self.pairs[pair]->complementarity(s, zs).state;
+    state.closed = state.state != ContactState::open;
+    state.shear = zs.dot(tangent(row.normal));
+    if (self.pairs[pair]->friction() != nullptr && row.D > 0.0) {
+      state.slip = row.slip / row.D;
+      state.slip_path = self.pairs[pair]->slip_histories()[s].accepted_path;
+    }
     state.force = {row.D * zs[0], row.D * zs[1]};
     states.push_back(state);
   }

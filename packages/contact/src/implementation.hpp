@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mortise/contact/contact_system.hpp"
-#include "mortise/contact/frictionless.hpp"
+#include "mortise/contact/complementarity.hpp"
 #include "pair_coupling.hpp"
 #include "system_scatter.hpp"
 
@@ -26,7 +26,7 @@ struct ContactSystem::Implementation {
   Timers timers;
   std::vector<std::unique_ptr<detail::PairCoupling>> pairs;
   std::vector<std::vector<LocalOrdinal>> multiplier_of;  ///< [pair][slave node] local index of the first component in z, -1: none
-  std::vector<std::vector<char>> marked, accepted;       ///< [pair][slave node] closed when last marked, in the accepted state
+  std::vector<std::vector<ContactState>> marked, accepted;  ///< [pair][slave node] when last marked, of the accepted state
   std::unique_ptr<detail::SystemScatter> scatter;
   bool pattern_changed = true;
   std::vector<RecoveryRow> recovery;
@@ -40,8 +40,7 @@ struct ContactSystem::Implementation {
     return first < 0 ? Eigen::Vector2d(0.0, 0.0) : Eigen::Vector2d(z(first, 0), z(first + 1, 0));
   }
   void add_contact_force(const Vector& z, Vector& r) const;
-  Complementarity complementarity(std::size_t pair, std::size_t s, const Eigen::Vector2d& z) const;
-  std::vector<std::vector<char>> closed(const Vector& z) const;
+  std::vector<std::vector<ContactState>> states(const Vector& z) const;
   /// Collective. Positions x on the owned nodes: those of the last evaluation.
   void find_lost_contact(const MultiVector& x, std::optional<StepFailure>& failure) const;
   /// Sums over ranks.

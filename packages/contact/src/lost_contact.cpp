@@ -21,7 +21,7 @@ void ContactSystem::Implementation::find_lost_contact(const MultiVector& x, std:
   std::vector<double> counts(pairs.size() + 1, 0.0), all(pairs.size() + 1);
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     for (std::size_t s = 0; s < marked[p].size(); ++s)
-      if ((marked[p][s] || accepted[p][s]) && !pairs[p]->covered(s)) uncovered[p].push_back(s);
+      if ((marked[p][s] != ContactState::open || accepted[p][s] != ContactState::open) && !pairs[p]->covered(s)) uncovered[p].push_back(s);
     counts[p] = static_cast<double>(uncovered[p].size());
   }
   counts.back() = failure ? 1.0 : 0.0;  // then rows and normals may have no meaning

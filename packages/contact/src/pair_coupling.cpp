@@ -12,6 +12,9 @@ PairCoupling::PairCoupling(RCP<const Map> owned_nodes, RCP<const MultiVector> re
                                                  pair_.place);
   size_ = interface_->shortest_facet();
   rows_.resize(slave_nodes().size());
+  if (!pair_.options.friction.options->acts()) return;
+  friction_ = pair_.options.friction.options.get();
+  slip_.resize(rows_.size());
 }
 
 double PairCoupling::complementarity_constant(std::size_t s) const {
@@ -27,6 +30,16 @@ bool PairCoupling::closed(std::size_t s, const Eigen::Vector2d& z) const {
   return covered(s) && z.dot(rows_[s].normal) - complementarity_constant(s) * rows_[s].gap > 0.0;
 }
 
+Complementarity PairCoupling::complementarity(std::size_t s, const Eigen::Vector2d& z) const {
+  const NodeRow& row = rows_[s];
+  const double c = complementarity_constant(s);
+  const bool is_closed = closed(s, z);
+  const SlaveNode& node = slave_nodes()[s];
+  if (!is_closed || friction_ == nullptr || slip_[s].nodes.empty() || node.fixed[0] || node.fixed[1])
+    return frictionless(is_closed, c, row.gap, row.normal, z);
+  return with_friction(c, c, row.gap, row.slip, row.normal, z, friction_->bound(z.dot(row.normal) - c * row.gap, slip_[s].path));
+}
+
 bool PairCoupling::search(const MultiVector& x) {
   if (frozen_) return false;
   const bool changed = interface_->search(uses_reference() ? *reference_ : x) || import_.is_null();
@@ -34,6 +47,7 @@ bool PairCoupling::search(const MultiVector& x) {
     import_ = rcp(new Import(owned_nodes_, interface_->local_nodes()));
     local_positions_ = rcp(new MultiVector(interface_->local_nodes(), 2));
     position_in_row_.assign(interface_->local_nodes()->getNodeNumElements(), -1);
+    place_slip_histories();
   }
   return changed;
 }
@@ -50,6 +64,8 @@ void PairCoupling::evaluate(const MultiVector& x, bool derivatives, std::optiona
   if (reference) {
     freeze();
     evaluate_frozen(x);
+  } else if (friction_ != nullptr) {
+    measure_slip(derivatives);
   }
 }
 
@@ -120,6 +136,9 @@ void PairCoupling::evaluate_frozen(const MultiVector& x) {
       for (int i = 0; i < 2; ++i) gap += rows_[s].dgap[2 * c + i] * u(coupled[c], i);
     rows_[s].gap = gap;
   }
+  if (friction_ == nullptr) return;
+  local_positions_->doImport(x, *import_, Tpetra::REPLACE);
+  measure_frozen_slip();
 }
 
 }  // namespace mortise::detail

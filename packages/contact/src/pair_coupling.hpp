@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "mortise/contact/complementarity.hpp"
 #include "mortise/contact/contact_system.hpp"
 
 namespace mortise::detail {
@@ -22,6 +23,18 @@ struct NodeRow {
   std::vector<double> coefficients;                  ///< [coupled nodes] c_jm, 0 at j itself
   PositionGradient dgap;                             ///< [2 coupled nodes]; empty without derivatives
   Eigen::Matrix<double, 2, Eigen::Dynamic> dnormal;  ///< [2 x 2 coupled nodes]; empty without derivatives
+  double slip = 0.0;                                 ///< weighted slip u_j since the start of the step; friction only
+  PositionGradient dslip;                            ///< [2 coupled nodes]; empty without derivatives or friction
+};
+
+/// What a slave node with friction remembers of the state that the step started from.
+struct SlipHistory {
+  std::vector<GlobalOrdinal> nodes;     ///< nodes it was coupled to, itself among them; empty: none, so that it slips freely in this step
+  std::vector<double> coefficients;     ///< [nodes] c_jm
+  std::vector<LocalOrdinal> positions;  ///< [nodes] places among the coupled nodes of the current pattern
+  double start = 0.0;                   ///< tau . sum_m c_jm x_m; frozen geometry only
+  double path = 0.0, accepted_path = 0.0;  ///< slipped up to the start of the step, up to the accepted state [length]
+  double work = 0.0;                       ///< dissipated up to the accepted state
 };
 
 /// A pair, its interface and what was last evaluated.
@@ -35,7 +48,15 @@ class PairCoupling {
   /// Evaluates at x, the positions of the last search().
   void evaluate(const MultiVector& x, bool derivatives, std::optional<StepFailure>& failure);
 
+  /// The step starts at the positions x of the last evaluate(): slips are measured from here. Friction only.
+  void start_slip();
+  /// Takes the slips at z as those of the accepted state: paths and dissipated work grow. Friction only.
+  void accept_slip(std::size_t s, const Eigen::Vector2d& z, ContactState state);
+
   const ContactPair& definition() const { return pair_; }
+  /// Null: the pair has no friction.
+  const FrictionLaw* friction() const { return friction_; }
+  const std::vector<SlipHistory>& slip_histories() const { return slip_; }
   const MortarInterface& interface() const { return *interface_; }
   const std::vector<SlaveNode>& slave_nodes() const { return interface_->slave_nodes(); }
   const std::vector<NodeRow>& rows() const { return rows_; }
@@ -50,12 +71,17 @@ class PairCoupling {
   bool covered(std::size_t s) const;
   /// Closed: covered and z_n - c_n g > 0.
   bool closed(std::size_t s, const Eigen::Vector2d& z) const;
+  /// C and its linearisation, of the law that the node obeys. A node with a fixed component carries no shear traction.
+  Complementarity complementarity(std::size_t s, const Eigen::Vector2d& z) const;
 
  private:
   bool uses_reference() const { return pair_.options.geometry == ContactGeometry::reference; }
   void sum_to_rows(bool derivatives);
   void freeze();
   void evaluate_frozen(const MultiVector& x);
+  void place_slip_histories();
+  void measure_slip(bool derivatives);
+  void measure_frozen_slip();
 
   ContactPair pair_;
   RCP<const Map> owned_nodes_;
@@ -66,6 +92,8 @@ class PairCoupling {
   std::vector<FacetCoupling> couplings_;
   std::vector<NodalNormal> normals_;
   std::vector<NodeRow> rows_;
+  const FrictionLaw* friction_ = nullptr;
+  std::vector<SlipHistory> slip_;  ///< [slave nodes]; empty without friction
   std::vector<double> frozen_gap_;
   std::vector<LocalOrdinal> position_in_row_;
   double size_ = 1.0;

@@ -39,7 +39,7 @@ ContactSystem::SaddlePointBlocks ContactSystem::saddle_point_blocks(const Vector
       const LocalOrdinal first = self.multiplier_of[p][s];
       if (first < 0) continue;
       const detail::NodeRow& row = pair.rows()[s];
-      const Complementarity law = self.complementarity(p, s, self.z_of(values, p, s));
+      const Complementarity law = pair.complementarity(s, self.z_of(values, p, s));
       const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
       for (int i = 0; i < 2; ++i) {
         const GlobalOrdinal multiplier = self.multipliers->getGlobalElement(first + i);
@@ -52,7 +52,8 @@ ContactSystem::SaddlePointBlocks ContactSystem::saddle_point_blocks(const Vector
         blocks.C_z->insertGlobalValues(multiplier, 2, C_z, both);
         for (std::size_t c = 0; c < coupled.size(); ++c)
           for (int k = 0; k < 2; ++k) {
-            const double value = i == 0 ? law.gap_factor * row.dgap[2 * c + k] : law.normal_factor.dot(row.dnormal.col(2 * c + k));
+            double value = law.gap_factor[i] * row.dgap[2 * c + k] + law.normal_factor.row(i).dot(row.dnormal.col(2 * c + k));
+            if (i == 1 && law.slip_factor != 0.0) value += law.slip_factor * row.dslip[2 * c + k];
             const GlobalOrdinal dof = 2 * nodes.getGlobalElement(coupled[c]) + k;
             blocks.C_d->insertGlobalValues(multiplier, 1, &value, &dof);
           }

@@ -38,6 +38,7 @@ void ContactSystem::start_step(const Vector& d, const std::vector<char>& unheld,
   std::optional<StepFailure> failure;
   evaluate(d, false, failure);
   throw_if_any(*self.dofs->getComm(), failure);
+  for (const auto& pair : self.pairs) pair->start_slip();
 
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadWrite);
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {

@@ -29,7 +29,8 @@ std::string ParameterRecord::kind_text() const {
     case Kind::boolean: return "true or false";
     case Kind::text: return "text";
     case Kind::expression:
-    case Kind::optional_expression: return "expression of t, x, y, z";
+    case Kind::optional_expression:
+      return says.arguments().empty() ? "expression of t, x, y, z" : fmt::format("expression of {}", fmt::join(says.arguments(), ", "));
     case Kind::numbers: return "numbers, separated by commas";
     case Kind::texts: return "names, separated by commas";
     case Kind::enumeration: return "one of " + quoted_list(choices);
@@ -118,7 +119,8 @@ void CollectParameters::choice_of(const std::string& name, const ChoiceAccess& a
   std::vector<std::string> names;
   for (const auto& kind : access.kinds) names.push_back(kind.first);
   Says required = says;
-  record(name, Kind::enumeration, access.type, required.required(), names);
+  if (access.type.empty()) required.required();
+  record(name, Kind::enumeration, access.type, required, names);
   if (what_ == What::values) {
     if (!access.type.empty()) access.describe(*this);
     return;

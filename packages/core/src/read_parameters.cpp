@@ -145,7 +145,9 @@ void ReadParameters::add(const std::string& name, Expression& value, const Says&
   const XmlParameter* parameter = find(name, says, {"double", "int"});
   if (!parameter) return;
   try {
-    Expression read(parameter->value, symbols_, parameter->place);
+    const bool usual = says.arguments().empty();
+    Expression read = usual ? Expression(parameter->value, symbols_, parameter->place)
+                            : Expression::of(says.arguments(), parameter->value, symbols_, parameter->place);
     if (read.is_constant() && !in_range(read(), says))
       say(parameter->place, fmt::format("\"{}\" is {}; allowed: {}", name, read(), range_text(says)));
     else
@@ -235,6 +237,10 @@ void ReadParameters::choice_of(const std::string& name, const ChoiceAccess& acce
   for (const auto& kind : access.kinds) kinds.push_back(kind.first);
   frame().known.push_back(name);
   const XmlParameter* parameter = frame().list ? frame().list->parameter(name) : nullptr;
+  if (!parameter && !access.type.empty()) {
+    access.describe(*this);
+    return;
+  }
   if (!parameter) {
     frame().check_unknown = false;
     say(frame().place, fmt::format("\"{}\" is missing; please add it: {}; one of {}", name, says.sentence(), quoted_list(kinds)));

@@ -97,6 +97,7 @@ struct MortarInterface::Implementation {
   RCP<const Map> local_nodes;
   RCP<MultiVector> searched_at;  ///< owned positions of the last real search
   double free_distance = 0.0;    ///< that every node may move from there without another one
+  std::vector<std::vector<GlobalOrdinal>> retained;  ///< [owned slave nodes]; empty: none
   mutable FacetIntegrator2d integrator;
 
   Implementation(const InterfaceMeasure& m, const MortarOptions& o) : measure(m), options(o), integrator(m, o) {}
@@ -226,17 +227,18 @@ std::vector<std::vector<FacetIds>> MortarInterface::Implementation::find(const P
 void MortarInterface::Implementation::number_nodes() {
   std::vector<GlobalOrdinal> ids = slave.node_ids;
   std::map<GlobalOrdinal, LocalOrdinal> local_of;
+  for (std::size_t n = 0; n < ids.size(); ++n) local_of.insert({ids[n], static_cast<LocalOrdinal>(n)});
+  const auto local = [&](GlobalOrdinal id) {
+    const auto [found, is_new] = local_of.insert({id, static_cast<LocalOrdinal>(ids.size())});
+    if (is_new) ids.push_back(id);
+    return found->second;
+  };
   candidates.assign(slave.facets.size(), {});
   for (std::size_t f = 0; f < slave.facets.size(); ++f)
-    for (const FacetIds& facet : candidate_ids[f]) {
-      std::array<LocalOrdinal, 2> local;
-      for (int l = 0; l < 2; ++l) {
-        const auto [found, is_new] = local_of.insert({facet[l], static_cast<LocalOrdinal>(ids.size())});
-        if (is_new) ids.push_back(facet[l]);
-        local[l] = found->second;
-      }
-      candidates[f].push_back(local);
-    }
+    for (const FacetIds& facet : candidate_ids[f]) candidates[f].push_back({local(facet[0]), local(facet[1])});
+  std::vector<std::vector<LocalOrdinal>> kept(slave.owned.size());
+  for (std::size_t s = 0; s < retained.size(); ++s)
+    for (const GlobalOrdinal id : retained[s]) kept[s].push_back(local(id));
   local_nodes = map_of(ids, owned_nodes->getComm());
   coupled.assign(slave.owned.size(), {});
   loaded.assign(slave.owned.size(), {});
@@ -251,6 +253,7 @@ void MortarInterface::Implementation::number_nodes() {
       for (const auto& facet : candidates[f]) loaded[s].insert(loaded[s].end(), facet.begin(), facet.end());
     }
     coupled[s].insert(coupled[s].end(), loaded[s].begin(), loaded[s].end());
+    coupled[s].insert(coupled[s].end(), kept[s].begin(), kept[s].end());
     for (std::vector<LocalOrdinal>* nodes : {&coupled[s], &loaded[s]}) {
       std::sort(nodes->begin(), nodes->end());
       nodes->erase(std::unique(nodes->begin(), nodes->end()), nodes->end());
@@ -297,6 +300,7 @@ std::vector<std::optional<double>> MortarInterface::distances_to_master(const Mu
   return distances_along_normals(*self.owned_nodes->getComm(), lines, placed);
 }
 
+void MortarInterface::retain(std::vector<std::vector<GlobalOrdinal>> nodes) { implementation_->retained = std::move(nodes); }
 const RCP<const Map>& MortarInterface::local_nodes() const { return implementation_->local_nodes; }
 const std::vector<SlaveNode>& MortarInterface::slave_nodes() const { return implementation_->slave.owned; }
 const std::vector<LocalOrdinal>& MortarInterface::coupled_nodes(std::size_t s) const { return implementation_->coupled[s]; }

@@ -31,8 +31,38 @@ std::vector<Case> cases() {
   all.back().surfaces.measure = {true, 1.0};
   all.push_back({"reference", test::arch_on_ground()});
   all.back().surfaces.options.geometry = ContactGeometry::reference;
+  const auto add_friction = [&](const std::string& name, double coefficient, const std::shared_ptr<FrictionLaw>& given = {}) {
+    all.push_back({name, test::arch_on_ground()});
+    auto coulomb = std::make_shared<CoulombFriction>();
+    coulomb->coefficient = Expression(coefficient);
+    all.back().surfaces.options.friction.options = given ? given : coulomb;
+    return &all.back().surfaces;
+  };
+  add_friction("coulomb, mostly stick", 2.0);
+  add_friction("coulomb, mixed", 0.12);
+  add_friction("coulomb, mostly slip", 0.02);
+  add_friction("coulomb, partly fixed", 0.12)->fixed[0] = {true, false};
+  add_friction("coulomb, crosspoint", 0.12)->fixed[2] = {true, true};
+  add_friction("coulomb, axisymmetric", 0.12)->measure = {true, 1.0};
+  add_friction("coulomb, reference", 0.12)->options.geometry = ContactGeometry::reference;
+  add_friction("coulomb, standard weighting", 0.12)->options.mortar.gap_weighting = GapWeighting::standard;
+  auto tresca = std::make_shared<TrescaFriction>();
+  tresca->traction = 0.8;
+  add_friction("tresca", 0.0, tresca);
+  auto of_pressure = std::make_shared<CoulombFriction>();
+  of_pressure->coefficient = Expression::of({"pressure", "slip"}, "0.05 + 0.2*exp(-pressure/5)", {});
+  of_pressure->largest_traction = 0.9;
+  add_friction("coulomb of pressure, bounded", 0.0, of_pressure);
   for (Case& one : all) one.surfaces.options.mortar.search_reach = 1.0;
   return all;
+}
+
+/// Where the step started: slips are measured from here.
+void start(Fixture& fixture) {
+  const auto before = Fixture::vector(fixture.dofs, [](GlobalOrdinal id) { return 0.01 * std::sin(3.1 * static_cast<double>(id) + 0.2); });
+  const std::vector<char> held(fixture.nodes->getNodeNumElements(), 0);
+  Vector z(fixture.contact->multiplier_map());
+  fixture.contact->start_step(*before, held, z);
 }
 
 // Some nodes pressed, some open; the tangential part is not zero, as it is before Newton has converged.
@@ -51,6 +81,7 @@ TEST_P(Linearisation, AgreesWithCentralDifferences) {
   const auto z = fixture.multipliers(pressure);
   const auto w = Fixture::vector(contact.multiplier_map(), [](GlobalOrdinal id) { return wiggle(5 * id + 2); });
 
+  start(fixture);
   contact.evaluate(*d, true, failure);
   ASSERT_FALSE(failure);
   bool changed = false;
@@ -66,6 +97,16 @@ TEST_P(Linearisation, AgreesWithCentralDifferences) {
   const ContactNorms norms = contact.norms(*z);
   EXPECT_GT(norms.active, 0);
   EXPECT_LT(norms.active, 6);
+  if (one.name.find("mixed") != std::string::npos) {
+    EXPECT_GT(norms.sticking, 0);
+    EXPECT_LT(norms.sticking, norms.active);
+  }
+  if (one.name.find("mostly stick") != std::string::npos) {
+    EXPECT_GE(norms.sticking, norms.active - 1);
+  }
+  if (one.name.find("mostly slip") != std::string::npos) {
+    EXPECT_LE(norms.sticking, 1);
+  }
 
   const double h = 1e-6;
   Vector force_difference(fixture.dofs), law_difference(contact.multiplier_map());
@@ -98,6 +139,7 @@ TEST_P(Linearisation, CondensedStepEqualsSaddlePointStep) {
   const auto d = Fixture::vector(fixture.dofs, [](GlobalOrdinal id) { return 0.01 * wiggle(id); });
   const auto r = Fixture::vector(fixture.dofs, [](GlobalOrdinal id) { return 5.0 * wiggle(7 * id + 3); });  // without f_c
   const auto z = fixture.multipliers(pressure);
+  start(fixture);
   contact.evaluate(*d, true, failure);
   ASSERT_FALSE(failure);
   bool changed = false;
@@ -159,6 +201,7 @@ INSTANTIATE_TEST_SUITE_P(Cases, Linearisation, ::testing::Range(0, static_cast<i
                          [](const auto& info) {
                            std::string name = cases()[info.param].name;
                            std::replace(name.begin(), name.end(), ' ', '_');
+                           name.erase(std::remove(name.begin(), name.end(), ','), name.end());
                            return name;
                          });
 

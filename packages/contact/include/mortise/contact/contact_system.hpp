@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "mortise/contact/complementarity.hpp"
+#include "mortise/contact/friction.hpp"
 #include "mortise/core/error.hpp"
 #include "mortise/core/parameters.hpp"
 #include "mortise/core/timers.hpp"
@@ -21,7 +23,8 @@ enum class ContactGeometry { current, reference };
 struct ContactOptions {
   MortarOptions mortar;
   ContactGeometry geometry = ContactGeometry::current;
-  std::optional<double> complementarity_constant;  ///< c_n; default E / (h A_j)
+  std::optional<double> complementarity_constant;  ///< c_n and c_t; default E / (h A_j)
+  Choice<FrictionLaw> friction{"none", std::make_shared<NoFriction>(), {}};
   void describe(Parameters& parameters);
 };
 
@@ -41,6 +44,7 @@ struct ContactNorms {
   double force = 0.0;            ///< |f_c|
   double violation = 0.0;        ///< |A_j C_j| over all nodes [force]
   int active = 0;                ///< closed nodes
+  int sticking = 0;              ///< of them
   int changed = 0;               ///< nodes whose state is not that of the last committed Newton iterate
 };
 
@@ -54,6 +58,10 @@ struct ContactNodeState {
   double gap = 0.0;       ///< weighted gap / A_j
   double weight = 0.0;    ///< A_j
   bool closed = false;
+  ContactState state = ContactState::open;
+  double shear = 0.0;      ///< z . tau, tau = n turned by +90 degrees
+  double slip = 0.0;       ///< along tau since the start of the step [length]; friction only
+  double slip_path = 0.0;  ///< |slip| summed over the accepted steps [length]; friction only
   std::array<double, 2> force{};  ///< D_jj z_j, force of this node's multiplier on the slave side is -force
 };
 
@@ -93,7 +101,7 @@ class ContactSystem {
 
   /// Takes the states at z, d of the last evaluate, as those that `changed` counts against: once for each Newton iterate.
   void mark_states(const Vector& z);
-  /// Takes the states at z, d of the last evaluate, as those of the accepted state that the next step starts from.
+  /// Takes the states at z, d of the last evaluate, as those of the accepted state that the next step starts from; slip paths and work grow.
   void accept_states(const Vector& z);
 
   /// K += C~ = d(f_c)/dd at fixed z. `system` has system_graph(). Needs evaluate(d, true).
@@ -111,12 +119,16 @@ class ContactSystem {
   SaddlePointBlocks saddle_point_blocks(const Vector& z) const;
 
   /// Goes back to the accepted states, and start rule: multipliers of nodes that touch, and seeds for bodies that only contact holds, are set to a
-  /// small pressure.
+  /// small pressure. Slips are measured from d on.
   /// @param unheld_bodies  for each owned node whether it belongs to a body that nothing but contact holds
   void start_step(const Vector& d, const std::vector<char>& unheld, Vector& z);
 
   /// States of the owned slave nodes of a pair.
   std::vector<ContactNodeState> node_states(std::size_t pair, const Vector& z) const;
+  /// Work that friction of a pair has dissipated in the accepted steps. Collective.
+  double friction_work(std::size_t pair) const;
+  /// Bytes that the slip histories of a pair take on this rank; 0 without friction.
+  std::size_t friction_bytes(std::size_t pair) const;
   /// Resultant (over all ranks) of the contact forces on the slave side of a pair.
   std::array<double, 2> resultant(std::size_t pair, const Vector& z) const;
 

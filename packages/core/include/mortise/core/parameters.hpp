@@ -37,6 +37,8 @@ class Says {
   Says& at_most(double bound) { return upper_ = bound, upper_open_ = false, *this; }
   /// The scene has to give it; there is no default.
   Says& required() { return required_ = true, *this; }
+  /// What an expression is of, instead of t, x, y, z.
+  Says& arguments(std::vector<std::string> names) { return arguments_ = std::move(names), *this; }
 
   const std::string& sentence() const { return sentence_; }
   const std::string& unit() const { return unit_; }
@@ -45,11 +47,13 @@ class Says {
   bool lower_open() const { return lower_open_; }
   bool upper_open() const { return upper_open_; }
   bool is_required() const { return required_; }
+  const std::vector<std::string>& arguments() const { return arguments_; }
 
  private:
   std::string sentence_, unit_;
   std::optional<double> lower_, upper_;
   bool lower_open_ = false, upper_open_ = false, required_ = false;
+  std::vector<std::string> arguments_;
 };
 
 /// A value that remembers where the scene gave it, for errors that are found later.
@@ -89,7 +93,7 @@ class Registry {
 /// One of several kinds of options, told apart by a parameter "type" that stands in the same list as the kind's own parameters.
 template <class Base>
 struct Choice {
-  std::string type;               ///< name in the registry; empty: not given
+  std::string type;               ///< name in the registry; empty: not given. Set beforehand, with the options, it is the default
   std::shared_ptr<Base> options;  ///< null only if the scene gave no valid type
   Place place;
 };

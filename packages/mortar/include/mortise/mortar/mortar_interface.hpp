@@ -86,6 +86,10 @@ class MortarInterface {
   /// pattern were rebuilt. Does nothing if a position is not finite; evaluate() then reports it.
   bool search(const MultiVector& x);
 
+  /// Further nodes that each owned slave node stays coupled to from the next rebuild of the pattern on, by id: those that a slip is measured
+  /// against. Until then they have to stand in coupled_nodes() already.
+  void retain(std::vector<std::vector<GlobalOrdinal>> nodes);
+
   /// Nodes this rank needs: owned slave nodes first, then ring and master nodes. Rebuilt by search().
   const RCP<const Map>& local_nodes() const;
 

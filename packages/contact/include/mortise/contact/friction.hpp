@@ -1,0 +1,50 @@
+#pragma once
+// Friction laws: how much shear traction a closed node bears before it slips. A new law: a struct here, and its line in friction_registry().
+
+#include <optional>
+
+#include "mortise/core/parameters.hpp"
+
+namespace mortise {
+
+/// Largest shear traction of a node.
+struct FrictionBound {
+  double value = 0.0;  ///< rho [stress]
+  double slope = 0.0;  ///< d rho / d pressure
+};
+
+/// The friction of a contact pair.
+struct FrictionLaw : Described {
+  /// False: no code and no memory of friction for the pair.
+  virtual bool acts() const { return true; }
+
+  /// rho at a contact pressure >= 0 [stress] and a slip path accumulated up to the start of the step [length].
+  virtual FrictionBound bound(double pressure, double slip_path) const = 0;
+};
+
+/// Nodes slip freely.
+struct NoFriction : FrictionLaw {
+  void describe(Parameters&) override {}
+  bool acts() const override { return false; }
+  FrictionBound bound(double, double) const override { return {}; }
+};
+
+/// rho = min(mu p, largest traction).
+struct CoulombFriction : FrictionLaw {
+  Expression coefficient{0.0};             ///< mu of pressure and slip path
+  std::optional<double> largest_traction;  ///< [stress]
+  void describe(Parameters& parameters) override;
+  FrictionBound bound(double pressure, double slip_path) const override;
+};
+
+/// rho given, whatever the pressure.
+struct TrescaFriction : FrictionLaw {
+  double traction = 0.0;  ///< [stress]
+  void describe(Parameters& parameters) override;
+  FrictionBound bound(double, double) const override { return {traction, 0.0}; }
+};
+
+/// All friction laws by name.
+const Registry<FrictionLaw>& friction_registry();
+
+}  // namespace mortise

@@ -1,0 +1,44 @@
+#include "mortise/contact/friction.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace mortise {
+
+void CoulombFriction::describe(Parameters& parameters) {
+  parameters.add("coefficient", coefficient,
+                 Says("friction coefficient mu, an expression of `pressure` and `slip`, the path that the node has slipped up to the start of the step")
+                     .unit("-")
+                     .arguments({"pressure", "slip"})
+                     .required());
+  parameters.add("largest traction", largest_traction,
+                 Says("shear traction that is never exceeded, as the shear yield stress of the softer side; default: none").unit("stress").above(0.0));
+}
+
+// d(mu p)/dp of an expression by central differences: exact to 1e-10 of mu, which no Newton step notices.
+FrictionBound CoulombFriction::bound(double pressure, double slip_path) const {
+  const auto at = [&](double p) { return coefficient.at({p, slip_path}) * p; };
+  FrictionBound result{at(pressure), 0.0};
+  if (largest_traction && result.value >= *largest_traction) return {*largest_traction, 0.0};
+  if (coefficient.is_constant()) return {result.value, coefficient.at({0.0, 0.0})};
+  const double step = std::cbrt(std::numeric_limits<double>::epsilon()) * pressure;
+  result.slope = step > 0.0 ? (at(pressure + step) - at(pressure - step)) / (2.0 * step) : coefficient.at({0.0, slip_path});
+  return result;
+}
+
+void TrescaFriction::describe(Parameters& parameters) {
+  parameters.add("traction", traction, Says("shear traction at which closed nodes slip").unit("stress").at_least(0.0).required());
+}
+
+const Registry<FrictionLaw>& friction_registry() {
+  static const Registry<FrictionLaw> registry = [] {
+    Registry<FrictionLaw> laws;
+    laws.add<NoFriction>("none", "nodes slip freely");
+    laws.add<CoulombFriction>("coulomb", "slip at a shear traction of mu times the pressure, or at a largest traction");
+    laws.add<TrescaFriction>("tresca", "slip at a given shear traction");
+    return laws;
+  }();
+  return registry;
+}
+
+}  // namespace mortise

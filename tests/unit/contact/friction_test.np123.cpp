@@ -1,0 +1,136 @@
+// Slip: objective, additive along a straight surface, zero in a rigid motion of both bodies; its path and its work.
+
+#include <gtest/gtest.h>
+
+#include "two_surfaces.hpp"
+
+namespace mortise {
+namespace {
+
+using test::Fixture;
+using test::TwoSurfaces;
+
+/// A straight slave of 5 facets over [1, 6] on a straight master of 6 over [0, 9]; slave nodes have ids 0 to 5.
+TwoSurfaces flat(ContactGeometry geometry, double coefficient) {
+  TwoSurfaces surfaces;
+  for (int i = 0; i < 6; ++i) surfaces.slave.push_back({1.0 + i, 0.0});
+  for (int i = 0; i < 7; ++i) surfaces.master.push_back({1.5 * (6 - i), 0.0});
+  surfaces.fixed.assign(surfaces.size(), {false, false});
+  auto coulomb = std::make_shared<CoulombFriction>();
+  coulomb->coefficient = Expression(coefficient);
+  surfaces.options.friction.options = coulomb;
+  surfaces.options.geometry = geometry;
+  return surfaces;
+}
+
+RCP<Vector> motion(const Fixture& fixture, const TwoSurfaces& surfaces, const std::function<test::Point(bool slave, const test::Point&)>& u) {
+  return Fixture::vector(fixture.dofs, [&](GlobalOrdinal id) {
+    const auto node = static_cast<std::size_t>(id / 2);
+    const bool slave = node < surfaces.slave.size();
+    return u(slave, slave ? surfaces.slave[node] : surfaces.master[node - surfaces.slave.size()])[id % 2];
+  });
+}
+
+/// Slips of the slave nodes at d of a step that started without displacement.
+std::vector<double> slips(Fixture& fixture, const Vector& d) {
+  const std::vector<char> held(fixture.nodes->getNodeNumElements(), 0);
+  Vector none(fixture.dofs), z(fixture.contact->multiplier_map());
+  fixture.contact->start_step(none, held, z);
+  std::optional<StepFailure> failure;
+  fixture.contact->evaluate(d, false, failure);
+  EXPECT_FALSE(failure);
+  std::vector<double> slips;
+  for (const auto& state : fixture.contact->node_states(0, z)) slips.push_back(state.slip);
+  return slips;
+}
+
+// The slave's normal points down, its tangent along +x.
+TEST(Slip, IsTheMotionOfTheSlaveRelativeToTheMaster) {
+  for (const ContactGeometry geometry : {ContactGeometry::current, ContactGeometry::reference}) {
+    const TwoSurfaces surfaces = flat(geometry, 0.3);
+    Fixture fixture(surfaces, Tpetra::getDefaultComm());
+    const auto d = motion(fixture, surfaces, [](bool slave, const test::Point&) { return test::Point{slave ? 0.7 : -0.2, 0.0}; });
+    for (const double slip : slips(fixture, *d)) EXPECT_NEAR(slip, 0.9, 1e-13);
+  }
+}
+
+TEST(Slip, VanishesInARigidMotionOfBothBodies) {
+  const TwoSurfaces surfaces = flat(ContactGeometry::current, 0.3);
+  Fixture fixture(surfaces, Tpetra::getDefaultComm());
+  const double angle = 1.1;
+  const auto d = motion(fixture, surfaces, [&](bool, const test::Point& X) {
+    return test::Point{std::cos(angle) * X[0] - std::sin(angle) * X[1] - X[0] + 3.0, std::sin(angle) * X[0] + std::cos(angle) * X[1] - X[1] - 2.0};
+  });
+  for (const double slip : slips(fixture, *d)) EXPECT_NEAR(slip, 0.0, 1e-13);
+}
+
+// Beyond a whole master facet: the old master nodes are no longer near.
+TEST(Slip, IsMeasuredOverManyFacets) {
+  const TwoSurfaces surfaces = flat(ContactGeometry::current, 0.3);
+  Fixture fixture(surfaces, Tpetra::getDefaultComm());
+  const auto d = motion(fixture, surfaces, [](bool slave, const test::Point&) { return test::Point{slave ? 3.0 : 0.0, 0.0}; });
+  for (const double slip : slips(fixture, *d)) EXPECT_NEAR(slip, 3.0, 1e-12);
+}
+
+TEST(Slip, PathAndWorkGrowWithAcceptedSteps) {
+  const TwoSurfaces surfaces = flat(ContactGeometry::current, 0.3);
+  Fixture fixture(surfaces, Tpetra::getDefaultComm());
+  ContactSystem& contact = *fixture.contact;
+  const std::vector<char> held(fixture.nodes->getNodeNumElements(), 0);
+  const double pressure = 10.0;
+  // z = (shear, -p): normal down. Forward by 0.5, back by 0.2: the shear traction follows the slip.
+  const GlobalOrdinal offset = fixture.dofs->getMaxAllGlobalIndex() + 1;
+  const auto traction = [&](double shear) {
+    return Fixture::vector(contact.multiplier_map(), [&](GlobalOrdinal id) { return (id - offset) % 2 == 0 ? shear : -pressure; });
+  };
+  Vector z(contact.multiplier_map());
+  RCP<Vector> d = rcp(new Vector(fixture.dofs));
+  double path = 0.0, position = 0.0;
+  for (const double step : {0.5, -0.2}) {
+    for (int tries = 0; tries < 2; ++tries) contact.start_step(*d, held, z);  // undone and tried again
+    position += step;
+    d = motion(fixture, surfaces, [&](bool slave, const test::Point&) { return test::Point{slave ? position : 0.0, 0.0}; });
+    std::optional<StepFailure> failure;
+    contact.evaluate(*d, false, failure);
+    Tpetra::deep_copy(z, *traction(step > 0.0 ? 0.3 * pressure : -0.3 * pressure));
+    const ContactNorms norms = contact.norms(z);
+    EXPECT_EQ(norms.active, 6);
+    EXPECT_EQ(norms.sticking, 0);
+    EXPECT_LE(norms.complementarity, 1e-13);  // the closed solution: on the cone, along the slip
+    contact.accept_states(z);
+    path += std::abs(step);
+    for (const auto& state : contact.node_states(0, z)) {
+      EXPECT_NEAR(state.slip_path, path, 1e-12);
+      EXPECT_EQ(state.state, ContactState::slip);
+    }
+    // Shear traction times slip over a length of 5.
+    EXPECT_NEAR(contact.friction_work(0), 0.3 * pressure * 5.0 * path, 1e-10);
+  }
+  EXPECT_GT(contact.friction_bytes(0), fixture.nodes->getComm()->getSize() > 1 ? 0u : 6u);
+}
+
+TEST(Slip, APairWithoutFrictionRemembersNothing) {
+  TwoSurfaces surfaces = flat(ContactGeometry::current, 0.3);
+  surfaces.options.friction = ContactOptions().friction;
+  Fixture fixture(surfaces, Tpetra::getDefaultComm());
+  const std::vector<char> held(fixture.nodes->getNodeNumElements(), 0);
+  Vector d(fixture.dofs), z(fixture.contact->multiplier_map());
+  fixture.contact->start_step(d, held, z);
+  fixture.contact->accept_states(z);
+  EXPECT_EQ(fixture.contact->friction_bytes(0), 0u);
+  EXPECT_EQ(fixture.contact->friction_work(0), 0.0);
+}
+
+TEST(Coulomb, SticksInsideTheConeAndSlipsOnIt) {
+  const Eigen::Vector2d normal(0.0, -1.0);
+  const double c = 7.0;
+  const auto at = [&](double shear, double slip) { return with_friction(c, c, 0.0, slip, normal, {shear, -10.0}, {3.0, 0.3}); };
+  EXPECT_EQ(at(2.9, 0.0).state, ContactState::stick);
+  EXPECT_EQ(at(2.9, 0.0).C[1], 0.0);
+  EXPECT_EQ(at(-2.9, -0.1).state, ContactState::slip);
+  EXPECT_NEAR(at(-3.0, -0.1).C[1], 0.0, 1e-15);
+  EXPECT_NEAR(at(3.0, -0.1).C[1], -c * -0.1, 1e-15);  // slips against its traction: sticks instead
+}
+
+}  // namespace
+}  // namespace mortise
