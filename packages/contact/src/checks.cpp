@@ -26,13 +26,15 @@ void refuse_shared_nodes(const Map& owned_nodes, const std::vector<ContactPair>&
       if (p == q) continue;
       if (p < q)
         if (const auto node = first_common(slave[p], slave[q]))
-          diagnostics.push_back({pairs[q].place, fmt::format("node {} is a slave here and in pair \"{}\"; a node can be slave in one pair only: make this side "
-                                                             "the master of one of them, or split the surface into sets without common nodes",
-                                                             *node, pairs[p].name)});
+          diagnostics.push_back(
+              {pairs[q].place, fmt::format("node {} is a slave here and in pair \"{}\"; a node can be slave in one pair only: make this side "
+                                           "the master of one of them, or split the surface into sets without common nodes",
+                                           *node, pairs[p].name)});
       if (const auto node = first_common(slave[p], master[q]))
-        diagnostics.push_back({pairs[p].place, fmt::format("node {} is a slave here and a master in pair \"{}\"; its multiplier could not be eliminated: split the "
-                                                           "surface into sets without common nodes, or exchange slave and master",
-                                                           *node, pairs[q].name)});
+        diagnostics.push_back(
+            {pairs[p].place, fmt::format("node {} is a slave here and a master in pair \"{}\"; its multiplier could not be eliminated: split the "
+                                         "surface into sets without common nodes, or exchange slave and master",
+                                         *node, pairs[q].name)});
     }
   throw_if_any(*owned_nodes.getComm(), diagnostics);
 }

@@ -1,11 +1,11 @@
 // The linearised contact: C~, condensation of the multipliers, their recovery, and the start rule.
 
+#include <Eigen/LU>
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <functional>

@@ -221,6 +221,12 @@ std::vector<std::vector<ContactState>> ContactSystem::Implementation::states(con
   return states;
 }
 
+void ContactSystem::Implementation::take_slip_references() {
+  for (const auto& pair : pairs)
+    if (pair->friction() != nullptr) pair->take_slip_reference();
+  slip_references_taken = true;
+}
+
 void ContactSystem::mark_states(const Vector& z) { implementation_->marked = implementation_->states(z); }
 
 void ContactSystem::accept_states(const Vector& z) {
@@ -230,6 +236,7 @@ void ContactSystem::accept_states(const Vector& z) {
   for (std::size_t p = 0; p < self.pairs.size(); ++p)
     if (self.pairs[p]->friction() != nullptr)
       for (std::size_t s = 0; s < self.accepted[p].size(); ++s) self.pairs[p]->accept_slip(s, self.z_of(values, p, s), self.accepted[p][s]);
+  self.take_slip_references();
 }
 
 double ContactSystem::friction_work(std::size_t pair) const {
@@ -238,13 +245,24 @@ double ContactSystem::friction_work(std::size_t pair) const {
   return implementation_->sum(work);
 }
 
-std::size_t ContactSystem::friction_bytes(std::size_t pair) const {
-  const auto& histories = implementation_->pairs[pair]->slip_histories();
-  std::size_t bytes = histories.capacity() * sizeof(detail::SlipHistory);
-  for (const detail::SlipHistory& history : histories)
-    bytes += history.nodes.capacity() * sizeof(GlobalOrdinal) + history.coefficients.capacity() * sizeof(double) +
-             history.positions.capacity() * sizeof(LocalOrdinal);
-  return bytes;
+long ContactSystem::friction_bytes() const {
+  std::size_t bytes = 0;
+  for (const auto& pair : implementation_->pairs) {
+    const auto& histories = pair->slip_histories();
+    bytes += histories.capacity() * sizeof(detail::SlipHistory);
+    for (const detail::SlipHistory& history : histories) {
+      bytes += history.places.capacity() * sizeof(LocalOrdinal);
+      for (const detail::SlipReference* reference : {&history.start, &history.accepted})
+        bytes += reference->nodes.capacity() * sizeof(GlobalOrdinal) + reference->coefficients.capacity() * sizeof(double);
+    }
+  }
+  return static_cast<long>(implementation_->sum(static_cast<double>(bytes)));
+}
+
+long ContactSystem::friction_evaluations() const {
+  long evaluations = 0;
+  for (const auto& pair : implementation_->pairs) evaluations += pair->slip_evaluations();
+  return evaluations;
 }
 
 std::vector<ContactNodeState> ContactSystem::node_states(std::size_t pair, const Vector& z) const {
@@ -265,10 +283,11 @@ std::vector<ContactNodeState> ContactSystem::node_states(std::size_t pair, const
     state.weight = slave.weight;
     if (slave.carries_multiplier) state.state = self.pairs[pair]->complementarity(s, zs).state;
     state.closed = state.state != ContactState::open;
+    state.covered = row.covered;
     state.shear = zs.dot(tangent(row.normal));
     if (self.pairs[pair]->friction() != nullptr && row.D > 0.0) {
       state.slip = row.slip / row.D;
-      state.slip_path = self.pairs[pair]->slip_histories()[s].accepted_path;
+      state.slip_path = self.pairs[pair]->slip_histories()[s].accepted.path;
     }
     state.force = {row.D * zs[0], row.D * zs[1]};
     states.push_back(state);

@@ -6,13 +6,15 @@
 namespace mortise {
 
 void CoulombFriction::describe(Parameters& parameters) {
-  parameters.add("coefficient", coefficient,
-                 Says("friction coefficient mu, an expression of `pressure` and `slip`, the path that the node has slipped up to the start of the step")
-                     .unit("-")
-                     .arguments({"pressure", "slip"})
-                     .required());
-  parameters.add("largest traction", largest_traction,
-                 Says("shear traction that is never exceeded, as the shear yield stress of the softer side; default: none").unit("stress").above(0.0));
+  parameters.add(
+      "coefficient", coefficient,
+      Says("friction coefficient mu, an expression of `pressure` and `slip`, the path that the node has slipped up to the start of the step")
+          .unit("-")
+          .arguments({"pressure", "slip"})
+          .required());
+  parameters.add(
+      "largest traction", largest_traction,
+      Says("shear traction that is never exceeded, as the shear yield stress of the softer side; default: none").unit("stress").above(0.0));
 }
 
 // d(mu p)/dp of an expression by central differences: exact to 1e-10 of mu, which no Newton step notices.

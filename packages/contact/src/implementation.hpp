@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "mortise/contact/contact_system.hpp"
 #include "mortise/contact/complementarity.hpp"
+#include "mortise/contact/contact_system.hpp"
 #include "pair_coupling.hpp"
 #include "system_scatter.hpp"
 
@@ -25,10 +25,10 @@ struct ContactSystem::Implementation {
   RCP<const MultiVector> reference;
   Timers timers;
   std::vector<std::unique_ptr<detail::PairCoupling>> pairs;
-  std::vector<std::vector<LocalOrdinal>> multiplier_of;  ///< [pair][slave node] local index of the first component in z, -1: none
+  std::vector<std::vector<LocalOrdinal>> multiplier_of;     ///< [pair][slave node] local index of the first component in z, -1: none
   std::vector<std::vector<ContactState>> marked, accepted;  ///< [pair][slave node] when last marked, of the accepted state
   std::unique_ptr<detail::SystemScatter> scatter;
-  bool pattern_changed = true;
+  bool pattern_changed = true, slip_references_taken = false;
   std::vector<RecoveryRow> recovery;
 
   /// Positions X + d on the owned nodes.
@@ -40,6 +40,7 @@ struct ContactSystem::Implementation {
     return first < 0 ? Eigen::Vector2d(0.0, 0.0) : Eigen::Vector2d(z(first, 0), z(first + 1, 0));
   }
   void add_contact_force(const Vector& z, Vector& r) const;
+  void take_slip_references();
   std::vector<std::vector<ContactState>> states(const Vector& z) const;
   /// Collective. Positions x on the owned nodes: those of the last evaluation.
   void find_lost_contact(const MultiVector& x, std::optional<StepFailure>& failure) const;

@@ -35,9 +35,9 @@ Complementarity PairCoupling::complementarity(std::size_t s, const Eigen::Vector
   const double c = complementarity_constant(s);
   const bool is_closed = closed(s, z);
   const SlaveNode& node = slave_nodes()[s];
-  if (!is_closed || friction_ == nullptr || slip_[s].nodes.empty() || node.fixed[0] || node.fixed[1])
+  if (!is_closed || friction_ == nullptr || slip_[s].start.nodes.empty() || node.fixed[0] || node.fixed[1])
     return frictionless(is_closed, c, row.gap, row.normal, z);
-  return with_friction(c, c, row.gap, row.slip, row.normal, z, friction_->bound(z.dot(row.normal) - c * row.gap, slip_[s].path));
+  return with_friction(c, c, row.gap, row.slip, row.normal, z, friction_->bound(z.dot(row.normal) - c * row.gap, slip_[s].start.path));
 }
 
 bool PairCoupling::search(const MultiVector& x) {

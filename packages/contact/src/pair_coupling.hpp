@@ -27,14 +27,19 @@ struct NodeRow {
   PositionGradient dslip;                            ///< [2 coupled nodes]; empty without derivatives or friction
 };
 
-/// What a slave node with friction remembers of the state that the step started from.
+/// What a slip is measured against: the couplings of a slave node in an accepted state.
+struct SlipReference {
+  std::vector<GlobalOrdinal> nodes;  ///< nodes it was coupled to, itself among them; empty: none, so that it slips freely in this step
+  std::vector<double> coefficients;  ///< [nodes] c_jm
+  double position = 0.0;             ///< tau . sum_m c_jm x_m; frozen geometry only
+  double path = 0.0;                 ///< slipped until then [length]
+};
+
+/// What a slave node with friction remembers.
 struct SlipHistory {
-  std::vector<GlobalOrdinal> nodes;     ///< nodes it was coupled to, itself among them; empty: none, so that it slips freely in this step
-  std::vector<double> coefficients;     ///< [nodes] c_jm
-  std::vector<LocalOrdinal> positions;  ///< [nodes] places among the coupled nodes of the current pattern
-  double start = 0.0;                   ///< tau . sum_m c_jm x_m; frozen geometry only
-  double path = 0.0, accepted_path = 0.0;  ///< slipped up to the start of the step, up to the accepted state [length]
-  double work = 0.0;                       ///< dissipated up to the accepted state
+  SlipReference start, accepted;     ///< of the state that the step started from, of the last accepted one
+  std::vector<LocalOrdinal> places;  ///< [start.nodes] among the coupled nodes of the current pattern
+  double work = 0.0;                 ///< dissipated up to the accepted state
 };
 
 /// A pair, its interface and what was last evaluated.
@@ -48,15 +53,18 @@ class PairCoupling {
   /// Evaluates at x, the positions of the last search().
   void evaluate(const MultiVector& x, bool derivatives, std::optional<StepFailure>& failure);
 
-  /// The step starts at the positions x of the last evaluate(): slips are measured from here. Friction only.
+  /// Takes the couplings of the last evaluate(), at an accepted state, as those that later slips are measured against. Friction only.
+  void take_slip_reference();
+  /// A step starts from the accepted state. Friction only.
   void start_slip();
-  /// Takes the slips at z as those of the accepted state: paths and dissipated work grow. Friction only.
+  /// Adds the slip of an accepted state to path and work. Friction only; take_slip_reference() follows.
   void accept_slip(std::size_t s, const Eigen::Vector2d& z, ContactState state);
 
   const ContactPair& definition() const { return pair_; }
   /// Null: the pair has no friction.
   const FrictionLaw* friction() const { return friction_; }
   const std::vector<SlipHistory>& slip_histories() const { return slip_; }
+  long slip_evaluations() const { return slip_evaluations_; }
   const MortarInterface& interface() const { return *interface_; }
   const std::vector<SlaveNode>& slave_nodes() const { return interface_->slave_nodes(); }
   const std::vector<NodeRow>& rows() const { return rows_; }
@@ -94,6 +102,7 @@ class PairCoupling {
   std::vector<NodeRow> rows_;
   const FrictionLaw* friction_ = nullptr;
   std::vector<SlipHistory> slip_;  ///< [slave nodes]; empty without friction
+  long slip_evaluations_ = 0;
   std::vector<double> frozen_gap_;
   std::vector<LocalOrdinal> position_in_row_;
   double size_ = 1.0;

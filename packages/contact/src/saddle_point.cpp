@@ -45,8 +45,7 @@ ContactSystem::SaddlePointBlocks ContactSystem::saddle_point_blocks(const Vector
         const GlobalOrdinal multiplier = self.multipliers->getGlobalElement(first + i);
         B.insertGlobalValues(2 * pair.slave_nodes()[s].id + i, 1, &row.D, &multiplier);
         for (std::size_t c = 0; c < coupled.size(); ++c)
-          if (row.coefficients[c] != 0.0)
-            B.insertGlobalValues(2 * nodes.getGlobalElement(coupled[c]) + i, 1, &row.coefficients[c], &multiplier);
+          if (row.coefficients[c] != 0.0) B.insertGlobalValues(2 * nodes.getGlobalElement(coupled[c]) + i, 1, &row.coefficients[c], &multiplier);
         const GlobalOrdinal both[2] = {self.multipliers->getGlobalElement(first), self.multipliers->getGlobalElement(first + 1)};
         const double C_z[2] = {law.C_z(i, 0), law.C_z(i, 1)};
         blocks.C_z->insertGlobalValues(multiplier, 2, C_z, both);

@@ -15,12 +15,33 @@ void PairCoupling::place_slip_histories() {
   for (std::size_t s = 0; s < slip_.size(); ++s) {
     const std::vector<LocalOrdinal>& coupled = interface_->coupled_nodes(s);
     SlipHistory& history = slip_[s];
-    history.positions.clear();
-    for (const GlobalOrdinal id : history.nodes) {
-      const auto found = std::lower_bound(coupled.begin(), coupled.end(), interface_->local_nodes()->getLocalElement(id));
-      if (found == coupled.end() || interface_->local_nodes()->getGlobalElement(*found) != id)
+    history.places.clear();
+    for (const GlobalOrdinal id : history.start.nodes) {
+      const LocalOrdinal node = interface_->local_nodes()->getLocalElement(id);
+      const auto found = std::lower_bound(coupled.begin(), coupled.end(), node);
+      if (node < 0 || found == coupled.end() || *found != node)
         throw std::logic_error("contact: a node that a slip is measured against is not in the pattern");
-      history.positions.push_back(static_cast<LocalOrdinal>(found - coupled.begin()));
+      history.places.push_back(static_cast<LocalOrdinal>(found - coupled.begin()));
+    }
+  }
+}
+
+void PairCoupling::take_slip_reference() {
+  const auto x = local_positions_->getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (std::size_t s = 0; s < slip_.size(); ++s) {
+    SlipReference& reference = slip_[s].accepted;
+    const NodeRow& row = rows_[s];
+    const std::vector<LocalOrdinal>& coupled = interface_->coupled_nodes(s);
+    reference.nodes.clear();
+    reference.coefficients.clear();
+    reference.position = 0.0;
+    if (!covered(s)) continue;
+    for (std::size_t c = 0; c < coupled.size(); ++c) {
+      const double coefficient = row.coefficients[c] + (coupled[c] == slave_nodes()[s].local_node ? row.D : 0.0);
+      if (coefficient == 0.0) continue;
+      reference.nodes.push_back(interface_->local_nodes()->getGlobalElement(coupled[c]));
+      reference.coefficients.push_back(coefficient);
+      reference.position += coefficient * tangent(row.normal).dot(Eigen::Vector2d(x(coupled[c], 0), x(coupled[c], 1)));
     }
   }
 }
@@ -29,48 +50,30 @@ void PairCoupling::start_slip() {
   if (friction_ == nullptr) return;
   std::vector<std::vector<GlobalOrdinal>> retained(slip_.size());
   for (std::size_t s = 0; s < slip_.size(); ++s) {
-    SlipHistory& history = slip_[s];
-    const NodeRow& row = rows_[s];
-    const std::vector<LocalOrdinal>& coupled = interface_->coupled_nodes(s);
-    history.path = history.accepted_path;
-    history.nodes.clear();
-    history.coefficients.clear();
-    if (covered(s))
-      for (std::size_t c = 0; c < coupled.size(); ++c) {
-        const double coefficient = row.coefficients[c] + (coupled[c] == slave_nodes()[s].local_node ? row.D : 0.0);
-        if (coefficient == 0.0) continue;
-        history.nodes.push_back(interface_->local_nodes()->getGlobalElement(coupled[c]));
-        history.coefficients.push_back(coefficient);
-      }
-    retained[s] = history.nodes;
+    slip_[s].start = slip_[s].accepted;
+    retained[s] = slip_[s].start.nodes;
   }
   interface_->retain(std::move(retained));
   place_slip_histories();
-  if (!frozen_) return;
-  for (SlipHistory& history : slip_) history.start = 0.0;
-  measure_frozen_slip();
-  for (std::size_t s = 0; s < slip_.size(); ++s) {
-    slip_[s].start = rows_[s].slip;
-    rows_[s].slip = 0.0;
-  }
 }
 
 // u_j = -tau_j . w,  w = sum_m (c_jm - c_jm^old) x_m:
 //   du_j = -d(tau_j) . w - tau_j . sum_m (dc_jm x_m + (c_jm - c_jm^old) dx_m),   d(tau) . w = dn . (w_y, -w_x).
 void PairCoupling::measure_slip(bool derivatives) {
+  ++slip_evaluations_;
   const auto x = local_positions_->getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto position = [&](LocalOrdinal node) { return Eigen::Vector2d(x(node, 0), x(node, 1)); };
   for (std::size_t s = 0; s < slip_.size(); ++s) {
     NodeRow& row = rows_[s];
-    const SlipHistory& history = slip_[s];
+    const SlipReference& start = slip_[s].start;
     const std::vector<LocalOrdinal>& coupled = interface_->coupled_nodes(s);
     row.slip = 0.0;
     row.dslip.assign(derivatives ? 2 * coupled.size() : 0, 0.0);
-    if (history.nodes.empty() || !covered(s)) continue;
+    if (start.nodes.empty() || !covered(s)) continue;
     std::vector<double> change = row.coefficients;
     for (std::size_t c = 0; c < coupled.size(); ++c)
       if (coupled[c] == slave_nodes()[s].local_node) change[c] += row.D;
-    for (std::size_t n = 0; n < history.nodes.size(); ++n) change[history.positions[n]] -= history.coefficients[n];
+    for (std::size_t n = 0; n < start.nodes.size(); ++n) change[slip_[s].places[n]] -= start.coefficients[n];
     Eigen::Vector2d w = Eigen::Vector2d::Zero();
     for (std::size_t c = 0; c < coupled.size(); ++c) w += change[c] * position(coupled[c]);
     const Eigen::Vector2d tau = tangent(row.normal);
@@ -85,7 +88,7 @@ void PairCoupling::measure_slip(bool derivatives) {
   for (const FacetCoupling& facet : couplings_)
     for (int j = 0; j < 2; ++j) {
       const auto s = static_cast<std::size_t>(facet.slave[j]);
-      if (s >= slip_.size() || slip_[s].nodes.empty() || !covered(s)) continue;
+      if (s >= slip_.size() || slip_[s].start.nodes.empty() || !covered(s)) continue;
       const Eigen::Vector2d tau = tangent(rows_[s].normal);
       Eigen::RowVectorXd gradient = Eigen::RowVectorXd::Zero(2 * facet.columns.size());
       for (int k = 0; k < 2; ++k) gradient -= tau.dot(position(facet.slave[k])) * facet.dD.row(2 * j + k);
@@ -101,12 +104,13 @@ void PairCoupling::measure_slip(bool derivatives) {
 
 // With frozen D, M and n the slip is the motion itself: u_j = tau_j . sum_m c_jm x_m since the start.
 void PairCoupling::measure_frozen_slip() {
+  ++slip_evaluations_;
   const auto x = local_positions_->getLocalViewHost(Tpetra::Access::ReadOnly);
   for (std::size_t s = 0; s < slip_.size(); ++s) {
     NodeRow& row = rows_[s];
     const std::vector<LocalOrdinal>& coupled = interface_->coupled_nodes(s);
     const Eigen::Vector2d tau = tangent(row.normal);
-    row.slip = -slip_[s].start;
+    row.slip = -slip_[s].start.position;
     row.dslip.assign(2 * coupled.size(), 0.0);
     for (std::size_t c = 0; c < coupled.size(); ++c) {
       const double coefficient = row.coefficients[c] + (coupled[c] == slave_nodes()[s].local_node ? row.D : 0.0);
@@ -121,9 +125,9 @@ void PairCoupling::measure_frozen_slip() {
 // Path: |u_j| over the weight that it carries; work: z_tau u_j.
 void PairCoupling::accept_slip(std::size_t s, const Eigen::Vector2d& z, ContactState state) {
   SlipHistory& history = slip_[s];
-  history.accepted_path = history.path;
-  if (state == ContactState::open || history.nodes.empty()) return;
-  history.accepted_path += std::abs(rows_[s].slip) / rows_[s].D;
+  history.accepted.path = history.start.path;
+  if (state == ContactState::open || history.start.nodes.empty()) return;
+  history.accepted.path += std::abs(rows_[s].slip) / rows_[s].D;
   history.work += z.dot(tangent(rows_[s].normal)) * rows_[s].slip;
 }
 

@@ -35,10 +35,18 @@ bool touches_unheld_body(const detail::PairCoupling& pair, const Map& owned_node
 void ContactSystem::start_step(const Vector& d, const std::vector<char>& unheld, Vector& z) {
   Implementation& self = *implementation_;
   self.marked = self.accepted;  // after a step that was undone
-  std::optional<StepFailure> failure;
-  evaluate(d, false, failure);
-  throw_if_any(*self.dofs->getComm(), failure);
+  const auto evaluate_or_throw = [&] {
+    std::optional<StepFailure> failure;
+    evaluate(d, false, failure);
+    throw_if_any(*self.dofs->getComm(), failure);
+  };
+  const bool rubs = std::any_of(self.pairs.begin(), self.pairs.end(), [](const auto& pair) { return pair->friction() != nullptr; });
+  if (rubs && !self.slip_references_taken) {  // the first step
+    evaluate_or_throw();
+    self.take_slip_references();
+  }
   for (const auto& pair : self.pairs) pair->start_slip();
+  evaluate_or_throw();
 
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadWrite);
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {

@@ -153,8 +153,8 @@ SystemScatter::SystemScatter(const RCP<const Map>& owned_nodes, const RCP<const 
   }
 }
 
-void SystemScatter::add(Matrix& system, const NodePositions& positions, LocalOrdinal node, int component,
-                        const std::vector<LocalOrdinal>& columns, const std::vector<double>& values) {
+void SystemScatter::add(Matrix& system, const NodePositions& positions, LocalOrdinal node, int component, const std::vector<LocalOrdinal>& columns,
+                        const std::vector<double>& values) {
   const auto count = static_cast<LocalOrdinal>(columns.size());
   LocalOrdinal summed;
   if (positions.row[node] >= 0) {

@@ -21,7 +21,7 @@ std::array<long long, 2> active_set_hash(const ContactSystem& contact, const Vec
   for (std::size_t pair = 0; pair < contact.pairs(); ++pair)
     for (const ContactNodeState& state : contact.node_states(pair, z)) {
       if (!state.closed) continue;
-      const std::uint64_t hash = mix(static_cast<std::uint64_t>(state.node) ^ mix(pair));
+      const std::uint64_t hash = mix(static_cast<std::uint64_t>(state.node) ^ mix(2 * pair + (state.state == ContactState::stick ? 1 : 0)));
       mine[0] += static_cast<long long>(hash >> 32);
       mine[1] += static_cast<long long>(hash & 0xffffffffull);
     }

@@ -191,6 +191,7 @@ void SemiSmoothSystem::residual(const Vector& x, Vector& F, ResidualNorms& norms
     norms.complementarity = contact.complementarity;
     violation = contact.violation;
     norms.active = contact.active;
+    norms.sticking = contact.sticking;
     norms.changed = contact.changed;
     norms.active_set = detail::active_set_hash(*self.parts.contact, *z, self.comm());
     force = std::max(force, contact.force);

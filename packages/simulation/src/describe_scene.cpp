@@ -53,7 +53,7 @@ Choices elements() {
 }
 
 Choices contact_choices() {
-  return {{"frictionless", "normal contact; the only law so far, nothing to choose"},
+  return {{"friction: none | coulomb | tresca", "shear tractions of closed nodes"},
           {"geometry: current | reference", "configuration that carries the contact geometry"},
           {"gap weighting: dual | standard", "functions that weight the gap"}};
 }

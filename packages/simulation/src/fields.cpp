@@ -72,9 +72,13 @@ const std::vector<Kind>& kinds() {
        [](const FieldState& state) { return on_slave_nodes(state, 1, [](const ContactNodeState& node, double* v) { *v = node.pressure; }); }},
       {"gap", "weighted gap over weight of the slave nodes; 0 on all others", Center::node, FieldKind::scalar, 1,
        [](const FieldState& state) { return on_slave_nodes(state, 1, [](const ContactNodeState& node, double* v) { *v = node.gap; }); }},
-      {"contact_state", "0 open, 2 closed and free to slip", Center::node, FieldKind::integer, 1,
+      {"contact_shear", "tangential part of the contact traction, along the slave's normal turned by +90 degrees", Center::node, FieldKind::scalar, 1,
+       [](const FieldState& state) { return on_slave_nodes(state, 1, [](const ContactNodeState& node, double* v) { *v = node.shear; }); }},
+      {"slip", "slip of the slave nodes in the last step, the same way; 0 without friction", Center::node, FieldKind::scalar, 1,
+       [](const FieldState& state) { return on_slave_nodes(state, 1, [](const ContactNodeState& node, double* v) { *v = node.slip; }); }},
+      {"contact_state", "0 open, 1 stick, 2 slip; nodes without friction slip", Center::node, FieldKind::integer, 1,
        [](const FieldState& state) {
-         return on_slave_nodes(state, 1, [](const ContactNodeState& node, double* v) { *v = node.closed ? 2.0 : 0.0; });
+         return on_slave_nodes(state, 1, [](const ContactNodeState& node, double* v) { *v = static_cast<double>(node.state); });
        }},
       {"cauchy_stress", "volume mean of the Cauchy stress of each element", Center::cell, FieldKind::symmetric_tensor, 4, stresses},
       {"von_mises", "von Mises stress of each element's mean Cauchy stress", Center::cell, FieldKind::scalar, 1, von_mises},

@@ -95,18 +95,21 @@ ContactPair make_pair(const Mesh& mesh, const Bodies& bodies, const Named<Contac
 }
 
 Effects effects_of(const Scene& scene, const Bodies& bodies) {
-  std::vector<std::string> finite, small, f_bar, plastic, pairs, loads, conditions;
+  std::vector<std::string> finite, small, f_bar, plastic, pairs, rubbing, loads, conditions;
   for (const auto& body : bodies.properties()) {
     const bool small_strain = std::visit([](const auto& law) { return law.small_strain; }, body.material->law());
     (small_strain ? small : finite).push_back(body.name);
     if (formulation(body.element) == ElementFormulation::f_bar) f_bar.push_back(body.name);
     if (std::visit([](const auto& law) { return has_history<std::decay_t<decltype(law)>>; }, body.material->law())) plastic.push_back(body.name);
   }
-  for (const auto& pair : scene.contact) pairs.push_back(pair.name);
+  for (const auto& pair : scene.contact) {
+    pairs.push_back(pair.name);
+    if (pair.value.contact.friction.options->acts()) rubbing.push_back(pair.name);
+  }
   for (const auto& load : scene.loads) loads.push_back(load.name);
   for (const auto& condition : scene.boundary_conditions) conditions.push_back(condition.name);
   return {
-      {"finite strain", finite},          {"small strain", small}, {"F-bar", f_bar}, {"plasticity", plastic}, {"contact", pairs}, {"loads", loads},
+      {"finite strain", finite},          {"small strain", small}, {"F-bar", f_bar}, {"plasticity", plastic}, {"contact", pairs}, {"friction", rubbing}, {"loads", loads},
       {"boundary conditions", conditions}};
 }
 

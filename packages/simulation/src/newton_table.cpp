@@ -9,14 +9,15 @@ std::string step_header(int step, int steps, double time, double dt) {
                    : fmt::format("step {}  t={:.6g}  dt={:.6g}", step, time, dt);
 }
 
-std::string newton_header() { return " it     |r|/|f|    |gap|     |du|    active  changed   lin      s"; }
+std::string newton_header() { return " it     |r|/|f|    |gap|     |du|    active   stick/slip  changed   lin      s"; }
 
 std::string newton_line(const NewtonIteration& iteration) {
   const auto& norms = iteration.norms;
   const std::string increment = iteration.iteration == 0 ? "-" : fmt::format("{:.1e}", iteration.increment);
   const std::string linear = iteration.linear_iterations == 0 ? "-" : fmt::format("{}", iteration.linear_iterations);
-  return fmt::format("{:3d}   {:.2e}   {:.1e}  {:>8}   {:6d}   {:6d}  {:>4}  {:5.2f}", iteration.iteration, norms.momentum, norms.gap, increment,
-                     norms.active, norms.changed, linear, iteration.seconds);
+  return fmt::format("{:3d}   {:.2e}   {:.1e}  {:>8}   {:6d}  {:>11}   {:6d}  {:>4}  {:5.2f}", iteration.iteration, norms.momentum, norms.gap,
+                     increment, norms.active, fmt::format("{}/{}", norms.sticking, norms.active - norms.sticking), norms.changed, linear,
+                     iteration.seconds);
 }
 
 std::string step_footer(const StepReport& report) {

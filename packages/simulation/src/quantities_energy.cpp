@@ -8,10 +8,10 @@
 namespace mortise {
 
 void Energy::describe(Parameters& parameters) {
-  parameters.add("of", of, {{"stored", Of::stored}, {"external work", Of::external_work}},
-                 "stored in the bodies, or the work of loads and supports since the start");
+  parameters.add("of", of, {{"stored", Of::stored}, {"friction", Of::friction}, {"external work", Of::external_work}},
+                 "stored in the bodies, dissipated by friction of all pairs, or the work of loads and supports since the start");
   parameters.add("body", body, "body whose stored energy is meant; empty: all");
-  if (of == Of::external_work && !body.value.empty()) parameters.error("body", "the external work is that on all bodies; please remove \"body\"");
+  if (of != Of::stored && !body.value.empty()) parameters.error("body", "only the stored energy is that of a body; please remove \"body\"");
 }
 
 void Energy::prepare(const QuantityContext& context) {
@@ -28,6 +28,11 @@ double Energy::evaluate(const QuantityContext& context) {
     double sum = 0.0;
     for (const double energy : energies) sum += energy;
     return sum;
+  }
+  if (of == Of::friction) {
+    double work = 0.0;
+    for (std::size_t pair = 0; pair < context.pairs.size(); ++pair) work += context.contact->friction_work(pair);
+    return work;
   }
   // W += 1/2 (F_old + F) . (d - d_old), F what acts from outside: loads, and supports where the displacement is prescribed.
   Vector force(*context.external_force, Teuchos::Copy), mean(*context.displacement, Teuchos::Copy);

@@ -29,12 +29,21 @@ double Reaction::evaluate(const QuantityContext& context) {
 void ContactForce::describe(Parameters& parameters) {
   parameters.add("pair", pair, "contact pair; may be left out if the scene has one only");
   parameters.add("component", component, component_names(), "direction of the force on the slave side");
+  parameters.add("part", part, {{"all", Part::all}, {"normal", Part::normal}, {"tangential", Part::tangential}},
+                 "what of it: all, the pressures along the nodes' normals, or the shear tractions across them");
 }
 
 void ContactForce::prepare(const QuantityContext& context) { pair_ = find_pair(context, pair); }
 
 double ContactForce::evaluate(const QuantityContext& context) {
-  return context.contact->resultant(pair_, *context.multipliers)[static_cast<int>(component)];
+  const int i = static_cast<int>(component);
+  if (part == Part::all) return context.contact->resultant(pair_, *context.multipliers)[i];
+  double force = 0.0;
+  for (const auto& state : context.contact->node_states(pair_, *context.multipliers)) {
+    const double normal = state.pressure * state.normal[i];
+    force -= state.covered * (part == Part::normal ? normal : state.traction[i] - normal);
+  }
+  return sum_over_ranks(context.mesh(), force);
 }
 
 namespace {

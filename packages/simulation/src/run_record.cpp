@@ -19,8 +19,8 @@ Json step_json(const StepReport& step) {
                           {"constraint", number(std::max(norms.gap, norms.complementarity))},
                           {"increment", number(iteration.increment)},
                           {"active", norms.active},
-                          {"stick", 0},
-                          {"slip", norms.active},
+                          {"stick", norms.sticking},
+                          {"slip", norms.active - norms.sticking},
                           {"changed", norms.changed},
                           {"linear_iterations", iteration.linear_iterations}});
   }
@@ -39,7 +39,6 @@ Json effects_json(const Effects& effects) {
   Json json = Json::object();
   for (const auto& [effect, members] : effects) json[effect] = members;
   // What this program does not do is said, so that a reader of summaries need not know its version.
-  json["friction"] = Json::array();
   json["inertia"] = false;
   return json;
 }
@@ -80,6 +79,8 @@ Json summary(const RunRecord& record, const Model& model) {
   }
   json["calls"]["plasticity"] = evaluations;
   json["bytes"]["plasticity"] = bytes;
+  json["calls"]["friction"] = model.contact() ? model.contact()->friction_evaluations() : 0;
+  json["bytes"]["friction"] = model.contact() ? model.contact()->friction_bytes() : 0;
   return json;
 }
 

@@ -43,7 +43,7 @@ class Observers {
         timers_(timers),
         newton_(comm, directory.file("newton.csv"),
                 {"step", "try", "time", "dt", "iteration", "momentum", "momentum_absolute", "gap", "complementarity", "increment", "step_length",
-                 "active", "changed", "linear_iterations", "seconds", "undone"}),
+                 "active", "stick", "slip", "changed", "linear_iterations", "seconds", "undone"}),
         history_(comm, directory.file("history.csv"), history_columns(evaluation)) {
     if (!scene.output.fields.empty()) fields_ = std::make_unique<FieldWriter>(mesh, directory.path());
     steps_ = static_cast<int>(std::ceil(scene.stepping.end_time / scene.stepping.step - 1e-9));
@@ -57,7 +57,7 @@ class Observers {
     observer.undone = [this](const StepReport&, const StepFailure& failure) {
       const auto count = [](int value) { return static_cast<long long>(value); };
       if (last_iteration_.empty())  // it ended before the first residual
-        last_iteration_ = {count(step_), count(try_), time_, dt_, count(0), "", "", "", "", "", "", "", "", "", "", ""};
+        last_iteration_ = {count(step_), count(try_), time_, dt_, count(0), "", "", "", "", "", "", "", "", "", "", "", "", ""};
       write_last_iteration(to_string(failure.kind()));
       log_.info(fmt::format("  step {} undone: {}", step_, failure.what()));
       ++try_;
@@ -104,6 +104,8 @@ class Observers {
                        iteration.increment,
                        iteration.step_length,
                        count(norms.active),
+                       count(norms.sticking),
+                       count(norms.active - norms.sticking),
                        count(norms.changed),
                        count(iteration.linear_iterations),
                        iteration.seconds,

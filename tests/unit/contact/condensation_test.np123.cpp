@@ -197,13 +197,12 @@ TEST_P(Linearisation, CondensedStepEqualsSaddlePointStep) {
   EXPECT_GT(condensed.diagonal().minCoeff(), 0.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Cases, Linearisation, ::testing::Range(0, static_cast<int>(cases().size())),
-                         [](const auto& info) {
-                           std::string name = cases()[info.param].name;
-                           std::replace(name.begin(), name.end(), ' ', '_');
-                           name.erase(std::remove(name.begin(), name.end(), ','), name.end());
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Cases, Linearisation, ::testing::Range(0, static_cast<int>(cases().size())), [](const auto& info) {
+  std::string name = cases()[info.param].name;
+  std::replace(name.begin(), name.end(), ' ', '_');
+  name.erase(std::remove(name.begin(), name.end(), ','), name.end());
+  return name;
+});
 
 TEST(ReferenceGeometry, GapIsTheTransposeOfTheForce) {
   TwoSurfaces surfaces = test::arch_on_ground();
@@ -284,8 +283,10 @@ TEST(SharedNodes, AreRefused) {
     }
     return "";
   };
-  EXPECT_THAT(message({pair("one", 3, {0, 1}, {2, 3}), pair("two", 9, {1, 4}, {6, 7})}), ::testing::HasSubstr("scene.xml:9: error: contact/two: node 1 is a slave"));
-  EXPECT_THAT(message({pair("one", 3, {0, 1}, {2, 3}), pair("two", 9, {4, 5}, {1, 6})}), ::testing::HasSubstr("scene.xml:3: error: contact/one: node 1 is a slave here and a master"));
+  EXPECT_THAT(message({pair("one", 3, {0, 1}, {2, 3}), pair("two", 9, {1, 4}, {6, 7})}),
+              ::testing::HasSubstr("scene.xml:9: error: contact/two: node 1 is a slave"));
+  EXPECT_THAT(message({pair("one", 3, {0, 1}, {2, 3}), pair("two", 9, {4, 5}, {1, 6})}),
+              ::testing::HasSubstr("scene.xml:3: error: contact/one: node 1 is a slave here and a master"));
 }
 
 }  // namespace

@@ -106,7 +106,8 @@ TEST(Slip, PathAndWorkGrowWithAcceptedSteps) {
     // Shear traction times slip over a length of 5.
     EXPECT_NEAR(contact.friction_work(0), 0.3 * pressure * 5.0 * path, 1e-10);
   }
-  EXPECT_GT(contact.friction_bytes(0), fixture.nodes->getComm()->getSize() > 1 ? 0u : 6u);
+  EXPECT_GT(contact.friction_bytes(), 0);
+  EXPECT_GT(contact.friction_evaluations(), 0);
 }
 
 TEST(Slip, APairWithoutFrictionRemembersNothing) {
@@ -117,7 +118,8 @@ TEST(Slip, APairWithoutFrictionRemembersNothing) {
   Vector d(fixture.dofs), z(fixture.contact->multiplier_map());
   fixture.contact->start_step(d, held, z);
   fixture.contact->accept_states(z);
-  EXPECT_EQ(fixture.contact->friction_bytes(0), 0u);
+  EXPECT_EQ(fixture.contact->friction_bytes(), 0);
+  EXPECT_EQ(fixture.contact->friction_evaluations(), 0);
   EXPECT_EQ(fixture.contact->friction_work(0), 0.0);
 }
 

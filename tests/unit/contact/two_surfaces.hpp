@@ -71,7 +71,8 @@ class Fixture {
 
     const auto graph = rcp(new Graph(dofs, 14));
     for (const GlobalOrdinal row : dofs->getNodeElementList())
-      for (GlobalOrdinal column = std::max<GlobalOrdinal>(0, row / 2 * 2 - 4); column < std::min<GlobalOrdinal>(2 * surfaces.size(), row / 2 * 2 + 6); ++column)
+      for (GlobalOrdinal column = std::max<GlobalOrdinal>(0, row / 2 * 2 - 4); column < std::min<GlobalOrdinal>(2 * surfaces.size(), row / 2 * 2 + 6);
+           ++column)
         graph->insertGlobalIndices(row, 1, &column);
     graph->fillComplete(dofs, dofs);
     bulk = graph;
@@ -97,7 +98,8 @@ class Fixture {
   RCP<Matrix> springs(const RCP<const Graph>& graph) const {
     const auto K = rcp(new Matrix(graph));
     for (const GlobalOrdinal row : dofs->getNodeElementList())
-      for (GlobalOrdinal column = std::max<GlobalOrdinal>(0, row / 2 * 2 - 4); column < std::min<GlobalOrdinal>(2 * surfaces_.size(), row / 2 * 2 + 6); ++column) {
+      for (GlobalOrdinal column = std::max<GlobalOrdinal>(0, row / 2 * 2 - 4);
+           column < std::min<GlobalOrdinal>(2 * surfaces_.size(), row / 2 * 2 + 6); ++column) {
         const double value = row == column ? 900.0 + 7.0 * row : -60.0 * std::cos(0.3 * (row + column)) + 11.0 * std::sin(0.9 * (row - column));
         K->sumIntoGlobalValues(row, 1, &value, &column);
       }

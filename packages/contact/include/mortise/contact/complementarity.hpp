@@ -46,8 +46,8 @@ inline Complementarity frictionless(bool closed, double c_n, double gap, const E
   return result;
 }
 
-/// C of a closed node with friction (Hueber, Wohlmuth 2005; Gitterle et al. 2010, with all rows in units of traction). With y = z_tau + c_t u and the bound
-/// rho at the pressure z_n - c_n g:
+/// C of a closed node with friction (Hueber, Wohlmuth 2005; Gitterle et al. 2010, with all rows in units of traction). With y = z_tau + c_t u and the
+/// bound rho at the pressure z_n - c_n g:
 ///   stick   |y| < rho   C_tau = -c_t u
 ///   slip                C_tau = z_tau - rho sign(y)
 /// @param slip  weighted slip u of the step: the slave's motion relative to the master along tau, times the weight

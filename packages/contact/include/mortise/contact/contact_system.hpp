@@ -59,9 +59,10 @@ struct ContactNodeState {
   double weight = 0.0;    ///< A_j
   bool closed = false;
   ContactState state = ContactState::open;
-  double shear = 0.0;      ///< z . tau, tau = n turned by +90 degrees
-  double slip = 0.0;       ///< along tau since the start of the step [length]; friction only
-  double slip_path = 0.0;  ///< |slip| summed over the accepted steps [length]; friction only
+  double covered = 0.0;           ///< sum_k D_jk: the force on the slave side is -covered * traction
+  double shear = 0.0;             ///< z . tau, tau = n turned by +90 degrees
+  double slip = 0.0;              ///< along tau since the start of the step [length]; friction only
+  double slip_path = 0.0;         ///< |slip| summed over the accepted steps [length]; friction only
   std::array<double, 2> force{};  ///< D_jj z_j, force of this node's multiplier on the slave side is -force
 };
 
@@ -119,7 +120,7 @@ class ContactSystem {
   SaddlePointBlocks saddle_point_blocks(const Vector& z) const;
 
   /// Goes back to the accepted states, and start rule: multipliers of nodes that touch, and seeds for bodies that only contact holds, are set to a
-  /// small pressure. Slips are measured from d on.
+  /// small pressure. Slips are measured from the accepted state on; before any is accepted, from d on.
   /// @param unheld_bodies  for each owned node whether it belongs to a body that nothing but contact holds
   void start_step(const Vector& d, const std::vector<char>& unheld, Vector& z);
 
@@ -127,8 +128,10 @@ class ContactSystem {
   std::vector<ContactNodeState> node_states(std::size_t pair, const Vector& z) const;
   /// Work that friction of a pair has dissipated in the accepted steps. Collective.
   double friction_work(std::size_t pair) const;
-  /// Bytes that the slip histories of a pair take on this rank; 0 without friction.
-  std::size_t friction_bytes(std::size_t pair) const;
+  /// Bytes that the slip histories of all pairs take, over all ranks; 0 without friction. Collective.
+  long friction_bytes() const;
+  /// How often slips were measured, over all pairs, on this rank; 0 without friction.
+  long friction_evaluations() const;
   /// Resultant (over all ranks) of the contact forces on the slave side of a pair.
   std::array<double, 2> resultant(std::size_t pair, const Vector& z) const;
 

@@ -21,8 +21,8 @@ struct ResidualNorms {
   double prescribed = 0.0;  ///< max |d - prescribed| relative to the size of the model
   double gap = 0.0, complementarity = 0.0;
   double merit = 0.0;  ///< (|r|^2 + |s (d - prescribed)|^2 + sum_j |A_j C_j|^2)^1/2, a force; infinite if that is not finite
-  int active = 0, changed = 0;
-  std::array<long long, 2> active_set{};  ///< two hashes of the set of closed nodes, independent of the partition
+  int active = 0, sticking = 0, changed = 0;
+  std::array<long long, 2> active_set{};  ///< two hashes of the closed nodes and what they do, independent of the partition
   bool finite = true;
 };
 

@@ -23,10 +23,12 @@ struct Reaction : Quantity {
   double evaluate(const QuantityContext& context) override;
 };
 
-/// Sum of the contact forces on the slave side of a pair. [force]
+/// Sum of the contact forces on the slave side of a pair, or of the part along the nodes' normals (pressure) or across them (friction). [force]
 struct ContactForce : Quantity {
+  enum class Part { all, normal, tangential };
   Located<std::string> pair;  ///< empty: the only one
   Component component = Component::y;
+  Part part = Part::all;
   void describe(Parameters& parameters) override;
   void prepare(const QuantityContext& context) override;
   double evaluate(const QuantityContext& context) override;
@@ -194,9 +196,9 @@ struct OverTime : Quantity {
   std::optional<double> extreme_;
 };
 
-/// Stored energy of a body or of all, or the work that loads and supports have done since the start (trapezoidal rule over the steps). [work]
+/// Stored energy of a body or of all, what friction has dissipated, or the work that loads and supports have done since the start (trapezoidal rule over the steps). [work]
 struct Energy : Quantity {
-  enum class Of { stored, external_work };
+  enum class Of { stored, external_work, friction };
   Of of = Of::stored;
   Located<std::string> body;  ///< empty: all
   void describe(Parameters& parameters) override;
