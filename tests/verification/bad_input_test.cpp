@@ -104,6 +104,13 @@ const std::string second_pair = R"xml(<ParameterList name="second">
     </ParameterList>
     <ParameterList name="interface">)xml";
 
+/// The good scene's master with a list "friction" of this type.
+std::string with_friction(const std::string& type) {
+  return R"xml(value="upper/bottom"/>
+      <ParameterList name="friction"><Parameter name="type" type="string" )xml" +
+         type + "</ParameterList>";
+}
+
 const std::vector<Case> cases{
     {"unknown_parameter", R"xml(<ParameterList name="tables">)xml",
      R"xml(<Parameter name="colour" type="string" value="red"/><ParameterList name="tables">)xml", "colour", R"xml(name="colour")xml"},
@@ -140,6 +147,19 @@ const std::vector<Case> cases{
       <Parameter name="quantity" type="string" value="forse"/><Parameter name="low" type="double" value="0"/></ParameterList></ParameterList>
   <ParameterList name="contact">)xml",
      "forse", "forse"},
+    {"unknown_friction_law", R"xml(value="upper/bottom"/>)xml", with_friction(R"xml(value="columb"/>)xml"), "did you mean \"coulomb\"", "columb"},
+    {"unknown_name_in_a_friction_coefficient", R"xml(value="upper/bottom"/>)xml", with_friction(R"xml(value="coulomb"/>
+      <Parameter name="coefficient" type="string" value="0.1*speed"/>)xml"),
+     "known names: pressure, slip", "0.1*speed"},
+    {"negative_friction_coefficient", R"xml(value="upper/bottom"/>)xml", with_friction(R"xml(value="coulomb"/>
+      <Parameter name="coefficient" type="double" value="-0.1"/>)xml"),
+     "allowed: >= 0", R"xml(value="-0.1")xml"},
+    {"no_hardening", R"xml(value="neo hooke")xml", R"xml(value="j2 plasticity")xml", "hardening", R"xml(name="soft">)xml"},
+    {"formula_of_what_comes_later", R"xml(<ParameterList name="contact">)xml", R"xml(<ParameterList name="quantities"><ParameterList name="ratio">
+      <Parameter name="type" type="string" value="formula"/><Parameter name="value" type="string" value="2*force"/></ParameterList>
+    <ParameterList name="force"><Parameter name="type" type="string" value="contact force"/></ParameterList></ParameterList>
+  <ParameterList name="contact">)xml",
+     "known names: t", "2*force"},
 };
 
 class BadInput : public ::testing::TestWithParam<std::tuple<Case, int>> {};

@@ -10,6 +10,7 @@ void CoulombFriction::describe(Parameters& parameters) {
       "coefficient", coefficient,
       Says("friction coefficient mu, an expression of `pressure` and `slip`, the path that the node has slipped up to the start of the step")
           .unit("-")
+          .at_least(0.0)
           .arguments({"pressure", "slip"})
           .required());
   parameters.add(
