@@ -8,6 +8,7 @@ const Registry<Quantity>& quantity_registry() {
   static const Registry<Quantity> registry = [] {
     Registry<Quantity> kinds;
     kinds.add<Reaction>("reaction", "force of the supports on a set of nodes");
+    kinds.add<Rotation>("rotation", "rotation of a reference point");
     kinds.add<ContactForce>("contact force", "sum of the contact forces on the slave side of a pair");
     kinds.add<MomentumImbalance>("momentum imbalance", "how far forces are from balance, relative");
     kinds.add<Extremum>("extremum", "largest or smallest value of a field");

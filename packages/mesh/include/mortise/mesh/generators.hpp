@@ -63,4 +63,15 @@ struct HalfDiskMesh : DiskMesh {
   PatchComplex build(CellShape cell, const Place& place) const override;
 };
 
+/// A polyline whose corners are rounded by arcs, or an arc's polygon: the surface of a rigid body, without an inside. Side: profile.
+struct ProfileMesh : MeshOptions {
+  std::vector<double> points;  ///< x1, y1, ...; the body lies to the left of the way along them
+  std::vector<double> radii;   ///< of the arcs at the points between the first and the last; empty: sharp corners
+  double cell_size = 0.0;      ///< largest length of a line
+  void describe_shape(Parameters& parameters) override;
+  /// Throws InputError: a profile has no inside.
+  PatchComplex build(CellShape cell, const Place& place) const override;
+  CurveComplex build_surface(const Place& place) const override;
+};
+
 }  // namespace mortise

@@ -14,10 +14,20 @@ namespace mortise {
 /// A Cartesian component: x, y (axisymmetric: r, z).
 enum class Component { x, y };
 
-/// Sum over the nodes of a set of the forces by which supports act on the bodies: f_int - f_ext + f_c. [force]
+/// Sum over the nodes of a set of the forces by which supports act on the bodies: f_int - f_ext + f_c. [force] On a reference point that turns
+/// also the moment, counterclockwise. [force length]
 struct Reaction : Quantity {
+  enum class Of { x, y, rotation };
   Located<std::string> set;
-  Component component = Component::y;
+  Of component = Of::y;
+  void describe(Parameters& parameters) override;
+  void prepare(const QuantityContext& context) override;
+  double evaluate(const QuantityContext& context) override;
+};
+
+/// Rotation of a reference point since the start, counterclockwise. [degrees]
+struct Rotation : Quantity {
+  Located<std::string> point;
   void describe(Parameters& parameters) override;
   void prepare(const QuantityContext& context) override;
   double evaluate(const QuantityContext& context) override;
