@@ -17,6 +17,8 @@ const Registry<Quantity>& quantity_registry() {
     kinds.add<PointDisplacement>("displacement", "displacement of a point");
     kinds.add<ErrorNorm>("error norm", "relative L2 error of a field against a named exact solution");
     kinds.add<HalfWidth>("half width", "half width of the contact zone from the second moment of the pressure: 2 sqrt(int p x^2 / int p)");
+    kinds.add<StickHalfWidth>("stick half width", "half width of what sticks, from the second moment of what is left of the friction bound");
+    kinds.add<ContactTraction>("contact traction", "pressure or shear of a pair: the largest, or at a position");
     kinds.add<PeakPressure>("peak pressure", "largest contact pressure of a pair");
     kinds.add<ContactLength>("contact length", "length of the slave surface, where the pair's geometry is, that belongs to closed nodes");
     kinds.add<ActiveCount>("active count", "number of closed slave nodes of a pair");

@@ -8,6 +8,7 @@ namespace mortise {
 /// Rectangle or general quadrilateral. Sides: bottom, right, top, left.
 struct BlockMesh : MeshOptions {
   double width = 1.0, height = 1.0;
+  double bottom_radius = 0.0;   ///< of the arc that the bottom side is, bulging outward; 0: straight
   std::vector<double> corners;  ///< x1, y1, ... counterclockwise from bottom left; empty: the rectangle [0, width] x [0, height]
   int cells_x = 0, cells_y = 0;
   GradingOptions grading_x, grading_y;

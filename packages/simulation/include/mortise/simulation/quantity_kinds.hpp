@@ -160,9 +160,35 @@ struct PairQuantity : Quantity {
   std::size_t pair_ = 0;
 };
 
+/// Where lengths along a slave surface and tractions on it are measured.
+enum class TractionMeasure {
+  pair,      ///< where the pair's geometry is: true tractions for the current one
+  reference  ///< per undeformed area at undeformed positions, as theories of small strain mean them
+};
+
 /// 2 sqrt(int p (x - center)^2 ds / int p ds) along the slave surface: the half width of a Hertzian pressure. [length]
 struct HalfWidth : PairQuantity {
   double center = 0.0;
+  TractionMeasure measure = TractionMeasure::pair;
+  void describe(Parameters& parameters) override;
+  double evaluate(const QuantityContext& context) override;
+};
+
+/// Half width of the part of the contact zone that sticks: 2 sqrt(int s (x - m)^2 ds / int s ds) with s = rho - |z_tau|, what is left of the friction
+/// bound, and m its middle. In Cattaneo's and Mindlin's solution s is a Hertzian distribution of just that half width. [length]
+struct StickHalfWidth : PairQuantity {
+  TractionMeasure measure = TractionMeasure::pair;
+  void describe(Parameters& parameters) override;
+  double evaluate(const QuantityContext& context) override;
+};
+
+/// Nodal pressure or shear traction of a pair at a position x of its slave surface, linear between nodes; 0 where there is no such position, the
+/// mean where there are several. Without x: the one of largest size. [stress]
+struct ContactTraction : PairQuantity {
+  enum class Part { pressure, shear };
+  std::optional<double> x;
+  Part part = Part::pressure;
+  TractionMeasure measure = TractionMeasure::pair;
   void describe(Parameters& parameters) override;
   double evaluate(const QuantityContext& context) override;
 };
@@ -206,7 +232,8 @@ struct OverTime : Quantity {
   std::optional<double> extreme_;
 };
 
-/// Stored energy of a body or of all, what friction has dissipated, or the work that loads and supports have done since the start (trapezoidal rule over the steps). [work]
+/// Stored energy of a body or of all, what friction has dissipated, or the work that loads and supports have done since the start (trapezoidal rule
+/// over the steps). [work]
 struct Energy : Quantity {
   enum class Of { stored, external_work, friction };
   Of of = Of::stored;
