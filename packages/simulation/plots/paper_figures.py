@@ -11,7 +11,8 @@ def colour_bar(figure, axes, drawn, label):
 
 
 def mesh_lines(axes, cells):
-    axes.add_collection(PolyCollection(cells, facecolors="none", edgecolors="black", linewidths=0.3, rasterized=len(cells) > DRAWN_AS_LINES))
+    many = len(cells) > DRAWN_AS_LINES
+    axes.add_collection(PolyCollection(cells, facecolors="none", edgecolors="black", linewidths=0.08 if many else 0.3, rasterized=many))
 
 
 def frame(axes, points, names):
@@ -26,7 +27,7 @@ def frame(axes, points, names):
 
 
 def on_mesh(figure, axes, fields, values, label, names=("x", "y"), lying=False):
-    """Values of the cells, each in one colour, or of the nodes, linear between them, on the deformed mesh. Colours begin at 0. lying: y to the right."""
+    """Values of cells, each in one colour, or of nodes, linear between them, on the deformed mesh. Colours begin at 0. lying: y to the right."""
     position = fields.position[:, ::-1] if lying else fields.position
     polygons = [position[cell] for cell in fields.cells]
     frame(axes, position, names[::-1] if lying else names)
@@ -37,7 +38,8 @@ def on_mesh(figure, axes, fields, values, label, names=("x", "y"), lying=False):
         axes.add_collection(drawn)
     else:
         triangles = [cell[[0, i, i + 1]] for cell in fields.cells for i in range(1, len(cell) - 1)]
-        drawn = axes.tripcolor(Triangulation(position[:, 0], position[:, 1], triangles), values, shading="gouraud", cmap="cividis", rasterized=True, **limits)
+        mesh = Triangulation(position[:, 0], position[:, 1], triangles)
+        drawn = axes.tripcolor(mesh, values, shading="gouraud", cmap="cividis", rasterized=True, **limits)
     mesh_lines(axes, polygons)
     colour_bar(figure, axes, drawn, label)
 
@@ -66,7 +68,8 @@ def hertz_profile(axes, pressure, half_width, label):
 
 def contact_profile(axes, run, label, colour, marker, shear=False):
     x, pressure, tangential = run.fields.contact()
-    axes.plot(x, tangential if shear else pressure, color=colour, marker=marker, markersize=3, linewidth=0.8, linestyle="--" if shear else "-", label=label)
+    axes.plot(x, tangential if shear else pressure, color=colour, marker=marker, markersize=3, linewidth=0.8, linestyle="--" if shear else "-",
+              label=label)
 
 
 def finish_profile(axes, title, end):

@@ -50,8 +50,8 @@ class Fields:
         pairs = (s["xx"] - s["yy"]) ** 2 + (s["yy"] - s["zz"]) ** 2 + (s["zz"] - s["xx"]) ** 2
         return np.sqrt(0.5 * pairs + 3 * (s["xy"] ** 2 + s["xz"] ** 2 + s["yz"] ** 2))
 
-    def of_cells(self, nodal):
-        return np.array([nodal[cell].mean() for cell in self.cells])
+    def nodes_of(self, body):
+        return np.unique(np.concatenate([self.cells[e] for e in np.flatnonzero(self.body == body)]))
 
     def contact(self):
         """x, pressure and shear of the slave nodes by their current x: all others have neither a pressure nor a gap."""
@@ -67,10 +67,11 @@ class Run:
     def __init__(self, record):
         identity = record["identity"]
         self.name, self.scene, self.settings = identity["name"], identity["scene"], identity["settings"]
-        self.exit, self.said, self.seconds, self.reused = record["exit"], record["said"], record["seconds"], record["reused"]
+        self.exit, self.said = record["exit"], record["said"]
+        self.seconds, self.reused = record["seconds"], record["reused"]
         self.path = os.path.join(directory, self.name)
         self.summary = {}
-        if os.path.exists(self.file("summary.json")):
+        if os.path.isfile(self.file("summary.json")):
             with open(self.file("summary.json"), encoding="utf-8") as file:
                 self.summary = json.load(file)
         # A run that stopped on its way has results of another state than the paper's.

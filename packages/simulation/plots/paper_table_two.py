@@ -8,11 +8,13 @@ PAPER_RESIDUALS = {  # increment: relative residual norms in percent of dual mor
     100: ([0.223108e-3, 0.198341e-7, 0.135704e-11], [0.213476e-1, 0.510660e-4, 0.399832e-9, 0.340939e-12]),
     200: ([0.754524e-4, 0.917062e-8, 0.896271e-12], [0.354716e-1, 0.485938e-3, 0.337746e-6, 0.852251e-11])}
 INCREMENTS = 200
+FORMS = {"hertz_plastic": "stated data", "hertz_plastic_as_printed": "as-printed modulus, no yield"}
+OTHERS = ["paper, dual mortar", "ours, node to segment", "paper, Lagrange"]
 
 
 def downward(fields, body, end):
     """Downward displacement of a body's node on the line of symmetry at its upper (end = 1) or lower (-1) end."""
-    nodes = np.unique(np.concatenate([fields.cells[e] for e in np.flatnonzero(fields.body == body)]))
+    nodes = fields.nodes_of(body)
     on_line = nodes[np.abs(fields.reference[nodes, 0]) < 1e-9]
     return -fields.displacement[on_line[np.argmax(end * fields.reference[on_line, 1])], 1]
 
@@ -21,7 +23,7 @@ def indentation(run):
     """The first five rows of Table 2. The paper does not say what it measured: taken is the contact point's displacement; the block's deformation is
     that against its fixed bottom, the cylinder's that of its diameter against the contact point."""
     fields = run.fields
-    cylinder, block = sorted(np.unique(fields.body), key=lambda body: -fields.reference[np.concatenate([fields.cells[e] for e in np.flatnonzero(fields.body == body)]), 1].max())
+    cylinder, block = sorted(np.unique(fields.body), key=lambda body: -fields.reference[fields.nodes_of(body), 1].max())
     tip, surface = downward(fields, cylinder, -1), downward(fields, block, 1)
     return [tip, surface, downward(fields, cylinder, 1) - tip, surface - downward(fields, block, -1), run.quantity("contact_length")]
 
@@ -32,7 +34,7 @@ def first_half_of_table_two(found):
     for i, (name, (mortar, lagrange)) in enumerate(PAPER_TWO.items()):
         cells = [cell for one in values for cell in (number(one[i]), difference(one[i], mortar))]
         rows.append([name, *cells, number(mortar), "later", number(lagrange)])
-    head = ["quantity"] + [one for run in found for one in (f"ours, {FORMS[run.name]}", "difference")] + ["paper, dual mortar", "ours, node to segment", "paper, Lagrange"]
+    head = ["quantity"] + [one for run in found for one in (f"ours, {FORMS[run.name]}", "difference")] + OTHERS
     return html_table(head, rows, "Table 2, first half: at 12.5 kN/mm")
 
 
@@ -43,11 +45,8 @@ def residual_table(found):
         for i in range(max([len(mortar), len(lagrange)] + [len(one) for one in ours])):
             cell = lambda values: f"{values[i]:.2e}" if i < len(values) else ""
             rows.append([f"{increment}, {i + 1}", *[cell(one) for one in ours], cell(mortar), "later", cell(lagrange)])
-    head = ["increment, iteration"] + [f"ours, {FORMS[run.name]}" for run in found] + ["paper, dual mortar", "ours, node to segment", "paper, Lagrange"]
+    head = ["increment, iteration"] + [f"ours, {FORMS[run.name]}" for run in found] + OTHERS
     return html_table(head, rows, "Table 2, second half: relative residual norm in %")
-
-
-FORMS = {"hertz_plastic": "stated data", "hertz_plastic_as_printed": "as-printed modulus, no yield"}
 
 
 def hertz_plastic():
@@ -63,13 +62,16 @@ def hertz_plastic():
         finish_profile(panel, FORMS[run.name], 1.5 * x[pressure > 0].max())
     parts.append(html_figure(figure, "Figure 9", "contact stress over the current position; each mark is a node"))
     parts += [first_half_of_table_two(found), residual_table(found)]
-    parts.append("<p>What the paper's displacements are is not said: taken is the displacement of the contact point; the block's deformation is that against its fixed bottom, "
-                 "the cylinder's that of its diameter against the contact point. Residuals: ours are those after each iteration over the largest of internal, external and "
-                 "contact forces; what the paper's are relative to is not said.</p>")
-    parts.append("<p>The paper's displacements and contact length belong to a practically rigid cylinder on a practically elastic block (Hertz with such a cylinder: a = 3.191 mm) "
-                 "and cannot come from the stated materials, which yield from about 1.2 kN on. The iteration counts and their quadratic decay can be compared.</p>")
+    parts.append(paragraph("What the paper's displacements are is not said: taken is the displacement of the contact point; the block's",
+                           "deformation is that against its fixed bottom, the cylinder's that of its diameter against the contact point.",
+                           "Residuals: ours are those after each iteration over the largest of internal, external and contact forces; what the",
+                           "paper's are relative to is not said."))
+    parts.append(paragraph("The paper's displacements and contact length belong to a practically rigid cylinder on a practically elastic block",
+                           "(Hertz with such a cylinder: a = 3.191 mm) and cannot come from the stated materials, of which the block yields",
+                           "from about 1.2 kN/mm on. The iteration counts and their quadratic decay can be compared."))
     for run in found:
         parts.append(f"<p>Newton iterations, {FORMS[run.name]} (steps × iterations): {stages(run)}.</p>")
         if run.name == "hertz_plastic":
-            parts.append(html_figure(mesh_near_contact(run, "Hertz, plastic", 8.0), "Figure 7, detail", "von Mises stress near the contact at 12.5 kN/mm, stated data"))
+            parts.append(html_figure(mesh_near_contact(run, "Hertz, plastic", 8.0), "Figure 7, detail",
+                                     "von Mises stress near the contact at 12.5 kN/mm, stated data"))
     return parts

@@ -20,7 +20,8 @@ def difference(ours, paper):
 
 def html_table(head, rows, caption):
     """Cells are HTML; the first of each row is its head."""
-    lines = ["<table>", f"<caption>{caption}</caption>", "<thead><tr>" + "".join(f'<th scope="col">{one}</th>' for one in head) + "</tr></thead>", "<tbody>"]
+    heads = "".join(f'<th scope="col">{one}</th>' for one in head)
+    lines = ["<table>", f"<caption>{caption}</caption>", f"<thead><tr>{heads}</tr></thead>", "<tbody>"]
     for first, *rest in rows:
         lines.append(f'<tr><th scope="row">{first}</th>' + "".join(f"<td>{one}</td>" for one in rest) + "</tr>")
     return "\n".join(lines + ["</tbody>", "</table>"])
@@ -28,8 +29,8 @@ def html_table(head, rows, caption):
 
 def comparison(rows, caption, reference="paper"):
     """rows: name, ours, reference's (either may be None)."""
-    return html_table(["quantity", "ours", reference, "difference"], [[name, number(ours), number(theirs), difference(ours, theirs)] for name, ours, theirs in rows],
-                      caption)
+    cells = [[name, number(ours), number(theirs), difference(ours, theirs)] for name, ours, theirs in rows]
+    return html_table(["quantity", "ours", reference, "difference"], cells, caption)
 
 
 def html_figure(figure, number_of_paper, caption):
@@ -46,9 +47,14 @@ def html_figure(figure, number_of_paper, caption):
 def command(run):
     words = ["./dev run", f"inputs/paper/{run.scene}.xml"]
     for setting in run.settings:
-        if not setting.startswith("output/"):
+        if not setting.startswith("output/"):  # what is written changes no result
             words.append(f"--set {setting}")
     return " ".join(words)
+
+
+def friction(run):
+    """What was on, whatever the run is called."""
+    return "with friction" if run.summary["effects"].get("friction") else "no friction"
 
 
 def stages(run):
@@ -66,7 +72,8 @@ def overview(all_runs):
         summary = run.summary
         rows.append([run.name, state, summary.get("dofs", "–"), len(summary.get("steps", [])) or "–", stages(run) or "–",
                      f"{run.seconds:.1f}" + (" (earlier call)" if run.reused else ""), f"<code>{escaped(command(run))}</code>"])
-    return html_table(["run", "ended", "unknowns", "steps", "Newton iterations (steps × iterations)", "seconds", "by itself"], rows, "What was run")
+    head = ["run", "ended", "unknowns", "steps", "Newton iterations (steps × iterations)", "seconds", "by itself"]
+    return html_table(head, rows, "What was run")
 
 
 def missed(run):

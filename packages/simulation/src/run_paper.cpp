@@ -51,8 +51,14 @@ Json run_one(const RCP<const Communicator>& comm, const PaperRun& run, const Pap
   if (options.reuse)
     if (auto found = earlier(*comm, record, wanted)) return *found;
 
-  OutputDirectory(comm, results, false).remove_earlier_run();
-  std::filesystem::remove(record);
+  Json json{{"identity", wanted}, {"exit", static_cast<int>(ExitCode::files)}, {"reused", false}, {"seconds", 0.0}, {"said", ""}};
+  try {
+    OutputDirectory(comm, results, false).remove_earlier_run();
+    std::filesystem::remove(record);
+  } catch (const std::exception& error) {
+    json["said"] = error.what();
+    return json;
+  }
   std::vector<std::string> arguments{"run", scene};
   for (const auto& setting : run.settings) arguments.insert(arguments.end(), {"--set", setting});
   arguments.insert(arguments.end(), {"-o", results, "--quiet"});
@@ -62,7 +68,7 @@ Json run_one(const RCP<const Communicator>& comm, const PaperRun& run, const Pap
 
   const auto begin = std::chrono::steady_clock::now();
   const ProcessEnding ending = run_process(command);
-  Json json{{"identity", wanted}, {"exit", ending.code}, {"reused", false}};
+  json["exit"] = ending.code;
   json["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   json["said"] = ending.output;
   write_json(*comm, record, json);
