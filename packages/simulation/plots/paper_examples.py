@@ -89,6 +89,7 @@ def hertz_elastic():
     parts.append(html_figure(figure, "Figure 8", "contact stress of the elastic Hertz problem over the current position; each mark is a node"))
     parts.append(comparison(rows, "Hertz problem, elastic", "Hertz"))
     for run in complete("hertz_elastic"):
+        parts.append(own_checks(run))
         parts.append(html_figure(mesh_near_contact(run, "Hertz, elastic", 5.0), "Figure 7, detail",
                                  f"von Mises stress near the contact, stated moduli, {friction(run)}"))
     return parts + [paragraph(NTS_LATER)]
@@ -108,6 +109,7 @@ def extrusion():
                                  ["contact length / mm", run.quantity("contact_length"), 257.33],
                                  ["rear force at the end / N", run.quantity("rear_force"), None],
                                  ["friction force at the end / N", run.quantity("friction_force"), None]], "Conical extrusion"))
+        parts.append(own_checks(run))
         for figure_name, quantity, name in (("Figure 12", "rear_force", "extrusion force"), ("Figure 13", "friction_force", "friction force")):
             if quantity in run.history:
                 figure = against_displacement(run, quantity, f"{name} / kN", name.capitalize(), 177.8)

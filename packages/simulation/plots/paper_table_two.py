@@ -50,7 +50,7 @@ def residual_table(found):
 
 
 def hertz_plastic():
-    parts = ["<p>The same at 12.5 kN per mm in 200 increments; both bodies yield.</p>"]
+    parts = [paragraph("The same at 12.5 kN per mm in 200 increments, with both hardening laws. The paper finds plastic strains on both sides of the contact.")]
     found = complete(*FORMS)
     if not found:
         return parts
@@ -72,6 +72,11 @@ def hertz_plastic():
     for run in found:
         parts.append(f"<p>Newton iterations, {FORMS[run.name]} (steps × iterations): {stages(run)}.</p>")
         if run.name == "hertz_plastic":
+            parts.append(comparison([["largest equivalent plastic strain", run.quantity("peak_equivalent_plastic_strain"), None],
+                                     ["that in the cylinder", run.quantity("peak_plastic_strain_cylinder"), None],
+                                     ["P<sub>max</sub> / MPa", run.quantity("peak_pressure"), None],
+                                     ["tangential contact force / (N/mm)", run.quantity("friction_force"), None]], "Hertz problem, plastic"))
+            parts.append(own_checks(run))
             parts.append(html_figure(mesh_near_contact(run, "Hertz, plastic", 8.0), "Figure 7, detail",
                                      "von Mises stress near the contact at 12.5 kN/mm, stated data"))
     return parts

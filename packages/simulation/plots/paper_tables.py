@@ -33,6 +33,16 @@ def comparison(rows, caption, reference="paper"):
     return html_table(["quantity", "ours", reference, "difference"], cells, caption)
 
 
+def own_checks(run):
+    """Quantities that have to vanish, as far as the scene names them."""
+    names = {"oscillation": "total variation of the nodal pressures along the surface over their peak, − 1",
+             "energy_error": "external work − internal work − friction, over the external work",
+             "energy_error_of_plasticity": "external work − stored energy − plastic work − friction, over the external work",
+             "momentum_imbalance": "imbalance of momentum, relative"}
+    rows = [[label, run.quantity(name), 0.0] for name, label in names.items() if run.quantity(name) is not None]
+    return comparison(rows, f"{run.name}: what has to vanish", "exact") if rows else ""
+
+
 def html_figure(figure, number_of_paper, caption):
     """The figure as part of the page."""
     image = io.BytesIO()
