@@ -159,6 +159,24 @@ void ContactSystem::add_contact_force(const Vector& z, Vector& r) const {
   implementation_->add_contact_force(z, r);
 }
 
+RCP<Vector> ContactSystem::shear_tractions(const Vector& z) const {
+  const Implementation& self = *implementation_;
+  const auto shear = rcp(new Vector(self.multipliers));
+  const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
+  const auto result = shear->getLocalViewHost(Tpetra::Access::ReadWrite);
+  for (std::size_t p = 0; p < self.pairs.size(); ++p) {
+    if (self.pairs[p]->friction() == nullptr) continue;
+    for (std::size_t s = 0; s < self.multiplier_of[p].size(); ++s) {
+      const LocalOrdinal first = self.multiplier_of[p][s];
+      if (first < 0) continue;
+      const Eigen::Vector2d tau = tangent(self.pairs[p]->rows()[s].normal);
+      const double along = tau.dot(self.z_of(values, p, s));
+      for (int i = 0; i < 2; ++i) result(first + i, 0) = along * tau[i];
+    }
+  }
+  return shear;
+}
+
 void ContactSystem::complementarity(const Vector& z, Vector& C) const {
   const Implementation& self = *implementation_;
   const auto scope = self.timers.scope("contact");
@@ -238,17 +256,10 @@ void ContactSystem::mark_states(const Vector& z) { implementation_->marked = imp
 void ContactSystem::accept_states(const Vector& z) {
   Implementation& self = *implementation_;
   self.accepted = self.states(z);
-  const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
   for (std::size_t p = 0; p < self.pairs.size(); ++p)
     if (self.pairs[p]->friction() != nullptr)
-      for (std::size_t s = 0; s < self.accepted[p].size(); ++s) self.pairs[p]->accept_slip(s, self.z_of(values, p, s), self.accepted[p][s]);
+      for (std::size_t s = 0; s < self.accepted[p].size(); ++s) self.pairs[p]->accept_slip(s, self.accepted[p][s]);
   self.take_slip_references();
-}
-
-double ContactSystem::friction_work(std::size_t pair) const {
-  double work = 0.0;
-  for (const detail::SlipHistory& history : implementation_->pairs[pair]->slip_histories()) work += history.work;
-  return implementation_->sum(work);
 }
 
 long ContactSystem::friction_bytes() const {

@@ -39,7 +39,6 @@ struct SlipReference {
 struct SlipHistory {
   SlipReference start, accepted;     ///< of the state that the step started from, of the last accepted one
   std::vector<LocalOrdinal> places;  ///< [start.nodes] among the coupled nodes of the current pattern
-  double work = 0.0;                 ///< dissipated up to the accepted state
 };
 
 /// A pair, its interface and what was last evaluated.
@@ -57,8 +56,8 @@ class PairCoupling {
   void take_slip_reference();
   /// A step starts from the accepted state. Friction only.
   void start_slip();
-  /// Adds the slip of an accepted state to path and work. Friction only; take_slip_reference() follows.
-  void accept_slip(std::size_t s, const Eigen::Vector2d& z, ContactState state);
+  /// Adds the slip of an accepted state to the path. Friction only; take_slip_reference() follows.
+  void accept_slip(std::size_t s, ContactState state);
 
   const ContactPair& definition() const { return pair_; }
   /// Null: the pair has no friction.

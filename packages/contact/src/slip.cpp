@@ -122,13 +122,12 @@ void PairCoupling::measure_frozen_slip() {
   }
 }
 
-// Path: |u_j| over the weight that it carries; work: z_tau u_j.
-void PairCoupling::accept_slip(std::size_t s, const Eigen::Vector2d& z, ContactState state) {
+// Path: |u_j| over the weight that it carries.
+void PairCoupling::accept_slip(std::size_t s, ContactState state) {
   SlipHistory& history = slip_[s];
   history.accepted.path = history.start.path;
   if (state == ContactState::open || history.start.nodes.empty()) return;
   history.accepted.path += std::abs(rows_[s].slip) / rows_[s].D;
-  history.work += z.dot(tangent(rows_[s].normal)) * rows_[s].slip;
 }
 
 }  // namespace mortise::detail

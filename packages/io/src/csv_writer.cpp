@@ -42,12 +42,18 @@ CsvWriter::CsvWriter(RCP<const Communicator> comm, std::string path, const std::
   write_line(joined(columns, quoted));
 }
 
-void CsvWriter::row(const std::vector<CsvValue>& values) {
-  if (comm_->getRank() == 0 && values.size() != columns_) {
-    const auto reason = fmt::format("a row of {} values for {} columns", values.size(), columns_);
-    throw_if_any_file_error(*comm_, "cannot write", path_, reason);
-  }
-  write_line(comm_->getRank() == 0 ? joined(values, to_text) : "");
+void CsvWriter::row(const std::vector<CsvValue>& values) { rows({values}); }
+
+void CsvWriter::rows(const std::vector<std::vector<CsvValue>>& rows) {
+  std::string lines;
+  std::optional<std::string> reason;
+  if (comm_->getRank() == 0)
+    for (const auto& row : rows) {
+      if (row.size() != columns_) reason = fmt::format("a row of {} values for {} columns", row.size(), columns_);
+      lines += joined(row, to_text);
+    }
+  throw_if_any_file_error(*comm_, "cannot write", path_, reason);
+  write_line(lines);
 }
 
 void CsvWriter::write_line(const std::string& line) {

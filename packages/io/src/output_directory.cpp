@@ -59,8 +59,8 @@ std::optional<std::string> remove_run(const std::string& directory) {
 }  // namespace
 
 bool is_run_file(const std::string& name) {
-  static const std::array<const char*, 10> names{"summary.json",  "newton.csv", "history.csv", "fields.xdmf", "fields.h5",
-                                                 "effective.xml", "log.txt",    "point.csv",   "point.svg",   "point.png"};
+  static const std::array<const char*, 11> names{"summary.json",  "newton.csv", "history.csv", "profiles.csv", "fields.xdmf", "fields.h5",
+                                                 "effective.xml", "log.txt",    "point.csv",   "point.svg",    "point.png"};
   for (const char* known : names)
     if (name == known || name == std::string(known) + ".part") return true;
   const std::string begin = "checkpoint-", end = ".h5";

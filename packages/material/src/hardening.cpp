@@ -77,6 +77,10 @@ double yield_stress(const Hardening& hardening, double alpha) {
   return std::visit([&](const auto& law) { return law.yield_stress(alpha); }, hardening);
 }
 
+double plastic_work(const Hardening& hardening, double alpha) {
+  return std::visit([&](const auto& law) { return law.plastic_work(alpha); }, hardening);
+}
+
 PlasticIncrement return_map(const Hardening& hardening, double trial_stress, double alpha, double stiffness) {
   if (!std::isfinite(trial_stress)) return {std::numeric_limits<double>::quiet_NaN(), 0.0};
   return std::visit(

@@ -47,6 +47,21 @@ double ContactLength::evaluate(const QuantityContext& context) {
   return sum_over_ranks(context.mesh(), length);
 }
 
+// Half a facet from x_1 on has the area depth((3 x_1 + x_2)/4) length/2, as depth is linear in the radius.
+double ContactArea::evaluate(const QuantityContext& context) {
+  double area = 0.0;
+  for (const PressedFacet& facet : pressed_facets(context, pair_))
+    for (int end = 0; end < 2; ++end)
+      if (facet.closed[end]) area += 0.5 * facet.length() * context.bodies.depth(0.75 * facet.position[end][0] + 0.25 * facet.position[1 - end][0]);
+  return sum_over_ranks(context.mesh(), area);
+}
+
+double PressureVariation::evaluate(const QuantityContext& context) {
+  double variation = 0.0;
+  for (const PressedFacet& facet : pressed_facets(context, pair_)) variation += std::abs(facet.pressure[1] - facet.pressure[0]);
+  return sum_over_ranks(context.mesh(), variation);
+}
+
 double ActiveCount::evaluate(const QuantityContext& context) {
   double count = 0.0;
   for (const auto& state : context.contact->node_states(pair_, *context.multipliers)) count += state.closed ? 1.0 : 0.0;

@@ -21,10 +21,13 @@ const Registry<Quantity>& quantity_registry() {
     kinds.add<ContactTraction>("contact traction", "pressure or shear of a pair: the largest, or at a position");
     kinds.add<PeakPressure>("peak pressure", "largest contact pressure of a pair");
     kinds.add<ContactLength>("contact length", "length of the slave surface, where the pair's geometry is, that belongs to closed nodes");
+    kinds.add<ContactArea>("contact area", "area of the slave surface, where the pair's geometry is, that belongs to closed nodes");
+    kinds.add<PressureVariation>("pressure variation", "total variation of the nodal contact pressures along the slave surface of a pair");
     kinds.add<ActiveCount>("active count", "number of closed slave nodes of a pair");
     kinds.add<FormulaQuantity>("formula", "an expression of t, the scene's variables and the quantities before it");
     kinds.add<OverTime>("over time", "the largest or smallest value that a quantity before it had at the end of any step");
-    kinds.add<Energy>("energy", "stored energy, or work done from outside");
+    kinds.add<Energy>("energy", "stored energy, plastic work, friction, or the work of external or internal forces");
+    kinds.add<EnergyError>("energy error", "what external work leaves after internal work and friction, relative");
     return kinds;
   }();
   return registry;

@@ -31,7 +31,7 @@ std::string effective_xml(Scene& scene) {
   return to_scene_xml(collect_parameters(name, scene, CollectParameters::What::values), symbol_lists(scene.symbols));
 }
 
-/// Everything that follows the steps: table, newton.csv, history.csv, fields.
+/// Everything that follows the steps: table, newton.csv, history.csv, profiles.csv, fields.
 class Observers {
  public:
   Observers(const RCP<const Communicator>& comm, const Scene& scene, const OutputDirectory& directory, const RCP<const Mesh>& mesh,
@@ -45,6 +45,10 @@ class Observers {
                 {"step", "try", "time", "dt", "iteration", "momentum", "momentum_absolute", "gap", "complementarity", "increment", "step_length",
                  "active", "stick", "slip", "changed", "linear_iterations", "seconds", "undone"}),
         history_(comm, directory.file("history.csv"), history_columns(evaluation)) {
+    if (scene.output.contact_profiles)
+      profiles_ =
+          std::make_unique<CsvWriter>(comm, directory.file("profiles.csv"),
+                                      std::vector<std::string>{"time", "pair", "part", "arc_length", "x", "y", "pressure", "shear", "gap", "state"});
     if (!scene.output.fields.empty()) fields_ = std::make_unique<FieldWriter>(mesh, directory.path());
     steps_ = static_cast<int>(std::ceil(scene.stepping.end_time / scene.stepping.step - 1e-9));
   }
@@ -65,10 +69,12 @@ class Observers {
     return observer;
   }
 
-  /// Writes the fields of the last accepted state, if that has not been done.
+  /// Writes fields and profiles of the last accepted state, if that has not been done.
   void finish(const Vector& x) {
-    if (record_.steps.empty() || written_ == record_.steps.back().step) return;
-    write_fields(record_.steps.back(), x);
+    if (record_.steps.empty()) return;
+    const StepReport& last = record_.steps.back();
+    if (written_ != last.step) write_fields(last, x);
+    if (!is_output_time(last)) write_profiles(last, x);
   }
 
  private:
@@ -133,11 +139,11 @@ class Observers {
     }
     history_.row(row);
     log_.info(step_footer(report));
-    if (wants_fields(report)) write_fields(report, x);
+    if (is_output_time(report) || (scene_.output.every_step > 0 && report.step % scene_.output.every_step == 0)) write_fields(report, x);
+    if (is_output_time(report)) write_profiles(report, x);
   }
 
-  bool wants_fields(const StepReport& report) const {
-    if (scene_.output.every_step > 0 && report.step % scene_.output.every_step == 0) return true;
+  bool is_output_time(const StepReport& report) const {
     for (const double time : scene_.stepping.output_times)
       if (std::abs(report.time - time) <= 1e-12 * scene_.stepping.end_time) return true;
     return false;
@@ -148,6 +154,17 @@ class Observers {
     if (fields_) fields_->write(report.time, evaluation_.fields(x, scene_.output.fields));
   }
 
+  void write_profiles(const StepReport& report, const Vector& x) {
+    if (!profiles_) return;
+    const auto profiles = evaluation_.profiles(x);
+    std::vector<std::vector<CsvValue>> rows;
+    for (std::size_t pair = 0; pair < profiles.size(); ++pair)
+      for (const ProfilePoint& point : profiles[pair])
+        rows.push_back({report.time, scene_.contact[pair].name, static_cast<long long>(point.part), point.arc_length, point.x, point.y,
+                        point.pressure, point.shear, point.gap, static_cast<long long>(point.state)});
+    profiles_->rows(rows);
+  }
+
   const Scene& scene_;
   StepEvaluation& evaluation_;
   RunLog& log_;
@@ -156,6 +173,7 @@ class Observers {
   CsvWriter newton_, history_;
   std::vector<CsvValue> last_iteration_;
   std::unique_ptr<FieldWriter> fields_;
+  std::unique_ptr<CsvWriter> profiles_;
   int steps_ = 0, step_ = 0, try_ = 0, written_ = 0;
   double time_ = 0.0, dt_ = 0.0;
 };

@@ -67,6 +67,9 @@ void OutputOptions::describe(Parameters& parameters) {
     if (std::find(known.begin(), known.end(), field) == known.end()) parameters.error("fields", unknown_name("field", field, known));
   parameters.add("every step", every_step,
                  Says("fields are written after every so many steps, and at the end; 0: at the output times and the end only").at_least(0));
+  parameters.add(
+      "contact profiles", contact_profiles,
+      "pressure, shear traction and gap along the arc length of each slave surface are written to profiles.csv at the output times and the end");
 }
 
 void QuantityChoice::describe(Parameters& parameters) { parameters.choose(quantity, quantity_registry(), "the kind of quantity"); }

@@ -73,15 +73,31 @@ std::vector<Field> StepEvaluation::fields(const Vector& x, const std::vector<std
   const auto displacement = system_.displacement(x);
   const auto multipliers = model_.contact() ? system_.multipliers(x) : Teuchos::null;
   const auto local_displacement = local(*displacement);
-  if (model_.contact()) {
-    std::optional<StepFailure> failure;
-    model_.contact()->evaluate(*displacement, false, failure);
-    throw_if_any(*model_.mesh()->comm, failure);
-  }
+  evaluate_contact(*displacement);
   std::vector<Field> fields;
   const FieldState state{*model_.bodies(), model_.contact().get(), *displacement, *local_displacement, multipliers.get()};
   for (const auto& name : names) fields.push_back(make_field(name, state));
   return fields;
+}
+
+std::vector<std::vector<ProfilePoint>> StepEvaluation::profiles(const Vector& x) {
+  std::vector<std::vector<ProfilePoint>> profiles;
+  if (!model_.contact()) return profiles;
+  const auto pairs = context().pairs;
+  for (std::size_t pair = profiles_.size(); pair < pairs.size(); ++pair) profiles_.emplace_back(*model_.mesh(), pairs[pair], pair);
+  const auto displacement = system_.displacement(x), multipliers = system_.multipliers(x);
+  const auto local_displacement = local(*displacement);
+  evaluate_contact(*displacement);
+  const FieldState state{*model_.bodies(), model_.contact().get(), *displacement, *local_displacement, multipliers.get()};
+  for (const ContactProfile& profile : profiles_) profiles.push_back(profile.points(state));
+  return profiles;
+}
+
+void StepEvaluation::evaluate_contact(const Vector& displacement) const {
+  if (!model_.contact()) return;
+  std::optional<StepFailure> failure;
+  model_.contact()->evaluate(displacement, false, failure);
+  throw_if_any(*model_.mesh()->comm, failure);
 }
 
 }  // namespace mortise

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "contact_profile.hpp"
 #include "fields.hpp"
 #include "mortise/nonlinear/semi_smooth_system.hpp"
 #include "mortise/simulation/model.hpp"
@@ -21,14 +22,18 @@ class StepEvaluation {
   /// In the order of names(), at x and pseudo-time `time`.
   std::vector<double> quantities(const Vector& x, double time);
   std::vector<Field> fields(const Vector& x, const std::vector<std::string>& names);
+  /// The points along the slave surface of each pair, on rank 0.
+  std::vector<std::vector<ProfilePoint>> profiles(const Vector& x);
 
  private:
   QuantityContext context() const;
   RCP<Vector> local(const Vector& displacement) const;
+  void evaluate_contact(const Vector& displacement) const;
 
   const Scene& scene_;
   const Model& model_;
   SemiSmoothSystem& system_;
+  std::vector<ContactProfile> profiles_;
 };
 
 }  // namespace mortise

@@ -103,6 +103,17 @@ std::vector<double> Bodies::stored_energies(const Vector& local_displacement) co
   return all;
 }
 
+std::vector<double> Bodies::plastic_works(const Vector& local_displacement) const {
+  std::vector<double> mine(blocks_.size(), 0.0), all(blocks_.size(), 0.0);
+  const HostReadView displacement(local_displacement);
+  for (std::size_t n = 0; n < blocks_.size(); ++n)
+    if (blocks_[n]->history_bytes() > 0)
+      blocks_[n]->visit_points(displacement.data(), mesh_->blocks[n].owned,
+                               [&](const MaterialPoint& point) { mine[n] += point.weight * point.plastic_work; });
+  Teuchos::reduceAll(*mesh_->comm, Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), all.data());
+  return all;
+}
+
 namespace {
 
 /// Adds the current volume and the stress times it.

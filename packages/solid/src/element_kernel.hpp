@@ -114,7 +114,10 @@ class ElementKernel {
     if constexpr (f_bar) law_volume_ratio = centre.determinant;
     result.cauchy_stress = law_.stress(F, states[q]) / law_volume_ratio;
     result.energy = law_.energy(F, states[q]);
-    if constexpr (history) result.equivalent_plastic_strain = law_.law.equivalent_plastic_strain(F, states[q]);
+    if constexpr (history) {
+      result.equivalent_plastic_strain = law_.law.equivalent_plastic_strain(F, states[q]);
+      result.plastic_work = plastic_work(law_.law.hardening, result.equivalent_plastic_strain);
+    }
     return result;
   }
 

@@ -89,6 +89,7 @@ TEST(Slip, PathAndWorkGrowWithAcceptedSteps) {
   for (const double step : {0.5, -0.2}) {
     for (int tries = 0; tries < 2; ++tries) contact.start_step(*d, held, z);  // undone and tried again
     position += step;
+    const RCP<Vector> before = d;
     d = motion(fixture, surfaces, [&](bool slave, const test::Point&) { return test::Point{slave ? position : 0.0, 0.0}; });
     std::optional<StepFailure> failure;
     contact.evaluate(*d, false, failure);
@@ -103,8 +104,11 @@ TEST(Slip, PathAndWorkGrowWithAcceptedSteps) {
       EXPECT_NEAR(state.slip_path, path, 1e-12);
       EXPECT_EQ(state.state, ContactState::slip);
     }
-    // Shear traction times slip over a length of 5.
-    EXPECT_NEAR(contact.friction_work(0), 0.3 * pressure * 5.0 * path, 1e-10);
+    // The forces of the shear tractions alone: traction times slip over a length of 5.
+    Vector force(fixture.dofs), change(*d, Teuchos::Copy);
+    contact.add_contact_force(*contact.shear_tractions(z), force);
+    change.update(-1.0, *before, 1.0);
+    EXPECT_NEAR(force.dot(change), 0.3 * pressure * 5.0 * std::abs(step), 1e-10);
   }
   EXPECT_GT(contact.friction_bytes(), 0);
   EXPECT_GT(contact.friction_evaluations(), 0);
@@ -120,7 +124,8 @@ TEST(Slip, APairWithoutFrictionRemembersNothing) {
   fixture.contact->accept_states(z);
   EXPECT_EQ(fixture.contact->friction_bytes(), 0);
   EXPECT_EQ(fixture.contact->friction_evaluations(), 0);
-  EXPECT_EQ(fixture.contact->friction_work(0), 0.0);
+  z.putScalar(1.0);
+  EXPECT_EQ(fixture.contact->shear_tractions(z)->norm2(), 0.0);
 }
 
 TEST(Coulomb, SticksInsideTheConeAndSlipsOnIt) {

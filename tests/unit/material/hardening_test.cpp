@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <boost/math/quadrature/tanh_sinh.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include "law_fixture.hpp"
@@ -35,6 +36,22 @@ TEST(Hardening, SlopeIsTheDerivativeOfTheYieldStress) {
       const double slope = difference([&law = law, alpha](double t) { return yield_stress(law, alpha + t); });
       EXPECT_NEAR(slope_of(law, alpha), slope, bound * (1.0 + slope)) << name << " " << alpha;
     }
+}
+
+// The tanh-sinh rule bears the infinite slopes of Ludwik and Swift; the pieces of a table are integrated one by one.
+TEST(Hardening, PlasticWorkIsTheIntegralOfTheYieldStress) {
+  boost::math::quadrature::tanh_sinh<double> integrate;
+  for (const auto& [name, law] : every_hardening()) {
+    EXPECT_EQ(plastic_work(law, 0.0), 0.0) << name;
+    std::vector<double> ends{0.0};
+    if (const auto* table = std::get_if<TableHardening>(&law)) ends = table->table.times;
+    ends.push_back(ends.back() + 0.7);
+    double work = 0.0;
+    for (std::size_t i = 1; i < ends.size(); ++i) {
+      work += integrate.integrate([&law = law](double alpha) { return yield_stress(law, alpha); }, ends[i - 1], ends[i]);
+      EXPECT_NEAR(plastic_work(law, ends[i]), work, 1e-12 * work) << name << " " << ends[i];
+    }
+  }
 }
 
 TEST(Hardening, NeverFalls) {

@@ -24,7 +24,7 @@ inline constexpr int upper_cells = 5;
 /// "lower" [0, 4] x [0, 1] of 4 x 2 squares and "upper" [0, 4] x [1, 2] of 10 x 4 triangles; the underside of "upper" is the slave.
 class TwoBlocks {
  public:
-  explicit TwoBlocks(Kinematics kinematics = Kinematics::plane_strain, ContactGeometry geometry = ContactGeometry::current) {
+  explicit TwoBlocks(Kinematics kinematics = Kinematics::plane_strain, ContactGeometry geometry = ContactGeometry::current, bool rubs = false) {
     const auto lower = std::make_shared<BlockMesh>(), upper = std::make_shared<BlockMesh>();
     lower->width = upper->width = width;
     lower->cells_x = 4, lower->cells_y = upper->cells_y = 2, upper->cells_x = upper_cells;
@@ -39,6 +39,7 @@ class TwoBlocks {
     ContactPair pair;
     pair.name = "pair";
     pair.options.geometry = geometry;
+    if (rubs) pair.options.friction.options = std::make_shared<TrescaFriction>();
     pair.slave = facets_at_owned_nodes(*mesh, mesh->side_sets.at("upper/bottom"));
     pair.master = facets_of_owned_elements(*mesh, mesh->side_sets.at("lower/top"));
     pair.youngs_modulus = youngs_modulus;
@@ -75,12 +76,12 @@ class TwoBlocks {
     throw_if_any(*mesh->comm, failure);
   }
 
-  /// z = p n with n = (0, -1); p of x.
-  void press(const std::function<double(double)>& pressure) {
+  /// z = p n + (shear, 0) with n = (0, -1); p of x.
+  void press(const std::function<double(double)>& pressure, double shear = 0.0) {
     const GlobalOrdinal offset = bodies->dofs()->getMaxAllGlobalIndex() + 1;
     for (const GlobalOrdinal id : multipliers->getMap()->getNodeElementList()) {
       const LocalOrdinal node = mesh->owned_nodes->getLocalElement((id - offset) / 2);
-      multipliers->replaceGlobalValue(id, (id - offset) % 2 == 0 ? 0.0 : -pressure(mesh->coordinates[node][0]));
+      multipliers->replaceGlobalValue(id, (id - offset) % 2 == 0 ? shear : -pressure(mesh->coordinates[node][0]));
     }
   }
 

@@ -97,13 +97,15 @@ class ContactSystem {
 
   /// r += f_c(d, z) on the owned dofs, d of the last evaluate.
   void add_contact_force(const Vector& z, Vector& r) const;
+  /// The parts of z across the normals of the last evaluate, of pairs with friction; 0 elsewhere.
+  RCP<Vector> shear_tractions(const Vector& z) const;
   /// C(d, z), d of the last evaluate; rows in units of traction.
   void complementarity(const Vector& z, Vector& C) const;
   ContactNorms norms(const Vector& z) const;
 
   /// Takes the states at z, d of the last evaluate, as those that `changed` counts against: once for each Newton iterate.
   void mark_states(const Vector& z);
-  /// Takes the states at z, d of the last evaluate, as those of the accepted state that the next step starts from; slip paths and work grow.
+  /// Takes the states at z, d of the last evaluate, as those of the accepted state that the next step starts from; slip paths grow.
   void accept_states(const Vector& z);
 
   /// K += C~ = d(f_c)/dd at fixed z. `system` has system_graph(). Needs evaluate(d, true).
@@ -127,8 +129,6 @@ class ContactSystem {
 
   /// States of the owned slave nodes of a pair.
   std::vector<ContactNodeState> node_states(std::size_t pair, const Vector& z) const;
-  /// Work that friction of a pair has dissipated in the accepted steps. Collective.
-  double friction_work(std::size_t pair) const;
   /// Bytes that the slip histories of all pairs take, over all ranks; 0 without friction. Collective.
   long friction_bytes() const;
   /// How often slips were measured, over all pairs, on this rank; 0 without friction.

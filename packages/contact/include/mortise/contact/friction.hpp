@@ -34,6 +34,8 @@ struct CoulombFriction : FrictionLaw {
   Expression coefficient{0.0};             ///< mu of pressure and slip path
   std::optional<double> largest_traction;  ///< [stress]
   void describe(Parameters& parameters) override;
+  /// A coefficient of 0 is no friction.
+  bool acts() const override { return !coefficient.is_constant() || coefficient.at({0.0, 0.0}) > 0.0; }
   FrictionBound bound(double pressure, double slip_path) const override;
 };
 

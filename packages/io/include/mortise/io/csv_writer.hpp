@@ -22,6 +22,9 @@ class CsvWriter {
   /// Only rank 0's values count; a number of them that is not that of the columns is a FileError too.
   void row(const std::vector<CsvValue>& values);
 
+  /// The same for many rows, written at once; other ranks may pass any number.
+  void rows(const std::vector<std::vector<CsvValue>>& rows);
+
   const std::string& path() const { return path_; }
 
  private:

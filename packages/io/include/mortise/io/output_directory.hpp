@@ -27,7 +27,7 @@ class OutputDirectory {
   std::string path_;
 };
 
-/// Whether a run writes a file of this name: summary.json, newton.csv, history.csv, fields.xdmf, fields.h5, effective.xml, log.txt,
+/// Whether a run writes a file of this name: summary.json, newton.csv, history.csv, profiles.csv, fields.xdmf, fields.h5, effective.xml, log.txt,
 /// checkpoint-*.h5, point.csv, point.svg, point.png.
 bool is_run_file(const std::string& name);
 

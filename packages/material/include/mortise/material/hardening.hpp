@@ -15,13 +15,16 @@
 
 namespace mortise {
 
-/// Every hardening law there is. Each has yield_stress(alpha) and slope(alpha) >= 0; one that may be arbitrarily steep also plastic_strain(stress),
-/// the inverse.
+/// Every hardening law there is. Each has yield_stress(alpha), slope(alpha) >= 0 and plastic_work(alpha), the integral of the yield stress from 0;
+/// one that may be arbitrarily steep also plastic_strain(stress), the inverse.
 using Hardening =
     std::variant<PerfectPlasticity, LinearHardening, LudwikHardening, SwiftHardening, VoceHardening, LinearVoceHardening, TableHardening>;
 
 /// sigma_y(alpha) [stress].
 double yield_stress(const Hardening& hardening, double alpha);
+
+/// int_0^alpha sigma_y: work of plastic flow per reference volume [stress].
+double plastic_work(const Hardening& hardening, double alpha);
 
 /// What the return map finds.
 struct PlasticIncrement {

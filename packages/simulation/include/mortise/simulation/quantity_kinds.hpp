@@ -203,6 +203,17 @@ struct ContactLength : PairQuantity {
   double evaluate(const QuantityContext& context) override;
 };
 
+/// Area that belongs to closed nodes: their halves of the facets times the thickness or 2 pi r. [area]
+struct ContactArea : PairQuantity {
+  double evaluate(const QuantityContext& context) override;
+};
+
+/// Total variation of the nodal pressures along the slave surface, sum over the facets of |p_2 - p_1|: twice the peak for a pressure that rises from
+/// nothing and falls to nothing, more if it oscillates. [stress]
+struct PressureVariation : PairQuantity {
+  double evaluate(const QuantityContext& context) override;
+};
+
 /// Number of closed slave nodes.
 struct ActiveCount : PairQuantity {
   double evaluate(const QuantityContext& context) override;
@@ -232,20 +243,43 @@ struct OverTime : Quantity {
   std::optional<double> extreme_;
 };
 
-/// Stored energy of a body or of all, what friction has dissipated, or the work that loads and supports have done since the start (trapezoidal rule
-/// over the steps). [work]
+/// Energies and works since the start. Works are sums of 1/2 (f_old + f) . (d - d_old) over the steps, the trapezoidal rule, so that
+///   external work = internal work + friction - (work of contact pressures on both sides)
+/// holds to the tolerance of momentum, whatever the step. [work]
 struct Energy : Quantity {
-  enum class Of { stored, external_work, friction };
+  enum class Of {
+    stored,         ///< int W dV0
+    plastic_work,   ///< int int_0^alpha sigma_y dalpha dV0
+    friction,       ///< of the shear tractions of all pairs with friction
+    external_work,  ///< of loads and supports
+    internal_work   ///< of the internal forces
+  };
   Of of = Of::stored;
-  Located<std::string> body;  ///< empty: all
+  Located<std::string> body;  ///< stored energy and plastic work only; empty: all
   void describe(Parameters& parameters) override;
   void prepare(const QuantityContext& context) override;
   double evaluate(const QuantityContext& context) override;
 
  private:
+  RCP<Vector> force(const QuantityContext& context) const;
   std::optional<LocalOrdinal> body_;
   double work_ = 0.0;
-  std::shared_ptr<Vector> force_, displacement_;  ///< at the last step
+  RCP<Vector> force_, displacement_;  ///< at the last step
+};
+
+/// (external work - internal work - friction) / the largest of them: what contact pressures have done, which is nothing where surfaces touch all
+/// over; or (external work - stored - plastic work - friction) / the largest of them, which counts beside that what F-bar, without a potential, and
+/// the steps of the flow rule make of internal work. NaN while nothing has been done.
+struct EnergyError : Quantity {
+  enum class Against { internal_work, stored_and_plastic };
+  Against against = Against::internal_work;
+  void describe(Parameters& parameters) override;
+  void prepare(const QuantityContext& context) override;
+  double evaluate(const QuantityContext& context) override;
+
+ private:
+  std::vector<Energy> spent_;
+  Energy external_;
 };
 
 }  // namespace mortise

@@ -62,7 +62,8 @@ struct ContactPairOptions {
 /// What is written besides the summary.
 struct OutputOptions {
   std::vector<std::string> fields{"displacement", "contact_pressure", "cauchy_stress"};
-  int every_step = 1;  ///< fields are written after every so many steps and at the end; 0: at the output times and the end only
+  int every_step = 1;             ///< fields are written after every so many steps and at the end; 0: at the output times and the end only
+  bool contact_profiles = false;  ///< profiles.csv: contact along the arc length, at the output times and the end
   void describe(Parameters& parameters);
 };
 

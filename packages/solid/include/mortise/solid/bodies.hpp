@@ -27,6 +27,7 @@ struct MaterialPoint {
   Matrix3 deformation_gradient;  ///< F that the law sees: with the hoop or out-of-plane stretch as component 33, of F-bar elements the modified one
   Matrix3 cauchy_stress;         ///< [stress]
   double equivalent_plastic_strain = 0.0;  ///< alpha; 0 for laws without plasticity
+  double plastic_work = 0.0;               ///< spent on plastic flow per reference volume; 0 for laws without
   double energy = 0.0;                     ///< stored energy per reference volume, of deformation_gradient
 };
 
@@ -88,6 +89,9 @@ class Bodies {
 
   /// Stored energy of each body, summed over all ranks. Collective.
   std::vector<double> stored_energies(const Vector& local_displacement) const;
+
+  /// Work that plastic flow of each body has taken, summed over all ranks; 0 for laws without plasticity. Collective.
+  std::vector<double> plastic_works(const Vector& local_displacement) const;
 
   /// Integral of N_a dV0 over the body `block`, for each owned node a.
   std::vector<double> nodal_volumes(LocalOrdinal block) const;

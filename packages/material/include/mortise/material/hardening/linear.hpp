@@ -19,6 +19,7 @@ struct LinearHardening {
   }
   double yield_stress(double alpha) const { return initial_yield_stress + modulus * alpha; }
   double slope(double) const { return modulus; }
+  double plastic_work(double alpha) const { return (initial_yield_stress + 0.5 * modulus * alpha) * alpha; }
 };
 
 }  // namespace mortise

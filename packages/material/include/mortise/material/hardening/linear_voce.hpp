@@ -18,6 +18,7 @@ struct LinearVoceHardening {
   }
   double yield_stress(double alpha) const { return voce.yield_stress(alpha) + modulus * alpha; }
   double slope(double alpha) const { return voce.slope(alpha) + modulus; }
+  double plastic_work(double alpha) const { return voce.plastic_work(alpha) + 0.5 * modulus * alpha * alpha; }
 };
 
 }  // namespace mortise

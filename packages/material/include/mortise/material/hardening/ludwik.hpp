@@ -24,6 +24,9 @@ struct LudwikHardening {
   }
   double yield_stress(double alpha) const { return initial_yield_stress + strength_coefficient * std::pow(alpha, exponent); }
   double slope(double alpha) const { return exponent * strength_coefficient * std::pow(alpha, exponent - 1.0); }
+  double plastic_work(double alpha) const {
+    return (initial_yield_stress + strength_coefficient * std::pow(alpha, exponent) / (exponent + 1.0)) * alpha;
+  }
   /// Inverse of yield_stress; 0 below it.
   double plastic_strain(double stress) const {
     return stress <= initial_yield_stress ? 0.0 : std::pow((stress - initial_yield_stress) / strength_coefficient, 1.0 / exponent);

@@ -16,6 +16,7 @@ struct PerfectPlasticity {
   }
   double yield_stress(double) const { return initial_yield_stress; }
   double slope(double) const { return 0.0; }
+  double plastic_work(double alpha) const { return initial_yield_stress * alpha; }
 };
 
 }  // namespace mortise

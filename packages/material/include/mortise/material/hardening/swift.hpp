@@ -23,6 +23,10 @@ struct SwiftHardening {
   }
   double yield_stress(double alpha) const { return strength_coefficient * std::pow(initial_strain + alpha, exponent); }
   double slope(double alpha) const { return exponent * strength_coefficient * std::pow(initial_strain + alpha, exponent - 1.0); }
+  double plastic_work(double alpha) const {
+    const double power = exponent + 1.0;
+    return strength_coefficient * (std::pow(initial_strain + alpha, power) - std::pow(initial_strain, power)) / power;
+  }
   /// Inverse of yield_stress; 0 below it.
   double plastic_strain(double stress) const { return std::max(0.0, std::pow(stress / strength_coefficient, 1.0 / exponent) - initial_strain); }
 };

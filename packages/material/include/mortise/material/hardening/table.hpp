@@ -37,6 +37,17 @@ struct TableHardening {
     const auto i = static_cast<std::size_t>(end - strains.begin());
     return (stresses[i] - stresses[i - 1]) / (strains[i] - strains[i - 1]);
   }
+  double plastic_work(double alpha) const {
+    double work = 0.0, start = 0.0;
+    const auto add_up_to = [&](double end) {
+      work += 0.5 * (table(start) + table(end)) * (end - start);
+      start = end;
+    };
+    for (const double strain : table.times)
+      if (strain < alpha) add_up_to(strain);
+    add_up_to(alpha);
+    return work;
+  }
 };
 
 }  // namespace mortise

@@ -22,6 +22,7 @@ struct VoceHardening {
   }
   double yield_stress(double alpha) const { return initial_yield_stress - saturation * std::expm1(-rate * alpha); }
   double slope(double alpha) const { return saturation * rate * std::exp(-rate * alpha); }
+  double plastic_work(double alpha) const { return (initial_yield_stress + saturation) * alpha + saturation * std::expm1(-rate * alpha) / rate; }
 };
 
 }  // namespace mortise
