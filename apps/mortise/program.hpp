@@ -17,6 +17,7 @@ struct Program {
   RCP<const Communicator> comm;
   RCP<const Communicator> exit_comm;  ///< a duplicate that carries nothing but the agreement on the exit code
   std::function<ExitCode()> action;
+  bool launches = false;  ///< the action starts runs of this program: it gets no MPI, as programs that use MPI cannot start others that do
 
   bool is_first_rank() const { return comm->getRank() == 0; }
 };
@@ -31,6 +32,7 @@ void add_point_command(CLI::App& app, Program& program);
 void add_describe_command(CLI::App& app, Program& program);
 void add_list_command(CLI::App& app, Program& program);
 void add_doctor_command(CLI::App& app, Program& program);
+void add_paper_command(CLI::App& app, Program& program);
 
 /// Arguments of the commands that run an input file: the file itself, called `file`, and --set; -o, --keep, --quiet, --verbose. The options have to
 /// live as long as the command.

@@ -1,44 +1,19 @@
 #include "draw_plot.hpp"
 
 #include <fmt/format.h>
-#include <sys/wait.h>
 
 #include <Teuchos_CommHelpers.hpp>
-#include <array>
-#include <boost/algorithm/string/replace.hpp>
-#include <boost/algorithm/string/trim.hpp>
-#include <cstdio>
 #include <cstdlib>
 #include <optional>
 
 #include "mortise/io/files.hpp"
 #include "plot_scripts.hpp"
+#include "run_process.hpp"
 
 namespace mortise {
 namespace {
 
 constexpr int missing = 69;  ///< exit code of plot_style without matplotlib
-
-std::string quoted(const std::string& word) { return "'" + boost::algorithm::replace_all_copy(word, "'", "'\\''") + "'"; }
-
-struct Ending {
-  int code = -1;
-  std::string last_line;  ///< of what it said
-};
-
-Ending run(const std::string& command) {
-  Ending ending;
-  FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return ending;
-  std::string output;
-  std::array<char, 4096> buffer;
-  while (const std::size_t read = fread(buffer.data(), 1, buffer.size(), pipe)) output.append(buffer.data(), read);
-  const int status = pclose(pipe);
-  boost::algorithm::trim_right(output);
-  ending.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  ending.last_line = output.substr(output.find_last_of('\n') + 1);
-  return ending;
-}
 
 }  // namespace
 
@@ -49,12 +24,12 @@ bool draw_plot(const Communicator& comm, const std::string& script, const std::v
     std::vector<std::string> pythons{"python3", "/usr/bin/python3"};
     if (const char* chosen = std::getenv("MORTISE_PYTHON")) pythons = {chosen};
     for (const auto& python : pythons) {
-      std::string command = quoted(python) + " -c " + quoted(std::string(plot_style) + script);
-      for (const auto& argument : arguments) command += " " + quoted(argument);
-      const Ending ending = run(command + " 2>&1");
+      std::vector<std::string> command{python, "-c", std::string(plot_style) + script};
+      command.insert(command.end(), arguments.begin(), arguments.end());
+      const ProcessEnding ending = run_process(command);
       if (ending.code == missing || ending.code == 126 || ending.code == 127) continue;  // no matplotlib, or (from the shell) no python
       drawn = 1;
-      if (ending.code != 0) failure = fmt::format("{} ended with code {}: {}", python, ending.code, ending.last_line);
+      if (ending.code != 0) failure = fmt::format("{} ended with code {}: {}", python, ending.code, ending.last_line());
       break;
     }
   }

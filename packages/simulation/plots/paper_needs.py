@@ -1,0 +1,4 @@
+try:
+    import h5py
+except ImportError:
+    sys.exit(MISSING)

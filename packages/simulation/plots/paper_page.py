@@ -1,0 +1,82 @@
+# The page.
+HERTZ = ["hertz_elastic", "hertz_elastic_frictionless", "hertz_elastic_as_printed", "hertz_elastic_as_printed_frictionless"]
+EXAMPLES = [  # title, names of runs, section
+    ("4.1 Patch test", ["patch_test", "patch_test_plastic"], patch_test),
+    ("4.1 Block pile", ["block_pile", "block_pile_axisymmetric"], block_pile),
+    ("4.2.1 Hertz problem, elastic", HERTZ, hertz_elastic),
+    ("4.2.2 Hertz problem, plastic", list(FORMS), hertz_plastic),
+    ("4.3 Conical extrusion", ["conical_extrusion"], extrusion)]
+
+# One item each between blank lines.
+OPEN = """
+The paper's figures are lost to us: its text and tables are what stands beside ours. Geometry that only a figure gave is ours.
+
+Table 1 lists E, ν and G, and for all three materials G contradicts the other two. Taken: E and ν. “ε” in the hardening laws is taken as the
+accumulated equivalent plastic strain, their coefficients in MPa. The slope of the extrusion's aluminium is G/100 with the listed G.
+
+Patch test: “a point load of 7.2 kN on each node at the top” cannot give a uniform stress with equal cells: end nodes carry one cell, inner
+nodes two. Ours: half the force on the two end nodes. Blocks of 40 × 20 mm, meshes 5 × 3 on 7 × 3. The thickness is not given: 2 mm in the
+elastic form, 0.75 mm in the plastic one, because with 1 mm (900 MPa) the von Mises stress of plane strain stays below the yield stress of
+830 MPa.
+
+Block pile: sizes, number of blocks and meshes are ours (four blocks, 40 × 25 mm). “Meant to behave as an axisymmetric bar”: plane strain
+and axisymmetric are both computed.
+
+Hertz, elastic: radius and block are ours (R = 50 mm, block 100 × 100 mm). Both printed results fix E*/R alone: R = 50 mm with 1000 times
+the cylinder's modulus meets them, and so would R = 37.56 mm with the stated ones. “Only elastic strains will manifest” at 5 kN: with the
+stated data the block first yields at about 1.2 kN/mm. A “maximal equivalent stress” of “327 kN/mm²” exceeds Young's modulus; the unit must
+be another one.
+
+Hertz, plastic: see there.
+
+Extrusion: the billet is that of Simo and Laursen (1992), radius 50.8 mm, length 254 mm, 5 × 16 elements. The largest plastic strain sits at
+a corner where it grows without bound on finer meshes, so that it can only be compared on this one.
+
+Steps, tolerances and what the relative residual is relative to are given nowhere but for the 200 increments of the plastic Hertz problem.
+"""
+
+STYLE = """
+:root { color-scheme: light }
+body { font: 16px/1.5 Georgia, 'Times New Roman', serif; max-width: 62rem; margin: 2rem auto; padding: 0 1rem; color: #111; background: #fff }
+h1, h2, table, figcaption { font-family: system-ui, sans-serif }
+h2 { margin-top: 2.5rem; border-bottom: 1px solid #ccc }
+figure { margin: 1.5rem 0; text-align: center; break-inside: avoid }
+img { max-width: 100% }
+figcaption { font-size: .85rem; color: #333 }
+table { border-collapse: collapse; margin: 1.5rem auto; font-size: .85rem; break-inside: avoid }
+caption { font-weight: 600; padding: .3rem }
+th, td { padding: .2rem .6rem; text-align: right; border-bottom: 1px solid #ddd }
+thead th { border-bottom: 2px solid #333 }
+tbody th { text-align: left; font-weight: 400 }
+code, pre { font-size: .8rem }
+pre { white-space: pre-wrap; background: #f4f4f4; padding: .5rem }
+.failed { border-left: 4px solid #D55E00; padding-left: 1rem }
+"""
+
+
+def section(title, names, contents):
+    asked = [runs[name] for name in names if name in runs]
+    if not asked:
+        return []
+    return [f"<section><h2>{escaped(title)}</h2>", *map(missed, asked), *contents(), "</section>"]
+
+
+def page():
+    title = "The examples of the paper, by Mortise"
+    parts = ["<!DOCTYPE html>", '<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">',
+             f"<title>{title}</title><style>{STYLE}</style></head><body>", f"<h1>{title}</h1>",
+             paragraph("T. Doca, F. M. Andrade Pires, J. M. A. César de Sá, <i>A dual mortar-based contact formulation applied to finite",
+                       f"plastic strains</i>, COMPLAS XI, 2011: every example, computed by Mortise {escaped(record['version'])} on",
+                       f"{record['ranks']} MPI rank(s). Units mm, N, MPa. “–” is a number that the paper does not state, or that a scene does",
+                       "not compute."), overview(runs.values())]
+    for example in EXAMPLES:
+        parts += section(*example)
+    items = [f"<li>{escaped(one)}</li>" for one in OPEN.strip().split("\n\n")]
+    parts += ["<section><h2>What the paper leaves open</h2><ul>", *items, "</ul></section>", "</body></html>"]
+    return "\n".join(parts)
+
+
+target = os.path.join(directory, "paper.html")
+with open(target + ".part", "w", encoding="utf-8") as file:
+    file.write(page())
+os.replace(target + ".part", target)

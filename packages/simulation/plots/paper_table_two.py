@@ -1,0 +1,82 @@
+# The plastic Hertz problem: figure 9 and Table 2.
+PAPER_TWO = {  # dual mortar, Lagrange
+    "displacement of the cylinder / mm": (0.431, 0.433), "displacement of the block / mm": (0.431, 0.432),
+    "average deformation of the cylinder / mm": (0.182, 0.184), "average deformation of the block / mm": (0.431, 0.416),
+    "contact length / mm": (3.198, 3.178)}
+PAPER_RESIDUALS = {  # increment: relative residual norms in percent of dual mortar, of Lagrange
+    1: ([0.836091e-2, 0.739726e-6, 0.922262e-10], [0.575085e-1, 0.140132e-4, 0.212436e-6, 0.172358e-10]),
+    100: ([0.223108e-3, 0.198341e-7, 0.135704e-11], [0.213476e-1, 0.510660e-4, 0.399832e-9, 0.340939e-12]),
+    200: ([0.754524e-4, 0.917062e-8, 0.896271e-12], [0.354716e-1, 0.485938e-3, 0.337746e-6, 0.852251e-11])}
+INCREMENTS = 200
+FORMS = {"hertz_plastic": "stated data", "hertz_plastic_as_printed": "as-printed modulus, no yield"}
+OTHERS = ["paper, dual mortar", "ours, node to segment", "paper, Lagrange"]
+
+
+def downward(fields, body, end):
+    """Downward displacement of a body's node on the line of symmetry at its upper (end = 1) or lower (-1) end."""
+    nodes = fields.nodes_of(body)
+    on_line = nodes[np.abs(fields.reference[nodes, 0]) < 1e-9]
+    return -fields.displacement[on_line[np.argmax(end * fields.reference[on_line, 1])], 1]
+
+
+def indentation(run):
+    """The first five rows of Table 2. The paper does not say what it measured: taken is the contact point's displacement; the block's deformation is
+    that against its fixed bottom, the cylinder's that of its diameter against the contact point."""
+    fields = run.fields
+    cylinder, block = sorted(np.unique(fields.body), key=lambda body: -fields.reference[fields.nodes_of(body), 1].max())
+    tip, surface = downward(fields, cylinder, -1), downward(fields, block, 1)
+    return [tip, surface, downward(fields, cylinder, 1) - tip, surface - downward(fields, block, -1), run.quantity("contact_length")]
+
+
+def first_half_of_table_two(found):
+    rows = []
+    values = [indentation(run) for run in found]
+    for i, (name, (mortar, lagrange)) in enumerate(PAPER_TWO.items()):
+        cells = [cell for one in values for cell in (number(one[i]), difference(one[i], mortar))]
+        rows.append([name, *cells, number(mortar), "later", number(lagrange)])
+    head = ["quantity"] + [one for run in found for one in (f"ours, {FORMS[run.name]}", "difference")] + OTHERS
+    return html_table(head, rows, "Table 2, first half: at 12.5 kN/mm")
+
+
+def residual_table(found):
+    rows = []
+    for increment, (mortar, lagrange) in PAPER_RESIDUALS.items():
+        ours = [[100 * one for one in run.residuals(run.history["time"][-1] * increment / INCREMENTS)] for run in found]
+        for i in range(max([len(mortar), len(lagrange)] + [len(one) for one in ours])):
+            cell = lambda values: f"{values[i]:.2e}" if i < len(values) else ""
+            rows.append([f"{increment}, {i + 1}", *[cell(one) for one in ours], cell(mortar), "later", cell(lagrange)])
+    head = ["increment, iteration"] + [f"ours, {FORMS[run.name]}" for run in found] + OTHERS
+    return html_table(head, rows, "Table 2, second half: relative residual norm in %")
+
+
+def hertz_plastic():
+    parts = [paragraph("The same at 12.5 kN per mm in 200 increments, with both hardening laws. The paper finds plastic strains on both sides of the contact.")]
+    found = complete(*FORMS)
+    if not found:
+        return parts
+    figure, axes = panels(len(found), "Contact stress, 12.5 kN/mm")
+    for panel, run in zip(axes, found):
+        contact_profile(panel, run, "normal", COLOURS[0], "o")
+        contact_profile(panel, run, "tangential", COLOURS[1], "s", shear=True)
+        x, pressure, _ = run.fields.contact()
+        finish_profile(panel, FORMS[run.name], 1.5 * x[pressure > 0].max())
+    parts.append(html_figure(figure, "Figure 9", "contact stress over the current position; each mark is a node"))
+    parts += [first_half_of_table_two(found), residual_table(found)]
+    parts.append(paragraph("What the paper's displacements are is not said: taken is the displacement of the contact point; the block's",
+                           "deformation is that against its fixed bottom, the cylinder's that of its diameter against the contact point.",
+                           "Residuals: ours are those after each iteration over the largest of internal, external and contact forces; what the",
+                           "paper's are relative to is not said."))
+    parts.append(paragraph("The paper's displacements and contact length belong to a practically rigid cylinder on a practically elastic block",
+                           "(Hertz with such a cylinder: a = 3.191 mm) and cannot come from the stated materials, of which the block yields",
+                           "from about 1.2 kN/mm on. The iteration counts and their quadratic decay can be compared."))
+    for run in found:
+        parts.append(f"<p>Newton iterations, {FORMS[run.name]} (steps × iterations): {stages(run)}.</p>")
+        if run.name == "hertz_plastic":
+            parts.append(comparison([["largest equivalent plastic strain", run.quantity("peak_equivalent_plastic_strain"), None],
+                                     ["that in the cylinder", run.quantity("peak_plastic_strain_cylinder"), None],
+                                     ["P<sub>max</sub> / MPa", run.quantity("peak_pressure"), None],
+                                     ["tangential contact force / (N/mm)", run.quantity("friction_force"), None]], "Hertz problem, plastic"))
+            parts.append(own_checks(run))
+            parts.append(html_figure(mesh_near_contact(run, "Hertz, plastic", 8.0), "Figure 7, detail",
+                                     "von Mises stress near the contact at 12.5 kN/mm, stated data"))
+    return parts

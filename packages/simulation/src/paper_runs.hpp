@@ -1,0 +1,28 @@
+#pragma once
+// What is run for the paper's page.
+
+#include <string>
+#include <vector>
+
+namespace mortise {
+
+/// A scene of inputs/paper, part of the program so that it is found wherever the program stands.
+struct PaperScene {
+  std::string name;  ///< name of the file without its ending
+  std::string text;
+};
+
+/// All scenes of inputs/paper, by name.
+const std::vector<PaperScene>& paper_scenes();
+
+/// One run of the page.
+struct PaperRun {
+  std::string name;
+  std::string scene;                  ///< name of a PaperScene
+  std::vector<std::string> settings;  ///< "path=value"
+};
+
+/// The runs in the order of the paper.
+const std::vector<PaperRun>& paper_runs();
+
+}  // namespace mortise

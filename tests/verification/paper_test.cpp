@@ -1,0 +1,111 @@
+// `mortise paper`: the page, its figures and numbers, runs that fail, bad usage.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "launch.hpp"
+
+namespace {
+
+namespace files = std::filesystem;
+using Json = nlohmann::json;
+
+const std::string directory = std::string(SCRATCH) + "/paper";
+
+Ending paper(std::vector<std::string> words, const std::vector<std::string>& before = {}) {
+  std::vector<std::string> command = before;
+  command.insert(command.end(), {MORTISE, "paper"});
+  command.insert(command.end(), words.begin(), words.end());
+  return launch(command, 240);
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+Json summary_of(const std::string& run) { return Json::parse(read_file(run + "/summary.json")); }
+
+TEST(Paper, PageHoldsFiguresAndTheNumbersOfTheSummary) {
+  files::remove_all(directory);
+  const Ending ending = paper({"--only", "patch_test,block_pile_axisymmetric", "-o", directory});
+  ASSERT_EQ(ending.code, 0) << ending.output;
+  EXPECT_TRUE(contains(ending.output, "1/2 patch_test: done")) << ending.output;
+  EXPECT_TRUE(contains(ending.output, "2/2 block_pile_axisymmetric: done")) << ending.output;
+  const std::string page = read_file(directory + "/paper.html");
+  EXPECT_TRUE(contains(page, "Figure 4")) << page.substr(0, 1000);
+  EXPECT_TRUE(contains(page, "Figure 6"));
+  EXPECT_TRUE(contains(page, "<table>"));
+  EXPECT_TRUE(contains(page, "<img src=\"data:image/svg+xml;base64,"));
+  // One file: nothing is fetched from elsewhere.
+  for (const char* outside : {"src=\"http", "src=\"/", "href=", "<script", "<link"}) EXPECT_FALSE(contains(page, outside)) << outside;
+  for (const char* run : {"patch_test", "block_pile_axisymmetric"}) {
+    const Json summary = summary_of(directory + "/" + run);
+    for (const char* name : {"stress_spread", "axial_stress", "lateral_stretch"})
+      if (summary.at("quantities").contains(name)) {
+        const std::string value = fmt::format("<td>{:.6g}</td>", summary.at("quantities").at(name).get<double>());
+        EXPECT_TRUE(contains(page, value)) << run << ": " << name << " " << value;
+      }
+  }
+  // What was not asked for is not there.
+  EXPECT_FALSE(contains(page, "Hertz problem, elastic"));
+}
+
+TEST(Paper, ReusesWhatIsThereOnlyIfItIsTheSame) {
+  const std::string results = directory + "_reused";
+  files::remove_all(results);
+  ASSERT_EQ(paper({"--only", "patch_test", "-o", results}).code, 0);
+  const auto written = [&] { return files::last_write_time(results + "/patch_test/summary.json"); };
+  const auto first = written();
+  Ending ending = paper({"--only", "patch_test", "-o", results, "--reuse"});
+  EXPECT_EQ(ending.code, 0) << ending.output;
+  EXPECT_TRUE(contains(ending.output, "results of an earlier call")) << ending.output;
+  EXPECT_EQ(written(), first);
+  // Two ranks are another run.
+  ending = paper({"--only", "patch_test", "-o", results, "--reuse", "-n", "2"});
+  EXPECT_EQ(ending.code, 0) << ending.output;
+  EXPECT_NE(written(), first);
+  EXPECT_EQ(summary_of(results + "/patch_test").at("ranks"), 2);
+}
+
+TEST(Paper, ARunThatFailsIsWrittenDownAndTheNextOneStarts) {
+  const std::string results = directory + "_failing";
+  files::remove_all(results);
+  // A file where the first run's results should go.
+  files::create_directories(results + "/patch_test/summary.json");
+  const Ending ending = paper({"--only", "patch_test,patch_test_plastic", "-o", results});
+  EXPECT_EQ(ending.code, 3) << ending.output;
+  EXPECT_TRUE(contains(ending.output, "patch_test: exit code 5")) << ending.output;
+  EXPECT_TRUE(contains(ending.output, "2/2 patch_test_plastic: done")) << ending.output;
+  const std::string page = read_file(results + "/paper.html");
+  EXPECT_TRUE(contains(page, "<b>patch_test</b> ended with exit code 5"));
+  EXPECT_TRUE(contains(page, "summary.json in it is a directory"));
+  EXPECT_TRUE(contains(page, "patch test, plastic form"));
+  EXPECT_FALSE(contains(page, "patch test, elastic form"));
+}
+
+TEST(Paper, BadUsageIsCode1AndNamesTheChoices) {
+  Ending ending = paper({"--only", "patch_tst"});
+  EXPECT_EQ(ending.code, 1);
+  for (const auto& entry : files::directory_iterator(PAPER_SCENES))
+    EXPECT_TRUE(contains(ending.output, entry.path().stem().string())) << entry.path() << ": " << ending.output;
+  ending = paper({"-n", "0"});
+  EXPECT_EQ(ending.code, 1) << ending.output;
+  ending = paper({"--only", "patch_test", "-o", directory + "_mpi"}, {MPIEXEC, "-n", "2"});
+  EXPECT_EQ(ending.code, 1) << ending.output;
+  EXPECT_TRUE(contains(ending.output, "please call it without mpirun")) << ending.output;
+  EXPECT_FALSE(files::exists(directory + "_mpi"));
+}
+
+TEST(Paper, WithoutMatplotlibNothingIsRunAndOneLineSaysWhatToInstall) {
+  const std::string results = directory + "_no_python";
+  files::remove_all(results);
+  const Ending ending = paper({"--only", "patch_test", "-o", results}, {"env", "MORTISE_PYTHON=/nowhere/python3"});
+  EXPECT_EQ(ending.code, 5) << ending.output;
+  EXPECT_TRUE(contains(ending.output, "please install python3-matplotlib and python3-h5py")) << ending.output;
+  EXPECT_FALSE(files::exists(results + "/patch_test"));
+  EXPECT_EQ(paper({"-o", "/proc/nowhere"}).code, 5);
+}
+
+}  // namespace
