@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
     RunOptions options;
     options.scene = SCENE;
     options.directory = std::string(RESULTS) + "/n_" + n;
-    options.settings = {"variables/n=" + n, "variables/F=800", "output/fields="};
+    options.settings = {"variables/n=" + n, "variables/F=800", "variables/mu=0", "variables/steps=4", "output/fields=", "output/contact profiles=false"};
     options.verbosity = Verbosity::quiet;
     if (const auto exit = run_scene(comm, options); exit != ExitCode::done) return static_cast<int>(exit);
     if (comm->getRank() != 0) continue;
