@@ -106,13 +106,12 @@ class Run:
         return [len(step["newton"]) - 1 for step in self.summary.get("steps", [])]
 
     def residuals(self, time):
-        """Relative momentum residuals of the iterations 1, 2, ... of the step that ended at `time`, of its last try."""
+        """Relative momentum residuals of the iterations 0 (before the first), 1, ... of the step that ended at `time`, of its last try."""
         n = self.newton
         ends = np.isclose(n["time"], time, rtol=0, atol=1e-9)
         if not ends.any():
             return []
-        last = ends & (n["try"] == n["try"][ends].max())
-        return list(n["momentum"][last & (n["iteration"] >= 1)])
+        return list(n["momentum"][ends & (n["try"] == n["try"][ends].max())])
 
 
 with open(os.path.join(directory, "paper.json"), encoding="utf-8") as file:
