@@ -6,7 +6,7 @@ import os
 import numpy as np
 
 directory = sys.argv[1]
-NODES = {4: 3, 5: 4}  # XDMF's numbers of triangle and quadrilateral
+POLYLINE, NODES = 2, {4: 3, 5: 4}  # XDMF's numbers: a polyline, whose number of nodes follows; triangle and quadrilateral
 TENSOR = ("xx", "xy", "xz", "yy", "yz", "zz")
 
 
@@ -39,9 +39,13 @@ class Fields:
             topology = file["mesh/topology"][:]
         self.cells, at = [], 0
         while at < len(topology):
-            count = NODES[int(topology[at])]
-            self.cells.append(topology[at + 1 : at + 1 + count])
-            at += 1 + count
+            kind = int(topology[at])
+            at += 2 if kind == POLYLINE else 1
+            count = int(topology[at - 1]) if kind == POLYLINE else NODES[kind]
+            self.cells.append(topology[at : at + count])
+            at += count
+        # Profiles of rigid bodies are lines; all others have an inside.
+        self.inside = np.array([len(cell) > 2 for cell in self.cells])
         self.displacement = self.values["displacement"][:, :2]
         self.position = self.reference + self.displacement
 
