@@ -96,7 +96,7 @@ def hertz_elastic():
 
 
 def roughness(history, quantity):
-    """RMS of the second differences over the RMS, of the values at as many equal distances in time as there are steps; None without such a history."""
+    """RMS of the second differences over the RMS, of values at as many equal distances in time as there are steps; None without such a history."""
     if quantity not in history:
         return None
     time = history["time"]
@@ -119,7 +119,8 @@ def extrusion():
                                  ["contact length / mm", run.quantity("contact_length"), 257.33],
                                  ["rear force at the end / N", run.quantity("rear_force"), None],
                                  ["friction force at the end / N", run.quantity("friction_force"), None],
-                                 ["roughness of the friction force: RMS of second differences over RMS", roughness(run.history, "friction_force"), None],
+                                 ["roughness (RMS of second differences over RMS) of the friction force", roughness(run.history, "friction_force"),
+                                  None],
                                  ["roughness of the extrusion force", roughness(run.history, "rear_force"), None]], "Conical extrusion"))
         parts.append(own_checks(run))
         for figure_name, quantity, name in (("Figure 12", "rear_force", "extrusion force"), ("Figure 13", "friction_force", "friction force")):

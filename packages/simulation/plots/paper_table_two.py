@@ -50,7 +50,8 @@ def residual_table(found):
 
 
 def hertz_plastic():
-    parts = [paragraph("The same at 12.5 kN per mm in 200 increments, with both hardening laws. The paper finds plastic strains on both sides of the contact.")]
+    parts = [paragraph("The same at 12.5 kN per mm in 200 increments, with both hardening laws. The paper finds plastic strains on both sides",
+                       "of the contact.")]
     found = complete(*FORMS)
     if not found:
         return parts
