@@ -107,6 +107,7 @@ ExitCode run_paper(const RCP<const Communicator>& comm, const PaperOptions& opti
   OutputDirectory directory(comm, options.directory, false);
   const std::string page = directory.file("paper.html");
   require_python(*comm, page);
+  for (const char* old : {"paper.html", "paper.json"}) std::filesystem::remove(directory.file(old));
   OutputDirectory scenes(comm, directory.file("scenes"), false);
 
   std::vector<PaperRun> wanted;
