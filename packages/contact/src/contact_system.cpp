@@ -7,6 +7,7 @@
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "checks.hpp"
 #include "implementation.hpp"
@@ -64,6 +65,8 @@ ContactSystem::ContactSystem(RCP<const Map> owned_nodes, RCP<const Map> dofs, RC
   self.dofs = std::move(dofs);
   self.reference = std::move(reference);
   self.timers = timers;
+  self.extent = 0.0;
+  for (std::size_t i = 0; i < self.reference->getNumVectors(); ++i) self.extent = std::max(self.extent, self.reference->getVector(i)->normInf());
   detail::refuse_shared_nodes(*self.owned_nodes, pairs);
   for (ContactPair& pair : pairs)
     self.pairs.push_back(std::make_unique<detail::PairCoupling>(self.owned_nodes, self.reference, fixed, measure, std::move(pair)));
@@ -195,11 +198,13 @@ ContactNorms ContactSystem::norms(const Vector& z) const {
   const auto scope = self.timers.scope("contact");
   const auto part = self.timers.scope("contact residual");
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
-  double gap = 0.0, violation = 0.0, traction = 0.0, floor = 0.0;
+  double gap = 0.0, violation = 0.0, traction = 0.0, floor = 0.0, round_off = 0.0;
   double active = 0.0, sticking = 0.0, changed = 0.0, squares = 0.0;
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
     const detail::PairCoupling& pair = *self.pairs[p];
     floor = std::max(floor, 1e-9 * pair.definition().youngs_modulus);
+    // What the round-off of positions leaves of c_n g and c_t u.
+    round_off = std::max(round_off, 4.0 * std::numeric_limits<double>::epsilon() * self.extent * pair.definition().youngs_modulus / pair.size());
     for (std::size_t s = 0; s < self.multiplier_of[p].size(); ++s) {
       if (self.multiplier_of[p][s] < 0) continue;
       const Eigen::Vector2d zs = self.z_of(values, p, s);
@@ -217,7 +222,8 @@ ContactNorms ContactSystem::norms(const Vector& z) const {
   }
   ContactNorms norms;
   norms.gap = self.maximum(gap);
-  norms.complementarity = self.maximum(violation) / std::max(self.maximum(traction), self.maximum(floor));
+  violation = self.maximum(violation);
+  norms.complementarity = violation <= self.maximum(round_off) ? 0.0 : violation / std::max(self.maximum(traction), self.maximum(floor));
   norms.violation = std::sqrt(self.sum(squares));
   norms.active = static_cast<int>(self.sum(active));
   norms.sticking = static_cast<int>(self.sum(sticking));
@@ -299,6 +305,9 @@ std::vector<ContactNodeState> ContactSystem::node_states(std::size_t pair, const
     if (self.pairs[pair]->friction() != nullptr && row.D > 0.0) {
       state.slip = row.slip / row.D;
       state.slip_path = self.pairs[pair]->slip_histories()[s].accepted.path;
+      if (state.closed)
+        state.shear_bound =
+            self.pairs[pair]->friction()->bound(std::max(0.0, state.pressure), self.pairs[pair]->slip_histories()[s].start.path).value;
     }
     state.force = {row.D * zs[0], row.D * zs[1]};
     states.push_back(state);

@@ -24,6 +24,7 @@ struct ContactSystem::Implementation {
   RCP<const Map> owned_nodes, dofs, multipliers;
   RCP<const MultiVector> reference;
   Timers timers;
+  double extent = 0.0;  ///< largest coordinate of the reference positions
   std::vector<std::unique_ptr<detail::PairCoupling>> pairs;
   std::vector<std::vector<LocalOrdinal>> multiplier_of;     ///< [pair][slave node] local index of the first component in z, -1: none
   std::vector<std::vector<ContactState>> marked, accepted;  ///< [pair][slave node] when last marked, of the accepted state

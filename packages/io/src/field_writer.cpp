@@ -17,10 +17,20 @@ namespace mortise {
 namespace {
 
 /// Numbers of cells in XDMF's mixed topology.
-long long xdmf_cell(CellShape shape) { return shape == CellShape::triangle3 ? 4 : 5; }
+long long xdmf_cell(CellShape shape) {
+  switch (shape) {
+    case CellShape::line2:
+      return 2;  // a polyline, whose number of nodes follows
+    case CellShape::triangle3:
+      return 4;
+    case CellShape::quadrilateral4:
+      return 5;
+  }
+  throw std::logic_error("a cell shape that XDMF's table does not have");
+}
 
-/// [xdmf cell, body, nodes ...] of each owned element; nodes beyond those of the element are not used.
-constexpr int element_columns = 6;
+/// [xdmf cell, body, number of nodes, nodes ...] of each owned element; nodes beyond those of the element are not used.
+constexpr int element_columns = 7;
 
 RCP<const Map> element_map(const Mesh& mesh) {
   std::vector<GlobalOrdinal> ids;
@@ -33,8 +43,9 @@ std::vector<double> element_rows(const Mesh& mesh) {
   for (std::size_t body = 0; body < mesh.blocks.size(); ++body) {
     const Block& block = mesh.blocks[body];
     for (LocalOrdinal element = 0; element < block.owned; ++element) {
-      std::array<double, element_columns> row{static_cast<double>(xdmf_cell(block.shape)), static_cast<double>(body)};
-      for (int a = 0; a < block.nodes_per_element; ++a) row[2 + a] = static_cast<double>(mesh.local_nodes->getGlobalElement(block.nodes(element)[a]));
+      std::array<double, element_columns> row{static_cast<double>(xdmf_cell(block.shape)), static_cast<double>(body),
+                                              static_cast<double>(block.nodes_per_element)};
+      for (int a = 0; a < block.nodes_per_element; ++a) row[3 + a] = static_cast<double>(mesh.local_nodes->getGlobalElement(block.nodes(element)[a]));
       rows.insert(rows.end(), row.begin(), row.end());
     }
   }
@@ -87,7 +98,8 @@ struct FieldWriter::Implementation {
     for (auto row = rows.begin(); row != rows.end(); row += element_columns) {
       topology.push_back(static_cast<long long>(row[0]));
       body.push_back(static_cast<long long>(row[1]));
-      for (int a = 0; a < row[0] - 1; ++a) topology.push_back(static_cast<long long>(row[2 + a]));  // a triangle is a 4, a quadrilateral a 5
+      if (row[0] == xdmf_cell(CellShape::line2)) topology.push_back(2);
+      for (int a = 0; a < row[2]; ++a) topology.push_back(static_cast<long long>(row[3 + a]));
     }
     const auto mine = static_cast<GlobalOrdinal>(topology.size());
     GlobalOrdinal end = 0, size = 0;

@@ -1,6 +1,7 @@
 #pragma once
 // All bodies of a mesh under one numbering.
 
+#include <variant>
 #include <vector>
 
 #include "mortise/mesh/build_mesh.hpp"
@@ -14,7 +15,11 @@ class BodySet {
   explicit BodySet(const std::vector<BodyDescription>& bodies);
 
   int size() const { return static_cast<int>(complexes_.size()); }
-  const PatchComplex& complex(int body) const { return complexes_[body]; }
+  /// visit(complex of the body), a PatchComplex or a CurveComplex, which have alike members.
+  template <class Visit>
+  auto with_complex(int body, const Visit& visit) const {
+    return std::visit(visit, complexes_[body]);
+  }
   GlobalOrdinal first_node(int body) const { return first_node_[body]; }
   GlobalOrdinal first_element(int body) const { return first_element_[body]; }
   GlobalOrdinal node_count() const { return first_node_.back(); }
@@ -24,10 +29,11 @@ class BodySet {
 
   /// Global node ids of an element; the first nodes_per_element(element) count.
   std::array<GlobalOrdinal, 4> element_nodes(GlobalOrdinal element) const;
-  int nodes_per_element(int body) const { return topology(complexes_[body].shape()).nodes; }
+  int nodes_per_element(int body) const { return topology(shapes_[body]).nodes; }
 
  private:
-  std::vector<PatchComplex> complexes_;
+  std::vector<std::variant<PatchComplex, CurveComplex>> complexes_;
+  std::vector<CellShape> shapes_;
   std::vector<GlobalOrdinal> first_node_{0}, first_element_{0};
 };
 

@@ -32,8 +32,10 @@ std::vector<std::vector<GlobalOrdinal>> ghost_elements(const BodySet& bodies, co
                                                        const std::vector<GlobalOrdinal>& owned_elements) {
   std::vector<std::vector<GlobalOrdinal>> ghosts(bodies.size());
   for (const GlobalOrdinal node : owned_nodes.getNodeElementList()) {
+    if (node >= bodies.node_count()) continue;  // a reference point
     const int body = bodies.body_of_node(node);
-    for (const GlobalOrdinal inside : bodies.complex(body).elements_of_node(node - bodies.first_node(body))) {
+    const auto elements = bodies.with_complex(body, [&](const auto& complex) { return complex.elements_of_node(node - bodies.first_node(body)); });
+    for (const GlobalOrdinal inside : elements) {
       const GlobalOrdinal element = bodies.first_element(body) + inside;
       if (!std::binary_search(owned_elements.begin(), owned_elements.end(), element)) ghosts[body].push_back(element);
     }
@@ -45,7 +47,7 @@ std::vector<std::vector<GlobalOrdinal>> ghost_elements(const BodySet& bodies, co
   return ghosts;
 }
 
-/// Owned nodes, then all other nodes of the local elements, ascending.
+/// Owned nodes, then all other nodes of the local elements and the reference points, ascending.
 RCP<const Map> local_node_map(const BodySet& bodies, const RCP<const Map>& owned_nodes, const std::vector<Block>& blocks) {
   const auto owned = owned_nodes->getNodeElementList();
   std::vector<GlobalOrdinal> ids(owned.begin(), owned.end()), ghosts;
@@ -55,6 +57,8 @@ RCP<const Map> local_node_map(const BodySet& bodies, const RCP<const Map>& owned
       for (int a = 0; a < blocks[b].nodes_per_element; ++a)
         if (!owned_nodes->isNodeGlobalElement(nodes[a])) ghosts.push_back(nodes[a]);
     }
+  for (GlobalOrdinal node = bodies.node_count(); node <= owned_nodes->getMaxAllGlobalIndex(); ++node)
+    if (!owned_nodes->isNodeGlobalElement(node)) ghosts.push_back(node);
   std::sort(ghosts.begin(), ghosts.end());
   ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
   ids.insert(ids.end(), ghosts.begin(), ghosts.end());
@@ -82,6 +86,7 @@ std::vector<Diagnostic> inverted_elements(const Mesh& mesh, const BodySet& set, 
   std::vector<Diagnostic> diagnostics;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     const auto& block = mesh.blocks[b];
+    if (block.shape == CellShape::line2) continue;
     for (LocalOrdinal e = 0; e < block.owned; ++e) {
       const auto [determinant, corner] = smallest_determinant(mesh, block, e);
       if (determinant > 0.0) continue;
@@ -120,51 +125,87 @@ void fill_blocks(Mesh& mesh, const BodySet& set, const std::vector<BodyDescripti
 
 void fill_nodes(Mesh& mesh, const BodySet& set) {
   for (const GlobalOrdinal node : mesh.local_nodes->getNodeElementList()) {
+    if (node >= set.node_count()) {  // a reference point, placed with its followers
+      mesh.coordinates.push_back({});
+      mesh.body_of_node.push_back(-1);
+      continue;
+    }
     const int body = set.body_of_node(node);
-    const Point x = set.complex(body).coordinate(node - set.first_node(body));
+    const Point x = set.with_complex(body, [&](const auto& complex) { return complex.coordinate(node - set.first_node(body)); });
     mesh.coordinates.push_back({x[0], x[1], 0.0});
     mesh.body_of_node.push_back(body);
   }
 }
 
+template <class Complex>
+void add_side_sets(Mesh& mesh, const BodySet& set, int b, const Complex& complex) {
+  const auto& block = mesh.blocks[b];
+  const std::string surface = block.name + "/surface";
+  std::vector<std::string> names;
+  for (const auto& name : complex.side_names()) names.push_back(block.name + "/" + name);
+  for (const auto& name : names) mesh.side_sets[name], mesh.node_sets[name];
+  mesh.side_sets[surface], mesh.node_sets[surface], mesh.node_sets[block.name];
+  for (LocalOrdinal e = 0; e < block.size(); ++e)
+    for (const auto& side : complex.surface_sides(block.element_ids[e] - set.first_element(b)))
+      for (const std::string& name : {names[side.name], surface}) {
+        auto& sides = mesh.side_sets[name];
+        sides.sides.push_back({b, e, side.side});
+        if (e < block.owned) ++sides.owned;
+      }
+}
+
+template <class Complex>
+void add_to_node_sets(Mesh& mesh, const BodySet& set, LocalOrdinal node, const Complex& complex) {
+  const int b = mesh.body_of_node[node];
+  const auto& body = mesh.blocks[b].name;
+  mesh.node_sets[body].push_back(node);
+  const auto sides = complex.sides_of_node(mesh.local_nodes->getGlobalElement(node) - set.first_node(b));
+  for (const int side : sides) mesh.node_sets[body + "/" + complex.side_names()[side]].push_back(node);
+  if (!sides.empty()) mesh.node_sets[body + "/surface"].push_back(node);
+}
+
 void fill_sets(Mesh& mesh, const BodySet& set) {
-  for (int b = 0; b < set.size(); ++b) {
-    const auto& complex = set.complex(b);
-    const auto& block = mesh.blocks[b];
-    const std::string surface = block.name + "/surface";
-    std::vector<std::string> names;
-    for (const auto& name : complex.side_names()) names.push_back(block.name + "/" + name);
-    for (const auto& name : names) mesh.side_sets[name], mesh.node_sets[name];
-    mesh.side_sets[surface], mesh.node_sets[surface], mesh.node_sets[block.name];
-    for (LocalOrdinal e = 0; e < block.size(); ++e)
-      for (const auto& side : complex.surface_sides(block.element_ids[e] - set.first_element(b)))
-        for (const std::string& name : {names[side.name], surface}) {
-          auto& sides = mesh.side_sets[name];
-          sides.sides.push_back({b, e, side.side});
-          if (e < block.owned) ++sides.owned;
-        }
+  for (int b = 0; b < set.size(); ++b) set.with_complex(b, [&](const auto& complex) { add_side_sets(mesh, set, b, complex); });
+  for (LocalOrdinal n = 0; n < mesh.local_count(); ++n)
+    if (mesh.body_of_node[n] >= 0) set.with_complex(mesh.body_of_node[n], [&](const auto& complex) { add_to_node_sets(mesh, set, n, complex); });
+}
+
+/// Nodes that the points need, one or two each.
+GlobalOrdinal nodes_of(const std::vector<ReferencePointDescription>& points) {
+  GlobalOrdinal nodes = 0;
+  for (const auto& point : points) nodes += point.rotates ? 2 : 1;
+  return nodes;
+}
+
+void fill_reference_points(Mesh& mesh, const BodySet& set, const std::vector<ReferencePointDescription>& descriptions) {
+  GlobalOrdinal next = set.node_count();
+  std::vector<Diagnostic> diagnostics;
+  for (const auto& description : descriptions) {
+    ReferencePoint point;
+    point.name = description.name;
+    point.is_placed = description.position.has_value();
+    point.node = mesh.local_nodes->getLocalElement(next++);
+    if (point.is_placed)
+      for (int i = 0; i < 2; ++i) mesh.coordinates[point.node][i] = (*description.position)[i];
+    if (description.rotates) point.rotation_node = mesh.local_nodes->getLocalElement(next++);
+    if (!mesh.node_sets.insert({point.name, {point.node}}).second)
+      diagnostics.push_back({description.place, fmt::format("there is already a set named \"{}\"", point.name)});
+    mesh.reference_points.push_back(std::move(point));
   }
-  for (LocalOrdinal n = 0; n < mesh.local_count(); ++n) {
-    const int b = mesh.body_of_node[n];
-    const auto& complex = set.complex(b);
-    const auto& body = mesh.blocks[b].name;
-    mesh.node_sets[body].push_back(n);
-    const auto sides = complex.sides_of_node(mesh.local_nodes->getGlobalElement(n) - set.first_node(b));
-    for (const int side : sides) mesh.node_sets[body + "/" + complex.side_names()[side]].push_back(n);
-    if (!sides.empty()) mesh.node_sets[body + "/surface"].push_back(n);
-  }
+  throw_if_any(*mesh.comm, diagnostics);
 }
 
 }  // namespace
 
-RCP<Mesh> build_mesh(const RCP<const Communicator>& comm, const std::vector<BodyDescription>& bodies, const std::vector<std::string>& contact_sides) {
+RCP<Mesh> build_mesh(const RCP<const Communicator>& comm, const std::vector<BodyDescription>& bodies, const std::vector<std::string>& contact_sides,
+                     const std::vector<ReferencePointDescription>& reference_points) {
   // The descriptions are the same on every rank, and so are errors in them.
   check_names(bodies);
   const BodySet set(bodies);
   std::vector<std::vector<bool>> is_contact;
   for (int b = 0; b < set.size(); ++b) {
     is_contact.emplace_back();
-    for (const auto& side : set.complex(b).side_names()) {
+    for (const auto& side : set.with_complex(b, [](const auto& complex) { return complex.side_names(); })) {
       const bool whole = std::find(contact_sides.begin(), contact_sides.end(), bodies[b].name + "/surface") != contact_sides.end();
       is_contact.back().push_back(whole || std::find(contact_sides.begin(), contact_sides.end(), bodies[b].name + "/" + side) != contact_sides.end());
     }
@@ -172,11 +213,12 @@ RCP<Mesh> build_mesh(const RCP<const Communicator>& comm, const std::vector<Body
   const auto owned_elements = share_out_elements(*comm, set, is_contact);
   auto mesh = rcp(new Mesh);
   mesh->comm = comm;
-  mesh->owned_nodes = share_out_nodes(comm, set, owned_elements);
+  mesh->owned_nodes = share_out_nodes(comm, set, owned_elements, nodes_of(reference_points));
   fill_blocks(*mesh, set, bodies, owned_elements);
   fill_nodes(*mesh, set);
   throw_if_any(*comm, inverted_elements(*mesh, set, bodies));
   fill_sets(*mesh, set);
+  fill_reference_points(*mesh, set, reference_points);
   return mesh;
 }
 
@@ -188,10 +230,10 @@ MeshSize mesh_size(const Mesh& mesh) {
   // Minima over the ranks: of x, y, -x, -y and of the squared side lengths.
   std::array<double, 5> low, global_low;
   low.fill(infinity);
-  for (const auto& x : mesh.coordinates)
+  for (LocalOrdinal node = 0; node < mesh.owned_body_count(); ++node)
     for (int i = 0; i < 2; ++i) {
-      low[i] = std::min(low[i], x[i]);
-      low[2 + i] = std::min(low[2 + i], -x[i]);
+      low[i] = std::min(low[i], mesh.coordinates[node][i]);
+      low[2 + i] = std::min(low[2 + i], -mesh.coordinates[node][i]);
     }
   for (const auto& block : mesh.blocks) {
     local.push_back(block.owned);

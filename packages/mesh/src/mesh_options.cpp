@@ -22,6 +22,7 @@ const Registry<MeshOptions>& mesh_registry() {
     kinds.add<RingSectorMesh>("ring sector", "part of a ring about the origin; sides inner, outer, start, end");
     kinds.add<QuarterDiskMesh>("quarter disk", "the quarter x >= 0, y <= 0 of a disk about the origin; sides diameter, axis, arc");
     kinds.add<HalfDiskMesh>("half disk", "the lower or the right half of a disk about the origin; sides diameter or axis, arc");
+    kinds.add<ProfileMesh>("profile", "a polyline with rounded corners, for rigid bodies; side profile");
     return kinds;
   }();
   return registry;

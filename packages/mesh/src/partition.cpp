@@ -17,7 +17,7 @@ namespace {
 
 bool on_contact(const BodySet& bodies, const std::vector<std::vector<bool>>& is_contact, GlobalOrdinal element) {
   const int body = bodies.body_of_element(element);
-  for (const auto& side : bodies.complex(body).surface_sides(element - bodies.first_element(body)))
+  for (const auto& side : bodies.with_complex(body, [&](const auto& complex) { return complex.surface_sides(element - bodies.first_element(body)); }))
     if (is_contact[body][side.name]) return true;
   return false;
 }
@@ -135,8 +135,11 @@ std::vector<GlobalOrdinal> share_out_elements(const Communicator& comm, const Bo
   return owned;
 }
 
-RCP<const Map> share_out_nodes(const RCP<const Communicator>& comm, const BodySet& bodies, const std::vector<GlobalOrdinal>& owned_elements) {
+RCP<const Map> share_out_nodes(const RCP<const Communicator>& comm, const BodySet& bodies, const std::vector<GlobalOrdinal>& owned_elements,
+                               GlobalOrdinal further_nodes) {
   std::vector<GlobalOrdinal> ids;
+  if (comm->getRank() == 0)
+    for (GlobalOrdinal node = 0; node < further_nodes; ++node) ids.push_back(bodies.node_count() + node);
   for (const auto element : owned_elements) {
     const auto nodes = bodies.element_nodes(element);
     ids.insert(ids.end(), nodes.begin(), nodes.begin() + bodies.nodes_per_element(bodies.body_of_element(element)));

@@ -15,6 +15,8 @@ std::vector<GlobalOrdinal> share_out_elements(const Communicator& comm, const Bo
 
 /// One-to-one map of the nodes of the owned elements, ascending on every rank. Collective. Where the elements of several ranks meet, the
 /// owner alternates with the pair of ranks, so that no rank takes all shared nodes.
-RCP<const Map> share_out_nodes(const RCP<const Communicator>& comm, const BodySet& bodies, const std::vector<GlobalOrdinal>& owned_elements);
+/// `further_nodes` nodes with ids beyond those of the bodies go to rank 0.
+RCP<const Map> share_out_nodes(const RCP<const Communicator>& comm, const BodySet& bodies, const std::vector<GlobalOrdinal>& owned_elements,
+                               GlobalOrdinal further_nodes);
 
 }  // namespace mortise

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
+#include <map>
 #include <stdexcept>
+
+#include "mortise/mesh/curve_complex.hpp"
 
 namespace mortise {
 namespace {
@@ -70,9 +73,8 @@ PatchComplex::PatchComplex(CellShape shape, std::vector<Point> corners, std::vec
   }
 }
 
-Point PatchComplex::edge_point(int e, int index) const {
-  const auto& edge = edges_[e];
-  const Point &a = corners_[edge.start], &b = corners_[edge.end];
+Point edge_point(const PatchComplex::Edge& edge, const std::vector<Point>& corners, int index) {
+  const Point &a = corners[edge.start], &b = corners[edge.end];
   if (index == 0) return a;
   if (index == edge.spacing.cells()) return b;
   const double s = edge.spacing.position(index);
@@ -90,14 +92,14 @@ double PatchComplex::edge_position(const EdgeUse& use, int index) const {
 }
 
 Point PatchComplex::edge_point(const EdgeUse& use, int index) const {
-  return edge_point(use.edge, use.flipped ? edges_[use.edge].spacing.cells() - index : index);
+  return mortise::edge_point(edges_[use.edge], corners_, use.flipped ? edges_[use.edge].spacing.cells() - index : index);
 }
 
 Point PatchComplex::coordinate(GlobalOrdinal node) const {
   if (node < edge_nodes_.front()) return placement_(corners_[node]);
   if (node < patch_nodes_.front()) {
     const int e = interval(edge_nodes_, node);
-    return placement_(edge_point(e, static_cast<int>(node - edge_nodes_[e]) + 1));
+    return placement_(mortise::edge_point(edges_[e], corners_, static_cast<int>(node - edge_nodes_[e]) + 1));
   }
   const auto [p, i, j] = grid_points(node).front();
   const auto& [bottom, right, top, left] = uses_[p];
@@ -111,6 +113,35 @@ Point PatchComplex::coordinate(GlobalOrdinal node) const {
   const auto& c = patches_[p].corners;
   const Point bilinear = along(along(corners_[c[0]], corners_[c[1]], u), along(corners_[c[3]], corners_[c[2]], u), v);
   return placement_({bottom_top[0] + left_right[0] - bilinear[0], bottom_top[1] + left_right[1] - bilinear[1]});
+}
+
+CurveComplex PatchComplex::surface() const {
+  std::vector<Point> corners;
+  std::vector<Edge> edges;
+  std::vector<std::string> names;
+  std::map<int, int> corner_of;  // of the patches -> of the curve
+  const auto corner = [&](int of_patches) {
+    const auto [found, is_new] = corner_of.try_emplace(of_patches, static_cast<int>(corners.size()));
+    if (is_new) corners.push_back(corners_[of_patches]);
+    return found->second;
+  };
+  for (std::size_t p = 0; p < patches_.size(); ++p)
+    for (int slot = 0; slot < 4; ++slot) {
+      if (patch_sides_[p][slot] < 0) continue;
+      const EdgeUse& use = uses_[p][slot];
+      Edge edge = edges_[use.edge];
+      // Round the patch counterclockwise: sides 0 and 1 run with their grid direction, 2 and 3 against it.
+      if (use.flipped != (slot >= 2)) {
+        std::swap(edge.start, edge.end);
+        edge.spacing = edge.spacing.reversed();
+        if (edge.sweep) edge.sweep = -*edge.sweep;
+      }
+      edge.start = corner(edge.start);
+      edge.end = corner(edge.end);
+      edges.push_back(edge);
+      names.push_back(side_names_[patch_sides_[p][slot]]);
+    }
+  return CurveComplex(std::move(corners), std::move(edges), std::move(names), placement_);
 }
 
 PatchComplex::GridPoint PatchComplex::cell_of(GlobalOrdinal element) const {

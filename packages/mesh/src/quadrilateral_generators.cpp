@@ -33,6 +33,8 @@ PatchComplex quadrilateral(CellShape cell, const std::array<Point, 4>& corners, 
 void BlockMesh::describe_shape(Parameters& parameters) {
   parameters.add("width", width, Says("extent in x of the rectangle, which starts at the origin").unit("length").above(0.0));
   parameters.add("height", height, Says("extent in y of the rectangle").unit("length").above(0.0));
+  parameters.add("bottom radius", bottom_radius,
+                 Says("radius of the arc, bulging outward, that the bottom side is; 0: it is straight").unit("length").at_least(0.0));
   parameters.add("corners", corners,
                  Says("corners of a general quadrilateral in place of the rectangle, counterclockwise from bottom left: \"x1, y1, ..., x4, y4\"")
                      .unit("length"));
@@ -50,7 +52,16 @@ PatchComplex BlockMesh::build(CellShape cell, const Place& place) const {
     for (int k = 0; k < 4; ++k) points[k] = {corners.at(2 * k), corners.at(2 * k + 1)};
   const Spacing x = grading_x.spacing(distance(points[0], points[1]), cells_x, place);
   const Spacing y = grading_y.spacing(distance(points[0], points[3]), cells_y, place);
-  return quadrilateral(cell, points, x, y, placement());
+  if (bottom_radius == 0.0) return quadrilateral(cell, points, x, y, placement());
+  const double chord = distance(points[0], points[1]), height_of_center = std::sqrt(bottom_radius * bottom_radius - 0.25 * chord * chord);
+  if (!(2.0 * bottom_radius > chord))
+    throw InputError(place, fmt::format("the bottom side is {:g} long, which an arc of radius {:g} cannot span; please take a radius above {:g}",
+                                        chord, bottom_radius, 0.5 * chord));
+  const Point along{(points[1][0] - points[0][0]) / chord, (points[1][1] - points[0][1]) / chord};
+  const Point center{0.5 * (points[0][0] + points[1][0]) - height_of_center * along[1],
+                     0.5 * (points[0][1] + points[1][1]) + height_of_center * along[0]};
+  return PatchComplex(cell, {points.begin(), points.end()}, {{0, 1, x, center}, {1, 2, y}, {3, 2, x}, {0, 3, y}},
+                      {{{0, 1, 2, 3}, {"bottom", "right", "top", "left"}}}, placement());
 }
 
 void WedgeMesh::describe_shape(Parameters& parameters) {

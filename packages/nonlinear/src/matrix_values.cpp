@@ -1,5 +1,6 @@
 #include "matrix_values.hpp"
 
+#include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_CrsGraph.hpp>
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Import.hpp>
@@ -18,6 +19,15 @@ RCP<const Vector> on_columns(const Graph& graph, const RCP<const Vector>& on_row
 }
 
 }  // namespace
+
+bool same_entries(const Graph& a, const Graph& b) {
+  const auto u = a.getLocalGraphHost(), v = b.getLocalGraphHost();
+  int same = a.getColMap()->locallySameAs(*b.getColMap()) && u.numRows() == v.numRows() && u.entries.extent(0) == v.entries.extent(0), everywhere = 0;
+  for (std::size_t row = 0; same != 0 && row < u.row_map.extent(0); ++row) same = u.row_map(row) == v.row_map(row);
+  for (std::size_t k = 0; same != 0 && k < u.entries.extent(0); ++k) same = u.entries(k) == v.entries(k);
+  Teuchos::reduceAll(*a.getComm(), Teuchos::REDUCE_MIN, same, Teuchos::outArg(everywhere));
+  return everywhere != 0;
+}
 
 ValueCopy::ValueCopy(const Graph& from, const Graph& to) {
   const auto source = from.getLocalGraphHost(), target = to.getLocalGraphHost();

@@ -8,6 +8,9 @@
 
 namespace mortise::detail {
 
+/// Whether two graphs have the same entries in the same order, on every rank. Collective.
+bool same_entries(const Graph& a, const Graph& b);
+
 /// Copies the values of a matrix into one whose graph holds all entries of the first one's.
 class ValueCopy {
  public:

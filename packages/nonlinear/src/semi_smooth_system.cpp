@@ -8,9 +8,11 @@
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "active_set_hash.hpp"
 #include "matrix_values.hpp"
+#include "reduction.hpp"
 
 namespace mortise {
 namespace {
@@ -55,6 +57,9 @@ struct SemiSmoothSystem::Implementation {
   std::unique_ptr<detail::DirichletElimination> elimination;
   bool graph_changed = true;  // since the linear solver saw it
 
+  std::unique_ptr<detail::Reduction> reduction;  // null: nothing follows
+  RCP<const Graph> reduced_graph;                // of the last reduced matrix
+
   RCP<Vector> contact_at;   // displacement at which the contact holds integrals and their derivatives; null: unknown
   RCP<Vector> jacobian_at;  // x of the last jacobian()
 
@@ -75,7 +80,8 @@ struct SemiSmoothSystem::Implementation {
     if (parts.prescribed) fixed = parts.prescribed->dofs();
     bulk = rcp(new Matrix(parts.bulk_graph));
     bulk->fillComplete(parts.dofs, parts.dofs);
-    if (!parts.contact) elimination = std::make_unique<detail::DirichletElimination>(*parts.bulk_graph, fixed);
+    if (parts.dependent) reduction = std::make_unique<detail::Reduction>(parts.dependent, parts.dofs, parts.local_dofs);
+    if (!parts.contact && !reduction) elimination = std::make_unique<detail::DirichletElimination>(*parts.bulk_graph, fixed);
   }
 
   const Communicator& comm() const { return *parts.dofs->getComm(); }
@@ -96,6 +102,19 @@ struct SemiSmoothSystem::Implementation {
     for (const auto& contribution : parts.contributions)
       contribution->add_residual(at, contribution->kind() == Contribution::Kind::internal ? internal : external, failure);
     throw_if_any(comm(), failure);
+  }
+
+  // r = f_int - f_ext + f_c on all dofs. The contact is evaluated at `displacement`; the reduction is made for it.
+  void sum_forces(const Vector& displacement, const Vector& z, Vector& r) {
+    r.update(1.0, internal, 1.0, external, 0.0);
+    if (parts.contact) {
+      contact_force.putScalar(0.0);
+      parts.contact->add_contact_force(z, contact_force);
+      r.update(1.0, contact_force, 1.0);
+    }
+    if (!reduction) return;
+    configuration(displacement);
+    reduction->update(local_displacement);
   }
 
   void evaluate_contact(const Vector& displacement, bool derivatives) {
@@ -130,12 +149,51 @@ struct SemiSmoothSystem::Implementation {
     if (changed || system.is_null()) {
       system = rcp(new Matrix(graph));
       copy = std::make_unique<detail::ValueCopy>(*parts.bulk_graph, *graph);
-      elimination = std::make_unique<detail::DirichletElimination>(*graph, fixed);
+      if (!reduction) elimination = std::make_unique<detail::DirichletElimination>(*graph, fixed);
       graph_changed = true;
     } else {
       system->resumeFill();
     }
     copy->apply(*bulk, *system);
+  }
+
+  // Solves matrix x = rhs, x = increment on the rows `prescribed`. The matrix is open for changes, rhs is overwritten.
+  LinearSolveReport solve(const RCP<Matrix>& matrix, const std::vector<LocalOrdinal>& prescribed, const Vector& increment, Vector& rhs,
+                          const NearNullSpace& near_null_space, Vector& x) {
+    elimination->impose(*matrix, increment, stiffness_scale, rhs);
+    matrix->fillComplete(matrix->getRowMap(), matrix->getRowMap());
+    parts.linear_solver->set_matrix(matrix, graph_changed, near_null_space);
+    graph_changed = false;
+    Vector solution(matrix->getRowMap());
+    const LinearSolveReport report = parts.linear_solver->solve(rhs, solution);
+    Tpetra::deep_copy(x, solution);
+    const auto from = increment.getLocalViewHost(Tpetra::Access::ReadOnly);
+    const auto to = x.getLocalViewHost(Tpetra::Access::ReadWrite);
+    for (const LocalOrdinal row : prescribed) to(row, 0) = from(row, 0);
+    return report;
+  }
+
+  // The same where displacements follow others: see Reduction. r is the whole residual, followers' forces not gathered.
+  LinearSolveReport solve_reduced(const RCP<Matrix>& matrix, const Vector& d, const Vector& r, const Vector& increment, Vector& rhs, Vector& dd) {
+    if (matrix->isFillActive()) matrix->fillComplete(parts.dofs, parts.dofs);
+    Vector start(parts.dofs), force(parts.dofs);
+    reduction->deviation(d, -1.0, start);
+    matrix->apply(start, force);
+    rhs.update(-1.0, force, 1.0);
+    const RCP<Matrix> reduced = reduction->reduced(*matrix, r);
+    const std::vector<LocalOrdinal> prescribed = reduction->places(fixed);
+    const RCP<const Graph> graph = reduced->getCrsGraph();
+    if (reduced_graph.is_null() || !detail::same_entries(*graph, *reduced_graph)) {
+      elimination = std::make_unique<detail::DirichletElimination>(*graph, prescribed);
+      reduced_graph = graph;
+      graph_changed = true;
+    }
+    reduced->resumeFill();
+    const RCP<Vector> q_increment = reduction->unknown_part(increment), q_rhs = reduction->reduced(rhs);
+    Vector dq(reduction->unknowns());
+    const LinearSolveReport report = solve(reduced, prescribed, *q_increment, *q_rhs, {}, dq);
+    dd.update(1.0, *reduction->expanded(dq), 1.0, start, 0.0);
+    return report;
   }
 
   void evaluate_at_jacobian() {
@@ -175,14 +233,11 @@ void SemiSmoothSystem::residual(const Vector& x, Vector& F, ResidualNorms& norms
   self.evaluate_bulk(*d);
   norms = {};
   const RCP<Vector> r = displacement(F);
-  r->update(1.0, self.internal, 1.0, self.external, 0.0);
+  if (self.parts.contact) self.evaluate_contact(*d, true);
+  self.sum_forces(*d, *z, *r);
   double force = std::max(self.internal.norm2(), self.external.norm2());
   double other = 0.0, violation = 0.0;
   if (self.parts.contact) {
-    self.evaluate_contact(*d, true);
-    self.contact_force.putScalar(0.0);
-    self.parts.contact->add_contact_force(*z, self.contact_force);
-    r->update(1.0, self.contact_force, 1.0);
     const RCP<Vector> C = multipliers(F);
     self.parts.contact->complementarity(*z, *C);
     other = C->norm2();
@@ -197,11 +252,13 @@ void SemiSmoothSystem::residual(const Vector& x, Vector& F, ResidualNorms& norms
     force = std::max(force, contact.force);
   }
 
-  // Momentum on the free rows alone, then the prescribed ones.
+  // Momentum on the free rows alone, then the prescribed ones and those of followers.
+  if (self.reduction) self.reduction->gather(*r);
   std::vector<double> deviation;  // d - prescribed
   double largest = 0.0;
   if (self.parts.prescribed) deviation = self.parts.prescribed->values(self.time);
   {
+    if (self.reduction) largest = self.reduction->deviation(*d, 0.0, *r);
     const auto displacements = d->getLocalViewHost(Tpetra::Access::ReadOnly);
     const auto rows = r->getLocalViewHost(Tpetra::Access::ReadWrite);
     for (std::size_t i = 0; i < self.fixed.size(); ++i) {
@@ -212,12 +269,15 @@ void SemiSmoothSystem::residual(const Vector& x, Vector& F, ResidualNorms& norms
   }
   norms.momentum_absolute = r->norm2();
   force = std::max(force, round_off_floor * self.stiffness_scale * d->norm2());
-  norms.momentum = norms.momentum_absolute == 0.0 ? 0.0 : norms.momentum_absolute / force;
+  // Contact forces come from positions, which know no more than eps |x|: a residual below what that makes of n closed nodes counts as none.
+  const double round_off = 4.0 * std::numeric_limits<double>::epsilon() * self.stiffness_scale * self.parts.length * std::sqrt(norms.active);
+  norms.momentum = norms.momentum_absolute <= round_off ? 0.0 : norms.momentum_absolute / force;
   Teuchos::reduceAll(self.comm(), Teuchos::REDUCE_MAX, largest / self.parts.length, Teuchos::outArg(norms.prescribed));
   {
     const auto rows = r->getLocalViewHost(Tpetra::Access::ReadWrite);
     for (std::size_t i = 0; i < self.fixed.size(); ++i) rows(self.fixed[i], 0) = self.stiffness_scale * deviation[i];
   }
+  if (self.reduction) self.reduction->deviation(*d, self.stiffness_scale, *r);
   const double rows = r->norm2();
   norms.finite = std::isfinite(rows) && std::isfinite(force) && std::isfinite(other);
   norms.merit = norms.finite ? std::hypot(rows, violation) : std::numeric_limits<double>::infinity();
@@ -227,12 +287,9 @@ void SemiSmoothSystem::forces(const Vector& x, Vector& r) {
   Implementation& self = *implementation_;
   const RCP<const Vector> d = displacement(x);
   self.evaluate_bulk(*d);
-  r.update(1.0, self.internal, 1.0, self.external, 0.0);
-  if (!self.parts.contact) return;
-  self.evaluate_contact(*d, false);
-  self.contact_force.putScalar(0.0);
-  self.parts.contact->add_contact_force(*multipliers(x), self.contact_force);
-  r.update(1.0, self.contact_force, 1.0);
+  if (self.parts.contact) self.evaluate_contact(*d, false);
+  self.sum_forces(*d, *multipliers(x), r);
+  if (self.reduction) self.reduction->gather(r);
 }
 
 void SemiSmoothSystem::commit(const Vector& x) {
@@ -276,25 +333,42 @@ void SemiSmoothSystem::apply(const Vector& v, Vector& y) const {
   } else {
     self.bulk->apply(*v_d, *y_d);
   }
+  if (self.reduction) {
+    const RCP<const Vector> d = displacement(*self.jacobian_at);
+    Vector r(self.parts.dofs);
+    self.evaluate_bulk(*d);
+    self.sum_forces(*d, *multipliers(*self.jacobian_at), r);
+    self.reduction->gather(*y_d);
+    self.reduction->add_curvature(r, *v_d, *y_d);
+    // s (v_i - sum_k dg_i/dq_k v_k)
+    const RCP<Vector> followed = self.reduction->expanded(*self.reduction->unknown_part(*v_d));
+    const auto change = v_d->getLocalViewHost(Tpetra::Access::ReadOnly), follows = followed->getLocalViewHost(Tpetra::Access::ReadOnly);
+    const auto rows = y_d->getLocalViewHost(Tpetra::Access::ReadWrite);
+    for (const LocalOrdinal row : self.parts.dependent->dofs()) rows(row, 0) = self.stiffness_scale * (change(row, 0) - follows(row, 0));
+  }
   const auto step = v_d->getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto rows = y_d->getLocalViewHost(Tpetra::Access::ReadWrite);
   for (const LocalOrdinal row : self.fixed) rows(row, 0) = self.stiffness_scale * step(row, 0);
 }
 
-// The free rows of J dx = -F condensed to (K~ condensed) dd = rhs. The prescribed rows s dd = -s (d - prescribed) are solved at once, their
-// columns go to the right-hand side; contact's recovery needs the whole dd.
+// The free rows of J dx = -F condensed to (K~ condensed) dd = rhs, then reduced to the unknowns if some displacements follow others. The
+// prescribed rows s dd = -s (d - prescribed) are solved at once, their columns go to the right-hand side; contact's recovery needs the whole dd.
 LinearSolveReport SemiSmoothSystem::newton_direction(const Vector& F, Vector& direction) {
   Implementation& self = *implementation_;
   self.evaluate_at_jacobian();
-  const RCP<const Vector> residual = displacement(F), d = displacement(*self.jacobian_at);
+  const RCP<const Vector> residual = displacement(F), d = displacement(*self.jacobian_at), z = multipliers(*self.jacobian_at);
   const RCP<Vector> dd = displacement(direction);
   const SystemParts& parts = self.parts;
-  Vector rhs(*residual, Teuchos::Copy);
+  Vector r(*residual, Teuchos::Copy);
+  if (self.reduction) {  // F holds what is gathered from followers
+    self.evaluate_bulk(*d);
+    self.sum_forces(*d, *z, r);
+  }
+  Vector rhs(r, Teuchos::Copy);
   rhs.scale(-1.0);
 
   RCP<Matrix> matrix = self.bulk;
   if (parts.contact) {  // -r without f_c
-    const RCP<const Vector> z = multipliers(*self.jacobian_at);
     self.contact_force.putScalar(0.0);
     parts.contact->add_contact_force(*z, self.contact_force);
     rhs.update(1.0, self.contact_force, 1.0);
@@ -302,7 +376,7 @@ LinearSolveReport SemiSmoothSystem::newton_direction(const Vector& F, Vector& di
     parts.contact->add_stiffness(*z, *self.system);
     parts.contact->condense(*z, *self.system, rhs);
     matrix = self.system;
-  } else {
+  } else if (!self.reduction) {
     matrix->resumeFill();
     self.bulk_is_eliminated = true;
   }
@@ -313,26 +387,15 @@ LinearSolveReport SemiSmoothSystem::newton_direction(const Vector& F, Vector& di
     const auto rows = residual->getLocalViewHost(Tpetra::Access::ReadOnly);
     for (const LocalOrdinal row : self.fixed) step(row, 0) = -rows(row, 0) / self.stiffness_scale;
   }
-  self.elimination->impose(*matrix, prescribed_increment, self.stiffness_scale, rhs);
-  matrix->fillComplete(parts.dofs, parts.dofs);
-
   NearNullSpace near_null_space;
   if (parts.linear_solver->uses_near_null_space() && parts.near_null_space) near_null_space = parts.near_null_space(*d);
-  parts.linear_solver->set_matrix(matrix, self.graph_changed, near_null_space);
-  self.graph_changed = false;
-  Vector solution(parts.dofs);
-  const LinearSolveReport report = parts.linear_solver->solve(rhs, solution);
-  {
-    const auto from = prescribed_increment.getLocalViewHost(Tpetra::Access::ReadOnly);
-    const auto to = solution.getLocalViewHost(Tpetra::Access::ReadWrite);
-    for (const LocalOrdinal row : self.fixed) to(row, 0) = from(row, 0);
-  }
-  Tpetra::deep_copy(*dd, solution);
+  const LinearSolveReport report = self.reduction ? self.solve_reduced(matrix, *d, r, prescribed_increment, rhs, *dd)
+                                                  : self.solve(matrix, self.fixed, prescribed_increment, rhs, near_null_space, *dd);
   if (parts.contact) {
     const RCP<Vector> dz = multipliers(direction);
     Vector z_new(self.multipliers);
-    parts.contact->recover(solution, z_new);
-    dz->update(1.0, z_new, -1.0, *multipliers(*self.jacobian_at), 0.0);
+    parts.contact->recover(*dd, z_new);
+    dz->update(1.0, z_new, -1.0, *z, 0.0);
   }
   return report;
 }

@@ -21,6 +21,9 @@ std::vector<Diagnostic> check_scene(const Scene& scene) {
   if (scene.bodies.empty()) diagnostics.push_back({{}, "the scene has no bodies; please add the list \"bodies\""});
   for (const auto& body : scene.bodies) {
     const auto& wanted = body.value.material;
+    if (body.value.rigid.value && !body.value.reference_point.empty() && scene.kinematics == Kinematics::axisymmetric &&
+        body.value.reference_point[0] != 0.0)
+      diagnostics.push_back({body.place, "a rigid body in an axisymmetric scene moves along the axis only; please put its reference point on r = 0"});
     if (wanted.value.empty()) continue;  // said when it was read
     const auto* material = find(scene.materials, wanted.value);
     if (material == nullptr) {

@@ -8,6 +8,7 @@
 #include "mortise/core/timers.hpp"
 #include "mortise/nonlinear/contribution.hpp"
 #include "mortise/solid/bodies.hpp"
+#include "mortise/solid/followers.hpp"
 #include "mortise/solid/loads.hpp"
 #include "mortise/solid/prescribed_motion.hpp"
 
@@ -66,6 +67,18 @@ class PrescribedBoundary final : public PrescribedDisplacements {
 
  private:
   PrescribedMotion motion_;
+};
+
+/// Rigid bodies and tied sets.
+class TiedNodes final : public DependentDisplacements {
+ public:
+  explicit TiedNodes(const Bodies& bodies) : followers_(bodies) {}
+  const std::vector<LocalOrdinal>& dofs() const override { return followers_.dofs(); }
+  const std::vector<LocalOrdinal>& followed() const override { return followers_.followed(); }
+  std::vector<Dependence> evaluate(const Vector& local_displacement) const override { return followers_.evaluate(local_displacement); }
+
+ private:
+  Followers followers_;
 };
 
 }  // namespace mortise

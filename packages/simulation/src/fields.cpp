@@ -12,7 +12,11 @@ using Values = std::vector<double>;
 
 Values displacement(const FieldState& state) {
   const auto view = state.displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
-  return Values(view.data(), view.data() + view.extent(0));
+  Values values(view.data(), view.data() + view.extent(0));
+  const Mesh& mesh = *state.bodies.mesh();
+  for (const ReferencePoint& point : mesh.reference_points)  // a rotation is no displacement
+    if (point.rotation_node >= 0 && point.rotation_node < mesh.owned_count()) values[2 * point.rotation_node] = 0.0;
+  return values;
 }
 
 /// `put(node, values of the node)` for every owned slave node of every pair.

@@ -23,7 +23,7 @@ class RigidModes {
   RigidModes(const Mesh& mesh, bool axisymmetric) : axisymmetric_(axisymmetric), bodies_(mesh.blocks.size()) {
     // Bounding boxes over all ranks: the largest of (x, y, -x, -y).
     std::vector<double> mine(4 * bodies_, -std::numeric_limits<double>::max()), all(4 * bodies_);
-    for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node) {
+    for (LocalOrdinal node = 0; node < mesh.owned_body_count(); ++node) {
       double* box = &mine[4 * mesh.body_of_node[node]];
       for (int i = 0; i < 2; ++i) {
         box[i] = std::max(box[i], mesh.coordinates[node][i]);
@@ -43,6 +43,11 @@ class RigidModes {
   const char* name(int mode) const {
     static const char* names[] = {"translation in x", "translation in y", "rotation"};
     return axisymmetric_ ? "translation along the axis" : names[mode % 3];
+  }
+
+  /// row += rotation of `body`, over its size.
+  void add_rotation(int body, Eigen::RowVectorXd& row) const {
+    if (!axisymmetric_) row(3 * body + 2) += 1.0;
   }
 
   /// row += direction . modes of `body` at position x.
@@ -67,7 +72,7 @@ Position position(const Mesh& mesh, LocalOrdinal node) { return {mesh.coordinate
 Eigen::MatrixXd prescribed_gram(const Mesh& mesh, const RigidModes& modes, const MultiVector& fixed) {
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(modes.count(), modes.count());
   const auto values = fixed.getLocalViewHost(Tpetra::Access::ReadOnly);
-  for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node)
+  for (LocalOrdinal node = 0; node < mesh.owned_body_count(); ++node)
     for (int i = 0; i < 2; ++i) {
       if (values(node, i) == 0.0) continue;
       Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(modes.count());
@@ -75,6 +80,44 @@ Eigen::MatrixXd prescribed_gram(const Mesh& mesh, const RigidModes& modes, const
       gram += row.transpose() * row;
     }
   return gram;
+}
+
+/// What a point that turns with its followers holds of their body: the motion at the point, where prescribed.
+void add_turning_point(const Mesh& mesh, const RigidModes& modes, const MultiVector& fixed, const ReferencePoint& point, Eigen::MatrixXd& gram) {
+  if (point.node >= mesh.owned_count()) return;
+  const auto values = fixed.getLocalViewHost(Tpetra::Access::ReadOnly);
+  const int body = mesh.body_of_node[point.node];
+  const auto hold = [&](const auto& add) {
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(modes.count());
+    add(row);
+    gram += row.transpose() * row;
+  };
+  for (int i = 0; i < 2; ++i)
+    if (values(point.node, i) != 0.0) hold([&](Eigen::RowVectorXd& row) { modes.add(body, position(mesh, point.node), Position::Unit(i), row); });
+  if (point.rotation_node >= 0 && values(point.rotation_node, 0) != 0.0) hold([&](Eigen::RowVectorXd& row) { modes.add_rotation(body, row); });
+}
+
+/// What a shared translation holds: with m_i the motion of follower i in a component, sum (m_i - mean)(m_i - mean)^T, and mean mean^T where the
+/// point is prescribed. Collective; the result counts on the rank of the point.
+void add_shared_translation(const Mesh& mesh, const RigidModes& modes, const MultiVector& fixed, const ReferencePoint& point, Eigen::MatrixXd& gram) {
+  const auto values = fixed.getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (int i = 0; i < 2; ++i) {
+    if (!point.follows[i]) continue;
+    // Products of (1, m): the count, the sum, the sum of products.
+    Eigen::MatrixXd mine = Eigen::MatrixXd::Zero(1 + modes.count(), 1 + modes.count()), all = mine;
+    for (const LocalOrdinal node : point.followers) {
+      if (node >= mesh.owned_count()) continue;
+      Eigen::RowVectorXd motion = Eigen::RowVectorXd::Zero(modes.count()), row(1 + modes.count());
+      modes.add(mesh.body_of_node[node], position(mesh, node), Position::Unit(i), motion);
+      row << 1.0, motion;
+      mine += row.transpose() * row;
+    }
+    Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), all.data());
+    if (point.node >= mesh.owned_count()) continue;
+    const Eigen::RowVectorXd mean = all.row(0).tail(modes.count()) / all(0, 0);
+    gram += all.bottomRightCorner(modes.count(), modes.count()) - all(0, 0) * mean.transpose() * mean;
+    if (values(point.node, i) != 0.0) gram += mean.transpose() * mean;
+  }
 }
 
 /// Slave facets in the bounding box of the master surface, widened by the reach: what can touch at the start. Collective.
@@ -135,7 +178,15 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd& gram) {
 std::vector<char> check_held(const Mesh& mesh, bool axisymmetric, const MultiVector& fixed, const std::vector<HoldingPair>& pairs,
                              const std::vector<Place>& body_places) {
   const RigidModes modes(mesh, axisymmetric);
-  const Eigen::MatrixXd prescribed = sum_over_ranks(mesh, prescribed_gram(mesh, modes, fixed));
+  Eigen::MatrixXd held = prescribed_gram(mesh, modes, fixed);
+  for (const ReferencePoint& point : mesh.reference_points) {
+    const bool is_rigid = mesh.blocks[mesh.body_of_node[point.node]].shape == CellShape::line2;
+    if (is_rigid || point.rotation_node >= 0)
+      add_turning_point(mesh, modes, fixed, point, held);
+    else
+      add_shared_translation(mesh, modes, fixed, point, held);
+  }
+  const Eigen::MatrixXd prescribed = sum_over_ranks(mesh, held);
   Eigen::MatrixXd contact = Eigen::MatrixXd::Zero(modes.count(), modes.count());
   for (const auto& pair : pairs) contact += contact_gram(mesh, modes, pair);
 

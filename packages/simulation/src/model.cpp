@@ -36,9 +36,44 @@ const MaterialChoice& material_of(const Scene& scene, const BodyOptions& body) {
   return found->value;
 }
 
+/// Points of the rigid bodies, then those of the scene.
+std::vector<ReferencePointDescription> reference_points(const Scene& scene) {
+  const bool axisymmetric = scene.kinematics == Kinematics::axisymmetric;
+  const auto position = [](const std::vector<double>& given) {
+    return given.empty() ? std::nullopt : std::optional<std::array<double, 2>>({given[0], given[1]});
+  };
+  std::vector<ReferencePointDescription> points;
+  for (const auto& body : scene.bodies)
+    if (body.value.rigid.value) points.push_back({body.name + "/reference", body.place, !axisymmetric, position(body.value.reference_point)});
+  for (const auto& tie : scene.reference_points)
+    points.push_back({tie.name, tie.place, tie.value.rotates && !axisymmetric, position(tie.value.position)});
+  return points;
+}
+
+void tie(Mesh& mesh, const Scene& scene) {
+  std::size_t point = 0;
+  Collector collect;
+  for (const auto& body : scene.bodies)
+    if (body.value.rigid.value) {
+      collect([&] { add_followers(mesh, point, {body.name, body.place}, {true, true}); });
+      ++point;
+    }
+  for (const auto& tie : scene.reference_points) {
+    using Follows = TieOptions::Follows;
+    const Follows follows = tie.value.follows;
+    // The nodes of a ring cannot share a radial displacement and stay a rigid ring.
+    const bool x = follows == Follows::x || (follows == Follows::both && scene.kinematics != Kinematics::axisymmetric);
+    collect([&] { add_followers(mesh, point, tie.value.set, {x, follows != Follows::x}); });
+    ++point;
+  }
+  collect.throw_found(*mesh.comm);
+}
+
 RCP<Mesh> make_mesh(const RCP<const Communicator>& comm, const Scene& scene) {
   std::vector<BodyDescription> descriptions;
-  for (const auto& body : scene.bodies) descriptions.push_back({body.name, body.place, body.value.mesh.options, cell_shape(body.value.element)});
+  for (const auto& body : scene.bodies)
+    descriptions.push_back(
+        {body.name, body.place, body.value.mesh.options, body.value.rigid.value ? CellShape::line2 : cell_shape(body.value.element)});
   std::vector<std::string> contact_sides;
   const auto add = [&](std::string name) {
     // A set of the scene is balanced as the side that it is a part of.
@@ -47,10 +82,11 @@ RCP<Mesh> make_mesh(const RCP<const Communicator>& comm, const Scene& scene) {
     contact_sides.push_back(name);
   };
   for (const auto& pair : scene.contact) add(pair.value.slave.value), add(pair.value.master.value);
-  const auto mesh = build_mesh(comm, descriptions, contact_sides);
+  const auto mesh = build_mesh(comm, descriptions, contact_sides, reference_points(scene));
   Collector collect;
   for (const auto& set : scene.sets) collect([&] { add_set(*mesh, set); });
   collect.throw_found(*comm);
+  tie(*mesh, scene);
   return mesh;
 }
 
@@ -62,19 +98,19 @@ RCP<MultiVector> reference_positions(const Mesh& mesh) {
   return positions;
 }
 
-RCP<MultiVector> fixed_components(const Mesh& mesh, const PrescribedDisplacements& prescribed) {
-  const auto fixed = rcp(new MultiVector(mesh.owned_nodes, 2));
-  const auto view = fixed->getLocalViewHost(Tpetra::Access::ReadWrite);
-  for (const LocalOrdinal dof : prescribed.dofs()) view(dof / 2, dof % 2) = 1.0;
-  return fixed;
+RCP<MultiVector> marked_components(const Mesh& mesh, const std::vector<LocalOrdinal>& dofs) {
+  const auto marks = rcp(new MultiVector(mesh.owned_nodes, 2));
+  const auto view = marks->getLocalViewHost(Tpetra::Access::ReadWrite);
+  for (const LocalOrdinal dof : dofs) view(dof / 2, dof % 2) = 1.0;
+  return marks;
 }
 
-/// Young's modulus of the softest body with a facet in `facets`, over all ranks.
+/// Young's modulus of the softest deformable body with a facet in `facets`, over all ranks; the largest number if all are rigid.
 double softest(const Mesh& mesh, const Bodies& bodies, const SurfaceFacets& facets) {
   double mine = std::numeric_limits<double>::max(), least = mine;
   for (const auto& facet : facets) {
     const int body = mesh.body_of_node[mesh.local_nodes->getLocalElement(facet[0])];
-    mine = std::min(mine, bodies.properties()[body].material->youngs_modulus);
+    if (!bodies.properties()[body].is_rigid()) mine = std::min(mine, bodies.properties()[body].material->youngs_modulus);
   }
   Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MIN, mine, Teuchos::outArg(least));
   return least;
@@ -96,7 +132,13 @@ ContactPair make_pair(const Mesh& mesh, const Bodies& bodies, const Named<Contac
 
 Effects effects_of(const Scene& scene, const Bodies& bodies) {
   std::vector<std::string> finite, small, f_bar, plastic, pairs, rubbing, loads, conditions;
+  std::vector<std::string> rigid, ties;
+  for (const auto& tie : scene.reference_points) ties.push_back(tie.name);
   for (const auto& body : bodies.properties()) {
+    if (body.is_rigid()) {
+      rigid.push_back(body.name);
+      continue;
+    }
     const bool small_strain = std::visit([](const auto& law) { return law.small_strain; }, body.material->law());
     (small_strain ? small : finite).push_back(body.name);
     if (formulation(body.element) == ElementFormulation::f_bar) f_bar.push_back(body.name);
@@ -109,8 +151,8 @@ Effects effects_of(const Scene& scene, const Bodies& bodies) {
   for (const auto& load : scene.loads) loads.push_back(load.name);
   for (const auto& condition : scene.boundary_conditions) conditions.push_back(condition.name);
   return {
-      {"finite strain", finite},          {"small strain", small}, {"F-bar", f_bar}, {"plasticity", plastic}, {"contact", pairs}, {"friction", rubbing}, {"loads", loads},
-      {"boundary conditions", conditions}};
+      {"finite strain", finite}, {"small strain", small}, {"F-bar", f_bar},           {"plasticity", plastic}, {"contact", pairs},
+      {"friction", rubbing},     {"rigid bodies", rigid}, {"reference points", ties}, {"loads", loads},        {"boundary conditions", conditions}};
 }
 
 }  // namespace
@@ -124,7 +166,7 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   std::vector<BodyProperties> properties;
   std::vector<Place> places;
   for (const auto& body : scene.bodies) {
-    properties.push_back({body.name, body.place, material_of(scene, body.value).law.options, body.value.element});
+    properties.push_back({body.name, body.place, body.value.rigid.value ? nullptr : material_of(scene, body.value).law.options, body.value.element});
     places.push_back(body.place);
   }
   const auto bodies = std::make_shared<Bodies>(mesh_, scene.kinematics, scene.thickness, properties);
@@ -144,12 +186,21 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   for (const auto& load : scene.loads)
     collect([&] { parts_.contributions.push_back(std::make_shared<LoadContribution>(load.name, load.value.load.options->make(bodies_), timers)); });
   collect([&] { parts_.prescribed = std::make_shared<PrescribedBoundary>(PrescribedMotion(*bodies_, scene.boundary_conditions)); });
+  if (!mesh_->reference_points.empty()) {
+    parts_.dependent = std::make_shared<TiedNodes>(*bodies_);
+    if (scene.linear_solver.kind.value == LinearSolverOptions::Kind::iterative)
+      collect([&] {
+        throw InputError(scene.linear_solver.kind.place, "the iterative solver does not know rigid bodies and reference points yet; take \"mumps\"");
+      });
+  }
   std::vector<ContactPair> pairs;
   for (const auto& pair : scene.contact) collect([&] { pairs.push_back(make_pair(*mesh_, *bodies_, pair)); });
   collect([&] { parts_.linear_solver = make_linear_solver(scene.linear_solver, comm, timers); });
   collect.throw_found(*comm);
 
-  const auto fixed = fixed_components(*mesh_, *parts_.prescribed);
+  std::vector<LocalOrdinal> not_free = parts_.prescribed->dofs();
+  if (parts_.dependent) not_free.insert(not_free.end(), parts_.dependent->dofs().begin(), parts_.dependent->dofs().end());
+  const auto fixed = marked_components(*mesh_, parts_.prescribed->dofs()), kept = marked_components(*mesh_, not_free);
   const bool axisymmetric = scene.kinematics == Kinematics::axisymmetric;
   std::vector<HoldingPair> holding;
   for (const auto& pair : pairs) holding.push_back({&pair.slave, &pair.master, pair.options.mortar.search_reach.value_or(0.0)});
@@ -159,7 +210,7 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   if (pairs.empty()) return;
   const InterfaceMeasure measure{axisymmetric, scene.thickness};
   parts_.contact =
-      std::make_shared<ContactSystem>(mesh_->owned_nodes, bodies_->dofs(), reference_positions(*mesh_), fixed, measure, std::move(pairs), timers);
+      std::make_shared<ContactSystem>(mesh_->owned_nodes, bodies_->dofs(), reference_positions(*mesh_), kept, measure, std::move(pairs), timers);
 }
 
 Model::~Model() = default;

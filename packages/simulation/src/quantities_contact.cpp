@@ -15,13 +15,14 @@ void PairQuantity::prepare(const QuantityContext& context) { pair_ = find_pair(c
 void HalfWidth::describe(Parameters& parameters) {
   PairQuantity::describe(parameters);
   parameters.add("center", center, Says("x of the middle of the contact zone").unit("length"));
+  describe_measure(parameters, measure);
 }
 
 double HalfWidth::evaluate(const QuantityContext& context) {
   // p is linear and x is linear on a facet: p x^2 is a cubic, which two points integrate exactly.
   static const auto rule = gauss_legendre(2);
   double force = 0.0, moment = 0.0;
-  for (const PressedFacet& facet : pressed_facets(context, pair_))
+  for (const PressedFacet& facet : pressed_facets(context, pair_, measure))
     for (const LinePoint& point : rule) {
       const double left = 0.5 * (1.0 - point.xi), right = 0.5 * (1.0 + point.xi);
       const double x = left * facet.position[0][0] + right * facet.position[1][0] - center;

@@ -84,7 +84,7 @@ void FieldQuantity::visit(const QuantityContext& context, const std::function<vo
         visit(field == PointField::displacement_x ? x : field == PointField::displacement_y ? y : std::hypot(x, y), 1.0);
       };
       if (on.value.empty()) {
-        for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node) visit_node(node);
+        for (LocalOrdinal node = 0; node < mesh.owned_body_count(); ++node) visit_node(node);
       } else {
         for (const LocalOrdinal node : require_node_set(mesh, on))
           if (node < mesh.owned_count()) visit_node(node);

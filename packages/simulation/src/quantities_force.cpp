@@ -3,8 +3,10 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
+#include <boost/math/constants/constants.hpp>
 #include <cmath>
 
+#include "mortise/mesh/reference_point.hpp"
 #include "mortise/mesh/sets.hpp"
 #include "quantity_support.hpp"
 
@@ -12,18 +14,41 @@ namespace mortise {
 
 void Reaction::describe(Parameters& parameters) {
   parameters.add("set", set, Says("nodes whose supports are summed up").required());
-  parameters.add("component", component, component_names(), "direction of the force");
+  parameters.add("component", component, {{"x", Of::x}, {"y", Of::y}, {"rotation", Of::rotation}},
+                 "direction of the force; rotation: the moment on a reference point that turns");
 }
 
-void Reaction::prepare(const QuantityContext& context) { require_node_set(context.mesh(), set); }
+void Reaction::prepare(const QuantityContext& context) {
+  if (component == Of::rotation)
+    require_rotating_point(context.mesh(), set);
+  else
+    require_node_set(context.mesh(), set);
+}
 
 double Reaction::evaluate(const QuantityContext& context) {
   const Mesh& mesh = context.mesh();
   const auto reaction = context.reaction->getLocalViewHost(Tpetra::Access::ReadOnly);
   double sum = 0.0;
+  if (component == Of::rotation) {  // the rotation node's dof is arm * theta
+    const ReferencePoint& point = require_rotating_point(mesh, set);
+    if (point.rotation_node < mesh.owned_count()) sum = reaction(2 * point.rotation_node, 0) * point.arm;
+    return sum_over_ranks(mesh, sum);
+  }
   for (const LocalOrdinal node : require_node_set(mesh, set))
     if (node < mesh.owned_count()) sum += reaction(2 * node + static_cast<int>(component), 0);
   return sum_over_ranks(mesh, sum);
+}
+
+void Rotation::describe(Parameters& parameters) {
+  parameters.add("set", point, Says("a reference point that turns: the name of a tied set, or \"body/reference\" of a rigid body").required());
+}
+
+void Rotation::prepare(const QuantityContext& context) { require_rotating_point(context.mesh(), point); }
+
+double Rotation::evaluate(const QuantityContext& context) {
+  const ReferencePoint& turning = require_rotating_point(context.mesh(), point);
+  const auto displacement = context.local_displacement->getLocalViewHost(Tpetra::Access::ReadOnly);
+  return displacement(2 * turning.rotation_node, 0) / turning.arm * boost::math::constants::radian<double>();
 }
 
 void ContactForce::describe(Parameters& parameters) {
@@ -72,11 +97,17 @@ double total_imbalance(const QuantityContext& context) {
   const auto load = context.external_force->getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto reaction = context.reaction->getLocalViewHost(Tpetra::Access::ReadOnly);
   Sums sum{}, loads{}, reactions{};
+  const auto is_rotation = [&](LocalOrdinal dof) {  // moments are no forces
+    const auto& points = context.mesh().reference_points;
+    return std::any_of(points.begin(), points.end(), [&](const ReferencePoint& point) { return point.rotation_node == dof / 2; });
+  };
   for (std::size_t dof = 0; dof < load.extent(0); ++dof) {
+    if (is_rotation(static_cast<LocalOrdinal>(dof))) continue;
     sum[dof % 2] += load(dof, 0);
     loads[dof % 2] += std::abs(load(dof, 0));
   }
   for (const LocalOrdinal dof : *context.prescribed) {
+    if (is_rotation(dof)) continue;
     sum[dof % 2] += reaction(dof, 0);
     reactions[dof % 2] += std::abs(reaction(dof, 0));
   }

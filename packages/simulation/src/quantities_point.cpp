@@ -57,7 +57,7 @@ std::vector<double> shares_at(const Mesh& mesh, const LocalOrdinal* nodes, const
 void PointDisplacement::describe(Parameters& parameters) {
   parameters.add("x", x, Says("reference position of the point").unit("length").required());
   parameters.add("y", y, Says("reference position of the point").unit("length").required());
-  parameters.add("body", body, "body that the point belongs to; empty: the first one that holds it");
+  parameters.add("body", body, "deformable body that the point belongs to; empty: the first one that holds it");
   parameters.add("component", component, component_names(), "component of the displacement");
 }
 
@@ -70,7 +70,7 @@ void PointDisplacement::prepare(const QuantityContext& context) {
   GlobalOrdinal mine = none;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     const Block& block = mesh.blocks[b];
-    if (wanted && static_cast<LocalOrdinal>(b) != *wanted) continue;
+    if (block.shape == CellShape::line2 || (wanted && static_cast<LocalOrdinal>(b) != *wanted)) continue;
     for (LocalOrdinal element = 0; element < block.owned; ++element) {
       if (block.element_ids[element] >= mine) continue;
       const LocalOrdinal* nodes = block.nodes(element);

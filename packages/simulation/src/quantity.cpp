@@ -8,6 +8,7 @@ const Registry<Quantity>& quantity_registry() {
   static const Registry<Quantity> registry = [] {
     Registry<Quantity> kinds;
     kinds.add<Reaction>("reaction", "force of the supports on a set of nodes");
+    kinds.add<Rotation>("rotation", "rotation of a reference point");
     kinds.add<ContactForce>("contact force", "sum of the contact forces on the slave side of a pair");
     kinds.add<MomentumImbalance>("momentum imbalance", "how far forces are from balance, relative");
     kinds.add<Extremum>("extremum", "largest or smallest value of a field");
@@ -16,6 +17,8 @@ const Registry<Quantity>& quantity_registry() {
     kinds.add<PointDisplacement>("displacement", "displacement of a point");
     kinds.add<ErrorNorm>("error norm", "relative L2 error of a field against a named exact solution");
     kinds.add<HalfWidth>("half width", "half width of the contact zone from the second moment of the pressure: 2 sqrt(int p x^2 / int p)");
+    kinds.add<StickHalfWidth>("stick half width", "half width of what sticks, from the second moment of what is left of the friction bound");
+    kinds.add<ContactTraction>("contact traction", "pressure or shear of a pair: the largest, or at a position");
     kinds.add<PeakPressure>("peak pressure", "largest contact pressure of a pair");
     kinds.add<ContactLength>("contact length", "length of the slave surface, where the pair's geometry is, that belongs to closed nodes");
     kinds.add<ContactArea>("contact area", "area of the slave surface, where the pair's geometry is, that belongs to closed nodes");

@@ -56,24 +56,32 @@ std::size_t find_pair(const QuantityContext& context, const Located<std::string>
   return 0;
 }
 
+void describe_measure(Parameters& parameters, TractionMeasure& measure) {
+  parameters.add("measure", measure, {{"pair", TractionMeasure::pair}, {"reference", TractionMeasure::reference}},
+                 "pair: lengths and tractions where the pair's geometry is; reference: per undeformed area at undeformed positions");
+}
+
 double PressedFacet::length() const { return std::hypot(position[1][0] - position[0][0], position[1][1] - position[0][1]); }
 
-std::vector<PressedFacet> pressed_facets(const QuantityContext& context, std::size_t pair) {
+std::vector<PressedFacet> pressed_facets(const QuantityContext& context, std::size_t pair, TractionMeasure measure) {
+  const bool undeformed = measure == TractionMeasure::reference;
   const Mesh& mesh = context.mesh();
-  MultiVector owned(mesh.owned_nodes, 2), local(mesh.local_nodes, 2);
+  MultiVector owned(mesh.owned_nodes, 4), local(mesh.local_nodes, 4);  // start as zero
   {
-    const auto values = owned.getLocalViewHost(Tpetra::Access::OverwriteAll);
-    for (std::size_t node = 0; node < values.extent(0); ++node) values(node, 0) = values(node, 1) = 0.0;
+    const auto values = owned.getLocalViewHost(Tpetra::Access::ReadWrite);
     for (const auto& state : context.contact->node_states(pair, *context.multipliers)) {
-      values(state.owned_node, 0) = state.pressure;
+      const double factor = undeformed ? state.covered / state.weight : 1.0;
+      values(state.owned_node, 0) = factor * state.pressure;
       values(state.owned_node, 1) = state.closed ? 1.0 : 0.0;
+      values(state.owned_node, 2) = factor * state.shear;
+      values(state.owned_node, 3) = factor * state.shear_bound;
     }
   }
   local.doImport(owned, Import(mesh.owned_nodes, mesh.local_nodes), Tpetra::INSERT);
   const auto values = local.getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto displacement = context.local_displacement->getLocalViewHost(Tpetra::Access::ReadOnly);
 
-  const double moves = context.contact->geometry(pair) == ContactGeometry::current ? 1.0 : 0.0;
+  const double moves = context.contact->geometry(pair) == ContactGeometry::current && !undeformed ? 1.0 : 0.0;
   const SideSet& slave = mesh.side_sets.at(context.pairs[pair].slave);
   std::vector<PressedFacet> facets;
   for (LocalOrdinal side = 0; side < slave.owned; ++side) {
@@ -83,6 +91,8 @@ std::vector<PressedFacet> pressed_facets(const QuantityContext& context, std::si
       for (int i = 0; i < 2; ++i) facet.position[end][i] = mesh.coordinates[nodes[end]][i] + moves * displacement(2 * nodes[end] + i, 0);
       facet.pressure[end] = values(nodes[end], 0);
       facet.closed[end] = values(nodes[end], 1) != 0.0;
+      facet.shear[end] = values(nodes[end], 2);
+      facet.shear_bound[end] = values(nodes[end], 3);
     }
     facets.push_back(facet);
   }

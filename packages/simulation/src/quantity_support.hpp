@@ -25,15 +25,18 @@ std::optional<LocalOrdinal> find_optional_body(const QuantityContext& context, c
 /// Index of a pair; an empty name is the only pair. Throws InputError at the name's place.
 std::size_t find_pair(const QuantityContext& context, const Located<std::string>& name);
 
+/// The parameter "measure".
+void describe_measure(Parameters& parameters, TractionMeasure& measure);
+
 /// A slave facet where the geometry of its pair is (current or reference configuration), with the pressures of its ends, in the order of travel.
 struct PressedFacet {
   std::array<std::array<double, 2>, 2> position{};
-  std::array<double, 2> pressure{};
+  std::array<double, 2> pressure{}, shear{}, shear_bound{};
   std::array<bool, 2> closed{};
   double length() const;
 };
 
-/// The slave facets of a pair, each on exactly one rank. Collective.
-std::vector<PressedFacet> pressed_facets(const QuantityContext& context, std::size_t pair);
+/// The slave facets of a pair, each on exactly one rank. Collective. Tractions per undeformed area are z_j D_j / A_j with D_j = int phi_j dgamma.
+std::vector<PressedFacet> pressed_facets(const QuantityContext& context, std::size_t pair, TractionMeasure measure = TractionMeasure::pair);
 
 }  // namespace mortise

@@ -14,8 +14,11 @@ void report_model(const std::string& file, const Scene& scene, const Model& mode
     if (!members.empty()) log.info(fmt::format("  {}: {}", effect, fmt::join(members, ", ")));
   const auto& blocks = model.mesh()->blocks;
   for (std::size_t b = 0; b < blocks.size(); ++b)
-    log.info(fmt::format("  body {}: {} elements {}, {}", blocks[b].name, model.size().elements_of_block[b], to_string(scene.bodies[b].value.element),
-                         scene.bodies[b].value.material.value));
+    if (scene.bodies[b].value.rigid.value)
+      log.info(fmt::format("  body {}: rigid, {} lines", blocks[b].name, model.size().elements_of_block[b]));
+    else
+      log.info(fmt::format("  body {}: {} elements {}, {}", blocks[b].name, model.size().elements_of_block[b],
+                           to_string(scene.bodies[b].value.element), scene.bodies[b].value.material.value));
   log.info(fmt::format("  {} dofs, {} slave nodes, {} on {} rank(s)", model.dofs(), model.slave_nodes(), model.parts().linear_solver->name(),
                        model.mesh()->comm->getSize()));
 }

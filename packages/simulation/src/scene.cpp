@@ -17,14 +17,41 @@ struct MeshList {
 };
 }  // namespace
 
+namespace {
+/// "x, y", or nothing.
+void check_position(Parameters& parameters, const std::string& name, std::vector<double>& position) {
+  if (position.empty() || position.size() == 2) return;
+  parameters.error(name, "needs two numbers, \"x, y\"");
+  position.clear();
+}
+}  // namespace
+
 void BodyOptions::describe(Parameters& parameters) {
-  parameters.add("material", material, Says("name of one of the scene's materials").required());
+  parameters.add("rigid", rigid, "whether the body keeps its shape: it then has no material and no elements, and moves with \"body/reference\"");
+  parameters.add(
+      "reference point", reference_point,
+      Says("of a rigid body, \"x, y\": what it turns about and where forces on it act; left out: the middle of the box around it").unit("length"));
+  check_position(parameters, "reference point", reference_point);
+  Says says("name of one of the scene's materials; a rigid body has none");
+  if (!rigid.value) says.required();
+  parameters.add("material", material, says);
+  if (rigid.value && !material.value.empty()) parameters.error("material", "a rigid body has no material; please remove one of the two");
   parameters.add("element", element, element_names(), "what the body is discretised with");
   MeshList list{mesh};
   parameters.list("mesh", list, "the mesh of the body; its sides become the sets \"body/side\"");
 }
 
 void LoadChoice::describe(Parameters& parameters) { parameters.choose(load, load_registry(), "the kind of load"); }
+
+void TieOptions::describe(Parameters& parameters) {
+  parameters.add("set", set, Says("node or side set whose nodes follow the point").required());
+  parameters.add("position", position, Says("\"x, y\"; left out: the middle of the box around the set").unit("length"));
+  check_position(parameters, "position", position);
+  parameters.add("rotation", rotates, "whether the nodes turn with the point; if not, they share its translation alone");
+  parameters.add("follows", follows, {{"both", Follows::both}, {"x", Follows::x}, {"y", Follows::y}}, "components of the displacement that follow");
+  if (rotates && follows != Follows::both)
+    parameters.error("follows", "nodes that follow in one component cannot turn; please add \"rotation\" (bool, false)");
+}
 
 void ContactPairOptions::describe(Parameters& parameters) {
   parameters.add("slave", slave, Says("side set that carries the multipliers: the finer, softer or shorter one").required());
@@ -54,6 +81,7 @@ void Scene::describe(Parameters& parameters) {
   parameters.named("materials", materials, "the materials, by names of your choice");
   parameters.named("bodies", bodies, "the bodies, by names of your choice; each is meshed by itself");
   parameters.named("sets", sets, "parts of sides and bodies, by names of your choice");
+  parameters.named("reference points", reference_points, "sets of nodes that move like a rigid body or share a translation, by names of your choice");
   parameters.named("boundary conditions", boundary_conditions, "prescribed displacements");
   parameters.named("loads", loads, "loads, by names of your choice");
   parameters.named("contact", contact, "contact pairs, by names of your choice");

@@ -6,6 +6,7 @@
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Vector.hpp>
+#include <limits>
 #include <stdexcept>
 
 #include "element_block.hpp"
@@ -13,6 +14,22 @@
 #include "mortise/core/dof_map.hpp"
 
 namespace mortise {
+namespace {
+
+/// A rigid body has no elements: nothing is computed, nothing remembered.
+class RigidBlock final : public ElementBlock {
+ public:
+  void add_internal_force(const double*, double*, std::optional<StepFailure>&) const override {}
+  void add_stiffness(const double*, const NodalSparsity::Values&, std::optional<StepFailure>&) const override {}
+  void visit_points(const double*, LocalOrdinal, const std::function<void(const MaterialPoint&)>&) const override {}
+  void commit(const double*) override {}
+  std::size_t history_bytes() const override { return 0; }
+  long history_evaluations() const override { return 0; }
+  void add_nodal_volumes(std::vector<double>&) const override {}
+  std::pair<LocalOrdinal, double> smallest_reference_determinant() const override { return {-1, std::numeric_limits<double>::infinity()}; }
+};
+
+}  // namespace
 
 Bodies::Bodies(RCP<const Mesh> mesh, Kinematics kinematics, double thickness, std::vector<BodyProperties> bodies)
     : mesh_(std::move(mesh)), kinematics_(kinematics), thickness_(thickness), properties_(std::move(bodies)) {
@@ -20,7 +37,7 @@ Bodies::Bodies(RCP<const Mesh> mesh, Kinematics kinematics, double thickness, st
   std::vector<Diagnostic> diagnostics;
   for (std::size_t n = 0; n < properties_.size(); ++n) {
     for (Diagnostic& diagnostic : check_combination(properties_[n], kinematics_)) diagnostics.push_back(std::move(diagnostic));
-    if (cell_shape(properties_[n].element) != mesh_->blocks[n].shape) throw std::logic_error("a block's cells are not those of its body's element");
+    if ((properties_[n].is_rigid() ? CellShape::line2 : cell_shape(properties_[n].element)) != mesh_->blocks[n].shape) throw std::logic_error("a block's cells are not those of its body's element");
   }
   throw_if_any(*mesh_->comm, diagnostics);
 
@@ -30,6 +47,10 @@ Bodies::Bodies(RCP<const Mesh> mesh, Kinematics kinematics, double thickness, st
   sparsity_ = std::make_unique<NodalSparsity>(*mesh_, dofs_, local_dofs_);
   for (std::size_t n = 0; n < properties_.size(); ++n) {
     const BlockContext context{*mesh_, mesh_->blocks[n], static_cast<LocalOrdinal>(n), *sparsity_};
+    if (properties_[n].is_rigid()) {
+      blocks_.push_back(std::make_unique<RigidBlock>());
+      continue;
+    }
     blocks_.push_back(make_element_block(context, properties_[n], kinematics_, thickness_));
     const auto [element, determinant] = blocks_.back()->smallest_reference_determinant();
     if (!(determinant > 0.0))
@@ -115,7 +136,8 @@ std::vector<std::array<double, 4>> Bodies::element_stresses(const Vector& local_
   blocks_.at(block)->visit_points(displacement.data(), owned,
                                   [&](const MaterialPoint& point) { add_weighted_stress(point, volumes[point.element], stresses[point.element]); });
   for (LocalOrdinal element = 0; element < owned; ++element)
-    for (double& component : stresses[element]) component /= volumes[element];
+    if (volumes[element] > 0.0)  // a rigid body has no stress
+      for (double& component : stresses[element]) component /= volumes[element];
   return stresses;
 }
 

@@ -6,6 +6,7 @@
 
 #include "host_view.hpp"
 #include "load_support.hpp"
+#include "mortise/mesh/reference_point.hpp"
 
 namespace mortise {
 namespace {
@@ -32,6 +33,27 @@ class NodalForce final : public Load {
   std::shared_ptr<const Bodies> bodies_;
   std::array<Expression, 2> components_;
   std::vector<LocalOrdinal> nodes_;
+};
+
+/// A moment on a reference point that rotates: it works on arm * theta.
+class Moment final : public Load {
+ public:
+  Moment(std::shared_ptr<const Bodies> bodies, const MomentOptions& options) : bodies_(std::move(bodies)), moment_(options.moment) {
+    const Mesh& mesh = *bodies_->mesh();
+    look_up(mesh, [&] { point_ = &require_rotating_point(mesh, options.point); });
+  }
+
+  void add_residual(double time, const Vector&, Vector& residual, std::optional<StepFailure>& failure) const override {
+    const Mesh& mesh = *bodies_->mesh();
+    if (point_->rotation_node >= mesh.owned_count()) return;
+    const auto& X = mesh.coordinates[point_->node];
+    HostWriteView(residual).data()[2 * point_->rotation_node] -= evaluate(moment_, time, {X[0], X[1]}, failure) / point_->arm;
+  }
+
+ private:
+  std::shared_ptr<const Bodies> bodies_;
+  Expression moment_;
+  const ReferencePoint* point_ = nullptr;
 };
 
 /// f_a = integral of N_a T dGamma0, dGamma0 = reference length x thickness or 2 pi R.
@@ -76,6 +98,7 @@ class Gravity final : public Load {
       names += (n ? ", " : "") + body.name;
       if (!options.body.value.empty() && options.body.value != body.name) continue;
       found = true;
+      if (body.is_rigid()) continue;  // it has no mass; a force on its reference point will do
       const std::vector<double> volumes = bodies->nodal_volumes(static_cast<LocalOrdinal>(n));
       for (std::size_t node = 0; node < masses_.size(); ++node) masses_[node] += body.material->density * volumes[node];
     }
@@ -117,6 +140,12 @@ void GravityOptions::describe(Parameters& parameters) {
   if (y.depends_on_position()) parameters.error("y", "gravity may depend on t, not on the position");
 }
 
+void MomentOptions::describe(Parameters& parameters) {
+  parameters.add("set", point, Says("the reference point: the name of a tied set, or \"body/reference\" of a rigid body").required());
+  parameters.add("moment", moment, Says("counterclockwise, of t; per model thickness").unit("force length"));
+}
+
+std::unique_ptr<Load> MomentOptions::make(const std::shared_ptr<const Bodies>& bodies) const { return std::make_unique<Moment>(bodies, *this); }
 std::unique_ptr<Load> NodalForceOptions::make(const std::shared_ptr<const Bodies>& bodies) const {
   return std::make_unique<NodalForce>(bodies, *this);
 }
@@ -129,6 +158,7 @@ const Registry<LoadOptions>& load_registry() {
   static const Registry<LoadOptions> registry =
       Registry<LoadOptions>()
           .add<NodalForceOptions>("nodal force", "the same force on each node of a set")
+          .add<MomentOptions>("moment", "a moment on a reference point that rotates")
           .add<DeadTractionOptions>("dead traction", "force per reference area, of fixed direction")
           .add<FollowerPressureOptions>("follower pressure", "pressure on the current surface, against its outward normal")
           .add<GravityOptions>("gravity", "density times acceleration");

@@ -35,6 +35,7 @@ std::string to_string(Kinematics kinematics) { return name_of(kinematics_names()
 
 std::vector<Diagnostic> check_combination(const BodyProperties& body, Kinematics kinematics) {
   std::vector<Diagnostic> diagnostics;
+  if (body.is_rigid()) return diagnostics;
   std::visit(
       [&](const auto& law) {
         const bool f_bar = formulation(body.element) == ElementFormulation::f_bar;

@@ -10,12 +10,14 @@ namespace mortise {
 NodalSparsity::NodalSparsity(const Mesh& mesh, const RCP<const Map>& dofs, const RCP<const Map>& local_dofs) {
   const LocalOrdinal owned = mesh.owned_count();
   std::vector<std::vector<LocalOrdinal>> neighbours(owned);
-  for (const Block& block : mesh.blocks)
+  for (const Block& block : mesh.blocks) {
+    if (block.shape == CellShape::line2) continue;  // of rigid bodies: no stiffness couples their nodes
     for (LocalOrdinal element = 0; element < block.size(); ++element) {
       const LocalOrdinal* nodes = block.nodes(element);
       for (int a = 0; a < block.nodes_per_element; ++a)
         if (nodes[a] < owned) neighbours[nodes[a]].insert(neighbours[nodes[a]].end(), nodes, nodes + block.nodes_per_element);
     }
+  }
 
   Teuchos::Array<std::size_t> row_sizes(2 * owned);
   neighbour_starts_.assign(1, 0);

@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/constants/constants.hpp>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
 
 #include "mortise/mesh/build_mesh.hpp"
+#include "mortise/mesh/reference_point.hpp"
 #include "mortise/mesh/sets.hpp"
+#include "mortise/solid/followers.hpp"
 
 namespace mortise {
 namespace {
@@ -20,12 +23,23 @@ constexpr double compared_times[] = {0.0, 0.37, 1.0};
 /// To the round-off of positions in a model of size `length`, from which values may be made.
 bool agree(double a, double b, double length) { return a == b || std::abs(a - b) <= 1e-12 * std::max({std::abs(a), std::abs(b), length}); }
 
+/// Name of the reference point that an owned node of `nodes` follows in `component`.
+std::optional<std::string> follower(const Bodies& bodies, const Followers& followers, const std::vector<LocalOrdinal>& nodes, int component) {
+  const Mesh& mesh = *bodies.mesh();
+  for (const LocalOrdinal node : nodes)
+    if (std::binary_search(followers.dofs().begin(), followers.dofs().end(), 2 * node + component))
+      for (const ReferencePoint& point : mesh.reference_points)
+        if (std::binary_search(point.followers.begin(), point.followers.end(), node)) return point.name;
+  return {};
+}
+
 }  // namespace
 
 void BoundaryConditionOptions::describe(Parameters& parameters) {
   parameters.add("set", set, Says("node or side set whose displacement is prescribed").required());
   parameters.add("x", x, Says("displacement in x (axisymmetric: r), an expression of t, x, y; left out: free").unit("length"));
   parameters.add("y", y, Says("displacement in y (axisymmetric: z), an expression of t, x, y; left out: free").unit("length"));
+  parameters.add("rotation", rotation, Says("of a reference point, counterclockwise, an expression of t; left out: free").unit("degrees"));
 }
 
 PrescribedMotion::PrescribedMotion(const Bodies& bodies, const std::vector<Named<BoundaryConditionOptions>>& conditions) {
@@ -37,16 +51,31 @@ PrescribedMotion::PrescribedMotion(const Bodies& bodies, const std::vector<Named
     std::size_t condition;
   };
   std::map<LocalOrdinal, Prescribed> prescribed;
+  const Followers followers(bodies);
   for (std::size_t n = 0; n < conditions.size(); ++n) {
     const auto& condition = conditions[n];
-    if (!condition.value.x && !condition.value.y)
+    if (!condition.value.x && !condition.value.y && !condition.value.rotation)
       diagnostics.push_back(
-          {condition.place, fmt::format("boundary condition \"{}\" prescribes nothing; give \"x\", \"y\" or both", condition.name)});
+          {condition.place,
+           fmt::format("boundary condition \"{}\" prescribes nothing; give \"x\", \"y\", or \"rotation\" of a reference point", condition.name)});
     try {
       const auto& nodes = require_node_set(mesh, condition.value.set);
+      if (condition.value.rotation) {
+        const ReferencePoint& point = require_rotating_point(mesh, condition.value.set);
+        expressions_.push_back(*condition.value.rotation);
+        const auto& X = mesh.coordinates[point.node];
+        const Source source{static_cast<LocalOrdinal>(expressions_.size() - 1), {X[0], X[1]}, point.arm * boost::math::constants::degree<double>()};
+        if (point.rotation_node < mesh.owned_count()) prescribed.insert_or_assign(2 * point.rotation_node, Prescribed{source, n});
+      }
       for (int component = 0; component < 2; ++component) {
         const auto& expression = component == 0 ? condition.value.x : condition.value.y;
         if (!expression) continue;
+        if (const auto found = follower(bodies, followers, nodes, component)) {
+          diagnostics.push_back(
+              {condition.place, fmt::format("boundary condition \"{}\" prescribes {} at nodes that follow \"{}\"; please prescribe \"{}\"",
+                                            condition.name, component == 0 ? "x" : "y", *found, *found)});
+          continue;
+        }
         expressions_.push_back(*expression);
         for (LocalOrdinal node : nodes) {
           if (node >= mesh.owned_count()) continue;
@@ -68,6 +97,17 @@ PrescribedMotion::PrescribedMotion(const Bodies& bodies, const std::vector<Named
       diagnostics.insert(diagnostics.end(), error.diagnostics().begin(), error.diagnostics().end());
     }
   }
+  expressions_.emplace_back(0.0);
+  for (const LocalOrdinal dof : Followers::idle_dofs(bodies)) {
+    const auto [entry, is_new] = prescribed.try_emplace(dof, Prescribed{{static_cast<LocalOrdinal>(expressions_.size() - 1), {}}, 0});
+    if (is_new) continue;
+    const auto& [source, condition] = entry->second;
+    const bool zero = std::all_of(std::begin(compared_times), std::end(compared_times), [&, &s = source](double t) { return value(s, t) == 0.0; });
+    if (!zero)
+      diagnostics.push_back(
+          {conditions[condition].place, fmt::format("boundary condition \"{}\" moves a reference point in {}, in which nothing follows it",
+                                                    conditions[condition].name, dof % 2 == 0 ? "x" : "y")});
+  }
   throw_if_any(*mesh.comm, diagnostics);
   for (const auto& [dof, entry] : prescribed) {
     dofs_.push_back(dof);
@@ -77,7 +117,7 @@ PrescribedMotion::PrescribedMotion(const Bodies& bodies, const std::vector<Named
 
 double PrescribedMotion::value(const Source& source, double time) const {
   try {
-    return expressions_[source.expression](time, source.position[0], source.position[1]);
+    return source.factor * expressions_[source.expression](time, source.position[0], source.position[1]);
   } catch (const InputError&) {
     // Only this rank may be affected: a value that is not finite is found by all ranks together, in the residual.
     return std::numeric_limits<double>::quiet_NaN();

@@ -109,7 +109,7 @@ TEST(Quantity, ReactionsOfASet) {
   Reaction reaction;
   reaction.set.value = "lower/bottom";  // 5 nodes at x = 0 ... 4
   EXPECT_NEAR(blocks.value(Reaction(reaction)), 10.0, 1e-14);
-  reaction.component = Component::x;
+  reaction.component = Reaction::Of::x;
   EXPECT_NEAR(blocks.value(Reaction(reaction)), 5.0, 1e-14);
   reaction.set.value = "lower/botom";
   EXPECT_THAT(input_error([&] { blocks.value(Reaction(reaction)); }), HasSubstr("lower/bottom"));

@@ -196,10 +196,10 @@ TEST(Loads, ReportAnExpressionWithoutAValueAsFailure) {
   EXPECT_EQ(failure->kind(), FailureKind::not_finite);
 }
 
-TEST(Loads, AreFourKinds) {
+TEST(Loads, AreRegistered) {
   std::vector<std::string> names;
   for (const auto& entry : load_registry().entries()) names.push_back(entry.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"nodal force", "dead traction", "follower pressure", "gravity"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"nodal force", "moment", "dead traction", "follower pressure", "gravity"}));
 }
 
 }  // namespace

@@ -50,6 +50,8 @@ inline Complementarity frictionless(bool closed, double c_n, double gap, const E
 /// bound rho at the pressure z_n - c_n g:
 ///   stick   |y| < rho   C_tau = -c_t u
 ///   slip                C_tau = z_tau - rho sign(y)
+/// Where nothing has slipped and nothing pulls yet (z_tau = u = 0 exactly: the start of a run) the stick row would make Newton's first correction
+/// that of glued bodies, however small the pressure; the row C_tau = z_tau, which has the same value there, lets it find pressures first.
 /// @param slip  weighted slip u of the step: the slave's motion relative to the master along tau, times the weight
 inline Complementarity with_friction(double c_n, double c_t, double gap, double slip, const Eigen::Vector2d& normal, const Eigen::Vector2d& z,
                                      const FrictionBound& bound) {
@@ -57,6 +59,7 @@ inline Complementarity with_friction(double c_n, double c_t, double gap, double 
   const double y = result.C[1] + c_t * slip;
   if (std::abs(y) < bound.value) {
     result.state = ContactState::stick;
+    if (y == 0.0 && slip == 0.0) return result;  // C_tau = z_tau = 0 as well
     result.C[1] = -c_t * slip;
     result.C_z.row(1).setZero();
     result.normal_factor.row(1).setZero();

@@ -61,6 +61,7 @@ struct ContactNodeState {
   ContactState state = ContactState::open;
   double covered = 0.0;           ///< sum_k D_jk: the force on the slave side is -covered * traction
   double shear = 0.0;             ///< z . tau, tau = n turned by +90 degrees
+  double shear_bound = 0.0;       ///< rho, of closed nodes; friction only
   double slip = 0.0;              ///< along tau since the start of the step [length]; friction only
   double slip_path = 0.0;         ///< |slip| summed over the accepted steps [length]; friction only
   std::array<double, 2> force{};  ///< D_jj z_j, force of this node's multiplier on the slave side is -force

@@ -7,6 +7,7 @@
 
 #include "mortise/mesh/mesh.hpp"
 #include "mortise/mesh/mesh_options.hpp"
+#include "mortise/mesh/reference_point.hpp"
 
 namespace mortise {
 
@@ -15,15 +16,17 @@ struct BodyDescription {
   std::string name;
   Place place;
   std::shared_ptr<const MeshOptions> mesh;
-  CellShape shape = CellShape::quadrilateral4;
+  CellShape shape = CellShape::quadrilateral4;  ///< line2: a rigid body, of which the surface alone is meshed
 };
 
 /// Builds the mesh of all bodies. Collective. Node and element ids are contiguous per body, in the order of `bodies`, and do not depend on
 /// the number of ranks. On more than one rank the elements are shared out by METIS so that both their number and that of the elements on
 /// `contact_sides` ("body/side") are balanced; names that are no sides of the bodies are passed over (see require_side_set).
 /// Besides its named sides each body gets a side set "body/surface" (all of them) and a node set "body" (all its nodes).
+/// Reference points get the ids beyond those of all bodies, and a node set each; followers come with add_followers().
 /// @throws InputError on all ranks: no body, repeated names, shapes without meaning, an inverted element (with its det J).
-RCP<Mesh> build_mesh(const RCP<const Communicator>& comm, const std::vector<BodyDescription>& bodies, const std::vector<std::string>& contact_sides);
+RCP<Mesh> build_mesh(const RCP<const Communicator>& comm, const std::vector<BodyDescription>& bodies, const std::vector<std::string>& contact_sides,
+                     const std::vector<ReferencePointDescription>& reference_points = {});
 
 /// Size of a mesh over all ranks.
 struct MeshSize {

@@ -8,6 +8,7 @@ namespace mortise {
 /// Rectangle or general quadrilateral. Sides: bottom, right, top, left.
 struct BlockMesh : MeshOptions {
   double width = 1.0, height = 1.0;
+  double bottom_radius = 0.0;   ///< of the arc that the bottom side is, bulging outward; 0: straight
   std::vector<double> corners;  ///< x1, y1, ... counterclockwise from bottom left; empty: the rectangle [0, width] x [0, height]
   int cells_x = 0, cells_y = 0;
   GradingOptions grading_x, grading_y;
@@ -61,6 +62,17 @@ struct HalfDiskMesh : DiskMesh {
   DiskHalf half = DiskHalf::lower;
   void describe_shape(Parameters& parameters) override;
   PatchComplex build(CellShape cell, const Place& place) const override;
+};
+
+/// A polyline whose corners are rounded by arcs, or an arc's polygon: the surface of a rigid body, without an inside. Side: profile.
+struct ProfileMesh : MeshOptions {
+  std::vector<double> points;  ///< x1, y1, ...; the body lies to the left of the way along them
+  std::vector<double> radii;   ///< of the arcs at the points between the first and the last; empty: sharp corners
+  double cell_size = 0.0;      ///< largest length of a line
+  void describe_shape(Parameters& parameters) override;
+  /// Throws InputError: a profile has no inside.
+  PatchComplex build(CellShape cell, const Place& place) const override;
+  CurveComplex build_surface(const Place& place) const override;
 };
 
 }  // namespace mortise

@@ -16,9 +16,9 @@ struct Block {
   std::string name;  ///< the body's name
   CellShape shape = CellShape::quadrilateral4;
   int nodes_per_element = 4;
-  std::vector<LocalOrdinal> connectivity;     ///< [elements x nodes_per_element] local nodes
-  std::vector<GlobalOrdinal> element_ids;     ///< [elements] unique over all blocks
-  LocalOrdinal owned = 0;                     ///< number of owned elements
+  std::vector<LocalOrdinal> connectivity;  ///< [elements x nodes_per_element] local nodes
+  std::vector<GlobalOrdinal> element_ids;  ///< [elements] unique over all blocks
+  LocalOrdinal owned = 0;                  ///< number of owned elements
 
   LocalOrdinal size() const { return static_cast<LocalOrdinal>(element_ids.size()); }
   const LocalOrdinal* nodes(LocalOrdinal element) const { return connectivity.data() + element * nodes_per_element; }
@@ -36,19 +36,39 @@ struct SideSet {
   LocalOrdinal owned = 0;
 };
 
+/// A node that belongs to no element and whose motion others follow:
+///   d_i = u + (R(theta) - I) (X_i - X),   R the rotation by theta about the point, identity for points that do not rotate.
+struct ReferencePoint {
+  std::string name;                         ///< of its node set
+  bool is_placed = false;                   ///< its position was given
+  LocalOrdinal node = 0;                    ///< carries u; on every rank
+  LocalOrdinal rotation_node = -1;          ///< its first component carries arm * theta; -1: does not rotate
+  double arm = 1.0;                         ///< [length] of the farthest corner of the box around the followers; makes a rotation a length
+  std::array<bool, 2> follows{true, true};  ///< components of u that are followed
+  std::vector<LocalOrdinal> followers;      ///< local nodes (owned and ghosts), ascending
+};
+
 /// One rank's part of a mesh. Local nodes are the owned ones, in the order of `owned_nodes`, followed by ghosts.
 struct Mesh {
   int dimension = 2;
   RCP<const Communicator> comm;
-  RCP<const Map> owned_nodes;  ///< one to one
-  RCP<const Map> local_nodes;  ///< owned, then ghosts
-  std::vector<std::array<double, 3>> coordinates;  ///< [local nodes] reference positions; z = 0 in 2D
-  std::vector<Block> blocks;                       ///< the same, in the same order, on every rank (possibly empty)
-  std::map<std::string, SideSet> side_sets;        ///< "body/side"; the same names on every rank
+  RCP<const Map> owned_nodes;                                  ///< one to one
+  RCP<const Map> local_nodes;                                  ///< owned, then ghosts
+  std::vector<std::array<double, 3>> coordinates;              ///< [local nodes] reference positions; z = 0 in 2D
+  std::vector<Block> blocks;                                   ///< the same, in the same order, on every rank (possibly empty)
+  std::map<std::string, SideSet> side_sets;                    ///< "body/side"; the same names on every rank
   std::map<std::string, std::vector<LocalOrdinal>> node_sets;  ///< local nodes (owned and ghosts), ascending; every side set is one too
-  std::vector<int> body_of_node;                   ///< [local nodes] index of the block that the node belongs to
+  std::vector<int> body_of_node;                 ///< [local nodes] index of the block that the node belongs to, or whose nodes follow it
+  std::vector<ReferencePoint> reference_points;  ///< the same, in the same order, on every rank
 
   LocalOrdinal owned_count() const { return static_cast<LocalOrdinal>(owned_nodes->getNodeNumElements()); }
+  /// Owned nodes of bodies; those of reference points come after them.
+  LocalOrdinal owned_body_count() const {
+    LocalOrdinal count = owned_count();
+    for (const ReferencePoint& point : reference_points)
+      if (point.node < owned_count()) count -= point.rotation_node < 0 ? 1 : 2;
+    return count;
+  }
   LocalOrdinal local_count() const { return static_cast<LocalOrdinal>(local_nodes->getNodeNumElements()); }
 
   /// Local nodes of a side, outward normal on the right of the direction of travel.

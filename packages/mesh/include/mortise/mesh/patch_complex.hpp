@@ -22,6 +22,8 @@ struct Placement {
   Point operator()(const Point& point) const;
 };
 
+class CurveComplex;
+
 /// Corners, edges between them (straight or circular arcs) and patches that four edges bound, each filled by transfinite interpolation.
 /// Nodes are numbered corners first, then the interiors of edges, then the interiors of patches; elements patch by patch. Both are
 /// functions of their number: nothing of the size of the mesh is stored.
@@ -58,6 +60,9 @@ class PatchComplex {
   /// Nodes of an element, counterclockwise; the first topology(shape()).nodes entries count.
   std::array<GlobalOrdinal, 4> element_nodes(GlobalOrdinal element) const;
 
+  /// The named sides alone, as a chain of lines: what is left of the body if it is rigid.
+  CurveComplex surface() const;
+
   /// All elements that have the node, ascending.
   std::vector<GlobalOrdinal> elements_of_node(GlobalOrdinal node) const;
 
@@ -87,7 +92,6 @@ class PatchComplex {
   GridPoint cell_of(GlobalOrdinal element) const;
   GlobalOrdinal node_at(const GridPoint& point) const;
   std::vector<GridPoint> grid_points(GlobalOrdinal node) const;
-  Point edge_point(int edge, int index) const;
   double edge_position(const EdgeUse& use, int index) const;
   Point edge_point(const EdgeUse& use, int index) const;
 
@@ -103,5 +107,8 @@ class PatchComplex {
   std::vector<GlobalOrdinal> edge_nodes_, patch_nodes_, patch_cells_;  ///< first number of each, and the end
   std::vector<std::string> side_names_;
 };
+
+/// Point `index` of an edge's spacing.
+Point edge_point(const PatchComplex::Edge& edge, const std::vector<Point>& corners, int index);
 
 }  // namespace mortise

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "mortise/core/dependence.hpp"
 #include "mortise/core/error.hpp"
 #include "mortise/core/types.hpp"
 
@@ -44,6 +45,18 @@ class PrescribedDisplacements {
   virtual const std::vector<LocalOrdinal>& dofs() const = 0;
   /// Their values at pseudo-time `time`, in the same order.
   virtual std::vector<double> values(double time) const = 0;
+};
+
+/// Displacements of owned dofs that follow from others: nodes of rigid bodies and tied sets, which follow reference points.
+class DependentDisplacements {
+ public:
+  virtual ~DependentDisplacements() = default;
+  /// Owned dofs that follow, ascending; none of them is prescribed.
+  virtual const std::vector<LocalOrdinal>& dofs() const = 0;
+  /// Owned dofs that others may follow; none of them follows itself.
+  virtual const std::vector<LocalOrdinal>& followed() const = 0;
+  /// What they are at a displacement (owned dofs, then ghosts), in the order of dofs().
+  virtual std::vector<Dependence> evaluate(const Vector& local_displacement) const = 0;
 };
 
 }  // namespace mortise

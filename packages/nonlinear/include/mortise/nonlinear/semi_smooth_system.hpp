@@ -18,7 +18,7 @@ namespace mortise {
 struct ResidualNorms {
   double momentum = 0.0;  ///< |r| on free dofs relative to max(|f_int|, |f_ext|, |f_c|, 1e-6 s |d|), reactions included
   double momentum_absolute = 0.0;
-  double prescribed = 0.0;  ///< max |d - prescribed| relative to the size of the model
+  double prescribed = 0.0;  ///< max |d - prescribed| and |d - what it follows|, relative to the size of the model
   double gap = 0.0, complementarity = 0.0;
   double merit = 0.0;  ///< (|r|^2 + |s (d - prescribed)|^2 + sum_j |A_j C_j|^2)^1/2, a force; infinite if that is not finite
   int active = 0, sticking = 0, changed = 0;
@@ -32,7 +32,8 @@ struct SystemParts {
   RCP<const Graph> bulk_graph;      ///< rows `dofs`; what the contributions' Jacobians write into
   std::vector<std::shared_ptr<Contribution>> contributions;
   std::shared_ptr<PrescribedDisplacements> prescribed;
-  std::shared_ptr<ContactSystem> contact;  ///< null: no contact in the scene
+  std::shared_ptr<DependentDisplacements> dependent;  ///< null: every displacement is an unknown or prescribed
+  std::shared_ptr<ContactSystem> contact;             ///< null: no contact in the scene
   std::shared_ptr<LinearSolver> linear_solver;
   std::function<NearNullSpace(const Vector& displacement)> near_null_space;
   double length = 1.0;  ///< size of the model
@@ -60,7 +61,8 @@ class SemiSmoothSystem {
   /// s, a stiffness; 0 before the first residual.
   double stiffness_scale() const;
 
-  /// F(x) = (r, C); Dirichlet rows hold s (d - prescribed). Throws StepFailure on every rank.
+  /// F(x) = (r, C); Dirichlet rows hold s (d - prescribed), rows of followers s (d - what they follow), whose forces stand in the rows of what
+  /// they follow. Throws StepFailure on every rank.
   void residual(const Vector& x, Vector& F, ResidualNorms& norms);
   /// Prepares J at x, and takes the states of the nodes at x as those that ResidualNorms::changed counts against.
   void jacobian(const Vector& x);
@@ -70,7 +72,7 @@ class SemiSmoothSystem {
   /// contact itself. Throws StepFailure(linear_solver) on every rank.
   LinearSolveReport newton_direction(const Vector& F, Vector& direction);
 
-  /// f_int - f_ext + f_c on all owned dofs at x, without Dirichlet rows: on prescribed dofs these are the reactions.
+  /// f_int - f_ext + f_c on all owned dofs at x, without Dirichlet rows: on prescribed dofs these are the reactions, those of followers gathered.
   void forces(const Vector& x, Vector& r);
 
   /// The step that ended at x is accepted: hands it to the contributions.

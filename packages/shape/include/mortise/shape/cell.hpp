@@ -6,8 +6,9 @@
 
 namespace mortise {
 
-/// Shapes of volume elements. Nodes are numbered counterclockwise.
-enum class CellShape { triangle3, quadrilateral4 };
+/// Shapes of elements; nodes of plane ones are numbered counterclockwise. Lines are what rigid bodies in the plane are made of: a line is its own
+/// only side.
+enum class CellShape { line2, triangle3, quadrilateral4 };
 
 /// Topology of a reference cell.
 struct CellTopology {

@@ -14,10 +14,20 @@ namespace mortise {
 /// A Cartesian component: x, y (axisymmetric: r, z).
 enum class Component { x, y };
 
-/// Sum over the nodes of a set of the forces by which supports act on the bodies: f_int - f_ext + f_c. [force]
+/// Sum over the nodes of a set of the forces by which supports act on the bodies: f_int - f_ext + f_c. [force] On a reference point that turns
+/// also the moment, counterclockwise. [force length]
 struct Reaction : Quantity {
+  enum class Of { x, y, rotation };
   Located<std::string> set;
-  Component component = Component::y;
+  Of component = Of::y;
+  void describe(Parameters& parameters) override;
+  void prepare(const QuantityContext& context) override;
+  double evaluate(const QuantityContext& context) override;
+};
+
+/// Rotation of a reference point since the start, counterclockwise. [degrees]
+struct Rotation : Quantity {
+  Located<std::string> point;
   void describe(Parameters& parameters) override;
   void prepare(const QuantityContext& context) override;
   double evaluate(const QuantityContext& context) override;
@@ -150,9 +160,35 @@ struct PairQuantity : Quantity {
   std::size_t pair_ = 0;
 };
 
+/// Where lengths along a slave surface and tractions on it are measured.
+enum class TractionMeasure {
+  pair,      ///< where the pair's geometry is: true tractions for the current one
+  reference  ///< per undeformed area at undeformed positions, as theories of small strain mean them
+};
+
 /// 2 sqrt(int p (x - center)^2 ds / int p ds) along the slave surface: the half width of a Hertzian pressure. [length]
 struct HalfWidth : PairQuantity {
   double center = 0.0;
+  TractionMeasure measure = TractionMeasure::pair;
+  void describe(Parameters& parameters) override;
+  double evaluate(const QuantityContext& context) override;
+};
+
+/// Half width of the part of the contact zone that sticks: 2 sqrt(int s (x - m)^2 ds / int s ds) with s = rho - |z_tau|, what is left of the friction
+/// bound, and m its middle. In Cattaneo's and Mindlin's solution s is a Hertzian distribution of just that half width. [length]
+struct StickHalfWidth : PairQuantity {
+  TractionMeasure measure = TractionMeasure::pair;
+  void describe(Parameters& parameters) override;
+  double evaluate(const QuantityContext& context) override;
+};
+
+/// Nodal pressure or shear traction of a pair at a position x of its slave surface, linear between nodes; 0 where there is no such position, the
+/// mean where there are several. Without x: the one of largest size. [stress]
+struct ContactTraction : PairQuantity {
+  enum class Part { pressure, shear };
+  std::optional<double> x;
+  Part part = Part::pressure;
+  TractionMeasure measure = TractionMeasure::pair;
   void describe(Parameters& parameters) override;
   double evaluate(const QuantityContext& context) override;
 };

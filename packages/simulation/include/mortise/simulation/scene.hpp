@@ -22,9 +22,21 @@ namespace mortise {
 
 /// A body: what it is made of and its mesh.
 struct BodyOptions {
+  Located<bool> rigid;
+  std::vector<double> reference_point;  ///< of a rigid body: x, y; empty: the middle of its box
   Located<std::string> material;
   ElementType element = ElementType::q4;
   Choice<MeshOptions> mesh;
+  void describe(Parameters& parameters);
+};
+
+/// A set of nodes that follows a reference point.
+struct TieOptions {
+  Located<std::string> set;
+  std::vector<double> position;  ///< x, y; empty: the middle of the set's box
+  bool rotates = true;
+  enum class Follows { both, x, y };
+  Follows follows = Follows::both;
   void describe(Parameters& parameters);
 };
 
@@ -71,6 +83,7 @@ struct Scene {
   std::vector<Named<MaterialChoice>> materials;
   std::vector<Named<BodyOptions>> bodies;
   std::vector<Named<SetOptions>> sets;
+  std::vector<Named<TieOptions>> reference_points;
   std::vector<Named<BoundaryConditionOptions>> boundary_conditions;
   std::vector<Named<LoadChoice>> loads;
   std::vector<Named<ContactPairOptions>> contact;

@@ -35,8 +35,9 @@ std::string to_string(Kinematics kinematics);
 struct BodyProperties {
   std::string name;
   Place place;
-  std::shared_ptr<const MaterialOptions> material;
+  std::shared_ptr<const MaterialOptions> material;  ///< null: the body is rigid
   ElementType element = ElementType::q4;
+  bool is_rigid() const { return material == nullptr; }
 };
 
 /// Says what has no meaning: F-bar with small strain or plane stress, a law without a plane stress form under plane stress.

@@ -41,6 +41,14 @@ struct NodalForceOptions : LoadOptions {
   std::unique_ptr<Load> make(const std::shared_ptr<const Bodies>& bodies) const override;
 };
 
+/// A moment on a reference point that rotates. [force length]
+struct MomentOptions : LoadOptions {
+  Located<std::string> point;
+  Expression moment;  ///< of t
+  void describe(Parameters& parameters) override;
+  std::unique_ptr<Load> make(const std::shared_ptr<const Bodies>& bodies) const override;
+};
+
 /// Force per reference area, of fixed direction. [stress]
 struct DeadTractionOptions : LoadOptions {
   Located<std::string> set;
@@ -66,7 +74,7 @@ struct GravityOptions : LoadOptions {
   std::unique_ptr<Load> make(const std::shared_ptr<const Bodies>& bodies) const override;
 };
 
-/// All kinds by name: "nodal force", "dead traction", "follower pressure", "gravity".
+/// All kinds by name: "nodal force", "moment", "dead traction", "follower pressure", "gravity".
 const Registry<LoadOptions>& load_registry();
 
 }  // namespace mortise

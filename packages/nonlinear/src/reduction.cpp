@@ -1,0 +1,149 @@
+#include "reduction.hpp"
+
+#include <TpetraExt_MatrixMatrix.hpp>
+#include <TpetraExt_TripleMatrixMultiply.hpp>
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+#include <algorithm>
+#include <cmath>
+
+namespace mortise::detail {
+
+Reduction::Reduction(std::shared_ptr<const DependentDisplacements> followers, const RCP<const Map>& dofs, const RCP<const Map>& local_dofs)
+    : followers_(std::move(followers)), dofs_(dofs) {
+  const std::vector<LocalOrdinal>& dependent = followers_->dofs();
+  place_of_.assign(dofs->getNodeNumElements(), 0);
+  for (const LocalOrdinal dof : dependent) place_of_[dof] = -1;
+  LocalOrdinal count = 0;
+  for (LocalOrdinal& place : place_of_)
+    if (place >= 0) place = count++;
+  const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
+  unknowns_ = rcp(new const Map(invalid, count, 0, dofs->getComm()));
+
+  // Ids in unknowns() of what is followed, which may belong to other ranks.
+  Vector ids(dofs), local_ids(local_dofs);
+  {
+    const auto view = ids.getLocalViewHost(Tpetra::Access::OverwriteAll);
+    for (std::size_t dof = 0; dof < place_of_.size(); ++dof)
+      view(dof, 0) = place_of_[dof] < 0 ? -1.0 : static_cast<double>(unknowns_->getGlobalElement(place_of_[dof]));
+  }
+  local_ids.doImport(ids, Import(dofs, local_dofs), Tpetra::INSERT);
+  const Vector start(local_dofs);
+  dependences_ = followers_->evaluate(start);
+  {
+    const auto view = local_ids.getLocalViewHost(Tpetra::Access::ReadOnly);
+    for (const Dependence& dependence : dependences_) {
+      sources_.emplace_back();
+      for (int k = 0; k < dependence.sources; ++k)
+        sources_.back()[k] = static_cast<GlobalOrdinal>(view(local_dofs->getLocalElement(dependence.source[k]), 0));
+    }
+  }
+
+  T_ = rcp(new Matrix(dofs, Dependence::most));
+  for (LocalOrdinal dof = 0; dof < static_cast<LocalOrdinal>(place_of_.size()); ++dof) {
+    if (place_of_[dof] < 0) continue;
+    const GlobalOrdinal column = unknowns_->getGlobalElement(place_of_[dof]);
+    const double one = 1.0;
+    T_->insertGlobalValues(dofs->getGlobalElement(dof), 1, &one, &column);
+  }
+  for (std::size_t n = 0; n < dependent.size(); ++n)
+    T_->insertGlobalValues(dofs->getGlobalElement(dependent[n]), dependences_[n].sources, dependences_[n].gradient.data(), sources_[n].data());
+  T_->fillComplete(unknowns_, dofs);
+}
+
+std::vector<LocalOrdinal> Reduction::places(const std::vector<LocalOrdinal>& dofs) const {
+  std::vector<LocalOrdinal> places;
+  for (const LocalOrdinal dof : dofs) places.push_back(place_of_.at(dof));
+  return places;
+}
+
+void Reduction::update(const Vector& local_displacement) {
+  dependences_ = followers_->evaluate(local_displacement);
+  T_->resumeFill();
+  for (std::size_t n = 0; n < dependences_.size(); ++n)
+    T_->replaceGlobalValues(dofs_->getGlobalElement(followers_->dofs()[n]), dependences_[n].sources, dependences_[n].gradient.data(),
+                            sources_[n].data());
+  T_->fillComplete(unknowns_, dofs_);
+}
+
+double Reduction::deviation(const Vector& displacement, double factor, Vector& deviation) const {
+  const auto d = displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
+  const auto result = deviation.getLocalViewHost(Tpetra::Access::ReadWrite);
+  double largest = 0.0;
+  for (std::size_t n = 0; n < dependences_.size(); ++n) {
+    const LocalOrdinal dof = followers_->dofs()[n];
+    const double difference = d(dof, 0) - dependences_[n].value;
+    largest = std::max(largest, std::abs(difference));
+    result(dof, 0) = factor * difference;
+  }
+  return largest;
+}
+
+RCP<Vector> Reduction::unknown_part(const Vector& v) const {
+  const auto q = rcp(new Vector(unknowns_));
+  const auto from = v.getLocalViewHost(Tpetra::Access::ReadOnly);
+  const auto to = q->getLocalViewHost(Tpetra::Access::OverwriteAll);
+  for (std::size_t dof = 0; dof < place_of_.size(); ++dof)
+    if (place_of_[dof] >= 0) to(place_of_[dof], 0) = from(dof, 0);
+  return q;
+}
+
+RCP<Vector> Reduction::reduced(const Vector& r) const {
+  const auto q = rcp(new Vector(unknowns_));
+  T_->apply(r, *q, Teuchos::TRANS);
+  return q;
+}
+
+RCP<Vector> Reduction::expanded(const Vector& dq) const {
+  const auto d = rcp(new Vector(dofs_));
+  T_->apply(dq, *d);
+  return d;
+}
+
+void Reduction::gather(Vector& r) const {
+  const RCP<Vector> q = reduced(r);
+  const auto from = q->getLocalViewHost(Tpetra::Access::ReadOnly);
+  const auto to = r.getLocalViewHost(Tpetra::Access::ReadWrite);
+  for (std::size_t dof = 0; dof < place_of_.size(); ++dof)
+    if (place_of_[dof] >= 0) to(dof, 0) = from(place_of_[dof], 0);
+}
+
+// A matrix of the few rows that are followed; its diagonal is there even where nothing is curved.
+RCP<Matrix> Reduction::curvature(const Vector& r) const {
+  const auto matrix = rcp(new Matrix(unknowns_, Dependence::most));
+  const auto force = r.getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (std::size_t n = 0; n < dependences_.size(); ++n) {
+    const Dependence& dependence = dependences_[n];
+    for (int k = 0; k < dependence.sources; ++k) {
+      std::array<double, Dependence::most> row{};
+      for (int l = 0; l < dependence.sources; ++l) row[l] = force(followers_->dofs()[n], 0) * dependence.curvature[k][l];
+      matrix->insertGlobalValues(sources_[n][k], dependence.sources, row.data(), sources_[n].data());
+    }
+  }
+  for (const LocalOrdinal dof : followers_->followed()) {
+    const GlobalOrdinal id = unknowns_->getGlobalElement(place_of_[dof]);
+    const double zero = 0.0;
+    matrix->insertGlobalValues(id, 1, &zero, &id);
+  }
+  matrix->fillComplete(unknowns_, unknowns_);
+  return matrix;
+}
+
+RCP<Matrix> Reduction::reduced(const Matrix& A, const Vector& r) const {
+  Matrix product(unknowns_, 0);
+  Tpetra::TripleMatrixMultiply::MultiplyRAP(*T_, true, A, false, *T_, false, product);
+  return Tpetra::MatrixMatrix::add(1.0, false, product, 1.0, false, *curvature(r), unknowns_, unknowns_);
+}
+
+void Reduction::add_curvature(const Vector& r, const Vector& v, Vector& y) const {
+  Vector result(unknowns_);
+  curvature(r)->apply(*unknown_part(v), result);
+  const auto from = result.getLocalViewHost(Tpetra::Access::ReadOnly);
+  const auto to = y.getLocalViewHost(Tpetra::Access::ReadWrite);
+  for (std::size_t dof = 0; dof < place_of_.size(); ++dof)
+    if (place_of_[dof] >= 0) to(dof, 0) += from(place_of_[dof], 0);
+}
+
+}  // namespace mortise::detail

@@ -1,0 +1,194 @@
+// Rigid bodies and tied sets in the nonlinear system: derivative, Newton direction, forces.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_Core.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "mortise/simulation/model.hpp"
+#include "mortise/simulation/read_scene.hpp"
+
+namespace mortise {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A base with a body on it; the slave is the base's top.
+struct Case {
+  std::string name, kinematics, body, points, conditions, loads;
+  double friction = 0.0;
+};
+
+void PrintTo(const Case& one, std::ostream* stream) { *stream << one.name; }
+
+std::string parameter(const std::string& name, const std::string& type, const std::string& value) {
+  return fmt::format("<Parameter name=\"{}\" type=\"{}\" value=\"{}\"/>\n", name, type, value);
+}
+
+std::string list(const std::string& name, const std::string& content) {
+  return fmt::format("<ParameterList name=\"{}\">\n{}</ParameterList>\n", name, content);
+}
+
+std::string condition(const std::string& name, const std::string& set, const std::string& x, const std::string& y, const std::string& rotation = "") {
+  std::string content = parameter("set", "string", set);
+  if (!x.empty()) content += parameter("x", "string", x);
+  if (!y.empty()) content += parameter("y", "string", y);
+  if (!rotation.empty()) content += parameter("rotation", "string", rotation);
+  return list(name, content);
+}
+
+std::string load(const std::string& name, const std::string& type, const std::string& set, const std::string& component, const std::string& value) {
+  return list(name, parameter("type", "string", type) + parameter("set", "string", set) + parameter(component, "string", value));
+}
+
+std::string scene_text(const Case& one) {
+  const std::string body = one.body.empty() ? parameter("material", "string", "rubber") + parameter("element", "string", "Q4") : one.body;
+  const auto block = [](const std::string& width, const std::string& cells, const std::string& translation) {
+    return list("mesh", parameter("type", "string", "block") + parameter("width", "string", width) + parameter("height", "string", "1") +
+                            parameter("cells x", "string", cells) + parameter("cells y", "string", "2") +
+                            parameter("translation", "string", translation));
+  };
+  const std::string material = list("rubber", parameter("type", "string", one.kinematics == "plane stress" ? "st venant kirchhoff" : "neo hooke") +
+                                                  parameter("young's modulus", "double", "100") + parameter("poisson's ratio", "double", "0.3"));
+  const std::string pair = list(
+      "pair", parameter("slave", "string", "base/top") + parameter("master", "string", "upper/bottom") +
+                  list("friction", one.friction > 0.0
+                                       ? parameter("type", "string", "coulomb") + parameter("coefficient", "string", fmt::format("{}", one.friction))
+                                       : parameter("type", "string", "none")));
+  return list("tied", parameter("kinematics", "string", one.kinematics) + list("materials", material) +
+                          list("bodies", list("base", parameter("material", "string", "rubber") + parameter("element", "string", "Q4") +
+                                                          block("4", "7", "0, 0")) +
+                                             list("upper", body + block("2.2", "3", "0.9, 1"))) +
+                          list("sets", list("flank nodes", parameter("of", "string", "base/left") + parameter("where", "string", "y - 0.1"))) +
+                          (one.points.empty() ? "" : list("reference points", one.points)) +
+                          list("boundary conditions", condition("floor", "base/bottom", "0", "0") + one.conditions) +
+                          (one.loads.empty() ? "" : list("loads", one.loads)) + list("contact", pair) +
+                          list("stepping", parameter("end time", "double", "1") + parameter("step", "double", "0.25")));
+}
+
+/// Written by rank 0, read by all.
+Scene read(const Case& one) {
+  const auto comm = Tpetra::getDefaultComm();
+  int id = static_cast<int>(::getpid());
+  Teuchos::broadcast(*comm, 0, Teuchos::outArg(id));
+  const std::string file = (std::filesystem::temp_directory_path() / fmt::format("mortise_reference_point_{}.xml", id)).string();
+  if (comm->getRank() == 0) std::ofstream(file) << scene_text(one);
+  comm->barrier();
+  Scene scene = read_scene(*comm, file, {});
+  comm->barrier();
+  if (comm->getRank() == 0) std::filesystem::remove(file);
+  return scene;
+}
+
+const std::string rigid = parameter("rigid", "bool", "true") + parameter("reference point", "string", "2.3, 2.5");
+
+std::string tied(const std::string& more) { return list("grip", parameter("set", "string", "upper/top") + more); }
+
+const std::vector<Case> cases{
+    {"free rigid body", "plane strain", rigid, "", condition("guide", "upper/reference", "0.1*t", ""),
+     load("push", "nodal force", "upper/reference", "y", "-20*t") + load("twist", "moment", "upper/reference", "moment", "3*t"), 0.2},
+    {"turning rigid body", "plane strain", rigid, "", condition("drive", "upper/reference", "0.05*t", "-0.1*t", "20*t"), "", 0.3},
+    {"rigid body, axisymmetric", "axisymmetric", parameter("rigid", "bool", "true"), "", "",
+     load("push", "nodal force", "upper/reference", "y", "-200*t"), 0.2},
+    {"tied set that turns", "plane strain", "", tied(parameter("position", "string", "2.2, 3")), condition("guide", "grip", "0.1*t", ""),
+     load("push", "nodal force", "grip", "y", "-20*t") + load("twist", "moment", "grip", "moment", "3*t"), 0.2},
+    {"tied set that does not turn", "plane strain", "", tied(parameter("rotation", "bool", "false")), condition("guide", "grip", "0.1*t", ""),
+     load("push", "nodal force", "grip", "y", "-20*t"), 0.2},
+    {"set tied in one component", "plane stress", "", tied(parameter("rotation", "bool", "false") + parameter("follows", "string", "y")),
+     condition("middle", "upper/left", "0", ""), load("push", "nodal force", "grip", "y", "-20*t"), 0.2},
+    {"tied slave side", "plane strain", rigid, list("flank", parameter("set", "string", "flank nodes") + parameter("rotation", "bool", "false")),
+     condition("drive", "upper/reference", "0", "-0.1*t", "5*t"), load("pull", "nodal force", "flank", "x", "-3*t"), 0.2}};
+
+class ReferencePoints : public testing::TestWithParam<Case> {};
+
+/// F, J and the direction at a state that a run has reached, moved a little so that nothing is settled.
+TEST_P(ReferencePoints, JacobianAgreesWithCentralDifferences) {
+  const auto comm = Tpetra::getDefaultComm();
+  const Scene scene = read(GetParam());
+  const Timers timers;
+  const Model model(comm, scene, timers);
+  SemiSmoothSystem system(model.parts(), timers);
+  Vector x(system.map());
+  std::optional<StepFailure> failure;
+  const auto start = [&](Vector& at) {
+    model.contact()->start_step(*system.displacement(static_cast<const Vector&>(at)), model.held_by_contact_only(), *system.multipliers(at));
+  };
+  SteppingOptions stepping = scene.stepping;
+  stepping.end_time = 0.5;
+  ASSERT_TRUE(run_steps(system, stepping, scene.newton, x, start, {}, failure)) << failure->what();
+  start(x);
+  system.set_time(0.75);
+  Vector v(system.map()), J_v(system.map()), difference(system.map()), F(system.map()), direction(system.map()), J_dx(system.map());
+  for (const GlobalOrdinal id : x.getMap()->getNodeElementList()) {
+    x.sumIntoGlobalValue(id, 2e-3 * std::sin(0.37 * id + 0.4));
+    v.replaceGlobalValue(id, std::sin(0.91 * id + 0.4));
+  }
+  ResidualNorms norms;
+  const double h = 1e-6;
+  for (const double sign : {1.0, -1.0}) {
+    Vector at(x, Teuchos::Copy);
+    at.update(sign * h, v, 1.0);
+    system.residual(at, F, norms);
+    difference.update(sign / (2.0 * h), F, 1.0);
+  }
+  system.residual(x, F, norms);
+  EXPECT_GT(norms.active, 0);
+  system.jacobian(x);
+  system.apply(v, J_v);
+  const double size = J_v.norm2();
+  difference.update(-1.0, J_v, 1.0);
+  EXPECT_LE(difference.norm2(), 1e-6 * size);
+
+  system.newton_direction(F, direction);
+  system.apply(direction, J_dx);
+  J_dx.update(1.0, F, 1.0);
+  EXPECT_LE(J_dx.norm2(), 1e-11 * F.norm2());
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ReferencePoints, testing::ValuesIn(cases));
+
+std::string complaints(const Case& one) {
+  try {
+    const Scene scene = read(one);
+    const Timers timers;
+    const Model model(Tpetra::getDefaultComm(), scene, timers);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(ReferencePointErrors, NameWhatIsWrong) {
+  Case one = cases[0];
+  one.conditions += condition("wrong", "upper/top", "0", "");
+  EXPECT_THAT(complaints(one), HasSubstr("nodes that follow \"upper/reference\"; please prescribe \"upper/reference\""));
+  one = cases[0];
+  one.points = list("again", parameter("set", "string", "upper/left"));
+  EXPECT_THAT(complaints(one), HasSubstr("follows \"upper/reference\" already"));
+  one = cases[0];
+  one.loads = load("twist", "moment", "upper", "moment", "1");
+  EXPECT_THAT(complaints(one), HasSubstr("no reference point that rotates"));
+  one = cases[0];
+  one.conditions = "";
+  one.friction = 0.0;
+  EXPECT_THAT(complaints(one), HasSubstr("body 'upper' can move: translation in x"));
+  one = cases[4];
+  one.conditions = "";
+  EXPECT_THAT(complaints(one), HasSubstr("body 'upper' can move: translation in x"));
+  one = cases[2];
+  one.conditions = condition("radial", "upper/reference", "0.1*t", "");
+  EXPECT_THAT(complaints(one), HasSubstr("in which nothing follows it"));
+  one = cases[0];
+  one.body += parameter("material", "string", "rubber");
+  EXPECT_THAT(complaints(one), HasSubstr("a rigid body has no material"));
+}
+
+}  // namespace
+}  // namespace mortise
