@@ -31,7 +31,7 @@ const std::vector<PaperRun>& paper_runs() {
       {"hertz_elastic_as_printed_frictionless", "hertz_elastic_as_printed", {no_friction, fine, contact_fields, at_end}},
       {"hertz_plastic", "hertz_plastic", {fine, contact_fields, at_end}},
       {"hertz_plastic_as_printed", "hertz_elastic_as_printed", {"variables/F=12500", fine, "stepping/step=1/200", contact_fields, at_end}},
-      {"conical_extrusion", "conical_extrusion", {plastic_fields, at_end}},
+      {"conical_extrusion", "conical_extrusion", {contact_fields, at_end}},
   });
   return runs;
 }

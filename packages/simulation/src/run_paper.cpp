@@ -121,7 +121,8 @@ ExitCode run_paper(const RCP<const Communicator>& comm, const PaperOptions& opti
     log.info(fmt::format("{}/{} {} ...", i + 1, wanted.size(), run.name));
     Json result = run_one(comm, run, options, directory.path());
     log.info(fmt::format("{}/{} {}: {}", i + 1, wanted.size(), run.name, how_it_ended(result)));
-    if (result.at("exit") != 0) log.warning(fmt::format("{}: {}", run.name, result.at("said").get<std::string>()));
+    const std::string said = result.at("said");
+    if (result.at("exit") != 0) log.warning(run.name + ": " + (said.empty() ? "the page says why" : said));
     record["runs"].push_back(std::move(result));
   }
   write_json(*comm, directory.file("paper.json"), record);
