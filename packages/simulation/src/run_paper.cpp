@@ -21,11 +21,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const PaperScene& scene_of(const PaperRun& run) {
-  const auto& scenes = paper_scenes();
-  return *std::find_if(scenes.begin(), scenes.end(), [&](const PaperScene& scene) { return scene.name == run.scene; });
-}
-
 /// What decides on the results of a run, and so whether those of an earlier one can be taken.
 Json identity(const PaperRun& run, const PaperOptions& options) {
   return {{"name", run.name},       {"scene", run.scene},       {"text", scene_of(run).text},
