@@ -110,12 +110,18 @@ class Run:
         return [len(step["newton"]) - 1 for step in self.summary.get("steps", [])]
 
     def residuals(self, time):
-        """Relative momentum residuals of the iterations 0 (before the first), 1, ... of the step that ended at `time`, of its last try."""
+        """Relative momentum residuals of the iterations 0 (before the first), 1, ... of the step that ended at `time`, of its last try. The table has 0
+        for what may be round-off: there the absolute one is taken over the force that the last other one is relative to."""
         n = self.newton
         ends = np.isclose(n["time"], time, rtol=0, atol=1e-9)
         if not ends.any():
             return []
-        return list(n["momentum"][ends & (n["try"] == n["try"][ends].max())])
+        rows = ends & (n["try"] == n["try"][ends].max())
+        relative, absolute = n["momentum"][rows], n["momentum_absolute"][rows]
+        known = np.flatnonzero(relative > 0)
+        if len(known) == 0:
+            return list(relative)
+        return list(np.where(relative > 0, relative, absolute * relative[known[-1]] / absolute[known[-1]]))
 
 
 with open(os.path.join(directory, "paper.json"), encoding="utf-8") as file:
