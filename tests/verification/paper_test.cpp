@@ -29,10 +29,10 @@ Json summary_of(const std::string& run) { return Json::parse(read_file(run + "/s
 
 TEST(Paper, PageHoldsFiguresAndTheNumbersOfTheSummary) {
   files::remove_all(directory);
-  const Ending ending = paper({"--only", "patch_test,block_pile_axisymmetric", "-o", directory});
+  const Ending ending = paper({"--only", "patch_test,block_pile_axisymmetric,hertz_elastic", "-o", directory});
   ASSERT_EQ(ending.code, 0) << ending.output;
-  EXPECT_TRUE(contains(ending.output, "1/2 patch_test: done")) << ending.output;
-  EXPECT_TRUE(contains(ending.output, "2/2 block_pile_axisymmetric: done")) << ending.output;
+  EXPECT_TRUE(contains(ending.output, "1/3 patch_test: done")) << ending.output;
+  EXPECT_TRUE(contains(ending.output, "3/3 hertz_elastic: done")) << ending.output;
   const std::string page = read_file(directory + "/paper.html");
   EXPECT_TRUE(contains(page, "Figure 4")) << page.substr(0, 1000);
   EXPECT_TRUE(contains(page, "Figure 6"));
@@ -40,16 +40,19 @@ TEST(Paper, PageHoldsFiguresAndTheNumbersOfTheSummary) {
   EXPECT_TRUE(contains(page, "<img src=\"data:image/svg+xml;base64,"));
   // One file: nothing is fetched from elsewhere.
   for (const char* outside : {"src=\"http", "src=\"/", "href=", "<script", "<link"}) EXPECT_FALSE(contains(page, outside)) << outside;
-  for (const char* run : {"patch_test", "block_pile_axisymmetric"}) {
+  EXPECT_TRUE(contains(page, "Figure 8"));
+  // Hertz with the stated materials, and the exact stress of the pile.
+  for (const char* expected : {"<td>1367.03</td>", "<td>2.32848</td>", "<td>-1238.99</td>"}) EXPECT_TRUE(contains(page, expected)) << expected;
+  for (const char* run : {"patch_test", "block_pile_axisymmetric", "hertz_elastic"}) {
     const Json summary = summary_of(directory + "/" + run);
-    for (const char* name : {"stress_spread", "axial_stress", "lateral_stretch"})
+    for (const char* name : {"stress_spread", "axial_stress", "lateral_stretch", "peak_pressure", "half_width"})
       if (summary.at("quantities").contains(name)) {
         const std::string value = fmt::format("<td>{:.6g}</td>", summary.at("quantities").at(name).get<double>());
         EXPECT_TRUE(contains(page, value)) << run << ": " << name << " " << value;
       }
   }
   // What was not asked for is not there.
-  EXPECT_FALSE(contains(page, "Hertz problem, elastic"));
+  EXPECT_FALSE(contains(page, "Hertz problem, plastic"));
 }
 
 TEST(Paper, ReusesWhatIsThereOnlyIfItIsTheSame) {

@@ -95,6 +95,22 @@ def hertz_elastic():
     return parts + [paragraph(NTS_LATER)]
 
 
+def roughness(history, quantity):
+    """RMS of the second differences over the RMS, of values at as many equal distances in time as there are steps; None without such a history."""
+    if quantity not in history:
+        return None
+    time = history["time"]
+    values = np.interp(np.linspace(time[0], time[-1], len(time)), time, history[quantity])
+    rms = lambda numbers: np.sqrt(np.mean(numbers**2))
+    return rms(np.diff(values, 2)) / rms(values) if len(values) > 2 and values.any() else None
+
+
+def length_on_cone(fields):
+    """From the start of the cone, z = 0, along its wall to the last closed node."""
+    closed = fields.values["contact_pressure"].ravel() > 0
+    return max(fields.position[closed, 1].max(), 0.0) / np.cos(np.radians(5))
+
+
 def extrusion():
     parts = [paragraph("An aluminium billet is pushed 177.8 mm through a rigid cone with a wall of 5°, μ = 0.1, 80 elements. The paper states",
                        "a largest equivalent plastic strain of 1.39 at the front corner and a contact length of 257.33 mm, without saying how",
@@ -106,9 +122,13 @@ def extrusion():
         on_mesh(figure, axes[0], run.fields, strain, "equivalent plastic strain", ("r", "z"), lying=True)
         parts.append(html_figure(figure, "Figure 11", "equivalent plastic strain of the billet at the end; means of elements"))
         parts.append(comparison([["largest equivalent plastic strain", run.quantity("peak_equivalent_plastic_strain"), 1.39],
-                                 ["contact length / mm", run.quantity("contact_length"), 257.33],
+                                 ["contact length / mm, whole billet", run.quantity("contact_length"), 257.33],
+                                 ["contact length / mm, on the cone", length_on_cone(run.fields), 257.33],
                                  ["rear force at the end / N", run.quantity("rear_force"), None],
-                                 ["friction force at the end / N", run.quantity("friction_force"), None]], "Conical extrusion"))
+                                 ["friction force at the end / N", run.quantity("friction_force"), None],
+                                 ["roughness (RMS of second differences over RMS) of the friction force", roughness(run.history, "friction_force"),
+                                  None],
+                                 ["roughness of the extrusion force", roughness(run.history, "rear_force"), None]], "Conical extrusion"))
         parts.append(own_checks(run))
         for figure_name, quantity, name in (("Figure 12", "rear_force", "extrusion force"), ("Figure 13", "friction_force", "friction force")):
             if quantity in run.history:

@@ -29,15 +29,22 @@ def frame(axes, points, names):
 def on_mesh(figure, axes, fields, values, label, names=("x", "y"), lying=False):
     """Values of cells, each in one colour, or of nodes, linear between them, on the deformed mesh. Colours begin at 0. lying: y to the right."""
     position = fields.position[:, ::-1] if lying else fields.position
-    polygons = [position[cell] for cell in fields.cells]
-    frame(axes, position, names[::-1] if lying else names)
+    cells = [cell for cell, inside in zip(fields.cells, fields.inside) if inside]
+    polygons = [position[cell] for cell in cells]
+    frame(axes, np.concatenate(polygons), names[::-1] if lying else names)
+    of_cells = len(values) == len(fields.cells)
+    if of_cells:
+        values = values[fields.inside]
     limits = {"vmin": min(0.0, values.min()), "vmax": values.max()}
-    if len(values) == len(fields.cells):
+    for cell, inside in zip(fields.cells, fields.inside):
+        if not inside:
+            axes.plot(*position[cell].T, color="black", linestyle="-", linewidth=1.2)
+    if of_cells:
         drawn = PolyCollection(polygons, array=values, cmap="cividis", rasterized=len(polygons) > DRAWN_AS_LINES)
         drawn.set_clim(**limits)
         axes.add_collection(drawn)
     else:
-        triangles = [cell[[0, i, i + 1]] for cell in fields.cells for i in range(1, len(cell) - 1)]
+        triangles = [cell[[0, i, i + 1]] for cell in cells for i in range(1, len(cell) - 1)]
         mesh = Triangulation(position[:, 0], position[:, 1], triangles)
         drawn = axes.tripcolor(mesh, values, shading="gouraud", cmap="cividis", rasterized=True, **limits)
     mesh_lines(axes, polygons)

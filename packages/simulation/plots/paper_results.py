@@ -6,7 +6,7 @@ import os
 import numpy as np
 
 directory = sys.argv[1]
-NODES = {4: 3, 5: 4}  # XDMF's numbers of triangle and quadrilateral
+POLYLINE, NODES = 2, {4: 3, 5: 4}  # XDMF's numbers: a polyline, whose number of nodes follows; triangle and quadrilateral
 TENSOR = ("xx", "xy", "xz", "yy", "yz", "zz")
 
 
@@ -39,9 +39,13 @@ class Fields:
             topology = file["mesh/topology"][:]
         self.cells, at = [], 0
         while at < len(topology):
-            count = NODES[int(topology[at])]
-            self.cells.append(topology[at + 1 : at + 1 + count])
-            at += 1 + count
+            kind = int(topology[at])
+            at += 2 if kind == POLYLINE else 1
+            count = int(topology[at - 1]) if kind == POLYLINE else NODES[kind]
+            self.cells.append(topology[at : at + count])
+            at += count
+        # Profiles of rigid bodies are lines; all others have an inside.
+        self.inside = np.array([len(cell) > 2 for cell in self.cells])
         self.displacement = self.values["displacement"][:, :2]
         self.position = self.reference + self.displacement
 
@@ -106,13 +110,18 @@ class Run:
         return [len(step["newton"]) - 1 for step in self.summary.get("steps", [])]
 
     def residuals(self, time):
-        """Relative momentum residuals of the iterations 1, 2, ... of the step that ended at `time`, of its last try."""
+        """Relative momentum residuals of the iterations 0 (before the first), 1, ... of the step that ended at `time`, of its last try. The table has 0
+        for what may be round-off: there the absolute one is taken over the force that the last other one is relative to."""
         n = self.newton
         ends = np.isclose(n["time"], time, rtol=0, atol=1e-9)
         if not ends.any():
             return []
-        last = ends & (n["try"] == n["try"][ends].max())
-        return list(n["momentum"][last & (n["iteration"] >= 1)])
+        rows = ends & (n["try"] == n["try"][ends].max())
+        relative, absolute = n["momentum"][rows], n["momentum_absolute"][rows]
+        known = np.flatnonzero(relative > 0)
+        if len(known) == 0:
+            return list(relative)
+        return list(np.where(relative > 0, relative, absolute * relative[known[-1]] / absolute[known[-1]]))
 
 
 with open(os.path.join(directory, "paper.json"), encoding="utf-8") as file:

@@ -42,15 +42,16 @@ def residual_table(found):
     rows = []
     for increment, (mortar, lagrange) in PAPER_RESIDUALS.items():
         ours = [[100 * one for one in run.residuals(run.history["time"][-1] * increment / INCREMENTS)] for run in found]
-        for i in range(max([len(mortar), len(lagrange)] + [len(one) for one in ours])):
-            cell = lambda values: f"{values[i]:.2e}" if i < len(values) else ""
-            rows.append([f"{increment}, {i + 1}", *[cell(one) for one in ours], cell(mortar), "later", cell(lagrange)])
+        for i in range(max([len(mortar) + 1, len(lagrange) + 1] + [len(one) for one in ours])):
+            cell = lambda values, i: f"{values[i]:.2e}" if 0 <= i < len(values) else ""
+            rows.append([f"{increment}, {i}", *[cell(one, i) for one in ours], cell(mortar, i - 1), "later", cell(lagrange, i - 1)])
     head = ["increment, iteration"] + [f"ours, {FORMS[run.name]}" for run in found] + OTHERS
     return html_table(head, rows, "Table 2, second half: relative residual norm in %")
 
 
 def hertz_plastic():
-    parts = [paragraph("The same at 12.5 kN per mm in 200 increments, with both hardening laws. The paper finds plastic strains on both sides of the contact.")]
+    parts = [paragraph("The same at 12.5 kN per mm in 200 increments, with both hardening laws. The paper finds plastic strains on both sides",
+                       "of the contact.")]
     found = complete(*FORMS)
     if not found:
         return parts
@@ -64,8 +65,8 @@ def hertz_plastic():
     parts += [first_half_of_table_two(found), residual_table(found)]
     parts.append(paragraph("What the paper's displacements are is not said: taken is the displacement of the contact point; the block's",
                            "deformation is that against its fixed bottom, the cylinder's that of its diameter against the contact point.",
-                           "Residuals: ours are those after each iteration over the largest of internal, external and contact forces; what the",
-                           "paper's are relative to is not said."))
+                           "Residuals: ours are those after each iteration, 0 being the start, over the largest of internal, external and",
+                           "contact forces; what the paper's are relative to is not said, nor whether its first one is that after an iteration."))
     parts.append(paragraph("The paper's displacements and contact length belong to a practically rigid cylinder on a practically elastic block",
                            "(Hertz with such a cylinder: a = 3.191 mm) and cannot come from the stated materials, of which the block yields",
                            "from about 1.2 kN/mm on. The iteration counts and their quadratic decay can be compared."))

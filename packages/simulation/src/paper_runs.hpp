@@ -25,4 +25,7 @@ struct PaperRun {
 /// The runs in the order of the paper.
 const std::vector<PaperRun>& paper_runs();
 
+/// The run's scene.
+const PaperScene& scene_of(const PaperRun& run);
+
 }  // namespace mortise

@@ -21,11 +21,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const PaperScene& scene_of(const PaperRun& run) {
-  const auto& scenes = paper_scenes();
-  return *std::find_if(scenes.begin(), scenes.end(), [&](const PaperScene& scene) { return scene.name == run.scene; });
-}
-
 /// What decides on the results of a run, and so whether those of an earlier one can be taken.
 Json identity(const PaperRun& run, const PaperOptions& options) {
   return {{"name", run.name},       {"scene", run.scene},       {"text", scene_of(run).text},
@@ -107,6 +102,7 @@ ExitCode run_paper(const RCP<const Communicator>& comm, const PaperOptions& opti
   OutputDirectory directory(comm, options.directory, false);
   const std::string page = directory.file("paper.html");
   require_python(*comm, page);
+  for (const char* old : {"paper.html", "paper.json"}) std::filesystem::remove(directory.file(old));
   OutputDirectory scenes(comm, directory.file("scenes"), false);
 
   std::vector<PaperRun> wanted;
@@ -120,7 +116,8 @@ ExitCode run_paper(const RCP<const Communicator>& comm, const PaperOptions& opti
     log.info(fmt::format("{}/{} {} ...", i + 1, wanted.size(), run.name));
     Json result = run_one(comm, run, options, directory.path());
     log.info(fmt::format("{}/{} {}: {}", i + 1, wanted.size(), run.name, how_it_ended(result)));
-    if (result.at("exit") != 0) log.warning(fmt::format("{}: {}", run.name, result.at("said").get<std::string>()));
+    const std::string said = result.at("said");
+    if (result.at("exit") != 0) log.warning(run.name + ": " + (said.empty() ? "the page says why" : said));
     record["runs"].push_back(std::move(result));
   }
   write_json(*comm, directory.file("paper.json"), record);
