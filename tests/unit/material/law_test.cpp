@@ -12,7 +12,7 @@ namespace {
 
 template <class Kind>
 class EveryLaw : public testing::Test {};
-using Kinds = testing::Types<Hencky, NeoHooke, StVenantKirchhoff, SmallStrainLinear>;
+using Kinds = testing::Types<Hencky, NeoHooke, CiarletNeoHooke, StVenantKirchhoff, SmallStrainLinear>;
 TYPED_TEST_SUITE(EveryLaw, Kinds);
 
 TYPED_TEST(EveryLaw, StressIsTheDerivativeOfTheEnergy) {
@@ -58,7 +58,7 @@ TYPED_TEST(EveryLaw, ObeysHookesLawAtTheReferenceState) {
 
 template <class Kind>
 class FiniteStrainLaw : public testing::Test {};
-using FiniteStrainKinds = testing::Types<Hencky, NeoHooke, StVenantKirchhoff>;
+using FiniteStrainKinds = testing::Types<Hencky, NeoHooke, CiarletNeoHooke, StVenantKirchhoff>;
 TYPED_TEST_SUITE(FiniteStrainLaw, FiniteStrainKinds);
 
 TYPED_TEST(FiniteStrainLaw, IsObjective) {

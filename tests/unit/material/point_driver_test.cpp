@@ -28,6 +28,7 @@ Path stretched_by(const std::string& stretch, int steps) {
 std::vector<std::pair<std::string, Law>> every_law() {
   std::vector<std::pair<std::string, Law>> laws{{Hencky::name, Hencky(soft)},
                                                 {NeoHooke::name, NeoHooke(soft)},
+                                                {CiarletNeoHooke::name, CiarletNeoHooke(soft)},
                                                 {StVenantKirchhoff::name, StVenantKirchhoff(soft)},
                                                 {SmallStrainLinear::name, SmallStrainLinear(soft)}};
   for (const auto& [name, hardening] : every_hardening()) laws.emplace_back("j2 " + name, FiniteJ2(soft, hardening));

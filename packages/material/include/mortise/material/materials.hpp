@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "mortise/core/parameters.hpp"
+#include "mortise/material/ciarlet_neo_hooke.hpp"
 #include "mortise/material/finite_j2.hpp"
 #include "mortise/material/hencky.hpp"
 #include "mortise/material/history.hpp"
@@ -14,7 +15,7 @@
 namespace mortise {
 
 /// Every law there is. Element loops are instantiated for each of them.
-using Law = std::variant<Hencky, NeoHooke, StVenantKirchhoff, SmallStrainLinear, FiniteJ2>;
+using Law = std::variant<Hencky, NeoHooke, CiarletNeoHooke, StVenantKirchhoff, SmallStrainLinear, FiniteJ2>;
 
 /// A material of a scene.
 struct MaterialOptions : Described {
