@@ -48,7 +48,10 @@ std::vector<ConvergenceCriterion> convergence_criteria(const NewtonOptions& opti
     criteria.push_back({fmt::format("{} (tolerance {:.1e})", name, tolerance), [=](const NewtonIteration& at) { return at.norms.*norm <= tolerance; },
                         [=](const NewtonIteration& at) { return fmt::format("{:.2e}", at.norms.*norm); }});
   };
-  bounded("momentum", &ResidualNorms::momentum, options.momentum_tolerance);
+  const auto is_round_off = [](const ResidualNorms& norms) { return norms.momentum_absolute <= norms.round_off; };
+  criteria.push_back({fmt::format("momentum (tolerance {:.1e})", options.momentum_tolerance),
+                      [=](const NewtonIteration& at) { return at.norms.momentum <= options.momentum_tolerance || is_round_off(at.norms); },
+                      [](const NewtonIteration& at) { return fmt::format("{:.2e}", at.norms.momentum); }});
   bounded("prescribed displacements", &ResidualNorms::prescribed, options.increment_tolerance);
   bounded("gap", &ResidualNorms::gap, options.gap_tolerance);
   bounded("complementarity", &ResidualNorms::complementarity, options.complementarity_tolerance);
@@ -57,7 +60,7 @@ std::vector<ConvergenceCriterion> convergence_criteria(const NewtonOptions& opti
   criteria.push_back({fmt::format("increment (tolerance {:.1e})", options.increment_tolerance),
                       [=](const NewtonIteration& at) {
                         const bool small = at.iteration > 0 && at.increment <= options.increment_tolerance * length;
-                        return small || at.norms.momentum <= 1e-3 * options.momentum_tolerance;
+                        return small || at.norms.momentum <= 1e-3 * options.momentum_tolerance || (at.iteration > 0 && is_round_off(at.norms));
                       },
                       [=](const NewtonIteration& at) { return fmt::format("{:.2e}", at.increment / length); }});
   // The starting point has no active set before it; its complementarity has been tested above.

@@ -269,9 +269,9 @@ void SemiSmoothSystem::residual(const Vector& x, Vector& F, ResidualNorms& norms
   }
   norms.momentum_absolute = r->norm2();
   force = std::max(force, round_off_floor * self.stiffness_scale * d->norm2());
-  // Contact forces come from positions, which know no more than eps |x|: a residual below what that makes of n closed nodes counts as none.
-  const double round_off = 4.0 * std::numeric_limits<double>::epsilon() * self.stiffness_scale * self.parts.length * std::sqrt(norms.active);
-  norms.momentum = norms.momentum_absolute <= round_off ? 0.0 : norms.momentum_absolute / force;
+  norms.momentum = norms.momentum_absolute == 0.0 ? 0.0 : norms.momentum_absolute / force;
+  // F = I + grad u is known to eps, and so are stresses, to eps E; contact forces come from positions, known to eps |x| at each closed node.
+  norms.round_off = 4.0 * std::numeric_limits<double>::epsilon() * self.stiffness_scale * self.parts.length * std::sqrt(1.0 + norms.active);
   Teuchos::reduceAll(self.comm(), Teuchos::REDUCE_MAX, largest / self.parts.length, Teuchos::outArg(norms.prescribed));
   {
     const auto rows = r->getLocalViewHost(Tpetra::Access::ReadWrite);

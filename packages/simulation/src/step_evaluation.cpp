@@ -26,7 +26,8 @@ std::vector<std::string> StepEvaluation::names() const {
 }
 
 QuantityContext StepEvaluation::context() const {
-  QuantityContext context{*model_.bodies(), model_.contact().get(), {}};
+  QuantityContext context{*model_.bodies()};
+  context.contact = model_.contact().get();
   for (const auto& pair : scene_.contact) context.pairs.push_back({pair.name, pair.value.slave.value, pair.value.master.value});
   context.prescribed = &model_.parts().prescribed->dofs();
   context.symbols = &scene_.symbols;

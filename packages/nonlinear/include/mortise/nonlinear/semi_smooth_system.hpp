@@ -18,6 +18,7 @@ namespace mortise {
 struct ResidualNorms {
   double momentum = 0.0;  ///< |r| on free dofs relative to max(|f_int|, |f_ext|, |f_c|, 1e-6 s |d|), reactions included
   double momentum_absolute = 0.0;
+  double round_off = 0.0;   ///< what round-off alone leaves of momentum_absolute
   double prescribed = 0.0;  ///< max |d - prescribed| and |d - what it follows|, relative to the size of the model
   double gap = 0.0, complementarity = 0.0;
   double merit = 0.0;  ///< (|r|^2 + |s (d - prescribed)|^2 + sum_j |A_j C_j|^2)^1/2, a force; infinite if that is not finite
