@@ -19,8 +19,8 @@ struct PairSurfaces {
 /// What a quantity may look at. The vectors are null while quantities are prepared.
 struct QuantityContext {
   const Bodies& bodies;
-  ContactSystem* contact = nullptr;  ///< evaluated at `displacement`; null: the scene has no contact
-  std::vector<PairSurfaces> pairs;   ///< in the order of `contact`
+  ContactSystem* contact = nullptr;   ///< evaluated at `displacement`; null: the scene has no contact
+  std::vector<PairSurfaces> pairs{};  ///< in the order of `contact`
   double time = 0.0;
   const Vector* displacement = nullptr;        ///< owned dofs
   const Vector* local_displacement = nullptr;  ///< owned dofs, then ghosts
@@ -29,8 +29,8 @@ struct QuantityContext {
   const Vector* external_force = nullptr;      ///< f_ext on owned dofs
   const std::vector<LocalOrdinal>* prescribed = nullptr;  ///< prescribed owned dofs
   const Symbols* symbols = nullptr;                       ///< variables and tables of the scene
-  std::vector<std::string> earlier;                       ///< quantities that the scene names before this one
-  std::vector<double> earlier_values;                     ///< theirs at this time; empty while quantities are prepared
+  std::vector<std::string> earlier{};                     ///< quantities that the scene names before this one
+  std::vector<double> earlier_values{};                   ///< theirs at this time; empty while quantities are prepared
 
   const Mesh& mesh() const { return *bodies.mesh(); }
 };
