@@ -1,6 +1,6 @@
 #include "body_set.hpp"
 
-#include <algorithm>
+#include "interval.hpp"
 
 namespace mortise {
 
@@ -16,13 +16,9 @@ BodySet::BodySet(const std::vector<BodyDescription>& bodies) {
   }
 }
 
-int BodySet::body_of_node(GlobalOrdinal node) const {
-  return static_cast<int>(std::upper_bound(first_node_.begin(), first_node_.end(), node) - first_node_.begin()) - 1;
-}
+int BodySet::body_of_node(GlobalOrdinal node) const { return interval(first_node_, node); }
 
-int BodySet::body_of_element(GlobalOrdinal element) const {
-  return static_cast<int>(std::upper_bound(first_element_.begin(), first_element_.end(), element) - first_element_.begin()) - 1;
-}
+int BodySet::body_of_element(GlobalOrdinal element) const { return interval(first_element_, element); }
 
 std::array<GlobalOrdinal, 4> BodySet::element_nodes(GlobalOrdinal element) const {
   const int body = body_of_element(element);

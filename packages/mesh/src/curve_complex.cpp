@@ -2,15 +2,9 @@
 
 #include <algorithm>
 
+#include "interval.hpp"
+
 namespace mortise {
-namespace {
-
-/// Index of the interval [offsets[k], offsets[k+1]) that holds `number`.
-int interval(const std::vector<GlobalOrdinal>& offsets, GlobalOrdinal number) {
-  return static_cast<int>(std::upper_bound(offsets.begin(), offsets.end(), number) - offsets.begin()) - 1;
-}
-
-}  // namespace
 
 CurveComplex::CurveComplex(std::vector<Point> corners, std::vector<Edge> edges, const std::vector<std::string>& names, Placement placement)
     : corners_(std::move(corners)), edges_(std::move(edges)), placement_(placement) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "interval.hpp"
 #include "mortise/mesh/curve_complex.hpp"
 
 namespace mortise {
@@ -15,11 +16,6 @@ using boost::math::constants::pi;
 
 /// Corners between which the four sides of a patch run in the direction of growing i or j.
 constexpr std::array<std::array<int, 2>, 4> side_corners{{{0, 1}, {1, 2}, {3, 2}, {0, 3}}};
-
-/// Index of the interval [offsets[k], offsets[k+1]) that holds `number`.
-int interval(const std::vector<GlobalOrdinal>& offsets, GlobalOrdinal number) {
-  return static_cast<int>(std::upper_bound(offsets.begin(), offsets.end(), number) - offsets.begin()) - 1;
-}
 
 Point along(const Point& a, const Point& b, double s) { return {(1.0 - s) * a[0] + s * b[0], (1.0 - s) * a[1] + s * b[1]}; }
 

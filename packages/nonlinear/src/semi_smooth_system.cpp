@@ -21,15 +21,6 @@ namespace {
 // rigidly is measured against it instead of against nothing.
 constexpr double round_off_floor = 1e-6;
 
-bool same_values(const Vector& a, const Vector& b) {
-  const auto u = a.getLocalViewHost(Tpetra::Access::ReadOnly), v = b.getLocalViewHost(Tpetra::Access::ReadOnly);
-  int same = 1, everywhere = 1;
-  for (std::size_t i = 0; i < u.extent(0); ++i)
-    if (u(i, 0) != v(i, 0)) same = 0;
-  Teuchos::reduceAll(*a.getMap()->getComm(), Teuchos::REDUCE_MIN, same, Teuchos::outArg(everywhere));
-  return everywhere == 1;
-}
-
 RCP<const Map> map_of_both(const Map& dofs, const Map& multipliers) {
   std::vector<GlobalOrdinal> ids;
   for (const GlobalOrdinal id : dofs.getNodeElementList()) ids.push_back(id);
@@ -118,7 +109,7 @@ struct SemiSmoothSystem::Implementation {
   }
 
   void evaluate_contact(const Vector& displacement, bool derivatives) {
-    if (derivatives && !contact_at.is_null() && same_values(displacement, *contact_at)) return;
+    if (derivatives && !contact_at.is_null() && detail::same_values(displacement, *contact_at)) return;
     contact_at = Teuchos::null;
     std::optional<StepFailure> failure;
     parts.contact->evaluate(displacement, derivatives, failure);

@@ -21,6 +21,11 @@ inline constexpr double youngs_modulus = 100.0, poissons_ratio = 0.25, thickness
 inline constexpr double lambda = 40.0, mu = 40.0;  // of the constants above
 inline constexpr int upper_cells = 5;
 
+/// u of uniform strain: xx 0.01, yy -0.02, u_x,y = 0.006.
+inline Point uniform_strain(const Point& X) { return {0.01 * X[0] + 0.006 * X[1], -0.02 * X[1]}; }
+inline constexpr double stress_xx = lambda * -0.01 + 2.0 * mu * 0.01, stress_yy = lambda * -0.01 + 2.0 * mu * -0.02, stress_zz = lambda * -0.01,
+                        stress_xy = mu * 0.006;
+
 /// "lower" [0, 4] x [0, 1] of 4 x 2 squares and "upper" [0, 4] x [1, 2] of 10 x 4 triangles; the underside of "upper" is the slave.
 class TwoBlocks {
  public:
