@@ -15,6 +15,9 @@ void refuse_shared_nodes(const Map& owned_nodes, const std::vector<ContactPair>&
     slave.push_back(nodes_on_surface(nodes, pair.slave));
     master.push_back(nodes_on_surface(nodes, pair.master));
   }
+  const auto eliminated = [&](std::size_t p) { return pairs[p].options.formulation.options->elimination() == Elimination::momentum; };
+  bool kept = false;
+  for (const ContactPair& pair : pairs) kept |= pair.options.formulation.options->elimination() == Elimination::none;
   std::vector<Diagnostic> diagnostics;
   const auto first_common = [&](const std::vector<char>& one, const std::vector<char>& other) -> std::optional<GlobalOrdinal> {
     for (std::size_t node = 0; node < one.size(); ++node)
@@ -30,6 +33,7 @@ void refuse_shared_nodes(const Map& owned_nodes, const std::vector<ContactPair>&
               {pairs[q].place, fmt::format("node {} is a slave here and in pair \"{}\"; a node can be slave in one pair only: make this side "
                                            "the master of one of them, or split the surface into sets without common nodes",
                                            *node, pairs[p].name)});
+      if (kept || (!eliminated(p) && !eliminated(q))) continue;
       if (const auto node = first_common(slave[p], master[q]))
         diagnostics.push_back(
             {pairs[p].place, fmt::format("node {} is a slave here and a master in pair \"{}\"; its multiplier could not be eliminated: split the "

@@ -78,6 +78,48 @@ void ContactSystem::add_stiffness(const Vector& z, Matrix& system) {
   self.scatter->finish(system);
 }
 
+// Conditions that give z as a function of d, of a node j:  z^{k+1} = b + S dd,  b = z - C_z^-1 C,  S = -C_z^-1 C_d.
+// Its rows and those of the nodes m it is coupled to:  A_m += c_jm S,  rhs_m -= c_jm b.
+void ContactSystem::eliminate_by_law(std::size_t p, const Vector& z, Matrix& system, Vector& rhs) {
+  Implementation& self = *implementation_;
+  const auto z_values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
+  const PairCoupling& pair = *self.pairs[p];
+  const NodePositions& positions = self.scatter->positions(p);
+  std::vector<double> values;
+  for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
+    if (self.multiplier_of[p][s] < 0) continue;
+    const Eigen::Vector2d zs = self.z_of(z_values, p, s);
+    const Complementarity law = pair.complementarity(s, zs);
+    if (law.state == ContactState::open) continue;
+    const NodeRow& node = pair.rows()[s];
+    const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
+
+    RecoveryRow recovery;
+    recovery.multiplier = self.multiplier_of[p][s];
+    for (const LocalOrdinal c : coupled)
+      for (int i = 0; i < 2; ++i) recovery.columns.push_back(positions.column[2 * c + i]);
+    const Eigen::Matrix2d inverse = law.C_z.inverse();
+    recovery.b = zs - inverse * law.C;
+    for (auto& row : recovery.S) row.resize(recovery.columns.size());
+    for (std::size_t c = 0; c < recovery.columns.size(); ++c) {
+      const Eigen::Vector2d slope = -inverse * pair.constraint_gradient(law, s, c);
+      for (int i = 0; i < 2; ++i) recovery.S[i][c] = slope[i];
+    }
+    const auto add = [&](LocalOrdinal m, double coefficient) {
+      if (coefficient == 0.0) return;
+      for (int i = 0; i < 2; ++i) {
+        values = recovery.S[i];
+        for (double& value : values) value *= coefficient;
+        self.scatter->add(system, positions, m, i, recovery.columns, values);
+        self.scatter->add(rhs, positions, m, i, -coefficient * recovery.b[i]);
+      }
+    };
+    add(pair.slave_nodes()[s].local_node, node.D);
+    for (std::size_t c = 0; c < coupled.size(); ++c) add(coupled[c], node.coefficients[c]);
+    self.recovery.push_back(std::move(recovery));
+  }
+}
+
 // For a closed node j with the linearised momentum rows  D z = rhs_j - K~_j dd  (rhs = -r without f_c, free components) and the linearised
 // C_tau = 0  (fixed components):
 //   z^{k+1} = b + S dd.
@@ -94,6 +136,10 @@ void ContactSystem::condense(const Vector& z, Matrix& system, Vector& rhs) {
 
   std::vector<double> momentum[2], constraint[2], row_values[2];
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
+    if (self.pairs[p]->formulation().elimination() == Elimination::law) {
+      eliminate_by_law(p, z, system, rhs);
+      continue;
+    }
     const PairCoupling& pair = *self.pairs[p];
     const NodePositions& positions = self.scatter->positions(p);
     for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
@@ -118,10 +164,7 @@ void ContactSystem::condense(const Vector& z, Matrix& system, Vector& rhs) {
       // Linearised complementarity: constraint . dd + (C - C_z z) + C_z z^{k+1} = 0
       for (int i = 0; i < 2; ++i) constraint[i].assign(columns.size(), 0.0);
       for (int a = 0; a < 2; ++a)
-        add_gradient(columns, constraint[a], coupled, positions,
-                     [&](std::size_t c) { return law.gap_factor[a] * node.dgap[c] + law.normal_factor.row(a).dot(node.dnormal.col(c)); });
-      if (law.slip_factor != 0.0)
-        add_gradient(columns, constraint[1], coupled, positions, [&](std::size_t c) { return law.slip_factor * node.dslip[c]; });
+        add_gradient(columns, constraint[a], coupled, positions, [&](std::size_t c) { return pair.constraint_gradient(law, s, c)[a]; });
       const Eigen::Vector2d constant = law.C - law.C_z * zs;
 
       // E z^{k+1} = e - L dd, one row for each component: momentum where free, C_tau where fixed.

@@ -16,6 +16,11 @@
 namespace mortise {
 
 namespace {
+/// The list "formulation" of a pair.
+struct FormulationList {
+  Choice<Formulation>& formulation;
+  void describe(Parameters& parameters) { parameters.choose(formulation, formulation_registry(), "how contact is discretised and enforced"); }
+};
 /// The list "friction" of a pair.
 struct FrictionList {
   Choice<FrictionLaw>& friction;
@@ -32,6 +37,8 @@ void ContactOptions::describe(Parameters& parameters) {
                      .unit("stress / length")
                      .above(0.0));
   mortar.describe(parameters);
+  FormulationList formulation_list{formulation};
+  parameters.list("formulation", formulation_list, "how contact is discretised and enforced");
   FrictionList list{friction};
   parameters.list("friction", list, "shear tractions of closed nodes");
 }
@@ -64,12 +71,17 @@ ContactSystem::ContactSystem(RCP<const Map> owned_nodes, RCP<const Map> dofs, RC
   self.owned_nodes = std::move(owned_nodes);
   self.dofs = std::move(dofs);
   self.reference = std::move(reference);
+  self.fixed = fixed;
   self.timers = timers;
   self.extent = 0.0;
   for (std::size_t i = 0; i < self.reference->getNumVectors(); ++i) self.extent = std::max(self.extent, self.reference->getVector(i)->normInf());
   detail::refuse_shared_nodes(*self.owned_nodes, pairs);
-  for (ContactPair& pair : pairs)
+  for (ContactPair& pair : pairs) {
+    const Formulation& formulation = *pair.options.formulation.options;
+    pair.options.mortar.coupling = formulation.coupling();
+    pair.options.mortar.share = formulation.two_pass() ? 0.5 : 1.0;
     self.pairs.push_back(std::make_unique<detail::PairCoupling>(self.owned_nodes, self.reference, fixed, measure, std::move(pair)));
+  }
 
   // Ids of z: those of the nodes' dofs, beyond all dofs.
   const GlobalOrdinal offset = self.dofs->getMaxAllGlobalIndex() + 1;
@@ -93,7 +105,17 @@ ContactSystem::~ContactSystem() = default;
 
 std::size_t ContactSystem::pairs() const { return implementation_->pairs.size(); }
 const std::string& ContactSystem::pair_name(std::size_t pair) const { return implementation_->pairs[pair]->definition().name; }
+std::optional<std::size_t> ContactSystem::second_pass(std::size_t pair) const {
+  const auto& pairs = implementation_->pairs;
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    if (pairs[p]->definition().second_pass_of == pair) return p;
+  return std::nullopt;
+}
 ContactGeometry ContactSystem::geometry(std::size_t pair) const { return implementation_->pairs[pair]->definition().options.geometry; }
+bool ContactSystem::keeps_multipliers() const {
+  const auto& pairs = implementation_->pairs;
+  return std::any_of(pairs.begin(), pairs.end(), [](const auto& pair) { return pair->formulation().elimination() == Elimination::none; });
+}
 const RCP<const Map>& ContactSystem::multiplier_map() const { return implementation_->multipliers; }
 
 void ContactSystem::evaluate(const Vector& d, bool derivatives, std::optional<StepFailure>& failure) {
@@ -193,6 +215,17 @@ void ContactSystem::complementarity(const Vector& z, Vector& C) const {
     }
 }
 
+RCP<Vector> ContactSystem::weights() const {
+  const Implementation& self = *implementation_;
+  const auto result = rcp(new Vector(self.multipliers));
+  const auto view = result->getLocalViewHost(Tpetra::Access::OverwriteAll);
+  for (std::size_t p = 0; p < self.pairs.size(); ++p)
+    for (std::size_t s = 0; s < self.multiplier_of[p].size(); ++s)
+      for (int i = 0; i < 2; ++i)
+        if (const LocalOrdinal first = self.multiplier_of[p][s]; first >= 0) view(first + i, 0) = self.pairs[p]->slave_nodes()[s].weight;
+  return result;
+}
+
 ContactNorms ContactSystem::norms(const Vector& z) const {
   const Implementation& self = *implementation_;
   const auto scope = self.timers.scope("contact");
@@ -214,7 +247,7 @@ ContactNorms ContactSystem::norms(const Vector& z) const {
       squares += std::pow(pair.slave_nodes()[s].weight, 2) * C.squaredNorm();
       traction = std::max(traction, zs.norm());
       violation = std::max(violation, closed ? std::abs(C[1]) : C.norm());
-      if (closed) gap = std::max(gap, std::abs(pair.rows()[s].gap) / (pair.slave_nodes()[s].weight * pair.size()));
+      if (closed && !pair.regularisation()) gap = std::max(gap, std::abs(pair.rows()[s].gap) / (pair.slave_nodes()[s].weight * pair.size()));
       active += closed;
       sticking += law.state == ContactState::stick;
       changed += law.state != self.marked[p][s];
@@ -256,10 +289,35 @@ void ContactSystem::mark_states(const Vector& z) { implementation_->marked = imp
 void ContactSystem::accept_states(const Vector& z) {
   Implementation& self = *implementation_;
   self.accepted = self.states(z);
-  for (std::size_t p = 0; p < self.pairs.size(); ++p)
+  const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (std::size_t p = 0; p < self.pairs.size(); ++p) {
+    self.pairs[p]->accept_multipliers([&](std::size_t s) { return self.z_of(values, p, s); });
     if (self.pairs[p]->friction() != nullptr)
       for (std::size_t s = 0; s < self.accepted[p].size(); ++s) self.pairs[p]->accept_slip(s, self.accepted[p][s]);
+  }
   self.take_slip_references();
+}
+
+Augmentation ContactSystem::augment(const Vector& z, int round) {
+  Implementation& self = *implementation_;
+  const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
+  Augmentation result;
+  for (std::size_t p = 0; p < self.pairs.size(); ++p) {
+    detail::PairCoupling& pair = *self.pairs[p];
+    if (!pair.regularisation() || pair.regularisation()->augmentations == 0) continue;
+    double mine = 0.0;
+    for (std::size_t s = 0; s < pair.rows().size(); ++s) mine = std::max(mine, pair.violation(s, self.z_of(values, p, s)));
+    const double violation = self.maximum(mine);
+    if (violation <= pair.regularisation()->tolerance) continue;
+    result.more = true;
+    result.exhausted |= round > pair.regularisation()->augmentations;
+    if (violation > result.violation) {
+      result.violation = violation;
+      result.pair = pair.definition().name;
+    }
+    for (std::size_t s = 0; s < pair.rows().size(); ++s) pair.augment(s, self.z_of(values, p, s));
+  }
+  return result;
 }
 
 long ContactSystem::friction_bytes() const {
@@ -303,13 +361,13 @@ std::vector<ContactNodeState> ContactSystem::node_states(std::size_t pair, const
     state.covered = row.covered;
     state.shear = zs.dot(tangent(row.normal));
     if (self.pairs[pair]->friction() != nullptr && row.D > 0.0) {
-      state.slip = row.slip / row.D;
+      state.slip = row.slip / row.covered;
       state.slip_path = self.pairs[pair]->slip_histories()[s].accepted.path;
       if (state.closed)
         state.shear_bound =
             self.pairs[pair]->friction()->bound(std::max(0.0, state.pressure), self.pairs[pair]->slip_histories()[s].start.path).value;
     }
-    state.force = {row.D * zs[0], row.D * zs[1]};
+    state.force = {row.covered * zs[0], row.covered * zs[1]};
     states.push_back(state);
   }
   return states;
@@ -320,7 +378,11 @@ std::array<double, 2> ContactSystem::resultant(std::size_t pair, const Vector& z
   const Implementation& self = *implementation_;
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
   Eigen::Vector2d mine = Eigen::Vector2d::Zero();
-  for (std::size_t s = 0; s < self.multiplier_of[pair].size(); ++s) mine -= self.pairs[pair]->rows()[s].covered * self.z_of(values, pair, s);
+  const auto subtract = [&](std::size_t p, double sign) {
+    for (std::size_t s = 0; s < self.multiplier_of[p].size(); ++s) mine -= sign * self.pairs[p]->rows()[s].covered * self.z_of(values, p, s);
+  };
+  subtract(pair, 1.0);
+  if (const auto other = second_pass(pair)) subtract(*other, -1.0);  // its slave side is the master here
   return {self.sum(mine[0]), self.sum(mine[1])};
 }
 

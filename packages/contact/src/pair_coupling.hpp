@@ -7,6 +7,7 @@
 
 #include "mortise/contact/complementarity.hpp"
 #include "mortise/contact/contact_system.hpp"
+#include "mortise/contact/regularised.hpp"
 
 namespace mortise::detail {
 
@@ -25,6 +26,7 @@ struct NodeRow {
   Eigen::Matrix<double, 2, Eigen::Dynamic> dnormal;  ///< [2 x 2 coupled nodes]; empty without derivatives
   double slip = 0.0;                                 ///< weighted slip u_j since the start of the step; friction only
   PositionGradient dslip;                            ///< [2 coupled nodes]; empty without derivatives or friction
+  PositionGradient dcovered;                         ///< [2 coupled nodes]; regularised pairs only
 };
 
 /// What a slip is measured against: the couplings of a slave node in an accepted state.
@@ -54,12 +56,19 @@ class PairCoupling {
 
   /// Takes the couplings of the last evaluate(), at an accepted state, as those that later slips are measured against. Friction only.
   void take_slip_reference();
-  /// A step starts from the accepted state. Friction only.
-  void start_slip();
+  /// A step starts from the accepted state.
+  void start_step();
+  /// Regularised pairs: what multipliers start from in the next step. `z` gives those of slave node s.
+  template <class Multiplier>
+  void accept_multipliers(const Multiplier& z) {
+    for (std::size_t s = 0; s < accepted_multipliers_.size(); ++s) accepted_multipliers_[s] = in_frame(s, z(s));
+  }
   /// Adds the slip of an accepted state to the path. Friction only; take_slip_reference() follows.
   void accept_slip(std::size_t s, ContactState state);
 
   const ContactPair& definition() const { return pair_; }
+  const Formulation& formulation() const { return *pair_.options.formulation.options; }
+  const std::optional<Regularisation>& regularisation() const { return regularisation_; }
   /// Null: the pair has no friction.
   const FrictionLaw* friction() const { return friction_; }
   const std::vector<SlipHistory>& slip_histories() const { return slip_; }
@@ -78,8 +87,16 @@ class PairCoupling {
   bool covered(std::size_t s) const;
   /// Closed: covered and z_n - c_n g > 0.
   bool closed(std::size_t s, const Eigen::Vector2d& z) const;
+  /// Regularised pairs: a touching node starts closed at this pressure.
+  void set_start_pressure(std::size_t s, double pressure) { start_multipliers_[s][0] = pressure; }
+  /// How far conditions that are regularised are from holding exactly: |gap| of a closed node, |slip| of a sticking one, over h.
+  double violation(std::size_t s, const Eigen::Vector2d& z) const;
+  /// The multipliers become those of z.
+  void augment(std::size_t s, const Eigen::Vector2d& z) { start_multipliers_[s] = in_frame(s, z); }
   /// C and its linearisation, of the law that the node obeys. A node with a fixed component carries no shear traction.
   Complementarity complementarity(std::size_t s, const Eigen::Vector2d& z) const;
+  /// Derivative of C of node s, whose linearisation is `law`, in entry 2 c + i of its coupled nodes, at fixed z.
+  Eigen::Vector2d constraint_gradient(const Complementarity& law, std::size_t s, std::size_t entry) const;
 
  private:
   bool uses_reference() const { return pair_.options.geometry == ContactGeometry::reference; }
@@ -89,6 +106,9 @@ class PairCoupling {
   void place_slip_histories();
   void measure_slip(bool derivatives);
   void measure_frozen_slip();
+  void measure_covered();
+  /// What the next step keeps: nothing normal with penalty, and no shear traction without friction.
+  Eigen::Vector2d in_frame(std::size_t s, const Eigen::Vector2d& z) const;
 
   ContactPair pair_;
   RCP<const Map> owned_nodes_;
@@ -101,6 +121,8 @@ class PairCoupling {
   std::vector<NodeRow> rows_;
   const FrictionLaw* friction_ = nullptr;
   std::vector<SlipHistory> slip_;  ///< [slave nodes]; empty without friction
+  std::optional<Regularisation> regularisation_;
+  std::vector<Eigen::Vector2d> accepted_multipliers_, start_multipliers_;  ///< [slave nodes] normal, along tau; empty unless regularised
   long slip_evaluations_ = 0;
   std::vector<double> frozen_gap_;
   std::vector<LocalOrdinal> position_in_row_;

@@ -5,11 +5,19 @@
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
+#include <algorithm>
 
 #include "implementation.hpp"
 #include "mortise/core/dof_map.hpp"
 
 namespace mortise {
+
+namespace {
+bool loads(const MortarInterface& interface, std::size_t s, LocalOrdinal node) {
+  const std::vector<LocalOrdinal>& nodes = interface.loaded_nodes(s);
+  return std::binary_search(nodes.begin(), nodes.end(), node);
+}
+}  // namespace
 
 ContactSystem::SaddlePointBlocks ContactSystem::saddle_point_blocks(const Vector& z) const {
   const Implementation& self = *implementation_;
@@ -45,14 +53,14 @@ ContactSystem::SaddlePointBlocks ContactSystem::saddle_point_blocks(const Vector
         const GlobalOrdinal multiplier = self.multipliers->getGlobalElement(first + i);
         B.insertGlobalValues(2 * pair.slave_nodes()[s].id + i, 1, &row.D, &multiplier);
         for (std::size_t c = 0; c < coupled.size(); ++c)
-          if (row.coefficients[c] != 0.0) B.insertGlobalValues(2 * nodes.getGlobalElement(coupled[c]) + i, 1, &row.coefficients[c], &multiplier);
+          if (loads(pair.interface(), s, coupled[c]))
+            B.insertGlobalValues(2 * nodes.getGlobalElement(coupled[c]) + i, 1, &row.coefficients[c], &multiplier);
         const GlobalOrdinal both[2] = {self.multipliers->getGlobalElement(first), self.multipliers->getGlobalElement(first + 1)};
         const double C_z[2] = {law.C_z(i, 0), law.C_z(i, 1)};
         blocks.C_z->insertGlobalValues(multiplier, 2, C_z, both);
         for (std::size_t c = 0; c < coupled.size(); ++c)
           for (int k = 0; k < 2; ++k) {
-            double value = law.gap_factor[i] * row.dgap[2 * c + k] + law.normal_factor.row(i).dot(row.dnormal.col(2 * c + k));
-            if (i == 1 && law.slip_factor != 0.0) value += law.slip_factor * row.dslip[2 * c + k];
+            const double value = pair.constraint_gradient(law, s, 2 * c + k)[i];
             const GlobalOrdinal dof = 2 * nodes.getGlobalElement(coupled[c]) + k;
             blocks.C_d->insertGlobalValues(multiplier, 1, &value, &dof);
           }

@@ -46,7 +46,8 @@ void PairCoupling::take_slip_reference() {
   }
 }
 
-void PairCoupling::start_slip() {
+void PairCoupling::start_step() {
+  start_multipliers_ = accepted_multipliers_;
   if (friction_ == nullptr) return;
   std::vector<std::vector<GlobalOrdinal>> retained(slip_.size());
   for (std::size_t s = 0; s < slip_.size(); ++s) {
@@ -91,7 +92,8 @@ void PairCoupling::measure_slip(bool derivatives) {
       if (s >= slip_.size() || slip_[s].start.nodes.empty() || !covered(s)) continue;
       const Eigen::Vector2d tau = tangent(rows_[s].normal);
       Eigen::RowVectorXd gradient = Eigen::RowVectorXd::Zero(2 * facet.columns.size());
-      for (int k = 0; k < 2; ++k) gradient -= tau.dot(position(facet.slave[k])) * facet.dD.row(2 * j + k);
+      for (int k = 0; k < 2; ++k)
+        if (facet.slave[k] != FacetCoupling::none) gradient -= tau.dot(position(facet.slave[k])) * facet.dD.row(2 * j + k);
       for (std::size_t l = 0; l < facet.master.size(); ++l)
         gradient += tau.dot(position(facet.master[l])) * facet.dM.row(j * facet.master.size() + l);
       const std::vector<LocalOrdinal>& coupled = interface_->coupled_nodes(s);
@@ -127,7 +129,7 @@ void PairCoupling::accept_slip(std::size_t s, ContactState state) {
   SlipHistory& history = slip_[s];
   history.accepted.path = history.start.path;
   if (state == ContactState::open || history.start.nodes.empty()) return;
-  history.accepted.path += std::abs(rows_[s].slip) / rows_[s].D;
+  history.accepted.path += std::abs(rows_[s].slip) / rows_[s].covered;
 }
 
 }  // namespace mortise::detail

@@ -48,6 +48,7 @@ std::string to_string(FailureKind kind) {
     case FailureKind::material: return "material";
     case FailureKind::inverted_facet: return "inverted facet";
     case FailureKind::projection: return "projection";
+    case FailureKind::augmentation: return "augmentation";
     case FailureKind::lost_contact: return "lost contact";
     case FailureKind::linear_solver: return "linear solver";
     case FailureKind::not_finite: return "not finite";

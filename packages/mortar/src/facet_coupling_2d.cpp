@@ -21,7 +21,10 @@ constexpr double negligible_cover = 1e-12;
 }  // namespace
 
 FacetIntegrator2d::FacetIntegrator2d(const InterfaceMeasure& measure, const MortarOptions& options)
-    : measure_(measure), gap_weighting_(options.gap_weighting), rule_(gauss_legendre(options.gauss_points)) {}
+    : measure_(measure),
+      dual_multipliers_(options.coupling == Coupling::dual_mortar),
+      dual_gap_(dual_multipliers_ && options.gap_weighting == GapWeighting::dual),
+      rule_(gauss_legendre(options.gauss_points)) {}
 
 bool FacetIntegrator2d::integrate(const SlaveFacetData& slave, const std::vector<NearFacet>& masters, double reach,
                                   const std::vector<Eigen::Vector2d>& x, bool derivatives, FacetCoupling& coupling) {
@@ -105,7 +108,9 @@ void FacetIntegrator2d::chain(const SlaveFacetData& slave, FacetCoupling& coupli
 //   phi = A L,   A = D_e T^-T M_L^-1,   M_L = int L L^T,   D_e = diag int N_j = diag (T M_L 1),
 //   dA = (dD_e T^-T - A dM_L) M_L^-1.
 // T is constant: which basis of the linear functions carries the integrals does not change phi. M_L is as well conditioned on a sliver as
-// on the whole facet; the large entries of T^-T are the extrapolation that phi really is.
+// on the whole facet; the large entries of T^-T are the extrapolation that phi really is. Standard multipliers: phi = N = T L, constant in this
+// basis,
+//   D = T M_L T^T.
 bool FacetIntegrator2d::combine(const SlaveFacetData& slave, const Interval& covered, bool derivatives, FacetCoupling& coupling) const {
   const auto masters = static_cast<Eigen::Index>(coupling.master.size());
   const auto columns = 2 * static_cast<Eigen::Index>(coupling.columns.size());
@@ -146,30 +151,37 @@ bool FacetIntegrator2d::combine(const SlaveFacetData& slave, const Interval& cov
     const double full = both ? slave.weights[j] : slave.weights[0] + slave.weights[1];
     if (!(own > negligible_cover * full)) continue;
     any = true;
-    Eigen::RowVector2d a(1.0, 1.0);
-    if (both) a = weight[j] * extrapolation.row(j) * inverse;
-    const Eigen::RowVector2d w = gap_weighting_ == GapWeighting::dual ? a : both ? Eigen::RowVector2d(T.row(j)) : Eigen::RowVector2d(1.0, 1.0);
+    const Eigen::RowVector2d ones(1.0, 1.0), standard = both ? Eigen::RowVector2d(T.row(j)) : ones;
+    const bool biorthogonal = both && dual_multipliers_;
+    const Eigen::RowVector2d a = biorthogonal ? Eigen::RowVector2d(weight[j] * extrapolation.row(j) * inverse) : standard;
+    const Eigen::RowVector2d w = dual_gap_ ? a : standard;
 
     for (int k = 0; k < 2; ++k)
-      if (k == j || !both) coupling.D(j, k) = weight[k];
+      if (!both)
+        coupling.D(j, k) = weight[k];
+      else if (!dual_multipliers_)
+        coupling.D(j, k) = T.row(j) * M_L * T.row(k).transpose();
+      else if (k == j)
+        coupling.D(j, k) = weight[k];
     for (Eigen::Index l = 0; l < masters; ++l) coupling.M(j, l) = a[0] * value_[3 + l] + a[1] * value_[3 + masters + l];
     coupling.gap[j] = w[0] * value_[3 + 2 * masters] + w[1] * value_[4 + 2 * masters];
     if (!derivatives) continue;
 
     for (Eigen::Index c = 0; c < columns; ++c) {
+      Eigen::Matrix2d dM_L;
+      dM_L << chained_(0, c), chained_(1, c), chained_(1, c), chained_(2, c);
       Eigen::RowVector2d da(0.0, 0.0);
-      if (both) {
-        Eigen::Matrix2d dM_L;
-        dM_L << chained_(0, c), chained_(1, c), chained_(1, c), chained_(2, c);
-        da = (weight_slope(j, c) * extrapolation.row(j) - a * dM_L) * inverse;
-      }
+      if (biorthogonal) da = (weight_slope(j, c) * extrapolation.row(j) - a * dM_L) * inverse;
       for (int k = 0; k < 2; ++k)
-        if (k == j || !both) coupling.dD(2 * j + k, c) = weight_slope(k, c);
+        if (both && !dual_multipliers_)
+          coupling.dD(2 * j + k, c) = T.row(j) * dM_L * T.row(k).transpose();
+        else if (k == j || !both)
+          coupling.dD(2 * j + k, c) = weight_slope(k, c);
       for (Eigen::Index l = 0; l < masters; ++l)
         coupling.dM(j * masters + l, c) =
             da[0] * value_[3 + l] + da[1] * value_[3 + masters + l] + a[0] * chained_(3 + l, c) + a[1] * chained_(3 + masters + l, c);
       double dg = w[0] * chained_(3 + 2 * masters, c) + w[1] * chained_(4 + 2 * masters, c);
-      if (gap_weighting_ == GapWeighting::dual) dg += da[0] * value_[3 + 2 * masters] + da[1] * value_[4 + 2 * masters];
+      if (dual_gap_) dg += da[0] * value_[3 + 2 * masters] + da[1] * value_[4 + 2 * masters];
       coupling.dgap(j, c) = dg;
     }
   }

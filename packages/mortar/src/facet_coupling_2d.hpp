@@ -46,7 +46,7 @@ class FacetIntegrator2d {
   bool combine(const SlaveFacetData& slave, const Interval& covered, bool derivatives, FacetCoupling& coupling) const;
 
   InterfaceMeasure measure_;
-  GapWeighting gap_weighting_;
+  bool dual_multipliers_, dual_gap_;
   std::vector<LinePoint> rule_;
   SlaveLine<double> line_;
   std::vector<Pair> pairs_;

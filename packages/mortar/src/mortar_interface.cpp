@@ -14,6 +14,7 @@
 
 #include "facet_coupling_2d.hpp"
 #include "mortise/mortar/surface_nodes.hpp"
+#include "node_coupling_2d.hpp"
 #include "slave_surface_2d.hpp"
 #include "surface_search.hpp"
 
@@ -93,10 +94,11 @@ struct MortarInterface::Implementation {
   std::unique_ptr<Gathered> slave_positions, master_positions;
   std::vector<std::vector<FacetIds>> candidate_ids;                  ///< [facets] ascending
   std::vector<std::vector<std::array<LocalOrdinal, 2>>> candidates;  ///< [facets] as local nodes
+  std::vector<std::vector<std::array<LocalOrdinal, 2>>> met;         ///< [owned slave nodes] candidates of their facets; node to segment only
   std::vector<std::vector<LocalOrdinal>> coupled, loaded;            ///< [owned slave nodes]
   RCP<const Map> local_nodes;
-  RCP<MultiVector> searched_at;  ///< owned positions of the last real search
-  double free_distance = 0.0;    ///< that every node may move from there without another one
+  RCP<MultiVector> searched_at;                      ///< owned positions of the last real search
+  double free_distance = 0.0;                        ///< that every node may move from there without another one
   std::vector<std::vector<GlobalOrdinal>> retained;  ///< [owned slave nodes]; empty: none
   mutable FacetIntegrator2d integrator;
 
@@ -109,6 +111,11 @@ struct MortarInterface::Implementation {
   double shortest_now(const Positions& slave_x, const std::vector<PlacedFacet>& placed_master) const;
   std::vector<std::vector<FacetIds>> find(const Positions& x, const std::vector<PlacedFacet>& placed_master, const Motion& motion) const;
   void number_nodes();
+  void collect_met();
+  std::size_t couple_facets(const Positions& x, bool derivatives, const std::vector<NodalNormal>& normals,
+                            std::vector<FacetCoupling>& couplings) const;
+  std::size_t couple_nodes(const Positions& x, bool derivatives, const std::vector<NodalNormal>& normals,
+                           std::vector<FacetCoupling>& couplings) const;
 };
 
 void MortarInterface::Implementation::measure_facets(const MultiVector& reference, const Place& place) {
@@ -156,6 +163,7 @@ MortarInterface::MortarInterface(RCP<const Map> owned_nodes, RCP<const MultiVect
   throw_if_any(*owned_nodes->getComm(), diagnostics);
 
   self.slave = make_slave_surface_2d(owned_nodes, reference, fixed, slave, measure, place);
+  for (SlaveNode& node : self.slave.owned) node.weight *= options.share;
   self.slave_positions = std::make_unique<Gathered>(owned_nodes, self.slave.node_ids);
   self.master_positions = std::make_unique<Gathered>(owned_nodes, nodes_of(master));
   self.measure_facets(*reference, place);
@@ -236,6 +244,7 @@ void MortarInterface::Implementation::number_nodes() {
   candidates.assign(slave.facets.size(), {});
   for (std::size_t f = 0; f < slave.facets.size(); ++f)
     for (const FacetIds& facet : candidate_ids[f]) candidates[f].push_back({local(facet[0]), local(facet[1])});
+  if (options.coupling == Coupling::node_to_segment) collect_met();
   std::vector<std::vector<LocalOrdinal>> kept(slave.owned.size());
   for (std::size_t s = 0; s < retained.size(); ++s)
     for (const GlobalOrdinal id : retained[s]) kept[s].push_back(local(id));
@@ -248,7 +257,7 @@ void MortarInterface::Implementation::number_nodes() {
       for (const LocalOrdinal node : slave.facets[f]) {
         const auto& columns = slave.stencils[node].columns;
         coupled[s].insert(coupled[s].end(), columns.begin(), columns.end());
-        if (!slave.carries[node]) loaded[s].push_back(node);
+        if (!slave.carries[node] || options.coupling == Coupling::standard_mortar) loaded[s].push_back(node);
       }
       for (const auto& facet : candidates[f]) loaded[s].insert(loaded[s].end(), facet.begin(), facet.end());
     }
@@ -258,6 +267,17 @@ void MortarInterface::Implementation::number_nodes() {
       std::sort(nodes->begin(), nodes->end());
       nodes->erase(std::unique(nodes->begin(), nodes->end()), nodes->end());
     }
+  }
+}
+
+// The candidates of the facets of each node, by ids: in an order that is the same on every rank.
+void MortarInterface::Implementation::collect_met() {
+  met.assign(slave.owned.size(), {});
+  for (std::size_t s = 0; s < met.size(); ++s) {
+    std::map<FacetIds, std::array<LocalOrdinal, 2>> facets;
+    for (const std::size_t f : slave.facets_of[s])
+      for (std::size_t c = 0; c < candidates[f].size(); ++c) facets.insert({candidate_ids[f][c], candidates[f][c]});
+    for (const auto& [ids, facet] : facets) met[s].push_back(facet);
   }
 }
 
@@ -309,6 +329,44 @@ double MortarInterface::reach() const { return implementation_->reach; }
 double MortarInterface::shortest_facet() const { return implementation_->shortest; }
 double MortarInterface::longest_facet() const { return implementation_->longest; }
 
+std::size_t MortarInterface::Implementation::couple_facets(const Positions& x, bool derivatives, const std::vector<NodalNormal>& normals,
+                                                           std::vector<FacetCoupling>& couplings) const {
+  std::size_t used = 0;
+  std::vector<NearFacet> masters;
+  for (std::size_t f = 0; f < slave.facets.size(); ++f) {
+    const auto& nodes = slave.facets[f];
+    const std::array<Eigen::Vector2d, 2> a = {x[nodes[0]], x[nodes[1]]};
+    const double longest_distance = generous((a[1] - a[0]).norm());
+    masters.clear();
+    for (const auto& facet : candidates[f]) {
+      const double distance = segment_distance(a, {x[facet[0]], x[facet[1]]});
+      if (distance <= longest_distance) masters.push_back({facet, distance});
+    }
+    SlaveFacetData data;
+    data.nodes = nodes;
+    data.weights = slave.facet_weights[f];
+    for (int j = 0; j < 2; ++j) {
+      data.normals[j] = &normals[nodes[j]];
+      data.carries[j] = slave.carries[nodes[j]];
+    }
+    if (used == couplings.size()) couplings.emplace_back();
+    used += integrator.integrate(data, masters, reach, x, derivatives, couplings[used]);
+  }
+  return used;
+}
+
+std::size_t MortarInterface::Implementation::couple_nodes(const Positions& x, bool derivatives, const std::vector<NodalNormal>& normals,
+                                                          std::vector<FacetCoupling>& couplings) const {
+  std::size_t used = 0;
+  for (std::size_t s = 0; s < slave.owned.size(); ++s) {
+    if (!slave.owned[s].carries_multiplier) continue;
+    if (used == couplings.size()) couplings.emplace_back();
+    used += couple_node({slave.owned[s].local_node, &slave.stencils[s], &normals[s]}, met[s], reach, x, measure, options.share, derivatives,
+                        couplings[used]);
+  }
+  return used;
+}
+
 void MortarInterface::evaluate(const MultiVector& x, bool derivatives, std::vector<FacetCoupling>& couplings, std::vector<NodalNormal>& normals,
                                std::optional<StepFailure>& failure) const {
   const Implementation& self = *implementation_;
@@ -326,28 +384,9 @@ void MortarInterface::evaluate(const MultiVector& x, bool derivatives, std::vect
   for (std::size_t n = 0; n < positions.size() && !failure; ++n)
     if (!positions[n].allFinite()) failure = StepFailure(FailureKind::not_finite, "a position on the contact surfaces is not a number");
   std::size_t used = 0;
-  if (!failure) {
-    std::vector<NearFacet> masters;
-    for (std::size_t f = 0; f < slave.facets.size(); ++f) {
-      const auto& nodes = slave.facets[f];
-      const std::array<Eigen::Vector2d, 2> a = {positions[nodes[0]], positions[nodes[1]]};
-      const double generous = self.generous((a[1] - a[0]).norm());
-      masters.clear();
-      for (const auto& facet : self.candidates[f]) {
-        const double distance = segment_distance(a, {positions[facet[0]], positions[facet[1]]});
-        if (distance <= generous) masters.push_back({facet, distance});
-      }
-      SlaveFacetData data;
-      data.nodes = nodes;
-      data.weights = slave.facet_weights[f];
-      for (int j = 0; j < 2; ++j) {
-        data.normals[j] = &normals[nodes[j]];
-        data.carries[j] = slave.carries[nodes[j]];
-      }
-      if (used == couplings.size()) couplings.emplace_back();
-      used += self.integrator.integrate(data, masters, self.reach, positions, derivatives, couplings[used]);
-    }
-  }
+  if (!failure)
+    used = self.options.coupling == Coupling::node_to_segment ? self.couple_nodes(positions, derivatives, normals, couplings)
+                                                              : self.couple_facets(positions, derivatives, normals, couplings);
   couplings.resize(used);
   normals.resize(slave.owned.size());
 }

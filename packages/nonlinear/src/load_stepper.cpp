@@ -26,6 +26,21 @@ void SteppingOptions::describe(Parameters& parameters) {
     }
 }
 
+namespace {
+// Newton's method, and again as long as augmented Lagrange multipliers are updated.
+void solve_step(SemiSmoothSystem& system, double time, const NewtonOptions& options, Vector& x, NewtonReport& report,
+                const std::function<void(const NewtonIteration&)>& observer) {
+  solve_newton(system, time, options, x, report, observer);
+  report.solves = 1;
+  while (system.augment(x, report.solves)) {
+    NewtonReport next;
+    solve_newton(system, time, options, x, next, observer);
+    report.iterations.insert(report.iterations.end(), next.iterations.begin(), next.iterations.end());
+    ++report.solves;
+  }
+}
+}  // namespace
+
 bool run_steps(SemiSmoothSystem& system, const SteppingOptions& stepping, const NewtonOptions& newton, Vector& x,
                const std::function<void(Vector& x)>& start_step, const StepperObserver& observer, std::optional<StepFailure>& last_failure) {
   StepSchedule schedule(stepping);
@@ -42,7 +57,7 @@ bool run_steps(SemiSmoothSystem& system, const SteppingOptions& stepping, const 
         if (observer.begin) observer.begin(step, report.time, report.dt);
         if (!rate.is_null()) tried.update(report.dt, *rate, 1.0);
         if (start_step) start_step(tried);
-        solve_newton(system, report.time, newton, tried, report.newton, observer.iteration);
+        solve_step(system, report.time, newton, tried, report.newton, observer.iteration);
         break;
       } catch (const StepFailure& failure) {
         last_failure = failure;

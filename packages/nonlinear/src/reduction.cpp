@@ -137,6 +137,18 @@ RCP<Matrix> Reduction::reduced(const Matrix& A, const Vector& r) const {
   return Tpetra::MatrixMatrix::add(1.0, false, product, 1.0, false, *curvature(r), unknowns_, unknowns_);
 }
 
+RCP<Matrix> Reduction::reduced_rows(const Matrix& B) const {
+  const auto product = rcp(new Matrix(unknowns_, 0));
+  Tpetra::MatrixMatrix::Multiply(*T_, true, B, false, *product);
+  return product;
+}
+
+RCP<Matrix> Reduction::reduced_columns(const Matrix& C) const {
+  const auto product = rcp(new Matrix(C.getRowMap(), 0));
+  Tpetra::MatrixMatrix::Multiply(C, false, *T_, false, *product);
+  return product;
+}
+
 void Reduction::add_curvature(const Vector& r, const Vector& v, Vector& y) const {
   Vector result(unknowns_);
   curvature(r)->apply(*unknown_part(v), result);

@@ -43,6 +43,10 @@ class Reduction {
   /// T^T A T + sum_i r_i d2g_i/dq2, with all diagonal entries of dofs that others follow in its graph. Collective.
   RCP<Matrix> reduced(const Matrix& A, const Vector& r) const;
 
+  /// T^T B and C T. Collective.
+  RCP<Matrix> reduced_rows(const Matrix& B) const;
+  RCP<Matrix> reduced_columns(const Matrix& C) const;
+
   /// y += (sum_i r_i d2g_i/dq2) v on the dofs. Collective.
   void add_curvature(const Vector& r, const Vector& v, Vector& y) const;
 

@@ -1,5 +1,7 @@
 #include "mortise/simulation/model.hpp"
 
+#include <fmt/format.h>
+
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_CrsGraph.hpp>
 #include <Tpetra_Map.hpp>
@@ -117,14 +119,15 @@ double softest(const Mesh& mesh, const Bodies& bodies, const SurfaceFacets& face
 }
 
 /// Collective.
-ContactPair make_pair(const Mesh& mesh, const Bodies& bodies, const Named<ContactPairOptions>& options) {
+ContactPair make_pair(const Mesh& mesh, const Bodies& bodies, const Named<ContactPairOptions>& options, const Located<std::string>& slave,
+                      const Located<std::string>& master) {
   ContactPair pair;
   pair.name = options.name;
   pair.place = options.place;
   pair.options = options.value.contact;
   Collector collect;
-  collect([&] { pair.slave = facets_at_owned_nodes(mesh, require_side_set(mesh, options.value.slave)); });
-  collect([&] { pair.master = facets_of_owned_elements(mesh, require_side_set(mesh, options.value.master)); });
+  collect([&] { pair.slave = facets_at_owned_nodes(mesh, require_side_set(mesh, slave)); });
+  collect([&] { pair.master = facets_of_owned_elements(mesh, require_side_set(mesh, master)); });
   collect.throw_found(*mesh.comm);
   pair.youngs_modulus = std::min(softest(mesh, bodies, pair.slave), softest(mesh, bodies, pair.master));
   return pair;
@@ -194,7 +197,23 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
       });
   }
   std::vector<ContactPair> pairs;
-  for (const auto& pair : scene.contact) collect([&] { pairs.push_back(make_pair(*mesh_, *bodies_, pair)); });
+  for (const auto& pair : scene.contact) collect([&] { pairs.push_back(make_pair(*mesh_, *bodies_, pair, pair.value.slave, pair.value.master)); });
+  for (std::size_t first = 0; first < scene.contact.size(); ++first) {  // second passes behind all pairs of the scene
+    const auto& pair = scene.contact[first];
+    if (!pair.value.contact.formulation.options->two_pass()) continue;
+    collect([&] {
+      pairs.push_back(make_pair(*mesh_, *bodies_, pair, pair.value.master, pair.value.slave));
+      pairs.back().second_pass_of = first;
+    });
+  }
+  for (const auto& pair : scene.contact)
+    if (pair.value.contact.formulation.options->elimination() == Elimination::none &&
+        scene.linear_solver.kind.value == LinearSolverOptions::Kind::iterative)
+      collect([&] {
+        throw InputError(
+            scene.linear_solver.kind.place,
+            fmt::format("the iterative solver does not know the saddle point system of \"{}\"; take \"mumps\"", pair.value.contact.formulation.type));
+      });
   collect([&] { parts_.linear_solver = make_linear_solver(scene.linear_solver, comm, timers); });
   collect.throw_found(*comm);
 

@@ -64,10 +64,14 @@ double ContactForce::evaluate(const QuantityContext& context) {
   const int i = static_cast<int>(component);
   if (part == Part::all) return context.contact->resultant(pair_, *context.multipliers)[i];
   double force = 0.0;
-  for (const auto& state : context.contact->node_states(pair_, *context.multipliers)) {
-    const double normal = state.pressure * state.normal[i];
-    force -= state.covered * (part == Part::normal ? normal : state.traction[i] - normal);
-  }
+  const auto subtract = [&](std::size_t pair, double sign) {
+    for (const auto& state : context.contact->node_states(pair, *context.multipliers)) {
+      const double normal = state.pressure * state.normal[i];
+      force -= sign * state.covered * (part == Part::normal ? normal : state.traction[i] - normal);
+    }
+  };
+  subtract(pair_, 1.0);
+  if (const auto other = context.contact->second_pass(pair_)) subtract(*other, -1.0);
   return sum_over_ranks(context.mesh(), force);
 }
 

@@ -230,7 +230,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
   std::optional<StepFailure> failure;
   const auto start_step = [&](Vector& at) {
     if (model.contact())
-      model.contact()->start_step(*system.displacement(static_cast<const Vector&>(at)), model.held_by_contact_only(), *system.multipliers(at));
+      model.contact()->start_step(*system.displacement(at), model.held_by_contact_only(), *system.multipliers(at));
   };
   {
     const auto timer = timers.scope("steps");

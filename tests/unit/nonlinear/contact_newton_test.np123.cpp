@@ -4,6 +4,7 @@
 
 #include <Tpetra_Core.hpp>
 
+#include "../contact/formulations.hpp"
 #include "mortise/nonlinear/load_stepper.hpp"
 #include "spring_grid.hpp"
 
@@ -32,8 +33,28 @@ void mix_states(Problem& problem) {
   for (const GlobalOrdinal id : z->getMap()->getNodeElementList()) z->replaceGlobalValue(id, 0.05 * std::cos(1.1 * (id / 2)) - 0.01 * (id % 2));
 }
 
-TEST(ContactSystem, JacobianAgreesWithCentralDifferences) {
-  Problem problem(Tpetra::getDefaultComm(), pressed(0.2));
+std::vector<test::NamedFormulation> formulations() {
+  std::vector<test::NamedFormulation> all = test::other_formulations();
+  all.insert(all.begin(), {"dual mortar", nullptr});
+  return all;
+}
+
+/// With each formulation.
+class ContactFormulation : public ::testing::TestWithParam<int> {
+ protected:
+  Problem::Choices choose(Problem::Choices choices) const {
+    choices.formulation = formulations()[GetParam()].options;
+    return choices;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(All, ContactFormulation, ::testing::Range(0, static_cast<int>(formulations().size())), [](const auto& info) {
+  std::string name = formulations()[info.param].name;
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+});
+
+TEST_P(ContactFormulation, JacobianAgreesWithCentralDifferences) {
+  Problem problem(Tpetra::getDefaultComm(), choose(pressed(0.2)));
   SemiSmoothSystem& system = *problem.system;
   system.set_time(1.0);
   mix_states(problem);
@@ -60,9 +81,9 @@ TEST(ContactSystem, JacobianAgreesWithCentralDifferences) {
   EXPECT_LE(system.multipliers(difference)->norm2(), 1e-6 * law_size);
 }
 
-// The condensed step solves the whole system, prescribed rows and rows of C included.
-TEST(ContactSystem, DirectionSolvesTheSaddlePointSystem) {
-  Problem problem(Tpetra::getDefaultComm(), pressed(0.2, 0.1));
+// The step solves the whole system, prescribed rows and rows of C included, condensed or not.
+TEST_P(ContactFormulation, DirectionSolvesTheSaddlePointSystem) {
+  Problem problem(Tpetra::getDefaultComm(), choose(pressed(0.2, 0.1)));
   SemiSmoothSystem& system = *problem.system;
   system.set_time(1.0);
   mix_states(problem);
@@ -100,8 +121,8 @@ Solved solve(Problem& problem) {
   return solved;
 }
 
-TEST(ContactNewton, ConvergesQuadraticallyOnceTheSetHasSettled) {
-  Problem problem(Tpetra::getDefaultComm(), pressed(0.25));
+TEST_P(ContactFormulation, ConvergesQuadraticallyOnceTheSetHasSettled) {
+  Problem problem(Tpetra::getDefaultComm(), choose(pressed(0.25)));
   const Solved solved = solve(problem);
   const auto& iterations = solved.report.iterations;
   EXPECT_GT(iterations.back().norms.active, 0);
@@ -119,8 +140,8 @@ TEST(ContactNewton, ConvergesQuadraticallyOnceTheSetHasSettled) {
 }
 
 // What the upper body is pushed with arrives below; without friction on a level interface nothing goes sideways.
-TEST(ContactNewton, ForcesPassThroughTheInterface) {
-  Problem problem(Tpetra::getDefaultComm(), pressed(0.25));
+TEST_P(ContactFormulation, ForcesPassThroughTheInterface) {
+  Problem problem(Tpetra::getDefaultComm(), choose(pressed(0.25)));
   const Solved solved = solve(problem);
   const double force = -solved.reaction[1][1];
   EXPECT_GT(force, 0.0);

@@ -12,12 +12,13 @@ namespace mortise {
 enum class ContactState { open = 0, stick = 1, slip = 2 };
 
 /// C of one node in the frame (n, tau), rows in units of traction, and its linearisation
-///   dC = C_z dz + gap_factor dg + normal_factor dn + [ 0 ; slip_factor du ].
+///   dC = C_z dz + gap_factor dg + weight_factor dw + normal_factor dn + [ 0 ; slip_factor du ],   w = sum_k D_jk.
 struct Complementarity {
   ContactState state = ContactState::open;
   Eigen::Vector2d C = Eigen::Vector2d::Zero();
   Eigen::Matrix2d C_z = Eigen::Matrix2d::Identity();
   Eigen::Vector2d gap_factor = Eigen::Vector2d::Zero();
+  Eigen::Vector2d weight_factor = Eigen::Vector2d::Zero();  ///< 0 but for regularised conditions
   Eigen::Matrix2d normal_factor = Eigen::Matrix2d::Zero();
   double slip_factor = 0.0;
 };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mortise/contact/complementarity.hpp"
+#include "mortise/contact/formulation/dual_mortar.hpp"
 #include "mortise/contact/friction.hpp"
 #include "mortise/core/error.hpp"
 #include "mortise/core/parameters.hpp"
@@ -24,6 +25,7 @@ struct ContactOptions {
   MortarOptions mortar;
   ContactGeometry geometry = ContactGeometry::current;
   std::optional<double> complementarity_constant;  ///< c_n and c_t; default E / (h A_j)
+  Choice<Formulation> formulation{"dual mortar", std::make_shared<DualMortar>(), {}};
   Choice<FrictionLaw> friction{"none", std::make_shared<NoFriction>(), {}};
   void describe(Parameters& parameters);
 };
@@ -33,8 +35,9 @@ struct ContactPair {
   std::string name;
   Place place;
   SurfaceFacets slave, master;  ///< as MortarInterface wants them
-  double youngs_modulus = 0.0;  ///< of the softer side: sets c_n and the start rule, no solution depends on it
+  double youngs_modulus = 0.0;  ///< of the softer side: sets c_n, the start rule and the stiffness of regularised conditions
   ContactOptions options;
+  std::optional<std::size_t> second_pass_of;  ///< an earlier pair of a two-pass formulation, with the sides exchanged
 };
 
 /// Norms and counts after an evaluation, over all ranks.
@@ -67,6 +70,14 @@ struct ContactNodeState {
   std::array<double, 2> force{};  ///< D_jj z_j, force of this node's multiplier on the slave side is -force
 };
 
+/// How far an augmented Lagrange update was from being needed no more, over all ranks.
+struct Augmentation {
+  bool more = false;       ///< the multipliers were updated: solve again
+  bool exhausted = false;  ///< more would be needed than the pair allows
+  double violation = 0.0;  ///< largest |gap| of closed and |slip| of sticking nodes over h
+  std::string pair;        ///< where
+};
+
 /// All pairs. z holds `dimension` components for each owned slave node that may carry a multiplier.
 /// Displacements are given on the owned dofs. Collective in all members but the accessors.
 class ContactSystem {
@@ -82,8 +93,12 @@ class ContactSystem {
 
   std::size_t pairs() const;
   const std::string& pair_name(std::size_t pair) const;
+  /// The pair that is the second pass of this one.
+  std::optional<std::size_t> second_pass(std::size_t pair) const;
   /// Which configuration carries the geometry of a pair: the one in which its multipliers are pressures.
   ContactGeometry geometry(std::size_t pair) const;
+  /// Whether multipliers stay unknowns of the linear system: then saddle_point_blocks() takes the place of condense() and recover().
+  bool keeps_multipliers() const;
   /// Map of z: ids lie above all dof ids.
   const RCP<const Map>& multiplier_map() const;
 
@@ -102,11 +117,17 @@ class ContactSystem {
   /// C(d, z), d of the last evaluate; rows in units of traction.
   void complementarity(const Vector& z, Vector& C) const;
   ContactNorms norms(const Vector& z) const;
+  /// A_j for both components of each multiplier.
+  RCP<Vector> weights() const;
 
   /// Takes the states at z, d of the last evaluate, as those that `changed` counts against: once for each Newton iterate.
   void mark_states(const Vector& z);
   /// Takes the states at z, d of the last evaluate, as those of the accepted state that the next step starts from; slip paths grow.
   void accept_states(const Vector& z);
+
+  /// After a Newton solve that ended in d, z of the last evaluate: updates the multipliers of augmented Lagrange pairs where their conditions do not
+  /// hold to their tolerance yet. `round` counts from 1 within a step. Collective.
+  Augmentation augment(const Vector& z, int round);
 
   /// K += C~ = d(f_c)/dd at fixed z. `system` has system_graph(). Needs evaluate(d, true).
   void add_stiffness(const Vector& z, Matrix& system);
@@ -116,16 +137,18 @@ class ContactSystem {
   /// z^{k+1} from the displacement increment.
   void recover(const Vector& increment, Vector& z_new) const;
 
-  /// The blocks of the saddle point form, for tests and embedding: f_c = B(d) z, C_d, C_z on the maps of d and z.
+  /// The blocks of the saddle point form: f_c = B(d) z, C_d, C_z on the maps of d and z. B and C_d hold zeros, so that their patterns change only
+  /// with the candidates.
   struct SaddlePointBlocks {
     RCP<Matrix> B, C_d, C_z;
   };
   SaddlePointBlocks saddle_point_blocks(const Vector& z) const;
 
   /// Goes back to the accepted states, and start rule: multipliers of nodes that touch, and seeds for bodies that only contact holds, are set to a
-  /// small pressure. Slips are measured from the accepted state on; before any is accepted, from d on.
+  /// small pressure; where conditions are regularised such bodies are moved up to contact instead. Only the guess d, z is changed. Slips are
+  /// measured from the accepted state on; before any is accepted, from d on.
   /// @param unheld_bodies  for each owned node whether it belongs to a body that nothing but contact holds
-  void start_step(const Vector& d, const std::vector<char>& unheld, Vector& z);
+  void start_step(Vector& d, const std::vector<char>& unheld, Vector& z);
 
   /// States of the owned slave nodes of a pair.
   std::vector<ContactNodeState> node_states(std::size_t pair, const Vector& z) const;
@@ -133,11 +156,12 @@ class ContactSystem {
   long friction_bytes() const;
   /// How often slips were measured, over all pairs, on this rank; 0 without friction.
   long friction_evaluations() const;
-  /// Resultant (over all ranks) of the contact forces on the slave side of a pair.
+  /// Resultant (over all ranks) of the contact forces on the slave side of a pair, of both passes if there are two.
   std::array<double, 2> resultant(std::size_t pair, const Vector& z) const;
 
  private:
   struct Implementation;
+  void eliminate_by_law(std::size_t pair, const Vector& z, Matrix& system, Vector& rhs);
   std::unique_ptr<Implementation> implementation_;
 };
 

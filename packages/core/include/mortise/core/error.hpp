@@ -48,17 +48,18 @@ class FileError : public std::runtime_error {
 
 /// Why a step (one Newton solve) has to be undone. Names stand in newton.csv.
 enum class FailureKind {
-  inverted_element,      ///< det F <= 0 or det F0 <= 0
-  material,              ///< a law that found no stress
-  inverted_facet,        ///< a surface facet without length or normal
-  projection,            ///< a projection that has no solution
-  lost_contact,          ///< closed nodes that moved beyond the reach of their master surface
-  linear_solver,         ///< true residual of a linear solve too large, or a singular matrix
-  not_finite,            ///< NaN or Inf
-  line_search,           ///< no step along the Newton direction makes the residual smaller
+  inverted_element,  ///< det F <= 0 or det F0 <= 0
+  material,          ///< a law that found no stress
+  inverted_facet,    ///< a surface facet without length or normal
+  projection,        ///< a projection that has no solution
+  lost_contact,      ///< closed nodes that moved beyond the reach of their master surface
+  linear_solver,     ///< true residual of a linear solve too large, or a singular matrix
+  not_finite,        ///< NaN or Inf
+  line_search,       ///< no step along the Newton direction makes the residual smaller
   diverged,
   too_many_iterations,
-  cycling_active_set
+  cycling_active_set,
+  augmentation  ///< augmented Lagrange multipliers that did not settle
 };
 std::string to_string(FailureKind kind);
 

@@ -13,6 +13,13 @@
 
 namespace mortise {
 
+/// What a slave node's multiplier acts through.
+enum class Coupling {
+  dual_mortar,      ///< integrals over both surfaces' overlap, phi_j dual to N_j: D is diagonal
+  standard_mortar,  ///< the same integrals with phi_j = N_j, the gap weighted by N_j
+  node_to_segment   ///< the master facet that the line along the nodal normal meets: phi_j is a point load of the node's share of the surface
+};
+
 /// Which functions weight the gap.
 enum class GapWeighting { dual, standard };
 
@@ -22,8 +29,10 @@ struct InterfaceMeasure {
   double thickness = 1.0;
 };
 
-/// Options of the mortar integrals of one pair.
+/// Options of the coupling of one pair.
 struct MortarOptions {
+  Coupling coupling = Coupling::dual_mortar;  ///< set by the pair's formulation
+  double share = 1.0;                         ///< of the surface that the slave side stands for: 1/2 where both sides are slaves in turn
   GapWeighting gap_weighting = GapWeighting::dual;
   std::optional<double> search_reach;  ///< distance up to which facets can touch; default: the longest facet of the pair
   int gauss_points = 5;                ///< per overlap of two facets
@@ -35,13 +44,16 @@ struct MortarOptions {
 using SurfaceFacets = std::vector<std::array<GlobalOrdinal, 2>>;
 
 /// Values of one slave facet and, if asked for, their first derivatives with respect to nodal positions.
-/// Nodes are local indices of MortarInterface::local_nodes(). phi_j are the dual functions of the facet (formed on its covered part only;
-/// the share of a node without multiplier is given to the facet's other nodes); rows of nodes without multiplier are zero.
+/// Nodes are local indices of MortarInterface::local_nodes(). phi_j are the functions of the facet's multipliers: dual ones, formed on its covered
+/// part only, or N_j (the share of a node without multiplier is given to the facet's other nodes); rows of nodes without multiplier are zero.
+/// Node to segment: one slave node with the facet that it meets, phi_j a point load: D_jj is its share w of the surface, M_jl = w N_l, the gap w
+/// times the distance; slave[1] is none.
 struct FacetCoupling {
+  static constexpr LocalOrdinal none = -1;
   std::array<LocalOrdinal, 2> slave{};
   std::vector<LocalOrdinal> master;   ///< nodes of the master facets that the slave facet overlaps, without repeats
   std::vector<LocalOrdinal> columns;  ///< nodes on whose positions the values depend: slave, ring (neighbours that shape the normals), master
-  Eigen::Matrix2d D = Eigen::Matrix2d::Zero();    ///< D(j,k) = int phi_j N_k; off-diagonal only next to a node without multiplier
+  Eigen::Matrix2d D = Eigen::Matrix2d::Zero();    ///< D(j,k) = int phi_j N_k; dual: off-diagonal only next to a node without multiplier
   Eigen::Matrix<double, 2, Eigen::Dynamic> M;     ///< [2 x master] M(j,l) = int phi_j N_l
   Eigen::Vector2d gap = Eigen::Vector2d::Zero();  ///< int w_j g, w the gap weighting
   /// Derivatives; column 2 c + i belongs to component i of columns[c]. Empty if not asked for.
@@ -64,7 +76,7 @@ struct SlaveNode {
   LocalOrdinal local_node = 0;     ///< local index in local_nodes(); the same number for ever
   std::array<bool, 2> fixed{};     ///< components with a prescribed displacement
   bool carries_multiplier = true;  ///< false: prescribed in every direction its normal could push it
-  double weight = 0.0;             ///< A_j = int N_j over the whole reference slave surface (with t or 2 pi R)
+  double weight = 0.0;             ///< A_j = int N_j over the whole reference slave surface (with t or 2 pi R), times the pair's share
 };
 
 /// One contact pair's coupling. Collective in all members but the accessors.
@@ -100,7 +112,7 @@ class MortarInterface {
   const std::vector<LocalOrdinal>& coupled_nodes(std::size_t s) const;
 
   /// For owned slave node s: the nodes on which its multiplier may act, the rows of its column of D^T and M^T: itself, its facets' nodes
-  /// without multiplier, and master nodes. A part of coupled_nodes(s).
+  /// without multiplier (all of them with standard multipliers), and master nodes. A part of coupled_nodes(s).
   const std::vector<LocalOrdinal>& loaded_nodes(std::size_t s) const;
 
   /// Facet couplings of all facets that touch an owned slave node and overlap a master facet, and the normals of the owned slave nodes

@@ -44,8 +44,9 @@ struct NewtonIteration {
 };
 
 struct NewtonReport {
-  std::vector<NewtonIteration> iterations;
-  int newton_steps() const { return static_cast<int>(iterations.size()) - 1; }
+  std::vector<NewtonIteration> iterations;  ///< of all solves of a step; iteration 0 begins one
+  int solves = 1;                           ///< 1 + augmentations
+  int newton_steps() const { return static_cast<int>(iterations.size()) - solves; }
 };
 
 /// Solves F(x) = 0 from the given x at `time`, in place. Calls `observer` after each iteration.

@@ -69,9 +69,13 @@ class SemiSmoothSystem {
   void jacobian(const Vector& x);
   /// y = J v by the saddle point blocks, at the x of the last jacobian().
   void apply(const Vector& v, Vector& y) const;
-  /// Newton direction: solves J dx = -F at the x of the last jacobian() by condensation. F is F(x): the rows of C are formed by the
-  /// contact itself. Throws StepFailure(linear_solver) on every rank.
+  /// Newton direction: solves J dx = -F at the x of the last jacobian(), by condensation or, where the contact keeps multipliers, as a saddle point
+  /// system. F is F(x): a condensing contact forms the rows of C itself. Throws StepFailure(linear_solver) on every rank.
   LinearSolveReport newton_direction(const Vector& F, Vector& direction);
+
+  /// After a Newton solve that ended in x: whether augmented Lagrange multipliers were updated, so that it has to be repeated. `round` counts from 1
+  /// within a step. Throws StepFailure(augmentation) on every rank if there were too many.
+  bool augment(const Vector& x, int round);
 
   /// f_int - f_ext + f_c on all owned dofs at x, without Dirichlet rows: on prescribed dofs these are the reactions, those of followers gathered.
   void forces(const Vector& x, Vector& r);

@@ -1,0 +1,125 @@
+#include "node_coupling_2d.hpp"
+
+#include <Sacado.hpp>
+#include <algorithm>
+#include <cmath>
+
+#include "mortise/mortar/segment_2d.hpp"
+
+namespace mortise {
+namespace {
+
+constexpr double two_pi = 6.283185307179586476925286766559;
+
+/// A line that misses the end of a facet by this share of half its length still hits it: nodes that lie opposite one another.
+constexpr double end_tolerance = 1e-10;
+
+using Dual = Sacado::Fad::SFad<double, 8>;  // of x, n, y_0, y_1
+
+template <class S>
+struct Values {
+  S distance, first, second;  // s, N_0(eta), N_1(eta)
+};
+
+template <class S>
+Values<S> project(const Point2<S>& x, const Point2<S>& normal, const MasterLine<S>& master) {
+  const MasterProjection<S> projection = project_onto(master, x, normal);
+  return {projection.distance, S(0.5 * (1.0 - projection.eta)), S(0.5 * (1.0 + projection.eta))};
+}
+
+Point2<double> point(const Eigen::Vector2d& x) { return {x.x(), x.y()}; }
+
+// The nearest facet hit; masters.size(): none.
+std::size_t facet_hit(const SlaveNodeData& slave, const std::vector<std::array<LocalOrdinal, 2>>& masters, double reach, const Positions& x) {
+  const Point2<double> start = point(x[slave.node]), normal = point(slave.normal->normal);
+  std::size_t nearest = masters.size();
+  double least = reach;
+  for (std::size_t m = 0; m < masters.size(); ++m) {
+    const MasterLine<double> line = {{point(x[masters[m][0]]), point(x[masters[m][1]])}};
+    if (!faces(line, normal)) continue;
+    const auto projection = project_onto(line, start, normal);
+    if (!(std::abs(projection.eta) <= 1.0 + end_tolerance)) continue;
+    const double distance = std::abs(projection.distance);
+    // Neighbours that meet the line at their common node are equally far: the first one stays.
+    if (distance > reach || (nearest < masters.size() && distance >= least - end_tolerance * reach)) continue;
+    nearest = m;
+    least = distance;
+  }
+  return nearest;
+}
+
+// w = sum over the node's facets of t L / 2, or 2 pi L (r_j / 3 + r_k / 6); its derivative in the columns of the stencil.
+double share_of_surface(const SlaveNodeData& slave, const Positions& x, const InterfaceMeasure& measure, Eigen::RowVectorXd* slope) {
+  double weight = 0.0;
+  for (const auto& facet : slave.stencil->facets) {
+    const LocalOrdinal other = facet[0] == slave.node ? facet[1] : facet[0];
+    const Eigen::Vector2d travel = x[slave.node] - x[other];
+    const double length = travel.norm();
+    const double height = measure.axisymmetric ? two_pi * (x[slave.node].x() / 3.0 + x[other].x() / 6.0) : 0.5 * measure.thickness;
+    weight += length * height;
+    if (slope == nullptr) continue;
+    const auto& columns = slave.stencil->columns;
+    const auto place = [&](LocalOrdinal node) { return 2 * (std::find(columns.begin(), columns.end(), node) - columns.begin()); };
+    slope->middleCols<2>(place(slave.node)) += height * travel.transpose() / length;
+    slope->middleCols<2>(place(other)) -= height * travel.transpose() / length;
+    if (!measure.axisymmetric) continue;
+    (*slope)[place(slave.node)] += two_pi * length / 3.0;
+    (*slope)[place(other)] += two_pi * length / 6.0;
+  }
+  return weight;
+}
+
+}  // namespace
+
+bool couple_node(const SlaveNodeData& slave, const std::vector<std::array<LocalOrdinal, 2>>& masters, double reach, const Positions& x,
+                 const InterfaceMeasure& measure, double share, bool derivatives, FacetCoupling& coupling) {
+  const std::size_t hit = facet_hit(slave, masters, reach, x);
+  if (hit == masters.size()) return false;
+  coupling.slave = {slave.node, FacetCoupling::none};
+  coupling.master.assign(masters[hit].begin(), masters[hit].end());
+  coupling.columns = slave.stencil->columns;
+  const auto first_master = static_cast<Eigen::Index>(2 * coupling.columns.size());
+  coupling.columns.insert(coupling.columns.end(), coupling.master.begin(), coupling.master.end());
+  const auto columns = static_cast<Eigen::Index>(2 * coupling.columns.size());
+
+  Eigen::RowVectorXd weight_slope = Eigen::RowVectorXd::Zero(derivatives ? columns : 0);
+  const double weight = share * share_of_surface(slave, x, measure, derivatives ? &weight_slope : nullptr);
+  weight_slope *= share;
+  const Point2<double> start = point(x[slave.node]), normal = point(slave.normal->normal);
+  const MasterLine<double> line = {{point(x[masters[hit][0]]), point(x[masters[hit][1]])}};
+  const Values<double> value = project(start, normal, line);
+  coupling.D << weight, 0.0, 0.0, 0.0;
+  coupling.M.setZero(2, 2);
+  coupling.M.row(0) << weight * value.first, weight * value.second;
+  coupling.gap << weight * value.distance, 0.0;
+  coupling.dD.setZero(4, derivatives ? columns : 0);
+  coupling.dM.setZero(derivatives ? 4 : 0, derivatives ? columns : 0);
+  coupling.dgap.setZero(2, derivatives ? columns : 0);
+  if (!derivatives) return true;
+
+  Point2<Dual> dual_start, dual_normal;
+  MasterLine<Dual> dual_line;
+  for (int i = 0; i < 2; ++i) {
+    dual_start[i] = Dual(8, i, start[i]);
+    dual_normal[i] = Dual(8, 2 + i, normal[i]);
+    for (int l = 0; l < 2; ++l) dual_line.y[l][i] = Dual(8, 4 + 2 * l + i, line.y[l][i]);
+  }
+  const Values<Dual> slopes = project(dual_start, dual_normal, dual_line);
+  const auto own = 2 * (std::find(coupling.columns.begin(), coupling.columns.end(), slave.node) - coupling.columns.begin());
+  const auto chain = [&](const Dual& scalar) {
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(columns);
+    const Eigen::RowVector2d along(scalar.fastAccessDx(2), scalar.fastAccessDx(3));
+    row.head(first_master) = along * slave.normal->derivative;
+    row[own] += scalar.fastAccessDx(0);
+    row[own + 1] += scalar.fastAccessDx(1);
+    for (int k = 0; k < 4; ++k) row[first_master + k] = scalar.fastAccessDx(4 + k);
+    return row;
+  };
+  coupling.dD.row(0) = weight_slope;
+  coupling.dM.row(0) = weight_slope * value.first + weight * chain(slopes.first);
+  coupling.dM.row(1) = weight_slope * value.second + weight * chain(slopes.second);
+  coupling.dgap.row(0) = weight_slope * value.distance + weight * chain(slopes.distance);
+  return true;
+}
+
+}  // namespace mortise

@@ -1,0 +1,29 @@
+#pragma once
+// The linear system of (d, z) as one matrix.
+
+#include <vector>
+
+#include "mortise/core/types.hpp"
+
+namespace mortise::detail {
+
+/// Numbers the rows of two maps as those of one map without gaps, which linear solvers ask for: on each rank those of the first map, then those of
+/// the second. Collective in all members.
+class SaddlePointMatrix {
+ public:
+  SaddlePointMatrix(RCP<const Map> first, RCP<const Map> second);
+
+  /// ( A  B ; S C  S D ) with the diagonal S on the second rows. A, B are on the rows of the first map, C, D on those of the second, all filled;
+  /// the result is filled.
+  RCP<Matrix> merged(const Matrix& A, const Matrix& B, const Matrix& C, const Matrix& D, const Vector& S) const;
+
+  RCP<Vector> merged(const Vector& first, const Vector& second) const;
+  void split(const Vector& both, Vector& first, Vector& second) const;
+
+ private:
+  std::vector<GlobalOrdinal> column_ids(const Matrix& block, const Vector& ids) const;
+  RCP<const Map> first_, second_, both_;
+  RCP<Vector> first_ids_, second_ids_;
+};
+
+}  // namespace mortise::detail

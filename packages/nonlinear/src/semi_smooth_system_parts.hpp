@@ -1,0 +1,160 @@
+#pragma once
+// What SemiSmoothSystem holds.
+
+#include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_CrsGraph.hpp>
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "matrix_values.hpp"
+#include "mortise/nonlinear/semi_smooth_system.hpp"
+#include "reduction.hpp"
+#include "saddle_point_matrix.hpp"
+
+namespace mortise {
+namespace detail {
+/// Ids of the first map, then those of the second.
+RCP<const Map> map_of_both(const Map& dofs, const Map& multipliers);
+}  // namespace detail
+
+struct SemiSmoothSystem::Implementation {
+  SystemParts parts;
+  Timers timers;
+  double time = 0.0;
+  RCP<const Map> map, multipliers;
+  Import to_local;
+  std::vector<LocalOrdinal> fixed;  // prescribed dofs
+  Vector internal, external, contact_force, local_displacement;
+  double stiffness_scale = 0.0;  // s; 0: not known yet
+
+  RCP<Matrix> bulk;                         // K; without contact it is the system's matrix as well
+  bool bulk_is_eliminated = false;          // its prescribed rows and columns are those of the linear system
+  RCP<Matrix> system;                       // K + C~, condensed
+  std::unique_ptr<detail::ValueCopy> copy;  // bulk -> system
+  std::unique_ptr<detail::DirichletElimination> elimination;
+  bool graph_changed = true;  // since the linear solver saw it
+
+  std::unique_ptr<detail::Reduction> reduction;             // null: nothing follows
+  std::unique_ptr<detail::SaddlePointMatrix> saddle_point;  // null: multipliers are eliminated
+  RCP<const Graph> merged_graph;                            // of the last matrix that was reduced or holds multipliers
+
+  RCP<Vector> contact_at;   // displacement at which the contact holds integrals and their derivatives; null: unknown
+  RCP<Vector> jacobian_at;  // x of the last jacobian()
+
+  Implementation(SystemParts given, Timers given_timers)
+      : parts(std::move(given)),
+        timers(std::move(given_timers)),
+        to_local(parts.dofs, parts.local_dofs),
+        internal(parts.dofs),
+        external(parts.dofs),
+        contact_force(parts.dofs),
+        local_displacement(parts.local_dofs) {
+    multipliers = rcp(new const Map(0, 0, parts.dofs->getComm()));
+    map = parts.dofs;
+    if (parts.contact) {
+      multipliers = parts.contact->multiplier_map();
+      map = detail::map_of_both(*parts.dofs, *multipliers);
+    }
+    if (parts.prescribed) fixed = parts.prescribed->dofs();
+    bulk = rcp(new Matrix(parts.bulk_graph));
+    bulk->fillComplete(parts.dofs, parts.dofs);
+    if (parts.dependent) reduction = std::make_unique<detail::Reduction>(parts.dependent, parts.dofs, parts.local_dofs);
+    if (parts.contact && parts.contact->keeps_multipliers())
+      saddle_point = std::make_unique<detail::SaddlePointMatrix>(reduction ? reduction->unknowns() : parts.dofs, multipliers);
+    if (!parts.contact && !reduction) elimination = std::make_unique<detail::DirichletElimination>(*parts.bulk_graph, fixed);
+  }
+
+  const Communicator& comm() const { return *parts.dofs->getComm(); }
+  RCP<const Vector> d(const Vector& x) const { return x.offsetView(parts.dofs, 0); }
+  RCP<const Vector> z(const Vector& x) const { return x.offsetView(multipliers, parts.dofs->getNodeNumElements()); }
+
+  Configuration configuration(const Vector& displacement) {
+    local_displacement.doImport(displacement, to_local, Tpetra::REPLACE);
+    return {time, displacement, local_displacement};
+  }
+
+  // internal = f_int, external = -f_ext
+  void evaluate_bulk(const Vector& displacement) {
+    const Configuration at = configuration(displacement);
+    internal.putScalar(0.0);
+    external.putScalar(0.0);
+    std::optional<StepFailure> failure;
+    for (const auto& contribution : parts.contributions)
+      contribution->add_residual(at, contribution->kind() == Contribution::Kind::internal ? internal : external, failure);
+    throw_if_any(comm(), failure);
+  }
+
+  // r = f_int - f_ext + f_c on all dofs. The contact is evaluated at `displacement`; the reduction is made for it.
+  void sum_forces(const Vector& displacement, const Vector& z, Vector& r) {
+    r.update(1.0, internal, 1.0, external, 0.0);
+    if (parts.contact) {
+      contact_force.putScalar(0.0);
+      parts.contact->add_contact_force(z, contact_force);
+      r.update(1.0, contact_force, 1.0);
+    }
+    if (!reduction) return;
+    configuration(displacement);
+    reduction->update(local_displacement);
+  }
+
+  void evaluate_contact(const Vector& displacement, bool derivatives) {
+    if (derivatives && !contact_at.is_null() && detail::same_values(displacement, *contact_at)) return;
+    contact_at = Teuchos::null;
+    std::optional<StepFailure> failure;
+    parts.contact->evaluate(displacement, derivatives, failure);
+    throw_if_any(comm(), failure);
+    if (derivatives) contact_at = rcp(new Vector(displacement, Teuchos::Copy));
+  }
+
+  void assemble_bulk(const Vector& displacement) {
+    const Configuration at = configuration(displacement);
+    bulk->resumeFill();
+    bulk->setAllToScalar(0.0);
+    std::optional<StepFailure> failure;
+    for (const auto& contribution : parts.contributions) contribution->add_jacobian(at, *bulk, failure);
+    bulk->fillComplete(parts.dofs, parts.dofs);
+    bulk_is_eliminated = false;
+    throw_if_any(comm(), failure);
+    if (stiffness_scale > 0.0) return;
+    Vector diagonal(parts.dofs);
+    bulk->getLocalDiagCopy(diagonal);
+    const double mean = diagonal.norm1() / std::max<double>(1.0, static_cast<double>(diagonal.getGlobalLength()));
+    stiffness_scale = mean > 0.0 && std::isfinite(mean) ? mean : 1.0;
+  }
+
+  // The graph of the condensed system at the current candidates of contact.
+  void prepare_system() {
+    bool changed = false;
+    const RCP<const Graph> graph = parts.contact->system_graph(parts.bulk_graph, changed);
+    if (changed || system.is_null()) {
+      system = rcp(new Matrix(graph));
+      copy = std::make_unique<detail::ValueCopy>(*parts.bulk_graph, *graph);
+      if (!reduction && !saddle_point) elimination = std::make_unique<detail::DirichletElimination>(*graph, fixed);
+      graph_changed = true;
+    } else {
+      system->resumeFill();
+    }
+    copy->apply(*bulk, *system);
+  }
+
+  LinearSolveReport solve(const RCP<Matrix>& matrix, const std::vector<LocalOrdinal>& prescribed, const Vector& increment, Vector& rhs,
+                          const NearNullSpace& near_null_space, Vector& x);
+  LinearSolveReport solve_reduced(const RCP<Matrix>& matrix, const Vector& d, const Vector& r, const Vector& increment, Vector& rhs, Vector& dd);
+  LinearSolveReport solve_saddle_point(const Vector& d, const Vector& z, const Vector& r, const Vector& C, const Vector& increment, Vector& dd,
+                                       Vector& dz);
+  void match_elimination(const RCP<const Graph>& graph, const std::vector<LocalOrdinal>& prescribed);
+
+  void evaluate_at_jacobian() {
+    if (jacobian_at.is_null()) throw std::logic_error("SemiSmoothSystem: jacobian() comes first");
+    const auto displacement = d(*jacobian_at);
+    if (bulk_is_eliminated) assemble_bulk(*displacement);
+    if (parts.contact) evaluate_contact(*displacement, true);
+  }
+};
+
+}  // namespace mortise
