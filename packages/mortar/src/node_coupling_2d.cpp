@@ -14,6 +14,10 @@ constexpr double two_pi = 6.283185307179586476925286766559;
 /// A line that misses the end of a facet by this share of half its length still hits it: nodes that lie opposite one another.
 constexpr double end_tolerance = 1e-10;
 
+/// The surface goes on straight beyond its ends by this share of half a facet, so that nodes at corners that lie opposite one another do not come and
+/// go with every iteration.
+constexpr double extension = 0.01;
+
 using Dual = Sacado::Fad::SFad<double, 8>;  // of x, n, y_0, y_1
 
 template <class S>
@@ -29,8 +33,9 @@ Values<S> project(const Point2<S>& x, const Point2<S>& normal, const MasterLine<
 
 Point2<double> point(const Eigen::Vector2d& x) { return {x.x(), x.y()}; }
 
-// The nearest facet hit; masters.size(): none.
-std::size_t facet_hit(const SlaveNodeData& slave, const std::vector<std::array<LocalOrdinal, 2>>& masters, double reach, const Positions& x) {
+// The nearest facet that the line hits within |eta| <= limit; masters.size(): none.
+std::size_t facet_hit(const SlaveNodeData& slave, const std::vector<std::array<LocalOrdinal, 2>>& masters, double reach, const Positions& x,
+                      double limit) {
   const Point2<double> start = point(x[slave.node]), normal = point(slave.normal->normal);
   std::size_t nearest = masters.size();
   double least = reach;
@@ -38,7 +43,7 @@ std::size_t facet_hit(const SlaveNodeData& slave, const std::vector<std::array<L
     const MasterLine<double> line = {{point(x[masters[m][0]]), point(x[masters[m][1]])}};
     if (!faces(line, normal)) continue;
     const auto projection = project_onto(line, start, normal);
-    if (!(std::abs(projection.eta) <= 1.0 + end_tolerance)) continue;
+    if (!(std::abs(projection.eta) <= limit)) continue;
     const double distance = std::abs(projection.distance);
     // Neighbours that meet the line at their common node are equally far: the first one stays.
     if (distance > reach || (nearest < masters.size() && distance >= least - end_tolerance * reach)) continue;
@@ -73,7 +78,8 @@ double share_of_surface(const SlaveNodeData& slave, const Positions& x, const In
 
 bool couple_node(const SlaveNodeData& slave, const std::vector<std::array<LocalOrdinal, 2>>& masters, double reach, const Positions& x,
                  const InterfaceMeasure& measure, double share, bool derivatives, FacetCoupling& coupling) {
-  const std::size_t hit = facet_hit(slave, masters, reach, x);
+  std::size_t hit = facet_hit(slave, masters, reach, x, 1.0 + end_tolerance);
+  if (hit == masters.size()) hit = facet_hit(slave, masters, reach, x, 1.0 + extension);
   if (hit == masters.size()) return false;
   coupling.slave = {slave.node, FacetCoupling::none};
   coupling.master.assign(masters[hit].begin(), masters[hit].end());

@@ -81,7 +81,18 @@ LinearSolveReport SemiSmoothSystem::Implementation::solve_saddle_point(const Vec
   matrix->resumeFill();
   const RCP<Vector> rhs = saddle_point->merged(*q_rhs, rhs_z), fixed_increment = saddle_point->merged(*q_increment, Vector(multipliers));
   Vector x(matrix->getRowMap());
-  const LinearSolveReport report = solve(matrix, prescribed, *fixed_increment, *rhs, {}, x);
+  const LinearSolveReport report = [&] {
+    try {
+      return solve(matrix, prescribed, *fixed_increment, *rhs, {}, x);
+    } catch (const StepFailure& failure) {  // on every rank
+      bool two_passes = false;
+      for (std::size_t pair = 0; pair < parts.contact->pairs(); ++pair) two_passes |= parts.contact->second_pass(pair).has_value();
+      if (!two_passes) throw;
+      throw StepFailure(failure.kind(), std::string(failure.what()) +
+                                            "; two passes ask for contact at the nodes of both sides, which over-constrains surfaces that touch over "
+                                            "more than a facet: take \"passes\" \"single\", or a mortar formulation");
+    }
+  }();
   Vector dq(K->getRowMap());
   saddle_point->split(x, dq, dz);
   if (reduction)
