@@ -236,8 +236,10 @@ ContactNorms ContactSystem::norms(const Vector& z) const {
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
     const detail::PairCoupling& pair = *self.pairs[p];
     floor = std::max(floor, 1e-9 * pair.definition().youngs_modulus);
-    // What the round-off of positions leaves of c_n g and c_t u.
-    round_off = std::max(round_off, 4.0 * std::numeric_limits<double>::epsilon() * self.extent * pair.definition().youngs_modulus / pair.size());
+    // What the round-off of positions leaves of c_n g and c_t u, or of eps_n g and eps_t u.
+    const double stiffness = pair.regularisation() ? std::max(pair.regularisation()->normal, pair.regularisation()->tangential) : 1.0;
+    round_off =
+        std::max(round_off, 4.0 * std::numeric_limits<double>::epsilon() * self.extent * stiffness * pair.definition().youngs_modulus / pair.size());
     for (std::size_t s = 0; s < self.multiplier_of[p].size(); ++s) {
       if (self.multiplier_of[p][s] < 0) continue;
       const Eigen::Vector2d zs = self.z_of(values, p, s);
@@ -246,8 +248,9 @@ ContactNorms ContactSystem::norms(const Vector& z) const {
       const Eigen::Vector2d& C = law.C;
       squares += std::pow(pair.slave_nodes()[s].weight, 2) * C.squaredNorm();
       traction = std::max(traction, zs.norm());
-      violation = std::max(violation, closed ? std::abs(C[1]) : C.norm());
-      if (closed && !pair.regularisation()) gap = std::max(gap, std::abs(pair.rows()[s].gap) / (pair.slave_nodes()[s].weight * pair.size()));
+      const bool exactly_closed = closed && !pair.regularisation();  // then C_n is the gap
+      violation = std::max(violation, exactly_closed ? std::abs(C[1]) : C.norm());
+      if (exactly_closed) gap = std::max(gap, std::abs(pair.rows()[s].gap) / (pair.slave_nodes()[s].weight * pair.size()));
       active += closed;
       sticking += law.state == ContactState::stick;
       changed += law.state != self.marked[p][s];

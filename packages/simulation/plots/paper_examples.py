@@ -1,6 +1,6 @@
 # The examples of the paper, one function each, which gives the HTML of its section: what the paper says, our figures, our numbers beside its own.
 STEEL, ALUMINIUM = (210000.0, 0.33), (71150.0, 0.30)
-NTS_LATER = "The node-to-segment results (the paper's “Lagrange”) come with that method, which this program does not have yet."
+LAGRANGE = "nodes on segments, one pass, Lagrange multipliers: the paper's “Lagrange”"
 
 
 def hertz(force, first, second, radius=50.0):
@@ -43,7 +43,13 @@ def patch_test():
                 ["mean axial stress / MPa", run.quantity("axial_stress"), None],
                 ["mean equivalent plastic strain", run.quantity("equivalent_plastic_strain"), None]]
         parts.append(comparison([row for row in rows if row[1] is not None], f"Patch test, {form}", "exact"))
-    return parts + [paragraph("Figure 3:", NTS_LATER)]
+    for run in rivals("patch_test", "patch_test_plastic"):
+        form = "elastic" if run.name == "patch_test" + RIVAL else "plastic"
+        parts.append(html_figure(displacement_and_stress(run, f"Patch test, {form}, node to segment"), "Figure 3", f"the same with {LAGRANGE}"))
+        parts.append(comparison([["largest deviation of a stress from its mean, over the mean stress", run.quantity("stress_spread"), 0.0],
+                                 ["imbalance of momentum, relative", run.quantity("momentum_imbalance"), 0.0]],
+                                f"Patch test, {form}, node to segment", "exact"))
+    return parts
 
 
 def block_pile():
@@ -63,7 +69,17 @@ def block_pile():
                                  ["difference of the blocks' corners / mm", run.quantity("lateral_spread"), 0.0],
                                  ["smallest gap (negative: penetration) / mm", run.quantity("largest_penetration"), 0.0]],
                                 f"Block pile, {form}", "exact"))
-    return parts + [paragraph("Figure 5:", NTS_LATER)]
+    for run in rivals("block_pile", "block_pile_axisymmetric"):
+        round_bar = "axisymmetric" in run.name
+        form, names = ("axisymmetric", ("r", "z")) if round_bar else ("plane strain", ("x", "y"))
+        parts.append(html_figure(displacement_and_stress(run, f"Block pile, {form}, node to segment", names), "Figure 5",
+                                 f"block pile, {form}, with {LAGRANGE}: the last state that was found"))
+        parts.append(comparison([["largest deviation of a stress from its mean, relative", run.quantity("stress_spread"), 0.0],
+                                 ["difference of the blocks' corners / mm", run.quantity("lateral_spread"), 0.0]],
+                                f"Block pile, {form}, node to segment", "exact"))
+        parts.append(paragraph(how_far(run), "Corner nodes of a slave side leave the master side, as the paper says of its own: then the master's",
+                               "corner goes into the slave, where nothing holds it."))
+    return parts
 
 
 def hertz_elastic():
@@ -85,14 +101,22 @@ def hertz_elastic():
             contact_profile(panel, run, friction(run), colour, marker)
             rows += [[f"P<sub>max</sub> / MPa, {label}, {friction(run)}; beside: {source}", run.quantity("peak_pressure"), peak],
                      [f"a / mm, {label}, {friction(run)}; beside: {source}", run.quantity("half_width"), half_width]]
+        for run in rivals(*names):
+            contact_profile(panel, run, "node to segment, " + friction(run), COLOURS[2], "^")
+            rows += [[f"P<sub>max</sub> / MPa, {label}, node to segment; beside: {source}", run.quantity("peak_pressure"), peak],
+                     [f"a / mm, {label}, node to segment; beside: {source}", run.quantity("half_width"), half_width]]
         finish_profile(panel, label, 1.5 * half_width)
     parts.append(html_figure(figure, "Figure 8", "contact stress of the elastic Hertz problem over the current position; each mark is a node"))
     parts.append(comparison(rows, "Hertz problem, elastic", "Hertz"))
+    both = complete("hertz_elastic", "hertz_elastic_as_printed") + rivals("hertz_elastic", "hertz_elastic_as_printed")
+    parts.append(beside([["total variation of the nodal pressures over their peak, − 1 (no oscillation: 0)", "oscillation"],
+                         ["relative L2 error of the pressure", "pressure_error_l2"]], both, [run.name for run in both],
+                        "Oscillation of the contact pressure"))
     for run in complete("hertz_elastic"):
         parts.append(own_checks(run))
         parts.append(html_figure(mesh_near_contact(run, "Hertz, elastic", 5.0), "Figure 7, detail",
                                  f"von Mises stress near the contact, stated moduli, {friction(run)}"))
-    return parts + [paragraph(NTS_LATER)]
+    return parts
 
 
 def roughness(history, quantity):
@@ -130,8 +154,18 @@ def extrusion():
                                   None],
                                  ["roughness of the extrusion force", roughness(run.history, "rear_force"), None]], "Conical extrusion"))
         parts.append(own_checks(run))
+        found = [run, *rivals(run.name)]
         for figure_name, quantity, name in (("Figure 12", "rear_force", "extrusion force"), ("Figure 13", "friction_force", "friction force")):
             if quantity in run.history:
-                figure = against_displacement(run, quantity, f"{name} / kN", name.capitalize(), 177.8)
+                figure = against_displacement(found, quantity, f"{name} / kN", name.capitalize(), 177.8)
                 parts.append(html_figure(figure, figure_name, f"{name} of the whole billet over the displacement of its rear face"))
-    return parts + [paragraph("Figures 12 and 13:", NTS_LATER)]
+    for run in rivals("conical_extrusion"):
+        parts.append(comparison([["largest equivalent plastic strain", run.quantity("peak_equivalent_plastic_strain"), 1.39],
+                                 ["contact length / mm, whole billet", run.quantity("contact_length"), 257.33],
+                                 ["rear force at the end / N", run.quantity("rear_force"), None],
+                                 ["friction force at the end / N", run.quantity("friction_force"), None],
+                                 ["roughness of the friction force", roughness(run.history, "friction_force"), None],
+                                 ["roughness of the extrusion force", roughness(run.history, "rear_force"), None]],
+                                "Conical extrusion, node to segment"))
+        parts.append(paragraph(how_far(run)))
+    return parts

@@ -84,15 +84,19 @@ def finish_profile(axes, title, end):
     axes.set_xlim(0, end)
     axes.set_xlabel("x / mm")
     axes.set_ylabel("contact stress / MPa")
-    axes.legend()
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), ncol=1, fontsize=7)
 
 
-def against_displacement(run, quantity, label, title, stroke, scale=1e-3):
-    """A quantity of every step over the way of the rear face."""
+def against_displacement(found, quantity, label, title, stroke, scale=1e-3):
+    """A quantity of every step over the way of the rear face, of a run and of its rivals."""
     figure, axes = panels(1, title)
-    history = run.history
-    axes[0].plot(np.append(0.0, stroke * history["time"] / history["time"][-1]), scale * np.append(0.0, np.abs(history[quantity])))
+    for run in found:
+        history = run.history
+        axes[0].plot(np.append(0.0, stroke * history["time"]), scale * np.append(0.0, np.abs(history[quantity])),
+                     label="node to segment" if run.name.endswith(RIVAL) else "dual mortar")
     axes[0].set_xlabel("displacement of the rear face / mm")
     axes[0].set_ylabel(label)
     axes[0].set_ylim(bottom=0)
+    if len(found) > 1:
+        axes[0].legend()
     return figure

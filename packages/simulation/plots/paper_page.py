@@ -55,7 +55,7 @@ pre { white-space: pre-wrap; background: #f4f4f4; padding: .5rem }
 
 
 def section(title, names, contents):
-    asked = [runs[name] for name in names if name in runs]
+    asked = [runs[name] for base in names for name in (base, base + RIVAL) if name in runs]
     if not asked:
         return []
     return [f"<section><h2>{escaped(title)}</h2>", *map(missed, asked), *contents(), "</section>"]

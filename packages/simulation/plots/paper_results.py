@@ -129,6 +129,14 @@ with open(os.path.join(directory, "paper.json"), encoding="utf-8") as file:
 runs = {one["identity"]["name"]: Run(one) for one in record["runs"]}
 
 
+RIVAL = "_node_to_segment"
+
+
+def rivals(*names):
+    """The same runs with nodes on segments, as far as they left results; they may have stopped on their way."""
+    return [runs[name + RIVAL] for name in names if name + RIVAL in runs and os.path.isfile(runs[name + RIVAL].file("fields.h5"))]
+
+
 def complete(*names):
     """Those of the named runs that were asked for and came to their end."""
     return [runs[name] for name in names if name in runs and runs[name].complete]

@@ -9,7 +9,6 @@ PAPER_RESIDUALS = {  # increment: relative residual norms in percent of dual mor
     200: ([0.754524e-4, 0.917062e-8, 0.896271e-12], [0.354716e-1, 0.485938e-3, 0.337746e-6, 0.852251e-11])}
 INCREMENTS = 200
 FORMS = {"hertz_plastic": "stated data", "hertz_plastic_as_printed": "as-printed modulus, no yield"}
-OTHERS = ["paper, dual mortar", "ours, node to segment", "paper, Lagrange"]
 
 
 def downward(fields, body, end):
@@ -28,25 +27,31 @@ def indentation(run):
     return [tip, surface, downward(fields, cylinder, 1) - tip, surface - downward(fields, block, -1), run.quantity("contact_length")]
 
 
-def first_half_of_table_two(found):
+def headed(found, others, between=()):
+    """Our runs, the paper's column, our runs with nodes on segments, the paper's column."""
+    ours = lambda runs, method: [one for run in runs for one in (f"ours, {method}{FORMS[run.name.replace(RIVAL, '')]}", *between)]
+    return [*ours(found, ""), "paper, dual mortar", *ours(others, "node to segment, "), "paper, Lagrange"]
+
+
+def first_half_of_table_two(found, others):
     rows = []
-    values = [indentation(run) for run in found]
+    values, rival_values = [indentation(run) for run in found], [indentation(run) for run in others]
     for i, (name, (mortar, lagrange)) in enumerate(PAPER_TWO.items()):
-        cells = [cell for one in values for cell in (number(one[i]), difference(one[i], mortar))]
-        rows.append([name, *cells, number(mortar), "later", number(lagrange)])
-    head = ["quantity"] + [one for run in found for one in (f"ours, {FORMS[run.name]}", "difference")] + OTHERS
-    return html_table(head, rows, "Table 2, first half: at 12.5 kN/mm")
+        cells = lambda all_values, paper: [cell for one in all_values for cell in (number(one[i]), difference(one[i], paper))]
+        rows.append([name, *cells(values, mortar), number(mortar), *cells(rival_values, lagrange), number(lagrange)])
+    return html_table(["quantity", *headed(found, others, ["difference"])], rows, "Table 2, first half: at 12.5 kN/mm")
 
 
-def residual_table(found):
+def residual_table(found, others):
     rows = []
     for increment, (mortar, lagrange) in PAPER_RESIDUALS.items():
-        ours = [[100 * one for one in run.residuals(run.history["time"][-1] * increment / INCREMENTS)] for run in found]
-        for i in range(max([len(mortar) + 1, len(lagrange) + 1] + [len(one) for one in ours])):
+        residuals = lambda runs: [[100 * one for one in run.residuals(run.history["time"][-1] * increment / INCREMENTS)] for run in runs]
+        ours, rival = residuals(found), residuals(others)
+        for i in range(max([len(mortar) + 1, len(lagrange) + 1] + [len(one) for one in ours + rival])):
             cell = lambda values, i: f"{values[i]:.2e}" if 0 <= i < len(values) else ""
-            rows.append([f"{increment}, {i}", *[cell(one, i) for one in ours], cell(mortar, i - 1), "later", cell(lagrange, i - 1)])
-    head = ["increment, iteration"] + [f"ours, {FORMS[run.name]}" for run in found] + OTHERS
-    return html_table(head, rows, "Table 2, second half: relative residual norm in %")
+            rows.append([f"{increment}, {i}", *[cell(one, i) for one in ours], cell(mortar, i - 1), *[cell(one, i) for one in rival],
+                         cell(lagrange, i - 1)])
+    return html_table(["increment, iteration", *headed(found, others)], rows, "Table 2, second half: relative residual norm in %")
 
 
 def hertz_plastic():
@@ -55,14 +60,22 @@ def hertz_plastic():
     found = complete(*FORMS)
     if not found:
         return parts
+    others = [run for run in rivals(*FORMS) if run.complete]
     figure, axes = panels(len(found), "Contact stress, 12.5 kN/mm")
     for panel, run in zip(axes, found):
+        for rival in others:
+            if rival.name == run.name + RIVAL:
+                contact_profile(panel, rival, "normal, node to segment", COLOURS[2], "^")
+                contact_profile(panel, rival, "tangential, node to segment", COLOURS[3], "v", shear=True)
         contact_profile(panel, run, "normal", COLOURS[0], "o")
         contact_profile(panel, run, "tangential", COLOURS[1], "s", shear=True)
         x, pressure, _ = run.fields.contact()
         finish_profile(panel, FORMS[run.name], 1.5 * x[pressure > 0].max())
     parts.append(html_figure(figure, "Figure 9", "contact stress over the current position; each mark is a node"))
-    parts += [first_half_of_table_two(found), residual_table(found)]
+    parts += [first_half_of_table_two(found, others), residual_table(found, others)]
+    parts.append(beside([["total variation of the nodal pressures over their peak, − 1 (no oscillation: 0)", "oscillation"],
+                         ["P<sub>max</sub> / MPa", "peak_pressure"]], found + others, [run.name for run in found + others],
+                        "Oscillation of the contact pressure"))
     parts.append(paragraph("What the paper's displacements are is not said: taken is the displacement of the contact point; the block's",
                            "deformation is that against its fixed bottom, the cylinder's that of its diameter against the contact point.",
                            "Residuals: ours are those after each iteration, 0 being the start, over the largest of internal, external and",
@@ -72,6 +85,9 @@ def hertz_plastic():
                            "from about 1.2 kN/mm on. The iteration counts and their quadratic decay can be compared."))
     for run in found:
         parts.append(f"<p>Newton iterations, {FORMS[run.name]} (steps × iterations): {stages(run)}.</p>")
+        for rival in others:
+            if rival.name == run.name + RIVAL:
+                parts.append(f"<p>With nodes on segments: {stages(rival)}.</p>")
         if run.name == "hertz_plastic":
             parts.append(comparison([["largest equivalent plastic strain", run.quantity("peak_equivalent_plastic_strain"), None],
                                      ["that in the cylinder", run.quantity("peak_plastic_strain_cylinder"), None],

@@ -33,6 +33,21 @@ def comparison(rows, caption, reference="paper"):
     return html_table(["quantity", "ours", reference, "difference"], cells, caption)
 
 
+def beside(rows, found, labels, caption):
+    """rows: label and name of a quantity; one column for each of the runs `found`."""
+    cells = [[label, *[number(run.quantity(name)) for run in found]] for label, name in rows]
+    return html_table(["quantity", *labels], cells, caption)
+
+
+def how_far(run):
+    """What a run that stopped on its way reached, and why it stopped."""
+    if run.complete:
+        return "It came to its end."
+    times = run.history["time"] if "time" in run.history else []
+    reached = times[-1] if len(times) else 0.0
+    return f"It stopped at time {reached:.3g} of the scene: {escaped(run.said.splitlines()[-1] if run.said else 'it said nothing')}"
+
+
 def own_checks(run):
     """Quantities that have to vanish, as far as the scene names them."""
     names = {"oscillation": "total variation of the nodal pressures along the surface over their peak, − 1",

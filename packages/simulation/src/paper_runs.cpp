@@ -11,22 +11,44 @@ const std::string friction = "variables/mu=0.1", no_friction = "variables/mu=0",
 const std::string elastic_fields = "output/fields=displacement, cauchy_stress", plastic_fields = elastic_fields + ", equivalent_plastic_strain",
                   contact_fields = plastic_fields + ", contact_pressure, contact_shear, gap";
 
+struct Example {
+  PaperRun run;
+  std::vector<std::string> pairs;  ///< to be computed with nodes on segments as well
+};
+
+/// Each example, followed by the same with the paper's "Lagrange".
+std::vector<PaperRun> with_rivals(const std::vector<Example>& examples) {
+  std::vector<PaperRun> runs;
+  for (const Example& example : examples) {
+    runs.push_back(example.run);
+    if (example.pairs.empty()) continue;
+    PaperRun rival = example.run;
+    rival.name += "_node_to_segment";
+    rival.is_rival = true;
+    for (const std::string& pair : example.pairs) rival.settings.push_back("contact/" + pair + "/formulation/type=node to segment");
+    runs.push_back(rival);
+  }
+  return runs;
+}
+
 }  // namespace
 
 const std::vector<PaperRun>& paper_runs() {
-  static const std::vector<PaperRun> runs{
-      {"patch_test", "patch_test", {elastic_fields, at_end}},
-      {"patch_test_plastic", "patch_test_plastic", {plastic_fields, at_end}},
-      {"block_pile", "block_pile", {plastic_fields, at_end}},
-      {"block_pile_axisymmetric", "block_pile_axisymmetric", {plastic_fields, at_end}},
-      {"hertz_elastic", "hertz_elastic", {friction, fine, contact_fields, at_end}},
-      {"hertz_elastic_frictionless", "hertz_elastic", {no_friction, fine, contact_fields, at_end}},
-      {"hertz_elastic_as_printed", "hertz_elastic_as_printed", {friction, fine, contact_fields, at_end}},
-      {"hertz_elastic_as_printed_frictionless", "hertz_elastic_as_printed", {no_friction, fine, contact_fields, at_end}},
-      {"hertz_plastic", "hertz_plastic", {fine, contact_fields, at_end}},
-      {"hertz_plastic_as_printed", "hertz_elastic_as_printed", {"variables/F=12500", fine, "stepping/step=1/200", contact_fields, at_end}},
-      {"conical_extrusion", "conical_extrusion", {contact_fields, at_end}},
-  };
+  const std::vector<std::string> elastic{friction, fine, contact_fields, at_end}, frictionless{no_friction, fine, contact_fields, at_end};
+  const std::vector<std::string> soft{"variables/F=12500", fine, "stepping/step=1/200", contact_fields, at_end};
+  static const std::vector<PaperRun> runs = with_rivals({
+      {{"patch_test", "patch_test", {elastic_fields, at_end}}, {"interface"}},
+      {{"patch_test_plastic", "patch_test_plastic", {plastic_fields, at_end}}, {"interface"}},
+      {{"block_pile", "block_pile", {plastic_fields, at_end}}, {"first", "second", "third"}},
+      {{"block_pile_axisymmetric", "block_pile_axisymmetric", {plastic_fields, at_end}}, {"first", "second", "third"}},
+      {{"hertz_elastic", "hertz_elastic", elastic}, {"interface"}},
+      {{"hertz_elastic_frictionless", "hertz_elastic", frictionless}, {}},
+      {{"hertz_elastic_as_printed", "hertz_elastic_as_printed", elastic}, {"interface"}},
+      {{"hertz_elastic_as_printed_frictionless", "hertz_elastic_as_printed", frictionless}, {}},
+      {{"hertz_plastic", "hertz_plastic", {fine, contact_fields, at_end}}, {"interface"}},
+      {{"hertz_plastic_as_printed", "hertz_elastic_as_printed", soft}, {"interface"}},
+      {{"conical_extrusion", "conical_extrusion", {contact_fields, at_end}}, {"wall"}},
+  });
   return runs;
 }
 

@@ -20,6 +20,7 @@ struct PaperRun {
   std::string name;
   std::string scene;                  ///< name of a PaperScene
   std::vector<std::string> settings;  ///< "path=value"
+  bool is_rival = false;              ///< computed with the method that the paper compares with: that it fails is a result
 };
 
 /// The runs in the order of the paper.

@@ -46,7 +46,7 @@ Json run_one(const RCP<const Communicator>& comm, const PaperRun& run, const Pap
   if (options.reuse)
     if (auto found = earlier(*comm, record, wanted)) return *found;
 
-  Json json{{"identity", wanted}, {"exit", static_cast<int>(ExitCode::files)}, {"reused", false}, {"seconds", 0.0}, {"said", ""}};
+  Json json{{"identity", wanted}, {"rival", run.is_rival}, {"exit", static_cast<int>(ExitCode::files)}, {"reused", false}, {"seconds", 0.0}, {"said", ""}};
   try {
     OutputDirectory(comm, results, false).remove_earlier_run();
     std::filesystem::remove(record);
@@ -77,12 +77,12 @@ std::string how_it_ended(const Json& run) {
   return text + (run.at("reused").get<bool>() ? ", results of an earlier call" : fmt::format(", {:.1f} s", run.at("seconds").get<double>()));
 }
 
-/// The worst that happened.
+/// The worst that happened to the runs of the method itself: what its rival makes of the examples is a result, whatever it is.
 ExitCode exit_of(const Json& runs) {
   ExitCode worst = ExitCode::done;
   for (const auto& run : runs) {
     const int exit = run.at("exit");
-    if (exit == static_cast<int>(ExitCode::done)) continue;
+    if (exit == static_cast<int>(ExitCode::done) || run.value("rival", false)) continue;
     if (exit != static_cast<int>(ExitCode::check_missed)) return ExitCode::not_converged;
     worst = ExitCode::check_missed;
   }
@@ -117,7 +117,7 @@ ExitCode run_paper(const RCP<const Communicator>& comm, const PaperOptions& opti
     Json result = run_one(comm, run, options, directory.path());
     log.info(fmt::format("{}/{} {}: {}", i + 1, wanted.size(), run.name, how_it_ended(result)));
     const std::string said = result.at("said");
-    if (result.at("exit") != 0) log.warning(run.name + ": " + (said.empty() ? "the page says why" : said));
+    if (result.at("exit") != 0 && !run.is_rival) log.warning(run.name + ": " + (said.empty() ? "the page says why" : said));
     record["runs"].push_back(std::move(result));
   }
   write_json(*comm, directory.file("paper.json"), record);
