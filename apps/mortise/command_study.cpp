@@ -10,7 +10,9 @@ void add_study_command(CLI::App& app, Program& program) {
   const auto options = std::make_shared<StudyOptions>();
   options->version = MORTISE_VERSION;
   command->add_option("STUDY", options->study, "study file")->required();
-  command->add_option("-o,--output", options->directory, "directory for the report and the results of all runs; default: results/<name of the file STUDY>")
+  command
+      ->add_option("-o,--output", options->directory,
+                   "directory for the report and the results of all runs; default: results/<name of the file STUDY>")
       ->type_name("DIR");
   command->add_flag("--fresh", options->fresh, "forget what DIR holds; otherwise runs that an earlier call finished are not repeated");
   command->add_flag_callback(

@@ -46,15 +46,25 @@ def html_table(head, rows, caption):
     return "\n".join(lines + ["</tbody>", "</table>"])
 
 
-def html_figure(figure, title, caption):
-    """The figure as part of the page."""
+def svg(figure):
+    """The figure as text, which closes it."""
     image = io.BytesIO()
     figure.savefig(image, format="svg", metadata={"Date": None})
     plt.close(figure)
-    data = base64.b64encode(image.getvalue()).decode()
+    return image.getvalue()
+
+
+def html_image(image, title, caption):
+    """An SVG as part of the page."""
+    data = base64.b64encode(image).decode()
     alternative = html.escape(f"{title}: {caption}")
     return (f'<figure><img src="data:image/svg+xml;base64,{data}" alt="{alternative}">'
             f"<figcaption><b>{escaped(title)}.</b> {escaped(caption)}</figcaption></figure>")
+
+
+def html_figure(figure, title, caption):
+    """The figure as part of the page."""
+    return html_image(svg(figure), title, caption)
 
 
 def html_page(title, parts):

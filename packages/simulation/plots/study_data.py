@@ -25,18 +25,18 @@ def percent(error):
     return f"{100 * error:g} %"
 
 
-# Where the wall time of a run goes: title and timers of the summary, those after the first being parts of it that stand elsewhere.
+# Where the wall time of a run goes: title, timers of the summary, and a timer that is a part of them but stands elsewhere.
 EFFECTS = [
-    ("meshes", ["mesh"]), ("bodies", ["bulk"]), ("loads", ["loads"]), ("contact search", ["search"]), ("contact", ["contact", "search"]),
-    ("condensation", ["condensation"]), ("factorisation", ["linear_setup"]), ("linear solves", ["linear_solve"]), ("output", ["output"])]
+    ("meshes and output", ["mesh", "output"], None), ("bodies and loads", ["bulk", "loads"], None), ("contact search", ["search"], None),
+    ("contact", ["contact"], "search"), ("condensation", ["condensation"], None), ("factorisation", ["linear_setup"], None),
+    ("linear solves", ["linear_solve"], None)]
+REST, PROCESS = "other", "start and end of the process"
 
 
 def split(point):
     """Seconds by effect; what no timer of these has counted, and what the process took besides, come last."""
     time = point["time"]
-    shares = {}
-    for title, (timer, *elsewhere) in EFFECTS:
-        shares[title] = max(0.0, time.get(timer, 0.0) - sum(time.get(one, 0.0) for one in elsewhere))
-    shares["other"] = max(0.0, time.get("total", 0.0) - sum(shares.values()))
-    shares["start and end of the process"] = max(0.0, point["wall_s"] - time.get("total", 0.0))
+    shares = {title: max(0.0, sum(time.get(one, 0.0) for one in timers) - time.get(elsewhere, 0.0)) for title, timers, elsewhere in EFFECTS}
+    shares[REST] = max(0.0, time.get("total", 0.0) - sum(shares.values()))
+    shares[PROCESS] = max(0.0, point["wall_s"] - time.get("total", 0.0))
     return shares

@@ -1,27 +1,27 @@
 # Figures of a study: each function gives a matplotlib figure.
-from matplotlib.ticker import FuncFormatter, MaxNLocator, NullFormatter
+from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullFormatter
 
 MARKERS = ["o", "s", "^", "D", "v", "P", "X", "<"]
-HATCHES = ["", "///", "\\\\\\", "...", "xxx", "---", "+++", "ooo"]
+FILLS = [*zip(COLOURS, ["", "///", "\\\\\\", "...", "xxx", "---", ""]), ("#AAAAAA", "..."), ("#DDDDDD", "")]  # of the effects, then of the rest
 
 
-def style(index, line=True):
+def style(index):
     """Of a curve: colour, marker and dashes of its own."""
     return {"color": COLOURS[index % len(COLOURS)], "marker": MARKERS[index % len(MARKERS)], "markersize": 4.5,
-            "linestyle": DASHES[index % len(DASHES)] if line else "none"}
+            "linestyle": DASHES[index % len(DASHES)]}
 
 
 def one_panel(title):
-    figure, axes = plt.subplots(figsize=(4.6, 3.4), layout="constrained")
+    figure, axes = plt.subplots(figsize=(4.6, 3.4))
     axes.set_title(title)
     return figure, axes
 
 
-def plain_ticks(axis, values):
+def ticks_at(axis, values):
     """Ticks at these values, written out; a logarithmic axis of less than a decade has next to none of its own."""
     values = sorted({float(f"{value:.3g}") for value in values if np.isfinite(value) and value > 0})
     if 0 < len(values) <= 8:
-        axis.set_major_locator(plt.FixedLocator(values))
+        axis.set_major_locator(FixedLocator(values))
         axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.3g}"))
         axis.set_minor_formatter(NullFormatter())
 
@@ -39,7 +39,7 @@ def error_against_h(error):
         order = error["orders"][index]
         label = curve["name"] + ("" if order is None else f": order {order:.2f}")
         axes.loglog(h[curve["points"]], values[curve["points"]], label=label, **style(index))
-    plain_ticks(axes.xaxis, h)
+    ticks_at(axes.xaxis, h)
     axes.set_xlabel(f"h = {study['h']}")
     axes.set_ylabel("relative error")
     legend_below(axes)
@@ -60,8 +60,9 @@ def error_against_time(error):
         axes.annotate(percent(target["error"]), (1, target["error"]), xycoords=("axes fraction", "data"), ha="right", va="bottom", fontsize=7)
     for index, curve in enumerate(curves):
         axes.loglog(wall[curve["points"]], values[curve["points"]], label=curve["name"], **style(index))
-    if np.nanmax(wall) < 10 * np.nanmin(wall):
-        plain_ticks(axes.xaxis, [wall[i] for i in front])
+    low, high = np.nanmin(wall[finished]), np.nanmax(wall[finished])
+    if high < 10 * low:
+        ticks_at(axes.xaxis, [m * 10.0**k for k in range(-4, 7) for m in (1, 1.5, 2, 3, 5, 7) if 0.95 * low < m * 10.0**k < 1.05 * high])
     axes.set_xlabel("wall time / s")
     axes.set_ylabel("relative error")
     legend_below(axes)
@@ -71,14 +72,12 @@ def error_against_time(error):
 def cost_by_effect():
     """Bars of the wall time of each point."""
     shares = [split(points[i]) for i in finished]
-    titles = [title for title in shares[0] if any(share[title] > 0.005 * sum(share.values()) for share in shares)]
-    figure, axes = plt.subplots(figsize=(6.3, 0.9 + 0.24 * len(finished)), layout="constrained")
+    figure, axes = plt.subplots(figsize=(6.3, 0.9 + 0.24 * len(finished)))
     axes.set_title("share of the wall time")
     begin = np.zeros(len(finished))
-    for index, title in enumerate(titles):
+    for (colour, hatch), title in zip(FILLS, shares[0]):
         width = np.array([100 * share[title] / sum(share.values()) for share in shares])
-        axes.barh(range(len(finished)), width, left=begin, height=0.75, color=COLOURS[index % len(COLOURS)], edgecolor="white", linewidth=0.5,
-                  hatch=HATCHES[(index // len(COLOURS) + index) % len(HATCHES)], label=title)
+        axes.barh(range(len(finished)), width, left=begin, height=0.75, color=colour, hatch=hatch, edgecolor="white", linewidth=0.5, label=title)
         begin += width
     axes.set_yticks(range(len(finished)), [f"{points[i]['label']}   {wall[i]:.3g} s" for i in finished])
     axes.invert_yaxis()
@@ -94,7 +93,7 @@ def newton_iterations():
     iterations = column("newton_iterations") / column("steps")
     for index, curve in enumerate(curves):
         axes.semilogx(h[curve["points"]], iterations[curve["points"]], label=curve["name"], **style(index))
-    plain_ticks(axes.xaxis, h)
+    ticks_at(axes.xaxis, h)
     axes.yaxis.set_major_locator(MaxNLocator(integer=True))
     axes.set_ylim(bottom=0)
     axes.set_xlabel(f"h = {study['h']}")

@@ -1,8 +1,10 @@
 # The page of a study.
 def drawn(figure, stem, title, caption):
     """As a file of its own, and as part of the page."""
-    figure.savefig(os.path.join(directory, "plots", stem + ".svg"), metadata={"Date": None})
-    return html_figure(figure, title, caption)
+    image = svg(figure)
+    with open(os.path.join(directory, "plots", stem + ".svg"), "wb") as file:
+        file.write(image)
+    return html_image(image, title, caption)
 
 
 def stem(name):

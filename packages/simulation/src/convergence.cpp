@@ -1,4 +1,4 @@
-#include "convergence.hpp"
+#include "mortise/simulation/convergence.hpp"
 
 #include <algorithm>
 #include <cmath>

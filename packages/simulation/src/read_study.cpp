@@ -7,8 +7,8 @@
 #include "mortise/core/parameter_tree.hpp"
 #include "mortise/core/read_parameters.hpp"
 #include "mortise/simulation/read_scene.hpp"
+#include "mortise/simulation/study_points.hpp"
 #include "names.hpp"
-#include "study_points.hpp"
 
 namespace mortise {
 namespace {

@@ -18,7 +18,8 @@ StudyConclusions conclude(const StudyPlan& plan, const StudyResults& results, co
   for (const StudyRecord& point : results.points) seconds.push_back(point.wall);
   StudyConclusions conclusions;
   conclusions.front = pareto_front(seconds, errors.error);
-  for (const StudyCurve& curve : curves) conclusions.orders.push_back(fitted_order(picked(results.h, curve.points), picked(errors.error, curve.points)));
+  for (const StudyCurve& curve : curves)
+    conclusions.orders.push_back(fitted_order(picked(results.h, curve.points), picked(errors.error, curve.points)));
   for (const double error : plan.file.targets) {
     StudyConclusions::Target target;
     target.error = error;

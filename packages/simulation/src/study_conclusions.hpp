@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "convergence.hpp"
+#include "mortise/simulation/convergence.hpp"
 #include "study_errors.hpp"
 
 namespace mortise {
@@ -15,7 +15,7 @@ struct StudyConclusions {
   /// For one error that is aimed at.
   struct Target {
     double error = 0.0;
-    std::optional<std::size_t> cheapest;           ///< of all points that are good enough the one that took least wall time
+    std::optional<std::size_t> cheapest;            ///< of all points that are good enough the one that took least wall time
     std::vector<std::optional<TimeToError>> times;  ///< of each curve
     std::vector<std::optional<double>> ratios;      ///< of these to that of the curve's base
   };

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "convergence.hpp"
-#include "study_profile.hpp"
+#include "mortise/simulation/convergence.hpp"
+#include "mortise/simulation/study_profile.hpp"
 
 namespace mortise {
 namespace {
@@ -28,7 +28,8 @@ void extrapolated(const StudyMeasuring& measuring, const StudyQuantity& quantity
   for (const StudyCurve& curve : measuring.curves) {
     Values h, values;
     for (const std::size_t i : curve.points)
-      if (std::isfinite(errors.value[i]) && std::isfinite(measuring.results.h[i])) h.push_back(measuring.results.h[i]), values.push_back(errors.value[i]);
+      if (std::isfinite(errors.value[i]) && std::isfinite(measuring.results.h[i]))
+        h.push_back(measuring.results.h[i]), values.push_back(errors.value[i]);
     const auto limit = extrapolate(h, values, quantity.order);
     if (!limit) {
       errors.notes.push_back(curve.name + ": no reference: the three finest levels do not approach a limit from one side");
@@ -55,7 +56,8 @@ StudyErrors scalar_errors(const StudyMeasuring& measuring, const std::string& na
     errors.notes.push_back(fmt::format("reference: {:.8g} of the finest run", errors.reference.front()));
   } else if (quantity.reference == StudyReference::exact) {
     for (std::size_t i = 0; i < count; ++i)
-      if (results.points[i].finished()) errors.reference[i] = evaluate(quantity.value, plan.points[i], results.points[i].quantities, results.points[i].dofs);
+      if (results.points[i].finished())
+        errors.reference[i] = evaluate(quantity.value, plan.points[i], results.points[i].quantities, results.points[i].dofs);
   } else {
     extrapolated(measuring, quantity, errors);
   }
@@ -80,8 +82,7 @@ StudyErrors profile_errors(const StudyMeasuring& measuring, const std::string& n
 
 std::vector<double> mesh_sizes(const StudyPlan& plan, const std::vector<StudyRecord>& records) {
   Values h;
-  for (std::size_t i = 0; i < records.size(); ++i)
-    h.push_back(evaluate(plan.file.h, plan.points[i], records[i].quantities, records[i].dofs));
+  for (std::size_t i = 0; i < records.size(); ++i) h.push_back(evaluate(plan.file.h, plan.points[i], records[i].quantities, records[i].dofs));
   return h;
 }
 

@@ -15,7 +15,8 @@ FieldErrors field_errors(const StudyMeasuring& measuring) {
   FieldErrors errors{std::vector<double>(points.size(), none), std::vector<double>(points.size(), none)};
   if (!measuring.results.finest->finished()) return errors;
   const std::string result = measuring.directory + "/field-errors.json";
-  std::vector<std::string> arguments{result, measuring.plan.finest->axisymmetric ? "axisymmetric" : "plane", measuring.directory_of(*measuring.plan.finest)};
+  std::vector<std::string> arguments{result, measuring.plan.finest->axisymmetric ? "axisymmetric" : "plane",
+                                     measuring.directory_of(*measuring.plan.finest)};
   std::vector<std::size_t> measured;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (measuring.results.points[i].finished()) {

@@ -7,8 +7,9 @@ namespace mortise {
 void StudyAxis::describe(Parameters& parameters) {
   parameters.add("setting", setting, "path of what is varied, as `--set` takes it (\"variables/n\"), or \"ranks\"; short form, with \"values\"");
   parameters.add("values", values, "its values, each the label of itself");
-  parameters.named("choices", choices,
-                   "long form: values by labels of your choice; each holds the settings it makes, a parameter \"path\" or lists as in the scene for each");
+  parameters.named(
+      "choices", choices,
+      "long form: values by labels of your choice; each holds the settings it makes, a parameter \"path\" or lists as in the scene for each");
   const bool short_form = !setting.value.empty() || !values.value.empty();
   if (short_form && !choices.empty()) parameters.error("setting", "either \"setting\" with \"values\", or \"choices\"; please remove one of them");
   if (short_form && setting.value.empty()) parameters.error("values", "\"setting\" is missing; please add it: path of what is varied");
@@ -24,15 +25,16 @@ std::vector<Named<AssignmentList>> StudyAxis::labelled() const {
 }
 
 void StudyQuantity::describe(Parameters& parameters) {
-  parameters.add("measure", measure,
-                 {{"relative difference", StudyMeasure::relative_difference},
-                  {"itself", StudyMeasure::itself},
-                  {"pressure profile", StudyMeasure::pressure_profile},
-                  {"shear profile", StudyMeasure::shear_profile},
-                  {"displacement", StudyMeasure::displacement},
-                  {"displacement gradient", StudyMeasure::displacement_gradient}},
-                 "relative difference: |q - q_ref| / |q_ref|; itself: the quantity is an error, such as an \"error norm\"; the others are relative L2 norms of "
-                 "differences to the finest run at the end: of contact tractions along the arc length, of displacements or their gradients over the bodies");
+  parameters.add(
+      "measure", measure,
+      {{"relative difference", StudyMeasure::relative_difference},
+       {"itself", StudyMeasure::itself},
+       {"pressure profile", StudyMeasure::pressure_profile},
+       {"shear profile", StudyMeasure::shear_profile},
+       {"displacement", StudyMeasure::displacement},
+       {"displacement gradient", StudyMeasure::displacement_gradient}},
+      "relative difference: |q - q_ref| / |q_ref|; itself: the quantity is an error, such as an \"error norm\"; the others are relative L2 norms of "
+      "differences to the finest run at the end: of contact tractions along the arc length, of displacements or their gradients over the bodies");
   parameters.add("quantity", quantity, "quantity of the scene; left out: the one with the name of this list");
   parameters.add("reference", reference,
                  {{"exact", StudyReference::exact}, {"finest", StudyReference::finest}, {"richardson", StudyReference::richardson}},

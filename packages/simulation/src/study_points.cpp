@@ -1,4 +1,4 @@
-#include "study_points.hpp"
+#include "mortise/simulation/study_points.hpp"
 
 #include <fmt/format.h>
 
@@ -36,7 +36,8 @@ std::vector<Labels> excluded(const Named<AssignmentList>& entry, const StudyFile
     for (std::string& label : about[axis]) {
       boost::algorithm::trim(label);
       if (std::find(labels[axis].begin(), labels[axis].end(), label) == labels[axis].end())
-        diagnostics.push_back({one.place, unknown_name("value of \"" + one.path + "\"", label, labels[axis]) + "; it has " + quoted_list(labels[axis])});
+        diagnostics.push_back(
+            {one.place, unknown_name("value of \"" + one.path + "\"", label, labels[axis]) + "; it has " + quoted_list(labels[axis])});
     }
   }
   return about;
@@ -73,6 +74,7 @@ std::vector<StudyPoint> study_points(const StudyFile& study, std::vector<Diagnos
   std::size_t combinations = 1;
   for (const auto& axis : study.axes) {
     values.push_back(axis.value.labelled());
+    if (values.back().empty()) values.back().push_back({});  // said when it was read
     labels.push_back(names_of(values.back()));
     for (std::size_t i = 0; i < labels.back().size(); ++i)
       if (std::find(labels.back().begin(), labels.back().begin() + i, labels.back()[i]) != labels.back().begin() + i)

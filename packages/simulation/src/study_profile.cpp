@@ -1,4 +1,4 @@
-#include "study_profile.hpp"
+#include "mortise/simulation/study_profile.hpp"
 
 #include <fmt/format.h>
 
@@ -43,7 +43,8 @@ double squared_difference(const TractionProfile& a, const TractionProfile& b) {
 }
 
 const TractionProfile* find(const std::vector<TractionProfile>& profiles, const TractionProfile& wanted) {
-  const auto found = std::find_if(profiles.begin(), profiles.end(), [&](const auto& one) { return one.pair == wanted.pair && one.part == wanted.part; });
+  const auto found =
+      std::find_if(profiles.begin(), profiles.end(), [&](const auto& one) { return one.pair == wanted.pair && one.part == wanted.part; });
   return found == profiles.end() ? nullptr : &*found;
 }
 

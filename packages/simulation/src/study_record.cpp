@@ -12,10 +12,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "convergence.hpp"
 #include "mortise/core/xml.hpp"
 #include "mortise/io/files.hpp"
 #include "mortise/io/output_directory.hpp"
+#include "mortise/simulation/convergence.hpp"
 #include "run_process.hpp"
 
 namespace mortise {
@@ -61,9 +61,13 @@ Json excerpt(const std::string& path) {
 }
 
 Json run_all(const Communicator& comm, const StudyPoint& point, const StudyPointOptions& options) {
-  Json record{{"identity", identity(point, options)}, {"exit", static_cast<int>(ExitCode::files)}, {"said", ""},
-              {"date", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))}, {"processor", processor()},
-              {"repeats", Json::array()}, {"summary", Json::object()}};
+  Json record{{"identity", identity(point, options)},
+              {"exit", static_cast<int>(ExitCode::files)},
+              {"said", ""},
+              {"date", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))},
+              {"processor", processor()},
+              {"repeats", Json::array()},
+              {"summary", Json::object()}};
   for (int repeat = 0; repeat < options.repeats; ++repeat) {
     try {
       // Nothing of an earlier run may pass for results of one that fails.

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mortise/core/types.hpp"
-#include "study_points.hpp"
+#include "mortise/simulation/study_points.hpp"
 
 namespace mortise {
 
@@ -36,9 +36,9 @@ struct StudyPointOptions {
   int repeats = 1;
 };
 
-/// Runs a point, each time as a process of its own, and keeps what it gave as study-point.json in its directory, at once and at the end. If that holds
-/// already what the same runs gave (scene, settings, ranks, repeats, version), nothing is run, unless they ended for a reason that is none of theirs:
-/// killed, files. Throws nothing on a run that fails; FileError if the record cannot be written.
+/// Runs a point, each time as a process of its own, and keeps what it gave as study-point.json in its directory, at once and at the end. If that
+/// holds already what the same runs gave (scene, settings, ranks, repeats, version), nothing is run, unless they ended for a reason that is none of
+/// theirs: killed, files. Throws nothing on a run that fails; FileError if the record cannot be written.
 StudyRecord run_point(const Communicator& comm, const StudyPoint& point, const StudyPointOptions& options);
 
 }  // namespace mortise

@@ -46,23 +46,16 @@ Json point_json(const StudyPoint& point, const StudyRecord& record) {
 }
 
 Json errors_json(const StudyErrors& errors, const StudyConclusions& conclusions) {
-  Json json{{"name", errors.name},
-            {"error", numbers(errors.error)},
-            {"value", numbers(errors.value)},
-            {"reference", numbers(errors.reference)},
-            {"notes", errors.notes},
-            {"orders", Json::array()},
-            {"front", conclusions.front},
-            {"targets", Json::array()}};
+  Json json{{"name", errors.name},   {"error", numbers(errors.error)}, {"value", numbers(errors.value)}, {"reference", numbers(errors.reference)},
+            {"notes", errors.notes}, {"orders", Json::array()},        {"front", conclusions.front},     {"targets", Json::array()}};
   for (const auto& order : conclusions.orders) json["orders"].push_back(number(order));
   for (const auto& target : conclusions.targets) {
     Json one{{"error", target.error}, {"cheapest", nullptr}, {"curves", Json::array()}};
     if (target.cheapest) one["cheapest"] = *target.cheapest;
     for (std::size_t c = 0; c < target.times.size(); ++c) {
       const auto& time = target.times[c];
-      one["curves"].push_back({{"seconds", time ? Json(time->seconds) : Json(nullptr)},
-                               {"at_most", time && time->at_most},
-                               {"ratio", number(target.ratios[c])}});
+      one["curves"].push_back(
+          {{"seconds", time ? Json(time->seconds) : Json(nullptr)}, {"at_most", time && time->at_most}, {"ratio", number(target.ratios[c])}});
     }
     json["targets"].push_back(std::move(one));
   }
@@ -90,8 +83,9 @@ void write_study_table(const RCP<const Communicator>& comm, const std::string& p
   for (std::size_t i = 0; i < plan.points.size(); ++i) {
     const StudyPoint& point = plan.points[i];
     const StudyRecord& record = results.points[i];
-    std::vector<CsvValue> row{point.formulation, point.element, cell(results.h[i]), count(record.dofs), count(record.steps),
-                              count(record.newton_iterations), cell(record.wall), cell(record.cpu), cell(record.memory)};
+    std::vector<CsvValue> row{point.formulation,  point.element,       cell(results.h[i]),
+                              count(record.dofs), count(record.steps), count(record.newton_iterations),
+                              cell(record.wall),  cell(record.cpu),    cell(record.memory)};
     for (const auto& one : errors) row.push_back(cell(one.error[i]));
     row.emplace_back(record.status());
     for (const auto& label : point.labels) row.emplace_back(label);

@@ -15,7 +15,8 @@ void write_study_table(const RCP<const Communicator>& comm, const std::string& p
                        const std::vector<StudyErrors>& errors);
 
 /// All that the page is drawn from; docs/study.md lists its names.
-nlohmann::ordered_json study_json(const std::string& version, const StudyPlan& plan, const StudyResults& results, const std::vector<StudyCurve>& curves,
-                                  const std::vector<StudyErrors>& errors, const std::vector<StudyConclusions>& conclusions);
+nlohmann::ordered_json study_json(const std::string& version, const StudyPlan& plan, const StudyResults& results,
+                                  const std::vector<StudyCurve>& curves, const std::vector<StudyErrors>& errors,
+                                  const std::vector<StudyConclusions>& conclusions);
 
 }  // namespace mortise

@@ -37,8 +37,8 @@ struct StudyQuantity {
   StudyMeasure measure = StudyMeasure::relative_difference;
   Located<std::string> quantity;  ///< of the scene; empty: the name of the entry
   StudyReference reference = StudyReference::exact;
-  Located<std::string> value;           ///< exact reference: an expression of the scene's variables and quantities
-  std::optional<double> order;           ///< Richardson; no value: found from the three finest levels
+  Located<std::string> value;   ///< exact reference: an expression of the scene's variables and quantities
+  std::optional<double> order;  ///< Richardson; no value: found from the three finest levels
   void describe(Parameters& parameters);
 
   bool is_profile() const { return measure == StudyMeasure::pressure_profile || measure == StudyMeasure::shear_profile; }
@@ -58,7 +58,7 @@ struct StudyFile {
   std::vector<Named<AssignmentList>> exclude;
   Located<std::string> h;  ///< expression of a point's variables and quantities and of dofs
   std::vector<Named<StudyQuantity>> quantities;
-  AssignmentList finest;  ///< settings of the reference run, none: there is no such run
+  AssignmentList finest;               ///< settings of the reference run, none: there is no such run
   Located<std::string> series, along;  ///< names of axes
   int repeats = 1;
   std::vector<double> targets{0.01, 0.001};
