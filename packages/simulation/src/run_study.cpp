@@ -42,15 +42,19 @@ ExitCode run_study(const RCP<const Communicator>& comm, const StudyOptions& opti
   StudyResults results;
   const std::vector<StudyCurve> curves = study_curves(plan);
   const StudyMeasuring measuring{*comm, plan, results, curves, directory.path()};
-  StudyProgress progress(plan, log);
-  const auto run = [&](const StudyPoint& point) {
-    progress.begin(point);
-    StudyRecord record = run_point(*comm, point, {scene, plan.scene_text, measuring.directory_of(point), options.version, plan.file.repeats});
-    progress.end(point, record);
-    return record;
+  std::vector<StudyPoint> runs = plan.points;
+  if (plan.finest) runs.insert(runs.begin(), *plan.finest);
+  const auto how = [&](const StudyPoint& point) {
+    return StudyPointOptions{scene, plan.scene_text, measuring.directory_of(point), options.version, plan.file.repeats};
   };
-  if (plan.finest) results.finest = run(*plan.finest);
-  for (const StudyPoint& point : plan.points) results.points.push_back(run(point));
+  std::vector<std::optional<StudyRecord>> records;
+  for (const StudyPoint& point : runs) records.push_back(earlier_record(*comm, point, how(point)));
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (!records[i]) records[i] = run_point(*comm, runs[i], how(runs[i]));
+    log_progress(plan, runs, records, i, log);
+  }
+  if (plan.finest) results.finest = *records.front();
+  for (std::size_t i = plan.finest ? 1 : 0; i < runs.size(); ++i) results.points.push_back(*records[i]);
   results.h = mesh_sizes(plan, results.points);
 
   const std::vector<StudyErrors> errors = study_errors(measuring);
@@ -61,8 +65,8 @@ ExitCode run_study(const RCP<const Communicator>& comm, const StudyOptions& opti
   draw_plot(*comm, std::string(page_needs) + study_page, {directory.path()}, page);
   for (std::size_t q = 0; q < errors.size(); ++q) log.info(sentence(plan, results, errors[q], conclusions[q]));
   log.info("the page: " + page);
-  const bool all = std::all_of(results.points.begin(), results.points.end(), [](const auto& one) { return one.finished(); });
-  return all && (!results.finest || results.finest->finished()) ? ExitCode::done : ExitCode::not_converged;
+  const bool finished = std::all_of(results.points.begin(), results.points.end(), [](const auto& one) { return one.finished(); });
+  return finished && (!results.finest || results.finest->finished()) ? ExitCode::done : ExitCode::not_converged;
 }
 
 }  // namespace mortise

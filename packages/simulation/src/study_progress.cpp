@@ -3,36 +3,42 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numeric>
+#include <map>
 
 namespace mortise {
+namespace {
 
-StudyProgress::StudyProgress(const StudyPlan& plan, RunLog& log) : plan_(plan), log_(log), total_(plan.points.size() + (plan.finest ? 1 : 0)) {}
-
-void StudyProgress::begin(const StudyPoint& point) { log_.detail(fmt::format("{}/{} {} ...", number_ + 1, total_, point.label())); }
-
-void StudyProgress::end(const StudyPoint& point, const StudyRecord& record) {
-  ++number_;
-  if (!point.labels.empty() && std::isfinite(record.wall)) seconds_[level_of(point)].push_back(record.wall * plan_.file.repeats);
-  std::string line = fmt::format("{}/{} {}: {}", number_, total_, point.label(), record.status());
-  line += record.reused ? ", results of an earlier call" : std::isfinite(record.wall) ? fmt::format(", {:.2f} s", record.wall) : "";
-  if (number_ < total_) line += left();
-  log_.info(line);
-  if (!record.finished()) log_.warning(fmt::format("{}: {}", point.label(), record.said.substr(record.said.find_last_of('\n') + 1)));
-}
-
-std::string StudyProgress::level_of(const StudyPoint& point) const { return point.labels[plan_.along]; }
-
-std::string StudyProgress::left() const {
+/// "; about 12 s left"; nothing if nothing is left, or nothing is known of it.
+std::string left(const StudyPlan& plan, const std::vector<StudyPoint>& points, const std::vector<std::optional<StudyRecord>>& records) {
+  struct Mean {
+    double sum = 0.0;
+    int count = 0;
+  };
+  std::map<std::string, Mean> seconds;  // by the label on the axis "along"; "" is the finest run
+  const auto level = [&](const StudyPoint& point) { return point.labels.empty() ? "" : point.labels[plan.along]; };
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (records[i] && std::isfinite(records[i]->wall)) seconds[level(points[i])].sum += records[i]->wall, ++seconds[level(points[i])].count;
   double sum = 0.0;
   bool all = true;
-  for (std::size_t i = number_ - (plan_.finest ? 1 : 0); i < plan_.points.size(); ++i) {
-    const auto known = seconds_.find(level_of(plan_.points[i]));
-    all &= known != seconds_.end();
-    if (known != seconds_.end()) sum += std::accumulate(known->second.begin(), known->second.end(), 0.0) / static_cast<double>(known->second.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (records[i]) continue;
+    const auto known = seconds.find(level(points[i]));
+    all &= known != seconds.end();
+    if (known != seconds.end()) sum += plan.file.repeats * known->second.sum / known->second.count;
   }
-  if (sum == 0.0) return "";
-  return fmt::format("; {} {:.0f} s left", all ? "about" : "more than", std::ceil(sum));
+  return sum > 0.0 ? fmt::format("; {} {:.0f} s left", all ? "about" : "more than", std::ceil(sum)) : "";
+}
+
+}  // namespace
+
+void log_progress(const StudyPlan& plan, const std::vector<StudyPoint>& points, const std::vector<std::optional<StudyRecord>>& records,
+                  std::size_t number, RunLog& log) {
+  const StudyRecord& record = *records[number];
+  std::string line = fmt::format("{}/{} {}: {}", number + 1, points.size(), points[number].label(), record.status());
+  if (record.reused) line += ", results of an earlier call";
+  if (!record.reused && std::isfinite(record.wall)) line += fmt::format(", {:.2f} s", record.wall);
+  log.info(line + left(plan, points, records));
+  if (!record.finished()) log.warning(fmt::format("{}: {}", points[number].label(), record.said.substr(record.said.find_last_of('\n') + 1)));
 }
 
 }  // namespace mortise

@@ -1,8 +1,7 @@
 #pragma once
-// A line for each point of a study that is run.
+// A line for each point of a study.
 
-#include <map>
-#include <string>
+#include <optional>
 #include <vector>
 
 #include "run_log.hpp"
@@ -10,21 +9,9 @@
 
 namespace mortise {
 
-/// Says what is run, how it ended and about how long the rest takes.
-class StudyProgress {
- public:
-  StudyProgress(const StudyPlan& plan, RunLog& log);
-  void begin(const StudyPoint& point);
-  void end(const StudyPoint& point, const StudyRecord& record);
-
- private:
-  std::string level_of(const StudyPoint& point) const;
-  std::string left() const;
-
-  const StudyPlan& plan_;
-  RunLog& log_;
-  std::size_t total_, number_ = 0;
-  std::map<std::string, std::vector<double>> seconds_;  ///< of all repeats, by the value of the axis "along", which decides most on the cost
-};
+/// Says how `points[number]` ended and about how long those without a record take: as long as others with the same value of the axis "along", which
+/// decides most on the cost.
+void log_progress(const StudyPlan& plan, const std::vector<StudyPoint>& points, const std::vector<std::optional<StudyRecord>>& records,
+                  std::size_t number, RunLog& log);
 
 }  // namespace mortise

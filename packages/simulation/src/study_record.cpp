@@ -10,7 +10,6 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "mortise/core/xml.hpp"
 #include "mortise/io/files.hpp"
@@ -28,6 +27,8 @@ constexpr int done = static_cast<int>(ExitCode::done), missed = static_cast<int>
               not_converged = static_cast<int>(ExitCode::not_converged);
 
 double number(const Json& json) { return json.is_number() ? json.get<double>() : none; }
+
+std::string record_of(const StudyPointOptions& options) { return options.directory + "/study-point.json"; }
 
 /// What decides on the results and times of a point.
 Json identity(const StudyPoint& point, const StudyPointOptions& options) {
@@ -124,19 +125,19 @@ std::string StudyRecord::status() const {
   return exit > 128 ? fmt::format("killed by signal {}", exit - 128) : fmt::format("exit code {}", exit);
 }
 
+std::optional<StudyRecord> earlier_record(const Communicator& comm, const StudyPoint& point, const StudyPointOptions& options) {
+  if (!std::filesystem::is_regular_file(record_of(options))) return {};
+  const Json found = Json::parse(read_text(comm, record_of(options)), nullptr, false);
+  if (found.is_discarded() || found.value("identity", Json()) != identity(point, options)) return {};
+  StudyRecord record = to_record(found, point);
+  record.reused = true;
+  return record.finished() || record.exit == not_converged ? std::optional<StudyRecord>(record) : std::nullopt;
+}
+
 StudyRecord run_point(const Communicator& comm, const StudyPoint& point, const StudyPointOptions& options) {
-  const std::string path = options.directory + "/study-point.json";
-  if (std::filesystem::is_regular_file(path)) {
-    const Json found = Json::parse(read_text(comm, path), nullptr, false);
-    if (!found.is_discarded() && found.value("identity", Json()) == identity(point, options)) {
-      StudyRecord record = to_record(found, point);
-      record.reused = true;
-      if (record.finished() || record.exit == not_converged) return record;
-    }
-    std::filesystem::remove(path);
-  }
+  if (std::filesystem::is_regular_file(record_of(options))) std::filesystem::remove(record_of(options));
   const Json record = run_all(comm, point, options);
-  if (std::filesystem::is_directory(options.directory)) write_json(comm, path, record);
+  if (std::filesystem::is_directory(options.directory)) write_json(comm, record_of(options), record);
   return to_record(record, point);
 }
 

@@ -2,6 +2,7 @@
 // What one point of a study gave, as it is kept from one call to the next.
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,9 +37,12 @@ struct StudyPointOptions {
   int repeats = 1;
 };
 
-/// Runs a point, each time as a process of its own, and keeps what it gave as study-point.json in its directory, at once and at the end. If that
-/// holds already what the same runs gave (scene, settings, ranks, repeats, version), nothing is run, unless they ended for a reason that is none of
-/// theirs: killed, files. Throws nothing on a run that fails; FileError if the record cannot be written.
+/// What an earlier call kept in the directory, if it is of the same runs: scene, settings, ranks, repeats, version. Not that of runs that ended for a
+/// reason that is none of theirs: killed, files.
+std::optional<StudyRecord> earlier_record(const Communicator& comm, const StudyPoint& point, const StudyPointOptions& options);
+
+/// Runs a point, each time as a process of its own, and keeps at the end, at once, what it gave as study-point.json in its directory. Throws nothing
+/// on a run that fails; FileError if the record cannot be written.
 StudyRecord run_point(const Communicator& comm, const StudyPoint& point, const StudyPointOptions& options);
 
 }  // namespace mortise
