@@ -10,6 +10,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -74,14 +75,14 @@ std::map<std::string, files::file_time_type> records(const std::string& results)
   return found;
 }
 
-/// Starts a study and kills it as soon as so many of its points have ended.
-void kill_after(std::size_t points, const std::string& file, const std::string& results) {
+/// Starts a study and kills it as soon as its points are as wanted.
+void kill_when(const std::function<bool()>& wanted, const std::string& file, const std::string& results, const char* option) {
   const pid_t child = fork();
   if (child == 0) {
-    execl(MORTISE, MORTISE, "study", file.c_str(), "-o", results.c_str(), "--quiet", nullptr);
+    execl(MORTISE, MORTISE, "study", file.c_str(), "-o", results.c_str(), option, nullptr);
     _exit(127);
   }
-  for (int i = 0; i < 12000 && records(results).size() < points; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  for (int i = 0; i < 12000 && !wanted(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   kill(child, SIGKILL);
   waitpid(child, nullptr, 0);
 }
@@ -95,7 +96,7 @@ TEST(Study, IsKilledAndResumedWithoutRunningAPointTwice) {
                                            meshes + R"(</ParameterList>
 <ParameterList name="quantities"><ParameterList name="displacement_error"><Parameter name="measure" type="string" value="itself"/></ParameterList></ParameterList>
 )");
-  kill_after(2, file, results);
+  kill_when([&] { return records(results).size() >= 2; }, file, results, "--quiet");
   const auto before = records(results);
   ASSERT_GE(before.size(), 2u);
   ASSERT_LT(before.size(), 4u);
@@ -120,6 +121,14 @@ TEST(Study, IsKilledAndResumedWithoutRunningAPointTwice) {
   for (const auto& [name, text] : said) EXPECT_TRUE(read_file(results + "/" + name) == text) << name;
 
   auto columns = table(results + "/study.csv");
+  for (int n : {6, 12}) EXPECT_EQ(Json::parse(read_file(fmt::format("{}/points/ranks=2,n={}/summary.json", results, n))).at("ranks"), 2);
+
+  // Afresh: nothing is left of what was.
+  const auto first = [&](const auto& all) { return all.count("ranks=1,n=6") ? all.at("ranks=1,n=6") : files::file_time_type(); };
+  kill_when([&] { return first(records(results)) > first(after); }, file, results, "--fresh");
+  EXPECT_LT(records(results).size(), 4u);
+  EXPECT_FALSE(files::exists(results + "/study.csv"));
+
   EXPECT_EQ(columns["formulation"], std::vector<std::string>(4, "dual mortar"));
   EXPECT_EQ(columns["element"], std::vector<std::string>(4, "Q4"));
   EXPECT_EQ(columns["axis_ranks"], (std::vector<std::string>{"1", "1", "2", "2"}));
@@ -129,7 +138,6 @@ TEST(Study, IsKilledAndResumedWithoutRunningAPointTwice) {
     const double one = std::stod(columns["error_displacement_error"][i]), two = std::stod(columns["error_displacement_error"][i + 2]);
     EXPECT_NEAR(one, two, 1e-8 * one);
     EXPECT_EQ(columns["dofs"][i], columns["dofs"][i + 2]);
-    EXPECT_EQ(Json::parse(read_file(fmt::format("{}/points/ranks=2,n={}/summary.json", results, i == 0 ? 6 : 12))).at("ranks"), 2);
   }
   for (int i = 0; i < 4; ++i) {
     EXPECT_GT(std::stod(columns["wall_s"][i]), 0.0);

@@ -33,7 +33,7 @@ def all_points():
 
 
 def errors_of(error):
-    rows = [[escaped(point["label"]), cell(value, 6), cell(reference, 6), cell(size, 3)]
+    rows = [[escaped(point["label"]), cell(value, 9), cell(reference, 9), cell(size, 3)]
             for point, value, reference, size in zip(points, error["value"], error["reference"], error["error"])]
     return html_table(["point", "value", "reference", "error"], rows, f"Errors of {escaped(error['name'])}")
 
@@ -70,9 +70,11 @@ def section_of(error):
 def failures():
     every = points + ([study["finest"]] if study["finest"] else [])
     failed = [point for point in every if not point["finished"]]
-    if not failed:
-        return [paragraph("All points came to their end.")]
-    return [f'<div class="failed"><b>{escaped(point["label"])}</b>: {escaped(point["status"])}<pre>{escaped(point["said"] or "It said nothing.")}</pre></div>'
+    missed = [f"<li>{escaped(point['label'])}: {escaped(one)}</li>" for point in every if point["finished"] for one in point["missed"]]
+    parts = [] if failed else [paragraph("All points came to their end.")]
+    if missed:
+        parts += [paragraph("Checks of the scene that points missed:"), "<ul>", *missed, "</ul>"]
+    return parts + [f'<div class="failed"><b>{escaped(point["label"])}</b>: {escaped(point["status"])}<pre>{escaped(point["said"] or "It said nothing.")}</pre></div>'
             for point in failed]
 
 

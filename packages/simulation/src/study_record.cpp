@@ -55,6 +55,12 @@ Json excerpt(const std::string& path) {
   }
   Json kept;
   for (const char* name : {"dofs", "quantities", "time", "memory_total_mib"}) kept[name] = summary.at(name);
+  kept["missed"] = Json::array();
+  for (const auto& check : summary.at("checks"))
+    if (!check.at("ok").get<bool>())
+      kept["missed"].push_back(fmt::format("{}: {} = {}, bounds {} to {}", check.at("name").get<std::string>(),
+                                           check.at("quantity").get<std::string>(), check.at("value").dump(), check.at("low").dump(),
+                                           check.at("high").dump()));
   kept["steps"] = summary.at("steps").size();
   kept["newton_iterations"] = iterations;
   kept["cutbacks"] = cutbacks;
@@ -109,6 +115,7 @@ StudyRecord to_record(const Json& json, const StudyPoint& point) {
   const auto value = [&](const char* name) { return summary.contains(name) ? number(summary.at(name)) : none; };
   record.dofs = value("dofs"), record.steps = value("steps"), record.newton_iterations = value("newton_iterations");
   record.cutbacks = value("cutbacks");
+  record.missed_checks = summary.value("missed", std::vector<std::string>());
   const Json quantities = summary.value("quantities", Json::object());
   for (const auto& name : point.quantities) record.quantities.push_back(quantities.contains(name) ? number(quantities.at(name)) : none);
   return record;

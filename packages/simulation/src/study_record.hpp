@@ -20,7 +20,8 @@ struct StudyRecord {
   double wall = 0.0, cpu = 0.0, memory = 0.0;  ///< seconds and MiB over all ranks; medians of the repeats
   std::map<std::string, double> time;          ///< seconds by timer of the summary, likewise
   double dofs = 0.0, steps = 0.0, newton_iterations = 0.0, cutbacks = 0.0;
-  std::vector<double> quantities;  ///< in the order of the point's
+  std::vector<std::string> missed_checks;  ///< checks of the scene, with value and bounds
+  std::vector<double> quantities;          ///< in the order of the point's
 
   /// Whether it came to its end: errors can be measured.
   bool finished() const;

@@ -42,6 +42,7 @@ Json point_json(const StudyPoint& point, const StudyRecord& record) {
           {"status", record.status()},
           {"finished", record.finished()},
           {"said", record.said},
+          {"missed", record.missed_checks},
           {"date", record.date}};
 }
 
