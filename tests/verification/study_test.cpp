@@ -104,9 +104,9 @@ TEST(Study, IsKilledAndResumedWithoutRunningAPointTwice) {
 
   Ending ending = study(file, results);
   EXPECT_EQ(ending.code, 0) << ending.output;
-  EXPECT_TRUE(contains(ending.output, "1/4 1, 6: done, results of an earlier call")) << ending.output;
-  EXPECT_TRUE(contains(ending.output, "4/4 2, 12: done, ")) << ending.output;
-  EXPECT_FALSE(contains(ending.output, "4/4 2, 12: done, results")) << ending.output;
+  EXPECT_TRUE(contains(ending.output, "1/4 ranks = 1, n = 6: done, results of an earlier call")) << ending.output;
+  EXPECT_TRUE(contains(ending.output, "4/4 ranks = 2, n = 12: done, ")) << ending.output;
+  EXPECT_FALSE(contains(ending.output, "4/4 ranks = 2, n = 12: done, results")) << ending.output;
   EXPECT_TRUE(contains(ending.output, "cheapest configuration within 1 % of displacement_error: ")) << ending.output;
   const auto after = records(results);
   EXPECT_EQ(after.size(), 4u);
@@ -170,7 +170,7 @@ TEST(Study, MeasuresErrorsAndWritesDownWhatFails) {
 )");
   const Ending ending = study(file, results);
   EXPECT_EQ(ending.code, 3) << ending.output;
-  EXPECT_TRUE(contains(ending.output, "5/5 none, 6: not converged")) << ending.output;
+  EXPECT_TRUE(contains(ending.output, "5/5 none, n = 6: not converged")) << ending.output;
   auto columns = table(results + "/study.csv");
   ASSERT_EQ(columns["status"], (std::vector<std::string>{"done", "done", "done", "not converged"}));
   EXPECT_EQ(columns["error_displacement"][3], "");
@@ -201,7 +201,7 @@ TEST(Study, MeasuresErrorsAndWritesDownWhatFails) {
 
   const std::string page = read_file(results + "/report.html");
   for (const char* expected :
-       {"<table>", "<img src=\"data:image/svg+xml;base64,", "<b>none, 6</b>: not converged", "not converged; the last converged state",
+       {"<table>", "<img src=\"data:image/svg+xml;base64,", "<b>none, n = 6</b>: not converged", "not converged; the last converged state",
         "finest (reference)", "Environment", "cheapest configuration within 1 % of force"})
     EXPECT_TRUE(contains(page, expected)) << expected;
   for (const char* outside : {"src=\"http", "src=\"/", "href=", "<script", "<link"}) EXPECT_FALSE(contains(page, outside)) << outside;

@@ -74,7 +74,8 @@ def failures():
     parts = [] if failed else [paragraph("All points came to their end.")]
     if missed:
         parts += [paragraph("Checks of the scene that points missed:"), "<ul>", *missed, "</ul>"]
-    return parts + [f'<div class="failed"><b>{escaped(point["label"])}</b>: {escaped(point["status"])}<pre>{escaped(point["said"] or "It said nothing.")}</pre></div>'
+    said = lambda point: escaped(point["said"] or "It said nothing.")
+    return parts + [f'<div class="failed"><b>{escaped(point["label"])}</b>: {escaped(point["status"])}<pre>{said(point)}</pre></div>'
             for point in failed]
 
 
@@ -83,8 +84,8 @@ def environment():
     rows = [["Mortise", escaped(here["version"])], ["processor", escaped("; ".join(here["processors"]))],
             ["first run", escaped(here["first_run"])], ["last run", escaped(here["last_run"])],
             ["scene", escaped(study["scene"])]]
-    settings = [[escaped(point["label"]), str(point["ranks"]), f"<code>{escaped(' '.join('--set ' + json.dumps(one, ensure_ascii=False) for one in point['settings']))}</code>"]
-                for point in points]
+    words = lambda point: escaped(" ".join("--set " + json.dumps(one, ensure_ascii=False) for one in point["settings"]))
+    settings = [[escaped(point["label"]), str(point["ranks"]), f"<code>{words(point)}</code>"] for point in points]
     return [html_table(["", ""], rows, "Environment"),
             "<details><summary>Settings of each point</summary>", html_table(["point", "ranks", "settings"], settings, "Settings"), "</details>"]
 

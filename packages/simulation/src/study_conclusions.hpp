@@ -26,7 +26,7 @@ struct StudyConclusions {
 
 StudyConclusions conclude(const StudyPlan& plan, const StudyResults& results, const std::vector<StudyCurve>& curves, const StudyErrors& errors);
 
-/// "cheapest configuration within 1 % of peak_pressure: Q4, 8 (0.52 s); within 0.1 %: none"
+/// "cheapest configuration within 1 % of peak_pressure: Q4, n = 8 (0.52 s); within 0.1 %: none"
 std::string sentence(const StudyPlan& plan, const StudyResults& results, const StudyErrors& errors, const StudyConclusions& conclusions);
 
 }  // namespace mortise

@@ -14,7 +14,7 @@ std::vector<StudyCurve> study_curves(const StudyPlan& plan) {
     const StudyPoint& point = plan.points[i];
     const auto [at, is_new] = found.try_emplace(key(point.labels), curves.size());
     if (is_new) {
-      Labels others = point.labels;
+      Labels others = point.titles;
       others.erase(others.begin() + plan.along);
       curves.push_back({others.empty() ? point.formulation + ", " + point.element : boost::algorithm::join(others, ", "), 0, {}});
     }

@@ -10,7 +10,7 @@ namespace mortise {
 
 /// The points that differ in nothing but the value of the axis "along".
 struct StudyCurve {
-  std::string name;      ///< labels of the other axes, or what the scene is if there are none
+  std::string name;      ///< titles of the other axes, or what the scene is if there are none
   std::size_t base = 0;  ///< index of the curve with the first value of the axis "series" and otherwise this one's; its own if there is none
   std::vector<std::size_t> points;  ///< indices, in the order of the axis
 };

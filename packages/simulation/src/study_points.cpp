@@ -66,7 +66,7 @@ std::vector<std::string> StudyPoint::words() const {
   return words;
 }
 
-std::string StudyPoint::label() const { return labels.empty() ? name : boost::algorithm::join(labels, ", "); }
+std::string StudyPoint::label() const { return labels.empty() ? name : boost::algorithm::join(titles, ", "); }
 
 std::vector<StudyPoint> study_points(const StudyFile& study, std::vector<Diagnostic>& diagnostics) {
   std::vector<std::vector<Named<AssignmentList>>> values;
@@ -93,6 +93,7 @@ std::vector<StudyPoint> study_points(const StudyFile& study, std::vector<Diagnos
     for (std::size_t axis = 0; axis < values.size(); ++axis) {
       const auto& value = values[axis][of_axis[axis]];
       point.labels.push_back(value.name);
+      point.titles.push_back(study.axes[axis].value.choices.empty() ? study.axes[axis].name + " = " + value.name : value.name);
       point.name += (axis == 0 ? "" : ",") + file_name(study.axes[axis].name + "=" + value.name);
       point.settings.insert(point.settings.end(), value.value.all.begin(), value.value.all.end());
     }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <boost/algorithm/string/predicate.hpp>
 #include <cmath>
 #include <map>
 
@@ -38,7 +39,9 @@ void log_progress(const StudyPlan& plan, const std::vector<StudyPoint>& points, 
   if (record.reused) line += ", results of an earlier call";
   if (!record.reused && std::isfinite(record.wall)) line += fmt::format(", {:.2f} s", record.wall);
   log.info(line + left(plan, points, records));
-  if (!record.finished()) log.warning(fmt::format("{}: {}", points[number].label(), record.said.substr(record.said.find_last_of('\n') + 1)));
+  std::string reason = record.said.substr(record.said.find_last_of('\n') + 1);
+  if (boost::starts_with(reason, "warning: ")) reason.erase(0, std::string("warning: ").size());
+  if (!record.finished()) log.warning(fmt::format("{}: {}", points[number].label(), reason));
 }
 
 }  // namespace mortise

@@ -53,7 +53,7 @@ TEST(StudyPoints, AreAllCombinationsTheLastAxisFirst) {
   EXPECT_THAT(points[5].words(), ElementsAre("variables/F=800", "bodies/a/element=Q4 F-bar", "variables/n=8"));
   EXPECT_EQ(points[1].ranks, 1);
   EXPECT_EQ(points[5].ranks, 2);
-  EXPECT_EQ(points[5].label(), "Q4 F-bar, 8");
+  EXPECT_EQ(points[5].label(), "Q4 F-bar, n = 8");
 }
 
 TEST(StudyPoints, LeaveOutWhatIsExcluded) {

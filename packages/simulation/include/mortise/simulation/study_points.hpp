@@ -14,6 +14,7 @@ namespace mortise {
 struct StudyPoint {
   std::string name;                 ///< "n=4,element=Q4_F-bar": a directory
   std::vector<std::string> labels;  ///< one for each axis; none: the finest run
+  std::vector<std::string> titles;  ///< the same for people: "n = 4" where the label alone is a bare value
   std::vector<Assignment> settings;
   int ranks = 1;
 
@@ -25,7 +26,7 @@ struct StudyPoint {
 
   /// "path=value" each, as `--set` takes them.
   std::vector<std::string> words() const;
-  /// "4, Q4 F-bar"; "finest"
+  /// "Q4 F-bar, n = 4"; "finest"
   std::string label() const;
 };
 
