@@ -15,6 +15,7 @@ constexpr const char* examples = R"(Examples:
   mpirun -n 4 mortise run inputs/paper/hertz_elastic.xml     the same in parallel
   mortise check scene.xml                                    reads, meshes, lists the effects; solves nothing
   mortise point inputs/tutorial/point_steel.xml              stress-strain curve of one material point
+  mortise study inputs/studies/hertz_elastic.xml             errors against mesh size and time, one page
   mortise paper -o page                                      every example of the paper, one page with its figures and tables
   mortise describe contact                                   every parameter with default, unit and meaning
   mortise list materials
@@ -60,6 +61,7 @@ int main(int argc, char** argv) {
   mortise::add_check_command(app, program);
   mortise::add_point_command(app, program);
   mortise::add_paper_command(app, program);
+  mortise::add_study_command(app, program);
   mortise::add_describe_command(app, program);
   mortise::add_list_command(app, program);
   mortise::add_doctor_command(app, program);

@@ -70,12 +70,14 @@ void markdown_of(const ListRecord& list, const std::string& path, std::string& o
 
 class RelaxNg {
  public:
-  std::string grammar(const ListRecord& tree) {
+  std::string grammar(const ListRecord& tree, bool symbols) {
     line("<?xml version=\"1.0\" encoding=\"UTF-8\"?>");
     line("<grammar xmlns=\"http://relaxng.org/ns/structure/1.0\" datatypeLibrary=\"http://www.w3.org/2001/XMLSchema-datatypes\">");
     line("<start><element name=\"ParameterList\"><optional><attribute name=\"name\"/></optional><zeroOrMore><choice>");
-    free_list("variables", false);
-    free_list("tables", true);
+    if (symbols) {
+      free_list("variables", false);
+      free_list("tables", true);
+    }
     alternatives(tree);
     line("</choice></zeroOrMore></element></start>");
     line("<define name=\"anything\"><zeroOrMore><choice><ref name=\"parameter\"/><element name=\"ParameterList\"><attribute name=\"name\"/>"
@@ -208,7 +210,7 @@ std::string to_markdown(const ListRecord& tree) {
   return out;
 }
 
-std::string to_relax_ng(const ListRecord& tree) { return RelaxNg().grammar(tree); }
+std::string to_relax_ng(const ListRecord& tree, bool symbols) { return RelaxNg().grammar(tree, symbols); }
 
 std::string to_scene_xml(const ListRecord& tree, const std::vector<ListRecord>& extra) {
   ListRecord whole = tree;

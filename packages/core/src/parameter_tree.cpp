@@ -84,6 +84,11 @@ void CollectParameters::verbatim(const std::string& name, Teuchos::ParameterList
   here().lists.push_back(std::move(record));
 }
 
+void CollectParameters::assignments(std::vector<Assignment>& assignments) {
+  here().kind = ListRecord::Kind::verbatim;
+  for (const Assignment& one : assignments) here().verbatim.set(one.path, one.value);
+}
+
 bool CollectParameters::begin_list(const std::string& name, const Says& says) {
   stack_.emplace_back();
   here().name = name;

@@ -52,6 +52,11 @@ Teuchos::ParameterList to_teuchos(const XmlList& list, const Symbols& symbols, s
   return result;
 }
 
+void collect(const XmlList& list, const std::string& path, std::vector<Assignment>& assignments) {
+  for (const XmlParameter& one : list.parameters) assignments.push_back({joined_path(path, one.name), one.value, one.place});
+  for (const XmlList& one : list.lists) collect(one, joined_path(path, one.name), assignments);
+}
+
 }  // namespace
 
 ReadParameters::ReadParameters(const XmlList& root, const Symbols& symbols, const std::vector<std::string>& ignored) : symbols_(symbols) {
@@ -197,6 +202,11 @@ void ReadParameters::add_enumeration(const std::string& name, std::size_t& index
 void ReadParameters::verbatim(const std::string& name, Teuchos::ParameterList& list, const Says&) {
   frame().known.push_back(name);
   if (const XmlList* given = frame().list ? frame().list->list(name) : nullptr) list.setParameters(to_teuchos(*given, symbols_, diagnostics_));
+}
+
+void ReadParameters::assignments(std::vector<Assignment>& assignments) {
+  frame().check_unknown = false;
+  if (frame().list) collect(*frame().list, "", assignments);
 }
 
 bool ReadParameters::begin_list(const std::string& name, const Says& says) {

@@ -143,24 +143,28 @@ XmlList parse_xml(const std::string& text, const std::string& file) {
 
 void apply_override(XmlList& root, const std::string& assignment) {
   const auto equals = assignment.find('=');
-  const std::string where = "command line: --set " + assignment;
-  if (equals == std::string::npos || equals == 0) throw InputError({where, 0, ""}, "please write --set path=value, for example --set variables/n=8");
-  const std::string value = assignment.substr(equals + 1);
-  std::istringstream path(assignment.substr(0, equals));
+  const Place place{"command line: --set " + assignment, 0, ""};
+  if (equals == std::string::npos || equals == 0) throw InputError(place, "please write --set path=value, for example --set variables/n=8");
+  apply_override(root, assignment.substr(0, equals), assignment.substr(equals + 1), place);
+}
+
+void apply_override(XmlList& root, const std::string& path, const std::string& value, const Place& place) {
+  std::istringstream stream(path);
   std::vector<std::string> names;
-  for (std::string name; std::getline(path, name, '/');) names.push_back(name);
+  for (std::string name; std::getline(stream, name, '/');) names.push_back(name);
+  if (names.empty()) names.emplace_back();
   XmlList* list = &root;
   for (std::size_t i = 0; i + 1 < names.size(); ++i) {
     auto found = std::find_if(list->lists.begin(), list->lists.end(), [&](const XmlList& one) { return one.name == names[i]; });
     if (found == list->lists.end()) {
       const std::string parent = list->place.path;
-      list->lists.push_back({names[i], {where, 0, parent.empty() ? names[i] : parent + "/" + names[i]}, {}, {}});
+      list->lists.push_back({names[i], {place.file, place.line, parent.empty() ? names[i] : parent + "/" + names[i]}, {}, {}});
       found = list->lists.end() - 1;
     }
     list = &*found;
   }
   const auto found = std::find_if(list->parameters.begin(), list->parameters.end(), [&](const XmlParameter& one) { return one.name == names.back(); });
-  XmlParameter parameter{names.back(), "", value, {where, 0, list->place.path}};
+  XmlParameter parameter{names.back(), "", value, {place.file, place.line, list->place.path}};
   if (found == list->parameters.end())
     list->parameters.push_back(parameter);
   else

@@ -26,10 +26,6 @@ def upset(compression):
     return -tau / volume, alpha, np.sqrt(volume / stretch)
 
 
-def paragraph(*sentences):
-    return "<p>" + " ".join(sentences) + "</p>"
-
-
 def patch_test():
     parts = [paragraph("Two steel blocks on each other with meshes that do not match, pressed from above, no friction. The paper shows a",
                        "constant stress with dual mortar (figure 4) and an uneven one with nodes on segments (figure 3). It states no other",

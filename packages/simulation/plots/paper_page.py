@@ -35,24 +35,6 @@ a corner where it grows without bound on finer meshes, so that it can only be co
 Steps, tolerances and what the relative residual is relative to are given nowhere but for the 200 increments of the plastic Hertz problem.
 """
 
-STYLE = """
-:root { color-scheme: light }
-body { font: 16px/1.5 Georgia, 'Times New Roman', serif; max-width: 62rem; margin: 2rem auto; padding: 0 1rem; color: #111; background: #fff }
-h1, h2, table, figcaption { font-family: system-ui, sans-serif }
-h2 { margin-top: 2.5rem; border-bottom: 1px solid #ccc }
-figure { margin: 1.5rem 0; text-align: center; break-inside: avoid }
-img { max-width: 100% }
-figcaption { font-size: .85rem; color: #333 }
-table { border-collapse: collapse; margin: 1.5rem auto; font-size: .85rem; break-inside: avoid }
-caption { font-weight: 600; padding: .3rem }
-th, td { padding: .2rem .6rem; text-align: right; border-bottom: 1px solid #ddd }
-thead th { border-bottom: 2px solid #333 }
-tbody th { text-align: left; font-weight: 400 }
-code, pre { font-size: .8rem }
-pre { white-space: pre-wrap; background: #f4f4f4; padding: .5rem }
-.failed { border-left: 4px solid #D55E00; padding-left: 1rem }
-"""
-
 
 def section(title, names, contents):
     asked = [runs[name] for base in names for name in (base, base + RIVAL) if name in runs]
@@ -62,21 +44,15 @@ def section(title, names, contents):
 
 
 def page():
-    title = "The examples of the paper, by Mortise"
-    parts = ["<!DOCTYPE html>", '<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">',
-             f"<title>{title}</title><style>{STYLE}</style></head><body>", f"<h1>{title}</h1>",
-             paragraph("T. Doca, F. M. Andrade Pires, J. M. A. César de Sá, <i>A dual mortar-based contact formulation applied to finite",
+    parts = [paragraph("T. Doca, F. M. Andrade Pires, J. M. A. César de Sá, <i>A dual mortar-based contact formulation applied to finite",
                        f"plastic strains</i>, COMPLAS XI, 2011: every example, computed by Mortise {escaped(record['version'])} on",
                        f"{record['ranks']} MPI rank(s). Units mm, N, MPa. “–” is a number that the paper does not state, or that a scene does",
                        "not compute."), overview(runs.values())]
     for example in EXAMPLES:
         parts += section(*example)
     items = [f"<li>{escaped(one)}</li>" for one in OPEN.strip().split("\n\n")]
-    parts += ["<section><h2>What the paper leaves open</h2><ul>", *items, "</ul></section>", "</body></html>"]
-    return "\n".join(parts)
+    parts += ["<section><h2>What the paper leaves open</h2><ul>", *items, "</ul></section>"]
+    return html_page("The examples of the paper, by Mortise", parts)
 
 
-target = os.path.join(directory, "paper.html")
-with open(target + ".part", "w", encoding="utf-8") as file:
-    file.write(page())
-os.replace(target + ".part", target)
+write_page(os.path.join(directory, "paper.html"), page())

@@ -1,30 +1,8 @@
-# HTML of the page's tables and figures.
-import base64
-import html
-import io
-
-
-def escaped(text):
-    return html.escape(str(text), quote=False)
-
-
-def number(value):
-    return "–" if value is None or not np.isfinite(value) else f"{value:.6g}"
-
-
+# HTML of the paper's tables.
 def difference(ours, paper):
     if ours is None or paper is None or not np.isfinite(ours) or paper == 0:
         return "–"
     return f"{100 * (ours / paper - 1):+.2f} %"
-
-
-def html_table(head, rows, caption):
-    """Cells are HTML; the first of each row is its head."""
-    heads = "".join(f'<th scope="col">{one}</th>' for one in head)
-    lines = ["<table>", f"<caption>{caption}</caption>", f"<thead><tr>{heads}</tr></thead>", "<tbody>"]
-    for first, *rest in rows:
-        lines.append(f'<tr><th scope="row">{first}</th>' + "".join(f"<td>{one}</td>" for one in rest) + "</tr>")
-    return "\n".join(lines + ["</tbody>", "</table>"])
 
 
 def comparison(rows, caption, reference="paper"):
@@ -56,17 +34,6 @@ def own_checks(run):
              "momentum_imbalance": "imbalance of momentum, relative"}
     rows = [[label, run.quantity(name), 0.0] for name, label in names.items() if run.quantity(name) is not None]
     return comparison(rows, f"{run.name}: what has to vanish", "exact") if rows else ""
-
-
-def html_figure(figure, number_of_paper, caption):
-    """The figure as part of the page."""
-    image = io.BytesIO()
-    figure.savefig(image, format="svg", metadata={"Date": None})
-    plt.close(figure)
-    data = base64.b64encode(image.getvalue()).decode()
-    alternative = html.escape(f"{number_of_paper}: {caption}")
-    return (f'<figure><img src="data:image/svg+xml;base64,{data}" alt="{alternative}">'
-            f"<figcaption><b>{escaped(number_of_paper)}.</b> {escaped(caption)}</figcaption></figure>")
 
 
 def command(run):

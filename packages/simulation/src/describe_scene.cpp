@@ -11,6 +11,7 @@
 #include "mortise/simulation/exact_solution.hpp"
 #include "mortise/simulation/point.hpp"
 #include "mortise/simulation/scene.hpp"
+#include "mortise/simulation/study_file.hpp"
 #include "names.hpp"
 
 namespace mortise {
@@ -24,6 +25,25 @@ ListRecord scene_tree() {
 ListRecord point_tree() {
   PointFile point;
   return collect_parameters("point", point, CollectParameters::What::declarations);
+}
+
+ListRecord study_tree() {
+  StudyFile study;
+  return collect_parameters("study", study, CollectParameters::What::declarations);
+}
+
+/// A kind of files besides scenes, by its name.
+struct FileKind {
+  std::string name, sentence;
+  ListRecord (*tree)();
+  bool symbols;  ///< whether such a file has variables and tables
+};
+
+const std::vector<FileKind>& file_kinds() {
+  static const std::vector<FileKind> kinds{
+      {"point", "what `mortise point` reads: a material and the path of one point of it", point_tree, true},
+      {"study", "what `mortise study` reads: a scene, what is varied of it, and what errors are measured against", study_tree, false}};
+  return kinds;
 }
 
 std::string formatted(const ListRecord& list, DescriptionFormat format) {
@@ -88,15 +108,18 @@ const std::vector<Topic>& topics() {
 }  // namespace
 
 std::string describe_scene(const std::string& path, DescriptionFormat format) {
-  const bool of_point = path == "point" || path.rfind("point/", 0) == 0;
-  const ListRecord tree = of_point ? point_tree() : scene_tree();
-  if (format == DescriptionFormat::relax_ng) return to_relax_ng(tree);
-  const ListRecord* list = path.empty() || path == "point" ? &tree : find_list(tree, of_point ? path.substr(std::string("point/").size()) : path);
+  const std::string first = path.substr(0, path.find('/'));
+  const auto kind = std::find_if(file_kinds().begin(), file_kinds().end(), [&](const FileKind& one) { return one.name == first; });
+  const bool of_scene = kind == file_kinds().end();
+  const ListRecord tree = of_scene ? scene_tree() : kind->tree();
+  if (format == DescriptionFormat::relax_ng) return to_relax_ng(tree, of_scene || kind->symbols);
+  const std::string below = of_scene ? path : path.substr(std::min(path.size(), first.size() + 1));
+  const ListRecord* list = below.empty() ? &tree : find_list(tree, below);
   if (list == nullptr) {
     std::vector<std::string> names;
     for (const auto& known : tree.lists) names.push_back(known.name);
-    throw InputError(
-        {{}, unknown_name("list", path, names) + (of_point ? "; a point file's lists are " : "; the scene's lists are ") + quoted_list(names)});
+    const std::string whose = of_scene ? "the scene" : "a " + first + " file";
+    throw InputError({{}, fmt::format("{}; {}'s lists are {}", unknown_name("list", path, names), whose, quoted_list(names))});
   }
   return formatted(*list, format);
 }
@@ -114,11 +137,13 @@ std::vector<ReferencePage> reference_pages() {
     index += fmt::format("- [{}]({}): {}\n", list.name, file_name(list.name), list.says.sentence());
     pages.push_back({file_name(list.name), to_markdown(list)});
   }
-  index +=
-      "\n## Point files\n\n- [point](point.md): what `mortise point` reads: a material and the path of one point of it. Its schema is `point.rng`.\n";
-  const ListRecord point = point_tree();
-  pages.push_back({"point.md", to_markdown(point)});
-  pages.push_back({"point.rng", to_relax_ng(point)});
+  index += "\n## Other files\n\n";
+  for (const FileKind& kind : file_kinds()) {
+    index += fmt::format("- [{0}]({0}.md): {1}. Its schema is `{0}.rng`.\n", kind.name, kind.sentence);
+    const ListRecord other = kind.tree();
+    pages.push_back({kind.name + ".md", to_markdown(other)});
+    pages.push_back({kind.name + ".rng", to_relax_ng(other, kind.symbols)});
+  }
   pages.push_back({"index.md", index});
   pages.push_back({"scene.rng", to_relax_ng(tree)});
   return pages;

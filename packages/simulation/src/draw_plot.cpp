@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <optional>
 
+#include "mortise/core/error.hpp"
 #include "mortise/io/files.hpp"
 #include "plot_scripts.hpp"
 #include "run_process.hpp"
@@ -27,7 +28,7 @@ bool draw_plot(const Communicator& comm, const std::string& script, const std::v
       std::vector<std::string> command{python, "-c", std::string(plot_style) + script};
       command.insert(command.end(), arguments.begin(), arguments.end());
       const ProcessEnding ending = run_process(command);
-      if (ending.code == missing || ending.code == 126 || ending.code == 127) continue;  // no matplotlib, or (from the shell) no python
+      if (ending.code == missing || ending.code == 126 || ending.code == 127) continue;  // no matplotlib, or no python
       drawn = 1;
       if (ending.code != 0) failure = fmt::format("{} ended with code {}: {}", python, ending.code, ending.last_line());
       break;
@@ -36,6 +37,11 @@ bool draw_plot(const Communicator& comm, const std::string& script, const std::v
   throw_if_any_file_error(comm, "cannot draw", image, failure);
   Teuchos::broadcast(comm, 0, Teuchos::outArg(drawn));
   return drawn == 1;
+}
+
+void require_page_python(const Communicator& comm, const std::string& page) {
+  if (!draw_plot(comm, page_needs, {}, page))
+    throw FileError("cannot draw " + page + ": no python3 with matplotlib and h5py; please install python3-matplotlib and python3-h5py (Debian)");
 }
 
 }  // namespace mortise

@@ -14,4 +14,7 @@ namespace mortise {
 /// @param image  what is drawn, for the error
 bool draw_plot(const Communicator& comm, const std::string& script, const std::vector<std::string>& arguments, const std::string& image);
 
+/// Throws FileError on all ranks if nothing here can draw `page`, to be called before what it takes is computed: no python with matplotlib and h5py.
+void require_page_python(const Communicator& comm, const std::string& page);
+
 }  // namespace mortise

@@ -5,7 +5,9 @@ namespace mortise {
 
 extern const char* const plot_style;  ///< comes before every other one
 extern const char* const point_plot;
-extern const char* const paper_needs;  ///< ends as plot_style does without matplotlib if what paper_page needs beyond it is not here
-extern const char* const paper_page;   ///< argument: the directory of run_paper; paper_needs comes before
+extern const char* const page_needs;    ///< ends as plot_style does without matplotlib if what pages need beyond it is not here
+extern const char* const paper_page;    ///< argument: the directory of run_paper; page_needs comes before
+extern const char* const study_fields;  ///< arguments: the file to write, the finest run, runs: errors of displacements; page_needs comes before
+extern const char* const study_page;    ///< argument: the directory of run_study; page_needs comes before
 
 }  // namespace mortise

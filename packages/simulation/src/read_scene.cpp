@@ -1,7 +1,6 @@
 #include "mortise/simulation/read_scene.hpp"
 
 #include "mortise/core/read_parameters.hpp"
-#include "mortise/core/xml.hpp"
 #include "mortise/simulation/model.hpp"
 
 namespace mortise {
@@ -9,6 +8,10 @@ namespace mortise {
 Scene read_scene(const Communicator& comm, const std::string& file, const std::vector<std::string>& settings) {
   XmlList root = parse_xml(read_text(comm, file), file);
   for (const auto& setting : settings) apply_override(root, setting);
+  return make_scene(root);
+}
+
+Scene make_scene(const XmlList& root) {
   std::vector<Diagnostic> diagnostics;
   Scene scene;
   scene.name = root.name;

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -54,17 +53,9 @@ Json run_one(const RCP<const Communicator>& comm, const PaperRun& run, const Pap
     json["said"] = error.what();
     return json;
   }
-  std::vector<std::string> arguments{"run", scene};
-  for (const auto& setting : run.settings) arguments.insert(arguments.end(), {"--set", setting});
-  arguments.insert(arguments.end(), {"-o", results, "--quiet"});
-  std::vector<std::string> command{std::filesystem::read_symlink("/proc/self/exe").string()};
-  if (options.ranks > 1) command = {"mpirun", "-n", std::to_string(options.ranks), command.front()};
-  command.insert(command.end(), arguments.begin(), arguments.end());
-
-  const auto begin = std::chrono::steady_clock::now();
-  const ProcessEnding ending = run_process(command);
+  const ProcessEnding ending = run_process(command_of_run(scene, run.settings, options.ranks, results));
   json["exit"] = ending.code;
-  json["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  json["seconds"] = ending.wall_seconds;
   json["said"] = ending.output;
   write_json(*comm, record, json);
   return json;
@@ -89,19 +80,13 @@ ExitCode exit_of(const Json& runs) {
   return worst;
 }
 
-/// Rather now than after the last run.
-void require_python(const Communicator& comm, const std::string& page) {
-  if (!draw_plot(comm, paper_needs, {}, page))
-    throw FileError("cannot draw " + page + ": no python3 with matplotlib and h5py; please install python3-matplotlib and python3-h5py (Debian)");
-}
-
 }  // namespace
 
 ExitCode run_paper(const RCP<const Communicator>& comm, const PaperOptions& options) {
   RunLog log(comm, options.verbosity);
   OutputDirectory directory(comm, options.directory, false);
   const std::string page = directory.file("paper.html");
-  require_python(*comm, page);
+  require_page_python(*comm, page);
   for (const char* old : {"paper.html", "paper.json"}) std::filesystem::remove(directory.file(old));
   OutputDirectory scenes(comm, directory.file("scenes"), false);
 
@@ -121,7 +106,7 @@ ExitCode run_paper(const RCP<const Communicator>& comm, const PaperOptions& opti
     record["runs"].push_back(std::move(result));
   }
   write_json(*comm, directory.file("paper.json"), record);
-  draw_plot(*comm, std::string(paper_needs) + paper_page, {directory.path()}, page);
+  draw_plot(*comm, std::string(page_needs) + paper_page, {directory.path()}, page);
   log.info("the page: " + page);
   return exit_of(record["runs"]);
 }

@@ -6,18 +6,22 @@
 
 namespace mortise {
 
-/// How a process ended and what it said.
+/// How a process ended, what it said and what it took.
 struct ProcessEnding {
-  int code = -1;       ///< exit code; 128 + number of the signal that killed it; 126 or 127 if it could not be started; -1 without a shell
+  int code = -1;       ///< exit code; 128 + number of the signal that killed it; 126 or 127 if it could not be started; -1 without a process
   std::string output;  ///< stdout and stderr together, without white space at the end
+  double wall_seconds = 0.0, cpu_seconds = 0.0;  ///< CPU: user and system, with the processes that it started and waited for
+  double memory_mib = 0.0;                       ///< largest resident size of any of these processes
 
   std::string last_line() const { return output.substr(output.find_last_of('\n') + 1); }
 };
 
-/// `words` as one line for a shell, each of them quoted where it has to be.
-std::string shell_line(const std::vector<std::string>& words);
-
-/// Runs a program with its arguments and waits for its end. Programs that were started under MPI must not start others that use MPI.
+/// Runs a program with its arguments and waits for its end. It is terminated should this process be killed. Programs that were started under MPI must
+/// not start others that use MPI.
 ProcessEnding run_process(const std::vector<std::string>& words);
+
+/// The words that start `mortise run` of this same program, quietly, with mpirun for more than one rank.
+/// @param settings  "path=value" each
+std::vector<std::string> command_of_run(const std::string& scene, const std::vector<std::string>& settings, int ranks, const std::string& directory);
 
 }  // namespace mortise

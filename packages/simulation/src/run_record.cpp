@@ -66,6 +66,7 @@ Json summary(const RunRecord& record, const Model& model) {
   for (const auto& check : record.checks) json["checks"].push_back(check_json(check));
   json["time"] = record.seconds;
   json["memory_peak_mib"] = record.memory_peak_mib;
+  json["memory_total_mib"] = record.memory_total_mib;
   // By contribution, and what plasticity adds to that of the bodies. Contributions without a history are said to have none.
   json["calls"] = model.calls();
   json["bytes"] = Json::object();

@@ -23,6 +23,7 @@ struct RunRecord {
   std::vector<CheckResult> checks;
   std::map<std::string, double> seconds;  ///< by timer
   double memory_peak_mib = 0.0;           ///< of the rank that took most
+  double memory_total_mib = 0.0;          ///< sum of the peaks of all ranks
 };
 
 /// The summary with the names that docs/output.md lists. Collective.

@@ -244,6 +244,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
   record.seconds = seconds_by_name(timers, comm);
   const double mine = peak_memory_mib();
   Teuchos::reduceAll(*comm, Teuchos::REDUCE_MAX, mine, Teuchos::outArg(record.memory_peak_mib));
+  Teuchos::reduceAll(*comm, Teuchos::REDUCE_SUM, mine, Teuchos::outArg(record.memory_total_mib));
   log.detail(timer_report(timers, comm));
   report_end(record, failure, directory.path(), log);
   write_file(*comm, directory.file("summary.json"),

@@ -209,5 +209,34 @@ TEST(ParameterTree, DescribesEverything) {
   EXPECT_EQ(find_list(tree, "nothing"), nullptr);
 }
 
+TEST(Assignments, ArePathsWithTheirLinesWhateverTheyMean) {
+  const XmlList root = parse_xml(R"(<ParameterList name="study">
+<Parameter name="variables/n" type="int" value="8"/>
+<ParameterList name="bodies"><ParameterList name="block">
+<Parameter name="element" type="string" value="Q4"/></ParameterList></ParameterList></ParameterList>)",
+                                 "study.xml");
+  AssignmentList list;
+  std::vector<Diagnostic> diagnostics;
+  read_parameters(list, root, {}, {}, diagnostics);
+  EXPECT_THAT(diagnostics, IsEmpty());
+  ASSERT_EQ(list.all.size(), 2u);
+  EXPECT_EQ(list.all[0].path + "=" + list.all[0].value, "variables/n=8");
+  EXPECT_EQ(list.all[0].place.line, 2);
+  EXPECT_EQ(list.all[1].path + "=" + list.all[1].value, "bodies/block/element=Q4");
+  EXPECT_EQ(list.all[1].place.line, 4);
+}
+
+TEST(Assignments, OverrideAnotherFileAndKeepTheirPlace) {
+  XmlList root = parse_xml("<ParameterList name=\"scene\"><ParameterList name=\"a\"><Parameter name=\"x\" type=\"int\" value=\"1\"/>"
+                           "</ParameterList></ParameterList>", "scene.xml");
+  apply_override(root, "a/x", "2", {"study.xml", 7, "settings"});
+  apply_override(root, "b/c/y", "3", {"study.xml", 8, "settings"});
+  EXPECT_EQ(root.list("a")->parameter("x")->value, "2");
+  EXPECT_EQ(root.list("a")->parameter("x")->place.line, 7);
+  EXPECT_EQ(root.list("a")->parameter("x")->place.file, "study.xml");
+  EXPECT_EQ(root.list("b")->list("c")->parameter("y")->value, "3");
+  EXPECT_EQ(root.list("b")->list("c")->place.path, "b/c");
+}
+
 }  // namespace
 }  // namespace mortise

@@ -60,6 +60,7 @@ class CollectParameters : public Parameters {
   void add(const std::string& name, std::vector<std::string>& value, const Says& says) override;
   using Parameters::add;
   void verbatim(const std::string& name, Teuchos::ParameterList& list, const Says& says) override;
+  void assignments(std::vector<Assignment>& assignments) override;
   Place place(const std::string&) const override { return {}; }
   void error(const std::string&, const std::string&) override {}
 
@@ -85,7 +86,9 @@ const ListRecord* find_list(const ListRecord& tree, const std::string& path);
 
 std::string to_text(const ListRecord& tree);          ///< for a terminal
 std::string to_markdown(const ListRecord& tree);      ///< tables, one for each list
-std::string to_relax_ng(const ListRecord& tree);      ///< schema in RELAX NG's XML syntax; from declarations
+/// Schema in RELAX NG's XML syntax; from declarations.
+/// @param symbols  whether the file may hold the lists "variables" and "tables"
+std::string to_relax_ng(const ListRecord& tree, bool symbols = true);
 /// A scene with everything spelled out; from values. `extra` are lists put first ("variables", "tables").
 std::string to_scene_xml(const ListRecord& tree, const std::vector<ListRecord>& extra);
 /// The lists "variables" and "tables" of symbols.

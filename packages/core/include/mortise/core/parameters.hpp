@@ -63,6 +63,12 @@ struct Located {
   Place place;
 };
 
+/// A value for a parameter of another file, by the names of its lists and its own, separated by "/".
+struct Assignment {
+  std::string path, value;
+  Place place;
+};
+
 /// An entry of a list whose members the user names (materials, bodies, contact pairs, ...). `value` has a `describe`.
 template <class T>
 struct Named {
@@ -182,6 +188,9 @@ class Parameters {
     list.place = place(name);
   }
 
+  /// All that stands in the current list: values for another file, whose reader checks them. Names and those of lists within make paths.
+  virtual void assignments(std::vector<Assignment>& assignments) = 0;
+
   /// Place of the parameter or list `name` of the current list: where the scene gives it, or the list's own if it does not. Empty when not reading.
   virtual Place place(const std::string& name) const = 0;
 
@@ -208,6 +217,12 @@ class Parameters {
   virtual void end_list() = 0;
   virtual void named_lists(const std::string& name, const NamedAccess& access, const Says& says) = 0;
   virtual void choice_of(const std::string& name, const ChoiceAccess& access, const Says& says) = 0;
+};
+
+/// A list of values for another file.
+struct AssignmentList {
+  std::vector<Assignment> all;
+  void describe(Parameters& parameters) { parameters.assignments(all); }
 };
 
 }  // namespace mortise

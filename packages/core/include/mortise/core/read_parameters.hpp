@@ -27,6 +27,7 @@ class ReadParameters : public Parameters {
   void add(const std::string& name, std::vector<std::string>& value, const Says& says) override;
   using Parameters::add;
   void verbatim(const std::string& name, Teuchos::ParameterList& list, const Says& says) override;
+  void assignments(std::vector<Assignment>& assignments) override;
   Place place(const std::string& name) const override;
   void error(const std::string& name, const std::string& message) override;
 

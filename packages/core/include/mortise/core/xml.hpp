@@ -38,6 +38,9 @@ XmlList parse_xml(const std::string& text, const std::string& file);
 /// are made; the reader then says whether they mean anything. Throws InputError if there is no "=".
 void apply_override(XmlList& root, const std::string& assignment);
 
+/// The same for a value that another file gives, at `place`, which errors then name.
+void apply_override(XmlList& root, const std::string& path, const std::string& value, const Place& place);
+
 /// Takes the lists "variables" (numbers, each may use the ones before it) and "tables" ({times, values}) of a scene, and appends what is wrong
 /// with them to `diagnostics`.
 Symbols read_symbols(const XmlList& root, std::vector<Diagnostic>& diagnostics);

@@ -9,15 +9,15 @@ namespace mortise {
 enum class DescriptionFormat { text, markdown, relax_ng };
 
 /// Describes the list at `path` ("" : the whole scene; "contact", "bodies/<name>/mesh", ...), "<name>" standing for any name. Throws InputError,
-/// with the nearest names, if there is no such list. "point" and what is below it ("point/path") is about point files. The schema is that of the
-/// whole scene, or point file, whatever the path.
+/// with the nearest names, if there is no such list. "point" and what is below it ("point/path") is about point files, "study" about study files.
+/// The schema is that of the whole scene, point or study file, whatever the path.
 std::string describe_scene(const std::string& path, DescriptionFormat format);
 
 /// A page of the reference: file name and content. Together they hold every parameter.
 struct ReferencePage {
   std::string file, content;
 };
-/// All pages: index.md and one for each list of the scene, and scene.rng; point.md and point.rng.
+/// All pages: index.md and one for each list of the scene, and scene.rng; a page and a schema for point files and study files.
 std::vector<ReferencePage> reference_pages();
 
 /// What `list_choices` knows: "materials", "elements", "meshes", ...

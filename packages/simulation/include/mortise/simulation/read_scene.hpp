@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mortise/core/types.hpp"
+#include "mortise/core/xml.hpp"
 #include "mortise/simulation/scene.hpp"
 
 namespace mortise {
@@ -13,5 +14,8 @@ namespace mortise {
 /// @param settings  "path=value" each, as `--set` takes them; they replace what the file says
 /// Throws FileError if it cannot be read, InputError with everything that is wrong with it.
 Scene read_scene(const Communicator& comm, const std::string& file, const std::vector<std::string>& settings);
+
+/// The scene that a parsed file describes. Throws InputError with everything that is wrong with it.
+Scene make_scene(const XmlList& root);
 
 }  // namespace mortise

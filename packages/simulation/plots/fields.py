@@ -1,0 +1,43 @@
+# The fields that a run leaves.
+import numpy as np
+
+POLYLINE, NODES = 2, {4: 3, 5: 4}  # XDMF's numbers: a polyline, whose number of nodes follows; triangle and quadrilateral
+TENSOR = ("xx", "xy", "xz", "yy", "yz", "zz")
+
+
+class Fields:
+    """The last written step of fields.h5."""
+
+    def __init__(self, path):
+        with h5py.File(path) as file:
+            last = max(file["steps"], key=int)
+            self.values = {name: data[:] for name, data in file["steps"][last].items()}
+            self.reference = file["mesh/coordinates"][:, :2]
+            self.body = file["mesh/body"][:]
+            topology = file["mesh/topology"][:]
+        self.cells, at = [], 0
+        while at < len(topology):
+            kind = int(topology[at])
+            at += 2 if kind == POLYLINE else 1
+            count = int(topology[at - 1]) if kind == POLYLINE else NODES[kind]
+            self.cells.append(topology[at : at + count])
+            at += count
+        # Profiles of rigid bodies are lines; all others have an inside.
+        self.inside = np.array([len(cell) > 2 for cell in self.cells])
+        self.displacement = self.values["displacement"][:, :2]
+        self.position = self.reference + self.displacement
+
+    def von_mises(self):
+        s = dict(zip(TENSOR, self.values["cauchy_stress"].T))
+        pairs = (s["xx"] - s["yy"]) ** 2 + (s["yy"] - s["zz"]) ** 2 + (s["zz"] - s["xx"]) ** 2
+        return np.sqrt(0.5 * pairs + 3 * (s["xy"] ** 2 + s["xz"] ** 2 + s["yz"] ** 2))
+
+    def nodes_of(self, body):
+        return np.unique(np.concatenate([self.cells[e] for e in np.flatnonzero(self.body == body)]))
+
+    def contact(self):
+        """x, pressure and shear of the slave nodes by their current x: all others have neither a pressure nor a gap."""
+        pressure, gap = self.values["contact_pressure"].ravel(), self.values["gap"].ravel()
+        slave = np.flatnonzero((pressure != 0) | (gap != 0))
+        slave = slave[np.argsort(self.position[slave, 0], kind="stable")]
+        return self.position[slave, 0], pressure[slave], self.values["contact_shear"].ravel()[slave]

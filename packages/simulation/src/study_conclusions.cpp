@@ -1,0 +1,52 @@
+#include "study_conclusions.hpp"
+
+#include <fmt/format.h>
+
+namespace mortise {
+namespace {
+
+std::vector<double> picked(const std::vector<double>& values, const std::vector<std::size_t>& indices) {
+  std::vector<double> some;
+  for (const std::size_t i : indices) some.push_back(values[i]);
+  return some;
+}
+
+}  // namespace
+
+StudyConclusions conclude(const StudyPlan& plan, const StudyResults& results, const std::vector<StudyCurve>& curves, const StudyErrors& errors) {
+  std::vector<double> seconds;
+  for (const StudyRecord& point : results.points) seconds.push_back(point.wall);
+  StudyConclusions conclusions;
+  conclusions.front = pareto_front(seconds, errors.error);
+  for (const StudyCurve& curve : curves)
+    conclusions.orders.push_back(fitted_order(picked(results.h, curve.points), picked(errors.error, curve.points)));
+  for (const double error : plan.file.targets) {
+    StudyConclusions::Target target;
+    target.error = error;
+    // On the front errors fall as times rise.
+    for (const std::size_t i : conclusions.front)
+      if (!target.cheapest && errors.error[i] <= error) target.cheapest = i;
+    for (const StudyCurve& curve : curves)
+      target.times.push_back(time_to_error(error, picked(seconds, curve.points), picked(errors.error, curve.points)));
+    for (std::size_t c = 0; c < curves.size(); ++c) {
+      const auto &time = target.times[c], &base = target.times[curves[c].base];
+      const bool exact = time && base && !time->at_most && !base->at_most;
+      target.ratios.push_back(exact ? std::optional<double>(time->seconds / base->seconds) : std::nullopt);
+    }
+    conclusions.targets.push_back(std::move(target));
+  }
+  return conclusions;
+}
+
+std::string sentence(const StudyPlan& plan, const StudyResults& results, const StudyErrors& errors, const StudyConclusions& conclusions) {
+  std::string text = "cheapest configuration";
+  for (const auto& target : conclusions.targets) {
+    const bool first = &target == &conclusions.targets.front();
+    const std::string within = fmt::format("within {:g} %{}", 100.0 * target.error, first ? " of " + errors.name : "");
+    text += first ? " " + within + ": " : "; " + within + ": ";
+    text += target.cheapest ? fmt::format("{} ({:.3g} s)", plan.points[*target.cheapest].label(), results.points[*target.cheapest].wall) : "none";
+  }
+  return text;
+}
+
+}  // namespace mortise

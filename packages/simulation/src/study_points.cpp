@@ -1,0 +1,124 @@
+#include "mortise/simulation/study_points.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/algorithm/string.hpp>
+#include <charconv>
+#include <limits>
+
+#include "names.hpp"
+
+namespace mortise {
+namespace {
+
+using Labels = std::vector<std::string>;
+
+/// A name that every file system takes.
+std::string file_name(std::string text) {
+  for (char& c : text)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && std::string("=,._-+").find(c) == std::string::npos) c = '_';
+  return text;
+}
+
+/// What an entry of "exclude" says of each axis: labels that it is about; none: all of them.
+std::vector<Labels> excluded(const Named<AssignmentList>& entry, const StudyFile& study, const std::vector<Labels>& labels,
+                             std::vector<Diagnostic>& diagnostics) {
+  std::vector<Labels> about(labels.size());
+  const Labels axes = names_of(study.axes);
+  for (const Assignment& one : entry.value.all) {
+    const auto axis = std::find(axes.begin(), axes.end(), one.path) - axes.begin();
+    if (axis == static_cast<long>(axes.size())) {
+      diagnostics.push_back({one.place, unknown_name("axis", one.path, axes)});
+      continue;
+    }
+    boost::algorithm::split(about[axis], one.value, boost::is_any_of(","));
+    for (std::string& label : about[axis]) {
+      boost::algorithm::trim(label);
+      if (std::find(labels[axis].begin(), labels[axis].end(), label) == labels[axis].end())
+        diagnostics.push_back(
+            {one.place, unknown_name("value of \"" + one.path + "\"", label, labels[axis]) + "; it has " + quoted_list(labels[axis])});
+    }
+  }
+  return about;
+}
+
+/// Takes "ranks" out of the settings: they are said to mpirun, not to the scene.
+void take_ranks(StudyPoint& point, std::vector<Diagnostic>& diagnostics) {
+  std::vector<Assignment> others;
+  for (const Assignment& one : point.settings) {
+    if (one.path != "ranks") {
+      others.push_back(one);
+      continue;
+    }
+    const auto [end, error] = std::from_chars(one.value.data(), one.value.data() + one.value.size(), point.ranks);
+    if (error != std::errc() || end != one.value.data() + one.value.size() || point.ranks < 1)
+      diagnostics.push_back({one.place, fmt::format("\"ranks\" is \"{}\"; it has to be a whole number, 1 or more", one.value)});
+  }
+  point.settings = std::move(others);
+}
+
+}  // namespace
+
+std::vector<std::string> StudyPoint::words() const {
+  std::vector<std::string> words;
+  for (const Assignment& one : settings) words.push_back(one.path + "=" + one.value);
+  return words;
+}
+
+std::string StudyPoint::label() const { return labels.empty() ? name : boost::algorithm::join(titles, ", "); }
+
+std::vector<StudyPoint> study_points(const StudyFile& study, std::vector<Diagnostic>& diagnostics) {
+  std::vector<std::vector<Named<AssignmentList>>> values;
+  std::vector<Labels> labels;
+  std::size_t combinations = 1;
+  for (const auto& axis : study.axes) {
+    values.push_back(axis.value.labelled());
+    if (values.back().empty()) values.back().push_back({});  // said when it was read
+    labels.push_back(names_of(values.back()));
+    for (std::size_t i = 0; i < labels.back().size(); ++i)
+      if (std::find(labels.back().begin(), labels.back().begin() + i, labels.back()[i]) != labels.back().begin() + i)
+        diagnostics.push_back({values.back()[i].place, fmt::format("the value \"{}\" is given twice", labels.back()[i])});
+    combinations *= values.back().size();
+  }
+  std::vector<std::vector<Labels>> excludes;
+  for (const auto& entry : study.exclude) excludes.push_back(excluded(entry, study, labels, diagnostics));
+
+  std::vector<StudyPoint> points;
+  for (std::size_t combination = 0; combination < combinations; ++combination) {
+    StudyPoint point;
+    std::vector<std::size_t> of_axis(values.size());
+    for (std::size_t axis = values.size(), rest = combination; axis-- > 0; rest /= values[axis].size()) of_axis[axis] = rest % values[axis].size();
+    point.settings = study.settings.all;
+    for (std::size_t axis = 0; axis < values.size(); ++axis) {
+      const auto& value = values[axis][of_axis[axis]];
+      point.labels.push_back(value.name);
+      point.titles.push_back(study.axes[axis].value.choices.empty() ? study.axes[axis].name + " = " + value.name : value.name);
+      point.name += (axis == 0 ? "" : ",") + file_name(study.axes[axis].name + "=" + value.name);
+      point.settings.insert(point.settings.end(), value.value.all.begin(), value.value.all.end());
+    }
+    const bool left_out = std::any_of(excludes.begin(), excludes.end(), [&](const std::vector<Labels>& about) {
+      for (std::size_t axis = 0; axis < about.size(); ++axis)
+        if (!about[axis].empty() && std::find(about[axis].begin(), about[axis].end(), point.labels[axis]) == about[axis].end()) return false;
+      return true;
+    });
+    if (left_out) continue;
+    while (std::any_of(points.begin(), points.end(), [&](const StudyPoint& other) { return other.name == point.name; })) point.name += "+";
+    take_ranks(point, diagnostics);
+    points.push_back(std::move(point));
+  }
+  return points;
+}
+
+double evaluate(const Located<std::string>& source, const StudyPoint& point, const std::vector<double>& values, double dofs) {
+  std::vector<std::string> names{"dofs"};
+  std::vector<double> arguments{dofs};
+  for (std::size_t i = 0; i < point.quantities.size(); ++i) {
+    if (point.symbols.variables.count(point.quantities[i])) continue;  // the variable stands for itself
+    names.push_back(point.quantities[i]);
+    arguments.push_back(values[i]);
+  }
+  return Expression::of(names, source.value, point.symbols, source.place).at(arguments);
+}
+
+}  // namespace mortise

@@ -1,0 +1,91 @@
+// Orders, limits, times to an accuracy and Pareto fronts of sequences that are known in closed form.
+
+#include "mortise/simulation/convergence.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+
+namespace mortise {
+namespace {
+
+using ::testing::ElementsAre;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// limit + c h^p at each h.
+std::vector<double> sequence(const std::vector<double>& h, double limit, double c, double p) {
+  std::vector<double> values;
+  for (const double one : h) values.push_back(limit + c * std::pow(one, p));
+  return values;
+}
+
+TEST(FittedOrder, IsThatOfAPower) {
+  const std::vector<double> h{0.5, 0.25, 0.1, 0.03};
+  for (const double p : {0.5, 1.0, 2.0}) EXPECT_NEAR(*fitted_order(h, sequence(h, 0.0, 7.0, p)), p, 1e-12);
+}
+
+TEST(FittedOrder, IsTheSlopeOfLeastSquares) {
+  // log e = 0, 1, 1 at log h = 0, 1, 2: slope 1/2
+  EXPECT_NEAR(*fitted_order({1.0, std::exp(1.0), std::exp(2.0)}, {1.0, std::exp(1.0), std::exp(1.0)}), 0.5, 1e-12);
+}
+
+TEST(FittedOrder, LeavesOutWhatHasNoLogarithm) {
+  EXPECT_NEAR(*fitted_order({1.0, 0.5, 0.25, none, 0.1}, {3.0, 1.5, 0.75, 1.0, 0.0}), 1.0, 1e-12);
+  EXPECT_FALSE(fitted_order({1.0, 0.5}, {1.0, 0.0}));
+  EXPECT_FALSE(fitted_order({1.0, 1.0}, {1.0, 2.0}));
+}
+
+TEST(Extrapolate, FindsLimitAndOrder) {
+  const std::vector<double> h{0.5, 0.2, 0.1, 0.07};  // steps of different ratios
+  for (const double p : {0.5, 1.0, 2.0, 3.7}) {
+    const auto found = extrapolate(h, sequence(h, 5.0, -3.0, p), {});
+    ASSERT_TRUE(found) << p;
+    EXPECT_NEAR(found->order, p, 1e-8);
+    EXPECT_NEAR(found->limit, 5.0, 1e-8);
+  }
+}
+
+TEST(Extrapolate, TakesAGivenOrder) {
+  const std::vector<double> h{0.2, 0.1};
+  EXPECT_NEAR(extrapolate(h, sequence(h, 5.0, 2.0, 2.0), 2.0)->limit, 5.0, 1e-12);
+  EXPECT_FALSE(extrapolate(h, sequence(h, 5.0, 2.0, 2.0), {}));
+}
+
+TEST(Extrapolate, SaysNothingOfSequencesWithoutALimit) {
+  EXPECT_FALSE(extrapolate({4.0, 2.0, 1.0}, {1.0, 2.0, 1.5}, {}));  // from both sides
+  EXPECT_FALSE(extrapolate({4.0, 2.0, 1.0}, {1.0, 2.0, 4.0}, {}));  // away
+  EXPECT_FALSE(extrapolate({1.0, 2.0, 4.0}, {1.0, 1.5, 1.75}, {}));
+  EXPECT_FALSE(extrapolate({4.0, 2.0, 1.0}, {1.0, none, 1.75}, {}));
+}
+
+TEST(TimeToError, IsLinearInTheLogarithms) {
+  // error = 1 / t^2
+  const auto time = time_to_error(0.01, {1.0, 4.0, 25.0}, {1.0, 1.0 / 16.0, 1.0 / 625.0});
+  EXPECT_NEAR(time->seconds, 10.0, 1e-12);
+  EXPECT_FALSE(time->at_most);
+}
+
+TEST(TimeToError, CountsFromWhereTheErrorStaysSmall) {
+  EXPECT_NEAR(time_to_error(0.1, {1.0, 2.0, 4.0, 8.0}, {0.5, 0.001, 0.4, 0.025})->seconds, 4.0 * std::sqrt(2.0), 1e-12);
+  EXPECT_FALSE(time_to_error(0.1, {1.0, 2.0}, {0.01, 0.2}));
+  EXPECT_FALSE(time_to_error(0.1, {1.0}, {none}));
+  const auto first = time_to_error(0.1, {3.0, 9.0}, {0.1, 0.01});
+  EXPECT_EQ(first->seconds, 3.0);
+  EXPECT_TRUE(first->at_most);
+}
+
+TEST(ParetoFront, HoldsWhatNoOtherBeats) {
+  EXPECT_THAT(pareto_front({1.0, 2.0, 3.0, 4.0, 0.5, 2.0}, {0.5, 0.2, 0.3, 0.1, none, 0.2}), ElementsAre(0, 1, 3));
+  EXPECT_THAT(pareto_front({}, {}), ElementsAre());
+}
+
+TEST(Median, IsTheMiddle) {
+  EXPECT_EQ(median({3.0, 1.0, 2.0}), 2.0);
+  EXPECT_EQ(median({4.0, 1.0, 2.0, 3.0}), 2.5);
+  EXPECT_EQ(median({7.0}), 7.0);
+}
+
+}  // namespace
+}  // namespace mortise
