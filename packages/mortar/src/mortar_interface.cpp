@@ -381,6 +381,8 @@ void MortarInterface::evaluate(const MultiVector& x, bool derivatives, std::vect
       failure = StepFailure(
           FailureKind::inverted_facet,
           fmt::format("the slave surface has no normal at node {}: a facet lost its length, or facets folded onto one another", slave.node_ids[n]));
+  if (derivatives && self.options.linearisation == Linearisation::frozen_normals)
+    for (NodalNormal& normal : normals) normal.derivative.setZero();
   for (std::size_t n = 0; n < positions.size() && !failure; ++n)
     if (!positions[n].allFinite()) failure = StepFailure(FailureKind::not_finite, "a position on the contact surfaces is not a number");
   std::size_t used = 0;

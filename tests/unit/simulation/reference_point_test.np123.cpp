@@ -24,6 +24,7 @@ using ::testing::HasSubstr;
 struct Case {
   std::string name, kinematics, body, points, conditions, loads;
   double friction = 0.0;
+  std::string formulation = "dual mortar";
 };
 
 void PrintTo(const Case& one, std::ostream* stream) { *stream << one.name; }
@@ -59,6 +60,7 @@ std::string scene_text(const Case& one) {
                                                   parameter("young's modulus", "double", "100") + parameter("poisson's ratio", "double", "0.3"));
   const std::string pair = list(
       "pair", parameter("slave", "string", "base/top") + parameter("master", "string", "upper/bottom") +
+                  list("formulation", parameter("type", "string", one.formulation)) +
                   list("friction", one.friction > 0.0
                                        ? parameter("type", "string", "coulomb") + parameter("coefficient", "string", fmt::format("{}", one.friction))
                                        : parameter("type", "string", "none")));
@@ -118,7 +120,7 @@ TEST_P(ReferencePoints, JacobianAgreesWithCentralDifferences) {
   Vector x(system.map());
   std::optional<StepFailure> failure;
   const auto start = [&](Vector& at) {
-    model.contact()->start_step(*system.displacement(static_cast<const Vector&>(at)), model.held_by_contact_only(), *system.multipliers(at));
+    model.contact()->start_step(*system.displacement(at), model.held_by_contact_only(), *system.multipliers(at));
   };
   SteppingOptions stepping = scene.stepping;
   stepping.end_time = 0.5;
@@ -153,6 +155,21 @@ TEST_P(ReferencePoints, JacobianAgreesWithCentralDifferences) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ReferencePoints, testing::ValuesIn(cases));
+
+/// The same with multipliers that stay unknowns, and with conditions that give them.
+std::vector<Case> other_formulations() {
+  std::vector<Case> all;
+  for (const std::string formulation : {"standard mortar", "node to segment", "penalty"})
+    for (const std::size_t i : {std::size_t{0}, std::size_t{2}, cases.size() - 1}) {
+      Case one = cases[i];
+      one.name += ", " + formulation;
+      one.formulation = formulation;
+      all.push_back(one);
+    }
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(OtherFormulations, ReferencePoints, testing::ValuesIn(other_formulations()));
 
 std::string complaints(const Case& one) {
   try {

@@ -23,6 +23,12 @@ enum class Coupling {
 /// Which functions weight the gap.
 enum class GapWeighting { dual, standard };
 
+/// What Newton's method knows of the nodal normals' derivatives.
+enum class Linearisation {
+  exact,
+  frozen_normals  ///< none: iterates converge to the same solution, linearly
+};
+
 /// The measure on the interface: thickness t, or 2 pi r of the current slave radius.
 struct InterfaceMeasure {
   bool axisymmetric = false;
@@ -36,6 +42,7 @@ struct MortarOptions {
   GapWeighting gap_weighting = GapWeighting::dual;
   std::optional<double> search_reach;  ///< distance up to which facets can touch; default: the longest facet of the pair
   int gauss_points = 5;                ///< per overlap of two facets
+  Linearisation linearisation = Linearisation::exact;
   void describe(Parameters& parameters);
 };
 

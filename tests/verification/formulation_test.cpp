@@ -1,0 +1,96 @@
+// The formulations of contact from outside: which of them pass the patch test, and how the others fail it.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "launch.hpp"
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int done = 0, not_converged = 3, check_missed = 4;
+
+struct Outcome {
+  int code = 0;
+  std::string said;
+  Json quantities;
+};
+
+Outcome run(const std::string& scene, const std::string& name, std::vector<std::string> settings) {
+  const std::string results = std::string(SCRATCH) + "/formulation/" + name;
+  std::vector<std::string> words{MORTISE, "run", std::string(INPUTS) + "/" + scene, "-o", results, "--set", "output/fields="};
+  for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
+  const Ending ending = launch(words, 120);
+  return {ending.code, ending.output, Json::parse(read_file(results + "/summary.json")).at("quantities")};
+}
+
+const std::string list = "contact/interface/formulation/";
+
+TEST(PatchTest, StandardMortarPassesToRoundOff) {
+  const Outcome outcome = run("paper/patch_test.xml", "standard", {list + "type=standard mortar"});
+  EXPECT_EQ(outcome.code, done) << outcome.said;
+}
+
+// A uniform penetration is a state that both sides can take: its traction is uniform whatever the stiffness is.
+TEST(PatchTest, MortarPenaltyPassesToRoundOff) {
+  for (const std::string discretisation : {"dual mortar", "standard mortar"}) {
+    const Outcome outcome =
+        run("paper/patch_test.xml", "penalty " + discretisation, {list + "type=penalty", list + "discretisation=" + discretisation});
+    EXPECT_LE(outcome.quantities.at("stress_spread").get<double>(), 1e-10) << outcome.said;
+  }
+}
+
+// Gaps up to tolerance h change tractions by up to 10 E / h of that: 10 tolerance E / sigma of them, E = 210000, sigma = 450.
+TEST(PatchTest, AugmentedLagrangePassesToItsTolerance) {
+  const double tolerance = 1e-12;
+  for (const std::string discretisation : {"dual mortar", "standard mortar"}) {
+    const Outcome outcome = run("paper/patch_test.xml", "augmented " + discretisation,
+                                {list + "type=augmented lagrange", list + "discretisation=" + discretisation, list + "tolerance=1e-12"});
+    EXPECT_LE(outcome.quantities.at("stress_spread").get<double>(), 10.0 * tolerance * 210000.0 / 450.0) << outcome.said;
+  }
+}
+
+// Forces at nodes that do not fit those of a uniform traction on the other side: errors of the order of the stress itself in a facet's corner,
+// momentum kept (Taylor, Papadopoulos 1991).
+TEST(PatchTest, NodeToSegmentFailsInOnePass) {
+  const Outcome outcome = run("paper/patch_test.xml", "single pass", {list + "type=node to segment"});
+  EXPECT_EQ(outcome.code, check_missed) << outcome.said;
+  EXPECT_GT(outcome.quantities.at("stress_spread").get<double>(), 0.01);
+  EXPECT_LE(outcome.quantities.at("momentum_imbalance").get<double>(), 1e-12);
+}
+
+// Where nodes lie opposite one another the point loads are the consistent ones.
+TEST(PatchTest, NodeToSegmentPassesOnMatchingMeshes) {
+  const Outcome outcome = run("verification/patch_ratio_1_1.xml", "matching", {list + "type=node to segment"});
+  EXPECT_LE(outcome.quantities.at("stress_spread").get<double>(), 1e-10) << outcome.said;
+}
+
+// n_1 + n_2 conditions that no more than n_1 + n_2 - 2 of are independent: both gaps vanish for any straight motion of the flat surfaces. The system
+// is singular, and the program says why.
+TEST(PatchTest, TwoPassesOverConstrainFlatSurfaces) {
+  const Outcome outcome = run("paper/patch_test.xml", "two passes", {list + "type=node to segment", list + "passes=two"});
+  EXPECT_EQ(outcome.code, not_converged) << outcome.said;
+  EXPECT_NE(outcome.said.find("over-constrains"), std::string::npos) << outcome.said;
+}
+
+// The node-to-segment pressure of Hertz' problem goes up and down from node to node, that of mortar falls from the middle outwards.
+TEST(Hertz, PressuresOscillateFromNodeToNodeOnSegmentsOnly) {
+  const std::vector<std::string> choices{"variables/n=8", "variables/mu=0", "variables/steps=4"};
+  const auto with = [&](const std::string& name) {
+    std::vector<std::string> settings = choices;
+    settings.push_back(list + "type=" + name);
+    return run("paper/hertz_elastic.xml", "hertz " + name, settings);
+  };
+  const Outcome dual = with("dual mortar"), standard = with("standard mortar"), nodes = with("node to segment");
+  EXPECT_EQ(dual.code, done) << dual.said;
+  EXPECT_EQ(standard.code, done) << standard.said;
+  EXPECT_LE(std::abs(standard.quantities.at("oscillation").get<double>()), 0.01);
+  EXPECT_GT(nodes.quantities.at("oscillation").get<double>(), 0.1);
+  for (const Outcome* one : {&dual, &standard, &nodes}) EXPECT_NEAR(one->quantities.at("contact_force").get<double>(), 2500.0, 1e-6);
+}
+
+}  // namespace
