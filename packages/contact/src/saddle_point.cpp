@@ -36,7 +36,12 @@ ContactSystem::SaddlePointBlocks ContactSystem::saddle_point_blocks(const Vector
   const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
   const auto row_map = rcp(new Map(invalid, rows.data(), static_cast<LocalOrdinal>(rows.size()), 0, self.dofs->getComm()));
 
-  Matrix B(row_map, std::max<std::size_t>(1, self.multipliers->getNodeNumElements()));
+  std::vector<std::size_t> sizes(rows.size(), 0);
+  for (const auto& pair : self.pairs)
+    for (std::size_t s = 0; s < pair->slave_nodes().size(); ++s)
+      for (const LocalOrdinal node : pair->interface().loaded_nodes(s))
+        for (int i = 0; i < 2; ++i) ++sizes[row_map->getLocalElement(2 * pair->interface().local_nodes()->getGlobalElement(node) + i)];
+  Matrix B(row_map, Teuchos::arrayViewFromVector(sizes));
   SaddlePointBlocks blocks;
   blocks.C_d = rcp(new Matrix(self.multipliers, widest));
   blocks.C_z = rcp(new Matrix(self.multipliers, 2));

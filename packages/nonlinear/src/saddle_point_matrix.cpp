@@ -1,26 +1,14 @@
 #include "saddle_point_matrix.hpp"
 
+#include <Tpetra_CrsGraph.hpp>
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 
+#include "matrix_values.hpp"
+
 namespace mortise::detail {
-namespace {
-
-// A local row's entries in the numbering of both maps, times `factor`.
-void append_row(const Matrix& block, LocalOrdinal row, const std::vector<GlobalOrdinal>& ids, double factor, std::vector<GlobalOrdinal>& columns,
-                std::vector<double>& values) {
-  Matrix::local_inds_host_view_type column_view;
-  Matrix::values_host_view_type value_view;
-  block.getLocalRowView(row, column_view, value_view);
-  for (std::size_t k = 0; k < column_view.extent(0); ++k) {
-    columns.push_back(ids[column_view(k)]);
-    values.push_back(factor * value_view(k));
-  }
-}
-
-}  // namespace
 
 SaddlePointMatrix::SaddlePointMatrix(RCP<const Map> first, RCP<const Map> second) : first_(std::move(first)), second_(std::move(second)) {
   const std::size_t count = first_->getNodeNumElements();
@@ -45,33 +33,59 @@ std::vector<GlobalOrdinal> SaddlePointMatrix::column_ids(const Matrix& block, co
   return result;
 }
 
-RCP<Matrix> SaddlePointMatrix::merged(const Matrix& A, const Matrix& B, const Matrix& C, const Matrix& D, const Vector& S) const {
-  const auto A_ids = column_ids(A, *first_ids_), B_ids = column_ids(B, *second_ids_);
-  const auto C_ids = column_ids(C, *first_ids_), D_ids = column_ids(D, *second_ids_);
+void SaddlePointMatrix::build(const Blocks& blocks) {
+  std::array<std::vector<GlobalOrdinal>, 4> ids;
+  for (std::size_t b = 0; b < 4; ++b) {
+    ids[b] = column_ids(*blocks[b], b % 2 == 0 ? *first_ids_ : *second_ids_);
+    graphs_[b] = blocks[b]->getCrsGraph();
+  }
   const auto count = static_cast<LocalOrdinal>(first_->getNodeNumElements());
   const auto rows = static_cast<LocalOrdinal>(both_->getNodeNumElements());
   std::vector<std::size_t> sizes(rows);
-  for (LocalOrdinal row = 0; row < rows; ++row)
-    sizes[row] = row < count ? A.getNumEntriesInLocalRow(row) + B.getNumEntriesInLocalRow(row)
-                             : C.getNumEntriesInLocalRow(row - count) + D.getNumEntriesInLocalRow(row - count);
-  const auto result = rcp(new Matrix(both_, Teuchos::arrayViewFromVector(sizes)));
-  const auto scale = S.getLocalViewHost(Tpetra::Access::ReadOnly);
-  std::vector<GlobalOrdinal> columns;
-  std::vector<double> values;
-  for (LocalOrdinal row = 0; row < rows; ++row) {
-    columns.clear();
-    values.clear();
-    if (row < count) {
-      append_row(A, row, A_ids, 1.0, columns, values);
-      append_row(B, row, B_ids, 1.0, columns, values);
-    } else {
-      append_row(C, row - count, C_ids, scale(row - count, 0), columns, values);
-      append_row(D, row - count, D_ids, scale(row - count, 0), columns, values);
-    }
-    result->insertGlobalValues(both_->getGlobalElement(row), static_cast<LocalOrdinal>(columns.size()), values.data(), columns.data());
+  std::vector<std::vector<GlobalOrdinal>> columns(rows);
+  for (std::size_t b = 0; b < 4; ++b) {
+    const auto entries = graphs_[b]->getLocalGraphHost();
+    const LocalOrdinal begin = b < 2 ? 0 : count;
+    for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(entries.numRows()); ++row)
+      for (std::size_t k = entries.row_map(row); k < entries.row_map(row + 1); ++k) columns[begin + row].push_back(ids[b][entries.entries(k)]);
   }
-  result->fillComplete(both_, both_);
-  return result;
+  for (LocalOrdinal row = 0; row < rows; ++row) sizes[row] = columns[row].size();
+  const auto graph = rcp(new Graph(both_, Teuchos::arrayViewFromVector(sizes)));
+  for (LocalOrdinal row = 0; row < rows; ++row)
+    graph->insertGlobalIndices(both_->getGlobalElement(row), static_cast<LocalOrdinal>(columns[row].size()), columns[row].data());
+  graph->fillComplete(both_, both_);
+  matrix_ = rcp(new Matrix(graph));
+  matrix_->fillComplete(both_, both_);
+
+  const auto target = graph->getLocalGraphHost();
+  std::vector<std::size_t> place(graph->getColMap()->getNodeNumElements());
+  for (std::size_t b = 0; b < 4; ++b) {
+    const auto entries = graphs_[b]->getLocalGraphHost();
+    const LocalOrdinal begin = b < 2 ? 0 : count;
+    offsets_[b].resize(entries.entries.extent(0));
+    for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(entries.numRows()); ++row) {
+      for (std::size_t k = target.row_map(begin + row); k < target.row_map(begin + row + 1); ++k) place[target.entries(k)] = k;
+      for (std::size_t k = entries.row_map(row); k < entries.row_map(row + 1); ++k)
+        offsets_[b][k] = place[graph->getColMap()->getLocalElement(ids[b][entries.entries(k)])];
+    }
+  }
+}
+
+RCP<Matrix> SaddlePointMatrix::merged(const Matrix& A, const Matrix& B, const Matrix& C, const Matrix& D, const Vector& S) {
+  const Blocks blocks = {&A, &B, &C, &D};
+  bool same = !matrix_.is_null();
+  for (std::size_t b = 0; same && b < 4; ++b) same = same_entries(*blocks[b]->getCrsGraph(), *graphs_[b]);
+  if (!same) build(blocks);
+  const auto values = matrix_->getLocalMatrixHost().values;
+  const auto scale = S.getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (std::size_t b = 0; b < 4; ++b) {
+    const auto block = blocks[b]->getLocalMatrixHost();
+    for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(block.numRows()); ++row) {
+      const double factor = b < 2 ? 1.0 : scale(row, 0);
+      for (std::size_t k = block.graph.row_map(row); k < block.graph.row_map(row + 1); ++k) values(offsets_[b][k]) = factor * block.values(k);
+    }
+  }
+  return matrix_;
 }
 
 RCP<Vector> SaddlePointMatrix::merged(const Vector& first, const Vector& second) const {
