@@ -7,34 +7,23 @@
 #include "mortise/contact/formulation/standard_mortar.hpp"
 
 namespace mortise {
-namespace {
-
-const std::vector<std::pair<std::string, Coupling>> mortar_names = {{"dual mortar", Coupling::dual_mortar},
-                                                                    {"standard mortar", Coupling::standard_mortar}};
-
-void add_stiffnesses(Parameters& parameters, double& normal, std::optional<double>& tangential) {
-  parameters.add("stiffness", normal,
-                 Says("traction per penetration, over Young's modulus of the softer side over the shortest slave facet").unit("-").above(0.0));
-  parameters.add("tangential stiffness", tangential, Says("the same per slip before sliding; default: `stiffness`").unit("-").above(0.0));
-}
-
-}  // namespace
-
 void NodeToSegment::describe(Parameters& parameters) {
   parameters.add("passes", passes, {{"single", Passes::single}, {"two", Passes::two}},
                  "whether only slave nodes are kept from penetrating, or master nodes in a second pass as well");
 }
 
 void Penalty::describe(Parameters& parameters) {
-  std::vector<std::pair<std::string, Coupling>> names = mortar_names;
-  names.push_back({"node to segment", Coupling::node_to_segment});
-  parameters.add("discretisation", discretisation, names, "what tractions act through");
-  add_stiffnesses(parameters, normal, tangential);
+  parameters.add(
+      "discretisation", discretisation,
+      {{"dual mortar", Coupling::dual_mortar}, {"standard mortar", Coupling::standard_mortar}, {"node to segment", Coupling::node_to_segment}},
+      "what tractions act through");
+  parameters.add("stiffness", normal,
+                 Says("traction per penetration, over Young's modulus of the softer side over the shortest slave facet").unit("-").above(0.0));
+  parameters.add("tangential stiffness", tangential, Says("the same per slip before sliding; default: `stiffness`").unit("-").above(0.0));
 }
 
 void AugmentedLagrange::describe(Parameters& parameters) {
-  parameters.add("discretisation", discretisation, mortar_names, "what tractions act through");
-  add_stiffnesses(parameters, normal, tangential);
+  Penalty::describe(parameters);
   parameters.add("tolerance", tolerance,
                  Says("gap of closed nodes, and slip of sticking ones, over the shortest slave facet, at which a step is done").unit("-").above(0.0));
   parameters.add("augmentations", augmentations, Says("updates of the multipliers after which the step is undone").at_least(1));
@@ -47,7 +36,7 @@ const Registry<Formulation>& formulation_registry() {
     formulations.add<StandardMortar>("standard mortar", "mortar integrals, multipliers interpolated like displacements, saddle point system");
     formulations.add<NodeToSegment>("node to segment", "multipliers at slave nodes, saddle point system");
     formulations.add<Penalty>("penalty", "tractions in proportion to penetration and slip");
-    formulations.add<AugmentedLagrange>("augmented lagrange", "mortar penalty, its multipliers updated until nothing penetrates (Uzawa)");
+    formulations.add<AugmentedLagrange>("augmented lagrange", "penalty, its multipliers updated until nothing penetrates (Uzawa)");
     return formulations;
   }();
   return registry;
