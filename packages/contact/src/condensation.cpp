@@ -80,43 +80,42 @@ void ContactSystem::add_stiffness(const Vector& z, Matrix& system) {
 
 // Conditions that give z as a function of d, of a node j:  z^{k+1} = b + S dd,  b = z - C_z^-1 C,  S = -C_z^-1 C_d.
 // Its rows and those of the nodes m it is coupled to:  A_m += c_jm S,  rhs_m -= c_jm b.
-void ContactSystem::eliminate_by_law(std::size_t p, const Vector& z, Matrix& system, Vector& rhs) {
-  Implementation& self = *implementation_;
+void ContactSystem::Implementation::eliminate_by_law(std::size_t p, const Vector& z, Matrix& system, Vector& rhs) {
   const auto z_values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
-  const PairCoupling& pair = *self.pairs[p];
-  const NodePositions& positions = self.scatter->positions(p);
+  const PairCoupling& pair = *pairs[p];
+  const NodePositions& positions = scatter->positions(p);
   std::vector<double> values;
   for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
-    if (self.multiplier_of[p][s] < 0) continue;
-    const Eigen::Vector2d zs = self.z_of(z_values, p, s);
+    if (multiplier_of[p][s] < 0) continue;
+    const Eigen::Vector2d zs = z_of(z_values, p, s);
     const Complementarity law = pair.complementarity(s, zs);
     if (law.state == ContactState::open) continue;
     const NodeRow& node = pair.rows()[s];
     const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
 
-    RecoveryRow recovery;
-    recovery.multiplier = self.multiplier_of[p][s];
+    RecoveryRow row;
+    row.multiplier = multiplier_of[p][s];
     for (const LocalOrdinal c : coupled)
-      for (int i = 0; i < 2; ++i) recovery.columns.push_back(positions.column[2 * c + i]);
+      for (int i = 0; i < 2; ++i) row.columns.push_back(positions.column[2 * c + i]);
     const Eigen::Matrix2d inverse = law.C_z.inverse();
-    recovery.b = zs - inverse * law.C;
-    for (auto& row : recovery.S) row.resize(recovery.columns.size());
-    for (std::size_t c = 0; c < recovery.columns.size(); ++c) {
+    row.b = zs - inverse * law.C;
+    for (auto& values_of : row.S) values_of.resize(row.columns.size());
+    for (std::size_t c = 0; c < row.columns.size(); ++c) {
       const Eigen::Vector2d slope = -inverse * pair.constraint_gradient(law, s, c);
-      for (int i = 0; i < 2; ++i) recovery.S[i][c] = slope[i];
+      for (int i = 0; i < 2; ++i) row.S[i][c] = slope[i];
     }
     const auto add = [&](LocalOrdinal m, double coefficient) {
       if (coefficient == 0.0) return;
       for (int i = 0; i < 2; ++i) {
-        values = recovery.S[i];
+        values = row.S[i];
         for (double& value : values) value *= coefficient;
-        self.scatter->add(system, positions, m, i, recovery.columns, values);
-        self.scatter->add(rhs, positions, m, i, -coefficient * recovery.b[i]);
+        scatter->add(system, positions, m, i, row.columns, values);
+        scatter->add(rhs, positions, m, i, -coefficient * row.b[i]);
       }
     };
     add(pair.slave_nodes()[s].local_node, node.D);
     for (std::size_t c = 0; c < coupled.size(); ++c) add(coupled[c], node.coefficients[c]);
-    self.recovery.push_back(std::move(recovery));
+    recovery.push_back(std::move(row));
   }
 }
 
@@ -137,7 +136,7 @@ void ContactSystem::condense(const Vector& z, Matrix& system, Vector& rhs) {
   std::vector<double> momentum[2], constraint[2], row_values[2];
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
     if (self.pairs[p]->formulation().elimination() == Elimination::law) {
-      eliminate_by_law(p, z, system, rhs);
+      self.eliminate_by_law(p, z, system, rhs);
       continue;
     }
     const PairCoupling& pair = *self.pairs[p];

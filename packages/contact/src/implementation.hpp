@@ -41,6 +41,7 @@ struct ContactSystem::Implementation {
     return first < 0 ? Eigen::Vector2d(0.0, 0.0) : Eigen::Vector2d(z(first, 0), z(first + 1, 0));
   }
   void add_contact_force(const Vector& z, Vector& r) const;
+  void eliminate_by_law(std::size_t pair, const Vector& z, Matrix& system, Vector& rhs);
   void take_slip_references();
   std::vector<std::vector<ContactState>> states(const Vector& z) const;
   /// Collective. Positions x on the owned nodes: those of the last evaluation.

@@ -161,7 +161,6 @@ class ContactSystem {
 
  private:
   struct Implementation;
-  void eliminate_by_law(std::size_t pair, const Vector& z, Matrix& system, Vector& rhs);
   std::unique_ptr<Implementation> implementation_;
 };
 
