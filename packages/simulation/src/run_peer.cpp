@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/trim.hpp>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "calculix_deck.hpp"
 #include "calculix_results.hpp"
@@ -29,13 +31,15 @@ std::string complaints(const std::string& output) {
   std::string found, line;
   std::istringstream stream(output);
   for (int lines = 0; lines < 6 && std::getline(stream, line);)
-    for (const char* sign : {"*ERROR", "divergence", "best solution", "singular", "too many"})
+    for (const char* sign : {"*ERROR", "divergence", "singular", "too many"})
       if (line.find(sign) != std::string::npos) {
         found += (found.empty() ? "" : "; ") + line.substr(std::min(line.find_first_not_of(' '), line.size()));
         ++lines;
         break;
       }
-  return found.empty() ? output.substr(output.find_last_of('\n') + 1) : found;
+  if (!found.empty()) return found;
+  // The solver SPOOLES ends without a message where the matrix is singular.
+  return "no message; the last line is \"" + boost::algorithm::trim_copy(output.substr(output.find_last_of('\n') + 1)) + '"';
 }
 
 Json steps_json(const CalculixResults& results) {
