@@ -22,8 +22,10 @@ std::vector<Diagnostic> calculix_obstacles(const Scene& scene, const Model& mode
   std::vector<Diagnostic> found;
   const auto say = [&](const Place& place, const std::string& what) { found.push_back({place, "the deck of CalculiX cannot hold it: " + what}); };
   if (scene.kinematics != Kinematics::plane_strain)
-    say({}, fmt::format("kinematics \"{}\"; decks are written for plane strain, and mortar contact of CalculiX refuses axisymmetric elements",
-                        to_string(scene.kinematics)));
+    say({},
+        fmt::format("kinematics \"{}\"; decks are for plane strain. Mortar contact of CalculiX refuses axisymmetric elements (it takes no nodes with "
+                    "multiple point constraints), and no contact writes its stresses at the nodes of those",
+                    to_string(scene.kinematics)));
   const BodyProperties* first = nullptr;
   for (const auto& body : model.bodies()->properties()) {
     if (body.is_rigid()) {
