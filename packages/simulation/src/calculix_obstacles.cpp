@@ -24,7 +24,7 @@ std::vector<Diagnostic> calculix_obstacles(const Scene& scene, const Model& mode
   if (scene.kinematics != Kinematics::plane_strain)
     say({},
         fmt::format("kinematics \"{}\"; decks are for plane strain. Mortar contact of CalculiX refuses axisymmetric elements (it takes no nodes with "
-                    "multiple point constraints), and no contact writes its stresses at the nodes of those",
+                    "multiple point constraints), and results at plane nodes hold no contact stresses",
                     to_string(scene.kinematics)));
   const BodyProperties* first = nullptr;
   for (const auto& body : model.bodies()->properties()) {
