@@ -62,6 +62,7 @@ int main(int argc, char** argv) {
   mortise::add_point_command(app, program);
   mortise::add_paper_command(app, program);
   mortise::add_study_command(app, program);
+  mortise::add_peer_command(app, program);
   mortise::add_describe_command(app, program);
   mortise::add_list_command(app, program);
   mortise::add_doctor_command(app, program);

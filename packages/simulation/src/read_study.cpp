@@ -50,6 +50,13 @@ void complete(StudyPoint& point, const XmlList& root) {
   for (const auto& body : scene.bodies)
     if (!body.value.rigid.value) elements.push_back(to_string(body.value.element));
   point.element = joined(elements);
+  if (point.peer != Peer::none) {  // triangles become wedges, quadrilaterals of either kind bricks
+    point.formulation = peer_title(point.peer);
+    std::vector<std::string> theirs;
+    for (const auto& body : scene.bodies)
+      if (!body.value.rigid.value) theirs.push_back(body.value.element == ElementType::t3 ? "C3D6" : "C3D8");
+    point.element += " (CalculiX " + joined(theirs) + ")";
+  }
   point.axisymmetric = scene.kinematics == Kinematics::axisymmetric;
   point.quantities = names_of(scene.quantities);
   point.symbols = scene.symbols;
@@ -131,7 +138,7 @@ StudyPlan read_study(const Communicator& comm, const std::string& path) {
   plan.points = study_points(study, diagnostics);
   if (plan.points.empty() && diagnostics.empty()) diagnostics.push_back({root.place, "all combinations are excluded"});
   if (!study.finest.all.empty()) {
-    StudyFile alone;  // an axis of one value, so that "ranks" is taken out of its settings too
+    StudyFile alone;  // an axis of one value, so that "ranks" and "peer" are taken out of its settings too
     alone.settings = study.settings;
     alone.axes.push_back({"finest", {}, {}});
     alone.axes.back().value.choices.push_back({"finest", {}, study.finest});

@@ -28,6 +28,13 @@ double seconds(const timeval& time) { return static_cast<double>(time.tv_sec) + 
   _exit(errno == ENOENT ? 127 : 126);
 }
 
+std::string this_program() { return std::filesystem::read_symlink("/proc/self/exe").string(); }
+
+void add_settings(std::vector<std::string>& command, const std::vector<std::string>& settings, const std::string& directory) {
+  for (const auto& setting : settings) command.insert(command.end(), {"--set", setting});
+  command.insert(command.end(), {"-o", directory, "--quiet"});
+}
+
 }  // namespace
 
 ProcessEnding run_process(const std::vector<std::string>& words) {
@@ -64,12 +71,18 @@ ProcessEnding run_process(const std::vector<std::string>& words) {
   return ending;
 }
 
+std::vector<std::string> command_of_peer(const std::string& scene, const std::vector<std::string>& settings, const std::string& peer,
+                                         const std::string& directory) {
+  std::vector<std::string> command{this_program(), "peer", scene, "--by", peer};
+  add_settings(command, settings, directory);
+  return command;
+}
+
 std::vector<std::string> command_of_run(const std::string& scene, const std::vector<std::string>& settings, int ranks, const std::string& directory) {
-  std::vector<std::string> command{std::filesystem::read_symlink("/proc/self/exe").string()};
+  std::vector<std::string> command{this_program()};
   if (ranks > 1) command = {"mpirun", "-n", std::to_string(ranks), command.front()};
   command.insert(command.end(), {"run", scene});
-  for (const auto& setting : settings) command.insert(command.end(), {"--set", setting});
-  command.insert(command.end(), {"-o", directory, "--quiet"});
+  add_settings(command, settings, directory);
   return command;
 }
 

@@ -20,6 +20,10 @@ struct ProcessEnding {
 /// not start others that use MPI.
 ProcessEnding run_process(const std::vector<std::string>& words);
 
+/// The words that start `mortise peer` of this same program, quietly.
+std::vector<std::string> command_of_peer(const std::string& scene, const std::vector<std::string>& settings, const std::string& peer,
+                                         const std::string& directory);
+
 /// The words that start `mortise run` of this same program, quietly, with mpirun for more than one rank.
 /// @param settings  "path=value" each
 std::vector<std::string> command_of_run(const std::string& scene, const std::vector<std::string>& settings, int ranks, const std::string& directory);

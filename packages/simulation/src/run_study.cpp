@@ -65,7 +65,8 @@ ExitCode run_study(const RCP<const Communicator>& comm, const StudyOptions& opti
   draw_plot(*comm, std::string(page_needs) + study_page, {directory.path()}, page);
   for (std::size_t q = 0; q < errors.size(); ++q) log.info(sentence(plan, results, errors[q], conclusions[q]));
   log.info("the page: " + page);
-  const bool finished = std::all_of(results.points.begin(), results.points.end(), [](const auto& one) { return one.finished(); });
+  const auto well = [](const StudyRecord& one) { return one.finished() || one.excused(); };
+  const bool finished = std::all_of(results.points.begin(), results.points.end(), well);
   return finished && (!results.finest || results.finest->finished()) ? ExitCode::done : ExitCode::not_converged;
 }
 

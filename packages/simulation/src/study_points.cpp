@@ -43,18 +43,35 @@ std::vector<Labels> excluded(const Named<AssignmentList>& entry, const StudyFile
   return about;
 }
 
-/// Takes "ranks" out of the settings: they are said to mpirun, not to the scene.
-void take_ranks(StudyPoint& point, std::vector<Diagnostic>& diagnostics) {
-  std::vector<Assignment> others;
-  for (const Assignment& one : point.settings) {
-    if (one.path != "ranks") {
-      others.push_back(one);
-      continue;
-    }
-    const auto [end, error] = std::from_chars(one.value.data(), one.value.data() + one.value.size(), point.ranks);
-    if (error != std::errc() || end != one.value.data() + one.value.size() || point.ranks < 1)
-      diagnostics.push_back({one.place, fmt::format("\"ranks\" is \"{}\"; it has to be a whole number, 1 or more", one.value)});
+void read_ranks(StudyPoint& point, const Assignment& said, std::vector<Diagnostic>& diagnostics) {
+  const auto [end, error] = std::from_chars(said.value.data(), said.value.data() + said.value.size(), point.ranks);
+  if (error != std::errc() || end != said.value.data() + said.value.size() || point.ranks < 1)
+    diagnostics.push_back({said.place, fmt::format("\"ranks\" is \"{}\"; it has to be a whole number, 1 or more", said.value)});
+}
+
+void read_peer(StudyPoint& point, const Assignment& said, std::vector<Diagnostic>& diagnostics) {
+  Labels known;
+  for (const auto& [name, peer] : peer_names()) {
+    known.push_back(name);
+    if (name == said.value) point.peer = peer;
   }
+  if (std::find(known.begin(), known.end(), said.value) == known.end())
+    diagnostics.push_back({said.place, unknown_name("peer", said.value, known) + "; there are " + quoted_list(known)});
+}
+
+/// Takes "ranks" and "peer" out of the settings: they say how the scene is run and are no part of it.
+void take_reserved(StudyPoint& point, std::vector<Diagnostic>& diagnostics) {
+  std::vector<Assignment> others;
+  const Assignment* ranks = nullptr;
+  for (const Assignment& one : point.settings) {
+    if (one.path == "ranks")
+      read_ranks(point, *(ranks = &one), diagnostics);
+    else if (one.path == "peer")
+      read_peer(point, one, diagnostics);
+    else
+      others.push_back(one);
+  }
+  if (point.peer != Peer::none && point.ranks > 1) diagnostics.push_back({ranks->place, "a peer runs on one rank"});
   point.settings = std::move(others);
 }
 
@@ -104,7 +121,7 @@ std::vector<StudyPoint> study_points(const StudyFile& study, std::vector<Diagnos
     });
     if (left_out) continue;
     while (std::any_of(points.begin(), points.end(), [&](const StudyPoint& other) { return other.name == point.name; })) point.name += "+";
-    take_ranks(point, diagnostics);
+    take_reserved(point, diagnostics);
     points.push_back(std::move(point));
   }
   return points;

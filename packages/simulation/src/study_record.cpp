@@ -3,6 +3,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <boost/algorithm/string.hpp>
 #include <cmath>
 #include <ctime>
@@ -22,6 +23,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr const char* impossible = "not possible by the peer";
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr int done = static_cast<int>(ExitCode::done), missed = static_cast<int>(ExitCode::check_missed),
               not_converged = static_cast<int>(ExitCode::not_converged);
@@ -32,7 +34,10 @@ std::string record_of(const StudyPointOptions& options) { return options.directo
 
 /// What decides on the results and times of a point.
 Json identity(const StudyPoint& point, const StudyPointOptions& options) {
-  return {{"text", options.text}, {"settings", point.words()}, {"ranks", point.ranks}, {"repeats", options.repeats}, {"version", options.version}};
+  Json identity{
+      {"text", options.text}, {"settings", point.words()}, {"ranks", point.ranks}, {"repeats", options.repeats}, {"version", options.version}};
+  if (point.peer != Peer::none) identity["peer"] = peer_title(point.peer);
+  return identity;
 }
 
 /// Name of the processor, for the environment that times are of.
@@ -55,6 +60,7 @@ Json excerpt(const std::string& path) {
   }
   Json kept;
   for (const char* name : {"dofs", "quantities", "time", "memory_total_mib"}) kept[name] = summary.at(name);
+  if (summary.contains("peer")) kept["peer"] = summary.at("peer");
   kept["missed"] = Json::array();
   for (const auto& check : summary.at("checks"))
     if (!check.at("ok").get<bool>())
@@ -67,6 +73,25 @@ Json excerpt(const std::string& path) {
   return kept;
 }
 
+std::vector<std::string> command_of(const StudyPoint& point, const StudyPointOptions& options) {
+  if (point.peer == Peer::none) return command_of_run(options.scene, point.words(), point.ranks, options.directory);
+  const auto& names = peer_names();
+  const auto name = std::find_if(names.begin(), names.end(), [&](const auto& one) { return one.second == point.peer; });
+  return command_of_peer(options.scene, point.words(), name->first, options.directory);
+}
+
+/// Time and memory of a run: those of its process, or of the peer's, without what it took to write its deck and to read its results.
+Json measured(const StudyPoint& point, const ProcessEnding& ending, const Json& summary) {
+  const Json time = summary.value("time", Json::object());
+  if (summary.contains("peer")) {
+    const Json& peer = summary["peer"];
+    return {{"wall_s", peer.at("wall_s")}, {"cpu_s", peer.at("cpu_s")}, {"memory_mib", peer.at("memory_mib")}, {"time", time}};
+  }
+  // The largest process is all of them only if it is the only one.
+  const Json memory = point.ranks > 1 && summary.contains("memory_total_mib") ? summary["memory_total_mib"] : Json(ending.memory_mib);
+  return {{"wall_s", ending.wall_seconds}, {"cpu_s", ending.cpu_seconds}, {"memory_mib", memory}, {"time", time}};
+}
+
 Json run_all(const Communicator& comm, const StudyPoint& point, const StudyPointOptions& options) {
   Json record{{"identity", identity(point, options)},
               {"exit", static_cast<int>(ExitCode::files)},
@@ -75,6 +100,11 @@ Json run_all(const Communicator& comm, const StudyPoint& point, const StudyPoint
               {"processor", processor()},
               {"repeats", Json::array()},
               {"summary", Json::object()}};
+  record["absent"] = missing_program(point.peer);
+  if (record["absent"] != "") {
+    record["said"] = "not installed: " + record["absent"].get<std::string>();
+    return record;
+  }
   for (int repeat = 0; repeat < options.repeats; ++repeat) {
     try {
       // Nothing of an earlier run may pass for results of one that fails.
@@ -83,15 +113,12 @@ Json run_all(const Communicator& comm, const StudyPoint& point, const StudyPoint
       record["said"] = error.what();
       return record;
     }
-    const ProcessEnding ending = run_process(command_of_run(options.scene, point.words(), point.ranks, options.directory));
+    const ProcessEnding ending = run_process(command_of(point, options));
     record["exit"] = ending.code;
     record["said"] = ending.output;
     record["summary"] = excerpt(options.directory + "/summary.json");
-    const Json& summary = record["summary"];
-    // The largest process is all of them only if it is the only one.
-    const Json memory = point.ranks > 1 && summary.contains("memory_total_mib") ? summary["memory_total_mib"] : Json(ending.memory_mib);
-    record["repeats"].push_back(
-        {{"wall_s", ending.wall_seconds}, {"cpu_s", ending.cpu_seconds}, {"memory_mib", memory}, {"time", summary.value("time", Json::object())}});
+    if (point.peer != Peer::none && !record["summary"].contains("peer")) break;  // it was not started
+    record["repeats"].push_back(measured(point, ending, record["summary"]));
     if (ending.code != done && ending.code != missed) break;
   }
   return record;
@@ -101,6 +128,8 @@ StudyRecord to_record(const Json& json, const StudyPoint& point) {
   StudyRecord record;
   record.exit = json.at("exit");
   record.said = json.at("said");
+  record.absent = json.value("absent", "");
+  record.by_peer = point.peer != Peer::none;
   record.date = json.at("date");
   record.processor = json.at("processor");
   std::map<std::string, std::vector<double>> measured, times;
@@ -126,6 +155,8 @@ StudyRecord to_record(const Json& json, const StudyPoint& point) {
 bool StudyRecord::finished() const { return exit == done || exit == missed; }
 
 std::string StudyRecord::status() const {
+  if (excused()) return "not installed: " + absent;
+  if (by_peer && exit == static_cast<int>(ExitCode::invalid_input)) return impossible;
   if (exit == done) return "done";
   if (exit == missed) return "check missed";
   if (exit == not_converged) return "not converged";
@@ -138,7 +169,7 @@ std::optional<StudyRecord> earlier_record(const Communicator& comm, const StudyP
   if (found.is_discarded() || found.value("identity", Json()) != identity(point, options)) return {};
   StudyRecord record = to_record(found, point);
   record.reused = true;
-  return record.finished() || record.exit == not_converged ? std::optional<StudyRecord>(record) : std::nullopt;
+  return record.finished() || record.exit == not_converged || record.status() == impossible ? std::optional<StudyRecord>(record) : std::nullopt;
 }
 
 StudyRecord run_point(const Communicator& comm, const StudyPoint& point, const StudyPointOptions& options) {

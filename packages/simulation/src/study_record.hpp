@@ -17,6 +17,8 @@ struct StudyRecord {
   std::string said;             ///< by the run that failed, or the last one
   std::string date, processor;  ///< UTC, "2026-01-31T12:00:00Z"; of the first run
   bool reused = false;
+  bool by_peer = false;                        ///< a peer was to run it
+  std::string absent;                          ///< the peer's program, which is not installed: nothing was run
   double wall = 0.0, cpu = 0.0, memory = 0.0;  ///< seconds and MiB over all ranks; medians of the repeats
   std::map<std::string, double> time;          ///< seconds by timer of the summary, likewise
   double dofs = 0.0, steps = 0.0, newton_iterations = 0.0, cutbacks = 0.0;
@@ -25,7 +27,10 @@ struct StudyRecord {
 
   /// Whether it came to its end: errors can be measured.
   bool finished() const;
-  /// "done", "check missed", "not converged", "killed by signal 9", "exit code 70"
+  /// Whether it is no fault of the study that there are no results.
+  bool excused() const { return !absent.empty(); }
+  /// "done", "check missed", "not converged", "killed by signal 9", "exit code 70",
+  /// "not possible by the peer", "not installed: ccx (Debian: calculix-ccx)"
   std::string status() const;
 };
 

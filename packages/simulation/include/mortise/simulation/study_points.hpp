@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mortise/core/types.hpp"
+#include "mortise/simulation/peer.hpp"
 #include "mortise/simulation/study_file.hpp"
 
 namespace mortise {
@@ -17,6 +18,7 @@ struct StudyPoint {
   std::vector<std::string> titles;  ///< the same for people: "n = 4" where the label alone is a bare value
   std::vector<Assignment> settings;
   int ranks = 1;
+  Peer peer = Peer::none;  ///< the program that runs it instead of this one
 
   // What the scene is with these settings.
   std::string formulation, element;

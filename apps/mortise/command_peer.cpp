@@ -1,0 +1,40 @@
+#include <map>
+#include <memory>
+
+#include "mortise/simulation/peer.hpp"
+#include "program.hpp"
+
+namespace mortise {
+
+void add_peer_command(CLI::App& app, Program& program) {
+  auto* command = app.add_subcommand("peer", "run a scene by another program, for comparison: CalculiX");
+  const auto options = std::make_shared<PeerOptions>();
+  options->version = MORTISE_VERSION;
+  options->peer = Peer::calculix_mortar;
+  command->add_option("SCENE", options->scene, "scene file")->required();
+  command->add_option("--set", options->settings, "replace a value of the file: path=value, e.g. variables/n=16; may be repeated")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+  std::map<std::string, Peer> names(peer_names().begin(), peer_names().end());
+  names.erase("none");
+  command->add_option("--by", options->peer, "calculix mortar (the default), calculix surface to surface, calculix node to surface")
+      ->transform(CLI::CheckedTransformer(names))
+      ->option_text("PEER");
+  command->add_option("-o,--output", options->directory, "directory for the results; default: results/<name of the file SCENE>")->type_name("DIR");
+  command->add_flag_callback(
+      "--quiet", [options] { options->verbosity = Verbosity::quiet; }, "say nothing but warnings and errors");
+  command->footer(
+      "Leaves peer.inp, the deck of the same mesh, what CalculiX writes beside it, and summary.json with the quantities that can be had of its\n"
+      "results. Needs the program ccx (Debian: calculix-ccx). Exit codes: 2 if a deck cannot hold the scene, 3 if CalculiX did not come to its end,\n"
+      "5 if it is not installed.\n"
+      "Example: mortise peer inputs/paper/hertz_elastic.xml --by 'calculix node to surface' -o peer");
+  command->callback([&program, options] {
+    program.action = [&program, options] {
+      if (program.comm->getSize() == 1) return run_peer(program.comm, *options);
+      if (program.is_first_rank()) print(program, "mortise peer runs on one rank: please call it without mpirun\n");
+      return ExitCode::usage;
+    };
+  });
+}
+
+}  // namespace mortise

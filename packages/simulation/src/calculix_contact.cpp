@@ -1,0 +1,70 @@
+// Surfaces and contact pairs of a deck of CalculiX.
+
+#include <fmt/format.h>
+
+#include <Tpetra_Map.hpp>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include "calculix_deck.hpp"
+
+namespace mortise {
+namespace {
+
+using Text = std::back_insert_iterator<std::string>;
+
+/// Bricks and wedges: faces 1 and 2 are the layers, face 3 + a the one over the side from node a to the next.
+void write_surface(Text text, const std::string& name, const Mesh& mesh, const SideSet& set) {
+  fmt::format_to(text, "*SURFACE,NAME={},TYPE=ELEMENT\n", name);
+  for (const Side& side : set.sides) {
+    const Block& block = mesh.blocks[side.block];
+    fmt::format_to(text, "{},S{}\n", block.element_ids[side.element] + 1, 3 + topology(block.shape).sides[side.side].front());
+  }
+}
+
+/// Shortest facet of a surface.
+double shortest(const Mesh& mesh, const SideSet& set) {
+  double length = std::numeric_limits<double>::max();
+  for (const Side& side : set.sides) {
+    const auto nodes = mesh.side_nodes(side);
+    const auto &a = mesh.coordinates[nodes[0]], &b = mesh.coordinates[nodes[1]];
+    length = std::min(length, std::hypot(b[0] - a[0], b[1] - a[1]));
+  }
+  return length;
+}
+
+double softest(const Model& model, std::initializer_list<const SideSet*> sets) {
+  double modulus = std::numeric_limits<double>::max();
+  for (const SideSet* set : sets)
+    for (const Side& side : set->sides) modulus = std::min(modulus, model.bodies()->properties()[side.block].material->youngs_modulus);
+  return modulus;
+}
+
+}  // namespace
+
+std::string deck_contact(const Scene& scene, const Model& model, Peer peer) {
+  const Mesh& mesh = *model.mesh();
+  std::string deck;
+  const auto text = std::back_inserter(deck);
+  for (std::size_t p = 0; p < scene.contact.size(); ++p) {
+    const auto& pair = scene.contact[p].value;
+    const SideSet &slave = mesh.side_sets.at(pair.slave.value), &master = mesh.side_sets.at(pair.master.value);
+    write_surface(text, fmt::format("SLAVE{}", p), mesh, slave);
+    write_surface(text, fmt::format("MASTER{}", p), mesh, master);
+    // Penalties, stress per length, against E/h, the stiffness of an element at the interface. Mortar has one for sticking only and bears a stiff
+    // one. The other two have one for the pressure as well: ten times stiffer ones end in divergence on the finer of the shipped meshes.
+    const bool mortar = peer == Peer::calculix_mortar;
+    const double stiffness = softest(model, {&slave, &master}) / shortest(mesh, slave), sticking = (mortar ? 10.0 : 0.1) * stiffness;
+    fmt::format_to(text, "*SURFACE INTERACTION,NAME=INTERACTION{}\n", p);
+    if (!mortar) fmt::format_to(text, "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=LINEAR\n{:.10g}\n", stiffness);
+    if (const auto* coulomb = dynamic_cast<const CoulombFriction*>(pair.contact.friction.options.get()); coulomb != nullptr && coulomb->acts())
+      fmt::format_to(text, "*FRICTION\n{:.10g},{:.10g}\n", coulomb->coefficient.at({0.0, 0.0}), sticking);
+    const char* const type = mortar ? "MORTAR" : peer == Peer::calculix_surface_to_surface ? "SURFACE TO SURFACE" : "NODE TO SURFACE";
+    fmt::format_to(text, "*CONTACT PAIR,INTERACTION=INTERACTION{0},TYPE={1}\nSLAVE{0},MASTER{0}\n", p, type);
+  }
+  return deck;
+}
+
+}  // namespace mortise
