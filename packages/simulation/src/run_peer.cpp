@@ -82,7 +82,8 @@ ExitCode run_peer(const RCP<const Communicator>& comm, const PeerOptions& option
   write_file(*comm, directory.file("peer.inp"), [&] { return calculix_deck(scene, model, options.peer); });
 
   setenv("OMP_NUM_THREADS", "1", 1);  // one process on one core, as this program's ranks
-  const ProcessEnding ending = run_process({"ccx", "-i", directory.file("peer")});
+  // It leaves files of its own where it is run.
+  const ProcessEnding ending = run_process({"env", "-C", directory.path(), "ccx", "-i", "peer"});
   write_file(*comm, directory.file("peer.log"), [&] { return ending.output + "\n"; });
   const CalculixResults results = read_calculix_results(directory.path());
   const double end = scene.stepping.end_time;
