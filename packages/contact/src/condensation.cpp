@@ -8,7 +8,6 @@
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "implementation.hpp"
 
@@ -30,17 +29,6 @@ void copy_row(const Matrix& matrix, LocalOrdinal row, std::vector<LocalOrdinal>&
 
 void replace_row(Matrix& matrix, LocalOrdinal row, const std::vector<LocalOrdinal>& columns, const std::vector<double>& values) {
   matrix.replaceLocalValues(row, static_cast<LocalOrdinal>(columns.size()), values.data(), columns.data());
-}
-
-// values (at sorted `columns`) += factor * gradient of a slave node's scalar
-void add_gradient(const std::vector<LocalOrdinal>& columns, std::vector<double>& values, const std::vector<LocalOrdinal>& coupled,
-                  const NodePositions& positions, const std::function<double(std::size_t)>& entry) {
-  for (std::size_t c = 0; c < coupled.size(); ++c)
-    for (int i = 0; i < 2; ++i) {
-      const LocalOrdinal column = positions.column[2 * coupled[c] + i];
-      const auto found = std::lower_bound(columns.begin(), columns.end(), column);
-      values[found - columns.begin()] += entry(2 * c + i);
-    }
 }
 
 }  // namespace
@@ -162,8 +150,12 @@ void ContactSystem::condense(const Vector& z, Matrix& system, Vector& rhs) {
 
       // Linearised complementarity: constraint . dd + (C - C_z z) + C_z z^{k+1} = 0
       for (int i = 0; i < 2; ++i) constraint[i].assign(columns.size(), 0.0);
-      for (int a = 0; a < 2; ++a)
-        add_gradient(columns, constraint[a], coupled, positions, [&](std::size_t c) { return pair.constraint_gradient(law, s, c)[a]; });
+      for (std::size_t c = 0; c < coupled.size(); ++c)
+        for (int i = 0; i < 2; ++i) {
+          const auto found = std::lower_bound(columns.begin(), columns.end(), positions.column[2 * coupled[c] + i]);
+          const Eigen::Vector2d gradient = pair.constraint_gradient(law, s, 2 * c + i);
+          for (int a = 0; a < 2; ++a) constraint[a][found - columns.begin()] += gradient[a];
+        }
       const Eigen::Vector2d constant = law.C - law.C_z * zs;
 
       // E z^{k+1} = e - L dd, one row for each component: momentum where free, C_tau where fixed.

@@ -67,7 +67,7 @@ class Run:
         return self.summary.get("quantities", {}).get(name)
 
     def iterations(self):
-        return [len(step["newton"]) - 1 for step in self.summary.get("steps", [])]
+        return [len(step["newton"]) - step.get("solves", 1) for step in self.summary.get("steps", [])]
 
     def residuals(self, time):
         """Relative momentum residuals of the iterations 0 (before the first), 1, ... of the step that ended at `time`, of its last try. The table has 0

@@ -24,7 +24,7 @@ Json step_json(const StepReport& step) {
                           {"changed", norms.changed},
                           {"linear_iterations", iteration.linear_iterations}});
   }
-  return {{"time", step.time}, {"dt", step.dt}, {"cutbacks", step.cutbacks}, {"undone", step.undone}, {"newton", iterations}};
+  return {{"time", step.time}, {"dt", step.dt}, {"cutbacks", step.cutbacks}, {"undone", step.undone}, {"solves", step.newton.solves}, {"newton", iterations}};
 }
 
 Json check_json(const CheckResult& check) {

@@ -55,7 +55,7 @@ Json excerpt(const std::string& path) {
   if (summary.is_discarded()) return Json::object();
   std::size_t iterations = 0, cutbacks = 0;
   for (const auto& step : summary.at("steps")) {
-    iterations += step.at("newton").size() - 1;  // the first entry is the state before the first iteration
+    iterations += step.at("newton").size() - step.value("solves", 1);  // the first entry of each solve is the state before it
     cutbacks += step.at("cutbacks").get<std::size_t>();
   }
   Json kept;

@@ -139,6 +139,19 @@ TEST_P(ContactFormulation, ConvergesQuadraticallyOnceTheSetHasSettled) {
   EXPECT_GE(pairs, 1);
 }
 
+// Newton's method then knows less and finds the same: more iterations, no other state.
+TEST(ContactNewton, FrozenNormalsChangeTheWayAndNotTheSolution) {
+  Problem::Choices choices = pressed(0.25);
+  Problem exact(Tpetra::getDefaultComm(), choices);
+  choices.linearisation = Linearisation::frozen_normals;
+  Problem frozen(Tpetra::getDefaultComm(), choices);
+  const Solved one = solve(exact), other = solve(frozen);
+  EXPECT_GT(other.report.newton_steps(), one.report.newton_steps());
+  Vector difference(*exact.x, Teuchos::Copy);
+  difference.update(-1.0, *frozen.x, 1.0);
+  EXPECT_LE(difference.normInf(), 1e-8 * exact.x->normInf());
+}
+
 // What the upper body is pushed with arrives below; without friction on a level interface nothing goes sideways.
 TEST_P(ContactFormulation, ForcesPassThroughTheInterface) {
   Problem problem(Tpetra::getDefaultComm(), choose(pressed(0.25)));

@@ -242,11 +242,12 @@ struct Problem {
     Numbering numbering = Numbering::scattered;
     int cut = 0;                               ///< with contact between the two bodies
     std::shared_ptr<Formulation> formulation;  ///< of contact; null: the default
+    Linearisation linearisation = Linearisation::exact;
   };
 
   /// The lower edge of the upper body (slave) on the upper edge of the lower one.
   static std::shared_ptr<ContactSystem> contact(const SpringGrid& grid, const PrescribedDisplacements& prescribed, double stiffness,
-                                                const std::shared_ptr<Formulation>& formulation) {
+                                                const std::shared_ptr<Formulation>& formulation, Linearisation linearisation) {
     const auto reference = rcp(new MultiVector(grid.node_map, 2)), fixed = rcp(new MultiVector(grid.node_map, 2));
     for (std::size_t n = 0; n < grid.owned_nodes().size(); ++n)
       for (int i = 0; i < 2; ++i) reference->replaceLocalValue(static_cast<LocalOrdinal>(n), i, grid.position(grid.owned_nodes()[n])[i]);
@@ -254,6 +255,7 @@ struct Problem {
     ContactPair pair;
     pair.name = "pair";
     pair.youngs_modulus = stiffness;
+    pair.options.mortar.linearisation = linearisation;
     if (formulation) pair.options.formulation.options = formulation;
     const auto mine = [&](int node) { return std::binary_search(grid.owned_nodes().begin(), grid.owned_nodes().end(), node); };
     for (int i = 0; i + 1 < grid.nx(); ++i) {
@@ -274,7 +276,7 @@ struct Problem {
     parts.contributions = {std::make_shared<Springs>(grid, choices.stiffness), brittle};
     if (choices.force) parts.contributions.push_back(std::make_shared<EdgeLoad>(grid, *choices.force));
     parts.prescribed = std::make_shared<Edges>(*grid, choices.motion);
-    if (choices.cut > 0) parts.contact = contact(*grid, *parts.prescribed, choices.stiffness, choices.formulation);
+    if (choices.cut > 0) parts.contact = contact(*grid, *parts.prescribed, choices.stiffness, choices.formulation, choices.linearisation);
     parts.linear_solver = make_linear_solver(choices.linear_solver, comm, Timers());
     parts.near_null_space = [grid = grid](const Vector&) { return grid->near_null_space(); };
     parts.length = choices.ny;
