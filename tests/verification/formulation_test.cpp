@@ -17,7 +17,7 @@ constexpr int done = 0, not_converged = 3, check_missed = 4;
 struct Outcome {
   int code = 0;
   std::string said;
-  Json quantities;
+  Json quantities, steps;
 };
 
 Outcome run(const std::string& scene, const std::string& name, std::vector<std::string> settings) {
@@ -25,7 +25,8 @@ Outcome run(const std::string& scene, const std::string& name, std::vector<std::
   std::vector<std::string> words{MORTISE, "run", std::string(INPUTS) + "/" + scene, "-o", results, "--set", "output/fields="};
   for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
   const Ending ending = launch(words, 120);
-  return {ending.code, ending.output, Json::parse(read_file(results + "/summary.json")).at("quantities")};
+  const Json summary = Json::parse(read_file(results + "/summary.json"));
+  return {ending.code, ending.output, summary.at("quantities"), summary.at("steps")};
 }
 
 const std::string list = "contact/interface/formulation/";
@@ -52,6 +53,18 @@ TEST(PatchTest, AugmentedLagrangePassesToItsTolerance) {
                                 {list + "type=augmented lagrange", list + "discretisation=" + discretisation, list + "tolerance=1e-12"});
     EXPECT_LE(outcome.quantities.at("stress_spread").get<double>(), 10.0 * tolerance * 210000.0 / 450.0) << outcome.said;
   }
+}
+
+// Each update of the multipliers is one more solve, whose starting state is no iteration.
+TEST(PatchTest, IterationsOfAllSolvesAreCounted) {
+  const Outcome outcome = run("paper/patch_test.xml", "counted", {list + "type=augmented lagrange"});
+  std::size_t iterations = 0, solves = 0;
+  for (const Json& step : outcome.steps) {
+    solves += step.at("solves").get<std::size_t>();
+    iterations += step.at("newton").size() - step.at("solves").get<std::size_t>();
+  }
+  EXPECT_GT(solves, outcome.steps.size());
+  EXPECT_NE(outcome.said.find(" " + std::to_string(iterations) + " Newton iterations"), std::string::npos) << outcome.said;
 }
 
 // Forces at nodes that do not fit those of a uniform traction on the other side: errors of the order of the stress itself in a facet's corner,
