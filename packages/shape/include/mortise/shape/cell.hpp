@@ -1,24 +1,29 @@
 #pragma once
 // Reference cells: how many nodes, which sides.
 
-#include <array>
 #include <vector>
 
 namespace mortise {
 
-/// Shapes of elements; nodes of plane ones are numbered counterclockwise. Lines are what rigid bodies in the plane are made of: a line is its own
-/// only side.
-enum class CellShape { line2, triangle3, quadrilateral4 };
+/// Shapes of elements and of their sides. Corners come first, then the middles of edges. Nodes of plane cells are numbered counterclockwise; of
+/// hexahedra the bottom's counterclockwise seen from above, then the top's (edges: bottom, top, upright); of tetrahedra the base's counterclockwise
+/// seen from the apex. Rigid bodies are made of lines in the plane, of triangles or quadrilaterals in space: such a cell is its own only side.
+enum class CellShape { line2, line3, triangle3, triangle6, quadrilateral4, quadrilateral8, tetrahedron4, tetrahedron10, hexahedron8, hexahedron20 };
 
 /// Topology of a reference cell.
 struct CellTopology {
   int dimension;
   int nodes;
-  /// sides[s]: the cell's nodes on side s, in the order that has the outward normal on the right of the direction of travel in 2D,
-  /// n = (t_y, -t_x).
+  int corners;     ///< the first nodes
+  CellShape side;  ///< shape of every side; of lines: the line itself
+  /// sides[s]: the cell's nodes on side s, in the order of the side's shape. In the plane the outward normal is on the right of the direction of
+  /// travel, n = (t_y, -t_x); in space the corners run counterclockwise seen from outside.
   std::vector<std::vector<int>> sides;
 };
 
 const CellTopology& topology(CellShape shape);
+
+/// Highest number of nodes of a cell, and of a side.
+inline constexpr int most_cell_nodes = 20, most_side_nodes = 8;
 
 }  // namespace mortise
