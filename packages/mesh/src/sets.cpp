@@ -63,6 +63,12 @@ std::vector<LocalOrdinal> nodes_of_sides(const Mesh& mesh, const SideSet& set) {
   return nodes;
 }
 
+SurfaceFacet facet(const Mesh& mesh, const std::vector<LocalOrdinal>& nodes) {
+  SurfaceFacet ids;
+  for (const LocalOrdinal node : nodes) ids.push_back(mesh.local_nodes->getGlobalElement(node));
+  return ids;
+}
+
 }  // namespace
 
 void SetOptions::describe(Parameters& parameters) {
@@ -112,22 +118,18 @@ void add_set(Mesh& mesh, const Named<SetOptions>& set) {
   mesh.side_sets[set.name] = std::move(kept);
 }
 
-FacetNodes facets_at_owned_nodes(const Mesh& mesh, const SideSet& set) {
-  FacetNodes facets;
+SurfaceFacets facets_at_owned_nodes(const Mesh& mesh, const SideSet& set) {
+  SurfaceFacets facets;
   for (const auto& side : set.sides) {
     const auto nodes = mesh.side_nodes(side);
-    if (std::any_of(nodes.begin(), nodes.end(), [&](LocalOrdinal n) { return n < mesh.owned_count(); }))
-      facets.push_back({mesh.local_nodes->getGlobalElement(nodes[0]), mesh.local_nodes->getGlobalElement(nodes[1])});
+    if (std::any_of(nodes.begin(), nodes.end(), [&](LocalOrdinal n) { return n < mesh.owned_count(); })) facets.push_back(facet(mesh, nodes));
   }
   return facets;
 }
 
-FacetNodes facets_of_owned_elements(const Mesh& mesh, const SideSet& set) {
-  FacetNodes facets;
-  for (LocalOrdinal s = 0; s < set.owned; ++s) {
-    const auto nodes = mesh.side_nodes(set.sides[s]);
-    facets.push_back({mesh.local_nodes->getGlobalElement(nodes[0]), mesh.local_nodes->getGlobalElement(nodes[1])});
-  }
+SurfaceFacets facets_of_owned_elements(const Mesh& mesh, const SideSet& set) {
+  SurfaceFacets facets;
+  for (LocalOrdinal s = 0; s < set.owned; ++s) facets.push_back(facet(mesh, mesh.side_nodes(set.sides[s])));
   return facets;
 }
 
