@@ -3,6 +3,7 @@
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
 
+#include "describe_cells.hpp"
 #include "mortise/mesh/generators.hpp"
 
 namespace mortise {
@@ -104,6 +105,30 @@ void HalfDiskMesh::describe_shape(Parameters& parameters) {
 
 PatchComplex HalfDiskMesh::build(CellShape cell, const Place& place) const {
   return build_quarters(cell, place, half == DiskHalf::lower, half == DiskHalf::right);
+}
+
+void FullDiskMesh::describe_shape(Parameters& parameters) {
+  parameters.add("radius", radius, Says("radius of the disk").unit("length").above(0.0));
+  parameters.add("cells around", cells_around, Says("number of cells on each quarter of the circle").at_least(1).required());
+  describe_cells(parameters, cells_across, grading_across, "cells across", "grading across", "from the circle to the inner patch");
+}
+
+PatchComplex FullDiskMesh::build(CellShape cell, const Place& place) const {
+  const double d = inner_diagonal * radius, m = radius * std::sqrt(0.5);
+  const Spacing around(cells_around), across = grading_across.spacing(radius - d / std::sqrt(0.5), cells_across, place);
+  const Point center{0.0, 0.0};
+  // Corners k of the inner patch, corners 4 + k on the circle, both counterclockwise from the lower left.
+  std::vector<PatchComplex::Edge> edges;
+  std::vector<PatchComplex::Patch> patches{{{0, 1, 2, 3}, {}}};
+  for (int k = 0; k < 4; ++k) {
+    const int next = (k + 1) % 4;
+    edges.push_back({k, next, around});
+    edges.push_back({4 + k, 4 + next, around, center});
+    edges.push_back({4 + k, k, across});
+    patches.push_back({{4 + k, 4 + next, next, k}, {side, "", "", ""}});
+  }
+  return PatchComplex(cell, {{-d, -d}, {d, -d}, {d, d}, {-d, d}, {-m, -m}, {m, -m}, {m, m}, {-m, m}}, std::move(edges), std::move(patches),
+                      placement());
 }
 
 }  // namespace mortise
