@@ -63,6 +63,7 @@ const Registry<MeshOptions>& mesh_registry() {
     kinds.add<CylinderMesh>("cylinder", "cylinder about the z axis, from z = 0; sides bottom, top, mantle");
     kinds.add<ExtrudedMesh>("extruded", "a mesh of the plane moved along z, from z = 0; sides of the plane mesh, start, end");
     kinds.add<RevolvedMesh>("revolved", "a mesh of the plane x > 0 turned about the y axis; sides of the plane mesh, start, end");
+    kinds.add<SphereOctantMesh>("sphere octant", "the octant x, y >= 0, z <= 0 of a ball about the origin; sides x plane, y plane, equator, sphere");
     return kinds;
   }();
   return registry;

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Teuchos_DefaultSerialComm.hpp>
+
 #include "mortise/core/read_parameters.hpp"
 #include "mortise/core/xml.hpp"
 #include "volume_test_support.hpp"
@@ -85,6 +87,70 @@ TEST(RevolvedMesh, RefusesProfilesThatReachTheAxis) {
               ::testing::AllOf(HasSubstr("scene.xml:5: error: bodies/ball"), HasSubstr("reaches x = "), HasSubstr("wedges")));
 }
 
+TEST(SphereOctantMesh, SidesLieOnTheSphereAndOnThePlanes) {
+  const auto octant = example("sphere octant");
+  expect_side(*octant, "sphere", [](const SpatialPoint& x) { return std::hypot(x[0], x[1], x[2]) - 1.0; });
+  expect_side(*octant, "x plane", [](const SpatialPoint& x) { return x[0]; });
+  expect_side(*octant, "y plane", [](const SpatialPoint& x) { return x[1]; });
+  expect_side(*octant, "equator", [](const SpatialPoint& x) { return x[2]; });
+  with_volume(*octant, CellShape::hexahedron8, [](const auto& complex) {
+    EXPECT_EQ(complex.element_count(), 3 * 3 * 2 + 4 * (3 * 3 + 2 * 3 * 2));
+    for (GlobalOrdinal n = 0; n < complex.node_count(); ++n) {
+      const SpatialPoint x = complex.coordinate(n);
+      EXPECT_TRUE(x[0] > -1e-15 && x[1] > -1e-15 && x[2] < 1e-15);
+    }
+  });
+}
+
+TEST(SphereOctantMesh, VolumeConvergesWithOrderTwo) {
+  for (const auto cell : {CellShape::hexahedron8, CellShape::tetrahedron4}) {
+    double last = 0.0;
+    for (const int cells : {4, 8, 16}) {
+      SphereOctantMesh octant;
+      octant.radius = 3.0;
+      octant.cells_along = octant.cells_beyond = octant.cells_across = cells;
+      octant.grading_along.ratio = octant.grading_across.ratio = 2.0;
+      double volume = 0.0;
+      with_volume(octant, cell, [&](const auto& complex) {
+        for (GlobalOrdinal e = 0; e < complex.element_count(); ++e) {
+          Corners x;
+          for (const GlobalOrdinal node : complex.element_nodes(e)) x.push_back(Eigen::Vector3d::Map(complex.coordinate(node).data()));
+          volume += volume_of_cell(x);
+        }
+      });
+      const double error = boost::math::constants::pi<double>() * 27.0 / 6.0 - volume;
+      if (last > 0.0) EXPECT_NEAR(std::log2(last / error), 2.0, 0.1);
+      last = error;
+    }
+  }
+}
+
+TEST(SphereOctantMesh, IsFineAtTheLowestPointWithoutInvertedCells) {
+  // As for Hertz: n cells per half width a, a / R from 1/20 to 1/10. The pole's cell is a / n long in all directions.
+  for (const double a : {0.05, 0.1})
+    for (const int n : {2, 4}) {
+      SphereOctantMesh octant;
+      octant.grading_along.smallest_cell = octant.grading_across.smallest_cell = a / n;
+      octant.grading_along.refined_length = 1.5 * a;
+      octant.grading_across.refined_length = a;
+      octant.grading_along.growth = octant.grading_across.growth = 1.3;
+      const auto mesh =
+          build_mesh(rcp(new Teuchos::SerialComm<int>()), {{"ball", {}, std::make_shared<SphereOctantMesh>(octant), CellShape::hexahedron8}}, {});
+      std::vector<double> along_x, upward;
+      for (const LocalOrdinal node : mesh->node_sets.at("ball/y plane")) {
+        const auto& x = mesh->coordinates[node];
+        if (std::abs(std::hypot(x[0], x[2]) - 1.0) < 1e-12) along_x.push_back(std::asin(x[0]));
+        if (std::abs(x[0]) < 1e-12) upward.push_back(1.0 + x[2]);
+      }
+      std::sort(along_x.begin(), along_x.end());
+      std::sort(upward.begin(), upward.end());
+      for (int i = 0; i <= n; ++i) {
+        EXPECT_NEAR(along_x[i], i * a / n, 1e-12);
+        EXPECT_NEAR(upward[i], i * a / n, 1e-12);
+      }
+    }
+}
+
 TEST(VolumeMesh, RotationAboutAnyAxisAndTranslationMoveEveryNode) {
   for (const auto& mesh : example_volumes())
     for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
@@ -117,7 +183,7 @@ std::string errors_of(const std::string& lines, MeshList list = {}) {
   read_parameters(list, parse_xml("<ParameterList name=\"mesh\">\n" + lines + "</ParameterList>\n", "scene.xml"), Symbols{}, {}, diagnostics);
   std::string text;
   for (const auto& diagnostic : diagnostics) text += to_string(diagnostic) + "\n";
-  if (text.empty() && list.mesh.options->dimension() == 3) std::get<SweptComplex>(list.mesh.options->complex(CellShape::hexahedron8, {}));
+  if (text.empty()) list.mesh.options->complex(CellShape::hexahedron8, {});
   return text;
 }
 
@@ -133,6 +199,8 @@ TEST(VolumeMesh, EveryKindIsReadFromAScene) {
             "");
   const std::string profile = "<ParameterList name=\"profile\">\n" + parameter("type", "string", "block") + xy +
                               parameter("translation", "string", "1, 0") + "</ParameterList>\n";
+  EXPECT_EQ(errors_of(parameter("type", "string", "sphere octant") + parameter("cells along", "int", "3") + parameter("cells across", "int", "3")),
+            "");
   EXPECT_EQ(errors_of(parameter("type", "string", "extruded") + profile + z), "");
   EXPECT_EQ(errors_of(parameter("type", "string", "revolved") + profile + parameter("cells around", "int", "3")), "");
 }

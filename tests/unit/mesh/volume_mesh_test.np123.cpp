@@ -64,8 +64,8 @@ TEST(VolumeMesh, ElementsFillTheVolumeThatFacetsOfOwnedElementsEnclose) {
         for (const GlobalOrdinal node : facet) nodes.push_back(mesh->local_nodes->getLocalElement(node));
         enclosed += volume_below_facet(corners_of(*mesh, nodes.data(), nodes.size()));
       }
-      EXPECT_NEAR(total(*mesh, volume), examples[b].volume, 1e-12 * examples[b].volume);
-      EXPECT_NEAR(total(*mesh, enclosed), examples[b].volume, 1e-12 * examples[b].volume);
+      if (examples[b].volume > 0.0) EXPECT_NEAR(total(*mesh, volume), examples[b].volume, 1e-12 * examples[b].volume);
+      EXPECT_NEAR(total(*mesh, enclosed), total(*mesh, volume), 1e-12 * total(*mesh, volume));
     }
   }
 }

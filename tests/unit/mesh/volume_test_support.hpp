@@ -18,7 +18,7 @@ struct ExampleVolume {
   std::string name;
   std::shared_ptr<VolumeMesh> options;
   std::vector<std::string> sides;  ///< ascending
-  double volume = 0.0;             ///< of the cells, exactly
+  double volume = 0.0;             ///< of the cells, exactly; 0: known by its limit only
 };
 
 inline std::vector<ExampleVolume> example_volumes() {
@@ -59,6 +59,12 @@ inline std::vector<ExampleVolume> example_volumes() {
   ring->angle = 200.0;
   ring->cells_around = 10;
   ring->translation = {1.0, 2.0, 3.0};
+  auto octant = std::make_shared<SphereOctantMesh>();
+  octant->cells_along = 3;
+  octant->cells_beyond = 2;
+  octant->cells_across = 4;
+  octant->grading_along.ratio = 2.0;
+  octant->grading_across.ratio = 3.0;
   // Polygons of n corners on a circle: n/2 sin(2 pi / n) R^2; chords of the ring's sector and half disk alike, with their own angles.
   const double sector = 17 * 0.5 * std::sin(1.5 * pi / 17.0) * 3.0;
   double half_disk = 0.0;  // graded arcs
@@ -72,7 +78,8 @@ inline std::vector<ExampleVolume> example_volumes() {
           {"cylinder", cylinder, {"bottom", "mantle", "top"}, 6.0 * std::sin(pi / 6.0) * 4.0 * 1.5},
           {"tube", tube, {"end", "inner", "outer", "start", "sweep end", "sweep start"}, 2.0 * sector},
           {"half cylinder", half, {"arc", "diameter", "end", "start"}, 0.5 * half_disk},
-          {"revolved ring", ring, {"bottom", "end", "left", "right", "start", "top"}, 10 * 0.5 * std::sin(pi / 9.0) * 8.0}};
+          {"revolved ring", ring, {"bottom", "end", "left", "right", "start", "top"}, 10 * 0.5 * std::sin(pi / 9.0) * 8.0},
+          {"sphere octant", octant, {"equator", "sphere", "x plane", "y plane"}, 0.0}};
 }
 
 /// visit(complex) of a body of space.

@@ -46,15 +46,27 @@ struct FullDiskMesh : PlaneMesh {
   PatchComplex build(CellShape cell, const Place& place) const override;
 };
 
-/// What quarter and half disks share. The disk's centre is the origin; its lowest point is where cells can be made small. Each quarter has
-/// an inner patch, one between the lowest (or highest) point and 45 degrees, and one from there to the horizontal diameter.
-struct DiskMesh : PlaneMesh {
+/// Cells of round bodies about the origin whose lowest point is where cells can be made small: an inner patch or block, and others between it and the
+/// surface, of which one has the lowest point.
+struct PolarCells {
+  static constexpr double inner = 0.5;  ///< where the inner patch or block ends on an axis, as a share of the radius
   double radius = 1.0;
   int cells_along = 0;                           ///< on the arc between the lowest point and 45 degrees
   int cells_beyond = 0;                          ///< on the arc from there to the diameter; 0: as fits the other cells
   int cells_across = 0;                          ///< between the arc and the inner patch
   GradingOptions grading_along, grading_across;  ///< both toward the lowest point
-  void describe_shape(Parameters& parameters) override;
+  void describe(Parameters& parameters);
+
+  struct Spacings {
+    Spacing along, across, beyond;
+  };
+  Spacings spacings(const Place& place) const;
+};
+
+/// What quarter and half disks share. Each quarter has an inner patch, one between the lowest (or highest) point and 45 degrees, and one from there
+/// to the horizontal diameter.
+struct DiskMesh : PlaneMesh, PolarCells {
+  void describe_shape(Parameters& parameters) override { PolarCells::describe(parameters); }
 
  protected:
   PatchComplex build_quarters(CellShape cell, const Place& place, bool lower_left, bool upper_right) const;

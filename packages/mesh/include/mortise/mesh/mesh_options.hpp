@@ -7,11 +7,12 @@
 #include "mortise/mesh/curve_complex.hpp"
 #include "mortise/mesh/patch_complex.hpp"
 #include "mortise/mesh/swept_complex.hpp"
+#include "mortise/mesh/volume_complex.hpp"
 
 namespace mortise {
 
 /// The pure description of a body; all kinds have the same members.
-using BodyComplex = std::variant<PatchComplex, CurveComplex, SweptComplex>;
+using BodyComplex = std::variant<PatchComplex, CurveComplex, SweptComplex, VolumeComplex>;
 
 /// Options of one body's mesh. A new kind derives from PlaneMesh or VolumeMesh, declares its parameters and is added to mesh_registry().
 struct MeshOptions : Described {
@@ -65,7 +66,7 @@ struct VolumeMesh : MeshOptions {
 /// The built-in kinds in the plane that have an inside: block, wedge, ring sector, disk, quarter disk, half disk.
 const Registry<PlaneMesh>& plane_mesh_registry();
 
-/// All built-in kinds: those in the plane, profile, and those in space: brick, cylinder, extruded, revolved.
+/// All built-in kinds: those in the plane, profile, and those in space: brick, cylinder, extruded, revolved, sphere octant.
 const Registry<MeshOptions>& mesh_registry();
 
 }  // namespace mortise

@@ -25,6 +25,13 @@ struct CylinderMesh : VolumeMesh {
   BodyComplex complex(CellShape cell, const Place& place) const override;
 };
 
+/// The octant x >= 0, y >= 0, z <= 0 of a ball about the origin; its lowest point is where cells can be made small. Sides: x plane (x = 0), y plane
+/// (y = 0), equator (z = 0), sphere.
+struct SphereOctantMesh : VolumeMesh, PolarCells {
+  void describe_shape(Parameters& parameters) override { PolarCells::describe(parameters); }
+  BodyComplex complex(CellShape cell, const Place& place) const override;
+};
+
 /// A mesh of the plane, swept. Sides: those of the plane mesh, and where the sweep starts and ends: "start" and "end", or "sweep start" and "sweep
 /// end" if the plane mesh has a side of such a name.
 struct SweptMesh : VolumeMesh {
