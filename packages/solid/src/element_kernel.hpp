@@ -50,8 +50,8 @@ class ElementKernel {
   };
 
   ElementKernel(const PlainLaw& law, double thickness) : law_{law}, thickness_(thickness) {
-    const auto rule = Cell::shape == CellShape::quadrilateral4 ? quadrilateral_rule(2) : triangle_rule(points);
-    for (int q = 0; q < points; ++q) rule_[q] = {Cell::values(rule[q].xi), Cell::gradients(rule[q].xi), rule[q].weight};
+    const auto rule = cell_rule(Cell::shape, points);
+    for (int q = 0; q < points; ++q) rule_[q] = {Cell::values(rule[q].position<2>()), Cell::gradients(rule[q].position<2>()), rule[q].weight};
     centre_ = {Cell::values(Cell::centroid), Cell::gradients(Cell::centroid), 0.0};
   }
 
