@@ -1,7 +1,6 @@
 #pragma once
 // Named sets of a mesh: derived ones, look-up with errors, and the facets of surfaces.
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -17,7 +16,7 @@ enum class SetKind { nodes, sides };
 /// A set derived from another one.
 struct SetOptions {
   Located<std::string> of;  ///< name of a side set ("body/side") or, for nodes, also of a node set ("body")
-  Expression where{1.0};    ///< of x and y (reference); kept where > 0, at a node or at the middle of a side
+  Expression where{1.0};    ///< of x, y and z (reference); kept where > 0, at a node or at the middle of a side
   SetKind kind = SetKind::nodes;
   void describe(Parameters& parameters);
 };
