@@ -154,15 +154,18 @@ TEST(SphereOctantMesh, IsFineAtTheLowestPointWithoutInvertedCells) {
 
 TEST(VolumeMesh, RotationAboutAnyAxisAndTranslationMoveEveryNode) {
   for (const auto& mesh : example_volumes())
-    for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+    for (const Eigen::Vector3d& axis : {Eigen::Vector3d(1.0, 0.0, 0.0), Eigen::Vector3d(0.0, 0.0, 1.0), Eigen::Vector3d(1.0, -2.0, 2.0)}) {
       mesh.options->rotation = 0.0;
       mesh.options->translation = {0.0, 0.0, 0.0};
       const auto before = mesh.options->complex(CellShape::hexahedron8, {});
       mesh.options->rotation = 30.0;
-      mesh.options->rotation_axis = axis;
+      mesh.options->rotation_axis = {axis[0], axis[1], axis[2]};
       mesh.options->translation = {5.0, -2.0, 1.0};
-      const Eigen::Matrix3d R =
-          Eigen::AngleAxisd(boost::math::constants::pi<double>() / 6.0, Eigen::Vector3d::Unit(static_cast<int>(axis))).toRotationMatrix();
+      // Rodrigues: R = I + sin(phi) K + (1 - cos(phi)) K^2, K the cross product with the axis' direction.
+      const Eigen::Vector3d n = axis / axis.norm();
+      Eigen::Matrix3d K;
+      K << 0.0, -n[2], n[1], n[2], 0.0, -n[0], -n[1], n[0], 0.0;
+      const Eigen::Matrix3d R = Eigen::Matrix3d::Identity() + 0.5 * K + (1.0 - std::sqrt(0.75)) * K * K;
       with_volume(*mesh.options, CellShape::hexahedron8, [&](const auto& after) {
         const auto& original = std::get<std::decay_t<decltype(after)>>(before);
         for (GlobalOrdinal n = 0; n < after.node_count(); ++n) {
@@ -196,7 +199,7 @@ TEST(VolumeMesh, EveryKindIsReadFromAScene) {
   const std::string z = parameter("cells z", "int", "2"), xy = parameter("cells x", "int", "3") + parameter("cells y", "int", "2");
   EXPECT_EQ(errors_of(parameter("type", "string", "brick") + xy + z + parameter("translation", "string", "1, 2, 3")), "");
   EXPECT_EQ(errors_of(parameter("type", "string", "cylinder") + parameter("cells around", "int", "3") + parameter("cells across", "int", "3") + z +
-                      parameter("rotation", "double", "90") + parameter("rotation axis", "string", "x")),
+                      parameter("rotation", "double", "90") + parameter("rotation axis", "string", "1, 0, 0")),
             "");
   const std::string profile = "<ParameterList name=\"profile\">\n" + parameter("type", "string", "block") + xy +
                               parameter("translation", "string", "1, 0") + "</ParameterList>\n";
@@ -211,6 +214,8 @@ TEST(VolumeMesh, MistakesAreNamedWithTheirLine) {
   EXPECT_THAT(errors_of(parameter("type", "string", "brick") + xy), HasSubstr("cells z"));
   EXPECT_THAT(errors_of(parameter("type", "string", "brick") + xy + z + parameter("translation", "string", "1, 2")),
               HasSubstr("needs three numbers"));
+  EXPECT_THAT(errors_of(parameter("type", "string", "brick") + xy + z + parameter("rotation axis", "string", "0, 0, 0")),
+              HasSubstr("not all are zero"));
   EXPECT_THAT(errors_of(parameter("type", "string", "extruded") + z), HasSubstr("profile"));
   const std::string nested = "<ParameterList name=\"profile\">\n" + parameter("type", "string", "brick") + "</ParameterList>\n";
   EXPECT_THAT(errors_of(parameter("type", "string", "extruded") + nested + z), HasSubstr("scene.xml:4: error"));

@@ -50,7 +50,7 @@ inline std::vector<ExampleVolume> example_volumes() {
   cylinder->disk.cells_across = 2;
   cylinder->cells_z = 3;
   cylinder->rotation = 35.0;
-  cylinder->rotation_axis = Axis::x;
+  cylinder->rotation_axis = {2.0, 0.0, 0.0};
   auto tube = std::make_shared<ExtrudedMesh>();
   tube->profile = {"ring sector", std::dynamic_pointer_cast<PlaneMesh>(example_meshes()[2].options), {}};
   tube->length = 2.0;
