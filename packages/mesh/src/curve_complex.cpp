@@ -22,7 +22,7 @@ CurveComplex::CurveComplex(std::vector<Point> corners, std::vector<Edge> edges, 
 Point CurveComplex::coordinate(GlobalOrdinal node) const {
   if (node < edge_nodes_.front()) return placement_(corners_[node]);
   const int e = interval(edge_nodes_, node);
-  return placement_(edge_point(edges_[e], corners_, static_cast<int>(node - edge_nodes_[e]) + 1));
+  return placement_(edge_point(edges_[e], corners_, 2 * (static_cast<int>(node - edge_nodes_[e]) + 1)));
 }
 
 CellNodes CurveComplex::element_nodes(GlobalOrdinal element) const {

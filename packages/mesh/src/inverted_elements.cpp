@@ -2,67 +2,102 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <cmath>
 #include <limits>
+
+#include "mortise/shape/hexahedron20.hpp"
+#include "mortise/shape/hexahedron8.hpp"
+#include "mortise/shape/quadrature.hpp"
+#include "mortise/shape/quadrilateral4.hpp"
+#include "mortise/shape/quadrilateral8.hpp"
+#include "mortise/shape/tetrahedron10.hpp"
+#include "mortise/shape/tetrahedron4.hpp"
+#include "mortise/shape/triangle3.hpp"
+#include "mortise/shape/triangle6.hpp"
 
 namespace mortise {
 namespace {
 
-/// The smallest value of det J that was seen, and where.
-struct Smallest {
+/// An element with det J <= 0 somewhere: the smallest value that was seen, and where.
+struct Inverted {
+  LocalOrdinal element = 0;
   double determinant = std::numeric_limits<double>::infinity();
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  void add(double value, const Eigen::Vector3d& x) {
-    if (!(value >= determinant)) determinant = value, position = x;
-  }
+  SpatialPoint position{};
 };
 
-using Corners = std::array<Eigen::Vector3d, 8>;
+/// det J is looked at in the nodes and in the points of a rule. On linear triangles and tetrahedra it is constant; on bilinear quadrilaterals it is
+/// linear in each reference coordinate without a mixed term, so that it is positive everywhere if it is so in the corners.
+template <class Cell>
+std::vector<std::array<double, Cell::dimension>> places_to_look_at(int rule_points) {
+  std::vector<std::array<double, Cell::dimension>> places;
+  if (rule_points == 1) return {Cell::centroid};
+  for (const auto& node : Cell::node_positions) places.push_back(node);
+  if (rule_points > 0)
+    for (const auto& point : cell_rule(Cell::shape, rule_points)) places.push_back(point.template position<Cell::dimension>());
+  return places;
+}
 
-/// At the corners: on a bilinear cell det J is linear in each reference coordinate without a mixed term, so that it is positive everywhere if it is
-/// so there. Reference edges have length 2 in quadrilaterals and 1 in triangles.
-Smallest of_plane_cell(const Corners& x, int n) {
-  Smallest smallest;
-  for (int a = 0; a < n; ++a) {
-    const Eigen::Vector3d next = x[(a + 1) % n] - x[a], previous = x[(a + n - 1) % n] - x[a];
-    const double cross = next[0] * previous[1] - next[1] * previous[0];
-    smallest.add(n == 4 ? 0.25 * cross : cross, x[a]);
+/// The first inverted one of the owned elements; `rule_points`: of the rule, 1 if the middle is enough, 0 if the nodes are.
+template <class Cell>
+Inverted first_inverted(const Mesh& mesh, const Block& block, int rule_points) {
+  constexpr int dimension = Cell::dimension, nodes = Cell::nodes;
+  using Gradients = Eigen::Matrix<double, nodes, dimension>;
+  struct Place {
+    Gradients gradients;
+    std::array<double, nodes> values;
+  };
+  std::vector<Place> places;
+  for (const auto& xi : places_to_look_at<Cell>(rule_points)) {
+    Place place;
+    place.values = Cell::values(xi);
+    const auto gradients = Cell::gradients(xi);
+    for (int a = 0; a < nodes; ++a)
+      for (int i = 0; i < dimension; ++i) place.gradients(a, i) = gradients[a][i];
+    places.push_back(place);
+  }
+  Inverted smallest;
+  Eigen::Matrix<double, dimension, nodes> x;
+  for (LocalOrdinal e = 0; e < block.owned && !(smallest.determinant <= 0.0); ++e) {
+    smallest = {};
+    smallest.element = e;
+    for (int a = 0; a < nodes; ++a)
+      for (int i = 0; i < dimension; ++i) x(i, a) = mesh.coordinates[block.nodes(e)[a]][i];
+    for (const Place& place : places) {
+      const Eigen::Matrix<double, dimension, dimension> jacobian = x * place.gradients;
+      const double determinant = jacobian.determinant();
+      if (determinant >= smallest.determinant) continue;
+      smallest.determinant = determinant;
+      smallest.position = {};
+      for (int a = 0; a < nodes; ++a)
+        for (int i = 0; i < dimension; ++i) smallest.position[i] += place.values[a] * x(i, a);
+    }
   }
   return smallest;
 }
 
-Smallest of_tetrahedron(const Corners& x) {
-  Smallest smallest;
-  smallest.add((x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0]), x[0]);
-  return smallest;
-}
-
-/// At the corners and at the points of the 2 x 2 x 2 Gauss rule: J's columns are (1/8) sum_a xi_ai (1 + xi_aj xi_j) (1 + xi_ak xi_k) x_a.
-Smallest of_hexahedron(const Corners& x) {
-  constexpr double sign[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}};
-  Smallest smallest;
-  for (const double r : {1.0, std::sqrt(1.0 / 3.0)})
-    for (const auto& point : sign) {
-      Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();
-      Eigen::Vector3d position = Eigen::Vector3d::Zero();
-      for (int a = 0; a < 8; ++a) {
-        const double f[3] = {1.0 + r * sign[a][0] * point[0], 1.0 + r * sign[a][1] * point[1], 1.0 + r * sign[a][2] * point[2]};
-        for (int i = 0; i < 3; ++i) jacobian.col(i) += 0.125 * sign[a][i] * f[(i + 1) % 3] * f[(i + 2) % 3] * x[a];
-        position += 0.125 * f[0] * f[1] * f[2] * x[a];
-      }
-      smallest.add(jacobian.determinant(), position);
-    }
-  return smallest;
-}
-
-Smallest smallest_determinant(const Mesh& mesh, const Block& block, LocalOrdinal element) {
-  const CellTopology& cell = topology(block.shape);
-  Corners corners;
-  for (int a = 0; a < cell.corners; ++a) corners[a] = Eigen::Vector3d::Map(mesh.coordinates[block.nodes(element)[a]].data());
-  if (cell.dimension == 2) return of_plane_cell(corners, cell.corners);
-  return cell.corners == 4 ? of_tetrahedron(corners) : of_hexahedron(corners);
+Inverted first_inverted(const Mesh& mesh, const Block& block) {
+  switch (block.shape) {
+    case CellShape::triangle3:
+      return first_inverted<Triangle3>(mesh, block, 1);
+    case CellShape::triangle6:
+      return first_inverted<Triangle6>(mesh, block, 7);
+    case CellShape::quadrilateral4:
+      return first_inverted<Quadrilateral4>(mesh, block, 0);
+    case CellShape::quadrilateral8:
+      return first_inverted<Quadrilateral8>(mesh, block, 9);
+    case CellShape::tetrahedron4:
+      return first_inverted<Tetrahedron4>(mesh, block, 1);
+    case CellShape::tetrahedron10:
+      return first_inverted<Tetrahedron10>(mesh, block, 15);
+    case CellShape::hexahedron8:
+      return first_inverted<Hexahedron8>(mesh, block, 8);
+    case CellShape::hexahedron20:
+      return first_inverted<Hexahedron20>(mesh, block, 27);
+    case CellShape::line2:
+    case CellShape::line3:
+      break;  // the surface of a rigid body
+  }
+  return {};
 }
 
 }  // namespace
@@ -71,19 +106,15 @@ std::vector<Diagnostic> inverted_elements(const Mesh& mesh, const BodySet& set, 
   std::vector<Diagnostic> diagnostics;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     const auto& block = mesh.blocks[b];
-    const int dimension = topology(block.shape).dimension;
-    if (dimension == 1) continue;
-    for (LocalOrdinal e = 0; e < block.owned; ++e) {
-      const Smallest smallest = smallest_determinant(mesh, block, e);
-      if (smallest.determinant > 0.0) continue;
-      const auto& x = smallest.position;
-      const std::string at = dimension == 2 ? fmt::format("({:.6g}, {:.6g})", x[0], x[1]) : fmt::format("({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[2]);
-      const char* const rule = dimension == 2 ? "corners have to go round counterclockwise and edges must not cross" : "its sides must not cross";
-      diagnostics.push_back(
-          {bodies[b].place, fmt::format("body \"{}\": element {} is inverted: det J = {:.6g} at {}; {}", block.name,
-                                        block.element_ids[e] - set.first_element(static_cast<int>(b)), smallest.determinant, at, rule)});
-      break;
-    }
+    const Inverted inverted = first_inverted(mesh, block);
+    if (inverted.determinant > 0.0) continue;
+    const auto& x = inverted.position;
+    const bool plane = mesh.dimension == 2;
+    const std::string at = plane ? fmt::format("({:.6g}, {:.6g})", x[0], x[1]) : fmt::format("({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[2]);
+    const char* const rule = plane ? "corners have to go round counterclockwise and edges must not cross" : "its sides must not cross";
+    const GlobalOrdinal inside = block.element_ids[inverted.element] - set.first_element(static_cast<int>(b));
+    diagnostics.push_back({bodies[b].place, fmt::format("body \"{}\": element {} is inverted: det J = {:.6g} at {}; {}", block.name, inside,
+                                                        inverted.determinant, at, rule)});
   }
   return diagnostics;
 }

@@ -1,5 +1,7 @@
 #include "mortise/mesh/mesh_options.hpp"
 
+#include <algorithm>
+
 #include "mortise/mesh/generators.hpp"
 #include "mortise/mesh/volume_generators.hpp"
 
@@ -27,7 +29,13 @@ BodyComplex PlaneMesh::complex(CellShape cell, const Place& place) const {
 
 void VolumeMesh::describe_rotation(Parameters& parameters) {
   parameters.add("rotation", rotation, Says("turns the mesh about an axis through the origin, counterclockwise seen from its tip").unit("degrees"));
-  parameters.add("rotation axis", rotation_axis, {{"x", Axis::x}, {"y", Axis::y}, {"z", Axis::z}}, "the axis that it turns about");
+  parameters.add(
+      "rotation axis", rotation_axis,
+      "direction of the axis that it turns about, \"x, y, z\"; for instance, 120 degrees about \"1, 1, 1\" take x to y, y to z and z to x");
+  if (rotation_axis.size() != 3 || std::all_of(rotation_axis.begin(), rotation_axis.end(), [](double r) { return r == 0.0; })) {
+    parameters.error("rotation axis", "needs three numbers, \"x, y, z\", of which not all are zero");
+    rotation_axis = {0.0, 0.0, 1.0};
+  }
 }
 
 namespace {

@@ -6,6 +6,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "edge_nodes.hpp"
 #include "interval.hpp"
 #include "mortise/mesh/curve_complex.hpp"
 
@@ -60,11 +61,11 @@ PatchComplex::PatchComplex(CellShape shape, std::vector<Point> corners, std::vec
     patch_sides_.push_back(names);
   }
   edge_nodes_.push_back(static_cast<GlobalOrdinal>(corners_.size()));
-  for (const auto& edge : edges_) edge_nodes_.push_back(edge_nodes_.back() + edge.spacing.cells() - 1);
+  for (int e = 0; e < static_cast<int>(edges_.size()); ++e) edge_nodes_.push_back(edge_nodes_.back() + edge_lattice(e).size());
   patch_nodes_.push_back(edge_nodes_.back());
   patch_cells_.push_back(0);
   for (int p = 0; p < static_cast<int>(patches_.size()); ++p) {
-    patch_nodes_.push_back(patch_nodes_.back() + static_cast<GlobalOrdinal>(cells_i(p) - 1) * (cells_j(p) - 1));
+    patch_nodes_.push_back(patch_nodes_.back() + patch_lattice(p).size());
     patch_cells_.push_back(patch_cells_.back() + static_cast<GlobalOrdinal>(cells_i(p)) * cells_j(p));
   }
 }
@@ -72,8 +73,8 @@ PatchComplex::PatchComplex(CellShape shape, std::vector<Point> corners, std::vec
 Point edge_point(const PatchComplex::Edge& edge, const std::vector<Point>& corners, int index) {
   const Point &a = corners[edge.start], &b = corners[edge.end];
   if (index == 0) return a;
-  if (index == edge.spacing.cells()) return b;
-  const double s = edge.spacing.position(index);
+  if (index == 2 * edge.spacing.cells()) return b;
+  const double s = edge.spacing.doubled_position(index);
   if (!edge.center) return along(a, b, s);
   const Point& c = *edge.center;
   const double radius = std::hypot(a[0] - c[0], a[1] - c[1]), first = std::atan2(a[1] - c[1], a[0] - c[0]);
@@ -84,18 +85,18 @@ Point edge_point(const PatchComplex::Edge& edge, const std::vector<Point>& corne
 
 double PatchComplex::edge_position(const EdgeUse& use, int index) const {
   const auto& spacing = edges_[use.edge].spacing;
-  return use.flipped ? 1.0 - spacing.position(spacing.cells() - index) : spacing.position(index);
+  return use.flipped ? 1.0 - spacing.doubled_position(2 * spacing.cells() - index) : spacing.doubled_position(index);
 }
 
 Point PatchComplex::edge_point(const EdgeUse& use, int index) const {
-  return mortise::edge_point(edges_[use.edge], corners_, use.flipped ? edges_[use.edge].spacing.cells() - index : index);
+  return mortise::edge_point(edges_[use.edge], corners_, use.flipped ? 2 * edges_[use.edge].spacing.cells() - index : index);
 }
 
 Point PatchComplex::coordinate(GlobalOrdinal node) const {
   if (node < edge_nodes_.front()) return placement_(corners_[node]);
   if (node < patch_nodes_.front()) {
     const int e = interval(edge_nodes_, node);
-    return placement_(mortise::edge_point(edges_[e], corners_, static_cast<int>(node - edge_nodes_[e]) + 1));
+    return placement_(mortise::edge_point(edges_[e], corners_, edge_lattice(e).point(node - edge_nodes_[e])[0]));
   }
   const auto [p, i, j] = grid_points(node).front();
   const auto& [bottom, right, top, left] = uses_[p];
@@ -144,63 +145,72 @@ PatchComplex::GridPoint PatchComplex::cell_of(GlobalOrdinal element) const {
   const GlobalOrdinal cell = element / elements_per_cell();
   const int p = interval(patch_cells_, cell);
   const GlobalOrdinal inside = cell - patch_cells_[p];
-  return {p, static_cast<int>(inside % cells_i(p)), static_cast<int>(inside / cells_i(p))};
+  return {p, 2 * static_cast<int>(inside % cells_i(p)), 2 * static_cast<int>(inside / cells_i(p))};
 }
 
 GlobalOrdinal PatchComplex::node_at(const GridPoint& point) const {
   const int p = point.patch, i = point.i, j = point.j;
-  const int ni = cells_i(p), nj = cells_j(p);
+  const int ni = 2 * cells_i(p), nj = 2 * cells_j(p);
   const auto& corners = patches_[p].corners;
   if (j == 0 && (i == 0 || i == ni)) return corners[i == 0 ? 0 : 1];
   if (j == nj && (i == 0 || i == ni)) return corners[i == 0 ? 3 : 2];
   const auto on_edge = [&](int slot, int index) {
     const auto& use = uses_[p][slot];
-    return edge_nodes_[use.edge] + (use.flipped ? edges_[use.edge].spacing.cells() - index : index) - 1;
+    return edge_nodes_[use.edge] + edge_lattice(use.edge).index({use.flipped ? 2 * edges_[use.edge].spacing.cells() - index : index});
   };
   if (j == 0) return on_edge(0, i);
   if (i == ni) return on_edge(1, j);
   if (j == nj) return on_edge(2, i);
   if (i == 0) return on_edge(3, j);
-  return patch_nodes_[p] + static_cast<GlobalOrdinal>(j - 1) * (ni - 1) + (i - 1);
+  return patch_nodes_[p] + patch_lattice(p).index({i, j});
 }
 
 std::vector<PatchComplex::GridPoint> PatchComplex::grid_points(GlobalOrdinal node) const {
   std::vector<GridPoint> points;
   if (node < edge_nodes_.front()) {
     for (const auto& use : corner_patches_[node])
-      points.push_back({use.patch, use.slot == 1 || use.slot == 2 ? cells_i(use.patch) : 0, use.slot >= 2 ? cells_j(use.patch) : 0});
+      points.push_back({use.patch, use.slot == 1 || use.slot == 2 ? 2 * cells_i(use.patch) : 0, use.slot >= 2 ? 2 * cells_j(use.patch) : 0});
   } else if (node < patch_nodes_.front()) {
-    const int e = interval(edge_nodes_, node), cells = edges_[e].spacing.cells();
-    const int index = static_cast<int>(node - edge_nodes_[e]) + 1;
+    const int e = interval(edge_nodes_, node), end = 2 * edges_[e].spacing.cells();
+    const int index = edge_lattice(e).point(node - edge_nodes_[e])[0];
     for (const auto& [p, slot] : edge_patches_[e]) {
-      const int k = uses_[p][slot].flipped ? cells - index : index;
+      const int k = uses_[p][slot].flipped ? end - index : index;
       if (slot == 0) points.push_back({p, k, 0});
-      if (slot == 1) points.push_back({p, cells_i(p), k});
-      if (slot == 2) points.push_back({p, k, cells_j(p)});
+      if (slot == 1) points.push_back({p, 2 * cells_i(p), k});
+      if (slot == 2) points.push_back({p, k, 2 * cells_j(p)});
       if (slot == 3) points.push_back({p, 0, k});
     }
   } else {
-    const int p = interval(patch_nodes_, node), row = cells_i(p) - 1;
-    const GlobalOrdinal inside = node - patch_nodes_[p];
-    points.push_back({p, static_cast<int>(inside % row) + 1, static_cast<int>(inside / row) + 1});
+    const int p = interval(patch_nodes_, node);
+    const auto inside = patch_lattice(p).point(node - patch_nodes_[p]);
+    points.push_back({p, inside[0], inside[1]});
   }
   return points;
 }
 
-CellNodes PatchComplex::element_nodes(GlobalOrdinal element) const {
+PatchComplex::GridPoints PatchComplex::corners_of(GlobalOrdinal element) const {
   const auto [p, i, j] = cell_of(element);
-  const CellNodes n{node_at({p, i, j}), node_at({p, i + 1, j}), node_at({p, i + 1, j + 1}), node_at({p, i, j + 1})};
-  if (shape_ == CellShape::quadrilateral4) return n;
+  const std::array<GridPoint, 4> n{{{p, i, j}, {p, i + 2, j}, {p, i + 2, j + 2}, {p, i, j + 2}}};
+  if (!is_cut()) return {n.begin(), n.end()};
   const bool first = element % 2 == 0;
-  if ((i + j) % 2 == 0) return first ? CellNodes{n[0], n[1], n[2]} : CellNodes{n[0], n[2], n[3]};
-  return first ? CellNodes{n[0], n[1], n[3]} : CellNodes{n[1], n[2], n[3]};
+  if ((i + j) % 4 == 0) return first ? GridPoints{n[0], n[1], n[2]} : GridPoints{n[0], n[2], n[3]};
+  return first ? GridPoints{n[0], n[1], n[3]} : GridPoints{n[1], n[2], n[3]};
+}
+
+CellNodes PatchComplex::element_nodes(GlobalOrdinal element) const {
+  const GridPoints corners = corners_of(element);
+  CellNodes nodes;
+  for (const GridPoint& corner : corners) nodes.push_back(node_at(corner));
+  for (const auto& [a, b] : edge_corners(shape_))
+    nodes.push_back(node_at({corners[a].patch, (corners[a].i + corners[b].i) / 2, (corners[a].j + corners[b].j) / 2}));
+  return nodes;
 }
 
 std::vector<GlobalOrdinal> PatchComplex::elements_of_node(GlobalOrdinal node) const {
   std::vector<GlobalOrdinal> elements;
   for (const auto& [p, i, j] : grid_points(node))
-    for (int cj = std::max(0, j - 1); cj <= std::min(j, cells_j(p) - 1); ++cj)
-      for (int ci = std::max(0, i - 1); ci <= std::min(i, cells_i(p) - 1); ++ci) {
+    for (int cj = std::max(0, (j - 1) / 2); cj <= std::min(j / 2, cells_j(p) - 1); ++cj)
+      for (int ci = std::max(0, (i - 1) / 2); ci <= std::min(i / 2, cells_i(p) - 1); ++ci) {
         const GlobalOrdinal cell = patch_cells_[p] + static_cast<GlobalOrdinal>(cj) * cells_i(p) + ci;
         for (int k = 0; k < elements_per_cell(); ++k) {
           const GlobalOrdinal element = cell * elements_per_cell() + k;
@@ -214,16 +224,16 @@ std::vector<GlobalOrdinal> PatchComplex::elements_of_node(GlobalOrdinal node) co
 
 std::vector<SurfaceSide> PatchComplex::surface_sides(GlobalOrdinal element) const {
   const auto [p, i, j] = cell_of(element);
-  const std::array<bool, 4> at_edge{j == 0, i == cells_i(p) - 1, j == cells_j(p) - 1, i == 0};
-  // Which triangle (0 or 1) of a cut cell has the cell's side, and as which of its own: diagonal 0-2 if i + j is even, else 1-3.
+  const std::array<bool, 4> at_edge{j == 0, i == 2 * cells_i(p) - 2, j == 2 * cells_j(p) - 2, i == 0};
+  // Which triangle (0 or 1) of a cut cell has the cell's side, and as which of its own: diagonal 0-2 in every second cell, else 1-3.
   constexpr std::array<std::array<int, 2>, 4> even{{{0, 0}, {0, 1}, {1, 1}, {1, 2}}}, odd{{{0, 0}, {1, 0}, {1, 1}, {0, 2}}};
   std::vector<SurfaceSide> sides;
   for (int slot = 0; slot < 4; ++slot) {
     if (!at_edge[slot] || patch_sides_[p][slot] < 0) continue;
-    if (shape_ == CellShape::quadrilateral4) {
+    if (!is_cut()) {
       sides.push_back({slot, patch_sides_[p][slot]});
     } else {
-      const auto& [triangle, side] = ((i + j) % 2 == 0 ? even : odd)[slot];
+      const auto& [triangle, side] = ((i + j) % 4 == 0 ? even : odd)[slot];
       if (triangle == element % 2) sides.push_back({side, patch_sides_[p][slot]});
     }
   }
@@ -233,7 +243,7 @@ std::vector<SurfaceSide> PatchComplex::surface_sides(GlobalOrdinal element) cons
 std::vector<int> PatchComplex::sides_of_node(GlobalOrdinal node) const {
   std::vector<int> names;
   for (const auto& [p, i, j] : grid_points(node)) {
-    const std::array<bool, 4> at_edge{j == 0, i == cells_i(p), j == cells_j(p), i == 0};
+    const std::array<bool, 4> at_edge{j == 0, i == 2 * cells_i(p), j == 2 * cells_j(p), i == 0};
     for (int slot = 0; slot < 4; ++slot)
       if (at_edge[slot] && patch_sides_[p][slot] >= 0) names.push_back(patch_sides_[p][slot]);
   }

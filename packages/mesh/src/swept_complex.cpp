@@ -4,12 +4,23 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "edge_nodes.hpp"
+
 namespace mortise {
 
 CellShape SweptComplex::profile_shape(CellShape shape) {
-  if (shape == CellShape::hexahedron8) return CellShape::quadrilateral4;
-  if (shape == CellShape::tetrahedron4) return CellShape::triangle3;
-  throw std::logic_error("a swept body is made of hexahedra or tetrahedra");
+  switch (shape) {
+    case CellShape::hexahedron8:
+      return CellShape::quadrilateral4;
+    case CellShape::hexahedron20:
+      return CellShape::quadrilateral8;
+    case CellShape::tetrahedron4:
+      return CellShape::triangle3;
+    case CellShape::tetrahedron10:
+      return CellShape::triangle6;
+    default:
+      throw std::logic_error("a swept body is made of hexahedra or tetrahedra");
+  }
 }
 
 SweptComplex::SweptComplex(CellShape shape, PatchComplex profile, Spacing layers, Sweep sweep, const std::array<std::string, 2>& ends,
@@ -21,15 +32,28 @@ SweptComplex::SweptComplex(CellShape shape, PatchComplex profile, Spacing layers
       placement_(placement),
       side_names_(profile_.side_names()) {
   if (profile_.shape() != profile_shape(shape)) throw std::logic_error("the profile's elements do not fit below the cells of the swept body");
+  if (shape == CellShape::hexahedron20) middle_ = profile_.with_shape(CellShape::quadrilateral4);
+  if (shape == CellShape::tetrahedron10) middle_ = profile_;
   side_names_.insert(side_names_.end(), ends.begin(), ends.end());
 }
 
 SpatialPoint SweptComplex::coordinate(GlobalOrdinal node) const {
-  const auto [x, y] = profile_.coordinate(node % profile_.node_count());
-  const double s = layers_.position(static_cast<int>(node / profile_.node_count()));
+  const auto [below, level] = find(node);
+  const auto [x, y] = at_level(level).coordinate(below);
+  const double s = layers_.doubled_position(level);
   if (const auto* extrusion = std::get_if<Extrusion>(&sweep_)) return placement_({x, y, s * extrusion->length});
   const double angle = s * std::get<Revolution>(sweep_).angle;
   return placement_({x * std::cos(angle), y, x * std::sin(angle)});
+}
+
+GlobalOrdinal SweptComplex::node_at(const Node& node) const {
+  return node.level / 2 * nodes_per_cell_layer() + (node.level % 2 == 0 ? 0 : profile_.node_count()) + node.below;
+}
+
+SweptComplex::Node SweptComplex::find(GlobalOrdinal node) const {
+  const auto layer = static_cast<int>(node / nodes_per_cell_layer());
+  const GlobalOrdinal inside = node % nodes_per_cell_layer();
+  return inside < profile_.node_count() ? Node{inside, 2 * layer} : Node{inside - profile_.node_count(), 2 * layer + 1};
 }
 
 SweptComplex::Cell SweptComplex::cell_of(GlobalOrdinal element) const {
@@ -40,39 +64,57 @@ SweptComplex::Cell SweptComplex::cell_of(GlobalOrdinal element) const {
 /// A prism over the triangle with the profile's nodes a < b < c is cut into {a, b, c, c'}, {a, b, b', c'} and {a, a', b', c'}, where ' marks the
 /// upper layer. The diagonals that this draws on the prism's sides depend on the order of two nodes alone, so that neighbours draw the same.
 SweptComplex::Corners SweptComplex::corners_of(const Cell& cell) const {
-  auto below = profile_.element_nodes(cell.below);
+  const int lower = 2 * cell.layer, upper = lower + 2;
   Corners corners;
-  if (shape_ == CellShape::hexahedron8) {
-    for (const int layer : {cell.layer, cell.layer + 1})
-      for (const GlobalOrdinal node : below) corners.push_back({node, layer});
+  if (!is_cut()) {
+    for (const int level : {lower, upper})
+      for (int a = 0; a < 4; ++a) corners.push_back({a, level});
     return corners;
   }
-  // Two of the three are positively oriented if the numbers ascend counterclockwise, the middle one if they do not.
-  const bool ascends =
-      (below[0] < below[1] && below[1] < below[2]) || (below[1] < below[2] && below[2] < below[0]) || (below[2] < below[0] && below[0] < below[1]);
-  std::sort(below.begin(), below.end());
+  const auto nodes = profile_.element_nodes(cell.below);
+  std::array<int, 3> ascending{0, 1, 2};
+  std::sort(ascending.begin(), ascending.end(), [&](int a, int b) { return nodes[a] < nodes[b]; });
   const int last_below = 2 - cell.part;
-  for (int a = 0; a <= last_below; ++a) corners.push_back({below[a], cell.layer});
-  for (int a = last_below; a < 3; ++a) corners.push_back({below[a], cell.layer + 1});
-  if (ascends == (cell.part == 1)) std::swap(corners[0], corners[1]);
+  for (int a = 0; a <= last_below; ++a) corners.push_back({ascending[a], lower});
+  for (int a = last_below; a < 3; ++a) corners.push_back({ascending[a], upper});
+  // Two of the three are positively oriented if the numbers ascend counterclockwise, the middle one if they do not.
+  const bool is_counterclockwise = (ascending[1] - ascending[0] + 3) % 3 == 1;
+  if (is_counterclockwise == (cell.part == 1)) std::swap(corners[0], corners[1]);
   return corners;
 }
 
 CellNodes SweptComplex::element_nodes(GlobalOrdinal element) const {
+  const Cell cell = cell_of(element);
+  const Corners corners = corners_of(cell);
+  const auto below = profile_.element_nodes(cell.below);
   CellNodes nodes;
-  for (const Corner& corner : corners_of(cell_of(element))) nodes.push_back(corner.layer * profile_.node_count() + corner.below);
+  for (const Corner& corner : corners) nodes.push_back(node_at({below[corner.below], corner.level}));
+  if (!middle_) return nodes;
+  const auto of_middle = middle_->element_nodes(cell.below);
+  const auto& edges_below = edge_corners(profile_.shape());
+  for (const auto& [a, b] : edge_corners(shape_)) {
+    const int level = (corners[a].level + corners[b].level) / 2, p = corners[a].below, q = corners[b].below;
+    const CellNodes& there = level % 2 == 0 ? below : of_middle;
+    if (p == q) {
+      nodes.push_back(node_at({there[p], level}));
+      continue;
+    }
+    const auto edge = std::find_if(edges_below.begin(), edges_below.end(),
+                                   [&, p = p, q = q](const auto& ends) { return (ends[0] == p && ends[1] == q) || (ends[0] == q && ends[1] == p); });
+    nodes.push_back(node_at({there[topology(profile_.shape()).corners + (edge - edges_below.begin())], level}));
+  }
   return nodes;
 }
 
 std::vector<GlobalOrdinal> SweptComplex::elements_of_node(GlobalOrdinal node) const {
-  const int layer = static_cast<int>(node / profile_.node_count());
-  const auto below = profile_.elements_of_node(node % profile_.node_count());
+  const auto [below, level] = find(node);
   std::vector<GlobalOrdinal> elements;
-  for (int l = std::max(0, layer - 1); l <= std::min(layer, layers_.cells() - 1); ++l)
-    for (const GlobalOrdinal cell : below)
+  const auto cells = at_level(level).elements_of_node(below);
+  for (int layer = std::max(0, (level - 1) / 2); layer <= std::min(level / 2, layers_.cells() - 1); ++layer)
+    for (const GlobalOrdinal cell : cells)
       for (int part = 0; part < elements_per_cell(); ++part) {
-        const GlobalOrdinal element = (l * profile_.element_count() + cell) * elements_per_cell() + part;
-        if (elements_per_cell() > 1) {
+        const GlobalOrdinal element = (layer * profile_.element_count() + cell) * elements_per_cell() + part;
+        if (is_cut()) {
           const auto nodes = element_nodes(element);
           if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) continue;
         }
@@ -83,34 +125,33 @@ std::vector<GlobalOrdinal> SweptComplex::elements_of_node(GlobalOrdinal node) co
 
 std::vector<SurfaceSide> SweptComplex::surface_sides(GlobalOrdinal element) const {
   const Cell cell = cell_of(element);
-  const auto below_sides = profile_.surface_sides(cell.below);
+  const auto sides_below = profile_.surface_sides(cell.below);
   const bool is_first = cell.layer == 0, is_last = cell.layer + 1 == layers_.cells();
-  if (below_sides.empty() && !is_first && !is_last) return {};
+  if (sides_below.empty() && !is_first && !is_last) return {};
   const auto corners = corners_of(cell);
-  const auto below = profile_.element_nodes(cell.below);
-  const auto& below_topology = topology(profile_.shape());
+  const auto& lines = topology(profile_.shape()).sides;
   const auto& own = topology(shape_);
   const int start = static_cast<int>(side_names_.size()) - 2, end = start + 1;
   std::vector<SurfaceSide> sides;
   for (int s = 0; s < static_cast<int>(own.sides.size()); ++s) {
-    const auto& side = own.sides[s];
-    const auto all = [&](const auto& holds) { return std::all_of(side.begin(), side.end(), [&](int a) { return holds(corners[a]); }); };
-    if (is_first && all([&](const Corner& corner) { return corner.layer == cell.layer; })) sides.push_back({s, start});
-    if (is_last && all([&](const Corner& corner) { return corner.layer == cell.layer + 1; })) sides.push_back({s, end});
-    for (const SurfaceSide& line : below_sides) {
-      const auto& ends = below_topology.sides[line.side];
-      if (all([&](const Corner& corner) { return corner.below == below[ends[0]] || corner.below == below[ends[1]]; }))
-        sides.push_back({s, line.name});
+    const auto first = own.sides[s].begin(), last = first + topology(own.side).corners;
+    const auto all = [&](const auto& holds) { return std::all_of(first, last, [&](int a) { return holds(corners[a]); }); };
+    if (is_first && all([&](const Corner& corner) { return corner.level == 2 * cell.layer; })) sides.push_back({s, start});
+    if (is_last && all([&](const Corner& corner) { return corner.level == 2 * cell.layer + 2; })) sides.push_back({s, end});
+    for (const SurfaceSide& side : sides_below) {
+      const auto& line = lines[side.side];
+      if (all([&](const Corner& corner) { return corner.below == line[0] || corner.below == line[1]; })) sides.push_back({s, side.name});
     }
   }
   return sides;
 }
 
 std::vector<int> SweptComplex::sides_of_node(GlobalOrdinal node) const {
-  const int layer = static_cast<int>(node / profile_.node_count()), start = static_cast<int>(side_names_.size()) - 2;
-  auto names = profile_.sides_of_node(node % profile_.node_count());
-  if (layer == 0) names.push_back(start);
-  if (layer == layers_.cells()) names.push_back(start + 1);
+  const auto [below, level] = find(node);
+  auto names = at_level(level).sides_of_node(below);
+  const int start = static_cast<int>(side_names_.size()) - 2;
+  if (level == 0) names.push_back(start);
+  if (level == 2 * layers_.cells()) names.push_back(start + 1);
   return names;
 }
 

@@ -11,6 +11,7 @@
 #include <Tpetra_Core.hpp>
 #include <Tpetra_Map.hpp>
 #include <map>
+#include <set>
 
 #include "mortise/core/error.hpp"
 #include "mortise/mesh/build_mesh.hpp"
@@ -241,6 +242,40 @@ TEST(FieldWriter, WritesBodiesOfSpaceWithThreeAndSixComponents) {
     const double id = static_cast<double>(element);
     const std::vector<double> expected{100.0 + id, 400.0 + id, 600.0 + id, 200.0 + id, 500.0 + id, 300.0 + id};  // xx, xy, xz, yy, yz, zz
     EXPECT_EQ(std::vector<double>(stresses.begin() + 6 * element, stresses.begin() + 6 * element + 6), expected);
+  }
+}
+
+TEST(FieldWriter, QuadraticCellsStandWithTheirNumbersAndAllNodes) {
+  const auto cells = [](auto mesh) { return mesh->cells_x = mesh->cells_y = 1, mesh; };
+  const auto brick = cells(std::make_shared<BrickMesh>());
+  brick->cells_z = 1;
+  const auto block = cells(std::make_shared<BlockMesh>());
+  const std::vector<std::vector<BodyDescription>> scenes{{{"a", {}, brick, CellShape::hexahedron20}, {"b", {}, brick, CellShape::tetrahedron10}},
+                                                         {{"a", {}, block, CellShape::quadrilateral8}, {"b", {}, block, CellShape::triangle6}}};
+  const std::vector<std::vector<double>> numbers{{48.0, 38.0}, {37.0, 36.0}};
+  for (std::size_t scene = 0; scene < scenes.size(); ++scene) {
+    const auto mesh = build_mesh(world(), scenes[scene], {});
+    const test::ScratchDirectory scratch(world());
+    FieldWriter writer(mesh, scratch.path());
+    writer.write(0.0, {});
+    world()->barrier();
+    if (world()->getRank() == 0) {
+      const Xdmf xdmf(scratch.path());
+      const auto topology_values = xdmf.data("/Xdmf/Domain/Grid/Grid/Topology").values;
+      const auto body = xdmf.data("/Xdmf/Domain/Grid/Grid/Attribute[@Name='body']").values;
+      std::set<double> nodes;
+      std::size_t at = 0;
+      for (const double b : body) {
+        const int count = topology(scenes[scene][static_cast<std::size_t>(b)].shape).nodes;
+        ASSERT_LT(at + count, topology_values.size());
+        EXPECT_EQ(topology_values[at], numbers[scene][static_cast<std::size_t>(b)]);
+        nodes.insert(topology_values.begin() + at + 1, topology_values.begin() + at + 1 + count);
+        at += 1 + count;
+      }
+      EXPECT_EQ(at, topology_values.size());
+      EXPECT_EQ(static_cast<GlobalOrdinal>(nodes.size()), scene == 0 ? 20 + 27 : 8 + 9);
+    }
+    world()->barrier();
   }
 }
 

@@ -97,29 +97,31 @@ TEST(BuildMesh, OwnedNodesHaveAllTheirElementsHere) {
 }
 
 TEST(BuildMesh, IsTheSameOnAnyNumberOfRanks) {
-  const auto bodies = all_kinds(CellShape::triangle3);
-  const auto mesh = build_mesh(Tpetra::getDefaultComm(), bodies, {"quarter disk/arc", "block/top"});
-  const auto whole = build_mesh(rcp(new Teuchos::SerialComm<int>()), bodies, {});
-  GlobalOrdinal first = 0;
-  for (std::size_t b = 0; b < mesh->blocks.size(); ++b) {
-    const auto &block = mesh->blocks[b], &all = whole->blocks[b];
-    EXPECT_EQ(mesh_size(*mesh).elements_of_block[b], all.size());
-    for (LocalOrdinal e = 0; e < block.size(); ++e) {
-      const GlobalOrdinal inside = block.element_ids[e] - first;
-      ASSERT_TRUE(inside >= 0 && inside < all.size());
-      for (int a = 0; a < block.nodes_per_element; ++a)
-        EXPECT_EQ(mesh->local_nodes->getGlobalElement(block.nodes(e)[a]),
-                  whole->local_nodes->getGlobalElement(all.nodes(static_cast<LocalOrdinal>(inside))[a]));
+  for (const auto cell : {CellShape::triangle3, CellShape::quadrilateral8, CellShape::triangle6}) {
+    const auto bodies = all_kinds(cell);
+    const auto mesh = build_mesh(Tpetra::getDefaultComm(), bodies, {"quarter disk/arc", "block/top"});
+    const auto whole = build_mesh(rcp(new Teuchos::SerialComm<int>()), bodies, {});
+    GlobalOrdinal first = 0;
+    for (std::size_t b = 0; b < mesh->blocks.size(); ++b) {
+      const auto &block = mesh->blocks[b], &all = whole->blocks[b];
+      EXPECT_EQ(mesh_size(*mesh).elements_of_block[b], all.size());
+      for (LocalOrdinal e = 0; e < block.size(); ++e) {
+        const GlobalOrdinal inside = block.element_ids[e] - first;
+        ASSERT_TRUE(inside >= 0 && inside < all.size());
+        for (int a = 0; a < block.nodes_per_element; ++a)
+          EXPECT_EQ(mesh->local_nodes->getGlobalElement(block.nodes(e)[a]),
+                    whole->local_nodes->getGlobalElement(all.nodes(static_cast<LocalOrdinal>(inside))[a]));
+      }
+      first += all.size();
     }
-    first += all.size();
+    for (LocalOrdinal node = 0; node < mesh->local_count(); ++node)
+      EXPECT_EQ(mesh->coordinates[node], whole->coordinates[whole->local_nodes->getLocalElement(mesh->local_nodes->getGlobalElement(node))]);
+    const MeshSize size = mesh_size(*mesh), reference = mesh_size(*whole);
+    EXPECT_EQ(size.nodes, reference.nodes);
+    EXPECT_EQ(size.elements, first);
+    EXPECT_EQ(size.length, reference.length);
+    EXPECT_EQ(size.shortest_side, reference.shortest_side);
   }
-  for (LocalOrdinal node = 0; node < mesh->local_count(); ++node)
-    EXPECT_EQ(mesh->coordinates[node], whole->coordinates[whole->local_nodes->getLocalElement(mesh->local_nodes->getGlobalElement(node))]);
-  const MeshSize size = mesh_size(*mesh), reference = mesh_size(*whole);
-  EXPECT_EQ(size.nodes, reference.nodes);
-  EXPECT_EQ(size.elements, first);
-  EXPECT_EQ(size.length, reference.length);
-  EXPECT_EQ(size.shortest_side, reference.shortest_side);
 }
 
 TEST(BuildMesh, RefusesBodiesWithoutMeaningOnEveryRank) {

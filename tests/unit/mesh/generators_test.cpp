@@ -150,6 +150,7 @@ TEST(FullDiskMesh, IsThePolygonOnItsCircle) {
   disk.radius = 3.0;
   disk.cells_around = 5;
   disk.cells_across = 4;
+  expect_side(disk.build(CellShape::triangle6, {}), "arc", [](const Point& x) { return radius_of(x) - 3.0; });
   const auto complex = disk.build(CellShape::quadrilateral4, {});
   EXPECT_EQ(complex.element_count(), 5 * 5 + 4 * 5 * 4);
   EXPECT_NEAR(area(complex), 0.5 * 20 * std::sin(0.1 * pi) * 9.0, 1e-12);

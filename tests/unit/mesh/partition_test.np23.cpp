@@ -7,7 +7,7 @@
 #include <Tpetra_Map.hpp>
 
 #include "mortise/mesh/build_mesh.hpp"
-#include "mortise/mesh/generators.hpp"
+#include "mortise/mesh/volume_generators.hpp"
 
 namespace mortise {
 namespace {
@@ -43,6 +43,31 @@ TEST(Partition, BalancesElementsContactElementsAndNodes) {
     EXPECT_LE(imbalance(*mesh->comm, contact), 1.3);
     EXPECT_LE(imbalance(*mesh->comm, elements), 1.3);
     EXPECT_LE(imbalance(*mesh->comm, static_cast<double>(mesh->owned_count())), 1.3);
+  }
+}
+
+TEST(Partition, BalancesBodiesOfSpace) {
+  auto lower = std::make_shared<BrickMesh>(), upper = std::make_shared<BrickMesh>();
+  for (auto* brick : {lower.get(), upper.get()}) {
+    brick->width = brick->depth = 4.0;
+    brick->height = 2.0;
+    brick->cells_z = 6;
+  }
+  lower->cells_x = lower->cells_y = 12;
+  upper->cells_x = upper->cells_y = 8;
+  upper->translation = {0.0, 0.0, 2.0};
+  for (const auto cell : {CellShape::hexahedron8, CellShape::tetrahedron10}) {
+    const auto mesh = build_mesh(Tpetra::getDefaultComm(), {{"lower", {}, lower, CellShape::hexahedron8}, {"upper", {}, upper, cell}},
+                                 {"lower/top", "upper/bottom"});
+    double elements = 0.0;
+    for (const auto& block : mesh->blocks) elements += block.owned;
+    const double contact = mesh->side_sets.at("lower/top").owned + mesh->side_sets.at("upper/bottom").owned;
+    EXPECT_LE(imbalance(*mesh->comm, contact), 1.3);
+    EXPECT_LE(imbalance(*mesh->comm, elements), 1.3);
+    EXPECT_LE(imbalance(*mesh->comm, static_cast<double>(mesh->owned_count())), 1.3);
+    // Few nodes stand on several ranks: a cut through the whole has one node in so many as there are along its shorter way.
+    const double ghosts = mesh->local_count() - mesh->owned_count();
+    EXPECT_LT(ghosts, mesh->owned_count());
   }
 }
 

@@ -24,8 +24,11 @@ struct Case {
 std::vector<Case> cases() {
   std::vector<Case> all;
   for (const auto& mesh : example_meshes())
-    for (const auto cell : {CellShape::quadrilateral4, CellShape::triangle3})
-      all.push_back({mesh.name + (cell == CellShape::triangle3 ? " of triangles" : " of quadrilaterals"), mesh.options->build(cell, {}), mesh.sides});
+    for (const auto& [cell, what] : {std::pair{CellShape::quadrilateral4, " of quadrilaterals"},
+                                     {CellShape::triangle3, " of triangles"},
+                                     {CellShape::quadrilateral8, " of quadratic quadrilaterals"},
+                                     {CellShape::triangle6, " of quadratic triangles"}})
+      all.push_back({mesh.name + what, mesh.options->build(cell, {}), mesh.sides});
   return all;
 }
 
@@ -38,8 +41,10 @@ TEST(PatchComplex, NamedSidesAreExactlyTheSurface) {
     // Directed sides: inner ones are run through once in each direction, those of the surface once.
     const auto& cell = topology(complex.shape());
     std::set<std::pair<GlobalOrdinal, GlobalOrdinal>> directed, surface;
+    std::set<GlobalOrdinal> corners;
     for (GlobalOrdinal e = 0; e < complex.element_count(); ++e) {
       const auto nodes = complex.element_nodes(e);
+      corners.insert(nodes.begin(), nodes.begin() + cell.corners);
       for (const auto& side : cell.sides) EXPECT_TRUE(directed.emplace(nodes[side[0]], nodes[side[1]]).second);
       for (const auto& side : complex.surface_sides(e)) surface.emplace(nodes[cell.sides[side.side][0]], nodes[cell.sides[side.side][1]]);
     }
@@ -49,7 +54,10 @@ TEST(PatchComplex, NamedSidesAreExactlyTheSurface) {
       if (a < b || directed.count({b, a}) == 0) ++undirected;
     }
     // A disk has Euler's characteristic 1: no hole, no seam left open.
-    EXPECT_EQ(complex.node_count() - static_cast<GlobalOrdinal>(undirected) + complex.element_count(), 1);
+    EXPECT_EQ(static_cast<GlobalOrdinal>(corners.size()) - static_cast<GlobalOrdinal>(undirected) + complex.element_count(), 1);
+    // Quadratic cells have one node more for each of their sides.
+    EXPECT_EQ(complex.node_count() - static_cast<GlobalOrdinal>(corners.size()),
+              cell.nodes == cell.corners ? 0 : static_cast<GlobalOrdinal>(undirected));
   }
 }
 
@@ -58,7 +66,7 @@ TEST(PatchComplex, CellsRunCounterclockwiseAndPositionsDiffer) {
     SCOPED_TRACE(name);
     std::set<Point> positions;
     for (GlobalOrdinal n = 0; n < complex.node_count(); ++n) EXPECT_TRUE(positions.insert(complex.coordinate(n)).second) << "node " << n;
-    const int corners = topology(complex.shape()).nodes;
+    const int corners = topology(complex.shape()).corners;
     for (GlobalOrdinal e = 0; e < complex.element_count(); ++e) {
       const auto nodes = complex.element_nodes(e);
       for (int a = 0; a < corners; ++a) {
@@ -86,6 +94,39 @@ TEST(PatchComplex, ElementsAndSidesOfNodesInvertTheConnectivity) {
     for (GlobalOrdinal n = 0; n < complex.node_count(); ++n) {
       EXPECT_EQ(complex.elements_of_node(n), elements[n]) << "node " << n;
       EXPECT_THAT(complex.sides_of_node(n), ::testing::ElementsAreArray(names[n])) << "node " << n;
+    }
+  }
+}
+
+TEST(PatchComplex, CellsThatShareASideShareItsMiddle) {
+  for (const auto& [name, complex, sides] : cases()) {
+    const auto& cell = topology(complex.shape());
+    if (cell.nodes == cell.corners) continue;
+    SCOPED_TRACE(name);
+    std::map<std::pair<GlobalOrdinal, GlobalOrdinal>, GlobalOrdinal> middles;
+    for (GlobalOrdinal e = 0; e < complex.element_count(); ++e) {
+      const auto nodes = complex.element_nodes(e);
+      for (const auto& side : cell.sides) {
+        const GlobalOrdinal a = nodes[side[0]], b = nodes[side[1]], middle = nodes[side[2]];
+        EXPECT_EQ(middles.try_emplace({std::min(a, b), std::max(a, b)}, middle).first->second, middle);
+      }
+    }
+  }
+}
+
+TEST(PatchComplex, MiddlesOfARectangleWithGradedCellsHalveTheirSides) {
+  BlockMesh block;
+  block.cells_x = 4;
+  block.cells_y = 3;
+  block.grading_x.ratio = 5.0;
+  for (const auto shape : {CellShape::quadrilateral8, CellShape::triangle6}) {
+    const auto complex = block.build(shape, {});
+    for (GlobalOrdinal e = 0; e < complex.element_count(); ++e) {
+      const auto nodes = complex.element_nodes(e);
+      for (const auto& side : topology(shape).sides)
+        for (int i = 0; i < 2; ++i)
+          EXPECT_NEAR(complex.coordinate(nodes[side[2]])[i], 0.5 * (complex.coordinate(nodes[side[0]])[i] + complex.coordinate(nodes[side[1]])[i]),
+                      1e-15);
     }
   }
 }

@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 /// The nodes of `side` are exactly those at which `distance` vanishes.
 template <class Distance>
 void expect_side(const VolumeMesh& options, const std::string& side, const Distance& distance) {
-  for (const auto cell : {CellShape::hexahedron8, CellShape::tetrahedron4})
+  for (const auto cell : {CellShape::hexahedron8, CellShape::tetrahedron4, CellShape::hexahedron20, CellShape::tetrahedron10})
     with_volume(options, cell, [&](const auto& complex) {
       SCOPED_TRACE(side);
       const auto& names = complex.side_names();
@@ -102,10 +102,11 @@ TEST(SphereOctantMesh, SidesLieOnTheSphereAndOnThePlanes) {
   });
 }
 
-TEST(SphereOctantMesh, VolumeConvergesWithOrderTwo) {
-  for (const auto cell : {CellShape::hexahedron8, CellShape::tetrahedron4}) {
+TEST(SphereOctantMesh, VolumeConvergesWithOrderTwoAndWithFourIfQuadratic) {
+  for (const auto cell : {CellShape::hexahedron8, CellShape::tetrahedron4, CellShape::hexahedron20, CellShape::tetrahedron10}) {
+    const bool is_quadratic = topology(cell).nodes > topology(cell).corners;
     double last = 0.0;
-    for (const int cells : {4, 8, 16}) {
+    for (const int cells : {3, 6, 12}) {
       SphereOctantMesh octant;
       octant.radius = 3.0;
       octant.cells_along = octant.cells_beyond = octant.cells_across = cells;
@@ -113,19 +114,35 @@ TEST(SphereOctantMesh, VolumeConvergesWithOrderTwo) {
       double volume = 0.0;
       with_volume(octant, cell, [&](const auto& complex) {
         for (GlobalOrdinal e = 0; e < complex.element_count(); ++e) {
-          Corners x;
+          Positions x;
           for (const GlobalOrdinal node : complex.element_nodes(e)) x.push_back(Eigen::Vector3d::Map(complex.coordinate(node).data()));
-          volume += volume_of_cell(x);
+          volume += volume_of_cell(cell, x);
         }
       });
       const double error = boost::math::constants::pi<double>() * 27.0 / 6.0 - volume;
-      if (last > 0.0) EXPECT_NEAR(std::log2(last / error), 2.0, 0.1);
+      if (last > 0.0) EXPECT_NEAR(std::log2(std::abs(last / error)), is_quadratic ? 4.0 : 2.0, 0.1);
       last = error;
     }
   }
 }
 
-TEST(SphereOctantMesh, IsFineAtTheLowestPointWithoutInvertedCells) {
+/// Over all corners of hexahedra: the volume that the three unit vectors along its edges span.
+double least_scaled_jacobian(const Mesh& mesh) {
+  constexpr int next[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7}, {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
+  double least = 1.0;
+  const Block& block = mesh.blocks[0];
+  for (LocalOrdinal e = 0; e < block.owned; ++e)
+    for (int a = 0; a < 8; ++a) {
+      const auto edge = [&](int d) {
+        const auto at = [&](int corner) { return Eigen::Vector3d::Map(mesh.coordinates[block.nodes(e)[corner]].data()); };
+        return Eigen::Vector3d(at(next[a][d]) - at(a)).normalized();
+      };
+      least = std::min(least, edge(0).cross(edge(1)).dot(edge(2)));
+    }
+  return least;
+}
+
+TEST(SphereOctantMesh, IsFineAtTheLowestPointWithCellsOfGoodShape) {
   // As for Hertz: n cells per half width a, a / R from 1/20 to 1/10. The pole's cell is a / n long in all directions.
   for (const double a : {0.05, 0.1})
     for (const int n : {2, 4}) {
@@ -136,6 +153,7 @@ TEST(SphereOctantMesh, IsFineAtTheLowestPointWithoutInvertedCells) {
       octant.grading_along.growth = octant.grading_across.growth = 1.3;
       const auto mesh =
           build_mesh(rcp(new Teuchos::SerialComm<int>()), {{"ball", {}, std::make_shared<SphereOctantMesh>(octant), CellShape::hexahedron8}}, {});
+      EXPECT_GT(least_scaled_jacobian(*mesh), 0.34);  // the sine of 20 degrees, the bound for disks
       std::vector<double> along_x, upward;
       for (const LocalOrdinal node : mesh->node_sets.at("ball/y plane")) {
         const auto& x = mesh->coordinates[node];
@@ -153,15 +171,18 @@ TEST(SphereOctantMesh, IsFineAtTheLowestPointWithoutInvertedCells) {
 
 TEST(VolumeMesh, RotationAboutAnyAxisAndTranslationMoveEveryNode) {
   for (const auto& mesh : example_volumes())
-    for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+    for (const Eigen::Vector3d& axis : {Eigen::Vector3d(1.0, 0.0, 0.0), Eigen::Vector3d(0.0, 0.0, 1.0), Eigen::Vector3d(1.0, -2.0, 2.0)}) {
       mesh.options->rotation = 0.0;
       mesh.options->translation = {0.0, 0.0, 0.0};
       const auto before = mesh.options->complex(CellShape::hexahedron8, {});
       mesh.options->rotation = 30.0;
-      mesh.options->rotation_axis = axis;
+      mesh.options->rotation_axis = {axis[0], axis[1], axis[2]};
       mesh.options->translation = {5.0, -2.0, 1.0};
-      const Eigen::Matrix3d R =
-          Eigen::AngleAxisd(boost::math::constants::pi<double>() / 6.0, Eigen::Vector3d::Unit(static_cast<int>(axis))).toRotationMatrix();
+      // Rodrigues: R = I + sin(phi) K + (1 - cos(phi)) K^2, K the cross product with the axis' direction.
+      const Eigen::Vector3d n = axis / axis.norm();
+      Eigen::Matrix3d K;
+      K << 0.0, -n[2], n[1], n[2], 0.0, -n[0], -n[1], n[0], 0.0;
+      const Eigen::Matrix3d R = Eigen::Matrix3d::Identity() + 0.5 * K + (1.0 - std::sqrt(0.75)) * K * K;
       with_volume(*mesh.options, CellShape::hexahedron8, [&](const auto& after) {
         const auto& original = std::get<std::decay_t<decltype(after)>>(before);
         for (GlobalOrdinal n = 0; n < after.node_count(); ++n) {
@@ -195,7 +216,7 @@ TEST(VolumeMesh, EveryKindIsReadFromAScene) {
   const std::string z = parameter("cells z", "int", "2"), xy = parameter("cells x", "int", "3") + parameter("cells y", "int", "2");
   EXPECT_EQ(errors_of(parameter("type", "string", "brick") + xy + z + parameter("translation", "string", "1, 2, 3")), "");
   EXPECT_EQ(errors_of(parameter("type", "string", "cylinder") + parameter("cells around", "int", "3") + parameter("cells across", "int", "3") + z +
-                      parameter("rotation", "double", "90") + parameter("rotation axis", "string", "x")),
+                      parameter("rotation", "double", "90") + parameter("rotation axis", "string", "1, 0, 0")),
             "");
   const std::string profile = "<ParameterList name=\"profile\">\n" + parameter("type", "string", "block") + xy +
                               parameter("translation", "string", "1, 0") + "</ParameterList>\n";
@@ -210,6 +231,8 @@ TEST(VolumeMesh, MistakesAreNamedWithTheirLine) {
   EXPECT_THAT(errors_of(parameter("type", "string", "brick") + xy), HasSubstr("cells z"));
   EXPECT_THAT(errors_of(parameter("type", "string", "brick") + xy + z + parameter("translation", "string", "1, 2")),
               HasSubstr("needs three numbers"));
+  EXPECT_THAT(errors_of(parameter("type", "string", "brick") + xy + z + parameter("rotation axis", "string", "0, 0, 0")),
+              HasSubstr("not all are zero"));
   EXPECT_THAT(errors_of(parameter("type", "string", "extruded") + z), HasSubstr("profile"));
   const std::string nested = "<ParameterList name=\"profile\">\n" + parameter("type", "string", "brick") + "</ParameterList>\n";
   EXPECT_THAT(errors_of(parameter("type", "string", "extruded") + nested + z), HasSubstr("scene.xml:4: error"));

@@ -1,5 +1,7 @@
 #pragma once
-// Small meshes of space of every built-in kind, with the volumes that their flat-sided cells fill; volumes by cells and by surfaces.
+// Small meshes of space of every built-in kind, with the volumes that their linear cells fill; volumes by cells and by surfaces.
+
+#include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <boost/math/constants/constants.hpp>
@@ -11,6 +13,15 @@
 
 #include "mesh_test_support.hpp"
 #include "mortise/mesh/volume_generators.hpp"
+#include "mortise/shape/hexahedron20.hpp"
+#include "mortise/shape/hexahedron8.hpp"
+#include "mortise/shape/quadrature.hpp"
+#include "mortise/shape/quadrilateral4.hpp"
+#include "mortise/shape/quadrilateral8.hpp"
+#include "mortise/shape/tetrahedron10.hpp"
+#include "mortise/shape/tetrahedron4.hpp"
+#include "mortise/shape/triangle3.hpp"
+#include "mortise/shape/triangle6.hpp"
 
 namespace mortise {
 
@@ -18,7 +29,7 @@ struct ExampleVolume {
   std::string name;
   std::shared_ptr<VolumeMesh> options;
   std::vector<std::string> sides;  ///< ascending
-  double volume = 0.0;             ///< of the cells, exactly; 0: known by its limit only
+  double volume = 0.0;             ///< of linear cells, exactly; 0: known by its limit only
 };
 
 inline std::vector<ExampleVolume> example_volumes() {
@@ -39,7 +50,7 @@ inline std::vector<ExampleVolume> example_volumes() {
   cylinder->disk.cells_across = 2;
   cylinder->cells_z = 3;
   cylinder->rotation = 35.0;
-  cylinder->rotation_axis = Axis::x;
+  cylinder->rotation_axis = {2.0, 0.0, 0.0};
   auto tube = std::make_shared<ExtrudedMesh>();
   tube->profile = {"ring sector", std::dynamic_pointer_cast<PlaneMesh>(example_meshes()[2].options), {}};
   tube->length = 2.0;
@@ -92,41 +103,70 @@ void with_volume(const VolumeMesh& options, CellShape cell, const Visit& visit) 
       options.complex(cell, {}));
 }
 
-using Corners = std::vector<Eigen::Vector3d>;
+using Positions = std::vector<Eigen::Vector3d>;
 
-/// The integral of det J of a tetrahedron or a trilinear hexahedron (2 x 2 x 2 points, exact).
-inline double volume_of_cell(const Corners& x) {
-  if (x.size() == 4) return (x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0]) / 6.0;
-  constexpr double sign[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}};
-  const double g = std::sqrt(1.0 / 3.0);
+template <class Cell>
+double integrate_cell(const Positions& x, int points) {
   double volume = 0.0;
-  for (const auto& point : sign) {
+  for (const auto& point : cell_rule(Cell::shape, points)) {
+    const auto gradients = Cell::gradients(point.template position<3>());
     Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();
-    for (int a = 0; a < 8; ++a)
-      for (int i = 0; i < 3; ++i) {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        jacobian.col(i) += 0.125 * sign[a][i] * (1.0 + g * sign[a][j] * point[j]) * (1.0 + g * sign[a][k] * point[k]) * x[a];
-      }
-    volume += jacobian.determinant();
+    for (std::size_t a = 0; a < x.size(); ++a)
+      for (int i = 0; i < 3; ++i) jacobian.col(i) += gradients[a][i] * x[a];
+    EXPECT_GT(jacobian.determinant(), 0.0);
+    volume += point.weight * jacobian.determinant();
   }
   return volume;
 }
 
-/// The facet's share of the volume by Gauss' theorem, (1/3) integral of x . n dA, with n outward if the corners run counterclockwise seen from
-/// outside; exact for triangles and bilinear facets (2 x 2 points).
-inline double volume_below_facet(const Corners& x) {
-  if (x.size() == 3) return x[0].dot((x[1] - x[0]).cross(x[2] - x[0])) / 6.0;
+/// The integral of det J, exactly, by a rule in whose points det J has to be positive.
+inline double volume_of_cell(CellShape shape, const Positions& x) {
+  switch (shape) {
+    case CellShape::tetrahedron4:
+      return integrate_cell<Tetrahedron4>(x, 1);
+    case CellShape::tetrahedron10:
+      return integrate_cell<Tetrahedron10>(x, 15);
+    case CellShape::hexahedron8:
+      return integrate_cell<Hexahedron8>(x, 8);
+    case CellShape::hexahedron20:
+      return integrate_cell<Hexahedron20>(x, 27);
+    default:
+      throw std::logic_error("no cell of space");
+  }
+}
+
+template <class Cell>
+double integrate_facet(const Positions& x, int points) {
   double volume = 0.0;
-  const double g = std::sqrt(1.0 / 3.0);
-  for (const double xi : {-g, g})
-    for (const double eta : {-g, g}) {
-      const Eigen::Vector3d at =
-          0.25 * ((1 - xi) * (1 - eta) * x[0] + (1 + xi) * (1 - eta) * x[1] + (1 + xi) * (1 + eta) * x[2] + (1 - xi) * (1 + eta) * x[3]);
-      const Eigen::Vector3d along_xi = 0.25 * ((1 - eta) * (x[1] - x[0]) + (1 + eta) * (x[2] - x[3]));
-      const Eigen::Vector3d along_eta = 0.25 * ((1 - xi) * (x[3] - x[0]) + (1 + xi) * (x[2] - x[1]));
-      volume += at.dot(along_xi.cross(along_eta)) / 3.0;
+  for (const auto& point : cell_rule(Cell::shape, points)) {
+    const auto values = Cell::values(point.template position<2>());
+    const auto gradients = Cell::gradients(point.template position<2>());
+    Eigen::Vector3d at = Eigen::Vector3d::Zero(), along_xi = at, along_eta = at;
+    for (std::size_t a = 0; a < x.size(); ++a) {
+      at += values[a] * x[a];
+      along_xi += gradients[a][0] * x[a];
+      along_eta += gradients[a][1] * x[a];
     }
+    volume += point.weight * at.dot(along_xi.cross(along_eta)) / 3.0;
+  }
   return volume;
+}
+
+/// The facet's share of the volume by Gauss' theorem, (1/3) integral of x . n dA, exactly; n points outward if the corners run counterclockwise seen
+/// from outside.
+inline double volume_below_facet(CellShape cell, const Positions& x) {
+  switch (topology(cell).side) {
+    case CellShape::triangle3:
+      return integrate_facet<Triangle3>(x, 7);
+    case CellShape::triangle6:
+      return integrate_facet<Triangle6>(x, 7);
+    case CellShape::quadrilateral4:
+      return integrate_facet<Quadrilateral4>(x, 4);
+    case CellShape::quadrilateral8:
+      return integrate_facet<Quadrilateral8>(x, 9);
+    default:
+      throw std::logic_error("no side of a cell of space");
+  }
 }
 
 }  // namespace mortise

@@ -55,12 +55,14 @@ struct PlaneMesh : MeshOptions {
 
 /// Options of a mesh in space.
 struct VolumeMesh : MeshOptions {
-  Axis rotation_axis = Axis::z;
+  std::vector<double> rotation_axis{0.0, 0.0, 1.0};  ///< through the origin
   VolumeMesh() : MeshOptions(3) {}
 
  protected:
   void describe_rotation(Parameters& parameters) final;
-  SpatialPlacement placement() const { return {rotation_axis, rotation, {translation.at(0), translation.at(1), translation.at(2)}}; }
+  SpatialPlacement placement() const {
+    return {{rotation_axis.at(0), rotation_axis.at(1), rotation_axis.at(2)}, rotation, {translation.at(0), translation.at(1), translation.at(2)}};
+  }
 };
 
 /// The built-in kinds in the plane that have an inside: block, wedge, ring sector, disk, quarter disk, half disk.

@@ -8,6 +8,7 @@
 
 #include "mortise/core/types.hpp"
 #include "mortise/mesh/cell_nodes.hpp"
+#include "mortise/mesh/lattice.hpp"
 #include "mortise/mesh/spacing.hpp"
 
 namespace mortise {
@@ -26,7 +27,7 @@ class CurveComplex;
 
 /// Corners, edges between them (straight or circular arcs) and patches that four edges bound, each filled by transfinite interpolation.
 /// Nodes are numbered corners first, then the interiors of edges, then the interiors of patches; elements patch by patch. Both are
-/// functions of their number: nothing of the size of the mesh is stored.
+/// functions of their number: nothing of the size of the mesh is stored. Quadratic cells have their middles on the arcs.
 class PatchComplex {
  public:
   struct Edge {
@@ -51,7 +52,10 @@ class PatchComplex {
   /// Position of a node.
   Point coordinate(GlobalOrdinal node) const;
 
-  /// Nodes of an element, counterclockwise.
+  /// The same body in other cells.
+  PatchComplex with_shape(CellShape shape) const { return PatchComplex(shape, corners_, edges_, patches_, placement_); }
+
+  /// Nodes of an element: corners counterclockwise, then the middles of its sides.
   CellNodes element_nodes(GlobalOrdinal element) const;
 
   /// The named sides alone, as a chain of lines: what is left of the body if it is rigid.
@@ -67,10 +71,11 @@ class PatchComplex {
   std::vector<int> sides_of_node(GlobalOrdinal node) const;
 
  private:
-  /// Point (i, j) of a patch's grid; i runs from corner 0 to 1, j from corner 0 to 3.
+  /// Point (i, j) of a patch's grid; i runs from corner 0 to 1, j from corner 0 to 3. Both are doubled: odd ones are middles of cells (see Lattice).
   struct GridPoint {
     int patch, i, j;
   };
+  using GridPoints = boost::container::static_vector<GridPoint, 4>;
   /// An edge as a side of a patch: bottom 0 -> 1, right 1 -> 2, top 3 -> 2, left 0 -> 3.
   struct EdgeUse {
     int edge;
@@ -80,10 +85,15 @@ class PatchComplex {
     int patch, slot;
   };
 
-  int elements_per_cell() const { return shape_ == CellShape::triangle3 ? 2 : 1; }
+  bool is_cut() const { return topology(shape_).corners == 3; }
+  int elements_per_cell() const { return is_cut() ? 2 : 1; }
   int cells_i(int patch) const { return edges_[uses_[patch][0].edge].spacing.cells(); }
   int cells_j(int patch) const { return edges_[uses_[patch][1].edge].spacing.cells(); }
+  Lattice edge_lattice(int edge) const { return Lattice(shape_, 1, {edges_[edge].spacing.cells()}); }
+  Lattice patch_lattice(int patch) const { return Lattice(shape_, 2, {cells_i(patch), cells_j(patch)}); }
+  /// The cell that an element lies in: its first corner.
   GridPoint cell_of(GlobalOrdinal element) const;
+  GridPoints corners_of(GlobalOrdinal element) const;
   GlobalOrdinal node_at(const GridPoint& point) const;
   std::vector<GridPoint> grid_points(GlobalOrdinal node) const;
   double edge_position(const EdgeUse& use, int index) const;
@@ -102,7 +112,7 @@ class PatchComplex {
   std::vector<std::string> side_names_;
 };
 
-/// Point `index` of an edge's spacing.
+/// Point `index` / 2 of an edge's spacing: a point for even ones, the middle of a cell for odd ones.
 Point edge_point(const PatchComplex::Edge& edge, const std::vector<Point>& corners, int index);
 
 }  // namespace mortise

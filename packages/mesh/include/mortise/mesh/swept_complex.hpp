@@ -2,6 +2,7 @@
 // The pure description of a body of space: a plane body swept along a line or about an axis.
 
 #include <array>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -22,7 +23,8 @@ struct Revolution {
 };
 
 /// Layers of cells over the elements of a plane body: hexahedra over quadrilaterals; three tetrahedra in each prism over a triangle. Nodes and
-/// elements are numbered layer by layer, in the order of the plane body. Has the members of PatchComplex that a mesh is built from.
+/// elements are numbered layer by layer, in the order of the plane body; the middles of quadratic cells' upright edges make layers of their own. Has
+/// the members of PatchComplex that a mesh is built from.
 class SweptComplex {
  public:
   using Sweep = std::variant<Extrusion, Revolution>;
@@ -36,7 +38,7 @@ class SweptComplex {
                SpatialPlacement placement);
 
   CellShape shape() const { return shape_; }
-  GlobalOrdinal node_count() const { return profile_.node_count() * (layers_.cells() + 1); }
+  GlobalOrdinal node_count() const { return nodes_per_cell_layer() * layers_.cells() + profile_.node_count(); }
   GlobalOrdinal element_count() const { return profile_.element_count() * layers_.cells() * elements_per_cell(); }
   /// Those of the profile, then where the sweep starts and ends.
   const std::vector<std::string>& side_names() const { return side_names_; }
@@ -55,19 +57,30 @@ class SweptComplex {
     GlobalOrdinal below;
     int layer, part;
   };
-  /// A node over one of the profile.
-  struct Corner {
+  /// A node over one of the profile, or of middle_ if the level is odd. Levels count half layers.
+  struct Node {
     GlobalOrdinal below;
-    int layer;
+    int level;
   };
-  using Corners = boost::container::static_vector<Corner, most_cell_nodes>;
+  /// A corner over a corner of the profile's element.
+  struct Corner {
+    int below;
+    int level;
+  };
+  using Corners = boost::container::static_vector<Corner, 8>;
 
-  int elements_per_cell() const { return shape_ == CellShape::tetrahedron4 ? 3 : 1; }
+  bool is_cut() const { return topology(shape_).corners == 4; }
+  int elements_per_cell() const { return is_cut() ? 3 : 1; }
+  GlobalOrdinal nodes_per_cell_layer() const { return profile_.node_count() + (middle_ ? middle_->node_count() : 0); }
+  const PatchComplex& at_level(int level) const { return level % 2 == 0 ? profile_ : *middle_; }
   Cell cell_of(GlobalOrdinal element) const;
   Corners corners_of(const Cell& cell) const;
+  GlobalOrdinal node_at(const Node& node) const;
+  Node find(GlobalOrdinal node) const;
 
   CellShape shape_;
   PatchComplex profile_;
+  std::optional<PatchComplex> middle_;  ///< the nodes half way up a layer: corners of hexahedra, all nodes of tetrahedra; none for linear cells
   Spacing layers_;
   Sweep sweep_;
   SpatialPlacement placement_;
