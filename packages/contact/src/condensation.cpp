@@ -36,6 +36,7 @@ void replace_row(Matrix& matrix, LocalOrdinal row, const std::vector<LocalOrdina
 // C~ = d(f_c)/dd at fixed z: rows of slave k: z_j dD_jk, rows of master l: -z_j dM_jl. All slave nodes with z != 0, just opened ones too.
 void ContactSystem::add_stiffness(const Vector& z, Matrix& system) {
   Implementation& self = *implementation_;
+  const int dimension = self.dimension;
   const auto scope = self.timers.scope("condensation");
   const auto z_values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
   std::vector<LocalOrdinal> columns;
@@ -45,21 +46,22 @@ void ContactSystem::add_stiffness(const Vector& z, Matrix& system) {
     for (const FacetCoupling& facet : self.pairs[p]->couplings()) {
       columns.clear();
       for (const LocalOrdinal node : facet.columns)
-        for (int i = 0; i < 2; ++i) columns.push_back(positions.column[2 * node + i]);
+        for (int i = 0; i < dimension; ++i) columns.push_back(positions.column[dimension * node + i]);
       values.resize(columns.size());
-      for (int j = 0; j < 2; ++j) {
+      const auto nodes = static_cast<Eigen::Index>(facet.slave.size()), masters = static_cast<Eigen::Index>(facet.master.size());
+      for (Eigen::Index j = 0; j < nodes; ++j) {
         if (static_cast<std::size_t>(facet.slave[j]) >= self.multiplier_of[p].size()) continue;
-        const Eigen::Vector2d zj = self.z_of(z_values, p, facet.slave[j]);
+        const SpatialVector zj = self.z_of(z_values, p, facet.slave[j]);
         if (zj.isZero(0.0)) continue;
         const auto add = [&](LocalOrdinal node, const auto& gradient, double sign) {
-          for (int i = 0; i < 2; ++i) {
-            for (std::size_t c = 0; c < columns.size(); ++c) values[c] = sign * zj[i] * gradient(c);
+          for (int i = 0; i < dimension; ++i) {
+            for (std::size_t c = 0; c < columns.size(); ++c) values[c] = sign * zj[i] * gradient(static_cast<Eigen::Index>(c));
             self.scatter->add(system, positions, node, i, columns, values);
           }
         };
-        for (int k = 0; k < 2; ++k)
-          if (k == j || facet.D(j, k) != 0.0) add(facet.slave[k], facet.dD.row(2 * j + k), 1.0);
-        for (std::size_t l = 0; l < facet.master.size(); ++l) add(facet.master[l], facet.dM.row(j * facet.master.size() + l), -1.0);
+        for (Eigen::Index k = 0; k < nodes; ++k)
+          if (k == j || facet.D(j, k) != 0.0) add(facet.slave[k], facet.dD.row(nodes * j + k), 1.0);
+        for (Eigen::Index l = 0; l < masters; ++l) add(facet.master[l], facet.dM.row(j * masters + l), -1.0);
       }
     }
   }
@@ -75,7 +77,7 @@ void ContactSystem::Implementation::eliminate_by_law(std::size_t p, const Vector
   std::vector<double> values;
   for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
     if (multiplier_of[p][s] < 0) continue;
-    const Eigen::Vector2d zs = z_of(z_values, p, s);
+    const SpatialVector zs = z_of(z_values, p, s);
     const Complementarity law = pair.complementarity(s, zs);
     if (law.state == ContactState::open) continue;
     const NodeRow& node = pair.rows()[s];
@@ -84,17 +86,17 @@ void ContactSystem::Implementation::eliminate_by_law(std::size_t p, const Vector
     RecoveryRow row;
     row.multiplier = multiplier_of[p][s];
     for (const LocalOrdinal c : coupled)
-      for (int i = 0; i < 2; ++i) row.columns.push_back(positions.column[2 * c + i]);
-    const Eigen::Matrix2d inverse = law.C_z.inverse();
+      for (int i = 0; i < dimension; ++i) row.columns.push_back(positions.column[dimension * c + i]);
+    const SpatialMatrix inverse = law.C_z.inverse();
     row.b = zs - inverse * law.C;
     for (auto& values_of : row.S) values_of.resize(row.columns.size());
     for (std::size_t c = 0; c < row.columns.size(); ++c) {
-      const Eigen::Vector2d slope = -inverse * pair.constraint_gradient(law, s, c);
-      for (int i = 0; i < 2; ++i) row.S[i][c] = slope[i];
+      const SpatialVector slope = -inverse * pair.constraint_gradient(law, s, c);
+      for (int i = 0; i < dimension; ++i) row.S[i][c] = slope[i];
     }
     const auto add = [&](LocalOrdinal m, double coefficient) {
       if (coefficient == 0.0) return;
-      for (int i = 0; i < 2; ++i) {
+      for (int i = 0; i < dimension; ++i) {
         values = row.S[i];
         for (double& value : values) value *= coefficient;
         scatter->add(system, positions, m, i, row.columns, values);
@@ -113,7 +115,7 @@ void ContactSystem::Implementation::eliminate_by_law(std::size_t p, const Vector
 // Rows of the nodes m it is coupled to:  A_m += c_jm S,  rhs_m -= c_jm b.   Its own rows, in the frame (n, tau), turned back to x, y:
 //   normal       -A_j c_n dg dd = A_j c_n g
 //   tangential   without friction (tau . K~_j - D z . dtau) dd = tau . rhs_j,   sticking D_jj c_t du dd = -D_jj c_t u
-// A node with a fixed component f: the free row holds the normal condition alone, z_f comes from C_tau, row f stays Dirichlet's.
+// A node with a fixed component f: the tangent along f gives z_f, row f stays Dirichlet's, and the free rows hold the other conditions.
 // Open nodes: z^{k+1} = 0, their rows stay momentum rows.
 void ContactSystem::condense(const Vector& z, Matrix& system, Vector& rhs) {
   Implementation& self = *implementation_;
@@ -121,7 +123,8 @@ void ContactSystem::condense(const Vector& z, Matrix& system, Vector& rhs) {
   const auto z_values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
   self.recovery.clear();
 
-  std::vector<double> momentum[2], constraint[2], row_values[2];
+  const int dimension = self.dimension;
+  std::array<std::vector<double>, 3> momentum, constraint, row_values;
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
     if (self.pairs[p]->formulation().elimination() == Elimination::law) {
       self.eliminate_by_law(p, z, system, rhs);
@@ -130,60 +133,68 @@ void ContactSystem::condense(const Vector& z, Matrix& system, Vector& rhs) {
     const PairCoupling& pair = *self.pairs[p];
     const NodePositions& positions = self.scatter->positions(p);
     for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
-      const Eigen::Vector2d zs = self.z_of(z_values, p, s);
+      const SpatialVector zs = self.z_of(z_values, p, s);
       if (self.multiplier_of[p][s] < 0 || !pair.closed(s, zs)) continue;
       const SlaveNode& slave = pair.slave_nodes()[s];
       const NodeRow& node = pair.rows()[s];
       const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
-      const LocalOrdinal first_row = 2 * slave.owned_node;
+      const LocalOrdinal first_row = dimension * slave.owned_node;
       const Complementarity law = pair.complementarity(s, zs);
 
       RecoveryRow recovery;
       recovery.multiplier = self.multiplier_of[p][s];
-      Eigen::Vector2d rhs_s;
+      SpatialVector rhs_s(dimension);
       {
         const auto view = rhs.getLocalViewHost(Tpetra::Access::ReadOnly);
-        rhs_s = {view(first_row, 0), view(first_row + 1, 0)};
+        for (int i = 0; i < dimension; ++i) rhs_s[i] = view(first_row + i, 0);
       }
-      for (int i = 0; i < 2; ++i) copy_row(system, first_row + i, recovery.columns, momentum[i]);
+      for (int i = 0; i < dimension; ++i) copy_row(system, first_row + i, recovery.columns, momentum[i]);
       const std::vector<LocalOrdinal>& columns = recovery.columns;
 
       // Linearised complementarity: constraint . dd + (C - C_z z) + C_z z^{k+1} = 0
-      for (int i = 0; i < 2; ++i) constraint[i].assign(columns.size(), 0.0);
+      for (int a = 0; a < dimension; ++a) constraint[a].assign(columns.size(), 0.0);
       for (std::size_t c = 0; c < coupled.size(); ++c)
-        for (int i = 0; i < 2; ++i) {
-          const auto found = std::lower_bound(columns.begin(), columns.end(), positions.column[2 * coupled[c] + i]);
-          const Eigen::Vector2d gradient = pair.constraint_gradient(law, s, 2 * c + i);
-          for (int a = 0; a < 2; ++a) constraint[a][found - columns.begin()] += gradient[a];
+        for (int i = 0; i < dimension; ++i) {
+          const auto found = std::lower_bound(columns.begin(), columns.end(), positions.column[dimension * coupled[c] + i]);
+          const SpatialVector gradient = pair.constraint_gradient(law, s, dimension * c + i);
+          for (int a = 0; a < dimension; ++a) constraint[a][found - columns.begin()] += gradient[a];
         }
-      const Eigen::Vector2d constant = law.C - law.C_z * zs;
+      const SpatialVector constant = law.C - law.C_z * zs;
 
-      // E z^{k+1} = e - L dd, one row for each component: momentum where free, C_tau where fixed.
-      Eigen::Matrix2d E = Eigen::Matrix2d::Zero();
-      Eigen::Vector2d e;
-      const std::vector<double>* L[2];
-      for (int i = 0; i < 2; ++i) {
+      // E z^{k+1} = e - L dd, one row for each component: momentum where free, where fixed the condition along the tangent that is this component.
+      const Frame frame = pair.frame(s);
+      SpatialMatrix E = SpatialMatrix::Zero(dimension, dimension);
+      SpatialVector e(dimension);
+      std::array<const std::vector<double>*, 3> L{};
+      std::array<bool, 3> in_own_rows{true, true, true};  // of the conditions
+      for (int i = 0; i < dimension; ++i) {
         if (slave.fixed[i]) {
-          E.row(i) = law.C_z.row(1);
-          e[i] = -constant[1];
-          L[i] = &constraint[1];
+          Eigen::Index tangent = 0;
+          frame.tangents.col(i).cwiseAbs().maxCoeff(&tangent);
+          const auto a = static_cast<int>(1 + tangent);
+          in_own_rows[a] = false;
+          E.row(i) = law.C_z.row(a);
+          e[i] = -constant[a];
+          L[i] = &constraint[a];
         } else {
           E(i, i) = node.D;
           e[i] = rhs_s[i];
           L[i] = &momentum[i];
         }
       }
-      const Eigen::Matrix2d inverse = E.inverse();
+      const SpatialMatrix inverse = E.inverse();
       recovery.b = inverse * e;
-      for (int i = 0; i < 2; ++i) {
-        recovery.S[i].resize(columns.size());
-        for (std::size_t c = 0; c < columns.size(); ++c) recovery.S[i][c] = -(inverse(i, 0) * (*L[0])[c] + inverse(i, 1) * (*L[1])[c]);
+      for (int i = 0; i < dimension; ++i) {
+        recovery.S[i].assign(columns.size(), 0.0);
+        for (int k = 0; k < dimension; ++k)
+          if (inverse(i, k) != 0.0)
+            for (std::size_t c = 0; c < columns.size(); ++c) recovery.S[i][c] -= inverse(i, k) * (*L[k])[c];
       }
 
       for (std::size_t c = 0; c < coupled.size(); ++c) {
         const double coefficient = node.coefficients[c];
         if (coefficient == 0.0) continue;
-        for (int i = 0; i < 2; ++i) {
+        for (int i = 0; i < dimension; ++i) {
           row_values[i].resize(columns.size());
           for (std::size_t k = 0; k < columns.size(); ++k) row_values[i][k] = coefficient * recovery.S[i][k];
           self.scatter->add(system, positions, coupled[c], i, columns, row_values[i]);
@@ -192,24 +203,31 @@ void ContactSystem::condense(const Vector& z, Matrix& system, Vector& rhs) {
       }
 
       // Own rows. Equation a: constraint_a dd + constant_a + C_z,a (b + S dd) = 0, scaled to forces.
-      const double scale[2] = {-slave.weight, -node.D};
-      double right[2];
-      for (int a = 0; a < 2; ++a) {
+      SpatialVector right(dimension);
+      for (int a = 0; a < dimension; ++a) {
+        const double scale = a == 0 ? -slave.weight : -node.D;
         row_values[a].resize(columns.size());
-        for (std::size_t k = 0; k < columns.size(); ++k)
-          row_values[a][k] = scale[a] * (constraint[a][k] + law.C_z(a, 0) * recovery.S[0][k] + law.C_z(a, 1) * recovery.S[1][k]);
-        right[a] = -scale[a] * (constant[a] + law.C_z.row(a).dot(recovery.b));
+        for (std::size_t k = 0; k < columns.size(); ++k) {
+          double value = constraint[a][k];
+          for (int i = 0; i < dimension; ++i) value += law.C_z(a, i) * recovery.S[i][k];
+          row_values[a][k] = scale * value;
+        }
+        right[a] = -scale * (constant[a] + law.C_z.row(a).dot(recovery.b));
       }
-      const Eigen::Vector2d frame[2] = {node.normal, tangent(node.normal)};
-      const bool partly_fixed = slave.fixed[0] || slave.fixed[1];
       const auto out = rhs.getLocalViewHost(Tpetra::Access::ReadWrite);
-      for (int i = 0; i < 2; ++i) {
+      for (int i = 0; i < dimension; ++i) {
         if (slave.fixed[i]) continue;
-        const double weight[2] = {partly_fixed ? std::copysign(1.0, node.normal[i]) : frame[0][i], partly_fixed ? 0.0 : frame[1][i]};
         std::vector<double>& values = momentum[i];
-        for (std::size_t k = 0; k < columns.size(); ++k) values[k] = weight[0] * row_values[0][k] + weight[1] * row_values[1][k];
+        values.assign(columns.size(), 0.0);
+        double value = 0.0;
+        for (int a = 0; a < dimension; ++a) {
+          if (!in_own_rows[a]) continue;
+          const double component = a == 0 ? frame.normal[i] : frame.tangents(a - 1, i);
+          for (std::size_t k = 0; k < columns.size(); ++k) values[k] += component * row_values[a][k];
+          value += component * right[a];
+        }
         replace_row(system, first_row + i, columns, values);
-        out(first_row + i, 0) = weight[0] * right[0] + weight[1] * right[1];
+        out(first_row + i, 0) = value;
       }
       self.recovery.push_back(std::move(recovery));
     }
@@ -231,7 +249,7 @@ void ContactSystem::recover(const Vector& increment, Vector& z_new) const {
   z_new.putScalar(0.0);
   const auto z = z_new.getLocalViewHost(Tpetra::Access::ReadWrite);
   for (const RecoveryRow& row : self.recovery)
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < self.dimension; ++i) {
       double value = row.b[i];
       for (std::size_t k = 0; k < row.columns.size(); ++k) value += row.S[i][k] * d(row.columns[k], 0);
       z(row.multiplier + i, 0) = value;

@@ -48,7 +48,7 @@ RCP<MultiVector> ContactSystem::Implementation::positions(const Vector& d) const
   const auto u = d.getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto view = x->getLocalViewHost(Tpetra::Access::ReadWrite);
   for (std::size_t node = 0; node < view.extent(0); ++node)
-    for (std::size_t i = 0; i < 2; ++i) view(node, i) += u(2 * node + i, 0);
+    for (std::size_t i = 0; i < view.extent(1); ++i) view(node, i) += u(view.extent(1) * node + i, 0);
   return x;
 }
 
@@ -73,6 +73,7 @@ ContactSystem::ContactSystem(RCP<const Map> owned_nodes, RCP<const Map> dofs, RC
   self.reference = std::move(reference);
   self.fixed = fixed;
   self.timers = timers;
+  self.dimension = static_cast<int>(self.reference->getNumVectors());
   self.extent = 0.0;
   for (std::size_t i = 0; i < self.reference->getNumVectors(); ++i) self.extent = std::max(self.extent, self.reference->getVector(i)->normInf());
   detail::refuse_shared_nodes(*self.owned_nodes, pairs);
@@ -91,7 +92,7 @@ ContactSystem::ContactSystem(RCP<const Map> owned_nodes, RCP<const Map> dofs, RC
     for (const SlaveNode& slave : pair->slave_nodes()) {
       first.push_back(slave.carries_multiplier ? static_cast<LocalOrdinal>(ids.size()) : -1);
       if (!slave.carries_multiplier) continue;
-      for (int i = 0; i < 2; ++i) ids.push_back(offset + 2 * slave.id + i);
+      for (int i = 0; i < self.dimension; ++i) ids.push_back(offset + self.dimension * slave.id + i);
     }
     self.multiplier_of.push_back(std::move(first));
     self.marked.emplace_back(pair->slave_nodes().size(), ContactState::open);
@@ -153,18 +154,18 @@ void ContactSystem::Implementation::add_contact_force(const Vector& z, Vector& r
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const detail::PairCoupling& pair = *pairs[p];
-    const RCP<const Map> force_map = make_dof_map(*pair.interface().local_nodes(), 2);
+    const RCP<const Map> force_map = make_dof_map(*pair.interface().local_nodes(), dimension);
     Vector force(force_map);
     {
       const auto view = force.getLocalViewHost(Tpetra::Access::ReadWrite);
       for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
-        const Eigen::Vector2d zs = z_of(values, p, s);
+        const SpatialVector zs = z_of(values, p, s);
         if (zs.isZero(0.0)) continue;
         const detail::NodeRow& row = pair.rows()[s];
         const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
-        for (int i = 0; i < 2; ++i) {
-          view(2 * pair.slave_nodes()[s].local_node + i, 0) += row.D * zs[i];
-          for (std::size_t c = 0; c < coupled.size(); ++c) view(2 * coupled[c] + i, 0) += row.coefficients[c] * zs[i];
+        for (int i = 0; i < dimension; ++i) {
+          view(dimension * pair.slave_nodes()[s].local_node + i, 0) += row.D * zs[i];
+          for (std::size_t c = 0; c < coupled.size(); ++c) view(dimension * coupled[c] + i, 0) += row.coefficients[c] * zs[i];
         }
       }
     }
@@ -191,9 +192,8 @@ RCP<Vector> ContactSystem::shear_tractions(const Vector& z) const {
     for (std::size_t s = 0; s < self.multiplier_of[p].size(); ++s) {
       const LocalOrdinal first = self.multiplier_of[p][s];
       if (first < 0) continue;
-      const Eigen::Vector2d tau = tangent(self.pairs[p]->rows()[s].normal);
-      const double along = tau.dot(self.z_of(values, p, s));
-      for (int i = 0; i < 2; ++i) result(first + i, 0) = along * tau[i];
+      const SpatialVector zs = self.z_of(values, p, s), &normal = self.pairs[p]->rows()[s].normal, across = zs - zs.dot(normal) * normal;
+      for (int i = 0; i < self.dimension; ++i) result(first + i, 0) = across[i];
     }
   }
   return shear;
@@ -209,9 +209,8 @@ void ContactSystem::complementarity(const Vector& z, Vector& C) const {
     for (std::size_t s = 0; s < self.multiplier_of[p].size(); ++s) {
       const LocalOrdinal first = self.multiplier_of[p][s];
       if (first < 0) continue;
-      const Eigen::Vector2d value = self.pairs[p]->complementarity(s, self.z_of(values, p, s)).C;
-      result(first, 0) = value[0];
-      result(first + 1, 0) = value[1];
+      const SpatialVector value = self.pairs[p]->complementarity(s, self.z_of(values, p, s)).C;
+      for (int i = 0; i < self.dimension; ++i) result(first + i, 0) = value[i];
     }
 }
 
@@ -221,7 +220,7 @@ RCP<Vector> ContactSystem::weights() const {
   const auto view = result->getLocalViewHost(Tpetra::Access::OverwriteAll);
   for (std::size_t p = 0; p < self.pairs.size(); ++p)
     for (std::size_t s = 0; s < self.multiplier_of[p].size(); ++s)
-      for (int i = 0; i < 2; ++i)
+      for (int i = 0; i < self.dimension; ++i)
         if (const LocalOrdinal first = self.multiplier_of[p][s]; first >= 0) view(first + i, 0) = self.pairs[p]->slave_nodes()[s].weight;
   return result;
 }
@@ -242,14 +241,14 @@ ContactNorms ContactSystem::norms(const Vector& z) const {
         std::max(round_off, 4.0 * std::numeric_limits<double>::epsilon() * self.extent * stiffness * pair.definition().youngs_modulus / pair.size());
     for (std::size_t s = 0; s < self.multiplier_of[p].size(); ++s) {
       if (self.multiplier_of[p][s] < 0) continue;
-      const Eigen::Vector2d zs = self.z_of(values, p, s);
+      const SpatialVector zs = self.z_of(values, p, s);
       const Complementarity law = pair.complementarity(s, zs);
       const bool closed = law.state != ContactState::open;
-      const Eigen::Vector2d& C = law.C;
+      const SpatialVector& C = law.C;
       squares += std::pow(pair.slave_nodes()[s].weight, 2) * C.squaredNorm();
       traction = std::max(traction, zs.norm());
       const bool exactly_closed = closed && !pair.regularisation();  // then C_n is the gap
-      violation = std::max(violation, exactly_closed ? std::abs(C[1]) : C.norm());
+      violation = std::max(violation, exactly_closed ? C.tail(self.dimension - 1).norm() : C.norm());
       if (exactly_closed) gap = std::max(gap, std::abs(pair.rows()[s].gap) / (pair.slave_nodes()[s].weight * pair.size()));
       active += closed;
       sticking += law.state == ContactState::stick;
@@ -294,6 +293,7 @@ void ContactSystem::accept_states(const Vector& z) {
   self.accepted = self.states(z);
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
+    if (self.dimension > 2) self.pairs[p]->choose_axes();
     self.pairs[p]->accept_multipliers([&](std::size_t s) { return self.z_of(values, p, s); });
     if (self.pairs[p]->friction() != nullptr)
       for (std::size_t s = 0; s < self.accepted[p].size(); ++s) self.pairs[p]->accept_slip(s, self.accepted[p][s]);
@@ -350,43 +350,47 @@ std::vector<ContactNodeState> ContactSystem::node_states(std::size_t pair, const
   for (std::size_t s = 0; s < self.multiplier_of[pair].size(); ++s) {
     const SlaveNode& slave = self.pairs[pair]->slave_nodes()[s];
     const detail::NodeRow& row = self.pairs[pair]->rows()[s];
-    const Eigen::Vector2d zs = self.z_of(values, pair, s);
+    const SpatialVector zs = self.z_of(values, pair, s);
+    const SpatialVector across = self.pairs[pair]->frame(s).tangents * zs;
+    const auto signed_size = [](const TangentVector& v) { return v.size() == 1 ? v[0] : v.norm(); };
     ContactNodeState state;
     state.node = slave.id;
     state.owned_node = slave.owned_node;
-    state.traction = {zs[0], zs[1]};
-    state.normal = {row.normal[0], row.normal[1]};
+    std::copy(zs.begin(), zs.end(), state.traction.begin());
+    std::copy(row.normal.begin(), row.normal.end(), state.normal.begin());
     state.pressure = zs.dot(row.normal);
     state.gap = row.gap / slave.weight;
     state.weight = slave.weight;
     if (slave.carries_multiplier) state.state = self.pairs[pair]->complementarity(s, zs).state;
     state.closed = state.state != ContactState::open;
     state.covered = row.covered;
-    state.shear = zs.dot(tangent(row.normal));
+    state.shear = signed_size(across);
     if (self.pairs[pair]->friction() != nullptr && row.D > 0.0) {
-      state.slip = row.slip / row.covered;
+      state.slip = signed_size(row.slip) / row.covered;
       state.slip_path = self.pairs[pair]->slip_histories()[s].accepted.path;
       if (state.closed)
         state.shear_bound =
             self.pairs[pair]->friction()->bound(std::max(0.0, state.pressure), self.pairs[pair]->slip_histories()[s].start.path).value;
     }
-    state.force = {row.covered * zs[0], row.covered * zs[1]};
+    for (int i = 0; i < self.dimension; ++i) state.force[i] = row.covered * zs[i];
     states.push_back(state);
   }
   return states;
 }
 
 // The force on the slave side is -sum_j (sum_k D_jk) z_j.
-std::array<double, 2> ContactSystem::resultant(std::size_t pair, const Vector& z) const {
+std::array<double, 3> ContactSystem::resultant(std::size_t pair, const Vector& z) const {
   const Implementation& self = *implementation_;
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
-  Eigen::Vector2d mine = Eigen::Vector2d::Zero();
+  SpatialVector mine = SpatialVector::Zero(self.dimension);
   const auto subtract = [&](std::size_t p, double sign) {
     for (std::size_t s = 0; s < self.multiplier_of[p].size(); ++s) mine -= sign * self.pairs[p]->rows()[s].covered * self.z_of(values, p, s);
   };
   subtract(pair, 1.0);
   if (const auto other = second_pass(pair)) subtract(*other, -1.0);  // its slave side is the master here
-  return {self.sum(mine[0]), self.sum(mine[1])};
+  std::array<double, 3> all{};
+  for (int i = 0; i < self.dimension; ++i) all[i] = self.sum(mine[i]);
+  return all;
 }
 
 }  // namespace mortise

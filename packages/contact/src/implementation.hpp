@@ -2,6 +2,7 @@
 // What ContactSystem holds.
 
 #include <Eigen/Core>
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -15,15 +16,16 @@ namespace mortise {
 /// The affine map z^{k+1} = b + S dd of a closed node, kept by condense() for recover(). Rows of S stand in the local columns of the system.
 struct RecoveryRow {
   LocalOrdinal multiplier = 0;  ///< local index of the first component in z
-  Eigen::Vector2d b = Eigen::Vector2d::Zero();
+  SpatialVector b;
   std::vector<LocalOrdinal> columns;
-  std::vector<double> S[2];
+  std::array<std::vector<double>, 3> S;  ///< [dim]
 };
 
 struct ContactSystem::Implementation {
   RCP<const Map> owned_nodes, dofs, multipliers;
   RCP<const MultiVector> reference, fixed;
   Timers timers;
+  int dimension = 2;
   double extent = 0.0;  ///< largest coordinate of the reference positions
   std::vector<std::unique_ptr<detail::PairCoupling>> pairs;
   std::vector<std::vector<LocalOrdinal>> multiplier_of;     ///< [pair][slave node] local index of the first component in z, -1: none
@@ -36,9 +38,11 @@ struct ContactSystem::Implementation {
   RCP<MultiVector> positions(const Vector& d) const;
   /// z of slave node s of a pair (0 without multiplier), from a host view of z.
   template <class View>
-  Eigen::Vector2d z_of(const View& z, std::size_t pair, std::size_t s) const {
-    const LocalOrdinal first = multiplier_of[pair][s];
-    return first < 0 ? Eigen::Vector2d(0.0, 0.0) : Eigen::Vector2d(z(first, 0), z(first + 1, 0));
+  SpatialVector z_of(const View& z, std::size_t pair, std::size_t s) const {
+    SpatialVector result = SpatialVector::Zero(dimension);
+    if (const LocalOrdinal first = multiplier_of[pair][s]; first >= 0)
+      for (int i = 0; i < dimension; ++i) result[i] = z(first + i, 0);
+    return result;
   }
   void add_contact_force(const Vector& z, Vector& r) const;
   void eliminate_by_law(std::size_t pair, const Vector& z, Matrix& system, Vector& rhs);

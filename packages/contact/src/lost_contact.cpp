@@ -1,6 +1,7 @@
 // Closed nodes that went through the master surface, out of its reach.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Map.hpp>
@@ -32,7 +33,7 @@ void ContactSystem::Implementation::find_lost_contact(const MultiVector& x, std:
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     if (all[p] == 0.0) continue;
     const detail::PairCoupling& pair = *pairs[p];
-    std::vector<Eigen::Vector2d> normals;
+    std::vector<SpatialVector> normals;
     for (const std::size_t s : uncovered[p]) normals.push_back(pair.rows()[s].normal);
     const auto distances = pair.interface().distances_to_master(x, uncovered[p], normals);
     double deepest = pair.interface().reach();
@@ -40,12 +41,12 @@ void ContactSystem::Implementation::find_lost_contact(const MultiVector& x, std:
       if (!distances[n] || -*distances[n] <= deepest) continue;
       deepest = -*distances[n];
       const SlaveNode& node = pair.slave_nodes()[uncovered[p][n]];
-      failure =
-          StepFailure(FailureKind::lost_contact,
-                      fmt::format("contact \"{}\": node {} of the slave, which was closed, is at ({:.6g}, {:.6g}), {:.3g} behind the master surface "
-                                  "and out of its reach {:.3g}",
-                                  pair.definition().name, node.id, positions(node.owned_node, 0), positions(node.owned_node, 1), deepest,
-                                  pair.interface().reach()));
+      std::vector<double> place;
+      for (int i = 0; i < dimension; ++i) place.push_back(positions(node.owned_node, i));
+      failure = StepFailure(FailureKind::lost_contact,
+                            fmt::format("contact \"{}\": node {} of the slave, which was closed, is at ({:.6g}), {:.3g} behind the master surface "
+                                        "and out of its reach {:.3g}",
+                                        pair.definition().name, node.id, fmt::join(place, ", "), deepest, pair.interface().reach()));
     }
   }
 }

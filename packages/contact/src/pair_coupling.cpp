@@ -9,14 +9,22 @@ namespace mortise::detail {
 
 PairCoupling::PairCoupling(RCP<const Map> owned_nodes, RCP<const MultiVector> reference, RCP<const MultiVector> fixed,
                            const InterfaceMeasure& measure, ContactPair pair)
-    : pair_(std::move(pair)), owned_nodes_(std::move(owned_nodes)), reference_(std::move(reference)) {
+    : pair_(std::move(pair)),
+      owned_nodes_(std::move(owned_nodes)),
+      reference_(std::move(reference)),
+      dimension_(static_cast<int>(reference_->getNumVectors())) {
   interface_ = std::make_unique<MortarInterface>(owned_nodes_, reference_, std::move(fixed), pair_.slave, pair_.master, measure, pair_.options.mortar,
                                                  pair_.place);
   size_ = interface_->shortest_facet();
   rows_.resize(slave_nodes().size());
+  for (NodeRow& row : rows_) row.slip = TangentVector::Zero(dimension_ - 1);
+  for (const SlaveNode& node : slave_nodes()) {
+    const auto first_fixed = std::find(node.fixed.begin(), node.fixed.end(), true);
+    axes_.push_back(node.partly_fixed() ? static_cast<int>(first_fixed - node.fixed.begin()) : -1);
+  }
   regularisation_ = formulation().regularisation();
   if (regularisation_) {
-    accepted_multipliers_.assign(rows_.size(), Eigen::Vector2d::Zero());
+    accepted_multipliers_.assign(rows_.size(), SpatialVector::Zero(dimension_));
     start_multipliers_ = accepted_multipliers_;
   }
   if (!pair_.options.friction.options->acts()) return;
@@ -33,32 +41,49 @@ bool PairCoupling::covered(std::size_t s) const {
   return node.carries_multiplier && rows_[s].D > 1e-12 * node.weight;
 }
 
-bool PairCoupling::closed(std::size_t s, const Eigen::Vector2d& z) const {
+bool PairCoupling::closed(std::size_t s, const SpatialVector& z) const {
   if (regularisation_) return complementarity(s, z).state != ContactState::open;
   return covered(s) && z.dot(rows_[s].normal) - complementarity_constant(s) * rows_[s].gap > 0.0;
 }
 
-Complementarity PairCoupling::complementarity(std::size_t s, const Eigen::Vector2d& z) const {
+// A component that is prescribed takes one tangent: there the node bears no shear traction.
+Complementarity PairCoupling::complementarity(std::size_t s, const SpatialVector& z) const {
   const NodeRow& row = rows_[s];
   const SlaveNode& node = slave_nodes()[s];
-  const bool rubs = friction_ != nullptr && !slip_[s].start.nodes.empty() && !node.fixed[0] && !node.fixed[1];
+  const auto fixed = std::count(node.fixed.begin(), node.fixed.end(), true);
+  const bool rubs = friction_ != nullptr && !slip_[s].start.nodes.empty() && fixed < dimension_ - 1;
+  const auto without_fixed = [&](Complementarity law, const Frame& in) {
+    if (rubs && fixed > 0 && law.state != ContactState::open) hold_tangent(law, in, z, 0);
+    return law;
+  };
+  // What the law of friction sees of slip and traction.
+  TangentVector slip = row.slip;
+  SpatialVector borne = z;
   if (regularisation_) {
-    if (!covered(s)) return frictionless(false, 0.0, row.gap, row.normal, z);
+    if (!covered(s)) return open_node(z);
+    const Frame in = frame(s);
+    if (rubs && fixed > 0) slip[0] = 0.0;
     const double scale = pair_.youngs_modulus / size_;
     const RegularisedNode stiffness{regularisation_->normal * scale, regularisation_->tangential * scale, start_multipliers_[s]};
     const auto bound = [&](double pressure) { return friction_->bound(pressure, slip_[s].start.path); };
-    return regularised(stiffness, row.gap, row.slip, row.covered, row.normal, z, rubs ? &bound : nullptr);
+    return without_fixed(regularised(stiffness, row.gap, slip, row.covered, in, z, rubs ? &bound : nullptr), in);
   }
   const double c = complementarity_constant(s);
-  const bool is_closed = closed(s, z);
-  if (!is_closed || !rubs) return frictionless(is_closed, c, row.gap, row.normal, z);
-  return with_friction(c, c, row.gap, row.slip, row.normal, z, friction_->bound(z.dot(row.normal) - c * row.gap, slip_[s].start.path));
+  if (!closed(s, z)) return open_node(z);
+  const Frame in = frame(s);
+  if (!rubs) return closed_node(c, row.gap, in, z);
+  if (fixed > 0) {
+    slip[0] = 0.0;
+    borne -= in.tangents.row(0).dot(z) * in.tangents.row(0).transpose();
+  }
+  return without_fixed(with_friction(c, c, row.gap, slip, in, borne, friction_->bound(z.dot(row.normal) - c * row.gap, slip_[s].start.path)), in);
 }
 
-Eigen::Vector2d PairCoupling::constraint_gradient(const Complementarity& law, std::size_t s, std::size_t entry) const {
+SpatialVector PairCoupling::constraint_gradient(const Complementarity& law, std::size_t s, std::size_t entry) const {
   const NodeRow& row = rows_[s];
-  Eigen::Vector2d gradient = law.gap_factor * row.dgap[entry] + law.normal_factor * row.dnormal.col(static_cast<Eigen::Index>(entry));
-  if (law.slip_factor != 0.0) gradient[1] += law.slip_factor * row.dslip[entry];
+  const auto column = static_cast<Eigen::Index>(entry);
+  SpatialVector gradient = law.gap_factor * row.dgap[entry] + law.normal_factor * row.dnormal.col(column);
+  if (law.slip_factor.size() > 0) gradient.tail(dimension_ - 1) += law.slip_factor * row.dslip.col(column);
   if (regularisation_) gradient += law.weight_factor * row.dcovered[entry];
   return gradient;
 }
@@ -68,7 +93,7 @@ bool PairCoupling::search(const MultiVector& x) {
   const bool changed = interface_->search(uses_reference() ? *reference_ : x) || import_.is_null();
   if (changed) {
     import_ = rcp(new Import(owned_nodes_, interface_->local_nodes()));
-    local_positions_ = rcp(new MultiVector(interface_->local_nodes(), 2));
+    local_positions_ = rcp(new MultiVector(interface_->local_nodes(), static_cast<std::size_t>(dimension_)));
     position_in_row_.assign(interface_->local_nodes()->getNodeNumElements(), -1);
     place_slip_histories();
   }
@@ -97,59 +122,76 @@ void PairCoupling::sum_to_rows(bool derivatives) {
   const std::size_t slaves = rows_.size();
   std::vector<std::vector<std::pair<const FacetCoupling*, int>>> facets_of(slaves);
   for (const FacetCoupling& facet : couplings_)
-    for (int j = 0; j < 2; ++j)
-      if (static_cast<std::size_t>(facet.slave[j]) < slaves) facets_of[facet.slave[j]].push_back({&facet, j});
+    for (std::size_t j = 0; j < facet.slave.size(); ++j)
+      if (static_cast<std::size_t>(facet.slave[j]) < slaves) facets_of[facet.slave[j]].push_back({&facet, static_cast<int>(j)});
 
   for (std::size_t s = 0; s < slaves; ++s) {
     const std::vector<LocalOrdinal>& coupled = interface_->coupled_nodes(s);
     NodeRow& row = rows_[s];
     row.D = row.covered = row.gap = 0.0;
     row.coefficients.assign(coupled.size(), 0.0);
-    row.dgap.assign(derivatives ? 2 * coupled.size() : 0, 0.0);
-    row.dnormal.setZero(2, derivatives ? 2 * coupled.size() : 0);
+    row.dgap.assign(derivatives ? dimension_ * coupled.size() : 0, 0.0);
+    row.dnormal.setZero(dimension_, derivatives ? dimension_ * static_cast<Eigen::Index>(coupled.size()) : 0);
     for (std::size_t c = 0; c < coupled.size(); ++c) position_in_row_[coupled[c]] = static_cast<LocalOrdinal>(c);
 
     for (const auto& [facet, j] : facets_of[s]) {
       row.D += facet->D(j, j);
       row.covered += facet->D.row(j).sum();
-      if (facet->D(j, 1 - j) != 0.0) row.coefficients[position_in_row_[facet->slave[1 - j]]] += facet->D(j, 1 - j);
+      for (int k = 0; k < static_cast<int>(facet->slave.size()); ++k)
+        if (k != j && facet->D(j, k) != 0.0) row.coefficients[position_in_row_[facet->slave[k]]] += facet->D(j, k);
       for (std::size_t l = 0; l < facet->master.size(); ++l) row.coefficients[position_in_row_[facet->master[l]]] -= facet->M(j, l);
       row.gap += facet->gap(j);
       if (!derivatives) continue;
       for (std::size_t c = 0; c < facet->columns.size(); ++c)
-        for (int i = 0; i < 2; ++i) row.dgap[2 * position_in_row_[facet->columns[c]] + i] += facet->dgap(j, 2 * c + i);
+        for (int i = 0; i < dimension_; ++i)
+          row.dgap[dimension_ * position_in_row_[facet->columns[c]] + i] += facet->dgap(j, dimension_ * static_cast<Eigen::Index>(c) + i);
     }
     row.normal = normals_[s].normal;
+    if (axes_[s] < 0) axes_[s] = transverse_axis(row.normal);
     if (derivatives)
       for (std::size_t c = 0; c < normals_[s].columns.size(); ++c)
-        row.dnormal.middleCols<2>(2 * position_in_row_[normals_[s].columns[c]]) += normals_[s].derivative.middleCols<2>(2 * c);
+        row.dnormal.middleCols(dimension_ * position_in_row_[normals_[s].columns[c]], dimension_) +=
+            normals_[s].derivative.middleCols(dimension_ * static_cast<Eigen::Index>(c), dimension_);
   }
 }
 
 void PairCoupling::measure_covered() {
-  for (std::size_t s = 0; s < rows_.size(); ++s) rows_[s].dcovered.assign(2 * interface_->coupled_nodes(s).size(), 0.0);
-  for (const FacetCoupling& facet : couplings_)
-    for (int j = 0; j < 2; ++j) {
+  for (std::size_t s = 0; s < rows_.size(); ++s) rows_[s].dcovered.assign(dimension_ * interface_->coupled_nodes(s).size(), 0.0);
+  for (const FacetCoupling& facet : couplings_) {
+    const auto nodes = static_cast<Eigen::Index>(facet.slave.size());
+    for (Eigen::Index j = 0; j < nodes; ++j) {
       const auto s = static_cast<std::size_t>(facet.slave[j]);
       if (s >= rows_.size()) continue;
       const std::vector<LocalOrdinal>& coupled = interface_->coupled_nodes(s);
       for (std::size_t c = 0; c < facet.columns.size(); ++c) {
         const auto place = std::lower_bound(coupled.begin(), coupled.end(), facet.columns[c]) - coupled.begin();
-        for (int i = 0; i < 2; ++i) rows_[s].dcovered[2 * place + i] += facet.dD(2 * j, 2 * c + i) + facet.dD(2 * j + 1, 2 * c + i);
+        for (int i = 0; i < dimension_; ++i)
+          rows_[s].dcovered[dimension_ * place + i] += facet.dD.col(dimension_ * static_cast<Eigen::Index>(c) + i).segment(nodes * j, nodes).sum();
       }
     }
+  }
 }
 
-Eigen::Vector2d PairCoupling::in_frame(std::size_t s, const Eigen::Vector2d& z) const {
+void PairCoupling::choose_axes() {
+  constexpr double nearly_parallel = 0.9;
+  for (std::size_t s = 0; s < rows_.size(); ++s)
+    if (axes_[s] >= 0 && !slave_nodes()[s].partly_fixed() && std::abs(rows_[s].normal[axes_[s]]) > nearly_parallel)
+      axes_[s] = transverse_axis(rows_[s].normal);
+}
+
+SpatialVector PairCoupling::in_frame(std::size_t s, const SpatialVector& z) const {
+  SpatialVector components = SpatialVector::Zero(dimension_);
   const bool keeps_pressure = regularisation_->augmentations > 0;
-  return {keeps_pressure ? z.dot(rows_[s].normal) : 0.0, friction_ != nullptr ? z.dot(tangent(rows_[s].normal)) : 0.0};
+  if (keeps_pressure) components[0] = z.dot(rows_[s].normal);
+  if (friction_ != nullptr) components.tail(dimension_ - 1) = frame(s).tangents * z;
+  return components;
 }
 
-double PairCoupling::violation(std::size_t s, const Eigen::Vector2d& z) const {
+double PairCoupling::violation(std::size_t s, const SpatialVector& z) const {
   const NodeRow& row = rows_[s];
   const ContactState state = complementarity(s, z).state;
   if (state == ContactState::open) return 0.0;
-  const double slip = state == ContactState::stick ? std::abs(row.slip) : 0.0;
+  const double slip = state == ContactState::stick ? row.slip.norm() : 0.0;
   return std::max(std::abs(row.gap), slip) / (row.covered * size_);
 }
 
@@ -171,7 +213,7 @@ void PairCoupling::freeze() {
     const std::vector<LocalOrdinal>& coupled = interface_->coupled_nodes(s);
     for (std::size_t c = 0; c < coupled.size(); ++c) {
       const double own = coupled[c] == slave_nodes()[s].local_node ? row.D : 0.0;
-      for (int i = 0; i < 2; ++i) row.dgap[2 * c + i] = -row.normal[i] * (row.coefficients[c] + own);
+      for (int i = 0; i < dimension_; ++i) row.dgap[dimension_ * c + i] = -row.normal[i] * (row.coefficients[c] + own);
     }
   }
   couplings_.clear();
@@ -186,7 +228,7 @@ void PairCoupling::evaluate_frozen(const MultiVector& x) {
     const std::vector<LocalOrdinal>& coupled = interface_->coupled_nodes(s);
     double gap = frozen_gap_[s];
     for (std::size_t c = 0; c < coupled.size(); ++c)
-      for (int i = 0; i < 2; ++i) gap += rows_[s].dgap[2 * c + i] * u(coupled[c], i);
+      for (int i = 0; i < dimension_; ++i) gap += rows_[s].dgap[dimension_ * c + i] * u(coupled[c], i);
     rows_[s].gap = gap;
   }
   if (friction_ == nullptr) return;

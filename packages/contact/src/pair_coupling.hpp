@@ -11,7 +11,7 @@
 
 namespace mortise::detail {
 
-/// Derivatives of one scalar of a slave node with respect to the positions of its coupled nodes; entry 2 c + i is component i of node c.
+/// Derivatives of one scalar of a slave node with respect to the positions of its coupled nodes; entry dim c + i is component i of node c.
 using PositionGradient = std::vector<double>;
 
 /// A slave node's share of the contact residual. Row j of D and M is kept as coefficients c_jm of "f_c += c_jm z_j at node m":
@@ -20,20 +20,21 @@ struct NodeRow {
   double D = 0.0;        ///< D_jj
   double covered = 0.0;  ///< sum_k D_jk = sum_l M_jl
   double gap = 0.0;      ///< weighted gap g_j
-  Eigen::Vector2d normal = Eigen::Vector2d::Zero();
-  std::vector<double> coefficients;                  ///< [coupled nodes] c_jm, 0 at j itself
-  PositionGradient dgap;                             ///< [2 coupled nodes]; empty without derivatives
-  Eigen::Matrix<double, 2, Eigen::Dynamic> dnormal;  ///< [2 x 2 coupled nodes]; empty without derivatives
-  double slip = 0.0;                                 ///< weighted slip u_j since the start of the step; friction only
-  PositionGradient dslip;                            ///< [2 coupled nodes]; empty without derivatives or friction
-  PositionGradient dcovered;                         ///< [2 coupled nodes]; regularised pairs only
+  SpatialVector normal;
+  std::vector<double> coefficients;                                                   ///< [coupled nodes] c_jm, 0 at j itself
+  PositionGradient dgap;                                                              ///< empty without derivatives
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 3> dnormal;  ///< [dim x dim coupled nodes]; empty without derivatives
+  TangentVector slip;  ///< weighted slip u_j since the start of the step; 0 without friction
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 2>
+      dslip;                  ///< [tangents x dim coupled nodes]; empty without derivatives or friction
+  PositionGradient dcovered;  ///< regularised pairs only
 };
 
 /// What a slip is measured against: the couplings of a slave node in an accepted state.
 struct SlipReference {
   std::vector<GlobalOrdinal> nodes;  ///< nodes it was coupled to, itself among them; empty: none, so that it slips freely in this step
   std::vector<double> coefficients;  ///< [nodes] c_jm
-  double position = 0.0;             ///< tau . sum_m c_jm x_m; frozen geometry only
+  TangentVector position;            ///< tau_a . sum_m c_jm x_m; frozen geometry only
   double path = 0.0;                 ///< slipped until then [length]
 };
 
@@ -49,7 +50,9 @@ class PairCoupling {
   PairCoupling(RCP<const Map> owned_nodes, RCP<const MultiVector> reference, RCP<const MultiVector> fixed, const InterfaceMeasure& measure,
                ContactPair pair);
 
-  /// Searches at the positions x [owned nodes x 2]. Returns whether the pattern changed, the same on every rank.
+  /// 2 or 3.
+  int dimension() const { return dimension_; }
+  /// Searches at the positions x [owned nodes x dim]. Returns whether the pattern changed, the same on every rank.
   bool search(const MultiVector& x);
   /// Evaluates at x, the positions of the last search().
   void evaluate(const MultiVector& x, bool derivatives, std::optional<StepFailure>& failure);
@@ -86,17 +89,21 @@ class PairCoupling {
   /// Whether node s has a multiplier and its dual function anything to act on: D_jj / A_j > 1e-12.
   bool covered(std::size_t s) const;
   /// Closed: covered and z_n - c_n g > 0.
-  bool closed(std::size_t s, const Eigen::Vector2d& z) const;
+  bool closed(std::size_t s, const SpatialVector& z) const;
+  /// The frame of slave node s. Tangents of partly fixed nodes are the fixed directions first.
+  Frame frame(std::size_t s) const { return make_frame(rows_[s].normal, axes_[s]); }
+  /// An accepted state may give nodes whose normal has come near it another reference axis of the tangents. Friction only.
+  void choose_axes();
   /// Regularised pairs: a touching node starts closed at this pressure.
   void set_start_pressure(std::size_t s, double pressure) { start_multipliers_[s][0] = pressure; }
   /// How far conditions that are regularised are from holding exactly: |gap| of a closed node, |slip| of a sticking one, over h.
-  double violation(std::size_t s, const Eigen::Vector2d& z) const;
+  double violation(std::size_t s, const SpatialVector& z) const;
   /// The multipliers become those of z.
-  void augment(std::size_t s, const Eigen::Vector2d& z) { start_multipliers_[s] = in_frame(s, z); }
+  void augment(std::size_t s, const SpatialVector& z) { start_multipliers_[s] = in_frame(s, z); }
   /// C and its linearisation, of the law that the node obeys. A node with a fixed component carries no shear traction.
-  Complementarity complementarity(std::size_t s, const Eigen::Vector2d& z) const;
-  /// Derivative of C of node s, whose linearisation is `law`, in entry 2 c + i of its coupled nodes, at fixed z.
-  Eigen::Vector2d constraint_gradient(const Complementarity& law, std::size_t s, std::size_t entry) const;
+  Complementarity complementarity(std::size_t s, const SpatialVector& z) const;
+  /// Derivative of C of node s, whose linearisation is `law`, in entry dim c + i of its coupled nodes, at fixed z.
+  SpatialVector constraint_gradient(const Complementarity& law, std::size_t s, std::size_t entry) const;
 
  private:
   bool uses_reference() const { return pair_.options.geometry == ContactGeometry::reference; }
@@ -108,7 +115,7 @@ class PairCoupling {
   void measure_frozen_slip();
   void measure_covered();
   /// What the next step keeps: nothing normal with penalty, and no shear traction without friction.
-  Eigen::Vector2d in_frame(std::size_t s, const Eigen::Vector2d& z) const;
+  SpatialVector in_frame(std::size_t s, const SpatialVector& z) const;
 
   ContactPair pair_;
   RCP<const Map> owned_nodes_;
@@ -122,11 +129,13 @@ class PairCoupling {
   const FrictionLaw* friction_ = nullptr;
   std::vector<SlipHistory> slip_;  ///< [slave nodes]; empty without friction
   std::optional<Regularisation> regularisation_;
-  std::vector<Eigen::Vector2d> accepted_multipliers_, start_multipliers_;  ///< [slave nodes] normal, along tau; empty unless regularised
+  std::vector<SpatialVector> accepted_multipliers_, start_multipliers_;  ///< [slave nodes] normal, along tau_a; empty unless regularised
+  std::vector<int> axes_;                                                ///< [slave nodes] reference axis of the tangents; -1: none chosen yet
   long slip_evaluations_ = 0;
   std::vector<double> frozen_gap_;
   std::vector<LocalOrdinal> position_in_row_;
   double size_ = 1.0;
+  int dimension_ = 2;
   bool frozen_ = false;
 };
 

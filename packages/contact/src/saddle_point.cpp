@@ -21,6 +21,7 @@ bool loads(const MortarInterface& interface, std::size_t s, LocalOrdinal node) {
 
 ContactSystem::SaddlePointBlocks ContactSystem::saddle_point_blocks(const Vector& z) const {
   const Implementation& self = *implementation_;
+  const int dimension = self.dimension;
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
 
   std::vector<GlobalOrdinal> rows;  // of B, also of other ranks' nodes
@@ -28,8 +29,8 @@ ContactSystem::SaddlePointBlocks ContactSystem::saddle_point_blocks(const Vector
   for (const auto& pair : self.pairs) {
     const auto nodes = pair->interface().local_nodes()->getNodeElementList();
     for (const GlobalOrdinal node : nodes)
-      for (int i = 0; i < 2; ++i) rows.push_back(2 * node + i);
-    for (std::size_t s = 0; s < pair->slave_nodes().size(); ++s) widest = std::max(widest, 2 * pair->interface().coupled_nodes(s).size());
+      for (int i = 0; i < dimension; ++i) rows.push_back(dimension * node + i);
+    for (std::size_t s = 0; s < pair->slave_nodes().size(); ++s) widest = std::max(widest, dimension * pair->interface().coupled_nodes(s).size());
   }
   std::sort(rows.begin(), rows.end());
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
@@ -40,11 +41,12 @@ ContactSystem::SaddlePointBlocks ContactSystem::saddle_point_blocks(const Vector
   for (const auto& pair : self.pairs)
     for (std::size_t s = 0; s < pair->slave_nodes().size(); ++s)
       for (const LocalOrdinal node : pair->interface().loaded_nodes(s))
-        for (int i = 0; i < 2; ++i) ++sizes[row_map->getLocalElement(2 * pair->interface().local_nodes()->getGlobalElement(node) + i)];
+        for (int i = 0; i < dimension; ++i)
+          ++sizes[row_map->getLocalElement(dimension * pair->interface().local_nodes()->getGlobalElement(node) + i)];
   Matrix B(row_map, Teuchos::arrayViewFromVector(sizes));
   SaddlePointBlocks blocks;
   blocks.C_d = rcp(new Matrix(self.multipliers, widest));
-  blocks.C_z = rcp(new Matrix(self.multipliers, 2));
+  blocks.C_z = rcp(new Matrix(self.multipliers, static_cast<std::size_t>(dimension)));
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
     const detail::PairCoupling& pair = *self.pairs[p];
     const Map& nodes = *pair.interface().local_nodes();
@@ -54,19 +56,20 @@ ContactSystem::SaddlePointBlocks ContactSystem::saddle_point_blocks(const Vector
       const detail::NodeRow& row = pair.rows()[s];
       const Complementarity law = pair.complementarity(s, self.z_of(values, p, s));
       const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
-      for (int i = 0; i < 2; ++i) {
+      for (int i = 0; i < dimension; ++i) {
         const GlobalOrdinal multiplier = self.multipliers->getGlobalElement(first + i);
-        B.insertGlobalValues(2 * pair.slave_nodes()[s].id + i, 1, &row.D, &multiplier);
+        B.insertGlobalValues(dimension * pair.slave_nodes()[s].id + i, 1, &row.D, &multiplier);
         for (std::size_t c = 0; c < coupled.size(); ++c)
           if (loads(pair.interface(), s, coupled[c]))
-            B.insertGlobalValues(2 * nodes.getGlobalElement(coupled[c]) + i, 1, &row.coefficients[c], &multiplier);
-        const GlobalOrdinal both[2] = {self.multipliers->getGlobalElement(first), self.multipliers->getGlobalElement(first + 1)};
-        const double C_z[2] = {law.C_z(i, 0), law.C_z(i, 1)};
-        blocks.C_z->insertGlobalValues(multiplier, 2, C_z, both);
+            B.insertGlobalValues(dimension * nodes.getGlobalElement(coupled[c]) + i, 1, &row.coefficients[c], &multiplier);
+        for (int k = 0; k < dimension; ++k) {
+          const GlobalOrdinal column = self.multipliers->getGlobalElement(first + k);
+          blocks.C_z->insertGlobalValues(multiplier, 1, &law.C_z(i, k), &column);
+        }
         for (std::size_t c = 0; c < coupled.size(); ++c)
-          for (int k = 0; k < 2; ++k) {
-            const double value = pair.constraint_gradient(law, s, 2 * c + k)[i];
-            const GlobalOrdinal dof = 2 * nodes.getGlobalElement(coupled[c]) + k;
+          for (int k = 0; k < dimension; ++k) {
+            const double value = pair.constraint_gradient(law, s, dimension * c + k)[i];
+            const GlobalOrdinal dof = dimension * nodes.getGlobalElement(coupled[c]) + k;
             blocks.C_d->insertGlobalValues(multiplier, 1, &value, &dof);
           }
       }

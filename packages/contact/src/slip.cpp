@@ -11,6 +11,15 @@
 
 namespace mortise::detail {
 
+namespace {
+template <class View>
+SpatialVector position_of(const View& x, LocalOrdinal node, int dimension) {
+  SpatialVector position(dimension);
+  for (int i = 0; i < dimension; ++i) position[i] = x(node, i);
+  return position;
+}
+}  // namespace
+
 void PairCoupling::place_slip_histories() {
   for (std::size_t s = 0; s < slip_.size(); ++s) {
     const std::vector<LocalOrdinal>& coupled = interface_->coupled_nodes(s);
@@ -34,14 +43,15 @@ void PairCoupling::take_slip_reference() {
     const std::vector<LocalOrdinal>& coupled = interface_->coupled_nodes(s);
     reference.nodes.clear();
     reference.coefficients.clear();
-    reference.position = 0.0;
+    reference.position = TangentVector::Zero(dimension_ - 1);
     if (!covered(s)) continue;
+    const Frame in = frame(s);
     for (std::size_t c = 0; c < coupled.size(); ++c) {
       const double coefficient = row.coefficients[c] + (coupled[c] == slave_nodes()[s].local_node ? row.D : 0.0);
       if (coefficient == 0.0) continue;
       reference.nodes.push_back(interface_->local_nodes()->getGlobalElement(coupled[c]));
       reference.coefficients.push_back(coefficient);
-      reference.position += coefficient * tangent(row.normal).dot(Eigen::Vector2d(x(coupled[c], 0), x(coupled[c], 1)));
+      reference.position += coefficient * (in.tangents * position_of(x, coupled[c], dimension_));
     }
   }
 }
@@ -58,68 +68,68 @@ void PairCoupling::start_step() {
   place_slip_histories();
 }
 
-// u_j = -tau_j . w,  w = sum_m (c_jm - c_jm^old) x_m:
-//   du_j = -d(tau_j) . w - tau_j . sum_m (dc_jm x_m + (c_jm - c_jm^old) dx_m),   d(tau) . w = dn . (w_y, -w_x).
+// u_j = -T_j w,  w = sum_m (c_jm - c_jm^old) x_m, the rows of T_j the tangents tau_a:
+//   du_j = -dT_j w - T_j sum_m (dc_jm x_m + (c_jm - c_jm^old) dx_m),   d(tau_a) . w = (turn_a^T w) . dn.
 void PairCoupling::measure_slip(bool derivatives) {
   ++slip_evaluations_;
   const auto x = local_positions_->getLocalViewHost(Tpetra::Access::ReadOnly);
-  const auto position = [&](LocalOrdinal node) { return Eigen::Vector2d(x(node, 0), x(node, 1)); };
+  const auto position = [&](LocalOrdinal node) { return position_of(x, node, dimension_); };
+  const Eigen::Index tangents = dimension_ - 1;
   for (std::size_t s = 0; s < slip_.size(); ++s) {
     NodeRow& row = rows_[s];
     const SlipReference& start = slip_[s].start;
     const std::vector<LocalOrdinal>& coupled = interface_->coupled_nodes(s);
-    row.slip = 0.0;
-    row.dslip.assign(derivatives ? 2 * coupled.size() : 0, 0.0);
+    row.slip.setZero();
+    row.dslip.setZero(tangents, derivatives ? dimension_ * static_cast<Eigen::Index>(coupled.size()) : 0);
     if (start.nodes.empty() || !covered(s)) continue;
     std::vector<double> change = row.coefficients;
     for (std::size_t c = 0; c < coupled.size(); ++c)
       if (coupled[c] == slave_nodes()[s].local_node) change[c] += row.D;
     for (std::size_t n = 0; n < start.nodes.size(); ++n) change[slip_[s].places[n]] -= start.coefficients[n];
-    Eigen::Vector2d w = Eigen::Vector2d::Zero();
+    SpatialVector w = SpatialVector::Zero(dimension_);
     for (std::size_t c = 0; c < coupled.size(); ++c) w += change[c] * position(coupled[c]);
-    const Eigen::Vector2d tau = tangent(row.normal);
-    row.slip = -tau.dot(w);
+    const Frame in = frame(s);
+    row.slip = -in.tangents * w;
     if (!derivatives) continue;
+    for (Eigen::Index a = 0; a < tangents; ++a) row.dslip.row(a) = -(w.transpose() * in.turn[a]) * row.dnormal;
     for (std::size_t c = 0; c < coupled.size(); ++c)
-      for (int i = 0; i < 2; ++i)
-        row.dslip[2 * c + i] = -tau[i] * change[c] - (w.y() * row.dnormal(0, 2 * c + i) - w.x() * row.dnormal(1, 2 * c + i));
+      row.dslip.middleCols(dimension_ * static_cast<Eigen::Index>(c), dimension_) -= change[c] * in.tangents;
   }
   if (!derivatives) return;
   // The facets' derivatives of D and M.
-  for (const FacetCoupling& facet : couplings_)
-    for (int j = 0; j < 2; ++j) {
+  for (const FacetCoupling& facet : couplings_) {
+    const auto nodes = static_cast<Eigen::Index>(facet.slave.size()), masters = static_cast<Eigen::Index>(facet.master.size());
+    for (Eigen::Index j = 0; j < nodes; ++j) {
       const auto s = static_cast<std::size_t>(facet.slave[j]);
       if (s >= slip_.size() || slip_[s].start.nodes.empty() || !covered(s)) continue;
-      const Eigen::Vector2d tau = tangent(rows_[s].normal);
-      Eigen::RowVectorXd gradient = Eigen::RowVectorXd::Zero(2 * facet.columns.size());
-      for (int k = 0; k < 2; ++k)
-        if (facet.slave[k] != FacetCoupling::none) gradient -= tau.dot(position(facet.slave[k])) * facet.dD.row(2 * j + k);
-      for (std::size_t l = 0; l < facet.master.size(); ++l)
-        gradient += tau.dot(position(facet.master[l])) * facet.dM.row(j * facet.master.size() + l);
+      const Frame in = frame(s);
+      Eigen::MatrixXd gradient = Eigen::MatrixXd::Zero(tangents, dimension_ * static_cast<Eigen::Index>(facet.columns.size()));
+      for (Eigen::Index k = 0; k < nodes; ++k) gradient -= (in.tangents * position(facet.slave[k])) * facet.dD.row(nodes * j + k);
+      for (Eigen::Index l = 0; l < masters; ++l) gradient += (in.tangents * position(facet.master[l])) * facet.dM.row(j * masters + l);
       const std::vector<LocalOrdinal>& coupled = interface_->coupled_nodes(s);
       for (std::size_t c = 0; c < facet.columns.size(); ++c) {
         const auto place = std::lower_bound(coupled.begin(), coupled.end(), facet.columns[c]) - coupled.begin();
-        for (int i = 0; i < 2; ++i) rows_[s].dslip[2 * place + i] += gradient[2 * c + i];
+        rows_[s].dslip.middleCols(dimension_ * place, dimension_) += gradient.middleCols(dimension_ * static_cast<Eigen::Index>(c), dimension_);
       }
     }
+  }
 }
 
-// With frozen D, M and n the slip is the motion itself: u_j = tau_j . sum_m c_jm x_m since the start.
+// With frozen D, M and n the slip is the motion itself: u_j = T_j sum_m c_jm x_m since the start.
 void PairCoupling::measure_frozen_slip() {
   ++slip_evaluations_;
   const auto x = local_positions_->getLocalViewHost(Tpetra::Access::ReadOnly);
   for (std::size_t s = 0; s < slip_.size(); ++s) {
     NodeRow& row = rows_[s];
     const std::vector<LocalOrdinal>& coupled = interface_->coupled_nodes(s);
-    const Eigen::Vector2d tau = tangent(row.normal);
-    row.slip = -slip_[s].start.position;
-    row.dslip.assign(2 * coupled.size(), 0.0);
+    const Frame in = frame(s);
+    row.slip.setZero();
+    if (slip_[s].start.position.size() > 0) row.slip -= slip_[s].start.position;
+    row.dslip.resize(dimension_ - 1, dimension_ * static_cast<Eigen::Index>(coupled.size()));
     for (std::size_t c = 0; c < coupled.size(); ++c) {
       const double coefficient = row.coefficients[c] + (coupled[c] == slave_nodes()[s].local_node ? row.D : 0.0);
-      for (int i = 0; i < 2; ++i) {
-        row.slip += coefficient * tau[i] * x(coupled[c], i);
-        row.dslip[2 * c + i] = coefficient * tau[i];
-      }
+      row.slip += coefficient * (in.tangents * position_of(x, coupled[c], dimension_));
+      row.dslip.middleCols(dimension_ * static_cast<Eigen::Index>(c), dimension_) = coefficient * in.tangents;
     }
   }
 }
@@ -129,7 +139,7 @@ void PairCoupling::accept_slip(std::size_t s, ContactState state) {
   SlipHistory& history = slip_[s];
   history.accepted.path = history.start.path;
   if (state == ContactState::open || history.start.nodes.empty()) return;
-  history.accepted.path += std::abs(rows_[s].slip) / rows_[s].covered;
+  history.accepted.path += rows_[s].slip.norm() / rows_[s].covered;
 }
 
 }  // namespace mortise::detail

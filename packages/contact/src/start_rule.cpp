@@ -45,17 +45,17 @@ void ContactSystem::Implementation::approach(std::size_t p, const std::vector<ch
     if (pair.covered(s)) mine = std::max(mine, -gap(s));
   const double nearest = -maximum(mine);
   if (nearest > pair.interface().reach()) return;  // no node is covered
-  Eigen::Vector2d normal = Eigen::Vector2d::Zero();
+  SpatialVector normal = SpatialVector::Zero(dimension);
   for (std::size_t s = 0; s < pair.rows().size(); ++s)
     if (pair.covered(s) && gap(s) <= nearest + touching * pair.size()) normal += pair.rows()[s].normal;
-  normal = {sum(normal[0]), sum(normal[1])};
+  for (double& component : normal) component = sum(component);
   const double way = nearest + small_strain * pair.size() / pair.regularisation()->normal;
-  const Eigen::Vector2d motion = (slave_moves ? way : -way) * normal.normalized();
+  const SpatialVector motion = (slave_moves ? way : -way) * normal.normalized();
   const auto prescribed = fixed->getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto values = d.getLocalViewHost(Tpetra::Access::ReadWrite);
   for (std::size_t node = 0; node < unheld.size(); ++node)
-    for (std::size_t i = 0; i < 2; ++i)
-      if (unheld[node] && prescribed(node, i) == 0.0) values(2 * node + i, 0) += motion[i];
+    for (int i = 0; i < dimension; ++i)
+      if (unheld[node] && prescribed(node, i) == 0.0) values(dimension * node + i, 0) += motion[i];
 }
 
 // A node whose gap is zero up to round-off would be open or closed at random: it starts closed, at a pressure that no result can see.
@@ -84,7 +84,7 @@ void ContactSystem::start_step(Vector& d, const std::vector<char>& unheld, Vecto
     const double pressure = small_strain * pair.definition().youngs_modulus;
     const auto set = [&](std::size_t s, double z_n) {
       const LocalOrdinal first = self.multiplier_of[p][s];
-      for (int i = 0; i < 2; ++i) values(first + i, 0) = z_n * pair.rows()[s].normal[i];
+      for (int i = 0; i < self.dimension; ++i) values(first + i, 0) = z_n * pair.rows()[s].normal[i];
     };
     double active = 0.0, nearest = std::numeric_limits<double>::max();
     for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {

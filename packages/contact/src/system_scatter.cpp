@@ -14,7 +14,6 @@
 namespace mortise::detail {
 namespace {
 
-constexpr int dimension = 2;
 using Columns = std::vector<GlobalOrdinal>;
 
 void sort_unique(Columns& columns) {
@@ -31,7 +30,7 @@ Columns bulk_columns(const Graph& bulk, LocalOrdinal row) {
 }
 
 // Columns that condensation adds to a node's rows, by node id: the same for all components of the node.
-std::map<GlobalOrdinal, Columns> coupled_columns(const Graph& bulk, const std::vector<PairCoupling*>& pairs) {
+std::map<GlobalOrdinal, Columns> coupled_columns(const Graph& bulk, const std::vector<PairCoupling*>& pairs, int dimension) {
   std::map<GlobalOrdinal, Columns> columns_of_node;
   for (const PairCoupling* pair : pairs) {
     const Map& nodes = *pair->interface().local_nodes();
@@ -52,7 +51,7 @@ std::map<GlobalOrdinal, Columns> coupled_columns(const Graph& bulk, const std::v
   return columns_of_node;
 }
 
-RCP<Graph> remote_graph(const std::map<GlobalOrdinal, Columns>& columns_of_node, const Map& owned_nodes, const RCP<const Map>& dofs) {
+RCP<Graph> remote_graph(const std::map<GlobalOrdinal, Columns>& columns_of_node, const Map& owned_nodes, const RCP<const Map>& dofs, int dimension) {
   std::vector<GlobalOrdinal> rows;
   std::vector<std::size_t> sizes;
   for (const auto& [node, columns] : columns_of_node) {
@@ -74,7 +73,8 @@ RCP<Graph> remote_graph(const std::map<GlobalOrdinal, Columns>& columns_of_node,
 }
 
 // Rows that other ranks ask of this one, merged into `columns_of_node`.
-void receive(const Graph& remote, const Export& exporter, const RCP<const Map>& dofs, std::map<GlobalOrdinal, Columns>& columns_of_node) {
+void receive(const Graph& remote, const Export& exporter, const RCP<const Map>& dofs, int dimension,
+             std::map<GlobalOrdinal, Columns>& columns_of_node) {
   Graph incoming(dofs, 0);
   incoming.doExport(remote, exporter, Tpetra::INSERT);
   const LocalOrdinal rows = static_cast<LocalOrdinal>(dofs->getNodeNumElements());
@@ -95,12 +95,13 @@ void receive(const Graph& remote, const Export& exporter, const RCP<const Map>& 
 SystemScatter::SystemScatter(const RCP<const Map>& owned_nodes, const RCP<const Graph>& bulk, const std::vector<PairCoupling*>& pairs) {
   const RCP<const Map> dofs = bulk->getRowMap();
   parallel_ = dofs->getComm()->getSize() > 1;
-  std::map<GlobalOrdinal, Columns> columns_of_node = coupled_columns(*bulk, pairs);
+  const int dimension = pairs.empty() ? 1 : pairs.front()->dimension();
+  std::map<GlobalOrdinal, Columns> columns_of_node = coupled_columns(*bulk, pairs, dimension);
 
   if (parallel_) {
-    const RCP<Graph> remote = remote_graph(columns_of_node, *owned_nodes, dofs);
+    const RCP<Graph> remote = remote_graph(columns_of_node, *owned_nodes, dofs, dimension);
     export_ = rcp(new Export(remote->getRowMap(), dofs));
-    receive(*remote, *export_, dofs, columns_of_node);
+    receive(*remote, *export_, dofs, dimension, columns_of_node);
     remote_matrix_ = rcp(new Matrix(remote));
     remote_vector_ = rcp(new Vector(remote->getRowMap()));
   }

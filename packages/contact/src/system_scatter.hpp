@@ -12,8 +12,8 @@ namespace mortise::detail {
 struct NodePositions {
   std::vector<LocalOrdinal> row;            ///< [nodes] local row of the system, -1 if another rank owns the node
   std::vector<LocalOrdinal> remote_row;     ///< [nodes] local row of the remote matrix, -1 if owned here
-  std::vector<LocalOrdinal> column;         ///< [2 nodes] local columns of the system
-  std::vector<LocalOrdinal> remote_column;  ///< [2 nodes] local columns of the remote matrix
+  std::vector<LocalOrdinal> column;         ///< [dim nodes] local columns of the system
+  std::vector<LocalOrdinal> remote_column;  ///< [dim nodes] local columns of the remote matrix
 };
 
 /// The condensed system's graph, and the rows this rank adds to on behalf of other ranks.

@@ -21,16 +21,34 @@ long long xdmf_cell(CellShape shape) {
   switch (shape) {
     case CellShape::line2:
       return 2;  // a polyline, whose number of nodes follows
+    case CellShape::line3:
+      return 34;
     case CellShape::triangle3:
       return 4;
+    case CellShape::triangle6:
+      return 36;
     case CellShape::quadrilateral4:
       return 5;
+    case CellShape::quadrilateral8:
+      return 37;
+    case CellShape::tetrahedron4:
+      return 6;
+    case CellShape::tetrahedron10:
+      return 38;
+    case CellShape::hexahedron8:
+      return 9;
+    case CellShape::hexahedron20:
+      return 48;
   }
   throw std::logic_error("a cell shape that XDMF's table does not have");
 }
 
-/// [xdmf cell, body, number of nodes, nodes ...] of each owned element; nodes beyond those of the element are not used.
-constexpr int element_columns = 7;
+/// Columns that hold [xdmf cell, body, number of nodes, nodes ...] of each element of the mesh; nodes beyond those of an element are not used.
+int element_columns(const Mesh& mesh) {
+  int nodes = 0;
+  for (const Block& block : mesh.blocks) nodes = std::max(nodes, block.nodes_per_element);
+  return 3 + nodes;
+}
 
 RCP<const Map> element_map(const Mesh& mesh) {
   std::vector<GlobalOrdinal> ids;
@@ -39,14 +57,17 @@ RCP<const Map> element_map(const Mesh& mesh) {
 }
 
 std::vector<double> element_rows(const Mesh& mesh) {
+  const auto columns = static_cast<std::size_t>(element_columns(mesh));
   std::vector<double> rows;
   for (std::size_t body = 0; body < mesh.blocks.size(); ++body) {
     const Block& block = mesh.blocks[body];
     for (LocalOrdinal element = 0; element < block.owned; ++element) {
-      std::array<double, element_columns> row{static_cast<double>(xdmf_cell(block.shape)), static_cast<double>(body),
-                                              static_cast<double>(block.nodes_per_element)};
-      for (int a = 0; a < block.nodes_per_element; ++a) row[3 + a] = static_cast<double>(mesh.local_nodes->getGlobalElement(block.nodes(element)[a]));
-      rows.insert(rows.end(), row.begin(), row.end());
+      const std::size_t end = rows.size() + columns;
+      for (const auto entry : {xdmf_cell(block.shape), static_cast<long long>(body), static_cast<long long>(block.nodes_per_element)})
+        rows.push_back(static_cast<double>(entry));
+      for (int a = 0; a < block.nodes_per_element; ++a)
+        rows.push_back(static_cast<double>(mesh.local_nodes->getGlobalElement(block.nodes(element)[a])));
+      rows.resize(end, 0.0);
     }
   }
   return rows;
@@ -93,9 +114,10 @@ struct FieldWriter::Implementation {
     std::vector<double> coordinates;
     for (LocalOrdinal node = 0; node < mesh->owned_count(); ++node)
       coordinates.insert(coordinates.end(), mesh->coordinates[node].begin(), mesh->coordinates[node].end());
-    const auto rows = elements.arrange(element_rows(*mesh), element_columns);
+    const int columns = element_columns(*mesh);
+    const auto rows = elements.arrange(element_rows(*mesh), columns);
     std::vector<long long> topology, body;
-    for (auto row = rows.begin(); row != rows.end(); row += element_columns) {
+    for (auto row = rows.begin(); row != rows.end(); row += columns) {
       topology.push_back(static_cast<long long>(row[0]));
       body.push_back(static_cast<long long>(row[1]));
       if (row[0] == xdmf_cell(CellShape::line2)) topology.push_back(2);

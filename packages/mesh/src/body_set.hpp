@@ -1,7 +1,6 @@
 #pragma once
 // All bodies of a mesh under one numbering.
 
-#include <variant>
 #include <vector>
 
 #include "mortise/mesh/build_mesh.hpp"
@@ -15,7 +14,7 @@ class BodySet {
   explicit BodySet(const std::vector<BodyDescription>& bodies);
 
   int size() const { return static_cast<int>(complexes_.size()); }
-  /// visit(complex of the body), a PatchComplex or a CurveComplex, which have alike members.
+  /// visit(complex of the body): one of the kinds of BodyComplex, which have alike members.
   template <class Visit>
   auto with_complex(int body, const Visit& visit) const {
     return std::visit(visit, complexes_[body]);
@@ -27,12 +26,14 @@ class BodySet {
   int body_of_node(GlobalOrdinal node) const;
   int body_of_element(GlobalOrdinal element) const;
 
-  /// Global node ids of an element; the first nodes_per_element(element) count.
-  std::array<GlobalOrdinal, 4> element_nodes(GlobalOrdinal element) const;
-  int nodes_per_element(int body) const { return topology(shapes_[body]).nodes; }
+  /// Global node ids of an element.
+  CellNodes element_nodes(GlobalOrdinal element) const;
+  const CellTopology& cell(int body) const { return topology(shapes_[body]); }
+  int dimension() const { return dimension_; }
 
  private:
-  std::vector<std::variant<PatchComplex, CurveComplex>> complexes_;
+  int dimension_ = 2;
+  std::vector<BodyComplex> complexes_;
   std::vector<CellShape> shapes_;
   std::vector<GlobalOrdinal> first_node_{0}, first_element_{0};
 };

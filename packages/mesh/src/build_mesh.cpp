@@ -6,17 +6,16 @@
 #include <Teuchos_OrdinalTraits.hpp>
 #include <Tpetra_Map.hpp>
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <set>
 
 #include "body_set.hpp"
+#include "inverted_elements.hpp"
 #include "partition.hpp"
 
 namespace mortise {
 namespace {
 
-void check_names(const std::vector<BodyDescription>& bodies) {
+void check(const std::vector<BodyDescription>& bodies, const std::vector<ReferencePointDescription>& reference_points) {
   if (bodies.empty()) throw InputError(Place{}, "there is no body to be meshed");
   std::vector<Diagnostic> diagnostics;
   std::set<std::string> names;
@@ -25,12 +24,29 @@ void check_names(const std::vector<BodyDescription>& bodies) {
     if (!body.mesh) diagnostics.push_back({body.place, fmt::format("body \"{}\" has no mesh", body.name)});
   }
   if (!diagnostics.empty()) throw InputError(diagnostics);
+  const char* const where[] = {"", "", "of the plane", "of space"};
+  const int dimension = bodies.front().mesh->dimension();
+  for (const auto& body : bodies) {
+    const int own = body.mesh->dimension(), of_cells = topology(body.shape).dimension;
+    if (own != dimension)
+      diagnostics.push_back({body.place, fmt::format("body \"{}\" has a mesh {}, but body \"{}\" one {}; all bodies of a scene need the same",
+                                                     body.name, where[own], bodies.front().name, where[dimension])});
+    if (own == 3 && of_cells == 1)
+      diagnostics.push_back({body.place, fmt::format("body \"{}\" is rigid; rigid bodies are available in the plane only", body.name)});
+    else if (of_cells != own && of_cells != 1)
+      diagnostics.push_back({body.place, fmt::format("body \"{}\" has a mesh {}, but elements {}", body.name, where[own], where[of_cells])});
+  }
+  if (dimension == 3)
+    for (const auto& point : reference_points)
+      diagnostics.push_back({point.place, fmt::format("\"{}\": reference points are available in the plane only", point.name)});
+  if (!diagnostics.empty()) throw InputError(diagnostics);
 }
 
 /// Elements that touch an owned node without being owned, by body; ascending.
 std::vector<std::vector<GlobalOrdinal>> ghost_elements(const BodySet& bodies, const Map& owned_nodes,
                                                        const std::vector<GlobalOrdinal>& owned_elements) {
   std::vector<std::vector<GlobalOrdinal>> ghosts(bodies.size());
+  if (owned_nodes.getComm()->getSize() == 1) return ghosts;
   for (const GlobalOrdinal node : owned_nodes.getNodeElementList()) {
     if (node >= bodies.node_count()) continue;  // a reference point
     const int body = bodies.body_of_node(node);
@@ -51,12 +67,10 @@ std::vector<std::vector<GlobalOrdinal>> ghost_elements(const BodySet& bodies, co
 RCP<const Map> local_node_map(const BodySet& bodies, const RCP<const Map>& owned_nodes, const std::vector<Block>& blocks) {
   const auto owned = owned_nodes->getNodeElementList();
   std::vector<GlobalOrdinal> ids(owned.begin(), owned.end()), ghosts;
-  for (std::size_t b = 0; b < blocks.size(); ++b)
-    for (const GlobalOrdinal element : blocks[b].element_ids) {
-      const auto nodes = bodies.element_nodes(element);
-      for (int a = 0; a < blocks[b].nodes_per_element; ++a)
-        if (!owned_nodes->isNodeGlobalElement(nodes[a])) ghosts.push_back(nodes[a]);
-    }
+  for (const Block& block : blocks)
+    for (const GlobalOrdinal element : block.element_ids)
+      for (const GlobalOrdinal node : bodies.element_nodes(element))
+        if (!owned_nodes->isNodeGlobalElement(node)) ghosts.push_back(node);
   for (GlobalOrdinal node = bodies.node_count(); node <= owned_nodes->getMaxAllGlobalIndex(); ++node)
     if (!owned_nodes->isNodeGlobalElement(node)) ghosts.push_back(node);
   std::sort(ghosts.begin(), ghosts.end());
@@ -65,49 +79,13 @@ RCP<const Map> local_node_map(const BodySet& bodies, const RCP<const Map>& owned
   return rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(), Teuchos::arrayViewFromVector(ids), 0, owned_nodes->getComm()));
 }
 
-/// The smallest det J of the map from the reference cell, taken at the corners: on a bilinear cell det J is linear in each reference
-/// coordinate without a mixed term, so that it is positive everywhere if it is so there.
-std::pair<double, int> smallest_determinant(const Mesh& mesh, const Block& block, LocalOrdinal element) {
-  const int n = block.nodes_per_element;
-  const LocalOrdinal* nodes = block.nodes(element);
-  std::pair<double, int> smallest{std::numeric_limits<double>::infinity(), 0};
-  for (int a = 0; a < n; ++a) {
-    const auto &x = mesh.coordinates[nodes[a]], &next = mesh.coordinates[nodes[(a + 1) % n]], &previous = mesh.coordinates[nodes[(a + n - 1) % n]];
-    const double cross = (next[0] - x[0]) * (previous[1] - x[1]) - (next[1] - x[1]) * (previous[0] - x[0]);
-    // Reference edges have length 2 in quadrilaterals and 1 in triangles.
-    const double determinant = n == 4 ? 0.25 * cross : cross;
-    if (!(determinant >= smallest.first)) smallest = {determinant, a};
-  }
-  return smallest;
-}
-
-/// The first inverted element of each body on this rank.
-std::vector<Diagnostic> inverted_elements(const Mesh& mesh, const BodySet& set, const std::vector<BodyDescription>& bodies) {
-  std::vector<Diagnostic> diagnostics;
-  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
-    const auto& block = mesh.blocks[b];
-    if (block.shape == CellShape::line2) continue;
-    for (LocalOrdinal e = 0; e < block.owned; ++e) {
-      const auto [determinant, corner] = smallest_determinant(mesh, block, e);
-      if (determinant > 0.0) continue;
-      const auto& x = mesh.coordinates[block.nodes(e)[corner]];
-      diagnostics.push_back(
-          {bodies[b].place, fmt::format("body \"{}\": element {} is inverted: det J = {:.6g} at ({:.6g}, {:.6g}); corners have to go "
-                                        "round counterclockwise and edges must not cross",
-                                        block.name, block.element_ids[e] - set.first_element(static_cast<int>(b)), determinant, x[0], x[1])});
-      break;
-    }
-  }
-  return diagnostics;
-}
-
 void fill_blocks(Mesh& mesh, const BodySet& set, const std::vector<BodyDescription>& bodies, const std::vector<GlobalOrdinal>& owned_elements) {
   const auto ghosts = ghost_elements(set, *mesh.owned_nodes, owned_elements);
   for (int b = 0; b < set.size(); ++b) {
     Block block;
     block.name = bodies[b].name;
     block.shape = bodies[b].shape;
-    block.nodes_per_element = set.nodes_per_element(b);
+    block.nodes_per_element = set.cell(b).nodes;
     const auto first = std::lower_bound(owned_elements.begin(), owned_elements.end(), set.first_element(b));
     const auto last = std::lower_bound(first, owned_elements.end(), set.first_element(b + 1));
     block.element_ids.assign(first, last);
@@ -117,11 +95,12 @@ void fill_blocks(Mesh& mesh, const BodySet& set, const std::vector<BodyDescripti
   }
   mesh.local_nodes = local_node_map(set, mesh.owned_nodes, mesh.blocks);
   for (auto& block : mesh.blocks)
-    for (const GlobalOrdinal element : block.element_ids) {
-      const auto nodes = set.element_nodes(element);
-      for (int a = 0; a < block.nodes_per_element; ++a) block.connectivity.push_back(mesh.local_nodes->getLocalElement(nodes[a]));
-    }
+    for (const GlobalOrdinal element : block.element_ids)
+      for (const GlobalOrdinal node : set.element_nodes(element)) block.connectivity.push_back(mesh.local_nodes->getLocalElement(node));
 }
+
+SpatialPoint in_space(const Point& point) { return {point[0], point[1], 0.0}; }
+SpatialPoint in_space(const SpatialPoint& point) { return point; }
 
 void fill_nodes(Mesh& mesh, const BodySet& set) {
   for (const GlobalOrdinal node : mesh.local_nodes->getNodeElementList()) {
@@ -131,8 +110,8 @@ void fill_nodes(Mesh& mesh, const BodySet& set) {
       continue;
     }
     const int body = set.body_of_node(node);
-    const Point x = set.with_complex(body, [&](const auto& complex) { return complex.coordinate(node - set.first_node(body)); });
-    mesh.coordinates.push_back({x[0], x[1], 0.0});
+    mesh.coordinates.push_back(
+        set.with_complex(body, [&](const auto& complex) { return in_space(complex.coordinate(node - set.first_node(body))); }));
     mesh.body_of_node.push_back(body);
   }
 }
@@ -200,7 +179,7 @@ void fill_reference_points(Mesh& mesh, const BodySet& set, const std::vector<Ref
 RCP<Mesh> build_mesh(const RCP<const Communicator>& comm, const std::vector<BodyDescription>& bodies, const std::vector<std::string>& contact_sides,
                      const std::vector<ReferencePointDescription>& reference_points) {
   // The descriptions are the same on every rank, and so are errors in them.
-  check_names(bodies);
+  check(bodies, reference_points);
   const BodySet set(bodies);
   std::vector<std::vector<bool>> is_contact;
   for (int b = 0; b < set.size(); ++b) {
@@ -212,6 +191,7 @@ RCP<Mesh> build_mesh(const RCP<const Communicator>& comm, const std::vector<Body
   }
   const auto owned_elements = share_out_elements(*comm, set, is_contact);
   auto mesh = rcp(new Mesh);
+  mesh->dimension = set.dimension();
   mesh->comm = comm;
   mesh->owned_nodes = share_out_nodes(comm, set, owned_elements, nodes_of(reference_points));
   fill_blocks(*mesh, set, bodies, owned_elements);
@@ -220,36 +200,6 @@ RCP<Mesh> build_mesh(const RCP<const Communicator>& comm, const std::vector<Body
   fill_sets(*mesh, set);
   fill_reference_points(*mesh, set, reference_points);
   return mesh;
-}
-
-MeshSize mesh_size(const Mesh& mesh) {
-  MeshSize size;
-  size.nodes = static_cast<GlobalOrdinal>(mesh.owned_nodes->getGlobalNumElements());
-  std::vector<GlobalOrdinal> local;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  // Minima over the ranks: of x, y, -x, -y and of the squared side lengths.
-  std::array<double, 5> low, global_low;
-  low.fill(infinity);
-  for (LocalOrdinal node = 0; node < mesh.owned_body_count(); ++node)
-    for (int i = 0; i < 2; ++i) {
-      low[i] = std::min(low[i], mesh.coordinates[node][i]);
-      low[2 + i] = std::min(low[2 + i], -mesh.coordinates[node][i]);
-    }
-  for (const auto& block : mesh.blocks) {
-    local.push_back(block.owned);
-    for (LocalOrdinal e = 0; e < block.owned; ++e)
-      for (int a = 0; a < block.nodes_per_element; ++a) {
-        const auto &x = mesh.coordinates[block.nodes(e)[a]], &y = mesh.coordinates[block.nodes(e)[(a + 1) % block.nodes_per_element]];
-        low[4] = std::min(low[4], (x[0] - y[0]) * (x[0] - y[0]) + (x[1] - y[1]) * (x[1] - y[1]));
-      }
-  }
-  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MIN, 5, low.data(), global_low.data());
-  size.elements_of_block.resize(local.size());
-  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, static_cast<int>(local.size()), local.data(), size.elements_of_block.data());
-  for (const auto count : size.elements_of_block) size.elements += count;
-  size.length = std::hypot(global_low[2] + global_low[0], global_low[3] + global_low[1]);
-  size.shortest_side = std::sqrt(global_low[4]);
-  return size;
 }
 
 }  // namespace mortise

@@ -25,13 +25,13 @@ Point CurveComplex::coordinate(GlobalOrdinal node) const {
   return placement_(edge_point(edges_[e], corners_, static_cast<int>(node - edge_nodes_[e]) + 1));
 }
 
-std::array<GlobalOrdinal, 4> CurveComplex::element_nodes(GlobalOrdinal element) const {
+CellNodes CurveComplex::element_nodes(GlobalOrdinal element) const {
   const int e = interval(edge_cells_, element), inside = static_cast<int>(element - edge_cells_[e]);
   const auto node = [&](int index) -> GlobalOrdinal {
     if (index == 0) return edges_[e].start;
     return index == edges_[e].spacing.cells() ? edges_[e].end : edge_nodes_[e] + index - 1;
   };
-  return {node(inside), node(inside + 1), -1, -1};
+  return {node(inside), node(inside + 1)};
 }
 
 std::vector<GlobalOrdinal> CurveComplex::elements_of_node(GlobalOrdinal node) const {
@@ -50,9 +50,7 @@ std::vector<GlobalOrdinal> CurveComplex::elements_of_node(GlobalOrdinal node) co
   return elements;
 }
 
-std::vector<CurveComplex::SurfaceSide> CurveComplex::surface_sides(GlobalOrdinal element) const {
-  return {{0, edge_sides_[interval(edge_cells_, element)]}};
-}
+std::vector<SurfaceSide> CurveComplex::surface_sides(GlobalOrdinal element) const { return {{0, edge_sides_[interval(edge_cells_, element)]}}; }
 
 std::vector<int> CurveComplex::sides_of_node(GlobalOrdinal node) const {
   std::vector<int> names;

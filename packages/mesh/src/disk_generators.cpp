@@ -3,45 +3,20 @@
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
 
+#include "describe_cells.hpp"
 #include "mortise/mesh/generators.hpp"
 
 namespace mortise {
 namespace {
 
 // Corners of the inner patch, as shares of the radius: on the axes, and both coordinates on the diagonal.
-constexpr double inner_axis = 0.5, inner_diagonal = 0.38;
+constexpr double inner_axis = PolarCells::inner, inner_diagonal = 0.38;
 
 }  // namespace
 
-void DiskMesh::describe_shape(Parameters& parameters) {
-  parameters.add("radius", radius, Says("radius of the disk").unit("length").above(0.0));
-  parameters.add("cells along", cells_along,
-                 Says("number of cells on the arc between the lowest point and 45 degrees; 0: as \"grading along\" asks for").at_least(0));
-  parameters.add("cells beyond", cells_beyond,
-                 Says("number of cells on the arc between 45 degrees and the diameter; 0: as fits the others").at_least(0));
-  parameters.add("cells across", cells_across,
-                 Says("number of cells between the arc and the inner patch; 0: as \"grading across\" asks for").at_least(0));
-  parameters.list("grading along", grading_along, Says("grading of the arc from the lowest point (its start) to 45 degrees"));
-  parameters.list("grading across", grading_across, Says("grading from the lowest point (its start) to the inner patch, half the radius above"));
-  if (cells_along == 0 && !grading_along.smallest_cell)
-    parameters.error("cells along", "give \"cells along\", or a \"smallest cell\" in \"grading along\"");
-  if (cells_along != 0 && grading_along.smallest_cell)
-    parameters.error("cells along", "give either \"cells along\" or a \"smallest cell\" in \"grading along\"");
-  if (cells_across == 0 && !grading_across.smallest_cell)
-    parameters.error("cells across", "give \"cells across\", or a \"smallest cell\" in \"grading across\"");
-  if (cells_across != 0 && grading_across.smallest_cell)
-    parameters.error("cells across", "give either \"cells across\" or a \"smallest cell\" in \"grading across\"");
-}
-
 PatchComplex DiskMesh::build_quarters(CellShape cell, const Place& place, bool lower_left, bool upper_right) const {
   const double R = radius, p = inner_axis * R, d = inner_diagonal * R, m = R * std::sqrt(0.5);
-  const double eighth = R * boost::math::constants::quarter_pi<double>();
-  const Spacing along = grading_along.spacing(eighth, cells_along, place);
-  const Spacing across = grading_across.spacing(R - p, cells_across, place);
-  // Beyond 45 degrees: cells as long as the longer of an average cell of the inner patch's side and the last one along the arc.
-  const double last = 1.0 - along.position(along.cells() - 1);
-  const int fitting = std::max(1, static_cast<int>(std::lround(1.0 / std::max(last, 1.0 / along.cells()))));
-  const Spacing beyond(cells_beyond > 0 ? cells_beyond : fitting);
+  const auto [along, across, beyond] = spacings(place);
   const Spacing inner(along.cells()), radial(across.cells());
   const Point center{0.0, 0.0};
 
@@ -104,6 +79,30 @@ void HalfDiskMesh::describe_shape(Parameters& parameters) {
 
 PatchComplex HalfDiskMesh::build(CellShape cell, const Place& place) const {
   return build_quarters(cell, place, half == DiskHalf::lower, half == DiskHalf::right);
+}
+
+void FullDiskMesh::describe_shape(Parameters& parameters) {
+  parameters.add("radius", radius, Says("radius of the disk").unit("length").above(0.0));
+  parameters.add("cells around", cells_around, Says("number of cells on each quarter of the circle").at_least(1).required());
+  describe_cells(parameters, cells_across, grading_across, "cells across", "grading across", "from the circle to the inner patch");
+}
+
+PatchComplex FullDiskMesh::build(CellShape cell, const Place& place) const {
+  const double d = inner_diagonal * radius, m = radius * std::sqrt(0.5);
+  const Spacing around(cells_around), across = grading_across.spacing(radius - d / std::sqrt(0.5), cells_across, place);
+  const Point center{0.0, 0.0};
+  // Corners k of the inner patch, corners 4 + k on the circle, both counterclockwise from the lower left.
+  std::vector<PatchComplex::Edge> edges;
+  std::vector<PatchComplex::Patch> patches{{{0, 1, 2, 3}, {}}};
+  for (int k = 0; k < 4; ++k) {
+    const int next = (k + 1) % 4;
+    edges.push_back({k, next, around});
+    edges.push_back({4 + k, 4 + next, around, center});
+    edges.push_back({4 + k, k, across});
+    patches.push_back({{4 + k, 4 + next, next, k}, {side, "", "", ""}});
+  }
+  return PatchComplex(cell, {{-d, -d}, {d, -d}, {d, d}, {-d, d}, {-m, -m}, {m, -m}, {m, m}, {-m, m}}, std::move(edges), std::move(patches),
+                      placement());
 }
 
 }  // namespace mortise

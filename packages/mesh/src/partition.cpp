@@ -35,16 +35,16 @@ std::vector<idx_t> partition(const BodySet& bodies, const std::vector<std::vecto
     std::iota(part.begin(), part.end(), 0);
     return part;
   }
-  // Dual graph: elements that share a side (two nodes).
+  // Dual graph: elements that share a side. Those that share two corners in the plane, or three in space, do.
   std::unique_ptr<idx_t, MetisFree> offsets, neighbours;
   {
     std::vector<idx_t> element_offsets{0}, element_nodes;
     for (idx_t e = 0; e < elements; ++e) {
       const auto ids = bodies.element_nodes(e);
-      element_nodes.insert(element_nodes.end(), ids.begin(), ids.begin() + bodies.nodes_per_element(bodies.body_of_element(e)));
+      element_nodes.insert(element_nodes.end(), ids.begin(), ids.begin() + bodies.cell(bodies.body_of_element(e)).corners);
       element_offsets.push_back(static_cast<idx_t>(element_nodes.size()));
     }
-    idx_t shared = 2, numbering = 0, *rows = nullptr, *columns = nullptr;
+    idx_t shared = bodies.dimension(), numbering = 0, *rows = nullptr, *columns = nullptr;
     if (METIS_MeshToDual(&elements, &nodes, element_offsets.data(), element_nodes.data(), &shared, &numbering, &rows, &columns) != METIS_OK)
       throw std::runtime_error("METIS could not build the graph of elements");
     offsets.reset(rows);
@@ -142,7 +142,7 @@ RCP<const Map> share_out_nodes(const RCP<const Communicator>& comm, const BodySe
     for (GlobalOrdinal node = 0; node < further_nodes; ++node) ids.push_back(bodies.node_count() + node);
   for (const auto element : owned_elements) {
     const auto nodes = bodies.element_nodes(element);
-    ids.insert(ids.end(), nodes.begin(), nodes.begin() + bodies.nodes_per_element(bodies.body_of_element(element)));
+    ids.insert(ids.end(), nodes.begin(), nodes.end());
   }
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());

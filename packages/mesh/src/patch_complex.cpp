@@ -187,13 +187,13 @@ std::vector<PatchComplex::GridPoint> PatchComplex::grid_points(GlobalOrdinal nod
   return points;
 }
 
-std::array<GlobalOrdinal, 4> PatchComplex::element_nodes(GlobalOrdinal element) const {
+CellNodes PatchComplex::element_nodes(GlobalOrdinal element) const {
   const auto [p, i, j] = cell_of(element);
-  const std::array<GlobalOrdinal, 4> n{node_at({p, i, j}), node_at({p, i + 1, j}), node_at({p, i + 1, j + 1}), node_at({p, i, j + 1})};
+  const CellNodes n{node_at({p, i, j}), node_at({p, i + 1, j}), node_at({p, i + 1, j + 1}), node_at({p, i, j + 1})};
   if (shape_ == CellShape::quadrilateral4) return n;
   const bool first = element % 2 == 0;
-  if ((i + j) % 2 == 0) return first ? std::array<GlobalOrdinal, 4>{n[0], n[1], n[2], -1} : std::array<GlobalOrdinal, 4>{n[0], n[2], n[3], -1};
-  return first ? std::array<GlobalOrdinal, 4>{n[0], n[1], n[3], -1} : std::array<GlobalOrdinal, 4>{n[1], n[2], n[3], -1};
+  if ((i + j) % 2 == 0) return first ? CellNodes{n[0], n[1], n[2]} : CellNodes{n[0], n[2], n[3]};
+  return first ? CellNodes{n[0], n[1], n[3]} : CellNodes{n[1], n[2], n[3]};
 }
 
 std::vector<GlobalOrdinal> PatchComplex::elements_of_node(GlobalOrdinal node) const {
@@ -212,7 +212,7 @@ std::vector<GlobalOrdinal> PatchComplex::elements_of_node(GlobalOrdinal node) co
   return elements;
 }
 
-std::vector<PatchComplex::SurfaceSide> PatchComplex::surface_sides(GlobalOrdinal element) const {
+std::vector<SurfaceSide> PatchComplex::surface_sides(GlobalOrdinal element) const {
   const auto [p, i, j] = cell_of(element);
   const std::array<bool, 4> at_edge{j == 0, i == cells_i(p) - 1, j == cells_j(p) - 1, i == 0};
   // Which triangle (0 or 1) of a cut cell has the cell's side, and as which of its own: diagonal 0-2 if i + j is even, else 1-3.

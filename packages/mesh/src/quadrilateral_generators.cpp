@@ -5,22 +5,13 @@
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
 
+#include "describe_cells.hpp"
 #include "mortise/mesh/generators.hpp"
 
 namespace mortise {
 namespace {
 
 double distance(const Point& a, const Point& b) { return std::hypot(b[0] - a[0], b[1] - a[1]); }
-
-void describe_cells(Parameters& parameters, int& cells, GradingOptions& grading, const std::string& cells_name, const std::string& grading_name,
-                    const std::string& direction) {
-  parameters.add(cells_name, cells, Says("number of cells " + direction + "; 0: as many as the grading's \"smallest cell\" asks for").at_least(0));
-  parameters.list(grading_name, grading, Says("how the cells are graded " + direction));
-  if (cells == 0 && !grading.smallest_cell)
-    parameters.error(cells_name, "give \"" + cells_name + "\", or a \"smallest cell\" in \"" + grading_name + "\"");
-  if (cells != 0 && grading.smallest_cell)
-    parameters.error(cells_name, "give either \"" + cells_name + "\" or a \"smallest cell\" in \"" + grading_name + "\"");
-}
 
 /// A patch with straight edges, its corners counterclockwise from bottom left.
 PatchComplex quadrilateral(CellShape cell, const std::array<Point, 4>& corners, const Spacing& x, const Spacing& y, const Placement& placement) {

@@ -67,7 +67,8 @@ std::vector<LocalOrdinal> nodes_of_sides(const Mesh& mesh, const SideSet& set) {
 
 void SetOptions::describe(Parameters& parameters) {
   parameters.add("of", of, Says("the set it is taken from: \"body/side\", or \"body\" for all nodes of a body").required());
-  parameters.add("where", where, Says("expression of x and y; kept are nodes, or sides by their middle, where it is > 0 in the reference position"));
+  parameters.add("where", where,
+                 Says("expression of x, y and z; kept are nodes, or sides by their middle, where it is > 0 in the reference position"));
   parameters.add("kind", kind, {{"nodes", SetKind::nodes}, {"sides", SetKind::sides}}, Says("what the set is made of"));
 }
 
@@ -112,22 +113,28 @@ void add_set(Mesh& mesh, const Named<SetOptions>& set) {
   mesh.side_sets[set.name] = std::move(kept);
 }
 
-FacetNodes facets_at_owned_nodes(const Mesh& mesh, const SideSet& set) {
-  FacetNodes facets;
+namespace {
+
+SurfaceFacet facet_of(const Mesh& mesh, const std::vector<LocalOrdinal>& nodes) {
+  SurfaceFacet facet;
+  for (const LocalOrdinal node : nodes) facet.push_back(mesh.local_nodes->getGlobalElement(node));
+  return facet;
+}
+
+}  // namespace
+
+SurfaceFacets facets_at_owned_nodes(const Mesh& mesh, const SideSet& set) {
+  SurfaceFacets facets;
   for (const auto& side : set.sides) {
     const auto nodes = mesh.side_nodes(side);
-    if (std::any_of(nodes.begin(), nodes.end(), [&](LocalOrdinal n) { return n < mesh.owned_count(); }))
-      facets.push_back({mesh.local_nodes->getGlobalElement(nodes[0]), mesh.local_nodes->getGlobalElement(nodes[1])});
+    if (std::any_of(nodes.begin(), nodes.end(), [&](LocalOrdinal n) { return n < mesh.owned_count(); })) facets.push_back(facet_of(mesh, nodes));
   }
   return facets;
 }
 
-FacetNodes facets_of_owned_elements(const Mesh& mesh, const SideSet& set) {
-  FacetNodes facets;
-  for (LocalOrdinal s = 0; s < set.owned; ++s) {
-    const auto nodes = mesh.side_nodes(set.sides[s]);
-    facets.push_back({mesh.local_nodes->getGlobalElement(nodes[0]), mesh.local_nodes->getGlobalElement(nodes[1])});
-  }
+SurfaceFacets facets_of_owned_elements(const Mesh& mesh, const SideSet& set) {
+  SurfaceFacets facets;
+  for (LocalOrdinal s = 0; s < set.owned; ++s) facets.push_back(facet_of(mesh, mesh.side_nodes(set.sides[s])));
   return facets;
 }
 

@@ -32,7 +32,7 @@ bool FacetIntegrator2d::integrate(const SlaveFacetData& slave, const std::vector
     line_.x[node] = point(x[slave.nodes[node]]);
     line_.normal[node] = point(slave.normals[node]->normal);
   }
-  coupling.slave = slave.nodes;
+  coupling.slave.assign(slave.nodes.begin(), slave.nodes.end());
   coupling.master.clear();
   coupling.columns.clear();
   find_pairs(masters, reach, x, coupling);
@@ -114,12 +114,12 @@ void FacetIntegrator2d::chain(const SlaveFacetData& slave, FacetCoupling& coupli
 bool FacetIntegrator2d::combine(const SlaveFacetData& slave, const Interval& covered, bool derivatives, FacetCoupling& coupling) const {
   const auto masters = static_cast<Eigen::Index>(coupling.master.size());
   const auto columns = 2 * static_cast<Eigen::Index>(coupling.columns.size());
-  coupling.D.setZero();
+  coupling.D.setZero(2, 2);
   coupling.M.setZero(2, masters);
-  coupling.gap.setZero();
-  coupling.dD.resize(4, 0);
+  coupling.gap.setZero(2);
+  coupling.dD.resize(0, 0);
   coupling.dM.resize(0, 0);
-  coupling.dgap.resize(2, 0);
+  coupling.dgap.resize(0, 0);
   if (derivatives) {
     coupling.dD.setZero(4, columns);
     coupling.dM.setZero(2 * masters, columns);
@@ -160,7 +160,7 @@ bool FacetIntegrator2d::combine(const SlaveFacetData& slave, const Interval& cov
       if (!both)
         coupling.D(j, k) = weight[k];
       else if (!dual_multipliers_)
-        coupling.D(j, k) = T.row(j) * M_L * T.row(k).transpose();
+        coupling.D(j, k) = T.row(j).dot(M_L * T.row(k).transpose());
       else if (k == j)
         coupling.D(j, k) = weight[k];
     for (Eigen::Index l = 0; l < masters; ++l) coupling.M(j, l) = a[0] * value_[3 + l] + a[1] * value_[3 + masters + l];
@@ -174,7 +174,7 @@ bool FacetIntegrator2d::combine(const SlaveFacetData& slave, const Interval& cov
       if (biorthogonal) da = (weight_slope(j, c) * extrapolation.row(j) - a * dM_L) * inverse;
       for (int k = 0; k < 2; ++k)
         if (both && !dual_multipliers_)
-          coupling.dD(2 * j + k, c) = T.row(j) * dM_L * T.row(k).transpose();
+          coupling.dD(2 * j + k, c) = T.row(j).dot(dM_L * T.row(k).transpose());
         else if (k == j || !both)
           coupling.dD(2 * j + k, c) = weight_slope(k, c);
       for (Eigen::Index l = 0; l < masters; ++l)

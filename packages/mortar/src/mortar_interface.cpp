@@ -51,7 +51,7 @@ class Gathered {
 
 std::vector<GlobalOrdinal> nodes_of(const SurfaceFacets& facets) {
   std::set<GlobalOrdinal> nodes;
-  for (const FacetIds& facet : facets) nodes.insert(facet.begin(), facet.end());
+  for (const SurfaceFacet& facet : facets) nodes.insert(facet.begin(), facet.end());
   return {nodes.begin(), nodes.end()};
 }
 
@@ -137,7 +137,7 @@ void MortarInterface::Implementation::measure_facets(const MultiVector& referenc
   if (own[1] == 0.0) diagnostics.push_back({place, "the master surface is empty"});
   Teuchos::reduceAll(*owned_nodes->getComm(), Teuchos::REDUCE_MAX, 2, extent, all);
   shortest = -all[0];
-  for (const FacetIds& facet : master) {
+  for (const SurfaceFacet& facet : master) {
     const double length = (master_x[master_positions->local(facet[1])] - master_x[master_positions->local(facet[0])]).norm();
     if (!(length > 0.0)) diagnostics.push_back({place, fmt::format("the master facet between nodes {} and {} has no length", facet[0], facet[1])});
     extent[1] = std::max(extent[1], length);
@@ -186,9 +186,9 @@ bool MortarInterface::Implementation::moved(const MultiVector& x) const {
 std::vector<PlacedFacet> MortarInterface::Implementation::place_master(const MultiVector& x) const {
   const Positions master_x = (*master_positions)(x);
   std::vector<PlacedFacet> placed;
-  for (const FacetIds& facet : master) {
+  for (const SurfaceFacet& facet : master) {
     const Eigen::Vector2d &a = master_x[master_positions->local(facet[0])], &b = master_x[master_positions->local(facet[1])];
-    placed.push_back({facet, {{{a.x(), a.y()}, {b.x(), b.y()}}}});
+    placed.push_back({{facet[0], facet[1]}, {{{a.x(), a.y()}, {b.x(), b.y()}}}});
   }
   return placed;
 }
@@ -308,7 +308,7 @@ bool MortarInterface::search(const MultiVector& x) {
 }
 
 std::vector<std::optional<double>> MortarInterface::distances_to_master(const MultiVector& x, const std::vector<std::size_t>& nodes,
-                                                                        const std::vector<Eigen::Vector2d>& normals) const {
+                                                                        const std::vector<SpatialVector>& normals) const {
   const Implementation& self = *implementation_;
   const std::vector<PlacedFacet> placed = self.place_master(x);
   const auto positions = x.getLocalViewHost(Tpetra::Access::ReadOnly);

@@ -81,7 +81,7 @@ bool couple_node(const SlaveNodeData& slave, const std::vector<std::array<LocalO
   std::size_t hit = facet_hit(slave, masters, reach, x, 1.0 + end_tolerance);
   if (hit == masters.size()) hit = facet_hit(slave, masters, reach, x, 1.0 + extension);
   if (hit == masters.size()) return false;
-  coupling.slave = {slave.node, FacetCoupling::none};
+  coupling.slave.assign(1, slave.node);
   coupling.master.assign(masters[hit].begin(), masters[hit].end());
   coupling.columns = slave.stencil->columns;
   const auto first_master = static_cast<Eigen::Index>(2 * coupling.columns.size());
@@ -94,13 +94,13 @@ bool couple_node(const SlaveNodeData& slave, const std::vector<std::array<LocalO
   const Point2<double> start = point(x[slave.node]), normal = point(slave.normal->normal);
   const MasterLine<double> line = {{point(x[masters[hit][0]]), point(x[masters[hit][1]])}};
   const Values<double> value = project(start, normal, line);
-  coupling.D << weight, 0.0, 0.0, 0.0;
-  coupling.M.setZero(2, 2);
-  coupling.M.row(0) << weight * value.first, weight * value.second;
-  coupling.gap << weight * value.distance, 0.0;
-  coupling.dD.setZero(4, derivatives ? columns : 0);
-  coupling.dM.setZero(derivatives ? 4 : 0, derivatives ? columns : 0);
-  coupling.dgap.setZero(2, derivatives ? columns : 0);
+  coupling.D.setConstant(1, 1, weight);
+  coupling.M.resize(1, 2);
+  coupling.M << weight * value.first, weight * value.second;
+  coupling.gap.setConstant(1, weight * value.distance);
+  coupling.dD.setZero(1, derivatives ? columns : 0);
+  coupling.dM.setZero(derivatives ? 2 : 0, derivatives ? columns : 0);
+  coupling.dgap.setZero(1, derivatives ? columns : 0);
   if (!derivatives) return true;
 
   Point2<Dual> dual_start, dual_normal;

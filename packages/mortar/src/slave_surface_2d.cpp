@@ -32,8 +32,8 @@ std::vector<FacetIds> facets_of_foreign_nodes(const Map& owned_nodes, const std:
   std::vector<std::vector<GlobalOrdinal>> ask(comm.getSize());
   for (std::size_t n = 0; n < foreign.size(); ++n) ask[owners[n]].push_back(foreign[n]);
   std::multimap<GlobalOrdinal, FacetIds> known;
-  for (const FacetIds& facet : facets)
-    for (const GlobalOrdinal node : facet) known.insert({node, facet});
+  for (const SurfaceFacet& facet : facets)
+    for (const GlobalOrdinal node : facet) known.insert({node, {facet[0], facet[1]}});
   std::vector<std::vector<FacetIds>> answer(comm.getSize());
   const auto asked = all_to_all(comm, ask);
   for (std::size_t rank = 0; rank < asked.size(); ++rank)
@@ -57,7 +57,7 @@ SlaveSurface2d make_slave_surface_2d(const RCP<const Map>& owned_nodes, const RC
                                      const SurfaceFacets& facets, const InterfaceMeasure& measure, const Place& place) {
   SlaveSurface2d surface;
   std::set<GlobalOrdinal> on_facets;
-  for (const FacetIds& facet : facets) on_facets.insert(facet.begin(), facet.end());
+  for (const SurfaceFacet& facet : facets) on_facets.insert(facet.begin(), facet.end());
   std::vector<std::pair<LocalOrdinal, GlobalOrdinal>> owned;
   std::vector<GlobalOrdinal> foreign;
   for (const GlobalOrdinal node : on_facets) {
@@ -72,7 +72,8 @@ SlaveSurface2d make_slave_surface_2d(const RCP<const Map>& owned_nodes, const RC
   surface.node_ids.insert(surface.node_ids.end(), foreign.begin(), foreign.end());
   surface.nodes_with_normal = surface.node_ids.size();
 
-  std::set<FacetIds> all_facets(facets.begin(), facets.end());
+  std::set<FacetIds> all_facets;
+  for (const SurfaceFacet& facet : facets) all_facets.insert({facet[0], facet[1]});
   for (const FacetIds& facet : facets_of_foreign_nodes(*owned_nodes, foreign, facets, place)) all_facets.insert(facet);
   std::map<GlobalOrdinal, LocalOrdinal> local_of;
   for (std::size_t n = 0; n < surface.node_ids.size(); ++n) local_of[surface.node_ids[n]] = static_cast<LocalOrdinal>(n);
@@ -114,7 +115,7 @@ SlaveSurface2d make_slave_surface_2d(const RCP<const Map>& owned_nodes, const RC
       continue;
     }
     const std::array<bool, 2> is_fixed = {F_view(n, 0) != 0.0, F_view(n, 1) != 0.0};
-    Eigen::Vector2d free = normal.normal;
+    SpatialVector free = normal.normal;
     for (int i = 0; i < 2; ++i)
       if (is_fixed[i]) free[i] = 0.0;
     surface.carries[n] = free.norm() >= no_free_normal;
@@ -124,14 +125,14 @@ SlaveSurface2d make_slave_surface_2d(const RCP<const Map>& owned_nodes, const RC
     node.id = surface.node_ids[n];
     node.owned_node = owned[n].first;
     node.local_node = static_cast<LocalOrdinal>(n);
-    node.fixed = is_fixed;
+    node.fixed = {is_fixed[0], is_fixed[1], false};
     node.carries_multiplier = surface.carries[n];
     surface.owned.push_back(node);
   }
   throw_if_any(*owned_nodes->getComm(), diagnostics);
 
   surface.facets_of.resize(surface.owned.size());
-  for (const FacetIds& ids : facets) {
+  for (const SurfaceFacet& ids : facets) {
     const std::array<LocalOrdinal, 2> facet = {local_of[ids[0]], local_of[ids[1]]};
     if (!surface.carries[facet[0]] && !surface.carries[facet[1]])
       diagnostics.push_back(

@@ -2,10 +2,47 @@
 
 #include <algorithm>
 #include <boost/math/special_functions/legendre.hpp>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
 namespace mortise {
+namespace {
+
+/// The points with barycentric coordinates (1 - 2 a, a, a) and their permutations.
+void add_orbit_of_three(std::vector<CellPoint>& rule, double a, double weight) {
+  rule.push_back({{a, a}, weight});
+  rule.push_back({{1.0 - 2.0 * a, a}, weight});
+  rule.push_back({{a, 1.0 - 2.0 * a}, weight});
+}
+
+/// (1 - 3 a, a, a, a) and permutations.
+void add_orbit_of_four(std::vector<CellPoint>& rule, double a, double weight) {
+  const double b = 1.0 - 3.0 * a;
+  rule.push_back({{a, a, a}, weight});
+  rule.push_back({{b, a, a}, weight});
+  rule.push_back({{a, b, a}, weight});
+  rule.push_back({{a, a, b}, weight});
+}
+
+/// (a, a, 1/2 - a, 1/2 - a) and permutations.
+void add_orbit_of_six(std::vector<CellPoint>& rule, double a, double weight) {
+  const double b = 0.5 - a;
+  rule.push_back({{a, a, b}, weight});
+  rule.push_back({{a, b, a}, weight});
+  rule.push_back({{b, a, a}, weight});
+  rule.push_back({{b, b, a}, weight});
+  rule.push_back({{b, a, b}, weight});
+  rule.push_back({{a, b, b}, weight});
+}
+
+/// The whole root of a tensor rule's number of points; 0 if there is none.
+int root(int points, int power) {
+  const int candidate = static_cast<int>(std::lround(std::pow(points, 1.0 / power)));
+  return (power == 2 ? candidate * candidate : candidate * candidate * candidate) == points ? candidate : 0;
+}
+
+}  // namespace
 
 std::vector<LinePoint> gauss_legendre(int points) {
   if (points < 1) throw std::invalid_argument("a Gauss-Legendre rule needs at least one point, not " + std::to_string(points));
@@ -29,13 +66,66 @@ std::vector<CellPoint> quadrilateral_rule(int points_per_direction) {
   return rule;
 }
 
+std::vector<CellPoint> hexahedron_rule(int points_per_direction) {
+  const auto line = gauss_legendre(points_per_direction);
+  std::vector<CellPoint> rule;
+  for (const auto& zeta : line)
+    for (const auto& eta : line)
+      for (const auto& xi : line) rule.push_back({{xi.xi, eta.xi, zeta.xi}, xi.weight * eta.weight * zeta.weight});
+  return rule;
+}
+
 std::vector<CellPoint> triangle_rule(int points) {
   constexpr double sixth = 1.0 / 6.0, third = 1.0 / 3.0, two_thirds = 2.0 / 3.0;
   if (points == 1) return {{{third, third}, 0.5}};
   if (points == 3) return {{{sixth, sixth}, sixth}, {{two_thirds, sixth}, sixth}, {{sixth, two_thirds}, sixth}};
-  throw std::invalid_argument("triangles have rules of 1 and 3 points, not " + std::to_string(points));
+  if (points == 7) {  // Radon 1948
+    const double r = std::sqrt(15.0);
+    std::vector<CellPoint> rule{{{third, third}, 9.0 / 80.0}};
+    add_orbit_of_three(rule, (6.0 - r) / 21.0, (155.0 - r) / 2400.0);
+    add_orbit_of_three(rule, (6.0 + r) / 21.0, (155.0 + r) / 2400.0);
+    return rule;
+  }
+  throw std::invalid_argument("triangles have rules of 1, 3 and 7 points, not " + std::to_string(points));
 }
 
-std::vector<CellPoint> full_rule(CellShape shape) { return shape == CellShape::triangle3 ? triangle_rule(1) : quadrilateral_rule(2); }
+std::vector<CellPoint> tetrahedron_rule(int points) {
+  std::vector<CellPoint> rule;
+  if (points == 1) return {{{0.25, 0.25, 0.25}, 1.0 / 6.0}};
+  if (points == 4) {
+    add_orbit_of_four(rule, (5.0 - std::sqrt(5.0)) / 20.0, 1.0 / 24.0);
+    return rule;
+  }
+  if (points == 15) {  // Stroud 1971, T3:5-1
+    const double r = std::sqrt(15.0);
+    rule = {{{0.25, 0.25, 0.25}, 8.0 / 405.0}};
+    add_orbit_of_four(rule, (7.0 - r) / 34.0, (2665.0 + 14.0 * r) / 226800.0);
+    add_orbit_of_four(rule, (7.0 + r) / 34.0, (2665.0 - 14.0 * r) / 226800.0);
+    add_orbit_of_six(rule, (5.0 - r) / 20.0, 5.0 / 567.0);
+    return rule;
+  }
+  throw std::invalid_argument("tetrahedra have rules of 1, 4 and 15 points, not " + std::to_string(points));
+}
+
+std::vector<CellPoint> cell_rule(CellShape shape, int points) {
+  switch (shape) {
+    case CellShape::triangle3:
+    case CellShape::triangle6:
+      return triangle_rule(points);
+    case CellShape::quadrilateral4:
+    case CellShape::quadrilateral8:
+      return quadrilateral_rule(root(points, 2));
+    case CellShape::tetrahedron4:
+    case CellShape::tetrahedron10:
+      return tetrahedron_rule(points);
+    case CellShape::hexahedron8:
+    case CellShape::hexahedron20:
+      return hexahedron_rule(root(points, 3));
+    case CellShape::line2:
+    case CellShape::line3:
+      break;
+  }
+  throw std::invalid_argument("cell_rule() is for cells of the plane and of space; lines have gauss_legendre()");
+}
 
 }  // namespace mortise

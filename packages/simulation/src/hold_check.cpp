@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
@@ -13,39 +14,42 @@
 namespace mortise {
 namespace {
 
-using Position = Eigen::Vector2d;
+using Position = Eigen::Vector3d;  // z = 0 in the plane
 /// A null vector has an eigenvalue below this, relative to the largest one.
 constexpr double rank_tolerance = 1e-12;
 
-/// Rigid modes of all bodies: mode m of body b is column 3 b + m (axisymmetric: b alone).
+/// Rigid modes of all bodies: mode m of body b is column per_body() b + m. Axisymmetric: the translation along the axis; plane: two translations and
+/// a rotation; space: three of each.
 class RigidModes {
  public:
-  RigidModes(const Mesh& mesh, bool axisymmetric) : axisymmetric_(axisymmetric), bodies_(mesh.blocks.size()) {
-    // Bounding boxes over all ranks: the largest of (x, y, -x, -y).
-    std::vector<double> mine(4 * bodies_, -std::numeric_limits<double>::max()), all(4 * bodies_);
+  RigidModes(const Mesh& mesh, bool axisymmetric) : axisymmetric_(axisymmetric), dimension_(mesh.dimension), bodies_(mesh.blocks.size()) {
+    // Bounding boxes over all ranks: the largest of (x, y, z, -x, -y, -z).
+    std::vector<double> mine(6 * bodies_, -std::numeric_limits<double>::max()), all(6 * bodies_);
     for (LocalOrdinal node = 0; node < mesh.owned_body_count(); ++node) {
-      double* box = &mine[4 * mesh.body_of_node[node]];
-      for (int i = 0; i < 2; ++i) {
+      double* box = &mine[6 * mesh.body_of_node[node]];
+      for (int i = 0; i < 3; ++i) {
         box[i] = std::max(box[i], mesh.coordinates[node][i]);
-        box[2 + i] = std::max(box[2 + i], -mesh.coordinates[node][i]);
+        box[3 + i] = std::max(box[3 + i], -mesh.coordinates[node][i]);
       }
     }
     Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, static_cast<int>(mine.size()), mine.data(), all.data());
     for (std::size_t b = 0; b < bodies_; ++b) {
-      const Position high(all[4 * b], all[4 * b + 1]), low(-all[4 * b + 2], -all[4 * b + 3]);
+      const Position high(&all[6 * b]), low = -Position(&all[6 * b + 3]);
       centres_.push_back(0.5 * (low + high));
       sizes_.push_back(std::max(0.5 * (high - low).norm(), std::numeric_limits<double>::min()));
     }
   }
 
-  int per_body() const { return axisymmetric_ ? 1 : 3; }
+  int per_body() const { return axisymmetric_ ? 1 : dimension_ == 2 ? 3 : 6; }
   int count() const { return per_body() * static_cast<int>(bodies_); }
   const char* name(int mode) const {
-    static const char* names[] = {"translation in x", "translation in y", "rotation"};
-    return axisymmetric_ ? "translation along the axis" : names[mode % 3];
+    static const char* plane[] = {"translation in x", "translation in y", "rotation"};
+    static const char* space[] = {"translation in x", "translation in y", "translation in z",
+                                  "rotation about x", "rotation about y", "rotation about z"};
+    return axisymmetric_ ? "translation along the axis" : dimension_ == 2 ? plane[mode] : space[mode];
   }
 
-  /// row += rotation of `body`, over its size.
+  /// row += rotation of `body` in the plane, over its size.
   void add_rotation(int body, Eigen::RowVectorXd& row) const {
     if (!axisymmetric_) row(3 * body + 2) += 1.0;
   }
@@ -57,23 +61,28 @@ class RigidModes {
       return;
     }
     const Position arm = (x - centres_[body]) / sizes_[body];
-    row.segment<3>(3 * body) += Eigen::RowVector3d(direction.x(), direction.y(), arm.x() * direction.y() - arm.y() * direction.x());
+    const Position turning = arm.cross(direction);
+    if (dimension_ == 2)
+      row.segment<3>(3 * body) += Eigen::RowVector3d(direction.x(), direction.y(), turning.z());
+    else
+      row.segment<6>(6 * body) << row.segment<3>(6 * body) + direction.transpose(), row.segment<3>(6 * body + 3) + turning.transpose();
   }
 
  private:
   bool axisymmetric_;
+  int dimension_;
   std::size_t bodies_;
   std::vector<Position> centres_;
   std::vector<double> sizes_;
 };
 
-Position position(const Mesh& mesh, LocalOrdinal node) { return {mesh.coordinates[node][0], mesh.coordinates[node][1]}; }
+Position position(const Mesh& mesh, LocalOrdinal node) { return Position(mesh.coordinates[node].data()); }
 
 Eigen::MatrixXd prescribed_gram(const Mesh& mesh, const RigidModes& modes, const MultiVector& fixed) {
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(modes.count(), modes.count());
   const auto values = fixed.getLocalViewHost(Tpetra::Access::ReadOnly);
   for (LocalOrdinal node = 0; node < mesh.owned_body_count(); ++node)
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < mesh.dimension; ++i) {
       if (values(node, i) == 0.0) continue;
       Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(modes.count());
       modes.add(mesh.body_of_node[node], position(mesh, node), Position::Unit(i), row);
@@ -122,37 +131,43 @@ void add_shared_translation(const Mesh& mesh, const RigidModes& modes, const Mul
 
 /// Slave facets in the bounding box of the master surface, widened by the reach: what can touch at the start. Collective.
 Eigen::MatrixXd contact_gram(const Mesh& mesh, const RigidModes& modes, const HoldingPair& pair) {
-  const auto ends = [&](const std::array<GlobalOrdinal, 2>& facet) {
-    return std::array<LocalOrdinal, 2>{mesh.local_nodes->getLocalElement(facet[0]), mesh.local_nodes->getLocalElement(facet[1])};
+  const auto nodes_of = [&](const SurfaceFacet& facet) {
+    Facet<LocalOrdinal> nodes;
+    for (const GlobalOrdinal node : facet) nodes.push_back(mesh.local_nodes->getLocalElement(node));
+    return nodes;
   };
-  // (x, y, -x, -y) of the master nodes, longest facet, body of the master: largest over all ranks.
-  std::array<double, 6> mine, all;
+  // (x, y, z, -x, -y, -z) of the master nodes, largest facet, body of the master: largest over all ranks.
+  std::array<double, 8> mine, all;
   mine.fill(-std::numeric_limits<double>::max());
   for (const auto* facets : {pair.slave, pair.master})
     for (const auto& facet : *facets) {
-      const auto [a, b] = ends(facet);
-      mine[4] = std::max(mine[4], (position(mesh, b) - position(mesh, a)).norm());
+      const auto nodes = nodes_of(facet);
+      for (const LocalOrdinal node : nodes) mine[6] = std::max(mine[6], (position(mesh, node) - position(mesh, nodes[0])).norm());
     }
   for (const auto& facet : *pair.master)
-    for (const LocalOrdinal node : ends(facet)) {
+    for (const LocalOrdinal node : nodes_of(facet)) {
       const Position x = position(mesh, node);
-      for (int i = 0; i < 2; ++i) mine[i] = std::max(mine[i], x(i)), mine[2 + i] = std::max(mine[2 + i], -x(i));
-      mine[5] = std::max<double>(mine[5], mesh.body_of_node[node]);
+      for (int i = 0; i < 3; ++i) mine[i] = std::max(mine[i], x(i)), mine[3 + i] = std::max(mine[3 + i], -x(i));
+      mine[7] = std::max<double>(mine[7], mesh.body_of_node[node]);
     }
-  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, 6, mine.data(), all.data());
-  const double reach = pair.reach > 0.0 ? pair.reach : all[4];
-  const int master_body = static_cast<int>(all[5]);
+  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, 8, mine.data(), all.data());
+  const double reach = pair.reach > 0.0 ? pair.reach : all[6];
+  const int master_body = static_cast<int>(all[7]);
 
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(modes.count(), modes.count());
   for (const auto& facet : *pair.slave) {
-    const auto [a, b] = ends(facet);
-    const Position middle = 0.5 * (position(mesh, a) + position(mesh, b)), along = (position(mesh, b) - position(mesh, a)).normalized();
+    const auto nodes = nodes_of(facet);
+    const std::size_t corners = mesh.dimension == 2 ? 2 : nodes.size() % 4 == 0 ? 4 : 3;
+    Position middle = Position::Zero();
+    for (std::size_t corner = 0; corner < corners; ++corner) middle += position(mesh, nodes[corner]) / static_cast<double>(corners);
     bool near = true;
-    for (int i = 0; i < 2; ++i) near = near && middle(i) <= all[i] + reach && -middle(i) <= all[2 + i] + reach;
+    for (int i = 0; i < 3; ++i) near = near && middle(i) <= all[i] + reach && -middle(i) <= all[3 + i] + reach;
     if (!near) continue;
-    const Position normal(along.y(), -along.x());
+    const auto x = [&](std::size_t corner) { return position(mesh, nodes[corner % corners]); };
+    const Position area = mesh.dimension == 2 ? (x(1) - x(0)).cross(Position::UnitZ()) : (x(2) - x(0)).cross(x(3) - x(1));
+    const Position normal = area.normalized();
     Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(modes.count());
-    modes.add(mesh.body_of_node[a], middle, normal, row);
+    modes.add(mesh.body_of_node[nodes[0]], middle, normal, row);
     modes.add(master_body, middle, -normal, row);
     gram += row.transpose() * row;
   }

@@ -37,12 +37,15 @@ Bodies::Bodies(RCP<const Mesh> mesh, Kinematics kinematics, double thickness, st
   std::vector<Diagnostic> diagnostics;
   for (std::size_t n = 0; n < properties_.size(); ++n) {
     for (Diagnostic& diagnostic : check_combination(properties_[n], kinematics_)) diagnostics.push_back(std::move(diagnostic));
-    if ((properties_[n].is_rigid() ? CellShape::line2 : cell_shape(properties_[n].element)) != mesh_->blocks[n].shape) throw std::logic_error("a block's cells are not those of its body's element");
+    const CellShape shape = mesh_->blocks[n].shape;
+    if (properties_[n].is_rigid() ? topology(shape).dimension != mesh_->dimension - 1 : cell_shape(properties_[n].element) != shape)
+      throw std::logic_error("a block's cells are not those of its body's element");
   }
   throw_if_any(*mesh_->comm, diagnostics);
+  if (mesh_->dimension != dimension()) throw std::logic_error("the mesh and the kinematics do not have the same dimension");
 
-  dofs_ = make_dof_map(*mesh_->owned_nodes, 2);
-  local_dofs_ = make_dof_map(*mesh_->local_nodes, 2);
+  dofs_ = make_dof_map(*mesh_->owned_nodes, dimension());
+  local_dofs_ = make_dof_map(*mesh_->local_nodes, dimension());
   ghost_import_ = rcp(new Import(dofs_, local_dofs_));
   sparsity_ = std::make_unique<NodalSparsity>(*mesh_, dofs_, local_dofs_);
   for (std::size_t n = 0; n < properties_.size(); ++n) {
@@ -62,7 +65,10 @@ Bodies::Bodies(RCP<const Mesh> mesh, Kinematics kinematics, double thickness, st
 
 Bodies::~Bodies() = default;
 
-double Bodies::depth(double radius) const { return kinematics_ == Kinematics::axisymmetric ? 2.0 * EIGEN_PI * radius : thickness_; }
+double Bodies::depth(double radius) const {
+  if (kinematics_ == Kinematics::three_dimensional) return 1.0;
+  return kinematics_ == Kinematics::axisymmetric ? 2.0 * EIGEN_PI * radius : thickness_;
+}
 
 void Bodies::add_internal_force(const Vector& local_displacement, Vector& residual, std::optional<StepFailure>& failure) const {
   const HostReadView displacement(local_displacement);
@@ -117,20 +123,22 @@ std::vector<double> Bodies::plastic_works(const Vector& local_displacement) cons
 namespace {
 
 /// Adds the current volume and the stress times it.
-void add_weighted_stress(const MaterialPoint& point, double& volume, std::array<double, 4>& stress) {
+void add_weighted_stress(const MaterialPoint& point, double& volume, StressComponents& stress) {
   const double weight = point.weight * point.volume_ratio;
   volume += weight;
   stress[0] += weight * point.cauchy_stress(0, 0);
   stress[1] += weight * point.cauchy_stress(1, 1);
   stress[2] += weight * point.cauchy_stress(2, 2);
   stress[3] += weight * point.cauchy_stress(0, 1);
+  stress[4] += weight * point.cauchy_stress(1, 2);
+  stress[5] += weight * point.cauchy_stress(0, 2);
 }
 
 }  // namespace
 
-std::vector<std::array<double, 4>> Bodies::element_stresses(const Vector& local_displacement, LocalOrdinal block) const {
+std::vector<StressComponents> Bodies::element_stresses(const Vector& local_displacement, LocalOrdinal block) const {
   const LocalOrdinal owned = mesh_->blocks.at(block).owned;
-  std::vector<std::array<double, 4>> stresses(owned, std::array<double, 4>{});
+  std::vector<StressComponents> stresses(owned, StressComponents{});
   std::vector<double> volumes(owned, 0.0);
   const HostReadView displacement(local_displacement);
   blocks_.at(block)->visit_points(displacement.data(), owned,
@@ -156,7 +164,7 @@ std::vector<double> Bodies::element_plastic_strains(const Vector& local_displace
 
 RCP<MultiVector> Bodies::nodal_stresses(const Vector& local_displacement) const {
   const LocalOrdinal owned = mesh_->owned_count();
-  std::vector<std::array<double, 4>> sums(owned, std::array<double, 4>{});
+  std::vector<StressComponents> sums(owned, StressComponents{});
   std::vector<double> volumes(owned, 0.0);
   const HostReadView displacement(local_displacement);
   for (std::size_t n = 0; n < blocks_.size(); ++n) {
@@ -168,10 +176,10 @@ RCP<MultiVector> Bodies::nodal_stresses(const Vector& local_displacement) const 
         if (nodes[a] < owned) add_weighted_stress(point, volumes[nodes[a]], sums[nodes[a]]);
     });
   }
-  auto result = rcp(new MultiVector(mesh_->owned_nodes, 4));
+  auto result = rcp(new MultiVector(mesh_->owned_nodes, stress_components()));
   auto view = result->getLocalViewHost(Tpetra::Access::OverwriteAll);
   for (LocalOrdinal node = 0; node < owned; ++node)
-    for (int c = 0; c < 4; ++c) view(node, c) = volumes[node] > 0.0 ? sums[node][c] / volumes[node] : 0.0;
+    for (int c = 0; c < stress_components(); ++c) view(node, c) = volumes[node] > 0.0 ? sums[node][c] / volumes[node] : 0.0;
   return result;
 }
 

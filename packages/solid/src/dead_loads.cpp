@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "host_view.hpp"
 #include "load_support.hpp"
+#include "loaded_side.hpp"
 #include "mortise/mesh/reference_point.hpp"
 
 namespace mortise {
@@ -13,7 +12,8 @@ namespace {
 
 class NodalForce final : public Load {
  public:
-  NodalForce(std::shared_ptr<const Bodies> bodies, const NodalForceOptions& options) : bodies_(std::move(bodies)), components_{options.x, options.y} {
+  NodalForce(std::shared_ptr<const Bodies> bodies, const NodalForceOptions& options)
+      : bodies_(std::move(bodies)), components_(components(*bodies_, options.x, options.y, options.z)) {
     const Mesh& mesh = *bodies_->mesh();
     look_up(mesh, [&] {
       for (LocalOrdinal node : require_node_set(mesh, options.set))
@@ -23,15 +23,15 @@ class NodalForce final : public Load {
 
   void add_residual(double time, const Vector&, Vector& residual, std::optional<StepFailure>& failure) const override {
     const HostWriteView r(residual);
-    for (LocalOrdinal node : nodes_) {
-      const auto& X = bodies_->mesh()->coordinates[node];
-      for (int i = 0; i < 2; ++i) r.data()[2 * node + i] -= evaluate(components_[i], time, {X[0], X[1]}, failure);
-    }
+    const int dimension = bodies_->dimension();
+    for (LocalOrdinal node : nodes_)
+      for (int i = 0; i < dimension; ++i)
+        r.data()[dimension * node + i] -= evaluate(components_[i], time, bodies_->mesh()->coordinates[node], failure);
   }
 
  private:
   std::shared_ptr<const Bodies> bodies_;
-  std::array<Expression, 2> components_;
+  std::vector<Expression> components_;
   std::vector<LocalOrdinal> nodes_;
 };
 
@@ -46,8 +46,8 @@ class Moment final : public Load {
   void add_residual(double time, const Vector&, Vector& residual, std::optional<StepFailure>& failure) const override {
     const Mesh& mesh = *bodies_->mesh();
     if (point_->rotation_node >= mesh.owned_count()) return;
-    const auto& X = mesh.coordinates[point_->node];
-    HostWriteView(residual).data()[2 * point_->rotation_node] -= evaluate(moment_, time, {X[0], X[1]}, failure) / point_->arm;
+    HostWriteView(residual).data()[mesh.dimension * point_->rotation_node] -=
+        evaluate(moment_, time, mesh.coordinates[point_->node], failure) / point_->arm;
   }
 
  private:
@@ -56,41 +56,41 @@ class Moment final : public Load {
   const ReferencePoint* point_ = nullptr;
 };
 
-/// f_a = integral of N_a T dGamma0, dGamma0 = reference length x thickness or 2 pi R.
+/// f_a = integral of N_a T dGamma0, in the plane dGamma0 = reference length x thickness or 2 pi R.
 class DeadTraction final : public Load {
  public:
   DeadTraction(std::shared_ptr<const Bodies> bodies, const DeadTractionOptions& options)
-      : bodies_(std::move(bodies)), components_{options.x, options.y}, lines_(sides_at_owned_nodes(*bodies_->mesh(), options.set)) {}
+      : bodies_(std::move(bodies)),
+        components_(components(*bodies_, options.x, options.y, options.z)),
+        sides_(sides_at_owned_nodes(*bodies_->mesh(), options.set)) {}
 
   void add_residual(double time, const Vector&, Vector& residual, std::optional<StepFailure>& failure) const override {
     const Mesh& mesh = *bodies_->mesh();
     const HostWriteView r(residual);
-    for (const LineNodes& line : lines_) {
-      const auto &A = mesh.coordinates[line[0]], &B = mesh.coordinates[line[1]];
-      const double length = std::hypot(B[0] - A[0], B[1] - A[1]);
-      for (const LineRulePoint& point : line_rule()) {
-        const std::array<double, 2> X{point.N[0] * A[0] + point.N[1] * B[0], point.N[0] * A[1] + point.N[1] * B[1]};
-        const double area = point.weight * length * bodies_->depth(X[0]);
-        for (int i = 0; i < 2; ++i) {
-          const double traction = evaluate(components_[i], time, X, failure);
-          for (int a = 0; a < 2; ++a)
-            if (line[a] < mesh.owned_count()) r.data()[2 * line[a] + i] -= area * point.N[a] * traction;
+    for (const LoadedSide& side : sides_)
+      for (const SidePoint& point : *side.rule) {
+        const SidePosition reference = side.at(point, mesh, nullptr);
+        const auto& X = reference.position;
+        const double area = point.weight * reference.area.norm() * bodies_->depth(X(0));
+        for (int i = 0; i < mesh.dimension; ++i) {
+          const double traction = evaluate(components_[i], time, {X(0), X(1), X(2)}, failure);
+          for (std::size_t a = 0; a < side.nodes.size(); ++a)
+            if (side.nodes[a] < mesh.owned_count()) r.data()[mesh.dimension * side.nodes[a] + i] -= area * point.N[a] * traction;
         }
       }
-    }
   }
 
  private:
   std::shared_ptr<const Bodies> bodies_;
-  std::array<Expression, 2> components_;
-  std::vector<LineNodes> lines_;
+  std::vector<Expression> components_;
+  std::vector<LoadedSide> sides_;
 };
 
 /// f_a = integral of rho g N_a dV0.
 class Gravity final : public Load {
  public:
   Gravity(const std::shared_ptr<const Bodies>& bodies, const GravityOptions& options)
-      : components_{options.x, options.y}, masses_(bodies->mesh()->owned_count(), 0.0) {
+      : components_(components(*bodies, options.x, options.y, options.z)), masses_(bodies->mesh()->owned_count(), 0.0) {
     bool found = false;
     std::string names;
     for (std::size_t n = 0; n < bodies->properties().size(); ++n) {
@@ -107,14 +107,15 @@ class Gravity final : public Load {
 
   void add_residual(double time, const Vector&, Vector& residual, std::optional<StepFailure>& failure) const override {
     const HostWriteView r(residual);
-    for (int i = 0; i < 2; ++i) {
-      const double acceleration = evaluate(components_[i], time, {0.0, 0.0}, failure);
-      for (std::size_t node = 0; node < masses_.size(); ++node) r.data()[2 * node + i] -= masses_[node] * acceleration;
+    const std::size_t dimension = components_.size();
+    for (std::size_t i = 0; i < dimension; ++i) {
+      const double acceleration = evaluate(components_[i], time, {}, failure);
+      for (std::size_t node = 0; node < masses_.size(); ++node) r.data()[dimension * node + i] -= masses_[node] * acceleration;
     }
   }
 
  private:
-  std::array<Expression, 2> components_;
+  std::vector<Expression> components_;
   std::vector<double> masses_;  ///< of the owned nodes
 };
 
@@ -124,20 +125,24 @@ void NodalForceOptions::describe(Parameters& parameters) {
   parameters.add("set", set, Says("node or side set; each of its nodes gets the whole force").required());
   parameters.add("x", x, Says("force on each node in x (axisymmetric: r, on the whole circle), of t and the reference position").unit("force"));
   parameters.add("y", y, Says("force on each node in y (axisymmetric: z, on the whole circle), of t and the reference position").unit("force"));
+  parameters.add("z", z, Says("force on each node in z, in three dimensions, of t and the reference position; left out: none").unit("force"));
 }
 
 void DeadTractionOptions::describe(Parameters& parameters) {
   parameters.add("set", set, Says("side set that carries the traction").required());
   parameters.add("x", x, Says("force per reference area in x (axisymmetric: r), of t and the reference position").unit("stress"));
   parameters.add("y", y, Says("force per reference area in y (axisymmetric: z), of t and the reference position").unit("stress"));
+  parameters.add("z", z, Says("force per reference area in z, in three dimensions, of t and the reference position; left out: none").unit("stress"));
 }
 
 void GravityOptions::describe(Parameters& parameters) {
   parameters.add("body", body, Says("the body that has weight; left out: every body"));
   parameters.add("x", x, Says("acceleration in x (axisymmetric: r), of t").unit("length / time^2"));
   parameters.add("y", y, Says("acceleration in y (axisymmetric: z), of t").unit("length / time^2"));
+  parameters.add("z", z, Says("acceleration in z, in three dimensions, of t; left out: none").unit("length / time^2"));
   if (x.depends_on_position()) parameters.error("x", "gravity may depend on t, not on the position");
   if (y.depends_on_position()) parameters.error("y", "gravity may depend on t, not on the position");
+  if (z && z->depends_on_position()) parameters.error("z", "gravity may depend on t, not on the position");
 }
 
 void MomentOptions::describe(Parameters& parameters) {

@@ -1,194 +1,45 @@
 #include "element_block.hpp"
 
-#include <fmt/format.h>
+#include <stdexcept>
 
-#include "element_kernel.hpp"
+#include "cell_block.hpp"
+#include "mortise/shape/hexahedron20.hpp"
+#include "mortise/shape/hexahedron8.hpp"
 #include "mortise/shape/quadrilateral4.hpp"
+#include "mortise/shape/quadrilateral8.hpp"
+#include "mortise/shape/tetrahedron10.hpp"
+#include "mortise/shape/tetrahedron4.hpp"
 #include "mortise/shape/triangle3.hpp"
+#include "mortise/shape/triangle6.hpp"
 
 namespace mortise {
-namespace {
-
-template <class Cell, Kinematics kinematics, ElementFormulation formulation, class PlainLaw>
-class KernelBlock final : public ElementBlock {
-  using Kernel = ElementKernel<Cell, kinematics, formulation, PlainLaw>;
-  using Positions = typename Kernel::Positions;
-  static constexpr int nodes = Kernel::nodes;
-
- public:
-  KernelBlock(const BlockContext& context, const PlainLaw& law, double thickness)
-      : context_(context), kernel_(law, thickness), owned_nodes_(context.mesh.owned_count()) {
-    const Block& block = context_.block;
-    positions_.reserve(static_cast<std::size_t>(block.size()) * nodes * nodes);
-    for (LocalOrdinal element = 0; element < block.size(); ++element)
-      for (int a = 0; a < nodes; ++a)
-        for (int b = 0; b < nodes; ++b) positions_.push_back(context_.sparsity.position(block.nodes(element)[a], block.nodes(element)[b]));
-    if constexpr (Kernel::history) history_.resize(block.size());
-  }
-
-  void add_internal_force(const double* displacement, double* force, std::optional<StepFailure>& failure) const override {
-    count_history_evaluation();
-    typename Kernel::Stiffness unused;
-    for (LocalOrdinal element = 0; element < context_.block.size(); ++element) {
-      const LocalOrdinal* node = context_.block.nodes(element);
-      if (!touches_owned(node)) continue;
-      typename Kernel::Force element_force{};
-      const ElementTrouble trouble = kernel_.template add<false>(reference(node), gather(node, displacement), states(element), element_force, unused);
-      if (trouble) report(element, trouble, failure);
-      for (int a = 0; a < nodes; ++a)
-        if (node[a] < owned_nodes_)
-          for (int i = 0; i < 2; ++i) force[2 * node[a] + i] += element_force[2 * a + i];
-    }
-  }
-
-  void add_stiffness(const double* displacement, const NodalSparsity::Values& matrix, std::optional<StepFailure>& failure) const override {
-    count_history_evaluation();
-    for (LocalOrdinal element = 0; element < context_.block.size(); ++element) {
-      const LocalOrdinal* node = context_.block.nodes(element);
-      if (!touches_owned(node)) continue;
-      typename Kernel::Force unused{};
-      typename Kernel::Stiffness stiffness{};
-      const ElementTrouble trouble = kernel_.template add<true>(reference(node), gather(node, displacement), states(element), unused, stiffness);
-      if (trouble) report(element, trouble, failure);
-      const LocalOrdinal* position = positions_.data() + static_cast<std::size_t>(element) * nodes * nodes;
-      for (int a = 0; a < nodes; ++a) {
-        if (node[a] >= owned_nodes_) continue;
-        for (int i = 0; i < 2; ++i)
-          for (int b = 0; b < nodes; ++b) {
-            double* entries = matrix.at(node[a], i, position[a * nodes + b]);
-            entries[0] += stiffness[2 * a + i][2 * b];
-            entries[1] += stiffness[2 * a + i][2 * b + 1];
-          }
-      }
-    }
-  }
-
-  void visit_points(const double* displacement, LocalOrdinal count, const std::function<void(const MaterialPoint&)>& visit) const override {
-    for (LocalOrdinal element = 0; element < count; ++element) {
-      const LocalOrdinal* node = context_.block.nodes(element);
-      const Positions X = reference(node), u = gather(node, displacement);
-      for (int q = 0; q < Kernel::points; ++q) {
-        MaterialPoint point = kernel_.material_point(q, X, u, states(element));
-        point.block = context_.index;
-        point.element = element;
-        visit(point);
-      }
-    }
-  }
-
-  void commit([[maybe_unused]] const double* displacement) override {
-    count_history_evaluation();
-    if constexpr (Kernel::history)
-      for (LocalOrdinal element = 0; element < context_.block.size(); ++element) {
-        const LocalOrdinal* node = context_.block.nodes(element);
-        kernel_.commit(reference(node), gather(node, displacement), history_[element]);
-      }
-  }
-
-  std::size_t history_bytes() const override { return history_.capacity() * sizeof(typename Kernel::States); }
-  long history_evaluations() const override { return history_evaluations_; }
-
-  void add_nodal_volumes(std::vector<double>& volumes) const override {
-    for (LocalOrdinal element = 0; element < context_.block.size(); ++element) {
-      const LocalOrdinal* node = context_.block.nodes(element);
-      std::array<double, nodes> element_volumes{};
-      kernel_.add_volumes(reference(node), element_volumes);
-      for (int a = 0; a < nodes; ++a)
-        if (node[a] < owned_nodes_) volumes[node[a]] += element_volumes[a];
-    }
-  }
-
-  std::pair<LocalOrdinal, double> smallest_reference_determinant() const override {
-    std::pair<LocalOrdinal, double> smallest{-1, std::numeric_limits<double>::infinity()};
-    for (LocalOrdinal element = 0; element < context_.block.size(); ++element) {
-      const double determinant = kernel_.smallest_reference_determinant(reference(context_.block.nodes(element)));
-      if (!(determinant >= smallest.second)) smallest = {element, determinant};
-    }
-    return smallest;
-  }
-
- private:
-  bool touches_owned(const LocalOrdinal* node) const {
-    for (int a = 0; a < nodes; ++a)
-      if (node[a] < owned_nodes_) return true;
-    return false;
-  }
-
-  void count_history_evaluation() const {
-    if constexpr (Kernel::history) ++history_evaluations_;
-  }
-
-  Positions reference(const LocalOrdinal* node) const {
-    Positions X;
-    for (int a = 0; a < nodes; ++a) X[a] = {context_.mesh.coordinates[node[a]][0], context_.mesh.coordinates[node[a]][1]};
-    return X;
-  }
-
-  static Positions gather(const LocalOrdinal* node, const double* displacement) {
-    Positions u;
-    for (int a = 0; a < nodes; ++a) u[a] = {displacement[2 * node[a]], displacement[2 * node[a] + 1]};
-    return u;
-  }
-
-  const typename Kernel::States& states([[maybe_unused]] LocalOrdinal element) const {
-    if constexpr (Kernel::history) {
-      return history_[element];
-    } else {
-      static constexpr typename Kernel::States none{};
-      return none;
-    }
-  }
-
-  void report(LocalOrdinal element, const ElementTrouble& trouble, std::optional<StepFailure>& failure) const {
-    if (failure) return;
-    const GlobalOrdinal id = context_.block.element_ids[element];
-    if (trouble.kind == ElementTrouble::Kind::inverted)
-      failure.emplace(FailureKind::inverted_element,
-                      fmt::format("body \"{}\": element {} is turned inside out, det F = {:.3g}", context_.block.name, id, trouble.determinant));
-    else
-      failure.emplace(FailureKind::material,
-                      fmt::format("body \"{}\": the law \"{}\" finds no stress at point {} of element {}, where det F = {:.3g}", context_.block.name,
-                                  PlainLaw::name, trouble.point, id, trouble.determinant));
-  }
-
-  BlockContext context_;
-  Kernel kernel_;
-  LocalOrdinal owned_nodes_;
-  std::vector<typename Kernel::States> history_;  ///< [elements] of the last committed step; empty for laws without a history
-  mutable long history_evaluations_ = 0;
-  std::vector<LocalOrdinal> positions_;  ///< [elements x nodes x nodes] NodalSparsity::position
-};
-
-template <class Cell, ElementFormulation formulation, class PlainLaw>
-std::unique_ptr<ElementBlock> make_for(const BlockContext& context, const PlainLaw& law, Kinematics kinematics, double thickness) {
-  constexpr bool f_bar = formulation == ElementFormulation::f_bar;
-  if constexpr (!(f_bar && PlainLaw::small_strain)) {
-    if (kinematics == Kinematics::plane_strain)
-      return std::make_unique<KernelBlock<Cell, Kinematics::plane_strain, formulation, PlainLaw>>(context, law, thickness);
-    if (kinematics == Kinematics::axisymmetric)
-      return std::make_unique<KernelBlock<Cell, Kinematics::axisymmetric, formulation, PlainLaw>>(context, law, thickness);
-    if constexpr (PlainLaw::plane_stress && !f_bar)
-      return std::make_unique<KernelBlock<Cell, Kinematics::plane_stress, formulation, PlainLaw>>(context, law, thickness);
-  }
-  throw std::logic_error("a combination of element, kinematics and law that check_combination refuses");
-}
-
-}  // namespace
 
 std::unique_ptr<ElementBlock> make_element_block(const BlockContext& context, const BodyProperties& body, Kinematics kinematics, double thickness) {
-  return std::visit(
-      [&](const auto& law) -> std::unique_ptr<ElementBlock> {
-        switch (body.element) {
-          case ElementType::q4:
-            return make_for<Quadrilateral4, ElementFormulation::standard>(context, law, kinematics, thickness);
-          case ElementType::q4_f_bar:
-            return make_for<Quadrilateral4, ElementFormulation::f_bar>(context, law, kinematics, thickness);
-          case ElementType::t3:
-            return make_for<Triangle3, ElementFormulation::standard>(context, law, kinematics, thickness);
-        }
-        throw std::logic_error("an element type without elements");
-      },
-      body.material->law());
+  constexpr auto standard = ElementFormulation::standard, f_bar = ElementFormulation::f_bar;
+  const Law law = body.material->law();
+  switch (body.element) {
+    case ElementType::q4:
+      return make_cell_block<Quadrilateral4, standard>(context, law, kinematics, thickness);
+    case ElementType::q4_f_bar:
+      return make_cell_block<Quadrilateral4, f_bar>(context, law, kinematics, thickness);
+    case ElementType::t3:
+      return make_cell_block<Triangle3, standard>(context, law, kinematics, thickness);
+    case ElementType::q8:
+      return make_cell_block<Quadrilateral8, standard>(context, law, kinematics, thickness);
+    case ElementType::t6:
+      return make_cell_block<Triangle6, standard>(context, law, kinematics, thickness);
+    case ElementType::h8:
+      return make_cell_block<Hexahedron8, standard>(context, law, kinematics, thickness);
+    case ElementType::h8_f_bar:
+      return make_cell_block<Hexahedron8, f_bar>(context, law, kinematics, thickness);
+    case ElementType::tet4:
+      return make_cell_block<Tetrahedron4, standard>(context, law, kinematics, thickness);
+    case ElementType::h20:
+      return make_cell_block<Hexahedron20, standard>(context, law, kinematics, thickness);
+    case ElementType::tet10:
+      return make_cell_block<Tetrahedron10, standard>(context, law, kinematics, thickness);
+  }
+  throw std::logic_error("an element type without elements");
 }
 
 }  // namespace mortise

@@ -7,32 +7,60 @@
 
 namespace mortise {
 
-NodalSparsity::NodalSparsity(const Mesh& mesh, const RCP<const Map>& dofs, const RCP<const Map>& local_dofs) {
-  const LocalOrdinal owned = mesh.owned_count();
-  std::vector<std::vector<LocalOrdinal>> neighbours(owned);
-  for (const Block& block : mesh.blocks) {
-    if (block.shape == CellShape::line2) continue;  // of rigid bodies: no stiffness couples their nodes
-    for (LocalOrdinal element = 0; element < block.size(); ++element) {
-      const LocalOrdinal* nodes = block.nodes(element);
-      for (int a = 0; a < block.nodes_per_element; ++a)
-        if (nodes[a] < owned) neighbours[nodes[a]].insert(neighbours[nodes[a]].end(), nodes, nodes + block.nodes_per_element);
-    }
+namespace {
+
+/// Elements around each owned node, as the starts of their node lists. Those of rigid bodies are left out: no stiffness couples their nodes.
+struct ElementsAroundNodes {
+  struct Element {
+    const LocalOrdinal* nodes;
+    int count;
+  };
+  std::vector<std::size_t> starts;  ///< [owned nodes + 1]
+  std::vector<Element> elements;
+
+  explicit ElementsAroundNodes(const Mesh& mesh) : starts(mesh.owned_count() + 1, 0) {
+    for_each_owned(mesh, [&](LocalOrdinal node, const Element&) { ++starts[node + 1]; });
+    for (std::size_t n = 1; n < starts.size(); ++n) starts[n] += starts[n - 1];
+    elements.resize(starts.back());
+    std::vector<std::size_t> next(starts.begin(), starts.end() - 1);
+    for_each_owned(mesh, [&](LocalOrdinal node, const Element& element) { elements[next[node]++] = element; });
   }
 
-  Teuchos::Array<std::size_t> row_sizes(2 * owned);
+ private:
+  template <class Function>
+  static void for_each_owned(const Mesh& mesh, const Function& function) {
+    for (const Block& block : mesh.blocks) {
+      if (topology(block.shape).dimension < mesh.dimension) continue;
+      for (LocalOrdinal e = 0; e < block.size(); ++e) {
+        const Element element{block.nodes(e), block.nodes_per_element};
+        for (int a = 0; a < element.count; ++a)
+          if (element.nodes[a] < mesh.owned_count()) function(element.nodes[a], element);
+      }
+    }
+  }
+};
+
+}  // namespace
+
+NodalSparsity::NodalSparsity(const Mesh& mesh, const RCP<const Map>& dofs, const RCP<const Map>& local_dofs) : dimension_(mesh.dimension) {
+  const LocalOrdinal owned = mesh.owned_count();
+  const ElementsAroundNodes around(mesh);
+  Teuchos::Array<std::size_t> row_sizes(dimension_ * owned);
   neighbour_starts_.assign(1, 0);
   row_starts_.assign(1, 0);
+  std::vector<LocalOrdinal> list;
   for (LocalOrdinal node = 0; node < owned; ++node) {
-    auto& list = neighbours[node];
+    list.clear();
+    for (std::size_t n = around.starts[node]; n < around.starts[node + 1]; ++n)
+      list.insert(list.end(), around.elements[n].nodes, around.elements[n].nodes + around.elements[n].count);
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
     neighbours_.insert(neighbours_.end(), list.begin(), list.end());
     neighbour_starts_.push_back(neighbours_.size());
-    for (int component = 0; component < 2; ++component) {
-      row_sizes[2 * node + component] = 2 * list.size();
-      row_starts_.push_back(row_starts_.back() + 2 * list.size());
+    for (int component = 0; component < dimension_; ++component) {
+      row_sizes[dimension_ * node + component] = dimension_ * list.size();
+      row_starts_.push_back(row_starts_.back() + dimension_ * list.size());
     }
-    list = {};
   }
 
   auto graph = rcp(new Graph(dofs, local_dofs, row_sizes()));
@@ -40,9 +68,9 @@ NodalSparsity::NodalSparsity(const Mesh& mesh, const RCP<const Map>& dofs, const
   for (LocalOrdinal node = 0; node < owned; ++node) {
     columns.clear();
     for (std::size_t n = neighbour_starts_[node]; n < neighbour_starts_[node + 1]; ++n)
-      for (int component = 0; component < 2; ++component) columns.push_back(2 * neighbours_[n] + component);
-    for (int component = 0; component < 2; ++component)
-      graph->insertLocalIndices(2 * node + component, Teuchos::arrayView(columns.data(), columns.size()));
+      for (int component = 0; component < dimension_; ++component) columns.push_back(dimension_ * neighbours_[n] + component);
+    for (int component = 0; component < dimension_; ++component)
+      graph->insertLocalIndices(dimension_ * node + component, Teuchos::arrayView(columns.data(), columns.size()));
   }
   graph->fillComplete(dofs, dofs);
   graph_ = graph;
@@ -52,7 +80,7 @@ LocalOrdinal NodalSparsity::position(LocalOrdinal row, LocalOrdinal column) cons
   if (row + 1 >= static_cast<LocalOrdinal>(neighbour_starts_.size())) return -1;
   const auto first = neighbours_.begin() + neighbour_starts_[row], last = neighbours_.begin() + neighbour_starts_[row + 1];
   const auto found = std::lower_bound(first, last, column);
-  return found != last && *found == column ? static_cast<LocalOrdinal>(2 * (found - first)) : -1;
+  return found != last && *found == column ? static_cast<LocalOrdinal>(dimension_ * (found - first)) : -1;
 }
 
 NodalSparsity::Values NodalSparsity::open(Matrix& matrix) const {

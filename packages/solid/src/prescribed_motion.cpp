@@ -20,6 +20,13 @@ namespace {
 /// Two conditions on one dof must agree; they are compared at these pseudo-times.
 constexpr double compared_times[] = {0.0, 0.37, 1.0};
 
+const char* component_name(int component) { return component == 0 ? "x" : component == 1 ? "y" : "z"; }
+
+std::string to_string(const std::array<double, 3>& position, int dimension) {
+  return dimension == 2 ? fmt::format("({:g}, {:g})", position[0], position[1])
+                        : fmt::format("({:g}, {:g}, {:g})", position[0], position[1], position[2]);
+}
+
 /// To the round-off of positions in a model of size `length`, from which values may be made.
 bool agree(double a, double b, double length) { return a == b || std::abs(a - b) <= 1e-12 * std::max({std::abs(a), std::abs(b), length}); }
 
@@ -27,7 +34,7 @@ bool agree(double a, double b, double length) { return a == b || std::abs(a - b)
 std::optional<std::string> follower(const Bodies& bodies, const Followers& followers, const std::vector<LocalOrdinal>& nodes, int component) {
   const Mesh& mesh = *bodies.mesh();
   for (const LocalOrdinal node : nodes)
-    if (std::binary_search(followers.dofs().begin(), followers.dofs().end(), 2 * node + component))
+    if (std::binary_search(followers.dofs().begin(), followers.dofs().end(), mesh.dimension * node + component))
       for (const ReferencePoint& point : mesh.reference_points)
         if (std::binary_search(point.followers.begin(), point.followers.end(), node)) return point.name;
   return {};
@@ -39,6 +46,7 @@ void BoundaryConditionOptions::describe(Parameters& parameters) {
   parameters.add("set", set, Says("node or side set whose displacement is prescribed").required());
   parameters.add("x", x, Says("displacement in x (axisymmetric: r), an expression of t, x, y; left out: free").unit("length"));
   parameters.add("y", y, Says("displacement in y (axisymmetric: z), an expression of t, x, y; left out: free").unit("length"));
+  parameters.add("z", z, Says("displacement in z, in three dimensions, an expression of t, x, y, z; left out: free").unit("length"));
   parameters.add("rotation", rotation, Says("of a reference point, counterclockwise, an expression of t; left out: free").unit("degrees"));
 }
 
@@ -54,42 +62,47 @@ PrescribedMotion::PrescribedMotion(const Bodies& bodies, const std::vector<Named
   const Followers followers(bodies);
   for (std::size_t n = 0; n < conditions.size(); ++n) {
     const auto& condition = conditions[n];
-    if (!condition.value.x && !condition.value.y && !condition.value.rotation)
+    const std::array<const std::optional<Expression>*, 3> components{&condition.value.x, &condition.value.y, &condition.value.z};
+    if (!condition.value.x && !condition.value.y && !condition.value.z && !condition.value.rotation)
       diagnostics.push_back(
-          {condition.place,
-           fmt::format("boundary condition \"{}\" prescribes nothing; give \"x\", \"y\", or \"rotation\" of a reference point", condition.name)});
+          {condition.place, fmt::format("boundary condition \"{}\" prescribes nothing; give {}, or \"rotation\" of a reference point", condition.name,
+                                        mesh.dimension == 3 ? "\"x\", \"y\", \"z\"" : "\"x\", \"y\"")});
+    if (condition.value.z && mesh.dimension == 2)
+      diagnostics.push_back({condition.place, fmt::format("boundary condition \"{}\" prescribes z, which needs kinematics \"three dimensional\"; the "
+                                                          "scene is in the plane of x and y",
+                                                          condition.name)});
     try {
       const auto& nodes = require_node_set(mesh, condition.value.set);
       if (condition.value.rotation) {
         const ReferencePoint& point = require_rotating_point(mesh, condition.value.set);
         expressions_.push_back(*condition.value.rotation);
-        const auto& X = mesh.coordinates[point.node];
-        const Source source{static_cast<LocalOrdinal>(expressions_.size() - 1), {X[0], X[1]}, point.arm * boost::math::constants::degree<double>()};
-        if (point.rotation_node < mesh.owned_count()) prescribed.insert_or_assign(2 * point.rotation_node, Prescribed{source, n});
+        const Source source{static_cast<LocalOrdinal>(expressions_.size() - 1), mesh.coordinates[point.node],
+                            point.arm * boost::math::constants::degree<double>()};
+        if (point.rotation_node < mesh.owned_count()) prescribed.insert_or_assign(mesh.dimension * point.rotation_node, Prescribed{source, n});
       }
-      for (int component = 0; component < 2; ++component) {
-        const auto& expression = component == 0 ? condition.value.x : condition.value.y;
+      for (int component = 0; component < mesh.dimension; ++component) {
+        const auto& expression = *components[component];
         if (!expression) continue;
         if (const auto found = follower(bodies, followers, nodes, component)) {
           diagnostics.push_back(
               {condition.place, fmt::format("boundary condition \"{}\" prescribes {} at nodes that follow \"{}\"; please prescribe \"{}\"",
-                                            condition.name, component == 0 ? "x" : "y", *found, *found)});
+                                            condition.name, component_name(component), *found, *found)});
           continue;
         }
         expressions_.push_back(*expression);
         for (LocalOrdinal node : nodes) {
           if (node >= mesh.owned_count()) continue;
-          const Source source{static_cast<LocalOrdinal>(expressions_.size() - 1), {mesh.coordinates[node][0], mesh.coordinates[node][1]}};
-          const auto [other, is_new] = prescribed.try_emplace(2 * node + component, Prescribed{source, n});
+          const Source source{static_cast<LocalOrdinal>(expressions_.size() - 1), mesh.coordinates[node]};
+          const auto [other, is_new] = prescribed.try_emplace(mesh.dimension * node + component, Prescribed{source, n});
           if (is_new) continue;
           const bool same = std::all_of(std::begin(compared_times), std::end(compared_times),
                                         [&](double t) { return agree(value(source, t), value(other->second.source, t), length); });
           if (same) continue;
           const auto& first = conditions[other->second.condition];
           diagnostics.push_back({condition.place, fmt::format("boundary conditions \"{}\" ({}:{}) and \"{}\" prescribe {} differently at the node of "
-                                                              "reference position ({:g}, {:g})",
+                                                              "reference position {}",
                                                               first.name, first.place.file, first.place.line, condition.name,
-                                                              component == 0 ? "x" : "y", source.position[0], source.position[1])});
+                                                              component_name(component), to_string(source.position, mesh.dimension))});
           break;
         }
       }
@@ -106,7 +119,7 @@ PrescribedMotion::PrescribedMotion(const Bodies& bodies, const std::vector<Named
     if (!zero)
       diagnostics.push_back(
           {conditions[condition].place, fmt::format("boundary condition \"{}\" moves a reference point in {}, in which nothing follows it",
-                                                    conditions[condition].name, dof % 2 == 0 ? "x" : "y")});
+                                                    conditions[condition].name, component_name(dof % mesh.dimension))});
   }
   throw_if_any(*mesh.comm, diagnostics);
   for (const auto& [dof, entry] : prescribed) {
@@ -117,7 +130,7 @@ PrescribedMotion::PrescribedMotion(const Bodies& bodies, const std::vector<Named
 
 double PrescribedMotion::value(const Source& source, double time) const {
   try {
-    return source.factor * expressions_[source.expression](time, source.position[0], source.position[1]);
+    return source.factor * expressions_[source.expression](time, source.position[0], source.position[1], source.position[2]);
   } catch (const InputError&) {
     // Only this rank may be affected: a value that is not finite is found by all ranks together, in the residual.
     return std::numeric_limits<double>::quiet_NaN();

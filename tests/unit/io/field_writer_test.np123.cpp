@@ -7,13 +7,14 @@
 #include <libxml/parser.h>
 #include <libxml/xpath.h>
 
+#include <Eigen/Geometry>
 #include <Tpetra_Core.hpp>
 #include <Tpetra_Map.hpp>
 #include <map>
 
 #include "mortise/core/error.hpp"
 #include "mortise/mesh/build_mesh.hpp"
-#include "mortise/mesh/generators.hpp"
+#include "mortise/mesh/volume_generators.hpp"
 #include "scratch_directory.hpp"
 
 namespace mortise {
@@ -196,6 +197,50 @@ TEST(FieldWriter, ReadsBackThroughItsReferences) {
       EXPECT_EQ(std::vector<double>(stress.begin() + 6 * element, stress.begin() + 6 * element + 6), expected);
       EXPECT_EQ(von_mises[element], 1000.0 * body[element] + id);
     }
+  }
+}
+
+TEST(FieldWriter, WritesBodiesOfSpaceWithThreeAndSixComponents) {
+  // 2 x 2 x 1 cubes and, on top of them, one cube cut into 6 tetrahedra.
+  const auto below = std::make_shared<BrickMesh>(), above = std::make_shared<BrickMesh>();
+  below->width = below->depth = 2.0, below->cells_x = below->cells_y = 2, below->cells_z = 1;
+  above->cells_x = above->cells_y = above->cells_z = 1, above->translation = {0.0, 0.0, 1.0};
+  const auto mesh = build_mesh(world(), {{"lower", {}, below, CellShape::hexahedron8}, {"upper", {}, above, CellShape::tetrahedron4}}, {});
+  Field displacement{"displacement", Field::Center::node, FieldKind::vector, 3, {}};
+  for (LocalOrdinal node = 0; node < mesh->owned_count(); ++node)
+    displacement.values.insert(displacement.values.end(), mesh->coordinates[node].begin(), mesh->coordinates[node].end());
+  const Field stress{"cauchy_stress", Field::Center::cell, FieldKind::symmetric_tensor, 6, on_elements(*mesh, [&](std::size_t, GlobalOrdinal id) {
+                       return std::array<double, 6>{100.0 + id, 200.0 + id, 300.0 + id,
+                                                    400.0 + id, 500.0 + id, 600.0 + id};  // xx, yy, zz, xy, yz, xz
+                     })};
+  const test::ScratchDirectory scratch(world());
+  FieldWriter writer(mesh, scratch.path());
+  writer.write(0.0, {displacement, stress});
+  world()->barrier();
+  if (world()->getRank() != 0) return;
+
+  const Xdmf xdmf(scratch.path());
+  const std::string grid = "/Xdmf/Domain/Grid/Grid";
+  const auto coordinates = xdmf.data(grid + "/Geometry").values, topology = xdmf.data(grid + "/Topology").values;
+  const auto body = xdmf.data(grid + "/Attribute[@Name='body']").values;
+  ASSERT_EQ(coordinates.size(), 3u * (18 + 8));
+  ASSERT_EQ(topology.size(), 4u * 9 + 6 * 5);
+  std::size_t at = 0;
+  for (std::size_t element = 0; element < 10; ++element) {
+    const bool is_cube = element < 4;
+    ASSERT_EQ(topology[at], is_cube ? 9.0 : 6.0);  // hexahedron, tetrahedron
+    EXPECT_EQ(body[element], is_cube ? 0.0 : 1.0);
+    const auto corner = [&](int a) { return Eigen::Vector3d::Map(coordinates.data() + 3 * static_cast<std::size_t>(topology[at + 1 + a])); };
+    const Eigen::Vector3d x = corner(0), up = corner(is_cube ? 4 : 3) - x;
+    EXPECT_NEAR((corner(1) - x).cross(corner(is_cube ? 3 : 2) - x).dot(up), 1.0, 1e-14);
+    at += is_cube ? 9 : 5;
+  }
+  EXPECT_EQ(xdmf.data(grid + "/Attribute[@Name='displacement' and @AttributeType='Vector']").values, coordinates);
+  const auto stresses = xdmf.data(grid + "/Attribute[@Name='cauchy_stress' and @AttributeType='Tensor6']").values;
+  for (std::size_t element = 0; element < 10; ++element) {
+    const double id = static_cast<double>(element);
+    const std::vector<double> expected{100.0 + id, 400.0 + id, 600.0 + id, 200.0 + id, 500.0 + id, 300.0 + id};  // xx, xy, xz, yy, yz, zz
+    EXPECT_EQ(std::vector<double>(stresses.begin() + 6 * element, stresses.begin() + 6 * element + 6), expected);
   }
 }
 

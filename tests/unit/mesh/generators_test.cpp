@@ -145,6 +145,18 @@ TEST(DiskMesh, SidesLieOnTheCircleAndOnTheFlatSides) {
   }
 }
 
+TEST(FullDiskMesh, IsThePolygonOnItsCircle) {
+  FullDiskMesh disk;
+  disk.radius = 3.0;
+  disk.cells_around = 5;
+  disk.cells_across = 4;
+  const auto complex = disk.build(CellShape::quadrilateral4, {});
+  EXPECT_EQ(complex.element_count(), 5 * 5 + 4 * 5 * 4);
+  EXPECT_NEAR(area(complex), 0.5 * 20 * std::sin(0.1 * pi) * 9.0, 1e-12);
+  EXPECT_GT(smallest_angle(complex), 40.0);
+  expect_side(complex, "arc", [](const Point& x) { return radius_of(x) - 3.0; });
+}
+
 TEST(DiskMesh, AreaConvergesWithOrderTwo) {
   for (const bool half : {false, true}) {
     double last = 0.0;

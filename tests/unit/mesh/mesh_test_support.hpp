@@ -12,7 +12,7 @@ namespace mortise {
 
 struct ExampleMesh {
   std::string name;
-  std::shared_ptr<MeshOptions> options;
+  std::shared_ptr<PlaneMesh> options;
   std::vector<std::string> sides;
 };
 
@@ -43,9 +43,17 @@ inline std::vector<ExampleMesh> example_meshes() {
   fill(*quarter);
   fill(*lower);
   fill(*right);
-  return {{"block", block, {"bottom", "left", "right", "top"}},      {"wedge", wedge, {"bottom", "left", "right", "top"}},
-          {"ring sector", ring, {"end", "inner", "outer", "start"}}, {"quarter disk", quarter, {"arc", "axis", "diameter"}},
-          {"lower half disk", lower, {"arc", "diameter"}},           {"right half disk", right, {"arc", "axis"}}};
+  auto disk = std::make_shared<FullDiskMesh>();
+  disk->cells_around = 4;
+  disk->cells_across = 3;
+  disk->grading_across.ratio = 2.0;
+  return {{"block", block, {"bottom", "left", "right", "top"}},
+          {"wedge", wedge, {"bottom", "left", "right", "top"}},
+          {"ring sector", ring, {"end", "inner", "outer", "start"}},
+          {"quarter disk", quarter, {"arc", "axis", "diameter"}},
+          {"lower half disk", lower, {"arc", "diameter"}},
+          {"right half disk", right, {"arc", "axis"}},
+          {"disk", disk, {"arc"}}};
 }
 
 inline std::vector<BodyDescription> all_kinds(CellShape cell) {

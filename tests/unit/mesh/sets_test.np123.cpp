@@ -33,7 +33,7 @@ RCP<Mesh> with_sets(const RCP<const Communicator>& comm, CellShape cell) {
   return mesh;
 }
 
-using Facets = std::set<std::array<GlobalOrdinal, 2>>;
+using Facets = std::set<SurfaceFacet>;
 
 TEST(Sets, AreTheSameOnAnyNumberOfRanks) {
   for (const auto cell : {CellShape::quadrilateral4, CellShape::triangle3}) {

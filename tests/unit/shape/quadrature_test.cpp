@@ -41,7 +41,7 @@ TEST(QuadrilateralRule, IsExactInEachDirection) {
 }
 
 TEST(TriangleRule, IsExactToItsDegree) {
-  for (const auto& [points, degree] : {std::pair(1, 1), std::pair(3, 2)})
+  for (const auto& [points, degree] : {std::pair(1, 1), std::pair(3, 2), std::pair(7, 5)})
     for (int p = 0; p <= degree; ++p)
       for (int q = 0; p + q <= degree; ++q) {
         double sum = 0.0;
@@ -51,10 +51,54 @@ TEST(TriangleRule, IsExactToItsDegree) {
       }
 }
 
+TEST(TetrahedronRule, IsExactToItsDegree) {
+  for (const auto& [points, degree] : {std::pair(1, 1), std::pair(4, 2), std::pair(15, 5)})
+    for (int p = 0; p <= degree; ++p)
+      for (int q = 0; p + q <= degree; ++q)
+        for (int r = 0; p + q + r <= degree; ++r) {
+          double sum = 0.0;
+          for (const auto& point : tetrahedron_rule(points))
+            sum += point.weight * std::pow(point.xi[0], p) * std::pow(point.xi[1], q) * std::pow(point.xi[2], r);
+          // int x^p y^q z^r = p! q! r! / (p + q + r + 3)!
+          EXPECT_NEAR(sum, std::tgamma(p + 1.0) * std::tgamma(q + 1.0) * std::tgamma(r + 1.0) / std::tgamma(p + q + r + 4.0), 1e-15) << points;
+        }
+}
+
+TEST(HexahedronRule, IsExactInEachDirection) {
+  for (int n = 1; n <= 3; ++n)
+    for (int p = 0; p < 2 * n; ++p)
+      for (int q = 0; q < 2 * n; ++q)
+        for (int r = 0; r < 2 * n; ++r) {
+          double sum = 0.0;
+          for (const auto& point : hexahedron_rule(n))
+            sum += point.weight * std::pow(point.xi[0], p) * std::pow(point.xi[1], q) * std::pow(point.xi[2], r);
+          EXPECT_NEAR(sum, line_monomial(p) * line_monomial(q) * line_monomial(r), 1e-14);
+        }
+}
+
+TEST(Rules, OfSimplicesHavePositiveWeightsAndPointsInside) {
+  for (const auto& [shape, points] :
+       {std::pair(CellShape::triangle3, 1), std::pair(CellShape::triangle6, 3), std::pair(CellShape::triangle6, 7),
+        std::pair(CellShape::tetrahedron4, 1), std::pair(CellShape::tetrahedron10, 4), std::pair(CellShape::tetrahedron10, 15)}) {
+    const auto rule = cell_rule(shape, points);
+    EXPECT_EQ(static_cast<int>(rule.size()), points);
+    for (const auto& point : rule) {
+      EXPECT_GT(point.weight, 0.0);
+      for (int i = 0; i < topology(shape).dimension; ++i) EXPECT_GT(point.xi[i], 0.0);
+      EXPECT_LT(point.xi[0] + point.xi[1] + point.xi[2], 1.0);
+    }
+  }
+}
+
 TEST(Rules, RefuseWhatTheyDoNotHave) {
   EXPECT_THROW(gauss_legendre(0), std::invalid_argument);
   EXPECT_THROW(quadrilateral_rule(-1), std::invalid_argument);
+  EXPECT_THROW(hexahedron_rule(0), std::invalid_argument);
   EXPECT_THROW(triangle_rule(2), std::invalid_argument);
+  EXPECT_THROW(tetrahedron_rule(5), std::invalid_argument);
+  EXPECT_THROW(cell_rule(CellShape::quadrilateral8, 8), std::invalid_argument);
+  EXPECT_THROW(cell_rule(CellShape::hexahedron8, 9), std::invalid_argument);
+  EXPECT_THROW(cell_rule(CellShape::line2, 2), std::invalid_argument);
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ TEST(Bodies, RefuseAMeshWithAnInvertedElement) {
 }
 
 TEST(Bodies, ReportAnInvertedElementByBodyAndNumber) {
-  for (ElementType element : {ElementType::q4, ElementType::q4_f_bar, ElementType::t3}) {
+  for (ElementType element : {ElementType::q4, ElementType::q4_f_bar, ElementType::t3, ElementType::q8, ElementType::t6}) {
     BodySetup setup;
     setup.element = element;
     const auto bodies = make_test_bodies(self(), setup);
@@ -157,7 +157,7 @@ TEST(FBar, UnlocksNearlyIncompressibleBending) {
 
 TEST(Bodies, DoNotAllocateInTheElementLoop) {
   for (const char* law : {"hencky", "neo hooke", "st venant kirchhoff", "small strain linear"})
-    for (ElementType element : {ElementType::q4, ElementType::q4_f_bar, ElementType::t3}) {
+    for (ElementType element : {ElementType::q4, ElementType::q4_f_bar, ElementType::t3, ElementType::q8, ElementType::t6}) {
       std::vector<long> counts;
       for (int cells : {2, 20}) {
         BodySetup setup;

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "lattice_mesh.hpp"
 #include "mortise/mesh/build_mesh.hpp"
 #include "mortise/mesh/generators.hpp"
 #include "mortise/solid/bodies.hpp"
@@ -49,15 +50,26 @@ struct BodySetup {
 inline RCP<const Communicator> world() { return Tpetra::getDefaultComm(); }
 inline RCP<const Communicator> self() { return rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF)); }
 
-/// A rectangle [left, left + width] x [0, height] whose inner nodes are displaced by a smooth function.
+/// A rectangle [left, left + width] x [0, height] whose inner nodes are displaced by a smooth function, which curves quadratic cells.
 inline RCP<Mesh> make_test_mesh(const RCP<const Communicator>& comm, const BodySetup& setup) {
-  auto block = std::make_shared<BlockMesh>();
-  block->width = setup.width;
-  block->height = setup.height;
-  block->cells_x = setup.cells_x;
-  block->cells_y = setup.cells_y;
-  block->translation = {setup.left, 0.0};
-  auto mesh = build_mesh(comm, {{"body", {}, block, cell_shape(setup.element)}}, {});
+  const CellShape shape = cell_shape(setup.element);
+  RCP<Mesh> mesh;
+  if (shape == CellShape::quadrilateral4 || shape == CellShape::triangle3) {
+    auto block = std::make_shared<BlockMesh>();
+    block->width = setup.width;
+    block->height = setup.height;
+    block->cells_x = setup.cells_x;
+    block->cells_y = setup.cells_y;
+    block->translation = {setup.left, 0.0};
+    mesh = build_mesh(comm, {{"body", {}, block, shape}}, {});
+  } else {
+    mesh = make_lattice_mesh(
+        comm, shape, {setup.cells_x, setup.cells_y, 1},
+        [&](const std::array<double, 3>& s) -> std::array<double, 3> {
+          return {setup.left + setup.width * s[0], setup.height * s[1], 0.0};
+        },
+        true);
+  }
   for (auto& X : mesh->coordinates) {
     const double s = (X[0] - setup.left) / setup.width, t = X[1] / setup.height, bubble = 16.0 * s * (1.0 - s) * t * (1.0 - t);
     X[0] += setup.distortion * bubble * setup.width / setup.cells_x * std::cos(3.0 * s + 5.0 * t);
@@ -82,6 +94,43 @@ inline Vector local_field(const Bodies& bodies, const Field& field) {
     view(2 * node, 0) = value[0];
     view(2 * node + 1, 0) = value[1];
   }
+  return u;
+}
+
+/// A point of space or a displacement there.
+using Point3 = std::array<double, 3>;
+using SpaceField = std::function<Point3(const Point3&)>;
+
+/// The brick [2, 3] x [0, 1] x [0, 1]; its nodes, those of the surface too, are displaced by a smooth function.
+struct BrickSetup {
+  ElementType element = ElementType::h8;
+  std::string law = "hencky";
+  std::array<int, 3> cells{2, 1, 1};
+  double poissons_ratio = 0.3, distortion = 0.1;
+  bool curved = false;  ///< middles of edges move too
+};
+
+inline RCP<Mesh> make_brick_mesh(const BrickSetup& setup) {
+  return make_lattice_mesh(
+      self(), cell_shape(setup.element), setup.cells,
+      [&](const Point3& s) -> Point3 {
+        const double d = setup.distortion;
+        return {2.0 + s[0] + d / setup.cells[0] * std::cos(1.0 + 2.0 * s[1] - 3.0 * s[2]),
+                s[1] + d / setup.cells[1] * std::sin(2.0 * s[0] + 4.0 * s[2]), s[2] + d / setup.cells[2] * std::sin(1.0 + 3.0 * s[0] - 2.0 * s[1])};
+      },
+      setup.curved);
+}
+
+inline std::shared_ptr<Bodies> make_brick(const BrickSetup& setup) {
+  return std::make_shared<Bodies>(make_brick_mesh(setup), Kinematics::three_dimensional, 1.0,
+                                  std::vector<BodyProperties>{{"body", {}, make_material(setup.law, 1000.0, setup.poissons_ratio), setup.element}});
+}
+
+/// u(X) on the local dofs in space.
+inline Eigen::VectorXd space_field(const Bodies& bodies, const SpaceField& field) {
+  Eigen::VectorXd u(3 * bodies.mesh()->local_count());
+  for (LocalOrdinal node = 0; node < bodies.mesh()->local_count(); ++node)
+    u.segment<3>(3 * node) = Eigen::Map<const Eigen::Vector3d>(field(bodies.mesh()->coordinates[node]).data());
   return u;
 }
 

@@ -24,7 +24,7 @@ Field turned(double angle, double stretch_x, double stretch_y, double disturbanc
 std::vector<Displacement> displacements() {
   return {{"none", turned(0.0, 1.0, 1.0, 0.0)},
           {"small", turned(0.0, 1.0, 1.0, 1e-4)},
-          {"large", turned(0.0, 1.2, 0.85, 0.08)},
+          {"large", turned(0.0, 1.2, 0.85, 0.06)},  // more leaves St Venant-Kirchhoff no thickness in plane stress
           {"turned by 2.5 rad", turned(2.5, 1.1, 0.95, 0.06)},
           {"equal stretches", turned(0.7, 1.1, 1.1, 0.0)},
           {"nearly equal stretches", turned(0.7, 1.1, 1.1 + 1e-9, 0.0)}};
@@ -35,6 +35,7 @@ std::vector<BodySetup> allowed_setups() {
   for (const auto& [element_name, element] : element_names())
     for (const auto& material : material_registry().entries())
       for (const auto& [kinematics_name, kinematics] : kinematics_names()) {
+        if (dimension(kinematics) == 3) continue;
         if (!check_combination({"body", {}, make_material(material.name), element}, kinematics).empty()) continue;
         BodySetup setup;
         setup.element = element;
@@ -79,9 +80,9 @@ INSTANTIATE_TEST_SUITE_P(Tangent, EverySetup, testing::ValuesIn(allowed_setups()
 INSTANTIATE_TEST_SUITE_P(Tangent, EveryStandardSetup, testing::ValuesIn(standard_setups()), setup_name);
 INSTANTIATE_TEST_SUITE_P(Tangent, EverySetupWithHistory, testing::ValuesIn(setups_with_history()), setup_name);
 
-TEST(Combinations, AreThirtyEight) {
-  // Q4 and T3: 6 laws in plane strain and axisymmetric, 2 in plane stress; F-bar: 5 laws in plane strain and axisymmetric.
-  EXPECT_EQ(allowed_setups().size(), 2u * (6 + 6 + 2) + 5 + 5);
+TEST(Combinations, AreSixtySix) {
+  // Q4, T3, Q8 and T6: 6 laws in plane strain and axisymmetric, 2 in plane stress; F-bar: 5 laws in plane strain and axisymmetric.
+  EXPECT_EQ(allowed_setups().size(), 4u * (6 + 6 + 2) + 5 + 5);
 }
 
 TEST_P(EverySetup, StiffnessIsTheDerivativeOfTheForce) {

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "mortise/contact/frame.hpp"
 #include "mortise/contact/friction.hpp"
 
 namespace mortise {
@@ -11,65 +12,105 @@ namespace mortise {
 /// What a slave node does. A closed node without friction slips.
 enum class ContactState { open = 0, stick = 1, slip = 2 };
 
-/// C of one node in the frame (n, tau), rows in units of traction, and its linearisation
+/// C of one node in its frame (n, tau_a), rows in units of traction, and its linearisation
 ///   dC = C_z dz + gap_factor dg + weight_factor dw + normal_factor dn + [ 0 ; slip_factor du ],   w = sum_k D_jk.
 struct Complementarity {
   ContactState state = ContactState::open;
-  Eigen::Vector2d C = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d C_z = Eigen::Matrix2d::Identity();
-  Eigen::Vector2d gap_factor = Eigen::Vector2d::Zero();
-  Eigen::Vector2d weight_factor = Eigen::Vector2d::Zero();  ///< 0 but for regularised conditions
-  Eigen::Matrix2d normal_factor = Eigen::Matrix2d::Zero();
-  double slip_factor = 0.0;
+  SpatialVector C;
+  SpatialMatrix C_z;
+  SpatialVector gap_factor;
+  SpatialVector weight_factor;  ///< 0 but for regularised conditions
+  SpatialMatrix normal_factor;
+  TangentMatrix slip_factor;  ///< without size: slips do not matter
 };
 
-/// Tangent of a normal in 2D: n turned by +90 degrees.
-inline Eigen::Vector2d tangent(const Eigen::Vector2d& normal) { return {-normal.y(), normal.x()}; }
+/// The linearisation of an open node's C = z.
+inline Complementarity open_node(const SpatialVector& z) {
+  const Eigen::Index dimension = z.size();
+  Complementarity result;
+  result.C = z;
+  result.C_z = SpatialMatrix::Identity(dimension, dimension);
+  result.gap_factor = result.weight_factor = SpatialVector::Zero(dimension);
+  result.normal_factor = SpatialMatrix::Zero(dimension, dimension);
+  return result;
+}
+
+/// C of a closed node with the normal condition C_n = c_n g and no shear traction, C_a = z . tau_a.
+inline Complementarity closed_node(double c_n, double gap, const Frame& frame, const SpatialVector& z) {
+  const Eigen::Index tangents = frame.tangents.rows();
+  Complementarity result = open_node(z);
+  result.state = ContactState::slip;
+  result.C[0] = c_n * gap;
+  result.C.tail(tangents) = frame.tangents * z;
+  result.C_z.row(0).setZero();
+  result.C_z.bottomRows(tangents) = frame.tangents;
+  result.gap_factor[0] = c_n;
+  for (Eigen::Index a = 0; a < tangents; ++a) result.normal_factor.row(1 + a) = z.transpose() * frame.turn[a];
+  return result;
+}
 
 /// C of a node without friction:
 ///   open     C = z
-///   closed   C_n = c_n g,   C_tau = z . tau
+///   closed   C_n = c_n g,   C_a = z . tau_a
 /// @param closed  whether z . n - c_n g > 0
 /// @param c_n     complementarity constant, traction per weighted gap
-inline Complementarity frictionless(bool closed, double c_n, double gap, const Eigen::Vector2d& normal, const Eigen::Vector2d& z) {
-  Complementarity result;
-  if (!closed) {
-    result.C = z;
-    return result;
-  }
-  const Eigen::Vector2d tau = tangent(normal);
-  result.state = ContactState::slip;
-  result.C = {c_n * gap, z.dot(tau)};
-  result.C_z << 0.0, 0.0, tau.x(), tau.y();
-  result.gap_factor = {c_n, 0.0};
-  // z . d(tau) = z . (-dn_y, dn_x)
-  result.normal_factor.row(1) << z.y(), -z.x();
-  return result;
+inline Complementarity frictionless(bool closed, double c_n, double gap, const Frame& frame, const SpatialVector& z) {
+  return closed ? closed_node(c_n, gap, frame, z) : open_node(z);
 }
+
+/// The direction e = y / |y| of slip and how the bound's share of the traction turns with y:  d(rho e) = e drho + turning dy.
+struct SlipDirection {
+  TangentVector along;
+  TangentMatrix turning;  ///< rho / |y| (I - e e^T); 0 in the plane
+  SlipDirection(const TangentVector& y, double bound) : along(TangentVector::Zero(y.size())), turning(TangentMatrix::Zero(y.size(), y.size())) {
+    const double length = y.norm();
+    if (!(length > 0.0)) return;
+    along = y / length;
+    if (y.size() > 1) turning = bound / length * (TangentMatrix::Identity(2, 2) - along * along.transpose());
+  }
+};
 
 /// C of a closed node with friction (Hueber, Wohlmuth 2005; Gitterle et al. 2010, with all rows in units of traction). With y = z_tau + c_t u and the
 /// bound rho at the pressure z_n - c_n g:
 ///   stick   |y| < rho   C_tau = -c_t u
-///   slip                C_tau = z_tau - rho sign(y)
-/// @param slip  weighted slip u of the step: the slave's motion relative to the master along tau, times the weight
-inline Complementarity with_friction(double c_n, double c_t, double gap, double slip, const Eigen::Vector2d& normal, const Eigen::Vector2d& z,
+///   slip                C_tau = z_tau - rho y / |y|
+/// @param slip  weighted slip u of the step: the slave's motion relative to the master along tau_a, times the weight
+inline Complementarity with_friction(double c_n, double c_t, double gap, const TangentVector& slip, const Frame& frame, const SpatialVector& z,
                                      const FrictionBound& bound) {
-  Complementarity result = frictionless(true, c_n, gap, normal, z);
-  const double y = result.C[1] + c_t * slip;
-  if (std::abs(y) < bound.value) {
+  const Eigen::Index tangents = slip.size();
+  Complementarity result = closed_node(c_n, gap, frame, z);
+  const TangentVector y = result.C.tail(tangents) + c_t * slip;
+  if (y.norm() < bound.value) {
     result.state = ContactState::stick;
-    result.C[1] = -c_t * slip;
-    result.C_z.row(1).setZero();
-    result.normal_factor.row(1).setZero();
-    result.slip_factor = -c_t;
+    result.C.tail(tangents) = -c_t * slip;
+    result.C_z.bottomRows(tangents).setZero();
+    result.normal_factor.bottomRows(tangents).setZero();
+    result.slip_factor = -c_t * TangentMatrix::Identity(tangents, tangents);
     return result;
   }
-  const double sign = y > 0.0 ? 1.0 : y < 0.0 ? -1.0 : 0.0, slope = sign * bound.slope;
-  result.C[1] -= sign * bound.value;
-  result.C_z.row(1) -= slope * normal.transpose();
-  result.normal_factor.row(1) -= slope * z.transpose();
-  result.gap_factor[1] = slope * c_n;
+  const SlipDirection direction(y, bound.value);
+  const TangentVector slope = bound.slope * direction.along;
+  result.C.tail(tangents) -= bound.value * direction.along;
+  if (tangents > 1) {
+    result.C_z.bottomRows(tangents) -= direction.turning * frame.tangents;
+    result.normal_factor.bottomRows(tangents) -= direction.turning * SpatialMatrix(result.normal_factor.bottomRows(tangents));
+    result.slip_factor = -c_t * direction.turning;
+  }
+  result.C_z.bottomRows(tangents) -= slope * frame.normal.transpose();
+  result.normal_factor.bottomRows(tangents) -= slope * z.transpose();
+  result.gap_factor.tail(tangents) = c_n * slope;
   return result;
+}
+
+/// `law` with z . tau_a = 0 in the place of what it asks along tangent a: nothing moves there, and no shear traction is borne.
+inline void hold_tangent(Complementarity& law, const Frame& frame, const SpatialVector& z, Eigen::Index a) {
+  law.C[1 + a] = frame.tangents.row(a).dot(z);
+  law.C_z.row(1 + a) = frame.tangents.row(a);
+  law.normal_factor.row(1 + a) = z.transpose() * frame.turn[a];
+  law.gap_factor[1 + a] = law.weight_factor[1 + a] = 0.0;
+  if (law.slip_factor.size() == 0) return;
+  law.slip_factor.row(a).setZero();
+  law.slip_factor.col(a).setZero();
 }
 
 }  // namespace mortise

@@ -55,19 +55,19 @@ struct ContactNorms {
 struct ContactNodeState {
   GlobalOrdinal node = 0;
   LocalOrdinal owned_node = 0;
-  std::array<double, 2> traction{};  ///< multiplier z (compression positive along the normal), force per area
-  std::array<double, 2> normal{};
+  std::array<double, 3> traction{};  ///< multiplier z (compression positive along the normal), force per area; third component 0 in the plane
+  std::array<double, 3> normal{};
   double pressure = 0.0;  ///< z . n
   double gap = 0.0;       ///< weighted gap / A_j
   double weight = 0.0;    ///< A_j
   bool closed = false;
   ContactState state = ContactState::open;
   double covered = 0.0;           ///< sum_k D_jk: the force on the slave side is -covered * traction
-  double shear = 0.0;             ///< z . tau, tau = n turned by +90 degrees
+  double shear = 0.0;             ///< z . tau, tau = n turned by +90 degrees; in space |z - (z . n) n|
   double shear_bound = 0.0;       ///< rho, of closed nodes; friction only
-  double slip = 0.0;              ///< along tau since the start of the step [length]; friction only
+  double slip = 0.0;              ///< along tau, in space its size, since the start of the step [length]; friction only
   double slip_path = 0.0;         ///< |slip| summed over the accepted steps [length]; friction only
-  std::array<double, 2> force{};  ///< D_jj z_j, force of this node's multiplier on the slave side is -force
+  std::array<double, 3> force{};  ///< D_jj z_j, force of this node's multiplier on the slave side is -force
 };
 
 /// How far an augmented Lagrange update was from being needed no more, over all ranks.
@@ -83,8 +83,8 @@ struct Augmentation {
 class ContactSystem {
  public:
   /// @param dofs       owned dofs (dimension * node + component) of `owned_nodes`
-  /// @param reference  [owned nodes x 2] reference positions
-  /// @param fixed      [owned nodes x 2] 1 where prescribed
+  /// @param reference  [owned nodes x dim] reference positions
+  /// @param fixed      [owned nodes x dim] 1 where prescribed
   /// @throws InputError for a slave node in two pairs, a node that is slave in one pair and master in another, and what
   ///         MortarInterface refuses
   ContactSystem(RCP<const Map> owned_nodes, RCP<const Map> dofs, RCP<const MultiVector> reference, RCP<const MultiVector> fixed,
@@ -117,7 +117,7 @@ class ContactSystem {
   /// C(d, z), d of the last evaluate; rows in units of traction.
   void complementarity(const Vector& z, Vector& C) const;
   ContactNorms norms(const Vector& z) const;
-  /// A_j for both components of each multiplier.
+  /// A_j for every component of each multiplier.
   RCP<Vector> weights() const;
 
   /// Takes the states at z, d of the last evaluate, as those that `changed` counts against: once for each Newton iterate.
@@ -157,7 +157,7 @@ class ContactSystem {
   /// How often slips were measured, over all pairs, on this rank; 0 without friction.
   long friction_evaluations() const;
   /// Resultant (over all ranks) of the contact forces on the slave side of a pair, of both passes if there are two.
-  std::array<double, 2> resultant(std::size_t pair, const Vector& z) const;
+  std::array<double, 3> resultant(std::size_t pair, const Vector& z) const;
 
  private:
   struct Implementation;

@@ -24,7 +24,9 @@ struct BodyDescription {
 /// `contact_sides` ("body/side") are balanced; names that are no sides of the bodies are passed over (see require_side_set).
 /// Besides its named sides each body gets a side set "body/surface" (all of them) and a node set "body" (all its nodes).
 /// Reference points get the ids beyond those of all bodies, and a node set each; followers come with add_followers().
-/// @throws InputError on all ranks: no body, repeated names, shapes without meaning, an inverted element (with its det J).
+/// All bodies are of the plane, or all of space; rigid bodies and reference points are available in the plane only.
+/// @throws InputError on all ranks: no body, repeated names, bodies of different dimension, elements that do not fit the mesh, shapes without
+/// meaning, an inverted element (with its det J).
 RCP<Mesh> build_mesh(const RCP<const Communicator>& comm, const std::vector<BodyDescription>& bodies, const std::vector<std::string>& contact_sides,
                      const std::vector<ReferencePointDescription>& reference_points = {});
 
@@ -33,7 +35,7 @@ struct MeshSize {
   GlobalOrdinal nodes = 0, elements = 0;
   std::vector<GlobalOrdinal> elements_of_block;
   double length = 0.0;         ///< diagonal of the box around all reference positions: the characteristic length
-  double shortest_side = 0.0;  ///< of all elements
+  double shortest_side = 0.0;  ///< shortest edge of all elements
 };
 /// Collective.
 MeshSize mesh_size(const Mesh& mesh);

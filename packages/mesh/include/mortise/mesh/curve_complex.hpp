@@ -10,7 +10,6 @@ namespace mortise {
 class CurveComplex {
  public:
   using Edge = PatchComplex::Edge;
-  using SurfaceSide = PatchComplex::SurfaceSide;
 
   /// `names`: of the side that each edge belongs to.
   CurveComplex(std::vector<Point> corners, std::vector<Edge> edges, const std::vector<std::string>& names, Placement placement);
@@ -21,8 +20,8 @@ class CurveComplex {
   const std::vector<std::string>& side_names() const { return side_names_; }
 
   Point coordinate(GlobalOrdinal node) const;
-  /// The two nodes of a line; the other entries are -1.
-  std::array<GlobalOrdinal, 4> element_nodes(GlobalOrdinal element) const;
+  /// The two nodes of a line.
+  CellNodes element_nodes(GlobalOrdinal element) const;
   std::vector<GlobalOrdinal> elements_of_node(GlobalOrdinal node) const;
   std::vector<SurfaceSide> surface_sides(GlobalOrdinal element) const;
   std::vector<int> sides_of_node(GlobalOrdinal node) const;

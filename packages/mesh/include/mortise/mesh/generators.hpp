@@ -1,12 +1,12 @@
 #pragma once
-// The built-in meshes.
+// The built-in meshes of the plane.
 
 #include "mortise/mesh/mesh_options.hpp"
 
 namespace mortise {
 
 /// Rectangle or general quadrilateral. Sides: bottom, right, top, left.
-struct BlockMesh : MeshOptions {
+struct BlockMesh : PlaneMesh {
   double width = 1.0, height = 1.0;
   double bottom_radius = 0.0;   ///< of the arc that the bottom side is, bulging outward; 0: straight
   std::vector<double> corners;  ///< x1, y1, ... counterclockwise from bottom left; empty: the rectangle [0, width] x [0, height]
@@ -17,7 +17,7 @@ struct BlockMesh : MeshOptions {
 };
 
 /// Trapezoid on y = 0 with upright ends of different heights, so that its top is inclined. Sides: bottom, right, top, left.
-struct WedgeMesh : MeshOptions {
+struct WedgeMesh : PlaneMesh {
   double width = 1.0, left_height = 1.0, right_height = 0.5;
   int cells_x = 0, cells_y = 0;
   GradingOptions grading_x, grading_y;
@@ -26,7 +26,7 @@ struct WedgeMesh : MeshOptions {
 };
 
 /// Part of a ring about the origin between two angles. Sides: inner, outer, start, end.
-struct RingSectorMesh : MeshOptions {
+struct RingSectorMesh : PlaneMesh {
   double inner_radius = 1.0, outer_radius = 2.0;
   double start_angle = 0.0, end_angle = 90.0;  ///< degrees, counterclockwise from the x axis
   int cells_radial = 0, cells_around = 0;
@@ -35,15 +35,38 @@ struct RingSectorMesh : MeshOptions {
   PatchComplex build(CellShape cell, const Place& place) const override;
 };
 
-/// What quarter and half disks share. The disk's centre is the origin; its lowest point is where cells can be made small. Each quarter has
-/// an inner patch, one between the lowest (or highest) point and 45 degrees, and one from there to the horizontal diameter.
-struct DiskMesh : MeshOptions {
+/// Disk about the origin: an inner patch and four around it. Side: arc.
+struct FullDiskMesh : PlaneMesh {
+  double radius = 1.0;
+  int cells_around = 0;  ///< on each quarter of the circle
+  int cells_across = 0;  ///< between the circle and the inner patch
+  GradingOptions grading_across;
+  std::string side = "arc";  ///< its name
+  void describe_shape(Parameters& parameters) override;
+  PatchComplex build(CellShape cell, const Place& place) const override;
+};
+
+/// Cells of round bodies about the origin whose lowest point is where cells can be made small: an inner patch or block, and others between it and the
+/// surface, of which one has the lowest point.
+struct PolarCells {
+  static constexpr double inner = 0.5;  ///< where the inner patch or block ends on an axis, as a share of the radius
   double radius = 1.0;
   int cells_along = 0;                           ///< on the arc between the lowest point and 45 degrees
   int cells_beyond = 0;                          ///< on the arc from there to the diameter; 0: as fits the other cells
   int cells_across = 0;                          ///< between the arc and the inner patch
   GradingOptions grading_along, grading_across;  ///< both toward the lowest point
-  void describe_shape(Parameters& parameters) override;
+  void describe(Parameters& parameters);
+
+  struct Spacings {
+    Spacing along, across, beyond;
+  };
+  Spacings spacings(const Place& place) const;
+};
+
+/// What quarter and half disks share. Each quarter has an inner patch, one between the lowest (or highest) point and 45 degrees, and one from there
+/// to the horizontal diameter.
+struct DiskMesh : PlaneMesh, PolarCells {
+  void describe_shape(Parameters& parameters) override { PolarCells::describe(parameters); }
 
  protected:
   PatchComplex build_quarters(CellShape cell, const Place& place, bool lower_left, bool upper_right) const;
@@ -65,7 +88,7 @@ struct HalfDiskMesh : DiskMesh {
 };
 
 /// A polyline whose corners are rounded by arcs, or an arc's polygon: the surface of a rigid body, without an inside. Side: profile.
-struct ProfileMesh : MeshOptions {
+struct ProfileMesh : PlaneMesh {
   std::vector<double> points;  ///< x1, y1, ...; the body lies to the left of the way along them
   std::vector<double> radii;   ///< of the arcs at the points between the first and the last; empty: sharp corners
   double cell_size = 0.0;      ///< largest length of a line

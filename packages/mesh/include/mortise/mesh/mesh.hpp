@@ -71,7 +71,7 @@ struct Mesh {
   }
   LocalOrdinal local_count() const { return static_cast<LocalOrdinal>(local_nodes->getNodeNumElements()); }
 
-  /// Local nodes of a side, outward normal on the right of the direction of travel.
+  /// Local nodes of a side, in the order of the side's shape (see CellTopology::sides).
   std::vector<LocalOrdinal> side_nodes(const Side& side) const;
 };
 

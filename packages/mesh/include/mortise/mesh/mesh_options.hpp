@@ -1,32 +1,72 @@
 #pragma once
 // Options from which a body's mesh is described; the kinds of built-in meshes are told apart by "type" (mesh_registry).
 
+#include <variant>
+
 #include "mortise/core/parameters.hpp"
 #include "mortise/mesh/curve_complex.hpp"
 #include "mortise/mesh/patch_complex.hpp"
+#include "mortise/mesh/swept_complex.hpp"
+#include "mortise/mesh/volume_complex.hpp"
 
 namespace mortise {
 
-/// Options of one body's mesh. A new kind derives from it, declares its parameters and is added to mesh_registry().
+/// The pure description of a body; all kinds have the same members.
+using BodyComplex = std::variant<PatchComplex, CurveComplex, SweptComplex, VolumeComplex>;
+
+/// Options of one body's mesh. A new kind derives from PlaneMesh or VolumeMesh, declares its parameters and is added to mesh_registry().
 struct MeshOptions : Described {
-  double rotation = 0.0;  ///< degrees about the origin, applied first
-  std::vector<double> translation{0.0, 0.0};
+  double rotation = 0.0;            ///< degrees, applied first
+  std::vector<double> translation;  ///< as many numbers as the mesh has dimensions
+
+  int dimension() const { return dimension_; }
 
   /// The kind's own parameters, then the placement.
   void describe(Parameters& parameters) final;
   virtual void describe_shape(Parameters& parameters) = 0;
 
-  /// The pure description of the mesh, of triangles or quadrilaterals. Throws InputError at `place` for shapes without meaning.
+  /// The pure description of the body in elements of a shape. Throws InputError at `place` for shapes without meaning.
+  virtual BodyComplex complex(CellShape cell, const Place& place) const = 0;
+
+ protected:
+  explicit MeshOptions(int dimension) : translation(dimension, 0.0), dimension_(dimension) {}
+  virtual void describe_rotation(Parameters& parameters) = 0;
+
+ private:
+  int dimension_;
+};
+
+/// Options of a mesh in the plane.
+struct PlaneMesh : MeshOptions {
+  PlaneMesh() : MeshOptions(2) {}
+
+  /// The body in triangles or quadrilaterals. Throws InputError at `place` for shapes without meaning.
   virtual PatchComplex build(CellShape cell, const Place& place) const = 0;
 
   /// The surface alone, of lines, for a rigid body. Throws InputError at `place` for shapes without meaning.
   virtual CurveComplex build_surface(const Place& place) const { return build(CellShape::quadrilateral4, place).surface(); }
 
+  BodyComplex complex(CellShape cell, const Place& place) const final;
+
  protected:
+  void describe_rotation(Parameters& parameters) final;
   Placement placement() const { return {rotation, {translation.at(0), translation.at(1)}}; }
 };
 
-/// All built-in kinds: block, wedge, ring sector, quarter disk, half disk, profile.
+/// Options of a mesh in space.
+struct VolumeMesh : MeshOptions {
+  Axis rotation_axis = Axis::z;
+  VolumeMesh() : MeshOptions(3) {}
+
+ protected:
+  void describe_rotation(Parameters& parameters) final;
+  SpatialPlacement placement() const { return {rotation_axis, rotation, {translation.at(0), translation.at(1), translation.at(2)}}; }
+};
+
+/// The built-in kinds in the plane that have an inside: block, wedge, ring sector, disk, quarter disk, half disk.
+const Registry<PlaneMesh>& plane_mesh_registry();
+
+/// All built-in kinds: those in the plane, profile, and those in space: brick, cylinder, extruded, revolved, sphere octant.
 const Registry<MeshOptions>& mesh_registry();
 
 }  // namespace mortise

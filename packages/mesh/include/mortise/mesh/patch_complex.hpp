@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "mortise/core/types.hpp"
+#include "mortise/mesh/cell_nodes.hpp"
 #include "mortise/mesh/spacing.hpp"
-#include "mortise/shape/cell.hpp"
 
 namespace mortise {
 
@@ -40,12 +40,6 @@ class PatchComplex {
     std::array<int, 4> corners{};
     std::array<std::string, 4> sides{};
   };
-  /// A side of an element on the body's surface.
-  struct SurfaceSide {
-    int side = 0;  ///< of the element
-    int name = 0;  ///< index into side_names()
-  };
-
   /// Throws std::logic_error if a patch's edge is missing or opposite edges differ in their number of cells (an error of the generator).
   PatchComplex(CellShape shape, std::vector<Point> corners, std::vector<Edge> edges, std::vector<Patch> patches, Placement placement);
 
@@ -57,8 +51,8 @@ class PatchComplex {
   /// Position of a node.
   Point coordinate(GlobalOrdinal node) const;
 
-  /// Nodes of an element, counterclockwise; the first topology(shape()).nodes entries count.
-  std::array<GlobalOrdinal, 4> element_nodes(GlobalOrdinal element) const;
+  /// Nodes of an element, counterclockwise.
+  CellNodes element_nodes(GlobalOrdinal element) const;
 
   /// The named sides alone, as a chain of lines: what is left of the body if it is rigid.
   CurveComplex surface() const;

@@ -1,13 +1,13 @@
 #pragma once
 // Named sets of a mesh: derived ones, look-up with errors, and the facets of surfaces.
 
-#include <array>
 #include <string>
 #include <vector>
 
 #include "mortise/core/expression.hpp"
 #include "mortise/core/parameters.hpp"
 #include "mortise/mesh/mesh.hpp"
+#include "mortise/shape/surface_facet.hpp"
 
 namespace mortise {
 
@@ -16,7 +16,7 @@ enum class SetKind { nodes, sides };
 /// A set derived from another one.
 struct SetOptions {
   Located<std::string> of;  ///< name of a side set ("body/side") or, for nodes, also of a node set ("body")
-  Expression where{1.0};    ///< of x and y (reference); kept where > 0, at a node or at the middle of a side
+  Expression where{1.0};    ///< of x, y and z (reference); kept where > 0, at a node or at the middle of a side
   SetKind kind = SetKind::nodes;
   void describe(Parameters& parameters);
 };
@@ -29,13 +29,10 @@ void add_set(Mesh& mesh, const Named<SetOptions>& set);
 const SideSet& require_side_set(const Mesh& mesh, const Located<std::string>& name);
 const std::vector<LocalOrdinal>& require_node_set(const Mesh& mesh, const Located<std::string>& name);
 
-/// Facets of a surface in 2D: two node ids each, outward normal on the right of the direction of travel, n = (t_y, -t_x).
-using FacetNodes = std::vector<std::array<GlobalOrdinal, 2>>;
-
 /// Every facet of the set with a node owned by this rank (a facet may stand on two ranks).
-FacetNodes facets_at_owned_nodes(const Mesh& mesh, const SideSet& set);
+SurfaceFacets facets_at_owned_nodes(const Mesh& mesh, const SideSet& set);
 
 /// The facets of the set that belong to owned elements (each on exactly one rank).
-FacetNodes facets_of_owned_elements(const Mesh& mesh, const SideSet& set);
+SurfaceFacets facets_of_owned_elements(const Mesh& mesh, const SideSet& set);
 
 }  // namespace mortise

@@ -28,6 +28,9 @@ class Spacing {
   /// Position of point i in 0..cells(); 0 at the start and exactly 1 at the end.
   double position(int i) const;
 
+  /// Position of point i/2 for even i, of the middle of a cell for odd i in 0..2 cells().
+  double doubled_position(int i) const { return i % 2 == 0 ? position(i / 2) : 0.5 * (position(i / 2) + position(i / 2 + 1)); }
+
   /// The same cells from the other end.
   Spacing reversed() const;
 

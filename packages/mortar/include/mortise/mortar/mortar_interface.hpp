@@ -9,7 +9,9 @@
 
 #include "mortise/core/error.hpp"
 #include "mortise/core/parameters.hpp"
+#include "mortise/core/spatial.hpp"
 #include "mortise/core/types.hpp"
+#include "mortise/shape/surface_facet.hpp"
 
 namespace mortise {
 
@@ -46,34 +48,33 @@ struct MortarOptions {
   void describe(Parameters& parameters);
 };
 
-/// Facets of a surface in 2D: two node ids each, in the order that has the outward normal on the right of the direction of travel,
-/// n = (t_y, -t_x).
-using SurfaceFacets = std::vector<std::array<GlobalOrdinal, 2>>;
+/// Matrices over the nodes of one slave facet.
+using FacetMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most_side_nodes, most_side_nodes>;
+using FacetVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, most_side_nodes, 1>;
 
-/// Values of one slave facet and, if asked for, their first derivatives with respect to nodal positions.
+/// Values of one slave facet and, if asked for, their first derivatives with respect to nodal positions, in a model of `dim` dimensions.
 /// Nodes are local indices of MortarInterface::local_nodes(). phi_j are the functions of the facet's multipliers: dual ones, formed on its covered
 /// part only, or N_j (the share of a node without multiplier is given to the facet's other nodes); rows of nodes without multiplier are zero.
 /// Node to segment: one slave node with the facet that it meets, phi_j a point load: D_jj is its share w of the surface, M_jl = w N_l, the gap w
-/// times the distance; slave[1] is none.
+/// times the distance.
 struct FacetCoupling {
-  static constexpr LocalOrdinal none = -1;
-  std::array<LocalOrdinal, 2> slave{};
+  Facet<LocalOrdinal> slave;
   std::vector<LocalOrdinal> master;   ///< nodes of the master facets that the slave facet overlaps, without repeats
   std::vector<LocalOrdinal> columns;  ///< nodes on whose positions the values depend: slave, ring (neighbours that shape the normals), master
-  Eigen::Matrix2d D = Eigen::Matrix2d::Zero();    ///< D(j,k) = int phi_j N_k; dual: off-diagonal only next to a node without multiplier
-  Eigen::Matrix<double, 2, Eigen::Dynamic> M;     ///< [2 x master] M(j,l) = int phi_j N_l
-  Eigen::Vector2d gap = Eigen::Vector2d::Zero();  ///< int w_j g, w the gap weighting
-  /// Derivatives; column 2 c + i belongs to component i of columns[c]. Empty if not asked for.
-  Eigen::Matrix<double, 4, Eigen::Dynamic> dD;  ///< row 2 j + k
-  Eigen::MatrixXd dM;                           ///< [2 master.size() x 2 columns.size()], row j * master.size() + l
-  Eigen::Matrix<double, 2, Eigen::Dynamic> dgap;
+  FacetMatrix D;                      ///< D(j,k) = int phi_j N_k; dual: off-diagonal only next to a node without multiplier
+  Eigen::MatrixXd M;                  ///< [slave x master] M(j,l) = int phi_j N_l
+  FacetVector gap;                    ///< [slave] int w_j g, w the gap weighting
+  /// Derivatives; column dim c + i belongs to component i of columns[c]. Empty if not asked for.
+  Eigen::MatrixXd dD;    ///< row slave.size() j + k
+  Eigen::MatrixXd dM;    ///< row j master.size() + l
+  Eigen::MatrixXd dgap;  ///< row j
 };
 
 /// Averaged unit normal of an owned slave node and its derivative.
 struct NodalNormal {
-  Eigen::Vector2d normal = Eigen::Vector2d::Zero();
+  SpatialVector normal;
   std::vector<LocalOrdinal> columns;
-  Eigen::Matrix<double, 2, Eigen::Dynamic> derivative;  ///< [2 x 2 columns.size()]
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 3> derivative;  ///< [dim x dim columns.size()]
 };
 
 /// An owned slave node. Constant during the life of the interface.
@@ -81,17 +82,19 @@ struct SlaveNode {
   GlobalOrdinal id = 0;
   LocalOrdinal owned_node = 0;     ///< local index in the map of owned nodes
   LocalOrdinal local_node = 0;     ///< local index in local_nodes(); the same number for ever
-  std::array<bool, 2> fixed{};     ///< components with a prescribed displacement
+  std::array<bool, 3> fixed{};     ///< components with a prescribed displacement
   bool carries_multiplier = true;  ///< false: prescribed in every direction its normal could push it
   double weight = 0.0;             ///< A_j = int N_j over the whole reference slave surface (with t or 2 pi R), times the pair's share
+
+  bool partly_fixed() const { return fixed[0] || fixed[1] || fixed[2]; }
 };
 
-/// One contact pair's coupling. Collective in all members but the accessors.
+/// One contact pair's coupling, in the plane or in space, by the number of columns of the positions. Collective in all members but the accessors.
 class MortarInterface {
  public:
   /// @param owned_nodes    one-to-one map of all nodes of the model
-  /// @param reference      [owned nodes x 2] reference positions
-  /// @param fixed          [owned nodes x 2] 1 where the displacement is prescribed, else 0
+  /// @param reference      [owned nodes x dim] reference positions
+  /// @param fixed          [owned nodes x dim] 1 where the displacement is prescribed, else 0
   /// @param slave          every slave facet with a node owned by this rank (so a facet may stand on two ranks)
   /// @param master         the master facets of this rank, each on exactly one rank
   /// @throws InputError (at `place`) for a slave facet whose nodes all lack a multiplier ("make this side the master"), a facet of zero
@@ -100,7 +103,7 @@ class MortarInterface {
                   const SurfaceFacets& master, const InterfaceMeasure& measure, const MortarOptions& options, const Place& place);
   ~MortarInterface();
 
-  /// Finds, for the positions `x` [owned nodes x 2], the master facets each slave facet may touch. Cheap when no node moved further
+  /// Finds, for the positions `x` [owned nodes x dim], the master facets each slave facet may touch. Cheap when no node moved further
   /// than a tenth of the shortest facet since the last real search. Returns (the same on every rank) whether local_nodes() and the
   /// pattern were rebuilt. Does nothing if a position is not finite; evaluate() then reports it.
   bool search(const MultiVector& x);
@@ -123,7 +126,7 @@ class MortarInterface {
   const std::vector<LocalOrdinal>& loaded_nodes(std::size_t s) const;
 
   /// Facet couplings of all facets that touch an owned slave node and overlap a master facet, and the normals of the owned slave nodes
-  /// [slave nodes], at positions `x` [local nodes x 2]. No communication. Local failures (inverted facet, projection) go to `failure`.
+  /// [slave nodes], at positions `x` [local nodes x dim]. No communication. Local failures (inverted facet, projection) go to `failure`.
   void evaluate(const MultiVector& x, bool derivatives, std::vector<FacetCoupling>& couplings, std::vector<NodalNormal>& normals,
                 std::optional<StepFailure>& failure) const;
 
@@ -131,7 +134,7 @@ class MortarInterface {
   /// [owned nodes x 2, finite], of the nearest master facet that faces the normal; negative: it stands behind the node, which has gone through
   /// it. However far, other than evaluate(). No value: no such facet.
   std::vector<std::optional<double>> distances_to_master(const MultiVector& x, const std::vector<std::size_t>& nodes,
-                                                         const std::vector<Eigen::Vector2d>& normals) const;
+                                                         const std::vector<SpatialVector>& normals) const;
 
   /// Distance up to which facets can touch.
   double reach() const;

@@ -18,20 +18,34 @@ struct LinePoint {
 /// Throws std::invalid_argument for points < 1.
 std::vector<LinePoint> gauss_legendre(int points);
 
-/// A point of a rule on a reference cell. The weights sum to the cell's reference area.
+/// A point of a rule on a reference cell of the plane or of space. The weights sum to the cell's reference area or volume.
 struct CellPoint {
-  std::array<double, 2> xi{};
+  std::array<double, 3> xi{};  ///< 0 beyond the cell's dimension
   double weight = 0.0;
+
+  /// The first coordinates, as the shape functions take them.
+  template <int dimension>
+  std::array<double, dimension> position() const {
+    std::array<double, dimension> result{};
+    for (int i = 0; i < dimension; ++i) result[i] = xi[i];
+    return result;
+  }
 };
 
 /// Tensor product of gauss_legendre(points_per_direction) on [-1, 1]^2, xi running first.
 std::vector<CellPoint> quadrilateral_rule(int points_per_direction);
 
-/// Rule on the triangle (0,0), (1,0), (0,1): 1 point (exact for degree 1) or 3 interior points (degree 2).
+/// The same on [-1, 1]^3.
+std::vector<CellPoint> hexahedron_rule(int points_per_direction);
+
+/// Rule on the triangle (0,0), (1,0), (0,1) with interior points and positive weights: 1 point (exact for degree 1), 3 (degree 2), 7 (degree 5).
 /// Throws std::invalid_argument for any other number.
 std::vector<CellPoint> triangle_rule(int points);
 
-/// The rule that integrates the stiffness of a `shape`'s undistorted cell exactly: 2 x 2 for quadrilaterals, 1 point for triangles.
-std::vector<CellPoint> full_rule(CellShape shape);
+/// Rule on the tetrahedron (0,0,0), (1,0,0), (0,1,0), (0,0,1), likewise: 1 point (degree 1), 4 (degree 2), 15 (degree 5).
+std::vector<CellPoint> tetrahedron_rule(int points);
+
+/// The one of these rules on cells of that shape that has `points` points. Throws std::invalid_argument if there is none.
+std::vector<CellPoint> cell_rule(CellShape shape, int points);
 
 }  // namespace mortise

@@ -19,10 +19,10 @@ struct HoldingPair {
 };
 
 /// Collective. Each body may move by its rigid modes q (plane: two translations and the rotation about its centre, over its size;
-/// axisymmetric: the translation along the axis). Held is what costs: every prescribed dof adds (mode at the dof)^2, a set that follows a reference point
-/// what deviates from the motion that it may share, every slave facet in
-/// reach of its master adds (n . (mode_slave - mode_master))^2 to the Gram matrix of q; a null vector of it is a motion that nothing holds.
-/// @param fixed        [owned nodes x 2] 1 where the displacement is prescribed
+/// axisymmetric: the translation along the axis; space: three of each). Held is what costs: every prescribed dof adds (mode at the dof)^2, a set that
+/// follows a reference point what deviates from the motion that it may share, every slave facet in reach of its master adds (n . (mode_slave -
+/// mode_master))^2 to the Gram matrix of q; a null vector of it is a motion that nothing holds.
+/// @param fixed        [owned nodes x dim] 1 where the displacement is prescribed
 /// @param body_places  where the scene gives each body (mesh.blocks order)
 /// @returns for each body (mesh.blocks order) whether only contact holds it
 /// @throws InputError naming body and mode for each motion that nothing holds

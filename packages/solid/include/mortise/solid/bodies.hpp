@@ -21,8 +21,8 @@ class ElementBlock;
 struct MaterialPoint {
   LocalOrdinal block = 0, element = 0;  ///< element: index in the block
   int point = 0;
-  std::array<double, 2> reference_position{}, position{};  ///< (x, y), or (r, z)
-  double weight = 0.0;                                     ///< reference volume: quadrature weight x area x thickness or 2 pi R
+  std::array<double, 3> reference_position{}, position{};  ///< (x, y, 0), (r, z, 0) or (x, y, z)
+  double weight = 0.0;                                     ///< reference volume: quadrature weight x area x thickness or 2 pi R; or x volume
   double volume_ratio = 1.0;                               ///< current / reference volume: det F; 1 for small strain
   Matrix3 deformation_gradient;  ///< F that the law sees: with the hoop or out-of-plane stretch as component 33, of F-bar elements the modified one
   Matrix3 cauchy_stress;         ///< [stress]
@@ -31,7 +31,10 @@ struct MaterialPoint {
   double energy = 0.0;                     ///< stored energy per reference volume, of deformation_gradient
 };
 
-/// All bodies of a scene. Two unknowns a node: dof id = 2 * node id + component.
+/// Cauchy stress xx, yy, zz, xy, then in three dimensions yz, xz, else 0. Axisymmetric: rr, zz, hoop, rz.
+using StressComponents = std::array<double, 6>;
+
+/// All bodies of a scene. dof id = dimension * node id + component.
 ///
 /// Each rank computes every element that touches one of its nodes and writes only the rows it owns: assembly does not communicate.
 /// Displacement arguments live on local_dofs(): owned, then ghosts.
@@ -46,9 +49,13 @@ class Bodies {
 
   const RCP<const Mesh>& mesh() const { return mesh_; }
   Kinematics kinematics() const { return kinematics_; }
+  /// Unknowns a node: 2 or 3.
+  int dimension() const { return mortise::dimension(kinematics_); }
+  /// How many of StressComponents there are: 4 or 6.
+  int stress_components() const { return dimension() == 3 ? 6 : 4; }
   double thickness() const { return thickness_; }
   const std::vector<BodyProperties>& properties() const { return properties_; }
-  /// Factor that makes a length in the plane at radius r an area: the thickness, or 2 pi r.
+  /// Factor that makes a length in the plane at radius r an area: the thickness, or 2 pi r; 1 in three dimensions.
   double depth(double radius) const;
 
   const RCP<const Map>& dofs() const { return dofs_; }
@@ -78,13 +85,13 @@ class Bodies {
   /// Calls `visit` for each quadrature point of each owned element, in order.
   void visit_points(const Vector& local_displacement, const std::function<void(const MaterialPoint&)>& visit) const;
 
-  /// Volume-weighted mean Cauchy stress of each owned element of a block: xx, yy, zz, xy (axisymmetric: rr, zz, hoop, rz).
-  std::vector<std::array<double, 4>> element_stresses(const Vector& local_displacement, LocalOrdinal block) const;
+  /// Volume-weighted mean Cauchy stress of each owned element of a block.
+  std::vector<StressComponents> element_stresses(const Vector& local_displacement, LocalOrdinal block) const;
 
   /// Volume-weighted mean accumulated plastic strain of each owned element of a block; 0 for laws without plasticity.
   std::vector<double> element_plastic_strains(const Vector& local_displacement, LocalOrdinal block) const;
 
-  /// Volume-weighted mean Cauchy stress around each owned node: columns xx, yy, zz, xy on mesh()->owned_nodes.
+  /// Volume-weighted mean Cauchy stress around each owned node: stress_components() columns on mesh()->owned_nodes.
   RCP<MultiVector> nodal_stresses(const Vector& local_displacement) const;
 
   /// Stored energy of each body, summed over all ranks. Collective.
@@ -108,10 +115,10 @@ class Bodies {
 };
 
 /// The rigid body modes about the current configuration, on the owned dofs. Plane: translations in x and y and the rotation (-y, x) about the
-/// centre of the current nodes; axisymmetric: the translation in z. Collective.
+/// centre of the current nodes; axisymmetric: the translation in z; space: three translations, rotations about x, y and z. Collective.
 RCP<MultiVector> rigid_body_modes(const Bodies& bodies, const Vector& displacement);
 
-/// Current positions of the owned nodes, two columns. `displacement` is on the owned dofs.
+/// Current positions of the owned nodes, a column for each direction. `displacement` is on the owned dofs.
 RCP<MultiVector> current_coordinates(const Bodies& bodies, const Vector& displacement);
 
 }  // namespace mortise

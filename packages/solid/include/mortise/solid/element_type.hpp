@@ -12,18 +12,21 @@
 
 namespace mortise {
 
-/// How the third direction behaves. Axisymmetric: x is the radius r, y the axis z.
-enum class Kinematics { plane_strain, plane_stress, axisymmetric };
+/// Two unknowns a node, and how the third direction behaves (axisymmetric: x is the radius r, y the axis z); or three unknowns a node.
+enum class Kinematics { plane_strain, plane_stress, axisymmetric, three_dimensional };
+
+/// Unknowns a node: 3 in three dimensions, else 2.
+constexpr int dimension(Kinematics kinematics) { return kinematics == Kinematics::three_dimensional ? 3 : 2; }
 
 /// F-bar takes the volume change of an element from its centre, which ends volumetric locking.
 enum class ElementFormulation { standard, f_bar };
 
-enum class ElementType { q4, q4_f_bar, t3 };
+enum class ElementType { q4, q4_f_bar, t3, q8, t6, h8, h8_f_bar, tet4, h20, tet10 };
 
-/// "plane strain", "plane stress", "axisymmetric".
+/// "plane strain", "plane stress", "axisymmetric", "three dimensional".
 const std::vector<std::pair<std::string, Kinematics>>& kinematics_names();
 
-/// "Q4", "Q4 F-bar", "T3".
+/// "Q4", "Q4 F-bar", "T3", "Q8", "T6", "H8", "H8 F-bar", "Tet4", "H20", "Tet10".
 const std::vector<std::pair<std::string, ElementType>>& element_names();
 
 CellShape cell_shape(ElementType type);
@@ -40,7 +43,8 @@ struct BodyProperties {
   bool is_rigid() const { return material == nullptr; }
 };
 
-/// Says what has no meaning: F-bar with small strain or plane stress, a law without a plane stress form under plane stress.
+/// Says what has no meaning: an element of space with kinematics of the plane and the other way round, F-bar with small strain or plane stress,
+/// a law without a plane stress form under plane stress.
 /// Empty if all is well. No communication.
 std::vector<Diagnostic> check_combination(const BodyProperties& body, Kinematics kinematics);
 

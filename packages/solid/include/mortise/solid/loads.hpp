@@ -29,14 +29,15 @@ class Load {
 
 /// A load of a scene; each kind declares its parameters.
 struct LoadOptions : Described {
-  /// Makes the load. Collective. Throws InputError on all ranks for sets and bodies that do not exist.
+  /// Makes the load. Collective. Throws InputError on all ranks for sets and bodies that do not exist, and for a z in the plane.
   virtual std::unique_ptr<Load> make(const std::shared_ptr<const Bodies>& bodies) const = 0;
 };
 
 /// The same force on each node of a set. Axisymmetric: the force on the whole circle. [force]
 struct NodalForceOptions : LoadOptions {
   Located<std::string> set;
-  Expression x, y;  ///< of t and the node's reference position
+  Expression x, y;              ///< of t and the node's reference position
+  std::optional<Expression> z;  ///< only in three dimensions
   void describe(Parameters& parameters) override;
   std::unique_ptr<Load> make(const std::shared_ptr<const Bodies>& bodies) const override;
 };
@@ -52,7 +53,8 @@ struct MomentOptions : LoadOptions {
 /// Force per reference area, of fixed direction. [stress]
 struct DeadTractionOptions : LoadOptions {
   Located<std::string> set;
-  Expression x, y;  ///< of t and the reference position
+  Expression x, y;              ///< of t and the reference position
+  std::optional<Expression> z;  ///< only in three dimensions
   void describe(Parameters& parameters) override;
   std::unique_ptr<Load> make(const std::shared_ptr<const Bodies>& bodies) const override;
 };
@@ -68,8 +70,9 @@ struct FollowerPressureOptions : LoadOptions {
 
 /// Weight: density times acceleration. [length / time^2]
 struct GravityOptions : LoadOptions {
-  Located<std::string> body;  ///< empty: every body
-  Expression x, y;            ///< acceleration, of t
+  Located<std::string> body;    ///< empty: every body
+  Expression x, y;              ///< acceleration, of t
+  std::optional<Expression> z;  ///< only in three dimensions
   void describe(Parameters& parameters) override;
   std::unique_ptr<Load> make(const std::shared_ptr<const Bodies>& bodies) const override;
 };

@@ -8,10 +8,11 @@
 
 namespace mortise {
 
-/// Rows: owned dofs. Columns: local dofs (owned, then ghosts), for each pair of nodes that share an element all their dofs. The two rows of a node
-/// are alike, and the two dofs of a neighbour stand side by side, so one position for each pair of nodes finds all four entries.
+/// Rows: owned dofs. Columns: local dofs (owned, then ghosts), for each pair of nodes that share an element all their dofs. The rows of a node are
+/// alike, and the dofs of a neighbour stand side by side, so one position for each pair of nodes finds all entries of the two.
 class NodalSparsity {
  public:
+  /// As many dofs a node as the mesh has dimensions.
   NodalSparsity(const Mesh& mesh, const RCP<const Map>& dofs, const RCP<const Map>& local_dofs);
 
   /// Fill complete; domain and range are the owned dofs.
@@ -24,8 +25,8 @@ class NodalSparsity {
   class Values {
    public:
     Values(double* values, const std::size_t* row_starts) : values_(values), row_starts_(row_starts) {}
-    /// Entries (row node, component) x (column node at `position`, both components).
-    double* at(LocalOrdinal row, int component, LocalOrdinal position) const { return values_ + row_starts_[2 * row + component] + position; }
+    /// The row of an owned dof. The entries for a column node stand at its `position` and after it, one for each of its dofs.
+    double* row(LocalOrdinal dof) const { return values_ + row_starts_[dof]; }
 
    private:
     double* values_;
@@ -36,6 +37,7 @@ class NodalSparsity {
   Values open(Matrix& matrix) const;
 
  private:
+  int dimension_;
   RCP<const Graph> graph_;
   std::vector<std::size_t> row_starts_;        ///< of the matrix, [owned dofs + 1]
   std::vector<std::size_t> neighbour_starts_;  ///< [owned nodes + 1]

@@ -12,8 +12,8 @@ namespace mortise {
 
 /// One condition of a scene. A component without an expression is free. Axisymmetric: x is r, y is z.
 struct BoundaryConditionOptions {
-  Located<std::string> set;        ///< node or side set
-  std::optional<Expression> x, y;      ///< displacement [length]; no value: free
+  Located<std::string> set;            ///< node or side set
+  std::optional<Expression> x, y, z;   ///< displacement [length]; no value: free; z only in three dimensions
   std::optional<Expression> rotation;  ///< of a reference point [degrees], counterclockwise; no value: free
   void describe(Parameters& parameters);
 };
@@ -21,8 +21,8 @@ struct BoundaryConditionOptions {
 /// All prescribed dofs of this rank and their values over time: those of the conditions, and 0 for dofs of reference points that nothing follows.
 class PrescribedMotion {
  public:
-  /// Collective. Throws InputError on all ranks: a set that does not exist, a condition that prescribes nothing or a node that follows a reference
-  /// point, a dof that two conditions prescribe differently (naming both).
+  /// Collective. Throws InputError on all ranks: a set that does not exist, a condition that prescribes nothing, z in the plane or a node that
+  /// follows a reference point, a dof that two conditions prescribe differently (naming both).
   PrescribedMotion(const Bodies& bodies, const std::vector<Named<BoundaryConditionOptions>>& conditions);
 
   /// Owned dofs (local indices in Bodies::dofs()), ascending.
@@ -34,7 +34,7 @@ class PrescribedMotion {
  private:
   struct Source {
     LocalOrdinal expression;
-    std::array<double, 2> position;
+    std::array<double, 3> position;
     double factor = 1.0;
   };
   double value(const Source& source, double time) const;

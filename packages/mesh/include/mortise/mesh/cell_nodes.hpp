@@ -1,0 +1,20 @@
+#pragma once
+// What the pure descriptions of bodies say about a cell.
+
+#include <boost/container/static_vector.hpp>
+
+#include "mortise/core/types.hpp"
+#include "mortise/shape/cell.hpp"
+
+namespace mortise {
+
+/// Nodes of a cell, in the order of its shape.
+using CellNodes = boost::container::static_vector<GlobalOrdinal, most_cell_nodes>;
+
+/// A side of an element on the body's surface.
+struct SurfaceSide {
+  int side = 0;  ///< of the element
+  int name = 0;  ///< index into the side names of the body
+};
+
+}  // namespace mortise

@@ -1,0 +1,73 @@
+#pragma once
+// The quadratic hexahedron without nodes inside its sides.
+
+#include <array>
+
+#include "mortise/shape/cell.hpp"
+
+namespace mortise {
+
+/// Serendipity hexahedron on [-1, 1]^3: the corners of Hexahedron8, then the middles of the bottom's edges, of the top's, of the upright ones.
+/// Reference volume 8. With s_i = xi_ai xi_i:
+///   corners                    N_a = (1 + s_1)(1 + s_2)(1 + s_3)(s_1 + s_2 + s_3 - 2) / 8
+///   middles, where xi_ak = 0   N_a = (1 - xi_k^2)(1 + s_l)(1 + s_m) / 4
+struct Hexahedron20 {
+  static constexpr CellShape shape = CellShape::hexahedron20;
+  static constexpr int dimension = 3;
+  static constexpr int nodes = 20;
+
+  /// Shape functions N_a at a reference point.
+  template <class T>
+  static constexpr std::array<T, 20> values(const std::array<T, 3>& xi) {
+    std::array<T, 20> N{};
+    for (int a = 0; a < 20; ++a) {
+      const auto& p = node_positions[a];
+      const std::array<T, 3> s{p[0] * xi[0], p[1] * xi[1], p[2] * xi[2]};
+      if (a < 8) {
+        N[a] = 0.125 * (1.0 + s[0]) * (1.0 + s[1]) * (1.0 + s[2]) * (s[0] + s[1] + s[2] - 2.0);
+      } else {
+        const int k = direction(a), l = (k + 1) % 3, m = (k + 2) % 3;
+        N[a] = 0.25 * (1.0 - xi[k]) * (1.0 + xi[k]) * (1.0 + s[l]) * (1.0 + s[m]);
+      }
+    }
+    return N;
+  }
+
+  /// gradients[a][i] = dN_a / dxi_i.
+  template <class T>
+  static constexpr std::array<std::array<T, 3>, 20> gradients(const std::array<T, 3>& xi) {
+    std::array<std::array<T, 3>, 20> dN{};
+    for (int a = 0; a < 20; ++a) {
+      const auto& p = node_positions[a];
+      const std::array<T, 3> s{p[0] * xi[0], p[1] * xi[1], p[2] * xi[2]};
+      if (a < 8) {
+        for (int k = 0; k < 3; ++k) {
+          const int l = (k + 1) % 3, m = (k + 2) % 3;
+          dN[a][k] = 0.125 * p[k] * (1.0 + s[l]) * (1.0 + s[m]) * (2.0 * s[k] + s[l] + s[m] - 1.0);
+        }
+      } else {
+        const int k = direction(a), l = (k + 1) % 3, m = (k + 2) % 3;
+        const T bubble = (1.0 - xi[k]) * (1.0 + xi[k]);
+        dN[a][k] = -0.5 * xi[k] * (1.0 + s[l]) * (1.0 + s[m]);
+        dN[a][l] = 0.25 * bubble * p[l] * (1.0 + s[m]);
+        dN[a][m] = 0.25 * bubble * (1.0 + s[l]) * p[m];
+      }
+    }
+    return dN;
+  }
+
+  /// Reference coordinates of the nodes.
+  static constexpr std::array<std::array<double, 3>, 20> node_positions{
+      {{-1.0, -1.0, -1.0}, {1.0, -1.0, -1.0}, {1.0, 1.0, -1.0}, {-1.0, 1.0, -1.0},   // bottom
+       {-1.0, -1.0, 1.0},  {1.0, -1.0, 1.0},  {1.0, 1.0, 1.0},  {-1.0, 1.0, 1.0},    // top
+       {0.0, -1.0, -1.0},  {1.0, 0.0, -1.0},  {0.0, 1.0, -1.0}, {-1.0, 0.0, -1.0},   // edges of the bottom
+       {0.0, -1.0, 1.0},   {1.0, 0.0, 1.0},   {0.0, 1.0, 1.0},  {-1.0, 0.0, 1.0},    // of the top
+       {-1.0, -1.0, 0.0},  {1.0, -1.0, 0.0},  {1.0, 1.0, 0.0},  {-1.0, 1.0, 0.0}}};  // upright
+  static constexpr std::array<double, 3> centroid{0.0, 0.0, 0.0};
+
+ private:
+  /// Of the edge that node a >= 8 is the middle of.
+  static constexpr int direction(int a) { return a >= 16 ? 2 : a % 2; }
+};
+
+}  // namespace mortise

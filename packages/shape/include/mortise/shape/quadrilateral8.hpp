@@ -1,0 +1,59 @@
+#pragma once
+// The quadratic quadrilateral without a node inside.
+
+#include <array>
+
+#include "mortise/shape/cell.hpp"
+
+namespace mortise {
+
+/// Serendipity quadrilateral on [-1, 1]^2: the corners of Quadrilateral4, then the middles of the sides 01, 12, 23, 30. Reference area 4.
+///   corners  N_a = (1 + xi_a xi)(1 + eta_a eta)(xi_a xi + eta_a eta - 1) / 4
+///   middles  N_a = (1 - xi^2)(1 + eta_a eta) / 2  where xi_a = 0,  (1 + xi_a xi)(1 - eta^2) / 2  where eta_a = 0
+struct Quadrilateral8 {
+  static constexpr CellShape shape = CellShape::quadrilateral8;
+  static constexpr int dimension = 2;
+  static constexpr int nodes = 8;
+
+  /// Shape functions N_a at a reference point.
+  template <class T>
+  static constexpr std::array<T, 8> values(const std::array<T, 2>& xi) {
+    const T &x = xi[0], &y = xi[1];
+    std::array<T, 8> N{};
+    for (int a = 0; a < 4; ++a) {
+      const T s = node_positions[a][0] * x, t = node_positions[a][1] * y;
+      N[a] = 0.25 * (1.0 + s) * (1.0 + t) * (s + t - 1.0);
+    }
+    for (int a = 4; a < 8; ++a)
+      N[a] = a % 2 == 0 ? 0.5 * (1.0 - x) * (1.0 + x) * (1.0 + node_positions[a][1] * y)
+                        : 0.5 * (1.0 + node_positions[a][0] * x) * (1.0 - y) * (1.0 + y);
+    return N;
+  }
+
+  /// gradients[a][i] = dN_a / dxi_i.
+  template <class T>
+  static constexpr std::array<std::array<T, 2>, 8> gradients(const std::array<T, 2>& xi) {
+    const T &x = xi[0], &y = xi[1];
+    std::array<std::array<T, 2>, 8> dN{};
+    for (int a = 0; a < 4; ++a) {
+      const double xa = node_positions[a][0], ya = node_positions[a][1];
+      const T s = xa * x, t = ya * y;
+      dN[a] = {0.25 * xa * (1.0 + t) * (2.0 * s + t), 0.25 * ya * (1.0 + s) * (s + 2.0 * t)};
+    }
+    for (int a = 4; a < 8; ++a) {
+      const double xa = node_positions[a][0], ya = node_positions[a][1];
+      if (a % 2 == 0)
+        dN[a] = {-x * (1.0 + ya * y), 0.5 * ya * (1.0 - x) * (1.0 + x)};
+      else
+        dN[a] = {0.5 * xa * (1.0 - y) * (1.0 + y), -y * (1.0 + xa * x)};
+    }
+    return dN;
+  }
+
+  /// Reference coordinates of the nodes.
+  static constexpr std::array<std::array<double, 2>, 8> node_positions{
+      {{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}, {0.0, -1.0}, {1.0, 0.0}, {0.0, 1.0}, {-1.0, 0.0}}};
+  static constexpr std::array<double, 2> centroid{0.0, 0.0};
+};
+
+}  // namespace mortise

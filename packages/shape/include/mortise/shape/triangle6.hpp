@@ -1,0 +1,43 @@
+#pragma once
+// The quadratic triangle.
+
+#include <array>
+
+#include "mortise/shape/cell.hpp"
+
+namespace mortise {
+
+/// Quadratic triangle: corners (0,0), (1,0), (0,1), then the middles of the sides 01, 12, 20. With L = (1 - xi - eta, xi, eta) the corners have
+/// N = L_a (2 L_a - 1), the middles 4 L_a L_b. Reference area 1/2.
+struct Triangle6 {
+  static constexpr CellShape shape = CellShape::triangle6;
+  static constexpr int dimension = 2;
+  static constexpr int nodes = 6;
+
+  /// Shape functions N_a at a reference point.
+  template <class T>
+  static constexpr std::array<T, 6> values(const std::array<T, 2>& xi) {
+    const T &x = xi[0], &y = xi[1];
+    const T rest = 1.0 - x - y;
+    return {rest * (2.0 * rest - 1.0), x * (2.0 * x - 1.0), y * (2.0 * y - 1.0), 4.0 * rest * x, 4.0 * x * y, 4.0 * y * rest};
+  }
+
+  /// gradients[a][i] = dN_a / dxi_i.
+  template <class T>
+  static constexpr std::array<std::array<T, 2>, 6> gradients(const std::array<T, 2>& xi) {
+    const T &x = xi[0], &y = xi[1];
+    const T rest = 1.0 - x - y, corner = 1.0 - 4.0 * rest;
+    return {{{corner, corner},
+             {4.0 * x - 1.0, T(0.0)},
+             {T(0.0), 4.0 * y - 1.0},
+             {4.0 * (rest - x), -4.0 * x},
+             {4.0 * y, 4.0 * x},
+             {-4.0 * y, 4.0 * (rest - y)}}};
+  }
+
+  /// Reference coordinates of the nodes.
+  static constexpr std::array<std::array<double, 2>, 6> node_positions{{{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {0.5, 0.0}, {0.5, 0.5}, {0.0, 0.5}}};
+  static constexpr std::array<double, 2> centroid{1.0 / 3.0, 1.0 / 3.0};
+};
+
+}  // namespace mortise

@@ -1,0 +1,42 @@
+#pragma once
+// Sides of elements under load, and integration over them.
+
+#include <Eigen/Dense>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "mortise/core/parameters.hpp"
+#include "mortise/mesh/mesh.hpp"
+#include "mortise/shape/surface_facet.hpp"
+
+namespace mortise {
+
+/// A point of the rule on a side.
+struct SidePoint {
+  std::array<double, most_side_nodes> N{};
+  std::array<std::array<double, 2>, most_side_nodes> gradient{};  ///< dN_a / dxi_i; of lines the second is 0
+  double weight = 0.0;                                            ///< on the reference cell
+};
+
+/// Where a point of a side is, at given positions of the side's nodes.
+struct SidePosition {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  std::array<Eigen::Vector3d, 2> tangents{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};  ///< dx/dxi_i; the second in the plane: e_z
+  Eigen::Vector3d area;  ///< tangents[0] x tangents[1]: the outward normal times area (in the plane length) per reference area
+};
+
+/// A side of an element.
+struct LoadedSide {
+  Facet<LocalOrdinal> nodes;
+  int dimension;                       ///< of the mesh
+  const std::vector<SidePoint>* rule;  ///< exact to degree 5 or more on straight sides: for N_a x radius x expressions up to cubic
+
+  /// `displacement`: on the local dofs; null: none.
+  SidePosition at(const SidePoint& point, const Mesh& mesh, const double* displacement) const;
+};
+
+/// The sides of the set that touch a node of this rank. Collective; throws InputError on all ranks if there is no such set.
+std::vector<LoadedSide> sides_at_owned_nodes(const Mesh& mesh, const Located<std::string>& set);
+
+}  // namespace mortise

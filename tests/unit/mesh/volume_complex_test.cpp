@@ -1,0 +1,132 @@
+// The pure descriptions of all kinds of bodies of space: conformity, orientation, volumes, numbering, sides, inverse connectivity.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "volume_test_support.hpp"
+
+namespace mortise {
+namespace {
+
+/// check(complex, example) for every kind, of hexahedra and of tetrahedra.
+template <class Check>
+void for_all(const Check& check) {
+  for (const auto& example : example_volumes())
+    for (const auto cell : {CellShape::hexahedron8, CellShape::tetrahedron4}) {
+      SCOPED_TRACE(example.name + (cell == CellShape::tetrahedron4 ? " of tetrahedra" : " of hexahedra"));
+      with_volume(*example.options, cell, [&](const auto& complex) { check(complex, example); });
+    }
+}
+
+template <class Complex, class Nodes>
+Corners positions(const Complex& complex, const Nodes& nodes) {
+  Corners x;
+  for (const GlobalOrdinal node : nodes) x.push_back(Eigen::Vector3d::Map(complex.coordinate(node).data()));
+  return x;
+}
+
+using Cycle = std::vector<GlobalOrdinal>;
+
+/// The corners of a side in their order, from the lowest on.
+Cycle cycle_of(const CellNodes& nodes, const std::vector<int>& side) {
+  Cycle cycle;
+  for (const int a : side) cycle.push_back(nodes[a]);
+  std::rotate(cycle.begin(), std::min_element(cycle.begin(), cycle.end()), cycle.end());
+  return cycle;
+}
+
+Cycle reversed(Cycle cycle) {
+  std::reverse(cycle.begin() + 1, cycle.end());
+  return cycle;
+}
+
+TEST(VolumeComplex, NamedSidesAreExactlyTheSurface) {
+  for_all([](const auto& complex, const ExampleVolume& example) {
+    auto names = complex.side_names();
+    std::sort(names.begin(), names.end());
+    EXPECT_EQ(names, example.sides);
+    const auto& cell = topology(complex.shape());
+    std::set<Cycle> sides, surface;
+    std::set<std::pair<GlobalOrdinal, GlobalOrdinal>> edges;
+    for (GlobalOrdinal e = 0; e < complex.element_count(); ++e) {
+      const auto nodes = complex.element_nodes(e);
+      for (const auto& side : cell.sides) {
+        EXPECT_TRUE(sides.insert(cycle_of(nodes, side)).second) << "a side that two cells run through in the same direction";
+        for (std::size_t a = 0; a < side.size(); ++a) {
+          const GlobalOrdinal p = nodes[side[a]], q = nodes[side[(a + 1) % side.size()]];
+          edges.emplace(std::min(p, q), std::max(p, q));
+        }
+      }
+      for (const auto& side : complex.surface_sides(e)) EXPECT_TRUE(surface.insert(cycle_of(nodes, cell.sides[side.side])).second);
+    }
+    std::size_t faces = 0;
+    for (const Cycle& side : sides) {
+      const bool is_inner = sides.count(reversed(side)) == 1;
+      EXPECT_NE(is_inner, surface.count(side) == 1);
+      if (!is_inner || side < reversed(side)) ++faces;
+    }
+    // A ball has Euler's characteristic 1: no hole, no seam left open.
+    const auto count = [](std::size_t n) { return static_cast<GlobalOrdinal>(n); };
+    EXPECT_EQ(complex.node_count() - count(edges.size()) + count(faces) - complex.element_count(), 1);
+  });
+}
+
+TEST(VolumeComplex, CellsArePositiveAndFillTheVolumeThatTheSurfaceEncloses) {
+  for_all([](const auto& complex, const ExampleVolume& example) {
+    const auto& cell = topology(complex.shape());
+    double volume = 0.0, enclosed = 0.0;
+    for (GlobalOrdinal e = 0; e < complex.element_count(); ++e) {
+      const auto nodes = complex.element_nodes(e);
+      const double of_cell = volume_of_cell(positions(complex, nodes));
+      EXPECT_GT(of_cell, 0.0) << "element " << e;
+      volume += of_cell;
+      for (const auto& side : complex.surface_sides(e)) {
+        std::vector<GlobalOrdinal> facet;
+        for (const int a : cell.sides[side.side]) facet.push_back(nodes[a]);
+        enclosed += volume_below_facet(positions(complex, facet));
+      }
+    }
+    if (example.volume > 0.0) EXPECT_NEAR(volume, example.volume, 1e-12 * example.volume);
+    EXPECT_NEAR(enclosed, volume, 1e-12 * volume);
+  });
+}
+
+TEST(VolumeComplex, ElementsAndSidesOfNodesInvertTheConnectivity) {
+  for_all([](const auto& complex, const ExampleVolume&) {
+    const auto& cell = topology(complex.shape());
+    std::map<GlobalOrdinal, std::vector<GlobalOrdinal>> elements;
+    std::map<GlobalOrdinal, std::set<int>> names;
+    std::set<SpatialPoint> positions;
+    for (GlobalOrdinal e = 0; e < complex.element_count(); ++e) {
+      const auto nodes = complex.element_nodes(e);
+      ASSERT_EQ(static_cast<int>(nodes.size()), cell.nodes);
+      for (const GlobalOrdinal node : nodes) elements[node].push_back(e);
+      for (const auto& side : complex.surface_sides(e))
+        for (const int a : cell.sides[side.side]) names[nodes[a]].insert(side.name);
+    }
+    ASSERT_EQ(static_cast<GlobalOrdinal>(elements.size()), complex.node_count());
+    for (GlobalOrdinal n = 0; n < complex.node_count(); ++n) {
+      EXPECT_EQ(complex.elements_of_node(n), elements[n]) << "node " << n;
+      EXPECT_THAT(complex.sides_of_node(n), ::testing::ElementsAreArray(names[n])) << "node " << n;
+      EXPECT_TRUE(positions.insert(complex.coordinate(n)).second) << "node " << n;
+    }
+  });
+}
+
+TEST(VolumeComplex, RefusesBlocksThatRunThroughASharedFaceDifferently) {
+  const auto position = [](const VolumeComplex::GridPoint&) { return SpatialPoint{}; };
+  const auto build = [&](const std::array<int, 8>& second, const std::array<int, 3>& cells) {
+    VolumeComplex(CellShape::hexahedron8, {{{0, 1, 2, 3, 4, 5, 6, 7}, {2, 3, 4}, {}}, {second, cells, {}}}, position, {});
+  };
+  EXPECT_NO_THROW(build({1, 8, 3, 9, 5, 10, 7, 11}, {5, 3, 4}));
+  EXPECT_NO_THROW(build({1, 3, 8, 9, 5, 7, 10, 11}, {3, 5, 4}));                 // the face's directions in another order
+  EXPECT_THROW(build({1, 8, 3, 9, 5, 10, 7, 11}, {5, 3, 3}), std::logic_error);  // other cells
+  EXPECT_THROW(build({3, 9, 1, 8, 7, 11, 5, 10}, {5, 3, 4}), std::logic_error);  // the other way round
+}
+
+}  // namespace
+}  // namespace mortise
