@@ -1,7 +1,7 @@
-#include "mortise/mortar/nodal_normal_3d.hpp"
-
 #include <Eigen/Geometry>
 #include <algorithm>
+
+#include "nodal_normal.hpp"
 
 namespace mortise {
 
@@ -9,8 +9,7 @@ Eigen::Vector3d corner_normal(const Eigen::Vector3d& x, const Eigen::Vector3d& n
   return (next - x).cross(previous - x).normalized();
 }
 
-bool average_normal(const CornerStencil& stencil, const std::vector<Eigen::Vector3d>& x, Eigen::Vector3d& normal,
-                    Eigen::Matrix<double, 3, Eigen::Dynamic>* derivative) {
+bool average_normal(const NormalStencil& stencil, const Positions<3>& x, bool derivatives, NodalNormal& result) {
   const Eigen::Vector3d& here = x[stencil.node];
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const auto& [next, previous] : stencil.corners) {
@@ -23,18 +22,20 @@ bool average_normal(const CornerStencil& stencil, const std::vector<Eigen::Vecto
   const double length = sum.norm();
   constexpr double none = 1e-6;  // facets folded onto one another
   if (!(length > none)) return false;
-  normal = sum / length;
+  const Eigen::Vector3d normal = sum / length;
+  result.normal = normal;
   for (const auto& [next, previous] : stencil.corners)
     if (!(normal.dot(corner_normal(here, x[next], x[previous])) > 0.0)) return false;
-  if (derivative == nullptr) return true;
+  result.columns = stencil.columns;
+  if (!derivatives) return true;
 
   Eigen::Matrix3d project = (Eigen::Matrix3d::Identity() - normal * normal.transpose()) / length;
   for (int i = 0; i < 3; ++i)
     if (stencil.projected[i]) project.col(i).setZero();
-  derivative->setZero(3, 3 * static_cast<Eigen::Index>(stencil.columns.size()));
+  result.derivative.setZero(3, 3 * static_cast<Eigen::Index>(stencil.columns.size()));
   const auto block = [&](LocalOrdinal node) {
     const auto place = std::find(stencil.columns.begin(), stencil.columns.end(), node) - stencil.columns.begin();
-    return derivative->middleCols<3>(3 * place);
+    return result.derivative.middleCols(3 * place, 3);
   };
   for (const auto& [next, previous] : stencil.corners) {
     const Eigen::Vector3d u = x[next] - here, v = x[previous] - here, c = u.cross(v);

@@ -10,7 +10,7 @@
 #include "mortise/mortar/segment_3d.hpp"
 #include "mortise/shape/quadrilateral4.hpp"
 #include "mortise/shape/triangle3.hpp"
-#include "radon_rule.hpp"
+#include "triangle_points.hpp"
 
 namespace mortise {
 namespace {
@@ -46,17 +46,6 @@ Eigen::Vector2d invert(const FacetVectors& nodes, const Eigen::Vector2d& s) {
   throw StepFailure(FailureKind::projection, "a point of a contact facet cannot be projected on the opposite one, which is too distorted");
 }
 
-Eigen::Vector2d invert(const FacetVectors& nodes, const Eigen::Vector2d& s) {
-  return nodes.size() == 3 ? invert<Triangle3>(nodes, s) : invert<Quadrilateral4>(nodes, s);
-}
-
-double height(const FacetVectors& nodes, const Eigen::Vector2d& xi) {
-  const auto N = facet_values(nodes.size(), xi);
-  double sum = 0.0;
-  for (std::size_t a = 0; a < nodes.size(); ++a) sum += N[static_cast<Eigen::Index>(a)] * nodes[a].z();
-  return sum;
-}
-
 PlanePolygon project(const FacetVectors& nodes) {
   PlanePolygon polygon;
   for (const Eigen::Vector3d& x : nodes) polygon.push_back(x.head<2>());
@@ -80,8 +69,21 @@ Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 4, 1> facet_values(std
   return Eigen::Map<const Eigen::Vector4d>(Quadrilateral4::values(at).data());
 }
 
+bool faces(const FacetVectors& master) { return shows_side(master, -1.0, facing_tolerance); }
+
+Eigen::Vector2d facet_coordinates(const FacetVectors& nodes, const Eigen::Vector2d& s) {
+  return nodes.size() == 3 ? invert<Triangle3>(nodes, s) : invert<Quadrilateral4>(nodes, s);
+}
+
+double height_at(const FacetVectors& nodes, const Eigen::Vector2d& xi) {
+  const auto N = facet_values(nodes.size(), xi);
+  double sum = 0.0;
+  for (std::size_t a = 0; a < nodes.size(); ++a) sum += N[static_cast<Eigen::Index>(a)] * nodes[a].z();
+  return sum;
+}
+
 std::optional<Overlap3d> find_overlap(const FacetVectors& slave, const FacetVectors& master) {
-  if (apart(slave, master) || !shows_side(master, -1.0, facing_tolerance)) return std::nullopt;
+  if (apart(slave, master) || !faces(master)) return std::nullopt;
   const PlanePolygon first = project(slave);
   std::optional<Overlap3d> result(std::in_place);
   Overlap3d& overlap = *result;
@@ -108,13 +110,13 @@ std::optional<Overlap3d> find_overlap(const FacetVectors& slave, const FacetVect
   overlap.distance = std::numeric_limits<double>::max();
   for (const auto& [a, b, c] : overlap.triangles) {
     const double twice = doubled_area(vertices[a], vertices[b], vertices[c]);
-    for (const TrianglePoint& one : radon_rule()) {
+    for (const TrianglePoint& one : triangle_points()) {
       const Eigen::Vector2d s = one.share[0] * vertices[a] + one.share[1] * vertices[b] + one.share[2] * vertices[c];
       OverlapPoint point;
-      point.xi = invert(slave, s);
-      point.eta = invert(master, s);
+      point.xi = facet_coordinates(slave, s);
+      point.eta = facet_coordinates(master, s);
       point.weight = one.weight * twice;
-      point.height = height(master, point.eta) - height(slave, point.xi);
+      point.height = height_at(master, point.eta) - height_at(slave, point.xi);
       overlap.distance = std::min(overlap.distance, std::abs(point.height));
       overlap.points.push_back(point);
     }

@@ -5,7 +5,7 @@
 
 #include "mortise/shape/quadrilateral4.hpp"
 #include "mortise/shape/triangle3.hpp"
-#include "radon_rule.hpp"
+#include "triangle_points.hpp"
 
 namespace mortise {
 namespace {
@@ -83,7 +83,7 @@ class Integrator {
     of_height_.setZero();
     Eigen::Matrix<double, rows, 1> sum = Eigen::Matrix<double, rows, 1>::Zero();
 
-    const auto& rule = radon_rule();
+    const auto& rule = triangle_points();
     for (std::size_t t = 0; t < overlap.triangles.size(); ++t) {
       const auto& corner = overlap.triangles[t];
       Eigen::Matrix<double, rows, 1> on_triangle = Eigen::Matrix<double, rows, 1>::Zero();

@@ -45,6 +45,16 @@ struct SegmentIntegrals3d {
 void integrate_segment(const FacetVectors& slave, const FacetVectors& normals, const FacetVectors& master, const Overlap3d& overlap,
                        const Eigen::MatrixXd& basis, bool derivatives, SegmentIntegrals3d& result);
 
+/// Whether a master facet, in a frame whose third axis runs along the slave's normal, faces it without a fold (see shows_side()).
+bool faces(const FacetVectors& master);
+
+/// The xi at which the projection of a facet takes the place s, which lies on it.
+/// @throws StepFailure (projection) where it is so distorted that there is none
+Eigen::Vector2d facet_coordinates(const FacetVectors& nodes, const Eigen::Vector2d& s);
+
+/// Third component at xi.
+double height_at(const FacetVectors& nodes, const Eigen::Vector2d& xi);
+
 /// Shape functions of a facet of 3 or 4 nodes.
 Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 4, 1> facet_values(std::size_t nodes, const Eigen::Vector2d& xi);
 
