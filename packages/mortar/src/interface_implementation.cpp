@@ -189,9 +189,9 @@ typename Interface<dim>::Candidates Interface<dim>::find(const Positions<dim>& x
     bool sound = true;
     for (std::size_t j = 0; j < facet.size(); ++j) sound = average_normal(slave.stencils[facet[j]], x, false, normals[j]) && sound;
     if (!sound) continue;  // evaluate() says what is wrong
-    const FacetPoints<dim> points = points_of<dim>(facet, x);
+    const OverlapTest<dim> may_overlap(points_of<dim>(facet, x), normals, motion);
     for (const PlacedFacet<dim>& one : near[f])
-      if (may_overlap(points, one.points(), normals, motion)) result[f].push_back(one.ids());
+      if (may_overlap(one.points())) result[f].push_back(one.ids());
   }
   return result;
 }
@@ -266,7 +266,7 @@ bool Interface<dim>::search(const MultiVector& x) {
   const Motion until_next = {2.0 * free_distance_, std::asin(2.0 * free_motion)};
   const Motion longer = {4.0 * free_distance_, std::asin(4.0 * free_motion)};
   // What is needed until the next search has to stand among the candidates; only then they, and the pattern, may stay as they are.
-  const Candidates needed = find(slave_x, placed, until_next);
+  const Candidates needed = first ? Candidates() : find(slave_x, placed, until_next);
   double missing = first, any = 0.0;
   for (std::size_t f = 0; f < needed.size(); ++f)
     if (!std::includes(candidate_ids_[f].begin(), candidate_ids_[f].end(), needed[f].begin(), needed[f].end())) missing = 1.0;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "facet_geometry.hpp"
+#include "mortise/mortar/auxiliary_plane.hpp"
 #include "mortise/mortar/mortar_interface.hpp"
 #include "slave_surface.hpp"
 #include "surface_search.hpp"
@@ -62,9 +63,31 @@ struct Motion {
   double approach, turn;
 };
 
-/// Whether the master facet b may lie under the slave facet a after a motion, seen along the nodal normals of a in the plane, along its own normal in
-/// space.
-bool may_overlap(const FacetPoints<2>& a, const FacetPoints<2>& b, const std::vector<NodalNormal>& normals, const Motion& motion);
-bool may_overlap(const FacetPoints<3>& a, const FacetPoints<3>& b, const std::vector<NodalNormal>& normals, const Motion& motion);
+/// Which master facets may lie under a slave facet after a motion, seen along its nodal normals in the plane, along its own normal in space.
+template <int dim>
+class OverlapTest;
+
+template <>
+class OverlapTest<2> {
+ public:
+  OverlapTest(const FacetPoints<2>& slave, const std::vector<NodalNormal>& normals, const Motion& motion);
+  bool operator()(const FacetPoints<2>& master) const;
+
+ private:
+  FacetPoints<2> slave_;
+  Eigen::Vector2d normal_, tangent_;
+  double approach_, lean_ = 0.0;  ///< of the nodal normals to the sides, as an angle
+};
+
+template <>
+class OverlapTest<3> {
+ public:
+  OverlapTest(const FacetPoints<3>& slave, const std::vector<NodalNormal>& normals, const Motion& motion);
+  bool operator()(const FacetPoints<3>& master) const;
+
+ private:
+  std::optional<AuxiliaryPlane> plane_;
+  double approach_, tangent_, same_way_;  ///< tan of the turn; sine of what two normals can turn against one another
+};
 
 }  // namespace mortise

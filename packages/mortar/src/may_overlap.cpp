@@ -1,9 +1,11 @@
 // Which pairs of facets can come to overlap before the next search.
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "interface_implementation.hpp"
-#include "mortise/mortar/auxiliary_plane.hpp"
 
 namespace mortise {
 namespace {
@@ -30,35 +32,39 @@ double largest_height(const FacetVectors& nodes) {
 
 }  // namespace
 
-bool may_overlap(const FacetPoints<2>& a, const FacetPoints<2>& b, const std::vector<NodalNormal>& normals, const Motion& motion) {
-  const double length = (a[1] - a[0]).norm();
-  const Eigen::Vector2d n = facet_normal(a[0], a[1]), t(-n.y(), n.x());
-  double lean = 0.0;  // of the nodal normals to the sides, as an angle
-  for (const NodalNormal& normal : normals) lean = std::max(lean, std::atan2(std::abs(t.dot(normal.normal)), n.dot(normal.normal)));
-  lean += 2.0 * motion.turn;  // the normal's own turn and that of the facet
-  if (lean > 1.5) return true;
-  const Eigen::Vector2d start = b[0] - a[0], end = b[1] - a[0];
-  const double height = std::max(std::abs(start.dot(n)), std::abs(end.dot(n)));
-  const double slack = 2.0 * motion.approach + std::tan(lean) * (height + 2.0 * motion.approach);
-  return std::max(start.dot(t), end.dot(t)) >= -slack && std::min(start.dot(t), end.dot(t)) <= length + slack;
+OverlapTest<2>::OverlapTest(const FacetPoints<2>& slave, const std::vector<NodalNormal>& normals, const Motion& motion)
+    : slave_(slave), normal_(facet_normal(slave[0], slave[1])), tangent_(-normal_.y(), normal_.x()), approach_(motion.approach) {
+  for (const NodalNormal& normal : normals) lean_ = std::max(lean_, std::atan2(std::abs(tangent_.dot(normal.normal)), normal_.dot(normal.normal)));
+  lean_ += 2.0 * motion.turn;  // the normal's own turn and that of the facet
 }
 
-// Two convex polygons of the plane are disjoint if one of their edges' normals separates them. When the plane turns by the angle w, places on it that
-// are d apart and h over one another come to be d cos w - h sin w apart: they stay separated for d > h tan w.
-bool may_overlap(const FacetPoints<3>& a, const FacetPoints<3>& b, const std::vector<NodalNormal>&, const Motion& motion) {
-  const auto plane = make_auxiliary_plane(a);
-  if (!plane) return true;
-  if (central_normal(b).normalized().dot(plane->frame.row(2)) > std::sin(2.0 * motion.turn)) return false;  // faces the same way
+bool OverlapTest<2>::operator()(const FacetPoints<2>& master) const {
+  if (lean_ > 1.5) return true;
+  const Eigen::Vector2d start = master[0] - slave_[0], end = master[1] - slave_[0];
+  const double length = (slave_[1] - slave_[0]).norm(), height = std::max(std::abs(start.dot(normal_)), std::abs(end.dot(normal_)));
+  const double slack = 2.0 * approach_ + std::tan(lean_) * (height + 2.0 * approach_);
+  return std::max(start.dot(tangent_), end.dot(tangent_)) >= -slack && std::min(start.dot(tangent_), end.dot(tangent_)) <= length + slack;
+}
+
+OverlapTest<3>::OverlapTest(const FacetPoints<3>& slave, const std::vector<NodalNormal>&, const Motion& motion)
+    : plane_(make_auxiliary_plane(slave)), approach_(motion.approach), tangent_(std::tan(motion.turn)), same_way_(std::sin(2.0 * motion.turn)) {}
+
+// Two convex polygons of the plane are disjoint if an axis e along it, across one of their edges, separates them. After the motion points are nearer
+// by `approach` along e at most, and the plane across the new p' may turn by the angle w: e' = e - b p with b = e.p' / p.p', |b| <= tan w, lies along
+// it, and still separates points that were more than approach + tan w (height + approach) apart.
+bool OverlapTest<3>::operator()(const FacetPoints<3>& master) const {
+  if (!plane_) return true;
+  if (central_normal(master).normalized().dot(plane_->frame.row(2)) > same_way_) return false;
   FacetVectors nodes;
-  for (const Eigen::Vector3d& x : b) nodes.push_back(plane->to_frame(x));
-  const double height = largest_height(plane->slave) + largest_height(nodes);
-  const double slack = 2.0 * motion.approach / std::cos(motion.turn) + std::tan(motion.turn) * (height + 2.0 * motion.approach);
-  for (const FacetVectors* polygon : std::array<const FacetVectors*, 2>{&plane->slave, &nodes})
+  for (const Eigen::Vector3d& x : master) nodes.push_back(plane_->to_frame(x));
+  const double height = largest_height(plane_->slave) + largest_height(nodes);
+  const double slack = approach_ + tangent_ * (height + approach_);
+  for (const FacetVectors* polygon : std::array<const FacetVectors*, 2>{&plane_->slave, &nodes})
     for (std::size_t e = 0; e < polygon->size(); ++e) {
       const Eigen::Vector2d edge = ((*polygon)[(e + 1) % polygon->size()] - (*polygon)[e]).head<2>();
       if (!(edge.norm() > 0.0)) continue;
       const Eigen::Vector2d axis = Eigen::Vector2d(-edge.y(), edge.x()).normalized();
-      const Extent of_a = extent_along(axis, plane->slave), of_b = extent_along(axis, nodes);
+      const Extent of_a = extent_along(axis, plane_->slave), of_b = extent_along(axis, nodes);
       if (of_b.low - of_a.high > slack || of_a.low - of_b.high > slack) return false;
     }
   return true;

@@ -21,27 +21,30 @@ constexpr double facing_tolerance = 0.05;
 /// Of the slave facet's area: a smaller overlap is round-off of a matching mesh and carries nothing.
 constexpr double no_area = 1e-13;
 
-// The xi with sum N_a(xi) x_a = s, by Newton's method from the centre; the map is affine for triangles and parallelograms.
-template <class Shape>
-Eigen::Vector2d invert(const FacetVectors& nodes, const Eigen::Vector2d& s) {
-  std::array<double, 2> xi = Shape::centroid;
+// The xi with sum N_a(xi) x_a = s: of triangles, whose map is x_0 + (x_1 - x_0) xi + (x_2 - x_0) eta.
+Eigen::Vector2d invert_triangle(const FacetVectors& x, const Eigen::Vector2d& s) {
+  Eigen::Matrix2d slope;
+  slope << (x[1] - x[0]).head<2>(), (x[2] - x[0]).head<2>();
+  return slope.inverse() * (s - x[0].head<2>());
+}
+
+// The same of quadrilaterals, c + a xi + b eta + d xi eta, by Newton's method; it starts from what a parallelogram (d = 0) has.
+Eigen::Vector2d invert_quadrilateral(const FacetVectors& x, const Eigen::Vector2d& s) {
+  const Eigen::Vector2d offset = s - 0.25 * (x[0] + x[1] + x[2] + x[3]).head<2>(), a = 0.25 * (x[1] + x[2] - x[0] - x[3]).head<2>(),
+                        b = 0.25 * (x[2] + x[3] - x[0] - x[1]).head<2>(), d = 0.25 * (x[0] + x[2] - x[1] - x[3]).head<2>();
+  const auto solve = [](const Eigen::Vector2d& u, const Eigen::Vector2d& v, const Eigen::Vector2d& right) {
+    const double scale = 1.0 / (u[0] * v[1] - u[1] * v[0]);
+    return Eigen::Vector2d(scale * (right[0] * v[1] - right[1] * v[0]), scale * (u[0] * right[1] - u[1] * right[0]));
+  };
+  Eigen::Vector2d xi = solve(a, b, offset);
+  constexpr double parallelogram = 1e-28;
+  if (d.squaredNorm() < parallelogram * std::min(a.squaredNorm(), b.squaredNorm())) return xi;
   constexpr int most = 40;
   for (int iteration = 0; iteration < most; ++iteration) {
-    const auto N = Shape::values(xi);
-    const auto G = Shape::gradients(xi);
-    Eigen::Vector2d residual = -s;
-    Eigen::Matrix2d slope = Eigen::Matrix2d::Zero();
-    for (int a = 0; a < Shape::nodes; ++a) {
-      const Eigen::Vector2d x = nodes[a].head<2>();
-      residual += N[a] * x;
-      slope.col(0) += G[a][0] * x;
-      slope.col(1) += G[a][1] * x;
-    }
-    const Eigen::Vector2d step = slope.inverse() * residual;
-    xi[0] -= step[0];
-    xi[1] -= step[1];
+    const Eigen::Vector2d step = solve(a + d * xi[1], b + d * xi[0], offset - a * xi[0] - b * xi[1] - d * (xi[0] * xi[1]));
+    xi += step;
     constexpr double settled = 1e-9;  // the next step would be of its square
-    if (step.squaredNorm() < settled * settled) return {xi[0], xi[1]};
+    if (step.squaredNorm() < settled * settled) return xi;
   }
   throw StepFailure(FailureKind::projection, "a point of a contact facet cannot be projected on the opposite one, which is too distorted");
 }
@@ -72,7 +75,7 @@ Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 4, 1> facet_values(std
 bool faces(const FacetVectors& master) { return shows_side(master, -1.0, facing_tolerance); }
 
 Eigen::Vector2d facet_coordinates(const FacetVectors& nodes, const Eigen::Vector2d& s) {
-  return nodes.size() == 3 ? invert<Triangle3>(nodes, s) : invert<Quadrilateral4>(nodes, s);
+  return nodes.size() == 3 ? invert_triangle(nodes, s) : invert_quadrilateral(nodes, s);
 }
 
 double height_at(const FacetVectors& nodes, const Eigen::Vector2d& xi) {
