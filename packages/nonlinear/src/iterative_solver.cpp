@@ -11,12 +11,12 @@
 #include <MueLu_TpetraOperator.hpp>
 #include <algorithm>
 
+#include "decoupled_multigrid.hpp"
 #include "linear_system_checks.hpp"
 
 namespace mortise::detail {
 namespace {
 
-using Preconditioner = MueLu::TpetraOperator<Scalar, LocalOrdinal, GlobalOrdinal, NodeType>;
 using LinearProblem = Belos::LinearProblem<Scalar, MultiVector, Operator>;
 
 // Smoothed aggregation. Aggregates do not cross where the coordinates say that two bodies are far apart ("cut"), whatever contact couples;
@@ -67,6 +67,7 @@ class IterativeSolver : public LinearSolver {
     matrix_ = matrix;
     near_null_space_ = near_null_space;
     preconditioner_ = Teuchos::null;
+    decoupled_.reset();
   }
 
   LinearSolveReport solve(const Vector& b, Vector& x) override {
@@ -81,6 +82,7 @@ class IterativeSolver : public LinearSolver {
         set_up();
       }
       const auto scope = timers_.scope("linear solve");
+      if (decoupled_) decoupled_->first_guess(b, x);
       report.iterations = iterate(b, x);
     } catch (const std::exception& error) {
       preconditioner_ = Teuchos::null;
@@ -98,11 +100,15 @@ class IterativeSolver : public LinearSolver {
 
  private:
   void set_up() {
-    const auto matrix = Teuchos::rcp_const_cast<Matrix>(matrix_);
+    auto matrix = Teuchos::rcp_const_cast<Matrix>(matrix_);
     const auto rows = static_cast<GlobalOrdinal>(matrix->getGlobalNumRows());
     int equations = 1;
     if (!near_null_space_.coordinates.is_null())
       equations = static_cast<int>(rows / static_cast<GlobalOrdinal>(near_null_space_.coordinates->getGlobalLength()));
+    if (near_null_space_.decoupling) {
+      decoupled_ = std::make_shared<DecoupledSystem>(*matrix_, *near_null_space_.decoupling, equations);
+      matrix = decoupled_->matrix();
+    }
 
     Teuchos::ParameterList list = muelu_defaults(equations, rows, matrix->getComm()->getSize());
     auto& user_data = list.sublist("user data");
@@ -121,6 +127,7 @@ class IterativeSolver : public LinearSolver {
 
     const RCP<Operator> as_operator = matrix;
     preconditioner_ = MueLu::CreateTpetraPreconditioner<Scalar, LocalOrdinal, GlobalOrdinal, NodeType>(as_operator, list);
+    if (decoupled_) preconditioner_ = rcp(new DecoupledPreconditioner(decoupled_, preconditioner_));
     ++setups_;
   }
 
@@ -139,6 +146,7 @@ class IterativeSolver : public LinearSolver {
       if (!fixed) continue;
       for (std::size_t mode = 0; mode < view.extent(1); ++mode) view(row, mode) = 0.0;
     }
+    if (decoupled_) decoupled_->take_out_eliminated(*modes);
     return modes;
   }
 
@@ -159,7 +167,8 @@ class IterativeSolver : public LinearSolver {
   Timers timers_;
   RCP<const Matrix> matrix_;
   NearNullSpace near_null_space_;
-  RCP<Preconditioner> preconditioner_;
+  RCP<const Operator> preconditioner_;
+  std::shared_ptr<const DecoupledSystem> decoupled_;  ///< null: the matrix is taken as it is
   int setups_ = 0;
 };
 

@@ -142,6 +142,7 @@ LinearSolveReport SemiSmoothSystem::newton_direction(const Vector& F, Vector& di
 
   NearNullSpace near_null_space;
   if (parts.linear_solver->uses_near_null_space() && parts.near_null_space) near_null_space = parts.near_null_space(*d);
+  if (parts.linear_solver->uses_near_null_space() && parts.contact) near_null_space.decoupling = parts.contact->decoupling(*z);
   const LinearSolveReport report = self.reduction ? self.solve_reduced(matrix, *d, r, prescribed_increment, rhs, *dd)
                                                   : self.solve(matrix, self.fixed, prescribed_increment, rhs, near_null_space, *dd);
   if (parts.contact) {

@@ -180,8 +180,11 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   parts_.local_dofs = bodies_->local_dofs();
   parts_.bulk_graph = bodies_->graph();
   parts_.length = size_.length;
-  parts_.near_null_space = [bodies = bodies_](const Vector& displacement) {
-    return NearNullSpace{rigid_body_modes(*bodies, displacement), current_coordinates(*bodies, displacement)};
+  parts_.near_null_space = [bodies = bodies_, apart = 1e6 * size_.length](const Vector& displacement) {
+    const RCP<MultiVector> coordinates = current_coordinates(*bodies, displacement);
+    const auto x = coordinates->getLocalViewHost(Tpetra::Access::ReadWrite);
+    for (std::size_t node = 0; node < x.extent(0); ++node) x(node, 0) += apart * bodies->mesh()->body_of_node[node];
+    return NearNullSpace{rigid_body_modes(*bodies, displacement), coordinates, std::nullopt};
   };
   parts_.contributions.push_back(std::make_shared<BulkContribution>(bodies, timers));
 

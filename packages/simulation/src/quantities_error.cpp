@@ -114,7 +114,7 @@ double ErrorNorm::body_error(const QuantityContext& context) const {
   Squares squares;
   context.bodies.visit_points(*context.local_displacement, [&](const MaterialPoint& point) {
     if (body_ && point.block != *body_) return;
-    const auto& X = point.reference_position;
+    const ExactSolution::Point X{point.reference_position[0], point.reference_position[1]};
     if (of == Of::stress) {
       const Eigen::Matrix3d expected = *solution.stress(X, context.time);
       squares.difference += point.weight * (point.cauchy_stress - expected).squaredNorm();

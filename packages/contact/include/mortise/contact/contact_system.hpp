@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mortise/contact/complementarity.hpp"
+#include "mortise/contact/decoupling.hpp"
 #include "mortise/contact/formulation/dual_mortar.hpp"
 #include "mortise/contact/friction.hpp"
 #include "mortise/core/error.hpp"
@@ -136,6 +137,9 @@ class ContactSystem {
   void condense(const Vector& z, Matrix& system, Vector& rhs);
   /// z^{k+1} from the displacement increment.
   void recover(const Vector& increment, Vector& z_new) const;
+
+  /// What multigrid needs to know of the condensed system at z, d of the last evaluate.
+  Decoupling decoupling(const Vector& z) const;
 
   /// The blocks of the saddle point form: f_c = B(d) z, C_d, C_z on the maps of d and z. B and C_d hold zeros, so that their patterns change only
   /// with the candidates.

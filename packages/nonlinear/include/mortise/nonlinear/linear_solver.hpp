@@ -3,8 +3,10 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "mortise/contact/decoupling.hpp"
 #include "mortise/core/error.hpp"
 #include "mortise/core/parameters.hpp"
 #include "mortise/core/timers.hpp"
@@ -18,10 +20,11 @@ struct LinearSolveReport {
   double relative_residual = 0.0;  ///< true one, |b - A x| / |b|
 };
 
-/// Near null space and coordinates for multigrid, on the current configuration.
+/// What multigrid is told besides the matrix, on the current configuration.
 struct NearNullSpace {
   RCP<const MultiVector> rigid_body_modes;  ///< on the dofs of the matrix
-  RCP<const MultiVector> coordinates;       ///< on the nodes, `dimension` columns
+  RCP<const MultiVector> coordinates;       ///< on the nodes, `dimension` columns; bodies far from one another, so that no aggregate crosses contact
+  std::optional<Decoupling> decoupling;     ///< of a condensed system with contact
 };
 
 /// A strategy. Collective in all its members.

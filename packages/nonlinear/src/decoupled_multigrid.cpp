@@ -1,0 +1,87 @@
+#include "decoupled_multigrid.hpp"
+
+#include <Eigen/Dense>
+#include <TpetraExt_MatrixMatrix.hpp>
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
+#include <Tpetra_Vector.hpp>
+
+namespace mortise::detail {
+namespace {
+
+using Block = Eigen::MatrixXd;
+
+/// The block of a node's dofs, which start at local row `first`, of a filled matrix.
+Block diagonal_block(const Matrix& matrix, LocalOrdinal first, int dimension) {
+  Block block = Block::Zero(dimension, dimension);
+  const auto local = matrix.getLocalMatrixHost();
+  const auto columns = matrix.getColMap()->getLocalMap();
+  const GlobalOrdinal id = matrix.getRowMap()->getGlobalElement(first);
+  for (int i = 0; i < dimension; ++i) {
+    const auto row = local.rowConst(first + i);
+    for (LocalOrdinal k = 0; k < row.length; ++k) {
+      const GlobalOrdinal component = columns.getGlobalElement(row.colidx(k)) - id;
+      if (component >= 0 && component < dimension) block(i, component) += row.value(k);
+    }
+  }
+  return block;
+}
+
+}  // namespace
+
+DecoupledSystem::DecoupledSystem(const Matrix& A, const Decoupling& decoupling, int dimension) : decoupling_(decoupling) {
+  const RCP<const Map> dofs = A.getRowMap();
+  const auto inner = rcp(new Matrix(dofs, static_cast<std::size_t>(dimension)));  // N A_D N
+  inverse_ = rcp(new Matrix(dofs, static_cast<std::size_t>(dimension)));
+  const auto eliminated = decoupling.eliminated->getLocalMatrixHost();
+  for (LocalOrdinal first = 0; first < eliminated.numRows(); first += dimension) {
+    if (eliminated.rowConst(first).length == 0) continue;
+    const Block N = diagonal_block(*decoupling.eliminated, first, dimension);
+    const Block block = N * diagonal_block(A, first, dimension) * N, rest = Block::Identity(dimension, dimension) - N;
+    const Block inverse = (block + rest).inverse() * N;
+    for (int i = 0; i < dimension; ++i)
+      for (int k = 0; k < dimension; ++k) {
+        const GlobalOrdinal column = dofs->getGlobalElement(first + k);
+        inner->insertGlobalValues(dofs->getGlobalElement(first + i), 1, &block(i, k), &column);
+        inverse_->insertGlobalValues(dofs->getGlobalElement(first + i), 1, &inverse(i, k), &column);
+      }
+  }
+  inner->fillComplete(dofs, dofs);
+  inverse_->fillComplete(dofs, dofs);
+
+  Matrix right(dofs, 0), both(dofs, 0);
+  Tpetra::MatrixMatrix::Multiply(A, false, *decoupling.trial, false, right);
+  Tpetra::MatrixMatrix::Multiply(*decoupling.test, true, right, false, both);
+  matrix_ = Tpetra::MatrixMatrix::add(1.0, false, both, 1.0, false, *inner);
+}
+
+void DecoupledSystem::trial(const MultiVector& x, MultiVector& y) const {
+  decoupling_.trial->apply(x, y);
+  decoupling_.eliminated->apply(x, y, Teuchos::NO_TRANS, 1.0, 1.0);
+}
+
+void DecoupledSystem::test(const MultiVector& x, MultiVector& y) const {
+  decoupling_.test->apply(x, y, Teuchos::TRANS);
+  decoupling_.eliminated->apply(x, y, Teuchos::NO_TRANS, 1.0, 1.0);
+}
+
+void DecoupledSystem::first_guess(const Vector& b, Vector& x) const {
+  Vector w(b.getMap());
+  inverse_->apply(b, w);
+  trial(w, x);
+}
+
+void DecoupledSystem::take_out_eliminated(MultiVector& modes) const {
+  const MultiVector all(modes, Teuchos::Copy);
+  decoupling_.eliminated->apply(all, modes, Teuchos::NO_TRANS, -1.0, 1.0);
+}
+
+void DecoupledPreconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar, Scalar) const {
+  MultiVector tested(x.getMap(), x.getNumVectors()), solved(x.getMap(), x.getNumVectors());
+  system_->test(x, tested);
+  preconditioner_->apply(tested, solved);
+  system_->trial(solved, y);
+}
+
+}  // namespace mortise::detail
