@@ -57,6 +57,7 @@ Corners cut(const Corners& corners, int line, const PlanePolygon& first, const P
     Corner crossing;
     crossing.vertex.edges = {corners[i].edge, line};
     crossing.edge = inside ? line : corners[i].edge;
+    crossing.vertex.second_leaves = inside;
     const int node = common_node(crossing.vertex.edges, first_count, second_count);
     const double share = distance[i] / (distance[i] - distance[next]);
     crossing.vertex.position = node >= 0 ? node_position(node, first, second)
@@ -84,18 +85,36 @@ ClipPolygon clip_convex(const PlanePolygon& first, const PlanePolygon& second) {
   return polygon;
 }
 
-boost::container::static_vector<VertexPart, 4> vertex_parts(const ClipVertex& vertex, const PlanePolygon& first, const PlanePolygon& second) {
+bool EdgeCrossing::nearly_parallel() const {
+  constexpr double sine = 1e-3;
+  const double cross = across().dot(along);
+  return cross * cross < sine * sine * along.squaredNorm() * other.squaredNorm();
+}
+
+std::optional<int> vertex_node(const ClipVertex& vertex, const PlanePolygon& first, const PlanePolygon& second) {
+  const int node = common_node(vertex.edges, static_cast<int>(first.size()), static_cast<int>(second.size()));
+  if (node < 0) return std::nullopt;
+  return node;
+}
+
+EdgeCrossing edge_crossing(const ClipVertex& vertex, const PlanePolygon& first, const PlanePolygon& second) {
   const auto first_count = static_cast<int>(first.size()), second_count = static_cast<int>(second.size());
-  const int node = common_node(vertex.edges, first_count, second_count);
-  if (node >= 0) return {VertexPart{node, Eigen::Matrix2d::Identity()}};
-  const auto [a, b] = nodes_of(vertex.edges[0], first_count, second_count);
-  const auto [l, m] = nodes_of(vertex.edges[1], first_count, second_count);
-  const Eigen::Vector2d &x_a = node_position(a, first, second), &x_l = node_position(l, first, second);
-  const Eigen::Vector2d along = node_position(b, first, second) - x_a, other = node_position(m, first, second) - x_l;
-  const Eigen::Vector2d across(-other.y(), other.x());
-  const Eigen::Matrix2d slide = along * across.transpose() / across.dot(along), stay = Eigen::Matrix2d::Identity() - slide;
-  const double t = along.dot(vertex.position - x_a) / along.squaredNorm(), u = other.dot(vertex.position - x_l) / other.squaredNorm();
-  return {VertexPart{a, (1.0 - t) * stay}, VertexPart{b, t * stay}, VertexPart{l, (1.0 - u) * slide}, VertexPart{m, u * slide}};
+  EdgeCrossing crossing;
+  crossing.first_nodes = nodes_of(vertex.edges[0], first_count, second_count);
+  crossing.second_nodes = nodes_of(vertex.edges[1], first_count, second_count);
+  const Eigen::Vector2d &a = node_position(crossing.first_nodes[0], first, second), &l = node_position(crossing.second_nodes[0], first, second);
+  crossing.along = node_position(crossing.first_nodes[1], first, second) - a;
+  crossing.other = node_position(crossing.second_nodes[1], first, second) - l;
+  crossing.t = crossing.along.dot(vertex.position - a) / crossing.along.squaredNorm();
+  crossing.u = crossing.other.dot(vertex.position - l) / crossing.other.squaredNorm();
+  return crossing;
+}
+
+std::array<VertexPart, 4> vertex_parts(const EdgeCrossing& crossing) {
+  const Eigen::Vector2d across = crossing.across();
+  const Eigen::Matrix2d slide = crossing.along * across.transpose() / across.dot(crossing.along), stay = Eigen::Matrix2d::Identity() - slide;
+  return {VertexPart{crossing.first_nodes[0], (1.0 - crossing.t) * stay}, VertexPart{crossing.first_nodes[1], crossing.t * stay},
+          VertexPart{crossing.second_nodes[0], (1.0 - crossing.u) * slide}, VertexPart{crossing.second_nodes[1], crossing.u * slide}};
 }
 
 }  // namespace mortise

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "mortise/shape/quadrature.hpp"
 #include "mortise/shape/quadrilateral4.hpp"
 #include "mortise/shape/triangle3.hpp"
 #include "triangle_points.hpp"
@@ -108,7 +109,18 @@ class Integrator {
     for (const Eigen::Vector3d& y : master_nodes) second.push_back(y.head<2>());
     for (int v = 0; v < vertices; ++v) {
       of_vertex[v] += of_vertex[vertices] / vertices;  // the centre is their mean; without use in a single triangle, then 0
-      for (const VertexPart& part : vertex_parts(overlap.polygon[v], first, second))
+      const ClipVertex& vertex = overlap.polygon[v];
+      if (const auto node = vertex_node(vertex, first, second)) {
+        of_node_[*node] += of_vertex[v];
+        continue;
+      }
+      const EdgeCrossing crossing = edge_crossing(vertex, first, second);
+      if (crossing.nearly_parallel()) {
+        const int end = vertex.second_leaves ? (v + 1) % vertices : (v + vertices - 1) % vertices;
+        add_nearly_parallel(crossing, of_vertex[v], position[v], position[end], vertex.second_leaves, slave_nodes, master_nodes);
+        continue;
+      }
+      for (const VertexPart& part : vertex_parts(crossing))
         for (int r = 0; r < rows; ++r)
           of_node_[part.node].template segment<2>(2 * r) += part.slope.transpose() * of_vertex[v].template segment<2>(2 * r);
     }
@@ -159,6 +171,38 @@ class Integrator {
       of_height_.col(a) -= (weight * cosine * slave.N[a]) * L;
     }
     for (int l = 0; l < m; ++l) of_height_.col(n + l) += (weight * cosine * master.N[l]) * L;
+  }
+
+  // A crossing v of edges at a small angle moves far when they move little. What it does while it slides along the first edge by ds (b - a) is to
+  // change the area beside the second one, which ends at the polygon's vertex e = v + k (m - l) (+ if the polygon leaves v along it, else -):
+  //   dI = ds (b - a) x (+-(e - v)) int_0^1 f(v + s (e - v)) (1 - s) ds,   ds = -w . (dx_first - dx_second) / (w . (b - a)),   w . (b - a) = (m - l)
+  //   x (b - a),
+  // in which the angle cancels. The derivative of the sum over the points of integration has the error of the rule divided by the angle instead.
+  void add_nearly_parallel(const EdgeCrossing& crossing, const Gradients& of_vertex, const Eigen::Vector2d& v, const Eigen::Vector2d& end,
+                           bool leaves, const FacetVectors& slave_nodes, const FacetVectors& master_nodes) {
+    Eigen::Matrix<double, rows, 1> beside = Eigen::Matrix<double, rows, 1>::Zero();
+    static const std::vector<LinePoint> rule = gauss_legendre(3);
+    const Eigen::Matrix<double, 2, n> X = x_.template topRows<2>();
+    const Eigen::Matrix<double, 2, m> Y = y_.template topRows<2>();
+    for (const LinePoint& point : rule) {
+      const double share = 0.5 * (1.0 + point.xi);
+      const Eigen::Vector2d s = v + share * (end - v), xi = facet_coordinates(slave_nodes, s), eta = facet_coordinates(master_nodes, s);
+      const AtPoint<Slave> slave(X, xi);
+      const AtPoint<Master> master(Y, eta);
+      const Eigen::Vector3d normal = normal_ * slave.N;
+      const double gap = normal.z() / normal.norm() * (height_at(master_nodes, eta) - height_at(slave_nodes, xi));
+      add_values(basis_ * slave.N, master.N, gap, 0.5 * point.weight * (1.0 - share), beside);
+    }
+    const double length = (end - v).dot(crossing.other) / crossing.other.squaredNorm();
+    beside *= leaves ? -length : length;
+    const Eigen::Vector2d across = crossing.across();
+    for (int r = 0; r < rows; ++r) {
+      const Eigen::Vector2d sliding = beside[r] * across, staying = of_vertex.template segment<2>(2 * r) - sliding;
+      of_node_[crossing.first_nodes[0]].template segment<2>(2 * r) += (1.0 - crossing.t) * staying;
+      of_node_[crossing.first_nodes[1]].template segment<2>(2 * r) += crossing.t * staying;
+      of_node_[crossing.second_nodes[0]].template segment<2>(2 * r) += (1.0 - crossing.u) * sliding;
+      of_node_[crossing.second_nodes[1]].template segment<2>(2 * r) += crossing.u * sliding;
+    }
   }
 
   void hand_out(SegmentIntegrals3d& result) const {

@@ -307,8 +307,8 @@ TEST(SharedNodes, AreRefused) {
     result.name = name;
     result.place = {"scene.xml", line, "contact/" + name};
     result.youngs_modulus = 1.0;
-    if (nodes->isNodeGlobalElement(slave[0]) || nodes->isNodeGlobalElement(slave[1])) result.slave = {slave};
-    if (nodes->isNodeGlobalElement(master[0])) result.master = {master};
+    if (nodes->isNodeGlobalElement(slave[0]) || nodes->isNodeGlobalElement(slave[1])) result.slave.emplace_back(slave.begin(), slave.end());
+    if (nodes->isNodeGlobalElement(master[0])) result.master.emplace_back(master.begin(), master.end());
     return result;
   };
   const auto message = [&](std::vector<ContactPair> pairs) -> std::string {

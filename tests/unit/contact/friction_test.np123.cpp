@@ -129,9 +129,11 @@ TEST(Slip, APairWithoutFrictionRemembersNothing) {
 }
 
 TEST(Coulomb, SticksInsideTheConeAndSlipsOnIt) {
-  const Eigen::Vector2d normal(0.0, -1.0);
+  const Frame frame = make_frame(Eigen::Vector2d(0.0, -1.0), 0);
   const double c = 7.0;
-  const auto at = [&](double shear, double slip) { return with_friction(c, c, 0.0, slip, normal, {shear, -10.0}, {3.0, 0.3}); };
+  const auto at = [&](double shear, double slip) {
+    return with_friction(c, c, 0.0, TangentVector::Constant(1, slip), frame, Eigen::Vector2d(shear, -10.0), {3.0, 0.3});
+  };
   EXPECT_EQ(at(2.9, 0.0).state, ContactState::stick);
   EXPECT_EQ(at(2.9, 0.0).C[1], 0.0);
   EXPECT_EQ(at(-2.9, -0.1).state, ContactState::slip);

@@ -171,6 +171,59 @@ TEST(MortarPartlyFixedInSpace, TurnsTheNormalIntoTheFreeDirections) {
   EXPECT_FALSE(evaluated(held)->interface->slave_nodes()[4].carries_multiplier);
 }
 
+// The same integrals from the definition: a warped slave facet over triangles, 300 x 300 points in its coordinates, areas on the plane across its
+// normal at the centre, the line along it through each point searched through all triangles. The integrands are continuous with kinks: the sum is off
+// by about (1/300)^2 of the second derivatives.
+TEST(MortarIntegralsInSpace, MatchBruteForce) {
+  Surfaces surfaces = waves(1, 3, 0.1, FacetKind::quadrilaterals, FacetKind::triangles);
+  surfaces.options.coupling = Coupling::standard_mortar;
+  surfaces.points[2][2] += 0.3;
+  const auto pair = evaluated(surfaces);
+  const DenseCoupling dense = pair->dense();
+  std::array<Eigen::Vector3d, 4> x, n;
+  for (int a = 0; a < 4; ++a) {
+    const auto node = static_cast<std::size_t>(surfaces.slave[0][a]);
+    x[a] = surfaces.points[node];
+    n[a] = pair->normals[node].normal;
+  }
+  const Eigen::Vector3d p = (x[2] - x[0]).cross(x[3] - x[1]).normalized();
+  Eigen::MatrixXd D = Eigen::MatrixXd::Zero(4, 4), M = Eigen::MatrixXd::Zero(4, dense.M.cols());
+  Eigen::VectorXd gap = Eigen::VectorXd::Zero(4);
+  constexpr int points = 300;
+  for (int i = 0; i < points; ++i)
+    for (int j = 0; j < points; ++j) {
+      const double r = (i + 0.5) / points, s = (j + 0.5) / points;
+      const Eigen::Vector4d N((1.0 - r) * (1.0 - s), r * (1.0 - s), r * s, (1.0 - r) * s);
+      Eigen::Vector3d at = Eigen::Vector3d::Zero(), normal = at;
+      for (int a = 0; a < 4; ++a) {
+        at += N[a] * x[a];
+        normal += N[a] * n[a];
+      }
+      const Eigen::Vector3d in_r = (1.0 - s) * (x[1] - x[0]) + s * (x[2] - x[3]), in_s = (1.0 - r) * (x[3] - x[0]) + r * (x[2] - x[1]);
+      const double weight = in_r.cross(in_s).dot(p) / (points * points);
+      for (const SurfaceFacet& facet : surfaces.master) {
+        std::array<Eigen::Vector3d, 3> y;
+        for (int l = 0; l < 3; ++l) y[l] = surfaces.points[static_cast<std::size_t>(facet[l])];
+        Eigen::Matrix3d system;  // y_0 + a (y_1 - y_0) + b (y_2 - y_0) = at + h p
+        system << y[1] - y[0], y[2] - y[0], -p;
+        const Eigen::Vector3d solution = system.inverse() * (at - y[0]);
+        const Eigen::Vector3d N_m(1.0 - solution[0] - solution[1], solution[0], solution[1]);
+        if (N_m.minCoeff() < 0.0) continue;
+        const double g = normal.normalized().dot(solution[2] * p);
+        for (int a = 0; a < 4; ++a) {
+          const auto row = surfaces.slave[0][a];
+          for (int k = 0; k < 4; ++k) D(row, surfaces.slave[0][k]) += weight * N[a] * N[k];
+          for (int l = 0; l < 3; ++l) M(row, facet[l] - 4) += weight * N[a] * N_m[l];
+          gap[row] += weight * N[a] * g;
+        }
+      }
+    }
+  const double bound = 1e-4 * D.maxCoeff();
+  EXPECT_LT((D - dense.D).cwiseAbs().maxCoeff(), bound);
+  EXPECT_LT((M - dense.M).cwiseAbs().maxCoeff(), bound);
+  EXPECT_LT((gap - dense.gap).cwiseAbs().maxCoeff(), bound);
+}
+
 TEST(MortarIntegralsInSpace, DoNotFeelARigidMotion) {
   Surfaces surfaces = waves(3, 4, 0.1);
   const DenseCoupling still = evaluated(surfaces)->dense();

@@ -108,5 +108,28 @@ INSTANTIATE_TEST_SUITE_P(Cases, MortarLinearisationInSpace, ::testing::Range(std
   return name;
 });
 
+// Matching surfaces whose nodes moved apart by t along some directions: edges cross at angles of the size of t, and the vertices between them move
+// 1/t times as far as the nodes. The integrals are smooth along the way for t > 0, so their derivatives tend to a limit, linearly with t. On the way
+// the ones at 1e-3 and below are those of the exact integrals, which differ from the rule's by its error over that angle.
+TEST(MortarLinearisationInSpaceNearTies, StaysThatOfTheWay) {
+  for (const auto kind : {FacetKind::quadrilaterals, FacetKind::triangles}) {
+    const Patch patch{2, 2, 0.0, 2.0, 0.0, 2.0, kind, [](double x, double y) { return 0.1 * std::sin(1.7 * x) * std::cos(1.3 * y); }};
+    Surfaces matching;
+    matching.dim = 3;
+    append_patch(patch, false, 0.15, matching, matching.slave);
+    matching.slaves = matching.points.size();
+    append_patch(patch, true, 0.0, matching, matching.master);
+    for (std::size_t n = 0; n < matching.slaves; ++n) matching.points[matching.slaves + n] = matching.points[n];
+    const auto derivative_at = [&](double t) {
+      Surfaces surfaces = matching;
+      for (std::size_t n = 0; n < 3 * matching.slaves; ++n) surfaces.points[n / 3][static_cast<Eigen::Index>(n % 3)] += t * disorder(7 * n);
+      return evaluated(surfaces, true)->dense_derivative();
+    };
+    const Eigen::MatrixXd limit = derivative_at(1e-4);
+    for (const double t : {1e-2, 1e-5, 1e-7, 1e-9})
+      EXPECT_LT((derivative_at(t) - limit).cwiseAbs().maxCoeff(), 10.0 * std::max(t, 1e-4) * limit.cwiseAbs().maxCoeff()) << t;
+  }
+}
+
 }  // namespace
 }  // namespace mortise

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <boost/container/static_vector.hpp>
+#include <optional>
 
 namespace mortise {
 
@@ -20,6 +21,7 @@ struct VertexPart {
 struct ClipVertex {
   Eigen::Vector2d position;
   std::array<int, 2> edges{};
+  bool second_leaves = true;  ///< counterclockwise the polygon leaves the vertex along edges[1], else it arrives along it
 };
 
 using ClipPolygon = boost::container::static_vector<ClipVertex, 16>;
@@ -32,9 +34,25 @@ using ClipPolygon = boost::container::static_vector<ClipVertex, 16>;
 /// @return counterclockwise; fewer than 3 vertices: no common part
 ClipPolygon clip_convex(const PlanePolygon& first, const PlanePolygon& second);
 
-/// What a vertex depends on: a node on itself, the intersection v of the edges a b and l m, at their shares t and u, with w across l m:
+/// Two edges a b and l m that cross: at a + t (b - a) = l + u (m - l).
+struct EdgeCrossing {
+  std::array<int, 2> first_nodes, second_nodes;  ///< {a, b}, {l, m}
+  Eigen::Vector2d along, other;                  ///< b - a, m - l
+  double t = 0.0, u = 0.0;
+
+  /// `other` turned by +90 degrees.
+  Eigen::Vector2d across() const { return {-other.y(), other.x()}; }
+  /// Whether the sine of their angle is below 1e-3.
+  bool nearly_parallel() const;
+};
+
+/// The node at which a vertex stands; none: its edges cross.
+std::optional<int> vertex_node(const ClipVertex& vertex, const PlanePolygon& first, const PlanePolygon& second);
+EdgeCrossing edge_crossing(const ClipVertex& vertex, const PlanePolygon& first, const PlanePolygon& second);
+
+/// What a crossing v depends on, with w = across():
 ///   dv = P ((1 - t) dx_a + t dx_b) + (I - P) ((1 - u) dx_l + u dx_m),   P = I - (b - a) w^T / (w . (b - a)).
-boost::container::static_vector<VertexPart, 4> vertex_parts(const ClipVertex& vertex, const PlanePolygon& first, const PlanePolygon& second);
+std::array<VertexPart, 4> vertex_parts(const EdgeCrossing& crossing);
 
 /// Twice the signed area of the triangle a b c.
 inline double doubled_area(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
