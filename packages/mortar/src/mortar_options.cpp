@@ -8,10 +8,15 @@ void MortarOptions::describe(Parameters& parameters) {
                  "strongly curved coarse facets");
   parameters.add("search reach", search_reach,
                  Says("distance up to which facets can touch; default: the length of the pair's longest facet").unit("length").above(0.0));
-  parameters.add("linearisation", linearisation, {{"exact", Linearisation::exact}, {"frozen normals", Linearisation::frozen_normals}},
-                 "what Newton's method knows of the contact geometry: all, or all but how the nodal normals turn, as many programs have it; changes no "
-                 "solution");
-  parameters.add("gauss points", gauss_points, Says("quadrature points on each overlap of two facets").unit("-").at_least(2.0).at_most(20.0));
+  parameters.add(
+      "linearisation", linearisation, {{"exact", Linearisation::exact}, {"frozen normals", Linearisation::frozen_normals}},
+      "what Newton's method knows of the contact geometry: all, or all but how the nodal normals turn, as many programs have it; changes no "
+      "solution");
+  parameters.add("gauss points", gauss_points,
+                 Says("quadrature points on each overlap of two facets in the plane; in space each triangle of an overlap has 7")
+                     .unit("-")
+                     .at_least(2.0)
+                     .at_most(20.0));
 }
 
 }  // namespace mortise

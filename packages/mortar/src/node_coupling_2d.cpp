@@ -34,7 +34,7 @@ Values<S> project(const Point2<S>& x, const Point2<S>& normal, const MasterLine<
 Point2<double> point(const Eigen::Vector2d& x) { return {x.x(), x.y()}; }
 
 // The nearest facet that the line hits within |eta| <= limit; masters.size(): none.
-std::size_t facet_hit(const SlaveNodeData& slave, const std::vector<std::array<LocalOrdinal, 2>>& masters, double reach, const Positions& x,
+std::size_t facet_hit(const SlaveNodeData& slave, const std::vector<Facet<LocalOrdinal>>& masters, double reach, const Positions<2>& x,
                       double limit) {
   const Point2<double> start = point(x[slave.node]), normal = point(slave.normal->normal);
   std::size_t nearest = masters.size();
@@ -54,9 +54,9 @@ std::size_t facet_hit(const SlaveNodeData& slave, const std::vector<std::array<L
 }
 
 // w = sum over the node's facets of t L / 2, or 2 pi L (r_j / 3 + r_k / 6); its derivative in the columns of the stencil.
-double share_of_surface(const SlaveNodeData& slave, const Positions& x, const InterfaceMeasure& measure, Eigen::RowVectorXd* slope) {
+double share_of_surface(const SlaveNodeData& slave, const Positions<2>& x, const InterfaceMeasure& measure, Eigen::RowVectorXd* slope) {
   double weight = 0.0;
-  for (const auto& facet : slave.stencil->facets) {
+  for (const auto& facet : slave.stencil->corners) {
     const LocalOrdinal other = facet[0] == slave.node ? facet[1] : facet[0];
     const Eigen::Vector2d travel = x[slave.node] - x[other];
     const double length = travel.norm();
@@ -76,7 +76,7 @@ double share_of_surface(const SlaveNodeData& slave, const Positions& x, const In
 
 }  // namespace
 
-bool couple_node(const SlaveNodeData& slave, const std::vector<std::array<LocalOrdinal, 2>>& masters, double reach, const Positions& x,
+bool couple_node(const SlaveNodeData& slave, const std::vector<Facet<LocalOrdinal>>& masters, double reach, const Positions<2>& x,
                  const InterfaceMeasure& measure, double share, bool derivatives, FacetCoupling& coupling) {
   std::size_t hit = facet_hit(slave, masters, reach, x, 1.0 + end_tolerance);
   if (hit == masters.size()) hit = facet_hit(slave, masters, reach, x, 1.0 + extension);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "mortise/mortar/mortar_interface.hpp"
-#include "nodal_normal_2d.hpp"
+#include "nodal_normal.hpp"
 
 namespace mortise {
 
@@ -21,7 +21,7 @@ struct SlaveNodeData {
 /// The surface goes on straight for 1/200 of a facet beyond its ends.
 /// @param masters  facets that may be hit, in an order that does not depend on the partition
 /// @return false if none is; then `coupling` has no meaning
-bool couple_node(const SlaveNodeData& slave, const std::vector<std::array<LocalOrdinal, 2>>& masters, double reach, const Positions& x,
+bool couple_node(const SlaveNodeData& slave, const std::vector<Facet<LocalOrdinal>>& masters, double reach, const Positions<2>& x,
                  const InterfaceMeasure& measure, double share, bool derivatives, FacetCoupling& coupling);
 
 }  // namespace mortise

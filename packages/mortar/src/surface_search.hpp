@@ -1,38 +1,59 @@
 #pragma once
-// Which master facets of any rank lie near each slave facet of this rank (2D).
+// Which master facets of any rank lie near each slave facet of this rank.
 
 #include <Eigen/Core>
 #include <array>
 #include <optional>
 #include <vector>
 
+#include "facet_geometry.hpp"
 #include "mortise/core/types.hpp"
+#include "mortise/shape/surface_facet.hpp"
 
 namespace mortise {
 
 /// A facet as it travels between ranks: the ids and positions of its nodes.
+template <int dim>
 struct PlacedFacet {
-  std::array<GlobalOrdinal, 2> nodes{};
-  std::array<std::array<double, 2>, 2> x{};
+  std::array<GlobalOrdinal, most_corners<dim>> nodes{};
+  std::array<std::array<double, dim>, most_corners<dim>> x{};
+  int count = 0;
+
+  PlacedFacet() = default;
+  PlacedFacet(const SurfaceFacet& ids, const FacetPoints<dim>& points) : count(static_cast<int>(points.size())) {
+    for (int a = 0; a < count; ++a) {
+      if (!ids.empty()) nodes[a] = ids[a];
+      for (int i = 0; i < dim; ++i) x[a][i] = points[a][i];
+    }
+  }
+  SurfaceFacet ids() const { return {nodes.begin(), nodes.begin() + count}; }
+  FacetPoints<dim> points() const {
+    FacetPoints<dim> result;
+    for (int a = 0; a < count; ++a) result.push_back(Eigen::Map<const Eigen::Matrix<double, dim, 1>>(x[a].data()));
+    return result;
+  }
 };
 
 /// Distance of two line segments a_0 a_1 and b_0 b_1; 0 if they cross.
-double segment_distance(const std::array<Eigen::Vector2d, 2>& a, const std::array<Eigen::Vector2d, 2>& b);
+double segment_distance(const std::array<std::array<double, 2>, 2>& a, const std::array<std::array<double, 2>, 2>& b);
 
-/// Collective: for each slave facet the master facets, of all ranks, within its radius, in ascending order of node ids.
-/// Only one box per rank is known everywhere; master facets travel to the ranks whose box they meet.
+/// Collective: for each slave facet the master facets, of all ranks, within its radius (in space: whose boxes lie within it), in ascending order of
+/// node ids. A rendezvous in space: only one box per rank is known everywhere; master facets travel to the ranks whose box they meet.
 /// @param radius  [slave] > 0
-std::vector<std::vector<PlacedFacet>> facets_within(const Communicator& comm, const std::vector<PlacedFacet>& slave,
-                                                    const std::vector<double>& radius, const std::vector<PlacedFacet>& master);
+template <int dim>
+std::vector<std::vector<PlacedFacet<dim>>> facets_within(const Communicator& comm, const std::vector<PlacedFacet<dim>>& slave,
+                                                         const std::vector<double>& radius, const std::vector<PlacedFacet<dim>>& master);
 
 /// A straight line through a slave node along its unit normal.
+template <int dim>
 struct NormalLine {
-  Eigen::Vector2d x, normal;
+  Eigen::Matrix<double, dim, 1> x, normal;
 };
 
 /// Collective: for each line the distance along its normal (negative: behind x) of the nearest master facet, of all ranks and however far, that
 /// faces the normal and that the line meets; no value if there is none. Master facets travel as in facets_within().
-std::vector<std::optional<double>> distances_along_normals(const Communicator& comm, const std::vector<NormalLine>& lines,
-                                                           const std::vector<PlacedFacet>& master);
+template <int dim>
+std::vector<std::optional<double>> distances_along_normals(const Communicator& comm, const std::vector<NormalLine<dim>>& lines,
+                                                           const std::vector<PlacedFacet<dim>>& master);
 
 }  // namespace mortise

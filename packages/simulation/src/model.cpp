@@ -93,17 +93,17 @@ RCP<Mesh> make_mesh(const RCP<const Communicator>& comm, const Scene& scene) {
 }
 
 RCP<MultiVector> reference_positions(const Mesh& mesh) {
-  const auto positions = rcp(new MultiVector(mesh.owned_nodes, 2));
+  const auto positions = rcp(new MultiVector(mesh.owned_nodes, static_cast<std::size_t>(mesh.dimension)));
   const auto view = positions->getLocalViewHost(Tpetra::Access::OverwriteAll);
   for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node)
-    for (int i = 0; i < 2; ++i) view(node, i) = mesh.coordinates[node][i];
+    for (int i = 0; i < mesh.dimension; ++i) view(node, i) = mesh.coordinates[node][i];
   return positions;
 }
 
 RCP<MultiVector> marked_components(const Mesh& mesh, const std::vector<LocalOrdinal>& dofs) {
-  const auto marks = rcp(new MultiVector(mesh.owned_nodes, 2));
+  const auto marks = rcp(new MultiVector(mesh.owned_nodes, static_cast<std::size_t>(mesh.dimension)));
   const auto view = marks->getLocalViewHost(Tpetra::Access::ReadWrite);
-  for (const LocalOrdinal dof : dofs) view(dof / 2, dof % 2) = 1.0;
+  for (const LocalOrdinal dof : dofs) view(dof / mesh.dimension, dof % mesh.dimension) = 1.0;
   return marks;
 }
 
@@ -237,7 +237,7 @@ Model::~Model() = default;
 GlobalOrdinal Model::dofs() const { return static_cast<GlobalOrdinal>(parts_.dofs->getGlobalNumElements()); }
 
 GlobalOrdinal Model::slave_nodes() const {
-  return parts_.contact ? static_cast<GlobalOrdinal>(parts_.contact->multiplier_map()->getGlobalNumElements()) / 2 : 0;
+  return parts_.contact ? static_cast<GlobalOrdinal>(parts_.contact->multiplier_map()->getGlobalNumElements()) / mesh_->dimension : 0;
 }
 
 std::map<std::string, long> Model::calls() const {

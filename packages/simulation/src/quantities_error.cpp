@@ -56,6 +56,7 @@ bool ErrorNorm::is_known(double time) const {
 }
 
 void ErrorNorm::prepare(const QuantityContext& context) {
+  if (context.mesh().dimension != 2) throw InputError(exact.place, "error norms are quantities of plane and axisymmetric scenes only");
   if (!is_known(0.0)) {
     const char* const names[] = {"contact pressure", "displacement", "stress"};
     throw InputError(exact.place, fmt::format("the exact solution \"{}\" knows no {}", exact.type, names[static_cast<int>(of)]));

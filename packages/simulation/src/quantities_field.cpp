@@ -38,6 +38,10 @@ double value_at(PointField field, const MaterialPoint& point) {
       return stress(2, 2);
     case PointField::stress_xy:
       return stress(0, 1);
+    case PointField::stress_yz:
+      return stress(1, 2);
+    case PointField::stress_xz:
+      return stress(0, 2);
     default:
       return von_mises(stress);
   }
@@ -49,11 +53,14 @@ void FieldQuantity::describe(Parameters& parameters) {
   parameters.add("field", field,
                  {{"displacement x", PointField::displacement_x},
                   {"displacement y", PointField::displacement_y},
+                  {"displacement z", PointField::displacement_z},
                   {"displacement magnitude", PointField::displacement_magnitude},
                   {"stress xx", PointField::stress_xx},
                   {"stress yy", PointField::stress_yy},
                   {"stress zz", PointField::stress_zz},
                   {"stress xy", PointField::stress_xy},
+                  {"stress yz", PointField::stress_yz},
+                  {"stress xz", PointField::stress_xz},
                   {"von mises", PointField::von_mises},
                   {"equivalent plastic strain", PointField::equivalent_plastic_strain},
                   {"contact pressure", PointField::contact_pressure},
@@ -80,8 +87,10 @@ void FieldQuantity::visit(const QuantityContext& context, const std::function<vo
     case Carrier::nodes: {
       const auto displacement = context.displacement->getLocalViewHost(Tpetra::Access::ReadOnly);
       const auto visit_node = [&](LocalOrdinal node) {
-        const double x = displacement(2 * node, 0), y = displacement(2 * node + 1, 0);
-        visit(field == PointField::displacement_x ? x : field == PointField::displacement_y ? y : std::hypot(x, y), 1.0);
+        std::array<double, 3> u{};
+        for (int i = 0; i < mesh.dimension; ++i) u[i] = displacement(mesh.dimension * node + i, 0);
+        const auto component = static_cast<std::size_t>(field) - static_cast<std::size_t>(PointField::displacement_x);
+        visit(field == PointField::displacement_magnitude ? std::hypot(u[0], u[1], u[2]) : u[component], 1.0);
       };
       if (on.value.empty()) {
         for (LocalOrdinal node = 0; node < mesh.owned_body_count(); ++node) visit_node(node);

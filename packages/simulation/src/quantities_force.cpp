@@ -14,7 +14,7 @@ namespace mortise {
 
 void Reaction::describe(Parameters& parameters) {
   parameters.add("set", set, Says("nodes whose supports are summed up").required());
-  parameters.add("component", component, {{"x", Of::x}, {"y", Of::y}, {"rotation", Of::rotation}},
+  parameters.add("component", component, {{"x", Of::x}, {"y", Of::y}, {"z", Of::z}, {"rotation", Of::rotation}},
                  "direction of the force; rotation: the moment on a reference point that turns");
 }
 
@@ -23,6 +23,8 @@ void Reaction::prepare(const QuantityContext& context) {
     require_rotating_point(context.mesh(), set);
   else
     require_node_set(context.mesh(), set);
+  if (component == Of::z && context.mesh().dimension == 2)
+    throw InputError(set.place, "a component z exists in three-dimensional scenes only; in the plane please take \"x\" or \"y\"");
 }
 
 double Reaction::evaluate(const QuantityContext& context) {
@@ -35,7 +37,7 @@ double Reaction::evaluate(const QuantityContext& context) {
     return sum_over_ranks(mesh, sum);
   }
   for (const LocalOrdinal node : require_node_set(mesh, set))
-    if (node < mesh.owned_count()) sum += reaction(2 * node + static_cast<int>(component), 0);
+    if (node < mesh.owned_count()) sum += reaction(mesh.dimension * node + static_cast<int>(component), 0);
   return sum_over_ranks(mesh, sum);
 }
 
@@ -58,7 +60,10 @@ void ContactForce::describe(Parameters& parameters) {
                  "what of it: all, the pressures along the nodes' normals, or the shear tractions across them");
 }
 
-void ContactForce::prepare(const QuantityContext& context) { pair_ = find_pair(context, pair); }
+void ContactForce::prepare(const QuantityContext& context) {
+  pair_ = find_pair(context, pair);
+  require_component(context, component);
+}
 
 double ContactForce::evaluate(const QuantityContext& context) {
   const int i = static_cast<int>(component);
@@ -77,9 +82,11 @@ double ContactForce::evaluate(const QuantityContext& context) {
 
 namespace {
 
-using Sums = std::array<double, 2>;
+using Sums = std::array<double, 3>;
 
-Sums over_ranks(const Mesh& mesh, const Sums& mine) { return {sum_over_ranks(mesh, mine[0]), sum_over_ranks(mesh, mine[1])}; }
+Sums over_ranks(const Mesh& mesh, const Sums& mine) {
+  return {sum_over_ranks(mesh, mine[0]), sum_over_ranks(mesh, mine[1]), sum_over_ranks(mesh, mine[2])};
+}
 
 double contact_imbalance(const QuantityContext& context) {
   if (context.contact == nullptr) return 0.0;
@@ -87,39 +94,41 @@ double contact_imbalance(const QuantityContext& context) {
   context.contact->add_contact_force(*context.multipliers, force);
   const auto values = force.getLocalViewHost(Tpetra::Access::ReadOnly);
   Sums sum{}, absolute{};
+  const int dimension = context.mesh().dimension;
   for (std::size_t dof = 0; dof < values.extent(0); ++dof) {
-    sum[dof % 2] += values(dof, 0);
-    absolute[dof % 2] += std::abs(values(dof, 0));
+    sum[dof % dimension] += values(dof, 0);
+    absolute[dof % dimension] += std::abs(values(dof, 0));
   }
   sum = over_ranks(context.mesh(), sum);
   absolute = over_ranks(context.mesh(), absolute);
-  const double scale = 0.5 * std::max(absolute[0], absolute[1]);
-  return scale > 0.0 ? std::hypot(sum[0], sum[1]) / scale : 0.0;
+  const double scale = 0.5 * std::max({absolute[0], absolute[1], absolute[2]});
+  return scale > 0.0 ? std::hypot(sum[0], sum[1], sum[2]) / scale : 0.0;
 }
 
 double total_imbalance(const QuantityContext& context) {
   const auto load = context.external_force->getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto reaction = context.reaction->getLocalViewHost(Tpetra::Access::ReadOnly);
   Sums sum{}, loads{}, reactions{};
+  const int dimension = context.mesh().dimension;
   const auto is_rotation = [&](LocalOrdinal dof) {  // moments are no forces
     const auto& points = context.mesh().reference_points;
-    return std::any_of(points.begin(), points.end(), [&](const ReferencePoint& point) { return point.rotation_node == dof / 2; });
+    return std::any_of(points.begin(), points.end(), [&](const ReferencePoint& point) { return point.rotation_node == dof / dimension; });
   };
   for (std::size_t dof = 0; dof < load.extent(0); ++dof) {
     if (is_rotation(static_cast<LocalOrdinal>(dof))) continue;
-    sum[dof % 2] += load(dof, 0);
-    loads[dof % 2] += std::abs(load(dof, 0));
+    sum[dof % dimension] += load(dof, 0);
+    loads[dof % dimension] += std::abs(load(dof, 0));
   }
   for (const LocalOrdinal dof : *context.prescribed) {
     if (is_rotation(dof)) continue;
-    sum[dof % 2] += reaction(dof, 0);
-    reactions[dof % 2] += std::abs(reaction(dof, 0));
+    sum[dof % dimension] += reaction(dof, 0);
+    reactions[dof % dimension] += std::abs(reaction(dof, 0));
   }
   const Mesh& mesh = context.mesh();
   sum = over_ranks(mesh, sum), loads = over_ranks(mesh, loads), reactions = over_ranks(mesh, reactions);
   // Radial forces on a ring do not sum to zero: the hoop stress carries them.
   double largest = 0.0, scale = 0.0;
-  for (int i = context.bodies.kinematics() == Kinematics::axisymmetric ? 1 : 0; i < 2; ++i) {
+  for (int i = context.bodies.kinematics() == Kinematics::axisymmetric ? 1 : 0; i < dimension; ++i) {
     largest = std::max(largest, std::abs(sum[i]));
     scale = std::max({scale, loads[i], reactions[i]});
   }

@@ -11,7 +11,9 @@
 #include <limits>
 
 #include "mortise/shape/quadrilateral4.hpp"
+#include "mortise/shape/quadrilateral8.hpp"
 #include "mortise/shape/triangle3.hpp"
+#include "mortise/shape/triangle6.hpp"
 #include "quantity_support.hpp"
 
 namespace mortise {
@@ -20,18 +22,21 @@ namespace {
 /// How far outside, in reference coordinates, a point still counts as inside: round-off of points on sides and nodes.
 constexpr double inside_tolerance = 1e-8;
 
+/// How far sides of quadratic cells may bulge beyond the box of their nodes, over its diagonal.
+constexpr double curved_margin = 0.25;
+
 bool is_inside(CellShape shape, const std::array<double, 2>& xi) {
-  if (shape == CellShape::triangle3) return std::min({xi[0], xi[1], 1.0 - xi[0] - xi[1]}) >= -inside_tolerance;
+  if (topology(shape).corners == 3) return std::min({xi[0], xi[1], 1.0 - xi[0] - xi[1]}) >= -inside_tolerance;
   return std::max(std::abs(xi[0]), std::abs(xi[1])) <= 1.0 + inside_tolerance;
 }
 
-/// Shares N_a of an element's nodes at the point, or nothing if it lies outside. Newton's method for X(xi) = point; linear on triangles.
+/// Shares N_a of an element's nodes at the point, or nothing if it lies outside. Newton's method for X(xi) = point.
 template <class Cell>
 std::vector<double> shares_at(const Mesh& mesh, const LocalOrdinal* nodes, const Eigen::Vector2d& point) {
   Eigen::Matrix<double, 2, Cell::nodes> corners;
   for (int a = 0; a < Cell::nodes; ++a) corners.col(a) << mesh.coordinates[nodes[a]][0], mesh.coordinates[nodes[a]][1];
   const Eigen::Vector2d low = corners.rowwise().minCoeff(), high = corners.rowwise().maxCoeff();
-  const double margin = inside_tolerance * (high - low).norm();
+  const double margin = (Cell::nodes > topology(Cell::shape).corners ? curved_margin : inside_tolerance) * (high - low).norm();
   if (((low.array() - margin) > point.array()).any() || ((high.array() + margin) < point.array()).any()) return {};
   std::array<double, 2> xi = Cell::centroid;
   for (int iteration = 0; iteration < 30; ++iteration) {
@@ -63,6 +68,7 @@ void PointDisplacement::describe(Parameters& parameters) {
 
 void PointDisplacement::prepare(const QuantityContext& context) {
   const Mesh& mesh = context.mesh();
+  if (mesh.dimension != 2) throw InputError(x.place, "the displacement of a point is a quantity of plane and axisymmetric scenes only");
   const auto wanted = find_optional_body(context, body);
   const Eigen::Vector2d point(x.value, y.value);
   // The body first, then the element of the lowest id: the same one on any number of ranks.
@@ -74,8 +80,12 @@ void PointDisplacement::prepare(const QuantityContext& context) {
     for (LocalOrdinal element = 0; element < block.owned; ++element) {
       if (block.element_ids[element] >= mine) continue;
       const LocalOrdinal* nodes = block.nodes(element);
-      const auto shares =
-          block.shape == CellShape::triangle3 ? shares_at<Triangle3>(mesh, nodes, point) : shares_at<Quadrilateral4>(mesh, nodes, point);
+      const auto shares = [&] {
+        if (block.shape == CellShape::triangle3) return shares_at<Triangle3>(mesh, nodes, point);
+        if (block.shape == CellShape::triangle6) return shares_at<Triangle6>(mesh, nodes, point);
+        if (block.shape == CellShape::quadrilateral8) return shares_at<Quadrilateral8>(mesh, nodes, point);
+        return shares_at<Quadrilateral4>(mesh, nodes, point);
+      }();
       if (shares.empty()) continue;
       mine = block.element_ids[element];
       shares_ = shares;

@@ -14,7 +14,7 @@
 namespace mortise {
 
 const std::vector<std::pair<std::string, Component>>& component_names() {
-  static const std::vector<std::pair<std::string, Component>> names{{"x", Component::x}, {"y", Component::y}};
+  static const std::vector<std::pair<std::string, Component>> names{{"x", Component::x}, {"y", Component::y}, {"z", Component::z}};
   return names;
 }
 
@@ -28,6 +28,11 @@ double largest_over_ranks(const Mesh& mesh, double mine) {
   double all = mine;
   Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, mine, Teuchos::outArg(all));
   return all;
+}
+
+void require_component(const QuantityContext& context, Component component) {
+  if (component == Component::z && context.mesh().dimension == 2)
+    throw InputError(Place{}, "a component z exists in three-dimensional scenes only; in the plane please take \"x\" or \"y\"");
 }
 
 LocalOrdinal find_body(const QuantityContext& context, const Located<std::string>& name) {

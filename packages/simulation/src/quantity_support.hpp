@@ -17,6 +17,9 @@ const std::vector<std::pair<std::string, Component>>& component_names();
 double sum_over_ranks(const Mesh& mesh, double mine);
 double largest_over_ranks(const Mesh& mesh, double mine);
 
+/// Throws InputError where `component` is z in the plane.
+void require_component(const QuantityContext& context, Component component);
+
 /// Index of a body. Throws InputError at the name's place.
 LocalOrdinal find_body(const QuantityContext& context, const Located<std::string>& name);
 /// The same; an empty name is no body.

@@ -75,7 +75,8 @@ void OutputOptions::describe(Parameters& parameters) {
 void QuantityChoice::describe(Parameters& parameters) { parameters.choose(quantity, quantity_registry(), "the kind of quantity"); }
 
 void Scene::describe(Parameters& parameters) {
-  parameters.add("kinematics", kinematics, kinematics_names(), "how the third direction behaves; axisymmetric: x is the radius, y the axis");
+  parameters.add("kinematics", kinematics, kinematics_names(),
+                 "how the third direction behaves; axisymmetric: x is the radius, y the axis; three dimensional: bodies of space");
   parameters.add("thickness", thickness,
                  Says("thickness of the model out of the plane; axisymmetric scenes do not use it").unit("length").above(0.0));
   parameters.named("materials", materials, "the materials, by names of your choice");
@@ -91,6 +92,8 @@ void Scene::describe(Parameters& parameters) {
   parameters.list("output", output, "what is written besides the summary");
   parameters.named("quantities", quantities, "numbers wanted of the run: every step's in history.csv, the last ones in summary.json");
   parameters.named("checks", checks, "bounds on quantities at the end; a run that misses one ends with exit code 4");
+  if (kinematics == Kinematics::three_dimensional && output.contact_profiles)
+    parameters.error("output", "contact profiles are written in plane and axisymmetric scenes only; please remove \"contact profiles\"");
 }
 
 }  // namespace mortise

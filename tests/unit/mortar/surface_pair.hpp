@@ -1,5 +1,5 @@
 #pragma once
-// A slave and a master polyline, spread over ranks in any way, and what the mortar interface makes of them as dense matrices.
+// A slave and a master surface, spread over ranks in any way, and what the mortar interface makes of them as dense matrices.
 
 #include <Eigen/Dense>
 #include <Teuchos_CommHelpers.hpp>
@@ -7,6 +7,7 @@
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -19,7 +20,20 @@ namespace mortise::test {
 
 using Points = std::vector<Eigen::Vector2d>;
 
-/// Nodes: slave first, then master. The slave lies above and travels to +x (outward normal down), the master below and to -x.
+/// Nodes: slave first, then master.
+struct Surfaces {
+  int dim = 2;
+  std::size_t slaves = 0;
+  std::vector<SpatialVector> points;
+  SurfaceFacets slave, master;
+  std::vector<std::pair<std::size_t, int>> fixed;  ///< node, component
+  InterfaceMeasure measure;
+  MortarOptions options;
+
+  std::size_t masters() const { return points.size() - slaves; }
+};
+
+/// The slave lies above and travels to +x (outward normal down), the master below and to -x.
 struct TwoLines {
   std::string name;
   Points slave, master;
@@ -31,6 +45,20 @@ struct TwoLines {
     Points all = slave;
     all.insert(all.end(), master.begin(), master.end());
     return all;
+  }
+
+  operator Surfaces() const {
+    Surfaces surfaces;
+    surfaces.slaves = slave.size();
+    for (const auto& x : points()) surfaces.points.emplace_back(x);
+    for (std::size_t n = 0; n + 1 < surfaces.points.size(); ++n)
+      if (n + 1 != slave.size())
+        (n < slave.size() ? surfaces.slave : surfaces.master).push_back({static_cast<GlobalOrdinal>(n), static_cast<GlobalOrdinal>(n + 1)});
+    for (const std::size_t n : fixed_x) surfaces.fixed.push_back({n, 0});
+    for (const std::size_t n : fixed_y) surfaces.fixed.push_back({n, 1});
+    surfaces.measure = measure;
+    surfaces.options = options;
+    return surfaces;
   }
 };
 
@@ -64,55 +92,59 @@ class SurfacePair {
  public:
   using Owner = std::function<int(std::size_t)>;
 
-  /// Node n and the master facet that starts there belong to rank owner(n).
+  /// Node n and the master facets that start there belong to rank owner(n).
   SurfacePair(
-      const TwoLines& lines, RCP<const Communicator> comm, const Owner& owner = [](std::size_t) { return 0; })
-      : lines_(lines) {
-    const Points points = lines.points();
+      Surfaces surfaces, RCP<const Communicator> comm, const Owner& owner = [](std::size_t) { return 0; })
+      : surfaces_(std::move(surfaces)) {
+    const int rank = comm->getRank();
+    const std::size_t count = surfaces_.points.size();
     std::vector<GlobalOrdinal> ids;
-    for (std::size_t n = 0; n < points.size(); ++n)
-      if (owner(n) == comm->getRank()) ids.push_back(static_cast<GlobalOrdinal>(n));
-    nodes = rcp(new Map(points.size(), ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, comm));
-    const auto fixed = rcp(new MultiVector(nodes, 2));
-    for (const std::size_t n : lines.fixed_x)
-      if (owner(n) == comm->getRank()) fixed->replaceGlobalValue(static_cast<GlobalOrdinal>(n), 0, 1.0);
-    for (const std::size_t n : lines.fixed_y)
-      if (owner(n) == comm->getRank()) fixed->replaceGlobalValue(static_cast<GlobalOrdinal>(n), 1, 1.0);
+    for (std::size_t n = 0; n < count; ++n)
+      if (owner(n) == rank) ids.push_back(static_cast<GlobalOrdinal>(n));
+    nodes = rcp(new Map(count, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, comm));
+    const auto fixed = rcp(new MultiVector(nodes, surfaces_.dim));
+    for (const auto& [n, component] : surfaces_.fixed)
+      if (owner(n) == rank) fixed->replaceGlobalValue(static_cast<GlobalOrdinal>(n), component, 1.0);
     SurfaceFacets slave, master;
-    for (std::size_t n = 0; n + 1 < lines.slave.size(); ++n)
-      if (owner(n) == comm->getRank() || owner(n + 1) == comm->getRank())
-        slave.push_back({static_cast<GlobalOrdinal>(n), static_cast<GlobalOrdinal>(n + 1)});
-    for (std::size_t n = lines.slave.size(); n + 1 < points.size(); ++n)
-      if (owner(n) == comm->getRank()) master.push_back({static_cast<GlobalOrdinal>(n), static_cast<GlobalOrdinal>(n + 1)});
-    interface = std::make_unique<MortarInterface>(nodes, owned(points), fixed, slave, master, lines.measure, lines.options,
+    for (const SurfaceFacet& facet : surfaces_.slave)
+      if (std::any_of(facet.begin(), facet.end(), [&](GlobalOrdinal n) { return owner(static_cast<std::size_t>(n)) == rank; }))
+        slave.push_back(facet);
+    for (const SurfaceFacet& facet : surfaces_.master)
+      if (owner(static_cast<std::size_t>(facet.front())) == rank) master.push_back(facet);
+    interface = std::make_unique<MortarInterface>(nodes, owned(surfaces_.points), fixed, slave, master, surfaces_.measure, surfaces_.options,
                                                   Place{"scene.xml", 7, "contact/pair"});
   }
 
-  bool search(const Points& points) { return interface->search(*owned(points)); }
+  template <class Points>
+  bool search(const Points& points) {
+    return interface->search(*owned(points));
+  }
 
   /// Evaluates at `points`; `failure` as the interface sets it on this rank.
+  template <class Points>
   void evaluate(const Points& points, bool derivatives) {
-    MultiVector x(interface->local_nodes(), 2);
+    MultiVector x(interface->local_nodes(), surfaces_.dim);
     for (std::size_t n = 0; n < x.getLocalLength(); ++n)
-      for (int i = 0; i < 2; ++i) x.replaceLocalValue(static_cast<LocalOrdinal>(n), i, points[id(static_cast<LocalOrdinal>(n))][i]);
+      for (int i = 0; i < surfaces_.dim; ++i) x.replaceLocalValue(static_cast<LocalOrdinal>(n), i, points[id(static_cast<LocalOrdinal>(n))][i]);
     failure.reset();
     interface->evaluate(x, derivatives, couplings, normals, failure);
   }
 
   DenseCoupling dense() const {
-    const auto slaves = static_cast<Eigen::Index>(lines_.slave.size()), masters = static_cast<Eigen::Index>(lines_.master.size());
+    const auto slaves = static_cast<Eigen::Index>(surfaces_.slaves), masters = static_cast<Eigen::Index>(surfaces_.masters()),
+               dim = Eigen::Index{surfaces_.dim};
     DenseCoupling result;
     result.D.setZero(slaves, slaves);
     result.M.setZero(slaves, masters);
     result.gap.setZero(slaves);
-    result.normal.setZero(2 * slaves);
+    result.normal.setZero(dim * slaves);
     for_each_row([&](const FacetCoupling& coupling, int j, Eigen::Index row) {
-      for (int k = 0; k < 2; ++k) result.D(row, index(coupling.slave[k])) += coupling.D(j, k);
+      for (std::size_t k = 0; k < coupling.slave.size(); ++k) result.D(row, index(coupling.slave[k])) += coupling.D(j, static_cast<Eigen::Index>(k));
       for (std::size_t l = 0; l < coupling.master.size(); ++l)
         result.M(row, index(coupling.master[l]) - slaves) += coupling.M(j, static_cast<Eigen::Index>(l));
       result.gap[row] += coupling.gap[j];
     });
-    for (std::size_t s = 0; s < normals.size(); ++s) result.normal.segment<2>(2 * index(static_cast<LocalOrdinal>(s))) = normals[s].normal;
+    for (std::size_t s = 0; s < normals.size(); ++s) result.normal.segment(dim * index(static_cast<LocalOrdinal>(s)), dim) = normals[s].normal;
     for (const auto& [data, size] : {std::pair(result.D.data(), result.D.size()),
                                      {result.M.data(), result.M.size()},
                                      {result.gap.data(), result.gap.size()},
@@ -125,37 +157,41 @@ class SurfacePair {
 
   /// Derivative of dense().stacked() with respect to all nodal positions. One rank.
   Eigen::MatrixXd dense_derivative() const {
-    const auto slaves = static_cast<Eigen::Index>(lines_.slave.size()), masters = static_cast<Eigen::Index>(lines_.master.size());
-    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(slaves * (slaves + masters + 3), 2 * (slaves + masters));
+    const auto slaves = static_cast<Eigen::Index>(surfaces_.slaves), masters = static_cast<Eigen::Index>(surfaces_.masters()),
+               dim = Eigen::Index{surfaces_.dim};
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(slaves * (slaves + masters + 1 + dim), dim * (slaves + masters));
     for_each_row([&](const FacetCoupling& coupling, int j, Eigen::Index row) {
-      const auto count = static_cast<Eigen::Index>(coupling.master.size());
+      const auto count = static_cast<Eigen::Index>(coupling.master.size()), facet = static_cast<Eigen::Index>(coupling.slave.size());
       for (std::size_t c = 0; c < coupling.columns.size(); ++c) {
-        const Eigen::Index to = 2 * index(coupling.columns[c]), from = 2 * static_cast<Eigen::Index>(c);
-        for (int k = 0; k < 2; ++k) result.block<1, 2>(row + slaves * index(coupling.slave[k]), to) += coupling.dD.block<1, 2>(2 * j + k, from);
+        const Eigen::Index to = dim * index(coupling.columns[c]), from = dim * static_cast<Eigen::Index>(c);
+        const auto add = [&](Eigen::Index to_row, const Eigen::MatrixXd& slope, Eigen::Index from_row) {
+          result.block(to_row, to, 1, dim) += slope.block(from_row, from, 1, dim);
+        };
+        for (Eigen::Index k = 0; k < facet; ++k) add(row + slaves * index(coupling.slave[k]), coupling.dD, facet * j + k);
         for (Eigen::Index l = 0; l < count; ++l)
-          result.block<1, 2>(slaves * slaves + row + slaves * (index(coupling.master[l]) - slaves), to) +=
-              coupling.dM.block<1, 2>(j * count + l, from);
-        result.block<1, 2>(slaves * (slaves + masters) + row, to) += coupling.dgap.block<1, 2>(j, from);
+          add(slaves * slaves + row + slaves * (index(coupling.master[l]) - slaves), coupling.dM, j * count + l);
+        add(slaves * (slaves + masters) + row, coupling.dgap, j);
       }
     });
     for (std::size_t s = 0; s < normals.size(); ++s)
       for (std::size_t c = 0; c < normals[s].columns.size(); ++c)
-        result.block<2, 2>(slaves * (slaves + masters + 1) + 2 * index(static_cast<LocalOrdinal>(s)), 2 * index(normals[s].columns[c])) +=
-            normals[s].derivative.middleCols<2>(2 * static_cast<Eigen::Index>(c));
+        result.block(slaves * (slaves + masters + 1) + dim * index(static_cast<LocalOrdinal>(s)), dim * index(normals[s].columns[c]), dim, dim) +=
+            normals[s].derivative.middleCols(dim * static_cast<Eigen::Index>(c), dim);
     return result;
   }
 
   /// Reference weights A_j of this rank's slave nodes, 0 elsewhere.
   Eigen::VectorXd weights() const {
-    Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(lines_.slave.size()));
+    Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(surfaces_.slaves));
     for (const SlaveNode& node : interface->slave_nodes()) result[node.id] = node.weight;
     return result;
   }
 
+  template <class Points>
   RCP<MultiVector> owned(const Points& points) const {
-    const auto x = rcp(new MultiVector(nodes, 2));
+    const auto x = rcp(new MultiVector(nodes, surfaces_.dim));
     for (std::size_t n = 0; n < x->getLocalLength(); ++n)
-      for (int i = 0; i < 2; ++i)
+      for (int i = 0; i < surfaces_.dim; ++i)
         x->replaceLocalValue(static_cast<LocalOrdinal>(n), i, points[nodes->getGlobalElement(static_cast<LocalOrdinal>(n))][i]);
     return x;
   }
@@ -173,20 +209,20 @@ class SurfacePair {
   template <class Do>
   void for_each_row(const Do& act) const {
     for (const FacetCoupling& coupling : couplings)
-      for (int j = 0; j < 2; ++j)
+      for (int j = 0; j < static_cast<int>(coupling.slave.size()); ++j)
         if (static_cast<std::size_t>(coupling.slave[j]) < interface->slave_nodes().size()) act(coupling, j, index(coupling.slave[j]));
   }
 
-  TwoLines lines_;
+  Surfaces surfaces_;
 };
 
 inline RCP<const Communicator> alone() { return rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF)); }
 
 /// Searched and evaluated on one rank.
-inline std::unique_ptr<SurfacePair> evaluated(const TwoLines& lines, bool derivatives = false) {
-  auto pair = std::make_unique<SurfacePair>(lines, alone());
-  pair->search(lines.points());
-  pair->evaluate(lines.points(), derivatives);
+inline std::unique_ptr<SurfacePair> evaluated(const Surfaces& surfaces, bool derivatives = false) {
+  auto pair = std::make_unique<SurfacePair>(surfaces, alone());
+  pair->search(surfaces.points);
+  pair->evaluate(surfaces.points, derivatives);
   return pair;
 }
 

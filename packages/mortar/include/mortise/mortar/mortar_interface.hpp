@@ -15,6 +15,8 @@
 
 namespace mortise {
 
+class InterfaceImplementation;
+
 /// What a slave node's multiplier acts through.
 enum class Coupling {
   dual_mortar,      ///< integrals over both surfaces' overlap, phi_j dual to N_j: D is diagonal
@@ -43,7 +45,7 @@ struct MortarOptions {
   double share = 1.0;                         ///< of the surface that the slave side stands for: 1/2 where both sides are slaves in turn
   GapWeighting gap_weighting = GapWeighting::dual;
   std::optional<double> search_reach;  ///< distance up to which facets can touch; default: the longest facet of the pair
-  int gauss_points = 5;                ///< per overlap of two facets
+  int gauss_points = 5;                ///< per overlap of two facets in the plane
   Linearisation linearisation = Linearisation::exact;
   void describe(Parameters& parameters);
 };
@@ -144,8 +146,7 @@ class MortarInterface {
   double longest_facet() const;
 
  private:
-  struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  std::unique_ptr<InterfaceImplementation> implementation_;
 };
 
 }  // namespace mortise

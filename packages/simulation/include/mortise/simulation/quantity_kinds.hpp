@@ -11,13 +11,13 @@
 
 namespace mortise {
 
-/// A Cartesian component: x, y (axisymmetric: r, z).
-enum class Component { x, y };
+/// A Cartesian component: x, y (axisymmetric: r, z), in space also z.
+enum class Component { x, y, z };
 
 /// Sum over the nodes of a set of the forces by which supports act on the bodies: f_int - f_ext + f_c. [force] On a reference point that turns
 /// also the moment, counterclockwise. [force length]
 struct Reaction : Quantity {
-  enum class Of { x, y, rotation };
+  enum class Of { x, y, z, rotation };
   Located<std::string> set;
   Of component = Of::y;
   void describe(Parameters& parameters) override;
@@ -62,11 +62,14 @@ struct MomentumImbalance : Quantity {
 enum class PointField {
   displacement_x,
   displacement_y,
+  displacement_z,
   displacement_magnitude,
   stress_xx,
   stress_yy,
   stress_zz,
   stress_xy,
+  stress_yz,
+  stress_xz,
   von_mises,
   equivalent_plastic_strain,
   contact_pressure,
@@ -150,13 +153,17 @@ struct ErrorNorm : Quantity {
   std::size_t pair_ = 0;
 };
 
-/// What quantities of one pair share. Its slave surface stands where the pair's geometry is: in the current or in the reference configuration.
+/// What quantities of one pair share. Those along a line are of plane scenes only. Its slave surface stands where the pair's geometry is: in the
+/// current or in the reference configuration.
 struct PairQuantity : Quantity {
   Located<std::string> pair;  ///< empty: the only one
   void describe(Parameters& parameters) override;
   void prepare(const QuantityContext& context) override;
 
  protected:
+  /// Whether it has a meaning in the plane (axisymmetric scenes included), and in space.
+  virtual bool in_plane() const { return true; }
+  virtual bool in_space() const { return false; }
   std::size_t pair_ = 0;
 };
 
@@ -195,6 +202,7 @@ struct ContactTraction : PairQuantity {
 
 /// Largest nodal pressure; that of p_h = sum N_j z_n,j is the same, as p_h is linear between nodes. [stress]
 struct PeakPressure : PairQuantity {
+  bool in_space() const override { return true; }
   double evaluate(const QuantityContext& context) override;
 };
 
@@ -203,8 +211,21 @@ struct ContactLength : PairQuantity {
   double evaluate(const QuantityContext& context) override;
 };
 
-/// Area that belongs to closed nodes: their halves of the facets times the thickness or 2 pi r. [area]
+/// Area that belongs to closed nodes: their halves of the facets times the thickness or 2 pi r; in space sum_k D_jk. [area]
 struct ContactArea : PairQuantity {
+  bool in_space() const override { return true; }
+  double evaluate(const QuantityContext& context) override;
+};
+
+/// Radius of a Hertzian pressure of revolution about an axis through `center`: p = p_0 sqrt(1 - r^2 / a^2) has int p r^2 = 2/5 a^2 int p, so
+///   a = sqrt(5/2 sum_j F_j r_j^2 / sum_j F_j),
+/// with the normal forces F_j and current positions of the slave nodes. Space only. [length]
+struct ContactRadius : PairQuantity {
+  std::vector<double> center{0.0, 0.0, 0.0};
+  std::vector<double> axis{0.0, 0.0, 1.0};
+  void describe(Parameters& parameters) override;
+  bool in_plane() const override { return false; }
+  bool in_space() const override { return true; }
   double evaluate(const QuantityContext& context) override;
 };
 
@@ -216,6 +237,7 @@ struct PressureVariation : PairQuantity {
 
 /// Number of closed slave nodes.
 struct ActiveCount : PairQuantity {
+  bool in_space() const override { return true; }
   double evaluate(const QuantityContext& context) override;
 };
 

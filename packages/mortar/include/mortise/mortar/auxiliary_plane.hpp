@@ -1,0 +1,42 @@
+#pragma once
+// The plane on which a slave facet and its master facets are compared in space.
+
+#include <Eigen/Core>
+#include <array>
+#include <boost/container/static_vector.hpp>
+#include <optional>
+#include <vector>
+
+namespace mortise {
+
+/// Vectors at the nodes of a triangle or a quadrilateral.
+using FacetVectors = boost::container::static_vector<Eigen::Vector3d, 4>;
+
+/// The plane across the slave facet's own normal at its centre,
+///   p = c / |c|,   c = (x_1 - x_0) x (x_2 - x_0) of triangles,   c = (x_2 - x_0) x (x_3 - x_1) of quadrilaterals:
+/// it depends on the facet's positions only, and areas on it are those of a flat facet. Everything is projected along p.
+/// In its frame (e_1, e_2, p) the first two components of a position are its projection, the third its height.
+struct AuxiliaryPlane {
+  Eigen::Matrix3d frame;  ///< rows e_1, e_2, p
+  Eigen::Vector3d origin;
+  FacetVectors slave;                                 ///< the facet's nodes in the frame: their projections run counterclockwise
+  std::array<Eigen::Matrix<double, 2, 3>, 4> tilt{};  ///< d(e_1 . p, e_2 . p) / dx_a, x_a by its components in the frame
+
+  Eigen::Vector3d to_frame(const Eigen::Vector3d& x) const { return frame * (x - origin); }
+
+  /// Turns gradients of an integral I with respect to vectors of a fixed frame into total ones, in the global frame. I does not change when all
+  /// positions r, all normals r and the plane turn together by w, and dp = w x p, so
+  ///   dI/dp . dp = -sum_r dI/dr . (w x r),   w = p x dp.
+  /// @param vectors    what the columns belong to, in the frame: slave positions first, three columns each
+  /// @param gradients  [any x 3 vectors.size()]
+  void to_global(const std::vector<Eigen::Vector3d>& vectors, Eigen::Ref<Eigen::MatrixXd> gradients) const;
+};
+
+/// None if the facet's projection has no area or is not convex.
+std::optional<AuxiliaryPlane> make_auxiliary_plane(const FacetVectors& slave);
+
+/// Whether a facet is seen from above the plane (side = 1) or from below (side = -1) without a fold: at every corner its normal, times `side`, has a
+/// component along p of more than `tolerance`. Then its projection is convex.
+bool shows_side(const FacetVectors& in_frame, double side, double tolerance);
+
+}  // namespace mortise

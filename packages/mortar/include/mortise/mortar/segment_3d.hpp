@@ -1,0 +1,61 @@
+#pragma once
+// The integrals over the overlap of one slave and one master facet in space, and their exact first derivatives.
+
+#include <Eigen/Core>
+#include <boost/container/static_vector.hpp>
+#include <optional>
+
+#include "mortise/mortar/auxiliary_plane.hpp"
+#include "mortise/mortar/convex_clip.hpp"
+
+namespace mortise {
+
+/// A point of integration: where the line across the plane meets both facets.
+struct OverlapPoint {
+  Eigen::Vector2d xi, eta;  ///< in the slave's and the master's reference facet
+  double weight = 0.0;      ///< area on the plane
+  double height = 0.0;      ///< of the master over the slave along the plane's normal
+};
+
+/// The part of a slave facet that a master facet covers, on the auxiliary plane: a convex polygon, cut into triangles about the mean of its vertices
+/// (which is vertex polygon.size(); one triangle stays whole), 7 points (degree 5) on each.
+struct Overlap3d {
+  ClipPolygon polygon;
+  boost::container::static_vector<std::array<int, 3>, 16> triangles;
+  boost::container::static_vector<OverlapPoint, 7 * 16> points;  ///< triangle by triangle
+  double distance = 0.0;                                         ///< least |height|
+};
+
+/// The overlap, or none. None also where the master does not face the plane (its normal at a corner is nearly along it, or it is folded there).
+/// @param slave, master  nodes in the plane's frame, the slave's seen from above, with normals away from the plane's origin
+/// @throws StepFailure (projection) where a facet is so distorted that a point cannot be projected on it
+std::optional<Overlap3d> find_overlap(const FacetVectors& slave, const FacetVectors& master);
+
+/// int over an overlap, with L = basis N a basis of the slave facet's shape functions, n the number of slave nodes, m of master nodes. Rows:
+///   int L_i L_j (i <= j, i first),   int L_i N_l^m (row i m + l),   int L_i g,
+///   g = n . (xhat - x) = (n . p) height,   n = sum N_a n_a / |sum N_a n_a|.
+struct SegmentIntegrals3d {
+  Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 30, 1> value;
+  /// With respect to slave positions, nodal normals, master positions (three components each) in the frame of a fixed plane.
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 30, 36> derivative;
+};
+
+/// @param normals  nodal normals of the slave facet in the plane's frame
+/// @param basis    [n x n], held constant in the derivatives
+void integrate_segment(const FacetVectors& slave, const FacetVectors& normals, const FacetVectors& master, const Overlap3d& overlap,
+                       const Eigen::MatrixXd& basis, bool derivatives, SegmentIntegrals3d& result);
+
+/// Whether a master facet, in a frame whose third axis runs along the slave's normal, faces it without a fold (see shows_side()).
+bool faces(const FacetVectors& master);
+
+/// The xi at which the projection of a facet takes the place s, which lies on it.
+/// @throws StepFailure (projection) where it is so distorted that there is none
+Eigen::Vector2d facet_coordinates(const FacetVectors& nodes, const Eigen::Vector2d& s);
+
+/// Third component at xi.
+double height_at(const FacetVectors& nodes, const Eigen::Vector2d& xi);
+
+/// Shape functions of a facet of 3 or 4 nodes.
+Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 4, 1> facet_values(std::size_t nodes, const Eigen::Vector2d& xi);
+
+}  // namespace mortise

@@ -1,0 +1,117 @@
+#include "facet_coupling_3d.hpp"
+
+#include <Eigen/QR>
+#include <cmath>
+
+namespace mortise {
+
+FacetIntegrator3d::FacetIntegrator3d(const MortarOptions& options)
+    : functions_{options.coupling == Coupling::dual_mortar,
+                 options.coupling == Coupling::dual_mortar && options.gap_weighting == GapWeighting::dual} {}
+
+bool FacetIntegrator3d::integrate(const SlaveFacetData& slave, const std::vector<Facet<LocalOrdinal>>& masters, const FacetReach& reach,
+                                  const std::vector<Eigen::Vector3d>& x, bool derivatives, FacetCoupling& coupling) {
+  FacetVectors nodes;
+  for (const LocalOrdinal node : slave.nodes) nodes.push_back(x[node]);
+  const auto plane = make_auxiliary_plane(nodes);
+  if (!plane) throw StepFailure(FailureKind::inverted_facet, "a slave facet lost its area, or is not convex any more");
+  plane_ = *plane;
+  normals_.clear();
+  for (const NodalNormal* normal : slave.normals) normals_.push_back(plane_.frame * normal->normal);
+  coupling.slave = slave.nodes;
+  coupling.master.clear();
+  coupling.columns.clear();
+  if (!find_pairs(masters, reach, x, coupling)) return false;
+  if (!choose_basis(static_cast<Eigen::Index>(nodes.size()))) return false;
+  accumulate(x, derivatives, coupling);
+  if (derivatives) chain(slave, coupling);
+  return combine(moments_, *slave.multipliers, functions_, derivatives, coupling);
+}
+
+bool FacetIntegrator3d::find_pairs(const std::vector<Facet<LocalOrdinal>>& masters, const FacetReach& reach, const std::vector<Eigen::Vector3d>& x,
+                                   FacetCoupling& coupling) {
+  pairs_.clear();
+  bool touches = false;
+  for (const Facet<LocalOrdinal>& facet : masters) {
+    FacetVectors nodes;
+    for (const LocalOrdinal node : facet) nodes.push_back(plane_.to_frame(x[node]));
+    const auto overlap = find_overlap(plane_.slave, nodes);
+    if (!overlap || overlap->distance > reach.all) continue;
+    touches = touches || overlap->distance <= reach.touch;
+    Pair& pair = pairs_.emplace_back();
+    pair.nodes = nodes;
+    pair.overlap = *overlap;
+    for (const LocalOrdinal node : facet) pair.place.push_back(place_of(coupling.master, node));
+  }
+  return touches;
+}
+
+// A basis that is orthonormal over the covered part: with the rows sqrt(w) N of all points V = Q R, and L = R^-T N.
+bool FacetIntegrator3d::choose_basis(Eigen::Index nodes) {
+  Eigen::Index points = 0;
+  for (const Pair& pair : pairs_) points += static_cast<Eigen::Index>(pair.overlap.points.size());
+  Eigen::MatrixXd V(points, nodes);
+  Eigen::Index row = 0;
+  for (const Pair& pair : pairs_)
+    for (const OverlapPoint& point : pair.overlap.points)
+      V.row(row++) = std::sqrt(point.weight) * facet_values(static_cast<std::size_t>(nodes), point.xi).transpose();
+  const Eigen::HouseholderQR<Eigen::MatrixXd> factors(V);
+  const FacetMatrix R = factors.matrixQR().topRows(nodes).triangularView<Eigen::Upper>();
+  const FacetMatrix identity = FacetMatrix::Identity(nodes, nodes);
+  moments_.T = R.transpose();
+  moments_.extrapolation = R.triangularView<Eigen::Upper>().solve(identity);
+  basis_ = moments_.extrapolation.transpose();
+  return basis_.allFinite();  // not where the cover is a point
+}
+
+void FacetIntegrator3d::accumulate(const std::vector<Eigen::Vector3d>& x, bool derivatives, const FacetCoupling& coupling) {
+  const auto n = static_cast<Eigen::Index>(plane_.slave.size()), count = static_cast<Eigen::Index>(coupling.master.size());
+  const Eigen::Index masses = FacetMoments::masses(n), rows = FacetMoments::rows(n, count);
+  moments_.value.setZero(rows);
+  if (derivatives) raw_.setZero(rows, 6 * n + 3 * count);
+  std::vector<Eigen::Index> to(static_cast<std::size_t>(FacetMoments::rows(n, 4)));
+  for (const Pair& pair : pairs_) {
+    integrate_segment(plane_.slave, normals_, pair.nodes, pair.overlap, basis_, derivatives, segment_);
+    std::size_t r = 0;
+    for (Eigen::Index q = 0; q < masses; ++q) to[r++] = q;
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (const Eigen::Index place : pair.place) to[r++] = masses + i * count + place;
+    for (Eigen::Index i = 0; i < n; ++i) to[r++] = masses + n * count + i;
+    for (std::size_t q = 0; q < r; ++q) moments_.value[to[q]] += segment_.value[static_cast<Eigen::Index>(q)];
+    if (!derivatives) continue;
+    const auto add = [&](Eigen::Index from_column, Eigen::Index to_column) {
+      for (std::size_t q = 0; q < r; ++q) raw_(to[q], to_column) += segment_.derivative(static_cast<Eigen::Index>(q), from_column);
+    };
+    for (Eigen::Index c = 0; c < 6 * n; ++c) add(c, c);
+    for (std::size_t l = 0; l < pair.place.size(); ++l)
+      for (Eigen::Index i = 0; i < 3; ++i) add(6 * n + 3 * static_cast<Eigen::Index>(l) + i, 6 * n + 3 * pair.place[l] + i);
+  }
+  if (!derivatives) return;
+  std::vector<Eigen::Vector3d> vectors(plane_.slave.begin(), plane_.slave.end());
+  vectors.insert(vectors.end(), normals_.begin(), normals_.end());
+  for (const LocalOrdinal node : coupling.master) vectors.push_back(plane_.to_frame(x[node]));
+  plane_.to_global(vectors, raw_);
+}
+
+// Columns: slave, masters, then the ring, which moves the normals and so the gap only.
+void FacetIntegrator3d::chain(const SlaveFacetData& slave, FacetCoupling& coupling) {
+  const auto n = static_cast<Eigen::Index>(slave.nodes.size()), count = static_cast<Eigen::Index>(coupling.master.size());
+  auto& columns = coupling.columns;
+  columns.assign(slave.nodes.begin(), slave.nodes.end());
+  columns.insert(columns.end(), coupling.master.begin(), coupling.master.end());
+  for (const NodalNormal* normal : slave.normals)
+    for (const LocalOrdinal node : normal->columns) place_of(columns, node);
+  moments_.moving_columns = 3 * (n + count);
+  Eigen::MatrixXd& slope = moments_.slope;
+  slope.setZero(raw_.rows(), 3 * static_cast<Eigen::Index>(columns.size()));
+  slope.leftCols(3 * n) = raw_.leftCols(3 * n);
+  slope.middleCols(3 * n, 3 * count) = raw_.rightCols(3 * count);
+  for (Eigen::Index a = 0; a < n; ++a) {
+    const NodalNormal& normal = *slave.normals[a];
+    for (std::size_t c = 0; c < normal.columns.size(); ++c)
+      slope.block(raw_.rows() - n, 3 * place_of(columns, normal.columns[c]), n, 3) +=
+          raw_.block(raw_.rows() - n, 3 * (n + a), n, 3).lazyProduct(normal.derivative.middleCols(3 * static_cast<Eigen::Index>(c), 3));
+  }
+}
+
+}  // namespace mortise

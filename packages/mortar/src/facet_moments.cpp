@@ -1,0 +1,151 @@
+#include "facet_moments.hpp"
+
+#include <Eigen/LU>
+
+namespace mortise {
+namespace {
+
+/// int phi_j below this share of its value for the whole facet is round-off of a facet that is not covered.
+constexpr double negligible_cover = 1e-12;
+
+// With N = T L the dual basis of the restricted N is
+//   phi = A L,   A = D_e T^-T M_L^-1,   M_L = int L L^T,   D_e = diag int N_j,   int N = T M_L l with l = T^T 1 (the sum of all N is 1),
+//   dA = (dD_e T^-T - A dM_L) M_L^-1.
+// M_L is as well conditioned on a sliver as on the whole facet; the large entries of T^-T are the extrapolation that phi really is. Standard
+// multipliers: phi = N = T L, constant in this basis, D = T M_L T^T. Where a node has no multiplier, phi -> S phi.
+template <int n>
+class Combination {
+  static constexpr int masses = n * (n + 1) / 2;
+  using Small = Eigen::Matrix<double, n, n>;
+  using Row = Eigen::Matrix<double, 1, n>;
+  using Slopes = Eigen::Matrix<double, n, Eigen::Dynamic>;
+
+ public:
+  Combination(const FacetMoments& moments, const FacetMultipliers& multipliers, const FacetFunctions& functions)
+      : moments_(moments), functions_(functions), S_(multipliers.share), T_(moments.T), extrapolation_(moments.extrapolation) {
+    const Row l = T_.colwise().sum();
+    mass_of_.setZero();
+    for (int i = 0, r = 0; i < n; ++i)
+      for (int j = i; j < n; ++j, ++r) {
+        M_L_(i, j) = M_L_(j, i) = moments.value[r];
+        mass_of_.col(r) += T_.col(i) * l[j];
+        if (j > i) mass_of_.col(r) += T_.col(j) * l[i];
+      }
+    inverse_ = M_L_.inverse();
+    weight_ = mass_of_ * moments.value.head<masses>();
+    full_ = S_ * multipliers.weights;
+  }
+
+  bool fill(bool derivatives, FacetCoupling& coupling) const {
+    const auto masters = static_cast<Eigen::Index>(coupling.master.size());
+    const Eigen::Index columns = derivatives ? moments_.slope.cols() : 0, moving = derivatives ? moments_.moving_columns : 0;
+    coupling.D.setZero(n, n);
+    coupling.M.setZero(n, masters);
+    coupling.gap.setZero(n);
+    coupling.dD.setZero(derivatives ? n * n : 0, columns);
+    coupling.dM.setZero(derivatives ? n * masters : 0, columns);
+    coupling.dgap.setZero(derivatives ? n : 0, columns);
+    const auto& value = moments_.value;
+    const auto& slope = moments_.slope;
+    // [masters x n] int L_i N_l, [n] int L_i g
+    const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, n>> coupled(value.data() + masses, masters, n);
+    const Eigen::Matrix<double, n, 1> gaps = value.template tail<n>();
+    const Small M_N = T_ * M_L_ * T_.transpose();
+    Slopes weight_slope;
+    if (derivatives) weight_slope.noalias() = mass_of_ * slope.topLeftCorner(masses, moving);
+
+    bool any = false;
+    for (int j = 0; j < n; ++j) {
+      const Row share = S_.row(j);
+      const double own = share.dot(weight_);
+      if (!(own > negligible_cover * full_[j])) continue;
+      any = true;
+      const Row standard = share * T_;
+      const Row dual = (share.transpose().cwiseProduct(weight_)).transpose() * extrapolation_ * inverse_;
+      const Row &a = functions_.dual_multipliers ? dual : standard, &w = functions_.dual_gap ? dual : standard;
+      if (functions_.dual_multipliers)
+        coupling.D.row(j) = share.cwiseProduct(weight_.transpose());
+      else
+        coupling.D.row(j) = share * M_N;
+      coupling.M.row(j).noalias() = a * coupled.transpose();
+      coupling.gap[j] = w.dot(gaps);
+      if (!derivatives) continue;
+
+      auto dM = coupling.dM.block(j * masters, 0, masters, moving);
+      for (int i = 0; i < n; ++i) dM += a[i] * slope.block(masses + i * masters, 0, masters, moving);
+      coupling.dgap.row(j).noalias() = w * slope.bottomRows(n);
+      if (functions_.dual_multipliers) {
+        const Slopes da = dual_slope(share, dual, weight_slope, moving);
+        dM.noalias() += coupled.lazyProduct(da);
+        if (functions_.dual_gap) coupling.dgap.row(j).head(moving).noalias() += gaps.transpose() * da;
+        for (int k = 0; k < n; ++k)
+          if (share[k] != 0.0) coupling.dD.row(n * j + k).head(moving) = share[k] * weight_slope.row(k);
+      } else {
+        for (int k = 0; k < n; ++k) {
+          const Row of_k = T_.row(k);
+          for (int i = 0, r = 0; i < n; ++i)
+            for (int m = i; m < n; ++m, ++r) {
+              const double coefficient = standard[i] * of_k[m] + (m > i ? standard[m] * of_k[i] : 0.0);
+              coupling.dD.row(n * j + k).head(moving) += coefficient * slope.row(r).head(moving);
+            }
+        }
+      }
+    }
+    return any;
+  }
+
+ private:
+  // (sum_k S_jk dD_k (T^-T)_k - a dM_L) M_L^-1, transposed
+  Slopes dual_slope(const Row& share, const Row& a, const Slopes& weight_slope, Eigen::Index moving) const {
+    Slopes right;
+    right.noalias() = (share.transpose().asDiagonal() * extrapolation_).transpose().lazyProduct(weight_slope);
+    for (int i = 0, r = 0; i < n; ++i)
+      for (int m = i; m < n; ++m, ++r) {
+        right.row(m) -= a[i] * moments_.slope.row(r).head(moving);
+        if (m > i) right.row(i) -= a[m] * moments_.slope.row(r).head(moving);
+      }
+    return inverse_ * right;
+  }
+
+  const FacetMoments& moments_;
+  const FacetFunctions& functions_;
+  Small S_, T_, extrapolation_, M_L_, inverse_;
+  Eigen::Matrix<double, n, masses> mass_of_;  // int N as a function of the masses
+  Eigen::Matrix<double, n, 1> weight_, full_;
+};
+
+}  // namespace
+
+FacetMatrix multiplier_shares(const std::vector<char>& carries) {
+  const std::size_t count = carries.size();
+  FacetMatrix share = FacetMatrix::Zero(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(count));
+  for (std::size_t k = 0; k < count; ++k) {
+    std::vector<std::size_t> heirs;
+    if (carries[k]) {
+      heirs = {k};
+    } else {
+      const std::size_t next = (k + 1) % count, previous = (k + count - 1) % count;
+      if (carries[next]) heirs.push_back(next);
+      if (carries[previous] && previous != next) heirs.push_back(previous);
+      if (heirs.empty())
+        for (std::size_t j = 0; j < count; ++j)
+          if (carries[j]) heirs.push_back(j);
+    }
+    for (const std::size_t j : heirs) share(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(k)) = 1.0 / static_cast<double>(heirs.size());
+  }
+  return share;
+}
+
+bool combine(const FacetMoments& moments, const FacetMultipliers& multipliers, const FacetFunctions& functions, bool derivatives,
+             FacetCoupling& coupling) {
+  switch (coupling.slave.size()) {
+    case 2:
+      return Combination<2>(moments, multipliers, functions).fill(derivatives, coupling);
+    case 3:
+      return Combination<3>(moments, multipliers, functions).fill(derivatives, coupling);
+    default:
+      return Combination<4>(moments, multipliers, functions).fill(derivatives, coupling);
+  }
+}
+
+}  // namespace mortise

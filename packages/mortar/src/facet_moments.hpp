@@ -1,0 +1,43 @@
+#pragma once
+// From integrals over one slave facet to its D, M and gap, and their derivatives: the same in the plane and in space.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "mortise/mortar/mortar_interface.hpp"
+
+namespace mortise {
+
+/// Integrals over all overlaps of a slave facet of n nodes, N = T L in a basis L of its shape functions that is well conditioned on the covered part.
+/// Rows:  int L_i L_j (i <= j, i first),   int L_i N_l (row i masters + l),   int L_i g.
+struct FacetMoments {
+  FacetMatrix T, extrapolation;  ///< [n x n] T and T^-T, constant: which basis carries the integrals does not change phi
+  Eigen::VectorXd value;
+  Eigen::MatrixXd slope;            ///< [rows x columns] derivatives with respect to the coupling's columns
+  Eigen::Index moving_columns = 0;  ///< of the leading columns; the others move the gap only
+
+  static Eigen::Index masses(Eigen::Index nodes) { return nodes * (nodes + 1) / 2; }
+  static Eigen::Index rows(Eigen::Index nodes, Eigen::Index masters) { return masses(nodes) + nodes * masters + nodes; }
+};
+
+/// Which multipliers a facet has.
+struct FacetMultipliers {
+  FacetMatrix share;    ///< S: phi_j is the sum of S_jk times the facet's own function k; row of a node without multiplier: 0
+  FacetVector weights;  ///< int N_j over the facet in the reference configuration
+};
+
+/// S: nodes that carry keep their own function; that of one that does not goes in equal parts to its free edge neighbours, or where it has none to
+/// all free nodes of the facet, so that the sum of all phi stays 1. At least one node carries.
+FacetMatrix multiplier_shares(const std::vector<char>& carries);
+
+/// The functions of multipliers and gap weighting.
+struct FacetFunctions {
+  bool dual_multipliers, dual_gap;
+};
+
+/// Fills D, M, gap and, if `derivatives`, their derivatives of a coupling whose nodes and columns are set. Returns false if no multiplier is left:
+/// one whose int phi_j is below 1e-12 of the whole facet's is round-off of a facet that is not covered, and dropped.
+bool combine(const FacetMoments& moments, const FacetMultipliers& multipliers, const FacetFunctions& functions, bool derivatives,
+             FacetCoupling& coupling);
+
+}  // namespace mortise

@@ -1,0 +1,368 @@
+#include "interface_implementation.hpp"
+
+#include <fmt/format.h>
+
+#include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "facet_coupling_2d.hpp"
+#include "facet_coupling_3d.hpp"
+#include "node_coupling_2d.hpp"
+
+namespace mortise {
+namespace {
+
+RCP<const Map> map_of(const std::vector<GlobalOrdinal>& ids, const RCP<const Communicator>& comm) {
+  const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
+  return rcp(new Map(invalid, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, comm));
+}
+
+std::vector<GlobalOrdinal> nodes_of(const SurfaceFacets& facets) {
+  std::set<GlobalOrdinal> nodes;
+  for (const SurfaceFacet& facet : facets) nodes.insert(facet.begin(), facet.end());
+  return {nodes.begin(), nodes.end()};
+}
+
+/// Between two real searches no node moves further than this share of the least facet height.
+constexpr double free_motion = 0.1;
+
+template <int dim>
+struct IntegratorOf;
+template <>
+struct IntegratorOf<2> : FacetIntegrator2d {
+  IntegratorOf(const InterfaceMeasure& measure, const MortarOptions& options) : FacetIntegrator2d(measure, options) {}
+};
+template <>
+struct IntegratorOf<3> : FacetIntegrator3d {
+  IntegratorOf(const InterfaceMeasure&, const MortarOptions& options) : FacetIntegrator3d(options) {}
+};
+
+// Candidates of a slave facet, kept from search to search: a superset of the master facets it can overlap now. Which of them take part is
+// decided in evaluate() from positions alone, so no result depends on when the last search was:
+//   the facet takes part if a master facet that it overlaps lies within the reach; then all within reach + its longest edge do.
+template <int dim>
+class Interface final : public InterfaceImplementation {
+ public:
+  explicit Interface(const InterfaceInput& input);
+  bool search(const MultiVector& x) override;
+  void evaluate(const MultiVector& x, bool derivatives, std::vector<FacetCoupling>& couplings, std::vector<NodalNormal>& normals,
+                std::optional<StepFailure>& failure) override;
+  std::vector<std::optional<double>> distances_to_master(const MultiVector& x, const std::vector<std::size_t>& nodes,
+                                                         const std::vector<SpatialVector>& normals) override;
+
+ private:
+  using Candidates = std::vector<std::vector<SurfaceFacet>>;
+
+  void measure_facets(const MultiVector& reference, const Place& place);
+  bool moved(const MultiVector& x) const;
+  std::vector<PlacedFacet<dim>> place_master(const MultiVector& x);
+  double least_height(const Positions<dim>& slave_x, const std::vector<PlacedFacet<dim>>& placed_master) const;
+  Candidates find(const Positions<dim>& x, const std::vector<PlacedFacet<dim>>& placed_master, const Motion& motion) const;
+  void number_nodes();
+  void collect_met();
+  std::size_t couple_facets(const Positions<dim>& x, bool derivatives, const std::vector<NodalNormal>& normals,
+                            std::vector<FacetCoupling>& couplings);
+  std::size_t couple_nodes(const Positions<dim>& x, bool derivatives, const std::vector<NodalNormal>& normals,
+                           std::vector<FacetCoupling>& couplings) const;
+
+  RCP<const Map> owned_nodes_;
+  InterfaceMeasure measure_;
+  MortarOptions options_;
+  SurfaceFacets master_;
+  std::unique_ptr<Gathered<dim>> slave_positions_, master_positions_;
+  Candidates candidate_ids_;                                  ///< [facets] ascending
+  std::vector<std::vector<Facet<LocalOrdinal>>> candidates_;  ///< [facets] as local nodes
+  std::vector<std::vector<Facet<LocalOrdinal>>> met_;         ///< [owned slave nodes] candidates of their facets; node to segment only
+  RCP<MultiVector> searched_at_;                              ///< owned positions of the last real search
+  double free_distance_ = 0.0;                                ///< that every node may move from there without another one
+  IntegratorOf<dim> integrator_;
+};
+
+template <int dim>
+Interface<dim>::Interface(const InterfaceInput& input)
+    : owned_nodes_(input.owned_nodes),
+      measure_(input.measure),
+      options_(input.options),
+      master_(input.master),
+      integrator_(input.measure, input.options) {
+  slave = make_slave_surface<dim>(owned_nodes_, input.reference, input.fixed, input.slave, measure_, input.place);
+  for (SlaveNode& node : slave.owned) node.weight *= options_.share;
+  slave_positions_ = std::make_unique<Gathered<dim>>(owned_nodes_, slave.node_ids);
+  master_positions_ = std::make_unique<Gathered<dim>>(owned_nodes_, nodes_of(master_));
+  measure_facets(*input.reference, input.place);
+  candidate_ids_.resize(slave.facets.size());
+  number_nodes();
+}
+
+template <int dim>
+void Interface<dim>::measure_facets(const MultiVector& reference, const Place& place) {
+  const Communicator& comm = *owned_nodes_->getComm();
+  const Positions<dim> slave_x = (*slave_positions_)(reference);
+  const std::vector<PlacedFacet<dim>> placed = place_master(reference);
+  std::vector<Diagnostic> diagnostics;
+  const double counts[2] = {static_cast<double>(slave.facets.size()), static_cast<double>(master_.size())};
+  double totals[2];
+  Teuchos::reduceAll(comm, Teuchos::REDUCE_SUM, 2, counts, totals);
+  if (totals[0] == 0.0) diagnostics.push_back({place, "the slave surface is empty"});
+  if (totals[1] == 0.0) diagnostics.push_back({place, "the master surface is empty"});
+  double extent[2] = {-std::numeric_limits<double>::max(), 0.0}, all[2];  // -shortest, longest
+  for (const auto& facet : slave.facets) {
+    const FacetPoints<dim> points = points_of<dim>(facet, slave_x);
+    extent[0] = std::max(extent[0], -shortest_edge<dim>(points));
+    extent[1] = std::max(extent[1], longest_edge<dim>(points));
+  }
+  for (std::size_t f = 0; f < placed.size(); ++f) {
+    const FacetPoints<dim> points = placed[f].points();
+    extent[1] = std::max(extent[1], longest_edge<dim>(points));
+    if (facet_height(points) > 0.0) continue;
+    std::string nodes;
+    for (std::size_t a = 0; a < master_[f].size(); ++a)
+      nodes += fmt::format("{}{}", a == 0 ? "" : (a + 1 == master_[f].size() ? " and " : ", "), master_[f][a]);
+    diagnostics.push_back({place, fmt::format("the master facet between nodes {} has no {}", nodes, dim == 2 ? "length" : "area")});
+  }
+  Teuchos::reduceAll(comm, Teuchos::REDUCE_MAX, 2, extent, all);
+  shortest = -all[0];
+  longest = all[1];
+  throw_if_any(comm, diagnostics);
+  reach = options_.search_reach.value_or(longest);
+}
+
+template <int dim>
+bool Interface<dim>::moved(const MultiVector& x) const {
+  if (searched_at_.is_null()) return true;
+  MultiVector difference(x, Teuchos::Copy);
+  difference.update(-1.0, *searched_at_, 1.0);
+  Teuchos::Array<double> largest(dim);
+  difference.normInf(largest());
+  return Eigen::Map<const Eigen::Matrix<double, dim, 1>>(largest.getRawPtr()).norm() > free_distance_;
+}
+
+// The master facets of this rank. Collective.
+template <int dim>
+std::vector<PlacedFacet<dim>> Interface<dim>::place_master(const MultiVector& x) {
+  const Positions<dim> master_x = (*master_positions_)(x);
+  std::vector<PlacedFacet<dim>> placed;
+  for (const SurfaceFacet& facet : master_) {
+    FacetPoints<dim> points;
+    for (const GlobalOrdinal node : facet) points.push_back(master_x[master_positions_->local(node)]);
+    placed.push_back({facet, points});
+  }
+  return placed;
+}
+
+// Over all ranks, in the given positions. Collective.
+template <int dim>
+double Interface<dim>::least_height(const Positions<dim>& slave_x, const std::vector<PlacedFacet<dim>>& placed_master) const {
+  double mine = std::numeric_limits<double>::max(), all = 0.0;
+  for (const auto& facet : slave.facets) mine = std::min(mine, facet_height(points_of<dim>(facet, slave_x)));
+  for (const PlacedFacet<dim>& facet : placed_master) mine = std::min(mine, facet_height(facet.points()));
+  Teuchos::reduceAll(*owned_nodes_->getComm(), Teuchos::REDUCE_MIN, mine, Teuchos::outArg(all));
+  return all;
+}
+
+// The master facets that each slave facet may overlap within reach + its longest edge after a motion. Collective.
+template <int dim>
+typename Interface<dim>::Candidates Interface<dim>::find(const Positions<dim>& x, const std::vector<PlacedFacet<dim>>& placed_master,
+                                                         const Motion& motion) const {
+  std::vector<PlacedFacet<dim>> placed;
+  std::vector<double> radius;
+  for (const auto& facet : slave.facets) {
+    SurfaceFacet ids;
+    for (const LocalOrdinal node : facet) ids.push_back(slave.node_ids[node]);
+    const FacetPoints<dim> points = points_of<dim>(facet, x);
+    placed.push_back({ids, points});
+    radius.push_back(reach + longest_edge<dim>(points) + 2.0 * motion.approach);  // the distance shrinks, the facet grows
+  }
+  const auto near = facets_within<dim>(*owned_nodes_->getComm(), placed, radius, placed_master);
+  Candidates result(near.size());
+  std::vector<NodalNormal> normals;
+  for (std::size_t f = 0; f < near.size(); ++f) {
+    const auto& facet = slave.facets[f];
+    normals.resize(facet.size());
+    bool sound = true;
+    for (std::size_t j = 0; j < facet.size(); ++j) sound = average_normal(slave.stencils[facet[j]], x, false, normals[j]) && sound;
+    if (!sound) continue;  // evaluate() says what is wrong
+    const OverlapTest<dim> may_overlap(points_of<dim>(facet, x), normals, motion);
+    for (const PlacedFacet<dim>& one : near[f])
+      if (may_overlap(one.points())) result[f].push_back(one.ids());
+  }
+  return result;
+}
+
+template <int dim>
+void Interface<dim>::number_nodes() {
+  std::vector<GlobalOrdinal> ids = slave.node_ids;
+  std::map<GlobalOrdinal, LocalOrdinal> local_of;
+  for (std::size_t n = 0; n < ids.size(); ++n) local_of.insert({ids[n], static_cast<LocalOrdinal>(n)});
+  const auto local = [&](GlobalOrdinal id) {
+    const auto [found, is_new] = local_of.insert({id, static_cast<LocalOrdinal>(ids.size())});
+    if (is_new) ids.push_back(id);
+    return found->second;
+  };
+  candidates_.assign(slave.facets.size(), {});
+  for (std::size_t f = 0; f < slave.facets.size(); ++f)
+    for (const SurfaceFacet& facet : candidate_ids_[f]) {
+      candidates_[f].emplace_back();
+      for (const GlobalOrdinal id : facet) candidates_[f].back().push_back(local(id));
+    }
+  if (options_.coupling == Coupling::node_to_segment) collect_met();
+  std::vector<std::vector<LocalOrdinal>> kept(slave.owned.size());
+  for (std::size_t s = 0; s < retained.size(); ++s)
+    for (const GlobalOrdinal id : retained[s]) kept[s].push_back(local(id));
+  local_nodes = map_of(ids, owned_nodes_->getComm());
+  coupled.assign(slave.owned.size(), {});
+  loaded.assign(slave.owned.size(), {});
+  for (std::size_t s = 0; s < slave.owned.size(); ++s) {
+    loaded[s].push_back(slave.owned[s].local_node);
+    for (const std::size_t f : slave.facets_of[s]) {
+      coupled[s].insert(coupled[s].end(), slave.facets[f].begin(), slave.facets[f].end());
+      for (const LocalOrdinal node : slave.facets[f]) {
+        const auto& columns = slave.stencils[node].columns;
+        coupled[s].insert(coupled[s].end(), columns.begin(), columns.end());
+        if (!slave.carries[node] || options_.coupling == Coupling::standard_mortar) loaded[s].push_back(node);
+      }
+      for (const auto& facet : candidates_[f]) loaded[s].insert(loaded[s].end(), facet.begin(), facet.end());
+    }
+    coupled[s].insert(coupled[s].end(), loaded[s].begin(), loaded[s].end());
+    coupled[s].insert(coupled[s].end(), kept[s].begin(), kept[s].end());
+    for (std::vector<LocalOrdinal>* nodes : {&coupled[s], &loaded[s]}) {
+      std::sort(nodes->begin(), nodes->end());
+      nodes->erase(std::unique(nodes->begin(), nodes->end()), nodes->end());
+    }
+  }
+}
+
+// The candidates of the facets of each node, by ids: in an order that is the same on every rank.
+template <int dim>
+void Interface<dim>::collect_met() {
+  met_.assign(slave.owned.size(), {});
+  for (std::size_t s = 0; s < met_.size(); ++s) {
+    std::map<SurfaceFacet, Facet<LocalOrdinal>> facets;
+    for (const std::size_t f : slave.facets_of[s])
+      for (std::size_t c = 0; c < candidates_[f].size(); ++c) facets.insert({candidate_ids_[f][c], candidates_[f][c]});
+    for (const auto& [ids, facet] : facets) met_[s].push_back(facet);
+  }
+}
+
+template <int dim>
+bool Interface<dim>::search(const MultiVector& x) {
+  if (!moved(x)) return false;
+  Teuchos::Array<double> sizes(dim);
+  x.norm1(sizes());
+  for (const double size : sizes)
+    if (!std::isfinite(size)) return false;  // evaluate() says what is wrong
+  const bool first = searched_at_.is_null();
+  const Positions<dim> slave_x = (*slave_positions_)(x);
+  const std::vector<PlacedFacet<dim>> placed = place_master(x);
+  searched_at_ = rcp(new MultiVector(x, Teuchos::Copy));
+  free_distance_ = free_motion * least_height(slave_x, placed);
+  const Motion until_next = {2.0 * free_distance_, std::asin(2.0 * free_motion)};
+  const Motion longer = {4.0 * free_distance_, std::asin(4.0 * free_motion)};
+  // What is needed until the next search has to stand among the candidates; only then they, and the pattern, may stay as they are.
+  const Candidates needed = first ? Candidates() : find(slave_x, placed, until_next);
+  double missing = first, any = 0.0;
+  for (std::size_t f = 0; f < needed.size(); ++f)
+    if (!std::includes(candidate_ids_[f].begin(), candidate_ids_[f].end(), needed[f].begin(), needed[f].end())) missing = 1.0;
+  Teuchos::reduceAll(*owned_nodes_->getComm(), Teuchos::REDUCE_MAX, missing, Teuchos::outArg(any));
+  if (any == 0.0) return false;
+  candidate_ids_ = find(slave_x, placed, longer);
+  number_nodes();
+  return true;
+}
+
+template <int dim>
+std::vector<std::optional<double>> Interface<dim>::distances_to_master(const MultiVector& x, const std::vector<std::size_t>& nodes,
+                                                                       const std::vector<SpatialVector>& normals) {
+  const std::vector<PlacedFacet<dim>> placed = place_master(x);
+  const Positions<dim> positions = positions_of<dim>(x.getLocalViewHost(Tpetra::Access::ReadOnly));
+  std::vector<NormalLine<dim>> lines;
+  for (std::size_t n = 0; n < nodes.size(); ++n) lines.push_back({positions[slave.owned[nodes[n]].owned_node], normals[n]});
+  return distances_along_normals<dim>(*owned_nodes_->getComm(), lines, placed);
+}
+
+template <int dim>
+std::size_t Interface<dim>::couple_facets(const Positions<dim>& x, bool derivatives, const std::vector<NodalNormal>& normals,
+                                          std::vector<FacetCoupling>& couplings) {
+  std::size_t used = 0;
+  SlaveFacetData data;
+  for (std::size_t f = 0; f < slave.facets.size(); ++f) {
+    if (candidates_[f].empty()) continue;
+    data.nodes = slave.facets[f];
+    data.multipliers = &slave.multipliers[f];
+    data.normals.clear();
+    for (const LocalOrdinal node : data.nodes) data.normals.push_back(&normals[node]);
+    if (used == couplings.size()) couplings.emplace_back();
+    const FacetReach limits = {reach, reach + longest_edge<dim>(points_of<dim>(data.nodes, x))};
+    used += integrator_.integrate(data, candidates_[f], limits, x, derivatives, couplings[used]);
+  }
+  return used;
+}
+
+template <int dim>
+std::size_t Interface<dim>::couple_nodes(const Positions<dim>& x, bool derivatives, const std::vector<NodalNormal>& normals,
+                                         std::vector<FacetCoupling>& couplings) const {
+  std::size_t used = 0;
+  if constexpr (dim == 2)
+    for (std::size_t s = 0; s < slave.owned.size(); ++s) {
+      if (!slave.owned[s].carries_multiplier) continue;
+      if (used == couplings.size()) couplings.emplace_back();
+      used += couple_node({slave.owned[s].local_node, &slave.stencils[s], &normals[s]}, met_[s], reach, x, measure_, options_.share, derivatives,
+                          couplings[used]);
+    }
+  return used;
+}
+
+template <int dim>
+void Interface<dim>::evaluate(const MultiVector& x, bool derivatives, std::vector<FacetCoupling>& couplings, std::vector<NodalNormal>& normals,
+                              std::optional<StepFailure>& failure) {
+  const Positions<dim> positions = positions_of<dim>(x.getLocalViewHost(Tpetra::Access::ReadOnly));
+  normals.resize(slave.nodes_with_normal);
+  for (std::size_t n = 0; n < slave.nodes_with_normal; ++n)
+    if (!average_normal(slave.stencils[n], positions, derivatives, normals[n]) && !failure)
+      failure = StepFailure(FailureKind::inverted_facet,
+                            fmt::format("the slave surface has no normal at node {}: a facet lost its {}, or facets folded onto one another",
+                                        slave.node_ids[n], dim == 2 ? "length" : "area"));
+  if (derivatives && options_.linearisation == Linearisation::frozen_normals)
+    for (NodalNormal& normal : normals) normal.derivative.setZero();
+  for (std::size_t n = 0; n < positions.size() && !failure; ++n)
+    if (!positions[n].allFinite()) failure = StepFailure(FailureKind::not_finite, "a position on the contact surfaces is not a number");
+  std::size_t used = 0;
+  try {
+    if (!failure)
+      used = options_.coupling == Coupling::node_to_segment ? couple_nodes(positions, derivatives, normals, couplings)
+                                                            : couple_facets(positions, derivatives, normals, couplings);
+  } catch (const StepFailure& one) {
+    failure = one;
+  }
+  couplings.resize(used);
+  normals.resize(slave.owned.size());
+}
+
+}  // namespace
+
+template <int dim>
+Gathered<dim>::Gathered(const RCP<const Map>& owned_nodes, const std::vector<GlobalOrdinal>& ids)
+    : map_(map_of(ids, owned_nodes->getComm())), import_(owned_nodes, map_), positions_(map_, dim) {}
+
+template <int dim>
+Positions<dim> Gathered<dim>::operator()(const MultiVector& x) {
+  positions_.doImport(x, import_, Tpetra::REPLACE);
+  return positions_of<dim>(positions_.getLocalViewHost(Tpetra::Access::ReadOnly));
+}
+
+template <int dim>
+std::unique_ptr<InterfaceImplementation> make_interface(const InterfaceInput& input) {
+  return std::make_unique<Interface<dim>>(input);
+}
+
+template std::unique_ptr<InterfaceImplementation> make_interface<2>(const InterfaceInput&);
+template std::unique_ptr<InterfaceImplementation> make_interface<3>(const InterfaceInput&);
+
+}  // namespace mortise

@@ -1,0 +1,93 @@
+#pragma once
+// What MortarInterface does, behind its public face: the same in the plane and in space.
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "facet_geometry.hpp"
+#include "mortise/mortar/auxiliary_plane.hpp"
+#include "mortise/mortar/mortar_interface.hpp"
+#include "slave_surface.hpp"
+#include "surface_search.hpp"
+
+namespace mortise {
+
+/// What makes an interface.
+struct InterfaceInput {
+  RCP<const Map> owned_nodes;
+  RCP<const MultiVector> reference, fixed;
+  const SurfaceFacets &slave, &master;
+  InterfaceMeasure measure;
+  MortarOptions options;
+  Place place;
+};
+
+/// Functions are those of MortarInterface.
+class InterfaceImplementation {
+ public:
+  virtual ~InterfaceImplementation() = default;
+  virtual bool search(const MultiVector& x) = 0;
+  virtual void evaluate(const MultiVector& x, bool derivatives, std::vector<FacetCoupling>& couplings, std::vector<NodalNormal>& normals,
+                        std::optional<StepFailure>& failure) = 0;
+  virtual std::vector<std::optional<double>> distances_to_master(const MultiVector& x, const std::vector<std::size_t>& nodes,
+                                                                 const std::vector<SpatialVector>& normals) = 0;
+
+  SlaveSurface slave;
+  double shortest = 0.0, longest = 0.0, reach = 0.0;
+  RCP<const Map> local_nodes;
+  std::vector<std::vector<LocalOrdinal>> coupled, loaded;  ///< [owned slave nodes]
+  std::vector<std::vector<GlobalOrdinal>> retained;        ///< [owned slave nodes]; empty: none
+};
+
+template <int dim>
+std::unique_ptr<InterfaceImplementation> make_interface(const InterfaceInput& input);
+
+/// Positions of some nodes of all ranks.
+template <int dim>
+class Gathered {
+ public:
+  Gathered(const RCP<const Map>& owned_nodes, const std::vector<GlobalOrdinal>& ids);
+  /// Collective.
+  Positions<dim> operator()(const MultiVector& x);
+  LocalOrdinal local(GlobalOrdinal node) const { return map_->getLocalElement(node); }
+
+ private:
+  RCP<const Map> map_;
+  Import import_;
+  MultiVector positions_;
+};
+
+/// What motions between two searches can do to a pair of facets: ends come nearer by `approach`, facets and so nodal normals turn by `turn`.
+struct Motion {
+  double approach, turn;
+};
+
+/// Which master facets may lie under a slave facet after a motion, seen along its nodal normals in the plane, along its own normal in space.
+template <int dim>
+class OverlapTest;
+
+template <>
+class OverlapTest<2> {
+ public:
+  OverlapTest(const FacetPoints<2>& slave, const std::vector<NodalNormal>& normals, const Motion& motion);
+  bool operator()(const FacetPoints<2>& master) const;
+
+ private:
+  FacetPoints<2> slave_;
+  Eigen::Vector2d normal_, tangent_;
+  double approach_, lean_ = 0.0;  ///< of the nodal normals to the sides, as an angle
+};
+
+template <>
+class OverlapTest<3> {
+ public:
+  OverlapTest(const FacetPoints<3>& slave, const std::vector<NodalNormal>& normals, const Motion& motion);
+  bool operator()(const FacetPoints<3>& master) const;
+
+ private:
+  std::optional<AuxiliaryPlane> plane_;
+  double approach_, tangent_, same_way_;  ///< tan of the turn; sine of what two normals can turn against one another
+};
+
+}  // namespace mortise

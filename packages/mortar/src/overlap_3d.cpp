@@ -1,0 +1,130 @@
+// Where a slave and a master facet lie over one another in space.
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "mortise/core/error.hpp"
+#include "mortise/mortar/segment_3d.hpp"
+#include "mortise/shape/quadrilateral4.hpp"
+#include "mortise/shape/triangle3.hpp"
+#include "triangle_points.hpp"
+
+namespace mortise {
+namespace {
+
+/// Sine of the angle that a master facet has to keep from standing upright on the plane.
+constexpr double facing_tolerance = 0.05;
+
+/// Of the slave facet's area: a smaller overlap is round-off of a matching mesh and carries nothing.
+constexpr double no_area = 1e-13;
+
+// The xi with sum N_a(xi) x_a = s: of triangles, whose map is x_0 + (x_1 - x_0) xi + (x_2 - x_0) eta.
+Eigen::Vector2d invert_triangle(const FacetVectors& x, const Eigen::Vector2d& s) {
+  Eigen::Matrix2d slope;
+  slope << (x[1] - x[0]).head<2>(), (x[2] - x[0]).head<2>();
+  return slope.inverse() * (s - x[0].head<2>());
+}
+
+// The same of quadrilaterals, c + a xi + b eta + d xi eta, by Newton's method; it starts from what a parallelogram (d = 0) has.
+Eigen::Vector2d invert_quadrilateral(const FacetVectors& x, const Eigen::Vector2d& s) {
+  const Eigen::Vector2d offset = s - 0.25 * (x[0] + x[1] + x[2] + x[3]).head<2>(), a = 0.25 * (x[1] + x[2] - x[0] - x[3]).head<2>(),
+                        b = 0.25 * (x[2] + x[3] - x[0] - x[1]).head<2>(), d = 0.25 * (x[0] + x[2] - x[1] - x[3]).head<2>();
+  const auto solve = [](const Eigen::Vector2d& u, const Eigen::Vector2d& v, const Eigen::Vector2d& right) {
+    const double scale = 1.0 / (u[0] * v[1] - u[1] * v[0]);
+    return Eigen::Vector2d(scale * (right[0] * v[1] - right[1] * v[0]), scale * (u[0] * right[1] - u[1] * right[0]));
+  };
+  Eigen::Vector2d xi = solve(a, b, offset);
+  constexpr double parallelogram = 1e-28;
+  if (d.squaredNorm() < parallelogram * std::min(a.squaredNorm(), b.squaredNorm())) return xi;
+  constexpr int most = 40;
+  for (int iteration = 0; iteration < most; ++iteration) {
+    const Eigen::Vector2d step = solve(a + d * xi[1], b + d * xi[0], offset - a * xi[0] - b * xi[1] - d * (xi[0] * xi[1]));
+    xi += step;
+    constexpr double settled = 1e-9;  // the next step would be of its square
+    if (step.squaredNorm() < settled * settled) return xi;
+  }
+  throw StepFailure(FailureKind::projection, "a point of a contact facet cannot be projected on the opposite one, which is too distorted");
+}
+
+PlanePolygon project(const FacetVectors& nodes) {
+  PlanePolygon polygon;
+  for (const Eigen::Vector3d& x : nodes) polygon.push_back(x.head<2>());
+  return polygon;
+}
+
+bool apart(const FacetVectors& a, const FacetVectors& b) {
+  for (int i = 0; i < 2; ++i) {
+    const auto less = [i](const Eigen::Vector3d& x, const Eigen::Vector3d& y) { return x[i] < y[i]; };
+    const auto of_a = std::minmax_element(a.begin(), a.end(), less), of_b = std::minmax_element(b.begin(), b.end(), less);
+    if ((*of_a.second)[i] <= (*of_b.first)[i] || (*of_b.second)[i] <= (*of_a.first)[i]) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 4, 1> facet_values(std::size_t nodes, const Eigen::Vector2d& xi) {
+  const std::array<double, 2> at = {xi[0], xi[1]};
+  if (nodes == 3) return Eigen::Map<const Eigen::Vector3d>(Triangle3::values(at).data());
+  return Eigen::Map<const Eigen::Vector4d>(Quadrilateral4::values(at).data());
+}
+
+bool faces(const FacetVectors& master) { return shows_side(master, -1.0, facing_tolerance); }
+
+Eigen::Vector2d facet_coordinates(const FacetVectors& nodes, const Eigen::Vector2d& s) {
+  return nodes.size() == 3 ? invert_triangle(nodes, s) : invert_quadrilateral(nodes, s);
+}
+
+double height_at(const FacetVectors& nodes, const Eigen::Vector2d& xi) {
+  const auto N = facet_values(nodes.size(), xi);
+  double sum = 0.0;
+  for (std::size_t a = 0; a < nodes.size(); ++a) sum += N[static_cast<Eigen::Index>(a)] * nodes[a].z();
+  return sum;
+}
+
+std::optional<Overlap3d> find_overlap(const FacetVectors& slave, const FacetVectors& master) {
+  if (apart(slave, master) || !faces(master)) return std::nullopt;
+  const PlanePolygon first = project(slave);
+  std::optional<Overlap3d> result(std::in_place);
+  Overlap3d& overlap = *result;
+  overlap.polygon = clip_convex(first, project(master));
+  const auto count = static_cast<int>(overlap.polygon.size());
+  if (count < 3) return std::nullopt;
+
+  boost::container::static_vector<Eigen::Vector2d, 17> vertices;
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+  for (const ClipVertex& vertex : overlap.polygon) {
+    vertices.push_back(vertex.position);
+    centre += vertex.position / count;
+  }
+  vertices.push_back(centre);
+  if (count == 3)
+    overlap.triangles.push_back({0, 1, 2});
+  else
+    for (int v = 0; v < count; ++v) overlap.triangles.push_back({count, v, (v + 1) % count});
+  double area = 0.0, whole = 0.0;
+  for (const auto& [a, b, c] : overlap.triangles) area += doubled_area(vertices[a], vertices[b], vertices[c]);
+  for (std::size_t a = 2; a < first.size(); ++a) whole += doubled_area(first[0], first[a - 1], first[a]);
+  if (!(area > no_area * whole)) return std::nullopt;
+
+  overlap.distance = std::numeric_limits<double>::max();
+  for (const auto& [a, b, c] : overlap.triangles) {
+    const double twice = doubled_area(vertices[a], vertices[b], vertices[c]);
+    for (const TrianglePoint& one : triangle_points()) {
+      const Eigen::Vector2d s = one.share[0] * vertices[a] + one.share[1] * vertices[b] + one.share[2] * vertices[c];
+      OverlapPoint point;
+      point.xi = facet_coordinates(slave, s);
+      point.eta = facet_coordinates(master, s);
+      point.weight = one.weight * twice;
+      point.height = height_at(master, point.eta) - height_at(slave, point.xi);
+      overlap.distance = std::min(overlap.distance, std::abs(point.height));
+      overlap.points.push_back(point);
+    }
+  }
+  return result;
+}
+
+}  // namespace mortise

@@ -1,0 +1,29 @@
+#pragma once
+// A slave facet as the integration needs it, in the plane and in space.
+
+#include <boost/container/static_vector.hpp>
+
+#include "facet_moments.hpp"
+
+namespace mortise {
+
+struct SlaveFacetData {
+  Facet<LocalOrdinal> nodes;
+  boost::container::static_vector<const NodalNormal*, most_side_nodes> normals;
+  const FacetMultipliers* multipliers = nullptr;
+};
+
+/// How near a master facet has to be: at least one that overlaps within `touch`, then all that do within `all` take part.
+struct FacetReach {
+  double touch = 0.0, all = 0.0;
+};
+
+/// Where `node` stands in `list`; put at its end if it is new.
+inline Eigen::Index place_of(std::vector<LocalOrdinal>& list, LocalOrdinal node) {
+  for (std::size_t place = 0; place < list.size(); ++place)
+    if (list[place] == node) return static_cast<Eigen::Index>(place);
+  list.push_back(node);
+  return static_cast<Eigen::Index>(list.size()) - 1;
+}
+
+}  // namespace mortise

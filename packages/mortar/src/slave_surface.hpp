@@ -1,0 +1,43 @@
+#pragma once
+// The slave side as one rank holds it: its nodes, the facets it evaluates, the ring of facets that shapes their normals.
+
+#include <vector>
+
+#include "facet_moments.hpp"
+#include "mortise/mortar/mortar_interface.hpp"
+#include "nodal_normal.hpp"
+
+namespace mortise {
+
+/// Constant during the life of an interface. Nodes are numbered: owned slave nodes, other slave nodes of the facets evaluated here, ring.
+struct SlaveSurface {
+  std::vector<GlobalOrdinal> node_ids;
+  std::vector<SlaveNode> owned;                     ///< the first nodes
+  std::size_t nodes_with_normal = 0;                ///< owned and other slave nodes: those that have a stencil
+  std::vector<NormalStencil> stencils;              ///< [nodes with normal]
+  std::vector<char> carries;                        ///< [nodes with normal] multiplier or not
+  std::vector<Facet<LocalOrdinal>> facets;          ///< evaluated here
+  std::vector<FacetMultipliers> multipliers;        ///< [facets]
+  std::vector<std::vector<std::size_t>> facets_of;  ///< [owned] facets that touch the node
+};
+
+/// Collective. Throws InputError at `place` for what MortarInterface refuses of a slave side.
+template <int dim>
+SlaveSurface make_slave_surface(const RCP<const Map>& owned_nodes, const RCP<const MultiVector>& reference, const RCP<const MultiVector>& fixed,
+                                const SurfaceFacets& facets, const InterfaceMeasure& measure, const Place& place);
+
+/// int N_j over a facet: t L / 2, or 2 pi L (r_j / 3 + r_k / 6).
+FacetVector facet_weights(const FacetPoints<2>& x, const InterfaceMeasure& measure);
+/// int N_j over a facet in space, where there is no other measure than its area.
+FacetVector facet_weights(const FacetPoints<3>& x, const InterfaceMeasure& measure);
+
+/// Rows of a view [nodes x dim] as points.
+template <int dim, class View>
+Positions<dim> positions_of(const View& view) {
+  Positions<dim> x(view.extent(0));
+  for (std::size_t n = 0; n < x.size(); ++n)
+    for (int i = 0; i < dim; ++i) x[n][i] = view(n, i);
+  return x;
+}
+
+}  // namespace mortise
