@@ -63,7 +63,7 @@ Inverted first_inverted(const Mesh& mesh, const Block& block, int rule_points) {
     for (int a = 0; a < nodes; ++a)
       for (int i = 0; i < dimension; ++i) x(i, a) = mesh.coordinates[block.nodes(e)[a]][i];
     for (const Place& place : places) {
-      const Eigen::Matrix<double, dimension, dimension> jacobian = x * place.gradients;
+      const Eigen::Matrix<double, dimension, dimension> jacobian = x.lazyProduct(place.gradients);
       const double determinant = jacobian.determinant();
       if (determinant >= smallest.determinant) continue;
       smallest.determinant = determinant;

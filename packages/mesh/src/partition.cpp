@@ -138,6 +138,11 @@ std::vector<GlobalOrdinal> share_out_elements(const Communicator& comm, const Bo
 RCP<const Map> share_out_nodes(const RCP<const Communicator>& comm, const BodySet& bodies, const std::vector<GlobalOrdinal>& owned_elements,
                                GlobalOrdinal further_nodes) {
   std::vector<GlobalOrdinal> ids;
+  if (comm->getSize() == 1) {
+    ids.resize(bodies.node_count() + further_nodes);
+    std::iota(ids.begin(), ids.end(), 0);
+    return map_of(comm, ids);
+  }
   if (comm->getRank() == 0)
     for (GlobalOrdinal node = 0; node < further_nodes; ++node) ids.push_back(bodies.node_count() + node);
   for (const auto element : owned_elements) {
@@ -147,7 +152,6 @@ RCP<const Map> share_out_nodes(const RCP<const Communicator>& comm, const BodySe
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   const auto overlapping = map_of(comm, ids);
-  if (comm->getSize() == 1) return overlapping;
   const auto one_to_one = Tpetra::createOneToOne(overlapping, AlternatingOwner());
   const auto view = one_to_one->getNodeElementList();
   ids.assign(view.begin(), view.end());

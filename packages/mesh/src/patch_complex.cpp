@@ -61,11 +61,15 @@ PatchComplex::PatchComplex(CellShape shape, std::vector<Point> corners, std::vec
     patch_sides_.push_back(names);
   }
   edge_nodes_.push_back(static_cast<GlobalOrdinal>(corners_.size()));
-  for (int e = 0; e < static_cast<int>(edges_.size()); ++e) edge_nodes_.push_back(edge_nodes_.back() + edge_lattice(e).size());
+  for (const Edge& edge : edges_) {
+    edge_lattices_.emplace_back(shape_, 1, std::array<int, 3>{edge.spacing.cells()});
+    edge_nodes_.push_back(edge_nodes_.back() + edge_lattices_.back().size());
+  }
   patch_nodes_.push_back(edge_nodes_.back());
   patch_cells_.push_back(0);
   for (int p = 0; p < static_cast<int>(patches_.size()); ++p) {
-    patch_nodes_.push_back(patch_nodes_.back() + patch_lattice(p).size());
+    patch_lattices_.emplace_back(shape_, 2, std::array<int, 3>{cells_i(p), cells_j(p)});
+    patch_nodes_.push_back(patch_nodes_.back() + patch_lattices_.back().size());
     patch_cells_.push_back(patch_cells_.back() + static_cast<GlobalOrdinal>(cells_i(p)) * cells_j(p));
   }
 }
@@ -96,7 +100,7 @@ Point PatchComplex::coordinate(GlobalOrdinal node) const {
   if (node < edge_nodes_.front()) return placement_(corners_[node]);
   if (node < patch_nodes_.front()) {
     const int e = interval(edge_nodes_, node);
-    return placement_(mortise::edge_point(edges_[e], corners_, edge_lattice(e).point(node - edge_nodes_[e])[0]));
+    return placement_(mortise::edge_point(edges_[e], corners_, edge_lattices_[e].point(node - edge_nodes_[e])[0]));
   }
   const auto [p, i, j] = grid_points(node).front();
   const auto& [bottom, right, top, left] = uses_[p];
@@ -156,13 +160,13 @@ GlobalOrdinal PatchComplex::node_at(const GridPoint& point) const {
   if (j == nj && (i == 0 || i == ni)) return corners[i == 0 ? 3 : 2];
   const auto on_edge = [&](int slot, int index) {
     const auto& use = uses_[p][slot];
-    return edge_nodes_[use.edge] + edge_lattice(use.edge).index({use.flipped ? 2 * edges_[use.edge].spacing.cells() - index : index});
+    return edge_nodes_[use.edge] + edge_lattices_[use.edge].index({use.flipped ? 2 * edges_[use.edge].spacing.cells() - index : index});
   };
   if (j == 0) return on_edge(0, i);
   if (i == ni) return on_edge(1, j);
   if (j == nj) return on_edge(2, i);
   if (i == 0) return on_edge(3, j);
-  return patch_nodes_[p] + patch_lattice(p).index({i, j});
+  return patch_nodes_[p] + patch_lattices_[p].index({i, j});
 }
 
 std::vector<PatchComplex::GridPoint> PatchComplex::grid_points(GlobalOrdinal node) const {
@@ -172,7 +176,7 @@ std::vector<PatchComplex::GridPoint> PatchComplex::grid_points(GlobalOrdinal nod
       points.push_back({use.patch, use.slot == 1 || use.slot == 2 ? 2 * cells_i(use.patch) : 0, use.slot >= 2 ? 2 * cells_j(use.patch) : 0});
   } else if (node < patch_nodes_.front()) {
     const int e = interval(edge_nodes_, node), end = 2 * edges_[e].spacing.cells();
-    const int index = edge_lattice(e).point(node - edge_nodes_[e])[0];
+    const int index = edge_lattices_[e].point(node - edge_nodes_[e])[0];
     for (const auto& [p, slot] : edge_patches_[e]) {
       const int k = uses_[p][slot].flipped ? end - index : index;
       if (slot == 0) points.push_back({p, k, 0});
@@ -182,7 +186,7 @@ std::vector<PatchComplex::GridPoint> PatchComplex::grid_points(GlobalOrdinal nod
     }
   } else {
     const int p = interval(patch_nodes_, node);
-    const auto inside = patch_lattice(p).point(node - patch_nodes_[p]);
+    const auto inside = patch_lattices_[p].point(node - patch_nodes_[p]);
     points.push_back({p, inside[0], inside[1]});
   }
   return points;

@@ -89,8 +89,6 @@ class PatchComplex {
   int elements_per_cell() const { return is_cut() ? 2 : 1; }
   int cells_i(int patch) const { return edges_[uses_[patch][0].edge].spacing.cells(); }
   int cells_j(int patch) const { return edges_[uses_[patch][1].edge].spacing.cells(); }
-  Lattice edge_lattice(int edge) const { return Lattice(shape_, 1, {edges_[edge].spacing.cells()}); }
-  Lattice patch_lattice(int patch) const { return Lattice(shape_, 2, {cells_i(patch), cells_j(patch)}); }
   /// The cell that an element lies in: its first corner.
   GridPoint cell_of(GlobalOrdinal element) const;
   GridPoints corners_of(GlobalOrdinal element) const;
@@ -108,6 +106,7 @@ class PatchComplex {
   std::vector<std::vector<PatchUse>> corner_patches_;                  ///< [corners] slot: which corner of the patch
   std::vector<std::vector<PatchUse>> edge_patches_;                    ///< [edges] slot: which side of the patch
   std::vector<std::array<int, 4>> patch_sides_;                        ///< [patches] index into side_names_, or -1
+  std::vector<Lattice> edge_lattices_, patch_lattices_;                ///< the nodes inside each
   std::vector<GlobalOrdinal> edge_nodes_, patch_nodes_, patch_cells_;  ///< first number of each, and the end
   std::vector<std::string> side_names_;
 };
