@@ -6,6 +6,7 @@
 
 #include "element_geometry.hpp"
 #include "mortise/material/tensor_components.hpp"
+#include "space_products.hpp"
 
 namespace mortise {
 
@@ -32,10 +33,10 @@ class ElementTangent {
   using Point = typename Geometry::Point;
   struct Nothing {};
   using Centre = std::conditional_t<f_bar, Point, Nothing>;
-  using Stiffness = std::array<std::array<double, dofs>, dofs>;  ///< rows dimension * a + i, columns column(b, k)
-
-  /// In space the nodes run first: the innermost loops are over them, long and contiguous.
-  static constexpr int column(int b, int k) { return dimension == 3 ? k * nodes + b : dimension * b + k; }
+  /// In the plane columns run as rows do; in space the nodes run first, filled up: the innermost loops are over them.
+  static constexpr int width = filled_up(nodes);
+  static constexpr int column(int b, int k) { return dimension == 3 ? k * width + b : dimension * b + k; }
+  using Stiffness = std::array<std::array<double, dimension == 3 ? 3 * width : dofs>, dofs>;  ///< rows dimension * a + i, columns column(b, k)
 
   /// `centre`, pushed forward, and `stiffness` have to outlive this object.
   ElementTangent(const Centre& centre, Stiffness& stiffness) : centre_(centre), stiffness_(stiffness) {}
@@ -53,7 +54,7 @@ class ElementTangent {
     if constexpr (dimension == 3 && f_bar)
       for (int row = 0; row < dofs; ++row)
         for (int k = 0; k < 3; ++k)
-          for (int b = 0; b < nodes; ++b) stiffness_[row][k * nodes + b] += volumetric_[row] * centre_.gradient[b][k];
+          for (int b = 0; b < nodes; ++b) stiffness_[row][column(b, k)] += volumetric_[row] * centre_.gradient[b][k];
   }
 
  private:
@@ -99,30 +100,21 @@ class ElementTangent {
       }
   }
 
-  /// Row by row: G_a^T A first, 9 numbers, then times G_b for all b at once. The centre's gradients are the same for all points: what multiplies
-  /// them is summed and their part added in finish().
+  /// The centre's gradients are the same for all points: what multiplies them is summed and their part added in finish().
   void add_in_space(const Point& at, const StressAndTangent<Components>& response, double weight) {
-    double g[3][nodes];
+    double g[3][width]{};
     for (int b = 0; b < nodes; ++b)
       for (int l = 0; l < 3; ++l) g[l][b] = at.gradient[b][l];
-    double A[9][9];  // weight A, by rows
+    double A[9][filled_up(9)]{};  // weight A, by rows
     for (int q = 0; q < 9; ++q)
       for (int p = 0; p < 9; ++p) A[p][q] = weight * response.tangent(p, q);
-    [[maybe_unused]] std::array<double, size> q;
-    if constexpr (f_bar) q = volumetric_response(response);
-    for (int a = 0; a < nodes; ++a)
-      for (int i = 0; i < 3; ++i) {
-        double left[9];
-        for (int p = 0; p < 9; ++p) left[p] = g[0][a] * A[3 * i][p] + g[1][a] * A[3 * i + 1][p] + g[2][a] * A[3 * i + 2][p];
-        if constexpr (f_bar) {
-          const double share = weight * (g[0][a] * q[3 * i] + g[1][a] * q[3 * i + 1] + g[2][a] * q[3 * i + 2]);
-          volumetric_[3 * a + i] += share;
-          for (int k = 0; k < 3; ++k) left[4 * k] -= share;
-        }
-        double* row = stiffness_[3 * a + i].data();
-        for (int k = 0; k < 3; ++k)
-          for (int b = 0; b < nodes; ++b) row[k * nodes + b] += left[3 * k] * g[0][b] + left[3 * k + 1] * g[1][b] + left[3 * k + 2] * g[2][b];
-      }
+    if constexpr (f_bar) {
+      std::array<double, size> q = volumetric_response(response);
+      for (double& entry : q) entry *= weight;
+      add_space_products<nodes>(g, A, q.data(), stiffness_.front().data(), volumetric_.data());
+    } else {
+      add_space_products<nodes>(g, A, nullptr, stiffness_.front().data(), nullptr);
+    }
   }
 
   const Centre& centre_;

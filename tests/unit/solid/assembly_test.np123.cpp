@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mortise/mesh/volume_generators.hpp"
 #include "mortise/solid/loads.hpp"
 #include "mortise/solid/prescribed_motion.hpp"
 #include "solid_test_support.hpp"
@@ -9,7 +10,24 @@
 namespace mortise {
 namespace {
 
-std::array<double, 2> field(double X, double Y) { return {0.05 * std::sin(X + 2.0 * Y), 0.08 * std::cos(3.0 * X - Y)}; }
+std::array<double, 3> field(const std::array<double, 3>& X) {
+  return {0.05 * std::sin(X[0] + 2.0 * X[1] - X[2]), 0.08 * std::cos(3.0 * X[0] - X[1] + X[2]), 0.06 * std::sin(X[0] - 2.0 * X[2])};
+}
+
+/// Bodies of `setup`, in space a distorted brick of the generator's.
+std::shared_ptr<Bodies> make_distributed(const RCP<const Communicator>& comm, const BodySetup& setup) {
+  if (setup.kinematics != Kinematics::three_dimensional) return make_test_bodies(comm, setup);
+  auto brick = std::make_shared<BrickMesh>();
+  brick->cells_x = 4;
+  brick->cells_y = 3;
+  brick->cells_z = 2;
+  const auto mesh = build_mesh(comm, {{"body", {}, brick, cell_shape(setup.element)}}, {});
+  for (auto& X : mesh->coordinates) {
+    X[0] += 0.02 * std::sin(3.0 * X[1] + X[2]);
+    X[2] += 0.03 * std::sin(2.0 * X[0] - X[1]);
+  }
+  return std::make_shared<Bodies>(mesh, setup.kinematics, 1.0, std::vector<BodyProperties>{{"body", {}, make_material(setup.law), setup.element}});
+}
 
 /// Residual (bulk and all loads), J v, nodal stresses, prescribed values: on the owned dofs, in one vector for each of them.
 struct Assembled {
@@ -21,13 +39,14 @@ struct Assembled {
 
 Assembled assemble(const RCP<const Communicator>& comm, const BodySetup& setup) {
   Assembled result;
-  const auto bodies = result.bodies = make_test_bodies(comm, setup);
+  const auto bodies = result.bodies = make_distributed(comm, setup);
+  const int dimension = bodies->dimension();
   Vector u(bodies->dofs()), local(bodies->local_dofs());
   {
     auto view = u.getLocalViewHost(Tpetra::Access::OverwriteAll);
     for (LocalOrdinal node = 0; node < bodies->mesh()->owned_count(); ++node) {
-      const auto value = field(bodies->mesh()->coordinates[node][0], bodies->mesh()->coordinates[node][1]);
-      for (int i = 0; i < 2; ++i) view(2 * node + i, 0) = value[i];
+      const auto value = field(bodies->mesh()->coordinates[node]);
+      for (int i = 0; i < dimension; ++i) view(dimension * node + i, 0) = value[i];
     }
   }
   local.doImport(u, *bodies->ghost_import(), Tpetra::INSERT);  // what a Newton iteration does
@@ -49,6 +68,7 @@ Assembled assemble(const RCP<const Communicator>& comm, const BodySetup& setup) 
   pressure.pressure = Expression("3+x*y", {});
   GravityOptions gravity;
   gravity.y = -9.81;
+  if (dimension == 3) nodal.z = traction.z = gravity.z = Expression("t", {});
   for (const LoadOptions* options : std::initializer_list<const LoadOptions*>{&nodal, &traction, &pressure, &gravity}) {
     const auto load = options->make(bodies);
     load->add_residual(0.5, local, residual, failure);
@@ -61,11 +81,11 @@ Assembled assemble(const RCP<const Communicator>& comm, const BodySetup& setup) 
   const auto modes = rigid_body_modes(*bodies, u);
   for (std::size_t n = 0; n < modes->getNumVectors(); ++n) result.columns.push_back(to_eigen(*modes->getVector(n)));
   const auto stresses = bodies->nodal_stresses(local);
-  for (int pair = 0; pair < 2; ++pair) {
+  for (std::size_t c = 0; c < stresses->getNumVectors(); ++c) {
     const auto view = stresses->getLocalViewHost(Tpetra::Access::ReadOnly);
-    Eigen::VectorXd column(2 * bodies->mesh()->owned_count());
+    Eigen::VectorXd column(dimension * bodies->mesh()->owned_count());  // as many values as there are dofs
     for (LocalOrdinal node = 0; node < bodies->mesh()->owned_count(); ++node)
-      for (int i = 0; i < 2; ++i) column(2 * node + i) = view(node, 2 * pair + i);
+      for (int i = 0; i < dimension; ++i) column(dimension * node + i) = view(node, c);
     result.columns.push_back(column);
   }
   const Named<BoundaryConditionOptions> left{"left", {}, {{"body/left", {}}, Expression("t*y", {}), {}}};
@@ -79,7 +99,9 @@ Assembled assemble(const RCP<const Communicator>& comm, const BodySetup& setup) 
 class Assembly : public testing::TestWithParam<std::pair<ElementType, Kinematics>> {};
 
 INSTANTIATE_TEST_SUITE_P(Ranks, Assembly,
-                         testing::Values(std::pair(ElementType::q4, Kinematics::plane_strain),
+                         testing::Values(std::pair(ElementType::h8_f_bar, Kinematics::three_dimensional),
+                                         std::pair(ElementType::tet4, Kinematics::three_dimensional),
+                                         std::pair(ElementType::q4, Kinematics::plane_strain),
                                          std::pair(ElementType::q4_f_bar, Kinematics::axisymmetric),
                                          std::pair(ElementType::t3, Kinematics::plane_stress)));
 

@@ -183,5 +183,32 @@ TEST(Bodies, DoNotAllocateInTheElementLoop) {
     }
 }
 
+TEST(Bodies, DoNotAllocateInTheElementLoopInSpace) {
+  for (const char* law : {"hencky", "j2 plasticity", "small strain linear"})
+    for (ElementType element : {ElementType::h8, ElementType::h8_f_bar, ElementType::tet4, ElementType::h20, ElementType::tet10}) {
+      if (!check_combination({"body", {}, make_material(law), element}, Kinematics::three_dimensional).empty()) continue;
+      std::vector<long> counts;
+      for (int cells : {1, 4}) {
+        BrickSetup setup;
+        setup.law = law;
+        setup.element = element;
+        setup.cells = {cells, cells, cells};
+        const auto bodies = make_brick(setup);
+        const Vector u = to_local(*bodies, space_field(*bodies, [](const Point3& X) -> Point3 {
+          return {0.01 * X[0] * X[1], 0.02 * X[2], 0.01 * X[0]};
+        }));
+        Vector residual(bodies->dofs());
+        Matrix matrix(bodies->graph());
+        std::optional<StepFailure> failure;
+        const long before = allocations;
+        bodies->add_internal_force(u, residual, failure);
+        bodies->add_stiffness(u, matrix, failure);
+        counts.push_back(allocations - before);
+        EXPECT_FALSE(failure);
+      }
+      EXPECT_EQ(counts[0], counts[1]) << law << " " << to_string(element);
+    }
+}
+
 }  // namespace
 }  // namespace mortise
