@@ -45,7 +45,6 @@ struct ElementsAroundNodes {
 NodalSparsity::NodalSparsity(const Mesh& mesh, const RCP<const Map>& dofs, const RCP<const Map>& local_dofs) : dimension_(mesh.dimension) {
   const LocalOrdinal owned = mesh.owned_count();
   const ElementsAroundNodes around(mesh);
-  Teuchos::Array<std::size_t> row_sizes(dimension_ * owned);
   neighbour_starts_.assign(1, 0);
   row_starts_.assign(1, 0);
   std::vector<LocalOrdinal> list;
@@ -57,22 +56,20 @@ NodalSparsity::NodalSparsity(const Mesh& mesh, const RCP<const Map>& dofs, const
     list.erase(std::unique(list.begin(), list.end()), list.end());
     neighbours_.insert(neighbours_.end(), list.begin(), list.end());
     neighbour_starts_.push_back(neighbours_.size());
-    for (int component = 0; component < dimension_; ++component) {
-      row_sizes[dimension_ * node + component] = dimension_ * list.size();
-      row_starts_.push_back(row_starts_.back() + dimension_ * list.size());
-    }
+    for (int component = 0; component < dimension_; ++component) row_starts_.push_back(row_starts_.back() + dimension_ * list.size());
   }
 
-  auto graph = rcp(new Graph(dofs, local_dofs, row_sizes()));
-  std::vector<LocalOrdinal> columns;
-  for (LocalOrdinal node = 0; node < owned; ++node) {
-    columns.clear();
-    for (std::size_t n = neighbour_starts_[node]; n < neighbour_starts_[node + 1]; ++n)
-      for (int component = 0; component < dimension_; ++component) columns.push_back(dimension_ * neighbours_[n] + component);
+  // The rows as the graph will hold them, ascending: handing them over one by one would search each for what it has already.
+  Teuchos::ArrayRCP<std::size_t> starts(row_starts_.size());
+  std::copy(row_starts_.begin(), row_starts_.end(), starts.begin());
+  Teuchos::ArrayRCP<LocalOrdinal> columns(row_starts_.back());
+  auto column = columns.begin();
+  for (LocalOrdinal node = 0; node < owned; ++node)
     for (int component = 0; component < dimension_; ++component)
-      graph->insertLocalIndices(dimension_ * node + component, Teuchos::arrayView(columns.data(), columns.size()));
-  }
-  graph->fillComplete(dofs, dofs);
+      for (std::size_t n = neighbour_starts_[node]; n < neighbour_starts_[node + 1]; ++n)
+        for (int of = 0; of < dimension_; ++of) *column++ = dimension_ * neighbours_[n] + of;
+  auto graph = rcp(new Graph(dofs, local_dofs, starts, columns));
+  graph->expertStaticFillComplete(dofs, dofs);
   graph_ = graph;
 }
 
