@@ -55,6 +55,9 @@ Teuchos::ParameterList belos_defaults(const LinearSolverOptions& options) {
   return list;
 }
 
+/// Iterations beyond those of a fresh hierarchy after which an earlier one is given up within a solve, and for the next one.
+constexpr int most_extra_iterations = 10, fewest_extra_iterations = 3;
+
 class IterativeSolver : public LinearSolver {
  public:
   IterativeSolver(const LinearSolverOptions& options, const Timers& timers) : options_(options), timers_(timers) {}
@@ -66,8 +69,8 @@ class IterativeSolver : public LinearSolver {
   void set_matrix(const RCP<const Matrix>& matrix, bool, const NearNullSpace& near_null_space) override {
     matrix_ = matrix;
     near_null_space_ = near_null_space;
-    preconditioner_ = Teuchos::null;
-    decoupled_.reset();
+    is_fresh_ = false;
+    if (is_worn_ || preconditioner_.is_null() || !preconditioner_->getDomainMap()->isSameAs(*matrix->getDomainMap())) forget();
   }
 
   LinearSolveReport solve(const Vector& b, Vector& x) override {
@@ -77,15 +80,15 @@ class IterativeSolver : public LinearSolver {
     LinearSolveReport report;
     std::optional<StepFailure> failure;
     try {
-      if (preconditioner_.is_null()) {
-        const auto scope = timers_.scope("linear setup");
-        set_up();
-      }
-      const auto scope = timers_.scope("linear solve");
-      if (decoupled_) decoupled_->first_guess(b, x);
+      if (preconditioner_.is_null()) set_up();
       report.iterations = iterate(b, x);
+      // Once more from anew where an earlier matrix's hierarchy does not do.
+      if (!is_fresh_ && !converged_) {
+        set_up();
+        report.iterations += iterate(b, x);
+      }
     } catch (const std::exception& error) {
-      preconditioner_ = Teuchos::null;
+      forget();
       failure = StepFailure(FailureKind::linear_solver, name() + ": " + error.what());
     }
     throw_if_any(*matrix_->getComm(), failure);
@@ -99,7 +102,15 @@ class IterativeSolver : public LinearSolver {
   }
 
  private:
+  void forget() {
+    preconditioner_ = Teuchos::null;
+    decoupled_.reset();
+    is_worn_ = false;
+  }
+
   void set_up() {
+    const auto scope = timers_.scope("linear setup");
+    forget();
     auto matrix = Teuchos::rcp_const_cast<Matrix>(matrix_);
     const auto rows = static_cast<GlobalOrdinal>(matrix->getGlobalNumRows());
     int equations = 1;
@@ -129,6 +140,8 @@ class IterativeSolver : public LinearSolver {
     preconditioner_ = MueLu::CreateTpetraPreconditioner<Scalar, LocalOrdinal, GlobalOrdinal, NodeType>(as_operator, list);
     if (decoupled_) preconditioner_ = rcp(new DecoupledPreconditioner(decoupled_, preconditioner_));
     ++setups_;
+    is_fresh_ = true;
+    fresh_iterations_ = 0;
   }
 
   // A row that is a multiple of the identity's (Dirichlet) takes no part in a rigid motion.
@@ -150,17 +163,25 @@ class IterativeSolver : public LinearSolver {
     return modes;
   }
 
+  // A hierarchy serves the matrices that follow, those of the next Newton steps, until they take half as many iterations again as the one that it
+  // was made for.
   int iterate(const Vector& b, Vector& x) {
+    const auto scope = timers_.scope("linear solve");
+    if (decoupled_) decoupled_->first_guess(b, x);
     const auto problem = rcp(new LinearProblem(matrix_, rcp(&x, false), rcp(&b, false)));
     problem->setRightPrec(preconditioner_);
     if (!problem->setProblem()) throw std::runtime_error("Belos refuses the linear problem");
     const auto list = rcp(new Teuchos::ParameterList(belos_defaults(options_)));
     list->setParameters(options_.belos.value);
+    if (!is_fresh_) list->set("Maximum Iterations", std::min(list->get<int>("Maximum Iterations"), 2 * fresh_iterations_ + most_extra_iterations));
     Belos::TpetraSolverFactory<Scalar, MultiVector, Operator> factory;
     const auto gmres = factory.create("GMRES", list);
     gmres->setProblem(problem);
-    gmres->solve();
-    return gmres->getNumIters();
+    converged_ = gmres->solve() == Belos::Converged;
+    const int iterations = gmres->getNumIters();
+    if (is_fresh_) fresh_iterations_ = std::max(fresh_iterations_, iterations);
+    is_worn_ = iterations > fresh_iterations_ + std::max(fresh_iterations_ / 2, fewest_extra_iterations);
+    return iterations;
   }
 
   LinearSolverOptions options_;
@@ -170,6 +191,8 @@ class IterativeSolver : public LinearSolver {
   RCP<const Operator> preconditioner_;
   std::shared_ptr<const DecoupledSystem> decoupled_;  ///< null: the matrix is taken as it is
   int setups_ = 0;
+  bool is_fresh_ = false, is_worn_ = false, converged_ = false;  ///< the hierarchy: made for this matrix, not to be kept for the next; the last solve
+  int fresh_iterations_ = 0;                                     ///< with the matrix that the hierarchy was made for
 };
 
 // Both packages check names and types; asked here, with no matrix at hand, so that a misspelt name is found before the mesh is made.

@@ -1,5 +1,5 @@
 #pragma once
-// A slave and a master polyline facing each other, spread over the ranks, on a made-up bulk of springs.
+// A slave and a master surface facing each other, spread over the ranks, on a made-up bulk of springs.
 
 #include <Eigen/Dense>
 #include <Teuchos_CommHelpers.hpp>
@@ -8,6 +8,7 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -18,13 +19,15 @@
 
 namespace mortise::test {
 
-using Point = std::array<double, 2>;
+using Point = std::array<double, 3>;  // z = 0 in the plane
 
 /// Node ids: slave nodes first, then master nodes. The slave lies above, travelling to +x with its outward normal down; the master below,
-/// travelling to -x with its outward normal up.
+/// travelling to -x with its outward normal up. In space facets are listed.
 struct TwoSurfaces {
+  int dimension = 2;
   std::vector<Point> slave, master;
-  std::vector<std::array<bool, 2>> fixed;  ///< [all nodes]
+  SurfaceFacets slave_facets, master_facets;  ///< node ids; empty in the plane: the polylines
+  std::vector<std::array<bool, 3>> fixed;     ///< [all nodes]
   ContactOptions options;
   InterfaceMeasure measure;
 
@@ -34,9 +37,50 @@ struct TwoSurfaces {
 /// Slave: 6 nodes on a gentle arch over [0.1, 5.1]; master: 8 nodes over [0, 4.6], so the slave runs off at the right.
 inline TwoSurfaces arch_on_ground() {
   TwoSurfaces surfaces;
-  for (int i = 0; i < 6; ++i) surfaces.slave.push_back({0.1 + i, 0.02 * (i - 2.0) * (i - 2.0) - 0.03});
-  for (int i = 0; i < 8; ++i) surfaces.master.push_back({4.6 * (7 - i) / 7.0, 0.03 * std::sin(1.3 * i)});
-  surfaces.fixed.assign(surfaces.size(), {false, false});
+  for (int i = 0; i < 6; ++i) surfaces.slave.push_back({0.1 + i, 0.02 * (i - 2.0) * (i - 2.0) - 0.03, 0.0});
+  for (int i = 0; i < 8; ++i) surfaces.master.push_back({4.6 * (7 - i) / 7.0, 0.03 * std::sin(1.3 * i), 0.0});
+  surfaces.fixed.assign(surfaces.size(), {});
+  return surfaces;
+}
+
+/// Grids of quadrilaterals, or of triangles. Slave: 4 x 4 nodes of a gentle dome over [0.1, 3.1] x [0.2, 3.05]; master: 5 x 4 nodes of waves over
+/// [0, 2.7] x [0, 3.3], so the slave runs off on one side.
+inline TwoSurfaces dome_on_waves(bool triangles = false) {
+  TwoSurfaces surfaces;
+  surfaces.dimension = 3;
+  const auto grid = [&](int along, int across, const std::function<Point(int, int)>& position, bool up, std::vector<Point>& points,
+                        SurfaceFacets& facets) {
+    const auto first = static_cast<GlobalOrdinal>(surfaces.size());
+    for (int j = 0; j < across; ++j)
+      for (int i = 0; i < along; ++i) points.push_back(position(i, j));
+    const auto add = [&](SurfaceFacet facet) {
+      if (!up) std::reverse(facet.begin(), facet.end());
+      facets.push_back(facet);
+    };
+    for (int j = 0; j + 1 < across; ++j)
+      for (int i = 0; i + 1 < along; ++i) {
+        const GlobalOrdinal a = first + i + along * j, b = a + 1, c = b + along, d = a + along;
+        if (triangles) {
+          add({a, b, c});
+          add({a, c, d});
+        } else {
+          add({a, b, c, d});
+        }
+      }
+  };
+  grid(
+      4, 4,
+      [](int i, int j) {
+        return Point{0.1 + i, 0.2 + 0.95 * j, 0.02 * (i - 1.2) * (i - 1.2) + 0.015 * (j - 1.7) * (j - 1.7) - 0.03};
+      },
+      false, surfaces.slave, surfaces.slave_facets);
+  grid(
+      5, 4,
+      [](int i, int j) {
+        return Point{2.7 * i / 4.0, 1.1 * j, 0.03 * std::sin(1.3 * i + 0.8 * j)};
+      },
+      true, surfaces.master, surfaces.master_facets);
+  surfaces.fixed.assign(surfaces.size(), {});
   return surfaces;
 }
 
@@ -48,11 +92,12 @@ class Fixture {
     for (std::size_t n = 0; n < surfaces.size(); ++n)
       if (static_cast<int>(n) % comm->getSize() == comm->getRank()) ids.push_back(static_cast<GlobalOrdinal>(n));
     nodes = rcp(new Map(surfaces.size(), ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, comm));
-    dofs = make_dof_map(*nodes, 2);
-    const auto reference = rcp(new MultiVector(nodes, 2));
-    const auto fixed = rcp(new MultiVector(nodes, 2));
+    const int dim = surfaces.dimension;
+    dofs = make_dof_map(*nodes, dim);
+    const auto reference = rcp(new MultiVector(nodes, static_cast<std::size_t>(dim)));
+    const auto fixed = rcp(new MultiVector(nodes, static_cast<std::size_t>(dim)));
     for (std::size_t n = 0; n < ids.size(); ++n)
-      for (int i = 0; i < 2; ++i) {
+      for (int i = 0; i < dim; ++i) {
         const std::size_t id = static_cast<std::size_t>(ids[n]);
         reference->replaceLocalValue(n, i, id < surfaces.slave.size() ? surfaces.slave[id][i] : surfaces.master[id - surfaces.slave.size()][i]);
         fixed->replaceLocalValue(n, i, surfaces.fixed[id][i] ? 1.0 : 0.0);
@@ -63,17 +108,19 @@ class Fixture {
     pair.options = surfaces.options;
     const auto mine = [&](std::size_t n) { return nodes->isNodeGlobalElement(static_cast<GlobalOrdinal>(n)); };
     const GlobalOrdinal slaves = static_cast<GlobalOrdinal>(surfaces.slave.size());
-    for (GlobalOrdinal i = 0; i + 1 < slaves; ++i)
+    for (const SurfaceFacet& facet : surfaces.slave_facets)
+      if (std::any_of(facet.begin(), facet.end(), [&](GlobalOrdinal node) { return mine(node); })) pair.slave.push_back(facet);
+    for (const SurfaceFacet& facet : surfaces.master_facets)
+      if (mine(facet[0])) pair.master.push_back(facet);
+    for (GlobalOrdinal i = 0; dim == 2 && i + 1 < slaves; ++i)
       if (mine(i) || mine(i + 1)) pair.slave.push_back({i, i + 1});
-    for (GlobalOrdinal i = slaves; i + 1 < static_cast<GlobalOrdinal>(surfaces.size()); ++i)
+    for (GlobalOrdinal i = slaves; dim == 2 && i + 1 < static_cast<GlobalOrdinal>(surfaces.size()); ++i)
       if (mine(i)) pair.master.push_back({i, i + 1});
     contact = std::make_unique<ContactSystem>(nodes, dofs, reference, fixed, surfaces.measure, std::vector<ContactPair>{pair}, Timers());
 
-    const auto graph = rcp(new Graph(dofs, 14));
+    const auto graph = rcp(new Graph(dofs, 7 * dim));
     for (const GlobalOrdinal row : dofs->getNodeElementList())
-      for (GlobalOrdinal column = std::max<GlobalOrdinal>(0, row / 2 * 2 - 4); column < std::min<GlobalOrdinal>(2 * surfaces.size(), row / 2 * 2 + 6);
-           ++column)
-        graph->insertGlobalIndices(row, 1, &column);
+      for (GlobalOrdinal column = first_column(row); column < end_column(row); ++column) graph->insertGlobalIndices(row, 1, &column);
     graph->fillComplete(dofs, dofs);
     bulk = graph;
   }
@@ -89,8 +136,10 @@ class Fixture {
   RCP<Vector> multipliers(const std::function<double(std::size_t)>& pressure) const {
     const GlobalOrdinal offset = dofs->getMaxAllGlobalIndex() + 1;
     return vector(contact->multiplier_map(), [&](GlobalOrdinal id) {
-      const auto node = static_cast<std::size_t>((id - offset) / 2);
-      return (id - offset) % 2 == 0 ? 0.07 * pressure(node) : -pressure(node);
+      const int dim = surfaces_.dimension;
+      const auto node = static_cast<std::size_t>((id - offset) / dim);
+      const auto component = (id - offset) % dim;
+      return component == 0 ? 0.07 * pressure(node) : component == dim - 1 ? -pressure(node) : 0.04 * pressure(node);
     });
   }
 
@@ -98,8 +147,7 @@ class Fixture {
   RCP<Matrix> springs(const RCP<const Graph>& graph) const {
     const auto K = rcp(new Matrix(graph));
     for (const GlobalOrdinal row : dofs->getNodeElementList())
-      for (GlobalOrdinal column = std::max<GlobalOrdinal>(0, row / 2 * 2 - 4);
-           column < std::min<GlobalOrdinal>(2 * surfaces_.size(), row / 2 * 2 + 6); ++column) {
+      for (GlobalOrdinal column = first_column(row); column < end_column(row); ++column) {
         const double value = row == column ? 900.0 + 7.0 * row : -60.0 * std::cos(0.3 * (row + column)) + 11.0 * std::sin(0.9 * (row - column));
         K->sumIntoGlobalValues(row, 1, &value, &column);
       }
@@ -149,6 +197,15 @@ class Fixture {
   std::unique_ptr<ContactSystem> contact;
 
  private:
+  // The springs of a node go to the two nodes before and behind it.
+  GlobalOrdinal first_column(GlobalOrdinal row) const {
+    const GlobalOrdinal dim = surfaces_.dimension;
+    return std::max<GlobalOrdinal>(0, (row / dim - 2) * dim);
+  }
+  GlobalOrdinal end_column(GlobalOrdinal row) const {
+    const GlobalOrdinal dim = surfaces_.dimension;
+    return std::min<GlobalOrdinal>(dim * static_cast<GlobalOrdinal>(surfaces_.size()), (row / dim + 3) * dim);
+  }
   TwoSurfaces surfaces_;
 };
 
