@@ -56,21 +56,11 @@ DecoupledSystem::DecoupledSystem(const Matrix& A, const Decoupling& decoupling, 
   matrix_ = Tpetra::MatrixMatrix::add(1.0, false, both, 1.0, false, *inner);
 }
 
-void DecoupledSystem::trial(const MultiVector& x, MultiVector& y) const {
-  decoupling_.trial->apply(x, y);
-  decoupling_.eliminated->apply(x, y, Teuchos::NO_TRANS, 1.0, 1.0);
-}
+void DecoupledSystem::add_trial(const MultiVector& x, MultiVector& y) const { decoupling_.trial->apply(x, y, Teuchos::NO_TRANS, 1.0, 1.0); }
 
-void DecoupledSystem::test(const MultiVector& x, MultiVector& y) const {
-  decoupling_.test->apply(x, y, Teuchos::TRANS);
-  decoupling_.eliminated->apply(x, y, Teuchos::NO_TRANS, 1.0, 1.0);
-}
+void DecoupledSystem::test(const MultiVector& x, MultiVector& y) const { decoupling_.test->apply(x, y, Teuchos::TRANS); }
 
-void DecoupledSystem::first_guess(const Vector& b, Vector& x) const {
-  Vector w(b.getMap());
-  inverse_->apply(b, w);
-  trial(w, x);
-}
+void DecoupledSystem::relative_motion(const MultiVector& b, MultiVector& w) const { inverse_->apply(b, w); }
 
 void DecoupledSystem::take_out_eliminated(MultiVector& modes) const {
   const MultiVector all(modes, Teuchos::Copy);
@@ -78,10 +68,12 @@ void DecoupledSystem::take_out_eliminated(MultiVector& modes) const {
 }
 
 void DecoupledPreconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar, Scalar) const {
-  MultiVector tested(x.getMap(), x.getNumVectors()), solved(x.getMap(), x.getNumVectors());
-  system_->test(x, tested);
+  MultiVector rest(x, Teuchos::Copy), tested(x.getMap(), x.getNumVectors()), solved(x.getMap(), x.getNumVectors());
+  system_->relative_motion(x, y);
+  matrix_->apply(y, rest, Teuchos::NO_TRANS, -1.0, 1.0);
+  system_->test(rest, tested);
   preconditioner_->apply(tested, solved);
-  system_->trial(solved, y);
+  system_->add_trial(solved, y);
 }
 
 }  // namespace mortise::detail

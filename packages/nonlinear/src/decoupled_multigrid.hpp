@@ -9,18 +9,19 @@ namespace mortise::detail {
 /// With the condensed matrix A and the change of unknowns and of equations S, L of a Decoupling, L A S is that of the bodies joined by stick or by
 /// slip without friction, and next to it, in the eliminated directions N, the relative motion w of the surfaces, each with an equation of its own:
 ///   C = L' A S' + N A_D N,   S' = S (I - N),   L' = (I - N) L,   A_D the nodes' diagonal blocks of A.
-/// It has the near null space of the bodies, no matter how stiff they are next to one another. A^-1 ~ S C^-1 L.
+/// It has the near null space of the bodies, no matter how stiff they are next to one another. With w = (N A_D N)^-1 N b,
+///   A^-1 b ~ w + S' C^-1 L' (b - A w).
 class DecoupledSystem {
  public:
   /// @param dimension  dofs of a node, which stand together in every map
   DecoupledSystem(const Matrix& A, const Decoupling& decoupling, int dimension);
 
   const RCP<Matrix>& matrix() const { return matrix_; }
-  /// y = S x, y = L x.
-  void trial(const MultiVector& x, MultiVector& y) const;
+  /// y += S' x, y = L' x.
+  void add_trial(const MultiVector& x, MultiVector& y) const;
   void test(const MultiVector& x, MultiVector& y) const;
-  /// x = S w with the relative motion w that the equations of the eliminated directions ask for by themselves.
-  void first_guess(const Vector& b, Vector& x) const;
+  /// w: the relative motion that the equations of the eliminated directions ask for by themselves.
+  void relative_motion(const MultiVector& b, MultiVector& w) const;
   /// modes -= N modes
   void take_out_eliminated(MultiVector& modes) const;
 
@@ -29,17 +30,18 @@ class DecoupledSystem {
   RCP<Matrix> matrix_, inverse_;  ///< C; (N A_D N + I - N)^-1 N
 };
 
-/// S P L for a preconditioner P of C.
+/// The same with a preconditioner P of C in the place of its inverse.
 class DecoupledPreconditioner : public Operator {
  public:
-  DecoupledPreconditioner(std::shared_ptr<const DecoupledSystem> system, RCP<const Operator> preconditioner)
-      : system_(std::move(system)), preconditioner_(std::move(preconditioner)) {}
+  DecoupledPreconditioner(RCP<const Matrix> A, std::shared_ptr<const DecoupledSystem> system, RCP<const Operator> preconditioner)
+      : matrix_(std::move(A)), system_(std::move(system)), preconditioner_(std::move(preconditioner)) {}
   Teuchos::RCP<const Map> getDomainMap() const override { return preconditioner_->getDomainMap(); }
   Teuchos::RCP<const Map> getRangeMap() const override { return preconditioner_->getRangeMap(); }
-  /// y = S P L x
+  /// y = w + S' P L' (x - A w)
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar, Scalar) const override;
 
  private:
+  RCP<const Matrix> matrix_;
   std::shared_ptr<const DecoupledSystem> system_;
   RCP<const Operator> preconditioner_;
 };

@@ -138,7 +138,6 @@ class IterativeSolver : public LinearSolver {
 
     const RCP<Operator> as_operator = matrix;
     preconditioner_ = MueLu::CreateTpetraPreconditioner<Scalar, LocalOrdinal, GlobalOrdinal, NodeType>(as_operator, list);
-    if (decoupled_) preconditioner_ = rcp(new DecoupledPreconditioner(decoupled_, preconditioner_));
     ++setups_;
     is_fresh_ = true;
     fresh_iterations_ = 0;
@@ -167,9 +166,11 @@ class IterativeSolver : public LinearSolver {
   // was made for.
   int iterate(const Vector& b, Vector& x) {
     const auto scope = timers_.scope("linear solve");
-    if (decoupled_) decoupled_->first_guess(b, x);
+    x.putScalar(0.0);
+    RCP<const Operator> preconditioner = preconditioner_;
+    if (decoupled_) preconditioner = rcp(new DecoupledPreconditioner(matrix_, decoupled_, preconditioner_));
     const auto problem = rcp(new LinearProblem(matrix_, rcp(&x, false), rcp(&b, false)));
-    problem->setRightPrec(preconditioner_);
+    problem->setRightPrec(preconditioner);
     if (!problem->setProblem()) throw std::runtime_error("Belos refuses the linear problem");
     const auto list = rcp(new Teuchos::ParameterList(belos_defaults(options_)));
     list->setParameters(options_.belos.value);

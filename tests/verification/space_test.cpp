@@ -1,0 +1,50 @@
+// Contact in space from outside, against what the plane and other programs find.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "launch.hpp"
+
+namespace {
+
+using Json = nlohmann::json;
+
+Json quantities(const std::string& scene, const std::string& name, const std::vector<std::string>& settings) {
+  const std::string results = std::string(SCRATCH) + "/space_" + name;
+  std::vector<std::string> words{MORTISE, "run", std::string(INPUTS) + "/" + scene, "-o", results, "--set", "output/fields="};
+  for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
+  const Ending ending = launch(words, 240);
+  EXPECT_EQ(ending.code, 0) << ending.output;
+  return Json::parse(read_file(results + "/summary.json")).at("quantities");
+}
+
+/// Largest relative difference of what a layer of hexahedra and plane strain find.
+double difference_of_layer_and_plane(const std::vector<std::string>& settings) {
+  const Json space = quantities("verification/3d/pressed_layer.xml", "layer", settings), plane = quantities("verification/3d/pressed_plane.xml", "plane", settings);
+  double difference = 0.0;
+  for (const char* name : {"reaction", "shear", "peak_pressure", "stored_energy", "friction_work"})
+    difference = std::max(difference, std::abs(space.at(name).get<double>() / plane.at(name).get<double>() - 1.0));
+  EXPECT_EQ(space.at("closed").get<double>(), 2.0 * plane.at("closed").get<double>());
+  return difference;
+}
+
+// The nodes of the layer lie on two symmetry planes; friction acts along them.
+TEST(Layer, FlatIsPlaneStrain) { EXPECT_LE(difference_of_layer_and_plane({}), 1e-8); }
+
+// Auxiliary planes in space, nodal normals in the plane: the same but for the curvature within a facet.
+TEST(Layer, CurvedDiffersByWhatFallsWithTheMesh) {
+  const double coarse = difference_of_layer_and_plane({"contact/joint/geometry=current"}),
+               fine = difference_of_layer_and_plane({"contact/joint/geometry=current", "variables/n=16"});
+  EXPECT_LE(coarse, 1e-4);
+  EXPECT_LT(fine, coarse);
+}
+
+// CalculiX 2.20 finds 6.809 in four increments, and 6.771 in one.
+TEST(PressedBlocks, OneStepIsEnough) {
+  const Json found = quantities("scaling/pressed_blocks.xml", "blocks", {"variables/n=16", "linear solver/type=iterative"});
+  EXPECT_NEAR(found.at("reaction_z").get<double>(), 6.809, 0.001 * 6.809);
+}
+
+}  // namespace
