@@ -1,6 +1,7 @@
 #include "facet_coupling_3d.hpp"
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 
 namespace mortise {
@@ -46,7 +47,8 @@ bool FacetIntegrator3d::find_pairs(const std::vector<Facet<LocalOrdinal>>& maste
   return touches;
 }
 
-// A basis that is orthonormal over the covered part: with the rows sqrt(w) N of all points V = Q R, and L = R^-T N.
+// A basis that is orthonormal over the covered part: with the rows sqrt(w) N of all points V = Q R, and L = R^-T N. Where edges coincide, round-off
+// can turn a sliver of the fan over: its weights are then of that size below zero.
 bool FacetIntegrator3d::choose_basis(Eigen::Index nodes) {
   Eigen::Index points = 0;
   for (const Pair& pair : pairs_) points += static_cast<Eigen::Index>(pair.overlap.points.size());
@@ -54,7 +56,7 @@ bool FacetIntegrator3d::choose_basis(Eigen::Index nodes) {
   Eigen::Index row = 0;
   for (const Pair& pair : pairs_)
     for (const OverlapPoint& point : pair.overlap.points)
-      V.row(row++) = std::sqrt(point.weight) * facet_values(static_cast<std::size_t>(nodes), point.xi).transpose();
+      V.row(row++) = std::sqrt(std::max(point.weight, 0.0)) * facet_values(static_cast<std::size_t>(nodes), point.xi).transpose();
   const Eigen::HouseholderQR<Eigen::MatrixXd> factors(V);
   const FacetMatrix R = factors.matrixQR().topRows(nodes).triangularView<Eigen::Upper>();
   const FacetMatrix identity = FacetMatrix::Identity(nodes, nodes);

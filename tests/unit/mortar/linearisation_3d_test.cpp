@@ -131,5 +131,25 @@ TEST(MortarLinearisationInSpaceNearTies, StaysThatOfTheWay) {
   }
 }
 
+// Grids whose lines coincide in part, as those of bodies meshed with numbers that are multiples of one another do: whichever way round-off puts the
+// lines, the integrals are the same, and move as their derivatives say.
+TEST(MortarIntegralsInSpaceAtTies, AreContinuous) {
+  const Surfaces tied = two_patches({12, 12, 0.2, 0.8, 0.2, 0.8}, {16, 16, 0.0, 1.0, 0.0, 1.0});
+  const auto at = [&](double size, std::size_t seed) {
+    Surfaces moved = tied;
+    for (std::size_t n = 0; n < 3 * moved.points.size(); ++n)
+      moved.points[n / 3][static_cast<Eigen::Index>(n % 3)] += size * disorder(7 * n + 13 * seed);
+    return evaluated(moved, false)->dense();
+  };
+  const DenseCoupling exact = at(0.0, 0);
+  for (const double size : {1e-15, 1e-12, 1e-10, 1e-9, 1e-8, 1e-6})
+    for (std::size_t seed = 0; seed < 4; ++seed) {
+      const DenseCoupling moved = at(size, seed);
+      EXPECT_LT((moved.D - exact.D).cwiseAbs().maxCoeff(), 10.0 * 0.05 * size + 1e-16) << size;
+      EXPECT_LT((moved.M - exact.M).cwiseAbs().maxCoeff(), 10.0 * 0.05 * size + 1e-16) << size;
+      EXPECT_LT((moved.gap - exact.gap).cwiseAbs().maxCoeff(), 10.0 * 0.0025 * size + 1e-17) << size;
+    }
+}
+
 }  // namespace
 }  // namespace mortise
