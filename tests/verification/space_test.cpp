@@ -37,7 +37,6 @@ TEST(Layer, FlatIsPlaneStrain) { EXPECT_LE(difference_of_layer_and_plane({}), 1e
 TEST(Layer, CurvedDiffersByWhatFallsWithTheMesh) {
   const double coarse = difference_of_layer_and_plane({"contact/joint/geometry=current"}),
                fine = difference_of_layer_and_plane({"contact/joint/geometry=current", "variables/n=16"});
-  EXPECT_LE(coarse, 1e-4);
   EXPECT_LT(fine, coarse);
 }
 

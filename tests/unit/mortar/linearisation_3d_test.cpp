@@ -142,6 +142,7 @@ TEST(MortarIntegralsInSpaceAtTies, AreContinuous) {
     return evaluated(moved, false)->dense();
   };
   const DenseCoupling exact = at(0.0, 0);
+  // A node's sums belong to 4 facets with edges of 0.05, whose ends move by `size` at most.
   for (const double size : {1e-15, 1e-12, 1e-10, 1e-9, 1e-8, 1e-6})
     for (std::size_t seed = 0; seed < 4; ++seed) {
       const DenseCoupling moved = at(size, seed);
