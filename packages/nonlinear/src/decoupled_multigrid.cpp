@@ -37,7 +37,9 @@ DecoupledSystem::DecoupledSystem(const Matrix& A, const Decoupling& decoupling, 
   inverse_ = rcp(new Matrix(dofs, static_cast<std::size_t>(dimension)));
   const auto eliminated = decoupling.eliminated->getLocalMatrixHost();
   for (LocalOrdinal first = 0; first < eliminated.numRows(); first += dimension) {
-    if (eliminated.rowConst(first).length == 0) continue;
+    bool is_slave = false;
+    for (LocalOrdinal i = 0; i < dimension; ++i) is_slave = is_slave || eliminated.rowConst(first + i).length > 0;
+    if (!is_slave) continue;
     const Block N = diagonal_block(*decoupling.eliminated, first, dimension);
     const Block block = N * diagonal_block(A, first, dimension) * N, rest = Block::Identity(dimension, dimension) - N;
     const Block inverse = (block + rest).inverse() * N;

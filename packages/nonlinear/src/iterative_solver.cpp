@@ -30,6 +30,7 @@ Teuchos::ParameterList muelu_defaults(int equations, GlobalOrdinal rows, int ran
   list.set("max levels", 8);
   list.set("multigrid algorithm", "sa");
   list.set("sa: use filtered matrix", false);
+  list.set("rap: fix zero diagonals", true);  // of coarse dofs beyond those of an aggregate of a single node
   list.set("aggregation: drop scheme", "distance laplacian");
   list.set("aggregation: drop tol", 1e-8);
   list.set("smoother: type", "RELAXATION");
@@ -55,6 +56,9 @@ Teuchos::ParameterList belos_defaults(const LinearSolverOptions& options, double
   list.set("Verbosity", 0);
   return list;
 }
+
+/// What stands for 0 in a rigid body mode, as a share of its largest entry.
+constexpr double vanishing = 1e-14;
 
 /// Iterations beyond those of a fresh hierarchy after which an earlier one is given up within a solve, and for the next one.
 constexpr int most_extra_iterations = 10, fewest_extra_iterations = 3;
@@ -149,9 +153,13 @@ class IterativeSolver : public LinearSolver {
     fresh_iterations_per_digit_ = 0.0;
   }
 
-  // A row that is a multiple of the identity's (Dirichlet) takes no part in a rigid motion.
+  // A row that is a multiple of the identity's (Dirichlet) takes no part in a rigid motion. Elsewhere no entry is 0 exactly: MueLu ends, on one rank
+  // alone, where a mode vanishes on an aggregate of a single node, as a rotation does on its axis and a translation at a node that slips across it.
   RCP<MultiVector> modes_without_fixed_rows() const {
     const auto modes = rcp(new MultiVector(*near_null_space_.rigid_body_modes, Teuchos::Copy));
+    if (decoupled_) decoupled_->take_out_eliminated(*modes);
+    Teuchos::Array<double> largest(modes->getNumVectors());
+    modes->normInf(largest());
     const auto view = modes->getLocalViewHost(Tpetra::Access::ReadWrite);
     const auto local = matrix_->getLocalMatrixHost();
     const auto local_columns = matrix_->getColMap()->getLocalMap();
@@ -161,10 +169,9 @@ class IterativeSolver : public LinearSolver {
       bool fixed = true;
       for (LocalOrdinal k = 0; k < entries.length && fixed; ++k)
         fixed = entries.value(k) == 0.0 || local_columns.getGlobalElement(entries.colidx(k)) == local_rows.getGlobalElement(row);
-      if (!fixed) continue;
-      for (std::size_t mode = 0; mode < view.extent(1); ++mode) view(row, mode) = 0.0;
+      for (std::size_t mode = 0; mode < view.extent(1); ++mode)
+        if (fixed || view(row, mode) == 0.0) view(row, mode) = fixed ? 0.0 : vanishing * largest[mode];
     }
-    if (decoupled_) decoupled_->take_out_eliminated(*modes);
     return modes;
   }
 
