@@ -65,9 +65,10 @@ constexpr int most_extra_iterations = 10, fewest_extra_iterations = 3;
 
 class IterativeSolver : public LinearSolver {
  public:
-  IterativeSolver(const LinearSolverOptions& options, const Timers& timers) : options_(options), timers_(timers) {}
+  IterativeSolver(const LinearSolverOptions& options, const Timers& timers, std::string name)
+      : options_(options), timers_(timers), name_(std::move(name)) {}
 
-  std::string name() const override { return "GMRES + MueLu smoothed aggregation"; }
+  std::string name() const override { return name_; }
   bool uses_near_null_space() const override { return true; }
   int symbolic_setups() const override { return setups_; }
 
@@ -203,6 +204,7 @@ class IterativeSolver : public LinearSolver {
   LinearSolverOptions options_;
   double tolerance_ = 0.0;  ///< of this solve
   Timers timers_;
+  std::string name_;
   RCP<const Matrix> matrix_;
   NearNullSpace near_null_space_;
   RCP<const Operator> preconditioner_;
@@ -236,9 +238,10 @@ void check_lists(const LinearSolverOptions& options, const RCP<const Communicato
 
 }  // namespace
 
-std::unique_ptr<LinearSolver> make_iterative_solver(const LinearSolverOptions& options, const RCP<const Communicator>& comm, const Timers& timers) {
+std::unique_ptr<LinearSolver> make_iterative_solver(const LinearSolverOptions& options, const RCP<const Communicator>& comm, const Timers& timers,
+                                                    const std::string& chosen) {
   check_lists(options, comm);
-  return std::make_unique<IterativeSolver>(options, timers);
+  return std::make_unique<IterativeSolver>(options, timers, chosen + "GMRES + MueLu smoothed aggregation");
 }
 
 }  // namespace mortise::detail

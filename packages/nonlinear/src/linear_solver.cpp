@@ -7,7 +7,8 @@ namespace mortise {
 
 void LinearSolverOptions::describe(Parameters& parameters) {
   parameters.add("type", kind, {{"automatic", Kind::automatic}, {"mumps", Kind::mumps}, {"klu2", Kind::klu2}, {"iterative", Kind::iterative}},
-                 "automatic: MUMPS; mumps: direct, on any number of ranks; klu2: direct, on one rank; iterative: GMRES with algebraic multigrid");
+                 "automatic: iterative in space from 10000 unknowns on, otherwise mumps; mumps: direct, on any number of ranks; klu2: direct, on one "
+                 "rank; iterative: GMRES with algebraic multigrid");
   parameters.add("residual bound", residual_bound,
                  Says("largest true relative residual |b - A x| / |b| of a direct solver; beyond it the step is undone").unit("-").above(0.0));
   parameters.add("tolerance", tolerance, Says("relative residual to which the iterative solver goes at most").unit("-").above(0.0).below(1.0));
@@ -23,7 +24,8 @@ void LinearSolverOptions::describe(Parameters& parameters) {
   parameters.verbatim("belos", belos, "parameters of Belos that replace or add to those Mortise sets");
 }
 
-std::unique_ptr<LinearSolver> make_linear_solver(const LinearSolverOptions& options, const RCP<const Communicator>& comm, const Timers& timers) {
+std::unique_ptr<LinearSolver> make_linear_solver(const LinearSolverOptions& options, const RCP<const Communicator>& comm, const Timers& timers,
+                                                 const LinearSystemTraits& traits) {
   using Kind = LinearSolverOptions::Kind;
   switch (options.kind.value) {
     case Kind::klu2:
@@ -32,8 +34,11 @@ std::unique_ptr<LinearSolver> make_linear_solver(const LinearSolverOptions& opti
                          "klu2 runs on one rank only: on more, this Trilinos' KLU2 returns wrong solutions without an error; use mumps");
       return detail::make_klu2_solver(options, timers);
     case Kind::iterative:
-      return detail::make_iterative_solver(options, comm, timers);
+      if (!traits.not_iterative.empty()) throw InputError(options.kind.place, traits.not_iterative);
+      return detail::make_iterative_solver(options, comm, timers, "");
     case Kind::automatic:
+      if (traits.dimension == 3 && traits.unknowns >= LinearSolverOptions::fewest_for_multigrid && traits.not_iterative.empty())
+        return detail::make_iterative_solver(options, comm, timers, "automatic: ");
       return detail::make_mumps_solver(options, timers, "automatic: MUMPS");
     case Kind::mumps:
       break;

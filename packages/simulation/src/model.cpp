@@ -158,6 +158,21 @@ Effects effects_of(const Scene& scene, const Bodies& bodies) {
       {"friction", rubbing},     {"rigid bodies", rigid}, {"reference points", ties}, {"loads", loads},        {"boundary conditions", conditions}};
 }
 
+LinearSystemTraits traits_of(const Scene& scene, const Map& dofs) {
+  LinearSystemTraits traits;
+  traits.unknowns = static_cast<GlobalOrdinal>(dofs.getGlobalNumElements());
+  traits.dimension = dimension(scene.kinematics);
+  for (const auto& tie : scene.reference_points)
+    if (tie.value.follows != TieOptions::Follows::all)
+      traits.not_iterative = fmt::format(
+          "the iterative solver needs all components of a node as unknowns, but nodes follow \"{}\" in one component; take \"mumps\"", tie.name);
+  for (const auto& pair : scene.contact)
+    if (pair.value.contact.formulation.options->elimination() == Elimination::none)
+      traits.not_iterative =
+          fmt::format("the iterative solver does not know the saddle point system of \"{}\"; take \"mumps\"", pair.value.contact.formulation.type);
+  return traits;
+}
+
 }  // namespace
 
 Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Timers& timers) {
@@ -194,16 +209,6 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   collect([&] { parts_.prescribed = std::make_shared<PrescribedBoundary>(PrescribedMotion(*bodies_, scene.boundary_conditions)); });
   if (!mesh_->reference_points.empty()) {
     parts_.dependent = std::make_shared<TiedNodes>(*bodies_);
-    const auto shares_part = [](const auto& tie) { return tie.value.follows != TieOptions::Follows::all; };
-    const auto part = std::find_if(scene.reference_points.begin(), scene.reference_points.end(), shares_part);
-    if (part != scene.reference_points.end() && scene.linear_solver.kind.value == LinearSolverOptions::Kind::iterative)
-      collect([&] {
-        throw InputError(
-            scene.linear_solver.kind.place,
-            fmt::format("the iterative solver needs all components of a node as unknowns, but nodes follow \"{}\" in one component; take "
-                        "\"mumps\"",
-                        part->name));
-      });
   }
   std::vector<ContactPair> pairs;
   for (const auto& pair : scene.contact) collect([&] { pairs.push_back(make_pair(*mesh_, *bodies_, pair, pair.value.slave, pair.value.master)); });
@@ -215,15 +220,7 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
       pairs.back().second_pass_of = first;
     });
   }
-  for (const auto& pair : scene.contact)
-    if (pair.value.contact.formulation.options->elimination() == Elimination::none &&
-        scene.linear_solver.kind.value == LinearSolverOptions::Kind::iterative)
-      collect([&] {
-        throw InputError(
-            scene.linear_solver.kind.place,
-            fmt::format("the iterative solver does not know the saddle point system of \"{}\"; take \"mumps\"", pair.value.contact.formulation.type));
-      });
-  collect([&] { parts_.linear_solver = make_linear_solver(scene.linear_solver, comm, timers); });
+  collect([&] { parts_.linear_solver = make_linear_solver(scene.linear_solver, comm, timers, traits_of(scene, *parts_.dofs)); });
   collect.throw_found(*comm);
 
   std::vector<LocalOrdinal> not_free = parts_.prescribed->dofs();

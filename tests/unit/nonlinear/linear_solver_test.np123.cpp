@@ -73,6 +73,22 @@ std::string failure_of(LinearSolver& solver, const Vector& b, Vector& x) {
   return {};
 }
 
+TEST(Automatic, IsIterativeForLargeSystemsOfSpaceThatItCanSolve) {
+  const auto chosen = [](LinearSystemTraits traits) {
+    LinearSolverOptions options;
+    options.kind.value = Kind::automatic;
+    return make_linear_solver(options, Tpetra::getDefaultComm(), Timers(), traits)->name();
+  };
+  constexpr GlobalOrdinal few = LinearSolverOptions::fewest_for_multigrid - 1, many = few + 1;
+  EXPECT_EQ(chosen({many, 3, ""}), "automatic: GMRES + MueLu smoothed aggregation");
+  EXPECT_EQ(chosen({few, 3, ""}), "automatic: MUMPS");
+  EXPECT_EQ(chosen({many, 2, ""}), "automatic: MUMPS");
+  EXPECT_EQ(chosen({many, 3, "it has multipliers"}), "automatic: MUMPS");
+  LinearSolverOptions iterative;
+  iterative.kind.value = Kind::iterative;
+  EXPECT_THROW(make_linear_solver(iterative, Tpetra::getDefaultComm(), Timers(), {many, 3, "it has multipliers"}), InputError);
+}
+
 class Mumps : public ::testing::TestWithParam<Numbering> {};
 
 // A backward stable solver leaves a residual of round-off times the condition number, here about 1e3.

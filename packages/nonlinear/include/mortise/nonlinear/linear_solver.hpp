@@ -55,9 +55,18 @@ class LinearSolver {
   virtual LinearSolveReport solve(const Vector& b, Vector& x, double tolerance = 0.0) = 0;
 };
 
-/// Which solver, and how. `automatic` is MUMPS.
+/// What is known of the systems to be solved before there is one.
+struct LinearSystemTraits {
+  GlobalOrdinal unknowns = 0;
+  int dimension = 2;
+  std::string not_iterative;  ///< why the iterative solver cannot solve them, a sentence; empty: it can
+};
+
+/// Which solver, and how. `automatic`: the iterative solver in space from `fewest_for_multigrid` unknowns on if it can solve the systems, else MUMPS.
 struct LinearSolverOptions {
   enum class Kind { automatic, mumps, klu2, iterative };
+  /// From here on it takes less time than a factorisation, and much less memory (docs/results/space.md).
+  static constexpr GlobalOrdinal fewest_for_multigrid = 10000;
   Located<Kind> kind{Kind::automatic, {}};
   double residual_bound = 1e-8;     ///< of the direct solvers' true relative residual
   double tolerance = 1e-10;         ///< of the iterative solver
@@ -67,8 +76,9 @@ struct LinearSolverOptions {
   void describe(Parameters& parameters);
 };
 
-/// Makes the solver that `options` ask for; throws InputError where that cannot work (KLU2 on more than one rank, a parameter that MueLu or
-/// Belos does not know).
-std::unique_ptr<LinearSolver> make_linear_solver(const LinearSolverOptions& options, const RCP<const Communicator>& comm, const Timers& timers);
+/// Makes the solver that `options` ask for; throws InputError where that cannot work (KLU2 on more than one rank, systems that the iterative solver
+/// cannot solve, a parameter that MueLu or Belos does not know).
+std::unique_ptr<LinearSolver> make_linear_solver(const LinearSolverOptions& options, const RCP<const Communicator>& comm, const Timers& timers,
+                                                 const LinearSystemTraits& traits = {});
 
 }  // namespace mortise
