@@ -69,10 +69,9 @@ class IterativeSolver : public LinearSolver {
       : options_(options), timers_(timers), name_(std::move(name)) {}
 
   std::string name() const override { return name_; }
-  bool uses_near_null_space() const override { return true; }
   int symbolic_setups() const override { return setups_; }
 
-  void set_matrix(const RCP<const Matrix>& matrix, bool, const NearNullSpace& near_null_space) override {
+  void set_matrix(const RCP<const Matrix>& matrix, bool, const std::function<NearNullSpace()>& near_null_space) override {
     matrix_ = matrix;
     near_null_space_ = near_null_space;
     is_fresh_ = false;
@@ -122,19 +121,20 @@ class IterativeSolver : public LinearSolver {
   void set_up() {
     const auto scope = timers_.scope("linear setup");
     forget();
+    const NearNullSpace near_null_space = near_null_space_ ? near_null_space_() : NearNullSpace{};
     auto matrix = Teuchos::rcp_const_cast<Matrix>(matrix_);
     const auto rows = static_cast<GlobalOrdinal>(matrix->getGlobalNumRows());
     int equations = 1;
-    if (!near_null_space_.coordinates.is_null())
-      equations = static_cast<int>(rows / static_cast<GlobalOrdinal>(near_null_space_.coordinates->getGlobalLength()));
-    if (near_null_space_.decoupling) {
-      decoupled_ = std::make_shared<DecoupledSystem>(*matrix_, *near_null_space_.decoupling, equations);
+    if (!near_null_space.coordinates.is_null())
+      equations = static_cast<int>(rows / static_cast<GlobalOrdinal>(near_null_space.coordinates->getGlobalLength()));
+    if (near_null_space.decoupling) {
+      decoupled_ = std::make_shared<DecoupledSystem>(*matrix_, *near_null_space.decoupling, equations);
       matrix = decoupled_->matrix();
     }
 
     Teuchos::ParameterList list = muelu_defaults(equations, rows, matrix->getComm()->getSize());
     auto& user_data = list.sublist("user data");
-    if (near_null_space_.coordinates.is_null()) {
+    if (near_null_space.coordinates.is_null()) {
       list.set("aggregation: drop scheme", "classical");
       list.set("aggregation: drop tol", 0.0);
       const auto line = rcp(new MultiVector(matrix->getRowMap(), 1));  // the partitioner of coarse levels asks for coordinates
@@ -142,9 +142,9 @@ class IterativeSolver : public LinearSolver {
         line->replaceLocalValue(static_cast<LocalOrdinal>(row), 0, static_cast<double>(matrix->getRowMap()->getGlobalElement(row)));
       user_data.set("Coordinates", line);
     } else {
-      user_data.set("Coordinates", rcp(new MultiVector(*near_null_space_.coordinates, Teuchos::Copy)));
+      user_data.set("Coordinates", rcp(new MultiVector(*near_null_space.coordinates, Teuchos::Copy)));
     }
-    if (!near_null_space_.rigid_body_modes.is_null()) user_data.set("Nullspace", modes_without_fixed_rows());
+    if (!near_null_space.rigid_body_modes.is_null()) user_data.set("Nullspace", modes_without_fixed_rows(*near_null_space.rigid_body_modes));
     list.setParameters(options_.muelu.value);
 
     const RCP<Operator> as_operator = matrix;
@@ -156,8 +156,8 @@ class IterativeSolver : public LinearSolver {
 
   // A row that is a multiple of the identity's (Dirichlet) takes no part in a rigid motion. Elsewhere no entry is 0 exactly: MueLu ends, on one rank
   // alone, where a mode vanishes on an aggregate of a single node, as a rotation does on its axis and a translation at a node that slips across it.
-  RCP<MultiVector> modes_without_fixed_rows() const {
-    const auto modes = rcp(new MultiVector(*near_null_space_.rigid_body_modes, Teuchos::Copy));
+  RCP<MultiVector> modes_without_fixed_rows(const MultiVector& rigid_body_modes) const {
+    const auto modes = rcp(new MultiVector(rigid_body_modes, Teuchos::Copy));
     if (decoupled_) decoupled_->take_out_eliminated(*modes);
     Teuchos::Array<double> largest(modes->getNumVectors());
     modes->normInf(largest());
@@ -206,7 +206,7 @@ class IterativeSolver : public LinearSolver {
   Timers timers_;
   std::string name_;
   RCP<const Matrix> matrix_;
-  NearNullSpace near_null_space_;
+  std::function<NearNullSpace()> near_null_space_;
   RCP<const Operator> preconditioner_;
   std::shared_ptr<const DecoupledSystem> decoupled_;  ///< null: the matrix is taken as it is
   int setups_ = 0;

@@ -33,15 +33,13 @@ class LinearSolver {
   virtual ~LinearSolver() = default;
   virtual std::string name() const = 0;
 
-  /// Whether set_matrix() looks at its near null space (so that nobody computes one in vain).
-  virtual bool uses_near_null_space() const { return false; }
-
   /// How often the work that depends on the pattern alone was done (analysis of a direct solver, set-up of multigrid).
   virtual int symbolic_setups() const = 0;
 
   /// Takes the matrix of the next solves. `graph_changed`: the pattern is not that of the last call, so nothing symbolic may be reused.
-  /// The matrix must live, unchanged, until the next call.
-  virtual void set_matrix(const RCP<const Matrix>& matrix, bool graph_changed, const NearNullSpace& near_null_space) = 0;
+  /// The matrix must live, unchanged, until the next call, and so must what `near_null_space` looks at: it is asked, by solve(), only if it is
+  /// needed, and may be empty.
+  virtual void set_matrix(const RCP<const Matrix>& matrix, bool graph_changed, const std::function<NearNullSpace()>& near_null_space) = 0;
 
   /// Relative residuals among which solve() may be told to choose; none: it is as exact as it can be.
   struct Tolerances {
