@@ -66,6 +66,7 @@ std::vector<int> ranks_of_elements(const BodySet& bodies, const std::vector<std:
   if (bodies.element_count() > std::numeric_limits<idx_t>::max() / 8) throw std::runtime_error("the mesh has more elements than METIS can number");
   idx_t elements = static_cast<idx_t>(bodies.element_count()), nodes = static_cast<idx_t>(bodies.node_count());
   std::vector<idx_t> part(elements);
+  if (ranks == 1) return std::vector<int>(part.size(), 0);  // METIS wants two parts
   if (elements < ranks) {
     std::iota(part.begin(), part.end(), 0);
     return {part.begin(), part.end()};
