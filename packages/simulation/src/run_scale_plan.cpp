@@ -92,6 +92,10 @@ void say(const ScaleOptions& options, const ScalePlan& plan, RunLog& log) {
     log.info(fmt::format("{:<16}{:>12.5g}{:>12.5g}{:>12.5g}{:>12.3f}", column.name, spread.least, spread.mean, spread.most, over_mean(spread)));
   }
   for (const PairPlan& pair : plan.pairs) {
+    if (pair.facets == 0) {
+      log.info(fmt::format("contact {}: nothing to integrate, with node to segment or while no facets overlap within reach", pair.name));
+      continue;
+    }
     log.info(fmt::format("contact {}: {} slave facets, {} overlaps; largest over mean work of the ranks {:.3f}{}", pair.name, pair.facets,
                          pair.segments, pair.imbalance, pair.is_moved ? fmt::format(", as owned {:.3f}", pair.imbalance_as_owned) : ""));
     if (pair.facets < options.plan)

@@ -1,5 +1,5 @@
 #pragma once
-// Facets of a surface shared out to parts by their places and work.
+// Which rank integrates a facet: the rules that runs and plans share.
 
 #include <array>
 #include <vector>
