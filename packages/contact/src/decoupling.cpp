@@ -18,7 +18,8 @@ namespace {
 // Rows of an operator that is the identity but for the rows of some slave nodes.
 class NearIdentity {
  public:
-  explicit NearIdentity(const RCP<const Map>& dofs, std::size_t widest) : matrix_(rcp(new Matrix(dofs, widest))) {}
+  NearIdentity(const RCP<const Map>& dofs, const std::vector<std::size_t>& sizes)
+      : matrix_(rcp(new Matrix(dofs, Teuchos::arrayViewFromVector(sizes)))) {}
 
   void add(LocalOrdinal row, GlobalOrdinal column, double value) {
     if (value != 0.0) matrix_->insertGlobalValues(matrix_->getRowMap()->getGlobalElement(row), 1, &value, &column);
@@ -44,10 +45,12 @@ Decoupling ContactSystem::decoupling(const Vector& z) const {
   const Implementation& self = *implementation_;
   const int dimension = self.dimension;
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
-  std::size_t widest = 1;
+  std::vector<std::size_t> sizes(self.dofs->getNodeNumElements(), 1);
   for (const auto& pair : self.pairs)
-    for (std::size_t s = 0; s < pair->rows().size(); ++s) widest = std::max(widest, dimension * (1 + pair->interface().coupled_nodes(s).size()));
-  NearIdentity trial(self.dofs, widest), test(self.dofs, widest);
+    for (std::size_t s = 0; s < pair->rows().size(); ++s)
+      std::fill_n(sizes.begin() + dimension * pair->slave_nodes()[s].owned_node, dimension,
+                  dimension * (1 + pair->interface().coupled_nodes(s).size()));
+  NearIdentity trial(self.dofs, sizes), test(self.dofs, sizes);
   Decoupling result;
   std::vector<char> is_slave(self.dofs->getNodeNumElements(), 0);
   std::vector<std::pair<LocalOrdinal, SpatialMatrix>> eliminated;  // owned node, N_j

@@ -57,7 +57,7 @@ MeshShare share_of(const BodySet& bodies, const MeshPlan& plan, int rank, const 
 }  // namespace
 
 MeshPlan plan_mesh(const std::vector<BodyDescription>& bodies, const std::vector<std::string>& contact_sides, int ranks) {
-  check_bodies(bodies, {});
+  check_bodies(bodies);
   const BodySet set(bodies);
   MeshPlan plan;
   plan.rank_of_element = ranks_of_elements(set, contact_flags(set, bodies, contact_sides), ranks);

@@ -27,7 +27,7 @@ class DirectSolver : public LinearSolver {
     if (graph_changed) amesos2_ = Teuchos::null;
   }
 
-  LinearSolveReport solve(const Vector& b, Vector& x) override {
+  LinearSolveReport solve(const Vector& b, Vector& x, double) override {
     const double size = check_finite(*matrix_, b, name_);
     if (size == 0.0) {
       x.putScalar(0.0);

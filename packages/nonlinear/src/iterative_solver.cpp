@@ -10,6 +10,7 @@
 #include <MueLu_ParameterListInterpreter.hpp>
 #include <MueLu_TpetraOperator.hpp>
 #include <algorithm>
+#include <cmath>
 
 #include "decoupled_multigrid.hpp"
 #include "linear_system_checks.hpp"
@@ -46,9 +47,9 @@ Teuchos::ParameterList muelu_defaults(int equations, GlobalOrdinal rows, int ran
   return list;
 }
 
-Teuchos::ParameterList belos_defaults(const LinearSolverOptions& options) {
+Teuchos::ParameterList belos_defaults(const LinearSolverOptions& options, double tolerance) {
   Teuchos::ParameterList list("Belos");
-  list.set("Convergence Tolerance", options.tolerance);
+  list.set("Convergence Tolerance", tolerance);
   list.set("Maximum Iterations", options.maximum_iterations);
   list.set("Num Blocks", std::min(options.maximum_iterations, 200));
   list.set("Verbosity", 0);
@@ -73,7 +74,12 @@ class IterativeSolver : public LinearSolver {
     if (is_worn_ || preconditioner_.is_null() || !preconditioner_->getDomainMap()->isSameAs(*matrix->getDomainMap())) forget();
   }
 
-  LinearSolveReport solve(const Vector& b, Vector& x) override {
+  std::optional<Tolerances> tolerances() const override {
+    return Tolerances{options_.tolerance, std::max(options_.tolerance, options_.largest_tolerance)};
+  }
+
+  LinearSolveReport solve(const Vector& b, Vector& x, double tolerance) override {
+    tolerance_ = std::max(tolerance, options_.tolerance);
     const double size = check_finite(*matrix_, b, name());
     x.putScalar(0.0);
     if (size == 0.0) return {};
@@ -95,9 +101,9 @@ class IterativeSolver : public LinearSolver {
 
     Vector r(b.getMap());
     report.relative_residual = true_residual(*matrix_, b, x, r) / size;
-    if (!(report.relative_residual <= 10.0 * options_.tolerance))
+    if (!(report.relative_residual <= 10.0 * tolerance_))
       throw StepFailure(FailureKind::linear_solver, fmt::format("{}: the true relative residual is {:.1e} after {} iterations (tolerance {:.1e})",
-                                                                name(), report.relative_residual, report.iterations, options_.tolerance));
+                                                                name(), report.relative_residual, report.iterations, tolerance_));
     return report;
   }
 
@@ -140,7 +146,7 @@ class IterativeSolver : public LinearSolver {
     preconditioner_ = MueLu::CreateTpetraPreconditioner<Scalar, LocalOrdinal, GlobalOrdinal, NodeType>(as_operator, list);
     ++setups_;
     is_fresh_ = true;
-    fresh_iterations_ = 0;
+    fresh_iterations_per_digit_ = 0.0;
   }
 
   // A row that is a multiple of the identity's (Dirichlet) takes no part in a rigid motion.
@@ -162,30 +168,33 @@ class IterativeSolver : public LinearSolver {
     return modes;
   }
 
-  // A hierarchy serves the matrices that follow, those of the next Newton steps, until they take half as many iterations again as the one that it
-  // was made for.
+  // A hierarchy serves the matrices that follow, those of the next Newton steps, until they take half as many iterations for a digit again as the one
+  // that it was made for.
   int iterate(const Vector& b, Vector& x) {
     const auto scope = timers_.scope("linear solve");
     x.putScalar(0.0);
     RCP<const Operator> preconditioner = preconditioner_;
-    if (decoupled_) preconditioner = rcp(new DecoupledPreconditioner(matrix_, decoupled_, preconditioner_));
+    if (decoupled_) preconditioner = rcp(new DecoupledPreconditioner(*matrix_, decoupled_, preconditioner_));
     const auto problem = rcp(new LinearProblem(matrix_, rcp(&x, false), rcp(&b, false)));
     problem->setRightPrec(preconditioner);
     if (!problem->setProblem()) throw std::runtime_error("Belos refuses the linear problem");
-    const auto list = rcp(new Teuchos::ParameterList(belos_defaults(options_)));
+    const auto list = rcp(new Teuchos::ParameterList(belos_defaults(options_, tolerance_)));
     list->setParameters(options_.belos.value);
-    if (!is_fresh_) list->set("Maximum Iterations", std::min(list->get<int>("Maximum Iterations"), 2 * fresh_iterations_ + most_extra_iterations));
+    const double digits = -std::log10(tolerance_), expected = digits * fresh_iterations_per_digit_;
+    if (!is_fresh_)
+      list->set("Maximum Iterations", std::min(list->get<int>("Maximum Iterations"), static_cast<int>(2.0 * expected) + most_extra_iterations));
     Belos::TpetraSolverFactory<Scalar, MultiVector, Operator> factory;
     const auto gmres = factory.create("GMRES", list);
     gmres->setProblem(problem);
     converged_ = gmres->solve() == Belos::Converged;
     const int iterations = gmres->getNumIters();
-    if (is_fresh_) fresh_iterations_ = std::max(fresh_iterations_, iterations);
-    is_worn_ = iterations > fresh_iterations_ + std::max(fresh_iterations_ / 2, fewest_extra_iterations);
+    if (is_fresh_) fresh_iterations_per_digit_ = std::max(fresh_iterations_per_digit_, iterations / digits);
+    is_worn_ = iterations > 1.5 * digits * fresh_iterations_per_digit_ + fewest_extra_iterations;
     return iterations;
   }
 
   LinearSolverOptions options_;
+  double tolerance_ = 0.0;  ///< of this solve
   Timers timers_;
   RCP<const Matrix> matrix_;
   NearNullSpace near_null_space_;
@@ -193,7 +202,7 @@ class IterativeSolver : public LinearSolver {
   std::shared_ptr<const DecoupledSystem> decoupled_;  ///< null: the matrix is taken as it is
   int setups_ = 0;
   bool is_fresh_ = false, is_worn_ = false, converged_ = false;  ///< the hierarchy: made for this matrix, not to be kept for the next; the last solve
-  int fresh_iterations_ = 0;                                     ///< with the matrix that the hierarchy was made for
+  double fresh_iterations_per_digit_ = 0.0;                      ///< of the residual, with the matrix that the hierarchy was made for
 };
 
 // Both packages check names and types; asked here, with no matrix at hand, so that a misspelt name is found before the mesh is made.
@@ -207,7 +216,7 @@ void check_lists(const LinearSolverOptions& options, const RCP<const Communicato
     found.push_back({options.muelu.place, error.what()});
   }
   try {
-    const auto list = rcp(new Teuchos::ParameterList(belos_defaults(options)));
+    const auto list = rcp(new Teuchos::ParameterList(belos_defaults(options, options.tolerance)));
     list->setParameters(options.belos.value);
     Belos::TpetraSolverFactory<Scalar, MultiVector, Operator> factory;
     const auto gmres = factory.create("GMRES", Teuchos::null);

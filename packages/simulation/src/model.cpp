@@ -43,7 +43,7 @@ const MaterialChoice& material_of(const Scene& scene, const BodyOptions& body) {
 std::vector<ReferencePointDescription> reference_points(const Scene& scene) {
   const bool axisymmetric = scene.kinematics == Kinematics::axisymmetric;
   const auto position = [](const std::vector<double>& given) {
-    return given.empty() ? std::nullopt : std::optional<std::array<double, 2>>({given[0], given[1]});
+    return given.empty() ? std::nullopt : std::optional<std::array<double, 3>>({given[0], given[1], given.size() > 2 ? given[2] : 0.0});
   };
   std::vector<ReferencePointDescription> points;
   for (const auto& body : scene.bodies)
@@ -58,15 +58,15 @@ void tie(Mesh& mesh, const Scene& scene) {
   Collector collect;
   for (const auto& body : scene.bodies)
     if (body.value.rigid.value) {
-      collect([&] { add_followers(mesh, point, {body.name, body.place}, {true, true}); });
+      collect([&] { add_followers(mesh, point, {body.name, body.place}, {true, true, true}); });
       ++point;
     }
   for (const auto& tie : scene.reference_points) {
     using Follows = TieOptions::Follows;
     const Follows follows = tie.value.follows;
     // The nodes of a ring cannot share a radial displacement and stay a rigid ring.
-    const bool x = follows == Follows::x || (follows == Follows::both && scene.kinematics != Kinematics::axisymmetric);
-    collect([&] { add_followers(mesh, point, tie.value.set, {x, follows != Follows::x}); });
+    const bool all = follows == Follows::all, x = follows == Follows::x || (all && scene.kinematics != Kinematics::axisymmetric);
+    collect([&] { add_followers(mesh, point, tie.value.set, {x, all || follows == Follows::y, all || follows == Follows::z}); });
     ++point;
   }
   collect.throw_found(*mesh.comm);
@@ -183,9 +183,15 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   collect([&] { parts_.prescribed = std::make_shared<PrescribedBoundary>(PrescribedMotion(*bodies_, scene.boundary_conditions)); });
   if (!mesh_->reference_points.empty()) {
     parts_.dependent = std::make_shared<TiedNodes>(*bodies_);
-    if (scene.linear_solver.kind.value == LinearSolverOptions::Kind::iterative)
+    const auto shares_part = [](const auto& tie) { return tie.value.follows != TieOptions::Follows::all; };
+    const auto part = std::find_if(scene.reference_points.begin(), scene.reference_points.end(), shares_part);
+    if (part != scene.reference_points.end() && scene.linear_solver.kind.value == LinearSolverOptions::Kind::iterative)
       collect([&] {
-        throw InputError(scene.linear_solver.kind.place, "the iterative solver does not know rigid bodies and reference points yet; take \"mumps\"");
+        throw InputError(
+            scene.linear_solver.kind.place,
+            fmt::format("the iterative solver needs all components of a node as unknowns, but nodes follow \"{}\" in one component; take "
+                        "\"mumps\"",
+                        part->name));
       });
   }
   std::vector<ContactPair> pairs;

@@ -5,8 +5,8 @@ namespace mortise {
 std::vector<BodyDescription> body_descriptions(const Scene& scene) {
   std::vector<BodyDescription> descriptions;
   for (const auto& body : scene.bodies)
-    descriptions.push_back(
-        {body.name, body.place, body.value.mesh.options, body.value.rigid.value ? CellShape::line2 : cell_shape(body.value.element)});
+    descriptions.push_back({body.name, body.place, body.value.mesh.options,
+                            body.value.rigid.value ? rigid_shape(body.value.mesh.options->dimension()) : cell_shape(body.value.element)});
   return descriptions;
 }
 

@@ -43,18 +43,25 @@ class LinearSolver {
   /// The matrix must live, unchanged, until the next call.
   virtual void set_matrix(const RCP<const Matrix>& matrix, bool graph_changed, const NearNullSpace& near_null_space) = 0;
 
-  /// Solves A x = b (the first solve after set_matrix() factorises) and checks the true residual. Throws StepFailure(linear_solver), on
-  /// every rank, if the matrix or b is not finite, the matrix is singular or the true relative residual exceeds the bound of the options
-  /// (the iterative solver: ten times its tolerance).
-  virtual LinearSolveReport solve(const Vector& b, Vector& x) = 0;
+  /// Relative residuals among which solve() may be told to choose; none: it is as exact as it can be.
+  struct Tolerances {
+    double least, largest;
+  };
+  virtual std::optional<Tolerances> tolerances() const { return std::nullopt; }
+
+  /// Solves A x = b (the first solve after set_matrix() factorises) to a relative residual of `tolerance`, or of tolerances()->least if that is
+  /// larger, and checks the true residual. Throws StepFailure(linear_solver), on every rank, if the matrix or b is not finite, the matrix is
+  /// singular or the true relative residual exceeds the bound of the options (the iterative solver: ten times the tolerance).
+  virtual LinearSolveReport solve(const Vector& b, Vector& x, double tolerance = 0.0) = 0;
 };
 
 /// Which solver, and how. `automatic` is MUMPS.
 struct LinearSolverOptions {
   enum class Kind { automatic, mumps, klu2, iterative };
   Located<Kind> kind{Kind::automatic, {}};
-  double residual_bound = 1e-8;  ///< of the direct solvers' true relative residual
-  double tolerance = 1e-10;      ///< of the iterative solver
+  double residual_bound = 1e-8;     ///< of the direct solvers' true relative residual
+  double tolerance = 1e-10;         ///< of the iterative solver
+  double largest_tolerance = 1e-3;  ///< of the iterative solver, while Newton's iterate is far from the solution
   int maximum_iterations = 500;
   Located<Teuchos::ParameterList> muelu, belos;  ///< override what Mortise sets; checked by MueLu and Belos
   void describe(Parameters& parameters);
