@@ -1,7 +1,6 @@
 #include <Trilinos_version.h>
 #include <fmt/format.h>
 #include <mpi.h>
-#include <sched.h>
 
 #include <Eigen/Core>
 #include <cstdlib>
@@ -18,12 +17,6 @@ std::string mpi_version() {
   MPI_Get_library_version(text, &length);
   const std::string whole(text, length);
   return whole.substr(0, whole.find_first_of(",\n"));
-}
-
-/// Cores that this process may use.
-int cores() {
-  cpu_set_t set;
-  return sched_getaffinity(0, sizeof(set), &set) == 0 ? CPU_COUNT(&set) : 1;
 }
 
 /// Ranks on this rank's node. Collective.

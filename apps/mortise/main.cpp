@@ -16,6 +16,7 @@ constexpr const char* examples = R"(Examples:
   mortise check scene.xml                                    reads, meshes, lists the effects; solves nothing
   mortise point inputs/tutorial/point_steel.xml              stress-strain curve of one material point
   mortise study inputs/studies/hertz_elastic.xml             errors against mesh size and time, one page
+  mortise scale inputs/scaling/pressed_blocks.xml            efficiency on 1, 2, 4 ... ranks of this machine, one page
   mortise paper -o page                                      every example of the paper, one page with its figures and tables
   mortise describe contact                                   every parameter with default, unit and meaning
   mortise list materials
@@ -62,6 +63,7 @@ int main(int argc, char** argv) {
   mortise::add_point_command(app, program);
   mortise::add_paper_command(app, program);
   mortise::add_study_command(app, program);
+  mortise::add_scale_command(app, program);
   mortise::add_peer_command(app, program);
   mortise::add_describe_command(app, program);
   mortise::add_list_command(app, program);

@@ -34,7 +34,11 @@ void add_list_command(CLI::App& app, Program& program);
 void add_doctor_command(CLI::App& app, Program& program);
 void add_paper_command(CLI::App& app, Program& program);
 void add_study_command(CLI::App& app, Program& program);
+void add_scale_command(CLI::App& app, Program& program);
 void add_peer_command(CLI::App& app, Program& program);
+
+/// Cores that this process may use.
+int cores();
 
 /// Arguments of the commands that run an input file: the file itself, called `file`, and --set; -o, --keep, --quiet, --verbose. The options have to
 /// live as long as the command.

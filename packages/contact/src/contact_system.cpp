@@ -343,6 +343,25 @@ long ContactSystem::friction_evaluations() const {
   return evaluations;
 }
 
+IntegrationLoad ContactSystem::integration_load(std::size_t pair) const {
+  const Implementation& self = *implementation_;
+  IntegrationLoad load;
+  const auto add = [&](std::size_t p) {
+    const InterfaceLoad& mine = self.pairs[p]->interface().load();
+    load.facets += mine.facets;
+    load.segments += mine.segments;
+    load.imbalance_as_owned = std::max(load.imbalance_as_owned, mine.imbalance_as_owned);
+    load.redistributions += mine.redistributions;
+  };
+  add(pair);
+  if (const auto other = second_pass(pair)) add(*other);
+  const double largest = self.maximum(static_cast<double>(load.segments)), sum = self.sum(static_cast<double>(load.segments));
+  load.facets = static_cast<long>(self.sum(static_cast<double>(load.facets)));
+  load.segments = static_cast<long>(sum);
+  if (sum > 0.0) load.imbalance = largest * self.dofs->getComm()->getSize() / sum;
+  return load;
+}
+
 std::vector<ContactNodeState> ContactSystem::node_states(std::size_t pair, const Vector& z) const {
   const Implementation& self = *implementation_;
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);

@@ -7,6 +7,9 @@
 
 namespace mortise {
 
+/// Throws InputError for what build_mesh() refuses of descriptions alone.
+void check_bodies(const std::vector<BodyDescription>& bodies);
+
 /// The descriptions of all bodies with the first node and element id of each. A pure description: the same on every rank, of a size that
 /// does not grow with the mesh.
 class BodySet {

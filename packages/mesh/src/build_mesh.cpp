@@ -13,9 +13,8 @@
 #include "partition.hpp"
 
 namespace mortise {
-namespace {
 
-void check(const std::vector<BodyDescription>& bodies) {
+void check_bodies(const std::vector<BodyDescription>& bodies) {
   if (bodies.empty()) throw InputError(Place{}, "there is no body to be meshed");
   std::vector<Diagnostic> diagnostics;
   std::set<std::string> names;
@@ -36,6 +35,8 @@ void check(const std::vector<BodyDescription>& bodies) {
   }
   if (!diagnostics.empty()) throw InputError(diagnostics);
 }
+
+namespace {
 
 /// Elements that touch an owned node without being owned, by body; ascending.
 std::vector<std::vector<GlobalOrdinal>> ghost_elements(const BodySet& bodies, const Map& owned_nodes,
@@ -173,17 +174,9 @@ void fill_reference_points(Mesh& mesh, const BodySet& set, const std::vector<Ref
 RCP<Mesh> build_mesh(const RCP<const Communicator>& comm, const std::vector<BodyDescription>& bodies, const std::vector<std::string>& contact_sides,
                      const std::vector<ReferencePointDescription>& reference_points) {
   // The descriptions are the same on every rank, and so are errors in them.
-  check(bodies);
+  check_bodies(bodies);
   const BodySet set(bodies);
-  std::vector<std::vector<bool>> is_contact;
-  for (int b = 0; b < set.size(); ++b) {
-    is_contact.emplace_back();
-    for (const auto& side : set.with_complex(b, [](const auto& complex) { return complex.side_names(); })) {
-      const bool whole = std::find(contact_sides.begin(), contact_sides.end(), bodies[b].name + "/surface") != contact_sides.end();
-      is_contact.back().push_back(whole || std::find(contact_sides.begin(), contact_sides.end(), bodies[b].name + "/" + side) != contact_sides.end());
-    }
-  }
-  const auto owned_elements = share_out_elements(*comm, set, is_contact);
+  const auto owned_elements = share_out_elements(*comm, set, contact_flags(set, bodies, contact_sides));
   auto mesh = rcp(new Mesh);
   mesh->dimension = set.dimension();
   mesh->comm = comm;

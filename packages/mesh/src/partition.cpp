@@ -26,14 +26,50 @@ struct MetisFree {
   void operator()(idx_t* memory) const { METIS_Free(memory); }
 };
 
-/// Rank of each element. Only called on rank 0.
-std::vector<idx_t> partition(const BodySet& bodies, const std::vector<std::vector<bool>>& is_contact, int ranks) {
+/// Chooses among the ranks that hold a node by their numbers alone.
+class AlternatingOwner : public Tpetra::Details::TieBreak<LocalOrdinal, GlobalOrdinal> {
+ public:
+  bool mayHaveSideEffects() const override { return false; }
+  std::size_t selectedIndex(GlobalOrdinal, const std::vector<std::pair<int, LocalOrdinal>>& holders) const override {
+    std::vector<int> ranks;
+    for (const auto& holder : holders) ranks.push_back(holder.first);
+    return static_cast<std::size_t>(std::find(ranks.begin(), ranks.end(), owner_among(ranks)) - ranks.begin());
+  }
+};
+
+RCP<const Map> map_of(const RCP<const Communicator>& comm, const std::vector<GlobalOrdinal>& ids) {
+  return rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(), Teuchos::arrayViewFromVector(ids), 0, comm));
+}
+
+}  // namespace
+
+std::vector<std::vector<bool>> contact_flags(const BodySet& bodies, const std::vector<BodyDescription>& descriptions,
+                                             const std::vector<std::string>& contact_sides) {
+  const auto is_named = [&](const std::string& side) { return std::find(contact_sides.begin(), contact_sides.end(), side) != contact_sides.end(); };
+  std::vector<std::vector<bool>> flags;
+  for (int b = 0; b < bodies.size(); ++b) {
+    flags.emplace_back();
+    for (const auto& side : bodies.with_complex(b, [](const auto& complex) { return complex.side_names(); }))
+      flags.back().push_back(is_named(descriptions[b].name + "/surface") || is_named(descriptions[b].name + "/" + side));
+  }
+  return flags;
+}
+
+int owner_among(std::vector<int> holders) {
+  std::sort(holders.begin(), holders.end());
+  holders.erase(std::unique(holders.begin(), holders.end()), holders.end());
+  const std::size_t sum = std::accumulate(holders.begin(), holders.end(), std::size_t{0});
+  return holders[sum % holders.size()];
+}
+
+std::vector<int> ranks_of_elements(const BodySet& bodies, const std::vector<std::vector<bool>>& is_contact, int ranks) {
   if (bodies.element_count() > std::numeric_limits<idx_t>::max() / 8) throw std::runtime_error("the mesh has more elements than METIS can number");
   idx_t elements = static_cast<idx_t>(bodies.element_count()), nodes = static_cast<idx_t>(bodies.node_count());
   std::vector<idx_t> part(elements);
+  if (ranks == 1) return std::vector<int>(part.size(), 0);  // METIS wants two parts
   if (elements < ranks) {
     std::iota(part.begin(), part.end(), 0);
-    return part;
+    return {part.begin(), part.end()};
   }
   // Dual graph: elements that share a side. Those that share two corners in the plane, or three in space, do.
   std::unique_ptr<idx_t, MetisFree> offsets, neighbours;
@@ -73,28 +109,8 @@ std::vector<idx_t> partition(const BodySet& bodies, const std::vector<std::vecto
   const int status = method(&elements, &constraints, offsets.get(), neighbours.get(), weights.data(), nullptr, nullptr, &parts, nullptr, nullptr,
                             options, &cut, part.data());
   if (status != METIS_OK) throw std::runtime_error("METIS could not partition the mesh");
-  return part;
+  return {part.begin(), part.end()};
 }
-
-/// Chooses among the ranks that hold a node by their numbers alone.
-class AlternatingOwner : public Tpetra::Details::TieBreak<LocalOrdinal, GlobalOrdinal> {
- public:
-  bool mayHaveSideEffects() const override { return false; }
-  std::size_t selectedIndex(GlobalOrdinal, const std::vector<std::pair<int, LocalOrdinal>>& holders) const override {
-    std::vector<std::size_t> order(holders.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return holders[a].first < holders[b].first; });
-    std::size_t sum = 0;
-    for (const auto& holder : holders) sum += holder.first;
-    return order[sum % order.size()];
-  }
-};
-
-RCP<const Map> map_of(const RCP<const Communicator>& comm, const std::vector<GlobalOrdinal>& ids) {
-  return rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(), Teuchos::arrayViewFromVector(ids), 0, comm));
-}
-
-}  // namespace
 
 std::vector<GlobalOrdinal> share_out_elements(const Communicator& comm, const BodySet& bodies, const std::vector<std::vector<bool>>& is_contact) {
   std::vector<GlobalOrdinal> owned;
@@ -110,7 +126,7 @@ std::vector<GlobalOrdinal> share_out_elements(const Communicator& comm, const Bo
   std::string failure;
   if (comm.getRank() == 0) {
     try {
-      const auto part = partition(bodies, is_contact, ranks);
+      const std::vector<int> part = ranks_of_elements(bodies, is_contact, ranks);
       for (const auto rank : part) ++counts[rank];
       std::partial_sum(counts.begin(), counts.end() - 1, offsets.begin() + 1);
       sorted.resize(part.size());

@@ -1,10 +1,12 @@
 #pragma once
-// Every rank sends every rank a list of plain values.
+// Every rank sends every rank a list of plain values, or its neighbours alone.
 
 #include <mpi.h>
 
 #include <Teuchos_DefaultMpiComm.hpp>
+#include <map>
 #include <numeric>
+#include <set>
 #include <type_traits>
 #include <vector>
 
@@ -36,6 +38,36 @@ std::vector<std::vector<T>> all_to_all(const Communicator& comm, const std::vect
   std::vector<std::vector<T>> received(ranks);
   for (std::size_t r = 0; r < ranks; ++r)
     received[r].assign(incoming.begin() + receive_starts[r], incoming.begin() + receive_starts[r] + receive_counts[r]);
+  return received;
+}
+
+/// One message for each of some other ranks. `sources` are those that have this rank among theirs; returns their messages, ascending by rank. Only
+/// these ranks talk to one another. T is copied byte by byte.
+template <class T>
+std::vector<std::vector<T>> exchange_with_neighbours(const Communicator& comm, const std::map<int, std::vector<T>>& send,
+                                                     const std::set<int>& sources) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  std::vector<std::vector<T>> received;
+  const auto* mpi = dynamic_cast<const Teuchos::MpiComm<int>*>(&comm);
+  if (mpi == nullptr) return received;  // one rank has no other
+  const MPI_Comm raw = (*mpi->getRawMpiComm())();
+  constexpr int tag = 2417;
+  MPI_Datatype type;
+  MPI_Type_contiguous(static_cast<int>(sizeof(T)), MPI_BYTE, &type);
+  MPI_Type_commit(&type);
+  std::vector<MPI_Request> requests;
+  for (const auto& [rank, values] : send) MPI_Isend(values.data(), static_cast<int>(values.size()), type, rank, tag, raw, &requests.emplace_back());
+  for (const int source : sources) {
+    MPI_Message message;
+    MPI_Status status;
+    MPI_Mprobe(source, tag, raw, &message, &status);
+    int count = 0;
+    MPI_Get_count(&status, type, &count);
+    auto& values = received.emplace_back(static_cast<std::size_t>(count));
+    MPI_Mrecv(values.data(), count, type, &message, MPI_STATUS_IGNORE);
+  }
+  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+  MPI_Type_free(&type);
   return received;
 }
 

@@ -20,6 +20,9 @@ class FacetIntegrator2d {
   bool integrate(const SlaveFacetData& slave, const std::vector<Facet<LocalOrdinal>>& masters, const FacetReach& reach, const Positions<2>& x,
                  bool derivatives, FacetCoupling& coupling);
 
+  /// Overlaps that the last coupling is the sum of.
+  std::size_t segments() const { return pairs_.size(); }
+
  private:
   struct Pair {
     std::array<Eigen::Index, 2> place{};  ///< in FacetCoupling::master

@@ -21,6 +21,9 @@ class FacetIntegrator3d {
   bool integrate(const SlaveFacetData& slave, const std::vector<Facet<LocalOrdinal>>& masters, const FacetReach& reach,
                  const std::vector<Eigen::Vector3d>& x, bool derivatives, FacetCoupling& coupling);
 
+  /// Overlaps that the last coupling is the sum of.
+  std::size_t segments() const { return pairs_.size(); }
+
  private:
   struct Pair {
     FacetVectors nodes;                                      ///< in the plane's frame

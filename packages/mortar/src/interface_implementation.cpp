@@ -12,9 +12,7 @@
 #include <map>
 #include <set>
 
-#include "facet_coupling_2d.hpp"
-#include "facet_coupling_3d.hpp"
-#include "node_coupling_2d.hpp"
+#include "interface.hpp"
 
 namespace mortise {
 namespace {
@@ -33,57 +31,7 @@ std::vector<GlobalOrdinal> nodes_of(const SurfaceFacets& facets) {
 /// Between two real searches no node moves further than this share of the least facet height.
 constexpr double free_motion = 0.1;
 
-template <int dim>
-struct IntegratorOf;
-template <>
-struct IntegratorOf<2> : FacetIntegrator2d {
-  IntegratorOf(const InterfaceMeasure& measure, const MortarOptions& options) : FacetIntegrator2d(measure, options) {}
-};
-template <>
-struct IntegratorOf<3> : FacetIntegrator3d {
-  IntegratorOf(const InterfaceMeasure&, const MortarOptions& options) : FacetIntegrator3d(options) {}
-};
-
-// Candidates of a slave facet, kept from search to search: a superset of the master facets it can overlap now. Which of them take part is
-// decided in evaluate() from positions alone, so no result depends on when the last search was:
-//   the facet takes part if a master facet that it overlaps lies within the reach; then all within reach + its longest edge do.
-template <int dim>
-class Interface final : public InterfaceImplementation {
- public:
-  explicit Interface(const InterfaceInput& input);
-  bool search(const MultiVector& x) override;
-  void evaluate(const MultiVector& x, bool derivatives, std::vector<FacetCoupling>& couplings, std::vector<NodalNormal>& normals,
-                std::optional<StepFailure>& failure) override;
-  std::vector<std::optional<double>> distances_to_master(const MultiVector& x, const std::vector<std::size_t>& nodes,
-                                                         const std::vector<SpatialVector>& normals) override;
-
- private:
-  using Candidates = std::vector<std::vector<SurfaceFacet>>;
-
-  void measure_facets(const MultiVector& reference, const Place& place);
-  bool moved(const MultiVector& x) const;
-  std::vector<PlacedFacet<dim>> place_master(const MultiVector& x);
-  double least_height(const Positions<dim>& slave_x, const std::vector<PlacedFacet<dim>>& placed_master) const;
-  Candidates find(const Positions<dim>& x, const std::vector<PlacedFacet<dim>>& placed_master, const Motion& motion) const;
-  void number_nodes();
-  void collect_met();
-  std::size_t couple_facets(const Positions<dim>& x, bool derivatives, const std::vector<NodalNormal>& normals,
-                            std::vector<FacetCoupling>& couplings);
-  std::size_t couple_nodes(const Positions<dim>& x, bool derivatives, const std::vector<NodalNormal>& normals,
-                           std::vector<FacetCoupling>& couplings) const;
-
-  RCP<const Map> owned_nodes_;
-  InterfaceMeasure measure_;
-  MortarOptions options_;
-  SurfaceFacets master_;
-  std::unique_ptr<Gathered<dim>> slave_positions_, master_positions_;
-  Candidates candidate_ids_;                                  ///< [facets] ascending
-  std::vector<std::vector<Facet<LocalOrdinal>>> candidates_;  ///< [facets] as local nodes
-  std::vector<std::vector<Facet<LocalOrdinal>>> met_;         ///< [owned slave nodes] candidates of their facets; node to segment only
-  RCP<MultiVector> searched_at_;                              ///< owned positions of the last real search
-  double free_distance_ = 0.0;                                ///< that every node may move from there without another one
-  IntegratorOf<dim> integrator_;
-};
+}  // namespace
 
 template <int dim>
 Interface<dim>::Interface(const InterfaceInput& input)
@@ -98,6 +46,9 @@ Interface<dim>::Interface(const InterfaceInput& input)
   master_positions_ = std::make_unique<Gathered<dim>>(owned_nodes_, nodes_of(master_));
   measure_facets(*input.reference, input.place);
   candidate_ids_.resize(slave.facets.size());
+  segments_of_facet_.assign(slave.facets.size(), 0);
+  if (owned_nodes_->getComm()->getSize() > 1 && options_.coupling != Coupling::node_to_segment)
+    distribution_ = std::make_unique<FacetDistribution>(owned_nodes_, slave);
   number_nodes();
 }
 
@@ -216,6 +167,7 @@ void Interface<dim>::number_nodes() {
   std::vector<std::vector<LocalOrdinal>> kept(slave.owned.size());
   for (std::size_t s = 0; s < retained.size(); ++s)
     for (const GlobalOrdinal id : retained[s]) kept[s].push_back(local(id));
+  if (distribution_) guests_ = GuestFacets(distribution_->send_away(slave, candidate_ids_), slave, local);
   local_nodes = map_of(ids, owned_nodes_->getComm());
   coupled.assign(slave.owned.size(), {});
   loaded.assign(slave.owned.size(), {});
@@ -271,10 +223,33 @@ bool Interface<dim>::search(const MultiVector& x) {
   for (std::size_t f = 0; f < needed.size(); ++f)
     if (!std::includes(candidate_ids_[f].begin(), candidate_ids_[f].end(), needed[f].begin(), needed[f].end())) missing = 1.0;
   Teuchos::reduceAll(*owned_nodes_->getComm(), Teuchos::REDUCE_MAX, missing, Teuchos::outArg(any));
-  if (any == 0.0) return false;
-  candidate_ids_ = find(slave_x, placed, longer);
+  if (any > 0.0) candidate_ids_ = find(slave_x, placed, longer);
+  if (!balance(slave_x) && any == 0.0) return false;
   number_nodes();
   return true;
+}
+
+// Gives slave facets to other ranks where the work of ranks differs too much; whether it did. Before anything is integrated the candidates stand for
+// the segments; a facet that has candidates only costs as much as one segment. Collective.
+template <int dim>
+bool Interface<dim>::balance(const Positions<dim>& slave_x) {
+  if (!distribution_) return false;
+  std::vector<double> work;
+  for (std::size_t f = 0; f < slave.facets.size(); ++f)
+    work.push_back(
+        static_cast<double>(counted_ && !candidate_ids_[f].empty() ? std::max<std::size_t>(1, segments_of_facet_[f]) : candidate_ids_[f].size()));
+  load.imbalance_as_owned = distribution_->imbalance(work, true);
+  if (distribution_->imbalance(work, false) <= options_.balance) return false;
+  std::vector<PartitionedFacet> facets;
+  for (std::size_t f = 0; f < slave.facets.size(); ++f) {
+    PartitionedFacet& facet = facets.emplace_back();
+    facet.work = work[f];
+    for (const LocalOrdinal node : slave.facets[f])
+      for (int i = 0; i < dim; ++i) facet.centre[i] += slave_x[node][i] / static_cast<double>(slave.facets[f].size());
+  }
+  const bool moved = distribution_->redistribute(facets, options_.balance);
+  load.redistributions += moved;
+  return moved;
 }
 
 template <int dim>
@@ -286,66 +261,6 @@ std::vector<std::optional<double>> Interface<dim>::distances_to_master(const Mul
   for (std::size_t n = 0; n < nodes.size(); ++n) lines.push_back({positions[slave.owned[nodes[n]].owned_node], normals[n]});
   return distances_along_normals<dim>(*owned_nodes_->getComm(), lines, placed);
 }
-
-template <int dim>
-std::size_t Interface<dim>::couple_facets(const Positions<dim>& x, bool derivatives, const std::vector<NodalNormal>& normals,
-                                          std::vector<FacetCoupling>& couplings) {
-  std::size_t used = 0;
-  SlaveFacetData data;
-  for (std::size_t f = 0; f < slave.facets.size(); ++f) {
-    if (candidates_[f].empty()) continue;
-    data.nodes = slave.facets[f];
-    data.multipliers = &slave.multipliers[f];
-    data.normals.clear();
-    for (const LocalOrdinal node : data.nodes) data.normals.push_back(&normals[node]);
-    if (used == couplings.size()) couplings.emplace_back();
-    const FacetReach limits = {reach, reach + longest_edge<dim>(points_of<dim>(data.nodes, x))};
-    used += integrator_.integrate(data, candidates_[f], limits, x, derivatives, couplings[used]);
-  }
-  return used;
-}
-
-template <int dim>
-std::size_t Interface<dim>::couple_nodes(const Positions<dim>& x, bool derivatives, const std::vector<NodalNormal>& normals,
-                                         std::vector<FacetCoupling>& couplings) const {
-  std::size_t used = 0;
-  if constexpr (dim == 2)
-    for (std::size_t s = 0; s < slave.owned.size(); ++s) {
-      if (!slave.owned[s].carries_multiplier) continue;
-      if (used == couplings.size()) couplings.emplace_back();
-      used += couple_node({slave.owned[s].local_node, &slave.stencils[s], &normals[s]}, met_[s], reach, x, measure_, options_.share, derivatives,
-                          couplings[used]);
-    }
-  return used;
-}
-
-template <int dim>
-void Interface<dim>::evaluate(const MultiVector& x, bool derivatives, std::vector<FacetCoupling>& couplings, std::vector<NodalNormal>& normals,
-                              std::optional<StepFailure>& failure) {
-  const Positions<dim> positions = positions_of<dim>(x.getLocalViewHost(Tpetra::Access::ReadOnly));
-  normals.resize(slave.nodes_with_normal);
-  for (std::size_t n = 0; n < slave.nodes_with_normal; ++n)
-    if (!average_normal(slave.stencils[n], positions, derivatives, normals[n]) && !failure)
-      failure = StepFailure(FailureKind::inverted_facet,
-                            fmt::format("the slave surface has no normal at node {}: a facet lost its {}, or facets folded onto one another",
-                                        slave.node_ids[n], dim == 2 ? "length" : "area"));
-  if (derivatives && options_.linearisation == Linearisation::frozen_normals)
-    for (NodalNormal& normal : normals) normal.derivative.setZero();
-  for (std::size_t n = 0; n < positions.size() && !failure; ++n)
-    if (!positions[n].allFinite()) failure = StepFailure(FailureKind::not_finite, "a position on the contact surfaces is not a number");
-  std::size_t used = 0;
-  try {
-    if (!failure)
-      used = options_.coupling == Coupling::node_to_segment ? couple_nodes(positions, derivatives, normals, couplings)
-                                                            : couple_facets(positions, derivatives, normals, couplings);
-  } catch (const StepFailure& one) {
-    failure = one;
-  }
-  couplings.resize(used);
-  normals.resize(slave.owned.size());
-}
-
-}  // namespace
 
 template <int dim>
 Gathered<dim>::Gathered(const RCP<const Map>& owned_nodes, const std::vector<GlobalOrdinal>& ids)

@@ -35,6 +35,8 @@ class InterfaceImplementation {
 
   SlaveSurface slave;
   double shortest = 0.0, longest = 0.0, reach = 0.0;
+  InterfaceLoad load;
+  std::vector<std::size_t> segments;  ///< [couplings of the last evaluation]
   RCP<const Map> local_nodes;
   std::vector<std::vector<LocalOrdinal>> coupled, loaded;  ///< [owned slave nodes]
   std::vector<std::vector<GlobalOrdinal>> retained;        ///< [owned slave nodes]; empty: none

@@ -70,6 +70,8 @@ const RCP<const Map>& MortarInterface::local_nodes() const { return implementati
 const std::vector<SlaveNode>& MortarInterface::slave_nodes() const { return implementation_->slave.owned; }
 const std::vector<LocalOrdinal>& MortarInterface::coupled_nodes(std::size_t s) const { return implementation_->coupled[s]; }
 const std::vector<LocalOrdinal>& MortarInterface::loaded_nodes(std::size_t s) const { return implementation_->loaded[s]; }
+const InterfaceLoad& MortarInterface::load() const { return implementation_->load; }
+const std::vector<std::size_t>& MortarInterface::segments() const { return implementation_->segments; }
 double MortarInterface::reach() const { return implementation_->reach; }
 double MortarInterface::shortest_facet() const { return implementation_->shortest; }
 double MortarInterface::longest_facet() const { return implementation_->longest; }

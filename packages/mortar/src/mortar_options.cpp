@@ -12,6 +12,12 @@ void MortarOptions::describe(Parameters& parameters) {
       "linearisation", linearisation, {{"exact", Linearisation::exact}, {"frozen normals", Linearisation::frozen_normals}},
       "what Newton's method knows of the contact geometry: all, or all but how the nodal normals turn, as many programs have it; changes no "
       "solution");
+  parameters.add(
+      "balance", balance,
+      Says("largest over mean work of the ranks, in overlaps of two facets, above which the next search hands slave facets to other ranks; "
+           "changes no solution")
+          .unit("-")
+          .at_least(1.0));
   parameters.add("gauss points", gauss_points,
                  Says("quadrature points on each overlap of two facets in the plane; in space each triangle of an overlap has 7")
                      .unit("-")

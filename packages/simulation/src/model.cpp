@@ -11,6 +11,7 @@
 
 #include "contributions.hpp"
 #include "mortise/simulation/hold_check.hpp"
+#include "scene_bodies.hpp"
 
 namespace mortise {
 namespace {
@@ -72,19 +73,7 @@ void tie(Mesh& mesh, const Scene& scene) {
 }
 
 RCP<Mesh> make_mesh(const RCP<const Communicator>& comm, const Scene& scene) {
-  std::vector<BodyDescription> descriptions;
-  for (const auto& body : scene.bodies)
-    descriptions.push_back({body.name, body.place, body.value.mesh.options,
-                            body.value.rigid.value ? rigid_shape(body.value.mesh.options->dimension()) : cell_shape(body.value.element)});
-  std::vector<std::string> contact_sides;
-  const auto add = [&](std::string name) {
-    // A set of the scene is balanced as the side that it is a part of.
-    for (auto set = scene.sets.rbegin(); set != scene.sets.rend(); ++set)
-      if (set->name == name) name = set->value.of.value;
-    contact_sides.push_back(name);
-  };
-  for (const auto& pair : scene.contact) add(pair.value.slave.value), add(pair.value.master.value);
-  const auto mesh = build_mesh(comm, descriptions, contact_sides, reference_points(scene));
+  const auto mesh = build_mesh(comm, body_descriptions(scene), contact_sides(scene), reference_points(scene));
   Collector collect;
   for (const auto& set : scene.sets) collect([&] { add_set(*mesh, set); });
   collect.throw_found(*comm);

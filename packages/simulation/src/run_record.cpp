@@ -24,7 +24,8 @@ Json step_json(const StepReport& step) {
                           {"changed", norms.changed},
                           {"linear_iterations", iteration.linear_iterations}});
   }
-  return {{"time", step.time}, {"dt", step.dt}, {"cutbacks", step.cutbacks}, {"undone", step.undone}, {"solves", step.newton.solves}, {"newton", iterations}};
+  return {{"time", step.time},   {"dt", step.dt}, {"cutbacks", step.cutbacks}, {"undone", step.undone}, {"solves", step.newton.solves},
+          {"newton", iterations}};
 }
 
 Json check_json(const CheckResult& check) {
@@ -64,6 +65,13 @@ Json summary(const RunRecord& record, const Model& model) {
     if (const auto found = record.quantities.find(name); found != record.quantities.end()) json["quantities"][name] = number(found->second);
   json["checks"] = Json::array();
   for (const auto& check : record.checks) json["checks"].push_back(check_json(check));
+  json["contact"] = Json::object();
+  for (const auto& [pair, load] : record.integration)
+    json["contact"][pair] = {{"facets", load.facets},
+                             {"segments", load.segments},
+                             {"imbalance", load.imbalance},
+                             {"imbalance_as_owned", load.imbalance_as_owned},
+                             {"redistributions", load.redistributions}};
   json["time"] = record.seconds;
   json["memory_peak_mib"] = record.memory_peak_mib;
   json["memory_total_mib"] = record.memory_total_mib;

@@ -21,9 +21,10 @@ struct RunRecord {
   std::map<std::string, double> quantities;  ///< at the end
   std::vector<std::string> quantity_order;
   std::vector<CheckResult> checks;
-  std::map<std::string, double> seconds;  ///< by timer
-  double memory_peak_mib = 0.0;           ///< of the rank that took most
-  double memory_total_mib = 0.0;          ///< sum of the peaks of all ranks
+  std::vector<std::pair<std::string, IntegrationLoad>> integration;  ///< by contact pair
+  std::map<std::string, double> seconds;                             ///< by timer, mean over the ranks
+  double memory_peak_mib = 0.0;                                      ///< of the rank that took most
+  double memory_total_mib = 0.0;                                     ///< sum of the peaks of all ranks
 };
 
 /// The summary with the names that docs/output.md lists. Collective.

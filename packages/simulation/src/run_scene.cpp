@@ -192,6 +192,10 @@ void report_end(const RunRecord& record, const std::optional<StepFailure>& failu
     const std::string low = check.low ? fmt::format("{:g} <= ", *check.low) : "", high = check.high ? fmt::format(" <= {:g}", *check.high) : "";
     log.info(fmt::format("check {}: {}{}{}: {:.10g}: {}", check.name, low, check.quantity, high, check.value, check.ok ? "ok" : "MISSED"));
   }
+  for (const auto& [pair, load] : record.integration)
+    if (load.segments > 0)
+      log.info(fmt::format("contact {}: {} slave facets, {} overlaps; largest over mean work of the ranks {:.2f}{}", pair, load.facets, load.segments,
+                           load.imbalance, load.redistributions > 0 ? fmt::format(", as owned {:.2f}", load.imbalance_as_owned) : ""));
   if (!record.converged)
     log.warning(fmt::format("not converged; the last converged state is that of time {:g}{}", record.steps.empty() ? 0.0 : record.steps.back().time,
                             failure ? fmt::format(": {}", failure->what()) : ""));
@@ -229,8 +233,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
   Vector x(system.map());
   std::optional<StepFailure> failure;
   const auto start_step = [&](Vector& at) {
-    if (model.contact())
-      model.contact()->start_step(*system.displacement(at), model.held_by_contact_only(), *system.multipliers(at));
+    if (model.contact()) model.contact()->start_step(*system.displacement(at), model.held_by_contact_only(), *system.multipliers(at));
   };
   {
     const auto timer = timers.scope("steps");
@@ -239,6 +242,9 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
   }
   if (!record.steps.empty()) record.checks = evaluate_checks(scene.checks, record.quantities);
   record.exit = exit_code(record);
+
+  for (std::size_t pair = 0; pair < scene.contact.size(); ++pair)
+    record.integration.emplace_back(scene.contact[pair].name, model.contact()->integration_load(pair));
 
   timers.stacked().stopBaseTimer();
   record.seconds = seconds_by_name(timers, comm);

@@ -71,6 +71,14 @@ struct ContactNodeState {
   std::array<double, 3> force{};  ///< D_jj z_j, force of this node's multiplier on the slave side is -force
 };
 
+/// How the integrals of a pair, of both passes if there are two, are spread over the ranks, in the last evaluation.
+struct IntegrationLoad {
+  long facets = 0, segments = 0;    ///< slave facets that overlap a master facet, and their overlaps, over all ranks
+  double imbalance = 1.0;           ///< largest over mean number of segments of a rank
+  double imbalance_as_owned = 1.0;  ///< the same at the last search, had every facet stayed with an owner of its nodes
+  int redistributions = 0;          ///< searches that gave facets to other ranks
+};
+
 /// How far an augmented Lagrange update was from being needed no more, over all ranks.
 struct Augmentation {
   bool more = false;       ///< the multipliers were updated: solve again
@@ -156,6 +164,8 @@ class ContactSystem {
 
   /// States of the owned slave nodes of a pair.
   std::vector<ContactNodeState> node_states(std::size_t pair, const Vector& z) const;
+  /// Collective.
+  IntegrationLoad integration_load(std::size_t pair) const;
   /// Bytes that the slip histories of all pairs take, over all ranks; 0 without friction. Collective.
   long friction_bytes() const;
   /// How often slips were measured, over all pairs, on this rank; 0 without friction.

@@ -47,6 +47,7 @@ struct MortarOptions {
   std::optional<double> search_reach;  ///< distance up to which facets can touch; default: the longest facet of the pair
   int gauss_points = 5;                ///< per overlap of two facets in the plane
   Linearisation linearisation = Linearisation::exact;
+  double balance = 1.5;  ///< largest over mean work of the ranks, in overlaps, above which slave facets change rank
   void describe(Parameters& parameters);
 };
 
@@ -91,6 +92,13 @@ struct SlaveNode {
   bool partly_fixed() const { return fixed[0] || fixed[1] || fixed[2]; }
 };
 
+/// What this rank integrates of an interface. With node to segment, which integrates nothing, as at first.
+struct InterfaceLoad {
+  long facets = 0, segments = 0;    ///< slave facets that overlap a master facet, and their overlaps, in the last evaluation
+  double imbalance_as_owned = 1.0;  ///< at the last search, over all ranks: largest over mean work, if every facet stayed with an owner of its nodes
+  int redistributions = 0;          ///< searches that gave facets to other ranks
+};
+
 /// One contact pair's coupling, in the plane or in space, by the number of columns of the positions. Collective in all members but the accessors.
 class MortarInterface {
  public:
@@ -105,16 +113,18 @@ class MortarInterface {
                   const SurfaceFacets& master, const InterfaceMeasure& measure, const MortarOptions& options, const Place& place);
   ~MortarInterface();
 
-  /// Finds, for the positions `x` [owned nodes x dim], the master facets each slave facet may touch. Cheap when no node moved further
-  /// than a tenth of the shortest facet since the last real search. Returns (the same on every rank) whether local_nodes() and the
-  /// pattern were rebuilt. Does nothing if a position is not finite; evaluate() then reports it.
+  /// Finds, for the positions `x` [owned nodes x dim], the master facets each slave facet may touch, and which rank integrates it: one of the owners
+  /// of its nodes, or any where that would leave the ranks' work further apart than MortarOptions::balance. Cheap when no node moved further than a
+  /// tenth of the shortest facet since the last real search. Returns (the same on every rank) whether local_nodes() and the pattern were rebuilt.
+  /// Does nothing if a position is not finite; evaluate() then reports it.
   bool search(const MultiVector& x);
 
   /// Further nodes that each owned slave node stays coupled to from the next rebuild of the pattern on, by id: those that a slip is measured
   /// against. Until then they have to stand in coupled_nodes() already.
   void retain(std::vector<std::vector<GlobalOrdinal>> nodes);
 
-  /// Nodes this rank needs: owned slave nodes first, then ring and master nodes. Rebuilt by search().
+  /// Nodes this rank needs: owned slave nodes first, then ring and master nodes, and those of facets that it integrates for other ranks. Rebuilt by
+  /// search().
   const RCP<const Map>& local_nodes() const;
 
   /// Owned slave nodes, ascending by owned_node. slave_nodes()[s].local_node == s.
@@ -128,7 +138,9 @@ class MortarInterface {
   const std::vector<LocalOrdinal>& loaded_nodes(std::size_t s) const;
 
   /// Facet couplings of all facets that touch an owned slave node and overlap a master facet, and the normals of the owned slave nodes
-  /// [slave nodes], at positions `x` [local nodes x dim]. No communication. Local failures (inverted facet, projection) go to `failure`.
+  /// [slave nodes], at positions `x` [local nodes x dim]. Every facet is integrated once; its coupling travels to the other ranks that own nodes of
+  /// it. Values do not depend on who integrates. Failures (inverted facet, projection) go to `failure` of the rank that meets them; the couplings of
+  /// other ranks are then incomplete.
   void evaluate(const MultiVector& x, bool derivatives, std::vector<FacetCoupling>& couplings, std::vector<NodalNormal>& normals,
                 std::optional<StepFailure>& failure) const;
 
@@ -137,6 +149,11 @@ class MortarInterface {
   /// it. However far, other than evaluate(). No value: no such facet.
   std::vector<std::optional<double>> distances_to_master(const MultiVector& x, const std::vector<std::size_t>& nodes,
                                                          const std::vector<SpatialVector>& normals) const;
+
+  /// This rank's share of the work.
+  const InterfaceLoad& load() const;
+  /// How many overlaps each coupling of the last evaluate() is the sum of [couplings]; empty with node to segment.
+  const std::vector<std::size_t>& segments() const;
 
   /// Distance up to which facets can touch.
   double reach() const;

@@ -1,0 +1,48 @@
+#include "guest_facets.hpp"
+
+#include <algorithm>
+
+namespace mortise {
+namespace {
+
+// Corners, and so columns, stand in the same order as at the node's owner: the normal is the same to the last bit.
+NormalStencil make_stencil(LocalOrdinal node, const TravellingFacet::Stencil& from, const std::function<LocalOrdinal(GlobalOrdinal)>& local) {
+  NormalStencil stencil;
+  stencil.node = node;
+  stencil.projected = from.projected;
+  for (const auto& [one, other] : from.corners) {
+    stencil.corners.push_back({local(one), local(other)});
+    for (const LocalOrdinal column : {node, stencil.corners.back()[0], stencil.corners.back()[1]})
+      if (std::find(stencil.columns.begin(), stencil.columns.end(), column) == stencil.columns.end()) stencil.columns.push_back(column);
+  }
+  return stencil;
+}
+
+}  // namespace
+
+GuestFacets::GuestFacets(const std::vector<TravellingFacet>& travellers, const SlaveSurface& slave,
+                         const std::function<LocalOrdinal(GlobalOrdinal)>& local) {
+  std::map<LocalOrdinal, std::size_t> normal_of;
+  for (const TravellingFacet& traveller : travellers) {
+    GuestFacet& facet = facets.emplace_back();
+    facet.multipliers = traveller.multipliers;
+    facet.receivers = traveller.receivers;
+    for (std::size_t a = 0; a < traveller.nodes.size(); ++a) {
+      const LocalOrdinal node = local(traveller.nodes[a]);
+      facet.nodes.push_back(node);
+      if (static_cast<std::size_t>(node) < slave.nodes_with_normal) {
+        facet.normals.push_back(static_cast<std::size_t>(node));
+        continue;
+      }
+      const auto [normal, is_new] = normal_of.insert({node, slave.nodes_with_normal + stencils.size()});
+      if (is_new) stencils.push_back(make_stencil(node, traveller.stencils[a], local));
+      facet.normals.push_back(normal->second);
+    }
+    for (const SurfaceFacet& candidate : traveller.candidates) {
+      facet.candidates.emplace_back();
+      for (const GlobalOrdinal node : candidate) facet.candidates.back().push_back(local(node));
+    }
+  }
+}
+
+}  // namespace mortise

@@ -1,0 +1,76 @@
+#pragma once
+// One interface in the plane or in space: search and numbering stand in interface_implementation.cpp, integrals in interface_evaluation.cpp.
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "facet_coupling_2d.hpp"
+#include "facet_coupling_3d.hpp"
+#include "guest_facets.hpp"
+#include "interface_implementation.hpp"
+
+namespace mortise {
+
+template <int dim>
+struct IntegratorOf;
+template <>
+struct IntegratorOf<2> : FacetIntegrator2d {
+  IntegratorOf(const InterfaceMeasure& measure, const MortarOptions& options) : FacetIntegrator2d(measure, options) {}
+};
+template <>
+struct IntegratorOf<3> : FacetIntegrator3d {
+  IntegratorOf(const InterfaceMeasure&, const MortarOptions& options) : FacetIntegrator3d(options) {}
+};
+
+// Candidates of a slave facet, kept from search to search: a superset of the master facets it can overlap now. Which of them take part is
+// decided in evaluate() from positions alone, so no result depends on when the last search was:
+//   the facet takes part if a master facet that it overlaps lies within the reach; then all within reach + its longest edge do.
+template <int dim>
+class Interface final : public InterfaceImplementation {
+ public:
+  explicit Interface(const InterfaceInput& input);
+  bool search(const MultiVector& x) override;
+  void evaluate(const MultiVector& x, bool derivatives, std::vector<FacetCoupling>& couplings, std::vector<NodalNormal>& normals,
+                std::optional<StepFailure>& failure) override;
+  std::vector<std::optional<double>> distances_to_master(const MultiVector& x, const std::vector<std::size_t>& nodes,
+                                                         const std::vector<SpatialVector>& normals) override;
+
+ private:
+  using Candidates = std::vector<SurfaceFacets>;
+
+  void measure_facets(const MultiVector& reference, const Place& place);
+  bool moved(const MultiVector& x) const;
+  std::vector<PlacedFacet<dim>> place_master(const MultiVector& x);
+  double least_height(const Positions<dim>& slave_x, const std::vector<PlacedFacet<dim>>& placed_master) const;
+  Candidates find(const Positions<dim>& x, const std::vector<PlacedFacet<dim>>& placed_master, const Motion& motion) const;
+  void number_nodes();
+  void collect_met();
+  bool balance(const Positions<dim>& slave_x);
+  std::size_t segments_of(SlaveFacetData& data, const std::vector<Facet<LocalOrdinal>>& candidates, const Positions<dim>& x, bool derivatives,
+                          FacetCoupling& coupling);
+  void couple_facets(const Positions<dim>& x, bool derivatives, const std::vector<NodalNormal>& normals, std::vector<FacetCoupling>& couplings,
+                     std::optional<StepFailure>& failure);
+  void pass_couplings(std::vector<FacetCoupling>& couplings);
+  std::size_t couple_nodes(const Positions<dim>& x, bool derivatives, const std::vector<NodalNormal>& normals,
+                           std::vector<FacetCoupling>& couplings) const;
+
+  RCP<const Map> owned_nodes_;
+  InterfaceMeasure measure_;
+  MortarOptions options_;
+  SurfaceFacets master_;
+  std::unique_ptr<Gathered<dim>> slave_positions_, master_positions_;
+  Candidates candidate_ids_;                                  ///< [facets] ascending
+  std::vector<std::vector<Facet<LocalOrdinal>>> candidates_;  ///< [facets] as local nodes
+  std::vector<std::vector<Facet<LocalOrdinal>>> met_;         ///< [owned slave nodes] candidates of their facets; node to segment only
+  RCP<MultiVector> searched_at_;                              ///< owned positions of the last real search
+  double free_distance_ = 0.0;                                ///< that every node may move from there without another one
+  IntegratorOf<dim> integrator_;
+  std::unique_ptr<FacetDistribution> distribution_;  ///< null where this rank integrates all that it owns
+  GuestFacets guests_;
+  std::vector<FacetCoupling> guest_couplings_;                      ///< [guests]
+  std::vector<std::size_t> segments_of_facet_, segments_of_guest_;  ///< [facets], [guests] of the last evaluation
+  bool counted_ = false;                                            ///< there has been one
+};
+
+}  // namespace mortise

@@ -1,0 +1,137 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
+
+#include "coupling_message.hpp"
+#include "interface.hpp"
+#include "node_coupling_2d.hpp"
+
+namespace mortise {
+
+// Integrates one facet; how many segments its coupling is the sum of, 0 if there is none.
+template <int dim>
+std::size_t Interface<dim>::segments_of(SlaveFacetData& data, const std::vector<Facet<LocalOrdinal>>& candidates, const Positions<dim>& x,
+                                        bool derivatives, FacetCoupling& coupling) {
+  if (candidates.empty()) return 0;
+  const FacetReach limits = {reach, reach + longest_edge<dim>(points_of<dim>(data.nodes, x))};
+  return integrator_.integrate(data, candidates, limits, x, derivatives, coupling) ? integrator_.segments() : 0;
+}
+
+// Couplings of this rank's facets, in their order, whoever integrates them: sums do not depend on that. Collective, after a failure too.
+template <int dim>
+void Interface<dim>::couple_facets(const Positions<dim>& x, bool derivatives, const std::vector<NodalNormal>& normals,
+                                   std::vector<FacetCoupling>& couplings, std::optional<StepFailure>& failure) {
+  couplings.resize(slave.facets.size());
+  guest_couplings_.resize(guests_.facets.size());
+  segments_of_facet_.assign(slave.facets.size(), 0);
+  segments_of_guest_.assign(guests_.facets.size(), 0);
+  SlaveFacetData data;
+  try {
+    for (std::size_t f = 0; f < slave.facets.size() && !failure; ++f) {
+      if (distribution_ && !distribution_->integrated_here(f)) continue;
+      data.nodes = slave.facets[f];
+      data.multipliers = &slave.multipliers[f];
+      data.normals.clear();
+      for (const LocalOrdinal node : data.nodes) data.normals.push_back(&normals[node]);
+      segments_of_facet_[f] = segments_of(data, candidates_[f], x, derivatives, couplings[f]);
+    }
+    for (std::size_t g = 0; g < guests_.facets.size() && !failure; ++g) {
+      const GuestFacet& guest = guests_.facets[g];
+      data.nodes = guest.nodes;
+      data.multipliers = &guest.multipliers;
+      data.normals.clear();
+      for (const std::size_t normal : guest.normals) data.normals.push_back(&normals[normal]);
+      segments_of_guest_[g] = segments_of(data, guest.candidates, x, derivatives, guest_couplings_[g]);
+    }
+  } catch (const StepFailure& one) {
+    std::vector<GlobalOrdinal> nodes;
+    for (const LocalOrdinal node : data.nodes) nodes.push_back(local_nodes->getGlobalElement(node));
+    failure = StepFailure(one.kind(), fmt::format("{} (slave facet of nodes {})", one.what(), fmt::join(nodes, ", ")));
+  }
+  load.facets = load.segments = 0;
+  for (const auto* counts : {&segments_of_facet_, &segments_of_guest_})
+    for (const std::size_t count : *counts) {
+      load.facets += count > 0;
+      load.segments += static_cast<long>(count);
+    }
+  counted_ = true;
+  if (distribution_) pass_couplings(couplings);
+  segments.clear();
+  for (std::size_t f = 0; f < couplings.size(); ++f)
+    if (segments_of_facet_[f] > 0) {
+      if (segments.size() != f) std::swap(couplings[segments.size()], couplings[f]);
+      segments.push_back(segments_of_facet_[f]);
+    }
+  couplings.resize(segments.size());
+}
+
+// Couplings of facets go to the owners of their nodes. Collective.
+template <int dim>
+void Interface<dim>::pass_couplings(std::vector<FacetCoupling>& couplings) {
+  const auto id = [&](LocalOrdinal node) { return local_nodes->getGlobalElement(node); };
+  const auto local = [&](GlobalOrdinal node) { return local_nodes->getLocalElement(node); };
+  const auto send = [&](const Facet<LocalOrdinal>& nodes, std::size_t segments, const FacetCoupling& coupling, const std::vector<int>& receivers) {
+    CouplingHeader header{{}, segments};
+    for (const LocalOrdinal node : nodes) header.slave.push_back(id(node));
+    for (const int receiver : receivers) {
+      if (receiver == owned_nodes_->getComm()->getRank()) continue;
+      WordWriter to(distribution_->message_to(receiver));
+      put_coupling(to, header, coupling, id);
+    }
+  };
+  for (std::size_t f = 0; f < slave.facets.size(); ++f)
+    if (distribution_->integrated_here(f)) send(slave.facets[f], segments_of_facet_[f], couplings[f], distribution_->receivers(f));
+  for (std::size_t g = 0; g < guests_.facets.size(); ++g)
+    send(guests_.facets[g].nodes, segments_of_guest_[g], guest_couplings_[g], guests_.facets[g].receivers);
+  for (const Words& message : distribution_->exchange())
+    for (WordReader from(message); !from.at_end();) {
+      const CouplingHeader header = get_header(from);
+      const std::size_t f = distribution_->facet_of(header.slave);
+      segments_of_facet_[f] = header.segments;
+      if (header.segments > 0) get_coupling(from, header, local, couplings[f]);
+    }
+}
+
+template <int dim>
+std::size_t Interface<dim>::couple_nodes(const Positions<dim>& x, bool derivatives, const std::vector<NodalNormal>& normals,
+                                         std::vector<FacetCoupling>& couplings) const {
+  std::size_t used = 0;
+  if constexpr (dim == 2)
+    for (std::size_t s = 0; s < slave.owned.size(); ++s) {
+      if (!slave.owned[s].carries_multiplier) continue;
+      if (used == couplings.size()) couplings.emplace_back();
+      used += couple_node({slave.owned[s].local_node, &slave.stencils[s], &normals[s]}, met_[s], reach, x, measure_, options_.share, derivatives,
+                          couplings[used]);
+    }
+  return used;
+}
+
+template <int dim>
+void Interface<dim>::evaluate(const MultiVector& x, bool derivatives, std::vector<FacetCoupling>& couplings, std::vector<NodalNormal>& normals,
+                              std::optional<StepFailure>& failure) {
+  const Positions<dim> positions = positions_of<dim>(x.getLocalViewHost(Tpetra::Access::ReadOnly));
+  normals.resize(slave.nodes_with_normal + guests_.stencils.size());
+  for (std::size_t n = 0; n < normals.size(); ++n) {
+    const NormalStencil& stencil = n < slave.nodes_with_normal ? slave.stencils[n] : guests_.stencils[n - slave.nodes_with_normal];
+    if (!average_normal(stencil, positions, derivatives, normals[n]) && !failure)
+      failure = StepFailure(FailureKind::inverted_facet,
+                            fmt::format("the slave surface has no normal at node {}: a facet lost its {}, or facets folded onto one another",
+                                        local_nodes->getGlobalElement(stencil.node), dim == 2 ? "length" : "area"));
+  }
+  if (derivatives && options_.linearisation == Linearisation::frozen_normals)
+    for (NodalNormal& normal : normals) normal.derivative.setZero();
+  for (std::size_t n = 0; n < positions.size() && !failure; ++n)
+    if (!positions[n].allFinite()) failure = StepFailure(FailureKind::not_finite, "a position on the contact surfaces is not a number");
+  if (options_.coupling == Coupling::node_to_segment)
+    couplings.resize(failure ? 0 : couple_nodes(positions, derivatives, normals, couplings));
+  else
+    couple_facets(positions, derivatives, normals, couplings, failure);
+  normals.resize(slave.owned.size());
+}
+
+template void Interface<2>::evaluate(const MultiVector&, bool, std::vector<FacetCoupling>&, std::vector<NodalNormal>&, std::optional<StepFailure>&);
+template void Interface<3>::evaluate(const MultiVector&, bool, std::vector<FacetCoupling>&, std::vector<NodalNormal>&, std::optional<StepFailure>&);
+
+}  // namespace mortise

@@ -1,0 +1,89 @@
+// A plan made on one rank says what build_mesh() does on as many as there are.
+
+#include "mortise/mesh/mesh_plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_Core.hpp>
+#include <Tpetra_Map.hpp>
+#include <numeric>
+#include <set>
+
+#include "mortise/mesh/volume_generators.hpp"
+
+namespace mortise {
+namespace {
+
+const std::vector<std::string> sides{"lower/top", "upper/bottom"};
+
+std::vector<BodyDescription> plane_blocks() {
+  auto lower = std::make_shared<BlockMesh>(), upper = std::make_shared<BlockMesh>();
+  for (auto* block : {lower.get(), upper.get()}) block->width = block->height = 1.0;
+  lower->cells_x = lower->cells_y = 9;
+  upper->cells_x = upper->cells_y = 7;
+  upper->translation = {0.0, 1.0};
+  return {{"lower", {}, lower, CellShape::quadrilateral4}, {"upper", {}, upper, CellShape::triangle6}};
+}
+
+std::vector<BodyDescription> bricks() {
+  auto lower = std::make_shared<BrickMesh>(), upper = std::make_shared<BrickMesh>();
+  for (auto* brick : {lower.get(), upper.get()}) brick->width = brick->depth = brick->height = 1.0;
+  lower->cells_x = lower->cells_y = lower->cells_z = 6;
+  upper->cells_x = upper->cells_y = upper->cells_z = 4;
+  upper->translation = {0.0, 0.0, 1.0};
+  return {{"lower", {}, lower, CellShape::hexahedron8}, {"upper", {}, upper, CellShape::tetrahedron4}};
+}
+
+TEST(MeshPlan, IsWhatRunsDo) {
+  const auto comm = Tpetra::getDefaultComm();
+  for (const auto& bodies : {plane_blocks(), bricks()}) {
+    const auto mesh = build_mesh(comm, bodies, sides);
+    const MeshPlan plan = plan_mesh(bodies, sides, comm->getSize());
+    const MeshShare& share = plan.shares[comm->getRank()];
+    GlobalOrdinal elements = 0, ghosts = 0;
+    for (const Block& block : mesh->blocks) {
+      elements += block.owned;
+      ghosts += block.size() - block.owned;
+      for (LocalOrdinal e = 0; e < block.owned; ++e) EXPECT_EQ(plan.rank_of_element[block.element_ids[e]], comm->getRank());
+    }
+    EXPECT_EQ(share.elements, elements);
+    EXPECT_EQ(share.ghost_elements, ghosts);
+    EXPECT_EQ(share.nodes, mesh->owned_count());
+    EXPECT_EQ(share.ghost_nodes, mesh->local_count() - mesh->owned_count());
+    for (const GlobalOrdinal node : mesh->owned_nodes->getNodeElementList()) EXPECT_EQ(plan.owner_of_node[node], comm->getRank());
+
+    std::vector<std::set<LocalOrdinal>> around(mesh->local_count());
+    for (const Block& block : mesh->blocks)
+      for (LocalOrdinal e = 0; e < block.size(); ++e)
+        for (int a = 0; a < block.nodes_per_element; ++a) around[block.nodes(e)[a]].insert(block.nodes(e), block.nodes(e) + block.nodes_per_element);
+    GlobalOrdinal pairs = 0;
+    for (LocalOrdinal node = 0; node < mesh->owned_count(); ++node) pairs += static_cast<GlobalOrdinal>(around[node].size());
+    EXPECT_EQ(share.node_pairs, pairs);
+  }
+}
+
+TEST(MeshPlan, SharesEverythingOutOnce) {
+  for (const int ranks : {1, 5, 40}) {
+    const MeshPlan plan = plan_mesh(bricks(), sides, ranks);
+    ASSERT_EQ(plan.shares.size(), static_cast<std::size_t>(ranks));
+    GlobalOrdinal elements = 0, nodes = 0;
+    for (int rank = 0; rank < ranks; ++rank) {
+      const MeshShare& share = plan.shares[rank];
+      elements += share.elements;
+      nodes += share.nodes;
+      GlobalOrdinal ghosts = 0;
+      for (const auto& [owner, count] : share.ghosts_from) {
+        EXPECT_NE(owner, rank);
+        ghosts += count;
+      }
+      EXPECT_EQ(ghosts, share.ghost_nodes);
+    }
+    EXPECT_EQ(elements, 6 * 6 * 6 + 6 * 4 * 4 * 4);
+    EXPECT_EQ(nodes, 7 * 7 * 7 + 5 * 5 * 5);
+    EXPECT_EQ(static_cast<std::size_t>(elements), plan.rank_of_element.size());
+  }
+}
+
+}  // namespace
+}  // namespace mortise
