@@ -1,12 +1,14 @@
 // The change of unknowns under which a condensed contact system falls apart into that of the bodies, joined, and one of the gaps.
 
 #include <Eigen/Core>
+#include <TpetraExt_MatrixMatrix.hpp>
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
+#include <utility>
 
 #include "implementation.hpp"
 #include "mortise/core/dof_map.hpp"
@@ -38,6 +40,29 @@ class NearIdentity {
   RCP<Matrix> matrix_;
 };
 
+// Rows of slave nodes with respect to what the nodes they are coupled to move by. A middle of an edge is coupled to corners, which are slave nodes
+// themselves: rows of middles act on what rows of corners give.
+struct SlaveRows {
+  NearIdentity corners, middles;
+  std::vector<char> is_corner, is_middle;  ///< [dofs]
+  bool middles_first;
+
+  SlaveRows(const RCP<const Map>& dofs, std::size_t widest, bool any_middles)
+      : corners(dofs, widest),
+        middles(dofs, any_middles ? widest : 1),
+        is_corner(dofs->getNodeNumElements(), 0),
+        is_middle(is_corner),
+        middles_first(any_middles) {}
+
+  RCP<Matrix> finish() {
+    RCP<Matrix> last = corners.finish(is_corner);
+    if (!middles_first) return last;
+    const auto product = rcp(new Matrix(last->getRowMap(), last->getNodeMaxNumRowEntries()));
+    Tpetra::MatrixMatrix::Multiply(*middles.finish(is_middle), false, *last, false, *product);
+    return product;
+  }
+};
+
 }  // namespace
 
 Decoupling ContactSystem::decoupling(const Vector& z) const {
@@ -47,9 +72,8 @@ Decoupling ContactSystem::decoupling(const Vector& z) const {
   std::size_t widest = 1;
   for (const auto& pair : self.pairs)
     for (std::size_t s = 0; s < pair->rows().size(); ++s) widest = std::max(widest, dimension * (1 + pair->interface().coupled_nodes(s).size()));
-  NearIdentity trial(self.dofs, widest), test(self.dofs, widest);
+  SlaveRows trial(self.dofs, widest, self.middles_first), test(self.dofs, widest, self.middles_first);
   Decoupling result;
-  std::vector<char> is_slave(self.dofs->getNodeNumElements(), 0);
   std::vector<std::pair<LocalOrdinal, SpatialMatrix>> eliminated;  // owned node, N_j
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
     const detail::PairCoupling& pair = *self.pairs[p];
@@ -70,10 +94,12 @@ Decoupling ContactSystem::decoupling(const Vector& z) const {
       const SpatialMatrix along = free - N, kept = SpatialMatrix::Identity(dimension, dimension) - N;
       for (int i = 0; i < dimension; ++i) {
         const LocalOrdinal dof = dimension * slave.owned_node + i;
-        is_slave[dof] = 1;
+        const bool middle = pair.before_corners(s);
+        for (SlaveRows* rows : {&trial, &test}) (middle ? rows->is_middle : rows->is_corner)[dof] = 1;
+        NearIdentity &trial_rows = middle ? trial.middles : trial.corners, &test_rows = middle ? test.middles : test.corners;
         for (int k = 0; k < dimension; ++k) {
-          trial.add(dof, dimension * slave.id + k, kept(i, k));
-          test.add(dof, dimension * slave.id + k, kept(i, k));
+          trial_rows.add(dof, dimension * slave.id + k, kept(i, k));
+          test_rows.add(dof, dimension * slave.id + k, kept(i, k));
         }
         const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
         for (std::size_t c = 0; c < coupled.size(); ++c) {
@@ -81,16 +107,16 @@ Decoupling ContactSystem::decoupling(const Vector& z) const {
           if (share == 0.0) continue;
           for (int k = 0; k < dimension; ++k) {
             if (is_fixed(coupled[c], k) != 0.0) continue;
-            trial.add(dof, dimension * nodes.getGlobalElement(coupled[c]) + k, share * N(i, k));
-            test.add(dof, dimension * nodes.getGlobalElement(coupled[c]) + k, -share * along(i, k));
+            trial_rows.add(dof, dimension * nodes.getGlobalElement(coupled[c]) + k, share * N(i, k));
+            test_rows.add(dof, dimension * nodes.getGlobalElement(coupled[c]) + k, -share * along(i, k));
           }
         }
       }
       eliminated.emplace_back(slave.owned_node, N);
     }
   }
-  result.trial = trial.finish(is_slave);
-  result.test = test.finish(is_slave);
+  result.trial = trial.finish();
+  result.test = test.finish();
   // N, block diagonal.
   const auto normal = rcp(new Matrix(self.dofs, static_cast<std::size_t>(dimension)));
   for (const auto& [node, N] : eliminated)
