@@ -117,123 +117,129 @@ void ContactSystem::Implementation::eliminate_by_law(std::size_t p, const Vector
 //   tangential   without friction (tau . K~_j - D z . dtau) dd = tau . rhs_j,   sticking D_jj c_t du dd = -D_jj c_t u
 // A node with a fixed component f: the tangent along f gives z_f, row f stays Dirichlet's, and the free rows hold the other conditions.
 // Open nodes: z^{k+1} = 0, their rows stay momentum rows.
+// The rows of a corner hold the multipliers of the middles of its edges too,  D_cc z_c + sum_m D_mc z_m = rhs_c - K~_c dd,  those of a middle its own
+// only. With the middles condensed first, which adds their D_mc (b_m + S_m dd) to rows of corners, the corners' rows are as above.
+void ContactSystem::Implementation::condense_node(std::size_t p, std::size_t s, const Vector& z, Matrix& system, Vector& rhs) {
+  const PairCoupling& pair = *pairs[p];
+  const SpatialVector zs = z_of(z.getLocalViewHost(Tpetra::Access::ReadOnly), p, s);
+  if (multiplier_of[p][s] < 0 || !pair.closed(s, zs)) return;
+  const NodePositions& positions = scatter->positions(p);
+  std::array<std::vector<double>, 3> momentum, constraint, row_values;
+  const SlaveNode& slave = pair.slave_nodes()[s];
+  const NodeRow& node = pair.rows()[s];
+  const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
+  const LocalOrdinal first_row = dimension * slave.owned_node;
+  const Complementarity law = pair.complementarity(s, zs);
+
+  RecoveryRow kept;
+  kept.multiplier = multiplier_of[p][s];
+  SpatialVector rhs_s(dimension);
+  {
+    const auto view = rhs.getLocalViewHost(Tpetra::Access::ReadOnly);
+    for (int i = 0; i < dimension; ++i) rhs_s[i] = view(first_row + i, 0);
+  }
+  for (int i = 0; i < dimension; ++i) copy_row(system, first_row + i, kept.columns, momentum[i]);
+  const std::vector<LocalOrdinal>& columns = kept.columns;
+
+  // Linearised complementarity: constraint . dd + (C - C_z z) + C_z z^{k+1} = 0
+  for (int a = 0; a < dimension; ++a) constraint[a].assign(columns.size(), 0.0);
+  for (std::size_t c = 0; c < coupled.size(); ++c)
+    for (int i = 0; i < dimension; ++i) {
+      const auto found = std::lower_bound(columns.begin(), columns.end(), positions.column[dimension * coupled[c] + i]);
+      const SpatialVector gradient = pair.constraint_gradient(law, s, dimension * c + i);
+      for (int a = 0; a < dimension; ++a) constraint[a][found - columns.begin()] += gradient[a];
+    }
+  const SpatialVector constant = law.C - law.C_z * zs;
+
+  // E z^{k+1} = e - L dd, one row for each component: momentum where free, where fixed the condition along the tangent that is this component.
+  const Frame frame = pair.frame(s);
+  SpatialMatrix E = SpatialMatrix::Zero(dimension, dimension);
+  SpatialVector e(dimension);
+  std::array<const std::vector<double>*, 3> L{};
+  std::array<bool, 3> in_own_rows{true, true, true};  // of the conditions
+  for (int i = 0; i < dimension; ++i) {
+    if (slave.fixed[i]) {
+      Eigen::Index tangent = 0;
+      frame.tangents.col(i).cwiseAbs().maxCoeff(&tangent);
+      const auto a = static_cast<int>(1 + tangent);
+      in_own_rows[a] = false;
+      E.row(i) = law.C_z.row(a);
+      e[i] = -constant[a];
+      L[i] = &constraint[a];
+    } else {
+      E(i, i) = node.D;
+      e[i] = rhs_s[i];
+      L[i] = &momentum[i];
+    }
+  }
+  const SpatialMatrix inverse = E.inverse();
+  kept.b = inverse * e;
+  for (int i = 0; i < dimension; ++i) {
+    kept.S[i].assign(columns.size(), 0.0);
+    for (int k = 0; k < dimension; ++k)
+      if (inverse(i, k) != 0.0)
+        for (std::size_t c = 0; c < columns.size(); ++c) kept.S[i][c] -= inverse(i, k) * (*L[k])[c];
+  }
+
+  for (std::size_t c = 0; c < coupled.size(); ++c) {
+    const double coefficient = node.coefficients[c];
+    if (coefficient == 0.0) continue;
+    for (int i = 0; i < dimension; ++i) {
+      row_values[i].resize(columns.size());
+      for (std::size_t k = 0; k < columns.size(); ++k) row_values[i][k] = coefficient * kept.S[i][k];
+      scatter->add(system, positions, coupled[c], i, columns, row_values[i]);
+      scatter->add(rhs, positions, coupled[c], i, -coefficient * kept.b[i]);
+    }
+  }
+
+  // Own rows. Equation a: constraint_a dd + constant_a + C_z,a (b + S dd) = 0, scaled to forces.
+  SpatialVector right(dimension);
+  for (int a = 0; a < dimension; ++a) {
+    const double scale = a == 0 ? -slave.weight : -node.D;
+    row_values[a].resize(columns.size());
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      double value = constraint[a][k];
+      for (int i = 0; i < dimension; ++i) value += law.C_z(a, i) * kept.S[i][k];
+      row_values[a][k] = scale * value;
+    }
+    right[a] = -scale * (constant[a] + law.C_z.row(a).dot(kept.b));
+  }
+  const auto out = rhs.getLocalViewHost(Tpetra::Access::ReadWrite);
+  for (int i = 0; i < dimension; ++i) {
+    if (slave.fixed[i]) continue;
+    std::vector<double>& values = momentum[i];
+    values.assign(columns.size(), 0.0);
+    double value = 0.0;
+    for (int a = 0; a < dimension; ++a) {
+      if (!in_own_rows[a]) continue;
+      const double component = a == 0 ? frame.normal[i] : frame.tangents(a - 1, i);
+      for (std::size_t k = 0; k < columns.size(); ++k) values[k] += component * row_values[a][k];
+      value += component * right[a];
+    }
+    replace_row(system, first_row + i, columns, values);
+    out(first_row + i, 0) = value;
+  }
+  recovery.push_back(std::move(kept));
+}
+
 void ContactSystem::condense(const Vector& z, Matrix& system, Vector& rhs) {
   Implementation& self = *implementation_;
   const auto scope = self.timers.scope("condensation");
-  const auto z_values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
   self.recovery.clear();
-
-  const int dimension = self.dimension;
-  std::array<std::vector<double>, 3> momentum, constraint, row_values;
-  for (std::size_t p = 0; p < self.pairs.size(); ++p) {
-    if (self.pairs[p]->formulation().elimination() == Elimination::law) {
-      self.eliminate_by_law(p, z, system, rhs);
-      continue;
+  for (const bool middles : {true, false}) {
+    if (middles && !self.middles_first) continue;
+    for (std::size_t p = 0; p < self.pairs.size(); ++p) {
+      const PairCoupling& pair = *self.pairs[p];
+      if (pair.formulation().elimination() == Elimination::law) {
+        if (!middles) self.eliminate_by_law(p, z, system, rhs);
+        continue;
+      }
+      for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s)
+        if (pair.before_corners(s) == middles) self.condense_node(p, s, z, system, rhs);
     }
-    const PairCoupling& pair = *self.pairs[p];
-    const NodePositions& positions = self.scatter->positions(p);
-    for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
-      const SpatialVector zs = self.z_of(z_values, p, s);
-      if (self.multiplier_of[p][s] < 0 || !pair.closed(s, zs)) continue;
-      const SlaveNode& slave = pair.slave_nodes()[s];
-      const NodeRow& node = pair.rows()[s];
-      const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
-      const LocalOrdinal first_row = dimension * slave.owned_node;
-      const Complementarity law = pair.complementarity(s, zs);
-
-      RecoveryRow recovery;
-      recovery.multiplier = self.multiplier_of[p][s];
-      SpatialVector rhs_s(dimension);
-      {
-        const auto view = rhs.getLocalViewHost(Tpetra::Access::ReadOnly);
-        for (int i = 0; i < dimension; ++i) rhs_s[i] = view(first_row + i, 0);
-      }
-      for (int i = 0; i < dimension; ++i) copy_row(system, first_row + i, recovery.columns, momentum[i]);
-      const std::vector<LocalOrdinal>& columns = recovery.columns;
-
-      // Linearised complementarity: constraint . dd + (C - C_z z) + C_z z^{k+1} = 0
-      for (int a = 0; a < dimension; ++a) constraint[a].assign(columns.size(), 0.0);
-      for (std::size_t c = 0; c < coupled.size(); ++c)
-        for (int i = 0; i < dimension; ++i) {
-          const auto found = std::lower_bound(columns.begin(), columns.end(), positions.column[dimension * coupled[c] + i]);
-          const SpatialVector gradient = pair.constraint_gradient(law, s, dimension * c + i);
-          for (int a = 0; a < dimension; ++a) constraint[a][found - columns.begin()] += gradient[a];
-        }
-      const SpatialVector constant = law.C - law.C_z * zs;
-
-      // E z^{k+1} = e - L dd, one row for each component: momentum where free, where fixed the condition along the tangent that is this component.
-      const Frame frame = pair.frame(s);
-      SpatialMatrix E = SpatialMatrix::Zero(dimension, dimension);
-      SpatialVector e(dimension);
-      std::array<const std::vector<double>*, 3> L{};
-      std::array<bool, 3> in_own_rows{true, true, true};  // of the conditions
-      for (int i = 0; i < dimension; ++i) {
-        if (slave.fixed[i]) {
-          Eigen::Index tangent = 0;
-          frame.tangents.col(i).cwiseAbs().maxCoeff(&tangent);
-          const auto a = static_cast<int>(1 + tangent);
-          in_own_rows[a] = false;
-          E.row(i) = law.C_z.row(a);
-          e[i] = -constant[a];
-          L[i] = &constraint[a];
-        } else {
-          E(i, i) = node.D;
-          e[i] = rhs_s[i];
-          L[i] = &momentum[i];
-        }
-      }
-      const SpatialMatrix inverse = E.inverse();
-      recovery.b = inverse * e;
-      for (int i = 0; i < dimension; ++i) {
-        recovery.S[i].assign(columns.size(), 0.0);
-        for (int k = 0; k < dimension; ++k)
-          if (inverse(i, k) != 0.0)
-            for (std::size_t c = 0; c < columns.size(); ++c) recovery.S[i][c] -= inverse(i, k) * (*L[k])[c];
-      }
-
-      for (std::size_t c = 0; c < coupled.size(); ++c) {
-        const double coefficient = node.coefficients[c];
-        if (coefficient == 0.0) continue;
-        for (int i = 0; i < dimension; ++i) {
-          row_values[i].resize(columns.size());
-          for (std::size_t k = 0; k < columns.size(); ++k) row_values[i][k] = coefficient * recovery.S[i][k];
-          self.scatter->add(system, positions, coupled[c], i, columns, row_values[i]);
-          self.scatter->add(rhs, positions, coupled[c], i, -coefficient * recovery.b[i]);
-        }
-      }
-
-      // Own rows. Equation a: constraint_a dd + constant_a + C_z,a (b + S dd) = 0, scaled to forces.
-      SpatialVector right(dimension);
-      for (int a = 0; a < dimension; ++a) {
-        const double scale = a == 0 ? -slave.weight : -node.D;
-        row_values[a].resize(columns.size());
-        for (std::size_t k = 0; k < columns.size(); ++k) {
-          double value = constraint[a][k];
-          for (int i = 0; i < dimension; ++i) value += law.C_z(a, i) * recovery.S[i][k];
-          row_values[a][k] = scale * value;
-        }
-        right[a] = -scale * (constant[a] + law.C_z.row(a).dot(recovery.b));
-      }
-      const auto out = rhs.getLocalViewHost(Tpetra::Access::ReadWrite);
-      for (int i = 0; i < dimension; ++i) {
-        if (slave.fixed[i]) continue;
-        std::vector<double>& values = momentum[i];
-        values.assign(columns.size(), 0.0);
-        double value = 0.0;
-        for (int a = 0; a < dimension; ++a) {
-          if (!in_own_rows[a]) continue;
-          const double component = a == 0 ? frame.normal[i] : frame.tangents(a - 1, i);
-          for (std::size_t k = 0; k < columns.size(); ++k) values[k] += component * row_values[a][k];
-          value += component * right[a];
-        }
-        replace_row(system, first_row + i, columns, values);
-        out(first_row + i, 0) = value;
-      }
-      self.recovery.push_back(std::move(recovery));
-    }
+    self.scatter->finish(system);
+    self.scatter->finish(rhs);
   }
-  self.scatter->finish(system);
-  self.scatter->finish(rhs);
 }
 
 void ContactSystem::recover(const Vector& increment, Vector& z_new) const {

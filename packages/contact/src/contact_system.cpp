@@ -98,6 +98,9 @@ ContactSystem::ContactSystem(RCP<const Map> owned_nodes, RCP<const Map> dofs, RC
     self.marked.emplace_back(pair->slave_nodes().size(), ContactState::open);
     self.accepted.emplace_back(pair->slave_nodes().size(), ContactState::open);
   }
+  for (const auto& pair : self.pairs)
+    for (std::size_t s = 0; s < pair->slave_nodes().size(); ++s) self.middles_first |= pair->before_corners(s);
+  self.middles_first = self.maximum(self.middles_first) > 0.0;
   const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
   self.multipliers = rcp(new Map(invalid, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, self.dofs->getComm()));
 }
@@ -143,7 +146,7 @@ RCP<const Graph> ContactSystem::system_graph(const RCP<const Graph>& bulk, bool&
     const auto part = self.timers.scope("contact graph");
     std::vector<detail::PairCoupling*> pairs;
     for (const auto& pair : self.pairs) pairs.push_back(pair.get());
-    self.scatter = std::make_unique<detail::SystemScatter>(self.owned_nodes, bulk, pairs);
+    self.scatter = std::make_unique<detail::SystemScatter>(self.owned_nodes, bulk, pairs, self.middles_first);
     self.pattern_changed = false;
   }
   return self.scatter->graph();

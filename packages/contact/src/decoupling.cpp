@@ -1,12 +1,15 @@
 // The change of unknowns under which a condensed contact system falls apart into that of the bodies, joined, and one of the gaps.
 
 #include <Eigen/Core>
+#include <TpetraExt_MatrixMatrix.hpp>
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "implementation.hpp"
 #include "mortise/core/dof_map.hpp"
@@ -39,6 +42,31 @@ class NearIdentity {
   RCP<Matrix> matrix_;
 };
 
+// Rows of slave nodes with respect to what the nodes they are coupled to move by. A middle of an edge is coupled to corners, which are slave nodes
+// themselves: rows of middles act on what rows of corners give.
+class SlaveRows {
+ public:
+  SlaveRows(const RCP<const Map>& dofs, const std::vector<std::size_t>& sizes, bool any_middles)
+      : corners_(dofs, sizes), is_corner_(sizes.size(), 0), is_middle_(sizes.size(), 0) {
+    if (any_middles) middles_.emplace(dofs, sizes);
+  }
+
+  void mark(LocalOrdinal dof, bool middle) { (middle ? is_middle_ : is_corner_)[dof] = 1; }
+  void add(LocalOrdinal row, bool middle, GlobalOrdinal column, double value) { (middle ? *middles_ : corners_).add(row, column, value); }
+  RCP<Matrix> finish() {
+    RCP<Matrix> last = corners_.finish(is_corner_);
+    if (!middles_) return last;
+    const auto product = rcp(new Matrix(last->getRowMap(), last->getNodeMaxNumRowEntries()));
+    Tpetra::MatrixMatrix::Multiply(*middles_->finish(is_middle_), false, *last, false, *product);
+    return product;
+  }
+
+ private:
+  NearIdentity corners_;
+  std::optional<NearIdentity> middles_;
+  std::vector<char> is_corner_, is_middle_;  ///< [dofs]
+};
+
 }  // namespace
 
 Decoupling ContactSystem::decoupling(const Vector& z) const {
@@ -50,9 +78,8 @@ Decoupling ContactSystem::decoupling(const Vector& z) const {
     for (std::size_t s = 0; s < pair->rows().size(); ++s)
       std::fill_n(sizes.begin() + dimension * pair->slave_nodes()[s].owned_node, dimension,
                   dimension * (1 + pair->interface().coupled_nodes(s).size()));
-  NearIdentity trial(self.dofs, sizes), test(self.dofs, sizes);
+  SlaveRows trial(self.dofs, sizes, self.middles_first), test(self.dofs, sizes, self.middles_first);
   Decoupling result;
-  std::vector<char> is_slave(self.dofs->getNodeNumElements(), 0);
   std::vector<std::pair<LocalOrdinal, SpatialMatrix>> eliminated;  // owned node, N_j
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
     const detail::PairCoupling& pair = *self.pairs[p];
@@ -73,10 +100,12 @@ Decoupling ContactSystem::decoupling(const Vector& z) const {
       const SpatialMatrix along = free - N, kept = SpatialMatrix::Identity(dimension, dimension) - N;
       for (int i = 0; i < dimension; ++i) {
         const LocalOrdinal dof = dimension * slave.owned_node + i;
-        is_slave[dof] = 1;
+        const bool middle = pair.before_corners(s);
+        trial.mark(dof, middle);
+        test.mark(dof, middle);
         for (int k = 0; k < dimension; ++k) {
-          trial.add(dof, dimension * slave.id + k, kept(i, k));
-          test.add(dof, dimension * slave.id + k, kept(i, k));
+          trial.add(dof, middle, dimension * slave.id + k, kept(i, k));
+          test.add(dof, middle, dimension * slave.id + k, kept(i, k));
         }
         const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
         for (std::size_t c = 0; c < coupled.size(); ++c) {
@@ -84,16 +113,16 @@ Decoupling ContactSystem::decoupling(const Vector& z) const {
           if (share == 0.0) continue;
           for (int k = 0; k < dimension; ++k) {
             if (is_fixed(coupled[c], k) != 0.0) continue;
-            trial.add(dof, dimension * nodes.getGlobalElement(coupled[c]) + k, share * N(i, k));
-            test.add(dof, dimension * nodes.getGlobalElement(coupled[c]) + k, -share * along(i, k));
+            trial.add(dof, middle, dimension * nodes.getGlobalElement(coupled[c]) + k, share * N(i, k));
+            test.add(dof, middle, dimension * nodes.getGlobalElement(coupled[c]) + k, -share * along(i, k));
           }
         }
       }
       eliminated.emplace_back(slave.owned_node, N);
     }
   }
-  result.trial = trial.finish(is_slave);
-  result.test = test.finish(is_slave);
+  result.trial = trial.finish();
+  result.test = test.finish();
   // N, block diagonal.
   const auto normal = rcp(new Matrix(self.dofs, static_cast<std::size_t>(dimension)));
   for (const auto& [node, N] : eliminated)

@@ -32,6 +32,7 @@ struct ContactSystem::Implementation {
   std::vector<std::vector<ContactState>> marked, accepted;  ///< [pair][slave node] when last marked, of the accepted state
   std::unique_ptr<detail::SystemScatter> scatter;
   bool pattern_changed = true, slip_references_taken = false;
+  bool middles_first = false;  ///< there are multipliers that are condensed before others, on any rank
   std::vector<RecoveryRow> recovery;
 
   /// Positions X + d on the owned nodes.
@@ -45,6 +46,7 @@ struct ContactSystem::Implementation {
     return result;
   }
   void add_contact_force(const Vector& z, Vector& r) const;
+  void condense_node(std::size_t pair, std::size_t s, const Vector& z, Matrix& system, Vector& rhs);
   void eliminate_by_law(std::size_t pair, const Vector& z, Matrix& system, Vector& rhs);
   void take_slip_references();
   std::vector<std::vector<ContactState>> states(const Vector& z) const;

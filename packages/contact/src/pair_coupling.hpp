@@ -82,6 +82,9 @@ class PairCoupling {
   /// Couplings of facets with derivatives; empty when the geometry is frozen.
   const std::vector<FacetCoupling>& couplings() const { return couplings_; }
 
+  /// Whether the multiplier of slave node s is condensed before those of corners, whose momentum rows it stands in: middles of edges.
+  bool before_corners(std::size_t s) const { return slave_nodes()[s].middle && formulation().elimination() == Elimination::momentum; }
+
   /// Element size h of the scaling and of the start rule.
   double size() const { return size_; }
   /// c_n of slave node s: E / (h A_j) unless given.

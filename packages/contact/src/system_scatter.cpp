@@ -29,17 +29,20 @@ Columns bulk_columns(const Graph& bulk, LocalOrdinal row) {
   return columns;
 }
 
-// Columns that condensation adds to a node's rows, by node id: the same for all components of the node.
-std::map<GlobalOrdinal, Columns> coupled_columns(const Graph& bulk, const std::vector<PairCoupling*>& pairs, int dimension) {
-  std::map<GlobalOrdinal, Columns> columns_of_node;
+// Adds the columns that condensation brings to a node's rows, by node id: the same for all components of the node. The multipliers are those that
+// are condensed before corners, or the others, in whose rows the former's columns `of_middles` stand by then.
+void add_columns(const Graph& bulk, const std::vector<PairCoupling*>& pairs, int dimension, bool before_corners,
+                 const std::map<GlobalOrdinal, Columns>& of_middles, std::map<GlobalOrdinal, Columns>& columns_of_node) {
   for (const PairCoupling* pair : pairs) {
     const Map& nodes = *pair->interface().local_nodes();
     for (std::size_t s = 0; s < pair->slave_nodes().size(); ++s) {
       const SlaveNode& slave = pair->slave_nodes()[s];
-      if (!slave.carries_multiplier) continue;
+      if (!slave.carries_multiplier || pair->before_corners(s) != before_corners) continue;
       Columns columns = bulk_columns(bulk, dimension * slave.owned_node);
       for (const LocalOrdinal node : pair->interface().coupled_nodes(s))
         for (int i = 0; i < dimension; ++i) columns.push_back(dimension * nodes.getGlobalElement(node) + i);
+      if (const auto found = of_middles.find(slave.id); found != of_middles.end())
+        columns.insert(columns.end(), found->second.begin(), found->second.end());
       sort_unique(columns);
       for (const LocalOrdinal node : pair->interface().loaded_nodes(s)) {
         Columns& into = columns_of_node[nodes.getGlobalElement(node)];
@@ -48,7 +51,6 @@ std::map<GlobalOrdinal, Columns> coupled_columns(const Graph& bulk, const std::v
     }
   }
   for (auto& [node, columns] : columns_of_node) sort_unique(columns);
-  return columns_of_node;
 }
 
 RCP<Graph> remote_graph(const std::map<GlobalOrdinal, Columns>& columns_of_node, const Map& owned_nodes, const RCP<const Map>& dofs, int dimension) {
@@ -92,11 +94,21 @@ void receive(const Graph& remote, const Export& exporter, const RCP<const Map>& 
 
 }  // namespace
 
-SystemScatter::SystemScatter(const RCP<const Map>& owned_nodes, const RCP<const Graph>& bulk, const std::vector<PairCoupling*>& pairs) {
+SystemScatter::SystemScatter(const RCP<const Map>& owned_nodes, const RCP<const Graph>& bulk, const std::vector<PairCoupling*>& pairs,
+                             bool middles_first) {
   const RCP<const Map> dofs = bulk->getRowMap();
   parallel_ = dofs->getComm()->getSize() > 1;
   const int dimension = pairs.empty() ? 1 : pairs.front()->dimension();
-  std::map<GlobalOrdinal, Columns> columns_of_node = coupled_columns(*bulk, pairs, dimension);
+  std::map<GlobalOrdinal, Columns> of_middles;
+  if (middles_first) {
+    add_columns(*bulk, pairs, dimension, true, {}, of_middles);
+    if (parallel_) {
+      const RCP<Graph> remote = remote_graph(of_middles, *owned_nodes, dofs, dimension);
+      receive(*remote, Export(remote->getRowMap(), dofs), dofs, dimension, of_middles);
+    }
+  }
+  std::map<GlobalOrdinal, Columns> columns_of_node = of_middles;
+  add_columns(*bulk, pairs, dimension, false, of_middles, columns_of_node);
 
   if (parallel_) {
     const RCP<Graph> remote = remote_graph(columns_of_node, *owned_nodes, dofs, dimension);

@@ -21,7 +21,8 @@ class SystemScatter {
  public:
   /// Builds the graph of the condensed system: the bulk's rows; for each slave node s the columns of its own bulk row and of the nodes
   /// it is coupled to; the same columns in the rows of the nodes its multiplier loads (they receive the slave's row by condensation).
-  SystemScatter(const RCP<const Map>& owned_nodes, const RCP<const Graph>& bulk, const std::vector<PairCoupling*>& pairs);
+  /// @param middles_first  whether there are multipliers that are condensed before those of corners, whose rows they widen, on any rank
+  SystemScatter(const RCP<const Map>& owned_nodes, const RCP<const Graph>& bulk, const std::vector<PairCoupling*>& pairs, bool middles_first);
 
   const RCP<const Graph>& graph() const { return graph_; }
   const NodePositions& positions(std::size_t pair) const { return positions_[pair]; }

@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 
+#include "mortise/mortar/quadratic_facet.hpp"
+
 namespace mortise {
 namespace {
 
@@ -23,7 +25,7 @@ void AuxiliaryPlane::to_global(const std::vector<Eigen::Vector3d>& vectors, Eige
     of_plane.col(0) += r[0] * block.col(2) - r[2] * block.col(0);
     of_plane.col(1) += r[1] * block.col(2) - r[2] * block.col(1);
   }
-  for (std::size_t a = 0; a < slave.size(); ++a) {
+  for (std::size_t a = 0; a < facet_corners(3, slave.size()); ++a) {
     auto block = gradients.middleCols<3>(3 * static_cast<Eigen::Index>(a));
     for (int i = 0; i < 3; ++i) block.col(i) += tilt[a](0, i) * of_plane.col(0) + tilt[a](1, i) * of_plane.col(1);
   }
@@ -37,7 +39,7 @@ void AuxiliaryPlane::to_global(const std::vector<Eigen::Vector3d>& vectors, Eige
 
 std::optional<AuxiliaryPlane> make_auxiliary_plane(const FacetVectors& slave) {
   AuxiliaryPlane plane;
-  const bool triangle = slave.size() == 3;
+  const bool triangle = facet_corners(3, slave.size()) == 3;
   const Eigen::Vector3d first = triangle ? Eigen::Vector3d(slave[1] - slave[0]) : Eigen::Vector3d(slave[2] - slave[0]);
   const Eigen::Vector3d second = triangle ? Eigen::Vector3d(slave[2] - slave[0]) : Eigen::Vector3d(slave[3] - slave[1]);
   const Eigen::Vector3d c = first.cross(second);
@@ -49,7 +51,8 @@ std::optional<AuxiliaryPlane> make_auxiliary_plane(const FacetVectors& slave) {
   plane.origin.setZero();
   for (const Eigen::Vector3d& x : slave) plane.origin += x / static_cast<double>(slave.size());
   for (const Eigen::Vector3d& x : slave) plane.slave.push_back(plane.to_frame(x));
-  if (!shows_side(plane.slave, 1.0, 0.0)) return std::nullopt;
+  for (const FacetPart& part : linear_parts(3, slave.size()))
+    if (!shows_side(part_of(plane.slave, part), 1.0, 0.0)) return std::nullopt;
 
   // dp = (I - p p^T) dc / |c|,   dc = -[second]x dfirst + [first]x dsecond
   const Eigen::Matrix<double, 2, 3> of_first = -cross_matrix(plane.frame * second).topRows<2>() / area;

@@ -9,19 +9,44 @@ namespace {
 
 Point2<double> point(const Eigen::Vector2d& x) { return {x.x(), x.y()}; }
 
+LinePoints line_on(const Facet<LocalOrdinal>& nodes, const Positions<2>& x) {
+  LinePoints line;
+  for (const LocalOrdinal node : nodes) line.push_back(point(x[node]));
+  return line;
+}
+
+// xi of the nodes of a line.
+constexpr double reference[] = {-1.0, 1.0, 0.0};
+
+template <int n>
+void set_basis(const Interval& covered, FacetMoments& moments) {
+  moments.T.resize(n, n);
+  moments.extrapolation.resize(n, n);
+  const double width = covered.high - covered.low, place[] = {covered.low, covered.high, 0.5 * (covered.low + covered.high)};
+  for (int j = 0; j < n; ++j) {
+    const auto N = LineShape<n>::values(place[j]);
+    const double from_low = (reference[j] - covered.low) / width;
+    const auto L = interval_functions<n>(from_low, 1.0 - from_low);
+    for (int a = 0; a < n; ++a) {
+      moments.T(a, j) = N[a];
+      moments.extrapolation(j, a) = L[a];
+    }
+  }
+}
+
 }  // namespace
 
 FacetIntegrator2d::FacetIntegrator2d(const InterfaceMeasure& measure, const MortarOptions& options)
     : measure_(measure),
       functions_{options.coupling == Coupling::dual_mortar, options.coupling == Coupling::dual_mortar && options.gap_weighting == GapWeighting::dual},
-      rule_(gauss_legendre(options.gauss_points)) {}
+      rule_(gauss_legendre(options.gauss_points)),
+      rule_of_quadratic_(gauss_legendre(std::max(options.gauss_points, 3))) {}
 
 bool FacetIntegrator2d::integrate(const SlaveFacetData& slave, const std::vector<Facet<LocalOrdinal>>& masters, const FacetReach& reach,
                                   const Positions<2>& x, bool derivatives, FacetCoupling& coupling) {
-  for (int node = 0; node < 2; ++node) {
-    line_.x[node] = point(x[slave.nodes[node]]);
-    line_.normal[node] = point(slave.normals[node]->normal);
-  }
+  line_.x = line_on(slave.nodes, x);
+  line_.normal.clear();
+  for (const NodalNormal* normal : slave.normals) line_.normal.push_back(point(normal->normal));
   coupling.slave = slave.nodes;
   coupling.master.clear();
   coupling.columns.clear();
@@ -44,45 +69,47 @@ void FacetIntegrator2d::find_pairs(const std::vector<Facet<LocalOrdinal>>& maste
   bool touches = false;
   for (const Facet<LocalOrdinal>& nodes : masters) {
     Pair pair;
-    pair.line = {{point(x[nodes[0]]), point(x[nodes[1]])}};
-    const double distance = segment_distance(line_.x, pair.line.y);
+    pair.line = line_on(nodes, x);
+    const double distance = facet_distance(line_.x, pair.line);
     if (distance > reach.all) continue;
     const auto overlap = find_overlap(line_, pair.line);
     if (!overlap) continue;
     touches = touches || distance <= reach.touch;
     pair.overlap = *overlap;
-    for (int l = 0; l < 2; ++l) pair.place[l] = place_of(coupling.master, nodes[l]);
+    for (const LocalOrdinal node : nodes) pair.place.push_back(place_of(coupling.master, node));
     pairs_.push_back(pair);
   }
   if (!touches) pairs_.clear();
 }
 
-// L_0, L_1 are nodal at the ends of the covered interval; T^-T is what the linear extrapolation from there to the nodes makes of them.
+// The functions L belong to the covered interval; T^-T is what their extrapolation from there to the nodes makes of them.
 void FacetIntegrator2d::choose_basis(const Interval& covered) {
-  moments_.T.resize(2, 2);
-  moments_.T << 0.5 * (1.0 - covered.low), 0.5 * (1.0 - covered.high), 0.5 * (1.0 + covered.low), 0.5 * (1.0 + covered.high);
-  moments_.extrapolation.resize(2, 2);
-  for (int j = 0; j < 2; ++j) {
-    const double place = ((j == 0 ? -1.0 : 1.0) - covered.low) / (covered.high - covered.low);
-    moments_.extrapolation.row(j) << 1.0 - place, place;
-  }
+  if (line_.x.size() == 2)
+    set_basis<2>(covered, moments_);
+  else
+    set_basis<3>(covered, moments_);
 }
 
 void FacetIntegrator2d::accumulate(const Interval& covered, std::size_t masters, bool derivatives) {
-  const auto count = static_cast<Eigen::Index>(masters), rows = 5 + 2 * count;
+  const auto n = static_cast<Eigen::Index>(line_.x.size()), count = static_cast<Eigen::Index>(masters);
+  const Eigen::Index masses = FacetMoments::masses(n), rows = FacetMoments::rows(n, count);
   moments_.value.setZero(rows);
-  if (derivatives) raw_.setZero(rows, 8 + 2 * count);
+  if (derivatives) raw_.setZero(rows, 4 * n + 2 * count);
+  boost::container::static_vector<Eigen::Index, 18> to;
   for (const Pair& pair : pairs_) {
-    integrate_segment(line_, pair.line, pair.overlap, covered, measure_, rule_, derivatives, segment_);
-    const std::array<Eigen::Index, 2> place = pair.place;
-    const std::array<Eigen::Index, SegmentIntegrals::count> row = {
-        0, 1, 2, 3 + place[0], 3 + place[1], 3 + count + place[0], 3 + count + place[1], 3 + 2 * count, 4 + 2 * count};
-    for (int q = 0; q < SegmentIntegrals::count; ++q) {
-      moments_.value[row[q]] += segment_.value[q];
+    integrate_segment(line_, pair.line, pair.overlap, covered, measure_, n == 2 ? rule_ : rule_of_quadratic_, derivatives, segment_);
+    to.clear();
+    for (Eigen::Index q = 0; q < masses; ++q) to.push_back(q);
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (const Eigen::Index place : pair.place) to.push_back(masses + i * count + place);
+    for (Eigen::Index i = 0; i < n; ++i) to.push_back(masses + n * count + i);
+    for (std::size_t q = 0; q < to.size(); ++q) {
+      const auto from = static_cast<Eigen::Index>(q);
+      moments_.value[to[q]] += segment_.value[from];
       if (!derivatives) continue;
-      for (int i = 0; i < 8; ++i) raw_(row[q], i) += segment_.derivative[q][i];
-      for (int l = 0; l < 2; ++l)
-        for (int i = 0; i < 2; ++i) raw_(row[q], 8 + 2 * place[l] + i) += segment_.derivative[q][8 + 2 * l + i];
+      raw_.row(to[q]).head(4 * n) += segment_.derivative.row(from).head(4 * n);
+      for (std::size_t l = 0; l < pair.place.size(); ++l)
+        raw_.block<1, 2>(to[q], 4 * n + 2 * pair.place[l]) += segment_.derivative.block<1, 2>(from, 4 * n + 2 * static_cast<Eigen::Index>(l));
     }
   }
 }
@@ -94,17 +121,17 @@ void FacetIntegrator2d::chain(const SlaveFacetData& slave, FacetCoupling& coupli
     for (const LocalOrdinal node : normal->columns) place_of(columns, node);
   const auto first_master = static_cast<Eigen::Index>(columns.size());
   columns.insert(columns.end(), coupling.master.begin(), coupling.master.end());
-  const auto masters = static_cast<Eigen::Index>(coupling.master.size());
+  const auto n = static_cast<Eigen::Index>(slave.nodes.size()), masters = static_cast<Eigen::Index>(coupling.master.size());
 
   moments_.slope.setZero(raw_.rows(), 2 * static_cast<Eigen::Index>(columns.size()));
   moments_.moving_columns = moments_.slope.cols();
-  moments_.slope.leftCols<4>() = raw_.leftCols<4>();
+  moments_.slope.leftCols(2 * n) = raw_.leftCols(2 * n);
   moments_.slope.middleCols(2 * first_master, 2 * masters) = raw_.rightCols(2 * masters);
-  for (int node = 0; node < 2; ++node) {
-    const NodalNormal& normal = *slave.normals[node];
+  for (Eigen::Index node = 0; node < n; ++node) {
+    const NodalNormal& normal = *slave.normals[static_cast<std::size_t>(node)];
     for (std::size_t c = 0; c < normal.columns.size(); ++c)
       moments_.slope.middleCols<2>(2 * place_of(columns, normal.columns[c])).noalias() +=
-          raw_.middleCols<2>(4 + 2 * node) * normal.derivative.middleCols<2>(2 * static_cast<Eigen::Index>(c));
+          raw_.middleCols<2>(2 * (n + node)) * normal.derivative.middleCols<2>(2 * static_cast<Eigen::Index>(c));
   }
 }
 

@@ -25,8 +25,8 @@ class FacetIntegrator2d {
 
  private:
   struct Pair {
-    std::array<Eigen::Index, 2> place{};  ///< in FacetCoupling::master
-    MasterLine<double> line;
+    boost::container::static_vector<Eigen::Index, 3> place;  ///< in FacetCoupling::master
+    LinePoints line;
     Overlap overlap;
   };
   void find_pairs(const std::vector<Facet<LocalOrdinal>>& masters, const FacetReach& reach, const Positions<2>& x, FacetCoupling& coupling);
@@ -36,11 +36,11 @@ class FacetIntegrator2d {
 
   InterfaceMeasure measure_;
   FacetFunctions functions_;
-  std::vector<LinePoint> rule_;
-  SlaveLine<double> line_;
+  std::vector<LinePoint> rule_, rule_of_quadratic_;  ///< fewer than 3 points would not tell three functions apart
+  SlaveCurve line_;
   std::vector<Pair> pairs_;
   SegmentIntegrals segment_;
-  Eigen::MatrixXd raw_;  ///< derivatives with respect to x_a, x_b, n_a, n_b, then the masters
+  Eigen::MatrixXd raw_;  ///< derivatives with respect to slave positions, slave normals, masters
   FacetMoments moments_;
 };
 

@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace mortise {
 
@@ -36,13 +37,15 @@ bool FacetIntegrator3d::find_pairs(const std::vector<Facet<LocalOrdinal>>& maste
   for (const Facet<LocalOrdinal>& facet : masters) {
     FacetVectors nodes;
     for (const LocalOrdinal node : facet) nodes.push_back(plane_.to_frame(x[node]));
-    const auto overlap = find_overlap(plane_.slave, nodes);
-    if (!overlap || overlap->distance > reach.all) continue;
-    touches = touches || overlap->distance <= reach.touch;
-    Pair& pair = pairs_.emplace_back();
-    pair.nodes = nodes;
-    pair.overlap = *overlap;
-    for (const LocalOrdinal node : facet) pair.place.push_back(place_of(coupling.master, node));
+    overlaps_.clear();
+    find_overlaps(plane_.slave, nodes, overlaps_);
+    double distance = std::numeric_limits<double>::max();
+    for (const Overlap3d& overlap : overlaps_) distance = std::min(distance, overlap.distance);
+    if (overlaps_.empty() || distance > reach.all) continue;
+    touches = touches || distance <= reach.touch;
+    boost::container::static_vector<Eigen::Index, 8> place;
+    for (const LocalOrdinal node : facet) place.push_back(place_of(coupling.master, node));
+    for (const Overlap3d& overlap : overlaps_) pairs_.push_back({nodes, place, overlap});
   }
   return touches;
 }
@@ -71,7 +74,7 @@ void FacetIntegrator3d::accumulate(const std::vector<Eigen::Vector3d>& x, bool d
   const Eigen::Index masses = FacetMoments::masses(n), rows = FacetMoments::rows(n, count);
   moments_.value.setZero(rows);
   if (derivatives) raw_.setZero(rows, 6 * n + 3 * count);
-  std::vector<Eigen::Index> to(static_cast<std::size_t>(FacetMoments::rows(n, 4)));
+  std::vector<Eigen::Index> to(static_cast<std::size_t>(FacetMoments::rows(n, 8)));
   for (const Pair& pair : pairs_) {
     integrate_segment(plane_.slave, normals_, pair.nodes, pair.overlap, basis_, derivatives, segment_);
     std::size_t r = 0;

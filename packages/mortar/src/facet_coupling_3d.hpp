@@ -17,7 +17,7 @@ class FacetIntegrator3d {
   /// @param masters  master facets that may overlap (local nodes)
   /// @param x        positions of the local nodes
   /// @return false if none overlaps within reach; then `coupling` has no meaning
-  /// @throws StepFailure for a slave facet that lost its area or is not convex any more, and as find_overlap()
+  /// @throws StepFailure for a slave facet that lost its area or is not convex any more, and as find_overlaps()
   bool integrate(const SlaveFacetData& slave, const std::vector<Facet<LocalOrdinal>>& masters, const FacetReach& reach,
                  const std::vector<Eigen::Vector3d>& x, bool derivatives, FacetCoupling& coupling);
 
@@ -25,9 +25,9 @@ class FacetIntegrator3d {
   std::size_t segments() const { return pairs_.size(); }
 
  private:
-  struct Pair {
+  struct Pair {                                              ///< a master facet, once for each of its parts that meets one of the slave's
     FacetVectors nodes;                                      ///< in the plane's frame
-    boost::container::static_vector<Eigen::Index, 4> place;  ///< in FacetCoupling::master
+    boost::container::static_vector<Eigen::Index, 8> place;  ///< in FacetCoupling::master
     Overlap3d overlap;
   };
   bool find_pairs(const std::vector<Facet<LocalOrdinal>>& masters, const FacetReach& reach, const std::vector<Eigen::Vector3d>& x,
@@ -40,6 +40,7 @@ class FacetIntegrator3d {
   AuxiliaryPlane plane_;
   FacetVectors normals_;  ///< in the plane's frame
   std::vector<Pair> pairs_;
+  std::vector<Overlap3d> overlaps_;
   Eigen::MatrixXd basis_;  ///< L = basis N
   SegmentIntegrals3d segment_;
   Eigen::MatrixXd raw_;  ///< derivatives with respect to slave positions, slave normals, masters

@@ -26,8 +26,11 @@ void put(WordWriter& to, const TravellingFacet& facet) {
   to.put_list(facet.nodes);
   to.put_list(facet.receivers);
   for (const auto& stencil : facet.stencils) {
-    to.put(stencil.corners.size());
-    for (const auto& [one, other] : stencil.corners) to.put(one), to.put(other);
+    to.put(stencil.facets.size());
+    for (const auto& tangents : stencil.facets) {
+      to.put_list(tangents.nodes);
+      to.put_matrix(tangents.slope);
+    }
     for (const bool projected : stencil.projected) to.put(projected);
   }
   to.put_matrix(facet.multipliers.share);
@@ -48,9 +51,11 @@ TravellingFacet get(WordReader& from) {
   from.get_list<int>([&](int rank) { facet.receivers.push_back(rank); });
   facet.stencils.resize(facet.nodes.size());
   for (auto& stencil : facet.stencils) {
-    stencil.corners.resize(from.get<std::size_t>());
-    for (auto& corner : stencil.corners)
-      for (GlobalOrdinal& node : corner) node = from.get<GlobalOrdinal>();
+    stencil.facets.resize(from.get<std::size_t>());
+    for (auto& tangents : stencil.facets) {
+      tangents.nodes = get_facet(from);
+      from.get_matrix(tangents.slope);
+    }
     for (bool& projected : stencil.projected) projected = from.get<bool>();
   }
   from.get_matrix(facet.multipliers.share);
@@ -127,7 +132,7 @@ std::vector<TravellingFacet> FacetDistribution::send_away(const SlaveSurface& sl
     for (const LocalOrdinal node : slave.facets[f]) {
       const NormalStencil& stencil = slave.stencils[node];
       facet.stencils.push_back({{}, stencil.projected});
-      for (const auto& [one, other] : stencil.corners) facet.stencils.back().corners.push_back({slave.node_ids[one], slave.node_ids[other]});
+      for (const NodeTangents& tangents : stencil.facets) facet.stencils.back().facets.push_back({ids_of(tangents.nodes, slave), tangents.slope});
     }
     WordWriter to(sent[integrator_[f]]);
     put(to, facet);

@@ -14,14 +14,18 @@ namespace mortise {
 
 /// A slave facet that is integrated away from the ranks that own its nodes, with all that this takes; nodes by their ids.
 struct TravellingFacet {
+  struct Tangents {
+    SurfaceFacet nodes;
+    decltype(NodeTangents::slope) slope;
+  };
   struct Stencil {
-    std::vector<std::array<GlobalOrdinal, 2>> corners;
+    std::vector<Tangents> facets;
     std::array<bool, 3> projected{};
   };
   SurfaceFacet nodes;
   std::vector<int> receivers;     ///< ranks that want its coupling
   std::vector<Stencil> stencils;  ///< [nodes] of their normals
-  FacetMultipliers multipliers;
+  FacetMultipliers multipliers;   ///< but for the basis, which its nodes tell
   SurfaceFacets candidates;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Sizes of facets in the plane (lines) and in space (triangles and quadrilaterals).
+// Sizes of facets in the plane (lines) and in space (triangles and quadrilaterals), linear and quadratic.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -9,17 +9,19 @@
 #include <limits>
 #include <vector>
 
+#include "mortise/mortar/quadratic_facet.hpp"
+
 namespace mortise {
 
 template <int dim>
 using Positions = std::vector<Eigen::Matrix<double, dim, 1>>;
 
 template <int dim>
-inline constexpr std::size_t most_corners = dim == 2 ? 2 : 4;
+inline constexpr std::size_t most_facet_nodes = dim == 2 ? 3 : 8;
 
-/// Positions of the nodes of a linear facet, in order.
+/// Positions of the nodes of a facet, in order.
 template <int dim>
-using FacetPoints = boost::container::static_vector<Eigen::Matrix<double, dim, 1>, most_corners<dim>>;
+using FacetPoints = boost::container::static_vector<Eigen::Matrix<double, dim, 1>, most_facet_nodes<dim>>;
 
 template <int dim, class Nodes>
 FacetPoints<dim> points_of(const Nodes& nodes, const Positions<dim>& x) {
@@ -28,11 +30,22 @@ FacetPoints<dim> points_of(const Nodes& nodes, const Positions<dim>& x) {
   return points;
 }
 
-/// Calls act(a, b) for each edge; a line is its own only one.
+/// Points whose convex hull holds the facet: the coefficients of its position in functions that are >= 0. Of linear facets the nodes.
+template <int dim>
+FacetPoints<dim> control_points(const FacetPoints<dim>& x) {
+  const NonNegativeBasis* basis = non_negative_basis(dim, x.size());
+  if (basis == nullptr) return x;
+  FacetPoints<dim> points(x.size(), Eigen::Matrix<double, dim, 1>::Zero());
+  for (std::size_t a = 0; a < x.size(); ++a)
+    for (std::size_t b = 0; b < x.size(); ++b) points[b] += basis->to_shape(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) * x[a];
+  return points;
+}
+
+/// Calls act(a, b) for the ends of each edge; a line is its own only one.
 template <int dim, class Act>
 void for_each_edge(const FacetPoints<dim>& x, const Act& act) {
-  const std::size_t edges = dim == 2 ? 1 : x.size();
-  for (std::size_t a = 0; a < edges; ++a) act(x[a], x[(a + 1) % x.size()]);
+  const std::size_t corners = facet_corners(dim, x.size()), edges = dim == 2 ? 1 : corners;
+  for (std::size_t a = 0; a < edges; ++a) act(x[a], x[(a + 1) % corners]);
 }
 
 template <int dim>
@@ -49,20 +62,30 @@ double shortest_edge(const FacetPoints<dim>& x) {
   return shortest;
 }
 
-/// Normal at the centre times an area: c of AuxiliaryPlane.
+/// Normal of a linear facet at its centre times an area: c of AuxiliaryPlane.
 inline Eigen::Vector3d central_normal(const FacetPoints<3>& x) {
   return x.size() == 3 ? (x[1] - x[0]).cross(x[2] - x[0]) : (x[2] - x[0]).cross(x[3] - x[1]);
 }
 
-/// Outward normal of a line times its length.
-inline Eigen::Vector2d central_normal(const FacetPoints<2>& x) { return {x[1].y() - x[0].y(), x[0].x() - x[1].x()}; }
-
-/// The height H of a facet bounds how far its normal turns: if no node moves further than d, the sine of the angle is at most 2 d / H (to first
-/// order). Its length in the plane; the least height of a triangle; the area over the longer line between the middles of opposite edges of a
-/// quadrilateral. 0 without area.
-inline double facet_height(const FacetPoints<2>& x) { return (x[1] - x[0]).norm(); }
+/// The height H of a facet bounds how far its normals turn: if no node moves further than d, the sine of the angle is at most 2 d / H (to first
+/// order). 0 without extent.
+///   plane  the length of a line of 2 nodes. Of 3 nodes half the least |dx/dxi| of the nodes: that changes by 4 d at most, as at the first node,
+///   where
+///          it is -3/2 x_0 - 1/2 x_1 + 2 x_2;
+///   space  the least height of a triangle; the area over the longer line between the middles of opposite edges of a quadrilateral; the least one of
+///          the linear parts, which are what is compared with the other side.
+inline double facet_height(const FacetPoints<2>& x) {
+  if (x.size() == 2) return (x[1] - x[0]).norm();
+  const Eigen::Vector2d along = 0.5 * (x[1] - x[0]), bend = x[0] + x[1] - 2.0 * x[2];
+  return 0.5 * std::min({along.norm(), (along - bend).norm(), (along + bend).norm()});
+}
 
 inline double facet_height(const FacetPoints<3>& x) {
+  if (const auto& parts = linear_parts(3, x.size()); parts.size() > 1) {
+    double least = std::numeric_limits<double>::max();
+    for (const FacetPart& part : parts) least = std::min(least, facet_height(part_of(x, part)));
+    return least;
+  }
   const double twice_area = central_normal(x).norm();
   const double width = x.size() == 3 ? longest_edge<3>(x) : std::max((x[2] - x[0] + x[3] - x[1]).norm(), (x[2] - x[0] - x[3] + x[1]).norm());
   return width > 0.0 ? twice_area / width : 0.0;

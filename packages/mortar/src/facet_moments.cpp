@@ -13,6 +13,7 @@ constexpr double negligible_cover = 1e-12;
 //   dA = (dD_e T^-T - A dM_L) M_L^-1.
 // M_L is as well conditioned on a sliver as on the whole facet; the large entries of T^-T are the extrapolation that phi really is. Standard
 // multipliers: phi = N = T L, constant in this basis, D = T M_L T^T. Where a node has no multiplier, phi -> S phi.
+// Quadratic facets: the same with Ñ = B N = B T L in the place of N; then int phi_j N_k = sum_i (int phi_j Ñ_i) (B^-1)_ki.
 template <int n>
 class Combination {
   static constexpr int masses = n * (n + 1) / 2;
@@ -22,7 +23,16 @@ class Combination {
 
  public:
   Combination(const FacetMoments& moments, const FacetMultipliers& multipliers, const FacetFunctions& functions)
-      : moments_(moments), functions_(functions), S_(multipliers.share), T_(moments.T), extrapolation_(moments.extrapolation) {
+      : moments_(moments),
+        functions_(functions),
+        basis_(multipliers.basis),
+        S_(multipliers.share),
+        T_(moments.T),
+        extrapolation_(moments.extrapolation) {
+    if (basis_ != nullptr) {
+      T_ = basis_->of_shape * moments.T;
+      extrapolation_ = basis_->to_shape.transpose() * moments.extrapolation;
+    }
     const Row l = T_.colwise().sum();
     mass_of_.setZero();
     for (int i = 0, r = 0; i < n; ++i)
@@ -91,10 +101,20 @@ class Combination {
         }
       }
     }
+    if (basis_ != nullptr) to_shape(coupling);
     return any;
   }
 
  private:
+  // From int phi_j Ñ_i to int phi_j N_k.
+  void to_shape(FacetCoupling& coupling) const {
+    coupling.D *= basis_->to_shape.transpose();
+    for (int j = 0; j < n && coupling.dD.size() > 0; ++j) {
+      const Slopes of_basis = coupling.dD.middleRows<n>(n * j);
+      coupling.dD.middleRows<n>(n * j).noalias() = basis_->to_shape * of_basis;
+    }
+  }
+
   // (sum_k S_jk dD_k (T^-T)_k - a dM_L) M_L^-1, transposed
   Slopes dual_slope(const Row& share, const Row& a, const Slopes& weight_slope, Eigen::Index moving) const {
     Slopes right;
@@ -109,6 +129,7 @@ class Combination {
 
   const FacetMoments& moments_;
   const FacetFunctions& functions_;
+  const NonNegativeBasis* basis_;
   Small S_, T_, extrapolation_, M_L_, inverse_;
   Eigen::Matrix<double, n, masses> mass_of_;  // int N as a function of the masses
   Eigen::Matrix<double, n, 1> weight_, full_;
@@ -116,19 +137,22 @@ class Combination {
 
 }  // namespace
 
-FacetMatrix multiplier_shares(const std::vector<char>& carries) {
+FacetMatrix multiplier_shares(const std::vector<char>& carries, std::size_t corners) {
   const std::size_t count = carries.size();
+  // Heirs stand on a ring around the facet that starts at node `first`; a corner of a quadratic facet stands between the middles k - 1 and k.
+  const std::size_t first = count > corners ? corners : 0, ring = count - first;
+  const auto on_ring = [&](std::size_t place) { return first + place % ring; };
   FacetMatrix share = FacetMatrix::Zero(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(count));
   for (std::size_t k = 0; k < count; ++k) {
     std::vector<std::size_t> heirs;
     if (carries[k]) {
       heirs = {k};
     } else {
-      const std::size_t next = (k + 1) % count, previous = (k + count - 1) % count;
+      const std::size_t next = k < first ? on_ring(k) : on_ring(k - first + 1), previous = on_ring((k < first ? k : k - first) + ring - 1);
       if (carries[next]) heirs.push_back(next);
       if (carries[previous] && previous != next) heirs.push_back(previous);
       if (heirs.empty())
-        for (std::size_t j = 0; j < count; ++j)
+        for (std::size_t j = first; j < count; ++j)
           if (carries[j]) heirs.push_back(j);
     }
     for (const std::size_t j : heirs) share(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(k)) = 1.0 / static_cast<double>(heirs.size());
@@ -143,8 +167,12 @@ bool combine(const FacetMoments& moments, const FacetMultipliers& multipliers, c
       return Combination<2>(moments, multipliers, functions).fill(derivatives, coupling);
     case 3:
       return Combination<3>(moments, multipliers, functions).fill(derivatives, coupling);
-    default:
+    case 4:
       return Combination<4>(moments, multipliers, functions).fill(derivatives, coupling);
+    case 6:
+      return Combination<6>(moments, multipliers, functions).fill(derivatives, coupling);
+    default:
+      return Combination<8>(moments, multipliers, functions).fill(derivatives, coupling);
   }
 }
 

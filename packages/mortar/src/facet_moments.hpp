@@ -5,11 +5,12 @@
 #include <vector>
 
 #include "mortise/mortar/mortar_interface.hpp"
+#include "mortise/mortar/quadratic_facet.hpp"
 
 namespace mortise {
 
-/// Integrals over all overlaps of a slave facet of n nodes, N = T L in a basis L of its shape functions that is well conditioned on the covered part.
-/// Rows:  int L_i L_j (i <= j, i first),   int L_i N_l (row i masters + l),   int L_i g.
+/// Integrals over all overlaps of a slave facet of n nodes, N = T L (shape functions) in a basis L of its shape functions that is well conditioned on
+/// the covered part. Rows:  int L_i L_j (i <= j, i first),   int L_i N_l (row i masters + l),   int L_i g.
 struct FacetMoments {
   FacetMatrix T, extrapolation;  ///< [n x n] T and T^-T, constant: which basis carries the integrals does not change phi
   Eigen::VectorXd value;
@@ -22,13 +23,16 @@ struct FacetMoments {
 
 /// Which multipliers a facet has.
 struct FacetMultipliers {
-  FacetMatrix share;    ///< S: phi_j is the sum of S_jk times the facet's own function k; row of a node without multiplier: 0
-  FacetVector weights;  ///< int N_j over the facet in the reference configuration
+  FacetMatrix share;                        ///< S: phi_j is the sum of S_jk times the facet's own function k; row of a node without multiplier: 0
+  FacetVector weights;                      ///< int N_j, or int Ñ_j, over the facet in the reference configuration
+  const NonNegativeBasis* basis = nullptr;  ///< Ñ; of quadratic facets
 };
 
 /// S: nodes that carry keep their own function; that of one that does not goes in equal parts to its free edge neighbours, or where it has none to
-/// all free nodes of the facet, so that the sum of all phi stays 1. At least one node carries.
-FacetMatrix multiplier_shares(const std::vector<char>& carries);
+/// all free nodes of the facet, so that the sum of all phi stays 1. At least one node carries. Of quadratic facets only the middles of edges inherit,
+/// those of the node's own edges, or of the edges next to a middle's, and at least one middle carries: int phi_j N_k, which then is not 0 for the
+/// corners k of the middle's edge, would otherwise couple corners both ways.
+FacetMatrix multiplier_shares(const std::vector<char>& carries, std::size_t corners);
 
 /// The functions of multipliers and gap weighting.
 struct FacetFunctions {

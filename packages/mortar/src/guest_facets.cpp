@@ -5,14 +5,15 @@
 namespace mortise {
 namespace {
 
-// Corners, and so columns, stand in the same order as at the node's owner: the normal is the same to the last bit.
+// Facets, and so columns, stand in the same order as at the node's owner: the normal is the same to the last bit.
 NormalStencil make_stencil(LocalOrdinal node, const TravellingFacet::Stencil& from, const std::function<LocalOrdinal(GlobalOrdinal)>& local) {
   NormalStencil stencil;
   stencil.node = node;
   stencil.projected = from.projected;
-  for (const auto& [one, other] : from.corners) {
-    stencil.corners.push_back({local(one), local(other)});
-    for (const LocalOrdinal column : {node, stencil.corners.back()[0], stencil.corners.back()[1]})
+  for (const auto& tangents : from.facets) {
+    stencil.facets.push_back({{}, tangents.slope});
+    for (const GlobalOrdinal id : tangents.nodes) stencil.facets.back().nodes.push_back(local(id));
+    for (const LocalOrdinal column : stencil.facets.back().nodes)
       if (std::find(stencil.columns.begin(), stencil.columns.end(), column) == stencil.columns.end()) stencil.columns.push_back(column);
   }
   return stencil;
@@ -20,12 +21,13 @@ NormalStencil make_stencil(LocalOrdinal node, const TravellingFacet::Stencil& fr
 
 }  // namespace
 
-GuestFacets::GuestFacets(const std::vector<TravellingFacet>& travellers, const SlaveSurface& slave,
+GuestFacets::GuestFacets(int dimension, const std::vector<TravellingFacet>& travellers, const SlaveSurface& slave,
                          const std::function<LocalOrdinal(GlobalOrdinal)>& local) {
   std::map<LocalOrdinal, std::size_t> normal_of;
   for (const TravellingFacet& traveller : travellers) {
     GuestFacet& facet = facets.emplace_back();
     facet.multipliers = traveller.multipliers;
+    facet.multipliers.basis = non_negative_basis(dimension, traveller.nodes.size());
     facet.receivers = traveller.receivers;
     for (std::size_t a = 0; a < traveller.nodes.size(); ++a) {
       const LocalOrdinal node = local(traveller.nodes[a]);

@@ -24,7 +24,8 @@ struct GuestFacets {
 
   GuestFacets() = default;
   /// @param local  the local node of an id, a new one if there is none
-  GuestFacets(const std::vector<TravellingFacet>& travellers, const SlaveSurface& slave, const std::function<LocalOrdinal(GlobalOrdinal)>& local);
+  GuestFacets(int dimension, const std::vector<TravellingFacet>& travellers, const SlaveSurface& slave,
+              const std::function<LocalOrdinal(GlobalOrdinal)>& local);
 };
 
 }  // namespace mortise

@@ -76,7 +76,7 @@ class OverlapTest<2> {
   bool operator()(const FacetPoints<2>& master) const;
 
  private:
-  FacetPoints<2> slave_;
+  FacetPoints<2> slave_;  ///< control points
   Eigen::Vector2d normal_, tangent_;
   double approach_, lean_ = 0.0;  ///< of the nodal normals to the sides, as an angle
 };
@@ -88,6 +88,8 @@ class OverlapTest<3> {
   bool operator()(const FacetPoints<3>& master) const;
 
  private:
+  bool stay_apart(const FacetVectors& slave, const FacetVectors& master) const;  ///< linear parts, in the plane's frame
+
   std::optional<AuxiliaryPlane> plane_;
   double approach_, tangent_, same_way_;  ///< tan of the turn; sine of what two normals can turn against one another
 };

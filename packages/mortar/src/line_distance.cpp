@@ -10,7 +10,7 @@ namespace mortise {
 std::optional<double> line_distance(const Eigen::Vector2d& x, const Eigen::Vector2d& n, const FacetPoints<2>& facet) {
   const MasterLine<double> line = {{{{facet[0].x(), facet[0].y()}, {facet[1].x(), facet[1].y()}}}};
   const Point2<double> normal{n.x(), n.y()};
-  if (!faces(line, normal)) return std::nullopt;
+  if (!faces({line.y[0], line.y[1]}, normal)) return std::nullopt;
   const auto hit = project_onto(line, {x.x(), x.y()}, normal);
   if (std::abs(hit.eta) > 1.0 + on_facet) return std::nullopt;
   return hit.distance;
@@ -29,7 +29,7 @@ std::optional<double> line_distance(const Eigen::Vector3d& x, const Eigen::Vecto
     const Eigen::Vector2d here = nodes[a].head<2>(), next = nodes[(a + 1) % nodes.size()].head<2>();
     if (doubled_area(next, here, origin) < -on_facet * (next - here).squaredNorm()) return std::nullopt;
   }
-  return height_at(nodes, facet_coordinates(nodes, origin));
+  return height_at(nodes, facet_coordinates(nodes, linear_parts(3, nodes.size()).front(), origin));
 }
 
 }  // namespace mortise

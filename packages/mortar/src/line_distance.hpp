@@ -1,5 +1,5 @@
 #pragma once
-// Where a line along a normal meets a master facet.
+// Where a line along a normal meets a linear master facet.
 
 #include <Eigen/Core>
 #include <optional>

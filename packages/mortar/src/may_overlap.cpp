@@ -14,10 +14,12 @@ struct Extent {
   double low, high;
 };
 
-Extent extent_along(const Eigen::Vector2d& axis, const FacetVectors& nodes) {
+// Of positions relative to `origin`, in the plane of their first two components.
+template <class Points>
+Extent extent_along(const Eigen::Vector2d& axis, const Points& points, const Eigen::Vector2d& origin) {
   Extent extent{std::numeric_limits<double>::max(), -std::numeric_limits<double>::max()};
-  for (const Eigen::Vector3d& x : nodes) {
-    const double s = axis.dot(x.head<2>());
+  for (const auto& x : points) {
+    const double s = axis.dot(x.template head<2>() - origin);
     extent.low = std::min(extent.low, s);
     extent.high = std::max(extent.high, s);
   }
@@ -33,41 +35,57 @@ double largest_height(const FacetVectors& nodes) {
 }  // namespace
 
 OverlapTest<2>::OverlapTest(const FacetPoints<2>& slave, const std::vector<NodalNormal>& normals, const Motion& motion)
-    : slave_(slave), normal_(facet_normal(slave[0], slave[1])), tangent_(-normal_.y(), normal_.x()), approach_(motion.approach) {
+    : slave_(control_points<2>(slave)), approach_(motion.approach) {
+  tangent_ = (slave[1] - slave[0]).normalized();
+  normal_ = {tangent_.y(), -tangent_.x()};
   for (const NodalNormal& normal : normals) lean_ = std::max(lean_, std::atan2(std::abs(tangent_.dot(normal.normal)), normal_.dot(normal.normal)));
   lean_ += 2.0 * motion.turn;  // the normal's own turn and that of the facet
 }
 
 bool OverlapTest<2>::operator()(const FacetPoints<2>& master) const {
   if (lean_ > 1.5) return true;
-  const Eigen::Vector2d start = master[0] - slave_[0], end = master[1] - slave_[0];
-  const double length = (slave_[1] - slave_[0]).norm(), height = std::max(std::abs(start.dot(normal_)), std::abs(end.dot(normal_)));
+  const FacetPoints<2> points = control_points<2>(master);
+  const auto along = [&](const FacetPoints<2>& x) { return extent_along(tangent_, x, slave_[0]); };
+  const auto across = [&](const FacetPoints<2>& x) { return extent_along(normal_, x, slave_[0]); };
+  const Extent of_slave = along(slave_), of_master = along(points), depth = across(slave_), heights = across(points);
+  const double height = std::max(std::abs(heights.low - depth.high), std::abs(heights.high - depth.low));
   const double slack = 2.0 * approach_ + std::tan(lean_) * (height + 2.0 * approach_);
-  return std::max(start.dot(tangent_), end.dot(tangent_)) >= -slack && std::min(start.dot(tangent_), end.dot(tangent_)) <= length + slack;
+  return of_master.high >= of_slave.low - slack && of_master.low <= of_slave.high + slack;
 }
 
 OverlapTest<3>::OverlapTest(const FacetPoints<3>& slave, const std::vector<NodalNormal>&, const Motion& motion)
     : plane_(make_auxiliary_plane(slave)), approach_(motion.approach), tangent_(std::tan(motion.turn)), same_way_(std::sin(2.0 * motion.turn)) {}
 
+bool OverlapTest<3>::operator()(const FacetPoints<3>& master) const {
+  if (!plane_) return true;
+  const FacetPoints<3>& slave = plane_->slave;
+  FacetVectors nodes;
+  for (const Eigen::Vector3d& x : master) nodes.push_back(plane_->to_frame(x));
+  for (const FacetPart& part : linear_parts(3, master.size())) {
+    const FacetVectors of_master = part_of(nodes, part);
+    if (central_normal(of_master).normalized().z() > same_way_) continue;
+    for (const FacetPart& other : linear_parts(3, slave.size()))
+      if (!stay_apart(part_of(slave, other), of_master)) return true;
+  }
+  return false;
+}
+
 // Two convex polygons of the plane are disjoint if an axis e along it, across one of their edges, separates them. After the motion points are nearer
 // by `approach` along e at most, and the plane across the new p' may turn by the angle w: e' = e - b p with b = e.p' / p.p', |b| <= tan w, lies along
 // it, and still separates points that were more than approach + tan w (height + approach) apart.
-bool OverlapTest<3>::operator()(const FacetPoints<3>& master) const {
-  if (!plane_) return true;
-  if (central_normal(master).normalized().dot(plane_->frame.row(2)) > same_way_) return false;
-  FacetVectors nodes;
-  for (const Eigen::Vector3d& x : master) nodes.push_back(plane_->to_frame(x));
-  const double height = largest_height(plane_->slave) + largest_height(nodes);
+bool OverlapTest<3>::stay_apart(const FacetVectors& slave, const FacetVectors& master) const {
+  const double height = largest_height(slave) + largest_height(master);
   const double slack = approach_ + tangent_ * (height + approach_);
-  for (const FacetVectors* polygon : std::array<const FacetVectors*, 2>{&plane_->slave, &nodes})
+  const Eigen::Vector2d origin = Eigen::Vector2d::Zero();
+  for (const FacetVectors* polygon : {&slave, &master})
     for (std::size_t e = 0; e < polygon->size(); ++e) {
       const Eigen::Vector2d edge = ((*polygon)[(e + 1) % polygon->size()] - (*polygon)[e]).head<2>();
       if (!(edge.norm() > 0.0)) continue;
       const Eigen::Vector2d axis = Eigen::Vector2d(-edge.y(), edge.x()).normalized();
-      const Extent of_a = extent_along(axis, plane_->slave), of_b = extent_along(axis, nodes);
-      if (of_b.low - of_a.high > slack || of_a.low - of_b.high > slack) return false;
+      const Extent of_a = extent_along(axis, slave, origin), of_b = extent_along(axis, master, origin);
+      if (of_b.low - of_a.high > slack || of_a.low - of_b.high > slack) return true;
     }
-  return true;
+  return false;
 }
 
 }  // namespace mortise

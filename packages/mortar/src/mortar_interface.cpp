@@ -14,14 +14,22 @@ namespace {
 // Collective.
 void refuse_unknown_facets(const InterfaceInput& input, int dimension) {
   std::vector<Diagnostic> diagnostics;
+  bool refused = false;
   for (const SurfaceFacets* facets : {&input.slave, &input.master})
     for (const SurfaceFacet& facet : *facets) {
-      const bool known = dimension == 2 ? facet.size() == 2 : facet.size() == 3 || facet.size() == 4;
-      if (known) continue;
-      diagnostics.push_back({input.place, fmt::format("a contact surface has facets of {} nodes (one starts at node {}); {} are available",
-                                                      facet.size(), facet.empty() ? -1 : facet.front(),
-                                                      dimension == 2 ? "linear lines" : "linear triangles and bilinear quadrilaterals")});
-      break;
+      const std::size_t size = facet.size();
+      const bool linear = dimension == 2 ? size == 2 : size == 3 || size == 4, quadratic = dimension == 2 ? size == 3 : size == 6 || size == 8;
+      if (linear || (quadratic && input.options.coupling != Coupling::node_to_segment)) continue;
+      if (!refused && quadratic)
+        diagnostics.push_back({input.place, fmt::format("node to segment needs linear facets, but a surface of the pair has facets of {} nodes (one "
+                                                        "starts at node {}); use dual mortar, standard mortar, penalty or augmented Lagrange "
+                                                        "with a mortar discretisation, or linear elements",
+                                                        size, facet.front())});
+      else if (!refused)
+        diagnostics.push_back({input.place, fmt::format("a contact surface has facets of {} nodes (one starts at node {}); {} are available", size,
+                                                        facet.empty() ? -1 : facet.front(),
+                                                        dimension == 2 ? "lines of 2 or 3" : "triangles of 3 or 6, quadrilaterals of 4 or 8")});
+      refused = true;
     }
   throw_if_any(*input.owned_nodes->getComm(), diagnostics);
 }

@@ -9,24 +9,28 @@
 
 namespace mortise {
 
-/// What shapes the normal of a node: its slave facets, as indices into positions.
+/// Tangents of a facet at one of its nodes, constant combinations of its nodes' positions:  t_i = sum_b slope(i, b) x_b.
+struct NodeTangents {
+  Facet<LocalOrdinal> nodes;                                                            ///< those that the tangents depend on
+  Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::ColMajor, 2, most_side_nodes> slope;  ///< [dim - 1, rows beyond without use, x nodes]
+};
+
+/// Those at the node with the place `a`: to its neighbours along the edges, of quadratic facets dx/dxi_i.
+template <int dim>
+NodeTangents tangents_at(const Facet<LocalOrdinal>& facet, std::size_t a);
+
+/// What shapes the normal of a node: its slave facets, by indices into positions.
 struct NormalStencil {
   LocalOrdinal node = 0;
-  /// Of each facet, in the plane: its first and its second node; in space: the next node around the facet, and the one before.
-  std::vector<std::array<LocalOrdinal, 2>> corners;
-  std::vector<LocalOrdinal> columns;  ///< the node and those of the corners, without repeats
+  std::vector<NodeTangents> facets;
+  std::vector<LocalOrdinal> columns;  ///< the nodes of all of them, without repeats
   std::array<bool, 3> projected{};    ///< components without a free direction, taken out of the average
 };
 
-/// n_e = (t_y, -t_x) / |t|, t = x_b - x_a. The length must not be zero.
-Eigen::Vector2d facet_normal(const Eigen::Vector2d& a, const Eigen::Vector2d& b);
-
-/// Unit normal of a facet at its corner x: c / |c|, c = (next - x) x (previous - x). |c| must not be zero.
-Eigen::Vector3d corner_normal(const Eigen::Vector3d& x, const Eigen::Vector3d& next, const Eigen::Vector3d& previous);
-
 /// Normalised sum of the unit normals of the node's facets at the node, without the `projected` components:  s = P sum_e n_e,  n = s / |s|,
+///   n_e = (t_y, -t_x) / |t| in the plane,  n_e = c / |c|, c = t_1 x t_2 in space,
 ///   dn = (I - n n^T) P sum_e dn_e / |s|,
-///   dn_e = R (I - t t^T) dx / |x_b - x_a| in the plane,   dn_e = (I - n_e n_e^T) dc / |c| in space.
+///   dn_e = R (I - t t^T / |t|^2) dt / |t|, R turns by -90 degrees,   dn_e = (I - n_e n_e^T) dc / |c|.
 /// Returns false where a facet has no normal or the average does not point out of each of them (then `normal` is not meant to be used).
 bool average_normal(const NormalStencil& stencil, const Positions<2>& x, bool derivatives, NodalNormal& result);
 bool average_normal(const NormalStencil& stencil, const Positions<3>& x, bool derivatives, NodalNormal& result);

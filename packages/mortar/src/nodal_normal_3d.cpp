@@ -1,21 +1,55 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "mortise/shape/quadrilateral8.hpp"
+#include "mortise/shape/triangle6.hpp"
 #include "nodal_normal.hpp"
 
 namespace mortise {
+namespace {
 
-Eigen::Vector3d corner_normal(const Eigen::Vector3d& x, const Eigen::Vector3d& next, const Eigen::Vector3d& previous) {
-  return (next - x).cross(previous - x).normalized();
+// t_1, t_2
+std::array<Eigen::Vector3d, 2> tangents(const NodeTangents& facet, const Positions<3>& x) {
+  std::array<Eigen::Vector3d, 2> sum = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  for (std::size_t b = 0; b < facet.nodes.size(); ++b)
+    for (int i = 0; i < 2; ++i) sum[i] += facet.slope(i, static_cast<Eigen::Index>(b)) * x[facet.nodes[b]];
+  return sum;
+}
+
+template <class Shape>
+NodeTangents slopes_at(const Facet<LocalOrdinal>& facet, std::size_t a) {
+  NodeTangents result;
+  const auto gradients = Shape::gradients(Shape::node_positions[a]);
+  for (std::size_t b = 0; b < facet.size(); ++b) {
+    const Eigen::Vector2d slope(gradients[b][0], gradients[b][1]);
+    if (slope.isZero(0.0)) continue;
+    result.nodes.push_back(facet[b]);
+    result.slope.conservativeResize(2, static_cast<Eigen::Index>(result.nodes.size()));
+    result.slope.rightCols<1>() = slope;
+  }
+  return result;
+}
+
+}  // namespace
+
+template <>
+NodeTangents tangents_at<3>(const Facet<LocalOrdinal>& facet, std::size_t a) {
+  const std::size_t count = facet.size();
+  if (count == 6) return slopes_at<Triangle6>(facet, a);
+  if (count == 8) return slopes_at<Quadrilateral8>(facet, a);
+  NodeTangents result;
+  result.nodes = {facet[a], facet[(a + 1) % count], facet[(a + count - 1) % count]};
+  result.slope.resize(2, 3);
+  result.slope << -1.0, 1.0, 0.0, -1.0, 0.0, 1.0;
+  return result;
 }
 
 bool average_normal(const NormalStencil& stencil, const Positions<3>& x, bool derivatives, NodalNormal& result) {
-  const Eigen::Vector3d& here = x[stencil.node];
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const auto& [next, previous] : stencil.corners) {
-    const Eigen::Vector3d u = x[next] - here, v = x[previous] - here;
+  for (const NodeTangents& facet : stencil.facets) {
+    const auto [u, v] = tangents(facet, x);
     if (!(u.cross(v).norm() > 1e-12 * u.norm() * v.norm())) return false;
-    sum += corner_normal(here, x[next], x[previous]);
+    sum += u.cross(v).normalized();
   }
   for (int i = 0; i < 3; ++i)
     if (stencil.projected[i]) sum[i] = 0.0;
@@ -24,8 +58,10 @@ bool average_normal(const NormalStencil& stencil, const Positions<3>& x, bool de
   if (!(length > none)) return false;
   const Eigen::Vector3d normal = sum / length;
   result.normal = normal;
-  for (const auto& [next, previous] : stencil.corners)
-    if (!(normal.dot(corner_normal(here, x[next], x[previous])) > 0.0)) return false;
+  for (const NodeTangents& facet : stencil.facets) {
+    const auto [u, v] = tangents(facet, x);
+    if (!(normal.dot(u.cross(v).normalized()) > 0.0)) return false;
+  }
   result.columns = stencil.columns;
   if (!derivatives) return true;
 
@@ -33,22 +69,20 @@ bool average_normal(const NormalStencil& stencil, const Positions<3>& x, bool de
   for (int i = 0; i < 3; ++i)
     if (stencil.projected[i]) project.col(i).setZero();
   result.derivative.setZero(3, 3 * static_cast<Eigen::Index>(stencil.columns.size()));
-  const auto block = [&](LocalOrdinal node) {
-    const auto place = std::find(stencil.columns.begin(), stencil.columns.end(), node) - stencil.columns.begin();
-    return result.derivative.middleCols(3 * place, 3);
-  };
-  for (const auto& [next, previous] : stencil.corners) {
-    const Eigen::Vector3d u = x[next] - here, v = x[previous] - here, c = u.cross(v);
-    const Eigen::Vector3d n = c.normalized();
+  for (const NodeTangents& facet : stencil.facets) {
+    const auto [u, v] = tangents(facet, x);
+    const Eigen::Vector3d c = u.cross(v), n = c.normalized();
     const Eigen::Matrix3d slope = project * (Eigen::Matrix3d::Identity() - n * n.transpose()) / c.norm();  // times dc = du x v + u x dv
-    Eigen::Matrix3d of_next, of_previous;
+    Eigen::Matrix3d of_u, of_v;
     for (int i = 0; i < 3; ++i) {
-      of_next.col(i) = slope * Eigen::Vector3d::Unit(i).cross(v);
-      of_previous.col(i) = slope * u.cross(Eigen::Vector3d::Unit(i));
+      of_u.col(i) = slope * Eigen::Vector3d::Unit(i).cross(v);
+      of_v.col(i) = slope * u.cross(Eigen::Vector3d::Unit(i));
     }
-    block(next) += of_next;
-    block(previous) += of_previous;
-    block(stencil.node) -= of_next + of_previous;
+    for (std::size_t b = 0; b < facet.nodes.size(); ++b) {
+      const auto place = std::find(stencil.columns.begin(), stencil.columns.end(), facet.nodes[b]) - stencil.columns.begin();
+      const auto column = static_cast<Eigen::Index>(b);
+      result.derivative.middleCols(3 * place, 3) += facet.slope(0, column) * of_u + facet.slope(1, column) * of_v;
+    }
   }
   return true;
 }

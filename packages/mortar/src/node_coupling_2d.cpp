@@ -41,7 +41,7 @@ std::size_t facet_hit(const SlaveNodeData& slave, const std::vector<Facet<LocalO
   double least = reach;
   for (std::size_t m = 0; m < masters.size(); ++m) {
     const MasterLine<double> line = {{point(x[masters[m][0]]), point(x[masters[m][1]])}};
-    if (!faces(line, normal)) continue;
+    if (!faces({line.y[0], line.y[1]}, normal)) continue;
     const auto projection = project_onto(line, start, normal);
     if (!(std::abs(projection.eta) <= limit)) continue;
     const double distance = std::abs(projection.distance);
@@ -56,8 +56,8 @@ std::size_t facet_hit(const SlaveNodeData& slave, const std::vector<Facet<LocalO
 // w = sum over the node's facets of t L / 2, or 2 pi L (r_j / 3 + r_k / 6); its derivative in the columns of the stencil.
 double share_of_surface(const SlaveNodeData& slave, const Positions<2>& x, const InterfaceMeasure& measure, Eigen::RowVectorXd* slope) {
   double weight = 0.0;
-  for (const auto& facet : slave.stencil->corners) {
-    const LocalOrdinal other = facet[0] == slave.node ? facet[1] : facet[0];
+  for (const NodeTangents& facet : slave.stencil->facets) {
+    const LocalOrdinal other = facet.nodes[0] == slave.node ? facet.nodes[1] : facet.nodes[0];
     const Eigen::Vector2d travel = x[slave.node] - x[other];
     const double length = travel.norm();
     const double height = measure.axisymmetric ? two_pi * (x[slave.node].x() / 3.0 + x[other].x() / 6.0) : 0.5 * measure.thickness;

@@ -11,53 +11,74 @@ constexpr double two_pi = 6.283185307179586476925286766559;
 /// latter to be meant.
 constexpr double facing_tolerance = 0.05;
 
-using Dual = Sacado::Fad::SFad<double, 12>;
+template <int n>
+SlaveLine<double, n> line_of(const SlaveCurve& slave) {
+  SlaveLine<double, n> line;
+  for (int a = 0; a < n; ++a) {
+    line.x[a] = slave.x[a];
+    line.normal[a] = slave.normal[a];
+  }
+  return line;
+}
 
-template <class S>
-void integrate(const SlaveLine<S>& slave, const MasterLine<S>& master, const S& low, const S& high, const Interval& basis,
-               const InterfaceMeasure& measure, const std::vector<LinePoint>& rule, std::array<S, SegmentIntegrals::count>& sum) {
+template <int m>
+MasterLine<double, m> line_of(const LinePoints& master) {
+  MasterLine<double, m> line;
+  for (int l = 0; l < m; ++l) line.y[l] = master[l];
+  return line;
+}
+
+template <int n, int m, class S>
+void integrate(const SlaveLine<S, n>& slave, const MasterLine<S, m>& master, const S& low, const S& high, const Interval& basis,
+               const InterfaceMeasure& measure, const std::vector<LinePoint>& rule, std::array<S, n*(n + 1) / 2 + n * m + n>& sum) {
   using std::sqrt;
   for (S& entry : sum) entry = 0.0;
-  const Point2<S> travel = difference(slave.x[1], slave.x[0]);
   const S middle = 0.5 * (high + low), half = 0.5 * (high - low);
-  const S jacobian = 0.5 * sqrt(travel[0] * travel[0] + travel[1] * travel[1]) * half;
   const double width = basis.high - basis.low;
+  const auto jacobian = [&](const S& xi) {
+    const Point2<S> along = slope(slave.x, xi);
+    return S(sqrt(along[0] * along[0] + along[1] * along[1]) * half);
+  };
+  S length = jacobian(middle);  // the same everywhere on a linear facet
   for (const LinePoint& point : rule) {
     const S xi = middle + half * point.xi;
-    const Point2<S> x = interpolate(slave.x[0], slave.x[1], xi);
-    const Point2<S> normal = interpolate(slave.normal[0], slave.normal[1], xi);
+    const Point2<S> x = interpolate(slave.x, xi), normal = interpolate(slave.normal, xi);
     const MasterProjection<S> projection = project_onto(master, x, normal);
     // x + distance n = xhat, so g = n / |n| . (xhat - x) = distance |n|
     const S gap = projection.distance * sqrt(normal[0] * normal[0] + normal[1] * normal[1]);
-    S weight = point.weight * jacobian;
+    if constexpr (n > 2) length = jacobian(xi);
+    S weight = point.weight * length;
     if (measure.axisymmetric)
       weight *= two_pi * x[0];
     else
       weight *= measure.thickness;
-    const S L_0 = (basis.high - xi) / width, L_1 = (xi - basis.low) / width;
-    const S first = weight * L_0, second = weight * L_1;
-    const S N_0 = 0.5 * (1.0 - projection.eta), N_1 = 0.5 * (1.0 + projection.eta);
-    sum[0] += first * L_0;
-    sum[1] += first * L_1;
-    sum[2] += second * L_1;
-    sum[3] += first * N_0;
-    sum[4] += first * N_1;
-    sum[5] += second * N_0;
-    sum[6] += second * N_1;
-    sum[7] += first * gap;
-    sum[8] += second * gap;
+    const auto L = interval_functions<n>(S((xi - basis.low) / width), S((basis.high - xi) / width));
+    const auto N = LineShape<m>::values(projection.eta);
+    std::array<S, n> weighted;
+    for (int i = 0; i < n; ++i) weighted[i] = weight * L[i];
+    int r = 0;
+    for (int i = 0; i < n; ++i)
+      for (int j = i; j < n; ++j) sum[r++] += weighted[i] * L[j];
+    for (int i = 0; i < n; ++i)
+      for (int l = 0; l < m; ++l) sum[r++] += weighted[i] * N[l];
+    for (int i = 0; i < n; ++i) sum[r++] += weighted[i] * gap;
   }
 }
 
-}  // namespace
-
-bool faces(const MasterLine<double>& master, const Point2<double>& normal) {
-  const Point2<double> travel = difference(master.y[1], master.y[0]);
-  return cross(travel, normal) > facing_tolerance * std::hypot(travel[0], travel[1]);
+template <int m>
+bool line_faces(const MasterLine<double, m>& master, const Point2<double>& normal) {
+  for (const double end : {-1.0, 1.0}) {
+    const Point2<double> along = slope(master.y, end);
+    if (!(cross(along, normal) > facing_tolerance * std::hypot(along[0], along[1]))) return false;
+    if constexpr (m == 2) break;  // the same everywhere
+  }
+  return true;
 }
 
-std::optional<Overlap> find_overlap(const SlaveLine<double>& slave, const MasterLine<double>& master) {
-  if (!faces(master, slave.normal[0]) || !faces(master, slave.normal[1])) return std::nullopt;
+template <int n, int m>
+std::optional<Overlap> overlap_of(const SlaveLine<double, n>& slave, const MasterLine<double, m>& master) {
+  for (const Point2<double>& normal : slave.normal)
+    if (!line_faces(master, normal)) return std::nullopt;
   const auto low = project_back(slave, master.y[1]), high = project_back(slave, master.y[0]);
   if (!low || !high) return std::nullopt;
   constexpr double round_off = 1e-13;  // of a matching mesh; such an overlap carries nothing
@@ -65,28 +86,58 @@ std::optional<Overlap> find_overlap(const SlaveLine<double>& slave, const Master
   return Overlap{{low->xi, high->xi}, low->inside, high->inside};
 }
 
-void integrate_segment(const SlaveLine<double>& slave, const MasterLine<double>& master, const Overlap& overlap, const Interval& basis,
-                       const InterfaceMeasure& measure, const std::vector<LinePoint>& rule, bool derivatives, SegmentIntegrals& result) {
+template <int n, int m>
+void integrate_lines(const SlaveLine<double, n>& slave, const MasterLine<double, m>& master, const Overlap& overlap, const Interval& basis,
+                     const InterfaceMeasure& measure, const std::vector<LinePoint>& rule, bool derivatives, SegmentIntegrals& result) {
+  constexpr int rows = n * (n + 1) / 2 + n * m + n, columns = 2 * (2 * n + m);
   if (!derivatives) {
-    integrate(slave, master, overlap.interval.low, overlap.interval.high, basis, measure, rule, result.value);
+    std::array<double, rows> sum;
+    integrate<n, m>(slave, master, overlap.interval.low, overlap.interval.high, basis, measure, rule, sum);
+    result.value = Eigen::Map<const Eigen::Matrix<double, rows, 1>>(sum.data());
     return;
   }
-  SlaveLine<Dual> dual_slave;
-  MasterLine<Dual> dual_master;
-  for (int node = 0; node < 2; ++node)
-    for (int i = 0; i < 2; ++i) {
-      dual_slave.x[node][i] = Dual(12, 2 * node + i, slave.x[node][i]);
-      dual_slave.normal[node][i] = Dual(12, 4 + 2 * node + i, slave.normal[node][i]);
-      dual_master.y[node][i] = Dual(12, 8 + 2 * node + i, master.y[node][i]);
+  using Dual = Sacado::Fad::SFad<double, columns>;
+  SlaveLine<Dual, n> dual_slave;
+  MasterLine<Dual, m> dual_master;
+  for (int i = 0; i < 2; ++i) {
+    for (int a = 0; a < n; ++a) {
+      dual_slave.x[a][i] = Dual(columns, 2 * a + i, slave.x[a][i]);
+      dual_slave.normal[a][i] = Dual(columns, 2 * (n + a) + i, slave.normal[a][i]);
     }
+    for (int l = 0; l < m; ++l) dual_master.y[l][i] = Dual(columns, 2 * (2 * n + l) + i, master.y[l][i]);
+  }
   const Dual low = overlap.low_is_master ? lift_root(dual_slave, dual_master.y[1], overlap.interval.low) : Dual(overlap.interval.low);
   const Dual high = overlap.high_is_master ? lift_root(dual_slave, dual_master.y[0], overlap.interval.high) : Dual(overlap.interval.high);
-  std::array<Dual, SegmentIntegrals::count> sum;
-  integrate(dual_slave, dual_master, low, high, basis, measure, rule, sum);
-  for (int q = 0; q < SegmentIntegrals::count; ++q) {
+  std::array<Dual, rows> sum;
+  integrate<n, m>(dual_slave, dual_master, low, high, basis, measure, rule, sum);
+  result.value.resize(rows);
+  result.derivative.resize(rows, columns);
+  for (int q = 0; q < rows; ++q) {
     result.value[q] = sum[q].val();
-    for (int i = 0; i < 12; ++i) result.derivative[q][i] = sum[q].fastAccessDx(i);
+    for (int i = 0; i < columns; ++i) result.derivative(q, i) = sum[q].fastAccessDx(i);
   }
+}
+
+// Calls act with the facets as lines of as many nodes as they have.
+template <class Act>
+auto with_lines(const SlaveCurve& slave, const LinePoints& master, const Act& act) {
+  if (slave.x.size() == 2) return master.size() == 2 ? act(line_of<2>(slave), line_of<2>(master)) : act(line_of<2>(slave), line_of<3>(master));
+  return master.size() == 2 ? act(line_of<3>(slave), line_of<2>(master)) : act(line_of<3>(slave), line_of<3>(master));
+}
+
+}  // namespace
+
+bool faces(const LinePoints& master, const Point2<double>& normal) {
+  return master.size() == 2 ? line_faces(line_of<2>(master), normal) : line_faces(line_of<3>(master), normal);
+}
+
+std::optional<Overlap> find_overlap(const SlaveCurve& slave, const LinePoints& master) {
+  return with_lines(slave, master, [](const auto& a, const auto& b) { return overlap_of(a, b); });
+}
+
+void integrate_segment(const SlaveCurve& slave, const LinePoints& master, const Overlap& overlap, const Interval& basis,
+                       const InterfaceMeasure& measure, const std::vector<LinePoint>& rule, bool derivatives, SegmentIntegrals& result) {
+  with_lines(slave, master, [&](const auto& a, const auto& b) { integrate_lines(a, b, overlap, basis, measure, rule, derivatives, result); });
 }
 
 }  // namespace mortise

@@ -69,17 +69,18 @@ std::string written(const SurfaceFacet& ids, const FacetPoints<dim>& x) {
   return text;
 }
 
-// The corner of a facet at its node `a`, as NormalStencil wants it.
-template <int dim>
-std::array<LocalOrdinal, 2> corner(const Facet<LocalOrdinal>& facet, std::size_t a) {
-  if (dim == 2) return {facet[0], facet[1]};
-  return {facet[(a + 1) % facet.size()], facet[(a + facet.size() - 1) % facet.size()]};
-}
-
 bool sound(const FacetPoints<2>&) { return true; }  // without length it has no normal
 bool sound(const FacetPoints<3>& x) { return make_auxiliary_plane(x).has_value(); }
 
 }  // namespace
+
+bool SlaveSurface::may_load(std::size_t facet, LocalOrdinal multiplier, LocalOrdinal node) const {
+  const NonNegativeBasis* basis = multipliers[facet].basis;
+  if (basis == nullptr) return false;
+  const auto place = [&](LocalOrdinal one) { return std::find(facets[facet].begin(), facets[facet].end(), one) - facets[facet].begin(); };
+  // D_jk = sum_i S_ji (int Ñ_i) (B^-1)_ki
+  return multipliers[facet].share.row(place(multiplier)).cwiseProduct(basis->to_shape.row(place(node))).any();
+}
 
 template <int dim>
 SlaveSurface make_slave_surface(const RCP<const Map>& owned_nodes, const RCP<const MultiVector>& reference, const RCP<const MultiVector>& fixed,
@@ -131,9 +132,8 @@ SlaveSurface make_slave_surface(const RCP<const Map>& owned_nodes, const RCP<con
       if (static_cast<std::size_t>(facet[a]) >= surface.nodes_with_normal) continue;
       NormalStencil& stencil = surface.stencils[facet[a]];
       stencil.node = facet[a];
-      stencil.corners.push_back(corner<dim>(facet, a));
-      const auto& [one, other] = stencil.corners.back();
-      for (const LocalOrdinal node : {facet[a], one, other})
+      stencil.facets.push_back(tangents_at<dim>(facet, a));
+      for (const LocalOrdinal node : stencil.facets.back().nodes)
         if (std::find(stencil.columns.begin(), stencil.columns.end(), node) == stencil.columns.end()) stencil.columns.push_back(node);
     }
   }
@@ -172,20 +172,23 @@ SlaveSurface make_slave_surface(const RCP<const Map>& owned_nodes, const RCP<con
     const FacetPoints<dim> points = points_of<dim>(facet, x);
     std::vector<char> carries;
     for (const LocalOrdinal node : facet) carries.push_back(surface.carries[node]);
-    if (std::none_of(carries.begin(), carries.end(), [](char one) { return one != 0; }))
-      diagnostics.push_back({place, fmt::format("the slave facet between nodes {} has prescribed displacements at all its nodes, so it can carry no "
+    const std::size_t corners = facet_corners(dim, facet.size());
+    const bool quadratic = facet.size() > corners;  // then the middles of edges carry what nodes without multiplier leave to others
+    if (std::none_of(carries.begin() + static_cast<std::ptrdiff_t>(quadratic ? corners : 0), carries.end(), [](char one) { return one != 0; }))
+      diagnostics.push_back({place, fmt::format("the slave facet between nodes {} has prescribed displacements at all {}, so it can carry no "
                                                 "contact; please make this side the master",
-                                                written<dim>(ids, points))});
+                                                written<dim>(ids, points), quadratic ? "middles of its edges" : "its nodes")});
     if (!sound(points))
       diagnostics.push_back({place, fmt::format("the slave facet between nodes {} has no area, or is not convex", written<dim>(ids, points))});
     const FacetVector weights = facet_weights(points, measure);
     for (std::size_t j = 0; j < facet.size(); ++j) {
       if (static_cast<std::size_t>(facet[j]) >= surface.owned.size()) continue;
+      surface.owned[facet[j]].middle = j >= corners;
       surface.owned[facet[j]].weight += weights[static_cast<Eigen::Index>(j)];
       surface.facets_of[facet[j]].push_back(surface.facets.size());
     }
     surface.facets.push_back(facet);
-    surface.multipliers.push_back({multiplier_shares(carries), weights});
+    surface.multipliers.push_back({multiplier_shares(carries, corners), weights, non_negative_basis(dim, facet.size())});
   }
   throw_if_any(*owned_nodes->getComm(), diagnostics);
   return surface;

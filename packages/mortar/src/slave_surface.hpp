@@ -19,6 +19,10 @@ struct SlaveSurface {
   std::vector<Facet<LocalOrdinal>> facets;          ///< evaluated here
   std::vector<FacetMultipliers> multipliers;        ///< [facets]
   std::vector<std::vector<std::size_t>> facets_of;  ///< [owned] facets that touch the node
+
+  /// Whether a dual multiplier may act on another node of a facet that carries one itself: the middle of an edge on its corners, and on those of
+  /// edges whose middle has no multiplier.
+  bool may_load(std::size_t facet, LocalOrdinal multiplier, LocalOrdinal node) const;
 };
 
 /// Collective. Throws InputError at `place` for what MortarInterface refuses of a slave side.
@@ -26,9 +30,9 @@ template <int dim>
 SlaveSurface make_slave_surface(const RCP<const Map>& owned_nodes, const RCP<const MultiVector>& reference, const RCP<const MultiVector>& fixed,
                                 const SurfaceFacets& facets, const InterfaceMeasure& measure, const Place& place);
 
-/// int N_j over a facet: t L / 2, or 2 pi L (r_j / 3 + r_k / 6).
+/// int N_j over a facet: t L / 2, or 2 pi L (r_j / 3 + r_k / 6). Of quadratic facets int Ñ_j (see NonNegativeBasis).
 FacetVector facet_weights(const FacetPoints<2>& x, const InterfaceMeasure& measure);
-/// int N_j over a facet in space, where there is no other measure than its area.
+/// The same over a facet in space, where there is no other measure than its area.
 FacetVector facet_weights(const FacetPoints<3>& x, const InterfaceMeasure& measure);
 
 /// Rows of a view [nodes x dim] as points.

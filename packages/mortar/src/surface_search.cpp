@@ -44,7 +44,11 @@ struct Bounds {
     }
   }
   void enclose(const PlacedFacet<dim>& facet, double inflation) {
-    for (int a = 0; a < facet.count; ++a) enclose(facet.x[a], inflation);
+    for (const auto& point : control_points<dim>(facet.points())) {
+      std::array<double, dim> x;
+      std::copy(point.begin(), point.end(), x.begin());
+      enclose(x, inflation);
+    }
   }
   bool empty() const { return low[0] > high[0]; }
   Box<dim> box() const { return make_box<dim>(low, high); }
@@ -57,7 +61,12 @@ Box<dim> box_of(const PlacedFacet<dim>& facet, double inflation) {
   return bounds.box();
 }
 
-Segment segment_of(const std::array<std::array<double, 2>, 2>& x) { return {{x[0][0], x[0][1]}, {x[1][0], x[1][1]}}; }
+Segment segment_of(const LinePoints& x, const FacetPart& part) {
+  const Point2<double>&a = x[part[0]], &b = x[part[1]];
+  return {{a[0], a[1]}, {b[0], b[1]}};
+}
+
+LinePoints line_of(const PlacedFacet<2>& facet) { return {facet.x.begin(), facet.x.begin() + facet.count}; }
 
 // The box of every rank.
 template <int dim>
@@ -73,8 +82,12 @@ std::vector<Bounds<dim>> gather_bounds(const Communicator& comm, const std::vect
 
 }  // namespace
 
-double segment_distance(const std::array<std::array<double, 2>, 2>& a, const std::array<std::array<double, 2>, 2>& b) {
-  return geometry::distance(segment_of(a), segment_of(b));
+double facet_distance(const LinePoints& a, const LinePoints& b) {
+  double least = std::numeric_limits<double>::max();
+  for (const FacetPart& of_a : linear_parts(2, a.size()))
+    for (const FacetPart& of_b : linear_parts(2, b.size()))
+      least = std::min<double>(least, geometry::distance(segment_of(a, of_a), segment_of(b, of_b)));
+  return least;
 }
 
 template <int dim>
@@ -102,7 +115,7 @@ std::vector<std::vector<PlacedFacet<dim>>> facets_within(const Communicator& com
     for (const auto& hit : hits) {
       const PlacedFacet<dim>& facet = near[hit.second];
       if constexpr (dim == 2)
-        if (segment_distance(slave[f].x, facet.x) > radius[f]) continue;
+        if (facet_distance(line_of(slave[f]), line_of(facet)) > radius[f]) continue;
       result[f].push_back(facet);
     }
     std::sort(result[f].begin(), result[f].end(), [](const PlacedFacet<dim>& a, const PlacedFacet<dim>& b) { return a.nodes < b.nodes; });
@@ -124,14 +137,18 @@ std::vector<std::optional<double>> distances_along_normals(const Communicator& c
   const double diagonal = (Eigen::Map<const Point>(all.high.data()) - Eigen::Map<const Point>(all.low.data())).norm();
 
   std::vector<PlacedFacet<dim>> cut_off;
-  for (const NormalLine<dim>& line : lines) cut_off.push_back({{}, {Point(line.x - diagonal * line.normal), Point(line.x + diagonal * line.normal)}});
+  for (const NormalLine<dim>& line : lines) {
+    const FacetPoints<dim> ends = {Point(line.x - diagonal * line.normal), Point(line.x + diagonal * line.normal)};
+    cut_off.push_back({{}, ends});
+  }
   const auto near = facets_within<dim>(comm, cut_off, std::vector<double>(lines.size(), on_facet * diagonal), master);
   std::vector<std::optional<double>> distances(lines.size());
   for (std::size_t n = 0; n < lines.size(); ++n)
-    for (const PlacedFacet<dim>& facet : near[n]) {
-      const std::optional<double> distance = line_distance(lines[n].x, lines[n].normal, facet.points());
-      if (distance && (!distances[n] || std::abs(*distance) < std::abs(*distances[n]))) distances[n] = distance;
-    }
+    for (const PlacedFacet<dim>& facet : near[n])
+      for (const FacetPart& part : linear_parts(dim, static_cast<std::size_t>(facet.count))) {
+        const std::optional<double> distance = line_distance(lines[n].x, lines[n].normal, part_of(facet.points(), part));
+        if (distance && (!distances[n] || std::abs(*distance) < std::abs(*distances[n]))) distances[n] = distance;
+      }
   return distances;
 }
 

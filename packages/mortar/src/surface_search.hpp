@@ -8,6 +8,7 @@
 
 #include "facet_geometry.hpp"
 #include "mortise/core/types.hpp"
+#include "mortise/mortar/segment_2d.hpp"
 #include "mortise/shape/surface_facet.hpp"
 
 namespace mortise {
@@ -15,8 +16,8 @@ namespace mortise {
 /// A facet as it travels between ranks: the ids and positions of its nodes.
 template <int dim>
 struct PlacedFacet {
-  std::array<GlobalOrdinal, most_corners<dim>> nodes{};
-  std::array<std::array<double, dim>, most_corners<dim>> x{};
+  std::array<GlobalOrdinal, most_facet_nodes<dim>> nodes{};
+  std::array<std::array<double, dim>, most_facet_nodes<dim>> x{};
   int count = 0;
 
   PlacedFacet() = default;
@@ -34,11 +35,12 @@ struct PlacedFacet {
   }
 };
 
-/// Distance of two line segments a_0 a_1 and b_0 b_1; 0 if they cross.
-double segment_distance(const std::array<std::array<double, 2>, 2>& a, const std::array<std::array<double, 2>, 2>& b);
+/// Distance of two lines, of quadratic ones that of their linear parts; 0 if they cross.
+double facet_distance(const LinePoints& a, const LinePoints& b);
 
-/// Collective: for each slave facet the master facets, of all ranks, within its radius (in space: whose boxes lie within it), in ascending order of
-/// node ids. A rendezvous in space: only one box per rank is known everywhere; master facets travel to the ranks whose box they meet.
+/// Collective: for each slave facet the master facets, of all ranks, within its radius (in space: whose boxes, of control points, lie within it), in
+/// ascending order of node ids. A rendezvous in space: only one box per rank is known everywhere; master facets travel to the ranks whose box they
+/// meet.
 /// @param radius  [slave] > 0
 template <int dim>
 std::vector<std::vector<PlacedFacet<dim>>> facets_within(const Communicator& comm, const std::vector<PlacedFacet<dim>>& slave,

@@ -14,17 +14,16 @@ struct TrianglePoint {
   double weight;
 };
 
-inline constexpr std::size_t points_per_triangle = 7;
-
-/// The rule of degree 5.
-inline const std::vector<TrianglePoint>& triangle_points() {
-  static const std::vector<TrianglePoint> points = [] {
+/// The rule for a slave facet of so many nodes: 7 points (degree 5); 12 (degree 6) where products of functions of 8 nodes have to be told apart.
+inline const std::vector<TrianglePoint>& triangle_points(std::size_t slave_nodes) {
+  const auto make = [](int points) {
     std::vector<TrianglePoint> result;
-    for (const CellPoint& point : triangle_rule(points_per_triangle))
+    for (const CellPoint& point : triangle_rule(points))
       result.push_back({{1.0 - point.xi[0] - point.xi[1], point.xi[0], point.xi[1]}, point.weight});
     return result;
-  }();
-  return points;
+  };
+  static const std::vector<TrianglePoint> seven = make(7), twelve = make(12);
+  return slave_nodes == 8 ? twelve : seven;
 }
 
 }  // namespace mortise

@@ -16,6 +16,12 @@ void add_orbit_of_three(std::vector<CellPoint>& rule, double a, double weight) {
   rule.push_back({{a, 1.0 - 2.0 * a}, weight});
 }
 
+/// (a, b, 1 - a - b) and permutations.
+void add_all_orders(std::vector<CellPoint>& rule, double a, double b, double weight) {
+  const double c = 1.0 - a - b;
+  for (const auto& [x, y] : {std::pair(a, b), {b, a}, {a, c}, {c, a}, {b, c}, {c, b}}) rule.push_back({{x, y}, weight});
+}
+
 /// (1 - 3 a, a, a, a) and permutations.
 void add_orbit_of_four(std::vector<CellPoint>& rule, double a, double weight) {
   const double b = 1.0 - 3.0 * a;
@@ -77,16 +83,23 @@ std::vector<CellPoint> hexahedron_rule(int points_per_direction) {
 
 std::vector<CellPoint> triangle_rule(int points) {
   constexpr double sixth = 1.0 / 6.0, third = 1.0 / 3.0, two_thirds = 2.0 / 3.0;
+  std::vector<CellPoint> rule;
   if (points == 1) return {{{third, third}, 0.5}};
   if (points == 3) return {{{sixth, sixth}, sixth}, {{two_thirds, sixth}, sixth}, {{sixth, two_thirds}, sixth}};
   if (points == 7) {  // Radon 1948
     const double r = std::sqrt(15.0);
-    std::vector<CellPoint> rule{{{third, third}, 9.0 / 80.0}};
+    rule = {{{third, third}, 9.0 / 80.0}};
     add_orbit_of_three(rule, (6.0 - r) / 21.0, (155.0 - r) / 2400.0);
     add_orbit_of_three(rule, (6.0 + r) / 21.0, (155.0 + r) / 2400.0);
     return rule;
   }
-  throw std::invalid_argument("triangles have rules of 1, 3 and 7 points, not " + std::to_string(points));
+  if (points == 12) {  // Dunavant 1985, degree 6
+    add_orbit_of_three(rule, 0.249286745170910421, 0.058393137863189684);
+    add_orbit_of_three(rule, 0.063089014491502227, 0.025422453185103408);
+    add_all_orders(rule, 0.310352451033784405, 0.053145049844816947, 0.041425537809186787);
+    return rule;
+  }
+  throw std::invalid_argument("triangles have rules of 1, 3, 7 and 12 points, not " + std::to_string(points));
 }
 
 std::vector<CellPoint> tetrahedron_rule(int points) {

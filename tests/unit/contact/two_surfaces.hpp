@@ -14,6 +14,7 @@
 #include <functional>
 #include <vector>
 
+#include "facets_with_middles.hpp"
 #include "mortise/contact/contact_system.hpp"
 #include "mortise/core/dof_map.hpp"
 
@@ -22,7 +23,7 @@ namespace mortise::test {
 using Point = std::array<double, 3>;  // z = 0 in the plane
 
 /// Node ids: slave nodes first, then master nodes. The slave lies above, travelling to +x with its outward normal down; the master below,
-/// travelling to -x with its outward normal up. In space facets are listed.
+/// travelling to -x with its outward normal up. In space, and where they are quadratic, facets are listed.
 struct TwoSurfaces {
   int dimension = 2;
   std::vector<Point> slave, master;
@@ -84,6 +85,38 @@ inline TwoSurfaces dome_on_waves(bool triangles = false) {
   return surfaces;
 }
 
+/// The same surfaces of quadratic facets on either side, with the middles of edges a little off the straight ones.
+inline TwoSurfaces quadratic(const TwoSurfaces& linear, bool slave, bool master) {
+  TwoSurfaces result = linear;
+  const auto polyline = [](std::size_t first, std::size_t count) {
+    SurfaceFacets facets;
+    for (std::size_t n = first; n + 1 < first + count; ++n) facets.push_back({static_cast<GlobalOrdinal>(n), static_cast<GlobalOrdinal>(n + 1)});
+    return facets;
+  };
+  if (linear.dimension == 2) {
+    result.slave_facets = polyline(0, linear.slave.size());
+    result.master_facets = polyline(linear.slave.size(), linear.master.size());
+  }
+  const auto raise = [](SurfaceFacets& facets, std::vector<Point>& points, GlobalOrdinal first_of_side) {
+    const FacetsWithMiddles raised = with_middles(facets, first_of_side + static_cast<GlobalOrdinal>(points.size()));
+    for (const auto& [a, b] : raised.edges) {
+      const Point &x = points[static_cast<std::size_t>(a - first_of_side)], &y = points[static_cast<std::size_t>(b - first_of_side)];
+      Point middle;
+      for (int i = 0; i < 3; ++i) middle[i] = 0.5 * (x[i] + y[i]);
+      middle[1] += 0.01 * std::sin(1.7 * static_cast<double>(a + b));
+      points.push_back(middle);
+    }
+    facets = raised.facets;
+  };
+  if (slave) raise(result.slave_facets, result.slave, 0);
+  const auto shift = static_cast<GlobalOrdinal>(result.slave.size() - linear.slave.size());
+  for (SurfaceFacet& facet : result.master_facets)
+    for (GlobalOrdinal& node : facet) node += shift;
+  if (master) raise(result.master_facets, result.master, static_cast<GlobalOrdinal>(result.slave.size()));
+  result.fixed.assign(result.size(), {});
+  return result;
+}
+
 /// Everything that is made from TwoSurfaces on `comm`. Node n belongs to rank n mod size.
 class Fixture {
  public:
@@ -112,9 +145,9 @@ class Fixture {
       if (std::any_of(facet.begin(), facet.end(), [&](GlobalOrdinal node) { return mine(node); })) pair.slave.push_back(facet);
     for (const SurfaceFacet& facet : surfaces.master_facets)
       if (mine(facet[0])) pair.master.push_back(facet);
-    for (GlobalOrdinal i = 0; dim == 2 && i + 1 < slaves; ++i)
+    for (GlobalOrdinal i = 0; surfaces.slave_facets.empty() && i + 1 < slaves; ++i)
       if (mine(i) || mine(i + 1)) pair.slave.push_back({i, i + 1});
-    for (GlobalOrdinal i = slaves; dim == 2 && i + 1 < static_cast<GlobalOrdinal>(surfaces.size()); ++i)
+    for (GlobalOrdinal i = slaves; surfaces.master_facets.empty() && i + 1 < static_cast<GlobalOrdinal>(surfaces.size()); ++i)
       if (mine(i)) pair.master.push_back({i, i + 1});
     contact = std::make_unique<ContactSystem>(nodes, dofs, reference, fixed, surfaces.measure, std::vector<ContactPair>{pair}, Timers());
 

@@ -1,5 +1,6 @@
 // Slave facets handed to other ranks: work is balanced, every facet is integrated once, values are those of before to the last bit.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <Tpetra_Core.hpp>
@@ -69,8 +70,9 @@ void expect_same_couplings(const SurfacePair& a, const SurfacePair& b) {
 TEST(MortarBalance, ChangesTheRankAndNothingElse) {
   const auto comm = Tpetra::getDefaultComm();
   constexpr double bound = 1.2;
-  for (const Surfaces& surfaces : {curved_lines(), curved_surfaces()}) {
-    SCOPED_TRACE(surfaces.dim);
+  for (const Surfaces& surfaces :
+       {curved_lines(), curved_surfaces(), quadratic(curved_lines(), true, true, 0.02), quadratic(curved_surfaces(), true, false, 0.02)}) {
+    SCOPED_TRACE(fmt::format("{} dimensions, {} nodes of a facet", surfaces.dim, surfaces.slave.front().size()));
     const auto slave_first = [&](std::size_t n) { return n < surfaces.slaves ? 0 : comm->getSize() - 1; };
     SurfacePair owned(with_balance(surfaces, never), comm, slave_first), balanced(with_balance(surfaces, bound), comm, slave_first);
     SurfacePair serial(surfaces, alone());

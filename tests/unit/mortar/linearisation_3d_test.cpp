@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "exact_derivatives.hpp"
 #include "space_pair.hpp"
 
 namespace mortise {
@@ -62,43 +63,7 @@ class MortarLinearisationInSpace : public ::testing::TestWithParam<std::size_t> 
 TEST_P(MortarLinearisationInSpace, AgreesWithCentralDifferences) {
   const auto [name, surfaces] = cases()[GetParam()];
   SCOPED_TRACE(name);
-  const auto pair = evaluated(surfaces, true);
-  ASSERT_FALSE(pair->failure);
-  const Eigen::MatrixXd exact = pair->dense_derivative();
-  ASSERT_GT(pair->dense().D.trace(), 0.0);
-
-  const auto slaves = static_cast<Eigen::Index>(surfaces.slaves), masters = static_cast<Eigen::Index>(surfaces.masters());
-  const double h = 1e-6;
-  Eigen::MatrixXd difference(exact.rows(), exact.cols());
-  auto points = surfaces.points;
-  for (Eigen::Index c = 0; c < exact.cols(); ++c) {
-    double& coordinate = points[static_cast<std::size_t>(c / 3)][c % 3];
-    const double at = coordinate;
-    coordinate = at + h;
-    pair->evaluate(points, false);
-    const Eigen::VectorXd up = pair->dense().stacked();
-    coordinate = at - h;
-    pair->evaluate(points, false);
-    difference.col(c) = (up - pair->dense().stacked()) / (2.0 * h);
-    coordinate = at;
-  }
-  const std::pair<const char*, std::pair<Eigen::Index, Eigen::Index>> parts[] = {{"D", {0, slaves * slaves}},
-                                                                                 {"M", {slaves * slaves, slaves * masters}},
-                                                                                 {"gap", {slaves * (slaves + masters), slaves}},
-                                                                                 {"normal", {slaves * (slaves + masters + 1), 3 * slaves}}};
-  for (const auto& [part, rows] : parts) {
-    const Eigen::MatrixXd a = exact.middleRows(rows.first, rows.second), b = difference.middleRows(rows.first, rows.second);
-    const double scale = a.cwiseAbs().maxCoeff();
-    EXPECT_GT(scale, 0.0) << part;
-    EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 1e-6 * scale) << part;
-  }
-  for (const FacetCoupling& coupling : pair->couplings)
-    for (const LocalOrdinal slave : coupling.slave) {
-      const auto& coupled = pair->interface->coupled_nodes(static_cast<std::size_t>(slave));
-      const auto& loaded = pair->interface->loaded_nodes(static_cast<std::size_t>(slave));
-      for (const LocalOrdinal node : coupling.columns) EXPECT_TRUE(std::binary_search(coupled.begin(), coupled.end(), node));
-      for (const LocalOrdinal node : coupling.master) EXPECT_TRUE(std::binary_search(loaded.begin(), loaded.end(), node));
-    }
+  expect_exact_derivatives(surfaces);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, MortarLinearisationInSpace, ::testing::Range(std::size_t{0}, cases().size()), [](const auto& info) {

@@ -1,8 +1,8 @@
-// Derivatives of D, M, the weighted gap and the nodal normals against central differences.
+// Derivatives of D, M, the weighted gap and the nodal normals against central differences; the pattern that holds them.
 
 #include <gtest/gtest.h>
 
-#include "surface_pair.hpp"
+#include "exact_derivatives.hpp"
 
 namespace mortise {
 namespace {
@@ -67,35 +67,7 @@ class MortarLinearisation : public ::testing::TestWithParam<std::size_t> {};
 TEST_P(MortarLinearisation, AgreesWithCentralDifferences) {
   const TwoLines lines = cases()[GetParam()];
   SCOPED_TRACE(lines.name);
-  const auto pair = evaluated(lines, true);
-  ASSERT_FALSE(pair->failure);
-  const Eigen::MatrixXd exact = pair->dense_derivative();
-  ASSERT_GT(pair->dense().D.trace(), 0.0);
-
-  const auto slaves = static_cast<Eigen::Index>(lines.slave.size()), masters = static_cast<Eigen::Index>(lines.master.size());
-  const double h = 1e-6;
-  Eigen::MatrixXd difference(exact.rows(), exact.cols());
-  for (Eigen::Index c = 0; c < exact.cols(); ++c) {
-    Points points = lines.points();
-    double& coordinate = points[static_cast<std::size_t>(c / 2)][c % 2];
-    const double at = coordinate;
-    coordinate = at + h;
-    pair->evaluate(points, false);
-    const Eigen::VectorXd up = pair->dense().stacked();
-    coordinate = at - h;
-    pair->evaluate(points, false);
-    difference.col(c) = (up - pair->dense().stacked()) / (2.0 * h);
-  }
-  const std::pair<const char*, std::pair<Eigen::Index, Eigen::Index>> parts[] = {{"D", {0, slaves * slaves}},
-                                                                                 {"M", {slaves * slaves, slaves * masters}},
-                                                                                 {"gap", {slaves * (slaves + masters), slaves}},
-                                                                                 {"normal", {slaves * (slaves + masters + 1), 2 * slaves}}};
-  for (const auto& [name, rows] : parts) {
-    const Eigen::MatrixXd a = exact.middleRows(rows.first, rows.second), b = difference.middleRows(rows.first, rows.second);
-    const double scale = a.cwiseAbs().maxCoeff();
-    EXPECT_GT(scale, 0.0) << name;
-    EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 1e-6 * scale) << name;
-  }
+  expect_exact_derivatives(lines);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, MortarLinearisation, ::testing::Range(std::size_t{0}, cases().size()), [](const auto& info) {
@@ -104,21 +76,6 @@ INSTANTIATE_TEST_SUITE_P(Cases, MortarLinearisation, ::testing::Range(std::size_
     if (!std::isalnum(static_cast<unsigned char>(letter))) letter = '_';
   return name;
 });
-
-// The pattern handed out for the sparse graph holds everything that a derivative or a force can touch.
-TEST(MortarPattern, HoldsAllColumnsAndLoadedNodes) {
-  for (const TwoLines& lines : cases()) {
-    SCOPED_TRACE(lines.name);
-    const auto pair = evaluated(lines, true);
-    for (const FacetCoupling& coupling : pair->couplings)
-      for (const LocalOrdinal slave : coupling.slave) {
-        const auto& coupled = pair->interface->coupled_nodes(static_cast<std::size_t>(slave));
-        const auto& loaded = pair->interface->loaded_nodes(static_cast<std::size_t>(slave));
-        for (const LocalOrdinal node : coupling.columns) EXPECT_TRUE(std::binary_search(coupled.begin(), coupled.end(), node));
-        for (const LocalOrdinal node : coupling.master) EXPECT_TRUE(std::binary_search(loaded.begin(), loaded.end(), node));
-      }
-  }
-}
 
 }  // namespace
 }  // namespace mortise

@@ -8,7 +8,7 @@ namespace mortise {
 namespace {
 
 Point2<double> on(const SlaveLine<double>& slave, double xi, double distance) {
-  const auto x = interpolate(slave.x[0], slave.x[1], xi), n = interpolate(slave.normal[0], slave.normal[1], xi);
+  const auto x = interpolate(slave.x, xi), n = interpolate(slave.normal, xi);
   return {x[0] + distance * n[0], x[1] + distance * n[1]};
 }
 
@@ -69,7 +69,7 @@ TEST(Projection, AgreesWithTheNeighbour) {
 TEST(Projection, MeetsTheMasterAlongTheNormal) {
   const MasterLine<double> master = {{{{2.0, -1.0}, {-1.0, -0.4}}}};
   const auto projection = project_onto(master, {0.3, 0.2}, {0.4, -1.6});
-  const auto y = interpolate(master.y[0], master.y[1], projection.eta);
+  const auto y = interpolate(master.y, projection.eta);
   EXPECT_NEAR(0.3 + projection.distance * 0.4, y[0], 1e-15);
   EXPECT_NEAR(0.2 - projection.distance * 1.6, y[1], 1e-15);
 }

@@ -99,9 +99,10 @@ Eigen::VectorXd evaluate(const Pair& p, const Eigen::MatrixXd& basis, Eigen::Mat
   FacetVectors normals, master;
   for (const auto& v : p.normals) normals.push_back(plane->frame * v);
   for (const auto& v : p.master) master.push_back(plane->to_frame(v));
-  const auto overlap = find_overlap(plane->slave, master);
+  std::vector<Overlap3d> overlaps;
+  find_overlaps(plane->slave, master, overlaps);
   SegmentIntegrals3d result;
-  integrate_segment(plane->slave, normals, master, *overlap, basis, derivative != nullptr, result);
+  integrate_segment(plane->slave, normals, master, overlaps.at(0), basis, derivative != nullptr, result);
   if (derivative != nullptr) {
     *derivative = result.derivative;
     std::vector<Eigen::Vector3d> vectors(plane->slave.begin(), plane->slave.end());
@@ -157,10 +158,15 @@ TEST(SegmentInSpace, IgnoresWhatDoesNotFace) {
   FacetVectors master, back;
   for (const auto& v : p.master) master.push_back(plane->to_frame(v));
   back.assign(master.rbegin(), master.rend());
-  EXPECT_TRUE(find_overlap(plane->slave, master));
-  EXPECT_FALSE(find_overlap(plane->slave, back));
+  const auto overlaps = [&](const FacetVectors& nodes) {
+    std::vector<Overlap3d> found;
+    find_overlaps(plane->slave, nodes, found);
+    return found.size();
+  };
+  EXPECT_EQ(overlaps(master), 1u);
+  EXPECT_EQ(overlaps(back), 0u);
   for (auto& y : master) y.x() += 10.0;
-  EXPECT_FALSE(find_overlap(plane->slave, master));
+  EXPECT_EQ(overlaps(master), 0u);
   EXPECT_FALSE(make_auxiliary_plane({{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {2.0, 0.0, 0.0}}));
   EXPECT_FALSE(make_auxiliary_plane({{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.2, 0.2, 0.0}, {0.0, 1.0, 0.0}}));  // not convex
 }

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "facets_with_middles.hpp"
 #include "mortise/mortar/mortar_interface.hpp"
 
 namespace mortise::test {
@@ -215,6 +216,33 @@ class SurfacePair {
 
   Surfaces surfaces_;
 };
+
+/// The same surfaces with nodes in the middles of the edges of either side, moved off the straight edges by up to `bend` of their lengths.
+inline Surfaces quadratic(const Surfaces& linear, bool slave, bool master, double bend) {
+  Surfaces result = linear;
+  const auto slaves = static_cast<GlobalOrdinal>(linear.slaves);
+  const auto side = [&](const SurfaceFacets& facets, bool raise, GlobalOrdinal first, GlobalOrdinal shift, std::vector<SpatialVector>& middles) {
+    FacetsWithMiddles raised = raise ? with_middles(facets, first) : FacetsWithMiddles{facets, {}};
+    for (const auto& [a, b] : raised.edges) {
+      const SpatialVector &x = linear.points[static_cast<std::size_t>(a)], &y = linear.points[static_cast<std::size_t>(b)];
+      SpatialVector off(linear.dim);
+      for (int i = 0; i < linear.dim; ++i) off[i] = bend * (y - x).norm() * disorder(static_cast<std::size_t>(3 * a + 7 * b + 11 * i));
+      middles.push_back(0.5 * (x + y) + off);
+    }
+    for (SurfaceFacet& facet : raised.facets)
+      for (GlobalOrdinal& node : facet)
+        if (node < first) node += shift;
+    return raised.facets;
+  };
+  std::vector<SpatialVector> of_slave, of_master;
+  result.slave = side(linear.slave, slave, slaves, 0, of_slave);
+  const auto more = static_cast<GlobalOrdinal>(of_slave.size());
+  result.master = side(linear.master, master, static_cast<GlobalOrdinal>(linear.points.size()) + more, more, of_master);
+  result.points.insert(result.points.begin() + slaves, of_slave.begin(), of_slave.end());
+  result.points.insert(result.points.end(), of_master.begin(), of_master.end());
+  result.slaves += of_slave.size();
+  return result;
+}
 
 inline RCP<const Communicator> alone() { return rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF)); }
 

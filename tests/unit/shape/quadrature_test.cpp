@@ -41,7 +41,7 @@ TEST(QuadrilateralRule, IsExactInEachDirection) {
 }
 
 TEST(TriangleRule, IsExactToItsDegree) {
-  for (const auto& [points, degree] : {std::pair(1, 1), std::pair(3, 2), std::pair(7, 5)})
+  for (const auto& [points, degree] : {std::pair(1, 1), std::pair(3, 2), std::pair(7, 5), std::pair(12, 6)})
     for (int p = 0; p <= degree; ++p)
       for (int q = 0; p + q <= degree; ++q) {
         double sum = 0.0;

@@ -9,18 +9,18 @@
 
 namespace mortise {
 
-/// Vectors at the nodes of a triangle or a quadrilateral.
-using FacetVectors = boost::container::static_vector<Eigen::Vector3d, 4>;
+/// Vectors at the nodes of a triangle or a quadrilateral, linear or quadratic.
+using FacetVectors = boost::container::static_vector<Eigen::Vector3d, 8>;
 
 /// The plane across the slave facet's own normal at its centre,
 ///   p = c / |c|,   c = (x_1 - x_0) x (x_2 - x_0) of triangles,   c = (x_2 - x_0) x (x_3 - x_1) of quadrilaterals:
-/// it depends on the facet's positions only, and areas on it are those of a flat facet. Everything is projected along p.
+/// it depends on the positions of the facet's corners only, and areas on it are those of a flat facet. Everything is projected along p.
 /// In its frame (e_1, e_2, p) the first two components of a position are its projection, the third its height.
 struct AuxiliaryPlane {
   Eigen::Matrix3d frame;  ///< rows e_1, e_2, p
   Eigen::Vector3d origin;
   FacetVectors slave;                                 ///< the facet's nodes in the frame: their projections run counterclockwise
-  std::array<Eigen::Matrix<double, 2, 3>, 4> tilt{};  ///< d(e_1 . p, e_2 . p) / dx_a, x_a by its components in the frame
+  std::array<Eigen::Matrix<double, 2, 3>, 4> tilt{};  ///< of corners: d(e_1 . p, e_2 . p) / dx_a, x_a by its components in the frame
 
   Eigen::Vector3d to_frame(const Eigen::Vector3d& x) const { return frame * (x - origin); }
 
@@ -32,11 +32,11 @@ struct AuxiliaryPlane {
   void to_global(const std::vector<Eigen::Vector3d>& vectors, Eigen::Ref<Eigen::MatrixXd> gradients) const;
 };
 
-/// None if the facet's projection has no area or is not convex.
+/// None if the projection of one of the facet's linear parts has no area, is not convex, or is turned over.
 std::optional<AuxiliaryPlane> make_auxiliary_plane(const FacetVectors& slave);
 
-/// Whether a facet is seen from above the plane (side = 1) or from below (side = -1) without a fold: at every corner its normal, times `side`, has a
-/// component along p of more than `tolerance`. Then its projection is convex.
+/// Whether a linear facet is seen from above the plane (side = 1) or from below (side = -1) without a fold: at every corner its normal, times `side`,
+/// has a component along p of more than `tolerance`. Then its projection is convex.
 bool shows_side(const FacetVectors& in_frame, double side, double tolerance);
 
 }  // namespace mortise

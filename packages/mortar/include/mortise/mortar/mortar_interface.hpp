@@ -57,16 +57,18 @@ using FacetVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, mo
 
 /// Values of one slave facet and, if asked for, their first derivatives with respect to nodal positions, in a model of `dim` dimensions.
 /// Nodes are local indices of MortarInterface::local_nodes(). phi_j are the functions of the facet's multipliers: dual ones, formed on its covered
-/// part only, or N_j (the share of a node without multiplier is given to the facet's other nodes); rows of nodes without multiplier are zero.
+/// part only, or N_j (the share of a node without multiplier is given to the facet's other nodes); rows of nodes without multiplier are zero. On
+/// quadratic facets they are dual to, or are, the functions Ñ_j of quadratic_facet.hpp, and so are w_j and the weight A_j.
 /// Node to segment: one slave node with the facet that it meets, phi_j a point load: D_jj is its share w of the surface, M_jl = w N_l, the gap w
 /// times the distance.
 struct FacetCoupling {
   Facet<LocalOrdinal> slave;
   std::vector<LocalOrdinal> master;   ///< nodes of the master facets that the slave facet overlaps, without repeats
   std::vector<LocalOrdinal> columns;  ///< nodes on whose positions the values depend: slave, ring (neighbours that shape the normals), master
-  FacetMatrix D;                      ///< D(j,k) = int phi_j N_k; dual: off-diagonal only next to a node without multiplier
-  Eigen::MatrixXd M;                  ///< [slave x master] M(j,l) = int phi_j N_l
-  FacetVector gap;                    ///< [slave] int w_j g, w the gap weighting
+  /// D(j,k) = int phi_j N_k; dual: off-diagonal only for nodes k without multiplier, and where j is the middle of an edge, for corners k
+  FacetMatrix D;
+  Eigen::MatrixXd M;  ///< [slave x master] M(j,l) = int phi_j N_l
+  FacetVector gap;    ///< [slave] int w_j g, w the gap weighting
   /// Derivatives; column dim c + i belongs to component i of columns[c]. Empty if not asked for.
   Eigen::MatrixXd dD;    ///< row slave.size() j + k
   Eigen::MatrixXd dM;    ///< row j master.size() + l
@@ -87,7 +89,8 @@ struct SlaveNode {
   LocalOrdinal local_node = 0;     ///< local index in local_nodes(); the same number for ever
   std::array<bool, 3> fixed{};     ///< components with a prescribed displacement
   bool carries_multiplier = true;  ///< false: prescribed in every direction its normal could push it
-  double weight = 0.0;             ///< A_j = int N_j over the whole reference slave surface (with t or 2 pi R), times the pair's share
+  bool middle = false;             ///< of an edge of quadratic facets: its dual multiplier acts on corners too
+  double weight = 0.0;             ///< A_j = int N_j (Ñ_j) over the whole reference slave surface (with t or 2 pi R), times the pair's share
 
   bool partly_fixed() const { return fixed[0] || fixed[1] || fixed[2]; }
 };
@@ -107,8 +110,8 @@ class MortarInterface {
   /// @param fixed          [owned nodes x dim] 1 where the displacement is prescribed, else 0
   /// @param slave          every slave facet with a node owned by this rank (so a facet may stand on two ranks)
   /// @param master         the master facets of this rank, each on exactly one rank
-  /// @throws InputError (at `place`) for a slave facet whose nodes all lack a multiplier ("make this side the master"), a facet of zero
-  ///         length, an empty surface, a node on both sides
+  /// @throws InputError (at `place`) for a slave facet whose nodes, or middles of edges, all lack a multiplier ("make this side the master"), a
+  ///         facet of zero length, an empty surface, a node on both sides, quadratic facets with node to segment
   MortarInterface(RCP<const Map> owned_nodes, RCP<const MultiVector> reference, RCP<const MultiVector> fixed, const SurfaceFacets& slave,
                   const SurfaceFacets& master, const InterfaceMeasure& measure, const MortarOptions& options, const Place& place);
   ~MortarInterface();
@@ -134,7 +137,8 @@ class MortarInterface {
   const std::vector<LocalOrdinal>& coupled_nodes(std::size_t s) const;
 
   /// For owned slave node s: the nodes on which its multiplier may act, the rows of its column of D^T and M^T: itself, its facets' nodes
-  /// without multiplier (all of them with standard multipliers), and master nodes. A part of coupled_nodes(s).
+  /// without multiplier (all of them with standard multipliers), corners where it is the middle of an edge, and master nodes. A part of
+  /// coupled_nodes(s).
   const std::vector<LocalOrdinal>& loaded_nodes(std::size_t s) const;
 
   /// Facet couplings of all facets that touch an owned slave node and overlap a master facet, and the normals of the owned slave nodes
@@ -158,7 +162,7 @@ class MortarInterface {
   /// Distance up to which facets can touch.
   double reach() const;
 
-  /// Lengths over all ranks in the reference configuration: of the shortest slave facet, and of the longest facet of either side.
+  /// Lengths over all ranks in the reference configuration, between corners: of the shortest slave facet, and of the longest facet of either side.
   double shortest_facet() const;
   double longest_facet() const;
 

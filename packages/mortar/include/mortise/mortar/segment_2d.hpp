@@ -1,7 +1,9 @@
 #pragma once
 // The integrals over the overlap of one slave and one master facet in 2D, and their exact first derivatives.
 
+#include <Eigen/Core>
 #include <array>
+#include <boost/container/static_vector.hpp>
 #include <optional>
 #include <vector>
 
@@ -23,25 +25,43 @@ struct Overlap {
   bool low_is_master = false, high_is_master = false;  ///< which ends move with the master's nodes
 };
 
-/// Whether the master facet's outward normal points against a slave normal, far enough from being perpendicular to be projected on along it.
-bool faces(const MasterLine<double>& master, const Point2<double>& normal);
+/// Nodes of a line, linear (2) or quadratic (3).
+using LinePoints = boost::container::static_vector<Point2<double>, 3>;
 
-/// The overlap, or none. None also where the master facet does not face the nodal normals.
-std::optional<Overlap> find_overlap(const SlaveLine<double>& slave, const MasterLine<double>& master);
-
-/// int over an overlap, with L_0, L_1 the linear functions that are nodal at the ends of a fixed interval of the slave facet (a basis of the
-/// facet's linear functions that stays well conditioned on however small a covered part):
-struct SegmentIntegrals {
-  static constexpr int count = 9;
-  /// int L_0 L_0, int L_0 L_1, int L_1 L_1;  int L_0 N_0^m, int L_0 N_1^m, int L_1 N_0^m, int L_1 N_1^m;  int L_0 g, int L_1 g
-  std::array<double, count> value{};
-  /// With respect to x_a, x_b, n_a, n_b, y_0, y_1 (two components each).
-  std::array<std::array<double, 12>, count> derivative{};
+/// A slave facet and the unit normals at its nodes.
+struct SlaveCurve {
+  LinePoints x, normal;
 };
 
-/// @param basis  interval at whose ends L_0 and L_1 are nodal; held constant in the derivatives
+/// Whether the master facet's outward normal points, at both ends, against a slave normal, far enough from being perpendicular to be projected on
+/// along it.
+bool faces(const LinePoints& master, const Point2<double>& normal);
+
+/// The overlap, or none. None also where the master facet does not face the nodal normals.
+std::optional<Overlap> find_overlap(const SlaveCurve& slave, const LinePoints& master);
+
+/// Functions L of a slave facet that are nodal at the ends of an interval of it, quadratic ones at its middle too: a basis of the facet's functions
+/// that stays well conditioned on however small a covered part.
+/// @param from_low, from_high  distances from the interval's ends over its length
+template <int nodes, class S>
+std::array<S, nodes> interval_functions(const S& from_low, const S& from_high) {
+  if constexpr (nodes == 2)
+    return {from_high, from_low};
+  else
+    return {S(from_high * (from_high - from_low)), S(from_low * (from_low - from_high)), S(4.0 * from_low * from_high)};
+}
+
+/// int over an overlap, with n slave and m master nodes. Rows:  int L_i L_j (i <= j, i first),   int L_i N_l^m (row i m + l),   int L_i g.
+struct SegmentIntegrals {
+  Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 18, 1> value;
+  /// With respect to slave positions, nodal normals, master positions (two components each).
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 18, 18> derivative;
+};
+
+/// @param basis  interval of the functions L; held constant in the derivatives
 /// @param rule   quadrature on [-1, 1], mapped to the overlap
-void integrate_segment(const SlaveLine<double>& slave, const MasterLine<double>& master, const Overlap& overlap, const Interval& basis,
+/// @throws StepFailure as project_onto()
+void integrate_segment(const SlaveCurve& slave, const LinePoints& master, const Overlap& overlap, const Interval& basis,
                        const InterfaceMeasure& measure, const std::vector<LinePoint>& rule, bool derivatives, SegmentIntegrals& result);
 
 }  // namespace mortise

@@ -3,10 +3,11 @@
 
 #include <Eigen/Core>
 #include <boost/container/static_vector.hpp>
-#include <optional>
+#include <vector>
 
 #include "mortise/mortar/auxiliary_plane.hpp"
 #include "mortise/mortar/convex_clip.hpp"
+#include "mortise/mortar/quadratic_facet.hpp"
 
 namespace mortise {
 
@@ -17,27 +18,30 @@ struct OverlapPoint {
   double height = 0.0;      ///< of the master over the slave along the plane's normal
 };
 
-/// The part of a slave facet that a master facet covers, on the auxiliary plane: a convex polygon, cut into triangles about the mean of its vertices
-/// (which is vertex polygon.size(); one triangle stays whole), 7 points (degree 5) on each.
+/// What a linear part of a slave facet and one of a master facet cover of one another on the auxiliary plane: a convex polygon, cut into triangles
+/// about the mean of its vertices (which is vertex polygon.size(); one triangle stays whole), with the points of triangle_points() on each.
 struct Overlap3d {
+  FacetPart slave_part, master_part;
   ClipPolygon polygon;
   boost::container::static_vector<std::array<int, 3>, 16> triangles;
-  boost::container::static_vector<OverlapPoint, 7 * 16> points;  ///< triangle by triangle
-  double distance = 0.0;                                         ///< least |height|
+  boost::container::static_vector<OverlapPoint, 12 * 16> points;  ///< triangle by triangle
+  double distance = 0.0;                                          ///< least |height|
 };
 
-/// The overlap, or none. None also where the master does not face the plane (its normal at a corner is nearly along it, or it is folded there).
+/// The overlaps of all parts. Those are missing where a part of the master does not face the plane (its normal at a corner is nearly along it, or it
+/// is folded there). Polygons are those of the linear parts; the points on them, xi and eta and heights, those of the facets themselves.
 /// @param slave, master  nodes in the plane's frame, the slave's seen from above, with normals away from the plane's origin
+/// @param overlaps       added to
 /// @throws StepFailure (projection) where a facet is so distorted that a point cannot be projected on it
-std::optional<Overlap3d> find_overlap(const FacetVectors& slave, const FacetVectors& master);
+void find_overlaps(const FacetVectors& slave, const FacetVectors& master, std::vector<Overlap3d>& overlaps);
 
 /// int over an overlap, with L = basis N a basis of the slave facet's shape functions, n the number of slave nodes, m of master nodes. Rows:
 ///   int L_i L_j (i <= j, i first),   int L_i N_l^m (row i m + l),   int L_i g,
 ///   g = n . (xhat - x) = (n . p) height,   n = sum N_a n_a / |sum N_a n_a|.
 struct SegmentIntegrals3d {
-  Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 30, 1> value;
+  Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 108, 1> value;
   /// With respect to slave positions, nodal normals, master positions (three components each) in the frame of a fixed plane.
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 30, 36> derivative;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 108, 72> derivative;
 };
 
 /// @param normals  nodal normals of the slave facet in the plane's frame
@@ -45,17 +49,17 @@ struct SegmentIntegrals3d {
 void integrate_segment(const FacetVectors& slave, const FacetVectors& normals, const FacetVectors& master, const Overlap3d& overlap,
                        const Eigen::MatrixXd& basis, bool derivatives, SegmentIntegrals3d& result);
 
-/// Whether a master facet, in a frame whose third axis runs along the slave's normal, faces it without a fold (see shows_side()).
+/// Whether a linear master facet, in a frame whose third axis runs along the slave's normal, faces it without a fold (see shows_side()).
 bool faces(const FacetVectors& master);
 
-/// The xi at which the projection of a facet takes the place s, which lies on it.
+/// The xi at which the projection of a facet takes the place s, which lies on the given part of it.
 /// @throws StepFailure (projection) where it is so distorted that there is none
-Eigen::Vector2d facet_coordinates(const FacetVectors& nodes, const Eigen::Vector2d& s);
+Eigen::Vector2d facet_coordinates(const FacetVectors& nodes, const FacetPart& part, const Eigen::Vector2d& s);
 
 /// Third component at xi.
 double height_at(const FacetVectors& nodes, const Eigen::Vector2d& xi);
 
-/// Shape functions of a facet of 3 or 4 nodes.
-Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 4, 1> facet_values(std::size_t nodes, const Eigen::Vector2d& xi);
+/// Shape functions of a facet.
+Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 8, 1> facet_values(std::size_t nodes, const Eigen::Vector2d& xi);
 
 }  // namespace mortise

@@ -38,7 +38,8 @@ std::vector<CellPoint> quadrilateral_rule(int points_per_direction);
 /// The same on [-1, 1]^3.
 std::vector<CellPoint> hexahedron_rule(int points_per_direction);
 
-/// Rule on the triangle (0,0), (1,0), (0,1) with interior points and positive weights: 1 point (exact for degree 1), 3 (degree 2), 7 (degree 5).
+/// Rule on the triangle (0,0), (1,0), (0,1) with interior points and positive weights: 1 point (exact for degree 1), 3 (degree 2), 7
+/// (degree 5), 12 (degree 6).
 /// Throws std::invalid_argument for any other number.
 std::vector<CellPoint> triangle_rule(int points);
 
