@@ -387,7 +387,7 @@ std::vector<ContactNodeState> ContactSystem::node_states(std::size_t pair, const
     state.closed = state.state != ContactState::open;
     state.covered = row.covered;
     state.shear = signed_size(across);
-    if (self.pairs[pair]->friction() != nullptr && row.D > 0.0) {
+    if (self.pairs[pair]->friction() != nullptr && row.covered > 0.0) {
       state.slip = signed_size(row.slip) / row.covered;
       state.slip_path = self.pairs[pair]->slip_histories()[s].accepted.path;
       if (state.closed)

@@ -38,7 +38,8 @@ double PairCoupling::complementarity_constant(std::size_t s) const {
 
 bool PairCoupling::covered(std::size_t s) const {
   const SlaveNode& node = slave_nodes()[s];
-  return node.carries_multiplier && rows_[s].D > 1e-12 * node.weight;
+  const bool standard = pair_.options.mortar.coupling == Coupling::standard_mortar;  // int phi_j N_j may be negative on a part of a quadratic facet
+  return node.carries_multiplier && (standard ? rows_[s].covered : rows_[s].D) > 1e-12 * node.weight;
 }
 
 bool PairCoupling::closed(std::size_t s, const SpatialVector& z) const {

@@ -89,7 +89,7 @@ class PairCoupling {
   double size() const { return size_; }
   /// c_n of slave node s: E / (h A_j) unless given.
   double complementarity_constant(std::size_t s) const;
-  /// Whether node s has a multiplier and its dual function anything to act on: D_jj / A_j > 1e-12.
+  /// Whether node s has a multiplier and its function anything to act on: D_jj / A_j > 1e-12, of standard multipliers sum_k D_jk / A_j.
   bool covered(std::size_t s) const;
   /// Closed: covered and z_n - c_n g > 0.
   bool closed(std::size_t s, const SpatialVector& z) const;

@@ -38,7 +38,8 @@ void set_basis(const Interval& covered, FacetMoments& moments) {
 
 FacetIntegrator2d::FacetIntegrator2d(const InterfaceMeasure& measure, const MortarOptions& options)
     : measure_(measure),
-      functions_{options.coupling == Coupling::dual_mortar, options.coupling == Coupling::dual_mortar && options.gap_weighting == GapWeighting::dual},
+      functions_{options.coupling == Coupling::dual_mortar, options.coupling == Coupling::dual_mortar && options.gap_weighting == GapWeighting::dual,
+                 2},
       rule_(gauss_legendre(options.gauss_points)),
       rule_of_quadratic_(gauss_legendre(std::max(options.gauss_points, 3))) {}
 

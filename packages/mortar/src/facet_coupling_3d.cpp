@@ -8,8 +8,8 @@
 namespace mortise {
 
 FacetIntegrator3d::FacetIntegrator3d(const MortarOptions& options)
-    : functions_{options.coupling == Coupling::dual_mortar,
-                 options.coupling == Coupling::dual_mortar && options.gap_weighting == GapWeighting::dual} {}
+    : functions_{options.coupling == Coupling::dual_mortar, options.coupling == Coupling::dual_mortar && options.gap_weighting == GapWeighting::dual,
+                 3} {}
 
 bool FacetIntegrator3d::integrate(const SlaveFacetData& slave, const std::vector<Facet<LocalOrdinal>>& masters, const FacetReach& reach,
                                   const std::vector<Eigen::Vector3d>& x, bool derivatives, FacetCoupling& coupling) {

@@ -25,7 +25,7 @@ class Combination {
   Combination(const FacetMoments& moments, const FacetMultipliers& multipliers, const FacetFunctions& functions)
       : moments_(moments),
         functions_(functions),
-        basis_(multipliers.basis),
+        basis_(non_negative_basis(functions.dimension, n)),
         S_(multipliers.share),
         T_(moments.T),
         extrapolation_(moments.extrapolation) {

@@ -23,9 +23,8 @@ struct FacetMoments {
 
 /// Which multipliers a facet has.
 struct FacetMultipliers {
-  FacetMatrix share;                        ///< S: phi_j is the sum of S_jk times the facet's own function k; row of a node without multiplier: 0
-  FacetVector weights;                      ///< int N_j, or int Ñ_j, over the facet in the reference configuration
-  const NonNegativeBasis* basis = nullptr;  ///< Ñ; of quadratic facets
+  FacetMatrix share;    ///< S: phi_j is the sum of S_jk times the facet's own function k; row of a node without multiplier: 0
+  FacetVector weights;  ///< int N_j, or int Ñ_j, over the facet in the reference configuration
 };
 
 /// S: nodes that carry keep their own function; that of one that does not goes in equal parts to its free edge neighbours, or where it has none to
@@ -34,9 +33,10 @@ struct FacetMultipliers {
 /// corners k of the middle's edge, would otherwise couple corners both ways.
 FacetMatrix multiplier_shares(const std::vector<char>& carries, std::size_t corners);
 
-/// The functions of multipliers and gap weighting.
+/// The functions of multipliers and gap weighting, in a model of `dimension` dimensions.
 struct FacetFunctions {
   bool dual_multipliers, dual_gap;
+  int dimension;
 };
 
 /// Fills D, M, gap and, if `derivatives`, their derivatives of a coupling whose nodes and columns are set. Returns false if no multiplier is left:

@@ -91,6 +91,7 @@ class OverlapTest<3> {
   bool stay_apart(const FacetVectors& slave, const FacetVectors& master) const;  ///< linear parts, in the plane's frame
 
   std::optional<AuxiliaryPlane> plane_;
+  std::vector<FacetVectors> parts_;       ///< linear, of the slave, in the plane's frame
   double approach_, tangent_, same_way_;  ///< tan of the turn; sine of what two normals can turn against one another
 };
 

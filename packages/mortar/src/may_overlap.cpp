@@ -54,18 +54,20 @@ bool OverlapTest<2>::operator()(const FacetPoints<2>& master) const {
 }
 
 OverlapTest<3>::OverlapTest(const FacetPoints<3>& slave, const std::vector<NodalNormal>&, const Motion& motion)
-    : plane_(make_auxiliary_plane(slave)), approach_(motion.approach), tangent_(std::tan(motion.turn)), same_way_(std::sin(2.0 * motion.turn)) {}
+    : plane_(make_auxiliary_plane(slave)), approach_(motion.approach), tangent_(std::tan(motion.turn)), same_way_(std::sin(2.0 * motion.turn)) {
+  for (const FacetPart& part : linear_parts(3, slave.size()))
+    if (plane_) parts_.push_back(part_of(plane_->slave, part));
+}
 
 bool OverlapTest<3>::operator()(const FacetPoints<3>& master) const {
   if (!plane_) return true;
-  const FacetPoints<3>& slave = plane_->slave;
   FacetVectors nodes;
   for (const Eigen::Vector3d& x : master) nodes.push_back(plane_->to_frame(x));
   for (const FacetPart& part : linear_parts(3, master.size())) {
     const FacetVectors of_master = part_of(nodes, part);
     if (central_normal(of_master).normalized().z() > same_way_) continue;
-    for (const FacetPart& other : linear_parts(3, slave.size()))
-      if (!stay_apart(part_of(slave, other), of_master)) return true;
+    for (const FacetVectors& of_slave : parts_)
+      if (!stay_apart(of_slave, of_master)) return true;
   }
   return false;
 }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 
 #include "mortise/shape/line3.hpp"
 #include "nodal_normal.hpp"
@@ -12,11 +13,17 @@ Eigen::Vector2d tangent(const NodeTangents& facet, const Positions<2>& x) {
   return sum;
 }
 
-// No number where the facet has no length.
-Eigen::Vector2d facet_normal(const NodeTangents& facet, const Positions<2>& x) {
-  const Eigen::Vector2d along = tangent(facet, x);
-  return Eigen::Vector2d(along.y(), -along.x()) / along.norm();
-}
+// A facet's tangent at the node, and its unit normal: no number where it has no length.
+struct Side {
+  double length;
+  Eigen::Vector2d normal;
+
+  Side(const NodeTangents& facet, const Positions<2>& x) {
+    const Eigen::Vector2d along = tangent(facet, x);
+    length = along.norm();
+    normal = Eigen::Vector2d(along.y(), -along.x()) / length;
+  }
+};
 
 }  // namespace
 
@@ -36,9 +43,11 @@ NodeTangents tangents_at<2>(const Facet<LocalOrdinal>& facet, std::size_t a) {
 
 bool average_normal(const NormalStencil& stencil, const Positions<2>& x, bool derivatives, NodalNormal& result) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  boost::container::small_vector<Side, 2> sides;
   for (const NodeTangents& facet : stencil.facets) {
-    if (!(tangent(facet, x).norm() > 0.0)) return false;
-    sum += facet_normal(facet, x);
+    const Side& side = sides.emplace_back(facet, x);
+    if (!(side.length > 0.0)) return false;
+    sum += side.normal;
   }
   for (int i = 0; i < 2; ++i)
     if (stencil.projected[i]) sum[i] = 0.0;
@@ -46,8 +55,8 @@ bool average_normal(const NormalStencil& stencil, const Positions<2>& x, bool de
   constexpr double none = 1e-6;  // facets folded onto one another
   if (!(length > none)) return false;
   result.normal = sum / length;
-  for (const NodeTangents& facet : stencil.facets)
-    if (!(result.normal.dot(facet_normal(facet, x)) > 0.0)) return false;
+  for (const Side& side : sides)
+    if (!(result.normal.dot(side.normal) > 0.0)) return false;
   result.columns = stencil.columns;
   if (!derivatives) return true;
 
@@ -55,10 +64,11 @@ bool average_normal(const NormalStencil& stencil, const Positions<2>& x, bool de
   for (int i = 0; i < 2; ++i)
     if (stencil.projected[i]) project.col(i).setZero();
   result.derivative.setZero(2, 2 * static_cast<Eigen::Index>(stencil.columns.size()));
-  for (const NodeTangents& facet : stencil.facets) {
-    const Eigen::Vector2d n = facet_normal(facet, x), t(-n.y(), n.x());
+  for (std::size_t e = 0; e < sides.size(); ++e) {
+    const NodeTangents& facet = stencil.facets[e];
+    const Eigen::Vector2d &n = sides[e].normal, t(-n.y(), n.x());
     // R (I - t t^T) = R n n^T, and R n = -t turned back: R maps t to n and n to -t
-    const Eigen::Matrix2d slope = project * (-t * n.transpose()) / tangent(facet, x).norm();
+    const Eigen::Matrix2d slope = project * (-t * n.transpose()) / sides[e].length;
     for (std::size_t b = 0; b < facet.nodes.size(); ++b) {
       const auto place = std::find(stencil.columns.begin(), stencil.columns.end(), facet.nodes[b]) - stencil.columns.begin();
       result.derivative.middleCols<2>(2 * place) += facet.slope(0, static_cast<Eigen::Index>(b)) * slope;

@@ -74,8 +74,8 @@ bool sound(const FacetPoints<3>& x) { return make_auxiliary_plane(x).has_value()
 
 }  // namespace
 
-bool SlaveSurface::may_load(std::size_t facet, LocalOrdinal multiplier, LocalOrdinal node) const {
-  const NonNegativeBasis* basis = multipliers[facet].basis;
+bool SlaveSurface::may_load(int dimension, std::size_t facet, LocalOrdinal multiplier, LocalOrdinal node) const {
+  const NonNegativeBasis* basis = non_negative_basis(dimension, facets[facet].size());
   if (basis == nullptr) return false;
   const auto place = [&](LocalOrdinal one) { return std::find(facets[facet].begin(), facets[facet].end(), one) - facets[facet].begin(); };
   // D_jk = sum_i S_ji (int Ñ_i) (B^-1)_ki
@@ -188,7 +188,7 @@ SlaveSurface make_slave_surface(const RCP<const Map>& owned_nodes, const RCP<con
       surface.facets_of[facet[j]].push_back(surface.facets.size());
     }
     surface.facets.push_back(facet);
-    surface.multipliers.push_back({multiplier_shares(carries, corners), weights, non_negative_basis(dim, facet.size())});
+    surface.multipliers.push_back({multiplier_shares(carries, corners), weights});
   }
   throw_if_any(*owned_nodes->getComm(), diagnostics);
   return surface;

@@ -22,7 +22,7 @@ struct SlaveSurface {
 
   /// Whether a dual multiplier may act on another node of a facet that carries one itself: the middle of an edge on its corners, and on those of
   /// edges whose middle has no multiplier.
-  bool may_load(std::size_t facet, LocalOrdinal multiplier, LocalOrdinal node) const;
+  bool may_load(int dimension, std::size_t facet, LocalOrdinal multiplier, LocalOrdinal node) const;
 };
 
 /// Collective. Throws InputError at `place` for what MortarInterface refuses of a slave side.

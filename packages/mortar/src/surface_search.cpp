@@ -44,6 +44,10 @@ struct Bounds {
     }
   }
   void enclose(const PlacedFacet<dim>& facet, double inflation) {
+    if (non_negative_basis(dim, static_cast<std::size_t>(facet.count)) == nullptr) {
+      for (int a = 0; a < facet.count; ++a) enclose(facet.x[a], inflation);
+      return;
+    }
     for (const auto& point : control_points<dim>(facet.points())) {
       std::array<double, dim> x;
       std::copy(point.begin(), point.end(), x.begin());
@@ -61,10 +65,7 @@ Box<dim> box_of(const PlacedFacet<dim>& facet, double inflation) {
   return bounds.box();
 }
 
-Segment segment_of(const LinePoints& x, const FacetPart& part) {
-  const Point2<double>&a = x[part[0]], &b = x[part[1]];
-  return {{a[0], a[1]}, {b[0], b[1]}};
-}
+Segment segment_of(const Point2<double>& a, const Point2<double>& b) { return {{a[0], a[1]}, {b[0], b[1]}}; }
 
 LinePoints line_of(const PlacedFacet<2>& facet) { return {facet.x.begin(), facet.x.begin() + facet.count}; }
 
@@ -83,10 +84,11 @@ std::vector<Bounds<dim>> gather_bounds(const Communicator& comm, const std::vect
 }  // namespace
 
 double facet_distance(const LinePoints& a, const LinePoints& b) {
+  if (a.size() == 2 && b.size() == 2) return geometry::distance(segment_of(a[0], a[1]), segment_of(b[0], b[1]));
   double least = std::numeric_limits<double>::max();
   for (const FacetPart& of_a : linear_parts(2, a.size()))
     for (const FacetPart& of_b : linear_parts(2, b.size()))
-      least = std::min<double>(least, geometry::distance(segment_of(a, of_a), segment_of(b, of_b)));
+      least = std::min<double>(least, geometry::distance(segment_of(a[of_a[0]], a[of_a[1]]), segment_of(b[of_b[0]], b[of_b[1]])));
   return least;
 }
 

@@ -4,39 +4,46 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
+
+#include "mortise/mortar/quadratic_facet.hpp"
 
 namespace mortise {
 namespace {
 
 const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
 
-/// Ids of the ends of all facets, on rank 0, in the order of travel of each.
-std::map<GlobalOrdinal, GlobalOrdinal> facets_on_root(const Mesh& mesh, const SideSet& slave) {
-  const auto owned = rcp(new Map(invalid, static_cast<std::size_t>(slave.owned), 0, mesh.comm));
+/// Which node follows which along the facets, by ids, on rank 0.
+std::map<GlobalOrdinal, GlobalOrdinal> links_on_root(const Mesh& mesh, const SideSet& slave) {
+  std::vector<std::array<GlobalOrdinal, 2>> links;
+  for (LocalOrdinal side = 0; side < slave.owned; ++side) {
+    const auto nodes = mesh.side_nodes(slave.sides[side]);
+    const auto id = [&](int place) { return mesh.local_nodes->getGlobalElement(nodes[static_cast<std::size_t>(place)]); };
+    for (const FacetPart& part : linear_parts(2, nodes.size())) links.push_back({id(part[0]), id(part[1])});
+  }
+  const auto owned = rcp(new Map(invalid, links.size(), 0, mesh.comm));
   const std::size_t all = mesh.comm->getRank() == 0 ? owned->getGlobalNumElements() : 0;
   const auto root = rcp(new Map(invalid, all, 0, mesh.comm));
   MultiVector mine(owned, 2), collected(root, 2);  // ids are far below 2^53
   {
     const auto ids = mine.getLocalViewHost(Tpetra::Access::OverwriteAll);
-    for (LocalOrdinal side = 0; side < slave.owned; ++side) {
-      const auto nodes = mesh.side_nodes(slave.sides[side]);
-      for (int end = 0; end < 2; ++end) ids(side, end) = static_cast<double>(mesh.local_nodes->getGlobalElement(nodes[end]));
-    }
+    for (std::size_t link = 0; link < links.size(); ++link)
+      for (int end = 0; end < 2; ++end) ids(link, end) = static_cast<double>(links[link][end]);
   }
   collected.doImport(mine, Import(owned, root), Tpetra::INSERT);
   std::map<GlobalOrdinal, GlobalOrdinal> next;
   const auto ids = collected.getLocalViewHost(Tpetra::Access::ReadOnly);
-  for (std::size_t facet = 0; facet < all; ++facet) next[static_cast<GlobalOrdinal>(ids(facet, 0))] = static_cast<GlobalOrdinal>(ids(facet, 1));
+  for (std::size_t link = 0; link < all; ++link) next[static_cast<GlobalOrdinal>(ids(link, 0))] = static_cast<GlobalOrdinal>(ids(link, 1));
   return next;
 }
 
 }  // namespace
 
 ContactProfile::ContactProfile(const Mesh& mesh, const PairSurfaces& surfaces, std::size_t pair) : pair_(pair) {
-  auto next = facets_on_root(mesh, mesh.side_sets.at(surfaces.slave));
+  auto next = links_on_root(mesh, mesh.side_sets.at(surfaces.slave));
   std::set<GlobalOrdinal> reached;
   for (const auto& facet : next) reached.insert(facet.second);
   std::vector<GlobalOrdinal> order, starts;

@@ -9,6 +9,7 @@
 #include <Tpetra_Vector.hpp>
 #include <cmath>
 
+#include "mortise/mortar/quadratic_facet.hpp"
 #include "names.hpp"
 
 namespace mortise {
@@ -91,15 +92,18 @@ std::vector<PressedFacet> pressed_facets(const QuantityContext& context, std::si
   std::vector<PressedFacet> facets;
   for (LocalOrdinal side = 0; side < slave.owned; ++side) {
     const auto nodes = mesh.side_nodes(slave.sides[side]);
-    PressedFacet facet;
-    for (int end = 0; end < 2; ++end) {
-      for (int i = 0; i < 2; ++i) facet.position[end][i] = mesh.coordinates[nodes[end]][i] + moves * displacement(2 * nodes[end] + i, 0);
-      facet.pressure[end] = values(nodes[end], 0);
-      facet.closed[end] = values(nodes[end], 1) != 0.0;
-      facet.shear[end] = values(nodes[end], 2);
-      facet.shear_bound[end] = values(nodes[end], 3);
+    for (const FacetPart& part : linear_parts(2, nodes.size())) {
+      PressedFacet facet;
+      for (int end = 0; end < 2; ++end) {
+        const LocalOrdinal node = nodes[static_cast<std::size_t>(part[end])];
+        for (int i = 0; i < 2; ++i) facet.position[end][i] = mesh.coordinates[node][i] + moves * displacement(2 * node + i, 0);
+        facet.pressure[end] = values(node, 0);
+        facet.closed[end] = values(node, 1) != 0.0;
+        facet.shear[end] = values(node, 2);
+        facet.shear_bound[end] = values(node, 3);
+      }
+      facets.push_back(facet);
     }
-    facets.push_back(facet);
   }
   return facets;
 }

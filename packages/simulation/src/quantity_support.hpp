@@ -31,7 +31,8 @@ std::size_t find_pair(const QuantityContext& context, const Located<std::string>
 /// The parameter "measure".
 void describe_measure(Parameters& parameters, TractionMeasure& measure);
 
-/// A slave facet where the geometry of its pair is (current or reference configuration), with the pressures of its ends, in the order of travel.
+/// A slave facet, or half of a quadratic one, where the geometry of its pair is (current or reference configuration), with the pressures of its ends,
+/// in the order of travel.
 struct PressedFacet {
   std::array<std::array<double, 2>, 2> position{};
   std::array<double, 2> pressure{}, shear{}, shear_bound{};
@@ -39,7 +40,8 @@ struct PressedFacet {
   double length() const;
 };
 
-/// The slave facets of a pair, each on exactly one rank. Collective. Tractions per undeformed area are z_j D_j / A_j with D_j = int phi_j dgamma.
+/// The slave facets of a pair, quadratic ones in halves between their nodes, each on exactly one rank. Collective. Tractions per undeformed area are
+/// z_j D_j / A_j with D_j = int phi_j dgamma.
 std::vector<PressedFacet> pressed_facets(const QuantityContext& context, std::size_t pair, TractionMeasure measure = TractionMeasure::pair);
 
 }  // namespace mortise

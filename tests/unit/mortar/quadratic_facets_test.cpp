@@ -247,6 +247,28 @@ TEST(QuadraticFacetsCurved, MeasureTheGapOfArcs) {
   EXPECT_GT(error(4) / error(8), 8.0);
 }
 
+// Through corners, middles and edges of parts alike, far beyond the reach.
+TEST(QuadraticFacetsFlat, AreFoundHoweverFar) {
+  for (const bool space : {false, true})
+    for (const auto kind : {quads, triangles}) {
+      Surfaces surfaces = space ? flat_space(2, 2, -0.5, 1.5, kind, kind, true) : flat_plane(3, 2, -0.5, 1.5, true);
+      const int across = surfaces.dim - 1;
+      for (std::size_t n = 0; n < surfaces.slaves; ++n) surfaces.points[n][across] += 40.0;
+      const auto pair = evaluated(surfaces);
+      EXPECT_TRUE(pair->couplings.empty());
+      std::vector<std::size_t> nodes;
+      std::vector<SpatialVector> normals;
+      for (std::size_t s = 0; s < pair->interface->slave_nodes().size(); ++s) {
+        nodes.push_back(s);
+        normals.push_back(pair->normals[s].normal);
+      }
+      for (const auto& distance : pair->interface->distances_to_master(*pair->owned(surfaces.points), nodes, normals)) {
+        ASSERT_TRUE(distance);
+        EXPECT_NEAR(*distance, 40.0, 1e-12);
+      }
+    }
+}
+
 std::string refusal(const Surfaces& surfaces) {
   try {
     SurfacePair(surfaces, alone());
