@@ -8,6 +8,7 @@
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "implementation.hpp"
@@ -20,7 +21,8 @@ namespace {
 // Rows of an operator that is the identity but for the rows of some slave nodes.
 class NearIdentity {
  public:
-  explicit NearIdentity(const RCP<const Map>& dofs, std::size_t widest) : matrix_(rcp(new Matrix(dofs, widest))) {}
+  NearIdentity(const RCP<const Map>& dofs, const std::vector<std::size_t>& sizes)
+      : matrix_(rcp(new Matrix(dofs, Teuchos::arrayViewFromVector(sizes)))) {}
 
   void add(LocalOrdinal row, GlobalOrdinal column, double value) {
     if (value != 0.0) matrix_->insertGlobalValues(matrix_->getRowMap()->getGlobalElement(row), 1, &value, &column);
@@ -42,25 +44,27 @@ class NearIdentity {
 
 // Rows of slave nodes with respect to what the nodes they are coupled to move by. A middle of an edge is coupled to corners, which are slave nodes
 // themselves: rows of middles act on what rows of corners give.
-struct SlaveRows {
-  NearIdentity corners, middles;
-  std::vector<char> is_corner, is_middle;  ///< [dofs]
-  bool middles_first;
+class SlaveRows {
+ public:
+  SlaveRows(const RCP<const Map>& dofs, const std::vector<std::size_t>& sizes, bool any_middles)
+      : corners_(dofs, sizes), is_corner_(sizes.size(), 0), is_middle_(sizes.size(), 0) {
+    if (any_middles) middles_.emplace(dofs, sizes);
+  }
 
-  SlaveRows(const RCP<const Map>& dofs, std::size_t widest, bool any_middles)
-      : corners(dofs, widest),
-        middles(dofs, any_middles ? widest : 1),
-        is_corner(dofs->getNodeNumElements(), 0),
-        is_middle(is_corner),
-        middles_first(any_middles) {}
-
+  void mark(LocalOrdinal dof, bool middle) { (middle ? is_middle_ : is_corner_)[dof] = 1; }
+  void add(LocalOrdinal row, bool middle, GlobalOrdinal column, double value) { (middle ? *middles_ : corners_).add(row, column, value); }
   RCP<Matrix> finish() {
-    RCP<Matrix> last = corners.finish(is_corner);
-    if (!middles_first) return last;
+    RCP<Matrix> last = corners_.finish(is_corner_);
+    if (!middles_) return last;
     const auto product = rcp(new Matrix(last->getRowMap(), last->getNodeMaxNumRowEntries()));
-    Tpetra::MatrixMatrix::Multiply(*middles.finish(is_middle), false, *last, false, *product);
+    Tpetra::MatrixMatrix::Multiply(*middles_->finish(is_middle_), false, *last, false, *product);
     return product;
   }
+
+ private:
+  NearIdentity corners_;
+  std::optional<NearIdentity> middles_;
+  std::vector<char> is_corner_, is_middle_;  ///< [dofs]
 };
 
 }  // namespace
@@ -69,10 +73,12 @@ Decoupling ContactSystem::decoupling(const Vector& z) const {
   const Implementation& self = *implementation_;
   const int dimension = self.dimension;
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
-  std::size_t widest = 1;
+  std::vector<std::size_t> sizes(self.dofs->getNodeNumElements(), 1);
   for (const auto& pair : self.pairs)
-    for (std::size_t s = 0; s < pair->rows().size(); ++s) widest = std::max(widest, dimension * (1 + pair->interface().coupled_nodes(s).size()));
-  SlaveRows trial(self.dofs, widest, self.middles_first), test(self.dofs, widest, self.middles_first);
+    for (std::size_t s = 0; s < pair->rows().size(); ++s)
+      std::fill_n(sizes.begin() + dimension * pair->slave_nodes()[s].owned_node, dimension,
+                  dimension * (1 + pair->interface().coupled_nodes(s).size()));
+  SlaveRows trial(self.dofs, sizes, self.middles_first), test(self.dofs, sizes, self.middles_first);
   Decoupling result;
   std::vector<std::pair<LocalOrdinal, SpatialMatrix>> eliminated;  // owned node, N_j
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
@@ -95,11 +101,11 @@ Decoupling ContactSystem::decoupling(const Vector& z) const {
       for (int i = 0; i < dimension; ++i) {
         const LocalOrdinal dof = dimension * slave.owned_node + i;
         const bool middle = pair.before_corners(s);
-        for (SlaveRows* rows : {&trial, &test}) (middle ? rows->is_middle : rows->is_corner)[dof] = 1;
-        NearIdentity &trial_rows = middle ? trial.middles : trial.corners, &test_rows = middle ? test.middles : test.corners;
+        trial.mark(dof, middle);
+        test.mark(dof, middle);
         for (int k = 0; k < dimension; ++k) {
-          trial_rows.add(dof, dimension * slave.id + k, kept(i, k));
-          test_rows.add(dof, dimension * slave.id + k, kept(i, k));
+          trial.add(dof, middle, dimension * slave.id + k, kept(i, k));
+          test.add(dof, middle, dimension * slave.id + k, kept(i, k));
         }
         const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
         for (std::size_t c = 0; c < coupled.size(); ++c) {
@@ -107,8 +113,8 @@ Decoupling ContactSystem::decoupling(const Vector& z) const {
           if (share == 0.0) continue;
           for (int k = 0; k < dimension; ++k) {
             if (is_fixed(coupled[c], k) != 0.0) continue;
-            trial_rows.add(dof, dimension * nodes.getGlobalElement(coupled[c]) + k, share * N(i, k));
-            test_rows.add(dof, dimension * nodes.getGlobalElement(coupled[c]) + k, -share * along(i, k));
+            trial.add(dof, middle, dimension * nodes.getGlobalElement(coupled[c]) + k, share * N(i, k));
+            test.add(dof, middle, dimension * nodes.getGlobalElement(coupled[c]) + k, -share * along(i, k));
           }
         }
       }

@@ -15,7 +15,7 @@
 namespace mortise {
 namespace {
 
-void check(const std::vector<BodyDescription>& bodies, const std::vector<ReferencePointDescription>& reference_points) {
+void check(const std::vector<BodyDescription>& bodies) {
   if (bodies.empty()) throw InputError(Place{}, "there is no body to be meshed");
   std::vector<Diagnostic> diagnostics;
   std::set<std::string> names;
@@ -24,21 +24,16 @@ void check(const std::vector<BodyDescription>& bodies, const std::vector<Referen
     if (!body.mesh) diagnostics.push_back({body.place, fmt::format("body \"{}\" has no mesh", body.name)});
   }
   if (!diagnostics.empty()) throw InputError(diagnostics);
-  const char* const where[] = {"", "", "of the plane", "of space"};
+  const char* const where[] = {"", "of lines", "of the plane", "of space"};
   const int dimension = bodies.front().mesh->dimension();
   for (const auto& body : bodies) {
     const int own = body.mesh->dimension(), of_cells = topology(body.shape).dimension;
     if (own != dimension)
       diagnostics.push_back({body.place, fmt::format("body \"{}\" has a mesh {}, but body \"{}\" one {}; all bodies of a scene need the same",
                                                      body.name, where[own], bodies.front().name, where[dimension])});
-    if (own == 3 && of_cells == 1)
-      diagnostics.push_back({body.place, fmt::format("body \"{}\" is rigid; rigid bodies are available in the plane only", body.name)});
-    else if (of_cells != own && of_cells != 1)
+    if (of_cells != own && body.shape != rigid_shape(own))
       diagnostics.push_back({body.place, fmt::format("body \"{}\" has a mesh {}, but elements {}", body.name, where[own], where[of_cells])});
   }
-  if (dimension == 3)
-    for (const auto& point : reference_points)
-      diagnostics.push_back({point.place, fmt::format("\"{}\": reference points are available in the plane only", point.name)});
   if (!diagnostics.empty()) throw InputError(diagnostics);
 }
 
@@ -164,8 +159,7 @@ void fill_reference_points(Mesh& mesh, const BodySet& set, const std::vector<Ref
     point.name = description.name;
     point.is_placed = description.position.has_value();
     point.node = mesh.local_nodes->getLocalElement(next++);
-    if (point.is_placed)
-      for (int i = 0; i < 2; ++i) mesh.coordinates[point.node][i] = (*description.position)[i];
+    if (point.is_placed) mesh.coordinates[point.node] = *description.position;
     if (description.rotates) point.rotation_node = mesh.local_nodes->getLocalElement(next++);
     if (!mesh.node_sets.insert({point.name, {point.node}}).second)
       diagnostics.push_back({description.place, fmt::format("there is already a set named \"{}\"", point.name)});
@@ -179,7 +173,7 @@ void fill_reference_points(Mesh& mesh, const BodySet& set, const std::vector<Ref
 RCP<Mesh> build_mesh(const RCP<const Communicator>& comm, const std::vector<BodyDescription>& bodies, const std::vector<std::string>& contact_sides,
                      const std::vector<ReferencePointDescription>& reference_points) {
   // The descriptions are the same on every rank, and so are errors in them.
-  check(bodies, reference_points);
+  check(bodies);
   const BodySet set(bodies);
   std::vector<std::vector<bool>> is_contact;
   for (int b = 0; b < set.size(); ++b) {

@@ -22,8 +22,10 @@ CurveComplex::CurveComplex(std::vector<Point> corners, std::vector<Edge> edges, 
 Point CurveComplex::coordinate(GlobalOrdinal node) const {
   if (node < edge_nodes_.front()) return placement_(corners_[node]);
   const int e = interval(edge_nodes_, node);
-  return placement_(edge_point(edges_[e], corners_, 2 * (static_cast<int>(node - edge_nodes_[e]) + 1)));
+  return on_edge(e, static_cast<int>(node - edge_nodes_[e]) + 1);
 }
+
+Point CurveComplex::on_edge(int e, int i) const { return placement_(edge_point(edges_[e], corners_, 2 * i)); }
 
 CellNodes CurveComplex::element_nodes(GlobalOrdinal element) const {
   const int e = interval(edge_cells_, element), inside = static_cast<int>(element - edge_cells_[e]);

@@ -76,6 +76,7 @@ Inverted first_inverted(const Mesh& mesh, const Block& block, int rule_points) {
 }
 
 Inverted first_inverted(const Mesh& mesh, const Block& block) {
+  if (topology(block.shape).dimension < mesh.dimension) return {};  // the surface of a rigid body
   switch (block.shape) {
     case CellShape::triangle3:
       return first_inverted<Triangle3>(mesh, block, 1);
@@ -95,7 +96,7 @@ Inverted first_inverted(const Mesh& mesh, const Block& block) {
       return first_inverted<Hexahedron20>(mesh, block, 27);
     case CellShape::line2:
     case CellShape::line3:
-      break;  // the surface of a rigid body
+      break;
   }
   return {};
 }

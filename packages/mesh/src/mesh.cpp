@@ -1,10 +1,13 @@
 #include "mortise/mesh/mesh.hpp"
 
+#include "mortise/mesh/cell_nodes.hpp"
+
 namespace mortise {
 
 std::vector<LocalOrdinal> Mesh::side_nodes(const Side& side) const {
   const auto& block = blocks[side.block];
   const LocalOrdinal* nodes = block.nodes(side.element);
+  if (side.side == the_cell_itself) return {nodes, nodes + block.nodes_per_element};
   std::vector<LocalOrdinal> result;
   for (const int a : topology(block.shape).sides[side.side]) result.push_back(nodes[a]);
   return result;

@@ -27,6 +27,11 @@ BodyComplex PlaneMesh::complex(CellShape cell, const Place& place) const {
   return build(cell, place);
 }
 
+BodyComplex VolumeMesh::complex(CellShape cell, const Place& place) const {
+  if (cell == CellShape::quadrilateral4) return build_surface(place);
+  return build(cell, place);
+}
+
 void VolumeMesh::describe_rotation(Parameters& parameters) {
   parameters.add("rotation", rotation, Says("turns the mesh about an axis through the origin, counterclockwise seen from its tip").unit("degrees"));
   parameters.add(
@@ -40,7 +45,7 @@ void VolumeMesh::describe_rotation(Parameters& parameters) {
 
 namespace {
 
-/// Adds the kinds of the plane that have an inside to a registry of them or of all meshes.
+/// Adds the kinds of the plane to a registry of them or of all meshes.
 template <class Base>
 void add_plane_kinds(Registry<Base>& kinds) {
   kinds.template add<BlockMesh>("block", "rectangle or general quadrilateral; sides bottom, right, top, left");
@@ -49,6 +54,7 @@ void add_plane_kinds(Registry<Base>& kinds) {
   kinds.template add<FullDiskMesh>("disk", "disk about the origin; side arc");
   kinds.template add<QuarterDiskMesh>("quarter disk", "the quarter x >= 0, y <= 0 of a disk about the origin; sides diameter, axis, arc");
   kinds.template add<HalfDiskMesh>("half disk", "the lower or the right half of a disk about the origin; sides diameter or axis, arc");
+  kinds.template add<ProfileMesh>("profile", "a polyline with rounded corners, for rigid bodies; side profile");
 }
 
 }  // namespace
@@ -66,7 +72,6 @@ const Registry<MeshOptions>& mesh_registry() {
   static const Registry<MeshOptions> registry = [] {
     Registry<MeshOptions> kinds;
     add_plane_kinds(kinds);
-    kinds.add<ProfileMesh>("profile", "a polyline with rounded corners, for rigid bodies; side profile");
     kinds.add<BrickMesh>("brick", "cuboid with a corner at the origin; sides left, right (x), front, back (y), bottom, top (z)");
     kinds.add<CylinderMesh>("cylinder", "cylinder about the z axis, from z = 0; sides bottom, top, mantle");
     kinds.add<ExtrudedMesh>("extruded", "a mesh of the plane moved along z, from z = 0; sides of the plane mesh, start, end");

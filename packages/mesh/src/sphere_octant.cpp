@@ -78,11 +78,13 @@ class Octant {
   PolarCells::Spacings spacings_;
 };
 
+/// (a, b, c) is (y, x, -z), which keeps right-handed blocks right-handed.
+SpatialPoint placed_octant(const Vector3d& x) { return {x[1], x[0], -x[2]}; }
+
 }  // namespace
 
-BodyComplex SphereOctantMesh::complex(CellShape cell, const Place& place) const {
+BodyComplex SphereOctantMesh::build(CellShape cell, const Place& place) const {
   const Octant octant(radius, spacings(place));
-  // (a, b, c) is (y, x, -z), which keeps right-handed blocks right-handed.
   const std::array<std::string, 3> planes{"y plane", "x plane", "equator"};
   // Corners of the inner block by their number i + 2 j + 4 k; the sphere's, 7 + those of them that are not the origin.
   std::vector<VolumeComplex::Block> blocks(4);
@@ -99,11 +101,28 @@ BodyComplex SphereOctantMesh::complex(CellShape cell, const Place& place) const 
       if (d != radial) block.sides[2 * d] = planes[d];
     block.sides[2 * radial + 1] = "sphere";
   }
-  const auto position = [octant](const VolumeComplex::GridPoint& point) {
-    const Vector3d x = octant(point);
-    return SpatialPoint{x[1], x[0], -x[2]};
-  };
+  const auto position = [octant](const VolumeComplex::GridPoint& point) { return placed_octant(octant(point)); };
   return VolumeComplex(cell, std::move(blocks), position, placement());
+}
+
+// The outer faces of the three outer blocks, whose directions i and j are the two after the radial one.
+ShellComplex SphereOctantMesh::build_surface(const Place& place) const {
+  const Octant octant(radius, spacings(place));
+  std::vector<ShellComplex::Patch> patches;
+  for (int radial = 0; radial < 3; ++radial) {
+    const int i = (radial + 1) % 3, j = (radial + 2) % 3, first = 1 << radial;
+    // Corners by those of the inner block that are not the origin.
+    patches.push_back({{first - 1, first + (1 << i) - 1, 6, first + (1 << j) - 1}, {octant.inner_cells()[i], octant.inner_cells()[j]}, "sphere"});
+  }
+  const auto position = [octant](const ShellComplex::GridPoint& point) {
+    const int radial = point.patch;
+    VolumeComplex::GridPoint outside{1 + radial, {}};
+    outside.at[radial] = 2 * octant.radial_cells();
+    outside.at[(radial + 1) % 3] = 2 * point.at[0];
+    outside.at[(radial + 2) % 3] = 2 * point.at[1];
+    return placed_octant(octant(outside));
+  };
+  return ShellComplex(std::move(patches), position, placement());
 }
 
 }  // namespace mortise

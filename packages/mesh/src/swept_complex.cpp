@@ -23,6 +23,13 @@ CellShape SweptComplex::profile_shape(CellShape shape) {
   }
 }
 
+SpatialPoint swept(const Sweep& sweep, const Point& point, double share) {
+  const auto [x, y] = point;
+  if (const auto* extrusion = std::get_if<Extrusion>(&sweep)) return {x, y, share * extrusion->length};
+  const double angle = share * std::get<Revolution>(sweep).angle;
+  return {x * std::cos(angle), y, x * std::sin(angle)};
+}
+
 SweptComplex::SweptComplex(CellShape shape, PatchComplex profile, Spacing layers, Sweep sweep, const std::array<std::string, 2>& ends,
                            SpatialPlacement placement)
     : shape_(shape),
@@ -39,11 +46,7 @@ SweptComplex::SweptComplex(CellShape shape, PatchComplex profile, Spacing layers
 
 SpatialPoint SweptComplex::coordinate(GlobalOrdinal node) const {
   const auto [below, level] = find(node);
-  const auto [x, y] = at_level(level).coordinate(below);
-  const double s = layers_.doubled_position(level);
-  if (const auto* extrusion = std::get_if<Extrusion>(&sweep_)) return placement_({x, y, s * extrusion->length});
-  const double angle = s * std::get<Revolution>(sweep_).angle;
-  return placement_({x * std::cos(angle), y, x * std::sin(angle)});
+  return placement_(swept(sweep_, at_level(level).coordinate(below), layers_.doubled_position(level)));
 }
 
 GlobalOrdinal SweptComplex::node_at(const Node& node) const {

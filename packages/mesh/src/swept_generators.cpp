@@ -19,11 +19,34 @@ void BrickMesh::describe_shape(Parameters& parameters) {
   describe_cells(parameters, cells_z, grading_z, "cells z", "grading z", "from bottom to top");
 }
 
-BodyComplex BrickMesh::complex(CellShape cell, const Place& place) const {
+BodyComplex BrickMesh::build(CellShape cell, const Place& place) const {
   const Spacing x = grading_x.spacing(width, cells_x, place), y = grading_y.spacing(depth, cells_y, place);
   PatchComplex base(SweptComplex::profile_shape(cell), {{0.0, 0.0}, {width, 0.0}, {width, depth}, {0.0, depth}},
                     {{0, 1, x}, {1, 2, y}, {3, 2, x}, {0, 3, y}}, {{{0, 1, 2, 3}, {"front", "right", "back", "left"}}}, {});
   return SweptComplex(cell, std::move(base), grading_z.spacing(height, cells_z, place), Extrusion{height}, {"bottom", "top"}, placement());
+}
+
+// Corner i + 2 j + 4 k of the cuboid is at the start (0) or end (1) in each direction.
+ShellComplex BrickMesh::build_surface(const Place& place) const {
+  const std::array<Spacing, 3> spacings{grading_x.spacing(width, cells_x, place), grading_y.spacing(depth, cells_y, place),
+                                        grading_z.spacing(height, cells_z, place)};
+  const std::array<double, 3> lengths{width, depth, height};
+  const std::array<std::string, 6> names{"left", "right", "front", "back", "bottom", "top"};
+  std::vector<ShellComplex::Patch> patches;
+  for (int side = 0; side < 6; ++side) {  // i and j run in the next two directions at the end of one, in the opposite order at its start
+    const int end = side % 2, normal = side / 2, a = (normal + (end ? 1 : 2)) % 3, b = (normal + (end ? 2 : 1)) % 3, first = end << normal;
+    patches.push_back(
+        {{first, first + (1 << a), first + (1 << a) + (1 << b), first + (1 << b)}, {spacings[a].cells(), spacings[b].cells()}, names[side]});
+  }
+  const auto position = [=](const ShellComplex::GridPoint& point) {
+    const int end = point.patch % 2, normal = point.patch / 2, a = (normal + (end ? 1 : 2)) % 3, b = (normal + (end ? 2 : 1)) % 3;
+    SpatialPoint x{};
+    x[normal] = end * lengths[normal];
+    x[a] = lengths[a] * spacings[a].position(point.at[0]);
+    x[b] = lengths[b] * spacings[b].position(point.at[1]);
+    return x;
+  };
+  return ShellComplex(std::move(patches), position, placement());
 }
 
 void CylinderMesh::describe_shape(Parameters& parameters) {
@@ -32,9 +55,13 @@ void CylinderMesh::describe_shape(Parameters& parameters) {
   describe_cells(parameters, cells_z, grading_z, "cells z", "grading z", "from bottom to top");
 }
 
-BodyComplex CylinderMesh::complex(CellShape cell, const Place& place) const {
+BodyComplex CylinderMesh::build(CellShape cell, const Place& place) const {
   return SweptComplex(cell, disk.build(SweptComplex::profile_shape(cell), place), grading_z.spacing(height, cells_z, place), Extrusion{height},
                       {"bottom", "top"}, placement());
+}
+
+ShellComplex CylinderMesh::build_surface(const Place& place) const {
+  return sweep_surface(disk.build_surface(place), grading_z.spacing(height, cells_z, place), Extrusion{height}, placement());
 }
 
 namespace {
@@ -52,13 +79,12 @@ void SweptMesh::describe_profile(Parameters& parameters, const std::string& sent
   parameters.list("profile", list, sentence);
 }
 
-PatchComplex SweptMesh::build_profile(CellShape cell, const Place& place) const {
+const PlaneMesh& SweptMesh::require_profile(const Place& place) const {
   if (!profile.options) throw InputError(place, "the swept mesh has no \"profile\"");
-  return profile.options->build(SweptComplex::profile_shape(cell), place);
+  return *profile.options;
 }
 
-SweptComplex SweptMesh::sweep(CellShape cell, const Place& place, const Spacing& layers, const SweptComplex::Sweep& sweep) const {
-  PatchComplex plane = build_profile(cell, place);
+SweptComplex SweptMesh::sweep_body(PatchComplex plane, CellShape cell, const Spacing& layers, const Sweep& sweep) const {
   const auto& names = plane.side_names();
   const bool is_taken = std::any_of(names.begin(), names.end(), [](const std::string& name) { return name == "start" || name == "end"; });
   const std::string prefix = is_taken ? "sweep " : "";
@@ -71,8 +97,13 @@ void ExtrudedMesh::describe_shape(Parameters& parameters) {
   describe_cells(parameters, cells_z, grading_z, "cells z", "grading z", "from start to end");
 }
 
-BodyComplex ExtrudedMesh::complex(CellShape cell, const Place& place) const {
-  return sweep(cell, place, grading_z.spacing(length, cells_z, place), Extrusion{length});
+BodyComplex ExtrudedMesh::build(CellShape cell, const Place& place) const {
+  return sweep_body(require_profile(place).build(SweptComplex::profile_shape(cell), place), cell, grading_z.spacing(length, cells_z, place),
+                    Extrusion{length});
+}
+
+ShellComplex ExtrudedMesh::build_surface(const Place& place) const {
+  return sweep_surface(require_profile(place).build_surface(place), grading_z.spacing(length, cells_z, place), Extrusion{length}, placement());
 }
 
 void RevolvedMesh::describe_shape(Parameters& parameters) {
@@ -81,8 +112,16 @@ void RevolvedMesh::describe_shape(Parameters& parameters) {
   describe_cells(parameters, cells_around, grading_around, "cells around", "grading around", "from start to end (sizes where the radius is largest)");
 }
 
-BodyComplex RevolvedMesh::complex(CellShape cell, const Place& place) const {
-  const PatchComplex plane = build_profile(cell, place);
+namespace {
+
+struct Turn {
+  Spacing layers;
+  Revolution sweep;
+};
+
+/// How far and in how many layers a profile is turned, by its largest x. Throws InputError for one that reaches the axis.
+template <class PlaneComplex>
+Turn turn_of(const RevolvedMesh& mesh, const PlaneComplex& plane, const Place& place) {
   double least = plane.coordinate(0)[0], most = least;
   for (GlobalOrdinal node = 1; node < plane.node_count(); ++node) {
     const double x = plane.coordinate(node)[0];
@@ -94,8 +133,22 @@ BodyComplex RevolvedMesh::complex(CellShape cell, const Place& place) const {
                      fmt::format("the profile of a revolved mesh reaches x = {:g}, but has to stay on the side x > 0 of the axis: cells that touch "
                                  "the axis would be wedges; please leave a hole about it, or extrude a disk",
                                  least));
-  const double turn = angle * boost::math::constants::pi<double>() / 180.0;
-  return sweep(cell, place, grading_around.spacing(most * turn, cells_around, place), Revolution{turn});
+  const double angle = mesh.angle * boost::math::constants::pi<double>() / 180.0;
+  return {mesh.grading_around.spacing(most * angle, mesh.cells_around, place), {angle}};
+}
+
+}  // namespace
+
+BodyComplex RevolvedMesh::build(CellShape cell, const Place& place) const {
+  PatchComplex plane = require_profile(place).build(SweptComplex::profile_shape(cell), place);
+  const Turn turn = turn_of(*this, plane, place);
+  return sweep_body(std::move(plane), cell, turn.layers, turn.sweep);
+}
+
+ShellComplex RevolvedMesh::build_surface(const Place& place) const {
+  const CurveComplex curve = require_profile(place).build_surface(place);
+  const Turn turn = turn_of(*this, curve, place);
+  return sweep_surface(curve, turn.layers, turn.sweep, placement());
 }
 
 }  // namespace mortise

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <TpetraExt_MatrixMatrix.hpp>
 #include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Import.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
@@ -36,7 +37,9 @@ DecoupledSystem::DecoupledSystem(const Matrix& A, const Decoupling& decoupling, 
   inverse_ = rcp(new Matrix(dofs, static_cast<std::size_t>(dimension)));
   const auto eliminated = decoupling.eliminated->getLocalMatrixHost();
   for (LocalOrdinal first = 0; first < eliminated.numRows(); first += dimension) {
-    if (eliminated.rowConst(first).length == 0) continue;
+    bool is_slave = false;
+    for (LocalOrdinal i = 0; i < dimension; ++i) is_slave = is_slave || eliminated.rowConst(first + i).length > 0;
+    if (!is_slave) continue;
     const Block N = diagonal_block(*decoupling.eliminated, first, dimension);
     const Block block = N * diagonal_block(A, first, dimension) * N, rest = Block::Identity(dimension, dimension) - N;
     const Block inverse = (block + rest).inverse() * N;
@@ -50,10 +53,37 @@ DecoupledSystem::DecoupledSystem(const Matrix& A, const Decoupling& decoupling, 
   inner->fillComplete(dofs, dofs);
   inverse_->fillComplete(dofs, dofs);
 
-  Matrix right(dofs, 0), both(dofs, 0);
-  Tpetra::MatrixMatrix::Multiply(A, false, *decoupling.trial, false, right);
-  Tpetra::MatrixMatrix::Multiply(*decoupling.test, true, right, false, both);
+  Matrix both(dofs, 0);
+  {
+    Matrix right(dofs, 0);
+    Tpetra::MatrixMatrix::Multiply(A, false, *decoupling.trial, false, right);
+    Tpetra::MatrixMatrix::Multiply(*decoupling.test, true, right, false, both);
+  }
   matrix_ = Tpetra::MatrixMatrix::add(1.0, false, both, 1.0, false, *inner);
+}
+
+RCP<const Matrix> DecoupledSystem::columns_of_relative_motion(const Matrix& A) const {
+  Vector marks(A.getDomainMap()), column_marks(A.getColMap());
+  {
+    const auto mark = marks.getLocalViewHost(Tpetra::Access::ReadWrite);
+    const auto inverse = inverse_->getLocalMatrixHost();
+    for (LocalOrdinal row = 0; row < inverse.numRows(); ++row) mark(row, 0) = inverse.rowConst(row).length > 0 ? 1.0 : 0.0;
+  }
+  column_marks.doImport(marks, Import(A.getDomainMap(), A.getColMap()), Tpetra::INSERT);
+  const auto is_marked = column_marks.getLocalViewHost(Tpetra::Access::ReadOnly);
+  const auto local = A.getLocalMatrixHost();
+  const auto kept = [&](LocalOrdinal row, const auto& use) {
+    const auto entries = local.rowConst(row);
+    for (LocalOrdinal k = 0; k < entries.length; ++k)
+      if (is_marked(entries.colidx(k), 0) != 0.0) use(entries.colidx(k), entries.value(k));
+  };
+  std::vector<std::size_t> sizes(static_cast<std::size_t>(local.numRows()), 0);
+  for (LocalOrdinal row = 0; row < local.numRows(); ++row) kept(row, [&](LocalOrdinal, double) { ++sizes[row]; });
+  const auto result = rcp(new Matrix(A.getRowMap(), A.getColMap(), Teuchos::arrayViewFromVector(sizes)));
+  for (LocalOrdinal row = 0; row < local.numRows(); ++row)
+    kept(row, [&](LocalOrdinal column, double value) { result->insertLocalValues(row, 1, &value, &column); });
+  result->fillComplete(A.getDomainMap(), A.getRangeMap());
+  return result;
 }
 
 void DecoupledSystem::add_trial(const MultiVector& x, MultiVector& y) const { decoupling_.trial->apply(x, y, Teuchos::NO_TRANS, 1.0, 1.0); }
@@ -70,7 +100,7 @@ void DecoupledSystem::take_out_eliminated(MultiVector& modes) const {
 void DecoupledPreconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar, Scalar) const {
   MultiVector rest(x, Teuchos::Copy), tested(x.getMap(), x.getNumVectors()), solved(x.getMap(), x.getNumVectors());
   system_->relative_motion(x, y);
-  matrix_->apply(y, rest, Teuchos::NO_TRANS, -1.0, 1.0);
+  relative_->apply(y, rest, Teuchos::NO_TRANS, -1.0, 1.0);
   system_->test(rest, tested);
   preconditioner_->apply(tested, solved);
   system_->add_trial(solved, y);

@@ -22,6 +22,8 @@ class DecoupledSystem {
   void test(const MultiVector& x, MultiVector& y) const;
   /// w: the relative motion that the equations of the eliminated directions ask for by themselves.
   void relative_motion(const MultiVector& b, MultiVector& w) const;
+  /// The columns of a matrix like A in which w may differ from 0; the others are empty. Collective.
+  RCP<const Matrix> columns_of_relative_motion(const Matrix& A) const;
   /// modes -= N modes
   void take_out_eliminated(MultiVector& modes) const;
 
@@ -33,15 +35,16 @@ class DecoupledSystem {
 /// The same with a preconditioner P of C in the place of its inverse.
 class DecoupledPreconditioner : public Operator {
  public:
-  DecoupledPreconditioner(RCP<const Matrix> A, std::shared_ptr<const DecoupledSystem> system, RCP<const Operator> preconditioner)
-      : matrix_(std::move(A)), system_(std::move(system)), preconditioner_(std::move(preconditioner)) {}
+  /// Collective.
+  DecoupledPreconditioner(const Matrix& A, std::shared_ptr<const DecoupledSystem> system, RCP<const Operator> preconditioner)
+      : relative_(system->columns_of_relative_motion(A)), system_(std::move(system)), preconditioner_(std::move(preconditioner)) {}
   Teuchos::RCP<const Map> getDomainMap() const override { return preconditioner_->getDomainMap(); }
   Teuchos::RCP<const Map> getRangeMap() const override { return preconditioner_->getRangeMap(); }
   /// y = w + S' P L' (x - A w)
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar, Scalar) const override;
 
  private:
-  RCP<const Matrix> matrix_;
+  RCP<const Matrix> relative_;
   std::shared_ptr<const DecoupledSystem> system_;
   RCP<const Operator> preconditioner_;
 };

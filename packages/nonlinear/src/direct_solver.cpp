@@ -21,13 +21,13 @@ class DirectSolver : public LinearSolver {
   std::string name() const override { return name_; }
   int symbolic_setups() const override { return symbolic_setups_; }
 
-  void set_matrix(const RCP<const Matrix>& matrix, bool graph_changed, const NearNullSpace&) override {
+  void set_matrix(const RCP<const Matrix>& matrix, bool graph_changed, const std::function<NearNullSpace()>&) override {
     matrix_ = matrix;
     factored_ = false;
     if (graph_changed) amesos2_ = Teuchos::null;
   }
 
-  LinearSolveReport solve(const Vector& b, Vector& x) override {
+  LinearSolveReport solve(const Vector& b, Vector& x, double) override {
     const double size = check_finite(*matrix_, b, name_);
     if (size == 0.0) {
       x.putScalar(0.0);

@@ -10,6 +10,7 @@
 #include <MueLu_ParameterListInterpreter.hpp>
 #include <MueLu_TpetraOperator.hpp>
 #include <algorithm>
+#include <cmath>
 
 #include "decoupled_multigrid.hpp"
 #include "linear_system_checks.hpp"
@@ -29,6 +30,7 @@ Teuchos::ParameterList muelu_defaults(int equations, GlobalOrdinal rows, int ran
   list.set("max levels", 8);
   list.set("multigrid algorithm", "sa");
   list.set("sa: use filtered matrix", false);
+  list.set("rap: fix zero diagonals", true);  // of coarse dofs beyond those of an aggregate of a single node
   list.set("aggregation: drop scheme", "distance laplacian");
   list.set("aggregation: drop tol", 1e-8);
   list.set("smoother: type", "RELAXATION");
@@ -46,34 +48,42 @@ Teuchos::ParameterList muelu_defaults(int equations, GlobalOrdinal rows, int ran
   return list;
 }
 
-Teuchos::ParameterList belos_defaults(const LinearSolverOptions& options) {
+Teuchos::ParameterList belos_defaults(const LinearSolverOptions& options, double tolerance) {
   Teuchos::ParameterList list("Belos");
-  list.set("Convergence Tolerance", options.tolerance);
+  list.set("Convergence Tolerance", tolerance);
   list.set("Maximum Iterations", options.maximum_iterations);
   list.set("Num Blocks", std::min(options.maximum_iterations, 200));
   list.set("Verbosity", 0);
   return list;
 }
 
+/// What stands for 0 in a rigid body mode, as a share of its largest entry.
+constexpr double vanishing = 1e-14;
+
 /// Iterations beyond those of a fresh hierarchy after which an earlier one is given up within a solve, and for the next one.
 constexpr int most_extra_iterations = 10, fewest_extra_iterations = 3;
 
 class IterativeSolver : public LinearSolver {
  public:
-  IterativeSolver(const LinearSolverOptions& options, const Timers& timers) : options_(options), timers_(timers) {}
+  IterativeSolver(const LinearSolverOptions& options, const Timers& timers, std::string name)
+      : options_(options), timers_(timers), name_(std::move(name)) {}
 
-  std::string name() const override { return "GMRES + MueLu smoothed aggregation"; }
-  bool uses_near_null_space() const override { return true; }
+  std::string name() const override { return name_; }
   int symbolic_setups() const override { return setups_; }
 
-  void set_matrix(const RCP<const Matrix>& matrix, bool, const NearNullSpace& near_null_space) override {
+  void set_matrix(const RCP<const Matrix>& matrix, bool, const std::function<NearNullSpace()>& near_null_space) override {
     matrix_ = matrix;
     near_null_space_ = near_null_space;
     is_fresh_ = false;
     if (is_worn_ || preconditioner_.is_null() || !preconditioner_->getDomainMap()->isSameAs(*matrix->getDomainMap())) forget();
   }
 
-  LinearSolveReport solve(const Vector& b, Vector& x) override {
+  std::optional<Tolerances> tolerances() const override {
+    return Tolerances{options_.tolerance, std::max(options_.tolerance, options_.largest_tolerance)};
+  }
+
+  LinearSolveReport solve(const Vector& b, Vector& x, double tolerance) override {
+    tolerance_ = std::max(tolerance, options_.tolerance);
     const double size = check_finite(*matrix_, b, name());
     x.putScalar(0.0);
     if (size == 0.0) return {};
@@ -95,9 +105,9 @@ class IterativeSolver : public LinearSolver {
 
     Vector r(b.getMap());
     report.relative_residual = true_residual(*matrix_, b, x, r) / size;
-    if (!(report.relative_residual <= 10.0 * options_.tolerance))
+    if (!(report.relative_residual <= 10.0 * tolerance_))
       throw StepFailure(FailureKind::linear_solver, fmt::format("{}: the true relative residual is {:.1e} after {} iterations (tolerance {:.1e})",
-                                                                name(), report.relative_residual, report.iterations, options_.tolerance));
+                                                                name(), report.relative_residual, report.iterations, tolerance_));
     return report;
   }
 
@@ -111,19 +121,20 @@ class IterativeSolver : public LinearSolver {
   void set_up() {
     const auto scope = timers_.scope("linear setup");
     forget();
+    const NearNullSpace near_null_space = near_null_space_ ? near_null_space_() : NearNullSpace{};
     auto matrix = Teuchos::rcp_const_cast<Matrix>(matrix_);
     const auto rows = static_cast<GlobalOrdinal>(matrix->getGlobalNumRows());
     int equations = 1;
-    if (!near_null_space_.coordinates.is_null())
-      equations = static_cast<int>(rows / static_cast<GlobalOrdinal>(near_null_space_.coordinates->getGlobalLength()));
-    if (near_null_space_.decoupling) {
-      decoupled_ = std::make_shared<DecoupledSystem>(*matrix_, *near_null_space_.decoupling, equations);
+    if (!near_null_space.coordinates.is_null())
+      equations = static_cast<int>(rows / static_cast<GlobalOrdinal>(near_null_space.coordinates->getGlobalLength()));
+    if (near_null_space.decoupling) {
+      decoupled_ = std::make_shared<DecoupledSystem>(*matrix_, *near_null_space.decoupling, equations);
       matrix = decoupled_->matrix();
     }
 
     Teuchos::ParameterList list = muelu_defaults(equations, rows, matrix->getComm()->getSize());
     auto& user_data = list.sublist("user data");
-    if (near_null_space_.coordinates.is_null()) {
+    if (near_null_space.coordinates.is_null()) {
       list.set("aggregation: drop scheme", "classical");
       list.set("aggregation: drop tol", 0.0);
       const auto line = rcp(new MultiVector(matrix->getRowMap(), 1));  // the partitioner of coarse levels asks for coordinates
@@ -131,21 +142,25 @@ class IterativeSolver : public LinearSolver {
         line->replaceLocalValue(static_cast<LocalOrdinal>(row), 0, static_cast<double>(matrix->getRowMap()->getGlobalElement(row)));
       user_data.set("Coordinates", line);
     } else {
-      user_data.set("Coordinates", rcp(new MultiVector(*near_null_space_.coordinates, Teuchos::Copy)));
+      user_data.set("Coordinates", rcp(new MultiVector(*near_null_space.coordinates, Teuchos::Copy)));
     }
-    if (!near_null_space_.rigid_body_modes.is_null()) user_data.set("Nullspace", modes_without_fixed_rows());
+    if (!near_null_space.rigid_body_modes.is_null()) user_data.set("Nullspace", modes_without_fixed_rows(*near_null_space.rigid_body_modes));
     list.setParameters(options_.muelu.value);
 
     const RCP<Operator> as_operator = matrix;
     preconditioner_ = MueLu::CreateTpetraPreconditioner<Scalar, LocalOrdinal, GlobalOrdinal, NodeType>(as_operator, list);
     ++setups_;
     is_fresh_ = true;
-    fresh_iterations_ = 0;
+    fresh_iterations_per_digit_ = 0.0;
   }
 
-  // A row that is a multiple of the identity's (Dirichlet) takes no part in a rigid motion.
-  RCP<MultiVector> modes_without_fixed_rows() const {
-    const auto modes = rcp(new MultiVector(*near_null_space_.rigid_body_modes, Teuchos::Copy));
+  // A row that is a multiple of the identity's (Dirichlet) takes no part in a rigid motion. Elsewhere no entry is 0 exactly: MueLu ends, on one rank
+  // alone, where a mode vanishes on an aggregate of a single node, as a rotation does on its axis and a translation at a node that slips across it.
+  RCP<MultiVector> modes_without_fixed_rows(const MultiVector& rigid_body_modes) const {
+    const auto modes = rcp(new MultiVector(rigid_body_modes, Teuchos::Copy));
+    if (decoupled_) decoupled_->take_out_eliminated(*modes);
+    Teuchos::Array<double> largest(modes->getNumVectors());
+    modes->normInf(largest());
     const auto view = modes->getLocalViewHost(Tpetra::Access::ReadWrite);
     const auto local = matrix_->getLocalMatrixHost();
     const auto local_columns = matrix_->getColMap()->getLocalMap();
@@ -155,45 +170,48 @@ class IterativeSolver : public LinearSolver {
       bool fixed = true;
       for (LocalOrdinal k = 0; k < entries.length && fixed; ++k)
         fixed = entries.value(k) == 0.0 || local_columns.getGlobalElement(entries.colidx(k)) == local_rows.getGlobalElement(row);
-      if (!fixed) continue;
-      for (std::size_t mode = 0; mode < view.extent(1); ++mode) view(row, mode) = 0.0;
+      for (std::size_t mode = 0; mode < view.extent(1); ++mode)
+        if (fixed || view(row, mode) == 0.0) view(row, mode) = fixed ? 0.0 : vanishing * largest[mode];
     }
-    if (decoupled_) decoupled_->take_out_eliminated(*modes);
     return modes;
   }
 
-  // A hierarchy serves the matrices that follow, those of the next Newton steps, until they take half as many iterations again as the one that it
-  // was made for.
+  // A hierarchy serves the matrices that follow, those of the next Newton steps, until they take half as many iterations for a digit again as the one
+  // that it was made for.
   int iterate(const Vector& b, Vector& x) {
     const auto scope = timers_.scope("linear solve");
     x.putScalar(0.0);
     RCP<const Operator> preconditioner = preconditioner_;
-    if (decoupled_) preconditioner = rcp(new DecoupledPreconditioner(matrix_, decoupled_, preconditioner_));
+    if (decoupled_) preconditioner = rcp(new DecoupledPreconditioner(*matrix_, decoupled_, preconditioner_));
     const auto problem = rcp(new LinearProblem(matrix_, rcp(&x, false), rcp(&b, false)));
     problem->setRightPrec(preconditioner);
     if (!problem->setProblem()) throw std::runtime_error("Belos refuses the linear problem");
-    const auto list = rcp(new Teuchos::ParameterList(belos_defaults(options_)));
+    const auto list = rcp(new Teuchos::ParameterList(belos_defaults(options_, tolerance_)));
     list->setParameters(options_.belos.value);
-    if (!is_fresh_) list->set("Maximum Iterations", std::min(list->get<int>("Maximum Iterations"), 2 * fresh_iterations_ + most_extra_iterations));
+    const double digits = -std::log10(tolerance_), expected = digits * fresh_iterations_per_digit_;
+    if (!is_fresh_)
+      list->set("Maximum Iterations", std::min(list->get<int>("Maximum Iterations"), static_cast<int>(2.0 * expected) + most_extra_iterations));
     Belos::TpetraSolverFactory<Scalar, MultiVector, Operator> factory;
     const auto gmres = factory.create("GMRES", list);
     gmres->setProblem(problem);
     converged_ = gmres->solve() == Belos::Converged;
     const int iterations = gmres->getNumIters();
-    if (is_fresh_) fresh_iterations_ = std::max(fresh_iterations_, iterations);
-    is_worn_ = iterations > fresh_iterations_ + std::max(fresh_iterations_ / 2, fewest_extra_iterations);
+    if (is_fresh_) fresh_iterations_per_digit_ = std::max(fresh_iterations_per_digit_, iterations / digits);
+    is_worn_ = iterations > 1.5 * digits * fresh_iterations_per_digit_ + fewest_extra_iterations;
     return iterations;
   }
 
   LinearSolverOptions options_;
+  double tolerance_ = 0.0;  ///< of this solve
   Timers timers_;
+  std::string name_;
   RCP<const Matrix> matrix_;
-  NearNullSpace near_null_space_;
+  std::function<NearNullSpace()> near_null_space_;
   RCP<const Operator> preconditioner_;
   std::shared_ptr<const DecoupledSystem> decoupled_;  ///< null: the matrix is taken as it is
   int setups_ = 0;
   bool is_fresh_ = false, is_worn_ = false, converged_ = false;  ///< the hierarchy: made for this matrix, not to be kept for the next; the last solve
-  int fresh_iterations_ = 0;                                     ///< with the matrix that the hierarchy was made for
+  double fresh_iterations_per_digit_ = 0.0;                      ///< of the residual, with the matrix that the hierarchy was made for
 };
 
 // Both packages check names and types; asked here, with no matrix at hand, so that a misspelt name is found before the mesh is made.
@@ -207,7 +225,7 @@ void check_lists(const LinearSolverOptions& options, const RCP<const Communicato
     found.push_back({options.muelu.place, error.what()});
   }
   try {
-    const auto list = rcp(new Teuchos::ParameterList(belos_defaults(options)));
+    const auto list = rcp(new Teuchos::ParameterList(belos_defaults(options, options.tolerance)));
     list->setParameters(options.belos.value);
     Belos::TpetraSolverFactory<Scalar, MultiVector, Operator> factory;
     const auto gmres = factory.create("GMRES", Teuchos::null);
@@ -220,9 +238,10 @@ void check_lists(const LinearSolverOptions& options, const RCP<const Communicato
 
 }  // namespace
 
-std::unique_ptr<LinearSolver> make_iterative_solver(const LinearSolverOptions& options, const RCP<const Communicator>& comm, const Timers& timers) {
+std::unique_ptr<LinearSolver> make_iterative_solver(const LinearSolverOptions& options, const RCP<const Communicator>& comm, const Timers& timers,
+                                                    const std::string& chosen) {
   check_lists(options, comm);
-  return std::make_unique<IterativeSolver>(options, timers);
+  return std::make_unique<IterativeSolver>(options, timers, chosen + "GMRES + MueLu smoothed aggregation");
 }
 
 }  // namespace mortise::detail

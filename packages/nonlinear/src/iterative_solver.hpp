@@ -8,6 +8,7 @@
 namespace mortise::detail {
 
 /// @throws InputError for parameters that MueLu or Belos does not know
-std::unique_ptr<LinearSolver> make_iterative_solver(const LinearSolverOptions& options, const RCP<const Communicator>& comm, const Timers& timers);
+std::unique_ptr<LinearSolver> make_iterative_solver(const LinearSolverOptions& options, const RCP<const Communicator>& comm, const Timers& timers,
+                                                    const std::string& chosen);
 
 }  // namespace mortise::detail

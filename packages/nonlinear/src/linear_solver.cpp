@@ -7,16 +7,25 @@ namespace mortise {
 
 void LinearSolverOptions::describe(Parameters& parameters) {
   parameters.add("type", kind, {{"automatic", Kind::automatic}, {"mumps", Kind::mumps}, {"klu2", Kind::klu2}, {"iterative", Kind::iterative}},
-                 "automatic: MUMPS; mumps: direct, on any number of ranks; klu2: direct, on one rank; iterative: GMRES with algebraic multigrid");
+                 "automatic: iterative in space from 10000 unknowns on, otherwise mumps; mumps: direct, on any number of ranks; klu2: direct, on one "
+                 "rank; iterative: GMRES with algebraic multigrid");
   parameters.add("residual bound", residual_bound,
                  Says("largest true relative residual |b - A x| / |b| of a direct solver; beyond it the step is undone").unit("-").above(0.0));
-  parameters.add("tolerance", tolerance, Says("relative residual at which the iterative solver stops").unit("-").above(0.0).below(1.0));
+  parameters.add("tolerance", tolerance, Says("relative residual to which the iterative solver goes at most").unit("-").above(0.0).below(1.0));
+  parameters.add(
+      "largest tolerance", largest_tolerance,
+      Says("relative residual at which the iterative solver stops while Newton's iterate is far from the solution; from there it falls with the "
+           "square of Newton's residual; not above \"tolerance\": every solve goes to \"tolerance\"")
+          .unit("-")
+          .above(0.0)
+          .below(1.0));
   parameters.add("maximum iterations", maximum_iterations, Says("of the iterative solver; beyond them the step is undone").at_least(1));
   parameters.verbatim("muelu", muelu, "parameters of MueLu that replace or add to those Mortise sets");
   parameters.verbatim("belos", belos, "parameters of Belos that replace or add to those Mortise sets");
 }
 
-std::unique_ptr<LinearSolver> make_linear_solver(const LinearSolverOptions& options, const RCP<const Communicator>& comm, const Timers& timers) {
+std::unique_ptr<LinearSolver> make_linear_solver(const LinearSolverOptions& options, const RCP<const Communicator>& comm, const Timers& timers,
+                                                 const LinearSystemTraits& traits) {
   using Kind = LinearSolverOptions::Kind;
   switch (options.kind.value) {
     case Kind::klu2:
@@ -25,8 +34,11 @@ std::unique_ptr<LinearSolver> make_linear_solver(const LinearSolverOptions& opti
                          "klu2 runs on one rank only: on more, this Trilinos' KLU2 returns wrong solutions without an error; use mumps");
       return detail::make_klu2_solver(options, timers);
     case Kind::iterative:
-      return detail::make_iterative_solver(options, comm, timers);
+      if (!traits.not_iterative.empty()) throw InputError(options.kind.place, traits.not_iterative);
+      return detail::make_iterative_solver(options, comm, timers, "");
     case Kind::automatic:
+      if (traits.dimension == 3 && traits.unknowns >= LinearSolverOptions::fewest_for_multigrid && traits.not_iterative.empty())
+        return detail::make_iterative_solver(options, comm, timers, "automatic: ");
       return detail::make_mumps_solver(options, timers, "automatic: MUMPS");
     case Kind::mumps:
       break;

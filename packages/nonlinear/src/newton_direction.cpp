@@ -8,13 +8,14 @@ using detail::DirichletElimination;
 
 // Solves matrix x = rhs, x = increment on the rows `prescribed`. The matrix is open for changes, rhs is overwritten.
 LinearSolveReport SemiSmoothSystem::Implementation::solve(const RCP<Matrix>& matrix, const std::vector<LocalOrdinal>& prescribed,
-                                                          const Vector& increment, Vector& rhs, const NearNullSpace& near_null_space, Vector& x) {
+                                                          const Vector& increment, Vector& rhs, const std::function<NearNullSpace()>& near_null_space,
+                                                          Vector& x) {
   elimination->impose(*matrix, increment, stiffness_scale, rhs);
   matrix->fillComplete(matrix->getRowMap(), matrix->getRowMap());
   parts.linear_solver->set_matrix(matrix, graph_changed, near_null_space);
   graph_changed = false;
   Vector solution(matrix->getRowMap());
-  const LinearSolveReport report = parts.linear_solver->solve(rhs, solution);
+  const LinearSolveReport report = parts.linear_solver->solve(rhs, solution, tolerance);
   Tpetra::deep_copy(x, solution);
   const auto from = increment.getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto to = x.getLocalViewHost(Tpetra::Access::ReadWrite);
@@ -32,7 +33,8 @@ void SemiSmoothSystem::Implementation::match_elimination(const RCP<const Graph>&
 
 // The same where displacements follow others: see Reduction. r is the whole residual, followers' forces not gathered.
 LinearSolveReport SemiSmoothSystem::Implementation::solve_reduced(const RCP<Matrix>& matrix, const Vector& d, const Vector& r,
-                                                                  const Vector& increment, Vector& rhs, Vector& dd) {
+                                                                  const Vector& increment, Vector& rhs,
+                                                                  const std::function<NearNullSpace()>& near_null_space, Vector& dd) {
   if (matrix->isFillActive()) matrix->fillComplete(parts.dofs, parts.dofs);
   Vector start(parts.dofs), force(parts.dofs);
   reduction->deviation(d, -1.0, start);
@@ -44,7 +46,8 @@ LinearSolveReport SemiSmoothSystem::Implementation::solve_reduced(const RCP<Matr
   reduced->resumeFill();
   const RCP<Vector> q_increment = reduction->unknown_part(increment), q_rhs = reduction->reduced(rhs);
   Vector dq(reduction->unknowns());
-  const LinearSolveReport report = solve(reduced, prescribed, *q_increment, *q_rhs, {}, dq);
+  const LinearSolveReport report = solve(
+      reduced, prescribed, *q_increment, *q_rhs, [&] { return reduction->reduced(near_null_space()); }, dq);
   dd.update(1.0, *reduction->expanded(dq), 1.0, start, 0.0);
   return report;
 }
@@ -105,8 +108,9 @@ LinearSolveReport SemiSmoothSystem::Implementation::solve_saddle_point(const Vec
 // The free rows of J dx = -F condensed to (K~ condensed) dd = rhs, then reduced to the unknowns if some displacements follow others. The
 // prescribed rows s dd = -s (d - prescribed) are solved at once, their columns go to the right-hand side; contact's recovery needs the whole dd.
 // Where a formulation keeps its multipliers the whole system is solved as it is.
-LinearSolveReport SemiSmoothSystem::newton_direction(const Vector& F, Vector& direction) {
+LinearSolveReport SemiSmoothSystem::newton_direction(const Vector& F, Vector& direction, double tolerance) {
   Implementation& self = *implementation_;
+  self.tolerance = tolerance;
   self.evaluate_at_jacobian();
   const RCP<const Vector> residual = displacement(F), d = displacement(*self.jacobian_at), z = multipliers(*self.jacobian_at);
   const RCP<Vector> dd = displacement(direction);
@@ -140,10 +144,13 @@ LinearSolveReport SemiSmoothSystem::newton_direction(const Vector& F, Vector& di
     self.bulk_is_eliminated = true;
   }
 
-  NearNullSpace near_null_space;
-  if (parts.linear_solver->uses_near_null_space() && parts.near_null_space) near_null_space = parts.near_null_space(*d);
-  if (parts.linear_solver->uses_near_null_space() && parts.contact) near_null_space.decoupling = parts.contact->decoupling(*z);
-  const LinearSolveReport report = self.reduction ? self.solve_reduced(matrix, *d, r, prescribed_increment, rhs, *dd)
+  const auto near_null_space = [&] {
+    NearNullSpace result;
+    if (parts.near_null_space) result = parts.near_null_space(*d);
+    if (parts.contact) result.decoupling = parts.contact->decoupling(*z);
+    return result;
+  };
+  const LinearSolveReport report = self.reduction ? self.solve_reduced(matrix, *d, r, prescribed_increment, rhs, near_null_space, *dd)
                                                   : self.solve(matrix, self.fixed, prescribed_increment, rhs, near_null_space, *dd);
   if (parts.contact) {
     const RCP<Vector> dz = multipliers(direction);

@@ -38,13 +38,27 @@ void NewtonOptions::describe(Parameters& parameters) {
       Says("a correction that moves a node by more is shortened as a whole; default: corrections are taken as they are").unit("length").above(0.0));
 }
 
+namespace {
+
+// Eisenstat and Walker's second choice (SIAM J. Sci. Comput. 17, 1996): relative residuals that fall with the square of Newton's, so that it
+// stays quadratic.
+void set_forcing_term(const LinearSolver::Tolerances& tolerances, Teuchos::ParameterList& newton) {
+  newton.set("Forcing Term Method", "Type 2");
+  newton.set("Forcing Term Alpha", 2.0);
+  newton.set("Forcing Term Initial Tolerance", tolerances.largest);
+  newton.set("Forcing Term Minimum Tolerance", tolerances.least);
+  newton.set("Forcing Term Maximum Tolerance", tolerances.largest);
+}
+
+}  // namespace
+
 void solve_newton(SemiSmoothSystem& system, double time, const NewtonOptions& options, Vector& x, NewtonReport& report,
                   const std::function<void(const NewtonIteration&)>& observer) {
   using NOX::StatusTest::Combo;
   system.set_time(time);
   detail::NewtonHistory history(report);
   const bool backtrack = options.line_search == LineSearch::backtrack;
-  const detail::StepControl control{options.largest_increment, backtrack};
+  const detail::StepControl control{options.largest_increment, backtrack, options.momentum_tolerance};
   const auto group = rcp(new detail::SemiSmoothNewtonGroup(system, detail::nox_vector(rcp(&x, false)), control));
 
   const auto criteria = detail::convergence_criteria(options, system.parts().length);
@@ -61,6 +75,7 @@ void solve_newton(SemiSmoothSystem& system, double time, const NewtonOptions& op
   // NOX would go on with the recovery step where no step makes the residual fall; with that of 0 it says that it failed.
   if (backtrack) list->sublist("Line Search").sublist("Backtrack").set("Minimum Step", smallest_step_length).set("Recovery Step", 0.0);
   list->sublist("Direction").set("Method", "Newton");
+  if (const auto tolerances = system.parts().linear_solver->tolerances()) set_forcing_term(*tolerances, list->sublist("Direction").sublist("Newton"));
   list->sublist("Printing").set("Output Information", 0);
   const RCP<std::ostream> nowhere = rcp(new Teuchos::oblackholestream);  // what fails is thrown
   list->sublist("Printing").set("Output Stream", nowhere);

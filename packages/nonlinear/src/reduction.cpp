@@ -90,6 +90,53 @@ RCP<Vector> Reduction::unknown_part(const Vector& v) const {
   return q;
 }
 
+RCP<MultiVector> Reduction::unknown_rows(const MultiVector& v) const {
+  const auto q = rcp(new MultiVector(unknowns_, v.getNumVectors()));
+  const auto from = v.getLocalViewHost(Tpetra::Access::ReadOnly);
+  const auto to = q->getLocalViewHost(Tpetra::Access::OverwriteAll);
+  for (std::size_t dof = 0; dof < place_of_.size(); ++dof)
+    for (std::size_t c = 0; c < v.getNumVectors() && place_of_[dof] >= 0; ++c) to(place_of_[dof], c) = from(dof, c);
+  return q;
+}
+
+NearNullSpace Reduction::reduced(const NearNullSpace& of_dofs) const {
+  NearNullSpace result;
+  if (of_dofs.coordinates.is_null()) return result;
+  const auto dimension = static_cast<LocalOrdinal>(of_dofs.coordinates->getNumVectors());
+  const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
+  const auto nodes = rcp(new const Map(invalid, unknowns_->getNodeNumElements() / dimension, 0, dofs_->getComm()));
+  const auto coordinates = rcp(new MultiVector(nodes, of_dofs.coordinates->getNumVectors()));
+  {
+    const auto from = of_dofs.coordinates->getLocalViewHost(Tpetra::Access::ReadOnly);
+    const auto to = coordinates->getLocalViewHost(Tpetra::Access::OverwriteAll);
+    for (std::size_t node = 0; node < from.extent(0); ++node) {
+      const LocalOrdinal place = place_of_[dimension * node];
+      for (LocalOrdinal i = 0; i < dimension && place >= 0; ++i) to(place / dimension, i) = from(node, i);
+    }
+  }
+  result.coordinates = coordinates;
+  if (!of_dofs.rigid_body_modes.is_null()) result.rigid_body_modes = unknown_rows(*of_dofs.rigid_body_modes);
+  if (!of_dofs.decoupling) return result;
+
+  Matrix injection(dofs_, 1);
+  for (std::size_t dof = 0; dof < place_of_.size(); ++dof) {
+    if (place_of_[dof] < 0) continue;
+    const GlobalOrdinal column = unknowns_->getGlobalElement(place_of_[dof]);
+    const double one = 1.0;
+    injection.insertGlobalValues(dofs_->getGlobalElement(static_cast<LocalOrdinal>(dof)), 1, &one, &column);
+  }
+  injection.fillComplete(unknowns_, dofs_);
+  const auto part = [&](const Matrix& of_all) {
+    Matrix columns(dofs_, 0);
+    const auto both = rcp(new Matrix(unknowns_, 0));
+    Tpetra::MatrixMatrix::Multiply(of_all, false, injection, false, columns);
+    Tpetra::MatrixMatrix::Multiply(injection, true, columns, false, *both);
+    return both;
+  };
+  result.decoupling = Decoupling{part(*of_dofs.decoupling->trial), part(*of_dofs.decoupling->test), part(*of_dofs.decoupling->eliminated)};
+  return result;
+}
+
 RCP<Vector> Reduction::reduced(const Vector& r) const {
   const auto q = rcp(new Vector(unknowns_));
   T_->apply(r, *q, Teuchos::TRANS);

@@ -7,6 +7,7 @@
 #include "mortise/core/dependence.hpp"
 #include "mortise/core/types.hpp"
 #include "mortise/nonlinear/contribution.hpp"
+#include "mortise/nonlinear/linear_solver.hpp"
 
 namespace mortise::detail {
 
@@ -43,6 +44,10 @@ class Reduction {
   /// T^T A T + sum_i r_i d2g_i/dq2, with all diagonal entries of dofs that others follow in its graph. Collective.
   RCP<Matrix> reduced(const Matrix& A, const Vector& r) const;
 
+  /// What multigrid is told of the unknowns, from what it would be told of the dofs. Every node has to follow as a whole or not at all, and a
+  /// decoupling has to leave followers out. Collective.
+  NearNullSpace reduced(const NearNullSpace& of_dofs) const;
+
   /// T^T B and C T. Collective.
   RCP<Matrix> reduced_rows(const Matrix& B) const;
   RCP<Matrix> reduced_columns(const Matrix& C) const;
@@ -52,6 +57,7 @@ class Reduction {
 
  private:
   RCP<Matrix> curvature(const Vector& r) const;
+  RCP<MultiVector> unknown_rows(const MultiVector& v) const;
 
   std::shared_ptr<const DependentDisplacements> followers_;
   RCP<const Map> dofs_, unknowns_;

@@ -22,6 +22,7 @@ NOX::Thyra::Vector nox_vector(const RCP<Vector>& vector);
 struct StepControl {
   std::optional<double> largest_increment;  ///< max |du| of a direction; longer ones are scaled down as a whole
   bool trial = false;                       ///< a line search tries iterates: one that has no residual has an infinite norm instead of a failure
+  double momentum_tolerance = 0.0;          ///< of ResidualNorms::momentum: a linear solve does not go far below it
 };
 
 /// An iterate x = (d, z) with F(x) and, once computed, the Newton direction. All clones share one system and so one Jacobian; each iterate has
@@ -70,6 +71,7 @@ class SemiSmoothNewtonGroup : public NOX::Abstract::Group {
     unsigned long next = 1, jacobian = 0;
   };
   void become_new_iterate();
+  double linear_tolerance(double forcing) const;
 
   SemiSmoothSystem* system_;
   std::shared_ptr<Shared> shared_;

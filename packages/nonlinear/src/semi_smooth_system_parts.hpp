@@ -38,6 +38,7 @@ struct SemiSmoothSystem::Implementation {
   std::unique_ptr<detail::ValueCopy> copy;  // bulk -> system
   std::unique_ptr<detail::DirichletElimination> elimination;
   bool graph_changed = true;  // since the linear solver saw it
+  double tolerance = 0.0;     // of the linear solve under way
 
   std::unique_ptr<detail::Reduction> reduction;             // null: nothing follows
   std::unique_ptr<detail::SaddlePointMatrix> saddle_point;  // null: multipliers are eliminated
@@ -143,8 +144,9 @@ struct SemiSmoothSystem::Implementation {
   }
 
   LinearSolveReport solve(const RCP<Matrix>& matrix, const std::vector<LocalOrdinal>& prescribed, const Vector& increment, Vector& rhs,
-                          const NearNullSpace& near_null_space, Vector& x);
-  LinearSolveReport solve_reduced(const RCP<Matrix>& matrix, const Vector& d, const Vector& r, const Vector& increment, Vector& rhs, Vector& dd);
+                          const std::function<NearNullSpace()>& near_null_space, Vector& x);
+  LinearSolveReport solve_reduced(const RCP<Matrix>& matrix, const Vector& d, const Vector& r, const Vector& increment, Vector& rhs,
+                                  const std::function<NearNullSpace()>& near_null_space, Vector& dd);
   LinearSolveReport solve_saddle_point(const Vector& d, const Vector& z, const Vector& r, const Vector& C, const Vector& increment, Vector& dd,
                                        Vector& dz);
   void match_elimination(const RCP<const Graph>& graph, const std::vector<LocalOrdinal>& prescribed);

@@ -16,7 +16,8 @@ Values displacement(const FieldState& state) {
   Values values(view.data(), view.data() + view.extent(0));
   const Mesh& mesh = *state.bodies.mesh();
   for (const ReferencePoint& point : mesh.reference_points)  // a rotation is no displacement
-    if (point.rotation_node >= 0 && point.rotation_node < mesh.owned_count()) values[mesh.dimension * point.rotation_node] = 0.0;
+    if (point.rotation_node >= 0 && point.rotation_node < mesh.owned_count())
+      std::fill_n(values.begin() + mesh.dimension * point.rotation_node, mesh.dimension, 0.0);
   return values;
 }
 

@@ -41,6 +41,7 @@ class RigidModes {
   }
 
   int per_body() const { return axisymmetric_ ? 1 : dimension_ == 2 ? 3 : 6; }
+  int rotations() const { return axisymmetric_ ? 0 : dimension_ == 2 ? 1 : 3; }
   int count() const { return per_body() * static_cast<int>(bodies_); }
   const char* name(int mode) const {
     static const char* plane[] = {"translation in x", "translation in y", "rotation"};
@@ -50,9 +51,7 @@ class RigidModes {
   }
 
   /// row += rotation of `body` in the plane, over its size.
-  void add_rotation(int body, Eigen::RowVectorXd& row) const {
-    if (!axisymmetric_) row(3 * body + 2) += 1.0;
-  }
+  void add_rotation(int body, int rotation, Eigen::RowVectorXd& row) const { row(per_body() * body + per_body() - rotations() + rotation) += 1.0; }
 
   /// row += direction . modes of `body` at position x.
   void add(int body, const Position& x, const Position& direction, Eigen::RowVectorXd& row) const {
@@ -101,16 +100,17 @@ void add_turning_point(const Mesh& mesh, const RigidModes& modes, const MultiVec
     add(row);
     gram += row.transpose() * row;
   };
-  for (int i = 0; i < 2; ++i)
+  for (int i = 0; i < mesh.dimension; ++i)
     if (values(point.node, i) != 0.0) hold([&](Eigen::RowVectorXd& row) { modes.add(body, position(mesh, point.node), Position::Unit(i), row); });
-  if (point.rotation_node >= 0 && values(point.rotation_node, 0) != 0.0) hold([&](Eigen::RowVectorXd& row) { modes.add_rotation(body, row); });
+  for (int i = 0; point.rotation_node >= 0 && i < modes.rotations(); ++i)
+    if (values(point.rotation_node, i) != 0.0) hold([&](Eigen::RowVectorXd& row) { modes.add_rotation(body, i, row); });
 }
 
 /// What a shared translation holds: with m_i the motion of follower i in a component, sum (m_i - mean)(m_i - mean)^T, and mean mean^T where the
 /// point is prescribed. Collective; the result counts on the rank of the point.
 void add_shared_translation(const Mesh& mesh, const RigidModes& modes, const MultiVector& fixed, const ReferencePoint& point, Eigen::MatrixXd& gram) {
   const auto values = fixed.getLocalViewHost(Tpetra::Access::ReadOnly);
-  for (int i = 0; i < 2; ++i) {
+  for (int i = 0; i < mesh.dimension; ++i) {
     if (!point.follows[i]) continue;
     // Products of (1, m): the count, the sum, the sum of products.
     Eigen::MatrixXd mine = Eigen::MatrixXd::Zero(1 + modes.count(), 1 + modes.count()), all = mine;
@@ -195,7 +195,7 @@ std::vector<char> check_held(const Mesh& mesh, bool axisymmetric, const MultiVec
   const RigidModes modes(mesh, axisymmetric);
   Eigen::MatrixXd held = prescribed_gram(mesh, modes, fixed);
   for (const ReferencePoint& point : mesh.reference_points) {
-    const bool is_rigid = mesh.blocks[mesh.body_of_node[point.node]].shape == CellShape::line2;
+    const bool is_rigid = topology(mesh.blocks[mesh.body_of_node[point.node]].shape).dimension < mesh.dimension;
     if (is_rigid || point.rotation_node >= 0)
       add_turning_point(mesh, modes, fixed, point, held);
     else

@@ -42,7 +42,7 @@ const MaterialChoice& material_of(const Scene& scene, const BodyOptions& body) {
 std::vector<ReferencePointDescription> reference_points(const Scene& scene) {
   const bool axisymmetric = scene.kinematics == Kinematics::axisymmetric;
   const auto position = [](const std::vector<double>& given) {
-    return given.empty() ? std::nullopt : std::optional<std::array<double, 2>>({given[0], given[1]});
+    return given.empty() ? std::nullopt : std::optional<std::array<double, 3>>({given[0], given[1], given.size() > 2 ? given[2] : 0.0});
   };
   std::vector<ReferencePointDescription> points;
   for (const auto& body : scene.bodies)
@@ -57,15 +57,15 @@ void tie(Mesh& mesh, const Scene& scene) {
   Collector collect;
   for (const auto& body : scene.bodies)
     if (body.value.rigid.value) {
-      collect([&] { add_followers(mesh, point, {body.name, body.place}, {true, true}); });
+      collect([&] { add_followers(mesh, point, {body.name, body.place}, {true, true, true}); });
       ++point;
     }
   for (const auto& tie : scene.reference_points) {
     using Follows = TieOptions::Follows;
     const Follows follows = tie.value.follows;
     // The nodes of a ring cannot share a radial displacement and stay a rigid ring.
-    const bool x = follows == Follows::x || (follows == Follows::both && scene.kinematics != Kinematics::axisymmetric);
-    collect([&] { add_followers(mesh, point, tie.value.set, {x, follows != Follows::x}); });
+    const bool all = follows == Follows::all, x = follows == Follows::x || (all && scene.kinematics != Kinematics::axisymmetric);
+    collect([&] { add_followers(mesh, point, tie.value.set, {x, all || follows == Follows::y, all || follows == Follows::z}); });
     ++point;
   }
   collect.throw_found(*mesh.comm);
@@ -74,8 +74,8 @@ void tie(Mesh& mesh, const Scene& scene) {
 RCP<Mesh> make_mesh(const RCP<const Communicator>& comm, const Scene& scene) {
   std::vector<BodyDescription> descriptions;
   for (const auto& body : scene.bodies)
-    descriptions.push_back(
-        {body.name, body.place, body.value.mesh.options, body.value.rigid.value ? CellShape::line2 : cell_shape(body.value.element)});
+    descriptions.push_back({body.name, body.place, body.value.mesh.options,
+                            body.value.rigid.value ? rigid_shape(body.value.mesh.options->dimension()) : cell_shape(body.value.element)});
   std::vector<std::string> contact_sides;
   const auto add = [&](std::string name) {
     // A set of the scene is balanced as the side that it is a part of.
@@ -158,6 +158,21 @@ Effects effects_of(const Scene& scene, const Bodies& bodies) {
       {"friction", rubbing},     {"rigid bodies", rigid}, {"reference points", ties}, {"loads", loads},        {"boundary conditions", conditions}};
 }
 
+LinearSystemTraits traits_of(const Scene& scene, const Map& dofs) {
+  LinearSystemTraits traits;
+  traits.unknowns = static_cast<GlobalOrdinal>(dofs.getGlobalNumElements());
+  traits.dimension = dimension(scene.kinematics);
+  for (const auto& tie : scene.reference_points)
+    if (tie.value.follows != TieOptions::Follows::all)
+      traits.not_iterative = fmt::format(
+          "the iterative solver needs all components of a node as unknowns, but nodes follow \"{}\" in one component; take \"mumps\"", tie.name);
+  for (const auto& pair : scene.contact)
+    if (pair.value.contact.formulation.options->elimination() == Elimination::none)
+      traits.not_iterative =
+          fmt::format("the iterative solver does not know the saddle point system of \"{}\"; take \"mumps\"", pair.value.contact.formulation.type);
+  return traits;
+}
+
 }  // namespace
 
 Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Timers& timers) {
@@ -194,10 +209,6 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   collect([&] { parts_.prescribed = std::make_shared<PrescribedBoundary>(PrescribedMotion(*bodies_, scene.boundary_conditions)); });
   if (!mesh_->reference_points.empty()) {
     parts_.dependent = std::make_shared<TiedNodes>(*bodies_);
-    if (scene.linear_solver.kind.value == LinearSolverOptions::Kind::iterative)
-      collect([&] {
-        throw InputError(scene.linear_solver.kind.place, "the iterative solver does not know rigid bodies and reference points yet; take \"mumps\"");
-      });
   }
   std::vector<ContactPair> pairs;
   for (const auto& pair : scene.contact) collect([&] { pairs.push_back(make_pair(*mesh_, *bodies_, pair, pair.value.slave, pair.value.master)); });
@@ -209,15 +220,7 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
       pairs.back().second_pass_of = first;
     });
   }
-  for (const auto& pair : scene.contact)
-    if (pair.value.contact.formulation.options->elimination() == Elimination::none &&
-        scene.linear_solver.kind.value == LinearSolverOptions::Kind::iterative)
-      collect([&] {
-        throw InputError(
-            scene.linear_solver.kind.place,
-            fmt::format("the iterative solver does not know the saddle point system of \"{}\"; take \"mumps\"", pair.value.contact.formulation.type));
-      });
-  collect([&] { parts_.linear_solver = make_linear_solver(scene.linear_solver, comm, timers); });
+  collect([&] { parts_.linear_solver = make_linear_solver(scene.linear_solver, comm, timers, traits_of(scene, *parts_.dofs)); });
   collect.throw_found(*comm);
 
   std::vector<LocalOrdinal> not_free = parts_.prescribed->dofs();

@@ -43,6 +43,12 @@ RCP<Vector> Energy::force(const QuantityContext& context) const {
   } else if (of == Of::internal_work) {
     if (context.contact != nullptr) add_contact_force(*context.multipliers);
     result->update(1.0, *context.reaction, 1.0, *context.external_force, -1.0);
+    // No element acts on a reference point: what stands there is gathered from its followers, where it is counted.
+    const Mesh& mesh = context.mesh();
+    const auto values = result->getLocalViewHost(Tpetra::Access::ReadWrite);
+    for (const ReferencePoint& point : mesh.reference_points)
+      for (const LocalOrdinal node : {point.node, point.rotation_node})
+        for (int i = 0; i < mesh.dimension && node >= 0 && node < mesh.owned_count(); ++i) values(mesh.dimension * node + i, 0) = 0.0;
   } else {
     result->assign(*context.external_force);
     const auto reaction = context.reaction->getLocalViewHost(Tpetra::Access::ReadOnly);

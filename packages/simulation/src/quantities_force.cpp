@@ -19,10 +19,12 @@ void Reaction::describe(Parameters& parameters) {
 }
 
 void Reaction::prepare(const QuantityContext& context) {
-  if (component == Of::rotation)
+  if (component == Of::rotation) {
     require_rotating_point(context.mesh(), set);
-  else
+    if (context.mesh().dimension == 3) throw InputError(set.place, "the moment on a reference point is available in the plane only");
+  } else {
     require_node_set(context.mesh(), set);
+  }
   if (component == Of::z && context.mesh().dimension == 2)
     throw InputError(set.place, "a component z exists in three-dimensional scenes only; in the plane please take \"x\" or \"y\"");
 }
@@ -43,6 +45,7 @@ double Reaction::evaluate(const QuantityContext& context) {
 
 void Rotation::describe(Parameters& parameters) {
   parameters.add("set", point, Says("a reference point that turns: the name of a tied set, or \"body/reference\" of a rigid body").required());
+  parameters.add("component", component, component_names(), "of the rotation vector, in scenes of space");
 }
 
 void Rotation::prepare(const QuantityContext& context) { require_rotating_point(context.mesh(), point); }
@@ -50,7 +53,8 @@ void Rotation::prepare(const QuantityContext& context) { require_rotating_point(
 double Rotation::evaluate(const QuantityContext& context) {
   const ReferencePoint& turning = require_rotating_point(context.mesh(), point);
   const auto displacement = context.local_displacement->getLocalViewHost(Tpetra::Access::ReadOnly);
-  return displacement(2 * turning.rotation_node, 0) / turning.arm * boost::math::constants::radian<double>();
+  const LocalOrdinal dof = context.mesh().dimension * turning.rotation_node + (context.mesh().dimension == 3 ? static_cast<int>(component) : 0);
+  return displacement(dof, 0) / turning.arm * boost::math::constants::radian<double>();
 }
 
 void ContactForce::describe(Parameters& parameters) {

@@ -76,7 +76,7 @@ void PointDisplacement::prepare(const QuantityContext& context) {
   GlobalOrdinal mine = none;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     const Block& block = mesh.blocks[b];
-    if (block.shape == CellShape::line2 || (wanted && static_cast<LocalOrdinal>(b) != *wanted)) continue;
+    if (topology(block.shape).dimension < mesh.dimension || (wanted && static_cast<LocalOrdinal>(b) != *wanted)) continue;
     for (LocalOrdinal element = 0; element < block.owned; ++element) {
       if (block.element_ids[element] >= mine) continue;
       const LocalOrdinal* nodes = block.nodes(element);

@@ -15,7 +15,7 @@ void report_model(const std::string& file, const Scene& scene, const Model& mode
   const auto& blocks = model.mesh()->blocks;
   for (std::size_t b = 0; b < blocks.size(); ++b)
     if (scene.bodies[b].value.rigid.value)
-      log.info(fmt::format("  body {}: rigid, {} lines", blocks[b].name, model.size().elements_of_block[b]));
+      log.info(fmt::format("  body {}: rigid, {} facets", blocks[b].name, model.size().elements_of_block[b]));
     else
       log.info(fmt::format("  body {}: {} elements {}, {}", blocks[b].name, model.size().elements_of_block[b],
                            to_string(scene.bodies[b].value.element), scene.bodies[b].value.material.value));

@@ -18,10 +18,10 @@ struct MeshList {
 }  // namespace
 
 namespace {
-/// "x, y", or nothing.
+/// "x, y", "x, y, z" or nothing; the scene's dimension is asked for later.
 void check_position(Parameters& parameters, const std::string& name, std::vector<double>& position) {
-  if (position.empty() || position.size() == 2) return;
-  parameters.error(name, "needs two numbers, \"x, y\"");
+  if (position.empty() || position.size() == 2 || position.size() == 3) return;
+  parameters.error(name, "needs two numbers, \"x, y\", or in space three, \"x, y, z\"");
   position.clear();
 }
 }  // namespace
@@ -30,7 +30,8 @@ void BodyOptions::describe(Parameters& parameters) {
   parameters.add("rigid", rigid, "whether the body keeps its shape: it then has no material and no elements, and moves with \"body/reference\"");
   parameters.add(
       "reference point", reference_point,
-      Says("of a rigid body, \"x, y\": what it turns about and where forces on it act; left out: the middle of the box around it").unit("length"));
+      Says("of a rigid body, \"x, y\" or \"x, y, z\": what it turns about and where forces on it act; left out: the middle of the box around it")
+          .unit("length"));
   check_position(parameters, "reference point", reference_point);
   Says says("name of one of the scene's materials; a rigid body has none");
   if (!rigid.value) says.required();
@@ -45,11 +46,12 @@ void LoadChoice::describe(Parameters& parameters) { parameters.choose(load, load
 
 void TieOptions::describe(Parameters& parameters) {
   parameters.add("set", set, Says("node or side set whose nodes follow the point").required());
-  parameters.add("position", position, Says("\"x, y\"; left out: the middle of the box around the set").unit("length"));
+  parameters.add("position", position, Says("\"x, y\" or \"x, y, z\"; left out: the middle of the box around the set").unit("length"));
   check_position(parameters, "position", position);
   parameters.add("rotation", rotates, "whether the nodes turn with the point; if not, they share its translation alone");
-  parameters.add("follows", follows, {{"both", Follows::both}, {"x", Follows::x}, {"y", Follows::y}}, "components of the displacement that follow");
-  if (rotates && follows != Follows::both)
+  parameters.add("follows", follows, {{"all", Follows::all}, {"x", Follows::x}, {"y", Follows::y}, {"z", Follows::z}},
+                 "components of the displacement that follow");
+  if (rotates && follows != Follows::all)
     parameters.error("follows", "nodes that follow in one component cannot turn; please add \"rotation\" (bool, false)");
 }
 

@@ -40,7 +40,13 @@ class Moment final : public Load {
  public:
   Moment(std::shared_ptr<const Bodies> bodies, const MomentOptions& options) : bodies_(std::move(bodies)), moment_(options.moment) {
     const Mesh& mesh = *bodies_->mesh();
-    look_up(mesh, [&] { point_ = &require_rotating_point(mesh, options.point); });
+    look_up(mesh, [&] {
+      point_ = &require_rotating_point(mesh, options.point);
+      if (mesh.dimension == 3)
+        throw InputError(options.point.place,
+                         "moments act in the plane only; in space please prescribe \"rotation x\", \"rotation y\", \"rotation z\", or "
+                         "let a pair of forces act");
+    });
   }
 
   void add_residual(double time, const Vector&, Vector& residual, std::optional<StepFailure>& failure) const override {

@@ -1,10 +1,10 @@
 #include "mortise/solid/followers.hpp"
 
 #include <Tpetra_Map.hpp>
-#include <cmath>
 #include <map>
 
 #include "host_view.hpp"
+#include "rotation_vector.hpp"
 
 namespace mortise {
 namespace {
@@ -27,21 +27,20 @@ Followers::Followers(const Bodies& bodies) : bodies_(bodies) {
   std::map<LocalOrdinal, Follower> followers;
   for (std::size_t p = 0; p < mesh.reference_points.size(); ++p)
     for (const LocalOrdinal node : mesh.reference_points[p].followers)
-      for (int i = 0; i < 2; ++i)
-        if (node < mesh.owned_count() && !is_free(bodies, mesh.reference_points[p], node, i)) followers[2 * node + i] = {node, i, p};
+      for (int i = 0; i < mesh.dimension; ++i)
+        if (node < mesh.owned_count() && !is_free(bodies, mesh.reference_points[p], node, i)) followers[mesh.dimension * node + i] = {node, i, p};
   for (const ReferencePoint& point : mesh.reference_points)
     for (const LocalOrdinal node : {point.node, point.rotation_node})
-      if (node >= 0 && node < mesh.owned_count()) followed_.insert(followed_.end(), {2 * node, 2 * node + 1});
+      for (int i = 0; i < mesh.dimension && node >= 0 && node < mesh.owned_count(); ++i) followed_.push_back(mesh.dimension * node + i);
   for (const auto& [dof, follower] : followers) {
     dofs_.push_back(dof);
     followers_.push_back(follower);
   }
 }
 
-// With theta the rotation of the point and (x, y) = X_i - X:
-//   d_x = u_x + (cos(theta) - 1) x - sin(theta) y,   d_y = u_y + sin(theta) x + (cos(theta) - 1) y.
 std::vector<Dependence> Followers::evaluate(const Vector& local_displacement) const {
   const Mesh& mesh = *bodies_.mesh();
+  const int dimension = mesh.dimension, turns = dimension == 2 ? 1 : 3;
   const HostReadView u(local_displacement);
   std::vector<Dependence> dependences(followers_.size());
   for (std::size_t n = 0; n < followers_.size(); ++n) {
@@ -49,18 +48,23 @@ std::vector<Dependence> Followers::evaluate(const Vector& local_displacement) co
     const ReferencePoint& point = mesh.reference_points[p];
     Dependence& d = dependences[n];
     if (!is_followed(bodies_, point, i)) continue;
-    d.source[0] = 2 * mesh.local_nodes->getGlobalElement(point.node) + i;
+    d.source[0] = dimension * mesh.local_nodes->getGlobalElement(point.node) + i;
     d.gradient[0] = 1.0;
-    d.value = u.data()[2 * point.node + i];
+    d.value = u.data()[dimension * point.node + i];
     d.sources = 1;
     if (point.rotation_node < 0) continue;
-    const double theta = u.data()[2 * point.rotation_node] / point.arm, c = std::cos(theta), s = std::sin(theta);
-    const double x = mesh.coordinates[node][0] - mesh.coordinates[point.node][0], y = mesh.coordinates[node][1] - mesh.coordinates[point.node][1];
-    d.source[1] = 2 * mesh.local_nodes->getGlobalElement(point.rotation_node);
-    d.value += i == 0 ? (c - 1.0) * x - s * y : s * x + (c - 1.0) * y;
-    d.gradient[1] = (i == 0 ? -s * x - c * y : c * x - s * y) / point.arm;
-    d.curvature[1][1] = (i == 0 ? -c * x + s * y : -s * x - c * y) / (point.arm * point.arm);
-    d.sources = 2;
+    Eigen::Vector3d theta = Eigen::Vector3d::Zero();
+    for (int k = 0; k < turns; ++k) theta[dimension == 2 ? 2 : k] = u.data()[dimension * point.rotation_node + k] / point.arm;
+    const Eigen::Vector3d arm = Eigen::Vector3d(mesh.coordinates[node].data()) - Eigen::Vector3d(mesh.coordinates[point.node].data());
+    const Turned turned = turn(theta, arm);
+    d.value += turned.value[i] - arm[i];
+    for (int k = 0; k < turns; ++k) {
+      const int about = dimension == 2 ? 2 : k;
+      d.source[1 + k] = dimension * mesh.local_nodes->getGlobalElement(point.rotation_node) + k;
+      d.gradient[1 + k] = turned.gradient[about][i] / point.arm;
+      for (int l = 0; l < turns; ++l) d.curvature[1 + k][1 + l] = turned.curvature[about][dimension == 2 ? 2 : l][i] / (point.arm * point.arm);
+    }
+    d.sources = 1 + turns;
   }
   return dependences;
 }
@@ -70,9 +74,9 @@ std::vector<LocalOrdinal> Followers::idle_dofs(const Bodies& bodies) {
   std::vector<LocalOrdinal> dofs;
   for (const ReferencePoint& point : mesh.reference_points) {
     if (point.node >= mesh.owned_count()) continue;
-    for (int i = 0; i < 2; ++i)
-      if (!is_followed(bodies, point, i)) dofs.push_back(2 * point.node + i);
-    if (point.rotation_node >= 0) dofs.push_back(2 * point.rotation_node + 1);
+    for (int i = 0; i < mesh.dimension; ++i)
+      if (!is_followed(bodies, point, i)) dofs.push_back(mesh.dimension * point.node + i);
+    if (point.rotation_node >= 0 && mesh.dimension == 2) dofs.push_back(2 * point.rotation_node + 1);
   }
   return dofs;
 }

@@ -47,7 +47,15 @@ void BoundaryConditionOptions::describe(Parameters& parameters) {
   parameters.add("x", x, Says("displacement in x (axisymmetric: r), an expression of t, x, y; left out: free").unit("length"));
   parameters.add("y", y, Says("displacement in y (axisymmetric: z), an expression of t, x, y; left out: free").unit("length"));
   parameters.add("z", z, Says("displacement in z, in three dimensions, an expression of t, x, y, z; left out: free").unit("length"));
-  parameters.add("rotation", rotation, Says("of a reference point, counterclockwise, an expression of t; left out: free").unit("degrees"));
+  parameters.add("rotation", rotation,
+                 Says("of a reference point of the plane, counterclockwise, an expression of t; left out: free").unit("degrees"));
+  for (int i = 0; i < 3; ++i)
+    parameters.add(
+        fmt::format("rotation {}", component_name(i)), rotation_vector[i],
+        Says(fmt::format("{} component of the rotation vector of a reference point of space: the point turns by its length about its direction, "
+                         "counterclockwise seen from its tip; an expression of t; left out: free",
+                         component_name(i)))
+            .unit("degrees"));
 }
 
 PrescribedMotion::PrescribedMotion(const Bodies& bodies, const std::vector<Named<BoundaryConditionOptions>>& conditions) {
@@ -63,7 +71,9 @@ PrescribedMotion::PrescribedMotion(const Bodies& bodies, const std::vector<Named
   for (std::size_t n = 0; n < conditions.size(); ++n) {
     const auto& condition = conditions[n];
     const std::array<const std::optional<Expression>*, 3> components{&condition.value.x, &condition.value.y, &condition.value.z};
-    if (!condition.value.x && !condition.value.y && !condition.value.z && !condition.value.rotation)
+    const auto& turns = condition.value.rotation_vector;
+    const bool turns_in_space = std::any_of(turns.begin(), turns.end(), [](const auto& one) { return one.has_value(); });
+    if (!condition.value.x && !condition.value.y && !condition.value.z && !condition.value.rotation && !turns_in_space)
       diagnostics.push_back(
           {condition.place, fmt::format("boundary condition \"{}\" prescribes nothing; give {}, or \"rotation\" of a reference point", condition.name,
                                         mesh.dimension == 3 ? "\"x\", \"y\", \"z\"" : "\"x\", \"y\"")});
@@ -71,14 +81,20 @@ PrescribedMotion::PrescribedMotion(const Bodies& bodies, const std::vector<Named
       diagnostics.push_back({condition.place, fmt::format("boundary condition \"{}\" prescribes z, which needs kinematics \"three dimensional\"; the "
                                                           "scene is in the plane of x and y",
                                                           condition.name)});
+    if (mesh.dimension == 2 ? turns_in_space : condition.value.rotation.has_value())
+      diagnostics.push_back({condition.place, fmt::format("boundary condition \"{}\" prescribes a rotation {}; please give {}", condition.name,
+                                                          mesh.dimension == 2 ? "of space in a plane scene" : "of the plane in a scene of space",
+                                                          mesh.dimension == 2 ? "\"rotation\"" : "\"rotation x\", \"rotation y\", \"rotation z\"")});
     try {
       const auto& nodes = require_node_set(mesh, condition.value.set);
-      if (condition.value.rotation) {
+      for (int k = 0; k < (mesh.dimension == 2 ? 1 : 3); ++k) {
+        const std::optional<Expression>& rotation = mesh.dimension == 2 ? condition.value.rotation : turns[k];
+        if (!rotation) continue;
         const ReferencePoint& point = require_rotating_point(mesh, condition.value.set);
-        expressions_.push_back(*condition.value.rotation);
+        expressions_.push_back(*rotation);
         const Source source{static_cast<LocalOrdinal>(expressions_.size() - 1), mesh.coordinates[point.node],
                             point.arm * boost::math::constants::degree<double>()};
-        if (point.rotation_node < mesh.owned_count()) prescribed.insert_or_assign(mesh.dimension * point.rotation_node, Prescribed{source, n});
+        if (point.rotation_node < mesh.owned_count()) prescribed.insert_or_assign(mesh.dimension * point.rotation_node + k, Prescribed{source, n});
       }
       for (int component = 0; component < mesh.dimension; ++component) {
         const auto& expression = *components[component];

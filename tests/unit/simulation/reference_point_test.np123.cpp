@@ -75,13 +75,36 @@ std::string scene_text(const Case& one) {
                           list("stepping", parameter("end time", "double", "1") + parameter("step", "double", "0.25")));
 }
 
+/// The same in space: a wider brick on a brick.
+std::string space_text(const Case& one) {
+  const auto brick = [](const std::string& width, const std::string& depth, const std::string& cells, const std::string& translation) {
+    return list("mesh", parameter("type", "string", "brick") + parameter("width", "string", width) + parameter("depth", "string", depth) +
+                            parameter("cells x", "string", cells) + parameter("cells y", "string", cells) + parameter("cells z", "string", "2") +
+                            parameter("translation", "string", translation));
+  };
+  const std::string elastic = parameter("material", "string", "rubber") + parameter("element", "string", "H8");
+  const std::string material = list("rubber", parameter("type", "string", "neo hooke") + parameter("young's modulus", "double", "100") +
+                                                  parameter("poisson's ratio", "double", "0.3"));
+  const std::string held = parameter("x", "string", "0") + parameter("y", "string", "0") + parameter("z", "string", "0");
+  const std::string pair = list(
+      "pair", parameter("slave", "string", "base/top") + parameter("master", "string", "upper/bottom") +
+                  list("friction", parameter("type", "string", "coulomb") + parameter("coefficient", "string", fmt::format("{}", one.friction))));
+  return list("tied", parameter("kinematics", "string", one.kinematics) + list("materials", material) +
+                          list("bodies", list("base", elastic + brick("1.2", "1.1", "3", "0.45, 0.4, 0")) +
+                                             list("upper", (one.body.empty() ? elastic : one.body) + brick("2.2", "2.3", "4", "0, -0.1, 1"))) +
+                          (one.points.empty() ? "" : list("reference points", one.points)) +
+                          list("boundary conditions", list("floor", parameter("set", "string", "base/bottom") + held) + one.conditions) +
+                          (one.loads.empty() ? "" : list("loads", one.loads)) + list("contact", pair) +
+                          list("stepping", parameter("end time", "double", "1") + parameter("step", "double", "0.25")));
+}
+
 /// Written by rank 0, read by all.
 Scene read(const Case& one) {
   const auto comm = Tpetra::getDefaultComm();
   int id = static_cast<int>(::getpid());
   Teuchos::broadcast(*comm, 0, Teuchos::outArg(id));
   const std::string file = (std::filesystem::temp_directory_path() / fmt::format("mortise_reference_point_{}.xml", id)).string();
-  if (comm->getRank() == 0) std::ofstream(file) << scene_text(one);
+  if (comm->getRank() == 0) std::ofstream(file) << (one.kinematics == "three dimensional" ? space_text(one) : scene_text(one));
   comm->barrier();
   Scene scene = read_scene(*comm, file, {});
   comm->barrier();
@@ -107,6 +130,29 @@ const std::vector<Case> cases{
      condition("middle", "upper/left", "0", ""), load("push", "nodal force", "grip", "y", "-20*t"), 0.2},
     {"tied slave side", "plane strain", rigid, list("flank", parameter("set", "string", "flank nodes") + parameter("rotation", "bool", "false")),
      condition("drive", "upper/reference", "0", "-0.1*t", "5*t"), load("pull", "nodal force", "flank", "x", "-3*t"), 0.2}};
+
+const std::string rigid_in_space = parameter("rigid", "bool", "true") + parameter("reference point", "string", "1.1, 1, 2.5");
+
+std::string in_space(const std::string& set, const std::vector<std::pair<std::string, std::string>>& values) {
+  std::string content = parameter("set", "string", set);
+  for (const auto& [name, value] : values) content += parameter(name, "string", value);
+  return list("drive", content);
+}
+
+const std::vector<Case> space_cases{
+    {"free rigid body of space", "three dimensional", rigid_in_space, "",
+     in_space("upper/reference", {{"x", "0.1*t"}, {"y", "-0.05*t"}, {"rotation z", "10*t"}}),
+     load("push", "nodal force", "upper/reference", "z", "-20*t"), 0.2},
+    {"turning rigid body of space", "three dimensional", rigid_in_space, "",
+     in_space("upper/reference",
+              {{"x", "0.05*t"}, {"y", "0"}, {"z", "-0.2*t"}, {"rotation x", "4*t"}, {"rotation y", "-6*t"}, {"rotation z", "30*t"}}),
+     "", 0.3},
+    {"tied set of space that turns", "three dimensional", "",
+     list("grip", parameter("set", "string", "upper/top") + parameter("position", "string", "1, 1, 2.1")),
+     in_space("grip", {{"x", "0.05*t"}, {"y", "0"}, {"rotation z", "5*t"}}), load("push", "nodal force", "grip", "z", "-20*t"), 0.2},
+    {"set of space tied in one component", "three dimensional", "",
+     list("grip", parameter("set", "string", "upper/top") + parameter("rotation", "bool", "false") + parameter("follows", "string", "z")),
+     in_space("upper/left", {{"x", "0"}, {"y", "0"}}), load("push", "nodal force", "grip", "z", "-20*t"), 0.2}};
 
 class ReferencePoints : public testing::TestWithParam<Case> {};
 
@@ -155,6 +201,7 @@ TEST_P(ReferencePoints, JacobianAgreesWithCentralDifferences) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ReferencePoints, testing::ValuesIn(cases));
+INSTANTIATE_TEST_SUITE_P(InSpace, ReferencePoints, testing::ValuesIn(space_cases));
 
 /// The same with multipliers that stay unknowns, and with conditions that give them.
 std::vector<Case> other_formulations() {
@@ -205,6 +252,15 @@ TEST(ReferencePointErrors, NameWhatIsWrong) {
   one = cases[0];
   one.body += parameter("material", "string", "rubber");
   EXPECT_THAT(complaints(one), HasSubstr("a rigid body has no material"));
+  one = space_cases[0];
+  one.body = rigid;
+  EXPECT_THAT(complaints(one), HasSubstr("the position of its reference point has 2 numbers; a scene with kinematics \"three dimensional\" needs 3"));
+  one = space_cases[0];
+  one.conditions = in_space("upper/reference", {{"x", "0"}, {"y", "0"}, {"rotation", "10*t"}});
+  EXPECT_THAT(complaints(one), HasSubstr("prescribes a rotation of the plane in a scene of space"));
+  one = space_cases[0];
+  one.loads = load("twist", "moment", "upper/reference", "moment", "1");
+  EXPECT_THAT(complaints(one), HasSubstr("moments act in the plane only"));
 }
 
 }  // namespace

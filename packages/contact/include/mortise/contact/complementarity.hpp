@@ -24,7 +24,7 @@ struct Complementarity {
   TangentMatrix slip_factor;  ///< without size: slips do not matter
 };
 
-/// The linearisation of an open node's C = z.
+/// C of an open node:  C = z.
 inline Complementarity open_node(const SpatialVector& z) {
   const Eigen::Index dimension = z.size();
   Complementarity result;
@@ -35,7 +35,8 @@ inline Complementarity open_node(const SpatialVector& z) {
   return result;
 }
 
-/// C of a closed node with the normal condition C_n = c_n g and no shear traction, C_a = z . tau_a.
+/// C of a closed node (z . n - c_n g > 0) without friction:  C_n = c_n g,  C_a = z . tau_a.
+/// @param c_n  complementarity constant, traction per weighted gap
 inline Complementarity closed_node(double c_n, double gap, const Frame& frame, const SpatialVector& z) {
   const Eigen::Index tangents = frame.tangents.rows();
   Complementarity result = open_node(z);
@@ -47,15 +48,6 @@ inline Complementarity closed_node(double c_n, double gap, const Frame& frame, c
   result.gap_factor[0] = c_n;
   for (Eigen::Index a = 0; a < tangents; ++a) result.normal_factor.row(1 + a) = z.transpose() * frame.turn[a];
   return result;
-}
-
-/// C of a node without friction:
-///   open     C = z
-///   closed   C_n = c_n g,   C_a = z . tau_a
-/// @param closed  whether z . n - c_n g > 0
-/// @param c_n     complementarity constant, traction per weighted gap
-inline Complementarity frictionless(bool closed, double c_n, double gap, const Frame& frame, const SpatialVector& z) {
-  return closed ? closed_node(c_n, gap, frame, z) : open_node(z);
 }
 
 /// The direction e = y / |y| of slip and how the bound's share of the traction turns with y:  d(rho e) = e drho + turning dy.

@@ -11,12 +11,15 @@
 
 namespace mortise {
 
+/// Of the cells of a rigid body's surface, in a mesh of the plane or of space.
+constexpr CellShape rigid_shape(int dimension) { return dimension == 2 ? CellShape::line2 : CellShape::quadrilateral4; }
+
 /// A body to be meshed.
 struct BodyDescription {
   std::string name;
   Place place;
   std::shared_ptr<const MeshOptions> mesh;
-  CellShape shape = CellShape::quadrilateral4;  ///< line2: a rigid body, of which the surface alone is meshed
+  CellShape shape = CellShape::quadrilateral4;  ///< rigid_shape(): a rigid body, of which the surface alone is meshed
 };
 
 /// Builds the mesh of all bodies. Collective. Node and element ids are contiguous per body, in the order of `bodies`, and do not depend on
@@ -24,7 +27,7 @@ struct BodyDescription {
 /// `contact_sides` ("body/side") are balanced; names that are no sides of the bodies are passed over (see require_side_set).
 /// Besides its named sides each body gets a side set "body/surface" (all of them) and a node set "body" (all its nodes).
 /// Reference points get the ids beyond those of all bodies, and a node set each; followers come with add_followers().
-/// All bodies are of the plane, or all of space; rigid bodies and reference points are available in the plane only.
+/// All bodies are of the plane, or all of space.
 /// @throws InputError on all ranks: no body, repeated names, bodies of different dimension, elements that do not fit the mesh, shapes without
 /// meaning, an inverted element (with its det J).
 RCP<Mesh> build_mesh(const RCP<const Communicator>& comm, const std::vector<BodyDescription>& bodies, const std::vector<std::string>& contact_sides,

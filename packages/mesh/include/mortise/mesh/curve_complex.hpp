@@ -14,6 +14,14 @@ class CurveComplex {
   /// `names`: of the side that each edge belongs to.
   CurveComplex(std::vector<Point> corners, std::vector<Edge> edges, const std::vector<std::string>& names, Placement placement);
 
+  /// Its edges, which join corners.
+  const std::vector<Edge>& edges() const { return edges_; }
+  int corner_count() const { return static_cast<int>(corners_.size()); }
+  /// Point i of edge e, from 0 at its start, placed.
+  Point on_edge(int e, int i) const;
+  /// The name of the side that edge e belongs to.
+  const std::string& side_of_edge(int e) const { return side_names_[edge_sides_[e]]; }
+
   CellShape shape() const { return CellShape::line2; }
   GlobalOrdinal node_count() const { return edge_nodes_.back(); }
   GlobalOrdinal element_count() const { return edge_cells_.back(); }

@@ -27,7 +27,7 @@ struct Block {
 /// A side of an element.
 struct Side {
   LocalOrdinal block = 0, element = 0;
-  int side = 0;
+  int side = 0;  ///< or the_cell_itself
 };
 
 /// Sides of elements on this rank: first those of owned elements, then those of ghosts.
@@ -38,14 +38,15 @@ struct SideSet {
 
 /// A node that belongs to no element and whose motion others follow:
 ///   d_i = u + (R(theta) - I) (X_i - X),   R the rotation by theta about the point, identity for points that do not rotate.
+/// In space theta is the rotation vector: R turns by |theta| about its direction.
 struct ReferencePoint {
-  std::string name;                         ///< of its node set
-  bool is_placed = false;                   ///< its position was given
-  LocalOrdinal node = 0;                    ///< carries u; on every rank
-  LocalOrdinal rotation_node = -1;          ///< its first component carries arm * theta; -1: does not rotate
-  double arm = 1.0;                         ///< [length] of the farthest corner of the box around the followers; makes a rotation a length
-  std::array<bool, 2> follows{true, true};  ///< components of u that are followed
-  std::vector<LocalOrdinal> followers;      ///< local nodes (owned and ghosts), ascending
+  std::string name;                               ///< of its node set
+  bool is_placed = false;                         ///< its position was given
+  LocalOrdinal node = 0;                          ///< carries u; on every rank
+  LocalOrdinal rotation_node = -1;                ///< carries arm * theta, in the plane in its first component; -1: does not rotate
+  double arm = 1.0;                               ///< [length] of the farthest corner of the box around the followers; makes a rotation a length
+  std::array<bool, 3> follows{true, true, true};  ///< components of u that are followed
+  std::vector<LocalOrdinal> followers;            ///< local nodes (owned and ghosts), ascending
 };
 
 /// One rank's part of a mesh. Local nodes are the owned ones, in the order of `owned_nodes`, followed by ghosts.

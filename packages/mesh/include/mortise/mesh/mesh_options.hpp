@@ -6,13 +6,14 @@
 #include "mortise/core/parameters.hpp"
 #include "mortise/mesh/curve_complex.hpp"
 #include "mortise/mesh/patch_complex.hpp"
+#include "mortise/mesh/shell_complex.hpp"
 #include "mortise/mesh/swept_complex.hpp"
 #include "mortise/mesh/volume_complex.hpp"
 
 namespace mortise {
 
 /// The pure description of a body; all kinds have the same members.
-using BodyComplex = std::variant<PatchComplex, CurveComplex, SweptComplex, VolumeComplex>;
+using BodyComplex = std::variant<PatchComplex, CurveComplex, SweptComplex, VolumeComplex, ShellComplex>;
 
 /// Options of one body's mesh. A new kind derives from PlaneMesh or VolumeMesh, declares its parameters and is added to mesh_registry().
 struct MeshOptions : Described {
@@ -58,6 +59,14 @@ struct VolumeMesh : MeshOptions {
   std::vector<double> rotation_axis{0.0, 0.0, 1.0};  ///< through the origin
   VolumeMesh() : MeshOptions(3) {}
 
+  /// The body in tetrahedra or hexahedra. Throws InputError at `place` for shapes without meaning.
+  virtual BodyComplex build(CellShape cell, const Place& place) const = 0;
+
+  /// The surface alone, of quadrilaterals, for a rigid body. Throws InputError at `place` for shapes without meaning.
+  virtual ShellComplex build_surface(const Place& place) const = 0;
+
+  BodyComplex complex(CellShape cell, const Place& place) const final;
+
  protected:
   void describe_rotation(Parameters& parameters) final;
   SpatialPlacement placement() const {
@@ -65,10 +74,10 @@ struct VolumeMesh : MeshOptions {
   }
 };
 
-/// The built-in kinds in the plane that have an inside: block, wedge, ring sector, disk, quarter disk, half disk.
+/// The built-in kinds in the plane: block, wedge, ring sector, disk, quarter disk, half disk and, for rigid bodies, profile.
 const Registry<PlaneMesh>& plane_mesh_registry();
 
-/// All built-in kinds: those in the plane, profile, and those in space: brick, cylinder, extruded, revolved, sphere octant.
+/// All built-in kinds: those in the plane, and those in space: brick, cylinder, extruded, revolved, sphere octant.
 const Registry<MeshOptions>& mesh_registry();
 
 }  // namespace mortise

@@ -22,13 +22,16 @@ struct Revolution {
   double angle = 1.0;  ///< radians, in (0, 2 pi)
 };
 
+using Sweep = std::variant<Extrusion, Revolution>;
+
+/// Where a point of the plane is after a share of the sweep.
+SpatialPoint swept(const Sweep& sweep, const Point& point, double share);
+
 /// Layers of cells over the elements of a plane body: hexahedra over quadrilaterals; three tetrahedra in each prism over a triangle. Nodes and
 /// elements are numbered layer by layer, in the order of the plane body; the middles of quadratic cells' upright edges make layers of their own. Has
 /// the members of PatchComplex that a mesh is built from.
 class SweptComplex {
  public:
-  using Sweep = std::variant<Extrusion, Revolution>;
-
   /// Shape of the plane elements below cells of this shape.
   static CellShape profile_shape(CellShape shape);
 

@@ -11,10 +11,11 @@ struct BrickMesh : VolumeMesh {
   int cells_x = 0, cells_y = 0, cells_z = 0;
   GradingOptions grading_x, grading_y, grading_z;
   void describe_shape(Parameters& parameters) override;
-  BodyComplex complex(CellShape cell, const Place& place) const override;
+  BodyComplex build(CellShape cell, const Place& place) const override;
+  ShellComplex build_surface(const Place& place) const override;
 };
 
-/// Cylinder about the z axis between z = 0 and its height. Sides: bottom, top, mantle.
+/// Cylinder about the z axis between z = 0 and its height. Sides: bottom, top, mantle; of a rigid one mantle alone.
 struct CylinderMesh : VolumeMesh {
   FullDiskMesh disk;
   double height = 1.0;
@@ -22,25 +23,27 @@ struct CylinderMesh : VolumeMesh {
   GradingOptions grading_z;
   CylinderMesh() { disk.side = "mantle"; }
   void describe_shape(Parameters& parameters) override;
-  BodyComplex complex(CellShape cell, const Place& place) const override;
+  BodyComplex build(CellShape cell, const Place& place) const override;
+  ShellComplex build_surface(const Place& place) const override;
 };
 
 /// The octant x >= 0, y >= 0, z <= 0 of a ball about the origin; its lowest point is where cells can be made small. Sides: x plane (x = 0), y plane
-/// (y = 0), equator (z = 0), sphere.
+/// (y = 0), equator (z = 0), sphere; of a rigid one sphere alone.
 struct SphereOctantMesh : VolumeMesh, PolarCells {
   void describe_shape(Parameters& parameters) override { PolarCells::describe(parameters); }
-  BodyComplex complex(CellShape cell, const Place& place) const override;
+  BodyComplex build(CellShape cell, const Place& place) const override;
+  ShellComplex build_surface(const Place& place) const override;
 };
 
 /// A mesh of the plane, swept. Sides: those of the plane mesh, and where the sweep starts and ends: "start" and "end", or "sweep start" and "sweep
-/// end" if the plane mesh has a side of such a name.
+/// end" if the plane mesh has a side of such a name. A rigid body has those of the plane mesh alone.
 struct SweptMesh : VolumeMesh {
   Choice<PlaneMesh> profile;
 
  protected:
   void describe_profile(Parameters& parameters, const std::string& sentence);
-  SweptComplex sweep(CellShape cell, const Place& place, const Spacing& layers, const SweptComplex::Sweep& sweep) const;
-  PatchComplex build_profile(CellShape cell, const Place& place) const;
+  const PlaneMesh& require_profile(const Place& place) const;
+  SweptComplex sweep_body(PatchComplex plane, CellShape cell, const Spacing& layers, const Sweep& sweep) const;
 };
 
 /// Moved along z, from z = 0.
@@ -49,7 +52,8 @@ struct ExtrudedMesh : SweptMesh {
   int cells_z = 0;
   GradingOptions grading_z;
   void describe_shape(Parameters& parameters) override;
-  BodyComplex complex(CellShape cell, const Place& place) const override;
+  BodyComplex build(CellShape cell, const Place& place) const override;
+  ShellComplex build_surface(const Place& place) const override;
 };
 
 /// Turned about the y axis, from the x axis toward the z axis. Throws InputError for a plane mesh that reaches the axis.
@@ -58,7 +62,8 @@ struct RevolvedMesh : SweptMesh {
   int cells_around = 0;
   GradingOptions grading_around;
   void describe_shape(Parameters& parameters) override;
-  BodyComplex complex(CellShape cell, const Place& place) const override;
+  BodyComplex build(CellShape cell, const Place& place) const override;
+  ShellComplex build_surface(const Place& place) const override;
 };
 
 }  // namespace mortise

@@ -33,35 +33,50 @@ class LinearSolver {
   virtual ~LinearSolver() = default;
   virtual std::string name() const = 0;
 
-  /// Whether set_matrix() looks at its near null space (so that nobody computes one in vain).
-  virtual bool uses_near_null_space() const { return false; }
-
   /// How often the work that depends on the pattern alone was done (analysis of a direct solver, set-up of multigrid).
   virtual int symbolic_setups() const = 0;
 
   /// Takes the matrix of the next solves. `graph_changed`: the pattern is not that of the last call, so nothing symbolic may be reused.
-  /// The matrix must live, unchanged, until the next call.
-  virtual void set_matrix(const RCP<const Matrix>& matrix, bool graph_changed, const NearNullSpace& near_null_space) = 0;
+  /// The matrix must live, unchanged, until the next call, and so must what `near_null_space` looks at: it is asked, by solve(), only if it is
+  /// needed, and may be empty.
+  virtual void set_matrix(const RCP<const Matrix>& matrix, bool graph_changed, const std::function<NearNullSpace()>& near_null_space) = 0;
 
-  /// Solves A x = b (the first solve after set_matrix() factorises) and checks the true residual. Throws StepFailure(linear_solver), on
-  /// every rank, if the matrix or b is not finite, the matrix is singular or the true relative residual exceeds the bound of the options
-  /// (the iterative solver: ten times its tolerance).
-  virtual LinearSolveReport solve(const Vector& b, Vector& x) = 0;
+  /// Relative residuals among which solve() may be told to choose; none: it is as exact as it can be.
+  struct Tolerances {
+    double least, largest;
+  };
+  virtual std::optional<Tolerances> tolerances() const { return std::nullopt; }
+
+  /// Solves A x = b (the first solve after set_matrix() factorises) to a relative residual of `tolerance`, or of tolerances()->least if that is
+  /// larger, and checks the true residual. Throws StepFailure(linear_solver), on every rank, if the matrix or b is not finite, the matrix is
+  /// singular or the true relative residual exceeds the bound of the options (the iterative solver: ten times the tolerance).
+  virtual LinearSolveReport solve(const Vector& b, Vector& x, double tolerance = 0.0) = 0;
 };
 
-/// Which solver, and how. `automatic` is MUMPS.
+/// What is known of the systems to be solved before there is one.
+struct LinearSystemTraits {
+  GlobalOrdinal unknowns = 0;
+  int dimension = 2;
+  std::string not_iterative;  ///< why the iterative solver cannot solve them, a sentence; empty: it can
+};
+
+/// Which solver, and how. `automatic`: the iterative solver in space from `fewest_for_multigrid` unknowns on if it can solve the systems, else MUMPS.
 struct LinearSolverOptions {
   enum class Kind { automatic, mumps, klu2, iterative };
+  /// From here on it takes less time than a factorisation, and much less memory (docs/results/space.md).
+  static constexpr GlobalOrdinal fewest_for_multigrid = 10000;
   Located<Kind> kind{Kind::automatic, {}};
-  double residual_bound = 1e-8;  ///< of the direct solvers' true relative residual
-  double tolerance = 1e-10;      ///< of the iterative solver
+  double residual_bound = 1e-8;     ///< of the direct solvers' true relative residual
+  double tolerance = 1e-10;         ///< of the iterative solver
+  double largest_tolerance = 1e-3;  ///< of the iterative solver, while Newton's iterate is far from the solution
   int maximum_iterations = 500;
   Located<Teuchos::ParameterList> muelu, belos;  ///< override what Mortise sets; checked by MueLu and Belos
   void describe(Parameters& parameters);
 };
 
-/// Makes the solver that `options` ask for; throws InputError where that cannot work (KLU2 on more than one rank, a parameter that MueLu or
-/// Belos does not know).
-std::unique_ptr<LinearSolver> make_linear_solver(const LinearSolverOptions& options, const RCP<const Communicator>& comm, const Timers& timers);
+/// Makes the solver that `options` ask for; throws InputError where that cannot work (KLU2 on more than one rank, systems that the iterative solver
+/// cannot solve, a parameter that MueLu or Belos does not know).
+std::unique_ptr<LinearSolver> make_linear_solver(const LinearSolverOptions& options, const RCP<const Communicator>& comm, const Timers& timers,
+                                                 const LinearSystemTraits& traits = {});
 
 }  // namespace mortise

@@ -70,8 +70,9 @@ class SemiSmoothSystem {
   /// y = J v by the saddle point blocks, at the x of the last jacobian().
   void apply(const Vector& v, Vector& y) const;
   /// Newton direction: solves J dx = -F at the x of the last jacobian(), by condensation or, where the contact keeps multipliers, as a saddle point
-  /// system. F is F(x): a condensing contact forms the rows of C itself. Throws StepFailure(linear_solver) on every rank.
-  LinearSolveReport newton_direction(const Vector& F, Vector& direction);
+  /// system. F is F(x): a condensing contact forms the rows of C itself. `tolerance`: see LinearSolver::solve(). Throws StepFailure(linear_solver) on
+  /// every rank.
+  LinearSolveReport newton_direction(const Vector& F, Vector& direction, double tolerance = 0.0);
 
   /// After a Newton solve that ended in x: whether augmented Lagrange multipliers were updated, so that it has to be repeated. `round` counts from 1
   /// within a step. Throws StepFailure(augmentation) on every rank if there were too many.

@@ -28,6 +28,7 @@ struct Reaction : Quantity {
 /// Rotation of a reference point since the start, counterclockwise. [degrees]
 struct Rotation : Quantity {
   Located<std::string> point;
+  Component component = Component::z;
   void describe(Parameters& parameters) override;
   void prepare(const QuantityContext& context) override;
   double evaluate(const QuantityContext& context) override;

@@ -23,7 +23,7 @@ namespace mortise {
 /// A body: what it is made of and its mesh.
 struct BodyOptions {
   Located<bool> rigid;
-  std::vector<double> reference_point;  ///< of a rigid body: x, y; empty: the middle of its box
+  std::vector<double> reference_point;  ///< of a rigid body: x, y(, z); empty: the middle of its box
   Located<std::string> material;
   ElementType element = ElementType::q4;
   Choice<MeshOptions> mesh;
@@ -33,10 +33,10 @@ struct BodyOptions {
 /// A set of nodes that follows a reference point.
 struct TieOptions {
   Located<std::string> set;
-  std::vector<double> position;  ///< x, y; empty: the middle of the set's box
+  std::vector<double> position;  ///< x, y(, z); empty: the middle of the set's box
   bool rotates = true;
-  enum class Follows { both, x, y };
-  Follows follows = Follows::both;
+  enum class Follows { all, x, y, z };
+  Follows follows = Follows::all;
   void describe(Parameters& parameters);
 };
 

@@ -12,9 +12,10 @@ namespace mortise {
 
 /// One condition of a scene. A component without an expression is free. Axisymmetric: x is r, y is z.
 struct BoundaryConditionOptions {
-  Located<std::string> set;            ///< node or side set
-  std::optional<Expression> x, y, z;   ///< displacement [length]; no value: free; z only in three dimensions
-  std::optional<Expression> rotation;  ///< of a reference point [degrees], counterclockwise; no value: free
+  Located<std::string> set;                                  ///< node or side set
+  std::optional<Expression> x, y, z;                         ///< displacement [length]; no value: free; z only in three dimensions
+  std::optional<Expression> rotation;                        ///< of a reference point of the plane [degrees], counterclockwise; no value: free
+  std::array<std::optional<Expression>, 3> rotation_vector;  ///< of a reference point of space [degrees]; no value: free
   void describe(Parameters& parameters);
 };
 
