@@ -21,13 +21,12 @@ NormalStencil make_stencil(LocalOrdinal node, const TravellingFacet::Stencil& fr
 
 }  // namespace
 
-GuestFacets::GuestFacets(int dimension, const std::vector<TravellingFacet>& travellers, const SlaveSurface& slave,
+GuestFacets::GuestFacets(const std::vector<TravellingFacet>& travellers, const SlaveSurface& slave,
                          const std::function<LocalOrdinal(GlobalOrdinal)>& local) {
   std::map<LocalOrdinal, std::size_t> normal_of;
   for (const TravellingFacet& traveller : travellers) {
     GuestFacet& facet = facets.emplace_back();
     facet.multipliers = traveller.multipliers;
-    facet.multipliers.basis = non_negative_basis(dimension, traveller.nodes.size());
     facet.receivers = traveller.receivers;
     for (std::size_t a = 0; a < traveller.nodes.size(); ++a) {
       const LocalOrdinal node = local(traveller.nodes[a]);

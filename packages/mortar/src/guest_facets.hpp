@@ -24,8 +24,7 @@ struct GuestFacets {
 
   GuestFacets() = default;
   /// @param local  the local node of an id, a new one if there is none
-  GuestFacets(int dimension, const std::vector<TravellingFacet>& travellers, const SlaveSurface& slave,
-              const std::function<LocalOrdinal(GlobalOrdinal)>& local);
+  GuestFacets(const std::vector<TravellingFacet>& travellers, const SlaveSurface& slave, const std::function<LocalOrdinal(GlobalOrdinal)>& local);
 };
 
 }  // namespace mortise

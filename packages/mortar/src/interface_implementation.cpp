@@ -167,7 +167,7 @@ void Interface<dim>::number_nodes() {
   std::vector<std::vector<LocalOrdinal>> kept(slave.owned.size());
   for (std::size_t s = 0; s < retained.size(); ++s)
     for (const GlobalOrdinal id : retained[s]) kept[s].push_back(local(id));
-  if (distribution_) guests_ = GuestFacets(dim, distribution_->send_away(slave, candidate_ids_), slave, local);
+  if (distribution_) guests_ = GuestFacets(distribution_->send_away(slave, candidate_ids_), slave, local);
   local_nodes = map_of(ids, owned_nodes_->getComm());
   coupled.assign(slave.owned.size(), {});
   loaded.assign(slave.owned.size(), {});
