@@ -32,19 +32,23 @@ std::optional<Extrapolation> extrapolate(const std::vector<double>& h, const std
     if (!positive(h[i]) || !std::isfinite(value[i]) || (i > n - needed && !(h[i] < h[i - 1]))) return {};
   const double last = value[n - 1] - value[n - 2];
   if (!order) {
+    const Extrapolation finest{value[n - 1], {}, std::abs(last)};
+    const auto [least, most] = std::minmax_element(value.end() - 3, value.end());
+    if (*most - *least <= 1e-10 * std::max(std::abs(*least), std::abs(*most))) return finest;
     // (q2 - q1) / (q3 - q2) = (h1^p - h2^p) / (h2^p - h3^p), the right side of which rises with p.
     const double wanted = (value[n - 2] - value[n - 3]) / last;
     const double coarse = std::log(h[n - 3] / h[n - 2]), fine = std::log(h[n - 2] / h[n - 1]);
     const auto ratio = [&](double p) { return std::expm1(p * coarse) / -std::expm1(-p * fine); };
     double low = 1e-6, high = 20.0;
-    if (!(ratio(low) < wanted && wanted < ratio(high))) return {};
+    if (wanted < 0.0 || wanted >= ratio(high)) return finest;
+    if (!(ratio(low) < wanted)) return {};
     for (int i = 0; i < 100; ++i) {
       const double middle = 0.5 * (low + high);
       (ratio(middle) < wanted ? low : high) = middle;
     }
     order = 0.5 * (low + high);
   }
-  return Extrapolation{value[n - 1] + last / std::expm1(*order * std::log(h[n - 2] / h[n - 1])), *order};
+  return Extrapolation{value[n - 1] + last / std::expm1(*order * std::log(h[n - 2] / h[n - 1])), order};
 }
 
 std::optional<TimeToError> time_to_error(double target, const std::vector<double>& seconds, const std::vector<double>& error) {

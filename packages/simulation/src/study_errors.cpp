@@ -16,29 +16,40 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 using Values = std::vector<double>;
 
-double relative_difference(double value, double reference) { return std::abs(value - reference) / std::abs(reference); }
+/// Nothing can be said about differences below the uncertainty of the reference. Not a number if the value or the reference is not.
+double relative_difference(double value, double reference, double uncertainty) {
+  const double difference = std::abs(value - reference);
+  return (difference < uncertainty ? uncertainty : difference) / std::abs(reference);
+}
 
 double quantity_of(const StudyPoint& point, const StudyRecord& record, const std::string& name) {
   const auto found = std::find(point.quantities.begin(), point.quantities.end(), name);
   return found == point.quantities.end() || !record.finished() ? none : record.quantities[found - point.quantities.begin()];
 }
 
-/// A limit for each curve.
-void extrapolated(const StudyMeasuring& measuring, const StudyQuantity& quantity, StudyErrors& errors) {
+std::string note(const Extrapolation& found, bool given) {
+  if (found.order) return fmt::format("extrapolated to {:.8g} with the order {:.3g}{}", found.limit, *found.order, given ? " (given)" : " found");
+  return fmt::format(
+      "no order: the three finest levels agree, oscillate or rest; the reference is the finest value, {:.8g}, uncertain by {:.2g} as the last two "
+      "differ; no error is said to be smaller than that",
+      found.limit, found.uncertainty);
+}
+
+/// A limit for each curve. Returns how uncertain the reference of each point is.
+Values extrapolated(const StudyMeasuring& measuring, const StudyQuantity& quantity, StudyErrors& errors) {
+  Values uncertainty(errors.value.size(), 0.0);
   for (const StudyCurve& curve : measuring.curves) {
     Values h, values;
     for (const std::size_t i : curve.points)
       if (std::isfinite(errors.value[i]) && std::isfinite(measuring.results.h[i]))
         h.push_back(measuring.results.h[i]), values.push_back(errors.value[i]);
     const auto limit = extrapolate(h, values, quantity.order);
-    if (!limit) {
-      errors.notes.push_back(curve.name + ": no reference: the three finest levels do not approach a limit from one side");
-      continue;
-    }
-    errors.notes.push_back(fmt::format("{}: extrapolated to {:.8g} with the order {:.3g}{}", curve.name, limit->limit, limit->order,
-                                       quantity.order ? " (given)" : " found"));
-    for (const std::size_t i : curve.points) errors.reference[i] = limit->limit;
+    errors.notes.push_back(curve.name + ": " +
+                           (limit ? note(*limit, quantity.order.has_value()) : "no reference: the three finest levels do not approach a limit"));
+    if (!limit) continue;
+    for (const std::size_t i : curve.points) errors.reference[i] = limit->limit, uncertainty[i] = limit->uncertainty;
   }
+  return uncertainty;
 }
 
 StudyErrors scalar_errors(const StudyMeasuring& measuring, const std::string& name, const StudyQuantity& quantity) {
@@ -51,6 +62,7 @@ StudyErrors scalar_errors(const StudyMeasuring& measuring, const std::string& na
     for (std::size_t i = 0; i < count; ++i) errors.error[i] = std::abs(errors.value[i]);
     return errors;
   }
+  Values uncertainty(count, 0.0);
   if (quantity.reference == StudyReference::finest) {
     errors.reference.assign(count, quantity_of(*plan.finest, *results.finest, wanted));
     errors.notes.push_back(fmt::format("reference: {:.8g} of the finest run", errors.reference.front()));
@@ -59,9 +71,9 @@ StudyErrors scalar_errors(const StudyMeasuring& measuring, const std::string& na
       if (results.points[i].finished())
         errors.reference[i] = evaluate(quantity.value, plan.points[i], results.points[i].quantities, results.points[i].dofs);
   } else {
-    extrapolated(measuring, quantity, errors);
+    uncertainty = extrapolated(measuring, quantity, errors);
   }
-  for (std::size_t i = 0; i < count; ++i) errors.error[i] = relative_difference(errors.value[i], errors.reference[i]);
+  for (std::size_t i = 0; i < count; ++i) errors.error[i] = relative_difference(errors.value[i], errors.reference[i], uncertainty[i]);
   return errors;
 }
 

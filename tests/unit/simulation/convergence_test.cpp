@@ -42,7 +42,7 @@ TEST(Extrapolate, FindsLimitAndOrder) {
   for (const double p : {0.5, 1.0, 2.0, 3.7}) {
     const auto found = extrapolate(h, sequence(h, 5.0, -3.0, p), {});
     ASSERT_TRUE(found) << p;
-    EXPECT_NEAR(found->order, p, 1e-8);
+    EXPECT_NEAR(found->order.value(), p, 1e-8);
     EXPECT_NEAR(found->limit, 5.0, 1e-8);
   }
 }
@@ -53,9 +53,37 @@ TEST(Extrapolate, TakesAGivenOrder) {
   EXPECT_FALSE(extrapolate(h, sequence(h, 5.0, 2.0, 2.0), {}));
 }
 
+TEST(Extrapolate, ValuesThatAgreeAreTheLimit) {
+  const std::vector<double> h{4.0, 2.0, 1.0};
+  const double e = std::numeric_limits<double>::epsilon();
+  for (const auto& values : std::vector<std::vector<double>>{{7.0, 7.0, 7.0}, {0.0, 0.0, 0.0}, {-1.0, -1.0 - e, -1.0 - 3 * e}, {1.0, 1.0 + e, 1.0}}) {
+    const auto found = extrapolate(h, values, {});
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->limit, values.back());
+    EXPECT_FALSE(found->order);
+    EXPECT_LE(found->uncertainty, 2 * e);
+  }
+  // Three values of a sequence that agree say more than an earlier one that does not.
+  EXPECT_EQ(extrapolate({8.0, 4.0, 2.0, 1.0}, {9.0, 7.0, 7.0, 7.0}, {})->limit, 7.0);
+  EXPECT_EQ(extrapolate({2.0, 1.0}, {7.0, 7.0}, 2.0)->limit, 7.0);
+}
+
+TEST(Extrapolate, ValuesThatOscillateOrRestLeaveTheFinestWithTheirSpread) {
+  const std::vector<double> h{4.0, 2.0, 1.0};
+  for (const auto& values :
+       std::vector<std::vector<double>>{{1.0, 2.0, 1.5}, {2.0, 1.0, 1.5}, {1.0, 1.25, 0.75}, {1.0, 2.0, 2.0}, {1.0, 1.5, 1.5 + 1e-8}}) {
+    const auto found = extrapolate(h, values, {});
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->limit, values[2]);
+    EXPECT_FALSE(found->order);
+    EXPECT_EQ(found->uncertainty, std::abs(values[2] - values[1]));
+  }
+}
+
 TEST(Extrapolate, SaysNothingOfSequencesWithoutALimit) {
-  EXPECT_FALSE(extrapolate({4.0, 2.0, 1.0}, {1.0, 2.0, 1.5}, {}));  // from both sides
   EXPECT_FALSE(extrapolate({4.0, 2.0, 1.0}, {1.0, 2.0, 4.0}, {}));  // away
+  EXPECT_FALSE(extrapolate({4.0, 2.0, 1.0}, {1.0, 2.0, 3.0}, {}));  // as a logarithm
+  EXPECT_FALSE(extrapolate({4.0, 2.0, 1.0}, {1.0, 1.0, 2.0}, {}));
   EXPECT_FALSE(extrapolate({1.0, 2.0, 4.0}, {1.0, 1.5, 1.75}, {}));
   EXPECT_FALSE(extrapolate({4.0, 2.0, 1.0}, {1.0, none, 1.75}, {}));
 }

@@ -10,13 +10,17 @@ namespace mortise {
 /// different h.
 std::optional<double> fitted_order(const std::vector<double>& h, const std::vector<double>& error);
 
-/// q(h) = limit + c h^order
+/// Where a sequence from coarse to fine tends to.
 struct Extrapolation {
-  double limit = 0.0, order = 0.0;
+  double limit = 0.0;
+  std::optional<double> order;  ///< of q(h) = limit + c h^order; none: the limit is the finest value
+  double uncertainty = 0.0;     ///< of a limit without order: how far the last two values are apart
 };
 
-/// Richardson's: the limit h -> 0 of a sequence from coarse to fine, from its last two values if the order is given, else from its last three.
-/// None if they are too few, mesh sizes do not fall, or no order between 0 and 20 fits (values that do not approach a limit from one side).
+/// Richardson's limit h -> 0, from the last two values if the order is given, else from the last three. These may also
+///   - agree to 1e-10 of their size, which is what Newton's method leaves: their differences have no order, the finest value is the limit;
+///   - oscillate, or come to rest faster than h^20: the finest value is the limit, as uncertain as the last two values are apart.
+/// None if they are too few or not finite, if mesh sizes do not fall, or if the values go one way and their steps do not die out as h^order would.
 std::optional<Extrapolation> extrapolate(const std::vector<double>& h, const std::vector<double>& value, std::optional<double> order);
 
 /// A time to an accuracy.
