@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <vector>
 
 #include "facets_with_middles.hpp"
@@ -135,21 +136,15 @@ class Fixture {
         reference->replaceLocalValue(n, i, id < surfaces.slave.size() ? surfaces.slave[id][i] : surfaces.master[id - surfaces.slave.size()][i]);
         fixed->replaceLocalValue(n, i, surfaces.fixed[id][i] ? 1.0 : 0.0);
       }
-    ContactPair pair;
-    pair.name = "pair";
-    pair.youngs_modulus = 100.0;
-    pair.options = surfaces.options;
-    const auto mine = [&](std::size_t n) { return nodes->isNodeGlobalElement(static_cast<GlobalOrdinal>(n)); };
-    const GlobalOrdinal slaves = static_cast<GlobalOrdinal>(surfaces.slave.size());
-    for (const SurfaceFacet& facet : surfaces.slave_facets)
-      if (std::any_of(facet.begin(), facet.end(), [&](GlobalOrdinal node) { return mine(node); })) pair.slave.push_back(facet);
-    for (const SurfaceFacet& facet : surfaces.master_facets)
-      if (mine(facet[0])) pair.master.push_back(facet);
-    for (GlobalOrdinal i = 0; surfaces.slave_facets.empty() && i + 1 < slaves; ++i)
-      if (mine(i) || mine(i + 1)) pair.slave.push_back({i, i + 1});
-    for (GlobalOrdinal i = slaves; surfaces.master_facets.empty() && i + 1 < static_cast<GlobalOrdinal>(surfaces.size()); ++i)
-      if (mine(i)) pair.master.push_back({i, i + 1});
-    contact = std::make_unique<ContactSystem>(nodes, dofs, reference, fixed, surfaces.measure, std::vector<ContactPair>{pair}, Timers());
+    const auto slaves = static_cast<GlobalOrdinal>(surfaces.slave.size()), all = static_cast<GlobalOrdinal>(surfaces.size());
+    const SurfaceFacets upper = surfaces.slave_facets.empty() ? polyline(0, slaves) : surfaces.slave_facets;
+    const SurfaceFacets lower = surfaces.master_facets.empty() ? polyline(slaves, all) : surfaces.master_facets;
+    std::vector<ContactPair> pairs{make_pair(upper, lower)};
+    if (surfaces.options.formulation.options->two_pass()) {
+      pairs.push_back(make_pair(lower, upper));
+      pairs.back().second_pass_of = 0;
+    }
+    contact = std::make_unique<ContactSystem>(nodes, dofs, reference, fixed, surfaces.measure, pairs, Timers());
 
     const auto graph = rcp(new Graph(dofs, 7 * dim));
     for (const GlobalOrdinal row : dofs->getNodeElementList())
@@ -230,6 +225,23 @@ class Fixture {
   std::unique_ptr<ContactSystem> contact;
 
  private:
+  static SurfaceFacets polyline(GlobalOrdinal first, GlobalOrdinal end) {
+    SurfaceFacets facets;
+    for (GlobalOrdinal node = first; node + 1 < end; ++node) facets.push_back({node, node + 1});
+    return facets;
+  }
+  /// What of it a rank gives: slave facets of its nodes, master facets once.
+  ContactPair make_pair(const SurfaceFacets& slave, const SurfaceFacets& master) const {
+    ContactPair pair;
+    pair.name = "pair";
+    pair.youngs_modulus = 100.0;
+    pair.options = surfaces_.options;
+    const auto mine = [&](GlobalOrdinal node) { return nodes->isNodeGlobalElement(node); };
+    std::copy_if(slave.begin(), slave.end(), std::back_inserter(pair.slave),
+                 [&](const SurfaceFacet& facet) { return std::any_of(facet.begin(), facet.end(), mine); });
+    std::copy_if(master.begin(), master.end(), std::back_inserter(pair.master), [&](const SurfaceFacet& facet) { return mine(facet[0]); });
+    return pair;
+  }
   // The springs of a node go to the two nodes before and behind it.
   GlobalOrdinal first_column(GlobalOrdinal row) const {
     const GlobalOrdinal dim = surfaces_.dimension;
