@@ -14,6 +14,11 @@ void add_study_command(CLI::App& app, Program& program) {
       ->add_option("-o,--output", options->directory,
                    "directory for the report and the results of all runs; default: results/<name of the file STUDY>")
       ->type_name("DIR");
+  command
+      ->add_option("--set", options->settings,
+                   "replace a value of the study: path=value, e.g. axes/n/values='4, 8', settings/variables/mu=0.2; may be repeated")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
   command->add_flag("--fresh", options->fresh, "forget what DIR holds; otherwise runs that an earlier call finished are not repeated");
   command->add_flag_callback(
       "--quiet", [options] { options->verbosity = Verbosity::quiet; }, "say nothing but warnings and errors");

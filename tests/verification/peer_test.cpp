@@ -4,40 +4,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "peer_support.hpp"
 #include "study_support.hpp"
 
 namespace {
 
 namespace files = std::filesystem;
+using namespace peer_support;
 using namespace study_support;
 using Json = nlohmann::json;
-
-const std::string peers = std::string(SCRATCH) + "/peer";
-
-/// "PATH=..." with a script `ccx` before all others; empty: with everything in PATH but ccx.
-std::string path_with(const std::string& name, const std::string& ccx) {
-  const std::string bin = peers + "/" + name, path = std::getenv("PATH");
-  files::remove_all(bin);
-  files::create_directories(bin);
-  if (!ccx.empty()) {
-    std::ofstream(bin + "/ccx") << "#!/bin/sh\n" << ccx << "\n";
-    files::permissions(bin + "/ccx", files::perms::owner_all);
-    return "PATH=" + bin + ":" + path;
-  }
-  std::istringstream folders(path);
-  std::error_code passed_over;  // what an earlier folder has counts
-  for (std::string folder; std::getline(folders, folder, ':');)
-    if (files::is_directory(folder))
-      for (const auto& program : files::directory_iterator(folder))
-        if (program.path().filename() != "ccx") files::create_symlink(program.path(), bin + "/" + program.path().filename().string(), passed_over);
-  return "PATH=" + bin;
-}
-
-bool installed() { return launch({"ccx", "-v"}).code != 127; }
 
 /// The patch test with seven slave facets to a master facet, of linear elasticity, held sideways at two nodes that touch nothing.
 std::vector<std::string> patch(const std::string& command, const std::string& results) {
@@ -52,8 +30,6 @@ std::vector<std::string> patch(const std::string& command, const std::string& re
     words.insert(words.end(), {"--set", setting});
   return words;
 }
-
-Json quantities(const std::string& results) { return Json::parse(read_file(results + "/summary.json")).at("quantities"); }
 
 /// A study of the patch test by one peer.
 std::string study_by(const std::string& name, const std::string& peer, const std::string& scene) {

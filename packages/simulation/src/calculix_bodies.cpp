@@ -30,27 +30,34 @@ void write_material(Text text, const MaterialOptions& material) {
   }
 }
 
+/// A line of a deck holds 16 numbers at most; a comma at its end continues it.
+void write_numbers(Text text, const std::vector<GlobalOrdinal>& numbers) {
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    fmt::format_to(text, "{}{}", numbers[i], i + 1 == numbers.size() ? "\n" : i % 16 == 15 ? ",\n" : ",");
+}
+
 }  // namespace
 
-std::string deck_bodies(const Scene&, const Model& model) {
+/// Nodes of cells are in CalculiX' order.
+std::string deck_bodies(const Model& model) {
   const Mesh& mesh = *model.mesh();
-  const DeckNumbers numbers{static_cast<GlobalOrdinal>(mesh.owned_count())};
+  const DeckNumbers numbers(mesh);
   const auto id = [&](LocalOrdinal node) { return mesh.local_nodes->getGlobalElement(node); };
   std::string deck;
   const auto text = std::back_inserter(deck);
   fmt::format_to(text, "*NODE,NSET=ALL\n");
-  for (int layer = 0; layer < 2; ++layer)
+  for (int layer = 0; layer < numbers.layers; ++layer)
     for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node)
       fmt::format_to(text, "{},{:.12g},{:.12g},{:.12g}\n", numbers.node(id(node), layer), mesh.coordinates[node][0], mesh.coordinates[node][1],
-                     layer * model.bodies()->thickness());
+                     layer == 0 ? mesh.coordinates[node][2] : model.bodies()->thickness());
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     const Block& block = mesh.blocks[b];
-    fmt::format_to(text, "** {}\n*ELEMENT,TYPE={},ELSET=BODY{}\n", block.name, block.nodes_per_element == 4 ? "C3D8" : "C3D6", b);
+    fmt::format_to(text, "** {}\n*ELEMENT,TYPE={},ELSET=BODY{}\n", block.name, calculix_element(block.shape), b);
     for (LocalOrdinal element = 0; element < block.size(); ++element) {
-      fmt::format_to(text, "{}", block.element_ids[element] + 1);
-      for (int layer = 0; layer < 2; ++layer)
-        for (int a = 0; a < block.nodes_per_element; ++a) fmt::format_to(text, ",{}", numbers.node(id(block.nodes(element)[a]), layer));
-      fmt::format_to(text, "\n");
+      std::vector<GlobalOrdinal> line{block.element_ids[element] + 1};
+      for (int layer = 0; layer < numbers.layers; ++layer)
+        for (int a = 0; a < block.nodes_per_element; ++a) line.push_back(numbers.node(id(block.nodes(element)[a]), layer));
+      write_numbers(text, line);
     }
     fmt::format_to(text, "*MATERIAL,NAME=MATERIAL{}\n", b);
     write_material(text, *model.bodies()->properties()[b].material);

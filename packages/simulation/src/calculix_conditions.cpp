@@ -94,22 +94,23 @@ std::vector<double> deck_times(const SteppingOptions& stepping) {
 
 DeckConditions deck_conditions(const Scene& scene, const Model& model) {
   const Mesh& mesh = *model.mesh();
-  const DeckNumbers numbers{static_cast<GlobalOrdinal>(mesh.owned_count())};
+  const DeckNumbers numbers(mesh);
   const Values times = deck_times(scene.stepping);
   Amplitudes amplitudes(times);
   DeckConditions conditions;
   const auto fixed = std::back_inserter(conditions.before), moved = std::back_inserter(conditions.within);
-  const auto node = [&](LocalOrdinal dof, int layer) { return numbers.node(mesh.owned_nodes->getGlobalElement(dof / 2), layer); };
+  const auto node = [&](LocalOrdinal dof, int layer) { return numbers.node(mesh.owned_nodes->getGlobalElement(dof / numbers.dimension), layer); };
 
-  fmt::format_to(fixed, "*BOUNDARY\nALL,3,3\n");
+  fmt::format_to(fixed, "*BOUNDARY\n");
+  if (numbers.dimension == 2) fmt::format_to(fixed, "ALL,3,3\n");
   const auto& prescribed = model.parts().prescribed->dofs();
   const auto motions = prescribed_values(model, times);
   for (std::size_t n = 0; n < prescribed.size(); ++n) {
-    const int component = 1 + prescribed[n] % 2;
+    const int component = 1 + prescribed[n] % numbers.dimension;
     const bool still = all_zero(motions[n]);
     const Amplitudes::Scaled scaled = still ? Amplitudes::Scaled{0, 0.0} : amplitudes.add(motions[n]);
     if (!still) fmt::format_to(moved, "*BOUNDARY,AMPLITUDE=AMPLITUDE{}\n", scaled.amplitude);
-    for (int layer = 0; layer < 2; ++layer)
+    for (int layer = 0; layer < numbers.layers; ++layer)
       if (still)
         fmt::format_to(fixed, "{0},{1},{1}\n", node(prescribed[n], layer), component);
       else
@@ -120,8 +121,9 @@ DeckConditions deck_conditions(const Scene& scene, const Model& model) {
     if (all_zero(forces[dof])) continue;
     const Amplitudes::Scaled scaled = amplitudes.add(forces[dof]);
     fmt::format_to(moved, "*CLOAD,AMPLITUDE=AMPLITUDE{}\n", scaled.amplitude);
-    for (int layer = 0; layer < 2; ++layer)
-      fmt::format_to(moved, "{},{},{:.12g}\n", node(static_cast<LocalOrdinal>(dof), layer), 1 + dof % 2, 0.5 * scaled.factor);
+    for (int layer = 0; layer < numbers.layers; ++layer)
+      fmt::format_to(moved, "{},{},{:.12g}\n", node(static_cast<LocalOrdinal>(dof), layer), 1 + dof % numbers.dimension,
+                     scaled.factor / numbers.layers);
   }
   conditions.before = amplitudes.text() + conditions.before;
   return conditions;

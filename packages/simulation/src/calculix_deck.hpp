@@ -9,14 +9,20 @@
 
 namespace mortise {
 
-/// Numbers of a deck. The plane mesh becomes one layer of bricks and wedges between z = 0 and z = thickness, every node of which is held in z: that
-/// is plane strain, also for the mortar contact, which refuses the plane elements of CalculiX (it does not take nodes with multiple point
-/// constraints, by which they are made of bricks). Nodes and elements are those of the mesh, counted from 1; the second layer of nodes follows the
-/// first.
+/// Numbers of a deck. Nodes and elements are those of the mesh, counted from 1. A plane mesh becomes one layer of bricks and wedges between z = 0 and
+/// z = thickness, every node of which is held in z: that is plane strain, also for the mortar contact, which refuses the plane elements of CalculiX
+/// (it does not take nodes with multiple point constraints, by which they are made of bricks). The second layer of nodes follows the first.
 struct DeckNumbers {
-  GlobalOrdinal nodes = 0;  ///< of one layer
+  explicit DeckNumbers(const Mesh& mesh) : nodes(mesh.owned_count()), dimension(mesh.dimension), layers(mesh.dimension == 2 ? 2 : 1) {}
+
+  GlobalOrdinal nodes;  ///< of one layer
+  int dimension;        ///< of the mesh: components of its unknowns that are in the deck
+  int layers;           ///< nodes of the deck for one of the mesh, which share its forces
   GlobalOrdinal node(GlobalOrdinal id, int layer) const { return id + 1 + layer * nodes; }
 };
+
+/// The element of CalculiX that a cell of the mesh becomes: "C3D8"; empty if there is none.
+std::string calculix_element(CellShape shape);
 
 /// Everything in the scene that a deck cannot hold, each at its place.
 std::vector<Diagnostic> calculix_obstacles(const Scene& scene, const Model& model);
@@ -25,7 +31,7 @@ std::vector<Diagnostic> calculix_obstacles(const Scene& scene, const Model& mode
 std::vector<double> deck_times(const SteppingOptions& stepping);
 
 /// Nodes, elements, sections, materials.
-std::string deck_bodies(const Scene& scene, const Model& model);
+std::string deck_bodies(const Model& model);
 
 /// Surfaces and contact pairs.
 std::string deck_contact(const Scene& scene, const Model& model, Peer peer);

@@ -21,17 +21,19 @@ bool is_plain_coulomb(const FrictionLaw& law) {
 std::vector<Diagnostic> calculix_obstacles(const Scene& scene, const Model& model) {
   std::vector<Diagnostic> found;
   const auto say = [&](const Place& place, const std::string& what) { found.push_back({place, "the deck of CalculiX cannot hold it: " + what}); };
-  if (scene.kinematics != Kinematics::plane_strain)
-    say({},
-        fmt::format("kinematics \"{}\"; decks are for plane strain. Mortar contact of CalculiX refuses axisymmetric elements (it takes no nodes with "
-                    "multiple point constraints), and results at plane nodes hold no contact stresses",
-                    to_string(scene.kinematics)));
+  if (scene.kinematics != Kinematics::plane_strain && scene.kinematics != Kinematics::three_dimensional)
+    say({}, fmt::format("kinematics \"{}\"; decks are for plane strain and space. Mortar contact of CalculiX refuses axisymmetric elements (it takes "
+                        "no nodes with "
+                        "multiple point constraints), and results at plane nodes hold no contact stresses",
+                        to_string(scene.kinematics)));
   const BodyProperties* first = nullptr;
   for (const auto& body : model.bodies()->properties()) {
     if (body.is_rigid()) {
       say(body.place, fmt::format("\"{}\" is rigid", body.name));
       continue;
     }
+    if (calculix_element(cell_shape(body.element)).empty())
+      say(body.place, fmt::format("the elements {} of \"{}\"; in the plane it takes linear ones", to_string(body.element), body.name));
     if (first == nullptr) first = &body;
     if (small_strain(body) != small_strain(*first))
       say(body.place, fmt::format("small strain in one of \"{}\" and \"{}\" and finite strain in the other", first->name, body.name));

@@ -16,7 +16,8 @@ namespace {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 bool of_displacement(PointField field) {
-  return field == PointField::displacement_x || field == PointField::displacement_y || field == PointField::displacement_magnitude;
+  return field == PointField::displacement_x || field == PointField::displacement_y || field == PointField::displacement_z ||
+         field == PointField::displacement_magnitude;
 }
 
 /// Whether displacements, contact pressures, reactions and quantities before it are all that a quantity asks for.
@@ -28,16 +29,17 @@ bool can_be_had(const Quantity& quantity) {
   if (const auto* traction = dynamic_cast<const ContactTraction*>(&quantity)) return traction->part == ContactTraction::Part::pressure;
   const Reaction* reaction = dynamic_cast<const Reaction*>(&quantity);
   return (reaction != nullptr && reaction->component != Reaction::Of::rotation) || is((const PointDisplacement*)nullptr) ||
-         is((const HalfWidth*)nullptr) || is((const PeakPressure*)nullptr) || is((const ContactLength*)nullptr) || is((const ContactArea*)nullptr) ||
-         is((const PressureVariation*)nullptr) || is((const FormulaQuantity*)nullptr);
+         is((const HalfWidth*)nullptr) || is((const ContactRadius*)nullptr) || is((const PeakPressure*)nullptr) ||
+         is((const ContactLength*)nullptr) || is((const ContactArea*)nullptr) || is((const PressureVariation*)nullptr) ||
+         is((const FormulaQuantity*)nullptr);
 }
 
-/// Sum of the values of a kind on both layers of a node.
+/// Sum of the values of a kind over the layers of a node.
 std::array<double, 6> over_layers(const CalculixResults& results, const std::string& kind, const DeckNumbers& numbers, GlobalOrdinal node) {
   std::array<double, 6> sum{};
   const auto block = results.nodal.find(kind);
   if (block == results.nodal.end()) return sum;
-  for (int layer = 0; layer < 2; ++layer)
+  for (int layer = 0; layer < numbers.layers; ++layer)
     if (const auto values = block->second.find(numbers.node(node, layer)); values != block->second.end())
       for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += values->second[i];
   return sum;
@@ -57,12 +59,12 @@ PeerEvaluation::~PeerEvaluation() = default;
 
 void PeerEvaluation::read_displacement(const CalculixResults& results) {
   const Mesh& mesh = *model_.mesh();
-  const DeckNumbers numbers{static_cast<GlobalOrdinal>(mesh.owned_count())};
+  const DeckNumbers numbers(mesh);
   {
     const auto values = displacement_->getLocalViewHost(Tpetra::Access::ReadWrite);
     for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node) {
       const auto sum = over_layers(results, "DISP", numbers, mesh.owned_nodes->getGlobalElement(node));
-      for (int i = 0; i < 2; ++i) values(2 * node + i, 0) = 0.5 * sum[i];
+      for (int i = 0; i < numbers.dimension; ++i) values(numbers.dimension * node + i, 0) = sum[i] / numbers.layers;
     }
   }
   local_displacement_ = rcp(new Vector(model_.bodies()->local_dofs()));
@@ -73,7 +75,7 @@ void PeerEvaluation::read_displacement(const CalculixResults& results) {
 void PeerEvaluation::read_pressure(const CalculixResults& results) {
   if (!model_.contact()) return;
   const Mesh& mesh = *model_.mesh();
-  const DeckNumbers numbers{static_cast<GlobalOrdinal>(mesh.owned_count())};
+  const DeckNumbers numbers(mesh);
   std::optional<StepFailure> failure;
   model_.contact()->evaluate(*displacement_, false, failure);
   throw_if_any(*mesh.comm, failure);
@@ -84,14 +86,15 @@ void PeerEvaluation::read_pressure(const CalculixResults& results) {
   const GlobalOrdinal first = model_.dofs();  // ids of multipliers follow those of displacements
   for (std::size_t pair = 0; pair < scene_.contact.size(); ++pair)
     for (const auto& state : model_.contact()->node_states(pair, zero)) {
-      const double pressure = 0.5 * over_layers(results, "CONTACT", numbers, state.node)[3];
-      for (int i = 0; i < 2; ++i) values(map->getLocalElement(first + 2 * state.node + i), 0) = pressure * state.normal[i];
+      const double pressure = over_layers(results, "CONTACT", numbers, state.node)[3] / numbers.layers;
+      for (int i = 0; i < numbers.dimension; ++i)
+        values(map->getLocalElement(first + numbers.dimension * state.node + i), 0) = pressure * state.normal[i];
     }
 }
 
 void PeerEvaluation::read_forces(const CalculixResults& results) {
   const Mesh& mesh = *model_.mesh();
-  const DeckNumbers numbers{static_cast<GlobalOrdinal>(mesh.owned_count())};
+  const DeckNumbers numbers(mesh);
   for (const auto& options : scene_.loads) {
     std::optional<StepFailure> failure;
     options.value.load.options->make(model_.bodies())->add_residual(results.time, *local_displacement_, *external_, failure);
@@ -102,7 +105,10 @@ void PeerEvaluation::read_forces(const CalculixResults& results) {
   const auto load = external_->getLocalViewHost(Tpetra::Access::ReadOnly);
   for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node) {
     const auto sum = over_layers(results, "FORC", numbers, mesh.owned_nodes->getGlobalElement(node));
-    for (int i = 0; i < 2; ++i) force(2 * node + i, 0) = sum[i], reaction(2 * node + i, 0) = sum[i] - load(2 * node + i, 0);
+    for (int i = 0; i < numbers.dimension; ++i) {
+      const LocalOrdinal dof = numbers.dimension * node + i;
+      force(dof, 0) = sum[i], reaction(dof, 0) = sum[i] - load(dof, 0);
+    }
   }
 }
 
@@ -141,7 +147,7 @@ double PeerEvaluation::contact_force(const ContactForce& quantity, const Quantit
   const LocalOrdinal body = touched(master) == 1 ? master : slave;
   double sum = 0.0;
   for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node)
-    if (mesh.body_of_node[node] == body) sum += force(2 * node + static_cast<int>(quantity.component), 0);
+    if (mesh.body_of_node[node] == body) sum += force(mesh.dimension * node + static_cast<int>(quantity.component), 0);
   return body == master ? sum : -sum;
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <set>
 
+#include "calculix_deck.hpp"
 #include "mortise/core/parameter_tree.hpp"
 #include "mortise/core/read_parameters.hpp"
 #include "mortise/simulation/read_scene.hpp"
@@ -50,12 +51,12 @@ void complete(StudyPoint& point, const XmlList& root) {
   for (const auto& body : scene.bodies)
     if (!body.value.rigid.value) elements.push_back(to_string(body.value.element));
   point.element = joined(elements);
-  if (point.peer != Peer::none) {  // triangles become wedges, quadrilaterals of either kind bricks
+  if (point.peer != Peer::none) {
     point.formulation = peer_title(point.peer);
     std::vector<std::string> theirs;
     for (const auto& body : scene.bodies)
-      if (!body.value.rigid.value) theirs.push_back(body.value.element == ElementType::t3 ? "C3D6" : "C3D8");
-    point.element += " (CalculiX " + joined(theirs) + ")";
+      if (const auto name = calculix_element(cell_shape(body.value.element)); !body.value.rigid.value && !name.empty()) theirs.push_back(name);
+    if (!theirs.empty()) point.element += " (CalculiX " + joined(theirs) + ")";
   }
   point.axisymmetric = scene.kinematics == Kinematics::axisymmetric;
   point.quantities = names_of(scene.quantities);
@@ -121,10 +122,11 @@ void throw_all(std::vector<Diagnostic> diagnostics) {
 
 }  // namespace
 
-StudyPlan read_study(const Communicator& comm, const std::string& path) {
+StudyPlan read_study(const Communicator& comm, const std::string& path, const std::vector<std::string>& settings) {
   StudyPlan plan;
   StudyFile& study = plan.file;
-  const XmlList root = parse_xml(read_text(comm, path), path);
+  XmlList root = parse_xml(read_text(comm, path), path);
+  for (const auto& setting : settings) apply_override(root, setting);
   std::vector<Diagnostic> diagnostics;
   study.name = root.name;
   read_parameters(study, root, {}, {}, diagnostics);

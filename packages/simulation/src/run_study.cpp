@@ -30,7 +30,7 @@ void forget(const OutputDirectory& directory) {
 
 ExitCode run_study(const RCP<const Communicator>& comm, const StudyOptions& options) {
   RunLog log(comm, options.verbosity);
-  const StudyPlan plan = read_study(*comm, options.study);
+  const StudyPlan plan = read_study(*comm, options.study, options.settings);
   OutputDirectory directory(comm, options.directory.empty() ? default_directory(options.study) : options.directory, false);
   const std::string page = directory.file("report.html"), scene = directory.file("scene.xml");
   require_page_python(*comm, page);

@@ -77,6 +77,12 @@ Json environment(const std::string& version, const StudyResults& results) {
 void write_study_table(const RCP<const Communicator>& comm, const std::string& path, const StudyPlan& plan, const StudyResults& results,
                        const std::vector<StudyErrors>& errors) {
   std::vector<std::string> columns{"formulation", "element", "h", "dofs", "steps", "newton_iterations", "wall_s", "cpu_s", "memory_mib"};
+  const auto has_values = [&](std::size_t q) {
+    const StudyQuantity& quantity = plan.file.quantities[q].value;
+    return quantity.of_scalar() && quantity.measure == StudyMeasure::relative_difference;
+  };
+  for (std::size_t q = 0; q < errors.size(); ++q)
+    if (has_values(q)) columns.push_back("value_" + errors[q].name);
   for (const auto& one : errors) columns.push_back("error_" + one.name);
   columns.push_back("status");
   for (const auto& axis : plan.file.axes) columns.push_back("axis_" + axis.name);
@@ -87,6 +93,8 @@ void write_study_table(const RCP<const Communicator>& comm, const std::string& p
     std::vector<CsvValue> row{point.formulation,  point.element,       cell(results.h[i]),
                               count(record.dofs), count(record.steps), count(record.newton_iterations),
                               cell(record.wall),  cell(record.cpu),    cell(record.memory)};
+    for (std::size_t q = 0; q < errors.size(); ++q)
+      if (has_values(q)) row.push_back(cell(errors[q].value[i]));
     for (const auto& one : errors) row.push_back(cell(one.error[i]));
     row.emplace_back(record.status());
     for (const auto& label : point.labels) row.emplace_back(label);

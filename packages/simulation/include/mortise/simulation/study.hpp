@@ -2,6 +2,7 @@
 // What accuracy costs: the same scene under many settings, errors against times.
 
 #include <string>
+#include <vector>
 
 #include "mortise/core/error.hpp"
 #include "mortise/core/log.hpp"
@@ -11,9 +12,10 @@ namespace mortise {
 
 /// How a study is computed.
 struct StudyOptions {
-  std::string study;      ///< file
-  std::string directory;  ///< where results go; empty: default_directory(study)
-  bool fresh = false;     ///< forget what the directory holds; else points that are there are not run again
+  std::string study;                  ///< file
+  std::vector<std::string> settings;  ///< "path=value" each, of the study file
+  std::string directory;              ///< where results go; empty: default_directory(study)
+  bool fresh = false;                 ///< forget what the directory holds; else points that are there are not run again
   Verbosity verbosity = Verbosity::normal;
   std::string version;  ///< of the program
 };
