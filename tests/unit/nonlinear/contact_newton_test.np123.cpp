@@ -1,5 +1,6 @@
 // The semi-smooth system and its Newton iteration with contact: a narrower body of springs pressed on another one.
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Tpetra_Core.hpp>
@@ -223,6 +224,41 @@ TEST(ContactNewton, IterativeAndDirectSolversAgree) {
   EXPECT_GT(with_iterative.report.iterations.back().linear_iterations, 0);
   RecordProperty("linear_iterations", with_iterative.report.iterations.back().linear_iterations);
   EXPECT_NEAR(with_iterative.reaction[1][1], with_direct.reaction[1][1], 1e-8 * std::abs(with_direct.reaction[1][1]));
+}
+
+// Each update divides the penetration by some factor: to 1e-14 facets takes more than two.
+TEST(ContactNewton, AStepEndsWhenUpdatesOfTheMultipliersAreExhausted) {
+  const auto formulation = std::make_shared<AugmentedLagrange>();
+  formulation->tolerance = 1e-14;
+  formulation->augmentations = 2;
+  Problem::Choices choices = pressed(0.25);
+  choices.formulation = formulation;
+  Problem problem(Tpetra::getDefaultComm(), choices);
+  for (int round = 1; round <= 2; ++round) {
+    solve(problem);
+    EXPECT_TRUE(problem.system->augment(*problem.x, round)) << round;
+  }
+  solve(problem);
+  const auto expect_exhausted = [](const StepFailure& failure) {
+    EXPECT_EQ(failure.kind(), FailureKind::augmentation);
+    EXPECT_EQ(to_string(failure.kind()), "augmentation");
+    EXPECT_THAT(failure.what(), ::testing::MatchesRegex("contact \"pair\": after 2 updates of the multipliers, gaps or slips of "
+                                                        "[0-9]\\.[0-9][0-9]e-[0-9][0-9] facets are left"));
+  };
+  try {
+    problem.system->augment(*problem.x, 3);
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const StepFailure& failure) {
+    expect_exhausted(failure);
+  }
+
+  Problem stepped(Tpetra::getDefaultComm(), choices);
+  SteppingOptions stepping;
+  stepping.minimum_step = stepping.step;
+  std::optional<StepFailure> failure;
+  EXPECT_FALSE(run_steps(*stepped.system, stepping, {}, *stepped.x, {}, {}, failure));
+  ASSERT_TRUE(failure);
+  expect_exhausted(*failure);
 }
 
 // What was closed in the accepted state may not go through the other body: the upper body is put three rows deep into the lower one, beyond
