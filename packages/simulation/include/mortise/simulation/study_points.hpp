@@ -42,8 +42,8 @@ struct StudyPlan {
   std::size_t series = 0, along = 0;  ///< indices of axes
 };
 
-/// Reads a study, with `settings`, "path=value" each, replacing its values, and its scene. Throws FileError if the study cannot be read, InputError with
-/// everything that is wrong with it and with the scene under the settings of its runs.
+/// Reads a study, with `settings`, "path=value" each, replacing its values, and its scene. Throws FileError if the study cannot be read, InputError
+/// with everything that is wrong with it and with the scene under the settings of its runs.
 StudyPlan read_study(const Communicator& comm, const std::string& path, const std::vector<std::string>& settings = {});
 
 /// All combinations of the axes' values without the excluded ones; diagnostics get labels that no axis has.
