@@ -123,19 +123,22 @@ bool ContactSystem::keeps_multipliers() const {
 const RCP<const Map>& ContactSystem::multiplier_map() const { return implementation_->multipliers; }
 
 void ContactSystem::evaluate(const Vector& d, bool derivatives, std::optional<StepFailure>& failure) {
-  Implementation& self = *implementation_;
-  const auto scope = self.timers.scope("contact");
-  const RCP<MultiVector> x = self.positions(d);
-  for (const auto& pair : self.pairs) {
+  implementation_->evaluate(implementation_->positions(d), derivatives, failure);
+}
+
+void ContactSystem::Implementation::evaluate(const RCP<const MultiVector>& x, bool derivatives, std::optional<StepFailure>& failure) {
+  const auto scope = timers.scope("contact");
+  evaluated_at = x;
+  for (const auto& pair : pairs) {
     {
-      const auto part = self.timers.scope("search");
-      self.pattern_changed |= pair->search(*x);
+      const auto part = timers.scope("search");
+      pattern_changed |= pair->search(*x);
     }
-    const auto part = self.timers.scope("contact integrals");
+    const auto part = timers.scope("contact integrals");
     pair->evaluate(*x, derivatives, failure);
   }
-  const auto part = self.timers.scope("search");
-  self.find_lost_contact(*x, failure);
+  const auto part = timers.scope("search");
+  find_lost_contact(*x, failure);
 }
 
 RCP<const Graph> ContactSystem::system_graph(const RCP<const Graph>& bulk, bool& changed) {
@@ -286,7 +289,6 @@ std::vector<std::vector<ContactState>> ContactSystem::Implementation::states(con
 void ContactSystem::Implementation::take_slip_references() {
   for (const auto& pair : pairs)
     if (pair->friction() != nullptr) pair->take_slip_reference();
-  slip_references_taken = true;
 }
 
 void ContactSystem::mark_states(const Vector& z) { implementation_->marked = implementation_->states(z); }
@@ -302,6 +304,12 @@ void ContactSystem::accept_states(const Vector& z) {
       for (std::size_t s = 0; s < self.accepted[p].size(); ++s) self.pairs[p]->accept_slip(s, self.accepted[p][s]);
   }
   self.take_slip_references();
+  self.accept_cover();
+}
+
+void ContactSystem::Implementation::accept_cover() {
+  accepted_at = evaluated_at;
+  for (const auto& pair : pairs) pair->accept_cover();
 }
 
 Augmentation ContactSystem::augment(const Vector& z, int round) {
