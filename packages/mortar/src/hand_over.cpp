@@ -12,6 +12,7 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "interface.hpp"
@@ -21,6 +22,8 @@ namespace {
 
 /// Share of its weight below which a node hands over, and the factor above which it takes back.
 constexpr double hardly_covered = 0.1, hysteresis = 2.0;
+/// Cover that is round-off.
+constexpr double no_cover = 1e-12;
 
 }  // namespace
 
@@ -44,8 +47,8 @@ std::vector<double> Interface<dim>::on_facets(const std::vector<double>& owned) 
   return {values.begin(), values.end()};
 }
 
-// A node with little cover hands over if a node of its facets has enough. Of a facet that would be left without heir, the nodes that have most of its
-// nodes' cover keep their functions.
+// A node with little cover hands over if a node of its facets has enough. A facet that would be left without heir keeps those of its nodes that have
+// most cover; one that is not covered, as a node of it without any cover tells, keeps those nodes: they have nothing to do unless the step covers it.
 template <int dim>
 bool Interface<dim>::hand_over(const std::vector<double>& cover) {
   if (to_facets_.is_null()) {
@@ -66,18 +69,19 @@ bool Interface<dim>::hand_over(const std::vector<double>& cover) {
   }
   const std::vector<double> would_hand = on_facets(hands);
   for (std::size_t s = 0; s < hands.size(); ++s)
-    chosen[s] = hands[s] > 0.0 && std::all_of(slave.facets_of[s].begin(), slave.facets_of[s].end(), [&](std::size_t f) {
+    chosen[s] = hands[s] > 0.0 && std::none_of(slave.facets_of[s].begin(), slave.facets_of[s].end(), [&](std::size_t f) {
                   const Facet<LocalOrdinal>& facet = slave.facets[f];
                   const std::size_t corners = facet_corners(dim, facet.size());
-                  const auto heirs =
-                      facet.begin() + static_cast<std::ptrdiff_t>(facet.size() > corners ? corners : 0);  // middles of quadratic facets
-                  double most = 0.0;
-                  for (auto node = heirs; node != facet.end(); ++node) {
-                    if (!slave.carries[*node]) continue;
-                    if (would_hand[*node] == 0.0) return true;
-                    most = std::max(most, covered[*node]);
+                  double least = std::numeric_limits<double>::max(), most = 0.0;
+                  bool may_inherit = false;
+                  for (std::size_t a = facet.size() > corners ? corners : 0; a < facet.size(); ++a) {  // of quadratic facets middles inherit
+                    if (!slave.carries[facet[a]]) continue;
+                    if (would_hand[facet[a]] == 0.0) return false;
+                    least = std::min(least, covered[facet[a]]);
+                    most = std::max(most, covered[facet[a]]);
+                    may_inherit = may_inherit || facet[a] == static_cast<LocalOrdinal>(s);
                   }
-                  return std::find(heirs, facet.end(), static_cast<LocalOrdinal>(s)) == facet.end() || cover[s] < 0.5 * most;
+                  return may_inherit && (least > no_cover ? cover[s] >= 0.5 * most : cover[s] <= no_cover);
                 });
   const std::vector<double> before = std::exchange(handed_over_, on_facets(chosen));
   int any = 0;

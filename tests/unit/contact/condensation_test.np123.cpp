@@ -10,6 +10,7 @@ namespace mortise {
 namespace {
 
 using test::Fixture;
+using test::hardly_covered;
 using test::TwoSurfaces;
 
 double wiggle(GlobalOrdinal id) { return std::sin(12.9898 * static_cast<double>(id) + 0.7); }
@@ -18,12 +19,6 @@ struct Case {
   std::string name;
   TwoSurfaces surfaces;
 };
-
-// The master ends a tenth of a facet behind the nodes of the slave's last but one row, so that the last row hands its functions over.
-TwoSurfaces hardly_covered(TwoSurfaces surfaces) {
-  for (test::Point& x : surfaces.master) x[0] *= 2.2 / 2.7;
-  return surfaces;
-}
 
 // Quadratic facets: middles whose multipliers act on corners, of the same and of other ranks, with and without a multiplier of their own.
 void add_quadratic(std::vector<Case>& all) {

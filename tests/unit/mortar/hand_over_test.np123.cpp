@@ -129,6 +129,10 @@ TEST(HandOver, NeedsSomebodyToTakeOver) {
   // Around the facet of nodes 6, 7, 11 and 12 all are well covered, its own nodes are not.
   for (GlobalOrdinal node = 0; node < 25; ++node) cover[node].second = node == 6 || node == 7 || node == 11 || node == 12 ? 0.01 : 0.5;
   EXPECT_FALSE(one.choose(cover));
+  cover[7].second = 0.0;  // then nothing of that facet is covered: node 7 has nothing to act on, and keeps it
+  EXPECT_TRUE(one.choose(cover));
+  EXPECT_EQ(without_row(one.evaluated()), (std::vector<GlobalOrdinal>{6, 11, 12}));
+  cover[7].second = 0.01;
   cover[6].second = 0.5;
   EXPECT_TRUE(one.choose(cover));
   EXPECT_EQ(without_row(one.evaluated()), (std::vector<GlobalOrdinal>{7, 11, 12}));
