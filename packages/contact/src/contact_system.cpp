@@ -123,19 +123,22 @@ bool ContactSystem::keeps_multipliers() const {
 const RCP<const Map>& ContactSystem::multiplier_map() const { return implementation_->multipliers; }
 
 void ContactSystem::evaluate(const Vector& d, bool derivatives, std::optional<StepFailure>& failure) {
-  Implementation& self = *implementation_;
-  const auto scope = self.timers.scope("contact");
-  const RCP<MultiVector> x = self.positions(d);
-  for (const auto& pair : self.pairs) {
+  implementation_->evaluate(implementation_->positions(d), derivatives, failure);
+}
+
+void ContactSystem::Implementation::evaluate(const RCP<const MultiVector>& x, bool derivatives, std::optional<StepFailure>& failure) {
+  const auto scope = timers.scope("contact");
+  evaluated_at = x;
+  for (const auto& pair : pairs) {
     {
-      const auto part = self.timers.scope("search");
-      self.pattern_changed |= pair->search(*x);
+      const auto part = timers.scope("search");
+      pattern_changed |= pair->search(*x);
     }
-    const auto part = self.timers.scope("contact integrals");
+    const auto part = timers.scope("contact integrals");
     pair->evaluate(*x, derivatives, failure);
   }
-  const auto part = self.timers.scope("search");
-  self.find_lost_contact(*x, failure);
+  const auto part = timers.scope("search");
+  find_lost_contact(*x, failure);
 }
 
 RCP<const Graph> ContactSystem::system_graph(const RCP<const Graph>& bulk, bool& changed) {
@@ -286,7 +289,6 @@ std::vector<std::vector<ContactState>> ContactSystem::Implementation::states(con
 void ContactSystem::Implementation::take_slip_references() {
   for (const auto& pair : pairs)
     if (pair->friction() != nullptr) pair->take_slip_reference();
-  slip_references_taken = true;
 }
 
 void ContactSystem::mark_states(const Vector& z) { implementation_->marked = implementation_->states(z); }
@@ -302,6 +304,12 @@ void ContactSystem::accept_states(const Vector& z) {
       for (std::size_t s = 0; s < self.accepted[p].size(); ++s) self.pairs[p]->accept_slip(s, self.accepted[p][s]);
   }
   self.take_slip_references();
+  self.accept_cover();
+}
+
+void ContactSystem::Implementation::accept_cover() {
+  accepted_at = evaluated_at;
+  for (const auto& pair : pairs) pair->accept_cover();
 }
 
 Augmentation ContactSystem::augment(const Vector& z, int round) {
@@ -344,75 +352,6 @@ long ContactSystem::friction_evaluations() const {
   long evaluations = 0;
   for (const auto& pair : implementation_->pairs) evaluations += pair->slip_evaluations();
   return evaluations;
-}
-
-IntegrationLoad ContactSystem::integration_load(std::size_t pair) const {
-  const Implementation& self = *implementation_;
-  IntegrationLoad load;
-  const auto add = [&](std::size_t p) {
-    const InterfaceLoad& mine = self.pairs[p]->interface().load();
-    load.facets += mine.facets;
-    load.segments += mine.segments;
-    load.imbalance_as_owned = std::max(load.imbalance_as_owned, mine.imbalance_as_owned);
-    load.redistributions += mine.redistributions;
-  };
-  add(pair);
-  if (const auto other = second_pass(pair)) add(*other);
-  const double largest = self.maximum(static_cast<double>(load.segments)), sum = self.sum(static_cast<double>(load.segments));
-  load.facets = static_cast<long>(self.sum(static_cast<double>(load.facets)));
-  load.segments = static_cast<long>(sum);
-  if (sum > 0.0) load.imbalance = largest * self.dofs->getComm()->getSize() / sum;
-  return load;
-}
-
-std::vector<ContactNodeState> ContactSystem::node_states(std::size_t pair, const Vector& z) const {
-  const Implementation& self = *implementation_;
-  const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
-  std::vector<ContactNodeState> states;
-  for (std::size_t s = 0; s < self.multiplier_of[pair].size(); ++s) {
-    const SlaveNode& slave = self.pairs[pair]->slave_nodes()[s];
-    const detail::NodeRow& row = self.pairs[pair]->rows()[s];
-    const SpatialVector zs = self.z_of(values, pair, s);
-    const SpatialVector across = self.pairs[pair]->frame(s).tangents * zs;
-    const auto signed_size = [](const TangentVector& v) { return v.size() == 1 ? v[0] : v.norm(); };
-    ContactNodeState state;
-    state.node = slave.id;
-    state.owned_node = slave.owned_node;
-    std::copy(zs.begin(), zs.end(), state.traction.begin());
-    std::copy(row.normal.begin(), row.normal.end(), state.normal.begin());
-    state.pressure = zs.dot(row.normal);
-    state.gap = row.gap / slave.weight;
-    state.weight = slave.weight;
-    if (slave.carries_multiplier) state.state = self.pairs[pair]->complementarity(s, zs).state;
-    state.closed = state.state != ContactState::open;
-    state.covered = row.covered;
-    state.shear = signed_size(across);
-    if (self.pairs[pair]->friction() != nullptr && row.covered > 0.0) {
-      state.slip = signed_size(row.slip) / row.covered;
-      state.slip_path = self.pairs[pair]->slip_histories()[s].accepted.path;
-      if (state.closed)
-        state.shear_bound =
-            self.pairs[pair]->friction()->bound(std::max(0.0, state.pressure), self.pairs[pair]->slip_histories()[s].start.path).value;
-    }
-    for (int i = 0; i < self.dimension; ++i) state.force[i] = row.covered * zs[i];
-    states.push_back(state);
-  }
-  return states;
-}
-
-// The force on the slave side is -sum_j (sum_k D_jk) z_j.
-std::array<double, 3> ContactSystem::resultant(std::size_t pair, const Vector& z) const {
-  const Implementation& self = *implementation_;
-  const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
-  SpatialVector mine = SpatialVector::Zero(self.dimension);
-  const auto subtract = [&](std::size_t p, double sign) {
-    for (std::size_t s = 0; s < self.multiplier_of[p].size(); ++s) mine -= sign * self.pairs[p]->rows()[s].covered * self.z_of(values, p, s);
-  };
-  subtract(pair, 1.0);
-  if (const auto other = second_pass(pair)) subtract(*other, -1.0);  // its slave side is the master here
-  std::array<double, 3> all{};
-  for (int i = 0; i < self.dimension; ++i) all[i] = self.sum(mine[i]);
-  return all;
 }
 
 }  // namespace mortise

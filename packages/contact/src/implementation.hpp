@@ -31,10 +31,15 @@ struct ContactSystem::Implementation {
   std::vector<std::vector<LocalOrdinal>> multiplier_of;     ///< [pair][slave node] local index of the first component in z, -1: none
   std::vector<std::vector<ContactState>> marked, accepted;  ///< [pair][slave node] when last marked, of the accepted state
   std::unique_ptr<detail::SystemScatter> scatter;
-  bool pattern_changed = true, slip_references_taken = false;
+  bool pattern_changed = true;
   bool middles_first = false;  ///< there are multipliers that are condensed before others, on any rank
   std::vector<RecoveryRow> recovery;
 
+  RCP<const MultiVector> evaluated_at, accepted_at;  ///< positions of the last evaluation, of the accepted state; null: none yet
+
+  void evaluate(const RCP<const MultiVector>& x, bool derivatives, std::optional<StepFailure>& failure);
+  /// The last evaluation was that of the accepted state.
+  void accept_cover();
   /// Positions X + d on the owned nodes.
   RCP<MultiVector> positions(const Vector& d) const;
   /// z of slave node s of a pair (0 without multiplier), from a host view of z.

@@ -92,12 +92,28 @@ SpatialVector PairCoupling::constraint_gradient(const Complementarity& law, std:
 bool PairCoupling::search(const MultiVector& x) {
   if (frozen_) return false;
   const bool changed = interface_->search(uses_reference() ? *reference_ : x) || import_.is_null();
-  if (changed) {
-    import_ = rcp(new Import(owned_nodes_, interface_->local_nodes()));
-    local_positions_ = rcp(new MultiVector(interface_->local_nodes(), static_cast<std::size_t>(dimension_)));
-    position_in_row_.assign(interface_->local_nodes()->getNodeNumElements(), -1);
-    place_slip_histories();
-  }
+  if (changed) follow_pattern();
+  return changed;
+}
+
+void PairCoupling::follow_pattern() {
+  import_ = rcp(new Import(owned_nodes_, interface_->local_nodes()));
+  local_positions_ = rcp(new MultiVector(interface_->local_nodes(), static_cast<std::size_t>(dimension_)));
+  position_in_row_.assign(interface_->local_nodes()->getNodeNumElements(), -1);
+  place_slip_histories();
+}
+
+bool PairCoupling::hands_over() const { return dimension_ > 2 && !uses_reference() && formulation().elimination() == Elimination::momentum; }
+
+void PairCoupling::accept_cover() {
+  if (!hands_over()) return;
+  accepted_cover_.resize(rows_.size());
+  for (std::size_t s = 0; s < rows_.size(); ++s) accepted_cover_[s] = rows_[s].cover / slave_nodes()[s].weight;
+}
+
+bool PairCoupling::hand_over() {
+  const bool changed = hands_over() && interface_->hand_over(accepted_cover_);
+  if (changed) follow_pattern();
   return changed;
 }
 
@@ -122,9 +138,15 @@ void PairCoupling::evaluate(const MultiVector& x, bool derivatives, std::optiona
 void PairCoupling::sum_to_rows(bool derivatives) {
   const std::size_t slaves = rows_.size();
   std::vector<std::vector<std::pair<const FacetCoupling*, int>>> facets_of(slaves);
-  for (const FacetCoupling& facet : couplings_)
-    for (std::size_t j = 0; j < facet.slave.size(); ++j)
-      if (static_cast<std::size_t>(facet.slave[j]) < slaves) facets_of[facet.slave[j]].push_back({&facet, static_cast<int>(j)});
+  for (NodeRow& row : rows_) row.cover = 0.0;
+  for (const FacetCoupling& facet : couplings_) {
+    const FacetVector cover = hands_over() ? covered_weights(dimension_, facet) : FacetVector();
+    for (std::size_t j = 0; j < facet.slave.size(); ++j) {
+      if (static_cast<std::size_t>(facet.slave[j]) >= slaves) continue;
+      facets_of[facet.slave[j]].push_back({&facet, static_cast<int>(j)});
+      if (cover.size() > 0) rows_[facet.slave[j]].cover += cover[static_cast<Eigen::Index>(j)];
+    }
+  }
 
   for (std::size_t s = 0; s < slaves; ++s) {
     const std::vector<LocalOrdinal>& coupled = interface_->coupled_nodes(s);

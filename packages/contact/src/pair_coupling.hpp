@@ -20,6 +20,7 @@ struct NodeRow {
   double D = 0.0;        ///< D_jj
   double covered = 0.0;  ///< sum_k D_jk = sum_l M_jl
   double gap = 0.0;      ///< weighted gap g_j
+  double cover = 0.0;    ///< covered part of the node's own weight A_j, whoever has its function
   SpatialVector normal;
   std::vector<double> coefficients;                                                   ///< [coupled nodes] c_jm, 0 at j itself
   PositionGradient dgap;                                                              ///< empty without derivatives
@@ -59,6 +60,11 @@ class PairCoupling {
 
   /// Takes the couplings of the last evaluate(), at an accepted state, as those that later slips are measured against. Friction only.
   void take_slip_reference();
+  /// The state of the last evaluate() is accepted: what is covered now decides which nodes hand over in the next step.
+  void accept_cover();
+  /// Nodes that were hardly covered in the accepted state hand their functions over. Whether that changed anything, and so the pattern; the same on
+  /// every rank. Couplings have to be evaluated again.
+  bool hand_over();
   /// A step starts from the accepted state.
   void start_step();
   /// Regularised pairs: what multipliers start from in the next step. `z` gives those of slave node s.
@@ -110,6 +116,9 @@ class PairCoupling {
 
  private:
   bool uses_reference() const { return pair_.options.geometry == ContactGeometry::reference; }
+  /// Whether nodes that are hardly covered hand their functions over: in space, where multipliers are eliminated and follow the bodies.
+  bool hands_over() const;
+  void follow_pattern();
   void sum_to_rows(bool derivatives);
   void freeze();
   void evaluate_frozen(const MultiVector& x);
@@ -129,6 +138,7 @@ class PairCoupling {
   std::vector<FacetCoupling> couplings_;
   std::vector<NodalNormal> normals_;
   std::vector<NodeRow> rows_;
+  std::vector<double> accepted_cover_;  ///< [slave nodes] by the node's weight; empty where nobody hands over
   const FrictionLaw* friction_ = nullptr;
   std::vector<SlipHistory> slip_;  ///< [slave nodes]; empty without friction
   std::optional<Regularisation> regularisation_;

@@ -65,18 +65,26 @@ void ContactSystem::Implementation::approach(std::size_t p, const std::vector<ch
 void ContactSystem::start_step(Vector& d, const std::vector<char>& unheld, Vector& z) {
   Implementation& self = *implementation_;
   self.marked = self.accepted;  // after a step that was undone
-  const auto evaluate_or_throw = [&] {
+  const auto evaluate_or_throw = [&](const RCP<const MultiVector>& x) {
     std::optional<StepFailure> failure;
-    evaluate(d, false, failure);
+    self.evaluate(x, false, failure);
     throw_if_any(*self.dofs->getComm(), failure);
   };
-  const bool rubs = std::any_of(self.pairs.begin(), self.pairs.end(), [](const auto& pair) { return pair->friction() != nullptr; });
-  if (rubs && !self.slip_references_taken) {  // the first step
-    evaluate_or_throw();
-    self.take_slip_references();
+  const RCP<const MultiVector> x = self.positions(d);
+  const bool first = self.accepted_at.is_null();
+  if (first) {
+    evaluate_or_throw(x);
+    self.accept_cover();
   }
+  bool other_multipliers = false;
+  for (const auto& pair : self.pairs) other_multipliers |= pair->hand_over();
+  if (other_multipliers) {
+    self.pattern_changed = true;
+    evaluate_or_throw(self.accepted_at);
+  }
+  if (first || other_multipliers) self.take_slip_references();
   for (const auto& pair : self.pairs) pair->start_step();
-  evaluate_or_throw();
+  evaluate_or_throw(x);
 
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadWrite);
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
@@ -88,7 +96,10 @@ void ContactSystem::start_step(Vector& d, const std::vector<char>& unheld, Vecto
     };
     double active = 0.0, nearest = std::numeric_limits<double>::max();
     for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
-      if (!pair.covered(s)) continue;
+      if (!pair.covered(s)) {
+        if (self.multiplier_of[p][s] >= 0) set(s, 0.0);  // it may just have handed over
+        continue;
+      }
       const double gap = pair.rows()[s].gap / pair.slave_nodes()[s].weight;
       bool closed = pair.closed(s, self.z_of(values, p, s));
       if (!closed && std::abs(gap) < touching * pair.size()) {

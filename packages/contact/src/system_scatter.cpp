@@ -6,7 +6,9 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <numeric>
 #include <stdexcept>
 
 #include "mortise/core/dof_map.hpp"
@@ -92,6 +94,55 @@ void receive(const Graph& remote, const Export& exporter, const RCP<const Map>& 
   }
 }
 
+// The bulk's columns, and after them those of `columns_of_node` that are not among them, ascending.
+RCP<const Map> widened_columns(const Graph& bulk, const std::map<GlobalOrdinal, Columns>& columns_of_node, const Map& owned_nodes) {
+  const Map& columns = *bulk.getColMap();
+  Columns further;
+  for (const auto& [node, more] : columns_of_node)
+    if (owned_nodes.isNodeGlobalElement(node))
+      std::copy_if(more.begin(), more.end(), std::back_inserter(further), [&](GlobalOrdinal id) { return !columns.isNodeGlobalElement(id); });
+  sort_unique(further);
+  const auto view = columns.getNodeElementList();
+  Columns ids(view.begin(), view.end());
+  ids.insert(ids.end(), further.begin(), further.end());
+  const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
+  return rcp(new const Map(invalid, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, columns.getComm()));
+}
+
+// The bulk's graph with `columns_of_node` in the rows of owned nodes. Rows are handed over whole and ascending, those of other nodes as they are.
+RCP<const Graph> widened(const Graph& bulk, const std::map<GlobalOrdinal, Columns>& columns_of_node, const Map& owned_nodes, int dimension) {
+  const RCP<const Map> dofs = bulk.getRowMap(), columns = widened_columns(bulk, columns_of_node, owned_nodes);
+  const auto rows = static_cast<LocalOrdinal>(dofs->getNodeNumElements());
+  const auto narrow = bulk.getLocalGraphHost();
+  std::map<LocalOrdinal, std::vector<LocalOrdinal>> wide;  // by row
+  for (const auto& [node, more] : columns_of_node) {
+    const LocalOrdinal owned = owned_nodes.getLocalElement(node);
+    if (owned < 0) continue;
+    for (LocalOrdinal row = dimension * owned; row < dimension * (owned + 1); ++row) {
+      std::vector<LocalOrdinal>& all = wide[row];
+      for (std::size_t k = narrow.row_map(row); k < narrow.row_map(row + 1); ++k) all.push_back(narrow.entries(k));
+      for (const GlobalOrdinal id : more) all.push_back(columns->getLocalElement(id));
+      std::sort(all.begin(), all.end());
+      all.erase(std::unique(all.begin(), all.end()), all.end());
+    }
+  }
+  Teuchos::ArrayRCP<std::size_t> starts(static_cast<std::size_t>(rows) + 1, 0);
+  for (LocalOrdinal row = 0; row < rows; ++row) starts[row + 1] = narrow.row_map(row + 1) - narrow.row_map(row);
+  for (const auto& [row, all] : wide) starts[row + 1] = all.size();
+  std::partial_sum(starts.begin(), starts.end(), starts.begin());
+  Teuchos::ArrayRCP<LocalOrdinal> entries(starts[rows]);
+  for (LocalOrdinal row = 0; row < rows; ++row) {
+    const auto found = wide.find(row);
+    if (found != wide.end())
+      std::copy(found->second.begin(), found->second.end(), entries.begin() + starts[row]);
+    else
+      std::copy(narrow.entries.data() + narrow.row_map(row), narrow.entries.data() + narrow.row_map(row + 1), entries.begin() + starts[row]);
+  }
+  const auto graph = rcp(new Graph(dofs, columns, starts, entries));
+  graph->expertStaticFillComplete(dofs, dofs);
+  return graph;
+}
+
 }  // namespace
 
 SystemScatter::SystemScatter(const RCP<const Map>& owned_nodes, const RCP<const Graph>& bulk, const std::vector<PairCoupling*>& pairs,
@@ -118,30 +169,7 @@ SystemScatter::SystemScatter(const RCP<const Map>& owned_nodes, const RCP<const 
     remote_vector_ = rcp(new Vector(remote->getRowMap()));
   }
 
-  const LocalOrdinal rows = static_cast<LocalOrdinal>(dofs->getNodeNumElements());
-  std::vector<std::size_t> sizes(rows);
-  std::map<LocalOrdinal, Columns> merged;  // rows that differ from the bulk's
-  for (const auto& [node, columns] : columns_of_node) {
-    const LocalOrdinal owned = owned_nodes->getLocalElement(node);
-    if (owned < 0) continue;
-    for (int i = 0; i < dimension; ++i) {
-      Columns all = bulk_columns(*bulk, dimension * owned + i);
-      all.insert(all.end(), columns.begin(), columns.end());
-      sort_unique(all);
-      merged[dimension * owned + i] = std::move(all);
-    }
-  }
-  for (LocalOrdinal row = 0; row < rows; ++row) sizes[row] = bulk->getNumEntriesInLocalRow(row);
-  for (const auto& [row, columns] : merged) sizes[row] = columns.size();
-
-  const auto graph = rcp(new Graph(dofs, Teuchos::arrayViewFromVector(sizes)));
-  for (LocalOrdinal row = 0; row < rows; ++row) {
-    const auto found = merged.find(row);
-    const Columns columns = found == merged.end() ? bulk_columns(*bulk, row) : found->second;
-    graph->insertGlobalIndices(dofs->getGlobalElement(row), static_cast<LocalOrdinal>(columns.size()), columns.data());
-  }
-  graph->fillComplete(dofs, dofs);
-  graph_ = graph;
+  graph_ = widened(*bulk, columns_of_node, *owned_nodes, dimension);
 
   const RCP<const Map> columns = graph_->getColMap();
   if (parallel_) {

@@ -21,6 +21,7 @@ class SystemScatter {
  public:
   /// Builds the graph of the condensed system: the bulk's rows; for each slave node s the columns of its own bulk row and of the nodes
   /// it is coupled to; the same columns in the rows of the nodes its multiplier loads (they receive the slave's row by condensation).
+  /// Its columns are the bulk's, followed by further ones.
   /// @param middles_first  whether there are multipliers that are condensed before those of corners, whose rows they widen, on any rank
   SystemScatter(const RCP<const Map>& owned_nodes, const RCP<const Graph>& bulk, const std::vector<PairCoupling*>& pairs, bool middles_first);
 

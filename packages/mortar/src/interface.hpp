@@ -33,6 +33,7 @@ class Interface final : public InterfaceImplementation {
   bool search(const MultiVector& x) override;
   void evaluate(const MultiVector& x, bool derivatives, std::vector<FacetCoupling>& couplings, std::vector<NodalNormal>& normals,
                 std::optional<StepFailure>& failure) override;
+  bool hand_over(const std::vector<double>& cover) override;
   std::vector<std::optional<double>> distances_to_master(const MultiVector& x, const std::vector<std::size_t>& nodes,
                                                          const std::vector<SpatialVector>& normals) override;
 
@@ -46,6 +47,7 @@ class Interface final : public InterfaceImplementation {
   Candidates find(const Positions<dim>& x, const std::vector<PlacedFacet<dim>>& placed_master, const Motion& motion) const;
   void number_nodes();
   void collect_met();
+  std::vector<double> on_facets(const std::vector<double>& owned) const;
   bool balance(const Positions<dim>& slave_x);
   std::size_t segments_of(SlaveFacetData& data, const std::vector<Facet<LocalOrdinal>>& candidates, const Positions<dim>& x, bool derivatives,
                           FacetCoupling& coupling);
@@ -70,6 +72,8 @@ class Interface final : public InterfaceImplementation {
   GuestFacets guests_;
   std::vector<FacetCoupling> guest_couplings_;                      ///< [guests]
   std::vector<std::size_t> segments_of_facet_, segments_of_guest_;  ///< [facets], [guests] of the last evaluation
+  RCP<const Import> to_facets_;                                     ///< from owned nodes to all nodes of the facets
+  std::vector<double> handed_over_;                                 ///< [nodes of the facets] 1 where so; empty before the first choice
   bool counted_ = false;                                            ///< there has been one
 };
 

@@ -178,8 +178,7 @@ void Interface<dim>::number_nodes() {
       for (const LocalOrdinal node : slave.facets[f]) {
         const auto& columns = slave.stencils[node].columns;
         coupled[s].insert(coupled[s].end(), columns.begin(), columns.end());
-        if (!slave.carries[node] || options_.coupling == Coupling::standard_mortar || slave.may_load(dim, f, slave.owned[s].local_node, node))
-          loaded[s].push_back(node);
+        if (options_.coupling == Coupling::standard_mortar || slave.may_load(dim, f, slave.owned[s].local_node, node)) loaded[s].push_back(node);
       }
       for (const auto& facet : candidates_[f]) loaded[s].insert(loaded[s].end(), facet.begin(), facet.end());
     }

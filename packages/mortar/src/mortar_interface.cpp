@@ -73,6 +73,7 @@ std::vector<std::optional<double>> MortarInterface::distances_to_master(const Mu
   return implementation_->distances_to_master(x, nodes, normals);
 }
 
+bool MortarInterface::hand_over(const std::vector<double>& cover) { return implementation_->hand_over(cover); }
 void MortarInterface::retain(std::vector<std::vector<GlobalOrdinal>> nodes) { implementation_->retained = std::move(nodes); }
 const RCP<const Map>& MortarInterface::local_nodes() const { return implementation_->local_nodes; }
 const std::vector<SlaveNode>& MortarInterface::slave_nodes() const { return implementation_->slave.owned; }

@@ -75,11 +75,12 @@ bool sound(const FacetPoints<3>& x) { return make_auxiliary_plane(x).has_value()
 }  // namespace
 
 bool SlaveSurface::may_load(int dimension, std::size_t facet, LocalOrdinal multiplier, LocalOrdinal node) const {
-  const NonNegativeBasis* basis = non_negative_basis(dimension, facets[facet].size());
-  if (basis == nullptr) return false;
   const auto place = [&](LocalOrdinal one) { return std::find(facets[facet].begin(), facets[facet].end(), one) - facets[facet].begin(); };
+  const auto share = multipliers[facet].share.row(place(multiplier));
+  const NonNegativeBasis* basis = non_negative_basis(dimension, facets[facet].size());
+  if (basis == nullptr) return share[place(node)] != 0.0;
   // D_jk = sum_i S_ji (int Ñ_i) (B^-1)_ki
-  return multipliers[facet].share.row(place(multiplier)).cwiseProduct(basis->to_shape.row(place(node))).any();
+  return share.cwiseProduct(basis->to_shape.row(place(node))).any();
 }
 
 template <int dim>

@@ -20,8 +20,7 @@ struct SlaveSurface {
   std::vector<FacetMultipliers> multipliers;        ///< [facets]
   std::vector<std::vector<std::size_t>> facets_of;  ///< [owned] facets that touch the node
 
-  /// Whether a dual multiplier may act on another node of a facet that carries one itself: the middle of an edge on its corners, and on those of
-  /// edges whose middle has no multiplier.
+  /// Whether a dual multiplier may act on a node of a facet: on those whose functions it has, the middle of an edge on corners too.
   bool may_load(int dimension, std::size_t facet, LocalOrdinal multiplier, LocalOrdinal node) const;
 };
 

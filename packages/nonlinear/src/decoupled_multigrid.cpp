@@ -7,6 +7,7 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
+#include <map>
 
 namespace mortise::detail {
 namespace {
@@ -27,6 +28,82 @@ Block diagonal_block(const Matrix& matrix, LocalOrdinal first, int dimension) {
     }
   }
   return block;
+}
+
+/// A - I for a matrix that is the identity but for the rows in which `marked` has entries; those alone are kept.
+RCP<Matrix> beyond_identity(const Matrix& A, const Matrix& marked) {
+  const auto local = A.getLocalMatrixHost();
+  const auto marks = marked.getLocalMatrixHost();
+  std::vector<std::size_t> sizes(static_cast<std::size_t>(local.numRows()), 0);
+  for (LocalOrdinal row = 0; row < local.numRows(); ++row)
+    if (marks.rowConst(row).length > 0) sizes[row] = static_cast<std::size_t>(local.rowConst(row).length) + 1;
+  const auto rows = A.getRowMap()->getLocalMap(), columns = A.getColMap()->getLocalMap();
+  const auto result = rcp(new Matrix(A.getRowMap(), Teuchos::arrayViewFromVector(sizes)));  // by global ids: A may have no column for its diagonal
+  for (LocalOrdinal row = 0; row < local.numRows(); ++row) {
+    if (sizes[row] == 0) continue;
+    const GlobalOrdinal id = rows.getGlobalElement(row);
+    const auto add = [&](GlobalOrdinal column, double value) { result->insertGlobalValues(id, 1, &value, &column); };
+    const auto entries = local.rowConst(row);
+    for (LocalOrdinal k = 0; k < entries.length; ++k) add(columns.getGlobalElement(entries.colidx(k)), entries.value(k));
+    add(id, -1.0);
+  }
+  result->fillComplete(A.getDomainMap(), A.getRangeMap());
+  return result;
+}
+
+RCP<Matrix> sum(const Matrix& A, const Matrix& B) { return Tpetra::MatrixMatrix::add(1.0, false, A, 1.0, false, B); }
+
+/// The columns of A, and after them those of B that are not among them. Collective.
+RCP<const Map> joint_columns(const Matrix& A, const Matrix& B) {
+  if (A.getComm()->getSize() == 1) return A.getColMap();
+  const auto own = A.getColMap()->getNodeElementList();
+  std::vector<GlobalOrdinal> ids(own.begin(), own.end());
+  for (const GlobalOrdinal id : B.getColMap()->getNodeElementList())
+    if (!A.getColMap()->isNodeGlobalElement(id)) ids.push_back(id);
+  const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
+  return rcp(new const Map(invalid, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, A.getComm()));
+}
+
+/// A + B, B with few entries, without entries of A that are 0, as those of prescribed rows and columns are. Collective.
+RCP<Matrix> sum_without_zeros(const Matrix& A, const Matrix& B) {
+  const RCP<const Map> columns = joint_columns(A, B);
+  const auto a = A.getLocalMatrixHost(), b = B.getLocalMatrixHost();
+  std::vector<LocalOrdinal> column_of_b(B.getColMap()->getNodeNumElements());
+  for (std::size_t c = 0; c < column_of_b.size(); ++c)
+    column_of_b[c] = columns->getLocalElement(B.getColMap()->getGlobalElement(static_cast<LocalOrdinal>(c)));
+  std::map<LocalOrdinal, double> both;
+  // Calls use(column, value) for the entries of a row, by ascending columns.
+  const auto visit = [&](LocalOrdinal row, const auto& use) {
+    const auto of_a = a.rowConst(row), of_b = b.rowConst(row);
+    both.clear();
+    for (LocalOrdinal k = 0; k < of_a.length; ++k) {
+      if (of_a.value(k) == 0.0) continue;
+      if (of_b.length == 0)
+        use(of_a.colidx(k), of_a.value(k));
+      else
+        both[of_a.colidx(k)] += of_a.value(k);
+    }
+    for (LocalOrdinal k = 0; k < of_b.length; ++k) both[column_of_b[of_b.colidx(k)]] += of_b.value(k);
+    for (const auto& [column, value] : both) use(column, value);
+  };
+  const auto rows = static_cast<std::size_t>(a.numRows());
+  Matrix::local_graph_device_type::row_map_type::non_const_type starts("starts", rows + 1);
+  for (std::size_t row = 0; row < rows; ++row) {
+    std::size_t size = 0;
+    visit(static_cast<LocalOrdinal>(row), [&](LocalOrdinal, double) { ++size; });
+    starts(row + 1) = starts(row) + size;
+  }
+  Matrix::local_graph_device_type::entries_type::non_const_type entries("entries", starts(rows));
+  Matrix::local_matrix_device_type::values_type values("values", starts(rows));
+  std::size_t next = 0;
+  for (std::size_t row = 0; row < rows; ++row)
+    visit(static_cast<LocalOrdinal>(row), [&](LocalOrdinal column, double value) {
+      entries(next) = column;
+      values(next++) = value;
+    });
+  const auto result = rcp(new Matrix(A.getRowMap(), columns, starts, entries, values));
+  result->expertStaticFillComplete(A.getDomainMap(), A.getRangeMap());
+  return result;
 }
 
 }  // namespace
@@ -53,13 +130,13 @@ DecoupledSystem::DecoupledSystem(const Matrix& A, const Decoupling& decoupling, 
   inner->fillComplete(dofs, dofs);
   inverse_->fillComplete(dofs, dofs);
 
-  Matrix both(dofs, 0);
-  {
-    Matrix right(dofs, 0);
-    Tpetra::MatrixMatrix::Multiply(A, false, *decoupling.trial, false, right);
-    Tpetra::MatrixMatrix::Multiply(*decoupling.test, true, right, false, both);
-  }
-  matrix_ = Tpetra::MatrixMatrix::add(1.0, false, both, 1.0, false, *inner);
+  // L' A S' = A + A (S' - I) + (L' - I) A + (L' - I) A (S' - I): what is added has entries near the contact alone.
+  const RCP<Matrix> trial = beyond_identity(*decoupling.trial, *inverse_), test = beyond_identity(*decoupling.test, *inverse_);
+  Matrix by_trial(dofs, 0), by_test(dofs, 0), by_both(dofs, 0);
+  Tpetra::MatrixMatrix::Multiply(*columns_of_relative_motion(A), false, *trial, false, by_trial);
+  Tpetra::MatrixMatrix::Multiply(*test, true, A, false, by_test);
+  Tpetra::MatrixMatrix::Multiply(*test, true, by_trial, false, by_both);
+  matrix_ = sum_without_zeros(A, *sum(*sum(by_trial, by_test), *sum(by_both, *inner)));
 }
 
 RCP<const Matrix> DecoupledSystem::columns_of_relative_motion(const Matrix& A) const {
@@ -72,17 +149,21 @@ RCP<const Matrix> DecoupledSystem::columns_of_relative_motion(const Matrix& A) c
   column_marks.doImport(marks, Import(A.getDomainMap(), A.getColMap()), Tpetra::INSERT);
   const auto is_marked = column_marks.getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto local = A.getLocalMatrixHost();
-  const auto kept = [&](LocalOrdinal row, const auto& use) {
-    const auto entries = local.rowConst(row);
-    for (LocalOrdinal k = 0; k < entries.length; ++k)
-      if (is_marked(entries.colidx(k), 0) != 0.0) use(entries.colidx(k), entries.value(k));
-  };
-  std::vector<std::size_t> sizes(static_cast<std::size_t>(local.numRows()), 0);
-  for (LocalOrdinal row = 0; row < local.numRows(); ++row) kept(row, [&](LocalOrdinal, double) { ++sizes[row]; });
-  const auto result = rcp(new Matrix(A.getRowMap(), A.getColMap(), Teuchos::arrayViewFromVector(sizes)));
-  for (LocalOrdinal row = 0; row < local.numRows(); ++row)
-    kept(row, [&](LocalOrdinal column, double value) { result->insertLocalValues(row, 1, &value, &column); });
-  result->fillComplete(A.getDomainMap(), A.getRangeMap());
+  const auto rows = static_cast<std::size_t>(local.numRows());
+  Teuchos::ArrayRCP<std::size_t> starts(rows + 1, 0);
+  std::vector<LocalOrdinal> columns;
+  std::vector<double> values;
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t k = local.graph.row_map(row); k < local.graph.row_map(row + 1); ++k)
+      if (const LocalOrdinal column = local.graph.entries(k); is_marked(column, 0) != 0.0) {
+        columns.push_back(column);
+        values.push_back(local.values(k));
+      }
+    starts[row + 1] = columns.size();
+  }
+  const auto result = rcp(new Matrix(A.getRowMap(), A.getColMap(), starts, Teuchos::arcpClone<LocalOrdinal>(Teuchos::arrayViewFromVector(columns)),
+                                     Teuchos::arcpClone<double>(Teuchos::arrayViewFromVector(values))));
+  result->expertStaticFillComplete(A.getDomainMap(), A.getRangeMap());
   return result;
 }
 

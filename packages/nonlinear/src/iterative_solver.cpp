@@ -39,7 +39,9 @@ Teuchos::ParameterList muelu_defaults(int equations, GlobalOrdinal rows, int ran
   // The coarse solver is KLU2, which is right on one rank only: all coarse levels but very large ones go to one rank, and there is always
   // one.
   list.set("coarse: max size", static_cast<int>(ranks == 1 ? 2000 : std::clamp<GlobalOrdinal>(rows / 5, 1, 2000)));
-  if (ranks > 1) {
+  if (ranks == 1) {
+    list.set("transpose: use implicit", true);  // no restriction is stored beside the prolongator; repartitioning needs it
+  } else {
     list.set("repartition: enable", true);
     list.set("repartition: partitioner", "zoltan2");
     list.set("repartition: start level", 1);
@@ -48,14 +50,17 @@ Teuchos::ParameterList muelu_defaults(int equations, GlobalOrdinal rows, int ran
   return list;
 }
 
-Teuchos::ParameterList belos_defaults(const LinearSolverOptions& options, double tolerance) {
+Teuchos::ParameterList belos_defaults(const LinearSolverOptions& options, double tolerance, int basis) {
   Teuchos::ParameterList list("Belos");
   list.set("Convergence Tolerance", tolerance);
   list.set("Maximum Iterations", options.maximum_iterations);
-  list.set("Num Blocks", std::min(options.maximum_iterations, 200));
+  list.set("Num Blocks", std::min(options.maximum_iterations, basis));
   list.set("Verbosity", 0);
   return list;
 }
+
+/// Vectors that GMRES keeps, allocated at its start, before it restarts: for the first systems, and from one on that took more.
+constexpr int small_basis = 50, large_basis = 200;
 
 /// What stands for 0 in a rigid body mode, as a share of its largest entry.
 constexpr double vanishing = 1e-14;
@@ -186,7 +191,7 @@ class IterativeSolver : public LinearSolver {
     const auto problem = rcp(new LinearProblem(matrix_, rcp(&x, false), rcp(&b, false)));
     problem->setRightPrec(preconditioner);
     if (!problem->setProblem()) throw std::runtime_error("Belos refuses the linear problem");
-    const auto list = rcp(new Teuchos::ParameterList(belos_defaults(options_, tolerance_)));
+    const auto list = rcp(new Teuchos::ParameterList(belos_defaults(options_, tolerance_, basis_)));
     list->setParameters(options_.belos.value);
     const double digits = -std::log10(tolerance_), expected = digits * fresh_iterations_per_digit_;
     if (!is_fresh_)
@@ -196,6 +201,7 @@ class IterativeSolver : public LinearSolver {
     gmres->setProblem(problem);
     converged_ = gmres->solve() == Belos::Converged;
     const int iterations = gmres->getNumIters();
+    if (iterations > basis_) basis_ = large_basis;
     if (is_fresh_) fresh_iterations_per_digit_ = std::max(fresh_iterations_per_digit_, iterations / digits);
     is_worn_ = iterations > 1.5 * digits * fresh_iterations_per_digit_ + fewest_extra_iterations;
     return iterations;
@@ -209,7 +215,7 @@ class IterativeSolver : public LinearSolver {
   std::function<NearNullSpace()> near_null_space_;
   RCP<const Operator> preconditioner_;
   std::shared_ptr<const DecoupledSystem> decoupled_;  ///< null: the matrix is taken as it is
-  int setups_ = 0;
+  int setups_ = 0, basis_ = small_basis;
   bool is_fresh_ = false, is_worn_ = false, converged_ = false;  ///< the hierarchy: made for this matrix, not to be kept for the next; the last solve
   double fresh_iterations_per_digit_ = 0.0;                      ///< of the residual, with the matrix that the hierarchy was made for
 };
@@ -225,7 +231,7 @@ void check_lists(const LinearSolverOptions& options, const RCP<const Communicato
     found.push_back({options.muelu.place, error.what()});
   }
   try {
-    const auto list = rcp(new Teuchos::ParameterList(belos_defaults(options, options.tolerance)));
+    const auto list = rcp(new Teuchos::ParameterList(belos_defaults(options, options.tolerance, small_basis)));
     list->setParameters(options.belos.value);
     Belos::TpetraSolverFactory<Scalar, MultiVector, Operator> factory;
     const auto gmres = factory.create("GMRES", Teuchos::null);

@@ -39,34 +39,6 @@ bool same_entries(const Graph& a, const Graph& b) {
   return everywhere != 0;
 }
 
-ValueCopy::ValueCopy(const Graph& from, const Graph& to) {
-  const auto source = from.getLocalGraphHost(), target = to.getLocalGraphHost();
-  const auto source_columns = from.getColMap()->getLocalMap(), target_columns = to.getColMap()->getLocalMap();
-  std::vector<LocalOrdinal> column(source_columns.getNodeNumElements());
-  for (std::size_t c = 0; c < column.size(); ++c)
-    column[c] = target_columns.getLocalElement(source_columns.getGlobalElement(static_cast<LocalOrdinal>(c)));
-  std::vector<std::size_t> place(target_columns.getNodeNumElements());
-  const std::size_t nowhere = target.entries.extent(0);
-  std::fill(place.begin(), place.end(), nowhere);
-  offsets_.resize(source.entries.extent(0));
-  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(source.numRows()); ++row) {
-    for (std::size_t k = target.row_map(row); k < target.row_map(row + 1); ++k) place[target.entries(k)] = k;
-    for (std::size_t k = source.row_map(row); k < source.row_map(row + 1); ++k) {
-      const LocalOrdinal c = column[source.entries(k)];
-      offsets_[k] = c < 0 ? nowhere : place[c];
-      if (offsets_[k] == nowhere) throw std::logic_error("the system's graph does not hold an entry of the bulk's");
-    }
-    for (std::size_t k = target.row_map(row); k < target.row_map(row + 1); ++k) place[target.entries(k)] = nowhere;
-  }
-}
-
-void ValueCopy::apply(const Matrix& from, Matrix& to) const {
-  to.setAllToScalar(0.0);
-  const auto source = from.getLocalMatrixHost().values;
-  const auto target = to.getLocalMatrixHost().values;
-  for (std::size_t k = 0; k < offsets_.size(); ++k) target(offsets_[k]) = source(k);
-}
-
 DirichletElimination::DirichletElimination(const Graph& graph, const std::vector<LocalOrdinal>& rows) : rows_(rows) {
   const auto flags = rcp(new Vector(graph.getRowMap()));
   for (const LocalOrdinal row : rows) flags->replaceLocalValue(row, 1.0);

@@ -14,18 +14,6 @@ bool same_values(const Vector& a, const Vector& b);
 /// Whether two graphs have the same entries in the same order, on every rank. Collective.
 bool same_entries(const Graph& a, const Graph& b);
 
-/// Copies the values of a matrix into one whose graph holds all entries of the first one's.
-class ValueCopy {
- public:
-  /// @throws std::logic_error if an entry of `from` has no place in `to`
-  ValueCopy(const Graph& from, const Graph& to);
-  /// to = from where from has entries, 0 elsewhere. `to` is open for changes.
-  void apply(const Matrix& from, Matrix& to) const;
-
- private:
-  std::vector<std::size_t> offsets_;  ///< [entries of from] in the values of `to`
-};
-
 /// Prescribed increments in a linear system, by rows and by columns, so that what was symmetric stays so.
 class DirichletElimination {
  public:

@@ -57,21 +57,21 @@ LinearSolveReport SemiSmoothSystem::Implementation::solve_reduced(const RCP<Matr
 //   ( C_d   C_z ) dz = -C    with the rows of C as forces, A_j C.   With followers dd = T dq + d0 the first rows are multiplied by T^T.
 LinearSolveReport SemiSmoothSystem::Implementation::solve_saddle_point(const Vector& d, const Vector& z, const Vector& r, const Vector& C,
                                                                        const Vector& increment, Vector& dd, Vector& dz) {
-  prepare_system();
-  parts.contact->add_stiffness(z, *system);
-  system->fillComplete(parts.dofs, parts.dofs);
+  open_matrix();
+  parts.contact->add_stiffness(z, *matrix);
+  matrix->fillComplete(parts.dofs, parts.dofs);
   const ContactSystem::SaddlePointBlocks blocks = parts.contact->saddle_point_blocks(z);
   const RCP<const Vector> weights = parts.contact->weights();
   Vector rhs_d(r, Teuchos::Copy), rhs_z(C, Teuchos::Copy), start(parts.dofs);
   rhs_d.scale(-1.0);
-  RCP<const Matrix> K = system, B = blocks.B, C_d = blocks.C_d;
+  RCP<const Matrix> K = matrix, B = blocks.B, C_d = blocks.C_d;
   RCP<const Vector> q_rhs = rcp(&rhs_d, false), q_increment = rcp(&increment, false);
   std::vector<LocalOrdinal> prescribed = fixed;
   if (reduction) {
     reduction->deviation(d, -1.0, start);
-    system->apply(start, rhs_d, Teuchos::NO_TRANS, -1.0, 1.0);
+    matrix->apply(start, rhs_d, Teuchos::NO_TRANS, -1.0, 1.0);
     blocks.C_d->apply(start, rhs_z, Teuchos::NO_TRANS, 1.0, 1.0);
-    K = reduction->reduced(*system, r);
+    K = reduction->reduced(*matrix, r);
     B = reduction->reduced_rows(*blocks.B);
     C_d = reduction->reduced_columns(*blocks.C_d);
     prescribed = reduction->places(fixed);
@@ -79,14 +79,14 @@ LinearSolveReport SemiSmoothSystem::Implementation::solve_saddle_point(const Vec
     q_increment = reduction->unknown_part(increment);
   }
   rhs_z.elementWiseMultiply(-1.0, *weights, Vector(rhs_z, Teuchos::Copy), 0.0);
-  const RCP<Matrix> matrix = saddle_point->merged(*K, *B, *C_d, *blocks.C_z, *weights);
-  match_elimination(matrix->getCrsGraph(), prescribed);
-  matrix->resumeFill();
+  const RCP<Matrix> merged = saddle_point->merged(*K, *B, *C_d, *blocks.C_z, *weights);
+  match_elimination(merged->getCrsGraph(), prescribed);
+  merged->resumeFill();
   const RCP<Vector> rhs = saddle_point->merged(*q_rhs, rhs_z), fixed_increment = saddle_point->merged(*q_increment, Vector(multipliers));
-  Vector x(matrix->getRowMap());
+  Vector x(merged->getRowMap());
   const LinearSolveReport report = [&] {
     try {
-      return solve(matrix, prescribed, *fixed_increment, *rhs, {}, x);
+      return solve(merged, prescribed, *fixed_increment, *rhs, {}, x);
     } catch (const StepFailure& failure) {  // on every rank
       bool two_passes = false;
       for (std::size_t pair = 0; pair < parts.contact->pairs(); ++pair) two_passes |= parts.contact->second_pass(pair).has_value();
@@ -130,18 +130,16 @@ LinearSolveReport SemiSmoothSystem::newton_direction(const Vector& F, Vector& di
   Vector rhs(r, Teuchos::Copy);
   rhs.scale(-1.0);
 
-  RCP<Matrix> matrix = self.bulk;
+  const RCP<Matrix>& matrix = self.matrix;
   if (parts.contact) {  // -r without f_c
     self.contact_force.putScalar(0.0);
     parts.contact->add_contact_force(*z, self.contact_force);
     rhs.update(1.0, self.contact_force, 1.0);
-    self.prepare_system();
-    parts.contact->add_stiffness(*z, *self.system);
-    parts.contact->condense(*z, *self.system, rhs);
-    matrix = self.system;
+    self.open_matrix();
+    parts.contact->add_stiffness(*z, *matrix);
+    parts.contact->condense(*z, *matrix, rhs);
   } else if (!self.reduction) {
-    matrix->resumeFill();
-    self.bulk_is_eliminated = true;
+    self.open_matrix();
   }
 
   const auto near_null_space = [&] {

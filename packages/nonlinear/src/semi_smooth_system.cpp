@@ -49,11 +49,11 @@ void SemiSmoothSystem::set_time(double time) {
 void SemiSmoothSystem::residual(const Vector& x, Vector& F, ResidualNorms& norms) {
   Implementation& self = *implementation_;
   const RCP<const Vector> d = displacement(x), z = multipliers(x);
-  if (self.stiffness_scale == 0.0) self.assemble_bulk(*d);
   self.evaluate_bulk(*d);
   norms = {};
   const RCP<Vector> r = displacement(F);
   if (self.parts.contact) self.evaluate_contact(*d, true);
+  if (self.stiffness_scale == 0.0) self.assemble_bulk(*d);
   self.sum_forces(*d, *z, *r);
   double force = std::max(self.internal.norm2(), self.external.norm2());
   double other = 0.0, violation = 0.0;
@@ -137,11 +137,11 @@ void SemiSmoothSystem::jacobian(const Vector& x) {
   Implementation& self = *implementation_;
   const RCP<const Vector> d = displacement(x);
   self.jacobian_at = Teuchos::null;
-  self.assemble_bulk(*d);
   if (self.parts.contact) {
     self.evaluate_contact(*d, true);
     self.parts.contact->mark_states(*multipliers(x));
   }
+  self.assemble_bulk(*d);
   self.jacobian_at = rcp(new Vector(x, Teuchos::Copy));
 }
 
@@ -153,17 +153,17 @@ void SemiSmoothSystem::apply(const Vector& v, Vector& y) const {
   const RCP<Vector> y_d = displacement(y);
   if (self.parts.contact) {
     const RCP<const Vector> z = multipliers(*self.jacobian_at);
-    self.prepare_system();
-    self.parts.contact->add_stiffness(*z, *self.system);
-    self.system->fillComplete(self.parts.dofs, self.parts.dofs);
+    self.open_matrix();
+    self.parts.contact->add_stiffness(*z, *self.matrix);
+    self.matrix->fillComplete(self.parts.dofs, self.parts.dofs);
     const auto blocks = self.parts.contact->saddle_point_blocks(*z);
     const RCP<Vector> y_z = multipliers(y);
-    self.system->apply(*v_d, *y_d);
+    self.matrix->apply(*v_d, *y_d);
     blocks.B->apply(*v_z, *y_d, Teuchos::NO_TRANS, 1.0, 1.0);
     blocks.C_d->apply(*v_d, *y_z);
     blocks.C_z->apply(*v_z, *y_z, Teuchos::NO_TRANS, 1.0, 1.0);
   } else {
-    self.bulk->apply(*v_d, *y_d);
+    self.matrix->apply(*v_d, *y_d);
   }
   if (self.reduction) {
     const RCP<const Vector> d = displacement(*self.jacobian_at);

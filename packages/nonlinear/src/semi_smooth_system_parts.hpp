@@ -32,10 +32,8 @@ struct SemiSmoothSystem::Implementation {
   Vector internal, external, contact_force, local_displacement;
   double stiffness_scale = 0.0;  // s; 0: not known yet
 
-  RCP<Matrix> bulk;                         // K; without contact it is the system's matrix as well
-  bool bulk_is_eliminated = false;          // its prescribed rows and columns are those of the linear system
-  RCP<Matrix> system;                       // K + C~, condensed
-  std::unique_ptr<detail::ValueCopy> copy;  // bulk -> system
+  RCP<Matrix> matrix;         // K; a linear solve turns it into K + C~, condensed, its prescribed rows and columns eliminated
+  bool is_stiffness = false;  // it is K, at the displacement of the last assembly
   std::unique_ptr<detail::DirichletElimination> elimination;
   bool graph_changed = true;  // since the linear solver saw it
   double tolerance = 0.0;     // of the linear solve under way
@@ -62,12 +60,9 @@ struct SemiSmoothSystem::Implementation {
       map = detail::map_of_both(*parts.dofs, *multipliers);
     }
     if (parts.prescribed) fixed = parts.prescribed->dofs();
-    bulk = rcp(new Matrix(parts.bulk_graph));
-    bulk->fillComplete(parts.dofs, parts.dofs);
     if (parts.dependent) reduction = std::make_unique<detail::Reduction>(parts.dependent, parts.dofs, parts.local_dofs);
     if (parts.contact && parts.contact->keeps_multipliers())
       saddle_point = std::make_unique<detail::SaddlePointMatrix>(reduction ? reduction->unknowns() : parts.dofs, multipliers);
-    if (!parts.contact && !reduction) elimination = std::make_unique<detail::DirichletElimination>(*parts.bulk_graph, fixed);
   }
 
   const Communicator& comm() const { return *parts.dofs->getComm(); }
@@ -112,35 +107,46 @@ struct SemiSmoothSystem::Implementation {
     if (derivatives) contact_at = rcp(new Vector(displacement, Teuchos::Copy));
   }
 
+  // A matrix with the bulk's graph, or with the larger one that the current candidates of contact ask for.
+  void match_graph() {
+    bool changed = matrix.is_null();
+    RCP<const Graph> graph = parts.bulk_graph;
+    if (parts.contact) {
+      bool other_candidates = false;
+      graph = parts.contact->system_graph(parts.bulk_graph, other_candidates);
+      changed |= other_candidates;
+    }
+    if (!changed) return;
+    matrix = rcp(new Matrix(graph));
+    matrix->fillComplete(parts.dofs, parts.dofs);
+    is_stiffness = false;
+    graph_changed = true;
+    if (!reduction && !saddle_point) elimination = std::make_unique<detail::DirichletElimination>(*graph, fixed);
+  }
+
+  // The contact is evaluated at `displacement`.
   void assemble_bulk(const Vector& displacement) {
     const Configuration at = configuration(displacement);
-    bulk->resumeFill();
-    bulk->setAllToScalar(0.0);
+    match_graph();
+    is_stiffness = false;
+    matrix->resumeFill();
+    matrix->setAllToScalar(0.0);
     std::optional<StepFailure> failure;
-    for (const auto& contribution : parts.contributions) contribution->add_jacobian(at, *bulk, failure);
-    bulk->fillComplete(parts.dofs, parts.dofs);
-    bulk_is_eliminated = false;
+    for (const auto& contribution : parts.contributions) contribution->add_jacobian(at, *matrix, failure);
+    matrix->fillComplete(parts.dofs, parts.dofs);
     throw_if_any(comm(), failure);
+    is_stiffness = true;
     if (stiffness_scale > 0.0) return;
     Vector diagonal(parts.dofs);
-    bulk->getLocalDiagCopy(diagonal);
+    matrix->getLocalDiagCopy(diagonal);
     const double mean = diagonal.norm1() / std::max<double>(1.0, static_cast<double>(diagonal.getGlobalLength()));
     stiffness_scale = mean > 0.0 && std::isfinite(mean) ? mean : 1.0;
   }
 
-  // The graph of the condensed system at the current candidates of contact.
-  void prepare_system() {
-    bool changed = false;
-    const RCP<const Graph> graph = parts.contact->system_graph(parts.bulk_graph, changed);
-    if (changed || system.is_null()) {
-      system = rcp(new Matrix(graph));
-      copy = std::make_unique<detail::ValueCopy>(*parts.bulk_graph, *graph);
-      if (!reduction && !saddle_point) elimination = std::make_unique<detail::DirichletElimination>(*graph, fixed);
-      graph_changed = true;
-    } else {
-      system->resumeFill();
-    }
-    copy->apply(*bulk, *system);
+  // Opens the matrix, which is K, for what makes it something else.
+  void open_matrix() {
+    is_stiffness = false;
+    matrix->resumeFill();
   }
 
   LinearSolveReport solve(const RCP<Matrix>& matrix, const std::vector<LocalOrdinal>& prescribed, const Vector& increment, Vector& rhs,
@@ -154,8 +160,9 @@ struct SemiSmoothSystem::Implementation {
   void evaluate_at_jacobian() {
     if (jacobian_at.is_null()) throw std::logic_error("SemiSmoothSystem: jacobian() comes first");
     const auto displacement = d(*jacobian_at);
-    if (bulk_is_eliminated) assemble_bulk(*displacement);
     if (parts.contact) evaluate_contact(*displacement, true);
+    match_graph();
+    if (!is_stiffness) assemble_bulk(*displacement);
   }
 };
 

@@ -80,6 +80,7 @@ void Bodies::add_stiffness(const Vector& local_displacement, Matrix& matrix, std
   const HostReadView displacement(local_displacement);
   const NodalSparsity::Values values = sparsity_->open(matrix);
   for (const auto& block : blocks_) block->add_stiffness(displacement.data(), values, failure);
+  values.close();
 }
 
 void Bodies::commit(const Vector& local_displacement) {

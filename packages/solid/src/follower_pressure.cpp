@@ -57,6 +57,7 @@ class FollowerPressure final : public Load {
       }
       positions += nodes * nodes;
     }
+    values.close();
   }
 
  private:

@@ -2,6 +2,7 @@
 
 #include <Tpetra_CrsGraph.hpp>
 #include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Map.hpp>
 #include <algorithm>
 #include <stdexcept>
 
@@ -39,6 +40,15 @@ struct ElementsAroundNodes {
     }
   }
 };
+
+bool begins_with(const Map& columns, const Map& first) {
+  if (&columns == &first) return true;
+  const auto local = columns.getLocalMap(), local_first = first.getLocalMap();
+  if (local.getNodeNumElements() < local_first.getNodeNumElements()) return false;
+  for (LocalOrdinal c = 0; c < static_cast<LocalOrdinal>(local_first.getNodeNumElements()); ++c)
+    if (local.getGlobalElement(c) != local_first.getGlobalElement(c)) return false;
+  return true;
+}
 
 }  // namespace
 
@@ -81,13 +91,40 @@ LocalOrdinal NodalSparsity::position(LocalOrdinal row, LocalOrdinal column) cons
 }
 
 NodalSparsity::Values NodalSparsity::open(Matrix& matrix) const {
-  // Same sizes and sorted, merged rows mean the same layout: all graphs of a system hold the bulk's pattern or more.
   const auto graph = matrix.getCrsGraph();
-  if (graph.get() != graph_.get() &&
-      (graph->getNodeNumRows() != graph_->getNodeNumRows() || graph->getNodeNumEntries() != row_starts_.back() || !graph->isSorted()))
-    throw std::logic_error("a matrix was handed to the bulk that does not have the bulk's graph");
+  if (graph->getNodeNumRows() + 1 != row_starts_.size() || !graph->isSorted() || !begins_with(*graph->getColMap(), *graph_->getColMap()))
+    throw std::logic_error("a matrix was handed to the bulk that does not have the bulk's rows and columns");
   const auto local = matrix.getLocalMatrixHost();
-  return {local.values.data(), row_starts_.data()};
+  Values values(matrix, *graph_);
+  // Sorted rows of the same size have the same entries, as no row lacks one of the bulk's.
+  const LocalOrdinal rows = local.numRows();
+  std::size_t gathered = 0;
+  for (LocalOrdinal row = 0; row < rows; ++row) {
+    const std::size_t size = row_starts_[row + 1] - row_starts_[row], entries = local.graph.row_map(row + 1) - local.graph.row_map(row);
+    if (entries < size) throw std::logic_error("a matrix was handed to the bulk that lacks entries of the bulk's graph");
+    if (entries == size) continue;
+    values.wider_.push_back(row);
+    gathered += size;
+  }
+  values.gathered_.assign(gathered, 0.0);
+  values.rows_.resize(rows);
+  for (LocalOrdinal row = 0; row < rows; ++row) values.rows_[row] = local.values.data() + local.graph.row_map(row);
+  double* next = values.gathered_.data();
+  for (const LocalOrdinal row : values.wider_) {
+    values.rows_[row] = next;
+    next += row_starts_[row + 1] - row_starts_[row];
+  }
+  return values;
+}
+
+void NodalSparsity::Values::close() const {
+  for (const LocalOrdinal row : wider_) {
+    Graph::local_inds_host_view_type columns;
+    narrow_.getLocalRowView(row, columns);
+    const auto count = static_cast<LocalOrdinal>(columns.extent(0));
+    if (matrix_.sumIntoLocalValues(row, count, rows_[row], columns.data()) != count)
+      throw std::logic_error("a matrix was handed to the bulk that lacks entries of the bulk's graph");
+  }
 }
 
 }  // namespace mortise

@@ -10,6 +10,7 @@ namespace mortise {
 namespace {
 
 using test::Fixture;
+using test::hardly_covered;
 using test::TwoSurfaces;
 
 double wiggle(GlobalOrdinal id) { return std::sin(12.9898 * static_cast<double>(id) + 0.7); }
@@ -51,6 +52,9 @@ void add_quadratic(std::vector<Case>& all) {
   add("space, corner fixed", dome, false, 0.12)->fixed[5] = everything;
   add("space, middle fixed", dome, false, 0.12)->fixed[20] = everything;
   add("space, triangles, middle fixed", faceted, false, {})->fixed[20] = everything;
+  add("space, hardly covered", hardly_covered(dome), true, {});
+  add("space, hardly covered, coulomb", hardly_covered(dome), false, 0.12);
+  add("space, hardly covered, triangles", hardly_covered(faceted), false, 0.12);
   for (const test::NamedFormulation& formulation : test::other_formulations()) {
     if (formulation.options->coupling() == Coupling::node_to_segment) continue;
     add("plane, " + formulation.name, arch, true, 0.12)->options.formulation.options = formulation.options;
@@ -100,6 +104,7 @@ std::vector<Case> cases() {
     else
       all.push_back({"space, " + name, {}});
     TwoSurfaces surfaces = test::dome_on_waves(triangles);
+    if (name.find("hardly covered") != std::string::npos) surfaces = hardly_covered(surfaces);
     surfaces.options = all.back().surfaces.options;
     all.back().surfaces = surfaces;
     return &all.back().surfaces;
@@ -119,6 +124,11 @@ std::vector<Case> cases() {
   add_in_space("coulomb, symmetry edge", 0.12)->fixed[0] = {true, true, false};
   add_in_space("coulomb, crosspoint", 0.12)->fixed[5] = {true, true, true};
   add_in_space("coulomb, reference", 0.12)->options.geometry = ContactGeometry::reference;
+  add_in_space("hardly covered", {});
+  add_in_space("hardly covered, coulomb", 0.12);
+  add_in_space("hardly covered, coulomb, high", 3.0);
+  add_in_space("hardly covered, triangles", 0.12, true);
+  add_in_space("hardly covered, symmetry plane", 0.12)->fixed[2] = {false, true, false};
   add_quadratic(all);
   for (const test::NamedFormulation& formulation : test::other_formulations()) {
     if (formulation.options->coupling() == Coupling::node_to_segment) continue;
@@ -210,6 +220,12 @@ TEST_P(Linearisation, AgreesWithCentralDifferences) {
   const ContactNorms norms = contact.norms(*z);
   EXPECT_GT(norms.active, 0);
   EXPECT_LT(norms.active, static_cast<int>(one.surfaces.slave.size()));
+  if (one.name.find("hardly covered") != std::string::npos)
+    for (const ContactNodeState& node : contact.node_states(0, *z))
+      if (node.node == 3 || node.node == 7) {
+        EXPECT_EQ(node.covered, 0.0);
+        EXPECT_FALSE(node.closed);
+      }
   if (one.name.find("mixed") != std::string::npos) {
     EXPECT_GT(norms.sticking, 0);
     EXPECT_LT(norms.sticking, norms.active);
@@ -345,34 +361,6 @@ TEST(ReferenceGeometry, GapIsTheTransposeOfTheForce) {
     EXPECT_LE((C_d.row(j).transpose() + factor * push).norm(), 1e-13 * C_d.row(j).norm());
   }
   EXPECT_GE(closed, 4);
-}
-
-TEST(StartRule, ClosesNodesThatTouchAndSeedsUnheldBodies) {
-  TwoSurfaces flat;
-  for (int i = 0; i < 5; ++i) flat.slave.push_back({1.0 * i, 0.0, 0.0});
-  for (int i = 0; i < 4; ++i) flat.master.push_back({4.0 * (3 - i) / 3.0, 0.0, 0.0});
-  flat.fixed.assign(flat.size(), {});
-  Fixture fixture(flat, Tpetra::getDefaultComm());
-  const std::vector<char> held(fixture.nodes->getNodeNumElements(), 0), unheld(held.size(), 1);
-  Vector d(fixture.dofs), z(fixture.contact->multiplier_map());
-  fixture.contact->start_step(d, held, z);
-  EXPECT_EQ(fixture.contact->norms(z).active, 5);
-
-  // Lifted by 0.05 h: nothing touches; only a body that nothing else holds is seeded.
-  const GlobalOrdinal slave_dofs = 10;
-  const auto lifted = Fixture::vector(fixture.dofs, [&](GlobalOrdinal id) { return id < slave_dofs && id % 2 == 1 ? 0.05 : 0.0; });
-  z.putScalar(0.0);
-  fixture.contact->start_step(*lifted, held, z);
-  EXPECT_EQ(fixture.contact->norms(z).active, 0);
-  fixture.contact->start_step(*lifted, unheld, z);
-  EXPECT_EQ(fixture.contact->norms(z).active, 5);
-
-  // Tilted and lifted beyond 0.1 h: at least the nearest node.
-  const auto tilted = Fixture::vector(fixture.dofs, [&](GlobalOrdinal id) { return id < slave_dofs && id % 2 == 1 ? 0.2 + 0.02 * id : 0.0; });
-  z.putScalar(0.0);
-  fixture.contact->start_step(*tilted, unheld, z);
-  EXPECT_GE(fixture.contact->norms(z).active, 1);
-  EXPECT_LE(fixture.contact->norms(z).active, 2);
 }
 
 TEST(SharedNodes, AreRefused) {

@@ -223,6 +223,24 @@ TEST(Iterative, SolvesInAboutAsManyIterationsOnFinerGrids) {
   EXPECT_LE(iterations[1], 2 * iterations[0]);
 }
 
+// The tolerance of a solve is used where it is looser than that of the options: fewer iterations, and a residual that keeps to it.
+TEST(Iterative, StopsAtTheToleranceOfTheSolve) {
+  const auto grid = std::make_shared<SpringGrid>(Tpetra::getDefaultComm(), 48, 48, Numbering::blocks);
+  const auto matrix = stiffness(grid, true);
+  const auto b = loads(*grid);
+  const auto solver = solver_of(Kind::iterative, 1e-10);
+  solver->set_matrix(matrix, true, [&] { return grid->near_null_space(); });
+  std::vector<int> iterations;
+  for (const double tolerance : {1e-2, 1e-10}) {
+    SCOPED_TRACE(tolerance);
+    Vector x(grid->dofs);
+    iterations.push_back(solver->solve(*b, x, tolerance).iterations);
+    EXPECT_LE(true_residual(*matrix, *b, x), 10.0 * tolerance);
+  }
+  EXPECT_GT(iterations[0], 0);
+  EXPECT_LT(iterations[0], iterations[1]);
+}
+
 TEST(Iterative, WorksWithoutCoordinatesAndModes) {
   const auto grid = std::make_shared<SpringGrid>(Tpetra::getDefaultComm(), 12, 12, Numbering::scattered);
   const auto matrix = stiffness(grid, true);

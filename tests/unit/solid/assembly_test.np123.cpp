@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Tpetra_Core.hpp>
+#include <Tpetra_CrsGraph.hpp>
+
 #include "mortise/mesh/volume_generators.hpp"
 #include "mortise/solid/loads.hpp"
 #include "mortise/solid/prescribed_motion.hpp"
@@ -130,6 +133,47 @@ TEST_P(Assembly, AgreesWithOneRank) {
     EXPECT_TRUE(std::any_of(one.prescribed.begin(), one.prescribed.end(),
                             [&](const auto& other) { return other.first == entry.first && std::abs(other.second - entry.second) < 1e-14; }));
   EXPECT_EQ(static_cast<std::size_t>(shared.bodies->graph()->getGlobalNumEntries()), one.bodies->graph()->getGlobalNumEntries());
+}
+
+// As contact widens it: rows of every third node hold one more column, of a dof that this rank's elements do not know on more ranks than one.
+TEST(WiderGraph, GetsTheSameStiffness) {
+  BodySetup setup;
+  setup.element = ElementType::h8_f_bar;
+  setup.kinematics = Kinematics::three_dimensional;
+  const auto comm = Tpetra::getDefaultComm();
+  const auto bodies = make_distributed(comm, setup);
+  const RCP<const Graph> narrow = bodies->graph();
+  const GlobalOrdinal first = bodies->dofs()->getMinAllGlobalIndex(), last = bodies->dofs()->getMaxAllGlobalIndex();
+  const auto known = narrow->getColMap()->getNodeElementList();
+  std::vector<GlobalOrdinal> columns(known.begin(), known.end());
+  for (const GlobalOrdinal id : {first, last})
+    if (!narrow->getColMap()->isNodeGlobalElement(id)) columns.push_back(id);
+  const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
+  const auto wider_columns = rcp(new const Map(invalid, columns.data(), static_cast<LocalOrdinal>(columns.size()), 0, comm));
+  const auto wide = rcp(new Graph(bodies->dofs(), wider_columns, narrow->getNodeMaxNumRowEntries() + 2));
+  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(bodies->dofs()->getNodeNumElements()); ++row) {
+    Graph::local_inds_host_view_type of_row;
+    narrow->getLocalRowView(row, of_row);
+    wide->insertLocalIndices(row, static_cast<LocalOrdinal>(of_row.extent(0)), of_row.data());
+    for (const GlobalOrdinal id : {first, last})
+      if (const LocalOrdinal column = wider_columns->getLocalElement(id); row / 3 % 3 == 0) wide->insertLocalIndices(row, 1, &column);
+  }
+  wide->fillComplete(bodies->dofs(), bodies->dofs());
+  ASSERT_GT(wide->getGlobalNumEntries(), narrow->getGlobalNumEntries());
+
+  Vector u(bodies->dofs()), local(bodies->local_dofs()), x(bodies->dofs());
+  for (const GlobalOrdinal id : bodies->dofs()->getNodeElementList()) x.replaceGlobalValue(id, std::sin(1.3 * static_cast<double>(id)));
+  std::vector<Eigen::VectorXd> products;
+  for (const RCP<const Graph>& graph : {narrow, RCP<const Graph>(wide)}) {
+    Matrix matrix(graph);
+    std::optional<StepFailure> failure;
+    bodies->add_stiffness(local, matrix, failure);
+    matrix.fillComplete(bodies->dofs(), bodies->dofs());
+    Vector product(bodies->dofs());
+    matrix.apply(x, product);
+    products.push_back(to_eigen(product));
+  }
+  EXPECT_LE((products[1] - products[0]).lpNorm<Eigen::Infinity>(), 1e-13 * products[0].lpNorm<Eigen::Infinity>());
 }
 
 TEST(Failures, OnOneRankSurfaceOnAll) {

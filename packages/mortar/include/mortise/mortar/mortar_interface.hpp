@@ -75,6 +75,9 @@ struct FacetCoupling {
   Eigen::MatrixXd dgap;  ///< row j
 };
 
+/// int N_k (Ñ_k) over the covered part of the facet, for all its nodes k, whoever has multipliers: columns of D summed.
+FacetVector covered_weights(int dimension, const FacetCoupling& coupling);
+
 /// Averaged unit normal of an owned slave node and its derivative.
 struct NodalNormal {
   SpatialVector normal;
@@ -121,6 +124,13 @@ class MortarInterface {
   /// tenth of the shortest facet since the last real search. Returns (the same on every rank) whether local_nodes() and the pattern were rebuilt.
   /// Does nothing if a position is not finite; evaluate() then reports it.
   bool search(const MultiVector& x);
+
+  /// Dual multipliers: chooses which nodes have one from now on. A node of whose weight less than a tenth is covered (a fifth if it has handed over
+  /// already) hands its function phi_j over to nodes of its facets that have more, as nodes do that carry no multiplier. Its rows of D, M and gap are
+  /// zero then. Every facet keeps a node that carries. Collective.
+  /// @param cover  [slave_nodes()] covered_weights() summed over the facets, by A_j
+  /// @return whether any node of any rank hands over that did not, or the other way round: local_nodes() and the pattern were rebuilt
+  bool hand_over(const std::vector<double>& cover);
 
   /// Further nodes that each owned slave node stays coupled to from the next rebuild of the pattern on, by id: those that a slip is measured
   /// against. Until then they have to stand in coupled_nodes() already.

@@ -30,7 +30,8 @@ class Contribution {
   /// residual += this contribution with its sign in r (external forces enter with a minus). Owned dofs; no communication.
   virtual void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) = 0;
 
-  /// jacobian += d(residual)/d(displacement). `jacobian` has the graph that the system was built with and is open for local sums.
+  /// jacobian += d(residual)/d(displacement). `jacobian` has the graph that the system was built with, or that and more (further columns come after
+  /// its own), and is open for local sums.
   virtual void add_jacobian(const Configuration& at, Matrix& jacobian, std::optional<StepFailure>& failure) = 0;
 
   /// The step that ended at `at` is accepted.

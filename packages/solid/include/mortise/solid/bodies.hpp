@@ -69,7 +69,7 @@ class Bodies {
   /// det F <= 0 (or at the centre, det F0 <= 0) is put into `failure` if that is empty; the sum is then of no use.
   void add_internal_force(const Vector& local_displacement, Vector& residual, std::optional<StepFailure>& failure) const;
 
-  /// matrix += d f_int / d displacement. `matrix` has graph().
+  /// matrix += d f_int / d displacement. `matrix` has graph(), or more entries and more columns after its own.
   void add_stiffness(const Vector& local_displacement, Matrix& matrix, std::optional<StepFailure>& failure) const;
 
   /// The step that ended at this displacement is accepted: material points with a history move on to it. Everything else that is asked for at a

@@ -21,19 +21,30 @@ class NodalSparsity {
   /// Where, in a row of the owned node `row`, the columns of the local node `column` start. -1: `row` is a ghost, or the two share no element.
   LocalOrdinal position(LocalOrdinal row, LocalOrdinal column) const;
 
-  /// Values of one matrix. Valid while the matrix lives.
+  /// Values of one matrix that is being summed into. Rows that have the entries of graph() are written in place; those of the few nodes that others,
+  /// in contact, made wider are gathered beside the matrix until close(). Valid while the matrix lives.
   class Values {
    public:
-    Values(double* values, const std::size_t* row_starts) : values_(values), row_starts_(row_starts) {}
+    Values(const Values&) = delete;
+    Values(Values&&) = default;
     /// The row of an owned dof. The entries for a column node stand at its `position` and after it, one for each of its dofs.
-    double* row(LocalOrdinal dof) const { return values_ + row_starts_[dof]; }
+    double* row(LocalOrdinal dof) const { return rows_[dof]; }
+    /// Adds what was gathered; nothing is written afterwards.
+    void close() const;
 
    private:
-    double* values_;
-    const std::size_t* row_starts_;
+    friend class NodalSparsity;
+    Values(Matrix& matrix, const Graph& narrow) : matrix_(matrix), narrow_(narrow) {}
+
+    Matrix& matrix_;
+    const Graph& narrow_;
+    std::vector<double*> rows_;        ///< [owned dofs]
+    std::vector<LocalOrdinal> wider_;  ///< rows that are gathered
+    std::vector<double> gathered_;     ///< their values, one after the other
   };
 
-  /// Opens a matrix made with graph() (or with a copy of it). Throws std::logic_error for any other. No communication.
+  /// Opens a matrix whose rows hold the entries of graph() or more, and whose columns are those of graph() or those followed by more.
+  /// Throws std::logic_error for any other. No communication.
   Values open(Matrix& matrix) const;
 
  private:

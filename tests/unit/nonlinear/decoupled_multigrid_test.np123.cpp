@@ -1,0 +1,137 @@
+// Multigrid of a condensed contact system: the iterations are those of the bodies.
+
+#include <gtest/gtest.h>
+
+#include <Tpetra_Core.hpp>
+
+#include "spring_grid.hpp"
+
+namespace mortise {
+namespace {
+
+using test::Numbering;
+using test::SpringGrid;
+
+/// Two bodies of springs, one above the other, each node of the upper one's lower edge bound to the node below it: in y, free to slide in x.
+class TwoBodies {
+ public:
+  TwoBodies(int nx, int ny) : grid_(std::make_shared<SpringGrid>(Tpetra::getDefaultComm(), nx, ny, Numbering::blocks, ny / 2)) {}
+
+  const SpringGrid& grid() const { return *grid_; }
+
+  /// K of the bodies, held at the lower and at the upper edge.
+  RCP<Matrix> stiffness() const {
+    const auto matrix = rcp(new Matrix(grid_->graph));
+    Vector zero(grid_->dofs), local_zero(grid_->local_dofs);
+    std::optional<StepFailure> failure;
+    test::Springs(grid_, 1.0).add_jacobian({0.0, zero, local_zero}, *matrix, failure);
+    matrix->fillComplete(grid_->dofs, grid_->dofs);
+    matrix->resumeFill();
+    for (const int node : grid_->owned_nodes())
+      for (int i = 0; i < 2 && is_held(node); ++i) {
+        const auto row = matrix->getLocalMatrixHost().row(grid_->dofs->getLocalElement(grid_->dof(node, i)));
+        for (LocalOrdinal k = 0; k < row.length; ++k)
+          row.value(k) = matrix->getColMap()->getGlobalElement(row.colidx(k)) == grid_->dof(node, i) ? 1.0 : 0.0;
+      }
+    matrix->fillComplete(grid_->dofs, grid_->dofs);
+    return matrix;
+  }
+
+  /// Rows of a slave j above a master m: d_jy - d_my = 0 and its momentum in x, which is 0; the master receives all of the slave's momentum.
+  RCP<Matrix> condensed() const {
+    const RCP<Matrix> K = stiffness();
+    const auto A = rcp(new Matrix(grid_->dofs, 64));
+    const auto local = K->getLocalMatrixHost();
+    for (const int node : grid_->owned_nodes())
+      for (int i = 0; i < 2; ++i) {
+        const auto row = local.row(grid_->dofs->getLocalElement(grid_->dof(node, i)));
+        for (LocalOrdinal k = 0; k < row.length; ++k) {
+          const GlobalOrdinal column = K->getColMap()->getGlobalElement(row.colidx(k));
+          if (!is_slave(node) || i == 0) add(*A, grid_->dof(node, i), column, row.value(k));
+          if (is_slave(node)) add(*A, grid_->dof(master(node), i), column, row.value(k));
+        }
+        if (!is_slave(node) || i == 0) continue;
+        add(*A, grid_->dof(node, 1), grid_->dof(node, 1), 1.0);
+        add(*A, grid_->dof(node, 1), grid_->dof(master(node), 1), -1.0);
+      }
+    A->fillComplete(grid_->dofs, grid_->dofs);
+    return A;
+  }
+
+  /// N = e_y e_y^T, M^ = 1.
+  NearNullSpace near_null_space() const {
+    NearNullSpace result = grid_->near_null_space();
+    const auto far_apart = rcp(new MultiVector(*result.coordinates, Teuchos::Copy));
+    const auto trial = rcp(new Matrix(grid_->dofs, 2)), test = rcp(new Matrix(grid_->dofs, 2)), eliminated = rcp(new Matrix(grid_->dofs, 1));
+    LocalOrdinal place = -1;
+    for (const int node : grid_->owned_nodes()) {
+      ++place;
+      const GlobalOrdinal x = grid_->dof(node, 0), y = grid_->dof(node, 1);
+      if (node / grid_->nx() >= grid_->cut()) far_apart->sumIntoLocalValue(place, 1, 1e6);
+      add(*trial, x, x, 1.0);
+      add(*test, x, x, 1.0);
+      if (is_slave(node)) {
+        add(*trial, y, grid_->dof(master(node), 1), 1.0);
+        add(*test, x, grid_->dof(master(node), 0), -1.0);
+        add(*eliminated, y, y, 1.0);
+      } else {
+        add(*trial, y, y, 1.0);
+        add(*test, y, y, 1.0);
+      }
+    }
+    for (const auto& matrix : {trial, test, eliminated}) matrix->fillComplete(grid_->dofs, grid_->dofs);
+    result.coordinates = far_apart;
+    result.decoupling = Decoupling{trial, test, eliminated};
+    return result;
+  }
+
+ private:
+  bool is_held(int node) const { return node < grid_->nx() || node / grid_->nx() == grid_->ny() - 1; }
+  bool is_slave(int node) const { return node / grid_->nx() == grid_->cut(); }
+  int master(int slave) const { return slave - grid_->nx(); }
+  static void add(Matrix& matrix, GlobalOrdinal row, GlobalOrdinal column, double value) { matrix.insertGlobalValues(row, 1, &value, &column); }
+
+  std::shared_ptr<const SpringGrid> grid_;
+};
+
+struct Solved {
+  int iterations;
+  double residual;
+};
+
+Solved solved(const SpringGrid& grid, const RCP<Matrix>& matrix, int coarse_size, const std::function<NearNullSpace()>& near_null_space) {
+  LinearSolverOptions options;
+  options.kind.value = LinearSolverOptions::Kind::iterative;
+  options.muelu.value.set("coarse: max size", coarse_size);
+  const auto solver = make_linear_solver(options, Tpetra::getDefaultComm(), Timers());
+  solver->set_matrix(matrix, true, near_null_space);
+  Vector b(grid.dofs), x(grid.dofs), r(grid.dofs);
+  for (const GlobalOrdinal id : grid.dofs->getNodeElementList()) b.replaceGlobalValue(id, std::sin(0.7 * static_cast<double>(id)) + 0.3);
+  const LinearSolveReport report = solver->solve(b, x);
+  matrix->apply(x, r);
+  r.update(1.0, b, -1.0);
+  return {report.iterations, r.norm2() / b.norm2()};
+}
+
+// Conditions that hold for single nodes are solved by themselves, and the rest is what S' C^-1 L' solves: with C factorised nothing is left to
+// iterate.
+TEST(Decoupled, IsExactWhereTheBodiesAreSolvedExactly) {
+  if (Tpetra::getDefaultComm()->getSize() > 1) GTEST_SKIP() << "the coarse solver is right on one rank, where the whole matrix is on it";
+  const TwoBodies bodies(12, 12);
+  const Solved result = solved(bodies.grid(), bodies.condensed(), 1000000, [&] { return bodies.near_null_space(); });
+  EXPECT_EQ(result.iterations, 1);
+  EXPECT_LE(result.residual, 1e-9);
+}
+
+TEST(Decoupled, TakesAboutAsManyIterationsAsTheBodies) {
+  const TwoBodies bodies(32, 32);
+  const Solved of_bodies = solved(bodies.grid(), bodies.stiffness(), 100, [&] { return bodies.grid().near_null_space(); });
+  const Solved in_contact = solved(bodies.grid(), bodies.condensed(), 100, [&] { return bodies.near_null_space(); });
+  EXPECT_LE(in_contact.residual, 1e-9);
+  EXPECT_LE(in_contact.iterations, 2 * of_bodies.iterations);
+  RecordProperty("iterations_of_bodies", of_bodies.iterations);
+  RecordProperty("iterations_in_contact", in_contact.iterations);
+}
+
+}  // namespace
+}  // namespace mortise
