@@ -107,11 +107,11 @@ PairPlan share_out(const RCP<const Communicator>& comm, const std::vector<Planne
   return pair;
 }
 
-// Bytes of what grows with the mesh: the stiffness of the bodies and the condensed matrix, value and column of each entry, and the copies, coarse
+// Bytes of what grows with the mesh: the system matrix, value and column of each entry, the bodies' graph, and the matrix for multigrid, coarse
 // matrices, prolongators and products that multigrid holds at its peak, together as much as `matrices` of them (measured); the vectors of GMRES;
 // nodes and elements with their sets and maps.
 double memory_mib(const RankPlan& rank, int dimension, int nodes_per_element) {
-  constexpr double matrices = 12.0, entry = sizeof(double) + sizeof(LocalOrdinal), krylov_vectors = 50.0, bytes_of_node = 150.0,
+  constexpr double matrices = 7.0, entry = sizeof(double) + sizeof(LocalOrdinal), krylov_vectors = 50.0, bytes_of_node = 150.0,
                    bytes_of_element = 30.0;
   const auto& mesh = rank.mesh;
   const double entries = static_cast<double>(dimension * dimension * mesh.node_pairs);
