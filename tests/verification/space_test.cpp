@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -11,18 +12,23 @@ namespace {
 
 using Json = nlohmann::json;
 
-Json quantities(const std::string& scene, const std::string& name, const std::vector<std::string>& settings) {
+Json summary(const std::string& scene, const std::string& name, const std::vector<std::string>& settings) {
   const std::string results = std::string(SCRATCH) + "/space_" + name;
   std::vector<std::string> words{MORTISE, "run", std::string(INPUTS) + "/" + scene, "-o", results, "--set", "output/fields="};
   for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
   const Ending ending = launch(words, 240);
   EXPECT_EQ(ending.code, 0) << ending.output;
-  return Json::parse(read_file(results + "/summary.json")).at("quantities");
+  return Json::parse(read_file(results + "/summary.json"));
+}
+
+Json quantities(const std::string& scene, const std::string& name, const std::vector<std::string>& settings) {
+  return summary(scene, name, settings).at("quantities");
 }
 
 /// Largest relative difference of what a layer of hexahedra and plane strain find.
 double difference_of_layer_and_plane(const std::vector<std::string>& settings) {
-  const Json space = quantities("verification/3d/pressed_layer.xml", "layer", settings), plane = quantities("verification/3d/pressed_plane.xml", "plane", settings);
+  const Json space = quantities("verification/3d/pressed_layer.xml", "layer", settings),
+             plane = quantities("verification/3d/pressed_plane.xml", "plane", settings);
   double difference = 0.0;
   for (const char* name : {"reaction", "shear", "peak_pressure", "stored_energy", "friction_work"})
     difference = std::max(difference, std::abs(space.at(name).get<double>() / plane.at(name).get<double>() - 1.0));
@@ -44,6 +50,22 @@ TEST(Layer, CurvedDiffersByWhatFallsWithTheMesh) {
 TEST(PressedBlocks, OneStepIsEnough) {
   const Json found = quantities("scaling/pressed_blocks.xml", "blocks", {"variables/n=16", "linear solver/type=iterative"});
   EXPECT_NEAR(found.at("reaction_z").get<double>(), 6.809, 0.001 * 6.809);
+}
+
+/// Most iterations of a solve to 1e-10.
+int most_iterations(const std::string& stiffness_ratio, const std::string& mu) {
+  int most = 0;
+  const std::vector<std::string> settings{"variables/stiffness_ratio=" + stiffness_ratio, "variables/mu=" + mu, "linear solver/type=iterative",
+                                          "linear solver/largest tolerance=1e-10"};
+  for (const Json& step : summary("scaling/pressed_blocks.xml", "ratio_" + stiffness_ratio + "_" + mu, settings).at("steps"))
+    for (const Json& iteration : step.at("newton")) most = std::max(most, iteration.at("linear_iterations").get<int>());
+  return most;
+}
+
+// A preconditioner that does not depend on the ratio takes as many iterations, half as many again for the shape of what is in contact; a solve in
+// which a hierarchy is given up takes those of two, and ten for having tried.
+TEST(PressedBlocks, StiffSlavesTakeAsManyIterations) {
+  for (const char* mu : {"0", "0.2"}) EXPECT_LE(most_iterations("1000", mu), 2 * 1.5 * most_iterations("1", mu) + 10) << mu;
 }
 
 }  // namespace

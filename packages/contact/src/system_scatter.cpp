@@ -6,11 +6,11 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
-#include <iterator>
 #include <map>
 #include <numeric>
 #include <stdexcept>
 
+#include "mortise/core/column_map.hpp"
 #include "mortise/core/dof_map.hpp"
 
 namespace mortise::detail {
@@ -96,17 +96,10 @@ void receive(const Graph& remote, const Export& exporter, const RCP<const Map>& 
 
 // The bulk's columns, and after them those of `columns_of_node` that are not among them, ascending.
 RCP<const Map> widened_columns(const Graph& bulk, const std::map<GlobalOrdinal, Columns>& columns_of_node, const Map& owned_nodes) {
-  const Map& columns = *bulk.getColMap();
   Columns further;
   for (const auto& [node, more] : columns_of_node)
-    if (owned_nodes.isNodeGlobalElement(node))
-      std::copy_if(more.begin(), more.end(), std::back_inserter(further), [&](GlobalOrdinal id) { return !columns.isNodeGlobalElement(id); });
-  sort_unique(further);
-  const auto view = columns.getNodeElementList();
-  Columns ids(view.begin(), view.end());
-  ids.insert(ids.end(), further.begin(), further.end());
-  const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
-  return rcp(new const Map(invalid, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, columns.getComm()));
+    if (owned_nodes.isNodeGlobalElement(node)) further.insert(further.end(), more.begin(), more.end());
+  return with_further_columns(*bulk.getColMap(), std::move(further));
 }
 
 // The bulk's graph with `columns_of_node` in the rows of owned nodes. Rows are handed over whole and ascending, those of other nodes as they are.

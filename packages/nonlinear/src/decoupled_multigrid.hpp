@@ -14,30 +14,37 @@ namespace mortise::detail {
 class DecoupledSystem {
  public:
   /// @param dimension  dofs of a node, which stand together in every map
-  DecoupledSystem(const Matrix& A, const Decoupling& decoupling, int dimension);
+  DecoupledSystem(RCP<const Matrix> A, const Decoupling& decoupling, int dimension);
 
-  const RCP<Matrix>& matrix() const { return matrix_; }
+  /// C. Collective.
+  RCP<Matrix> matrix() const;
+  /// The rows of C of some dofs, each on the rank that owns it. Collective.
+  RCP<const Matrix> rows(const RCP<const Map>& dofs) const;
   /// y += S' x, y = L' x.
   void add_trial(const MultiVector& x, MultiVector& y) const;
   void test(const MultiVector& x, MultiVector& y) const;
   /// w: the relative motion that the equations of the eliminated directions ask for by themselves.
   void relative_motion(const MultiVector& b, MultiVector& w) const;
-  /// The columns of a matrix like A in which w may differ from 0; the others are empty. Collective.
-  RCP<const Matrix> columns_of_relative_motion(const Matrix& A) const;
+  /// The columns of A in which w may differ from 0; the others are empty. Collective.
+  RCP<const Matrix> columns_of_relative_motion() const;
+  /// The dofs, each on its owner, of closed slave nodes, those that stick aside, and of the nodes that they follow. Collective.
+  RCP<const Map> joined() const;
   /// modes -= N modes
   void take_out_eliminated(MultiVector& modes) const;
 
  private:
+  RCP<const Matrix> A_;
   Decoupling decoupling_;
-  RCP<Matrix> matrix_, inverse_;  ///< C; (N A_D N + I - N)^-1 N
+  int dimension_;
+  RCP<Matrix> inner_, inverse_;  ///< N A_D N; (N A_D N + I - N)^-1 N
 };
 
 /// The same with a preconditioner P of C in the place of its inverse.
 class DecoupledPreconditioner : public Operator {
  public:
   /// Collective.
-  DecoupledPreconditioner(const Matrix& A, std::shared_ptr<const DecoupledSystem> system, RCP<const Operator> preconditioner)
-      : relative_(system->columns_of_relative_motion(A)), system_(std::move(system)), preconditioner_(std::move(preconditioner)) {}
+  DecoupledPreconditioner(std::shared_ptr<const DecoupledSystem> system, RCP<const Operator> preconditioner)
+      : relative_(system->columns_of_relative_motion()), system_(std::move(system)), preconditioner_(std::move(preconditioner)) {}
   Teuchos::RCP<const Map> getDomainMap() const override { return preconditioner_->getDomainMap(); }
   Teuchos::RCP<const Map> getRangeMap() const override { return preconditioner_->getRangeMap(); }
   /// y = w + S' P L' (x - A w)

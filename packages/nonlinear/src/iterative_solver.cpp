@@ -13,6 +13,7 @@
 #include <cmath>
 
 #include "decoupled_multigrid.hpp"
+#include "interface_correction.hpp"
 #include "linear_system_checks.hpp"
 
 namespace mortise::detail {
@@ -53,6 +54,8 @@ Teuchos::ParameterList muelu_defaults(int equations, GlobalOrdinal rows, int ran
 Teuchos::ParameterList belos_defaults(const LinearSolverOptions& options, double tolerance, int basis) {
   Teuchos::ParameterList list("Belos");
   list.set("Convergence Tolerance", tolerance);
+  list.set("Implicit Residual Scaling", "Norm of RHS");
+  list.set("Explicit Residual Scaling", "Norm of RHS");
   list.set("Maximum Iterations", options.maximum_iterations);
   list.set("Num Blocks", std::min(options.maximum_iterations, basis));
   list.set("Verbosity", 0);
@@ -65,8 +68,8 @@ constexpr int small_basis = 50, large_basis = 200;
 /// What stands for 0 in a rigid body mode, as a share of its largest entry.
 constexpr double vanishing = 1e-14;
 
-/// Iterations beyond those of a fresh hierarchy after which an earlier one is given up within a solve, and for the next one.
-constexpr int most_extra_iterations = 10, fewest_extra_iterations = 3;
+/// Iterations that take about as long as a set-up (docs/solvers.md).
+constexpr double iterations_of_set_up = 10.0;
 
 class IterativeSolver : public LinearSolver {
  public:
@@ -79,8 +82,9 @@ class IterativeSolver : public LinearSolver {
   void set_matrix(const RCP<const Matrix>& matrix, bool, const std::function<NearNullSpace()>& near_null_space) override {
     matrix_ = matrix;
     near_null_space_ = near_null_space;
+    preconditioner_ = Teuchos::null;
     is_fresh_ = false;
-    if (is_worn_ || preconditioner_.is_null() || !preconditioner_->getDomainMap()->isSameAs(*matrix->getDomainMap())) forget();
+    if (extra_iterations_ >= iterations_of_set_up || cycle_.is_null() || !cycle_->getDomainMap()->isSameAs(*matrix->getDomainMap())) forget();
   }
 
   std::optional<Tolerances> tolerances() const override {
@@ -95,11 +99,12 @@ class IterativeSolver : public LinearSolver {
     LinearSolveReport report;
     std::optional<StepFailure> failure;
     try {
-      if (preconditioner_.is_null()) set_up();
+      if (preconditioner_.is_null()) prepare(near_null_space());
       report.iterations = iterate(b, x);
-      // Once more from anew where an earlier matrix's hierarchy does not do.
+      // An earlier matrix's hierarchy that does not do is replaced on the way.
       if (!is_fresh_ && !converged_) {
-        set_up();
+        forget();
+        prepare(near_null_space());
         report.iterations += iterate(b, x);
       }
     } catch (const std::exception& error) {
@@ -110,33 +115,40 @@ class IterativeSolver : public LinearSolver {
 
     Vector r(b.getMap());
     report.relative_residual = true_residual(*matrix_, b, x, r) / size;
-    if (!(report.relative_residual <= 10.0 * tolerance_))
-      throw StepFailure(FailureKind::linear_solver, fmt::format("{}: the true relative residual is {:.1e} after {} iterations (tolerance {:.1e})",
-                                                                name(), report.relative_residual, report.iterations, tolerance_));
-    return report;
+    if (report.relative_residual <= 10.0 * tolerance_) return report;
+    forget();
+    throw StepFailure(FailureKind::linear_solver, fmt::format("{}: the true relative residual is {:.1e} after {} iterations (tolerance {:.1e})",
+                                                              name(), report.relative_residual, report.iterations, tolerance_));
   }
 
  private:
+  NearNullSpace near_null_space() const { return near_null_space_ ? near_null_space_() : NearNullSpace{}; }
+
   void forget() {
-    preconditioner_ = Teuchos::null;
-    decoupled_.reset();
-    is_worn_ = false;
+    cycle_ = preconditioner_ = Teuchos::null;
+    fresh_iterations_per_digit_ = extra_iterations_ = 0.0;
   }
 
-  void set_up() {
+  // Contact is decoupled and corrected with the matrix and the states of its nodes as they are, whatever matrix the hierarchy was made for.
+  void prepare(const NearNullSpace& near_null_space) {
     const auto scope = timers_.scope("linear setup");
-    forget();
-    const NearNullSpace near_null_space = near_null_space_ ? near_null_space_() : NearNullSpace{};
-    auto matrix = Teuchos::rcp_const_cast<Matrix>(matrix_);
-    const auto rows = static_cast<GlobalOrdinal>(matrix->getGlobalNumRows());
     int equations = 1;
     if (!near_null_space.coordinates.is_null())
-      equations = static_cast<int>(rows / static_cast<GlobalOrdinal>(near_null_space.coordinates->getGlobalLength()));
-    if (near_null_space.decoupling) {
-      decoupled_ = std::make_shared<DecoupledSystem>(*matrix_, *near_null_space.decoupling, equations);
-      matrix = decoupled_->matrix();
+      equations = static_cast<int>(matrix_->getGlobalNumRows() / near_null_space.coordinates->getGlobalLength());
+    std::shared_ptr<const DecoupledSystem> decoupled;
+    if (near_null_space.decoupling) decoupled = std::make_shared<DecoupledSystem>(matrix_, *near_null_space.decoupling, equations);
+    if (cycle_.is_null()) set_up(near_null_space, decoupled.get(), equations);
+    preconditioner_ = cycle_;
+    if (decoupled) {
+      if (const RCP<const Map> joined = decoupled->joined(); joined->getGlobalNumElements() > 0)
+        preconditioner_ = rcp(new InterfaceCorrection(decoupled->rows(joined), cycle_));
+      preconditioner_ = rcp(new DecoupledPreconditioner(decoupled, preconditioner_));
     }
+  }
 
+  void set_up(const NearNullSpace& near_null_space, const DecoupledSystem* decoupled, int equations) {
+    const RCP<Matrix> matrix = decoupled != nullptr ? decoupled->matrix() : Teuchos::rcp_const_cast<Matrix>(matrix_);
+    const auto rows = static_cast<GlobalOrdinal>(matrix->getGlobalNumRows());
     Teuchos::ParameterList list = muelu_defaults(equations, rows, matrix->getComm()->getSize());
     auto& user_data = list.sublist("user data");
     if (near_null_space.coordinates.is_null()) {
@@ -149,21 +161,21 @@ class IterativeSolver : public LinearSolver {
     } else {
       user_data.set("Coordinates", rcp(new MultiVector(*near_null_space.coordinates, Teuchos::Copy)));
     }
-    if (!near_null_space.rigid_body_modes.is_null()) user_data.set("Nullspace", modes_without_fixed_rows(*near_null_space.rigid_body_modes));
+    if (!near_null_space.rigid_body_modes.is_null())
+      user_data.set("Nullspace", modes_without_fixed_rows(*near_null_space.rigid_body_modes, decoupled));
     list.setParameters(options_.muelu.value);
 
     const RCP<Operator> as_operator = matrix;
-    preconditioner_ = MueLu::CreateTpetraPreconditioner<Scalar, LocalOrdinal, GlobalOrdinal, NodeType>(as_operator, list);
+    cycle_ = MueLu::CreateTpetraPreconditioner<Scalar, LocalOrdinal, GlobalOrdinal, NodeType>(as_operator, list);
     ++setups_;
     is_fresh_ = true;
-    fresh_iterations_per_digit_ = 0.0;
   }
 
   // A row that is a multiple of the identity's (Dirichlet) takes no part in a rigid motion. Elsewhere no entry is 0 exactly: MueLu ends, on one rank
   // alone, where a mode vanishes on an aggregate of a single node, as a rotation does on its axis and a translation at a node that slips across it.
-  RCP<MultiVector> modes_without_fixed_rows(const MultiVector& rigid_body_modes) const {
+  RCP<MultiVector> modes_without_fixed_rows(const MultiVector& rigid_body_modes, const DecoupledSystem* decoupled) const {
     const auto modes = rcp(new MultiVector(rigid_body_modes, Teuchos::Copy));
-    if (decoupled_) decoupled_->take_out_eliminated(*modes);
+    if (decoupled != nullptr) decoupled->take_out_eliminated(*modes);
     Teuchos::Array<double> largest(modes->getNumVectors());
     modes->normInf(largest());
     const auto view = modes->getLocalViewHost(Tpetra::Access::ReadWrite);
@@ -181,29 +193,32 @@ class IterativeSolver : public LinearSolver {
     return modes;
   }
 
-  // A hierarchy serves the matrices that follow, those of the next Newton steps, until they take half as many iterations for a digit again as the one
-  // that it was made for.
+  // A hierarchy serves the matrices that follow, those of the next Newton steps, until what they take more iterations than the one that it was made
+  // for adds up to those that take as long as a new one.
   int iterate(const Vector& b, Vector& x) {
     const auto scope = timers_.scope("linear solve");
-    x.putScalar(0.0);
-    RCP<const Operator> preconditioner = preconditioner_;
-    if (decoupled_) preconditioner = rcp(new DecoupledPreconditioner(*matrix_, decoupled_, preconditioner_));
+    Vector r(b.getMap());
+    const double digits = std::max(1.0, std::log10(true_residual(*matrix_, b, x, r) / (tolerance_ * b.norm2())));
+    const double expected = digits * fresh_iterations_per_digit_;
     const auto problem = rcp(new LinearProblem(matrix_, rcp(&x, false), rcp(&b, false)));
-    problem->setRightPrec(preconditioner);
+    problem->setRightPrec(preconditioner_);
     if (!problem->setProblem()) throw std::runtime_error("Belos refuses the linear problem");
     const auto list = rcp(new Teuchos::ParameterList(belos_defaults(options_, tolerance_, basis_)));
     list->setParameters(options_.belos.value);
-    const double digits = -std::log10(tolerance_), expected = digits * fresh_iterations_per_digit_;
-    if (!is_fresh_)
-      list->set("Maximum Iterations", std::min(list->get<int>("Maximum Iterations"), static_cast<int>(2.0 * expected) + most_extra_iterations));
+    if (!is_fresh_) {
+      const double most = expected + iterations_of_set_up - extra_iterations_;
+      list->set("Maximum Iterations", std::min(list->get<int>("Maximum Iterations"), std::max(1, static_cast<int>(std::ceil(most)))));
+    }
     Belos::TpetraSolverFactory<Scalar, MultiVector, Operator> factory;
     const auto gmres = factory.create("GMRES", list);
     gmres->setProblem(problem);
     converged_ = gmres->solve() == Belos::Converged;
     const int iterations = gmres->getNumIters();
     if (iterations > basis_) basis_ = large_basis;
-    if (is_fresh_) fresh_iterations_per_digit_ = std::max(fresh_iterations_per_digit_, iterations / digits);
-    is_worn_ = iterations > 1.5 * digits * fresh_iterations_per_digit_ + fewest_extra_iterations;
+    if (is_fresh_)
+      fresh_iterations_per_digit_ = std::max(fresh_iterations_per_digit_, iterations / digits);
+    else
+      extra_iterations_ += std::max(0.0, iterations - expected);
     return iterations;
   }
 
@@ -213,11 +228,11 @@ class IterativeSolver : public LinearSolver {
   std::string name_;
   RCP<const Matrix> matrix_;
   std::function<NearNullSpace()> near_null_space_;
-  RCP<const Operator> preconditioner_;
-  std::shared_ptr<const DecoupledSystem> decoupled_;  ///< null: the matrix is taken as it is
+  RCP<const Operator> cycle_, preconditioner_;  ///< of a hierarchy; with contact around it
   int setups_ = 0, basis_ = small_basis;
-  bool is_fresh_ = false, is_worn_ = false, converged_ = false;  ///< the hierarchy: made for this matrix, not to be kept for the next; the last solve
-  double fresh_iterations_per_digit_ = 0.0;                      ///< of the residual, with the matrix that the hierarchy was made for
+  bool is_fresh_ = false, converged_ = false;  ///< the hierarchy: made for this matrix; the last solve
+  double fresh_iterations_per_digit_ = 0.0;    ///< of the residual, with the matrix that the hierarchy was made for
+  double extra_iterations_ = 0.0;              ///< beyond those, with the matrices since
 };
 
 // Both packages check names and types; asked here, with no matrix at hand, so that a misspelt name is found before the mesh is made.

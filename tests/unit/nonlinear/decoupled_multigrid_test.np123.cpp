@@ -1,9 +1,12 @@
 // Multigrid of a condensed contact system: the iterations are those of the bodies.
 
+#include "../../../packages/nonlinear/src/decoupled_multigrid.hpp"
+
 #include <gtest/gtest.h>
 
 #include <Tpetra_Core.hpp>
 
+#include "../../../packages/nonlinear/src/interface_correction.hpp"
 #include "spring_grid.hpp"
 
 namespace mortise {
@@ -11,6 +14,8 @@ namespace {
 
 using test::Numbering;
 using test::SpringGrid;
+
+void add(Matrix& matrix, GlobalOrdinal row, GlobalOrdinal column, double value) { matrix.insertGlobalValues(row, 1, &value, &column); }
 
 /// Two bodies of springs, one above the other, each node of the upper one's lower edge bound to the node below it: in y, free to slide in x.
 class TwoBodies {
@@ -89,8 +94,6 @@ class TwoBodies {
   bool is_held(int node) const { return node < grid_->nx() || node / grid_->nx() == grid_->ny() - 1; }
   bool is_slave(int node) const { return node / grid_->nx() == grid_->cut(); }
   int master(int slave) const { return slave - grid_->nx(); }
-  static void add(Matrix& matrix, GlobalOrdinal row, GlobalOrdinal column, double value) { matrix.insertGlobalValues(row, 1, &value, &column); }
-
   std::shared_ptr<const SpringGrid> grid_;
 };
 
@@ -130,6 +133,60 @@ TEST(Decoupled, TakesAboutAsManyIterationsAsTheBodies) {
   EXPECT_LE(in_contact.iterations, 2 * of_bodies.iterations);
   RecordProperty("iterations_of_bodies", of_bodies.iterations);
   RecordProperty("iterations_in_contact", in_contact.iterations);
+}
+
+Vector wavy(const RCP<const Map>& map) {
+  Vector result(map);
+  for (const GlobalOrdinal id : map->getNodeElementList()) result.replaceGlobalValue(id, std::sin(0.7 * static_cast<double>(id)) + 0.3);
+  return result;
+}
+
+/// The entries of x that are in `map`, of which every rank has those it owns.
+Vector part(const Vector& x, const RCP<const Map>& map) {
+  Vector result(map);
+  result.doImport(x, Import(x.getMap(), map), Tpetra::INSERT);
+  return result;
+}
+
+class Contact : public testing::Test {
+ protected:
+  static constexpr int nx = 16;
+  TwoBodies bodies{Tpetra::getDefaultComm(), nx, 16};
+  RCP<const Matrix> condensed = bodies.condensed();
+  detail::DecoupledSystem system{condensed, *bodies.near_null_space().decoupling, 2};
+  RCP<const Matrix> C = system.matrix();
+  RCP<const Map> joined = system.joined();
+};
+
+TEST_F(Contact, JoinsSlavesAndTheirMasters) { EXPECT_EQ(joined->getGlobalNumElements(), 2 * 2 * nx); }
+
+TEST_F(Contact, RowsAreThoseOfTheWholeMatrix) {
+  const Vector x = wavy(C->getDomainMap());
+  Vector of_matrix(C->getRangeMap()), of_rows(joined);
+  C->apply(x, of_matrix);
+  system.rows(joined)->apply(x, of_rows);
+  const Vector expected = part(of_matrix, joined);
+  of_rows.update(-1.0, expected, 1.0);
+  EXPECT_GT(expected.normInf(), 1.0);
+  EXPECT_LE(of_rows.normInf(), 1e-13 * expected.normInf());
+}
+
+// Whatever went before: nothing is left of the residual where it corrects, and nothing is changed elsewhere.
+TEST_F(Contact, CorrectionLeavesNoResidualThere) {
+  const auto diagonal = rcp(new Matrix(C->getRowMap(), 1));
+  for (const GlobalOrdinal id : C->getRowMap()->getNodeElementList()) add(*diagonal, id, id, 0.1 + 0.01 * static_cast<double>(id % 7));
+  diagonal->fillComplete(C->getDomainMap(), C->getRangeMap());
+  const detail::InterfaceCorrection correction(system.rows(joined), diagonal);
+  const Vector x = wavy(C->getRangeMap());
+  Vector y(C->getDomainMap()), before(C->getDomainMap()), residual(x, Teuchos::Copy);
+  correction.apply(x, y, Teuchos::NO_TRANS, 1.0, 0.0);
+  diagonal->apply(x, before);
+  C->apply(y, residual, Teuchos::NO_TRANS, -1.0, 1.0);
+  EXPECT_LE(part(residual, joined).normInf(), 1e-12 * x.normInf());
+  y.update(-1.0, before, 1.0);
+  EXPECT_GT(part(y, joined).normInf(), 0.1);
+  for (const GlobalOrdinal id : joined->getNodeElementList()) y.replaceGlobalValue(id, 0.0);
+  EXPECT_EQ(y.normInf(), 0.0);
 }
 
 }  // namespace
