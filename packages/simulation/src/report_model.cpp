@@ -27,7 +27,7 @@ double estimated_memory_mib(const Model& model) {
   // The matrix, value and column index of each entry. Factors of nested dissection on N nodes of a plane mesh, with
   // George's count of entries 31/4 N log2 N for the pattern, 2 x 2 values each, L and U.
   const double entry = sizeof(double) + sizeof(LocalOrdinal);
-  const double matrix = entry * static_cast<double>(model.parts().bulk_graph->getGlobalNumEntries());
+  const double matrix = entry * static_cast<double>(model.parts().bulk_graph()->getGlobalNumEntries());
   const double nodes = 0.5 * static_cast<double>(model.dofs());
   const double factors = 7.75 * nodes * std::log2(nodes + 1.0) * 4.0 * 2.0 * sizeof(double);
   return (matrix + factors) / (1024.0 * 1024.0);
