@@ -20,6 +20,11 @@ void add_peer_command(CLI::App& app, Program& program) {
   command->add_option("--by", options->peer, "calculix mortar (the default), calculix surface to surface, calculix node to surface")
       ->transform(CLI::CheckedTransformer(names))
       ->option_text("PEER");
+  command
+      ->add_option("--penalty", options->penalty,
+                   "of contact, in multiples of E/h: a number or an expression of the scene's variables, e.g. 800/n; not of mortar.\n"
+                   "Default: 1 in the plane, 50 in space")
+      ->type_name("MULTIPLE");
   command->add_option("-o,--output", options->directory, "directory for the results; default: results/<name of the file SCENE>")->type_name("DIR");
   command->add_flag_callback(
       "--quiet", [options] { options->verbosity = Verbosity::quiet; }, "say nothing but warnings and errors");

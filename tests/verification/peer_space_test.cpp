@@ -231,6 +231,69 @@ TEST(PeerInSpace, StandsInAStudyBesideOurs) {
   }
 }
 
+/// The line of a deck that follows a card; empty: there is no such card.
+std::string after_card(const std::string& deck, const std::string& card) {
+  const auto found = deck.find(card + "\n");
+  if (found == std::string::npos) return "";
+  const auto begin = found + card.size() + 1;
+  return deck.substr(begin, deck.find('\n', begin) - begin);
+}
+const std::string pressing_card = "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=LINEAR";
+
+// E = 1000, and the edge of a slave facet is h = 0.6 / (3 n / 4): E/h = 1250 n. Sticking is ten times softer.
+TEST(PeerInSpace, ThePenaltyIsTheMultipleThatIsSaid) {
+  const std::string path = path_with("space_penalty", "exit 201");
+  struct Case {
+    std::string by, penalty;
+    const char *n, *pressing, *friction;
+  };
+  for (const Case& one : {Case{"calculix surface to surface", "", "4", "250000", "0.2,25000"},
+                          {"calculix surface to surface", "3", "4", "15000", "0.2,1500"},
+                          {"calculix surface to surface", "800/n", "4", "1000000", "0.2,100000"},
+                          {"calculix node to surface", "800/n", "8", "1000000", "0.2,100000"},
+                          {"calculix mortar", "", "4", "", "0.2,50000"}}) {
+    SCOPED_TRACE(one.by + " " + one.penalty);
+    std::vector<std::string> words{"env",  path, MORTISE, "peer", blocks, "--by", one.by, "-o", space + "/penalty", "--set", "variables/mu=0.2",
+                                   "--set"};
+    words.push_back(std::string("variables/n=") + one.n);
+    if (!one.penalty.empty()) words.insert(words.end(), {"--penalty", one.penalty});
+    const Ending ending = launch(words);
+    ASSERT_EQ(ending.code, 3) << ending.output;
+    const std::string deck = read_file(space + "/penalty/peer.inp");
+    EXPECT_EQ(after_card(deck, pressing_card), one.pressing);
+    EXPECT_EQ(after_card(deck, "*FRICTION"), one.friction);
+  }
+  for (const auto& [by, penalty, said] : {std::array<const char*, 3>{"calculix surface to surface", "-3", "above 0"},
+                                          {"calculix surface to surface", "800/cells", "cells"},
+                                          {"calculix mortar", "3", "without a penalty"}}) {
+    const Ending ending = launch({"env", path, MORTISE, "peer", blocks, "--by", by, "--penalty", penalty, "-o", space + "/penalty"});
+    EXPECT_EQ(ending.code, 2) << ending.output;
+    EXPECT_NE(ending.output.find("--penalty"), std::string::npos) << ending.output;
+    EXPECT_NE(ending.output.find(said), std::string::npos) << ending.output;
+  }
+}
+
+// All points of a study are given it, and those take it that press by one.
+TEST(PeerInSpace, AStudyHandsThePenaltyToThePeersThatHaveOne) {
+  const std::string path = path_with("space_study_penalty", "exit 201"), study = std::string(INPUTS) + "/studies/pressed_blocks.xml",
+                    results = space + "/study_penalty";
+  files::remove_all(results);
+  const std::vector<std::string> small{"axes/n/values=4", "finest/variables/n=8"};
+  for (const auto& [penalty, pressing] : {std::pair{"50", "250000"}, {"800/n", "1000000"}}) {
+    std::vector<std::string> settings = small;
+    settings.push_back(std::string("settings/peer penalty=") + penalty);
+    const Ending ending = call("study", study, results, settings, {"env", path});
+    ASSERT_EQ(ending.code, 3) << ending.output;  // the script does not solve anything
+    const auto deck = [&](const std::string& peer) { return read_file(results + "/points/formulation=CalculiX_" + peer + ",n=4/peer.inp"); };
+    EXPECT_EQ(after_card(deck("surface_to_surface"), pressing_card), pressing);
+    EXPECT_NE(deck("mortar").find("TYPE=MORTAR"), std::string::npos);
+    EXPECT_EQ(nlohmann::json::parse(read_file(results + "/study.json")).at("points").at(0).at("status"), "done");
+  }
+  const Ending wrong = call("study", study, results, {"settings/peer penalty=0"}, {"env", path});
+  EXPECT_EQ(wrong.code, 2) << wrong.output;
+  EXPECT_NE(wrong.output.find("above 0"), std::string::npos) << wrong.output;
+}
+
 TEST(PeerInSpace, SaysWhatADeckCannotHold) {
   const std::string path = path_with("space_obstacles", "exit 1");
   const auto refusal = [&](const std::string& scene, const std::vector<std::string>& settings) {

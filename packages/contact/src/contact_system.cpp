@@ -141,7 +141,7 @@ void ContactSystem::Implementation::evaluate(const RCP<const MultiVector>& x, bo
   find_lost_contact(*x, failure);
 }
 
-RCP<const Graph> ContactSystem::system_graph(const RCP<const Graph>& bulk, bool& changed) {
+RCP<const Graph> ContactSystem::system_graph(const std::function<RCP<const Graph>()>& bulk, bool& changed) {
   Implementation& self = *implementation_;
   changed = self.pattern_changed || !self.scatter;
   if (changed) {
@@ -149,7 +149,7 @@ RCP<const Graph> ContactSystem::system_graph(const RCP<const Graph>& bulk, bool&
     const auto part = self.timers.scope("contact graph");
     std::vector<detail::PairCoupling*> pairs;
     for (const auto& pair : self.pairs) pairs.push_back(pair.get());
-    self.scatter = std::make_unique<detail::SystemScatter>(self.owned_nodes, bulk, pairs, self.middles_first);
+    self.scatter = std::make_unique<detail::SystemScatter>(self.owned_nodes, *bulk(), pairs, self.middles_first);
     self.pattern_changed = false;
   }
   return self.scatter->graph();

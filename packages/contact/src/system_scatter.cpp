@@ -119,17 +119,17 @@ RCP<const Graph> widened(const Graph& bulk, const std::map<GlobalOrdinal, Column
       all.erase(std::unique(all.begin(), all.end()), all.end());
     }
   }
-  Teuchos::ArrayRCP<std::size_t> starts(static_cast<std::size_t>(rows) + 1, 0);
-  for (LocalOrdinal row = 0; row < rows; ++row) starts[row + 1] = narrow.row_map(row + 1) - narrow.row_map(row);
-  for (const auto& [row, all] : wide) starts[row + 1] = all.size();
-  std::partial_sum(starts.begin(), starts.end(), starts.begin());
-  Teuchos::ArrayRCP<LocalOrdinal> entries(starts[rows]);
+  Graph::local_graph_device_type::row_map_type::non_const_type starts("starts", static_cast<std::size_t>(rows) + 1);
+  for (LocalOrdinal row = 0; row < rows; ++row) starts(row + 1) = narrow.row_map(row + 1) - narrow.row_map(row);
+  for (const auto& [row, all] : wide) starts(row + 1) = all.size();
+  std::partial_sum(starts.data(), starts.data() + starts.extent(0), starts.data());
+  Graph::local_graph_device_type::entries_type::non_const_type entries(Kokkos::view_alloc(Kokkos::WithoutInitializing, "entries"), starts(rows));
   for (LocalOrdinal row = 0; row < rows; ++row) {
     const auto found = wide.find(row);
     if (found != wide.end())
-      std::copy(found->second.begin(), found->second.end(), entries.begin() + starts[row]);
+      std::copy(found->second.begin(), found->second.end(), entries.data() + starts(row));
     else
-      std::copy(narrow.entries.data() + narrow.row_map(row), narrow.entries.data() + narrow.row_map(row + 1), entries.begin() + starts[row]);
+      std::copy(narrow.entries.data() + narrow.row_map(row), narrow.entries.data() + narrow.row_map(row + 1), entries.data() + starts(row));
   }
   const auto graph = rcp(new Graph(dofs, columns, starts, entries));
   graph->expertStaticFillComplete(dofs, dofs);
@@ -138,21 +138,20 @@ RCP<const Graph> widened(const Graph& bulk, const std::map<GlobalOrdinal, Column
 
 }  // namespace
 
-SystemScatter::SystemScatter(const RCP<const Map>& owned_nodes, const RCP<const Graph>& bulk, const std::vector<PairCoupling*>& pairs,
-                             bool middles_first) {
-  const RCP<const Map> dofs = bulk->getRowMap();
+SystemScatter::SystemScatter(const RCP<const Map>& owned_nodes, const Graph& bulk, const std::vector<PairCoupling*>& pairs, bool middles_first) {
+  const RCP<const Map> dofs = bulk.getRowMap();
   parallel_ = dofs->getComm()->getSize() > 1;
   const int dimension = pairs.empty() ? 1 : pairs.front()->dimension();
   std::map<GlobalOrdinal, Columns> of_middles;
   if (middles_first) {
-    add_columns(*bulk, pairs, dimension, true, {}, of_middles);
+    add_columns(bulk, pairs, dimension, true, {}, of_middles);
     if (parallel_) {
       const RCP<Graph> remote = remote_graph(of_middles, *owned_nodes, dofs, dimension);
       receive(*remote, Export(remote->getRowMap(), dofs), dofs, dimension, of_middles);
     }
   }
   std::map<GlobalOrdinal, Columns> columns_of_node = of_middles;
-  add_columns(*bulk, pairs, dimension, false, of_middles, columns_of_node);
+  add_columns(bulk, pairs, dimension, false, of_middles, columns_of_node);
 
   if (parallel_) {
     const RCP<Graph> remote = remote_graph(columns_of_node, *owned_nodes, dofs, dimension);
@@ -162,7 +161,7 @@ SystemScatter::SystemScatter(const RCP<const Map>& owned_nodes, const RCP<const 
     remote_vector_ = rcp(new Vector(remote->getRowMap()));
   }
 
-  graph_ = widened(*bulk, columns_of_node, *owned_nodes, dimension);
+  graph_ = widened(bulk, columns_of_node, *owned_nodes, dimension);
 
   const RCP<const Map> columns = graph_->getColMap();
   if (parallel_) {

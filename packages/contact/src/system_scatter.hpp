@@ -23,7 +23,7 @@ class SystemScatter {
   /// it is coupled to; the same columns in the rows of the nodes its multiplier loads (they receive the slave's row by condensation).
   /// Its columns are the bulk's, followed by further ones.
   /// @param middles_first  whether there are multipliers that are condensed before those of corners, whose rows they widen, on any rank
-  SystemScatter(const RCP<const Map>& owned_nodes, const RCP<const Graph>& bulk, const std::vector<PairCoupling*>& pairs, bool middles_first);
+  SystemScatter(const RCP<const Map>& owned_nodes, const Graph& bulk, const std::vector<PairCoupling*>& pairs, bool middles_first);
 
   const RCP<const Graph>& graph() const { return graph_; }
   const NodePositions& positions(std::size_t pair) const { return positions_[pair]; }

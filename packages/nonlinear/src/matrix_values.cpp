@@ -64,6 +64,7 @@ DirichletElimination::DirichletElimination(const Graph& graph, const std::vector
     row_end_.push_back(end);
     diagonal_.push_back(diagonal);
   }
+  entries_.shrink_to_fit();
 }
 
 void DirichletElimination::impose(Matrix& matrix, const Vector& increment, double diagonal, Vector& rhs) const {

@@ -110,11 +110,13 @@ struct SemiSmoothSystem::Implementation {
   // A matrix with the bulk's graph, or with the larger one that the current candidates of contact ask for.
   void match_graph() {
     bool changed = matrix.is_null();
-    RCP<const Graph> graph = parts.bulk_graph;
+    RCP<const Graph> graph;
     if (parts.contact) {
       bool other_candidates = false;
       graph = parts.contact->system_graph(parts.bulk_graph, other_candidates);
       changed |= other_candidates;
+    } else if (changed) {
+      graph = parts.bulk_graph();
     }
     if (!changed) return;
     matrix = rcp(new Matrix(graph));

@@ -49,7 +49,7 @@ double softest(const Model& model, std::initializer_list<const SideSet*> sets) {
 
 }  // namespace
 
-std::string deck_contact(const Scene& scene, const Model& model, Peer peer) {
+std::string deck_contact(const Scene& scene, const Model& model, Peer peer, std::optional<double> penalty) {
   const Mesh& mesh = *model.mesh();
   std::string deck;
   const auto text = std::back_inserter(deck);
@@ -60,10 +60,10 @@ std::string deck_contact(const Scene& scene, const Model& model, Peer peer) {
     write_surface(text, fmt::format("MASTER{}", p), mesh, master);
     // Penalties, stress per length, against E/h, the stiffness of an element at the interface. Mortar has one for sticking only and bears a stiff
     // one. The other two have one for the pressure as well: in the plane ten times stiffer ones end in divergence on the finer of the shipped meshes;
-    // in space a softer one would take percents of the force.
+    // in space, on flat surfaces, a softer one would take percents of the force.
     const bool mortar = peer == Peer::calculix_mortar;
     const double of_element = softest(model, {&slave, &master}) / shortest(mesh, slave);
-    const double pressing = (mesh.dimension == 2 ? 1.0 : 50.0) * of_element, sticking = mortar ? 10.0 * of_element : 0.1 * pressing;
+    const double pressing = penalty.value_or(mesh.dimension == 2 ? 1.0 : 50.0) * of_element, sticking = mortar ? 10.0 * of_element : 0.1 * pressing;
     fmt::format_to(text, "*SURFACE INTERACTION,NAME=INTERACTION{}\n", p);
     if (!mortar) fmt::format_to(text, "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=LINEAR\n{:.10g}\n", pressing);
     if (const auto* coulomb = dynamic_cast<const CoulombFriction*>(pair.contact.friction.options.get()); coulomb != nullptr && coulomb->acts())

@@ -22,13 +22,13 @@ std::string calculix_element(CellShape shape) {
   }
 }
 
-std::string calculix_deck(const Scene& scene, const Model& model, Peer peer) {
+std::string calculix_deck(const Scene& scene, const Model& model, Peer peer, std::optional<double> penalty) {
   const auto& first = *model.bodies()->properties().front().material;
   const bool small_strain = std::visit([](const auto& law) { return law.small_strain; }, first.law());
   const DeckConditions conditions = deck_conditions(scene, model);
   const std::size_t increments = deck_times(scene.stepping).size() - 1;
   std::string deck = fmt::format("*HEADING\n{}\n", scene.name);
-  deck += deck_bodies(model) + deck_contact(scene, model, peer) + conditions.before;
+  deck += deck_bodies(model) + deck_contact(scene, model, peer, penalty) + conditions.before;
   // DIRECT: the steps of the scene and no others. Results are written at the end of the step only.
   deck += fmt::format("*STEP{},INC={}\n*STATIC,DIRECT\n{:.10g},{:.10g}\n", small_strain ? "" : ",NLGEOM", 2 * increments + 10,
                       std::min(scene.stepping.step, scene.stepping.end_time), scene.stepping.end_time);

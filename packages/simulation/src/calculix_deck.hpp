@@ -1,6 +1,7 @@
 #pragma once
 // A scene as an input deck of CalculiX.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,8 +34,8 @@ std::vector<double> deck_times(const SteppingOptions& stepping);
 /// Nodes, elements, sections, materials.
 std::string deck_bodies(const Model& model);
 
-/// Surfaces and contact pairs.
-std::string deck_contact(const Scene& scene, const Model& model, Peer peer);
+/// Surfaces and contact pairs. `penalty`: of peers that press by one, in multiples of E/h.
+std::string deck_contact(const Scene& scene, const Model& model, Peer peer, std::optional<double> penalty);
 
 /// Prescribed displacements and nodal forces over time: what stands before the step and what stands in it.
 struct DeckConditions {
@@ -43,6 +44,6 @@ struct DeckConditions {
 DeckConditions deck_conditions(const Scene& scene, const Model& model);
 
 /// The whole deck, for a scene without obstacles. The mesh is on one rank.
-std::string calculix_deck(const Scene& scene, const Model& model, Peer peer);
+std::string calculix_deck(const Scene& scene, const Model& model, Peer peer, std::optional<double> penalty);
 
 }  // namespace mortise

@@ -18,7 +18,9 @@ void inspect_scene(const RCP<const Communicator>& comm, const RunOptions& option
   const StepEvaluation evaluation(scene, model, system);
   report_model(options.scene, scene, model, log);
   log.info(fmt::format("  diagonal of the model {:.6g}, shortest side of an element {:.6g}", model.size().length, model.size().shortest_side));
-  log.info(fmt::format("  about {:.0f} MiB for matrices and factors", estimated_memory_mib(model)));
+  const MemoryEstimate memory = estimated_memory(model);
+  log.info(fmt::format("  about {:.0f} MiB: {:.0f} until here, {:.0f} for the linear systems", memory.so_far + memory.linear_systems, memory.so_far,
+                       memory.linear_systems));
   log.info("no errors");
 }
 

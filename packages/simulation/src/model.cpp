@@ -182,7 +182,7 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
 
   parts_.dofs = bodies_->dofs();
   parts_.local_dofs = bodies_->local_dofs();
-  parts_.bulk_graph = bodies_->graph();
+  parts_.bulk_graph = [bodies] { return bodies->graph(); };
   parts_.length = size_.length;
   parts_.near_null_space = [bodies = bodies_, apart = 1e6 * size_.length](const Vector& displacement) {
     const RCP<MultiVector> coordinates = current_coordinates(*bodies, displacement);

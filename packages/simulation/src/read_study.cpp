@@ -51,6 +51,8 @@ void complete(StudyPoint& point, const XmlList& root) {
   for (const auto& body : scene.bodies)
     if (!body.value.rigid.value) elements.push_back(to_string(body.value.element));
   point.element = joined(elements);
+  penalty_multiple(point.penalty.value, scene.symbols, point.penalty.place);
+  if (!has_penalty(point.peer)) point.penalty = {};
   if (point.peer != Peer::none) {
     point.formulation = peer_title(point.peer);
     std::vector<std::string> theirs;
@@ -140,7 +142,7 @@ StudyPlan read_study(const Communicator& comm, const std::string& path, const st
   plan.points = study_points(study, diagnostics);
   if (plan.points.empty() && diagnostics.empty()) diagnostics.push_back({root.place, "all combinations are excluded"});
   if (!study.finest.all.empty()) {
-    StudyFile alone;  // an axis of one value, so that "ranks" and "peer" are taken out of its settings too
+    StudyFile alone;  // an axis of one value, so that "ranks" and the like are taken out of its settings too
     alone.settings = study.settings;
     alone.axes.push_back({"finest", {}, {}});
     alone.axes.back().value.choices.push_back({"finest", {}, study.finest});

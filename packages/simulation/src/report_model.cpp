@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_CrsGraph.hpp>
-#include <cmath>
+
+#include "memory.hpp"
+#include "memory_estimate.hpp"
 
 namespace mortise {
 
@@ -23,14 +26,17 @@ void report_model(const std::string& file, const Scene& scene, const Model& mode
                        model.mesh()->comm->getSize()));
 }
 
-double estimated_memory_mib(const Model& model) {
-  // The matrix, value and column index of each entry. Factors of nested dissection on N nodes of a plane mesh, with
-  // George's count of entries 31/4 N log2 N for the pattern, 2 x 2 values each, L and U.
-  const double entry = sizeof(double) + sizeof(LocalOrdinal);
-  const double matrix = entry * static_cast<double>(model.parts().bulk_graph->getGlobalNumEntries());
-  const double nodes = 0.5 * static_cast<double>(model.dofs());
-  const double factors = 7.75 * nodes * std::log2(nodes + 1.0) * 4.0 * 2.0 * sizeof(double);
-  return (matrix + factors) / (1024.0 * 1024.0);
+MemoryEstimate estimated_memory(const Model& model) {
+  constexpr double mib = 1024.0 * 1024.0;
+  const Communicator& comm = *model.mesh()->comm;
+  MemoryEstimate estimate;
+  Teuchos::reduceAll(comm, Teuchos::REDUCE_SUM, peak_memory_mib(), Teuchos::outArg(estimate.so_far));
+  const int dimension = model.mesh()->dimension;
+  const double entries = static_cast<double>(model.parts().bulk_graph()->getGlobalNumEntries());
+  const SystemSize size{dimension, static_cast<double>(model.dofs()) / dimension, entries / (dimension * dimension), comm.getSize() > 1};
+  const bool iterative = model.parts().linear_solver->tolerances().has_value();
+  estimate.linear_systems = (iterative ? multigrid_bytes(size) : factorisation_bytes(size)) / mib;
+  return estimate;
 }
 
 }  // namespace mortise

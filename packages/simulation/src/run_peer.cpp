@@ -75,11 +75,16 @@ ExitCode run_peer(const RCP<const Communicator>& comm, const PeerOptions& option
   const Model model(comm, scene, timers);
   SemiSmoothSystem system(model.parts(), timers);
   const StepEvaluation prepared(scene, model, system);  // the names that quantities hold
-  if (const auto obstacles = calculix_obstacles(scene, model); !obstacles.empty()) throw InputError(obstacles);
+  std::vector<Diagnostic> obstacles = calculix_obstacles(scene, model);
+  const Place place{"", 0, "--penalty"};
+  if (!options.penalty.empty() && !has_penalty(options.peer))
+    obstacles.push_back({place, fmt::format("{} presses without a penalty; please leave it out, or take another peer", peer_title(options.peer))});
+  if (!obstacles.empty()) throw InputError(obstacles);
+  const std::optional<double> penalty = penalty_multiple(options.penalty, scene.symbols, place);
   if (const std::string missing = missing_program(options.peer); !missing.empty()) throw FileError("not installed: " + missing);
   OutputDirectory directory(comm, options.directory.empty() ? default_directory(options.scene) : options.directory, false);
   remove_earlier(directory);
-  write_file(*comm, directory.file("peer.inp"), [&] { return calculix_deck(scene, model, options.peer); });
+  write_file(*comm, directory.file("peer.inp"), [&] { return calculix_deck(scene, model, options.peer, penalty); });
 
   setenv("OMP_NUM_THREADS", "1", 1);  // one process on one core, as this program's ranks
   // It leaves files of its own where it is run.
@@ -123,6 +128,16 @@ const std::vector<std::pair<std::string, Peer>>& peer_names() {
                                                                {"calculix surface to surface", Peer::calculix_surface_to_surface},
                                                                {"calculix node to surface", Peer::calculix_node_to_surface}};
   return names;
+}
+
+bool has_penalty(Peer peer) { return peer == Peer::calculix_surface_to_surface || peer == Peer::calculix_node_to_surface; }
+
+std::optional<double> penalty_multiple(const std::string& expression, const Symbols& variables, const Place& place) {
+  if (expression.empty()) return std::nullopt;
+  const double multiple = Expression::of({}, expression, variables, place).at({});
+  if (!(multiple > 0.0 && std::isfinite(multiple)))
+    throw InputError({{place, fmt::format("the penalty is \"{}\" = {:g} times E/h; it has to be above 0", expression, multiple)}});
+  return multiple;
 }
 
 std::string peer_title(Peer peer) {

@@ -72,8 +72,9 @@ ProcessEnding run_process(const std::vector<std::string>& words) {
 }
 
 std::vector<std::string> command_of_peer(const std::string& scene, const std::vector<std::string>& settings, const std::string& peer,
-                                         const std::string& directory) {
+                                         const std::string& penalty, const std::string& directory) {
   std::vector<std::string> command{this_program(), "peer", scene, "--by", peer};
+  if (!penalty.empty()) command.insert(command.end(), {"--penalty", penalty});
   add_settings(command, settings, directory);
   return command;
 }

@@ -20,9 +20,9 @@ struct ProcessEnding {
 /// not start others that use MPI.
 ProcessEnding run_process(const std::vector<std::string>& words);
 
-/// The words that start `mortise peer` of this same program, quietly.
+/// The words that start `mortise peer` of this same program, quietly. `penalty`: empty for that of the peer.
 std::vector<std::string> command_of_peer(const std::string& scene, const std::vector<std::string>& settings, const std::string& peer,
-                                         const std::string& directory);
+                                         const std::string& penalty, const std::string& directory);
 
 /// The words that start `mortise run` of this same program, quietly, with mpirun for more than one rank.
 /// @param settings  "path=value" each

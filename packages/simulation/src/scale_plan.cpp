@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "memory_estimate.hpp"
 #include "mortise/mesh/sets.hpp"
 #include "mortise/mortar/facet_partition.hpp"
 #include "mortise/mortar/mortar_interface.hpp"
@@ -107,17 +108,13 @@ PairPlan share_out(const RCP<const Communicator>& comm, const std::vector<Planne
   return pair;
 }
 
-// Bytes of what grows with the mesh: the system matrix, value and column of each entry, the bodies' graph, and the matrix for multigrid, coarse
-// matrices, prolongators and products that multigrid holds at its peak, together as much as `matrices` of them (measured); the vectors of GMRES;
-// nodes and elements with their sets and maps.
-double memory_mib(const RankPlan& rank, int dimension, int nodes_per_element) {
-  constexpr double matrices = 7.0, entry = sizeof(double) + sizeof(LocalOrdinal), krylov_vectors = 50.0, bytes_of_node = 150.0,
-                   bytes_of_element = 30.0;
+// What grows with the mesh: linear systems, nodes and elements with their sets and maps, couplings.
+double memory_mib(const RankPlan& rank, int dimension, int nodes_per_element, bool parallel) {
+  constexpr double bytes_of_node = 150.0, bytes_of_element = 30.0;
   const auto& mesh = rank.mesh;
-  const double entries = static_cast<double>(dimension * dimension * mesh.node_pairs);
   const double elements = static_cast<double>(mesh.elements + mesh.ghost_elements), nodes = static_cast<double>(mesh.nodes + mesh.ghost_nodes);
-  double bytes = matrices * entry * entries + krylov_vectors * sizeof(double) * dimension * static_cast<double>(mesh.nodes) + bytes_of_node * nodes +
-                 (bytes_of_element + static_cast<double>(sizeof(LocalOrdinal)) * nodes_per_element) * elements;
+  double bytes = multigrid_bytes({dimension, static_cast<double>(mesh.nodes), static_cast<double>(mesh.node_pairs), parallel}) +
+                 bytes_of_node * nodes + (bytes_of_element + static_cast<double>(sizeof(LocalOrdinal)) * nodes_per_element) * elements;
   for (const auto& [from, couplings] : rank.coupling_bytes) bytes += couplings;
   return bytes / (1024.0 * 1024.0);
 }
@@ -159,7 +156,7 @@ ScalePlan make_scale_plan(const RCP<const Communicator>& comm, const Scene& scen
   }
   int nodes_per_element = 0;
   for (const Block& block : mesh->blocks) nodes_per_element = std::max(nodes_per_element, block.nodes_per_element);
-  for (RankPlan& rank : plan.ranks) rank.memory_mib = memory_mib(rank, plan.dimension, nodes_per_element);
+  for (RankPlan& rank : plan.ranks) rank.memory_mib = memory_mib(rank, plan.dimension, nodes_per_element, ranks > 1);
   return plan;
 }
 

@@ -5,8 +5,9 @@
 namespace mortise {
 
 void StudyAxis::describe(Parameters& parameters) {
-  parameters.add("setting", setting,
-                 "path of what is varied, as `--set` takes it (\"variables/n\"), or \"ranks\" or \"peer\"; short form, with \"values\"");
+  parameters.add(
+      "setting", setting,
+      "path of what is varied, as `--set` takes it (\"variables/n\"), or \"ranks\", \"peer\" or \"peer penalty\"; short form, with \"values\"");
   parameters.add("values", values, "its values, each the label of itself");
   parameters.named(
       "choices", choices,

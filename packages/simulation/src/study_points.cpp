@@ -59,7 +59,7 @@ void read_peer(StudyPoint& point, const Assignment& said, std::vector<Diagnostic
     diagnostics.push_back({said.place, unknown_name("peer", said.value, known) + "; there are " + quoted_list(known)});
 }
 
-/// Takes "ranks" and "peer" out of the settings: they say how the scene is run and are no part of it.
+/// Takes "ranks", "peer" and "peer penalty" out of the settings: they say how the scene is run and are no part of it.
 void take_reserved(StudyPoint& point, std::vector<Diagnostic>& diagnostics) {
   std::vector<Assignment> others;
   const Assignment* ranks = nullptr;
@@ -68,6 +68,8 @@ void take_reserved(StudyPoint& point, std::vector<Diagnostic>& diagnostics) {
       read_ranks(point, *(ranks = &one), diagnostics);
     else if (one.path == "peer")
       read_peer(point, one, diagnostics);
+    else if (one.path == "peer penalty")
+      point.penalty = {one.value, one.place};
     else
       others.push_back(one);
   }

@@ -37,6 +37,7 @@ Json identity(const StudyPoint& point, const StudyPointOptions& options) {
   Json identity{
       {"text", options.text}, {"settings", point.words()}, {"ranks", point.ranks}, {"repeats", options.repeats}, {"version", options.version}};
   if (point.peer != Peer::none) identity["peer"] = peer_title(point.peer);
+  if (!point.penalty.value.empty()) identity["peer penalty"] = point.penalty.value;
   return identity;
 }
 
@@ -77,7 +78,7 @@ std::vector<std::string> command_of(const StudyPoint& point, const StudyPointOpt
   if (point.peer == Peer::none) return command_of_run(options.scene, point.words(), point.ranks, options.directory);
   const auto& names = peer_names();
   const auto name = std::find_if(names.begin(), names.end(), [&](const auto& one) { return one.second == point.peer; });
-  return command_of_peer(options.scene, point.words(), name->first, options.directory);
+  return command_of_peer(options.scene, point.words(), name->first, point.penalty.value, options.directory);
 }
 
 /// Time and memory of a run: those of its process, or of the peer's, without what it took to write its deck and to read its results.

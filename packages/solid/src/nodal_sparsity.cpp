@@ -52,11 +52,12 @@ bool begins_with(const Map& columns, const Map& first) {
 
 }  // namespace
 
-NodalSparsity::NodalSparsity(const Mesh& mesh, const RCP<const Map>& dofs, const RCP<const Map>& local_dofs) : dimension_(mesh.dimension) {
+NodalSparsity::NodalSparsity(const Mesh& mesh, const RCP<const Map>& dofs, const RCP<const Map>& local_dofs)
+    : dimension_(mesh.dimension), dofs_(dofs), local_dofs_(local_dofs) {
   const LocalOrdinal owned = mesh.owned_count();
   const ElementsAroundNodes around(mesh);
-  neighbour_starts_.assign(1, 0);
-  row_starts_.assign(1, 0);
+  neighbour_starts_.reserve(owned + 1);
+  neighbour_starts_.push_back(0);
   std::vector<LocalOrdinal> list;
   for (LocalOrdinal node = 0; node < owned; ++node) {
     list.clear();
@@ -66,21 +67,33 @@ NodalSparsity::NodalSparsity(const Mesh& mesh, const RCP<const Map>& dofs, const
     list.erase(std::unique(list.begin(), list.end()), list.end());
     neighbours_.insert(neighbours_.end(), list.begin(), list.end());
     neighbour_starts_.push_back(neighbours_.size());
-    for (int component = 0; component < dimension_; ++component) row_starts_.push_back(row_starts_.back() + dimension_ * list.size());
   }
+  neighbours_.shrink_to_fit();
+}
 
-  // The rows as the graph will hold them, ascending: handing them over one by one would search each for what it has already.
-  Teuchos::ArrayRCP<std::size_t> starts(row_starts_.size());
-  std::copy(row_starts_.begin(), row_starts_.end(), starts.begin());
-  Teuchos::ArrayRCP<LocalOrdinal> columns(row_starts_.back());
-  auto column = columns.begin();
-  for (LocalOrdinal node = 0; node < owned; ++node)
-    for (int component = 0; component < dimension_; ++component)
-      for (std::size_t n = neighbour_starts_[node]; n < neighbour_starts_[node + 1]; ++n)
-        for (int of = 0; of < dimension_; ++of) *column++ = dimension_ * neighbours_[n] + of;
-  auto graph = rcp(new Graph(dofs, local_dofs, starts, columns));
-  graph->expertStaticFillComplete(dofs, dofs);
-  graph_ = graph;
+std::size_t NodalSparsity::row_size(std::size_t row) const {
+  const std::size_t node = row / dimension_;
+  return dimension_ * (neighbour_starts_[node + 1] - neighbour_starts_[node]);
+}
+
+LocalOrdinal* NodalSparsity::write_columns(std::size_t row, LocalOrdinal* columns) const {
+  const std::size_t node = row / dimension_;
+  for (std::size_t n = neighbour_starts_[node]; n < neighbour_starts_[node + 1]; ++n)
+    for (int of = 0; of < dimension_; ++of) *columns++ = dimension_ * neighbours_[n] + of;
+  return columns;
+}
+
+// The rows as the graph holds them, ascending: handed over one by one each would be searched for what it has already.
+RCP<const Graph> NodalSparsity::graph() const {
+  const std::size_t rows = dofs_->getNodeNumElements();
+  Graph::local_graph_device_type::row_map_type::non_const_type starts("starts", rows + 1);
+  for (std::size_t row = 0; row < rows; ++row) starts(row + 1) = starts(row) + row_size(row);
+  Graph::local_graph_device_type::entries_type::non_const_type columns(Kokkos::view_alloc(Kokkos::WithoutInitializing, "columns"), starts(rows));
+  LocalOrdinal* next = columns.data();
+  for (std::size_t row = 0; row < rows; ++row) next = write_columns(row, next);
+  const auto graph = rcp(new Graph(dofs_, local_dofs_, starts, columns));
+  graph->expertStaticFillComplete(dofs_, dofs_);
+  return graph;
 }
 
 LocalOrdinal NodalSparsity::position(LocalOrdinal row, LocalOrdinal column) const {
@@ -92,36 +105,37 @@ LocalOrdinal NodalSparsity::position(LocalOrdinal row, LocalOrdinal column) cons
 
 NodalSparsity::Values NodalSparsity::open(Matrix& matrix) const {
   const auto graph = matrix.getCrsGraph();
-  if (graph->getNodeNumRows() + 1 != row_starts_.size() || !graph->isSorted() || !begins_with(*graph->getColMap(), *graph_->getColMap()))
+  const std::size_t rows = dofs_->getNodeNumElements();
+  if (graph->getNodeNumRows() != rows || !graph->isSorted() || !begins_with(*graph->getColMap(), *local_dofs_))
     throw std::logic_error("a matrix was handed to the bulk that does not have the bulk's rows and columns");
   const auto local = matrix.getLocalMatrixHost();
-  Values values(matrix, *graph_);
+  Values values(matrix, *this);
   // Sorted rows of the same size have the same entries, as no row lacks one of the bulk's.
-  const LocalOrdinal rows = local.numRows();
   std::size_t gathered = 0;
-  for (LocalOrdinal row = 0; row < rows; ++row) {
-    const std::size_t size = row_starts_[row + 1] - row_starts_[row], entries = local.graph.row_map(row + 1) - local.graph.row_map(row);
+  for (std::size_t row = 0; row < rows; ++row) {
+    const std::size_t size = row_size(row), entries = local.graph.row_map(row + 1) - local.graph.row_map(row);
     if (entries < size) throw std::logic_error("a matrix was handed to the bulk that lacks entries of the bulk's graph");
     if (entries == size) continue;
-    values.wider_.push_back(row);
+    values.wider_.push_back(static_cast<LocalOrdinal>(row));
     gathered += size;
   }
   values.gathered_.assign(gathered, 0.0);
   values.rows_.resize(rows);
-  for (LocalOrdinal row = 0; row < rows; ++row) values.rows_[row] = local.values.data() + local.graph.row_map(row);
+  for (std::size_t row = 0; row < rows; ++row) values.rows_[row] = local.values.data() + local.graph.row_map(row);
   double* next = values.gathered_.data();
   for (const LocalOrdinal row : values.wider_) {
     values.rows_[row] = next;
-    next += row_starts_[row + 1] - row_starts_[row];
+    next += row_size(row);
   }
   return values;
 }
 
 void NodalSparsity::Values::close() const {
+  std::vector<LocalOrdinal> columns;
   for (const LocalOrdinal row : wider_) {
-    Graph::local_inds_host_view_type columns;
-    narrow_.getLocalRowView(row, columns);
-    const auto count = static_cast<LocalOrdinal>(columns.extent(0));
+    columns.resize(sparsity_.row_size(row));
+    sparsity_.write_columns(row, columns.data());
+    const auto count = static_cast<LocalOrdinal>(columns.size());
     if (matrix_.sumIntoLocalValues(row, count, rows_[row], columns.data()) != count)
       throw std::logic_error("a matrix was handed to the bulk that lacks entries of the bulk's graph");
   }

@@ -260,6 +260,40 @@ TEST(Iterative, GivesUpWithAStepFailure) {
   EXPECT_NE(failure_of(*solver, *loads(*grid), x).find("the true relative residual"), std::string::npos);
 }
 
+// Gauss-Seidel alone leaves GMRES so many iterations that it restarts. With as many vectors as `basis` says (none: as the solver decides): the
+// iterations of two solves, one after the other.
+std::vector<int> iterations_of_two_solves(std::optional<int> basis) {
+  LinearSolverOptions options;
+  options.kind.value = Kind::iterative;
+  options.muelu.value.set("max levels", 1);
+  options.muelu.value.set("coarse: type", "RELAXATION");
+  options.muelu.value.sublist("coarse: params").set("relaxation: type", "Symmetric Gauss-Seidel");
+  if (basis) options.belos.value.set("Num Blocks", *basis);
+  const auto grid = std::make_shared<SpringGrid>(Tpetra::getDefaultComm(), 32, 32, Numbering::blocks);
+  const auto matrix = stiffness(grid, true);
+  const auto b = loads(*grid);
+  const auto solver = make_linear_solver(options, Tpetra::getDefaultComm(), Timers());
+  std::vector<int> iterations;
+  for (int solve = 0; solve < 2; ++solve) {
+    Vector x(grid->dofs);
+    solver->set_matrix(matrix, solve == 0, [&] { return grid->near_null_space(); });
+    iterations.push_back(solver->solve(*b, x).iterations);
+    EXPECT_LE(true_residual(*matrix, *b, x), 1e-9);
+  }
+  return iterations;
+}
+
+// A restart forgets the space searched so far. The first system meets a small basis; the next one has room for what the first one took.
+TEST(Iterative, RestartsLaterOnceASystemTookManyIterations) {
+  const auto itself = iterations_of_two_solves({}), small = iterations_of_two_solves(50), large = iterations_of_two_solves(200);
+  ASSERT_GT(large[0], 50);   // no basis of 50 could do without a restart,
+  ASSERT_LE(large[0], 200);  // one of 200 does
+  ASSERT_LT(large[1], small[1]);
+  RecordProperty("iterations", std::to_string(small[1]) + " " + std::to_string(large[1]));
+  EXPECT_EQ(itself[0], small[0]);
+  EXPECT_EQ(itself[1], large[1]);
+}
+
 TEST(Iterative, RefusesParametersItsPackagesDoNotKnow) {
   LinearSolverOptions options;
   options.kind.value = Kind::iterative;

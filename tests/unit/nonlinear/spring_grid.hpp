@@ -272,7 +272,7 @@ struct Problem {
     SystemParts parts;
     parts.dofs = grid->dofs;
     parts.local_dofs = grid->local_dofs;
-    parts.bulk_graph = grid->graph;
+    parts.bulk_graph = [graph = grid->graph] { return graph; };
     parts.contributions = {std::make_shared<Springs>(grid, choices.stiffness), brittle};
     if (choices.force) parts.contributions.push_back(std::make_shared<EdgeLoad>(grid, *choices.force));
     parts.prescribed = std::make_shared<Edges>(*grid, choices.motion);

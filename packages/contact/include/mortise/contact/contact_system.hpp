@@ -1,6 +1,7 @@
 #pragma once
 // All contact pairs of a model: their residuals, their blocks of the linearised system, the condensation of the multipliers.
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -116,8 +117,9 @@ class ContactSystem {
   /// that nothing is within reach any more. A node that opened or ran off the master's edge is not lost.
   void evaluate(const Vector& d, bool derivatives, std::optional<StepFailure>& failure);
 
-  /// Graph of the condensed system: `bulk` and what the pairs couple. `changed` is set if it differs from the one of the last call.
-  RCP<const Graph> system_graph(const RCP<const Graph>& bulk, bool& changed);
+  /// Graph of the condensed system: the bulk's and what the pairs couple. `changed` is set if it differs from the one of the last call: only then is
+  /// `bulk` asked for the bulk's, which is not kept.
+  RCP<const Graph> system_graph(const std::function<RCP<const Graph>()>& bulk, bool& changed);
 
   /// r += f_c(d, z) on the owned dofs, d of the last evaluate.
   void add_contact_force(const Vector& z, Vector& r) const;

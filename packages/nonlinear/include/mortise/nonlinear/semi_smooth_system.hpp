@@ -29,8 +29,8 @@ struct ResidualNorms {
 
 /// What a nonlinear system is made of. Shared by all groups that NOX clones.
 struct SystemParts {
-  RCP<const Map> dofs, local_dofs;  ///< owned; owned then ghosts
-  RCP<const Graph> bulk_graph;      ///< rows `dofs`; what the contributions' Jacobians write into
+  RCP<const Map> dofs, local_dofs;               ///< owned; owned then ghosts
+  std::function<RCP<const Graph>()> bulk_graph;  ///< makes it: rows `dofs`; what the contributions' Jacobians write into
   std::vector<std::shared_ptr<Contribution>> contributions;
   std::shared_ptr<PrescribedDisplacements> prescribed;
   std::shared_ptr<DependentDisplacements> dependent;  ///< null: every displacement is an unknown or prescribed

@@ -1,11 +1,13 @@
 #pragma once
 // Other programs that run a scene, for comparison.
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "mortise/core/error.hpp"
+#include "mortise/core/expression.hpp"
 #include "mortise/core/log.hpp"
 #include "mortise/core/types.hpp"
 
@@ -17,6 +19,13 @@ enum class Peer { none, calculix_mortar, calculix_surface_to_surface, calculix_n
 /// "none", "calculix mortar", "calculix surface to surface", "calculix node to surface".
 const std::vector<std::pair<std::string, Peer>>& peer_names();
 
+/// Whether its contact presses by a penalty: all but mortar.
+bool has_penalty(Peer peer);
+
+/// The penalty of a peer's contact in multiples of E/h, from an expression of the scene's variables; none if that is empty: the deck's own choice.
+/// @throws InputError if it is not a number above 0
+std::optional<double> penalty_multiple(const std::string& expression, const Symbols& variables, const Place& place);
+
 /// For tables: "CalculiX mortar".
 std::string peer_title(Peer peer);
 
@@ -26,6 +35,7 @@ struct PeerOptions {
   std::vector<std::string> settings;  ///< "path=value" each
   std::string directory;              ///< where results go; empty: default_directory(scene)
   Peer peer = Peer::none;
+  std::string penalty;  ///< as penalty_multiple() takes it
   Verbosity verbosity = Verbosity::normal;
   std::string version;  ///< of this program
 };

@@ -18,7 +18,8 @@ struct StudyPoint {
   std::vector<std::string> titles;  ///< the same for people: "n = 4" where the label alone is a bare value
   std::vector<Assignment> settings;
   int ranks = 1;
-  Peer peer = Peer::none;  ///< the program that runs it instead of this one
+  Peer peer = Peer::none;        ///< the program that runs it instead of this one
+  Located<std::string> penalty;  ///< of its contact, as penalty_multiple() takes it; empty for peers without
 
   // What the scene is with these settings.
   std::string formulation, element;

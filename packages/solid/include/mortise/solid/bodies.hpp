@@ -63,7 +63,8 @@ class Bodies {
   /// From dofs() to local_dofs().
   const RCP<const Import>& ghost_import() const { return ghost_import_; }
   const NodalSparsity& sparsity() const { return *sparsity_; }
-  const RCP<const Graph>& graph() const { return sparsity_->graph(); }
+  /// See NodalSparsity::graph().
+  RCP<const Graph> graph() const { return sparsity_->graph(); }
 
   /// residual += f_int, f_int = integral of tau : grad eta dV0, on owned dofs.
   /// det F <= 0 (or at the centre, det F0 <= 0) is put into `failure` if that is empty; the sum is then of no use.

@@ -15,8 +15,9 @@ class NodalSparsity {
   /// As many dofs a node as the mesh has dimensions.
   NodalSparsity(const Mesh& mesh, const RCP<const Map>& dofs, const RCP<const Map>& local_dofs);
 
-  /// Fill complete; domain and range are the owned dofs.
-  const RCP<const Graph>& graph() const { return graph_; }
+  /// Fill complete; domain and range are the owned dofs. Made anew by each call: it has dimension^2 entries for each pair of nodes that stands here,
+  /// and is of use only until it has become a matrix, or part of a wider graph. Collective.
+  RCP<const Graph> graph() const;
 
   /// Where, in a row of the owned node `row`, the columns of the local node `column` start. -1: `row` is a ghost, or the two share no element.
   LocalOrdinal position(LocalOrdinal row, LocalOrdinal column) const;
@@ -34,10 +35,10 @@ class NodalSparsity {
 
    private:
     friend class NodalSparsity;
-    Values(Matrix& matrix, const Graph& narrow) : matrix_(matrix), narrow_(narrow) {}
+    Values(Matrix& matrix, const NodalSparsity& sparsity) : matrix_(matrix), sparsity_(sparsity) {}
 
     Matrix& matrix_;
-    const Graph& narrow_;
+    const NodalSparsity& sparsity_;
     std::vector<double*> rows_;        ///< [owned dofs]
     std::vector<LocalOrdinal> wider_;  ///< rows that are gathered
     std::vector<double> gathered_;     ///< their values, one after the other
@@ -48,9 +49,13 @@ class NodalSparsity {
   Values open(Matrix& matrix) const;
 
  private:
+  /// Entries of a row of graph().
+  std::size_t row_size(std::size_t row) const;
+  /// Writes the columns of a row of graph(), ascending; returns what follows them.
+  LocalOrdinal* write_columns(std::size_t row, LocalOrdinal* columns) const;
+
   int dimension_;
-  RCP<const Graph> graph_;
-  std::vector<std::size_t> row_starts_;        ///< of the matrix, [owned dofs + 1]
+  RCP<const Map> dofs_, local_dofs_;
   std::vector<std::size_t> neighbour_starts_;  ///< [owned nodes + 1]
   std::vector<LocalOrdinal> neighbours_;       ///< ascending for each owned node, itself included
 };
