@@ -64,8 +64,8 @@ Complementarity PairCoupling::complementarity(std::size_t s, const SpatialVector
     if (!covered(s)) return open_node(z);
     const Frame in = frame(s);
     if (rubs && fixed > 0) slip[0] = 0.0;
-    const double scale = pair_.youngs_modulus / size_;
-    const RegularisedNode stiffness{regularisation_->normal * scale, regularisation_->tangential * scale, start_multipliers_[s]};
+    const double scale = pair_.youngs_modulus / size_, body = pair_.options.complementarity_constant.value_or(scale);
+    const RegularisedNode stiffness{regularisation_->normal * scale, regularisation_->tangential * scale, body, start_multipliers_[s]};
     const auto bound = [&](double pressure) { return friction_->bound(pressure, slip_[s].start.path); };
     return without_fixed(regularised(stiffness, row.gap, slip, row.covered, in, z, rubs ? &bound : nullptr), in);
   }
