@@ -33,7 +33,7 @@ void ContactOptions::describe(Parameters& parameters) {
                  "configuration that carries the contact geometry: current, or reference for small displacements");
   parameters.add("complementarity constant", complementarity_constant,
                  Says("c_n times A_j: weighs gap against pressure in the choice of the active set; changes no solution; default: Young's modulus "
-                      "of the softer side over the shortest slave facet")
+                      "of the softer side over the shortest slave facet, of penalty and augmented Lagrange a tenth of that")
                      .unit("stress / length")
                      .above(0.0));
   mortar.describe(parameters);
