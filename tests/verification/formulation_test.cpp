@@ -106,4 +106,17 @@ TEST(Hertz, PressuresOscillateFromNodeToNodeOnSegmentsOnly) {
   for (const Outcome* one : {&dual, &standard, &nodes}) EXPECT_NEAR(one->quantities.at("contact_force").get<double>(), 2500.0, 1e-6);
 }
 
+// Nodes that start to slip, stick again and open: a stiffness that is a multiple of the bodies' must not throw them from slip one way to slip the
+// other.
+TEST(SlidingCylinder, RegularisedFrictionUndoesNoStep) {
+  const std::string joint = "contact/joint/formulation/";
+  for (const std::string type : {"penalty", "augmented lagrange"})
+    for (const std::string discretisation : {"dual mortar", "node to segment"}) {
+      const Outcome outcome = run("verification/sliding_cylinder.xml", "cylinder " + type + " " + discretisation,
+                                  {joint + "type=" + type, joint + "discretisation=" + discretisation, "variables/N=50", "stepping/end time=0.2"});
+      EXPECT_EQ(outcome.steps.size(), 10u) << outcome.said;
+      for (const Json& step : outcome.steps) EXPECT_EQ(step.at("undone"), Json::array()) << type << ", " << discretisation;
+    }
+}
+
 }  // namespace

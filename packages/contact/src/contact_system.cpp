@@ -33,7 +33,7 @@ void ContactOptions::describe(Parameters& parameters) {
                  "configuration that carries the contact geometry: current, or reference for small displacements");
   parameters.add("complementarity constant", complementarity_constant,
                  Says("c_n times A_j: weighs gap against pressure in the choice of the active set; changes no solution; default: Young's modulus "
-                      "of the softer side over the shortest slave facet")
+                      "of the softer side over the shortest slave facet, of penalty and augmented Lagrange a tenth of that")
                      .unit("stress / length")
                      .above(0.0));
   mortar.describe(parameters);
@@ -241,10 +241,8 @@ ContactNorms ContactSystem::norms(const Vector& z) const {
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
     const detail::PairCoupling& pair = *self.pairs[p];
     floor = std::max(floor, 1e-9 * pair.definition().youngs_modulus);
-    // What the round-off of positions leaves of c_n g and c_t u, or of eps_n g and eps_t u.
-    const double stiffness = pair.regularisation() ? std::max(pair.regularisation()->normal, pair.regularisation()->tangential) : 1.0;
-    round_off =
-        std::max(round_off, 4.0 * std::numeric_limits<double>::epsilon() * self.extent * stiffness * pair.definition().youngs_modulus / pair.size());
+    // What the round-off of positions leaves of c g and c u; regularised conditions weigh them with less, c eps / (c + eps).
+    round_off = std::max(round_off, 4.0 * std::numeric_limits<double>::epsilon() * self.extent * pair.definition().youngs_modulus / pair.size());
     for (std::size_t s = 0; s < self.multiplier_of[p].size(); ++s) {
       if (self.multiplier_of[p][s] < 0) continue;
       const SpatialVector zs = self.z_of(values, p, s);

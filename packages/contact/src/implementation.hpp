@@ -57,8 +57,6 @@ struct ContactSystem::Implementation {
   std::vector<std::vector<ContactState>> states(const Vector& z) const;
   /// Collective. Positions x on the owned nodes: those of the last evaluation.
   void find_lost_contact(const MultiVector& x, std::optional<StepFailure>& failure) const;
-  /// A guess for a regularised pair that holds a body and has no closed node: the unheld side comes up to the other one.
-  void approach(std::size_t pair, const std::vector<char>& unheld, Vector& d) const;
   /// Sums over ranks.
   double sum(double value) const;
   double maximum(double value) const;

@@ -33,7 +33,9 @@ PairCoupling::PairCoupling(RCP<const Map> owned_nodes, RCP<const MultiVector> re
 }
 
 double PairCoupling::complementarity_constant(std::size_t s) const {
-  return pair_.options.complementarity_constant.value_or(pair_.youngs_modulus / size_) / slave_nodes()[s].weight;
+  constexpr double zone = 0.1;  // a contact zone that gives way as a whole, or yields, is that much softer than a facet
+  const double facet = pair_.youngs_modulus / size_;
+  return pair_.options.complementarity_constant.value_or(regularisation_ ? zone * facet : facet) / slave_nodes()[s].weight;
 }
 
 bool PairCoupling::covered(std::size_t s) const {
@@ -45,6 +47,11 @@ bool PairCoupling::covered(std::size_t s) const {
 bool PairCoupling::closed(std::size_t s, const SpatialVector& z) const {
   if (regularisation_) return complementarity(s, z).state != ContactState::open;
   return covered(s) && z.dot(rows_[s].normal) - complementarity_constant(s) * rows_[s].gap > 0.0;
+}
+
+double PairCoupling::closing_pressure(std::size_t s) const {
+  const double share = regularisation_ ? slave_nodes()[s].weight / rows_[s].covered : 1.0;
+  return complementarity_constant(s) * share * rows_[s].gap;
 }
 
 // A component that is prescribed takes one tangent: there the node bears no shear traction.
@@ -64,8 +71,8 @@ Complementarity PairCoupling::complementarity(std::size_t s, const SpatialVector
     if (!covered(s)) return open_node(z);
     const Frame in = frame(s);
     if (rubs && fixed > 0) slip[0] = 0.0;
-    const double scale = pair_.youngs_modulus / size_;
-    const RegularisedNode stiffness{regularisation_->normal * scale, regularisation_->tangential * scale, start_multipliers_[s]};
+    const double scale = pair_.youngs_modulus / size_, body = complementarity_constant(s) * node.weight;
+    const RegularisedNode stiffness{regularisation_->normal * scale, regularisation_->tangential * scale, body, start_multipliers_[s]};
     const auto bound = [&](double pressure) { return friction_->bound(pressure, slip_[s].start.path); };
     return without_fixed(regularised(stiffness, row.gap, slip, row.covered, in, z, rubs ? &bound : nullptr), in);
   }

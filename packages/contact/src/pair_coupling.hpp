@@ -93,18 +93,18 @@ class PairCoupling {
 
   /// Element size h of the scaling and of the start rule.
   double size() const { return size_; }
-  /// c_n of slave node s: E / (h A_j) unless given.
+  /// c_n of slave node s: unless given E / (h A_j), of regularised conditions a tenth of that.
   double complementarity_constant(std::size_t s) const;
   /// Whether node s has a multiplier and its function anything to act on: D_jj / A_j > 1e-12, of standard multipliers sum_k D_jk / A_j.
   bool covered(std::size_t s) const;
-  /// Closed: covered and z_n - c_n g > 0.
+  /// Closed: covered and z_n - c_n g > 0, or what a regularised condition has in its place.
   bool closed(std::size_t s, const SpatialVector& z) const;
+  /// z_n above which a covered node without history is closed: c_n g, of regularised conditions c g / w.
+  double closing_pressure(std::size_t s) const;
   /// The frame of slave node s. Tangents of partly fixed nodes are the fixed directions first.
   Frame frame(std::size_t s) const { return make_frame(rows_[s].normal, axes_[s]); }
   /// An accepted state may give nodes whose normal has come near it another reference axis of the tangents. Friction only.
   void choose_axes();
-  /// Regularised pairs: a touching node starts closed at this pressure.
-  void set_start_pressure(std::size_t s, double pressure) { start_multipliers_[s][0] = pressure; }
   /// How far conditions that are regularised are from holding exactly: |gap| of a closed node, |slip| of a sticking one, over h.
   double violation(std::size_t s, const SpatialVector& z) const;
   /// The multipliers become those of z.

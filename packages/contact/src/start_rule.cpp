@@ -33,35 +33,9 @@ bool master_is_unheld(const detail::PairCoupling& pair, const Map& owned_nodes, 
 
 }  // namespace
 
-// With the least gap g of a node, and the mean normal n of the nodes that are as near, the unheld bodies are moved by g + 1e-6 E / eps_n towards the
-// other side: the nodes then bear 1e-6 E. Components that are prescribed stay. Two sides that are both unheld are left where they are.
-void ContactSystem::Implementation::approach(std::size_t p, const std::vector<char>& unheld, Vector& d) const {
-  const detail::PairCoupling& pair = *pairs[p];
-  const bool slave_moves = maximum(slave_is_unheld(pair, unheld)) > 0.0;
-  if (slave_moves == (maximum(master_is_unheld(pair, *owned_nodes, unheld)) > 0.0)) return;
-  const auto gap = [&](std::size_t s) { return pair.rows()[s].gap / pair.rows()[s].covered; };
-  double mine = -std::numeric_limits<double>::max();
-  for (std::size_t s = 0; s < pair.rows().size(); ++s)
-    if (pair.covered(s)) mine = std::max(mine, -gap(s));
-  const double nearest = -maximum(mine);
-  if (nearest > pair.interface().reach()) return;  // no node is covered
-  SpatialVector normal = SpatialVector::Zero(dimension);
-  for (std::size_t s = 0; s < pair.rows().size(); ++s)
-    if (pair.covered(s) && gap(s) <= nearest + touching * pair.size()) normal += pair.rows()[s].normal;
-  for (double& component : normal) component = sum(component);
-  const double way = nearest + small_strain * pair.size() / pair.regularisation()->normal;
-  const SpatialVector motion = (slave_moves ? way : -way) * normal.normalized();
-  const auto prescribed = fixed->getLocalViewHost(Tpetra::Access::ReadOnly);
-  const auto values = d.getLocalViewHost(Tpetra::Access::ReadWrite);
-  for (std::size_t node = 0; node < unheld.size(); ++node)
-    for (int i = 0; i < dimension; ++i)
-      if (unheld[node] && prescribed(node, i) == 0.0) values(dimension * node + i, 0) += motion[i];
-}
-
 // A node whose gap is zero up to round-off would be open or closed at random: it starts closed, at a pressure that no result can see.
 // Where a body that only contact holds has no closed node, its system is singular: the nodes nearest to contact start closed,
-// z_n = c_n g + 1e-6 E. Regularised conditions do not look at z: a touching node starts from that pressure as its multiplier, which moves it by
-// 1e-6 E / eps_n; and bodies come up to contact.
+// z_n = c_n g + 1e-6 E.
 void ContactSystem::start_step(Vector& d, const std::vector<char>& unheld, Vector& z) {
   Implementation& self = *implementation_;
   self.marked = self.accepted;  // after a step that was undone
@@ -104,7 +78,6 @@ void ContactSystem::start_step(Vector& d, const std::vector<char>& unheld, Vecto
       bool closed = pair.closed(s, self.z_of(values, p, s));
       if (!closed && std::abs(gap) < touching * pair.size()) {
         set(s, pressure);
-        if (pair.regularisation()) self.pairs[p]->set_start_pressure(s, pressure);
         closed = true;
       }
       active += closed;
@@ -112,15 +85,11 @@ void ContactSystem::start_step(Vector& d, const std::vector<char>& unheld, Vecto
     }
     const bool needed = self.maximum(slave_is_unheld(pair, unheld) || master_is_unheld(pair, *self.owned_nodes, unheld)) > 0.0;
     if (!needed || self.sum(active) > 0.0) continue;
-    if (pair.regularisation()) {
-      self.approach(p, unheld, d);
-      continue;
-    }
     nearest = -self.maximum(-nearest);
     const double reach = std::max(near * pair.size(), nearest + touching * pair.size());
     for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
       if (!pair.covered(s) || pair.rows()[s].gap > reach * pair.slave_nodes()[s].weight) continue;
-      set(s, std::max(0.0, pair.complementarity_constant(s) * pair.rows()[s].gap) + pressure);
+      set(s, std::max(0.0, pair.closing_pressure(s)) + pressure);
     }
   }
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "formulations.hpp"
 #include "two_surfaces.hpp"
 
 namespace mortise {
@@ -10,8 +11,13 @@ namespace {
 using test::Fixture;
 using test::TwoSurfaces;
 
-TEST(StartRule, ClosesNodesThatTouchAndSeedsUnheldBodies) {
+/// With dual mortar and with each other formulation.
+class StartRule : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(All, StartRule, ::testing::Range(-1, static_cast<int>(test::other_formulations().size())));
+
+TEST_P(StartRule, ClosesNodesThatTouchAndSeedsUnheldBodies) {
   TwoSurfaces flat;
+  if (GetParam() >= 0) flat.options.formulation.options = test::other_formulations()[GetParam()].options;
   for (int i = 0; i < 5; ++i) flat.slave.push_back({1.0 * i, 0.0, 0.0});
   for (int i = 0; i < 4; ++i) flat.master.push_back({4.0 * (3 - i) / 3.0, 0.0, 0.0});
   flat.fixed.assign(flat.size(), {});

@@ -159,8 +159,8 @@ class ContactSystem {
   SaddlePointBlocks saddle_point_blocks(const Vector& z) const;
 
   /// Goes back to the accepted states, and start rule: multipliers of nodes that touch, and seeds for bodies that only contact holds, are set to a
-  /// small pressure; where conditions are regularised such bodies are moved up to contact instead. Only the guess d, z is changed. Slips are
-  /// measured from the accepted state on; before any is accepted, from d on.
+  /// small pressure. Only the guess z is changed.
+  /// Slips are measured from the accepted state on; before any is accepted, from d on.
   /// @param unheld_bodies  for each owned node whether it belongs to a body that nothing but contact holds
   void start_step(Vector& d, const std::vector<char>& unheld, Vector& z);
 

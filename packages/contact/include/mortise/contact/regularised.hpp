@@ -8,46 +8,55 @@ namespace mortise {
 /// What a regularised condition starts from and how stiff it is.
 struct RegularisedNode {
   double normal_stiffness = 0.0, tangential_stiffness = 0.0;  ///< eps_n, eps_t [traction / length]
+  double body_stiffness = 0.0;                                ///< c, of what the node hangs on [traction / length]
   SpatialVector multiplier;                                   ///< (lambda_n, lambda_tau) in the node's frame: held fixed
 };
 
-/// C of a node whose tractions follow from the averages g / w of the gap and u / w of the slip over its share w = sum_k D_jk of the surface:
-///   p = lambda_n - eps_n g / w,   open (C = z) unless p > 0
-///   C_n = z_n - p,   C_tau = z_tau - Pi_rho(y),   y = lambda_tau + eps_t u / w,   Pi_rho the projection on the ball of radius rho, the bound at p
-/// (Simo, Laursen 1992). So z is a function of the displacements.
+/// C of a node whose tractions follow from the averages g / w of the gap and u / w of the slip over its share w = sum_k D_jk of the surface,
+///   z_n = max(0, lambda_n - eps_n g / w),   z_tau = Pi_rho(lambda_tau + eps_t u / w),
+/// with Pi_rho the projection on the ball of radius rho, the bound at z_n (Simo, Laursen 1992). What stands in max and Pi_rho tells states apart;
+/// with z itself weighed in, it does so as the exact conditions do, and the solution is the same:
+///   p = (1 - theta_n) z_n + theta_n (lambda_n - eps_n g / w)         open (C = z) unless p > 0,  C_n = z_n - p
+///   y = (1 - theta_t) z_tau + theta_t (lambda_tau + eps_t u / w)     C_tau = z_tau - Pi_rho(y),  rho at p
+/// with theta = c / (c + eps) (docs/formulations.md says why not 1; Sitzmann, Willner, Wohlmuth 2015).
 /// @param bound  of a pressure; null: without friction, C_tau = z_tau
 template <class Bound>
 Complementarity regularised(const RegularisedNode& node, double gap, const TangentVector& slip, double weight, const Frame& frame,
                             const SpatialVector& z, const Bound* bound) {
-  const double pressure = node.multiplier[0] - node.normal_stiffness * gap / weight;
+  const auto share = [&](double stiffness) { return node.body_stiffness / (node.body_stiffness + stiffness); };
+  const double theta_n = share(node.normal_stiffness), normal_stiffness = theta_n * node.normal_stiffness / weight;
+  const double z_n = z.dot(frame.normal), pressure = (1.0 - theta_n) * z_n + theta_n * node.multiplier[0] - normal_stiffness * gap;
   if (!(pressure > 0.0)) return open_node(z);
   const Eigen::Index tangents = frame.tangents.rows();
-  const double gap_slope = -node.normal_stiffness / weight, weight_slope = node.normal_stiffness * gap / (weight * weight);  // of the pressure
-  Complementarity result = closed_node(0.0, gap, frame, z);
-  result.C[0] = z.dot(frame.normal) - pressure;
-  result.C_z.row(0) = frame.normal.transpose();
-  result.gap_factor[0] = -gap_slope;
-  result.weight_factor[0] = -weight_slope;
-  result.normal_factor.row(0) = z.transpose();
+  // dp = (1 - theta_n) dz_n - normal_stiffness (dg - g dw / w)
+  Complementarity result = closed_node(normal_stiffness, gap, frame, z);
+  result.C[0] = z_n - pressure;
+  result.C_z.row(0) = theta_n * frame.normal.transpose();
+  result.weight_factor[0] = -normal_stiffness * gap / weight;
+  result.normal_factor.row(0) = theta_n * z.transpose();
   if (bound == nullptr) return result;
-  const double stiffness = node.tangential_stiffness / weight;  // dy = stiffness (du - u dw / w)
-  const TangentVector y = node.multiplier.tail(tangents) + stiffness * slip;
+  const double theta_t = share(node.tangential_stiffness), stiffness = theta_t * node.tangential_stiffness / weight;
+  const TangentVector y = (1.0 - theta_t) * result.C.tail(tangents) + theta_t * node.multiplier.tail(tangents) + stiffness * slip;
   const FrictionBound limit = (*bound)(pressure);
+  // dC_tau = dz_tau - response dy - slope dp,   dy = (1 - theta_t) dz_tau + stiffness (du - u dw / w)
+  TangentMatrix response = TangentMatrix::Identity(tangents, tangents);
+  TangentVector slope = TangentVector::Zero(tangents);
   if (y.norm() < limit.value) {
     result.state = ContactState::stick;
     result.C.tail(tangents) -= y;
-    result.slip_factor = -stiffness * TangentMatrix::Identity(tangents, tangents);
-    result.weight_factor.tail(tangents) = stiffness / weight * slip;
-    return result;
+  } else {
+    const SlipDirection direction(y, limit.value);
+    response = direction.turning;
+    slope = limit.slope * direction.along;
+    result.C.tail(tangents) -= limit.value * direction.along;
   }
-  const SlipDirection direction(y, limit.value);
-  result.C.tail(tangents) -= limit.value * direction.along;
-  result.gap_factor.tail(tangents) = -limit.slope * gap_slope * direction.along;
-  result.weight_factor.tail(tangents) = -limit.slope * weight_slope * direction.along;
-  if (tangents > 1) {
-    result.slip_factor = -stiffness * direction.turning;
-    result.weight_factor.tail(tangents) += stiffness / weight * (direction.turning * slip);
-  }
+  const TangentMatrix of_traction = TangentMatrix::Identity(tangents, tangents) - (1.0 - theta_t) * response;
+  result.C_z.bottomRows(tangents) = of_traction * frame.tangents - (1.0 - theta_n) * slope * frame.normal.transpose();
+  result.normal_factor.bottomRows(tangents) =
+      of_traction * SpatialMatrix(result.normal_factor.bottomRows(tangents)) - (1.0 - theta_n) * slope * z.transpose();
+  result.gap_factor.tail(tangents) = normal_stiffness * slope;
+  result.slip_factor = -stiffness * response;
+  result.weight_factor.tail(tangents) = stiffness / weight * (response * slip) - normal_stiffness * gap / weight * slope;
   return result;
 }
 
