@@ -87,12 +87,14 @@ TEST(Peer, AgreesInAPatchTest) {
 }
 
 /// Laws of plasticity may be of Kirchhoff or of Cauchy stress: their forces differ by the change of volume, p/K, and elastic parts by as much again.
-/// Homogeneous compression in plane strain: p is half the largest stress, which is 2/sqrt(3) times the yield stress.
+/// Homogeneous compression in plane strain: p is half the largest stress, which is 2/sqrt(3) times the yield stress. Without the free sides, which
+/// touch nothing: CalculiX' mortar does not bear their corners.
 TEST(Peer, YieldsAlikeUnderAPrescribedMotion) {
   if (!installed()) GTEST_SKIP() << "ccx is not installed";
   const std::string ours = peers + "/our_yield", theirs = peers + "/their_yield", scene = std::string(INPUTS) + "/verification/upsetting_plane.xml";
   const auto command = [&](const char* name, const std::string& results) {
-    return std::vector<std::string>{MORTISE, name, scene, "-o", results, "--set", "variables/mu=0", "--set", "variables/nx=10"};
+    return std::vector<std::string>{
+        MORTISE, name, scene, "-o", results, "--set", "variables/mu=0", "--set", "variables/nx=10", "--set", "contact/interface/slave=billet/top"};
   };
   ASSERT_EQ(launch(command("run", ours)).code, 0);
   const Ending ending = launch(command("peer", theirs));

@@ -1,4 +1,5 @@
-// Plastic scenes: against one material point, quadratic convergence, locking, what undid a step, what a mixed scene stores and calls.
+// Plastic scenes: against one material point, quadratic convergence, locking, sides that fold, what undid a step, what a mixed scene stores and
+// calls.
 
 #include <gtest/gtest.h>
 
@@ -169,6 +170,27 @@ TEST(Plasticity, DisplacementElementsLockWhereFBarDoesNot) {
   const Results locked = run(input("verification/necking.xml"), "necking", {"bodies/bar/element=Q4"});
   EXPECT_GE(locked.quantity("neck_radius_ratio"), 1.5 * 0.358);
   EXPECT_EQ(locked.code, 4);
+}
+
+// Without friction the billet stays a block, which its averaged corner normals would not let it be.
+TEST(Upsetting, FreeSidesInTheSlaveChangeNothingWhereTheyDoNotTouch) {
+  const std::string scene = input("verification/upsetting_plane.xml");
+  const Results skin = run(scene, "upset_skin", {"variables/mu=0", "variables/nx=10"}),
+                top = run(scene, "upset_top", {"variables/mu=0", "variables/nx=10", "contact/interface/slave=billet/top"});
+  ASSERT_EQ(skin.code, 0);
+  ASSERT_EQ(top.code, 0);
+  for (const char* name : {"force", "spread"}) EXPECT_NEAR(skin.quantity(name) / top.quantity(name), 1.0, 1e-8) << name;  // Newton's tolerances
+}
+
+// The node of the free side below the corner comes to the platen, and stays before it: a pressure of up to 5000 moves the face of the elastic platen,
+// 2 high, by no more than 2 * 5000 / 2.1e6.
+TEST(Upsetting, FreeSidesFoldOntoThePlatenAndNotThroughIt) {
+  const double platen = 7.0, yields = 2.0 * 5000.0 / 2.1e6;
+  const Results results = run(input("verification/upsetting_plane.xml"), "upset_fold",
+                              {"variables/mu=0.6", "quantities/side/type=displacement", "quantities/side/x=10", "quantities/side/y=9",
+                               "quantities/side/body=billet", "quantities/side/component=y"});
+  ASSERT_EQ(results.code, 0);
+  EXPECT_NEAR(9.0 + results.quantity("side"), platen, yields);
 }
 
 TEST(Stepping, WhatUndidAStepIsNamedAndOutputTimesAreHit) {

@@ -4,6 +4,7 @@
 #include <Tpetra_MultiVector.hpp>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace mortise::detail {
 
@@ -112,13 +113,32 @@ void PairCoupling::follow_pattern() {
 
 bool PairCoupling::hands_over() const { return dimension_ > 2 && !uses_reference() && formulation().elimination() == Elimination::momentum; }
 
+bool PairCoupling::splits_kinks() const { return dimension_ == 2 && !uses_reference() && pair_.options.mortar.coupling != Coupling::node_to_segment; }
+
+// By the mean gap: phi_j sum to 1.
+void PairCoupling::find_nearest_facets() {
+  nearest_accepted_.assign(rows_.size(), {});
+  std::vector<double> least(rows_.size(), std::numeric_limits<double>::max());
+  for (const FacetCoupling& facet : couplings_) {
+    const double distance = std::abs(facet.gap.sum() / facet.D.sum());
+    for (const LocalOrdinal node : facet.slave) {
+      const auto s = static_cast<std::size_t>(node);
+      if (s >= rows_.size() || distance >= least[s]) continue;
+      least[s] = distance;
+      nearest_accepted_[s] = facet.slave;
+    }
+  }
+}
+
 void PairCoupling::accept_cover() {
+  if (splits_kinks()) find_nearest_facets();
   if (!hands_over()) return;
   accepted_cover_.resize(rows_.size());
   for (std::size_t s = 0; s < rows_.size(); ++s) accepted_cover_[s] = rows_[s].cover / slave_nodes()[s].weight;
 }
 
-bool PairCoupling::hand_over() {
+bool PairCoupling::adapt_surface(const MultiVector& x) {
+  if (splits_kinks()) return interface_->split_kinks(x, nearest_accepted_);  // the next search renews the pattern
   const bool changed = hands_over() && interface_->hand_over(accepted_cover_);
   if (changed) follow_pattern();
   return changed;

@@ -60,11 +60,11 @@ class PairCoupling {
 
   /// Takes the couplings of the last evaluate(), at an accepted state, as those that later slips are measured against. Friction only.
   void take_slip_reference();
-  /// The state of the last evaluate() is accepted: what is covered now decides which nodes hand over in the next step.
+  /// The state of the last evaluate() is accepted: what is covered now, and how near, decides about adapt_surface() in the next step.
   void accept_cover();
-  /// Nodes that were hardly covered in the accepted state hand their functions over. Whether that changed anything, and so the pattern; the same on
-  /// every rank. Couplings have to be evaluated again.
-  bool hand_over();
+  /// Nodes that were hardly covered in the accepted state, with positions x, hand their functions over, and kinks are split. Whether that changed
+  /// anything, and so the pattern; the same on every rank. Couplings have to be evaluated again.
+  bool adapt_surface(const MultiVector& x);
   /// A step starts from the accepted state.
   void start_step();
   /// Regularised pairs: what multipliers start from in the next step. `z` gives those of slave node s.
@@ -118,6 +118,9 @@ class PairCoupling {
   bool uses_reference() const { return pair_.options.geometry == ContactGeometry::reference; }
   /// Whether nodes that are hardly covered hand their functions over: in space, where multipliers are eliminated and follow the bodies.
   bool hands_over() const;
+  /// Whether facets that meet in a kink have their own normals: in the plane, where they are integrated over and follow the bodies.
+  bool splits_kinks() const;
+  void find_nearest_facets();
   void follow_pattern();
   void sum_to_rows(bool derivatives);
   void freeze();
@@ -138,7 +141,8 @@ class PairCoupling {
   std::vector<FacetCoupling> couplings_;
   std::vector<NodalNormal> normals_;
   std::vector<NodeRow> rows_;
-  std::vector<double> accepted_cover_;  ///< [slave nodes] by the node's weight; empty where nobody hands over
+  std::vector<double> accepted_cover_;                 ///< [slave nodes] by the node's weight; empty where nobody hands over
+  std::vector<Facet<LocalOrdinal>> nearest_accepted_;  ///< [slave nodes] facet of the node nearest to the master; empty where kinks stay
   const FrictionLaw* friction_ = nullptr;
   std::vector<SlipHistory> slip_;  ///< [slave nodes]; empty without friction
   std::optional<Regularisation> regularisation_;

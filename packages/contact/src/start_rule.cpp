@@ -50,13 +50,13 @@ void ContactSystem::start_step(Vector& d, const std::vector<char>& unheld, Vecto
     evaluate_or_throw(x);
     self.accept_cover();
   }
-  bool other_multipliers = false;
-  for (const auto& pair : self.pairs) other_multipliers |= pair->hand_over();
-  if (other_multipliers) {
+  bool adapted = false;
+  for (const auto& pair : self.pairs) adapted |= pair->adapt_surface(*self.accepted_at);
+  if (adapted) {
     self.pattern_changed = true;
     evaluate_or_throw(self.accepted_at);
   }
-  if (first || other_multipliers) self.take_slip_references();
+  if (first || adapted) self.take_slip_references();
   for (const auto& pair : self.pairs) pair->start_step();
   evaluate_or_throw(x);
 

@@ -32,6 +32,7 @@ void put(WordWriter& to, const TravellingFacet& facet) {
       to.put_matrix(tangents.slope);
     }
     for (const bool projected : stencil.projected) to.put(projected);
+    to.put(stencil.of_node);
   }
   to.put_matrix(facet.multipliers.share);
   to.put_matrix(facet.multipliers.weights);
@@ -57,6 +58,7 @@ TravellingFacet get(WordReader& from) {
       from.get_matrix(tangents.slope);
     }
     for (bool& projected : stencil.projected) projected = from.get<bool>();
+    stencil.of_node = from.get<bool>();
   }
   from.get_matrix(facet.multipliers.share);
   from.get_matrix(facet.multipliers.weights);
@@ -129,9 +131,9 @@ std::vector<TravellingFacet> FacetDistribution::send_away(const SlaveSurface& sl
   for (std::size_t f = 0; f < home_.size(); ++f) {
     if (!is_home(f) || std::binary_search(receivers_[f].begin(), receivers_[f].end(), integrator_[f])) continue;
     TravellingFacet facet{ids_[f], receivers_[f], {}, slave.multipliers[f], candidates[f]};
-    for (const LocalOrdinal node : slave.facets[f]) {
-      const NormalStencil& stencil = slave.stencils[node];
-      facet.stencils.push_back({{}, stencil.projected});
+    for (const LocalOrdinal normal : slave.normals[f]) {
+      const NormalStencil& stencil = slave.stencils[normal];
+      facet.stencils.push_back({{}, stencil.projected, static_cast<std::size_t>(normal) < slave.nodes_with_normal});
       for (const NodeTangents& tangents : stencil.facets) facet.stencils.back().facets.push_back({ids_of(tangents.nodes, slave), tangents.slope});
     }
     WordWriter to(sent[integrator_[f]]);

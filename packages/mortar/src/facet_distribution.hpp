@@ -21,6 +21,7 @@ struct TravellingFacet {
   struct Stencil {
     std::vector<Tangents> facets;
     std::array<bool, 3> projected{};
+    bool of_node = true;  ///< and of all facets there; not of one side of a kink
   };
   SurfaceFacet nodes;
   std::vector<int> receivers;     ///< ranks that want its coupling

@@ -31,11 +31,17 @@ GuestFacets::GuestFacets(const std::vector<TravellingFacet>& travellers, const S
     for (std::size_t a = 0; a < traveller.nodes.size(); ++a) {
       const LocalOrdinal node = local(traveller.nodes[a]);
       facet.nodes.push_back(node);
+      const std::size_t next = slave.stencils.size() + stencils.size();
+      if (!traveller.stencils[a].of_node) {
+        facet.normals.push_back(next);
+        stencils.push_back(make_stencil(node, traveller.stencils[a], local));
+        continue;
+      }
       if (static_cast<std::size_t>(node) < slave.nodes_with_normal) {
         facet.normals.push_back(static_cast<std::size_t>(node));
         continue;
       }
-      const auto [normal, is_new] = normal_of.insert({node, slave.nodes_with_normal + stencils.size()});
+      const auto [normal, is_new] = normal_of.insert({node, next});
       if (is_new) stencils.push_back(make_stencil(node, traveller.stencils[a], local));
       facet.normals.push_back(normal->second);
     }

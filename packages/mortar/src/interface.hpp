@@ -34,6 +34,7 @@ class Interface final : public InterfaceImplementation {
   void evaluate(const MultiVector& x, bool derivatives, std::vector<FacetCoupling>& couplings, std::vector<NodalNormal>& normals,
                 std::optional<StepFailure>& failure) override;
   bool hand_over(const std::vector<double>& cover) override;
+  bool split_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest) override;
   std::vector<std::optional<double>> distances_to_master(const MultiVector& x, const std::vector<std::size_t>& nodes,
                                                          const std::vector<SpatialVector>& normals) override;
 
@@ -74,6 +75,7 @@ class Interface final : public InterfaceImplementation {
   std::vector<std::size_t> segments_of_facet_, segments_of_guest_;  ///< [facets], [guests] of the last evaluation
   RCP<const Import> to_facets_;                                     ///< from owned nodes to all nodes of the facets
   std::vector<double> handed_over_;                                 ///< [nodes of the facets] 1 where so; empty before the first choice
+  std::vector<char> kinks_;                                         ///< [nodes of the facets] 1 where so; empty before the first choice
   bool counted_ = false;                                            ///< there has been one
 };
 

@@ -34,7 +34,7 @@ void Interface<dim>::couple_facets(const Positions<dim>& x, bool derivatives, co
       data.nodes = slave.facets[f];
       data.multipliers = &slave.multipliers[f];
       data.normals.clear();
-      for (const LocalOrdinal node : data.nodes) data.normals.push_back(&normals[node]);
+      for (const LocalOrdinal normal : slave.normals[f]) data.normals.push_back(&normals[normal]);
       segments_of_facet_[f] = segments_of(data, candidates_[f], x, derivatives, couplings[f]);
     }
     for (std::size_t g = 0; g < guests_.facets.size() && !failure; ++g) {
@@ -112,9 +112,9 @@ template <int dim>
 void Interface<dim>::evaluate(const MultiVector& x, bool derivatives, std::vector<FacetCoupling>& couplings, std::vector<NodalNormal>& normals,
                               std::optional<StepFailure>& failure) {
   const Positions<dim> positions = positions_of<dim>(x.getLocalViewHost(Tpetra::Access::ReadOnly));
-  normals.resize(slave.nodes_with_normal + guests_.stencils.size());
+  normals.resize(slave.stencils.size() + guests_.stencils.size());
   for (std::size_t n = 0; n < normals.size(); ++n) {
-    const NormalStencil& stencil = n < slave.nodes_with_normal ? slave.stencils[n] : guests_.stencils[n - slave.nodes_with_normal];
+    const NormalStencil& stencil = n < slave.stencils.size() ? slave.stencils[n] : guests_.stencils[n - slave.stencils.size()];
     if (!average_normal(stencil, positions, derivatives, normals[n]) && !failure)
       failure = StepFailure(FailureKind::inverted_facet,
                             fmt::format("the slave surface has no normal at node {}: a facet lost its {}, or facets folded onto one another",

@@ -138,7 +138,7 @@ typename Interface<dim>::Candidates Interface<dim>::find(const Positions<dim>& x
     const auto& facet = slave.facets[f];
     normals.resize(facet.size());
     bool sound = true;
-    for (std::size_t j = 0; j < facet.size(); ++j) sound = average_normal(slave.stencils[facet[j]], x, false, normals[j]) && sound;
+    for (std::size_t j = 0; j < facet.size(); ++j) sound = average_normal(slave.stencils[slave.normals[f][j]], x, false, normals[j]) && sound;
     if (!sound) continue;  // evaluate() says what is wrong
     const OverlapTest<dim> may_overlap(points_of<dim>(facet, x), normals, motion);
     for (const PlacedFacet<dim>& one : near[f])

@@ -2,6 +2,7 @@
 // Averaged normals of the slave nodes.
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "facet_geometry.hpp"
@@ -25,7 +26,14 @@ struct NormalStencil {
   std::vector<NodeTangents> facets;
   std::vector<LocalOrdinal> columns;  ///< the nodes of all of them, without repeats
   std::array<bool, 3> projected{};    ///< components without a free direction, taken out of the average
+  std::optional<std::size_t> only;    ///< the one of the facets that shapes the normal alone, at a kink in the plane; none: all do
 };
+
+/// The stencil of a facet's own normal at one of its nodes.
+NormalStencil own_side(LocalOrdinal node, const NodeTangents& facet);
+
+/// The angle by which a plane surface turns at a node, positive where it is convex. 0 at its ends and at nodes with projected components.
+double turn_at(const NormalStencil& stencil, const Positions<2>& x);
 
 /// Normalised sum of the unit normals of the node's facets at the node, without the `projected` components:  s = P sum_e n_e,  n = s / |s|,
 ///   n_e = (t_y, -t_x) / |t| in the plane,  n_e = c / |c|, c = t_1 x t_2 in space,

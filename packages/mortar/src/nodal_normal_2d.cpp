@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
+#include <cmath>
 
 #include "mortise/shape/line3.hpp"
 #include "nodal_normal.hpp"
@@ -41,11 +42,30 @@ NodeTangents tangents_at<2>(const Facet<LocalOrdinal>& facet, std::size_t a) {
   return tangents;
 }
 
+NormalStencil own_side(LocalOrdinal node, const NodeTangents& facet) {
+  NormalStencil stencil;
+  stencil.node = node;
+  stencil.facets = {facet};
+  stencil.columns.assign(facet.nodes.begin(), facet.nodes.end());
+  return stencil;
+}
+
+// The body lies on the left of its facets, so the surface turns to the left where it is convex.
+double turn_at(const NormalStencil& stencil, const Positions<2>& x) {
+  if (stencil.facets.size() != 2 || stencil.projected[0] || stencil.projected[1]) return 0.0;
+  const std::size_t ends_here = stencil.facets[0].nodes[1] == stencil.node ? 0 : 1;
+  const Eigen::Vector2d before = tangent(stencil.facets[ends_here], x), behind = tangent(stencil.facets[1 - ends_here], x);
+  return std::atan2(before.x() * behind.y() - before.y() * behind.x(), before.dot(behind));
+}
+
 bool average_normal(const NormalStencil& stencil, const Positions<2>& x, bool derivatives, NodalNormal& result) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  boost::container::small_vector<const NodeTangents*, 2> facets;
   boost::container::small_vector<Side, 2> sides;
-  for (const NodeTangents& facet : stencil.facets) {
-    const Side& side = sides.emplace_back(facet, x);
+  for (std::size_t e = 0; e < stencil.facets.size(); ++e) {
+    if (stencil.only && *stencil.only != e) continue;
+    facets.push_back(&stencil.facets[e]);
+    const Side& side = sides.emplace_back(stencil.facets[e], x);
     if (!(side.length > 0.0)) return false;
     sum += side.normal;
   }
@@ -65,7 +85,7 @@ bool average_normal(const NormalStencil& stencil, const Positions<2>& x, bool de
     if (stencil.projected[i]) project.col(i).setZero();
   result.derivative.setZero(2, 2 * static_cast<Eigen::Index>(stencil.columns.size()));
   for (std::size_t e = 0; e < sides.size(); ++e) {
-    const NodeTangents& facet = stencil.facets[e];
+    const NodeTangents& facet = *facets[e];
     const Eigen::Vector2d &n = sides[e].normal, t(-n.y(), n.x());
     // R (I - t t^T) = R n n^T, and R n = -t turned back: R maps t to n and n to -t
     const Eigen::Matrix2d slope = project * (-t * n.transpose()) / sides[e].length;

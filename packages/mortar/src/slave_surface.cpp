@@ -189,6 +189,7 @@ SlaveSurface make_slave_surface(const RCP<const Map>& owned_nodes, const RCP<con
       surface.facets_of[facet[j]].push_back(surface.facets.size());
     }
     surface.facets.push_back(facet);
+    surface.normals.push_back(facet);
     surface.multipliers.push_back({multiplier_shares(carries, corners), weights});
   }
   throw_if_any(*owned_nodes->getComm(), diagnostics);

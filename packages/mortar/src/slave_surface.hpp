@@ -9,14 +9,16 @@
 
 namespace mortise {
 
-/// Constant during the life of an interface. Nodes are numbered: owned slave nodes, other slave nodes of the facets evaluated here, ring.
+/// Constant during the life of an interface, but for what hand_over() and split_kinks() choose. Nodes are numbered: owned slave nodes, other slave
+/// nodes of the facets evaluated here, ring.
 struct SlaveSurface {
   std::vector<GlobalOrdinal> node_ids;
   std::vector<SlaveNode> owned;                     ///< the first nodes
   std::size_t nodes_with_normal = 0;                ///< owned and other slave nodes: those that have a stencil
-  std::vector<NormalStencil> stencils;              ///< [nodes with normal]
+  std::vector<NormalStencil> stencils;              ///< [nodes with normal], and behind them sides of kinks
   std::vector<char> carries;                        ///< [nodes with normal] multiplier or not
   std::vector<Facet<LocalOrdinal>> facets;          ///< evaluated here
+  std::vector<Facet<LocalOrdinal>> normals;         ///< [facets] numbers of the stencils of the normals at its nodes
   std::vector<FacetMultipliers> multipliers;        ///< [facets]
   std::vector<std::vector<std::size_t>> facets_of;  ///< [owned] facets that touch the node
 

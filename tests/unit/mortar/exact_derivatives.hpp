@@ -7,9 +7,9 @@
 
 namespace mortise::test {
 
-/// D, M, gaps and normals, each in its own size; and that the pattern holds what derivatives and forces touch.
-inline void expect_exact_derivatives(const Surfaces& surfaces) {
-  const auto pair = evaluated(surfaces, true);
+/// D, M, gaps and normals, each in its own size; and that the pattern holds what derivatives and forces touch. Of a pair evaluated on one rank with
+/// derivatives.
+inline void expect_exact_derivatives(const Surfaces& surfaces, SurfacePair* pair) {
   ASSERT_FALSE(pair->failure);
   const Eigen::MatrixXd exact = pair->dense_derivative();
   ASSERT_GT(pair->dense().D.trace(), 0.0);
@@ -52,5 +52,7 @@ inline void expect_exact_derivatives(const Surfaces& surfaces) {
           EXPECT_TRUE(std::binary_search(loaded.begin(), loaded.end(), coupling.slave[k]));
     }
 }
+
+inline void expect_exact_derivatives(const Surfaces& surfaces) { expect_exact_derivatives(surfaces, evaluated(surfaces, true).get()); }
 
 }  // namespace mortise::test

@@ -132,6 +132,13 @@ class MortarInterface {
   /// @return whether any node of any rank hands over that did not, or the other way round: local_nodes() and the pattern were rebuilt
   bool hand_over(const std::vector<double>& cover);
 
+  /// In the plane: chooses the kinks from now on, convex nodes at which the slave surface turns by more than 30 degrees (5 if it is one already). The
+  /// facets that meet there have their own normals, and the node that of the one that is nearest to the master. Collective.
+  /// @param x        [owned nodes x 2] positions that tell
+  /// @param nearest  [slave_nodes()] that facet, by its nodes; empty where none is covered: then the node's normal stays the average
+  /// @return whether anything changed on any rank: local_nodes() and the pattern will be rebuilt by the next search()
+  bool split_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest);
+
   /// Further nodes that each owned slave node stays coupled to from the next rebuild of the pattern on, by id: those that a slip is measured
   /// against. Until then they have to stand in coupled_nodes() already.
   void retain(std::vector<std::vector<GlobalOrdinal>> nodes);

@@ -1,0 +1,69 @@
+// Kinks of the slave surface in the plane.
+//
+// Where two facets meet at an angle, the average n of their normals belongs to neither. Let one of them lie flat on the master and the other stand
+// off by the angle theta. Projected along a field that turns from n to the next node's normal, the gap of the facet that stands off is no linear
+// function,
+//   g(xi) = height(xi) / cos(angle of n(xi) to the master's normal),
+// and int phi_j g of the closed node, which is to see the gap at the node alone, gets a share of what lies away from it, of the size of the facet.
+// And the node's pressure leans over by theta / 2. With the facet's own normal at both ends the gap is linear, and so are the positions of the
+// projected points: int phi_j g = g_j int phi_j, and likewise for the forces' moment. The facet that stands off then does no more than give the node
+// its weight, until its other end comes to the master. The node's normal is that of the facet that is nearest to the master, in the mean. All this is
+// chosen between steps only, as it jumps, and with hysteresis: a corner that folds onto the master stays split until it is almost flat, since by the
+// average its pressure would lean over again.
+
+#include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
+#include <algorithm>
+
+#include "interface.hpp"
+
+namespace mortise {
+namespace {
+
+/// Angles above which a convex node becomes a kink, and stays one.
+constexpr double degree = 3.14159265358979323846 / 180.0, sharp = 30.0 * degree, flat = 5.0 * degree;
+
+}  // namespace
+
+template <>
+bool Interface<2>::split_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest) {
+  const Positions<2> positions = (*slave_positions_)(x);
+  const auto is_projected = [](const NormalStencil& stencil) { return stencil.projected[0] || stencil.projected[1]; };
+  kinks_.resize(slave.nodes_with_normal, 0);
+  std::vector<std::optional<std::size_t>> before, now;
+  for (std::size_t n = 0; n < kinks_.size(); ++n) {
+    NormalStencil& stencil = slave.stencils[n];
+    kinks_[n] = turn_at(stencil, positions) > (kinks_[n] ? flat : sharp);
+    before.push_back(stencil.only);
+    stencil.only.reset();
+    for (std::size_t e = 0; e < stencil.facets.size(); ++e)
+      if (kinks_[n] && n < nearest.size() && stencil.facets[e].nodes == nearest[n]) stencil.only = e;
+    now.push_back(stencil.only);
+  }
+  const std::vector<Facet<LocalOrdinal>> normals_before = slave.normals;
+  slave.stencils.resize(slave.nodes_with_normal);
+  for (std::size_t f = 0; f < slave.facets.size(); ++f) {
+    const Facet<LocalOrdinal>& facet = slave.facets[f];
+    slave.normals[f] = facet;
+    if (std::none_of(facet.begin(), facet.end(), [&](LocalOrdinal node) { return kinks_[node] != 0; })) continue;
+    for (std::size_t a = 0; a < facet.size(); ++a) {
+      if (is_projected(slave.stencils[facet[a]])) continue;
+      slave.normals[f][a] = static_cast<LocalOrdinal>(slave.stencils.size());
+      slave.stencils.push_back(own_side(facet[a], tangents_at<2>(facet, a)));
+    }
+  }
+  int any = 0;
+  const bool changed = before != now || normals_before != slave.normals;
+  Teuchos::reduceAll(*owned_nodes_->getComm(), Teuchos::REDUCE_MAX, static_cast<int>(changed), Teuchos::outArg(any));
+  if (any == 0) return false;
+  searched_at_ = Teuchos::null;  // other normals, other candidates
+  return true;
+}
+
+template <>
+bool Interface<3>::split_kinks(const MultiVector&, const std::vector<Facet<LocalOrdinal>>&) {
+  return false;
+}
+
+}  // namespace mortise
