@@ -39,7 +39,7 @@ Teuchos::ParameterList muelu_defaults(int equations, GlobalOrdinal rows, int ran
   list.sublist("smoother: params").set("relaxation: sweeps", 1);
   // The coarse solver is KLU2, which is right on one rank only: all coarse levels but very large ones go to one rank, and there is always
   // one.
-  list.set("coarse: max size", static_cast<int>(ranks == 1 ? 2000 : std::clamp<GlobalOrdinal>(rows / 5, 1, 2000)));
+  list.set("coarse: max size", static_cast<int>(std::clamp<GlobalOrdinal>(rows / 5, ranks == 1 ? 2000 : 1, 5000)));
   if (ranks == 1) {
     list.set("transpose: use implicit", true);  // no restriction is stored beside the prolongator; repartitioning needs it
   } else {
