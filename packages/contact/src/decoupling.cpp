@@ -8,6 +8,7 @@
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "implementation.hpp"
@@ -17,33 +18,53 @@ namespace mortise {
 
 namespace {
 
-// What an operator adds to the identity in rows of slave nodes, given with respect to what the nodes they are coupled to move by. A middle of an edge
-// is coupled to corners, which are slave nodes themselves: rows of middles act on what rows of corners give.
-class SlaveRows {
+// Rows of an operator that is the identity but for the rows of some slave nodes.
+class NearIdentity {
  public:
-  SlaveRows(const RCP<const Map>& dofs, const std::vector<std::size_t>& sizes, bool any_middles)
-      : corners_(rcp(new Matrix(dofs, Teuchos::arrayViewFromVector(sizes)))) {
-    if (any_middles) middles_ = rcp(new Matrix(dofs, Teuchos::arrayViewFromVector(sizes)));
-  }
+  NearIdentity(const RCP<const Map>& dofs, const std::vector<std::size_t>& sizes)
+      : matrix_(rcp(new Matrix(dofs, Teuchos::arrayViewFromVector(sizes)))) {}
 
-  void add(LocalOrdinal row, bool middle, GlobalOrdinal column, double value) {
-    Matrix& matrix = middle ? *middles_ : *corners_;
-    if (value != 0.0) matrix.insertGlobalValues(matrix.getRowMap()->getGlobalElement(row), 1, &value, &column);
+  void add(LocalOrdinal row, GlobalOrdinal column, double value) {
+    if (value != 0.0) matrix_->insertGlobalValues(matrix_->getRowMap()->getGlobalElement(row), 1, &value, &column);
   }
-
-  /// (I + middles) (I + corners) - I
-  RCP<Matrix> finish() {
-    const RCP<const Map> dofs = corners_->getRowMap();
-    corners_->fillComplete(dofs, dofs);
-    if (middles_.is_null()) return corners_;
-    middles_->fillComplete(dofs, dofs);
-    Matrix product(dofs, 0);
-    Tpetra::MatrixMatrix::Multiply(*middles_, false, *corners_, false, product);
-    return Tpetra::MatrixMatrix::add(1.0, false, *Tpetra::MatrixMatrix::add(1.0, false, *middles_, 1.0, false, *corners_), 1.0, false, product);
+  RCP<Matrix> finish(const std::vector<char>& is_slave) {
+    const RCP<const Map> dofs = matrix_->getRowMap();
+    const double one = 1.0;
+    for (std::size_t row = 0; row < is_slave.size(); ++row) {
+      const GlobalOrdinal id = dofs->getGlobalElement(static_cast<LocalOrdinal>(row));
+      if (!is_slave[row]) matrix_->insertGlobalValues(id, 1, &one, &id);
+    }
+    matrix_->fillComplete(dofs, dofs);
+    return matrix_;
   }
 
  private:
-  RCP<Matrix> corners_, middles_;
+  RCP<Matrix> matrix_;
+};
+
+// Rows of slave nodes with respect to what the nodes they are coupled to move by. A middle of an edge is coupled to corners, which are slave nodes
+// themselves: rows of middles act on what rows of corners give.
+class SlaveRows {
+ public:
+  SlaveRows(const RCP<const Map>& dofs, const std::vector<std::size_t>& sizes, bool any_middles)
+      : corners_(dofs, sizes), is_corner_(sizes.size(), 0), is_middle_(sizes.size(), 0) {
+    if (any_middles) middles_.emplace(dofs, sizes);
+  }
+
+  void mark(LocalOrdinal dof, bool middle) { (middle ? is_middle_ : is_corner_)[dof] = 1; }
+  void add(LocalOrdinal row, bool middle, GlobalOrdinal column, double value) { (middle ? *middles_ : corners_).add(row, column, value); }
+  RCP<Matrix> finish() {
+    RCP<Matrix> last = corners_.finish(is_corner_);
+    if (!middles_) return last;
+    const auto product = rcp(new Matrix(last->getRowMap(), last->getNodeMaxNumRowEntries()));
+    Tpetra::MatrixMatrix::Multiply(*middles_->finish(is_middle_), false, *last, false, *product);
+    return product;
+  }
+
+ private:
+  NearIdentity corners_;
+  std::optional<NearIdentity> middles_;
+  std::vector<char> is_corner_, is_middle_;  ///< [dofs]
 };
 
 }  // namespace
@@ -52,7 +73,7 @@ Decoupling ContactSystem::decoupling(const Vector& z) const {
   const Implementation& self = *implementation_;
   const int dimension = self.dimension;
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
-  std::vector<std::size_t> sizes(self.dofs->getNodeNumElements(), 0);
+  std::vector<std::size_t> sizes(self.dofs->getNodeNumElements(), 1);
   for (const auto& pair : self.pairs)
     for (std::size_t s = 0; s < pair->rows().size(); ++s)
       std::fill_n(sizes.begin() + dimension * pair->slave_nodes()[s].owned_node, dimension,
@@ -76,13 +97,15 @@ Decoupling ContactSystem::decoupling(const Vector& z) const {
       for (int i = 0; i < dimension; ++i) (slave.fixed[i] ? held : free)(i, i) = 1.0;
       const bool sticks = pair.complementarity(s, zs).state == ContactState::stick;
       const SpatialMatrix N = sticks ? free : SpatialMatrix(row.normal * row.normal.transpose());
-      const SpatialMatrix along = free - N;
+      const SpatialMatrix along = free - N, kept = SpatialMatrix::Identity(dimension, dimension) - N;
       for (int i = 0; i < dimension; ++i) {
         const LocalOrdinal dof = dimension * slave.owned_node + i;
         const bool middle = pair.before_corners(s);
+        trial.mark(dof, middle);
+        test.mark(dof, middle);
         for (int k = 0; k < dimension; ++k) {
-          trial.add(dof, middle, dimension * slave.id + k, -N(i, k));
-          test.add(dof, middle, dimension * slave.id + k, -N(i, k));
+          trial.add(dof, middle, dimension * slave.id + k, kept(i, k));
+          test.add(dof, middle, dimension * slave.id + k, kept(i, k));
         }
         const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
         for (std::size_t c = 0; c < coupled.size(); ++c) {

@@ -44,7 +44,6 @@ DecoupledSystem::DecoupledSystem(RCP<const Matrix> A, const Decoupling& decoupli
     for (LocalOrdinal i = 0; i < dimension; ++i) is_slave = is_slave || eliminated.rowConst(first + i).length > 0;
     if (!is_slave) continue;
     const Block N = diagonal_block(*decoupling.eliminated, first, dimension);
-    if (N.trace() < dimension - 0.5) loose_.push_back(first);
     const Block block = N * diagonal_block(*A_, first, dimension) * N, rest = Block::Identity(dimension, dimension) - N;
     const Block inverse = (block + rest).inverse() * N;
     for (int i = 0; i < dimension; ++i)
@@ -61,19 +60,19 @@ DecoupledSystem::DecoupledSystem(RCP<const Matrix> A, const Decoupling& decoupli
 // L' A S' = A + A (S' - I) + (L' - I) A + (L' - I) A (S' - I): what is added has entries near the contact alone.
 RCP<Matrix> DecoupledSystem::matrix() const {
   const RCP<const Map> dofs = A_->getRowMap();
+  const RCP<Matrix> trial = beyond_identity(*decoupling_.trial, *inverse_), test = beyond_identity(*decoupling_.test, *inverse_);
   Matrix by_trial(dofs, 0), by_test(dofs, 0), by_both(dofs, 0);
-  Tpetra::MatrixMatrix::Multiply(*columns_of_relative_motion(), false, *decoupling_.trial, false, by_trial);
-  Tpetra::MatrixMatrix::Multiply(*decoupling_.test, true, *A_, false, by_test);
-  Tpetra::MatrixMatrix::Multiply(*decoupling_.test, true, by_trial, false, by_both);
+  Tpetra::MatrixMatrix::Multiply(*columns_of_relative_motion(), false, *trial, false, by_trial);
+  Tpetra::MatrixMatrix::Multiply(*test, true, *A_, false, by_test);
+  Tpetra::MatrixMatrix::Multiply(*test, true, by_trial, false, by_both);
   return sum_without_zeros(*A_, *sum(*sum(by_trial, by_test), *sum(by_both, *inner_)));
 }
 
 RCP<const Matrix> DecoupledSystem::rows(const RCP<const Map>& dofs) const {
-  Matrix from_slaves(dofs, 0), by_trial(dofs, 0);
-  Tpetra::MatrixMatrix::Multiply(*columns(*decoupling_.test, dofs), true, *A_, false, from_slaves);
-  const RCP<Matrix> by_test = sum(*detail::rows(A_, dofs), from_slaves);
-  Tpetra::MatrixMatrix::Multiply(*by_test, false, *decoupling_.trial, false, by_trial);
-  return sum(*sum(*by_test, by_trial), *detail::rows(inner_, dofs));
+  Matrix by_test(dofs, 0), product(dofs, 0);
+  Tpetra::MatrixMatrix::Multiply(*columns(*decoupling_.test, dofs), true, *A_, false, by_test);
+  Tpetra::MatrixMatrix::Multiply(by_test, false, *decoupling_.trial, false, product);
+  return sum(product, *detail::rows(inner_, dofs));
 }
 
 RCP<const Matrix> DecoupledSystem::columns_of_relative_motion() const {
@@ -114,15 +113,11 @@ RCP<const Map> DecoupledSystem::joined() const {
     const auto local = trial.getLocalMatrixHost();
     for (LocalOrdinal row = 0; row < local.numRows(); ++row) {
       const auto entries = local.rowConst(row);
-      const LocalOrdinal first = row - row % dimension_;
-      for (LocalOrdinal k = 0; k < entries.length; ++k)
-        if (const GlobalOrdinal of_node = trial.getColMap()->getGlobalElement(entries.colidx(k)) - dofs->getGlobalElement(first);
-            of_node < 0 || of_node >= dimension_)
-          mark(entries.colidx(k), 0) = 1.0;
+      const bool is_slave = inverse_->getNumEntriesInLocalRow(row) > 0;
+      for (LocalOrdinal k = 0; k < entries.length && is_slave; ++k) mark(entries.colidx(k), 0) = 1.0;
     }
   }
   marks.doExport(column_marks, Export(trial.getColMap(), dofs), Tpetra::ADD);
-  for (const LocalOrdinal first : loose_) marks.replaceLocalValue(first, 1.0);
   const auto mark = marks.getLocalViewHost(Tpetra::Access::ReadOnly);
   std::vector<GlobalOrdinal> ids;
   for (LocalOrdinal first = 0; first < static_cast<LocalOrdinal>(dofs->getNodeNumElements()); first += dimension_) {
@@ -134,15 +129,9 @@ RCP<const Map> DecoupledSystem::joined() const {
   return rcp(new const Map(invalid, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, dofs->getComm()));
 }
 
-void DecoupledSystem::add_trial(const MultiVector& x, MultiVector& y) const {
-  y.update(1.0, x, 1.0);
-  decoupling_.trial->apply(x, y, Teuchos::NO_TRANS, 1.0, 1.0);
-}
+void DecoupledSystem::add_trial(const MultiVector& x, MultiVector& y) const { decoupling_.trial->apply(x, y, Teuchos::NO_TRANS, 1.0, 1.0); }
 
-void DecoupledSystem::test(const MultiVector& x, MultiVector& y) const {
-  y.update(1.0, x, 0.0);
-  decoupling_.test->apply(x, y, Teuchos::TRANS, 1.0, 1.0);
-}
+void DecoupledSystem::test(const MultiVector& x, MultiVector& y) const { decoupling_.test->apply(x, y, Teuchos::TRANS); }
 
 void DecoupledSystem::relative_motion(const MultiVector& b, MultiVector& w) const { inverse_->apply(b, w); }
 

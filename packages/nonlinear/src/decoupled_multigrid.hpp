@@ -1,9 +1,6 @@
 #pragma once
 // Multigrid for a condensed contact system: on what is left of it once the gaps are unknowns of their own.
 
-#include <memory>
-#include <vector>
-
 #include "mortise/contact/decoupling.hpp"
 #include "mortise/core/types.hpp"
 
@@ -39,8 +36,7 @@ class DecoupledSystem {
   RCP<const Matrix> A_;
   Decoupling decoupling_;
   int dimension_;
-  std::vector<LocalOrdinal> loose_;  ///< first dofs of closed slave nodes that do not stick
-  RCP<Matrix> inner_, inverse_;      ///< N A_D N; (N A_D N + I - N)^-1 N
+  RCP<Matrix> inner_, inverse_;  ///< N A_D N; (N A_D N + I - N)^-1 N
 };
 
 /// The same with a preconditioner P of C in the place of its inverse.

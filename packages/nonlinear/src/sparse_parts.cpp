@@ -11,6 +11,26 @@
 
 namespace mortise::detail {
 
+RCP<Matrix> beyond_identity(const Matrix& A, const Matrix& marked) {
+  const auto local = A.getLocalMatrixHost();
+  const auto marks = marked.getLocalMatrixHost();
+  std::vector<std::size_t> sizes(static_cast<std::size_t>(local.numRows()), 0);
+  for (LocalOrdinal row = 0; row < local.numRows(); ++row)
+    if (marks.rowConst(row).length > 0) sizes[row] = static_cast<std::size_t>(local.rowConst(row).length) + 1;
+  const auto rows = A.getRowMap()->getLocalMap(), columns = A.getColMap()->getLocalMap();
+  const auto result = rcp(new Matrix(A.getRowMap(), Teuchos::arrayViewFromVector(sizes)));  // by global ids: A may have no column for its diagonal
+  for (LocalOrdinal row = 0; row < local.numRows(); ++row) {
+    if (sizes[row] == 0) continue;
+    const GlobalOrdinal id = rows.getGlobalElement(row);
+    const auto add = [&](GlobalOrdinal column, double value) { result->insertGlobalValues(id, 1, &value, &column); };
+    const auto entries = local.rowConst(row);
+    for (LocalOrdinal k = 0; k < entries.length; ++k) add(columns.getGlobalElement(entries.colidx(k)), entries.value(k));
+    add(id, -1.0);
+  }
+  result->fillComplete(A.getDomainMap(), A.getRangeMap());
+  return result;
+}
+
 RCP<Matrix> sum(const Matrix& A, const Matrix& B) { return Tpetra::MatrixMatrix::add(1.0, false, A, 1.0, false, B); }
 
 RCP<Matrix> sum_without_zeros(const Matrix& A, const Matrix& B) {

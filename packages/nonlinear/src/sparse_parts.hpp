@@ -5,6 +5,9 @@
 
 namespace mortise::detail {
 
+/// A - I for a matrix that is the identity but for the rows in which `marked` has entries; those alone are kept.
+RCP<Matrix> beyond_identity(const Matrix& A, const Matrix& marked);
+
 /// A + B
 RCP<Matrix> sum(const Matrix& A, const Matrix& B);
 

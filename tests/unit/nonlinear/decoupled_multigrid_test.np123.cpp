@@ -73,12 +73,16 @@ class TwoBodies {
       ++place;
       const GlobalOrdinal x = grid_->dof(node, 0), y = grid_->dof(node, 1);
       if (node / grid_->nx() >= grid_->cut()) far_apart->sumIntoLocalValue(place, 1, 1e6);
-      if (!is_slave(node)) continue;
-      add(*trial, y, grid_->dof(master(node), 1), 1.0);
-      add(*trial, y, y, -1.0);
-      add(*test, x, grid_->dof(master(node), 0), -1.0);
-      add(*test, y, y, -1.0);
-      add(*eliminated, y, y, 1.0);
+      add(*trial, x, x, 1.0);
+      add(*test, x, x, 1.0);
+      if (is_slave(node)) {
+        add(*trial, y, grid_->dof(master(node), 1), 1.0);
+        add(*test, x, grid_->dof(master(node), 0), -1.0);
+        add(*eliminated, y, y, 1.0);
+      } else {
+        add(*trial, y, y, 1.0);
+        add(*test, y, y, 1.0);
+      }
     }
     for (const auto& matrix : {trial, test, eliminated}) matrix->fillComplete(grid_->dofs, grid_->dofs);
     result.coordinates = far_apart;

@@ -11,8 +11,8 @@ namespace mortise {
 /// u_j is, in the directions of N_j, the motion of the node relative to the master; and the momentum that slave nodes hand to the master is what
 /// acts in those directions alone. Entries at prescribed components of the master are left out. All matrices are on the owned dofs.
 struct Decoupling {
-  RCP<const Matrix> trial;       ///< S (I - N) - I; rows of other nodes are empty
-  RCP<const Matrix> test;        ///< (I - N) L - I, transposed; rows of other nodes are empty
+  RCP<const Matrix> trial;       ///< S (I - N)
+  RCP<const Matrix> test;        ///< (I - N) L, transposed
   RCP<const Matrix> eliminated;  ///< N, block diagonal; rows of other nodes are empty
 };
 
