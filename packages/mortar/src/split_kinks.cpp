@@ -15,6 +15,7 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <algorithm>
+#include <boost/math/constants/constants.hpp>
 
 #include "interface.hpp"
 
@@ -22,7 +23,7 @@ namespace mortise {
 namespace {
 
 /// Angles above which a convex node becomes a kink, and stays one.
-constexpr double degree = 3.14159265358979323846 / 180.0, sharp = 30.0 * degree, flat = 5.0 * degree;
+constexpr double sharp = 30.0 * boost::math::double_constants::degree, flat = 5.0 * boost::math::double_constants::degree;
 
 }  // namespace
 
