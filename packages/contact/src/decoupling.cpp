@@ -8,7 +8,6 @@
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 #include "implementation.hpp"
@@ -18,53 +17,37 @@ namespace mortise {
 
 namespace {
 
-// Rows of an operator that is the identity but for the rows of some slave nodes.
-class NearIdentity {
- public:
-  NearIdentity(const RCP<const Map>& dofs, const std::vector<std::size_t>& sizes)
-      : matrix_(rcp(new Matrix(dofs, Teuchos::arrayViewFromVector(sizes)))) {}
+RCP<Matrix> product(const Matrix& A, const Matrix& B) {
+  const auto result = rcp(new Matrix(A.getRowMap(), 0));
+  Tpetra::MatrixMatrix::Multiply(A, false, B, false, *result);
+  return result;
+}
 
-  void add(LocalOrdinal row, GlobalOrdinal column, double value) {
-    if (value != 0.0) matrix_->insertGlobalValues(matrix_->getRowMap()->getGlobalElement(row), 1, &value, &column);
-  }
-  RCP<Matrix> finish(const std::vector<char>& is_slave) {
-    const RCP<const Map> dofs = matrix_->getRowMap();
-    const double one = 1.0;
-    for (std::size_t row = 0; row < is_slave.size(); ++row) {
-      const GlobalOrdinal id = dofs->getGlobalElement(static_cast<LocalOrdinal>(row));
-      if (!is_slave[row]) matrix_->insertGlobalValues(id, 1, &one, &id);
-    }
-    matrix_->fillComplete(dofs, dofs);
-    return matrix_;
-  }
+RCP<Matrix> sum(const Matrix& A, const Matrix& B) { return Tpetra::MatrixMatrix::add(1.0, false, A, 1.0, false, B); }
 
- private:
-  RCP<Matrix> matrix_;
-};
-
-// Rows of slave nodes with respect to what the nodes they are coupled to move by. A middle of an edge is coupled to corners, which are slave nodes
-// themselves: rows of middles act on what rows of corners give.
+// Rows of slave nodes, of an operator less the identity, with respect to what the nodes they are coupled to move by. A middle of an edge is coupled
+// to corners, which are slave nodes themselves: rows of middles act on what rows of corners give.
 class SlaveRows {
  public:
   SlaveRows(const RCP<const Map>& dofs, const std::vector<std::size_t>& sizes, bool any_middles)
-      : corners_(dofs, sizes), is_corner_(sizes.size(), 0), is_middle_(sizes.size(), 0) {
-    if (any_middles) middles_.emplace(dofs, sizes);
+      : corners_(rcp(new Matrix(dofs, Teuchos::arrayViewFromVector(sizes)))) {
+    if (any_middles) middles_ = rcp(new Matrix(dofs, Teuchos::arrayViewFromVector(sizes)));
   }
 
-  void mark(LocalOrdinal dof, bool middle) { (middle ? is_middle_ : is_corner_)[dof] = 1; }
-  void add(LocalOrdinal row, bool middle, GlobalOrdinal column, double value) { (middle ? *middles_ : corners_).add(row, column, value); }
+  void add(LocalOrdinal row, bool middle, GlobalOrdinal column, double value) {
+    const auto& matrix = middle ? middles_ : corners_;
+    if (value != 0.0) matrix->insertGlobalValues(matrix->getRowMap()->getGlobalElement(row), 1, &value, &column);
+  }
   RCP<Matrix> finish() {
-    RCP<Matrix> last = corners_.finish(is_corner_);
-    if (!middles_) return last;
-    const auto product = rcp(new Matrix(last->getRowMap(), last->getNodeMaxNumRowEntries()));
-    Tpetra::MatrixMatrix::Multiply(*middles_->finish(is_middle_), false, *last, false, *product);
-    return product;
+    const RCP<const Map> dofs = corners_->getRowMap();
+    corners_->fillComplete(dofs, dofs);
+    if (middles_.is_null()) return corners_;
+    middles_->fillComplete(dofs, dofs);
+    return sum(*sum(*middles_, *corners_), *product(*middles_, *corners_));  // (I + middles) (I + corners) - I
   }
 
  private:
-  NearIdentity corners_;
-  std::optional<NearIdentity> middles_;
-  std::vector<char> is_corner_, is_middle_;  ///< [dofs]
+  RCP<Matrix> corners_, middles_;
 };
 
 }  // namespace
@@ -73,11 +56,13 @@ Decoupling ContactSystem::decoupling(const Vector& z) const {
   const Implementation& self = *implementation_;
   const int dimension = self.dimension;
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
-  std::vector<std::size_t> sizes(self.dofs->getNodeNumElements(), 1);
+  std::vector<std::size_t> sizes(self.dofs->getNodeNumElements(), 0), sizes_of_blocks(sizes);
   for (const auto& pair : self.pairs)
-    for (std::size_t s = 0; s < pair->rows().size(); ++s)
-      std::fill_n(sizes.begin() + dimension * pair->slave_nodes()[s].owned_node, dimension,
-                  dimension * (1 + pair->interface().coupled_nodes(s).size()));
+    for (std::size_t s = 0; s < pair->rows().size(); ++s) {
+      const LocalOrdinal first = dimension * pair->slave_nodes()[s].owned_node;
+      std::fill_n(sizes.begin() + first, dimension, dimension * (1 + pair->interface().coupled_nodes(s).size()));
+      std::fill_n(sizes_of_blocks.begin() + first, dimension, dimension);
+    }
   SlaveRows trial(self.dofs, sizes, self.middles_first), test(self.dofs, sizes, self.middles_first);
   Decoupling result;
   std::vector<std::pair<LocalOrdinal, SpatialMatrix>> eliminated;  // owned node, N_j
@@ -97,15 +82,13 @@ Decoupling ContactSystem::decoupling(const Vector& z) const {
       for (int i = 0; i < dimension; ++i) (slave.fixed[i] ? held : free)(i, i) = 1.0;
       const bool sticks = pair.complementarity(s, zs).state == ContactState::stick;
       const SpatialMatrix N = sticks ? free : SpatialMatrix(row.normal * row.normal.transpose());
-      const SpatialMatrix along = free - N, kept = SpatialMatrix::Identity(dimension, dimension) - N;
+      const SpatialMatrix along = free - N;
       for (int i = 0; i < dimension; ++i) {
         const LocalOrdinal dof = dimension * slave.owned_node + i;
         const bool middle = pair.before_corners(s);
-        trial.mark(dof, middle);
-        test.mark(dof, middle);
         for (int k = 0; k < dimension; ++k) {
-          trial.add(dof, middle, dimension * slave.id + k, kept(i, k));
-          test.add(dof, middle, dimension * slave.id + k, kept(i, k));
+          trial.add(dof, middle, dimension * slave.id + k, -N(i, k));
+          test.add(dof, middle, dimension * slave.id + k, -N(i, k));
         }
         const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
         for (std::size_t c = 0; c < coupled.size(); ++c) {
@@ -123,8 +106,7 @@ Decoupling ContactSystem::decoupling(const Vector& z) const {
   }
   result.trial = trial.finish();
   result.test = test.finish();
-  // N, block diagonal.
-  const auto normal = rcp(new Matrix(self.dofs, static_cast<std::size_t>(dimension)));
+  const auto normal = rcp(new Matrix(self.dofs, Teuchos::arrayViewFromVector(sizes_of_blocks)));
   for (const auto& [node, N] : eliminated)
     for (int i = 0; i < dimension; ++i)
       for (int k = 0; k < dimension; ++k) {
@@ -133,6 +115,7 @@ Decoupling ContactSystem::decoupling(const Vector& z) const {
       }
   normal->fillComplete(self.dofs, self.dofs);
   result.eliminated = normal;
+  result.dimension = dimension;
   return result;
 }
 

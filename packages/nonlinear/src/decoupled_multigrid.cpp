@@ -7,6 +7,7 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
+#include <algorithm>
 
 #include "sparse_parts.hpp"
 
@@ -33,16 +34,17 @@ Block diagonal_block(const Matrix& matrix, LocalOrdinal first, int dimension) {
 
 }  // namespace
 
-DecoupledSystem::DecoupledSystem(RCP<const Matrix> A, const Decoupling& decoupling, int dimension)
-    : A_(std::move(A)), decoupling_(decoupling), dimension_(dimension) {
+DecoupledSystem::DecoupledSystem(RCP<const Matrix> A, const Decoupling& decoupling) : A_(std::move(A)), decoupling_(decoupling) {
   const RCP<const Map> dofs = A_->getRowMap();
-  inner_ = rcp(new Matrix(dofs, static_cast<std::size_t>(dimension)));
-  inverse_ = rcp(new Matrix(dofs, static_cast<std::size_t>(dimension)));
+  const int dimension = decoupling.dimension;
   const auto eliminated = decoupling.eliminated->getLocalMatrixHost();
+  std::vector<std::size_t> sizes(static_cast<std::size_t>(eliminated.numRows()), 0);
+  for (LocalOrdinal row = 0; row < eliminated.numRows(); ++row)
+    if (eliminated.rowConst(row).length > 0) std::fill_n(sizes.begin() + row / dimension * dimension, dimension, dimension);
+  inner_ = rcp(new Matrix(dofs, Teuchos::arrayViewFromVector(sizes)));
+  inverse_ = rcp(new Matrix(dofs, Teuchos::arrayViewFromVector(sizes)));
   for (LocalOrdinal first = 0; first < eliminated.numRows(); first += dimension) {
-    bool is_slave = false;
-    for (LocalOrdinal i = 0; i < dimension; ++i) is_slave = is_slave || eliminated.rowConst(first + i).length > 0;
-    if (!is_slave) continue;
+    if (sizes[first] == 0) continue;
     const Block N = diagonal_block(*decoupling.eliminated, first, dimension);
     const Block block = N * diagonal_block(*A_, first, dimension) * N, rest = Block::Identity(dimension, dimension) - N;
     const Block inverse = (block + rest).inverse() * N;
@@ -60,78 +62,84 @@ DecoupledSystem::DecoupledSystem(RCP<const Matrix> A, const Decoupling& decoupli
 // L' A S' = A + A (S' - I) + (L' - I) A + (L' - I) A (S' - I): what is added has entries near the contact alone.
 RCP<Matrix> DecoupledSystem::matrix() const {
   const RCP<const Map> dofs = A_->getRowMap();
-  const RCP<Matrix> trial = beyond_identity(*decoupling_.trial, *inverse_), test = beyond_identity(*decoupling_.test, *inverse_);
   Matrix by_trial(dofs, 0), by_test(dofs, 0), by_both(dofs, 0);
-  Tpetra::MatrixMatrix::Multiply(*columns_of_relative_motion(), false, *trial, false, by_trial);
-  Tpetra::MatrixMatrix::Multiply(*test, true, *A_, false, by_test);
-  Tpetra::MatrixMatrix::Multiply(*test, true, by_trial, false, by_both);
+  Tpetra::MatrixMatrix::Multiply(*columns_of_relative_motion(), false, *decoupling_.trial, false, by_trial);
+  Tpetra::MatrixMatrix::Multiply(*decoupling_.test, true, *A_, false, by_test);
+  Tpetra::MatrixMatrix::Multiply(*decoupling_.test, true, by_trial, false, by_both);
   return sum_without_zeros(*A_, *sum(*sum(by_trial, by_test), *sum(by_both, *inner_)));
 }
 
-RCP<const Matrix> DecoupledSystem::rows(const RCP<const Map>& dofs) const {
-  Matrix by_test(dofs, 0), product(dofs, 0);
-  Tpetra::MatrixMatrix::Multiply(*columns(*decoupling_.test, dofs), true, *A_, false, by_test);
-  Tpetra::MatrixMatrix::Multiply(by_test, false, *decoupling_.trial, false, product);
-  return sum(product, *detail::rows(inner_, dofs));
+RowsOfDecoupled DecoupledSystem::rows(const RCP<const Map>& joined) const {
+  const RCP<const Matrix> A = detail::rows(*A_, joined);
+  const RCP<const Matrix> test = detail::rows(*columns_of_identity_plus(*decoupling_.test, joined), joined);
+  Matrix by_trial(joined, 0), product(joined, 0);
+  Tpetra::MatrixMatrix::Multiply(*A, false, *columns_of_identity_plus(*decoupling_.trial, joined), false, by_trial);
+  Tpetra::MatrixMatrix::Multiply(*test, true, by_trial, false, product);
+  return {A, test, decoupling_.trial, detail::rows(*inner_, joined), sum(product, *block(*inner_, joined))};
+}
+
+void RowsOfDecoupled::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar, Scalar) const {
+  MultiVector moved(x, Teuchos::Copy), of_A(A_->getRangeMap(), x.getNumVectors());
+  trial_->apply(x, moved, Teuchos::NO_TRANS, 1.0, 1.0);
+  A_->apply(moved, of_A);
+  test_->apply(of_A, y, Teuchos::TRANS);
+  relative_->apply(x, y, Teuchos::NO_TRANS, 1.0, 1.0);
 }
 
 RCP<const Matrix> DecoupledSystem::columns_of_relative_motion() const {
-  const Matrix& A = *A_;
-  Vector marks(A.getDomainMap()), column_marks(A.getColMap());
+  Vector marks(A_->getDomainMap());
   {
     const auto mark = marks.getLocalViewHost(Tpetra::Access::ReadWrite);
     const auto inverse = inverse_->getLocalMatrixHost();
     for (LocalOrdinal row = 0; row < inverse.numRows(); ++row) mark(row, 0) = inverse.rowConst(row).length > 0 ? 1.0 : 0.0;
   }
-  column_marks.doImport(marks, Import(A.getDomainMap(), A.getColMap()), Tpetra::INSERT);
-  const auto is_marked = column_marks.getLocalViewHost(Tpetra::Access::ReadOnly);
-  const auto local = A.getLocalMatrixHost();
-  const auto rows = static_cast<std::size_t>(local.numRows());
-  Teuchos::ArrayRCP<std::size_t> starts(rows + 1, 0);
-  std::vector<LocalOrdinal> columns;
-  std::vector<double> values;
-  for (std::size_t row = 0; row < rows; ++row) {
-    for (std::size_t k = local.graph.row_map(row); k < local.graph.row_map(row + 1); ++k)
-      if (const LocalOrdinal column = local.graph.entries(k); is_marked(column, 0) != 0.0) {
-        columns.push_back(column);
-        values.push_back(local.values(k));
-      }
-    starts[row + 1] = columns.size();
-  }
-  const auto result = rcp(new Matrix(A.getRowMap(), A.getColMap(), starts, Teuchos::arcpClone<LocalOrdinal>(Teuchos::arrayViewFromVector(columns)),
-                                     Teuchos::arcpClone<double>(Teuchos::arrayViewFromVector(values))));
-  result->expertStaticFillComplete(A.getDomainMap(), A.getRangeMap());
-  return result;
+  return marked_columns(*A_, marks);
 }
 
 RCP<const Map> DecoupledSystem::joined() const {
   const Matrix& trial = *decoupling_.trial;
+  const int dimension = decoupling_.dimension;
   const RCP<const Map> dofs = trial.getRowMap();
-  Vector column_marks(trial.getColMap()), marks(dofs);
+  // Where rows of slaves in S' have entries.
+  Vector column_marks(trial.getColMap()), marks(dofs), own_marks(dofs);
   {
-    const auto mark = column_marks.getLocalViewHost(Tpetra::Access::ReadWrite);
+    const auto mark = column_marks.getLocalViewHost(Tpetra::Access::ReadWrite), own = own_marks.getLocalViewHost(Tpetra::Access::ReadWrite);
     const auto local = trial.getLocalMatrixHost();
+    const auto rows = dofs->getLocalMap(), columns = trial.getColMap()->getLocalMap();
     for (LocalOrdinal row = 0; row < local.numRows(); ++row) {
+      if (inverse_->getNumEntriesInLocalRow(row) == 0) continue;
       const auto entries = local.rowConst(row);
-      const bool is_slave = inverse_->getNumEntriesInLocalRow(row) > 0;
-      for (LocalOrdinal k = 0; k < entries.length && is_slave; ++k) mark(entries.colidx(k), 0) = 1.0;
+      double diagonal = 1.0;
+      for (LocalOrdinal k = 0; k < entries.length; ++k)
+        if (columns.getGlobalElement(entries.colidx(k)) == rows.getGlobalElement(row))
+          diagonal += entries.value(k);
+        else if (entries.value(k) != 0.0)
+          mark(entries.colidx(k), 0) = 1.0;
+      if (diagonal != 0.0) own(row, 0) = 1.0;
     }
   }
   marks.doExport(column_marks, Export(trial.getColMap(), dofs), Tpetra::ADD);
+  marks.update(1.0, own_marks, 1.0);
   const auto mark = marks.getLocalViewHost(Tpetra::Access::ReadOnly);
   std::vector<GlobalOrdinal> ids;
-  for (LocalOrdinal first = 0; first < static_cast<LocalOrdinal>(dofs->getNodeNumElements()); first += dimension_) {
+  for (LocalOrdinal first = 0; first < static_cast<LocalOrdinal>(dofs->getNodeNumElements()); first += dimension) {
     bool is_joined = false;
-    for (int i = 0; i < dimension_; ++i) is_joined = is_joined || mark(first + i, 0) != 0.0;
-    for (int i = 0; i < dimension_ && is_joined; ++i) ids.push_back(dofs->getGlobalElement(first + i));
+    for (int i = 0; i < dimension; ++i) is_joined = is_joined || mark(first + i, 0) != 0.0;
+    for (int i = 0; i < dimension && is_joined; ++i) ids.push_back(dofs->getGlobalElement(first + i));
   }
   const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
   return rcp(new const Map(invalid, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, dofs->getComm()));
 }
 
-void DecoupledSystem::add_trial(const MultiVector& x, MultiVector& y) const { decoupling_.trial->apply(x, y, Teuchos::NO_TRANS, 1.0, 1.0); }
+void DecoupledSystem::add_trial(const MultiVector& x, MultiVector& y) const {
+  y.update(1.0, x, 1.0);
+  decoupling_.trial->apply(x, y, Teuchos::NO_TRANS, 1.0, 1.0);
+}
 
-void DecoupledSystem::test(const MultiVector& x, MultiVector& y) const { decoupling_.test->apply(x, y, Teuchos::TRANS); }
+void DecoupledSystem::test(const MultiVector& x, MultiVector& y) const {
+  Tpetra::deep_copy(y, x);
+  decoupling_.test->apply(x, y, Teuchos::TRANS, 1.0, 1.0);
+}
 
 void DecoupledSystem::relative_motion(const MultiVector& b, MultiVector& w) const { inverse_->apply(b, w); }
 

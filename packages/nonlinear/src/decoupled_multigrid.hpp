@@ -6,6 +6,28 @@
 
 namespace mortise::detail {
 
+/// The rows C_m = L'_mm A_m S' + (N A_D N)_m of the matrix C below, m the dofs that DecoupledSystem::joined() gives, the only ones from which L'
+/// hands anything to m. As an operator: the product has several times the entries of its factors.
+class RowsOfDecoupled : public Operator {
+ public:
+  /// @param A         A_m
+  /// @param test      L'_mm, transposed
+  /// @param trial     S' - I
+  /// @param relative  (N A_D N)_m
+  /// @param block     C_mm
+  RowsOfDecoupled(RCP<const Matrix> A, RCP<const Matrix> test, RCP<const Matrix> trial, RCP<const Matrix> relative, RCP<const Matrix> block)
+      : A_(std::move(A)), test_(std::move(test)), trial_(std::move(trial)), relative_(std::move(relative)), block_(std::move(block)) {}
+  Teuchos::RCP<const Map> getDomainMap() const override { return trial_->getDomainMap(); }
+  Teuchos::RCP<const Map> getRangeMap() const override { return block_->getRangeMap(); }
+  /// C_mm
+  const RCP<const Matrix>& block() const { return block_; }
+  /// y = C_m x
+  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar, Scalar) const override;
+
+ private:
+  RCP<const Matrix> A_, test_, trial_, relative_, block_;
+};
+
 /// With the condensed matrix A and the change of unknowns and of equations S, L of a Decoupling, L A S is that of the bodies joined by stick or by
 /// slip without friction, and next to it, in the eliminated directions N, the relative motion w of the surfaces, each with an equation of its own:
 ///   C = L' A S' + N A_D N,   S' = S (I - N),   L' = (I - N) L,   A_D the nodes' diagonal blocks of A.
@@ -13,13 +35,12 @@ namespace mortise::detail {
 ///   A^-1 b ~ w + S' C^-1 L' (b - A w).
 class DecoupledSystem {
  public:
-  /// @param dimension  dofs of a node, which stand together in every map
-  DecoupledSystem(RCP<const Matrix> A, const Decoupling& decoupling, int dimension);
+  DecoupledSystem(RCP<const Matrix> A, const Decoupling& decoupling);
 
   /// C. Collective.
   RCP<Matrix> matrix() const;
-  /// The rows of C of some dofs, each on the rank that owns it. Collective.
-  RCP<const Matrix> rows(const RCP<const Map>& dofs) const;
+  /// C_m, each row on the rank that owns it, with m = joined(). Collective.
+  RowsOfDecoupled rows(const RCP<const Map>& joined) const;
   /// y += S' x, y = L' x.
   void add_trial(const MultiVector& x, MultiVector& y) const;
   void test(const MultiVector& x, MultiVector& y) const;
@@ -35,7 +56,6 @@ class DecoupledSystem {
  private:
   RCP<const Matrix> A_;
   Decoupling decoupling_;
-  int dimension_;
   RCP<Matrix> inner_, inverse_;  ///< N A_D N; (N A_D N + I - N)^-1 N
 };
 

@@ -21,7 +21,7 @@ class DirectSolver : public LinearSolver {
   std::string name() const override { return name_; }
   int symbolic_setups() const override { return symbolic_setups_; }
 
-  void set_matrix(const RCP<const Matrix>& matrix, bool graph_changed, const std::function<NearNullSpace()>&) override {
+  void set_matrix(const RCP<const Matrix>& matrix, bool graph_changed, const MultigridInput&) override {
     matrix_ = matrix;
     factored_ = false;
     if (graph_changed) amesos2_ = Teuchos::null;

@@ -15,9 +15,10 @@ namespace mortise::detail {
 /// by the diagonal, hardly changes them. Also, V may be that of an earlier C, which differs where nodes have opened, closed or begun to slip.
 class InterfaceCorrection : public Operator {
  public:
-  /// @param rows  C_m, one row at least, each on the rank that owns it in C
+  /// @param rows   C_m, one row at least, each on the rank that owns it in C
+  /// @param block  C_mm
   /// Collective.
-  InterfaceCorrection(RCP<const Matrix> rows, RCP<const Operator> preconditioner);
+  InterfaceCorrection(RCP<const Operator> rows, const RCP<const Matrix>& block, RCP<const Operator> preconditioner);
   Teuchos::RCP<const Map> getDomainMap() const override { return preconditioner_->getDomainMap(); }
   Teuchos::RCP<const Map> getRangeMap() const override { return preconditioner_->getRangeMap(); }
   /// Throws StepFailure(linear_solver), on every rank, if C_mm is singular.
@@ -26,7 +27,7 @@ class InterfaceCorrection : public Operator {
  private:
   RCP<const Operator> preconditioner_;
   Import to_dofs_;                         ///< of all of C to m
-  RCP<const Matrix> rows_, block_;         ///< C_m, C_mm
+  RCP<const Operator> rows_;               ///< C_m
   std::unique_ptr<LinearSolver> inverse_;  ///< of C_mm
 };
 

@@ -79,9 +79,9 @@ class IterativeSolver : public LinearSolver {
   std::string name() const override { return name_; }
   int symbolic_setups() const override { return setups_; }
 
-  void set_matrix(const RCP<const Matrix>& matrix, bool, const std::function<NearNullSpace()>& near_null_space) override {
+  void set_matrix(const RCP<const Matrix>& matrix, bool, const MultigridInput& multigrid) override {
     matrix_ = matrix;
-    near_null_space_ = near_null_space;
+    multigrid_ = multigrid;
     preconditioner_ = Teuchos::null;
     is_fresh_ = false;
     if (extra_iterations_ >= iterations_of_set_up || cycle_.is_null() || !cycle_->getDomainMap()->isSameAs(*matrix->getDomainMap())) forget();
@@ -99,12 +99,12 @@ class IterativeSolver : public LinearSolver {
     LinearSolveReport report;
     std::optional<StepFailure> failure;
     try {
-      if (preconditioner_.is_null()) prepare(near_null_space());
+      if (preconditioner_.is_null()) prepare();
       report.iterations = iterate(b, x);
       // An earlier matrix's hierarchy that does not do is replaced on the way.
       if (!is_fresh_ && !converged_) {
         forget();
-        prepare(near_null_space());
+        prepare();
         report.iterations += iterate(b, x);
       }
     } catch (const std::exception& error) {
@@ -122,31 +122,32 @@ class IterativeSolver : public LinearSolver {
   }
 
  private:
-  NearNullSpace near_null_space() const { return near_null_space_ ? near_null_space_() : NearNullSpace{}; }
-
   void forget() {
     cycle_ = preconditioner_ = Teuchos::null;
     fresh_iterations_per_digit_ = extra_iterations_ = 0.0;
   }
 
   // Contact is decoupled and corrected with the matrix and the states of its nodes as they are, whatever matrix the hierarchy was made for.
-  void prepare(const NearNullSpace& near_null_space) {
+  void prepare() {
     const auto scope = timers_.scope("linear setup");
-    int equations = 1;
-    if (!near_null_space.coordinates.is_null())
-      equations = static_cast<int>(matrix_->getGlobalNumRows() / near_null_space.coordinates->getGlobalLength());
     std::shared_ptr<const DecoupledSystem> decoupled;
-    if (near_null_space.decoupling) decoupled = std::make_shared<DecoupledSystem>(matrix_, *near_null_space.decoupling, equations);
-    if (cycle_.is_null()) set_up(near_null_space, decoupled.get(), equations);
+    if (multigrid_.decoupling) decoupled = std::make_shared<DecoupledSystem>(matrix_, multigrid_.decoupling());
+    if (cycle_.is_null()) set_up(decoupled.get());
     preconditioner_ = cycle_;
     if (decoupled) {
-      if (const RCP<const Map> joined = decoupled->joined(); joined->getGlobalNumElements() > 0)
-        preconditioner_ = rcp(new InterfaceCorrection(decoupled->rows(joined), cycle_));
+      if (const RCP<const Map> joined = decoupled->joined(); joined->getGlobalNumElements() > 0) {
+        const auto rows = rcp(new RowsOfDecoupled(decoupled->rows(joined)));
+        preconditioner_ = rcp(new InterfaceCorrection(rows, rows->block(), cycle_));
+      }
       preconditioner_ = rcp(new DecoupledPreconditioner(decoupled, preconditioner_));
     }
   }
 
-  void set_up(const NearNullSpace& near_null_space, const DecoupledSystem* decoupled, int equations) {
+  void set_up(const DecoupledSystem* decoupled) {
+    const NearNullSpace near_null_space = multigrid_.near_null_space ? multigrid_.near_null_space() : NearNullSpace{};
+    int equations = 1;
+    if (!near_null_space.coordinates.is_null())
+      equations = static_cast<int>(matrix_->getGlobalNumRows() / near_null_space.coordinates->getGlobalLength());
     const RCP<Matrix> matrix = decoupled != nullptr ? decoupled->matrix() : Teuchos::rcp_const_cast<Matrix>(matrix_);
     const auto rows = static_cast<GlobalOrdinal>(matrix->getGlobalNumRows());
     Teuchos::ParameterList list = muelu_defaults(equations, rows, matrix->getComm()->getSize());
@@ -227,7 +228,7 @@ class IterativeSolver : public LinearSolver {
   Timers timers_;
   std::string name_;
   RCP<const Matrix> matrix_;
-  std::function<NearNullSpace()> near_null_space_;
+  MultigridInput multigrid_;
   RCP<const Operator> cycle_, preconditioner_;  ///< of a hierarchy; with contact around it
   int setups_ = 0, basis_ = small_basis;
   bool is_fresh_ = false, converged_ = false;  ///< the hierarchy: made for this matrix; the last solve

@@ -8,11 +8,10 @@ using detail::DirichletElimination;
 
 // Solves matrix x = rhs, x = increment on the rows `prescribed`. The matrix is open for changes, rhs is overwritten.
 LinearSolveReport SemiSmoothSystem::Implementation::solve(const RCP<Matrix>& matrix, const std::vector<LocalOrdinal>& prescribed,
-                                                          const Vector& increment, Vector& rhs, const std::function<NearNullSpace()>& near_null_space,
-                                                          Vector& x) {
+                                                          const Vector& increment, Vector& rhs, const MultigridInput& multigrid, Vector& x) {
   elimination->impose(*matrix, increment, stiffness_scale, rhs);
   matrix->fillComplete(matrix->getRowMap(), matrix->getRowMap());
-  parts.linear_solver->set_matrix(matrix, graph_changed, near_null_space);
+  parts.linear_solver->set_matrix(matrix, graph_changed, multigrid);
   graph_changed = false;
   Vector solution(matrix->getRowMap());
   const LinearSolveReport report = parts.linear_solver->solve(rhs, solution, tolerance);
@@ -33,8 +32,7 @@ void SemiSmoothSystem::Implementation::match_elimination(const RCP<const Graph>&
 
 // The same where displacements follow others: see Reduction. r is the whole residual, followers' forces not gathered.
 LinearSolveReport SemiSmoothSystem::Implementation::solve_reduced(const RCP<Matrix>& matrix, const Vector& d, const Vector& r,
-                                                                  const Vector& increment, Vector& rhs,
-                                                                  const std::function<NearNullSpace()>& near_null_space, Vector& dd) {
+                                                                  const Vector& increment, Vector& rhs, const MultigridInput& multigrid, Vector& dd) {
   if (matrix->isFillActive()) matrix->fillComplete(parts.dofs, parts.dofs);
   Vector start(parts.dofs), force(parts.dofs);
   reduction->deviation(d, -1.0, start);
@@ -46,8 +44,10 @@ LinearSolveReport SemiSmoothSystem::Implementation::solve_reduced(const RCP<Matr
   reduced->resumeFill();
   const RCP<Vector> q_increment = reduction->unknown_part(increment), q_rhs = reduction->reduced(rhs);
   Vector dq(reduction->unknowns());
-  const LinearSolveReport report = solve(
-      reduced, prescribed, *q_increment, *q_rhs, [&] { return reduction->reduced(near_null_space()); }, dq);
+  MultigridInput of_unknowns;
+  if (multigrid.near_null_space) of_unknowns.near_null_space = [&] { return reduction->reduced(multigrid.near_null_space()); };
+  if (multigrid.decoupling) of_unknowns.decoupling = [&] { return reduction->reduced(multigrid.decoupling()); };
+  const LinearSolveReport report = solve(reduced, prescribed, *q_increment, *q_rhs, of_unknowns, dq);
   dd.update(1.0, *reduction->expanded(dq), 1.0, start, 0.0);
   return report;
 }
@@ -142,14 +142,11 @@ LinearSolveReport SemiSmoothSystem::newton_direction(const Vector& F, Vector& di
     self.open_matrix();
   }
 
-  const auto near_null_space = [&] {
-    NearNullSpace result;
-    if (parts.near_null_space) result = parts.near_null_space(*d);
-    if (parts.contact) result.decoupling = parts.contact->decoupling(*z);
-    return result;
-  };
-  const LinearSolveReport report = self.reduction ? self.solve_reduced(matrix, *d, r, prescribed_increment, rhs, near_null_space, *dd)
-                                                  : self.solve(matrix, self.fixed, prescribed_increment, rhs, near_null_space, *dd);
+  MultigridInput multigrid;
+  if (parts.near_null_space) multigrid.near_null_space = [&] { return parts.near_null_space(*d); };
+  if (parts.contact) multigrid.decoupling = [&] { return parts.contact->decoupling(*z); };
+  const LinearSolveReport report = self.reduction ? self.solve_reduced(matrix, *d, r, prescribed_increment, rhs, multigrid, *dd)
+                                                  : self.solve(matrix, self.fixed, prescribed_increment, rhs, multigrid, *dd);
   if (parts.contact) {
     const RCP<Vector> dz = multipliers(direction);
     Vector z_new(self.multipliers);

@@ -116,8 +116,10 @@ NearNullSpace Reduction::reduced(const NearNullSpace& of_dofs) const {
   }
   result.coordinates = coordinates;
   if (!of_dofs.rigid_body_modes.is_null()) result.rigid_body_modes = unknown_rows(*of_dofs.rigid_body_modes);
-  if (!of_dofs.decoupling) return result;
+  return result;
+}
 
+Decoupling Reduction::reduced(const Decoupling& of_dofs) const {
   Matrix injection(dofs_, 1);
   for (std::size_t dof = 0; dof < place_of_.size(); ++dof) {
     if (place_of_[dof] < 0) continue;
@@ -133,8 +135,7 @@ NearNullSpace Reduction::reduced(const NearNullSpace& of_dofs) const {
     Tpetra::MatrixMatrix::Multiply(injection, true, columns, false, *both);
     return both;
   };
-  result.decoupling = Decoupling{part(*of_dofs.decoupling->trial), part(*of_dofs.decoupling->test), part(*of_dofs.decoupling->eliminated)};
-  return result;
+  return {part(*of_dofs.trial), part(*of_dofs.test), part(*of_dofs.eliminated), of_dofs.dimension};
 }
 
 RCP<Vector> Reduction::reduced(const Vector& r) const {

@@ -44,9 +44,10 @@ class Reduction {
   /// T^T A T + sum_i r_i d2g_i/dq2, with all diagonal entries of dofs that others follow in its graph. Collective.
   RCP<Matrix> reduced(const Matrix& A, const Vector& r) const;
 
-  /// What multigrid is told of the unknowns, from what it would be told of the dofs. Every node has to follow as a whole or not at all, and a
-  /// decoupling has to leave followers out. Collective.
+  /// What multigrid is told of the unknowns, from what it would be told of the dofs. Every node has to follow as a whole or not at all.
   NearNullSpace reduced(const NearNullSpace& of_dofs) const;
+  /// Likewise; the decoupling has to leave followers out. Collective.
+  Decoupling reduced(const Decoupling& of_dofs) const;
 
   /// T^T B and C T. Collective.
   RCP<Matrix> reduced_rows(const Matrix& B) const;

@@ -152,9 +152,9 @@ struct SemiSmoothSystem::Implementation {
   }
 
   LinearSolveReport solve(const RCP<Matrix>& matrix, const std::vector<LocalOrdinal>& prescribed, const Vector& increment, Vector& rhs,
-                          const std::function<NearNullSpace()>& near_null_space, Vector& x);
+                          const MultigridInput& multigrid, Vector& x);
   LinearSolveReport solve_reduced(const RCP<Matrix>& matrix, const Vector& d, const Vector& r, const Vector& increment, Vector& rhs,
-                                  const std::function<NearNullSpace()>& near_null_space, Vector& dd);
+                                  const MultigridInput& multigrid, Vector& dd);
   LinearSolveReport solve_saddle_point(const Vector& d, const Vector& z, const Vector& r, const Vector& C, const Vector& increment, Vector& dd,
                                        Vector& dz);
   void match_elimination(const RCP<const Graph>& graph, const std::vector<LocalOrdinal>& prescribed);

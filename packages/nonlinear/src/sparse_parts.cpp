@@ -11,24 +11,54 @@
 
 namespace mortise::detail {
 
-RCP<Matrix> beyond_identity(const Matrix& A, const Matrix& marked) {
-  const auto local = A.getLocalMatrixHost();
-  const auto marks = marked.getLocalMatrixHost();
-  std::vector<std::size_t> sizes(static_cast<std::size_t>(local.numRows()), 0);
-  for (LocalOrdinal row = 0; row < local.numRows(); ++row)
-    if (marks.rowConst(row).length > 0) sizes[row] = static_cast<std::size_t>(local.rowConst(row).length) + 1;
-  const auto rows = A.getRowMap()->getLocalMap(), columns = A.getColMap()->getLocalMap();
-  const auto result = rcp(new Matrix(A.getRowMap(), Teuchos::arrayViewFromVector(sizes)));  // by global ids: A may have no column for its diagonal
-  for (LocalOrdinal row = 0; row < local.numRows(); ++row) {
-    if (sizes[row] == 0) continue;
-    const GlobalOrdinal id = rows.getGlobalElement(row);
-    const auto add = [&](GlobalOrdinal column, double value) { result->insertGlobalValues(id, 1, &value, &column); };
-    const auto entries = local.rowConst(row);
-    for (LocalOrdinal k = 0; k < entries.length; ++k) add(columns.getGlobalElement(entries.colidx(k)), entries.value(k));
-    add(id, -1.0);
-  }
-  result->fillComplete(A.getDomainMap(), A.getRangeMap());
+namespace {
+
+/// Imported to the column map of A from its domain.
+Vector of_columns(const Matrix& A, const Vector& marks) {
+  Vector result(A.getColMap());
+  result.doImport(marks, Import(marks.getMap(), A.getColMap()), Tpetra::INSERT);
   return result;
+}
+
+/// From local rows, with the importer, if any, of the domain to the columns.
+RCP<const Matrix> matrix_of(const RCP<const Map>& rows, const RCP<const Map>& columns, const Teuchos::ArrayRCP<std::size_t>& starts,
+                            const std::vector<LocalOrdinal>& indices, const std::vector<double>& values, const RCP<const Map>& domain,
+                            const RCP<const Import>& importer) {
+  const auto result = rcp(new Matrix(rows, columns, starts, Teuchos::arcpClone<LocalOrdinal>(Teuchos::arrayViewFromVector(indices)),
+                                     Teuchos::arcpClone<double>(Teuchos::arrayViewFromVector(values))));
+  result->expertStaticFillComplete(domain, rows, importer);
+  return result;
+}
+
+}  // namespace
+
+RCP<const Matrix> columns_of_identity_plus(const Matrix& A, const RCP<const Map>& chosen) {
+  const RCP<const Map> domain = A.getDomainMap();
+  Vector marks(domain);
+  std::vector<std::size_t> sizes(A.getNodeNumRows(), 0);
+  const auto local = A.getLocalMatrixHost();
+  for (LocalOrdinal row = 0; row < local.numRows(); ++row) sizes[row] = local.rowConst(row).length;
+  for (const GlobalOrdinal id : chosen->getNodeElementList()) {
+    marks.replaceGlobalValue(id, 1.0);
+    ++sizes[A.getRowMap()->getLocalElement(id)];
+  }
+  const Vector column_marks = of_columns(A, marks);
+  const auto is_chosen = column_marks.getLocalViewHost(Tpetra::Access::ReadOnly);
+  const auto rows = A.getRowMap()->getLocalMap(), columns = A.getColMap()->getLocalMap();
+  Matrix result(A.getRowMap(), Teuchos::arrayViewFromVector(sizes));
+  for (LocalOrdinal row = 0; row < local.numRows(); ++row) {
+    const auto entries = local.rowConst(row);
+    for (LocalOrdinal k = 0; k < entries.length; ++k) {
+      if (is_chosen(entries.colidx(k), 0) == 0.0) continue;
+      const GlobalOrdinal column = columns.getGlobalElement(entries.colidx(k));
+      const double value = entries.value(k);
+      result.insertGlobalValues(rows.getGlobalElement(row), 1, &value, &column);
+    }
+  }
+  const double one = 1.0;
+  for (const GlobalOrdinal id : chosen->getNodeElementList()) result.insertGlobalValues(id, 1, &one, &id);
+  result.fillComplete(chosen, A.getRangeMap());
+  return rcp(new const Matrix(std::move(result)));
 }
 
 RCP<Matrix> sum(const Matrix& A, const Matrix& B) { return Tpetra::MatrixMatrix::add(1.0, false, A, 1.0, false, B); }
@@ -76,20 +106,54 @@ RCP<Matrix> sum_without_zeros(const Matrix& A, const Matrix& B) {
   return result;
 }
 
-RCP<const Matrix> columns(const Matrix& A, const RCP<const Map>& chosen) {
-  Matrix injection(A.getDomainMap(), 1);
-  for (const GlobalOrdinal id : chosen->getNodeElementList()) {
-    const double one = 1.0;
-    injection.insertGlobalValues(id, 1, &one, &id);
+RCP<const Matrix> marked_columns(const Matrix& A, const Vector& marks) {
+  const Vector column_marks = of_columns(A, marks);
+  const auto is_marked = column_marks.getLocalViewHost(Tpetra::Access::ReadOnly);
+  const auto local = A.getLocalMatrixHost();
+  const auto rows = static_cast<std::size_t>(local.numRows());
+  Teuchos::ArrayRCP<std::size_t> starts(rows + 1, 0);
+  std::vector<LocalOrdinal> columns;
+  std::vector<double> values;
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t k = local.graph.row_map(row); k < local.graph.row_map(row + 1); ++k)
+      if (const LocalOrdinal column = local.graph.entries(k); is_marked(column, 0) != 0.0) {
+        columns.push_back(column);
+        values.push_back(local.values(k));
+      }
+    starts[row + 1] = columns.size();
   }
-  injection.fillComplete(chosen, A.getDomainMap());
-  const auto result = rcp(new Matrix(A.getRowMap(), 0));
-  Tpetra::MatrixMatrix::Multiply(A, false, injection, false, *result);
-  return result;
+  return matrix_of(A.getRowMap(), A.getColMap(), starts, columns, values, A.getDomainMap(), A.getGraph()->getImporter());
 }
 
-RCP<const Matrix> rows(const RCP<const Matrix>& A, const RCP<const Map>& chosen) {
-  return Tpetra::importAndFillCompleteCrsMatrix<Matrix>(A, Import(A->getRowMap(), chosen), A->getDomainMap(), chosen);
+RCP<const Matrix> rows(const Matrix& A, const RCP<const Map>& chosen) {
+  const auto local = A.getLocalMatrixHost();
+  Teuchos::ArrayRCP<std::size_t> starts(chosen->getNodeNumElements() + 1, 0);
+  std::vector<LocalOrdinal> columns;
+  std::vector<double> values;
+  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(chosen->getNodeNumElements()); ++row) {
+    const auto entries = local.rowConst(A.getRowMap()->getLocalElement(chosen->getGlobalElement(row)));
+    columns.insert(columns.end(), &entries.colidx(0), &entries.colidx(0) + entries.length);
+    values.insert(values.end(), &entries.value(0), &entries.value(0) + entries.length);
+    starts[row + 1] = columns.size();
+  }
+  return matrix_of(chosen, A.getColMap(), starts, columns, values, A.getDomainMap(), A.getGraph()->getImporter());
+}
+
+RCP<const Matrix> block(const Matrix& A, const RCP<const Map>& chosen) {
+  const auto local = A.getLocalMatrixHost();
+  Teuchos::ArrayRCP<std::size_t> starts(chosen->getNodeNumElements() + 1, 0);
+  std::vector<LocalOrdinal> columns;
+  std::vector<double> values;
+  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(chosen->getNodeNumElements()); ++row) {
+    const auto entries = local.rowConst(A.getRowMap()->getLocalElement(chosen->getGlobalElement(row)));
+    for (LocalOrdinal k = 0; k < entries.length; ++k)
+      if (const LocalOrdinal column = chosen->getLocalElement(A.getColMap()->getGlobalElement(entries.colidx(k))); column >= 0) {
+        columns.push_back(column);
+        values.push_back(entries.value(k));
+      }
+    starts[row + 1] = columns.size();
+  }
+  return matrix_of(chosen, chosen, starts, columns, values, chosen, Teuchos::null);
 }
 
 }  // namespace mortise::detail

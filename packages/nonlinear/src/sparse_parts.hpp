@@ -5,8 +5,8 @@
 
 namespace mortise::detail {
 
-/// A - I for a matrix that is the identity but for the rows in which `marked` has entries; those alone are kept.
-RCP<Matrix> beyond_identity(const Matrix& A, const Matrix& marked);
+/// The columns of I + A whose ids are in `chosen`, which is the result's domain; each on the rank that owns it in A's.
+RCP<const Matrix> columns_of_identity_plus(const Matrix& A, const RCP<const Map>& chosen);
 
 /// A + B
 RCP<Matrix> sum(const Matrix& A, const Matrix& B);
@@ -14,10 +14,13 @@ RCP<Matrix> sum(const Matrix& A, const Matrix& B);
 /// A + B, B with few entries, without entries of A that are 0, as those of prescribed rows and columns are.
 RCP<Matrix> sum_without_zeros(const Matrix& A, const Matrix& B);
 
-/// The columns of A whose ids are in `chosen`, which is the result's domain; each on the rank that owns it in A's.
-RCP<const Matrix> columns(const Matrix& A, const RCP<const Map>& chosen);
+/// The columns of A in which `marks`, on A's domain, is not 0; the others are empty.
+RCP<const Matrix> marked_columns(const Matrix& A, const Vector& marks);
 
-/// The rows of A whose ids are in `chosen`, each on the rank that owns it in A.
-RCP<const Matrix> rows(const RCP<const Matrix>& A, const RCP<const Map>& chosen);
+/// The rows of A whose ids are in `chosen`, each on the rank that owns it in A; columns and domain are A's.
+RCP<const Matrix> rows(const Matrix& A, const RCP<const Map>& chosen);
+
+/// The rows and columns of A whose ids are in `chosen`, for a matrix none of whose entries couples ids of two ranks.
+RCP<const Matrix> block(const Matrix& A, const RCP<const Map>& chosen);
 
 }  // namespace mortise::detail

@@ -182,11 +182,11 @@ TEST(NotFinite, IsAStepFailure) {
     if (grid->dofs->isNodeGlobalElement(grid->dof(12, 0)))  // on one rank
       broken->getLocalMatrixHost().row(grid->dofs->getLocalElement(grid->dof(12, 0))).value(0) = std::nan("");
     broken->fillComplete(grid->dofs, grid->dofs);
-    solver->set_matrix(broken, true, [&] { return grid->near_null_space(); });
+    solver->set_matrix(broken, true, {[&] { return grid->near_null_space(); }, {}});
     EXPECT_NE(failure_of(*solver, *b, x).find("not finite"), std::string::npos);
     Vector nan(*b, Teuchos::Copy);
     if (grid->dofs->isNodeGlobalElement(grid->dof(12, 0))) nan.replaceGlobalValue(grid->dof(12, 0), std::nan(""));
-    solver->set_matrix(stiffness(grid, true), true, [&] { return grid->near_null_space(); });
+    solver->set_matrix(stiffness(grid, true), true, {[&] { return grid->near_null_space(); }, {}});
     EXPECT_NE(failure_of(*solver, nan, x).find("not finite"), std::string::npos);
   }
 }
@@ -197,7 +197,7 @@ TEST(ZeroRightHandSide, HasTheZeroSolution) {
     const auto solver = solver_of(kind);
     Vector b(grid->dofs), x(grid->dofs);
     x.putScalar(1.0);
-    solver->set_matrix(stiffness(grid, true), true, [&] { return grid->near_null_space(); });
+    solver->set_matrix(stiffness(grid, true), true, {[&] { return grid->near_null_space(); }, {}});
     solver->solve(b, x);
     EXPECT_EQ(x.norm2(), 0.0);
   }
@@ -213,7 +213,7 @@ TEST(Iterative, SolvesInAboutAsManyIterationsOnFinerGrids) {
     const auto b = loads(*grid);
     Vector x(grid->dofs);
     const auto solver = solver_of(Kind::iterative);
-    solver->set_matrix(matrix, true, [&] { return grid->near_null_space(); });
+    solver->set_matrix(matrix, true, {[&] { return grid->near_null_space(); }, {}});
     const LinearSolveReport report = solver->solve(*b, x);
     EXPECT_LE(true_residual(*matrix, *b, x), 1e-9);
     EXPECT_GT(report.iterations, 0);
@@ -229,7 +229,7 @@ TEST(Iterative, StopsAtTheToleranceOfTheSolve) {
   const auto matrix = stiffness(grid, true);
   const auto b = loads(*grid);
   const auto solver = solver_of(Kind::iterative, 1e-10);
-  solver->set_matrix(matrix, true, [&] { return grid->near_null_space(); });
+  solver->set_matrix(matrix, true, {[&] { return grid->near_null_space(); }, {}});
   std::vector<int> iterations;
   for (const double tolerance : {1e-2, 1e-10}) {
     SCOPED_TRACE(tolerance);
@@ -256,7 +256,7 @@ TEST(Iterative, GivesUpWithAStepFailure) {
   const auto grid = std::make_shared<SpringGrid>(Tpetra::getDefaultComm(), 24, 24, Numbering::blocks);
   Vector x(grid->dofs);
   const auto solver = solver_of(Kind::iterative, 1e-12, 2);
-  solver->set_matrix(stiffness(grid, true), true, [&] { return grid->near_null_space(); });
+  solver->set_matrix(stiffness(grid, true), true, {[&] { return grid->near_null_space(); }, {}});
   EXPECT_NE(failure_of(*solver, *loads(*grid), x).find("the true relative residual"), std::string::npos);
 }
 
@@ -276,7 +276,7 @@ std::vector<int> iterations_of_two_solves(std::optional<int> basis) {
   std::vector<int> iterations;
   for (int solve = 0; solve < 2; ++solve) {
     Vector x(grid->dofs);
-    solver->set_matrix(matrix, solve == 0, [&] { return grid->near_null_space(); });
+    solver->set_matrix(matrix, solve == 0, {[&] { return grid->near_null_space(); }, {}});
     iterations.push_back(solver->solve(*b, x).iterations);
     EXPECT_LE(true_residual(*matrix, *b, x), 1e-9);
   }

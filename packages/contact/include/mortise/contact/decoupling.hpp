@@ -9,11 +9,13 @@ namespace mortise {
 /// of a closed slave node j, N_j = n n^T where it slips and the projector on its free components where it sticks, and S = L = I but for
 ///   S_jl = N_j M^_jl,   L_lj = -M^_jl (I - F_j - N_j),   F_j the projector on prescribed components:
 /// u_j is, in the directions of N_j, the motion of the node relative to the master; and the momentum that slave nodes hand to the master is what
-/// acts in those directions alone. Entries at prescribed components of the master are left out. All matrices are on the owned dofs.
+/// acts in those directions alone. Entries at prescribed components of the master are left out. All matrices are on the owned dofs and have rows of
+/// closed slave nodes only.
 struct Decoupling {
-  RCP<const Matrix> trial;       ///< S (I - N)
-  RCP<const Matrix> test;        ///< (I - N) L, transposed
-  RCP<const Matrix> eliminated;  ///< N, block diagonal; rows of other nodes are empty
+  RCP<const Matrix> trial;       ///< S (I - N) - I
+  RCP<const Matrix> test;        ///< (I - N) L - I, transposed
+  RCP<const Matrix> eliminated;  ///< N, block diagonal
+  int dimension = 0;             ///< dofs of a node, which stand together
 };
 
 }  // namespace mortise

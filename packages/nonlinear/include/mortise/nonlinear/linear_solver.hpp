@@ -20,11 +20,16 @@ struct LinearSolveReport {
   double relative_residual = 0.0;  ///< true one, |b - A x| / |b|
 };
 
-/// What multigrid is told besides the matrix, on the current configuration.
+/// What hierarchies are made of besides the matrix, on the current configuration.
 struct NearNullSpace {
   RCP<const MultiVector> rigid_body_modes;  ///< on the dofs of the matrix
   RCP<const MultiVector> coordinates;       ///< on the nodes, `dimension` columns; bodies far from one another, so that no aggregate crosses contact
-  std::optional<Decoupling> decoupling;     ///< of a condensed system with contact
+};
+
+/// What an iterative solver may ask of a system, each only if it is needed; any may be empty.
+struct MultigridInput {
+  std::function<NearNullSpace()> near_null_space;
+  std::function<Decoupling()> decoupling;  ///< of a condensed system with contact
 };
 
 /// A strategy. Collective in all its members.
@@ -37,9 +42,8 @@ class LinearSolver {
   virtual int symbolic_setups() const = 0;
 
   /// Takes the matrix of the next solves. `graph_changed`: the pattern is not that of the last call, so nothing symbolic may be reused.
-  /// The matrix must live, unchanged, until the next call, and so must what `near_null_space` looks at: it is asked, by solve(), only if it is
-  /// needed, and may be empty.
-  virtual void set_matrix(const RCP<const Matrix>& matrix, bool graph_changed, const std::function<NearNullSpace()>& near_null_space) = 0;
+  /// The matrix must live, unchanged, until the next call, and so must what `multigrid` looks at, which solve() asks.
+  virtual void set_matrix(const RCP<const Matrix>& matrix, bool graph_changed, const MultigridInput& multigrid) = 0;
 
   /// Relative residuals among which solve() may be told to choose; none: it is as exact as it can be.
   struct Tolerances {
