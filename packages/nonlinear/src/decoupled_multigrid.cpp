@@ -69,13 +69,13 @@ RCP<Matrix> DecoupledSystem::matrix() const {
   return sum_without_zeros(*A_, *sum(*sum(by_trial, by_test), *sum(by_both, *inner_)));
 }
 
-RowsOfDecoupled DecoupledSystem::rows(const RCP<const Map>& joined) const {
-  const RCP<const Matrix> A = detail::rows(*A_, joined);
-  const RCP<const Matrix> test = detail::rows(*columns_of_identity_plus(*decoupling_.test, joined), joined);
-  Matrix by_trial(joined, 0), product(joined, 0);
-  Tpetra::MatrixMatrix::Multiply(*A, false, *columns_of_identity_plus(*decoupling_.trial, joined), false, by_trial);
+RowsOfDecoupled DecoupledSystem::rows(const RCP<const Map>& m) const {
+  const RCP<const Matrix> A = detail::rows(*A_, m);
+  const RCP<const Matrix> test = detail::rows(*columns_of_identity_plus(*decoupling_.test, m), m);
+  Matrix by_trial(m, 0), product(m, 0);
+  Tpetra::MatrixMatrix::Multiply(*A, false, *columns_of_identity_plus(*decoupling_.trial, m), false, by_trial);
   Tpetra::MatrixMatrix::Multiply(*test, true, by_trial, false, product);
-  return {A, test, decoupling_.trial, detail::rows(*inner_, joined), sum(product, *block(*inner_, joined))};
+  return {A, test, decoupling_.trial, detail::rows(*inner_, m), sum(product, *block(*inner_, m))};
 }
 
 void RowsOfDecoupled::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar, Scalar) const {
@@ -96,39 +96,24 @@ RCP<const Matrix> DecoupledSystem::columns_of_relative_motion() const {
   return marked_columns(*A_, marks);
 }
 
-RCP<const Map> DecoupledSystem::joined() const {
+Vector DecoupledSystem::joined() const {
   const Matrix& trial = *decoupling_.trial;
   const int dimension = decoupling_.dimension;
-  const RCP<const Map> dofs = trial.getRowMap();
-  // Where rows of slaves in S' have entries.
-  Vector column_marks(trial.getColMap()), marks(dofs), own_marks(dofs);
+  Vector column_marks(trial.getColMap()), marks(trial.getRowMap());
   {
-    const auto mark = column_marks.getLocalViewHost(Tpetra::Access::ReadWrite), own = own_marks.getLocalViewHost(Tpetra::Access::ReadWrite);
+    const auto mark = column_marks.getLocalViewHost(Tpetra::Access::ReadWrite);
     const auto local = trial.getLocalMatrixHost();
-    const auto rows = dofs->getLocalMap(), columns = trial.getColMap()->getLocalMap();
-    for (LocalOrdinal row = 0; row < local.numRows(); ++row) {
-      if (inverse_->getNumEntriesInLocalRow(row) == 0) continue;
-      const auto entries = local.rowConst(row);
-      double diagonal = 1.0;
-      for (LocalOrdinal k = 0; k < entries.length; ++k)
-        if (columns.getGlobalElement(entries.colidx(k)) == rows.getGlobalElement(row))
-          diagonal += entries.value(k);
-        else if (entries.value(k) != 0.0)
-          mark(entries.colidx(k), 0) = 1.0;
-      if (diagonal != 0.0) own(row, 0) = 1.0;
-    }
+    for (LocalOrdinal row = 0; row < local.numRows(); ++row)
+      for (LocalOrdinal k = 0; k < local.rowConst(row).length; ++k) mark(local.rowConst(row).colidx(k), 0) = 1.0;
   }
-  marks.doExport(column_marks, Export(trial.getColMap(), dofs), Tpetra::ADD);
-  marks.update(1.0, own_marks, 1.0);
-  const auto mark = marks.getLocalViewHost(Tpetra::Access::ReadOnly);
-  std::vector<GlobalOrdinal> ids;
-  for (LocalOrdinal first = 0; first < static_cast<LocalOrdinal>(dofs->getNodeNumElements()); first += dimension) {
-    bool is_joined = false;
+  marks.doExport(column_marks, Export(trial.getColMap(), trial.getRowMap()), Tpetra::ADD);
+  const auto mark = marks.getLocalViewHost(Tpetra::Access::ReadWrite);
+  for (LocalOrdinal first = 0; first < static_cast<LocalOrdinal>(marks.getLocalLength()); first += dimension) {
+    bool is_joined = inverse_->getNumEntriesInLocalRow(first) > 0;
     for (int i = 0; i < dimension; ++i) is_joined = is_joined || mark(first + i, 0) != 0.0;
-    for (int i = 0; i < dimension && is_joined; ++i) ids.push_back(dofs->getGlobalElement(first + i));
+    for (int i = 0; i < dimension; ++i) mark(first + i, 0) = is_joined ? 1.0 : 0.0;
   }
-  const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
-  return rcp(new const Map(invalid, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, dofs->getComm()));
+  return marks;
 }
 
 void DecoupledSystem::add_trial(const MultiVector& x, MultiVector& y) const {

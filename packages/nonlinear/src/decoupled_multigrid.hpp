@@ -6,8 +6,8 @@
 
 namespace mortise::detail {
 
-/// The rows C_m = L'_mm A_m S' + (N A_D N)_m of the matrix C below, m the dofs that DecoupledSystem::joined() gives, the only ones from which L'
-/// hands anything to m. As an operator: the product has several times the entries of its factors.
+/// The rows C_m = L'_mm A_m S' + (N A_D N)_m of the matrix C below, m with all that DecoupledSystem::joined() marks, from which alone
+/// L' hands on anything. As an operator: the product has several times the entries of its factors.
 class RowsOfDecoupled : public Operator {
  public:
   /// @param A         A_m
@@ -39,8 +39,8 @@ class DecoupledSystem {
 
   /// C. Collective.
   RCP<Matrix> matrix() const;
-  /// C_m, each row on the rank that owns it, with m = joined(). Collective.
-  RowsOfDecoupled rows(const RCP<const Map>& joined) const;
+  /// C_m, each row on the rank that owns it, for some m that holds all that is joined. Collective.
+  RowsOfDecoupled rows(const RCP<const Map>& m) const;
   /// y += S' x, y = L' x.
   void add_trial(const MultiVector& x, MultiVector& y) const;
   void test(const MultiVector& x, MultiVector& y) const;
@@ -48,8 +48,8 @@ class DecoupledSystem {
   void relative_motion(const MultiVector& b, MultiVector& w) const;
   /// The columns of A in which w may differ from 0; the others are empty. Collective.
   RCP<const Matrix> columns_of_relative_motion() const;
-  /// The dofs, each on its owner, of closed slave nodes, those that stick aside, and of the nodes that they follow. Collective.
-  RCP<const Map> joined() const;
+  /// 1 at the dofs of closed slave nodes and of the nodes that they follow. Collective.
+  Vector joined() const;
   /// modes -= N modes
   void take_out_eliminated(MultiVector& modes) const;
 

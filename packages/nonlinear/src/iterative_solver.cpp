@@ -15,6 +15,7 @@
 #include "decoupled_multigrid.hpp"
 #include "interface_correction.hpp"
 #include "linear_system_checks.hpp"
+#include "sparse_parts.hpp"
 
 namespace mortise::detail {
 namespace {
@@ -135,8 +136,12 @@ class IterativeSolver : public LinearSolver {
     if (cycle_.is_null()) set_up(decoupled.get());
     preconditioner_ = cycle_;
     if (decoupled) {
-      if (const RCP<const Map> joined = decoupled->joined(); joined->getGlobalNumElements() > 0) {
-        const auto rows = rcp(new RowsOfDecoupled(decoupled->rows(joined)));
+      // With what was joined when the hierarchy was made: but for the tangents of the bodies C has not changed elsewhere.
+      const auto joined = rcp(new Vector(decoupled->joined()));
+      if (is_fresh_) joined_ = rcp(new Vector(*joined, Teuchos::Copy));
+      joined->update(1.0, *joined_, 1.0);
+      if (const RCP<const Map> m = marked_ids(*joined); m->getGlobalNumElements() > 0) {
+        const auto rows = rcp(new RowsOfDecoupled(decoupled->rows(m)));
         preconditioner_ = rcp(new InterfaceCorrection(rows, rows->block(), cycle_));
       }
       preconditioner_ = rcp(new DecoupledPreconditioner(decoupled, preconditioner_));
@@ -229,6 +234,7 @@ class IterativeSolver : public LinearSolver {
   std::string name_;
   RCP<const Matrix> matrix_;
   MultigridInput multigrid_;
+  RCP<const Vector> joined_;                    ///< 1 at what was joined when the hierarchy was made
   RCP<const Operator> cycle_, preconditioner_;  ///< of a hierarchy; with contact around it
   int setups_ = 0, basis_ = small_basis;
   bool is_fresh_ = false, converged_ = false;  ///< the hierarchy: made for this matrix; the last solve

@@ -106,6 +106,15 @@ RCP<Matrix> sum_without_zeros(const Matrix& A, const Matrix& B) {
   return result;
 }
 
+RCP<const Map> marked_ids(const Vector& marks) {
+  const auto mark = marks.getLocalViewHost(Tpetra::Access::ReadOnly);
+  std::vector<GlobalOrdinal> ids;
+  for (std::size_t place = 0; place < marks.getLocalLength(); ++place)
+    if (mark(place, 0) != 0.0) ids.push_back(marks.getMap()->getGlobalElement(static_cast<LocalOrdinal>(place)));
+  const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
+  return rcp(new const Map(invalid, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, marks.getMap()->getComm()));
+}
+
 RCP<const Matrix> marked_columns(const Matrix& A, const Vector& marks) {
   const Vector column_marks = of_columns(A, marks);
   const auto is_marked = column_marks.getLocalViewHost(Tpetra::Access::ReadOnly);

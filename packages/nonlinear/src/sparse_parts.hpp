@@ -14,6 +14,9 @@ RCP<Matrix> sum(const Matrix& A, const Matrix& B);
 /// A + B, B with few entries, without entries of A that are 0, as those of prescribed rows and columns are.
 RCP<Matrix> sum_without_zeros(const Matrix& A, const Matrix& B);
 
+/// The ids at which `marks` is not 0, each on its owner.
+RCP<const Map> marked_ids(const Vector& marks);
+
 /// The columns of A in which `marks`, on A's domain, is not 0; the others are empty.
 RCP<const Matrix> marked_columns(const Matrix& A, const Vector& marks);
 
