@@ -1,6 +1,7 @@
 #include "facet_moments.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 
 namespace mortise {
 namespace {
@@ -142,6 +143,7 @@ FacetMatrix multiplier_shares(const std::vector<char>& carries, std::size_t corn
   // Heirs stand on a ring around the facet that starts at node `first`; a corner of a quadratic facet stands between the middles k - 1 and k.
   const std::size_t first = count > corners ? corners : 0, ring = count - first;
   const auto on_ring = [&](std::size_t place) { return first + place % ring; };
+  const bool any_on_ring = std::find(carries.begin() + static_cast<std::ptrdiff_t>(first), carries.end(), 1) != carries.end();
   FacetMatrix share = FacetMatrix::Zero(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(count));
   for (std::size_t k = 0; k < count; ++k) {
     std::vector<std::size_t> heirs;
@@ -152,7 +154,7 @@ FacetMatrix multiplier_shares(const std::vector<char>& carries, std::size_t corn
       if (carries[next]) heirs.push_back(next);
       if (carries[previous] && previous != next) heirs.push_back(previous);
       if (heirs.empty())
-        for (std::size_t j = first; j < count; ++j)
+        for (std::size_t j = any_on_ring ? first : 0; j < count; ++j)
           if (carries[j]) heirs.push_back(j);
     }
     for (const std::size_t j : heirs) share(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(k)) = 1.0 / static_cast<double>(heirs.size());

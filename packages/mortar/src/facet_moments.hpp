@@ -28,9 +28,9 @@ struct FacetMultipliers {
 };
 
 /// S: nodes that carry keep their own function; that of one that does not goes in equal parts to its free edge neighbours, or where it has none to
-/// all free nodes of the facet, so that the sum of all phi stays 1. At least one node carries. Of quadratic facets only the middles of edges inherit,
-/// those of the node's own edges, or of the edges next to a middle's, and at least one middle carries: int phi_j N_k, which then is not 0 for the
-/// corners k of the middle's edge, would otherwise couple corners both ways.
+/// all free nodes of the facet, so that the sum of all phi stays 1. At least one node carries. Of quadratic facets the middles of edges inherit,
+/// those of the node's own edges, or of the edges next to a middle's: int phi_j N_k, which then is not 0 for the corners k of the middle's edge,
+/// would otherwise couple corners both ways. A corner inherits where no middle carries; then it has to be the only one that does.
 FacetMatrix multiplier_shares(const std::vector<char>& carries, std::size_t corners);
 
 /// The functions of multipliers and gap weighting, in a model of `dimension` dimensions.

@@ -5,7 +5,9 @@
 // its linearisation z dD / dx ~ F / eps: the edge's motion along the slave is a negative stiffness that outgrows the body's with eps < F / K. One
 // condition, that the strip touches in the mean, is all that so small a cover can bear. With the far function handed over to the near node of its
 // facet, whose function then is 1 on the strip, that is what is left: phi sums to 1, constant pressure and total forces stay exact.
-// The choice is discontinuous. So it is made between steps only, with hysteresis.
+// Of quadratic facets too: where eps of a facet is covered beside one of its corners, a middle of the corner's edges has the weight ~ eps^3, and
+// leaves it to the corner. That acts on the other end of the edge, int phi_c N_k < 0, so k must not carry. A facet with two corners that carry needs
+// a middle. The choice is discontinuous. So it is made between steps only, with hysteresis.
 
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Import.hpp>
@@ -47,8 +49,33 @@ std::vector<double> Interface<dim>::on_facets(const std::vector<double>& owned) 
   return {values.begin(), values.end()};
 }
 
-// A node with little cover hands over if a node of its facets has enough. A facet that would be left without heir keeps those of its nodes that have
-// most cover; one that is not covered, as a node of it without any cover tells, keeps those nodes: they have nothing to do unless the step covers it.
+// Nodes that facets cannot do without take their functions back: those of `heirs` with the most cover. A facet that is not covered, as one of them
+// without any cover tells, keeps these: they have nothing to do unless the step covers it. Collective.
+template <int dim>
+void Interface<dim>::keep(Heirs heirs, const std::vector<double>& covered, std::vector<double>& hands) const {
+  const std::vector<double> would_hand = on_facets(hands);
+  for (std::size_t s = 0; s < hands.size(); ++s) {
+    if (hands[s] == 0.0 || (heirs == Heirs::middles && !slave.owned[s].middle)) continue;
+    const auto keeps = [&](std::size_t f) {
+      const Facet<LocalOrdinal>& facet = slave.facets[f];
+      const std::size_t corners = facet_corners(dim, facet.size());
+      std::size_t carrying_corners = 0, carrying_middles = 0;
+      double least = std::numeric_limits<double>::max(), most = 0.0;
+      for (std::size_t a = 0; a < facet.size(); ++a) {
+        if (!slave.carries[facet[a]]) continue;
+        if (would_hand[facet[a]] == 0.0) ++(a < corners ? carrying_corners : carrying_middles);
+        if (heirs == Heirs::middles && a < corners) continue;
+        least = std::min(least, covered[facet[a]]);
+        most = std::max(most, covered[facet[a]]);
+      }
+      if (carrying_middles > 0 || (heirs == Heirs::any ? carrying_corners > 0 : carrying_corners == 1)) return false;
+      return least > no_cover ? covered[s] >= 0.5 * most : covered[s] <= no_cover;
+    };
+    if (std::any_of(slave.facets_of[s].begin(), slave.facets_of[s].end(), keeps)) hands[s] = 0.0;
+  }
+}
+
+// A node with little cover hands over if a node of its facets has enough.
 template <int dim>
 bool Interface<dim>::hand_over(const std::vector<double>& cover) {
   if (to_facets_.is_null()) {
@@ -61,29 +88,15 @@ bool Interface<dim>::hand_over(const std::vector<double>& cover) {
   const auto carries_enough = [&](LocalOrdinal node) {
     return slave.carries[node] && covered[node] >= (handed_over_[node] > 0.0 ? hysteresis : 1.0) * hardly_covered;
   };
-  std::vector<double> hands(slave.owned.size(), 0.0), chosen(slave.owned.size(), 0.0);
+  std::vector<double> hands(slave.owned.size(), 0.0);
   for (std::size_t s = 0; s < hands.size(); ++s) {
     if (!slave.carries[s] || carries_enough(static_cast<LocalOrdinal>(s))) continue;
     for (const std::size_t f : slave.facets_of[s])
       if (std::any_of(slave.facets[f].begin(), slave.facets[f].end(), carries_enough)) hands[s] = 1.0;
   }
-  const std::vector<double> would_hand = on_facets(hands);
-  for (std::size_t s = 0; s < hands.size(); ++s)
-    chosen[s] = hands[s] > 0.0 && std::none_of(slave.facets_of[s].begin(), slave.facets_of[s].end(), [&](std::size_t f) {
-                  const Facet<LocalOrdinal>& facet = slave.facets[f];
-                  const std::size_t corners = facet_corners(dim, facet.size());
-                  double least = std::numeric_limits<double>::max(), most = 0.0;
-                  bool may_inherit = false;
-                  for (std::size_t a = facet.size() > corners ? corners : 0; a < facet.size(); ++a) {  // of quadratic facets middles inherit
-                    if (!slave.carries[facet[a]]) continue;
-                    if (would_hand[facet[a]] == 0.0) return false;
-                    least = std::min(least, covered[facet[a]]);
-                    most = std::max(most, covered[facet[a]]);
-                    may_inherit = may_inherit || facet[a] == static_cast<LocalOrdinal>(s);
-                  }
-                  return may_inherit && (least > no_cover ? cover[s] >= 0.5 * most : cover[s] <= no_cover);
-                });
-  const std::vector<double> before = std::exchange(handed_over_, on_facets(chosen));
+  keep(Heirs::any, covered, hands);
+  keep(Heirs::middles, covered, hands);
+  const std::vector<double> before = std::exchange(handed_over_, on_facets(hands));
   int any = 0;
   Teuchos::reduceAll(*owned_nodes_->getComm(), Teuchos::REDUCE_MAX, static_cast<int>(handed_over_ != before), Teuchos::outArg(any));
   if (any == 0) return false;

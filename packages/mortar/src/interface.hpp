@@ -49,6 +49,9 @@ class Interface final : public InterfaceImplementation {
   void number_nodes();
   void collect_met();
   std::vector<double> on_facets(const std::vector<double>& owned) const;
+  /// Who a facet cannot do without: somebody to take over what its other nodes leave; of quadratic ones with several corners that carry a middle.
+  enum class Heirs { any, middles };
+  void keep(Heirs heirs, const std::vector<double>& covered, std::vector<double>& hands) const;
   bool balance(const Positions<dim>& slave_x);
   std::size_t segments_of(SlaveFacetData& data, const std::vector<Facet<LocalOrdinal>>& candidates, const Positions<dim>& x, bool derivatives,
                           FacetCoupling& coupling);

@@ -11,6 +11,7 @@ namespace {
 
 using test::Fixture;
 using test::hardly_covered;
+using test::hardly_covered_at_a_corner;
 using test::TwoSurfaces;
 
 double wiggle(GlobalOrdinal id) { return std::sin(12.9898 * static_cast<double>(id) + 0.7); }
@@ -55,6 +56,9 @@ void add_quadratic(std::vector<Case>& all) {
   add("space, hardly covered", hardly_covered(dome), true, {});
   add("space, hardly covered, coulomb", hardly_covered(dome), false, 0.12);
   add("space, hardly covered, triangles", hardly_covered(faceted), false, 0.12);
+  add("space, hardly covered, corner", hardly_covered_at_a_corner(dome), true, {});
+  add("space, hardly covered, corner, coulomb", hardly_covered_at_a_corner(dome), false, 0.12);
+  add("space, hardly covered, corner, triangles", hardly_covered_at_a_corner(faceted), false, 0.12);
   for (const test::NamedFormulation& formulation : test::other_formulations()) {
     if (formulation.options->coupling() == Coupling::node_to_segment) continue;
     add("plane, " + formulation.name, arch, true, 0.12)->options.formulation.options = formulation.options;
@@ -226,6 +230,16 @@ TEST_P(Linearisation, AgreesWithCentralDifferences) {
         EXPECT_EQ(node.covered, 0.0);
         EXPECT_FALSE(node.closed);
       }
+  if (one.name.find("hardly covered, corner") != std::string::npos)
+    for (const SurfaceFacet& facet : one.surfaces.slave_facets) {
+      const auto has = [&](GlobalOrdinal node) { return std::find(facet.begin(), facet.end(), node) != facet.end(); };
+      if (!has(10) || !has(15)) continue;
+      for (const ContactNodeState& node : contact.node_states(0, *z))
+        if (has(node.node)) {
+          EXPECT_EQ(node.covered > 0.0, node.node == 10) << node.node;
+          EXPECT_EQ(node.closed, node.node == 10) << node.node;
+        }
+    }
   if (one.name.find("mixed") != std::string::npos) {
     EXPECT_GT(norms.sticking, 0);
     EXPECT_LT(norms.sticking, norms.active);

@@ -138,5 +138,77 @@ TEST(HandOver, NeedsSomebodyToTakeOver) {
   EXPECT_EQ(without_row(one.evaluated()), (std::vector<GlobalOrdinal>{7, 11, 12}));
 }
 
+// The corner of a master's face reaches a little beyond a corner node of quadratic slave facets: beside it there is a facet that is covered next to
+// that node and nowhere else. Its middles have nothing to act on, so the node inherits.
+TEST(HandOver, LeavesFacetsWithoutMiddleToTheirOnlyCorner) {
+  const auto comm = Tpetra::getDefaultComm();
+  for (const FacetKind kind : {FacetKind::quadrilaterals, FacetKind::triangles})
+    for (const double bend : {0.0, 0.05}) {
+      Surfaces surfaces = quadratic(two_patches({4, 4, 0.0, 4.0, 0.0, 4.0, kind}, {4, 3, -0.5, 2.1, -0.5, 2.15}), true, false, bend);
+      surfaces.options.search_reach = 1.0;
+      HandOver serial(surfaces, alone(), [](std::size_t) { return 0; }),
+          ranks(surfaces, comm, [&](std::size_t n) { return static_cast<int>(n) % comm->getSize(); });
+      const DenseCoupling before = ranks.evaluated();
+      EXPECT_TRUE(ranks.choose());
+      const DenseCoupling after = ranks.evaluated();
+      const auto carries = [&](GlobalOrdinal node) { return after.D(node, node) != 0.0; };
+      int covered = 0, only_a_corner = 0;
+      for (const SurfaceFacet& facet : surfaces.slave) {
+        const auto corners = facet.begin() + static_cast<std::ptrdiff_t>(facet.size() / 2);
+        if (std::find(facet.begin(), corners, 12) == corners) continue;  // node 12 at (2, 2) is the one
+        ++covered;
+        if (std::any_of(corners, facet.end(), carries)) continue;
+        ++only_a_corner;
+        EXPECT_EQ(std::count_if(facet.begin(), corners, carries), 1);
+        EXPECT_TRUE(carries(12));
+      }
+      EXPECT_EQ(covered, kind == FacetKind::quadrilaterals ? 4 : 6);
+      EXPECT_GE(only_a_corner, 1);
+      // No force is lost or moved, and corners act on nodes without multiplier only.
+      EXPECT_LT((after.D.colwise().sum() - before.D.colwise().sum()).cwiseAbs().maxCoeff(), 1e-13);
+      EXPECT_LT((after.M.colwise().sum() - before.M.colwise().sum()).cwiseAbs().maxCoeff(), 1e-12);
+      EXPECT_LT((after.D.rowwise().sum() - after.M.rowwise().sum()).cwiseAbs().maxCoeff(), 1e-12);
+      for (GlobalOrdinal corner = 0; corner < 25; ++corner)
+        for (GlobalOrdinal node = 0; node < after.D.cols(); ++node)
+          if (node != corner && carries(node)) EXPECT_LT(std::abs(after.D(corner, node)), 1e-14) << corner << " " << node;
+      EXPECT_GT(after.D.diagonal().minCoeff(), -1e-14);
+
+      EXPECT_FALSE(ranks.choose());
+      serial.evaluated();
+      EXPECT_TRUE(serial.choose());
+      EXPECT_LT((serial.evaluated().stacked() - after.stacked()).cwiseAbs().maxCoeff(), 1e-13);
+    }
+}
+
+// Where two corners of such a facet carry, a middle between them could not leave them its function without coupling one to the other: middles stay.
+TEST(HandOver, NeedsMiddlesWhereMoreThanOneCornerCarries) {
+  const auto comm = Tpetra::getDefaultComm();
+  for (const FacetKind kind : {FacetKind::quadrilaterals, FacetKind::triangles}) {
+    Surfaces surfaces = quadratic(two_patches({4, 4, 0.0, 4.0, 0.0, 4.0, kind}, {4, 3, -0.5, 4.5, -0.5, 4.5}), true, false, 0.0);
+    surfaces.options.search_reach = 1.0;
+    HandOver one(surfaces, comm, [&](std::size_t n) { return static_cast<int>(n) % comm->getSize(); });
+    one.evaluated();
+    const auto choose = [&](const std::vector<GlobalOrdinal>& corners) {
+      std::vector<std::pair<GlobalOrdinal, double>> cover;
+      for (GlobalOrdinal node = 0; node < static_cast<GlobalOrdinal>(surfaces.slaves); ++node)
+        cover.emplace_back(node, std::find(corners.begin(), corners.end(), node) != corners.end() ? 0.5 : 0.05);
+      EXPECT_TRUE(one.choose(cover));
+      const DenseCoupling dense = one.evaluated();
+      int middles = 0;
+      for (const SurfaceFacet& facet : surfaces.slave) {
+        const auto corners_end = facet.begin() + static_cast<std::ptrdiff_t>(facet.size() / 2);
+        const auto carries = [&](GlobalOrdinal node) { return dense.D(node, node) != 0.0; };
+        const auto own = std::count_if(corners_end, facet.end(), carries);
+        if (own == 0) EXPECT_EQ(std::count_if(facet.begin(), corners_end, carries), 1);
+        if (std::find(facet.begin(), corners_end, 12) != corners_end && std::find(facet.begin(), corners_end, 18) != corners_end)
+          middles = std::max(middles, static_cast<int>(own));
+      }
+      return middles;
+    };
+    EXPECT_EQ(choose({12}), 0);
+    EXPECT_GT(choose({12, 18}), 0);  // at the ends of a diagonal: of one facet of either kind
+  }
+}
+
 }  // namespace
 }  // namespace mortise
