@@ -1,9 +1,16 @@
 #pragma once
 // Studies written and run by tests.
 
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "launch.hpp"
@@ -15,6 +22,29 @@ inline const std::string directory = std::string(SCRATCH) + "/study";
 inline Ending study(const std::string& file, const std::string& results, std::vector<std::string> before = {}) {
   before.insert(before.end(), {MORTISE, "study", file, "-o", results});
   return launch(before, 240);
+}
+
+/// Looks every 5 ms, for a minute at most.
+inline void wait_until(const std::function<bool()>& wanted) {
+  for (int i = 0; i < 12000 && !wanted(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+}
+
+/// Starts a study and kills it as soon as its points are as wanted.
+inline void kill_when(const std::function<bool()>& wanted, const std::string& file, const std::string& results, std::vector<std::string> options,
+                      int with = SIGKILL) {
+  options.insert(options.begin(), {MORTISE, "study", file, "-o", results});
+  std::vector<char*> words;
+  for (std::string& option : options) words.push_back(option.data());
+  words.push_back(nullptr);
+  const pid_t child = fork();
+  if (child == 0) {
+    signal(with, SIG_DFL);  // shells have what runs in the background ignore SIGINT
+    execv(words[0], words.data());
+    _exit(127);
+  }
+  wait_until(wanted);
+  kill(child, with);
+  waitpid(child, nullptr, 0);
 }
 
 inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }

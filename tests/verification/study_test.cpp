@@ -2,19 +2,13 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <thread>
 
 #include "study_support.hpp"
 
@@ -53,18 +47,6 @@ std::map<std::string, files::file_time_type> records(const std::string& results)
   return found;
 }
 
-/// Starts a study and kills it as soon as its points are as wanted.
-void kill_when(const std::function<bool()>& wanted, const std::string& file, const std::string& results, const char* option) {
-  const pid_t child = fork();
-  if (child == 0) {
-    execl(MORTISE, MORTISE, "study", file.c_str(), "-o", results.c_str(), option, nullptr);
-    _exit(127);
-  }
-  for (int i = 0; i < 12000 && !wanted(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  kill(child, SIGKILL);
-  waitpid(child, nullptr, 0);
-}
-
 TEST(Study, IsKilledAndResumedWithoutRunningAPointTwice) {
   const std::string results = directory + "/killed";
   files::remove_all(results);
@@ -74,7 +56,7 @@ TEST(Study, IsKilledAndResumedWithoutRunningAPointTwice) {
                                            meshes + R"(</ParameterList>
 <ParameterList name="quantities"><ParameterList name="displacement_error"><Parameter name="measure" type="string" value="itself"/></ParameterList></ParameterList>
 )");
-  kill_when([&] { return records(results).size() >= 2; }, file, results, "--quiet");
+  kill_when([&] { return records(results).size() >= 2; }, file, results, {"--quiet"});
   const auto before = records(results);
   ASSERT_GE(before.size(), 2u);
   ASSERT_LT(before.size(), 4u);
@@ -107,7 +89,7 @@ TEST(Study, IsKilledAndResumedWithoutRunningAPointTwice) {
     const auto now = records(results);
     return now.count("ranks=1,n=6") > 0 && now.at("ranks=1,n=6") > old;
   };
-  kill_when(ran_again, file, results, "--fresh");
+  kill_when(ran_again, file, results, {"--fresh"});
   EXPECT_TRUE(ran_again());
   EXPECT_LT(records(results).size(), 4u);
   EXPECT_FALSE(files::exists(results + "/study.csv"));

@@ -25,8 +25,8 @@ PairCoupling::PairCoupling(RCP<const Map> owned_nodes, RCP<const MultiVector> re
   }
   regularisation_ = formulation().regularisation();
   if (regularisation_) {
-    accepted_multipliers_.assign(rows_.size(), SpatialVector::Zero(dimension_));
-    start_multipliers_ = accepted_multipliers_;
+    accepted_start_.assign(rows_.size(), {SpatialVector::Zero(dimension_)});
+    start_ = accepted_start_;
   }
   if (!pair_.options.friction.options->acts()) return;
   friction_ = pair_.options.friction.options.get();
@@ -72,8 +72,8 @@ Complementarity PairCoupling::complementarity(std::size_t s, const SpatialVector
     if (!covered(s)) return open_node(z);
     const Frame in = frame(s);
     if (rubs && fixed > 0) slip[0] = 0.0;
-    const double scale = pair_.youngs_modulus / size_, body = complementarity_constant(s) * node.weight;
-    const RegularisedNode stiffness{regularisation_->normal * scale, regularisation_->tangential * scale, body, start_multipliers_[s]};
+    const double scale = pair_.youngs_modulus / size_ * start_[s].stiffening, body = complementarity_constant(s) * node.weight;
+    const RegularisedNode stiffness{regularisation_->normal * scale, regularisation_->tangential * scale, body, start_[s].multiplier};
     const auto bound = [&](double pressure) { return friction_->bound(pressure, slip_[s].start.path); };
     return without_fixed(regularised(stiffness, row.gap, slip, row.covered, in, z, rubs ? &bound : nullptr), in);
   }
@@ -111,7 +111,10 @@ void PairCoupling::follow_pattern() {
   place_slip_histories();
 }
 
-bool PairCoupling::hands_over() const { return dimension_ > 2 && !uses_reference() && formulation().elimination() == Elimination::momentum; }
+bool PairCoupling::hands_over() const {
+  const bool becomes_exact = !regularisation_ || regularisation_->augmentations > 0;
+  return dimension_ > 2 && !uses_reference() && formulation().coupling() == Coupling::dual_mortar && becomes_exact;
+}
 
 bool PairCoupling::splits_kinks() const { return dimension_ == 2 && !uses_reference() && pair_.options.mortar.coupling != Coupling::node_to_segment; }
 
@@ -229,12 +232,15 @@ void PairCoupling::choose_axes() {
       axes_[s] = transverse_axis(rows_[s].normal);
 }
 
-SpatialVector PairCoupling::in_frame(std::size_t s, const SpatialVector& z) const {
-  SpatialVector components = SpatialVector::Zero(dimension_);
-  const bool keeps_pressure = regularisation_->augmentations > 0;
-  if (keeps_pressure) components[0] = z.dot(rows_[s].normal);
-  if (friction_ != nullptr) components.tail(dimension_ - 1) = frame(s).tangents * z;
-  return components;
+// Augmented Lagrange: a node moves by its force, z_n w, over a stiffness of the body, so its mean gap g / w answers to its traction in proportion to
+// w / A_j. An update divides g / w by 1 + eps times that compliance: with eps alone hardly at all where w is small.
+RegularisedStart PairCoupling::start_from(std::size_t s, const SpatialVector& z) const {
+  RegularisedStart start{SpatialVector::Zero(dimension_)};
+  if (friction_ != nullptr) start.multiplier.tail(dimension_ - 1) = frame(s).tangents * z;
+  if (regularisation_->augmentations == 0) return start;
+  start.multiplier[0] = z.dot(rows_[s].normal);
+  if (covered(s)) start.stiffening = slave_nodes()[s].weight / rows_[s].covered;
+  return start;
 }
 
 double PairCoupling::violation(std::size_t s, const SpatialVector& z) const {

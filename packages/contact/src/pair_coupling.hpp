@@ -45,6 +45,12 @@ struct SlipHistory {
   std::vector<LocalOrdinal> places;  ///< [start.nodes] among the coupled nodes of the current pattern
 };
 
+/// What the conditions of a regularised node start from: fixed while they are solved, renewed by an update of the multipliers and by a step.
+struct RegularisedStart {
+  SpatialVector multiplier;  ///< normal, along tau_a; nothing normal with penalty, no shear traction without friction
+  double stiffening = 1.0;   ///< factor of eps; of augmented Lagrange A_j / w, so that a mean gap calls for the same force whatever is covered
+};
+
 /// A pair, its interface and what was last evaluated.
 class PairCoupling {
  public:
@@ -70,7 +76,7 @@ class PairCoupling {
   /// Regularised pairs: what multipliers start from in the next step. `z` gives those of slave node s.
   template <class Multiplier>
   void accept_multipliers(const Multiplier& z) {
-    for (std::size_t s = 0; s < accepted_multipliers_.size(); ++s) accepted_multipliers_[s] = in_frame(s, z(s));
+    for (std::size_t s = 0; s < accepted_start_.size(); ++s) accepted_start_[s] = start_from(s, z(s));
   }
   /// Adds the slip of an accepted state to the path. Friction only; take_slip_reference() follows.
   void accept_slip(std::size_t s, ContactState state);
@@ -108,7 +114,7 @@ class PairCoupling {
   /// How far conditions that are regularised are from holding exactly: |gap| of a closed node, |slip| of a sticking one, over h.
   double violation(std::size_t s, const SpatialVector& z) const;
   /// The multipliers become those of z.
-  void augment(std::size_t s, const SpatialVector& z) { start_multipliers_[s] = in_frame(s, z); }
+  void augment(std::size_t s, const SpatialVector& z) { start_[s] = start_from(s, z); }
   /// C and its linearisation, of the law that the node obeys. A node with a fixed component carries no shear traction.
   Complementarity complementarity(std::size_t s, const SpatialVector& z) const;
   /// Derivative of C of node s, whose linearisation is `law`, in entry dim c + i of its coupled nodes, at fixed z.
@@ -116,7 +122,8 @@ class PairCoupling {
 
  private:
   bool uses_reference() const { return pair_.options.geometry == ContactGeometry::reference; }
-  /// Whether nodes that are hardly covered hand their functions over: in space, where multipliers are eliminated and follow the bodies.
+  /// Whether nodes that are hardly covered hand their functions over: in space, where dual multipliers follow the bodies until conditions hold
+  /// exactly.
   bool hands_over() const;
   /// Whether facets that meet in a kink have their own normals: in the plane, where they are integrated over and follow the bodies.
   bool splits_kinks() const;
@@ -129,8 +136,8 @@ class PairCoupling {
   void measure_slip(bool derivatives);
   void measure_frozen_slip();
   void measure_covered();
-  /// What the next step keeps: nothing normal with penalty, and no shear traction without friction.
-  SpatialVector in_frame(std::size_t s, const SpatialVector& z) const;
+  /// From z at the couplings of the last evaluate().
+  RegularisedStart start_from(std::size_t s, const SpatialVector& z) const;
 
   ContactPair pair_;
   RCP<const Map> owned_nodes_;
@@ -146,8 +153,8 @@ class PairCoupling {
   const FrictionLaw* friction_ = nullptr;
   std::vector<SlipHistory> slip_;  ///< [slave nodes]; empty without friction
   std::optional<Regularisation> regularisation_;
-  std::vector<SpatialVector> accepted_multipliers_, start_multipliers_;  ///< [slave nodes] normal, along tau_a; empty unless regularised
-  std::vector<int> axes_;                                                ///< [slave nodes] reference axis of the tangents; -1: none chosen yet
+  std::vector<RegularisedStart> accepted_start_, start_;  ///< [slave nodes]; empty unless regularised
+  std::vector<int> axes_;                                 ///< [slave nodes] reference axis of the tangents; -1: none chosen yet
   long slip_evaluations_ = 0;
   std::vector<double> frozen_gap_;
   std::vector<LocalOrdinal> position_in_row_;

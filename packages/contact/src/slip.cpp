@@ -57,7 +57,7 @@ void PairCoupling::take_slip_reference() {
 }
 
 void PairCoupling::start_step() {
-  start_multipliers_ = accepted_multipliers_;
+  start_ = accepted_start_;
   if (friction_ == nullptr) return;
   std::vector<std::vector<GlobalOrdinal>> retained(slip_.size());
   for (std::size_t s = 0; s < slip_.size(); ++s) {

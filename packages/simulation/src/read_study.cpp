@@ -144,6 +144,7 @@ StudyPlan read_study(const Communicator& comm, const std::string& path, const st
   if (!study.finest.all.empty()) {
     StudyFile alone;  // an axis of one value, so that "ranks" and the like are taken out of its settings too
     alone.settings = study.settings;
+    alone.time_limit = study.time_limit;
     alone.axes.push_back({"finest", {}, {}});
     alone.axes.back().value.choices.push_back({"finest", {}, study.finest});
     plan.finest = study_points(alone, diagnostics).front();

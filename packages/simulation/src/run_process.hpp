@@ -1,6 +1,7 @@
 #pragma once
 // Another program, run to its end.
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -8,8 +9,9 @@ namespace mortise {
 
 /// How a process ended, what it said and what it took.
 struct ProcessEnding {
-  int code = -1;       ///< exit code; 128 + number of the signal that killed it; 126 or 127 if it could not be started; -1 without a process
-  std::string output;  ///< stdout and stderr together, without white space at the end
+  int code = -1;         ///< exit code; 128 + number of the signal that killed it; 126 or 127 if it could not be started; -1 without a process
+  bool stopped = false;  ///< it ran into its limit and was ended
+  std::string output;    ///< stdout and stderr together, without white space at the end
   double wall_seconds = 0.0, cpu_seconds = 0.0;  ///< CPU: user and system, with the processes that it started and waited for
   double memory_mib = 0.0;                       ///< largest resident size of any of these processes
 
@@ -18,7 +20,9 @@ struct ProcessEnding {
 
 /// Runs a program with its arguments and waits for its end. It is terminated should this process be killed. Programs that were started under MPI must
 /// not start others that use MPI.
-ProcessEnding run_process(const std::vector<std::string>& words);
+/// @param limit  seconds after which the program is ended with all other descendants of this process: by SIGTERM, and by SIGKILL what is left 5 s
+/// later
+ProcessEnding run_process(const std::vector<std::string>& words, double limit = std::numeric_limits<double>::infinity());
 
 /// The words that start `mortise peer` of this same program, quietly. `penalty`: empty for that of the peer.
 std::vector<std::string> command_of_peer(const std::string& scene, const std::vector<std::string>& settings, const std::string& peer,

@@ -5,9 +5,9 @@
 namespace mortise {
 
 void StudyAxis::describe(Parameters& parameters) {
-  parameters.add(
-      "setting", setting,
-      "path of what is varied, as `--set` takes it (\"variables/n\"), or \"ranks\", \"peer\" or \"peer penalty\"; short form, with \"values\"");
+  parameters.add("setting", setting,
+                 "path of what is varied, as `--set` takes it (\"variables/n\"), or \"ranks\", \"peer\", \"peer penalty\" or \"time limit\"; short "
+                 "form, with \"values\"");
   parameters.add("values", values, "its values, each the label of itself");
   parameters.named(
       "choices", choices,
@@ -64,6 +64,10 @@ void StudyFile::describe(Parameters& parameters) {
   parameters.add("series", series, "axis whose values are compared, the first of them being the base of ratios; left out: the first axis");
   parameters.add("along", along, "axis whose values are the points of a curve, from coarse to fine; left out: the last axis");
   parameters.add("repeats", repeats, Says("timed runs of each point; times and memory are medians").at_least(1));
+  parameters.add("time limit", time_limit,
+                 Says("wall time after which a run is ended and its point has failed, unless its settings say another \"time limit\"; default: none")
+                     .unit("s")
+                     .above(0.0));
   parameters.add("targets", targets, Says("errors that the cheapest configurations and the times are said for").above(0.0));
 }
 

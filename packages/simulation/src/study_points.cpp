@@ -49,6 +49,12 @@ void read_ranks(StudyPoint& point, const Assignment& said, std::vector<Diagnosti
     diagnostics.push_back({said.place, fmt::format("\"ranks\" is \"{}\"; it has to be a whole number, 1 or more", said.value)});
 }
 
+void read_time_limit(StudyPoint& point, const Assignment& said, std::vector<Diagnostic>& diagnostics) {
+  const auto [end, error] = std::from_chars(said.value.data(), said.value.data() + said.value.size(), point.time_limit);
+  if (error != std::errc() || end != said.value.data() + said.value.size() || !(point.time_limit > 0.0))
+    diagnostics.push_back({said.place, fmt::format("\"time limit\" is \"{}\"; it has to be a number of seconds above 0", said.value)});
+}
+
 void read_peer(StudyPoint& point, const Assignment& said, std::vector<Diagnostic>& diagnostics) {
   Labels known;
   for (const auto& [name, peer] : peer_names()) {
@@ -59,7 +65,7 @@ void read_peer(StudyPoint& point, const Assignment& said, std::vector<Diagnostic
     diagnostics.push_back({said.place, unknown_name("peer", said.value, known) + "; there are " + quoted_list(known)});
 }
 
-/// Takes "ranks", "peer" and "peer penalty" out of the settings: they say how the scene is run and are no part of it.
+/// Takes "ranks", "peer", "peer penalty" and "time limit" out of the settings: they say how the scene is run and are no part of it.
 void take_reserved(StudyPoint& point, std::vector<Diagnostic>& diagnostics) {
   std::vector<Assignment> others;
   const Assignment* ranks = nullptr;
@@ -70,6 +76,8 @@ void take_reserved(StudyPoint& point, std::vector<Diagnostic>& diagnostics) {
       read_peer(point, one, diagnostics);
     else if (one.path == "peer penalty")
       point.penalty = {one.value, one.place};
+    else if (one.path == "time limit")
+      read_time_limit(point, one, diagnostics);
     else
       others.push_back(one);
   }
@@ -109,6 +117,7 @@ std::vector<StudyPoint> study_points(const StudyFile& study, std::vector<Diagnos
     std::vector<std::size_t> of_axis(values.size());
     for (std::size_t axis = values.size(), rest = combination; axis-- > 0; rest /= values[axis].size()) of_axis[axis] = rest % values[axis].size();
     point.settings = study.settings.all;
+    if (study.time_limit) point.time_limit = *study.time_limit;
     for (std::size_t axis = 0; axis < values.size(); ++axis) {
       const auto& value = values[axis][of_axis[axis]];
       point.labels.push_back(value.name);

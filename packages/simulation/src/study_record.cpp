@@ -74,6 +74,8 @@ Json excerpt(const std::string& path) {
   return kept;
 }
 
+std::string stopped_status(double limit) { return fmt::format("stopped after {:g} s: time limit of the study", limit); }
+
 std::vector<std::string> command_of(const StudyPoint& point, const StudyPointOptions& options) {
   if (point.peer == Peer::none) return command_of_run(options.scene, point.words(), point.ranks, options.directory);
   const auto& names = peer_names();
@@ -89,7 +91,7 @@ Json measured(const StudyPoint& point, const ProcessEnding& ending, const Json& 
     return {{"wall_s", peer.at("wall_s")}, {"cpu_s", peer.at("cpu_s")}, {"memory_mib", peer.at("memory_mib")}, {"time", time}};
   }
   // The largest process is all of them only if it is the only one.
-  const Json memory = point.ranks > 1 && summary.contains("memory_total_mib") ? summary["memory_total_mib"] : Json(ending.memory_mib);
+  const Json memory = point.ranks == 1 ? Json(ending.memory_mib) : summary.value("memory_total_mib", Json());
   return {{"wall_s", ending.wall_seconds}, {"cpu_s", ending.cpu_seconds}, {"memory_mib", memory}, {"time", time}};
 }
 
@@ -114,13 +116,17 @@ Json run_all(const Communicator& comm, const StudyPoint& point, const StudyPoint
       record["said"] = error.what();
       return record;
     }
-    const ProcessEnding ending = run_process(command_of(point, options));
+    const ProcessEnding ending = run_process(command_of(point, options), point.time_limit);
     record["exit"] = ending.code;
     record["said"] = ending.output;
+    if (ending.stopped) {
+      record["stopped_after"] = point.time_limit;
+      record["said"] = boost::trim_left_copy(ending.output + "\n" + stopped_status(point.time_limit) + "; with a larger one it is run again");
+    }
     record["summary"] = excerpt(options.directory + "/summary.json");
-    if (point.peer != Peer::none && !record["summary"].contains("peer")) break;  // it was not started
+    if (point.peer != Peer::none && !ending.stopped && !record["summary"].contains("peer")) break;  // it was not started
     record["repeats"].push_back(measured(point, ending, record["summary"]));
-    if (ending.code != done && ending.code != missed) break;
+    if (ending.stopped || (ending.code != done && ending.code != missed)) break;
   }
   return record;
 }
@@ -130,12 +136,14 @@ StudyRecord to_record(const Json& json, const StudyPoint& point) {
   record.exit = json.at("exit");
   record.said = json.at("said");
   record.absent = json.value("absent", "");
+  if (json.contains("stopped_after")) record.stopped_after = json.at("stopped_after");
   record.by_peer = point.peer != Peer::none;
   record.date = json.at("date");
   record.processor = json.at("processor");
   std::map<std::string, std::vector<double>> measured, times;
   for (const auto& repeat : json.at("repeats")) {
-    for (const char* name : {"wall_s", "cpu_s", "memory_mib"}) measured[name].push_back(repeat.at(name));
+    for (const char* name : {"wall_s", "cpu_s", "memory_mib"})
+      if (repeat.at(name).is_number()) measured[name].push_back(repeat.at(name));
     for (const auto& [name, seconds] : repeat.at("time").items()) times[name].push_back(seconds);
   }
   const auto middle = [&](const char* name) { return measured[name].empty() ? none : median(measured[name]); };
@@ -153,10 +161,11 @@ StudyRecord to_record(const Json& json, const StudyPoint& point) {
 
 }  // namespace
 
-bool StudyRecord::finished() const { return exit == done || exit == missed; }
+bool StudyRecord::finished() const { return !stopped_after && (exit == done || exit == missed); }
 
 std::string StudyRecord::status() const {
   if (excused()) return "not installed: " + absent;
+  if (stopped_after) return stopped_status(*stopped_after);
   if (by_peer && exit == static_cast<int>(ExitCode::invalid_input)) return impossible;
   if (exit == done) return "done";
   if (exit == missed) return "check missed";
@@ -170,6 +179,7 @@ std::optional<StudyRecord> earlier_record(const Communicator& comm, const StudyP
   if (found.is_discarded() || found.value("identity", Json()) != identity(point, options)) return {};
   StudyRecord record = to_record(found, point);
   record.reused = true;
+  if (record.stopped_after) return *record.stopped_after >= point.time_limit ? std::optional<StudyRecord>(record) : std::nullopt;
   return record.finished() || record.exit == not_converged || record.status() == impossible ? std::optional<StudyRecord>(record) : std::nullopt;
 }
 

@@ -19,6 +19,7 @@ struct StudyRecord {
   bool reused = false;
   bool by_peer = false;                        ///< a peer was to run it
   std::string absent;                          ///< the peer's program, which is not installed: nothing was run
+  std::optional<double> stopped_after;         ///< the time limit that it ran into [s]
   double wall = 0.0, cpu = 0.0, memory = 0.0;  ///< seconds and MiB over all ranks; medians of the repeats
   std::map<std::string, double> time;          ///< seconds by timer of the summary, likewise
   double dofs = 0.0, steps = 0.0, newton_iterations = 0.0, cutbacks = 0.0;
@@ -29,7 +30,7 @@ struct StudyRecord {
   bool finished() const;
   /// Whether it is no fault of the study that there are no results.
   bool excused() const { return !absent.empty(); }
-  /// "done", "check missed", "not converged", "killed by signal 9", "exit code 70",
+  /// "done", "check missed", "not converged", "stopped after 60 s: time limit of the study", "killed by signal 9", "exit code 70",
   /// "not possible by the peer", "not installed: ccx (Debian: calculix-ccx)"
   std::string status() const;
 };
@@ -44,7 +45,7 @@ struct StudyPointOptions {
 };
 
 /// What an earlier call kept in the directory, if it is of the same runs: scene, settings, ranks, repeats, version. Not that of runs that ended for a
-/// reason that is none of theirs: killed, files.
+/// reason that is none of theirs (killed, files), nor of those that have more time now than what they were stopped after.
 std::optional<StudyRecord> earlier_record(const Communicator& comm, const StudyPoint& point, const StudyPointOptions& options);
 
 /// Runs a point, each time as a process of its own, and keeps at the end, at once, what it gave as study-point.json in its directory. Throws nothing

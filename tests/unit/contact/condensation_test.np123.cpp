@@ -133,6 +133,9 @@ std::vector<Case> cases() {
   add_in_space("hardly covered, coulomb, high", 3.0);
   add_in_space("hardly covered, triangles", 0.12, true);
   add_in_space("hardly covered, symmetry plane", 0.12)->fixed[2] = {false, true, false};
+  const auto augmented = std::make_shared<AugmentedLagrange>();
+  add_in_space("hardly covered, coulomb, augmented lagrange", 0.12)->options.formulation.options = augmented;
+  add_in_space("hardly covered, coulomb, high, augmented lagrange", 3.0)->options.formulation.options = augmented;
   add_quadratic(all);
   for (const test::NamedFormulation& formulation : test::other_formulations()) {
     if (formulation.options->coupling() == Coupling::node_to_segment) continue;
@@ -211,6 +214,7 @@ TEST_P(Linearisation, AgreesWithCentralDifferences) {
   start(fixture);
   contact.evaluate(*d, true, failure);
   ASSERT_FALSE(failure);
+  contact.augment(*z, 1);
   bool changed = false;
   const auto system = rcp(new Matrix(contact.system_graph([&] { return fixture.bulk; }, changed)));
   contact.add_stiffness(*z, *system);
@@ -285,6 +289,7 @@ TEST_P(Condensation, StepEqualsSaddlePointStep) {
   start(fixture);
   contact.evaluate(*d, true, failure);
   ASSERT_FALSE(failure);
+  contact.augment(*z, 1);
   bool changed = false;
   const auto graph = contact.system_graph([&] { return fixture.bulk; }, changed);
 

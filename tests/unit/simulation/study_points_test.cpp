@@ -56,6 +56,19 @@ TEST(StudyPoints, AreAllCombinationsTheLastAxisFirst) {
   EXPECT_EQ(points[5].label(), "Q4 F-bar, n = 8");
 }
 
+TEST(StudyPoints, HaveTheTimeLimitOfTheStudyUnlessTheirSettingsSayAnother) {
+  std::vector<Diagnostic> diagnostics;
+  EXPECT_EQ(study_points(study("", diagnostics), diagnostics)[0].time_limit, std::numeric_limits<double>::infinity());
+  StudyFile limited = study(R"(<Parameter name="time limit" type="double" value="60"/>)", diagnostics);
+  limited.axes[1].value.values.value = {"2", "4"};
+  limited.axes[0].value.choices[1].value.all.push_back({"time limit", "7.5", {}});
+  const auto points = study_points(limited, diagnostics);
+  EXPECT_THAT(diagnostics, IsEmpty());
+  EXPECT_EQ(points[1].time_limit, 60.0);
+  EXPECT_EQ(points[2].time_limit, 7.5);
+  EXPECT_THAT(points[2].words(), ElementsAre("variables/F=800", "bodies/a/element=Q4 F-bar", "variables/n=2"));
+}
+
 TEST(StudyPoints, LeaveOutWhatIsExcluded) {
   std::vector<Diagnostic> diagnostics;
   const std::string exclude = R"(<ParameterList name="exclude">

@@ -61,6 +61,7 @@ struct StudyFile {
   AssignmentList finest;               ///< settings of the reference run, none: there is no such run
   Located<std::string> series, along;  ///< names of axes
   int repeats = 1;
+  std::optional<double> time_limit;  ///< seconds of each run; a point's settings may say another
   std::vector<double> targets{0.01, 0.001};
 
   StudyFile() { h.value = "1/sqrt(dofs)"; }

@@ -1,6 +1,7 @@
 #pragma once
 // The runs of a study.
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,8 +19,9 @@ struct StudyPoint {
   std::vector<std::string> titles;  ///< the same for people: "n = 4" where the label alone is a bare value
   std::vector<Assignment> settings;
   int ranks = 1;
-  Peer peer = Peer::none;        ///< the program that runs it instead of this one
-  Located<std::string> penalty;  ///< of its contact, as penalty_multiple() takes it; empty for peers without
+  Peer peer = Peer::none;                                       ///< the program that runs it instead of this one
+  Located<std::string> penalty;                                 ///< of its contact, as penalty_multiple() takes it; empty for peers without
+  double time_limit = std::numeric_limits<double>::infinity();  ///< seconds of wall time of each run
 
   // What the scene is with these settings.
   std::string formulation, element;
