@@ -90,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(All, MomentInSpace,
                                          (full - 1e-2) * Eigen::Vector3d(2.0, -1.0, 2.0) / 3.0, Eigen::Vector3d(4.0, 5.0, -3.0)));
 
 TEST(FullTurn, HasNoMomentAcrossTheAxis) {
-  const Eigen::Vector3d axis(0.0, 0.6, 0.8), theta = full * axis, generalised = generalised_moment(theta, moment).value;
+  const Eigen::Vector3d axis(0.6, 0.0, 0.8), theta = full * axis, generalised = generalised_moment(theta, moment).value;
   EXPECT_LE((generalised - axis * axis.dot(moment)).norm(), 1e-14);
   EXPECT_TRUE(spatial_moment(theta, generalised).array().isNaN().all());
   EXPECT_EQ(spatial_moment(theta, Eigen::Vector3d::Zero()).norm(), 0.0);
