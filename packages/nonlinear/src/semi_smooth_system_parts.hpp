@@ -82,6 +82,7 @@ struct SemiSmoothSystem::Implementation {
     std::optional<StepFailure> failure;
     for (const auto& contribution : parts.contributions)
       contribution->add_residual(at, contribution->kind() == Contribution::Kind::internal ? internal : external, failure);
+    if (parts.dependent) parts.dependent->check(local_displacement, failure);
     throw_if_any(comm(), failure);
   }
 

@@ -9,6 +9,7 @@
 #include "mortise/nonlinear/contribution.hpp"
 #include "mortise/solid/bodies.hpp"
 #include "mortise/solid/followers.hpp"
+#include "mortise/solid/full_turns.hpp"
 #include "mortise/solid/loads.hpp"
 #include "mortise/solid/prescribed_motion.hpp"
 
@@ -72,13 +73,16 @@ class PrescribedBoundary final : public PrescribedDisplacements {
 /// Rigid bodies and tied sets.
 class TiedNodes final : public DependentDisplacements {
  public:
-  explicit TiedNodes(const Bodies& bodies) : followers_(bodies) {}
+  /// `prescribed`: owned dofs, ascending.
+  TiedNodes(const Bodies& bodies, const std::vector<LocalOrdinal>& prescribed) : followers_(bodies), full_turns_(bodies, prescribed) {}
   const std::vector<LocalOrdinal>& dofs() const override { return followers_.dofs(); }
   const std::vector<LocalOrdinal>& followed() const override { return followers_.followed(); }
   std::vector<Dependence> evaluate(const Vector& local_displacement) const override { return followers_.evaluate(local_displacement); }
+  void check(const Vector& local_displacement, std::optional<StepFailure>& failure) const override { full_turns_.check(local_displacement, failure); }
 
  private:
   Followers followers_;
+  FullTurns full_turns_;
 };
 
 }  // namespace mortise

@@ -196,9 +196,6 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   for (const auto& load : scene.loads)
     collect([&] { parts_.contributions.push_back(std::make_shared<LoadContribution>(load.name, load.value.load.options->make(bodies_), timers)); });
   collect([&] { parts_.prescribed = std::make_shared<PrescribedBoundary>(PrescribedMotion(*bodies_, scene.boundary_conditions)); });
-  if (!mesh_->reference_points.empty()) {
-    parts_.dependent = std::make_shared<TiedNodes>(*bodies_);
-  }
   std::vector<ContactPair> pairs;
   for (const auto& pair : scene.contact) collect([&] { pairs.push_back(make_pair(*mesh_, *bodies_, pair, pair.value.slave, pair.value.master)); });
   for (std::size_t first = 0; first < scene.contact.size(); ++first) {  // second passes behind all pairs of the scene
@@ -211,6 +208,7 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   }
   collect([&] { parts_.linear_solver = make_linear_solver(scene.linear_solver, comm, timers, traits_of(scene, *parts_.dofs)); });
   collect.throw_found(*comm);
+  if (!mesh_->reference_points.empty()) parts_.dependent = std::make_shared<TiedNodes>(*bodies_, parts_.prescribed->dofs());
 
   std::vector<LocalOrdinal> not_free = parts_.prescribed->dofs();
   if (parts_.dependent) not_free.insert(not_free.end(), parts_.dependent->dofs().begin(), parts_.dependent->dofs().end());

@@ -28,7 +28,7 @@ bool can_be_had(const Quantity& quantity) {
   if (const auto* error = dynamic_cast<const ErrorNorm*>(&quantity)) return error->of != ErrorNorm::Of::stress;
   if (const auto* traction = dynamic_cast<const ContactTraction*>(&quantity)) return traction->part == ContactTraction::Part::pressure;
   const Reaction* reaction = dynamic_cast<const Reaction*>(&quantity);
-  return (reaction != nullptr && reaction->component != Reaction::Of::rotation) || is((const PointDisplacement*)nullptr) ||
+  return (reaction != nullptr && reaction->component < Reaction::Of::rotation) || is((const PointDisplacement*)nullptr) ||
          is((const HalfWidth*)nullptr) || is((const ContactRadius*)nullptr) || is((const PeakPressure*)nullptr) ||
          is((const ContactLength*)nullptr) || is((const ContactArea*)nullptr) || is((const PressureVariation*)nullptr) ||
          is((const FormulaQuantity*)nullptr);

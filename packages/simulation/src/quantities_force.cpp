@@ -1,5 +1,6 @@
 // Reactions, contact forces, balance.
 
+#include <Eigen/Dense>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
@@ -8,31 +9,73 @@
 
 #include "mortise/mesh/reference_point.hpp"
 #include "mortise/mesh/sets.hpp"
+#include "mortise/solid/rotation_vector.hpp"
 #include "quantity_support.hpp"
 
 namespace mortise {
 
+namespace {
+
+/// This rank's part of the moment that holds a reference point of space. With x_i and x the positions of followers and point, now,
+///   sum_i (x_i - x) x r_i - m
+/// where r_i are the forces on the followers and m is that of loads, of which external forces hold T^T m / arm.
+Eigen::Vector3d holding_moment(const QuantityContext& context, const ReferencePoint& point) {
+  const Mesh& mesh = context.mesh();
+  const auto u = context.local_displacement->getLocalViewHost(Tpetra::Access::ReadOnly);
+  const auto r = context.reaction->getLocalViewHost(Tpetra::Access::ReadOnly),
+             load = context.external_force->getLocalViewHost(Tpetra::Access::ReadOnly);
+  const auto at = [](const auto& values, LocalOrdinal node) {
+    return Eigen::Vector3d(values(3 * node, 0), values(3 * node + 1, 0), values(3 * node + 2, 0));
+  };
+  const auto position = [&](LocalOrdinal node) { return Eigen::Vector3d(Eigen::Vector3d(mesh.coordinates[node].data()) + at(u, node)); };
+  const Eigen::Vector3d x = position(point.node);
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  for (const LocalOrdinal node : point.followers)
+    if (node < mesh.owned_count()) moment += (position(node) - x).cross(at(r, node));
+  if (point.rotation_node < mesh.owned_count())
+    moment -= spatial_moment(at(u, point.rotation_node) / point.arm, at(load, point.rotation_node) * point.arm);
+  return moment;
+}
+
+}  // namespace
+
 void Reaction::describe(Parameters& parameters) {
   parameters.add("set", set, Says("nodes whose supports are summed up").required());
-  parameters.add("component", component, {{"x", Of::x}, {"y", Of::y}, {"z", Of::z}, {"rotation", Of::rotation}},
-                 "direction of the force; rotation: the moment on a reference point that turns");
+  parameters.add(
+      "component", component,
+      {{"x", Of::x},
+       {"y", Of::y},
+       {"z", Of::z},
+       {"rotation", Of::rotation},
+       {"rotation x", Of::rotation_x},
+       {"rotation y", Of::rotation_y},
+       {"rotation z", Of::rotation_z}},
+      "direction of the force; rotation, in space rotation x, y, z: the moment that holds a reference point that turns, about axes that do not");
 }
 
 void Reaction::prepare(const QuantityContext& context) {
-  if (component == Of::rotation) {
+  const bool in_space = context.mesh().dimension == 3;
+  if (component >= Of::rotation)
     require_rotating_point(context.mesh(), set);
-    if (context.mesh().dimension == 3) throw InputError(set.place, "the moment on a reference point is available in the plane only");
-  } else {
+  else
     require_node_set(context.mesh(), set);
-  }
-  if (component == Of::z && context.mesh().dimension == 2)
+  if (component == Of::z && !in_space)
     throw InputError(set.place, "a component z exists in three-dimensional scenes only; in the plane please take \"x\" or \"y\"");
+  if (component == Of::rotation && in_space)
+    throw InputError(set.place,
+                     "a component rotation exists in the plane only; in space please take \"rotation x\", \"rotation y\" or \"rotation z\"");
+  if (component > Of::rotation && !in_space)
+    throw InputError(set.place, "components rotation x, y and z exist in three-dimensional scenes only; in the plane please take \"rotation\"");
 }
 
 double Reaction::evaluate(const QuantityContext& context) {
   const Mesh& mesh = context.mesh();
   const auto reaction = context.reaction->getLocalViewHost(Tpetra::Access::ReadOnly);
   double sum = 0.0;
+  if (component > Of::rotation) {
+    const int about = static_cast<int>(component) - static_cast<int>(Of::rotation_x);
+    return sum_over_ranks(mesh, holding_moment(context, require_rotating_point(mesh, set))[about]);
+  }
   if (component == Of::rotation) {  // the rotation node's dof is arm * theta
     const ReferencePoint& point = require_rotating_point(mesh, set);
     if (point.rotation_node < mesh.owned_count()) sum = reaction(2 * point.rotation_node, 0) * point.arm;

@@ -5,7 +5,6 @@
 #include "host_view.hpp"
 #include "load_support.hpp"
 #include "loaded_side.hpp"
-#include "mortise/mesh/reference_point.hpp"
 
 namespace mortise {
 namespace {
@@ -33,33 +32,6 @@ class NodalForce final : public Load {
   std::shared_ptr<const Bodies> bodies_;
   std::vector<Expression> components_;
   std::vector<LocalOrdinal> nodes_;
-};
-
-/// A moment on a reference point that rotates: it works on arm * theta.
-class Moment final : public Load {
- public:
-  Moment(std::shared_ptr<const Bodies> bodies, const MomentOptions& options) : bodies_(std::move(bodies)), moment_(options.moment) {
-    const Mesh& mesh = *bodies_->mesh();
-    look_up(mesh, [&] {
-      point_ = &require_rotating_point(mesh, options.point);
-      if (mesh.dimension == 3)
-        throw InputError(options.point.place,
-                         "moments act in the plane only; in space please prescribe \"rotation x\", \"rotation y\", \"rotation z\", or "
-                         "let a pair of forces act");
-    });
-  }
-
-  void add_residual(double time, const Vector&, Vector& residual, std::optional<StepFailure>& failure) const override {
-    const Mesh& mesh = *bodies_->mesh();
-    if (point_->rotation_node >= mesh.owned_count()) return;
-    HostWriteView(residual).data()[mesh.dimension * point_->rotation_node] -=
-        evaluate(moment_, time, mesh.coordinates[point_->node], failure) / point_->arm;
-  }
-
- private:
-  std::shared_ptr<const Bodies> bodies_;
-  Expression moment_;
-  const ReferencePoint* point_ = nullptr;
 };
 
 /// f_a = integral of N_a T dGamma0, in the plane dGamma0 = reference length x thickness or 2 pi R.
@@ -151,12 +123,6 @@ void GravityOptions::describe(Parameters& parameters) {
   if (z && z->depends_on_position()) parameters.error("z", "gravity may depend on t, not on the position");
 }
 
-void MomentOptions::describe(Parameters& parameters) {
-  parameters.add("set", point, Says("the reference point: the name of a tied set, or \"body/reference\" of a rigid body").required());
-  parameters.add("moment", moment, Says("counterclockwise, of t; per model thickness").unit("force length"));
-}
-
-std::unique_ptr<Load> MomentOptions::make(const std::shared_ptr<const Bodies>& bodies) const { return std::make_unique<Moment>(bodies, *this); }
 std::unique_ptr<Load> NodalForceOptions::make(const std::shared_ptr<const Bodies>& bodies) const {
   return std::make_unique<NodalForce>(bodies, *this);
 }

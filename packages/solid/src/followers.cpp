@@ -4,7 +4,7 @@
 #include <map>
 
 #include "host_view.hpp"
-#include "rotation_vector.hpp"
+#include "mortise/solid/rotation_vector.hpp"
 
 namespace mortise {
 namespace {
@@ -56,7 +56,7 @@ std::vector<Dependence> Followers::evaluate(const Vector& local_displacement) co
     Eigen::Vector3d theta = Eigen::Vector3d::Zero();
     for (int k = 0; k < turns; ++k) theta[dimension == 2 ? 2 : k] = u.data()[dimension * point.rotation_node + k] / point.arm;
     const Eigen::Vector3d arm = Eigen::Vector3d(mesh.coordinates[node].data()) - Eigen::Vector3d(mesh.coordinates[point.node].data());
-    const Turned turned = turn(theta, arm);
+    const OfRotation turned = turn(theta, arm);
     d.value += turned.value[i] - arm[i];
     for (int k = 0; k < turns; ++k) {
       const int about = dimension == 2 ? 2 : k;

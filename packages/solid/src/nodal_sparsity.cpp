@@ -58,9 +58,12 @@ NodalSparsity::NodalSparsity(const Mesh& mesh, const RCP<const Map>& dofs, const
   const ElementsAroundNodes around(mesh);
   neighbour_starts_.reserve(owned + 1);
   neighbour_starts_.push_back(0);
-  std::vector<LocalOrdinal> list;
+  std::vector<LocalOrdinal> list, rotations;
+  if (mesh.dimension == 3)  // moments couple the components of a rotation vector
+    for (const ReferencePoint& point : mesh.reference_points) rotations.push_back(point.rotation_node);
   for (LocalOrdinal node = 0; node < owned; ++node) {
     list.clear();
+    if (std::find(rotations.begin(), rotations.end(), node) != rotations.end()) list.push_back(node);
     for (std::size_t n = around.starts[node]; n < around.starts[node + 1]; ++n)
       list.insert(list.end(), around.elements[n].nodes, around.elements[n].nodes + around.elements[n].count);
     std::sort(list.begin(), list.end());

@@ -1,7 +1,9 @@
-#include "rotation_vector.hpp"
+#include "mortise/solid/rotation_vector.hpp"
 
-#include <Eigen/Geometry>
+#include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace mortise {
 namespace {
@@ -32,46 +34,84 @@ Coefficient series(double s, int offset) {
   return sum;
 }
 
-/// a = sin(t) / t and b = (1 - cos(t)) / t^2 of t^2 = s:
-///   a' = (cos(t) - a) / 2s,  a'' = -(a + 6 a') / 4s,   b' = (a - 2 b) / 2s,  b'' = (a' - 4 b') / 2s.
-std::array<Coefficient, 2> coefficients(double s) {
-  if (s < 1.0) return {series(s, 1), series(s, 2)};
-  const double t = std::sqrt(s);
-  Coefficient a{}, b{};
-  a.value = std::sin(t) / t;
-  a.first = (std::cos(t) - a.value) / (2.0 * s);
-  a.second = -(a.value + 6.0 * a.first) / (4.0 * s);
-  b.value = (1.0 - std::cos(t)) / s;
-  b.first = (a.value - 2.0 * b.value) / (2.0 * s);
-  b.second = (a.first - 4.0 * b.first) / (2.0 * s);
-  return {a, b};
+/// a = sin(t) / t, b = (1 - cos(t)) / t^2 and c = (t - sin(t)) / t^3 of t^2 = s. With c_0 = cos(t), c_1 = a, c_2 = b, c_3 = c:
+///   c_n' = (c_n-1 - n c_n) / 2s,  c_n'' = (c_n-1' - (n + 2) c_n') / 2s,  c_0' = -a / 2.
+std::array<Coefficient, 3> coefficients(double s) {
+  if (s < 1.0) return {series(s, 1), series(s, 2), series(s, 3)};
+  const double t = std::sqrt(s), a = std::sin(t) / t;
+  std::array<Coefficient, 3> result{};
+  Coefficient before{std::cos(t), -0.5 * a, 0.0};
+  const double values[] = {a, (1.0 - std::cos(t)) / s, (1.0 - a) / s};
+  for (int n = 1; n <= 3; ++n) {
+    Coefficient& now = result[n - 1];
+    now.value = values[n - 1];
+    now.first = (before.value - n * now.value) / (2.0 * s);
+    now.second = (before.first - (n + 2) * now.first) / (2.0 * s);
+    before = now;
+  }
+  return result;
 }
 
-}  // namespace
-
-// R x = x + a v + b w with v = theta x x and w = theta x (theta x x) = theta (theta . x) - s x, of which v is linear and w quadratic in theta.
-Turned turn(const Vector3d& theta, const Vector3d& x) {
+/// x + p v + q w with v = theta x x and w = theta x (theta x x) = theta (theta . x) - s x, of which v is linear and w quadratic in theta.
+OfRotation combine(const Vector3d& theta, const Vector3d& x, const Coefficient& p, const Coefficient& q) {
   const double s = theta.squaredNorm();
-  const auto [a, b] = coefficients(s);
   const Vector3d v = theta.cross(x), w = theta * theta.dot(x) - s * x;
   std::array<Vector3d, 3> dv, dw;
   for (int k = 0; k < 3; ++k) {
     dv[k] = Vector3d::Unit(k).cross(x);
     dw[k] = Vector3d::Unit(k) * theta.dot(x) + theta * x[k] - 2.0 * theta[k] * x;
   }
-  Turned turned;
-  turned.value = x + a.value * v + b.value * w;
+  OfRotation result;
+  result.value = x + p.value * v + q.value * w;
   for (int k = 0; k < 3; ++k) {
-    turned.gradient[k] = a.value * dv[k] + b.value * dw[k] + 2.0 * theta[k] * (a.first * v + b.first * w);
+    result.gradient[k] = p.value * dv[k] + q.value * dw[k] + 2.0 * theta[k] * (p.first * v + q.first * w);
     for (int l = 0; l < 3; ++l) {
       const double same = k == l ? 1.0 : 0.0;
       const Vector3d ddw = Vector3d::Unit(k) * x[l] + Vector3d::Unit(l) * x[k] - 2.0 * same * x;
-      turned.curvature[k][l] = b.value * ddw + 2.0 * theta[k] * (a.first * dv[l] + b.first * dw[l]) +
-                               2.0 * theta[l] * (a.first * dv[k] + b.first * dw[k]) + 2.0 * same * (a.first * v + b.first * w) +
-                               4.0 * theta[k] * theta[l] * (a.second * v + b.second * w);
+      result.curvature[k][l] = q.value * ddw + 2.0 * theta[k] * (p.first * dv[l] + q.first * dw[l]) +
+                               2.0 * theta[l] * (p.first * dv[k] + q.first * dw[k]) + 2.0 * same * (p.first * v + q.first * w) +
+                               4.0 * theta[k] * theta[l] * (p.second * v + q.second * w);
     }
   }
-  return turned;
+  return result;
+}
+
+}  // namespace
+
+// R x = x + a theta x x + b theta x (theta x x).
+OfRotation turn(const Vector3d& theta, const Vector3d& x) {
+  const auto [a, b, c] = coefficients(theta.squaredNorm());
+  return combine(theta, x, a, b);
+}
+
+// T = 1 + b [theta]x + c [theta]x^2 (the derivative of the exponential; with [theta]x^2 = theta theta^T - s 1 also a 1 + b [theta]x + c theta
+// theta^T).
+Eigen::Matrix3d spin(const Vector3d& theta) {
+  const auto [a, b, c] = coefficients(theta.squaredNorm());
+  Eigen::Matrix3d T;
+  for (int k = 0; k < 3; ++k) T.col(k) = combine(theta, Vector3d::Unit(k), b, c).value;
+  return T;
+}
+
+// T^T = 1 - b [theta]x + c [theta]x^2.
+OfRotation generalised_moment(const Vector3d& theta, const Vector3d& m) {
+  const auto [a, b, c] = coefficients(theta.squaredNorm());
+  return combine(theta, m, {-b.value, -b.first, -b.second}, c);
+}
+
+double least_spin(const Vector3d& theta, const std::array<bool, 3>& free) {
+  const Eigen::Matrix3d T = spin(theta);
+  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> columns(3, std::count(free.begin(), free.end(), true));
+  if (columns.cols() == 0) return 1.0;
+  for (Eigen::Index k = 0, n = 0; k < 3; ++k)
+    if (free[k]) columns.col(n++) = T.col(k);
+  return columns.jacobiSvd().singularValues().minCoeff();
+}
+
+Vector3d spatial_moment(const Vector3d& theta, const Vector3d& generalised) {
+  if (generalised.isZero(0.0)) return Vector3d::Zero();
+  if (least_spin(theta, {true, true, true}) < smallest_spin) return Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  return spin(theta).transpose().partialPivLu().solve(generalised);
 }
 
 }  // namespace mortise

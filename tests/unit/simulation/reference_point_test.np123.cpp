@@ -3,21 +3,18 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Core.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
-#include <filesystem>
-#include <fstream>
 
 #include "mortise/simulation/model.hpp"
-#include "mortise/simulation/read_scene.hpp"
+#include "scene_text.hpp"
 
 namespace mortise {
 namespace {
 
+using namespace test;
 using ::testing::HasSubstr;
 
 /// A base with a body on it; the slave is the base's top.
@@ -28,14 +25,6 @@ struct Case {
 };
 
 void PrintTo(const Case& one, std::ostream* stream) { *stream << one.name; }
-
-std::string parameter(const std::string& name, const std::string& type, const std::string& value) {
-  return fmt::format("<Parameter name=\"{}\" type=\"{}\" value=\"{}\"/>\n", name, type, value);
-}
-
-std::string list(const std::string& name, const std::string& content) {
-  return fmt::format("<ParameterList name=\"{}\">\n{}</ParameterList>\n", name, content);
-}
 
 std::string condition(const std::string& name, const std::string& set, const std::string& x, const std::string& y, const std::string& rotation = "") {
   std::string content = parameter("set", "string", set);
@@ -98,19 +87,7 @@ std::string space_text(const Case& one) {
                           list("stepping", parameter("end time", "double", "1") + parameter("step", "double", "0.25")));
 }
 
-/// Written by rank 0, read by all.
-Scene read(const Case& one) {
-  const auto comm = Tpetra::getDefaultComm();
-  int id = static_cast<int>(::getpid());
-  Teuchos::broadcast(*comm, 0, Teuchos::outArg(id));
-  const std::string file = (std::filesystem::temp_directory_path() / fmt::format("mortise_reference_point_{}.xml", id)).string();
-  if (comm->getRank() == 0) std::ofstream(file) << (one.kinematics == "three dimensional" ? space_text(one) : scene_text(one));
-  comm->barrier();
-  Scene scene = read_scene(*comm, file, {});
-  comm->barrier();
-  if (comm->getRank() == 0) std::filesystem::remove(file);
-  return scene;
-}
+Scene read(const Case& one) { return read_text(one.kinematics == "three dimensional" ? space_text(one) : scene_text(one)); }
 
 const std::string rigid = parameter("rigid", "bool", "true") + parameter("reference point", "string", "2.3, 2.5");
 
@@ -150,6 +127,13 @@ const std::vector<Case> space_cases{
     {"tied set of space that turns", "three dimensional", "",
      list("grip", parameter("set", "string", "upper/top") + parameter("position", "string", "1, 1, 2.1")),
      in_space("grip", {{"x", "0.05*t"}, {"y", "0"}, {"rotation z", "5*t"}}), load("push", "nodal force", "grip", "z", "-20*t"), 0.2},
+    {"tied set of space that a moment turns", "three dimensional", "",
+     list("grip", parameter("set", "string", "upper/top") + parameter("position", "string", "1, 1, 2.1")),
+     in_space("grip", {{"x", "0.05*t"}, {"y", "0"}, {"rotation z", "5*t"}}),
+     load("push", "nodal force", "grip", "z", "-20*t") +
+         list("twist", parameter("type", "string", "moment") + parameter("set", "string", "grip") + parameter("moment x", "string", "3*t") +
+                           parameter("moment y", "string", "-2*t") + parameter("moment z", "string", "5*t")),
+     0.2},
     {"set of space tied in one component", "three dimensional", "",
      list("grip", parameter("set", "string", "upper/top") + parameter("rotation", "bool", "false") + parameter("follows", "string", "z")),
      in_space("upper/left", {{"x", "0"}, {"y", "0"}}), load("push", "nodal force", "grip", "z", "-20*t"), 0.2}};
@@ -260,7 +244,17 @@ TEST(ReferencePointErrors, NameWhatIsWrong) {
   EXPECT_THAT(complaints(one), HasSubstr("prescribes a rotation of the plane in a scene of space"));
   one = space_cases[0];
   one.loads = load("twist", "moment", "upper/reference", "moment", "1");
-  EXPECT_THAT(complaints(one), HasSubstr("moments act in the plane only"));
+  EXPECT_THAT(complaints(one),
+              HasSubstr("\"moment\" is one of the plane, the scene is in space; please give \"moment x\", \"moment y\", \"moment z\""));
+  one = cases[0];
+  one.loads = load("twist", "moment", "upper/reference", "moment x", "1");
+  EXPECT_THAT(complaints(one), HasSubstr("\"moment x\" is one of space, the scene is in the plane; please give \"moment\""));
+  one = space_cases[0];
+  one.loads = load("twist", "moment", "uper/reference", "moment x", "1");
+  EXPECT_THAT(complaints(one), HasSubstr("no reference point that rotates; did you mean \"upper/reference\"?"));
+  one = space_cases.back();
+  one.loads = load("twist", "moment", "grip", "moment x", "1");
+  EXPECT_THAT(complaints(one), HasSubstr("\"grip\" cannot rotate: the scene has no reference point that rotates"));
 }
 
 }  // namespace

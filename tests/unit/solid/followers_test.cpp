@@ -7,22 +7,10 @@
 #include <Eigen/Geometry>
 #include <Tpetra_Vector.hpp>
 
-#include "mortise/mesh/build_mesh.hpp"
-#include "mortise/mesh/volume_generators.hpp"
-#include "solid_test_support.hpp"
+#include "rigid_brick.hpp"
 
 namespace mortise {
 namespace {
-
-/// A rigid brick that follows a point of its own.
-std::shared_ptr<const Bodies> rigid_brick() {
-  const auto brick = std::make_shared<BrickMesh>();
-  brick->width = 2.0;
-  brick->cells_x = brick->cells_y = brick->cells_z = 2;
-  const auto mesh = build_mesh(self(), {{"tool", {}, brick, rigid_shape(3)}}, {}, {{"point", {}, true, std::array<double, 3>{0.3, -0.4, 0.2}}});
-  add_followers(*mesh, 0, {"tool", {}}, {true, true, true});
-  return std::make_shared<Bodies>(mesh, Kinematics::three_dimensional, 1.0, std::vector<BodyProperties>{{"tool", {}, nullptr, ElementType::h8}});
-}
 
 // Rotation vectors of length 0, tiny, about 1 (where series end), and beyond half a turn.
 class RotationVector : public testing::TestWithParam<Eigen::Vector3d> {};

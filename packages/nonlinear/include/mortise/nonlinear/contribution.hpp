@@ -58,6 +58,8 @@ class DependentDisplacements {
   virtual const std::vector<LocalOrdinal>& followed() const = 0;
   /// What they are at a displacement (owned dofs, then ghosts), in the order of dofs().
   virtual std::vector<Dependence> evaluate(const Vector& local_displacement) const = 0;
+  /// Puts into `failure`, if that is empty, why equations of what is followed say nothing at a displacement; the caller agrees on it over the ranks.
+  virtual void check(const Vector& local_displacement, std::optional<StepFailure>& failure) const = 0;
 };
 
 }  // namespace mortise

@@ -15,9 +15,10 @@ namespace mortise {
 enum class Component { x, y, z };
 
 /// Sum over the nodes of a set of the forces by which supports act on the bodies: f_int - f_ext + f_c. [force] On a reference point that turns
-/// also the moment, counterclockwise. [force length]
+/// also the moment, counterclockwise; in space about axes through it that do not turn, and without a value at full turns of a point that a load
+/// `moment` acts on. [force length]
 struct Reaction : Quantity {
-  enum class Of { x, y, z, rotation };
+  enum class Of { x, y, z, rotation, rotation_x, rotation_y, rotation_z };
   Located<std::string> set;
   Of component = Of::y;
   void describe(Parameters& parameters) override;

@@ -1,5 +1,5 @@
 #pragma once
-// External loads: nodal forces, dead tractions, follower pressures, gravity.
+// External loads: nodal forces, moments, dead tractions, follower pressures, gravity.
 
 #include <array>
 #include <memory>
@@ -42,10 +42,11 @@ struct NodalForceOptions : LoadOptions {
   std::unique_ptr<Load> make(const std::shared_ptr<const Bodies>& bodies) const override;
 };
 
-/// A moment on a reference point that rotates. [force length]
+/// A moment of fixed direction on a reference point that rotates. [force length]
 struct MomentOptions : LoadOptions {
   Located<std::string> point;
-  Expression moment;  ///< of t
+  std::optional<Expression> moment;                        ///< of t; in the plane
+  std::array<std::optional<Expression>, 3> moment_vector;  ///< of t; in space, about axes that do not turn; no value: 0
   void describe(Parameters& parameters) override;
   std::unique_ptr<Load> make(const std::shared_ptr<const Bodies>& bodies) const override;
 };

@@ -8,8 +8,8 @@
 
 namespace mortise {
 
-/// Rows: owned dofs. Columns: local dofs (owned, then ghosts), for each pair of nodes that share an element all their dofs. The rows of a node are
-/// alike, and the dofs of a neighbour stand side by side, so one position for each pair of nodes finds all entries of the two.
+/// Rows: owned dofs. Columns: local dofs (owned, then ghosts), for each pair of nodes that share an element all their dofs; a node of a rotation
+/// vector pairs with itself. The rows of a node are alike, its dofs stand side by side: one position for each pair of nodes finds all entries of it.
 class NodalSparsity {
  public:
   /// As many dofs a node as the mesh has dimensions.
