@@ -20,10 +20,25 @@ Vector of_columns(const Matrix& A, const Vector& marks) {
   return result;
 }
 
-/// From local rows, with the importer, if any, of the domain to the columns.
-RCP<const Matrix> matrix_of(const RCP<const Map>& rows, const RCP<const Map>& columns, const Teuchos::ArrayRCP<std::size_t>& starts,
-                            const std::vector<LocalOrdinal>& indices, const std::vector<double>& values, const RCP<const Map>& domain,
-                            const RCP<const Import>& importer) {
+/// The rows of A whose ids are in `rows`, without entries for whose local columns `column_of` gives a negative one of `columns`.
+/// @param importer  of the domain to the columns; null: not known
+template <class ColumnOf>
+RCP<const Matrix> part(const Matrix& A, const RCP<const Map>& rows, const RCP<const Map>& columns, const RCP<const Map>& domain,
+                       const RCP<const Import>& importer, const ColumnOf& column_of) {
+  const auto local = A.getLocalMatrixHost();
+  const std::size_t count = rows->getNodeNumElements();
+  Teuchos::ArrayRCP<std::size_t> starts(count + 1, 0);
+  std::vector<LocalOrdinal> indices;
+  std::vector<double> values;
+  for (std::size_t row = 0; row < count; ++row) {
+    const auto entries = local.rowConst(A.getRowMap()->getLocalElement(rows->getGlobalElement(static_cast<LocalOrdinal>(row))));
+    for (LocalOrdinal k = 0; k < entries.length; ++k)
+      if (const LocalOrdinal column = column_of(entries.colidx(k)); column >= 0) {
+        indices.push_back(column);
+        values.push_back(entries.value(k));
+      }
+    starts[row + 1] = indices.size();
+  }
   const auto result = rcp(new Matrix(rows, columns, starts, Teuchos::arcpClone<LocalOrdinal>(Teuchos::arrayViewFromVector(indices)),
                                      Teuchos::arcpClone<double>(Teuchos::arrayViewFromVector(values))));
   result->expertStaticFillComplete(domain, rows, importer);
@@ -118,51 +133,18 @@ RCP<const Map> marked_ids(const Vector& marks) {
 RCP<const Matrix> marked_columns(const Matrix& A, const Vector& marks) {
   const Vector column_marks = of_columns(A, marks);
   const auto is_marked = column_marks.getLocalViewHost(Tpetra::Access::ReadOnly);
-  const auto local = A.getLocalMatrixHost();
-  const auto rows = static_cast<std::size_t>(local.numRows());
-  Teuchos::ArrayRCP<std::size_t> starts(rows + 1, 0);
-  std::vector<LocalOrdinal> columns;
-  std::vector<double> values;
-  for (std::size_t row = 0; row < rows; ++row) {
-    for (std::size_t k = local.graph.row_map(row); k < local.graph.row_map(row + 1); ++k)
-      if (const LocalOrdinal column = local.graph.entries(k); is_marked(column, 0) != 0.0) {
-        columns.push_back(column);
-        values.push_back(local.values(k));
-      }
-    starts[row + 1] = columns.size();
-  }
-  return matrix_of(A.getRowMap(), A.getColMap(), starts, columns, values, A.getDomainMap(), A.getGraph()->getImporter());
+  return part(A, A.getRowMap(), A.getColMap(), A.getDomainMap(), A.getGraph()->getImporter(),
+              [&](LocalOrdinal column) { return is_marked(column, 0) != 0.0 ? column : -1; });
 }
 
 RCP<const Matrix> rows(const Matrix& A, const RCP<const Map>& chosen) {
-  const auto local = A.getLocalMatrixHost();
-  Teuchos::ArrayRCP<std::size_t> starts(chosen->getNodeNumElements() + 1, 0);
-  std::vector<LocalOrdinal> columns;
-  std::vector<double> values;
-  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(chosen->getNodeNumElements()); ++row) {
-    const auto entries = local.rowConst(A.getRowMap()->getLocalElement(chosen->getGlobalElement(row)));
-    columns.insert(columns.end(), &entries.colidx(0), &entries.colidx(0) + entries.length);
-    values.insert(values.end(), &entries.value(0), &entries.value(0) + entries.length);
-    starts[row + 1] = columns.size();
-  }
-  return matrix_of(chosen, A.getColMap(), starts, columns, values, A.getDomainMap(), A.getGraph()->getImporter());
+  return part(A, chosen, A.getColMap(), A.getDomainMap(), A.getGraph()->getImporter(), [](LocalOrdinal column) { return column; });
 }
 
 RCP<const Matrix> block(const Matrix& A, const RCP<const Map>& chosen) {
-  const auto local = A.getLocalMatrixHost();
-  Teuchos::ArrayRCP<std::size_t> starts(chosen->getNodeNumElements() + 1, 0);
-  std::vector<LocalOrdinal> columns;
-  std::vector<double> values;
-  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(chosen->getNodeNumElements()); ++row) {
-    const auto entries = local.rowConst(A.getRowMap()->getLocalElement(chosen->getGlobalElement(row)));
-    for (LocalOrdinal k = 0; k < entries.length; ++k)
-      if (const LocalOrdinal column = chosen->getLocalElement(A.getColMap()->getGlobalElement(entries.colidx(k))); column >= 0) {
-        columns.push_back(column);
-        values.push_back(entries.value(k));
-      }
-    starts[row + 1] = columns.size();
-  }
-  return matrix_of(chosen, chosen, starts, columns, values, chosen, Teuchos::null);
+  const auto columns = A.getColMap()->getLocalMap(), chosen_columns = chosen->getLocalMap();
+  return part(A, chosen, chosen, chosen, Teuchos::null,
+              [&](LocalOrdinal column) { return chosen_columns.getLocalElement(columns.getGlobalElement(column)); });
 }
 
 }  // namespace mortise::detail
