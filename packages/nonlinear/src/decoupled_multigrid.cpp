@@ -116,6 +116,14 @@ Vector DecoupledSystem::joined() const {
   return marks;
 }
 
+Vector DecoupledSystem::followed() const {
+  Vector marks = joined();
+  const auto mark = marks.getLocalViewHost(Tpetra::Access::ReadWrite);
+  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(marks.getLocalLength()); ++row)
+    if (inverse_->getNumEntriesInLocalRow(row) > 0) mark(row, 0) = 0.0;
+  return marks;
+}
+
 void DecoupledSystem::add_trial(const MultiVector& x, MultiVector& y) const {
   y.update(1.0, x, 1.0);
   decoupling_.trial->apply(x, y, Teuchos::NO_TRANS, 1.0, 1.0);

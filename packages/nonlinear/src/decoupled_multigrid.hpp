@@ -50,6 +50,10 @@ class DecoupledSystem {
   RCP<const Matrix> columns_of_relative_motion() const;
   /// 1 at the dofs of closed slave nodes and of the nodes that they follow. Collective.
   Vector joined() const;
+  /// 1 at those of them that are no closed slave nodes'. Collective.
+  Vector followed() const;
+  /// The rows of a node.
+  int dimension() const { return decoupling_.dimension; }
   /// modes -= N modes
   void take_out_eliminated(MultiVector& modes) const;
 

@@ -72,6 +72,17 @@ constexpr double vanishing = 1e-14;
 /// Iterations that take about as long as a set-up (docs/solvers.md).
 constexpr double iterations_of_set_up = 10.0;
 
+/// Of the residual, at least, from which a rate of convergence is taken: what is left after a hierarchy was replaced may be less.
+constexpr double digits_of_a_rate = 2.0;
+
+/// Moves the marked nodes, each of as many dofs as it has coordinates, away from all others, so that aggregates are made of them alone.
+void set_apart(MultiVector& coordinates, const Vector& marks, double distance) {
+  const auto x = coordinates.getLocalViewHost(Tpetra::Access::ReadWrite);
+  const auto mark = marks.getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (std::size_t node = 0; node < x.extent(0); ++node)
+    if (mark(node * x.extent(1), 0) != 0.0) x(node, 1) += distance;
+}
+
 class IterativeSolver : public LinearSolver {
  public:
   IterativeSolver(const LinearSolverOptions& options, const Timers& timers, std::string name)
@@ -125,27 +136,33 @@ class IterativeSolver : public LinearSolver {
  private:
   void forget() {
     cycle_ = preconditioner_ = Teuchos::null;
-    fresh_iterations_per_digit_ = extra_iterations_ = 0.0;
+    extra_iterations_ = 0.0;
   }
 
   // Contact is decoupled and corrected with the matrix and the states of its nodes as they are, whatever matrix the hierarchy was made for.
   void prepare() {
     const auto scope = timers_.scope("linear setup");
-    std::shared_ptr<const DecoupledSystem> decoupled;
-    if (multigrid_.decoupling) decoupled = std::make_shared<DecoupledSystem>(matrix_, multigrid_.decoupling());
-    if (cycle_.is_null()) set_up(decoupled.get());
-    preconditioner_ = cycle_;
-    if (decoupled) {
-      // With what was joined when the hierarchy was made: but for the tangents of the bodies C has not changed elsewhere.
-      const auto joined = rcp(new Vector(decoupled->joined()));
-      if (is_fresh_) joined_ = rcp(new Vector(*joined, Teuchos::Copy));
-      joined->update(1.0, *joined_, 1.0);
-      if (const RCP<const Map> m = marked_ids(*joined); m->getGlobalNumElements() > 0) {
-        const auto rows = rcp(new RowsOfDecoupled(decoupled->rows(m)));
-        preconditioner_ = rcp(new InterfaceCorrection(rows, rows->block(), cycle_));
-      }
-      preconditioner_ = rcp(new DecoupledPreconditioner(decoupled, preconditioner_));
+    if (!multigrid_.decoupling) {
+      if (cycle_.is_null()) set_up(nullptr);
+      preconditioner_ = cycle_;
+      return;
     }
+    const auto decoupled = std::make_shared<const DecoupledSystem>(matrix_, multigrid_.decoupling());
+    const auto joined = rcp(new Vector(decoupled->joined()));
+    if (cycle_.is_null()) {
+      joined_ = joined;
+      set_up(decoupled.get());
+    }
+    preconditioner_ = cycle_;
+    // With what was joined when the hierarchy was made: but for the tangents of the bodies C has not changed elsewhere.
+    Vector now_or_then(*joined, Teuchos::Copy);
+    now_or_then.update(1.0, *joined_, 1.0);
+    const RCP<const Map> m = marked_ids(marked_and_neighbours(*matrix_, now_or_then, decoupled->dimension()));
+    if (m->getGlobalNumElements() > 0) {
+      const auto rows = rcp(new RowsOfDecoupled(decoupled->rows(m)));
+      preconditioner_ = rcp(new InterfaceCorrection(rows, rows->block(), cycle_));
+    }
+    preconditioner_ = rcp(new DecoupledPreconditioner(decoupled, preconditioner_));
   }
 
   void set_up(const DecoupledSystem* decoupled) {
@@ -165,7 +182,9 @@ class IterativeSolver : public LinearSolver {
         line->replaceLocalValue(static_cast<LocalOrdinal>(row), 0, static_cast<double>(matrix->getRowMap()->getGlobalElement(row)));
       user_data.set("Coordinates", line);
     } else {
-      user_data.set("Coordinates", rcp(new MultiVector(*near_null_space.coordinates, Teuchos::Copy)));
+      const auto coordinates = rcp(new MultiVector(*near_null_space.coordinates, Teuchos::Copy));
+      if (decoupled != nullptr) set_apart(*coordinates, decoupled->followed(), near_null_space.apart);
+      user_data.set("Coordinates", coordinates);
     }
     if (!near_null_space.rigid_body_modes.is_null())
       user_data.set("Nullspace", modes_without_fixed_rows(*near_null_space.rigid_body_modes, decoupled));
@@ -221,10 +240,10 @@ class IterativeSolver : public LinearSolver {
     converged_ = gmres->solve() == Belos::Converged;
     const int iterations = gmres->getNumIters();
     if (iterations > basis_) basis_ = large_basis;
-    if (is_fresh_)
-      fresh_iterations_per_digit_ = std::max(fresh_iterations_per_digit_, iterations / digits);
-    else
+    if (!is_fresh_)
       extra_iterations_ += std::max(0.0, iterations - expected);
+    else if (digits >= digits_of_a_rate || fresh_iterations_per_digit_ == 0.0)
+      fresh_iterations_per_digit_ = iterations / digits;
     return iterations;
   }
 

@@ -130,6 +130,24 @@ RCP<const Map> marked_ids(const Vector& marks) {
   return rcp(new const Map(invalid, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, marks.getMap()->getComm()));
 }
 
+Vector marked_and_neighbours(const Matrix& A, const Vector& marks, int dimension) {
+  const Vector column_marks = of_columns(A, marks);
+  const auto is_marked = column_marks.getLocalViewHost(Tpetra::Access::ReadOnly);
+  const auto local = A.getLocalMatrixHost();
+  Vector result(marks, Teuchos::Copy);
+  const auto mark = result.getLocalViewHost(Tpetra::Access::ReadWrite);
+  for (LocalOrdinal first = 0; first < local.numRows(); first += dimension) {
+    bool is_one = false;
+    for (LocalOrdinal row = first; row < first + dimension && !is_one; ++row) {
+      is_one = mark(row, 0) != 0.0;
+      const auto entries = local.rowConst(row);
+      for (LocalOrdinal k = 0; k < entries.length && !is_one; ++k) is_one = entries.value(k) != 0.0 && is_marked(entries.colidx(k), 0) != 0.0;
+    }
+    for (LocalOrdinal row = first; row < first + dimension; ++row) mark(row, 0) = is_one ? 1.0 : 0.0;
+  }
+  return result;
+}
+
 RCP<const Matrix> marked_columns(const Matrix& A, const Vector& marks) {
   const Vector column_marks = of_columns(A, marks);
   const auto is_marked = column_marks.getLocalViewHost(Tpetra::Access::ReadOnly);

@@ -17,6 +17,9 @@ RCP<Matrix> sum_without_zeros(const Matrix& A, const Matrix& B);
 /// The ids at which `marks` is not 0, each on its owner.
 RCP<const Map> marked_ids(const Vector& marks);
 
+/// 1 at the rows of nodes, each of `dimension` rows one behind the other, that are marked or of which A couples one to a marked column, else 0.
+Vector marked_and_neighbours(const Matrix& A, const Vector& marks, int dimension);
+
 /// The columns of A in which `marks`, on A's domain, is not 0; the others are empty.
 RCP<const Matrix> marked_columns(const Matrix& A, const Vector& marks);
 

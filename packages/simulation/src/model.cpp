@@ -188,7 +188,7 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
     const RCP<MultiVector> coordinates = current_coordinates(*bodies, displacement);
     const auto x = coordinates->getLocalViewHost(Tpetra::Access::ReadWrite);
     for (std::size_t node = 0; node < x.extent(0); ++node) x(node, 0) += apart * bodies->mesh()->body_of_node[node];
-    return NearNullSpace{rigid_body_modes(*bodies, displacement), coordinates};
+    return NearNullSpace{rigid_body_modes(*bodies, displacement), coordinates, apart};
   };
   parts_.contributions.push_back(std::make_shared<BulkContribution>(bodies, timers));
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Tpetra_Core.hpp>
+#include <algorithm>
 
 #include "../../../packages/nonlinear/src/interface_correction.hpp"
 #include "../../../packages/nonlinear/src/sparse_parts.hpp"
@@ -75,6 +76,7 @@ class TwoBodies {
       if (node / grid_->nx() >= grid_->cut()) far_apart->sumIntoLocalValue(place, 1, 1e6);
     }
     result.coordinates = far_apart;
+    result.apart = 1e6;
     return result;
   }
 
@@ -94,8 +96,9 @@ class TwoBodies {
     return {trial, test, eliminated, 2};
   }
 
- private:
   bool is_held(int node) const { return node < grid_->nx() || node / grid_->nx() == grid_->ny() - 1; }
+
+ private:
   bool is_slave(int node) const { return node / grid_->nx() == grid_->cut() && node % grid_->nx() >= open_; }
   int master(int slave) const { return slave - grid_->nx(); }
   std::shared_ptr<const SpringGrid> grid_;
@@ -188,6 +191,30 @@ class Contact : public testing::Test {
 };
 
 TEST_F(Contact, JoinsSlavesAndTheirMasters) { EXPECT_EQ(joined->getGlobalNumElements(), 2 * 2 * nx); }
+
+TEST_F(Contact, SlavesFollowTheirMasters) {
+  const RCP<const Map> followed = detail::marked_ids(system.followed());
+  EXPECT_EQ(followed->getGlobalNumElements(), 2 * nx);
+  for (const GlobalOrdinal id : followed->getNodeElementList()) EXPECT_TRUE(joined->isNodeGlobalElement(id));
+}
+
+TEST_F(Contact, NeighboursAreThoseOfTheMatrix) {
+  const RCP<Matrix> K = bodies.stiffness();
+  Vector marks(K->getRowMap()), expected(K->getRowMap());
+  const SpringGrid& grid = bodies.grid();
+  const auto is_marked = [](int node) { return node % 37 == 20; };
+  for (const int node : grid.owned_nodes()) {
+    const std::vector<int> neighbours = grid.neighbours(node);
+    // Nodes that are held are not coupled to any other.
+    const bool near = !bodies.is_held(node) && std::any_of(neighbours.begin(), neighbours.end(), is_marked);
+    for (int i = 0; i < 2 && is_marked(node); ++i) marks.replaceGlobalValue(grid.dof(node, i), 1.0);
+    for (int i = 0; i < 2 && (near || is_marked(node)); ++i) expected.replaceGlobalValue(grid.dof(node, i), 1.0);
+  }
+  Vector found = detail::marked_and_neighbours(*K, marks, 2);
+  EXPECT_GT(expected.norm1(), 4.0 * marks.norm1());
+  found.update(-1.0, expected, 1.0);
+  EXPECT_EQ(found.normInf(), 0.0);
+}
 
 TEST_F(Contact, RowsAreThoseOfTheWholeMatrix) {
   const Vector x = wavy(C->getDomainMap());
