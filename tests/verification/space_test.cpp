@@ -67,6 +67,7 @@ int most_iterations(const std::string& stiffness_ratio, const std::string& mu, c
 TEST(PressedBlocks, StiffSlavesTakeAsManyIterations) {
   for (const char* mu : {"0", "0.2"}) EXPECT_LE(most_iterations("1000", mu), 1.5 * most_iterations("1", mu) + 10) << mu;
 }
+
 // From 3216 to 21330 unknowns, that of a mesh of two levels to one of three.
 TEST(PressedBlocks, FinerMeshesTakeAsManyIterations) {
   for (const char* ratio : {"1", "1000"})
