@@ -50,6 +50,16 @@ class SlaveRows {
   RCP<Matrix> corners_, middles_;
 };
 
+/// Of the momentum across the direction of slip, at least, that Q_j takes a condition to hold. At the bound itself it holds none: a node sticks
+/// there.
+constexpr double least_share = 1e-4;
+
+// Q_j = B^-1 on the directions P_j, for B with the eigenvalues 1 and `share`.
+SpatialMatrix undo_turning(const SpatialMatrix& P, const SpatialMatrix& B) {
+  const double share = (B + SpatialMatrix::Identity(P.rows(), P.cols()) - P).determinant();
+  return P + (P - B) / std::max(share, least_share);
+}
+
 }  // namespace
 
 Decoupling ContactSystem::decoupling(const Vector& z) const {
@@ -80,15 +90,17 @@ Decoupling ContactSystem::decoupling(const Vector& z) const {
       const detail::NodeRow& row = pair.rows()[s];
       SpatialMatrix held = SpatialMatrix::Zero(dimension, dimension), free = held;  // F, I - F
       for (int i = 0; i < dimension; ++i) (slave.fixed[i] ? held : free)(i, i) = 1.0;
-      const bool sticks = pair.complementarity(s, zs).state == ContactState::stick;
-      const SpatialMatrix N = sticks ? free : SpatialMatrix(row.normal * row.normal.transpose());
-      const SpatialMatrix along = free - N;
+      const Complementarity law = pair.complementarity(s, zs);
+      const Frame frame = pair.frame(s);
+      const SpatialMatrix N = law.state == ContactState::stick ? free : SpatialMatrix(row.normal * row.normal.transpose());
+      const SpatialMatrix P = free - N;
+      const SpatialMatrix Q = undo_turning(P, P * frame.tangents.transpose() * law.C_z.bottomRows(frame.tangents.rows()) * P);
       for (int i = 0; i < dimension; ++i) {
         const LocalOrdinal dof = dimension * slave.owned_node + i;
         const bool middle = pair.before_corners(s);
         for (int k = 0; k < dimension; ++k) {
           trial.add(dof, middle, dimension * slave.id + k, -N(i, k));
-          test.add(dof, middle, dimension * slave.id + k, -N(i, k));
+          test.add(dof, middle, dimension * slave.id + k, Q(k, i) - P(k, i) - N(k, i));
         }
         const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
         for (std::size_t c = 0; c < coupled.size(); ++c) {
@@ -97,7 +109,7 @@ Decoupling ContactSystem::decoupling(const Vector& z) const {
           for (int k = 0; k < dimension; ++k) {
             if (is_fixed(coupled[c], k) != 0.0) continue;
             trial.add(dof, middle, dimension * nodes.getGlobalElement(coupled[c]) + k, share * N(i, k));
-            test.add(dof, middle, dimension * nodes.getGlobalElement(coupled[c]) + k, -share * along(i, k));
+            test.add(dof, middle, dimension * nodes.getGlobalElement(coupled[c]) + k, -share * Q(k, i));
           }
         }
       }

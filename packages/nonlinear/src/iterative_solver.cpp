@@ -22,22 +22,31 @@ namespace {
 
 using LinearProblem = Belos::LinearProblem<Scalar, MultiVector, Operator>;
 
+/// Symmetric Gauss-Seidel.
+void set_smoother(Teuchos::ParameterList& list, int sweeps) {
+  list.set("smoother: type", "RELAXATION");
+  list.sublist("smoother: params").set("relaxation: type", "Symmetric Gauss-Seidel");
+  list.sublist("smoother: params").set("relaxation: sweeps", sweeps);
+}
+
 // Smoothed aggregation. Aggregates do not cross where the coordinates say that two bodies are far apart ("cut"), whatever contact couples;
-// the matrix that smooths the prolongator is the whole one all the same.
+// the matrix that smooths the prolongator is the whole one all the same. It is scaled with the sums of rows: scaled with the diagonal, its largest
+// eigenvalue, by which the smoothing is damped everywhere, would be that of the few rows in contact.
 Teuchos::ParameterList muelu_defaults(int equations, GlobalOrdinal rows, int ranks) {
   Teuchos::ParameterList list("MueLu");
   list.set("verbosity", "none");
   list.set("problem: type", "unknown");
   list.set("number of equations", equations);
-  list.set("max levels", 8);
+  constexpr int levels = 8;
+  list.set("max levels", levels);
   list.set("multigrid algorithm", "sa");
   list.set("sa: use filtered matrix", false);
+  list.set("sa: use rowsumabs diagonal scaling", true);
   list.set("rap: fix zero diagonals", true);  // of coarse dofs beyond those of an aggregate of a single node
   list.set("aggregation: drop scheme", "distance laplacian");
   list.set("aggregation: drop tol", 1e-8);
-  list.set("smoother: type", "RELAXATION");
-  list.sublist("smoother: params").set("relaxation: type", "Symmetric Gauss-Seidel");
-  list.sublist("smoother: params").set("relaxation: sweeps", 1);
+  set_smoother(list, 1);
+  for (int level = 1; level < levels; ++level) set_smoother(list.sublist(fmt::format("level {}", level)), 3);  // coarse ones cost little
   // The coarse solver is KLU2, which is right on one rank only: all coarse levels but very large ones go to one rank, and there is always
   // one.
   list.set("coarse: max size", static_cast<int>(std::clamp<GlobalOrdinal>(rows / 5, ranks == 1 ? 2000 : 1, 5000)));
