@@ -46,7 +46,7 @@ Teuchos::ParameterList muelu_defaults(int equations, GlobalOrdinal rows, int ran
   list.set("aggregation: drop scheme", "distance laplacian");
   list.set("aggregation: drop tol", 1e-8);
   set_smoother(list, 1);
-  for (int level = 1; level < levels; ++level) set_smoother(list.sublist(fmt::format("level {}", level)), 3);  // coarse ones cost little
+  for (int level = 1; level < levels; ++level) set_smoother(list.sublist(fmt::format("level {}", level)), 2);
   // The coarse solver is KLU2, which is right on one rank only: all coarse levels but very large ones go to one rank, and there is always
   // one.
   list.set("coarse: max size", static_cast<int>(std::clamp<GlobalOrdinal>(rows / 5, ranks == 1 ? 2000 : 1, 5000)));
