@@ -50,14 +50,44 @@ class SlaveRows {
   RCP<Matrix> corners_, middles_;
 };
 
-/// Of the momentum across the direction of slip, at least, that Q_j takes a condition to hold. At the bound itself it holds none: a node sticks
-/// there.
-constexpr double least_share = 1e-4;
+/// The linearised momentum of a condensed node, as its own motion changes it, of the z = b + S dd that was kept.
+SpatialMatrix own_stiffness(const RecoveryRow& kept, const detail::NodePositions& positions, LocalOrdinal node, double D, int dimension) {
+  SpatialMatrix K(dimension, dimension);
+  for (int k = 0; k < dimension; ++k) {
+    const auto column = std::lower_bound(kept.columns.begin(), kept.columns.end(), positions.column[dimension * node + k]) - kept.columns.begin();
+    for (int i = 0; i < dimension; ++i) K(i, k) = -D * kept.S[i][static_cast<std::size_t>(column)];
+  }
+  return K;
+}
 
-// Q_j = B^-1 on the directions P_j, for B with the eigenvalues 1 and `share`.
-SpatialMatrix undo_turning(const SpatialMatrix& P, const SpatialMatrix& B) {
-  const double share = (B + SpatialMatrix::Identity(P.rows(), P.cols()) - P).determinant();
-  return P + (P - B) / std::max(share, least_share);
+/// N_j, P_j = I - F_j - N_j and Q_j of a closed node.
+struct Directions {
+  SpatialMatrix N, P, Q;
+};
+
+// In space friction holds a node that slips across the direction t of slip: its condition there is that of a spring next to the share 1 - rho / |y|
+// of the node's momentum. Either the spring is the stiffer part, and t is eliminated, or Q makes the momentum whole.
+Directions directions(const SpatialMatrix& free, const detail::NodeRow& row, const Frame& frame, const Complementarity& law, const SpatialMatrix& K) {
+  const SpatialMatrix none = SpatialMatrix::Zero(free.rows(), free.cols());
+  if (law.state == ContactState::stick) return {free, none, none};
+  Directions result;
+  result.N = row.normal * row.normal.transpose();
+  result.Q = result.P = free - result.N;
+  if (law.slip_factor.size() == 0) return result;
+  const Eigen::MatrixXd along = result.P * frame.tangents.transpose();
+  const SpatialMatrix spring = -row.D * row.D * along * law.slip_factor * along.transpose();
+  const double stiffness = spring.trace();
+  if (!(stiffness > 0.0)) return result;
+  const SpatialMatrix across = spring / stiffness;  // t t^T
+  const double share = (across * along * law.C_z.bottomRows(frame.tangents.rows())).trace();
+  if (stiffness > share * (K * across).trace()) {
+    result.N += across;
+    result.P -= across;
+    result.Q = result.P;
+  } else {
+    result.Q += (1.0 / share - 1.0) * across;
+  }
+  return result;
 }
 
 }  // namespace
@@ -73,6 +103,8 @@ Decoupling ContactSystem::decoupling(const Vector& z) const {
       std::fill_n(sizes.begin() + first, dimension, dimension * (1 + pair->interface().coupled_nodes(s).size()));
       std::fill_n(sizes_of_blocks.begin() + first, dimension, dimension);
     }
+  std::vector<std::size_t> kept_of(values.extent(0));
+  for (std::size_t k = 0; k < self.recovery.size(); ++k) kept_of[static_cast<std::size_t>(self.recovery[k].multiplier)] = k;
   SlaveRows trial(self.dofs, sizes, self.middles_first), test(self.dofs, sizes, self.middles_first);
   Decoupling result;
   std::vector<std::pair<LocalOrdinal, SpatialMatrix>> eliminated;  // owned node, N_j
@@ -88,13 +120,11 @@ Decoupling ContactSystem::decoupling(const Vector& z) const {
       if (self.multiplier_of[p][s] < 0 || !pair.closed(s, zs)) continue;
       const SlaveNode& slave = pair.slave_nodes()[s];
       const detail::NodeRow& row = pair.rows()[s];
-      SpatialMatrix held = SpatialMatrix::Zero(dimension, dimension), free = held;  // F, I - F
-      for (int i = 0; i < dimension; ++i) (slave.fixed[i] ? held : free)(i, i) = 1.0;
-      const Complementarity law = pair.complementarity(s, zs);
-      const Frame frame = pair.frame(s);
-      const SpatialMatrix N = law.state == ContactState::stick ? free : SpatialMatrix(row.normal * row.normal.transpose());
-      const SpatialMatrix P = free - N;
-      const SpatialMatrix Q = undo_turning(P, P * frame.tangents.transpose() * law.C_z.bottomRows(frame.tangents.rows()) * P);
+      SpatialMatrix free = SpatialMatrix::Zero(dimension, dimension);  // I - F
+      for (int i = 0; i < dimension; ++i) free(i, i) = slave.fixed[i] ? 0.0 : 1.0;
+      const RecoveryRow& kept = self.recovery[kept_of[static_cast<std::size_t>(self.multiplier_of[p][s])]];
+      const SpatialMatrix K = own_stiffness(kept, self.scatter->positions(p), slave.local_node, row.D, dimension);
+      const auto [N, P, Q] = directions(free, row, pair.frame(s), pair.complementarity(s, zs), K);
       for (int i = 0; i < dimension; ++i) {
         const LocalOrdinal dof = dimension * slave.owned_node + i;
         const bool middle = pair.before_corners(s);

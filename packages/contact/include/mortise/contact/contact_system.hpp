@@ -148,7 +148,7 @@ class ContactSystem {
   /// z^{k+1} from the displacement increment.
   void recover(const Vector& increment, Vector& z_new) const;
 
-  /// What multigrid needs to know of the condensed system at z, d of the last evaluate.
+  /// What multigrid needs to know of the system that was condensed last, at z, d of the last evaluate.
   Decoupling decoupling(const Vector& z) const;
 
   /// The blocks of the saddle point form: f_c = B(d) z, C_d, C_z on the maps of d and z. B and C_d hold zeros, so that their patterns change only
