@@ -22,6 +22,11 @@ namespace {
 
 using LinearProblem = Belos::LinearProblem<Scalar, MultiVector, Operator>;
 
+/// At most.
+constexpr int levels = 8;
+
+std::string name_of_level(int level) { return fmt::format("level {}", level); }
+
 /// Symmetric Gauss-Seidel.
 void set_smoother(Teuchos::ParameterList& list, int sweeps) {
   list.set("smoother: type", "RELAXATION");
@@ -37,7 +42,6 @@ Teuchos::ParameterList muelu_defaults(int equations, GlobalOrdinal rows, int ran
   list.set("verbosity", "none");
   list.set("problem: type", "unknown");
   list.set("number of equations", equations);
-  constexpr int levels = 8;
   list.set("max levels", levels);
   list.set("multigrid algorithm", "sa");
   list.set("sa: use filtered matrix", false);
@@ -46,7 +50,7 @@ Teuchos::ParameterList muelu_defaults(int equations, GlobalOrdinal rows, int ran
   list.set("aggregation: drop scheme", "distance laplacian");
   list.set("aggregation: drop tol", 1e-8);
   set_smoother(list, 1);
-  for (int level = 1; level < levels; ++level) set_smoother(list.sublist(fmt::format("level {}", level)), 2);
+  for (int level = 1; level < levels; ++level) set_smoother(list.sublist(name_of_level(level)), 2);
   // The coarse solver is KLU2, which is right on one rank only: all coarse levels but very large ones go to one rank, and there is always
   // one.
   list.set("coarse: max size", static_cast<int>(std::clamp<GlobalOrdinal>(rows / 5, ranks == 1 ? 2000 : 1, 5000)));
@@ -58,6 +62,16 @@ Teuchos::ParameterList muelu_defaults(int equations, GlobalOrdinal rows, int ran
     list.set("repartition: start level", 1);
     list.set("repartition: min rows per proc", 100000);
   }
+  return list;
+}
+
+/// The defaults with what a scene gives. A smoother that it gives is that of all levels.
+Teuchos::ParameterList muelu_list(const LinearSolverOptions& options, int equations, GlobalOrdinal rows, int ranks) {
+  Teuchos::ParameterList list = muelu_defaults(equations, rows, ranks);
+  const Teuchos::ParameterList& given = options.muelu.value;
+  if (std::any_of(given.begin(), given.end(), [&](const auto& item) { return item.first.rfind("smoother:", 0) == 0; }))
+    for (int level = 1; level < levels; ++level) list.remove(name_of_level(level));
+  list.setParameters(given);
   return list;
 }
 
@@ -181,7 +195,7 @@ class IterativeSolver : public LinearSolver {
       equations = static_cast<int>(matrix_->getGlobalNumRows() / near_null_space.coordinates->getGlobalLength());
     const RCP<Matrix> matrix = decoupled != nullptr ? decoupled->matrix() : Teuchos::rcp_const_cast<Matrix>(matrix_);
     const auto rows = static_cast<GlobalOrdinal>(matrix->getGlobalNumRows());
-    Teuchos::ParameterList list = muelu_defaults(equations, rows, matrix->getComm()->getSize());
+    Teuchos::ParameterList list = muelu_list(options_, equations, rows, matrix->getComm()->getSize());
     auto& user_data = list.sublist("user data");
     if (near_null_space.coordinates.is_null()) {
       list.set("aggregation: drop scheme", "classical");
@@ -197,7 +211,6 @@ class IterativeSolver : public LinearSolver {
     }
     if (!near_null_space.rigid_body_modes.is_null())
       user_data.set("Nullspace", modes_without_fixed_rows(*near_null_space.rigid_body_modes, decoupled));
-    list.setParameters(options_.muelu.value);
 
     const RCP<Operator> as_operator = matrix;
     cycle_ = MueLu::CreateTpetraPreconditioner<Scalar, LocalOrdinal, GlobalOrdinal, NodeType>(as_operator, list);
@@ -274,8 +287,7 @@ class IterativeSolver : public LinearSolver {
 void check_lists(const LinearSolverOptions& options, const RCP<const Communicator>& comm) {
   std::vector<Diagnostic> found;
   try {
-    Teuchos::ParameterList list = muelu_defaults(2, 1000, comm->getSize());
-    list.setParameters(options.muelu.value);
+    Teuchos::ParameterList list = muelu_list(options, 2, 1000, comm->getSize());
     MueLu::ParameterListInterpreter<Scalar, LocalOrdinal, GlobalOrdinal, NodeType>(list, comm);
   } catch (const std::exception& error) {
     found.push_back({options.muelu.place, error.what()});
