@@ -8,6 +8,7 @@
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "implementation.hpp"
@@ -67,7 +68,8 @@ struct Directions {
 
 // In space friction holds a node that slips across the direction t of slip: its condition there is that of a spring next to the share 1 - rho / |y|
 // of the node's momentum. Either the spring is the stiffer part, and t is eliminated, or Q makes the momentum whole.
-Directions directions(const SpatialMatrix& free, const detail::NodeRow& row, const Frame& frame, const Complementarity& law, const SpatialMatrix& K) {
+Directions directions(const SpatialMatrix& free, const detail::NodeRow& row, const Frame& frame, const Complementarity& law,
+                      const std::function<SpatialMatrix()>& stiffness_of_node) {
   const SpatialMatrix none = SpatialMatrix::Zero(free.rows(), free.cols());
   if (law.state == ContactState::stick) return {free, none, none};
   Directions result;
@@ -80,7 +82,7 @@ Directions directions(const SpatialMatrix& free, const detail::NodeRow& row, con
   if (!(stiffness > 0.0)) return result;
   const SpatialMatrix across = spring / stiffness;  // t t^T
   const double share = (across * along * law.C_z.bottomRows(frame.tangents.rows())).trace();
-  if (stiffness > share * (K * across).trace()) {
+  if (stiffness > share * (stiffness_of_node() * across).trace()) {
     result.N += across;
     result.P -= across;
     result.Q = result.P;
@@ -122,9 +124,11 @@ Decoupling ContactSystem::decoupling(const Vector& z) const {
       const detail::NodeRow& row = pair.rows()[s];
       SpatialMatrix free = SpatialMatrix::Zero(dimension, dimension);  // I - F
       for (int i = 0; i < dimension; ++i) free(i, i) = slave.fixed[i] ? 0.0 : 1.0;
-      const RecoveryRow& kept = self.recovery[kept_of[static_cast<std::size_t>(self.multiplier_of[p][s])]];
-      const SpatialMatrix K = own_stiffness(kept, self.scatter->positions(p), slave.local_node, row.D, dimension);
-      const auto [N, P, Q] = directions(free, row, pair.frame(s), pair.complementarity(s, zs), K);
+      const auto stiffness_of_node = [&] {
+        const RecoveryRow& kept = self.recovery[kept_of[static_cast<std::size_t>(self.multiplier_of[p][s])]];
+        return own_stiffness(kept, self.scatter->positions(p), slave.local_node, row.D, dimension);
+      };
+      const auto [N, P, Q] = directions(free, row, pair.frame(s), pair.complementarity(s, zs), stiffness_of_node);
       for (int i = 0; i < dimension; ++i) {
         const LocalOrdinal dof = dimension * slave.owned_node + i;
         const bool middle = pair.before_corners(s);
