@@ -8,13 +8,11 @@
 #include <Teuchos_oblackholestream.hpp>
 #include <Tpetra_Vector.hpp>
 
+#include "backtracking.hpp"
 #include "newton_status_tests.hpp"
 #include "semi_smooth_newton_group.hpp"
 
 namespace mortise {
-
-// A semi-smooth step that has to be shorter leads nowhere: a smaller load step is cheaper.
-constexpr double smallest_step_length = 1.0 / 1024.0;
 
 void NewtonOptions::describe(Parameters& parameters) {
   parameters.add("maximum iterations", maximum_iterations, Says("Newton iterations after which the step is undone").at_least(1));
@@ -30,9 +28,8 @@ void NewtonOptions::describe(Parameters& parameters) {
                  Says("growth of |r| over its first values (or the force of the first correction) at which the step is undone").unit("-").above(1.0));
   parameters.add("cycle length", cycle_length,
                  Says("longest cycle of active sets that is looked for; a step that cycles is undone; 0 or 1: none").at_least(0));
-  parameters.add(
-      "line search", line_search, {{"none", LineSearch::none}, {"backtrack", LineSearch::backtrack}},
-      "none: full Newton steps; backtrack: a step is halved until the residual falls, for scenes whose first corrections are far too long");
+  parameters.add("line search", line_search, {{"none", LineSearch::none}, {"backtrack", LineSearch::backtrack}},
+                 "backtrack: a step that does not make the residual fall is halved until it does; none: full Newton steps");
   parameters.add(
       "largest increment", largest_increment,
       Says("a correction that moves a node by more is shortened as a whole; default: corrections are taken as they are").unit("length").above(0.0));
@@ -71,9 +68,11 @@ void solve_newton(SemiSmoothSystem& system, double time, const NewtonOptions& op
 
   const auto list = rcp(new Teuchos::ParameterList);
   list->set("Nonlinear Solver", "Line Search Based");
-  list->sublist("Line Search").set("Method", backtrack ? "Backtrack" : "Full Step");
-  // NOX would go on with the recovery step where no step makes the residual fall; with that of 0 it says that it failed.
-  if (backtrack) list->sublist("Line Search").sublist("Backtrack").set("Minimum Step", smallest_step_length).set("Recovery Step", 0.0);
+  list->sublist("Line Search").set("Method", backtrack ? "User Defined" : "Full Step");
+  if (backtrack) {
+    const RCP<NOX::LineSearch::UserDefinedFactory> factory = rcp(new detail::BacktrackingFactory(options));
+    list->sublist("Line Search").set("User Defined Line Search Factory", factory);
+  }
   list->sublist("Direction").set("Method", "Newton");
   if (const auto tolerances = system.parts().linear_solver->tolerances()) set_forcing_term(*tolerances, list->sublist("Direction").sublist("Newton"));
   list->sublist("Printing").set("Output Information", 0);
@@ -100,7 +99,7 @@ void solve_newton(SemiSmoothSystem& system, double time, const NewtonOptions& op
     if (give_up->reason()) throw *give_up->reason();
     throw StepFailure(FailureKind::line_search,
                       fmt::format("no step of {:g} or more along the Newton direction makes the residual fall in Newton iteration {}",
-                                  smallest_step_length, report.newton_steps() + 1));
+                                  detail::smallest_step_length, report.newton_steps() + 1));
   }
   Tpetra::deep_copy(x, *detail::tpetra_vector(solver->getSolutionGroup().getX()));
 }

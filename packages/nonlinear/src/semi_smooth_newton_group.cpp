@@ -63,6 +63,7 @@ NOX::Abstract::Group& SemiSmoothNewtonGroup::operator=(const NOX::Abstract::Grou
   norms_ = from.norms_;
   linear_solve_ = from.linear_solve_;
   newton_solve_ = from.newton_solve_;
+  failure_ = from.failure_;
   return *this;
 }
 
@@ -74,6 +75,7 @@ void SemiSmoothNewtonGroup::become_new_iterate() {
   increment_ = -1.0;
   step_length_ = shortened_ = 1.0;
   linear_solve_ = {};
+  failure_.reset();
 }
 
 void SemiSmoothNewtonGroup::setX(const NOX::Abstract::Vector& y) {
@@ -96,8 +98,9 @@ NOX::Abstract::Group::ReturnType SemiSmoothNewtonGroup::computeF() {
   if (has_F_) return Ok;
   try {
     system_->residual(*tpetra_vector(static_cast<const NOX::Abstract::Vector&>(*x_)), *tpetra_vector(*F_), norms_);
-  } catch (const StepFailure&) {  // on every rank
+  } catch (const StepFailure& failure) {  // on every rank
     if (!shared_->control.trial || increment_ < 0.0) throw;
+    failure_ = failure;
     norms_ = {};
     norms_.finite = false;
     norms_.merit = std::numeric_limits<double>::infinity();

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "mortise/core/error.hpp"
 #include "mortise/nonlinear/semi_smooth_system.hpp"
 
 namespace mortise::detail {
@@ -58,6 +59,8 @@ class SemiSmoothNewtonGroup : public NOX::Abstract::Group {
   RCP<const NOX::Abstract::Vector> getNewtonPtr() const override { return newton_; }
 
   const ResidualNorms& norms() const { return norms_; }
+  /// Why an iterate that was tried has no residual.
+  const std::optional<StepFailure>& failure() const { return failure_; }
   /// max |du| of the step that led here; negative if none did.
   double increment() const { return increment_; }
   /// Share of the Newton direction that led here.
@@ -82,6 +85,7 @@ class SemiSmoothNewtonGroup : public NOX::Abstract::Group {
   double shortened_ = 1.0;  ///< share of the Newton direction that `newton_` is
   ResidualNorms norms_;
   LinearSolveReport linear_solve_, newton_solve_;
+  std::optional<StepFailure> failure_;
 };
 
 }  // namespace mortise::detail

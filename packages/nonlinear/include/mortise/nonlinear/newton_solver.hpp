@@ -16,7 +16,7 @@ namespace mortise {
 /// What is done with a Newton direction.
 enum class LineSearch {
   none,      ///< the full step
-  backtrack  ///< halved until ResidualNorms::merit falls and no element is turned inside out
+  backtrack  ///< the full step where it makes ResidualNorms::merit fall, else halved until it does
 };
 
 /// When a Newton solve is done, and when it is given up.
@@ -28,7 +28,7 @@ struct NewtonOptions {
   double increment_tolerance = 1e-8;        ///< |du|_max / size of the model
   double divergence = 1e8;                  ///< growth of |r| over max(|r_0|, |r_1|, s |du_1|) at which the solve is given up
   int cycle_length = 6;                     ///< longest cycle of active sets that is looked for
-  LineSearch line_search = LineSearch::none;
+  LineSearch line_search = LineSearch::backtrack;
   std::optional<double> largest_increment;  ///< [length] of any displacement in one iteration; longer corrections are shortened
   void describe(Parameters& parameters);
 };

@@ -1,0 +1,41 @@
+#pragma once
+// How far to go along a Newton direction.
+
+#include <NOX_LineSearch_Generic.H>
+#include <NOX_LineSearch_UserDefinedFactory.H>
+
+#include "mortise/nonlinear/newton_solver.hpp"
+
+namespace mortise::detail {
+
+/// Least share of a Newton direction that is taken. A semi-smooth step that has to be shorter leads nowhere: a smaller load step is cheaper.
+constexpr double smallest_step_length = 1.0 / 1024.0;
+
+/// Halves a step until the merit m falls: m(x + lambda dx) <= (1 - 1e-4 lambda) m(x). An iterate that cannot be evaluated counts as infinite; one
+/// whose residual is below all tolerances is taken, as what is left of it is round-off.
+class Backtracking : public NOX::LineSearch::Generic {
+ public:
+  explicit Backtracking(const NewtonOptions& options) : options_(options) {}
+
+  /// @returns false, and a step of 0, where no step makes the merit fall
+  /// @throws StepFailure where the smallest one cannot be evaluated
+  bool compute(NOX::Abstract::Group& group, double& step, const NOX::Abstract::Vector& direction, const NOX::Solver::Generic& solver) override;
+
+ private:
+  bool is_below_tolerances(const ResidualNorms& norms) const;
+
+  NewtonOptions options_;
+};
+
+class BacktrackingFactory : public NOX::LineSearch::UserDefinedFactory {
+ public:
+  explicit BacktrackingFactory(const NewtonOptions& options) : options_(options) {}
+  Teuchos::RCP<NOX::LineSearch::Generic> buildLineSearch(const Teuchos::RCP<NOX::GlobalData>&, Teuchos::ParameterList&) const override {
+    return Teuchos::rcp(new Backtracking(options_));
+  }
+
+ private:
+  NewtonOptions options_;
+};
+
+}  // namespace mortise::detail
