@@ -70,6 +70,13 @@ TEST_P(MortarLinearisation, AgreesWithCentralDifferences) {
   expect_exact_derivatives(lines);
 }
 
+TEST_P(MortarLinearisation, SecondDerivativesAgreeWithDifferencesOfFirstOnes) {
+  Surfaces surfaces = cases()[GetParam()];
+  if (surfaces.options.gap_weighting == GapWeighting::standard) return;  // variational mortar knows no other
+  surfaces.options.coupling = Coupling::variational_mortar;
+  expect_exact_curvatures(surfaces, evaluated(surfaces, true).get());
+}
+
 INSTANTIATE_TEST_SUITE_P(Cases, MortarLinearisation, ::testing::Range(std::size_t{0}, cases().size()), [](const auto& info) {
   std::string name = cases()[info.param].name;
   for (char& letter : name)
