@@ -40,15 +40,24 @@ bool line_faces(const MasterLine<double, m>& master, const Point2<double>& norma
   return true;
 }
 
+constexpr double round_off = 1e-13;  // of xi, on a matching mesh; an overlap of that length carries nothing
+
+// A master node that stands on the normal of a slave node bounds no overlap: that of its other facet, on the far side of the node, is left out, and
+// the ends of the two are what cancels in the derivatives.
+ClippedProjection settled(const ClippedProjection& end) {
+  const double corner = end.xi < 0.0 ? -1.0 : 1.0;
+  return std::abs(end.xi - corner) > round_off ? end : ClippedProjection{corner, false};
+}
+
 template <int n, int m>
 std::optional<Overlap> overlap_of(const SlaveLine<double, n>& slave, const MasterLine<double, m>& master) {
   for (const Point2<double>& normal : slave.normal)
     if (!line_faces(master, normal)) return std::nullopt;
-  const auto low = project_back(slave, master.y[1]), high = project_back(slave, master.y[0]);
-  if (!low || !high) return std::nullopt;
-  constexpr double round_off = 1e-13;  // of a matching mesh; such an overlap carries nothing
-  if (high->xi - low->xi <= round_off) return std::nullopt;
-  return Overlap{{low->xi, high->xi}, low->inside, high->inside};
+  const auto second = project_back(slave, master.y[1]), first = project_back(slave, master.y[0]);
+  if (!second || !first) return std::nullopt;
+  const ClippedProjection low = settled(*second), high = settled(*first);
+  if (high.xi - low.xi <= round_off) return std::nullopt;
+  return Overlap{{low.xi, high.xi}, low.inside, high.inside};
 }
 
 template <int n, int m>
