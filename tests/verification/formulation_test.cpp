@@ -41,10 +41,10 @@ TEST(PatchTest, VariationalMortarPassesToRoundOff) {
   EXPECT_EQ(outcome.code, done) << outcome.said;
 }
 
-// Normal forces -z dg/dd do the work -sum z Dg, none between states with g = 0, but for what the trapezoidal rule errs by: in each step the integral of
-// z' dg/dt, of third order, as g vanishes at both ends. Where a node of the base passes a corner of the block within the step its second derivative has
-// a jump: the same order, times what depends on when. So the sum is of order two, one that is of the first order or stays has a fitted order of one or
-// none, and 1.5 lies between. Forces through D and M leave what the mesh makes of the corners.
+// Normal forces -z dg/dd do the work -sum z Dg, none between states with g = 0, but for what the trapezoidal rule errs by: in each step the integral
+// of z' dg/dt, of third order, as g vanishes at both ends. Where a node of the base passes a corner of the block within the step its second
+// derivative has a jump: the same order, times what depends on when. So the sum is of order two, one that is of the first order or stays has a fitted
+// order of one or none, and 1.5 lies between. Forces through D and M leave what the mesh makes of the corners.
 TEST(SlidingBlock, NormalForcesOfVariationalMortarLoseWorkToStepsOnly) {
   const auto order = [](const std::string& type) {
     std::vector<double> errors;
