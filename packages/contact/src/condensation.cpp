@@ -33,7 +33,8 @@ void replace_row(Matrix& matrix, LocalOrdinal row, const std::vector<LocalOrdina
 
 }  // namespace
 
-// C~ = d(f_c)/dd at fixed z: rows of slave k: z_j dD_jk, rows of master l: -z_j dM_jl. All slave nodes with z != 0, just opened ones too.
+// C~ = d(f_c)/dd at fixed z: rows of slave k: z_j dD_jk, rows of master l: -z_j dM_jl. All slave nodes with z != 0, just opened ones too. z_j is the
+// part of it that acts through D and M.
 void ContactSystem::add_stiffness(const Vector& z, Matrix& system) {
   Implementation& self = *implementation_;
   const int dimension = self.dimension;
@@ -51,7 +52,8 @@ void ContactSystem::add_stiffness(const Vector& z, Matrix& system) {
       const auto nodes = static_cast<Eigen::Index>(facet.slave.size()), masters = static_cast<Eigen::Index>(facet.master.size());
       for (Eigen::Index j = 0; j < nodes; ++j) {
         if (static_cast<std::size_t>(facet.slave[j]) >= self.multiplier_of[p].size()) continue;
-        const SpatialVector zj = self.z_of(z_values, p, facet.slave[j]);
+        const auto s = static_cast<std::size_t>(facet.slave[j]);
+        const SpatialVector zj = self.pairs[p]->coupled_part(s, self.z_of(z_values, p, s));
         if (zj.isZero(0.0)) continue;
         const auto add = [&](LocalOrdinal node, const auto& gradient, double sign) {
           for (int i = 0; i < dimension; ++i) {
@@ -64,6 +66,7 @@ void ContactSystem::add_stiffness(const Vector& z, Matrix& system) {
         for (Eigen::Index l = 0; l < masters; ++l) add(facet.master[l], facet.dM.row(j * masters + l), -1.0);
       }
     }
+    if (self.pairs[p]->variational()) self.add_gap_stiffness(p, z, system);
   }
   self.scatter->finish(system);
 }

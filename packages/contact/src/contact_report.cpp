@@ -56,19 +56,19 @@ std::vector<ContactNodeState> ContactSystem::node_states(std::size_t pair, const
         state.shear_bound =
             self.pairs[pair]->friction()->bound(std::max(0.0, state.pressure), self.pairs[pair]->slip_histories()[s].start.path).value;
     }
-    for (int i = 0; i < self.dimension; ++i) state.force[i] = row.covered * zs[i];
+    const SpatialVector force = self.pairs[pair]->resultant(s, zs);
+    std::copy(force.begin(), force.end(), state.force.begin());
     states.push_back(state);
   }
   return states;
 }
 
-// The force on the slave side is -sum_j (sum_k D_jk) z_j.
 std::array<double, 3> ContactSystem::resultant(std::size_t pair, const Vector& z) const {
   const Implementation& self = *implementation_;
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
   SpatialVector mine = SpatialVector::Zero(self.dimension);
   const auto subtract = [&](std::size_t p, double sign) {
-    for (std::size_t s = 0; s < self.multiplier_of[p].size(); ++s) mine -= sign * self.pairs[p]->rows()[s].covered * self.z_of(values, p, s);
+    for (std::size_t s = 0; s < self.multiplier_of[p].size(); ++s) mine -= sign * self.pairs[p]->resultant(s, self.z_of(values, p, s));
   };
   subtract(pair, 1.0);
   if (const auto other = second_pass(pair)) subtract(*other, -1.0);  // its slave side is the master here

@@ -155,7 +155,7 @@ RCP<const Graph> ContactSystem::system_graph(const std::function<RCP<const Graph
   return self.scatter->graph();
 }
 
-// f_c = sum_j c_jm z_j at each node m that slave node j is coupled to, D_jj z_j at j itself.
+// f_c = sum_j c_jm z_j at each node m that slave node j is coupled to, D_jj z_j at j itself; with variational mortar see coupled_part().
 void ContactSystem::Implementation::add_contact_force(const Vector& z, Vector& r) const {
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
   for (std::size_t p = 0; p < pairs.size(); ++p) {
@@ -167,11 +167,15 @@ void ContactSystem::Implementation::add_contact_force(const Vector& z, Vector& r
       for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
         const SpatialVector zs = z_of(values, p, s);
         if (zs.isZero(0.0)) continue;
+        const SpatialVector through = pair.coupled_part(s, zs);
+        const double pressure = pair.gap_pressure(s, zs);
         const detail::NodeRow& row = pair.rows()[s];
         const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
         for (int i = 0; i < dimension; ++i) {
-          view(dimension * pair.slave_nodes()[s].local_node + i, 0) += row.D * zs[i];
-          for (std::size_t c = 0; c < coupled.size(); ++c) view(dimension * coupled[c] + i, 0) += row.coefficients[c] * zs[i];
+          view(dimension * pair.slave_nodes()[s].local_node + i, 0) += row.D * through[i];
+          for (std::size_t c = 0; c < coupled.size(); ++c) view(dimension * coupled[c] + i, 0) += row.coefficients[c] * through[i];
+          if (pressure != 0.0)
+            for (std::size_t c = 0; c < coupled.size(); ++c) view(dimension * coupled[c] + i, 0) -= pressure * row.dgap[dimension * c + i];
         }
       }
     }

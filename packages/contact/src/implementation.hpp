@@ -51,6 +51,8 @@ struct ContactSystem::Implementation {
     return result;
   }
   void add_contact_force(const Vector& z, Vector& r) const;
+  /// What add_stiffness() adds for a pair of variational mortar beyond what the facets' dD and dM give.
+  void add_gap_stiffness(std::size_t pair, const Vector& z, Matrix& system);
   void condense_node(std::size_t pair, std::size_t s, const Vector& z, Matrix& system, Vector& rhs);
   void eliminate_by_law(std::size_t pair, const Vector& z, Matrix& system, Vector& rhs);
   void take_slip_references();

@@ -41,8 +41,17 @@ double PairCoupling::complementarity_constant(std::size_t s) const {
 
 bool PairCoupling::covered(std::size_t s) const {
   const SlaveNode& node = slave_nodes()[s];
-  const bool standard = pair_.options.mortar.coupling == Coupling::standard_mortar;  // int phi_j N_j may be negative on a part of a quadratic facet
-  return node.carries_multiplier && (standard ? rows_[s].covered : rows_[s].D) > 1e-12 * node.weight;
+  const bool dual = pair_.options.mortar.coupling == Coupling::dual_mortar;  // else int phi_j N_j may be negative on a part of a quadratic facet
+  return node.carries_multiplier && (dual ? rows_[s].D : rows_[s].covered) > 1e-12 * node.weight;
+}
+
+SpatialVector PairCoupling::resultant(std::size_t s, const SpatialVector& z) const {
+  const SpatialVector coupled = rows_[s].covered * coupled_part(s, z);
+  return variational() ? SpatialVector(coupled + gap_pressure(s, z) * rows_[s].opening) : coupled;
+}
+
+std::vector<GapCurvature> PairCoupling::gap_curvatures(const std::vector<double>& pressures) const {
+  return frozen_ ? std::vector<GapCurvature>() : interface_->gap_curvatures(*local_positions_, pressures);
 }
 
 bool PairCoupling::closed(std::size_t s, const SpatialVector& z) const {
@@ -153,9 +162,10 @@ void PairCoupling::evaluate(const MultiVector& x, bool derivatives, std::optiona
     evaluate_frozen(x);
     return;
   }
+  const bool slopes = derivatives || reference || variational();
   local_positions_->doImport(reference ? *reference_ : x, *import_, Tpetra::REPLACE);
-  interface_->evaluate(*local_positions_, derivatives || reference, couplings_, normals_, failure);
-  sum_to_rows(derivatives || reference);
+  interface_->evaluate(*local_positions_, slopes, couplings_, normals_, failure);
+  sum_to_rows(slopes);
   if (regularisation_ && derivatives && !reference) measure_covered();
   if (reference) {
     freeze();
@@ -182,6 +192,7 @@ void PairCoupling::sum_to_rows(bool derivatives) {
     const std::vector<LocalOrdinal>& coupled = interface_->coupled_nodes(s);
     NodeRow& row = rows_[s];
     row.D = row.covered = row.gap = 0.0;
+    if (variational()) row.opening = SpatialVector::Zero(dimension_);
     row.coefficients.assign(coupled.size(), 0.0);
     row.dgap.assign(derivatives ? dimension_ * coupled.size() : 0, 0.0);
     row.dnormal.setZero(dimension_, derivatives ? dimension_ * static_cast<Eigen::Index>(coupled.size()) : 0);
@@ -198,6 +209,9 @@ void PairCoupling::sum_to_rows(bool derivatives) {
       for (std::size_t c = 0; c < facet->columns.size(); ++c)
         for (int i = 0; i < dimension_; ++i)
           row.dgap[dimension_ * position_in_row_[facet->columns[c]] + i] += facet->dgap(j, dimension_ * static_cast<Eigen::Index>(c) + i);
+      if (variational())  // master nodes are the last columns
+        for (std::size_t c = facet->columns.size() - facet->master.size(); c < facet->columns.size(); ++c)
+          row.opening += facet->dgap.block(j, dimension_ * static_cast<Eigen::Index>(c), 1, dimension_).transpose();
     }
     row.normal = normals_[s].normal;
     if (axes_[s] < 0) axes_[s] = transverse_axis(row.normal);
@@ -264,6 +278,7 @@ void PairCoupling::freeze() {
     NodeRow& row = rows_[s];
     frozen_gap_[s] = row.gap;
     row.dnormal.setZero();
+    if (variational()) row.opening = row.covered * row.normal;
     if (regularisation_) row.dcovered.assign(row.dgap.size(), 0.0);
     if (!dual) continue;
     const std::vector<LocalOrdinal>& coupled = interface_->coupled_nodes(s);

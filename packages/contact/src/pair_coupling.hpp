@@ -29,6 +29,7 @@ struct NodeRow {
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 2>
       dslip;                  ///< [tangents x dim coupled nodes]; empty without derivatives or friction
   PositionGradient dcovered;  ///< regularised pairs only
+  SpatialVector opening;      ///< variational mortar only: derivative of the gap by a translation of the master
 };
 
 /// What a slip is measured against: the couplings of a slave node in an accepted state.
@@ -84,6 +85,8 @@ class PairCoupling {
   const ContactPair& definition() const { return pair_; }
   const Formulation& formulation() const { return *pair_.options.formulation.options; }
   const std::optional<Regularisation>& regularisation() const { return regularisation_; }
+  /// Whether normal forces are the gaps' derivatives; then rows() hold these after each evaluate().
+  bool variational() const { return formulation().coupling() == Coupling::variational_mortar; }
   /// Null: the pair has no friction.
   const FrictionLaw* friction() const { return friction_; }
   const std::vector<SlipHistory>& slip_histories() const { return slip_; }
@@ -96,6 +99,17 @@ class PairCoupling {
 
   /// Whether the multiplier of slave node s is condensed before those of corners, whose momentum rows it stands in: middles of edges.
   bool before_corners(std::size_t s) const { return slave_nodes()[s].middle && formulation().elimination() == Elimination::momentum; }
+
+  /// The force of a multiplier z of slave node s is  c_m z' - p dg/dx_m  at the node m. z' = z and p = 0, but
+  /// with variational mortar z' = z - (z . n) n and p = z . n.
+  SpatialVector coupled_part(std::size_t s, const SpatialVector& z) const {
+    return variational() ? SpatialVector(z - z.dot(rows_[s].normal) * rows_[s].normal) : z;
+  }
+  double gap_pressure(std::size_t s, const SpatialVector& z) const { return variational() ? z.dot(rows_[s].normal) : 0.0; }
+  /// The sum of that force over the slave side.
+  SpatialVector resultant(std::size_t s, const SpatialVector& z) const;
+  /// Variational mortar: second derivatives of sum_j z_n,j g_j at the last evaluate(). None of frozen geometry.
+  std::vector<GapCurvature> gap_curvatures(const std::vector<double>& pressures) const;
 
   /// Element size h of the scaling and of the start rule.
   double size() const { return size_; }

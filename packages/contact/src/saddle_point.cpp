@@ -42,7 +42,8 @@ ContactSystem::SaddlePointBlocks ContactSystem::saddle_point_blocks(const Vector
     for (std::size_t s = 0; s < pair->slave_nodes().size(); ++s)
       for (const LocalOrdinal node : pair->interface().loaded_nodes(s))
         for (int i = 0; i < dimension; ++i)
-          ++sizes[row_map->getLocalElement(dimension * pair->interface().local_nodes()->getGlobalElement(node) + i)];
+          sizes[row_map->getLocalElement(dimension * pair->interface().local_nodes()->getGlobalElement(node) + i)] +=
+              static_cast<std::size_t>(pair->variational() ? dimension : 1);
   Matrix B(row_map, Teuchos::arrayViewFromVector(sizes));
   SaddlePointBlocks blocks;
   blocks.C_d = rcp(new Matrix(self.multipliers, widest));
@@ -56,12 +57,22 @@ ContactSystem::SaddlePointBlocks ContactSystem::saddle_point_blocks(const Vector
       const detail::NodeRow& row = pair.rows()[s];
       const Complementarity law = pair.complementarity(s, self.z_of(values, p, s));
       const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
+      for (int k = 0; k < dimension; ++k) {  // the force of the unit multiplier e_k
+        const GlobalOrdinal multiplier = self.multipliers->getGlobalElement(first + k);
+        const SpatialVector unit = SpatialVector::Unit(dimension, k), through = pair.coupled_part(s, unit);
+        const double pressure = pair.gap_pressure(s, unit);
+        const auto insert = [&](GlobalOrdinal dof, double value) { B.insertGlobalValues(dof, 1, &value, &multiplier); };
+        for (int i = 0; i < dimension; ++i) {
+          if (i != k && !pair.variational()) continue;
+          insert(dimension * pair.slave_nodes()[s].id + i, row.D * through[i]);
+          for (std::size_t c = 0; c < coupled.size(); ++c)
+            if (loads(pair.interface(), s, coupled[c]))
+              insert(dimension * nodes.getGlobalElement(coupled[c]) + i,
+                     row.coefficients[c] * through[i] - (pair.variational() ? pressure * row.dgap[dimension * c + i] : 0.0));
+        }
+      }
       for (int i = 0; i < dimension; ++i) {
         const GlobalOrdinal multiplier = self.multipliers->getGlobalElement(first + i);
-        B.insertGlobalValues(dimension * pair.slave_nodes()[s].id + i, 1, &row.D, &multiplier);
-        for (std::size_t c = 0; c < coupled.size(); ++c)
-          if (loads(pair.interface(), s, coupled[c]))
-            B.insertGlobalValues(dimension * nodes.getGlobalElement(coupled[c]) + i, 1, &row.coefficients[c], &multiplier);
         for (int k = 0; k < dimension; ++k) {
           const GlobalOrdinal column = self.multipliers->getGlobalElement(first + k);
           blocks.C_z->insertGlobalValues(multiplier, 1, &law.C_z(i, k), &column);

@@ -34,6 +34,16 @@ void set_basis(const Interval& covered, FacetMoments& moments) {
   }
 }
 
+// Slave nodes, ring, master nodes; the place of the first master node.
+Eigen::Index place_columns(const SlaveFacetData& slave, const std::vector<LocalOrdinal>& master, std::vector<LocalOrdinal>& columns) {
+  columns.assign(slave.nodes.begin(), slave.nodes.end());
+  for (const NodalNormal* normal : slave.normals)
+    for (const LocalOrdinal node : normal->columns) place_of(columns, node);
+  const auto first_master = static_cast<Eigen::Index>(columns.size());
+  columns.insert(columns.end(), master.begin(), master.end());
+  return first_master;
+}
+
 }  // namespace
 
 FacetIntegrator2d::FacetIntegrator2d(const InterfaceMeasure& measure, const MortarOptions& options)
@@ -45,14 +55,9 @@ FacetIntegrator2d::FacetIntegrator2d(const InterfaceMeasure& measure, const Mort
 
 bool FacetIntegrator2d::integrate(const SlaveFacetData& slave, const std::vector<Facet<LocalOrdinal>>& masters, const FacetReach& reach,
                                   const Positions<2>& x, bool derivatives, FacetCoupling& coupling) {
-  line_.x = line_on(slave.nodes, x);
-  line_.normal.clear();
-  for (const NodalNormal* normal : slave.normals) line_.normal.push_back(point(normal->normal));
   coupling.slave = slave.nodes;
-  coupling.master.clear();
   coupling.columns.clear();
-  find_pairs(masters, reach, x, coupling);
-  if (pairs_.empty()) return false;
+  if (!find_pairs(slave, masters, reach, x, coupling.master)) return false;
   Interval covered = pairs_.front().overlap.interval;
   for (const Pair& pair : pairs_) {
     covered.low = std::min(covered.low, pair.overlap.interval.low);
@@ -64,8 +69,51 @@ bool FacetIntegrator2d::integrate(const SlaveFacetData& slave, const std::vector
   return combine(moments_, *slave.multipliers, functions_, derivatives, coupling);
 }
 
-void FacetIntegrator2d::find_pairs(const std::vector<Facet<LocalOrdinal>>& masters, const FacetReach& reach, const Positions<2>& x,
-                                   FacetCoupling& coupling) {
+bool FacetIntegrator2d::curve(const SlaveFacetData& slave, const std::vector<Facet<LocalOrdinal>>& masters, const FacetReach& reach,
+                              const Positions<2>& x, const FacetVector& pressures, GapCurvature& result) {
+  if (!find_pairs(slave, masters, reach, x, master_)) return false;
+  FacetVector of_shape = slave.multipliers->share.transpose() * pressures;
+  if (const NonNegativeBasis* basis = non_negative_basis(2, slave.nodes.size())) of_shape = basis->of_shape.transpose() * of_shape;
+  const auto n = static_cast<Eigen::Index>(slave.nodes.size()), size = 4 * n + 2 * static_cast<Eigen::Index>(master_.size());
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(size);
+  Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(size, size);
+  boost::container::static_vector<Eigen::Index, 18> to;
+  for (const Pair& pair : pairs_) {
+    const WeightedGap gap = weighted_gap(line_, pair.line, pair.overlap, of_shape, measure_, rule());
+    to.clear();
+    for (Eigen::Index column = 0; column < 4 * n; ++column) to.push_back(column);
+    for (const Eigen::Index place : pair.place)
+      for (int i = 0; i < 2; ++i) to.push_back(4 * n + 2 * place + i);
+    for (Eigen::Index r = 0; r < gap.gradient.size(); ++r) {
+      gradient[to[static_cast<std::size_t>(r)]] += gap.gradient[r];
+      for (Eigen::Index c = 0; c < gap.gradient.size(); ++c)
+        hessian(to[static_cast<std::size_t>(r)], to[static_cast<std::size_t>(c)]) += gap.hessian(r, c);
+    }
+  }
+  const Eigen::Index first_master = place_columns(slave, master_, result.columns);
+  const auto columns = 2 * static_cast<Eigen::Index>(result.columns.size());
+  Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(size, columns);
+  slope.topLeftCorner(2 * n, 2 * n).setIdentity();
+  slope.bottomRightCorner(size - 4 * n, columns - 2 * first_master).setIdentity();
+  for (Eigen::Index node = 0; node < n; ++node) {
+    const NodalNormal& normal = *slave.normals[static_cast<std::size_t>(node)];
+    for (std::size_t c = 0; c < normal.columns.size(); ++c)
+      slope.block<2, 2>(2 * (n + node), 2 * place_of(result.columns, normal.columns[c])) =
+          normal.derivative.middleCols<2>(2 * static_cast<Eigen::Index>(c));
+  }
+  result.hessian = slope.transpose() * hessian * slope;
+  for (Eigen::Index node = 0; node < n; ++node)
+    add_normal_curvature(*slave.stencils[static_cast<std::size_t>(node)], *slave.normals[static_cast<std::size_t>(node)],
+                         gradient.segment<2>(2 * (n + node)), x, result.columns, result.hessian);
+  return true;
+}
+
+bool FacetIntegrator2d::find_pairs(const SlaveFacetData& slave, const std::vector<Facet<LocalOrdinal>>& masters, const FacetReach& reach,
+                                   const Positions<2>& x, std::vector<LocalOrdinal>& master_nodes) {
+  line_.x = line_on(slave.nodes, x);
+  line_.normal.clear();
+  for (const NodalNormal* normal : slave.normals) line_.normal.push_back(point(normal->normal));
+  master_nodes.clear();
   pairs_.clear();
   bool touches = false;
   for (const Facet<LocalOrdinal>& nodes : masters) {
@@ -77,10 +125,11 @@ void FacetIntegrator2d::find_pairs(const std::vector<Facet<LocalOrdinal>>& maste
     if (!overlap) continue;
     touches = touches || distance <= reach.touch;
     pair.overlap = *overlap;
-    for (const LocalOrdinal node : nodes) pair.place.push_back(place_of(coupling.master, node));
+    for (const LocalOrdinal node : nodes) pair.place.push_back(place_of(master_nodes, node));
     pairs_.push_back(pair);
   }
   if (!touches) pairs_.clear();
+  return touches;
 }
 
 // The functions L belong to the covered interval; T^-T is what their extrapolation from there to the nodes makes of them.
@@ -98,7 +147,7 @@ void FacetIntegrator2d::accumulate(const Interval& covered, std::size_t masters,
   if (derivatives) raw_.setZero(rows, 4 * n + 2 * count);
   boost::container::static_vector<Eigen::Index, 18> to;
   for (const Pair& pair : pairs_) {
-    integrate_segment(line_, pair.line, pair.overlap, covered, measure_, n == 2 ? rule_ : rule_of_quadratic_, derivatives, segment_);
+    integrate_segment(line_, pair.line, pair.overlap, covered, measure_, rule(), derivatives, segment_);
     to.clear();
     for (Eigen::Index q = 0; q < masses; ++q) to.push_back(q);
     for (Eigen::Index i = 0; i < n; ++i)
@@ -117,11 +166,7 @@ void FacetIntegrator2d::accumulate(const Interval& covered, std::size_t masters,
 
 void FacetIntegrator2d::chain(const SlaveFacetData& slave, FacetCoupling& coupling) {
   auto& columns = coupling.columns;
-  columns.assign(slave.nodes.begin(), slave.nodes.end());
-  for (const NodalNormal* normal : slave.normals)
-    for (const LocalOrdinal node : normal->columns) place_of(columns, node);
-  const auto first_master = static_cast<Eigen::Index>(columns.size());
-  columns.insert(columns.end(), coupling.master.begin(), coupling.master.end());
+  const Eigen::Index first_master = place_columns(slave, coupling.master, columns);
   const auto n = static_cast<Eigen::Index>(slave.nodes.size()), masters = static_cast<Eigen::Index>(coupling.master.size());
 
   moments_.slope.setZero(raw_.rows(), 2 * static_cast<Eigen::Index>(columns.size()));

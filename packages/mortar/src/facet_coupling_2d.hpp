@@ -20,6 +20,12 @@ class FacetIntegrator2d {
   bool integrate(const SlaveFacetData& slave, const std::vector<Facet<LocalOrdinal>>& masters, const FacetReach& reach, const Positions<2>& x,
                  bool derivatives, FacetCoupling& coupling);
 
+  /// The second derivatives of sum_j pressures_j g_j, standard weighting, whose first ones integrate() gives. With H and G the Hessian and the
+  /// gradient in slave positions, nodal normals and master positions, of which J is the derivative, they are J^T H J + sum_a G_a . d2n_a.
+  /// @param pressures  [nodes of the facet]
+  bool curve(const SlaveFacetData& slave, const std::vector<Facet<LocalOrdinal>>& masters, const FacetReach& reach, const Positions<2>& x,
+             const FacetVector& pressures, GapCurvature& result);
+
   /// Overlaps that the last coupling is the sum of.
   std::size_t segments() const { return pairs_.size(); }
 
@@ -29,10 +35,13 @@ class FacetIntegrator2d {
     LinePoints line;
     Overlap overlap;
   };
-  void find_pairs(const std::vector<Facet<LocalOrdinal>>& masters, const FacetReach& reach, const Positions<2>& x, FacetCoupling& coupling);
+  /// Whether there are any; with the master nodes that take part.
+  bool find_pairs(const SlaveFacetData& slave, const std::vector<Facet<LocalOrdinal>>& masters, const FacetReach& reach, const Positions<2>& x,
+                  std::vector<LocalOrdinal>& master_nodes);
   void choose_basis(const Interval& covered);
   void accumulate(const Interval& covered, std::size_t masters, bool derivatives);
   void chain(const SlaveFacetData& slave, FacetCoupling& coupling);
+  const std::vector<LinePoint>& rule() const { return line_.x.size() == 2 ? rule_ : rule_of_quadratic_; }
 
   InterfaceMeasure measure_;
   FacetFunctions functions_;
@@ -40,7 +49,8 @@ class FacetIntegrator2d {
   SlaveCurve line_;
   std::vector<Pair> pairs_;
   SegmentIntegrals segment_;
-  Eigen::MatrixXd raw_;  ///< derivatives with respect to slave positions, slave normals, masters
+  Eigen::MatrixXd raw_;               ///< derivatives with respect to slave positions, slave normals, masters
+  std::vector<LocalOrdinal> master_;  ///< nodes, for second derivatives
   FacetMoments moments_;
 };
 

@@ -33,6 +33,7 @@ class Interface final : public InterfaceImplementation {
   bool search(const MultiVector& x) override;
   void evaluate(const MultiVector& x, bool derivatives, std::vector<FacetCoupling>& couplings, std::vector<NodalNormal>& normals,
                 std::optional<StepFailure>& failure) override;
+  std::vector<GapCurvature> gap_curvatures(const MultiVector& x, const std::vector<double>& pressures) override;
   bool hand_over(const std::vector<double>& cover) override;
   bool split_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest) override;
   std::vector<std::optional<double>> distances_to_master(const MultiVector& x, const std::vector<std::size_t>& nodes,
@@ -53,6 +54,9 @@ class Interface final : public InterfaceImplementation {
   enum class Heirs { any, middles };
   void keep(Heirs heirs, const std::vector<double>& covered, std::vector<double>& hands) const;
   bool balance(const Positions<dim>& slave_x);
+  FacetReach limits_of(const Facet<LocalOrdinal>& nodes, const Positions<dim>& x) const {
+    return {reach, reach + longest_edge<dim>(points_of<dim>(nodes, x))};
+  }
   std::size_t segments_of(SlaveFacetData& data, const std::vector<Facet<LocalOrdinal>>& candidates, const Positions<dim>& x, bool derivatives,
                           FacetCoupling& coupling);
   void couple_facets(const Positions<dim>& x, bool derivatives, const std::vector<NodalNormal>& normals, std::vector<FacetCoupling>& couplings,

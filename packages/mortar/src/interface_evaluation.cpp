@@ -15,8 +15,7 @@ template <int dim>
 std::size_t Interface<dim>::segments_of(SlaveFacetData& data, const std::vector<Facet<LocalOrdinal>>& candidates, const Positions<dim>& x,
                                         bool derivatives, FacetCoupling& coupling) {
   if (candidates.empty()) return 0;
-  const FacetReach limits = {reach, reach + longest_edge<dim>(points_of<dim>(data.nodes, x))};
-  return integrator_.integrate(data, candidates, limits, x, derivatives, coupling) ? integrator_.segments() : 0;
+  return integrator_.integrate(data, candidates, limits_of(data.nodes, x), x, derivatives, coupling) ? integrator_.segments() : 0;
 }
 
 // Couplings of this rank's facets, in their order, whoever integrates them: sums do not depend on that. Collective, after a failure too.
@@ -131,6 +130,36 @@ void Interface<dim>::evaluate(const MultiVector& x, bool derivatives, std::vecto
   normals.resize(slave.owned.size());
 }
 
+template <int dim>
+std::vector<GapCurvature> Interface<dim>::gap_curvatures(const MultiVector& x, const std::vector<double>& pressures) {
+  std::vector<GapCurvature> curvatures;
+  if constexpr (dim == 2) {
+    const Positions<2> positions = positions_of<2>(x.getLocalViewHost(Tpetra::Access::ReadOnly));
+    std::array<NodalNormal, most_facet_nodes<2>> normals;
+    SlaveFacetData data;
+    for (std::size_t f = 0; f < slave.facets.size(); ++f) {
+      data.nodes = slave.facets[f];
+      data.multipliers = &slave.multipliers[f];
+      FacetVector of_nodes = FacetVector::Zero(static_cast<Eigen::Index>(data.nodes.size()));
+      for (std::size_t a = 0; a < data.nodes.size(); ++a)
+        if (const auto s = static_cast<std::size_t>(data.nodes[a]); s < pressures.size()) of_nodes[static_cast<Eigen::Index>(a)] = pressures[s];
+      if (of_nodes.isZero(0.0)) continue;
+      data.normals.clear();
+      data.stencils.clear();
+      for (std::size_t a = 0; a < data.nodes.size(); ++a) {
+        data.stencils.push_back(&slave.stencils[slave.normals[f][a]]);
+        average_normal(*data.stencils[a], positions, true, normals[a]);
+        data.normals.push_back(&normals[a]);
+      }
+      GapCurvature one;
+      if (integrator_.curve(data, candidates_[f], limits_of(data.nodes, positions), positions, of_nodes, one)) curvatures.push_back(std::move(one));
+    }
+  }
+  return curvatures;
+}
+
+template std::vector<GapCurvature> Interface<2>::gap_curvatures(const MultiVector&, const std::vector<double>&);
+template std::vector<GapCurvature> Interface<3>::gap_curvatures(const MultiVector&, const std::vector<double>&);
 template void Interface<2>::evaluate(const MultiVector&, bool, std::vector<FacetCoupling>&, std::vector<NodalNormal>&, std::optional<StepFailure>&);
 template void Interface<3>::evaluate(const MultiVector&, bool, std::vector<FacetCoupling>&, std::vector<NodalNormal>&, std::optional<StepFailure>&);
 

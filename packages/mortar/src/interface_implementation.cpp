@@ -183,6 +183,7 @@ void Interface<dim>::number_nodes() {
       for (const auto& facet : candidates_[f]) loaded[s].insert(loaded[s].end(), facet.begin(), facet.end());
     }
     coupled[s].insert(coupled[s].end(), loaded[s].begin(), loaded[s].end());
+    if (options_.coupling == Coupling::variational_mortar) loaded[s] = coupled[s];
     coupled[s].insert(coupled[s].end(), kept[s].begin(), kept[s].end());
     for (std::vector<LocalOrdinal>* nodes : {&coupled[s], &loaded[s]}) {
       std::sort(nodes->begin(), nodes->end());

@@ -54,6 +54,14 @@ MortarInterface::MortarInterface(RCP<const Map> owned_nodes, RCP<const MultiVect
   const InterfaceInput input = {owned_nodes, reference, fixed, slave, master, measure, options, place};
   if (dimension == 3 && options.coupling == Coupling::node_to_segment)
     throw InputError(place, "node to segment is not available in space; use dual mortar, standard mortar, penalty or augmented Lagrange");
+  if (options.coupling == Coupling::variational_mortar) {
+    if (dimension == 3)
+      throw InputError(place, "variational mortar is not available in space; use dual mortar, standard mortar, penalty or augmented Lagrange");
+    if (options.linearisation != Linearisation::exact)
+      throw InputError(place,
+                       "variational mortar takes its forces from the derivatives of the gap, those of the normals too; \"linearisation\" is "
+                       "\"frozen normals\", take \"exact\"");
+  }
   refuse_unknown_facets(input, dimension);
   refuse_common_nodes(input);
   implementation_ = dimension == 2 ? make_interface<2>(input) : make_interface<3>(input);
@@ -66,6 +74,10 @@ bool MortarInterface::search(const MultiVector& x) { return implementation_->sea
 void MortarInterface::evaluate(const MultiVector& x, bool derivatives, std::vector<FacetCoupling>& couplings, std::vector<NodalNormal>& normals,
                                std::optional<StepFailure>& failure) const {
   implementation_->evaluate(x, derivatives, couplings, normals, failure);
+}
+
+std::vector<GapCurvature> MortarInterface::gap_curvatures(const MultiVector& x, const std::vector<double>& pressures) const {
+  return implementation_->gap_curvatures(x, pressures);
 }
 
 std::vector<std::optional<double>> MortarInterface::distances_to_master(const MultiVector& x, const std::vector<std::size_t>& nodes,

@@ -43,4 +43,12 @@ double turn_at(const NormalStencil& stencil, const Positions<2>& x);
 bool average_normal(const NormalStencil& stencil, const Positions<2>& x, bool derivatives, NodalNormal& result);
 bool average_normal(const NormalStencil& stencil, const Positions<3>& x, bool derivatives, NodalNormal& result);
 
+/// Adds the second derivatives of `along` . n in the plane to a matrix of the positions of `columns`, two for each, which hold those of the stencil.
+/// n = (sin theta, -cos theta) lies at the mean of its sides' angles theta_e, so with b = dn/dtheta and the unit tangents t and their left normals v
+///   d2(along . n) = -(along . n) (dtheta)^2 + (along . b) mean_e d2theta_e,   d2theta_e = -(t v^T + v t^T) / |t_e|^2 in the tangent t_e.
+/// With projected components n does not turn.
+/// @param normal  with its derivative
+void add_normal_curvature(const NormalStencil& stencil, const NodalNormal& normal, const Eigen::Vector2d& along, const Positions<2>& x,
+                          const std::vector<LocalOrdinal>& columns, Eigen::MatrixXd& hessian);
+
 }  // namespace mortise

@@ -97,4 +97,29 @@ bool average_normal(const NormalStencil& stencil, const Positions<2>& x, bool de
   return true;
 }
 
+void add_normal_curvature(const NormalStencil& stencil, const NodalNormal& normal, const Eigen::Vector2d& along, const Positions<2>& x,
+                          const std::vector<LocalOrdinal>& columns, Eigen::MatrixXd& hessian) {
+  if (stencil.projected[0] || stencil.projected[1]) return;
+  const auto place = [&](LocalOrdinal node) { return 2 * (std::find(columns.begin(), columns.end(), node) - columns.begin()); };
+  const Eigen::Vector2d turned(-normal.normal.y(), normal.normal.x());
+  const Eigen::RowVectorXd angle = turned.transpose() * normal.derivative;
+  for (std::size_t a = 0; a < normal.columns.size(); ++a)
+    for (std::size_t b = 0; b < normal.columns.size(); ++b)
+      hessian.block<2, 2>(place(normal.columns[a]), place(normal.columns[b])) -= along.dot(normal.normal) *
+                                                                                 angle.segment<2>(2 * static_cast<Eigen::Index>(a)).transpose() *
+                                                                                 angle.segment<2>(2 * static_cast<Eigen::Index>(b));
+  const double share = along.dot(turned) / (stencil.only ? 1.0 : static_cast<double>(stencil.facets.size()));
+  for (std::size_t e = 0; e < stencil.facets.size(); ++e) {
+    if (stencil.only && *stencil.only != e) continue;
+    const NodeTangents& facet = stencil.facets[e];
+    const Side side(facet, x);
+    const Eigen::Vector2d t(-side.normal.y(), side.normal.x()), v = -side.normal;
+    const Eigen::Matrix2d curvature = -share * (t * v.transpose() + v * t.transpose()) / (side.length * side.length);
+    for (std::size_t a = 0; a < facet.nodes.size(); ++a)
+      for (std::size_t b = 0; b < facet.nodes.size(); ++b)
+        hessian.block<2, 2>(place(facet.nodes[a]), place(facet.nodes[b])) +=
+            facet.slope(0, static_cast<Eigen::Index>(a)) * facet.slope(0, static_cast<Eigen::Index>(b)) * curvature;
+  }
+}
+
 }  // namespace mortise

@@ -2,58 +2,23 @@
 
 #include <Sacado.hpp>
 
+#include "segment_lines.hpp"
+
 namespace mortise {
 namespace {
-
-constexpr double two_pi = 6.283185307179586476925286766559;
 
 /// cos of the angle that a master facet's normal has to keep from the perpendicular of a slave nodal normal, for the projection along the
 /// latter to be meant.
 constexpr double facing_tolerance = 0.05;
 
-template <int n>
-SlaveLine<double, n> line_of(const SlaveCurve& slave) {
-  SlaveLine<double, n> line;
-  for (int a = 0; a < n; ++a) {
-    line.x[a] = slave.x[a];
-    line.normal[a] = slave.normal[a];
-  }
-  return line;
-}
-
-template <int m>
-MasterLine<double, m> line_of(const LinePoints& master) {
-  MasterLine<double, m> line;
-  for (int l = 0; l < m; ++l) line.y[l] = master[l];
-  return line;
-}
-
 template <int n, int m, class S>
 void integrate(const SlaveLine<S, n>& slave, const MasterLine<S, m>& master, const S& low, const S& high, const Interval& basis,
                const InterfaceMeasure& measure, const std::vector<LinePoint>& rule, std::array<S, n*(n + 1) / 2 + n * m + n>& sum) {
-  using std::sqrt;
   for (S& entry : sum) entry = 0.0;
-  const S middle = 0.5 * (high + low), half = 0.5 * (high - low);
   const double width = basis.high - basis.low;
-  const auto jacobian = [&](const S& xi) {
-    const Point2<S> along = slope(slave.x, xi);
-    return S(sqrt(along[0] * along[0] + along[1] * along[1]) * half);
-  };
-  S length = jacobian(middle);  // the same everywhere on a linear facet
-  for (const LinePoint& point : rule) {
-    const S xi = middle + half * point.xi;
-    const Point2<S> x = interpolate(slave.x, xi), normal = interpolate(slave.normal, xi);
-    const MasterProjection<S> projection = project_onto(master, x, normal);
-    // x + distance n = xhat, so g = n / |n| . (xhat - x) = distance |n|
-    const S gap = projection.distance * sqrt(normal[0] * normal[0] + normal[1] * normal[1]);
-    if constexpr (n > 2) length = jacobian(xi);
-    S weight = point.weight * length;
-    if (measure.axisymmetric)
-      weight *= two_pi * x[0];
-    else
-      weight *= measure.thickness;
+  for_each_point(slave, master, low, high, measure, rule, [&](const S& xi, const S& weight, const S& eta, const S& gap) {
     const auto L = interval_functions<n>(S((xi - basis.low) / width), S((basis.high - xi) / width));
-    const auto N = LineShape<m>::values(projection.eta);
+    const auto N = LineShape<m>::values(eta);
     std::array<S, n> weighted;
     for (int i = 0; i < n; ++i) weighted[i] = weight * L[i];
     int r = 0;
@@ -62,7 +27,7 @@ void integrate(const SlaveLine<S, n>& slave, const MasterLine<S, m>& master, con
     for (int i = 0; i < n; ++i)
       for (int l = 0; l < m; ++l) sum[r++] += weighted[i] * N[l];
     for (int i = 0; i < n; ++i) sum[r++] += weighted[i] * gap;
-  }
+  });
 }
 
 template <int m>
@@ -75,15 +40,24 @@ bool line_faces(const MasterLine<double, m>& master, const Point2<double>& norma
   return true;
 }
 
+constexpr double round_off = 1e-13;  // of xi, on a matching mesh; an overlap of that length carries nothing
+
+// A master node that stands on the normal of a slave node bounds no overlap: that of its other facet, on the far side of the node, is left out, and
+// the ends of the two are what cancels in the derivatives.
+ClippedProjection settled(const ClippedProjection& end) {
+  const double corner = end.xi < 0.0 ? -1.0 : 1.0;
+  return std::abs(end.xi - corner) > round_off ? end : ClippedProjection{corner, false};
+}
+
 template <int n, int m>
 std::optional<Overlap> overlap_of(const SlaveLine<double, n>& slave, const MasterLine<double, m>& master) {
   for (const Point2<double>& normal : slave.normal)
     if (!line_faces(master, normal)) return std::nullopt;
-  const auto low = project_back(slave, master.y[1]), high = project_back(slave, master.y[0]);
-  if (!low || !high) return std::nullopt;
-  constexpr double round_off = 1e-13;  // of a matching mesh; such an overlap carries nothing
-  if (high->xi - low->xi <= round_off) return std::nullopt;
-  return Overlap{{low->xi, high->xi}, low->inside, high->inside};
+  const auto second = project_back(slave, master.y[1]), first = project_back(slave, master.y[0]);
+  if (!second || !first) return std::nullopt;
+  const ClippedProjection low = settled(*second), high = settled(*first);
+  if (high.xi - low.xi <= round_off) return std::nullopt;
+  return Overlap{{low.xi, high.xi}, low.inside, high.inside};
 }
 
 template <int n, int m>
@@ -106,8 +80,8 @@ void integrate_lines(const SlaveLine<double, n>& slave, const MasterLine<double,
     }
     for (int l = 0; l < m; ++l) dual_master.y[l][i] = Dual(columns, 2 * (2 * n + l) + i, master.y[l][i]);
   }
-  const Dual low = overlap.low_is_master ? lift_root(dual_slave, dual_master.y[1], overlap.interval.low) : Dual(overlap.interval.low);
-  const Dual high = overlap.high_is_master ? lift_root(dual_slave, dual_master.y[0], overlap.interval.high) : Dual(overlap.interval.high);
+  const Dual low = overlap.low_is_master ? lift_root(dual_slave, dual_master.y[1], Dual(overlap.interval.low)) : Dual(overlap.interval.low);
+  const Dual high = overlap.high_is_master ? lift_root(dual_slave, dual_master.y[0], Dual(overlap.interval.high)) : Dual(overlap.interval.high);
   std::array<Dual, rows> sum;
   integrate<n, m>(dual_slave, dual_master, low, high, basis, measure, rule, sum);
   result.value.resize(rows);
@@ -116,13 +90,6 @@ void integrate_lines(const SlaveLine<double, n>& slave, const MasterLine<double,
     result.value[q] = sum[q].val();
     for (int i = 0; i < columns; ++i) result.derivative(q, i) = sum[q].fastAccessDx(i);
   }
-}
-
-// Calls act with the facets as lines of as many nodes as they have.
-template <class Act>
-auto with_lines(const SlaveCurve& slave, const LinePoints& master, const Act& act) {
-  if (slave.x.size() == 2) return master.size() == 2 ? act(line_of<2>(slave), line_of<2>(master)) : act(line_of<2>(slave), line_of<3>(master));
-  return master.size() == 2 ? act(line_of<3>(slave), line_of<2>(master)) : act(line_of<3>(slave), line_of<3>(master));
 }
 
 }  // namespace

@@ -4,12 +4,14 @@
 #include <boost/container/static_vector.hpp>
 
 #include "facet_moments.hpp"
+#include "nodal_normal.hpp"
 
 namespace mortise {
 
 struct SlaveFacetData {
   Facet<LocalOrdinal> nodes;
   boost::container::static_vector<const NodalNormal*, most_side_nodes> normals;
+  boost::container::static_vector<const NormalStencil*, most_side_nodes> stencils;  ///< of the normals; for second derivatives only
   const FacetMultipliers* multipliers = nullptr;
 };
 

@@ -61,7 +61,7 @@ void add_quadratic(std::vector<Case>& all) {
   for (const test::NamedFormulation& formulation : test::other_formulations()) {
     if (formulation.options->coupling() == Coupling::node_to_segment) continue;
     add("plane, " + formulation.name, arch, true, 0.12)->options.formulation.options = formulation.options;
-    add("space, " + formulation.name, dome, false, 0.12)->options.formulation.options = formulation.options;
+    if (test::in_space(formulation)) add("space, " + formulation.name, dome, false, 0.12)->options.formulation.options = formulation.options;
   }
 }
 
@@ -137,7 +137,7 @@ std::vector<Case> cases() {
   add_in_space("hardly covered, coulomb, high, augmented lagrange", 3.0)->options.formulation.options = augmented;
   add_quadratic(all);
   for (const test::NamedFormulation& formulation : test::other_formulations()) {
-    if (formulation.options->coupling() == Coupling::node_to_segment) continue;
+    if (!test::in_space(formulation)) continue;
     add_in_space(formulation.name, {})->options.formulation.options = formulation.options;
     add_in_space(formulation.name + ", coulomb", 0.12)->options.formulation.options = formulation.options;
   }

@@ -9,6 +9,7 @@
 #include "mortise/contact/formulation/node_to_segment.hpp"
 #include "mortise/contact/formulation/penalty.hpp"
 #include "mortise/contact/formulation/standard_mortar.hpp"
+#include "mortise/contact/formulation/variational_mortar.hpp"
 
 namespace mortise::test {
 
@@ -31,12 +32,19 @@ inline std::vector<NamedFormulation> other_formulations() {
     return result;
   };
   return {{"standard mortar", std::make_shared<StandardMortar>()},
+          {"variational mortar", std::make_shared<VariationalMortar>()},
           {"node to segment", std::make_shared<NodeToSegment>()},
           {"penalty", penalty(Coupling::dual_mortar)},
           {"penalty of standard mortar", penalty(Coupling::standard_mortar)},
           {"penalty of node to segment", penalty(Coupling::node_to_segment)},
           {"augmented lagrange", augmented(Coupling::dual_mortar)},
           {"augmented lagrange of standard mortar", augmented(Coupling::standard_mortar)}};
+}
+
+/// Whether a formulation is there for surfaces in space.
+inline bool in_space(const NamedFormulation& formulation) {
+  const Coupling coupling = formulation.options->coupling();
+  return coupling != Coupling::node_to_segment && coupling != Coupling::variational_mortar;
 }
 
 }  // namespace mortise::test

@@ -53,6 +53,49 @@ inline void expect_exact_derivatives(const Surfaces& surfaces, SurfacePair* pair
     }
 }
 
+/// Second derivatives of a sum of the gaps, against differences of the first ones. Of a pair of variational mortar evaluated on one rank with
+/// derivatives.
+inline void expect_exact_curvatures(const Surfaces& surfaces, SurfacePair* pair) {
+  ASSERT_FALSE(pair->failure);
+  const std::size_t count = surfaces.points.size();
+  const auto size = static_cast<Eigen::Index>(2 * count);
+  std::vector<double> pressures;
+  for (std::size_t s = 0; s < surfaces.slaves; ++s) pressures.push_back(1.0 + 0.7 * disorder(5 * s + 1));
+  Eigen::VectorXd of_nodes = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(surfaces.slaves));  // by id
+  for (std::size_t s = 0; s < surfaces.slaves; ++s) of_nodes[pair->interface->slave_nodes()[s].id] = pressures[s];
+  const Eigen::Index first_gap = static_cast<Eigen::Index>(surfaces.slaves * count);
+  const auto gradient = [&] { return Eigen::VectorXd(of_nodes.transpose() * pair->dense_derivative().middleRows(first_gap, of_nodes.size())); };
+
+  MultiVector x(pair->interface->local_nodes(), 2);
+  const auto id = [&](LocalOrdinal local) { return static_cast<std::size_t>(x.getMap()->getGlobalElement(local)); };
+  for (LocalOrdinal n = 0; n < static_cast<LocalOrdinal>(x.getLocalLength()); ++n)
+    for (int i = 0; i < 2; ++i) x.replaceLocalValue(n, static_cast<std::size_t>(i), surfaces.points[id(n)][i]);
+  Eigen::MatrixXd exact = Eigen::MatrixXd::Zero(size, size), difference = exact;
+  for (const GapCurvature& facet : pair->interface->gap_curvatures(x, pressures))
+    for (std::size_t a = 0; a < facet.columns.size(); ++a)
+      for (std::size_t b = 0; b < facet.columns.size(); ++b)
+        exact.block<2, 2>(2 * static_cast<Eigen::Index>(id(facet.columns[a])), 2 * static_cast<Eigen::Index>(id(facet.columns[b]))) +=
+            facet.hessian.block<2, 2>(2 * static_cast<Eigen::Index>(a), 2 * static_cast<Eigen::Index>(b));
+
+  const double h = 1e-6;
+  auto points = surfaces.points;
+  for (Eigen::Index c = 0; c < size; ++c) {
+    double& coordinate = points[static_cast<std::size_t>(c / 2)][c % 2];
+    const double at = coordinate;
+    coordinate = at + h;
+    pair->evaluate(points, true);
+    difference.col(c) = gradient() / (2.0 * h);
+    coordinate = at - h;
+    pair->evaluate(points, true);
+    difference.col(c) -= gradient() / (2.0 * h);
+    coordinate = at;
+  }
+  const double scale = exact.cwiseAbs().maxCoeff();
+  EXPECT_GT(scale, 0.0);
+  EXPECT_LT((exact - difference).cwiseAbs().maxCoeff(), 1e-6 * scale);
+  EXPECT_LT((exact - exact.transpose()).cwiseAbs().maxCoeff(), 1e-12 * scale);
+}
+
 inline void expect_exact_derivatives(const Surfaces& surfaces) { expect_exact_derivatives(surfaces, evaluated(surfaces, true).get()); }
 
 }  // namespace mortise::test

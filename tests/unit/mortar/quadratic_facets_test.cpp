@@ -74,6 +74,13 @@ class QuadraticFacets : public ::testing::TestWithParam<std::size_t> {};
 
 TEST_P(QuadraticFacets, DerivativesAgreeWithCentralDifferences) { expect_exact_derivatives(cases()[GetParam()].surfaces); }
 
+TEST_P(QuadraticFacets, SecondDerivativesAgreeWithDifferencesOfFirstOnes) {
+  Surfaces surfaces = cases()[GetParam()].surfaces;
+  if (surfaces.dim > 2 || surfaces.options.coupling != Coupling::dual_mortar) return;
+  surfaces.options.coupling = Coupling::variational_mortar;
+  expect_exact_curvatures(surfaces, evaluated(surfaces, true).get());
+}
+
 // Also: a middle acts on corners, nothing else off the diagonal but nodes without multiplier.
 TEST_P(QuadraticFacets, RowsOfDAndMAgree) {
   const Surfaces surfaces = cases()[GetParam()].surfaces;

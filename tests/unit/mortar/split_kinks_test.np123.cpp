@@ -87,6 +87,18 @@ TEST(SplitKinks, HasExactDerivatives) {
         }
 }
 
+TEST(SplitKinks, HasExactSecondDerivatives) {
+  for (const double angle : {35.0, 70.0})
+    for (const bool curved : {false, true}) {
+      TwoLines lines = uneven(angle);
+      lines.options.coupling = Coupling::variational_mortar;
+      const Surfaces surfaces = curved ? quadratic(lines, true, false, 0.02) : Surfaces(lines);
+      SurfacePair pair(surfaces, alone());
+      ASSERT_TRUE(split(pair, surfaces.points));
+      expect_exact_curvatures(surfaces, &pair);
+    }
+}
+
 TEST(SplitKinks, GiveTheValuesOfOneRank) {
   const auto comm = Tpetra::getDefaultComm();
   for (const double balance : {1.0, 100.0}) {

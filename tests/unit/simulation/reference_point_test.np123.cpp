@@ -190,7 +190,7 @@ INSTANTIATE_TEST_SUITE_P(InSpace, ReferencePoints, testing::ValuesIn(space_cases
 /// The same with multipliers that stay unknowns, and with conditions that give them.
 std::vector<Case> other_formulations() {
   std::vector<Case> all;
-  for (const std::string formulation : {"standard mortar", "node to segment", "penalty"})
+  for (const std::string formulation : {"standard mortar", "variational mortar", "node to segment", "penalty"})
     for (const std::size_t i : {std::size_t{0}, std::size_t{2}, cases.size() - 1}) {
       Case one = cases[i];
       one.name += ", " + formulation;

@@ -19,9 +19,10 @@ class InterfaceImplementation;
 
 /// What a slave node's multiplier acts through.
 enum class Coupling {
-  dual_mortar,      ///< integrals over both surfaces' overlap, phi_j dual to N_j: D is diagonal
-  standard_mortar,  ///< the same integrals with phi_j = N_j, the gap weighted by N_j
-  node_to_segment   ///< the master facet that the line along the nodal normal meets: phi_j is a point load of the node's share of the surface
+  dual_mortar,         ///< integrals over both surfaces' overlap, phi_j dual to N_j: D is diagonal
+  standard_mortar,     ///< the same integrals with phi_j = N_j, the gap weighted by N_j
+  variational_mortar,  ///< those of standard mortar, with second derivatives of the gap; in the plane
+  node_to_segment      ///< the master facet that the line along the nodal normal meets: phi_j is a point load of the node's share of the surface
 };
 
 /// Which functions weight the gap.
@@ -78,6 +79,12 @@ struct FacetCoupling {
 /// int N_k (Ñ_k) over the covered part of the facet, for all its nodes k, whoever has multipliers: columns of D summed.
 FacetVector covered_weights(int dimension, const FacetCoupling& coupling);
 
+/// What one slave facet adds to the Hessian of a weighted sum of all weighted gaps.
+struct GapCurvature {
+  std::vector<LocalOrdinal> columns;  ///< local nodes, as in FacetCoupling
+  Eigen::MatrixXd hessian;            ///< [dim x columns squared]
+};
+
 /// Averaged unit normal of an owned slave node and its derivative.
 struct NodalNormal {
   SpatialVector normal;
@@ -114,7 +121,8 @@ class MortarInterface {
   /// @param slave          every slave facet with a node owned by this rank (so a facet may stand on two ranks)
   /// @param master         the master facets of this rank, each on exactly one rank
   /// @throws InputError (at `place`) for a slave facet whose nodes, or middles of edges, all lack a multiplier ("make this side the master"), a
-  ///         facet of zero length, an empty surface, a node on both sides, quadratic facets with node to segment
+  ///         facet of zero length, an empty surface, a node on both sides, quadratic facets with node to segment, variational mortar in space or
+  ///         without the normals' derivatives
   MortarInterface(RCP<const Map> owned_nodes, RCP<const MultiVector> reference, RCP<const MultiVector> fixed, const SurfaceFacets& slave,
                   const SurfaceFacets& master, const InterfaceMeasure& measure, const MortarOptions& options, const Place& place);
   ~MortarInterface();
@@ -154,8 +162,8 @@ class MortarInterface {
   const std::vector<LocalOrdinal>& coupled_nodes(std::size_t s) const;
 
   /// For owned slave node s: the nodes on which its multiplier may act, the rows of its column of D^T and M^T: itself, its facets' nodes
-  /// without multiplier (all of them with standard multipliers), corners where it is the middle of an edge, and master nodes. A part of
-  /// coupled_nodes(s).
+  /// without multiplier (all of them with standard multipliers), corners where it is the middle of an edge, and master nodes. Variational mortar: all
+  /// whose positions its gap depends on. A part of coupled_nodes(s).
   const std::vector<LocalOrdinal>& loaded_nodes(std::size_t s) const;
 
   /// Facet couplings of all facets that touch an owned slave node and overlap a master facet, and the normals of the owned slave nodes
@@ -164,6 +172,10 @@ class MortarInterface {
   /// other ranks are then incomplete.
   void evaluate(const MultiVector& x, bool derivatives, std::vector<FacetCoupling>& couplings, std::vector<NodalNormal>& normals,
                 std::optional<StepFailure>& failure) const;
+
+  /// Variational mortar: second derivatives of sum_j pressures_j g_j over the owned slave nodes j, at the positions of the last evaluate(), which met
+  /// no failure. Each rank integrates the facets of its own nodes for them: nothing is sent.
+  std::vector<GapCurvature> gap_curvatures(const MultiVector& x, const std::vector<double>& pressures) const;
 
   /// Collective. For some owned slave nodes (indices into slave_nodes()) the distance along the given unit normals, at positions `x`
   /// [owned nodes x 2, finite], of the nearest master facet that faces the normal; negative: it stands behind the node, which has gone through

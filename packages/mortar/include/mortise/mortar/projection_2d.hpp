@@ -100,11 +100,11 @@ std::optional<ClippedProjection> project_back(const SlaveLine<double, nodes>& sl
   }
 }
 
-/// The root `xi` of project_back with its derivatives: one Newton step in S from the root as a constant is exact to first order,
-///   xi - F(xi) / F'(xi),  dxi = -dF / F'.
+/// The root of project_back with its derivatives: one Newton step in S from the root as a constant is exact to first order,
+///   xi - F(xi) / F'(xi),  dxi = -dF / F';
+/// a second one, from there, to third order.
 template <class S, int nodes>
-S lift_root(const SlaveLine<S, nodes>& slave, const Point2<S>& y, double xi) {
-  const S root(xi);
+S lift_root(const SlaveLine<S, nodes>& slave, const Point2<S>& y, const S& root) {
   const Point2<S> offset = difference(y, interpolate(slave.x, root)), normal = interpolate(slave.normal, root);
   const S F = cross(offset, normal);
   const S F_xi = cross(offset, slope(slave.normal, root)) - cross(slope(slave.x, root), normal);

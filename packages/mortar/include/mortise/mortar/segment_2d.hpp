@@ -1,5 +1,5 @@
 #pragma once
-// The integrals over the overlap of one slave and one master facet in 2D, and their exact first derivatives.
+// The integrals over the overlap of one slave and one master facet in 2D, and their exact derivatives.
 
 #include <Eigen/Core>
 #include <array>
@@ -63,5 +63,18 @@ struct SegmentIntegrals {
 /// @throws StepFailure as project_onto()
 void integrate_segment(const SlaveCurve& slave, const LinePoints& master, const Overlap& overlap, const Interval& basis,
                        const InterfaceMeasure& measure, const std::vector<LinePoint>& rule, bool derivatives, SegmentIntegrals& result);
+
+/// int (sum_a weights_a N_a) g over an overlap, with its gradient and Hessian with respect to slave positions, nodal normals, master positions (two
+/// components each).
+struct WeightedGap {
+  double value = 0.0;
+  Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 18, 1> gradient;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 18, 18> hessian;
+};
+
+/// @param weights  [slave nodes]
+/// @throws StepFailure as project_onto()
+WeightedGap weighted_gap(const SlaveCurve& slave, const LinePoints& master, const Overlap& overlap, const FacetVector& weights,
+                         const InterfaceMeasure& measure, const std::vector<LinePoint>& rule);
 
 }  // namespace mortise

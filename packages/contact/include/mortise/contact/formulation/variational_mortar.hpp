@@ -1,0 +1,15 @@
+#pragma once
+
+#include "mortise/contact/formulation.hpp"
+
+namespace mortise {
+
+/// Standard mortar whose normal forces are the derivatives of the weighted gaps, f = -z_n dg_j/dd: they do no work as long as gaps stay closed. In
+/// the plane.
+struct VariationalMortar : Formulation {
+  void describe(Parameters&) override {}
+  Coupling coupling() const override { return Coupling::variational_mortar; }
+  Elimination elimination() const override { return Elimination::none; }
+};
+
+}  // namespace mortise
