@@ -2,20 +2,41 @@
 
 #include <NOX_Solver_Generic.H>
 
+#include <cmath>
+
 #include "semi_smooth_newton_group.hpp"
 
 namespace mortise::detail {
+namespace {
+constexpr double sufficient_decrease = 1e-4;
+
+/// Steps in a row that are shortened with nodes in contact; the next one is not.
+constexpr int most_shortened = 3;
+}  // namespace
 
 bool Backtracking::compute(NOX::Abstract::Group& group, double& step, const NOX::Abstract::Vector& direction, const NOX::Solver::Generic& solver) {
-  constexpr double sufficient_decrease = 1e-4;
   auto& iterate = dynamic_cast<SemiSmoothNewtonGroup&>(group);
-  const NOX::Abstract::Group& before = solver.getPreviousSolutionGroup();
-  for (step = 1.0; step >= smallest_step_length; step *= 0.5) {
+  const auto& before = dynamic_cast<const SemiSmoothNewtonGroup&>(solver.getPreviousSolutionGroup());
+  const auto try_step = [&](double length) {
+    step = length;
     iterate.computeX(before, direction, step);
     iterate.computeF();
-    if (iterate.getNormF() <= (1.0 - sufficient_decrease * step) * before.getNormF() || is_below_tolerances(iterate.norms())) return true;
+    return std::isfinite(iterate.getNormF());
+  };
+  const bool is_stuck = shortened_ == most_shortened;
+  double longest = 0.0;  // that can be evaluated
+  for (double length = 1.0; length >= smallest_step_length; length *= 0.5) {
+    if (!try_step(length)) continue;
+    if (longest == 0.0) longest = length;
+    const bool falls = iterate.getNormF() <= (1.0 - sufficient_decrease * length) * before.getNormF();
+    if (!falls && !is_stuck && !is_below_tolerances(iterate.norms())) continue;
+    shortened_ = length < longest && iterate.norms().active > 0 ? shortened_ + 1 : 0;
+    return true;
   }
   if (iterate.failure()) throw *iterate.failure();
+  shortened_ = 0;
+  const bool is_at_kink = iterate.norms().active_set != before.norms().active_set;
+  if (is_at_kink) return try_step(longest);
   step = 0.0;
   return false;
 }

@@ -21,7 +21,7 @@ enum class LineSearch {
 
 /// When a Newton solve is done, and when it is given up.
 struct NewtonOptions {
-  int maximum_iterations = 20;
+  int maximum_iterations = 30;
   double momentum_tolerance = 1e-9;         ///< |r| / max(|f_int|, |f_ext|, |f_c|)
   double gap_tolerance = 1e-9;              ///< |g_j| / (A_j h) of closed nodes
   double complementarity_tolerance = 1e-9;  ///< |C| / max |z|
