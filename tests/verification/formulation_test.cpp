@@ -50,7 +50,7 @@ TEST(SlidingBlock, NormalForcesOfVariationalMortarLoseWorkToStepsOnly) {
     std::vector<double> errors;
     for (const int steps : {60, 240}) {
       const Outcome outcome = run("verification/sliding_block.xml", "block " + type + std::to_string(steps),
-                                  {"contact/joint/formulation/type=" + type, "stepping/step=1/" + std::to_string(steps)});
+                                  {"contact/joint/formulation/type=" + type, "stepping/step=1/" + std::to_string(steps), "checks/work/low=-1"});
       EXPECT_EQ(outcome.code, done) << outcome.said;
       errors.push_back(std::abs(outcome.quantities.at("energy_error").get<double>()));
     }
