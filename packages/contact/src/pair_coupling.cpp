@@ -18,6 +18,7 @@ PairCoupling::PairCoupling(RCP<const Map> owned_nodes, RCP<const MultiVector> re
                                                  pair_.place);
   size_ = interface_->shortest_facet();
   rows_.resize(slave_nodes().size());
+  if (variational()) openings_.resize(rows_.size());
   for (NodeRow& row : rows_) row.slip = TangentVector::Zero(dimension_ - 1);
   for (const SlaveNode& node : slave_nodes()) {
     const auto first_fixed = std::find(node.fixed.begin(), node.fixed.end(), true);
@@ -47,7 +48,7 @@ bool PairCoupling::covered(std::size_t s) const {
 
 SpatialVector PairCoupling::resultant(std::size_t s, const SpatialVector& z) const {
   const SpatialVector coupled = rows_[s].covered * coupled_part(s, z);
-  return variational() ? SpatialVector(coupled + gap_pressure(s, z) * rows_[s].opening) : coupled;
+  return variational() ? SpatialVector(coupled + gap_pressure(s, z) * openings_[s]) : coupled;
 }
 
 std::vector<GapCurvature> PairCoupling::gap_curvatures(const std::vector<double>& pressures) const {
@@ -192,7 +193,7 @@ void PairCoupling::sum_to_rows(bool derivatives) {
     const std::vector<LocalOrdinal>& coupled = interface_->coupled_nodes(s);
     NodeRow& row = rows_[s];
     row.D = row.covered = row.gap = 0.0;
-    if (variational()) row.opening = SpatialVector::Zero(dimension_);
+    if (variational()) openings_[s] = SpatialVector::Zero(dimension_);
     row.coefficients.assign(coupled.size(), 0.0);
     row.dgap.assign(derivatives ? dimension_ * coupled.size() : 0, 0.0);
     row.dnormal.setZero(dimension_, derivatives ? dimension_ * static_cast<Eigen::Index>(coupled.size()) : 0);
@@ -211,7 +212,7 @@ void PairCoupling::sum_to_rows(bool derivatives) {
           row.dgap[dimension_ * position_in_row_[facet->columns[c]] + i] += facet->dgap(j, dimension_ * static_cast<Eigen::Index>(c) + i);
       if (variational())  // master nodes are the last columns
         for (std::size_t c = facet->columns.size() - facet->master.size(); c < facet->columns.size(); ++c)
-          row.opening += facet->dgap.block(j, dimension_ * static_cast<Eigen::Index>(c), 1, dimension_).transpose();
+          openings_[s] += facet->dgap.block(j, dimension_ * static_cast<Eigen::Index>(c), 1, dimension_).transpose();
     }
     row.normal = normals_[s].normal;
     if (axes_[s] < 0) axes_[s] = transverse_axis(row.normal);
@@ -278,7 +279,7 @@ void PairCoupling::freeze() {
     NodeRow& row = rows_[s];
     frozen_gap_[s] = row.gap;
     row.dnormal.setZero();
-    if (variational()) row.opening = row.covered * row.normal;
+    if (variational()) openings_[s] = row.covered * row.normal;
     if (regularisation_) row.dcovered.assign(row.dgap.size(), 0.0);
     if (!dual) continue;
     const std::vector<LocalOrdinal>& coupled = interface_->coupled_nodes(s);

@@ -29,7 +29,6 @@ struct NodeRow {
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 2>
       dslip;                  ///< [tangents x dim coupled nodes]; empty without derivatives or friction
   PositionGradient dcovered;  ///< regularised pairs only
-  SpatialVector opening;      ///< variational mortar only: derivative of the gap by a translation of the master
 };
 
 /// What a slip is measured against: the couplings of a slave node in an accepted state.
@@ -162,7 +161,8 @@ class PairCoupling {
   std::vector<FacetCoupling> couplings_;
   std::vector<NodalNormal> normals_;
   std::vector<NodeRow> rows_;
-  std::vector<double> accepted_cover_;                 ///< [slave nodes] by the node's weight; empty where nobody hands over
+  std::vector<SpatialVector> openings_;  ///< of slave nodes, variational mortar only: derivative of the gap by a translation of the master
+  std::vector<double> accepted_cover_;   ///< [slave nodes] by the node's weight; empty where nobody hands over
   std::vector<Facet<LocalOrdinal>> nearest_accepted_;  ///< [slave nodes] facet of the node nearest to the master; empty where kinks stay
   const FrictionLaw* friction_ = nullptr;
   std::vector<SlipHistory> slip_;  ///< [slave nodes]; empty without friction
