@@ -56,9 +56,10 @@ LinearSolveReport SemiSmoothSystem::Implementation::solve_reduced(const RCP<Matr
 //   ( K + C~  B ) dd   -r
 //   ( C_d   C_z ) dz = -C    with the rows of C as forces, A_j C.   With followers dd = T dq + d0 the first rows are multiplied by T^T.
 LinearSolveReport SemiSmoothSystem::Implementation::solve_saddle_point(const Vector& d, const Vector& z, const Vector& r, const Vector& C,
-                                                                       const Vector& increment, Vector& dd, Vector& dz) {
+                                                                       const Vector& increment, GeometricContactStiffness geometric_stiffness,
+                                                                       Vector& dd, Vector& dz) {
   open_matrix();
-  parts.contact->add_stiffness(z, *matrix);
+  if (geometric_stiffness == GeometricContactStiffness::included) parts.contact->add_stiffness(z, *matrix);
   matrix->fillComplete(parts.dofs, parts.dofs);
   const ContactSystem::SaddlePointBlocks blocks = parts.contact->saddle_point_blocks(z);
   const RCP<const Vector> weights = parts.contact->weights();
@@ -108,7 +109,8 @@ LinearSolveReport SemiSmoothSystem::Implementation::solve_saddle_point(const Vec
 // The free rows of J dx = -F condensed to (K~ condensed) dd = rhs, then reduced to the unknowns if some displacements follow others. The
 // prescribed rows s dd = -s (d - prescribed) are solved at once, their columns go to the right-hand side; contact's recovery needs the whole dd.
 // Where a formulation keeps its multipliers the whole system is solved as it is.
-LinearSolveReport SemiSmoothSystem::newton_direction(const Vector& F, Vector& direction, double tolerance) {
+LinearSolveReport SemiSmoothSystem::newton_direction(const Vector& F, Vector& direction, double tolerance,
+                                                     GeometricContactStiffness geometric_stiffness) {
   Implementation& self = *implementation_;
   self.tolerance = tolerance;
   self.evaluate_at_jacobian();
@@ -126,7 +128,8 @@ LinearSolveReport SemiSmoothSystem::newton_direction(const Vector& F, Vector& di
     const auto rows = residual->getLocalViewHost(Tpetra::Access::ReadOnly);
     for (const LocalOrdinal row : self.fixed) step(row, 0) = -rows(row, 0) / self.stiffness_scale;
   }
-  if (self.saddle_point) return self.solve_saddle_point(*d, *z, r, *multipliers(F), prescribed_increment, *dd, *multipliers(direction));
+  if (self.saddle_point)
+    return self.solve_saddle_point(*d, *z, r, *multipliers(F), prescribed_increment, geometric_stiffness, *dd, *multipliers(direction));
   Vector rhs(r, Teuchos::Copy);
   rhs.scale(-1.0);
 
@@ -136,7 +139,7 @@ LinearSolveReport SemiSmoothSystem::newton_direction(const Vector& F, Vector& di
     parts.contact->add_contact_force(*z, self.contact_force);
     rhs.update(1.0, self.contact_force, 1.0);
     self.open_matrix();
-    parts.contact->add_stiffness(*z, *matrix);
+    if (geometric_stiffness == GeometricContactStiffness::included) parts.contact->add_stiffness(*z, *matrix);
     parts.contact->condense(*z, *matrix, rhs);
   } else if (!self.reduction) {
     self.open_matrix();

@@ -9,6 +9,9 @@
 namespace mortise::detail {
 namespace {
 
+/// Share of the closed nodes of which the states may still change where the geometric stiffness of contact is worth having.
+constexpr double settled = 0.25;
+
 using Extraction = ::Thyra::TpetraOperatorVectorExtraction<Scalar, LocalOrdinal, GlobalOrdinal, NodeType>;
 
 RCP<NOX::Thyra::Vector> cloned(const NOX::Thyra::Vector& vector, NOX::CopyType type) {
@@ -125,11 +128,16 @@ double SemiSmoothNewtonGroup::linear_tolerance(double forcing) const {
   return std::clamp(std::max(forcing, sufficient), tolerances->least, tolerances->largest);
 }
 
+// Where geometry stands still the next multipliers follow from the states of the nodes, whatever the last ones are. Those may be a thousand times too
+// large as long as the states are wrong, and so would be their geometric stiffness: it has to wait for the states to settle.
 NOX::Abstract::Group::ReturnType SemiSmoothNewtonGroup::computeNewton(Teuchos::ParameterList& list) {
   if (has_newton_) return Ok;
   if (!has_F_ || !isJacobian()) return BadDependency;
   const double tolerance = linear_tolerance(list.get("Tolerance", 0.0));
-  newton_solve_ = system_->newton_direction(*tpetra_vector(static_cast<const NOX::Abstract::Vector&>(*F_)), *tpetra_vector(*newton_), tolerance);
+  const auto geometric_stiffness =
+      norms_.changed <= settled * norms_.active ? GeometricContactStiffness::included : GeometricContactStiffness::left_out;
+  newton_solve_ = system_->newton_direction(*tpetra_vector(static_cast<const NOX::Abstract::Vector&>(*F_)), *tpetra_vector(*newton_), tolerance,
+                                            geometric_stiffness);
   shortened_ = 1.0;
   if (const auto& limit = shared_->control.largest_increment) {
     const double increment = system_->displacement(*tpetra_vector(static_cast<const NOX::Abstract::Vector&>(*newton_)))->normInf();

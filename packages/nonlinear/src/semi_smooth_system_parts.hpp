@@ -156,8 +156,8 @@ struct SemiSmoothSystem::Implementation {
                           const MultigridInput& multigrid, Vector& x);
   LinearSolveReport solve_reduced(const RCP<Matrix>& matrix, const Vector& d, const Vector& r, const Vector& increment, Vector& rhs,
                                   const MultigridInput& multigrid, Vector& dd);
-  LinearSolveReport solve_saddle_point(const Vector& d, const Vector& z, const Vector& r, const Vector& C, const Vector& increment, Vector& dd,
-                                       Vector& dz);
+  LinearSolveReport solve_saddle_point(const Vector& d, const Vector& z, const Vector& r, const Vector& C, const Vector& increment,
+                                       GeometricContactStiffness geometric_stiffness, Vector& dd, Vector& dz);
   void match_elimination(const RCP<const Graph>& graph, const std::vector<LocalOrdinal>& prescribed);
 
   void evaluate_at_jacobian() {

@@ -101,6 +101,43 @@ TEST_P(ContactFormulation, DirectionSolvesTheSaddlePointSystem) {
   }
 }
 
+// J without C~ solves its system: what it leaves of the whole one is C~ dd = d(f_c)/dd dd at fixed multipliers, as differences find it.
+TEST_P(ContactFormulation, DirectionWithoutGeometricStiffnessLeavesThatAlone) {
+  Problem problem(Tpetra::getDefaultComm(), choose(pressed(0.2, 0.1)));
+  SemiSmoothSystem& system = *problem.system;
+  system.set_time(1.0);
+  mix_states(problem);
+  Vector F(system.map()), direction(system.map()), J_dx(system.map());
+  ResidualNorms norms;
+  system.residual(*problem.x, F, norms);
+  system.jacobian(*problem.x);
+  system.newton_direction(F, direction, 0.0, GeometricContactStiffness::left_out);
+  system.apply(direction, J_dx);
+  J_dx.update(1.0, F, 1.0);
+
+  ContactSystem& contact = *system.parts().contact;
+  const RCP<const Vector> d = system.displacement(std::as_const(*problem.x)), z = system.multipliers(std::as_const(*problem.x)),
+                          dd = system.displacement(std::as_const(direction));
+  Vector change(d->getMap());
+  const double h = 1e-6 / dd->normInf();
+  for (const double sign : {1.0, -1.0}) {
+    Vector moved(*d, Teuchos::Copy), force(d->getMap());
+    moved.update(sign * h, *dd, 1.0);
+    std::optional<StepFailure> failure;
+    contact.evaluate(moved, false, failure);
+    ASSERT_FALSE(failure);
+    contact.add_contact_force(*z, force);
+    change.update(sign / (2.0 * h), force, 1.0);
+  }
+  const double size = change.norm2();
+  EXPECT_GT(size, 1e-3 * F.norm2());
+  Vector left(*system.displacement(std::as_const(J_dx)), Teuchos::Copy);
+  EXPECT_LE(system.multipliers(std::as_const(J_dx))->norm2(), 1e-11 * F.norm2());
+  for (const LocalOrdinal dof : system.parts().prescribed->dofs()) change.replaceLocalValue(dof, 0.0);  // their rows are not momentum
+  left.update(-1.0, change, 1.0);
+  EXPECT_LE(left.norm2(), 1e-6 * size);
+}
+
 struct Solved {
   NewtonReport report;
   double reaction[2][2] = {};  // of the lower and the upper edge

@@ -40,6 +40,9 @@ struct SystemParts {
   double length = 1.0;  ///< size of the model
 };
 
+/// Whether a direction knows how the forces of given multipliers change with the geometry of contact, d(f_c)/dd at fixed z.
+enum class GeometricContactStiffness { included, left_out };
+
 /// F, J and the Newton step of x = (d, z). Stateless but for buffers: everything is a function of x, time and committed history.
 /// The stiffness scale s of the Dirichlet rows is the mean |diagonal| of the first stiffness that is assembled, and stays.
 /// Collective in all members but the accessors and views.
@@ -70,9 +73,11 @@ class SemiSmoothSystem {
   /// y = J v by the saddle point blocks, at the x of the last jacobian().
   void apply(const Vector& v, Vector& y) const;
   /// Newton direction: solves J dx = -F at the x of the last jacobian(), by condensation or, where the contact keeps multipliers, as a saddle point
-  /// system. F is F(x): a condensing contact forms the rows of C itself. `tolerance`: see LinearSolver::solve(). Throws StepFailure(linear_solver) on
-  /// every rank.
-  LinearSolveReport newton_direction(const Vector& F, Vector& direction, double tolerance = 0.0);
+  /// system. F is F(x): a condensing contact forms the rows of C itself. `tolerance`: see LinearSolver::solve(). Without the geometric stiffness of
+  /// contact it is not Newton's direction but one that where contact's geometry stands still depends on the states of the nodes alone and not on
+  /// their multipliers. Throws StepFailure(linear_solver) on every rank.
+  LinearSolveReport newton_direction(const Vector& F, Vector& direction, double tolerance = 0.0,
+                                     GeometricContactStiffness geometric_stiffness = GeometricContactStiffness::included);
 
   /// After a Newton solve that ended in x: whether augmented Lagrange multipliers were updated, so that it has to be repeated. `round` counts from 1
   /// within a step. Throws StepFailure(augmentation) on every rank if there were too many.
