@@ -2,6 +2,7 @@
 
 #include <NOX_Solver_Generic.H>
 
+#include <algorithm>
 #include <cmath>
 
 #include "semi_smooth_newton_group.hpp"
@@ -9,6 +10,9 @@
 namespace mortise::detail {
 namespace {
 constexpr double sufficient_decrease = 1e-4;
+
+/// Share of the longest step below which none is taken where the longest one changes states.
+constexpr double shortest_beside_kinks = 1.0 / 32.0;
 
 /// Steps in a row that are shortened with nodes in contact; the next one is not.
 constexpr int most_shortened = 3;
@@ -24,10 +28,15 @@ bool Backtracking::compute(NOX::Abstract::Group& group, double& step, const NOX:
     return std::isfinite(iterate.getNormF());
   };
   const bool is_stuck = shortened_ == most_shortened;
-  double longest = 0.0;  // that can be evaluated
-  for (double length = 1.0; length >= smallest_step_length; length *= 0.5) {
+  double longest = 0.0, shortest = smallest_step_length;  // that can be evaluated; that is worth taking
+  bool changes_states = false;                            // the longest
+  for (double length = 1.0; length >= shortest; length *= 0.5) {
     if (!try_step(length)) continue;
-    if (longest == 0.0) longest = length;
+    if (longest == 0.0) {
+      longest = length;
+      changes_states = iterate.norms().active_set != before.norms().active_set;
+      if (changes_states) shortest = std::max(shortest, shortest_beside_kinks * longest);
+    }
     const bool falls = iterate.getNormF() <= (1.0 - sufficient_decrease * length) * before.getNormF();
     if (!falls && !is_stuck && !is_below_tolerances(iterate.norms())) continue;
     shortened_ = length < longest && iterate.norms().active > 0 ? shortened_ + 1 : 0;
@@ -35,8 +44,7 @@ bool Backtracking::compute(NOX::Abstract::Group& group, double& step, const NOX:
   }
   if (iterate.failure()) throw *iterate.failure();
   shortened_ = 0;
-  const bool is_at_kink = iterate.norms().active_set != before.norms().active_set;
-  if (is_at_kink) return try_step(longest);
+  if (changes_states) return try_step(longest);
   step = 0.0;
   return false;
 }

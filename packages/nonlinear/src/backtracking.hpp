@@ -13,13 +13,14 @@ constexpr double smallest_step_length = 1.0 / 1024.0;
 
 /// Halves a step until the merit m falls: m(x + lambda dx) <= (1 - 1e-4 lambda) m(x). An iterate that cannot be evaluated counts as infinite; one
 /// whose residual is below all tolerances is taken, as what is left of it is round-off. The merit has kinks where contact changes its state
-/// or friction its direction, and beside one of them it may rise along any step or fall by next to nothing: where even the smallest step changes a
-/// state, or three steps in a row were shortened with nodes in contact, the longest one that can be evaluated is taken, to get away from there.
+/// or friction its direction, and beside one of them it may rise along any step or fall by next to nothing. So the longest step that can be evaluated
+/// is taken where it changes states and none of 1/32 of it or more makes the merit fall, and after three steps in a row that were shortened with
+/// nodes in contact, to get away from there.
 class Backtracking : public NOX::LineSearch::Generic {
  public:
   explicit Backtracking(const NewtonOptions& options) : options_(options) {}
 
-  /// @returns false, and a step of 0, where no step makes the merit fall and none changes a state
+  /// @returns false, and a step of 0, where no step makes the merit fall and the longest changes no state
   /// @throws StepFailure where the smallest one cannot be evaluated
   bool compute(NOX::Abstract::Group& group, double& step, const NOX::Abstract::Vector& direction, const NOX::Solver::Generic& solver) override;
 
