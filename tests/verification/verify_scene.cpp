@@ -44,10 +44,19 @@ Arguments parse(int argc, char** argv) {
   return arguments;
 }
 
-/// Newton iterations of each step.
+/// A last iteration that moves nothing by more than this share of the step's first correction only confirmed the iterate before it.
+constexpr double confirmation = 1e-8;
+
+/// Newton iterations of each step, but for one that only confirmed: whether it is needed may be round-off's choice where a residual stands at the
+/// bound.
 std::vector<std::size_t> newton_counts(const Json& summary) {
   std::vector<std::size_t> counts;
-  for (const auto& step : summary.at("steps")) counts.push_back(step.at("newton").size());
+  for (const auto& step : summary.at("steps")) {
+    const Json& iterates = step.at("newton");
+    const auto correction = [&](std::size_t iteration) { return iterates.at(iteration).at("increment").get<double>(); };
+    const std::size_t last = iterates.size() - 1;
+    counts.push_back(last > 1 && correction(last) <= confirmation * correction(1) ? last - 1 : last);
+  }
   return counts;
 }
 
