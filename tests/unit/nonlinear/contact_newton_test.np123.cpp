@@ -34,6 +34,16 @@ void mix_states(Problem& problem) {
   for (const GlobalOrdinal id : z->getMap()->getNodeElementList()) z->replaceGlobalValue(id, 0.05 * std::cos(1.1 * (id / 2)) - 0.01 * (id % 2));
 }
 
+// F and J at such an iterate.
+void prepare_with_mixed_states(Problem& problem, Vector& F) {
+  SemiSmoothSystem& system = *problem.system;
+  system.set_time(1.0);
+  mix_states(problem);
+  ResidualNorms norms;
+  system.residual(*problem.x, F, norms);
+  system.jacobian(*problem.x);
+}
+
 std::vector<test::NamedFormulation> formulations() {
   std::vector<test::NamedFormulation> all = test::other_formulations();
   all.insert(all.begin(), {"dual mortar", nullptr});
@@ -86,12 +96,8 @@ TEST_P(ContactFormulation, JacobianAgreesWithCentralDifferences) {
 TEST_P(ContactFormulation, DirectionSolvesTheSaddlePointSystem) {
   Problem problem(Tpetra::getDefaultComm(), choose(pressed(0.2, 0.1)));
   SemiSmoothSystem& system = *problem.system;
-  system.set_time(1.0);
-  mix_states(problem);
   Vector F(system.map()), direction(system.map()), J_dx(system.map());
-  ResidualNorms norms;
-  system.residual(*problem.x, F, norms);
-  system.jacobian(*problem.x);
+  prepare_with_mixed_states(problem, F);
   for (int repetition = 0; repetition < 2; ++repetition) {
     system.newton_direction(F, direction);
     system.apply(direction, J_dx);
@@ -105,12 +111,8 @@ TEST_P(ContactFormulation, DirectionSolvesTheSaddlePointSystem) {
 TEST_P(ContactFormulation, DirectionWithoutGeometricStiffnessLeavesThatAlone) {
   Problem problem(Tpetra::getDefaultComm(), choose(pressed(0.2, 0.1)));
   SemiSmoothSystem& system = *problem.system;
-  system.set_time(1.0);
-  mix_states(problem);
   Vector F(system.map()), direction(system.map()), J_dx(system.map());
-  ResidualNorms norms;
-  system.residual(*problem.x, F, norms);
-  system.jacobian(*problem.x);
+  prepare_with_mixed_states(problem, F);
   system.newton_direction(F, direction, 0.0, GeometricContactStiffness::left_out);
   system.apply(direction, J_dx);
   J_dx.update(1.0, F, 1.0);
