@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "checks.hpp"
 #include "implementation.hpp"
@@ -95,6 +96,11 @@ ContactSystem::ContactSystem(RCP<const Map> owned_nodes, RCP<const Map> dofs, RC
       for (int i = 0; i < self.dimension; ++i) ids.push_back(offset + self.dimension * slave.id + i);
     }
     self.multiplier_of.push_back(std::move(first));
+    std::set<LocalOrdinal> masters;
+    for (const auto& facet : pair->definition().master)
+      for (const GlobalOrdinal node : facet)
+        if (const LocalOrdinal owned = self.owned_nodes->getLocalElement(node); owned >= 0) masters.insert(owned);
+    self.master_nodes.emplace_back(masters.begin(), masters.end());
     self.marked.emplace_back(pair->slave_nodes().size(), ContactState::open);
     self.accepted.emplace_back(pair->slave_nodes().size(), ContactState::open);
   }

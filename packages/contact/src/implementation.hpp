@@ -30,6 +30,7 @@ struct ContactSystem::Implementation {
   std::vector<std::unique_ptr<detail::PairCoupling>> pairs;
   std::vector<std::vector<LocalOrdinal>> multiplier_of;     ///< [pair][slave node] local index of the first component in z, -1: none
   std::vector<std::vector<ContactState>> marked, accepted;  ///< [pair][slave node] when last marked, of the accepted state
+  std::vector<std::vector<LocalOrdinal>> master_nodes;      ///< [pair] local indices in owned_nodes
   std::unique_ptr<detail::SystemScatter> scatter;
   bool pattern_changed = true;
   bool middles_first = false;  ///< there are multipliers that are condensed before others, on any rank

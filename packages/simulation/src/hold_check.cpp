@@ -166,10 +166,14 @@ Eigen::MatrixXd contact_gram(const Mesh& mesh, const RigidModes& modes, const Ho
     const auto x = [&](std::size_t corner) { return position(mesh, nodes[corner % corners]); };
     const Position area = mesh.dimension == 2 ? (x(1) - x(0)).cross(Position::UnitZ()) : (x(2) - x(0)).cross(x(3) - x(1));
     const Position normal = area.normalized();
-    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(modes.count());
-    modes.add(mesh.body_of_node[nodes[0]], middle, normal, row);
-    modes.add(master_body, middle, -normal, row);
-    gram += row.transpose() * row;
+    std::vector<Position> held{normal};
+    if (pair.rubs) held = {Position::UnitX(), Position::UnitY(), Position::UnitZ()};
+    for (const Position& direction : held) {
+      Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(modes.count());
+      modes.add(mesh.body_of_node[nodes[0]], middle, direction, row);
+      modes.add(master_body, middle, -direction, row);
+      gram += row.transpose() * row;
+    }
   }
   return gram;
 }
@@ -212,8 +216,10 @@ std::vector<char> check_held(const Mesh& mesh, bool axisymmetric, const MultiVec
     Eigen::Index mode = 0;
     free_motions.rowwise().squaredNorm().maxCoeff(&mode);
     const Eigen::Index body = mode / modes.per_body();
-    diagnostics.push_back({body_places[body], fmt::format("body '{}' can move: {}; neither boundary conditions nor contact hold it",
-                                                          mesh.blocks[body].name, modes.name(static_cast<int>(mode % modes.per_body())))});
+    diagnostics.push_back(
+        {body_places[body], fmt::format("body '{}' can move: {}; neither boundary conditions nor contact hold it; contact holds where a slave "
+                                        "facet is within reach at the start, along its normal, and with friction along the surface",
+                                        mesh.blocks[body].name, modes.name(static_cast<int>(mode % modes.per_body())))});
     const Eigen::VectorXd taken = free_motions.row(mode).transpose().normalized();
     free_motions -= (free_motions * taken).eval() * taken.transpose();
   }

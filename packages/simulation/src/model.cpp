@@ -215,7 +215,8 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   const auto fixed = marked_components(*mesh_, parts_.prescribed->dofs()), kept = marked_components(*mesh_, not_free);
   const bool axisymmetric = scene.kinematics == Kinematics::axisymmetric;
   std::vector<HoldingPair> holding;
-  for (const auto& pair : pairs) holding.push_back({&pair.slave, &pair.master, pair.options.mortar.search_reach.value_or(0.0)});
+  for (const auto& pair : pairs)
+    holding.push_back({&pair.slave, &pair.master, pair.options.mortar.search_reach.value_or(0.0), pair.options.friction.options->acts()});
   const auto only_contact = check_held(*mesh_, axisymmetric, *fixed, holding, places);
   for (LocalOrdinal node = 0; node < mesh_->owned_count(); ++node) held_by_contact_only_.push_back(only_contact[mesh_->body_of_node[node]]);
 

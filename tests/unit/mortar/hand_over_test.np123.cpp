@@ -101,7 +101,7 @@ TEST(HandOver, LeavesForcesAndTheirPlacesAsTheyAre) {
 TwoLines line_up_to(double edge) {
   TwoLines lines;
   lines.slave = line(
-      6, 0.0, 5.0, [](double x) { return 0.05 + 0.02 * std::sin(1.3 * x); }, false);
+      5, 0.0, 5.0, [](double x) { return 0.05 + 0.02 * std::sin(1.3 * x); }, false);
   lines.master = line(
       5, -0.7, edge, [](double x) { return 0.02 * std::cos(0.9 * x); }, true);
   lines.options.search_reach = 1.0;

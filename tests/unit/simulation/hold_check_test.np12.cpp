@@ -46,9 +46,11 @@ struct TwoBlocks {
       if (node < mesh->owned_count()) values(node, component) = 1.0;
   }
 
+  bool friction = false;
+
   std::vector<char> check(bool with_contact, bool axisymmetric = false) const {
     std::vector<HoldingPair> pairs;
-    if (with_contact) pairs.push_back({&slave, &master, 0.0});
+    if (with_contact) pairs.push_back({&slave, &master, 0.0, friction});
     return check_held(*mesh, axisymmetric, *fixed, pairs, places);
   }
 
@@ -77,6 +79,20 @@ TEST(HoldCheck, ContactHoldsAcrossTheInterfaceAndNotAlongIt) {
   EXPECT_THAT(blocks.complaints(true), ElementsAre(HasSubstr("scene.xml:7: error: bodies/upper: body 'upper' can move: translation in x")));
   blocks.fix("upper/left", 0);
   EXPECT_THAT(blocks.check(true), ElementsAre(0, 1));
+}
+
+TEST(HoldCheck, FrictionHoldsAlongTheInterface) {
+  TwoBlocks blocks;
+  blocks.fix("lower/bottom", 0);
+  blocks.fix("lower/bottom", 1);
+  EXPECT_EQ(blocks.complaints(true).size(), 1u);
+  blocks.friction = true;
+  EXPECT_THAT(blocks.check(true), ElementsAre(0, 1));
+  TwoBlocks apart(50.0);
+  apart.fix("lower/bottom", 0);
+  apart.fix("lower/bottom", 1);
+  apart.friction = true;
+  EXPECT_EQ(apart.complaints(true).size(), 3u);
 }
 
 TEST(HoldCheck, WithoutContactEveryFreeModeIsNamed) {

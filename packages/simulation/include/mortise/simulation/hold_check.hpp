@@ -16,12 +16,13 @@ struct HoldingPair {
   const SurfaceFacets* slave = nullptr;   ///< slave facets with a node owned by this rank
   const SurfaceFacets* master = nullptr;  ///< master facets of this rank
   double reach = 0.0;                     ///< distance within which a slave facet counts; 0: the longest facet of the pair
+  bool rubs = false;                      ///< there is friction
 };
 
 /// Collective. Each body may move by its rigid modes q (plane: two translations and the rotation about its centre, over its size;
 /// axisymmetric: the translation along the axis; space: three of each). Held is what costs: every prescribed dof adds (mode at the dof)^2, a set that
 /// follows a reference point what deviates from the motion that it may share, every slave facet in reach of its master adds (n . (mode_slave -
-/// mode_master))^2 to the Gram matrix of q; a null vector of it is a motion that nothing holds.
+/// mode_master))^2 to the Gram matrix of q, with friction |mode_slave - mode_master|^2; a null vector of it is a motion that nothing holds.
 /// @param fixed        [owned nodes x dim] 1 where the displacement is prescribed
 /// @param body_places  where the scene gives each body (mesh.blocks order)
 /// @returns for each body (mesh.blocks order) whether only contact holds it
