@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <regex>
 
 namespace mortise {
 namespace {
@@ -14,6 +15,9 @@ namespace {
 double evaluate_table(void* table, double time) { return (*static_cast<const Table*>(table))(time); }
 
 const std::vector<std::string> time_and_position{"t", "x", "y", "z"};
+
+// muParser takes "=" for an assignment to an argument.
+bool assigns(const std::string& source) { return std::regex_search(source, std::regex("(^|[^=!<>])=([^=]|$)")); }
 
 std::string names_of(const std::vector<std::string>& arguments, const Symbols& symbols) {
   std::string names;
@@ -45,6 +49,7 @@ struct Expression::Parsed {
 
   Parsed(const std::string& text, const std::vector<std::string>& names, const Symbols& symbols, const Place& where)
       : source(text), place(where), arguments(names.size(), 0.0), tables(symbols.tables) {
+    if (assigns(source)) throw InputError(place, fmt::format("\"{}\" assigns with \"=\", which an expression cannot; \"==\" compares", source));
     try {
       for (std::size_t i = 0; i < names.size(); ++i)
         if (!names[i].empty() && !std::isdigit(static_cast<unsigned char>(names[i].front())) &&
@@ -54,7 +59,11 @@ struct Expression::Parsed {
       for (const auto& [name, number] : symbols.variables) parser.DefineConst(name, number);
       for (auto& [name, table] : tables) parser.DefineFunUserData(name, evaluate_table, &table);
       parser.SetExpr(source);
-      value = parser.Eval();
+      int values = 0;
+      value = parser.Eval(values)[0];
+      if (values > 1)
+        throw InputError(
+            place, fmt::format("\"{}\" holds {} values separated by commas, where one is asked for; the decimal sign is a point", source, values));
       for (const auto& [name, address] : parser.GetUsedVar()) {
         constant = false;
         positional |= name != "t";

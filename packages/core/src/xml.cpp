@@ -56,9 +56,11 @@ class Converter {
     for (xmlAttr* one = node->properties; one; one = one->next) {
       const std::string name = text_of(one->name);
       if (std::find(allowed.begin(), allowed.end(), name) == allowed.end()) {
-        if (wanted == "name") say(node, path, fmt::format("unknown attribute \"{}\" of <{}>; known: {}", name, text_of(node->name), quoted_list(allowed)));
+        if (wanted == "name")
+          say(node, path, fmt::format("unknown attribute \"{}\" of <{}>; known: {}", name, text_of(node->name), quoted_list(allowed)));
       } else if (name == wanted) {
-        const std::unique_ptr<xmlChar, void (*)(void*)> content(xmlNodeGetContent(one->children ? one->children : reinterpret_cast<xmlNode*>(one)), xmlFree);
+        const std::unique_ptr<xmlChar, void (*)(void*)> content(xmlNodeGetContent(one->children ? one->children : reinterpret_cast<xmlNode*>(one)),
+                                                                xmlFree);
         value = text_of(content.get());
         found = true;
       }
@@ -76,7 +78,9 @@ class Converter {
     result.place = {file_, line(node), path};
     const std::vector<std::string> types = {"double", "int", "bool", "string"};
     if (!result.type.empty() && std::find(types.begin(), types.end(), result.type) == types.end())
-      say(node, path, fmt::format("parameter \"{}\" has the unknown type \"{}\"; known: {}{}", result.name, result.type, quoted_list(types), did_you_mean(result.type, types)));
+      say(node, path,
+          fmt::format("parameter \"{}\" has the unknown type \"{}\"; known: {}{}", result.name, result.type, quoted_list(types),
+                      did_you_mean(result.type, types)));
     return result;
   }
 
@@ -157,13 +161,17 @@ void apply_override(XmlList& root, const std::string& path, const std::string& v
   for (std::size_t i = 0; i + 1 < names.size(); ++i) {
     auto found = std::find_if(list->lists.begin(), list->lists.end(), [&](const XmlList& one) { return one.name == names[i]; });
     if (found == list->lists.end()) {
+      const auto is_it = [&](const XmlParameter& one) { return one.name == names[i]; };
+      if (std::any_of(list->parameters.begin(), list->parameters.end(), is_it))
+        throw InputError(place, fmt::format("\"{}\" is a parameter: it has a value, and nothing below it", names[i]));
       const std::string parent = list->place.path;
       list->lists.push_back({names[i], {place.file, place.line, parent.empty() ? names[i] : parent + "/" + names[i]}, {}, {}});
       found = list->lists.end() - 1;
     }
     list = &*found;
   }
-  const auto found = std::find_if(list->parameters.begin(), list->parameters.end(), [&](const XmlParameter& one) { return one.name == names.back(); });
+  const auto found =
+      std::find_if(list->parameters.begin(), list->parameters.end(), [&](const XmlParameter& one) { return one.name == names.back(); });
   XmlParameter parameter{names.back(), "", value, {place.file, place.line, list->place.path}};
   if (found == list->parameters.end())
     list->parameters.push_back(parameter);

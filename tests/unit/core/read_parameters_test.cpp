@@ -12,6 +12,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 enum class Colour { red, green };
 
@@ -106,13 +107,14 @@ std::string list(const std::string& name, const std::string& body) { return "<Pa
 const std::string needed = parameter("needed", "string", "this");
 
 TEST(ReadParameters, FillsEveryKind) {
-  const Read result = read(list("variables", parameter("n", "int", "4") + parameter("half", "string", "n/8")) +
-                           list("tables", list("ramp", parameter("times", "string", "0, 1") + parameter("values", "string", "0, 2*n"))) + needed +
-                           parameter("tolerance", "string", "half/10") + parameter("count", "int", "2*n") + parameter("colour", "string", "green") +
-                           parameter("load", "string", "ramp(t)*x") + parameter("reach", "double", "1.5") + parameter("motion", "int", "3") +
-                           parameter("names", "string", "u, v, w") + list("inner", parameter("on", "bool", "false") + parameter("weights", "string", "n, max(1,2)")) +
-                           list("entries", list("first", parameter("type", "string", "box") + parameter("corners", "int", "6") + parameter("of", "string", "wood"))) +
-                           list("solver", parameter("max levels", "int", "3") + list("deep", parameter("flag", "bool", "true"))));
+  const Read result =
+      read(list("variables", parameter("n", "int", "4") + parameter("half", "string", "n/8")) +
+           list("tables", list("ramp", parameter("times", "string", "0, 1") + parameter("values", "string", "0, 2*n"))) + needed +
+           parameter("tolerance", "string", "half/10") + parameter("count", "int", "2*n") + parameter("colour", "string", "green") +
+           parameter("load", "string", "ramp(t)*x") + parameter("reach", "double", "1.5") + parameter("motion", "int", "3") +
+           parameter("names", "string", "u, v, w") + list("inner", parameter("on", "bool", "false") + parameter("weights", "string", "n, max(1,2)")) +
+           list("entries", list("first", parameter("type", "string", "box") + parameter("corners", "int", "6") + parameter("of", "string", "wood"))) +
+           list("solver", parameter("max levels", "int", "3") + list("deep", parameter("flag", "bool", "true"))));
   EXPECT_EQ(result.errors, "");
   const Options& options = result.options;
   EXPECT_DOUBLE_EQ(options.tolerance, 0.05);
@@ -133,15 +135,26 @@ TEST(ReadParameters, FillsEveryKind) {
   EXPECT_TRUE(options.solver.sublist("deep").get<bool>("flag"));
 }
 
+// muParser itself would take the last of several values, and assign.
+TEST(ReadParameters, TakesOneValueAndAssignsNothing) {
+  EXPECT_THAT(read(parameter("load", "string", "0,25")).errors, HasSubstr("\"load\": \"0,25\" holds 2 values separated by commas"));
+  EXPECT_THAT(read(parameter("reach", "double", "1,000,000")).errors, HasSubstr("holds 3 values"));
+  EXPECT_THAT(read(parameter("load", "string", "t=0.5 ? 1 : 2")).errors,
+              HasSubstr("assigns with \"=\", which an expression cannot; \"==\" compares"));
+  for (const char* compares : {"t==0.5 ? 1 : 2", "t<=0.5 ? 1 : 2", "t!=0.5 ? 1 : 2", "max(1, 2)"})
+    EXPECT_THAT(read(parameter("load", "string", compares)).errors, Not(HasSubstr("load"))) << compares;
+}
+
 TEST(ReadParameters, SaysAllErrorsAtOnceWithTheirLines) {
-  const std::string errors = read(parameter("tolerence", "double", "1e-3") +        // 2
-                                  parameter("count", "int", "0") +                  // 3
-                                  parameter("colour", "string", "gren") +           // 4
-                                  parameter("load", "string", "2*") +               // 5
-                                  parameter("reach", "double", "5x") +              // 6
-                                  list("inner", parameter("on", "double", "1")) +   // 7, 8
+  const std::string errors = read(parameter("tolerence", "double", "1e-3") +                         // 2
+                                  parameter("count", "int", "0") +                                   // 3
+                                  parameter("colour", "string", "gren") +                            // 4
+                                  parameter("load", "string", "2*") +                                // 5
+                                  parameter("reach", "double", "5x") +                               // 6
+                                  list("inner", parameter("on", "double", "1")) +                    // 7, 8
                                   list("entries", list("one", parameter("type", "string", "bal")) +  // 10, 11, 12
-                                                      list("two", parameter("of", "string", "x")))).errors;  // 14
+                                                      list("two", parameter("of", "string", "x"))))
+                                 .errors;  // 14
   EXPECT_THAT(errors, HasSubstr("scene.xml:2: error: unknown parameter \"tolerence\"; did you mean \"tolerance\"?"));
   EXPECT_THAT(errors, HasSubstr("scene.xml:3: error: \"count\" is 0; allowed: >= 1"));
   EXPECT_THAT(errors, HasSubstr("scene.xml:4: error: \"colour\" is \"gren\"; allowed: \"red\", \"green\"; did you mean \"green\"?"));
@@ -158,7 +171,8 @@ TEST(ReadParameters, RefusesWhatIsNoNumber) {
   EXPECT_THAT(read(needed + parameter("tolerance", "string", "t")).errors, HasSubstr("may depend on variables"));
   EXPECT_THAT(read(needed + parameter("count", "int", "1.5")).errors, HasSubstr("whole number"));
   EXPECT_THAT(read(needed + parameter("tolerance", "double", "unknown")).errors, HasSubstr("known names: t, x, y, z, pi"));
-  EXPECT_THAT(read(needed + list("tables", list("r", parameter("times", "string", "0, 0") + parameter("values", "string", "1, 2")))).errors, HasSubstr("ascend"));
+  EXPECT_THAT(read(needed + list("tables", list("r", parameter("times", "string", "0, 0") + parameter("values", "string", "1, 2")))).errors,
+              HasSubstr("ascend"));
   EXPECT_THAT(read(needed + list("tables", list("r", parameter("times", "string", "0, 1") + parameter("values", "string", "1, sqrt(-1)")))).errors,
               HasSubstr("not a finite number"));
   EXPECT_THAT(read(needed + list("variables", parameter("x", "int", "1"))).errors, HasSubstr("already has a meaning"));
@@ -177,14 +191,16 @@ TEST(ReadParameters, TakesOverridesFromTheCommandLine) {
   const std::string scene = list("variables", parameter("n", "int", "4")) + needed + parameter("count", "string", "n");
   EXPECT_EQ(read(scene, {"variables/n=7"}).options.count, 7);
   EXPECT_EQ(read(scene, {"inner/weights=1,2,3"}).options.inner.weights.size(), 3u);
-  EXPECT_THAT(read(scene, {"inner/wieghts=1"}).errors, HasSubstr("command line: --set inner/wieghts=1: error: inner: unknown parameter \"wieghts\"; did you mean \"weights\"?"));
+  EXPECT_THAT(read(scene, {"inner/wieghts=1"}).errors,
+              HasSubstr("command line: --set inner/wieghts=1: error: inner: unknown parameter \"wieghts\"; did you mean \"weights\"?"));
   EXPECT_THAT(read(scene, {"count"}).errors, HasSubstr("please write --set path=value"));
 }
 
 TEST(ParameterTree, EffectiveSceneReadsBackTheSame) {
-  Read first = read(list("variables", parameter("n", "int", "4")) + needed + parameter("load", "string", "n*t &lt; 2") + parameter("motion", "string", "t") +
-                    list("entries", list("one", parameter("type", "string", "ball") + parameter("size", "string", "n/3"))) +
-                    list("solver", parameter("max levels", "int", "3")));
+  Read first =
+      read(list("variables", parameter("n", "int", "4")) + needed + parameter("load", "string", "n*t &lt; 2") + parameter("motion", "string", "t") +
+           list("entries", list("one", parameter("type", "string", "ball") + parameter("size", "string", "n/3"))) +
+           list("solver", parameter("max levels", "int", "3")));
   ASSERT_EQ(first.errors, "");
   const auto text_of = [](Read& one) {
     return to_scene_xml(collect_parameters("scene", one.options, CollectParameters::What::values), symbol_lists(one.symbols));
@@ -204,7 +220,8 @@ TEST(ParameterTree, DescribesEverything) {
   Options options;
   const ListRecord tree = collect_parameters("scene", options, CollectParameters::What::declarations);
   for (const std::string& text : {to_text(tree), to_markdown(tree)})
-    for (const char* word : {"tolerance", "how exact", "> 0", "red", "what nobody can guess", "corners", "not round", "handed on"}) EXPECT_THAT(text, HasSubstr(word));
+    for (const char* word : {"tolerance", "how exact", "> 0", "red", "what nobody can guess", "corners", "not round", "handed on"})
+      EXPECT_THAT(text, HasSubstr(word));
   ASSERT_NE(find_list(tree, "entries/any/box"), nullptr);
   EXPECT_EQ(find_list(tree, "nothing"), nullptr);
 }
@@ -227,8 +244,10 @@ TEST(Assignments, ArePathsWithTheirLinesWhateverTheyMean) {
 }
 
 TEST(Assignments, OverrideAnotherFileAndKeepTheirPlace) {
-  XmlList root = parse_xml("<ParameterList name=\"scene\"><ParameterList name=\"a\"><Parameter name=\"x\" type=\"int\" value=\"1\"/>"
-                           "</ParameterList></ParameterList>", "scene.xml");
+  XmlList root = parse_xml(
+      "<ParameterList name=\"scene\"><ParameterList name=\"a\"><Parameter name=\"x\" type=\"int\" value=\"1\"/>"
+      "</ParameterList></ParameterList>",
+      "scene.xml");
   apply_override(root, "a/x", "2", {"study.xml", 7, "settings"});
   apply_override(root, "b/c/y", "3", {"study.xml", 8, "settings"});
   EXPECT_EQ(root.list("a")->parameter("x")->value, "2");
@@ -236,6 +255,17 @@ TEST(Assignments, OverrideAnotherFileAndKeepTheirPlace) {
   EXPECT_EQ(root.list("a")->parameter("x")->place.file, "study.xml");
   EXPECT_EQ(root.list("b")->list("c")->parameter("y")->value, "3");
   EXPECT_EQ(root.list("b")->list("c")->place.path, "b/c");
+}
+
+TEST(Assignments, DoNotGoOnBelowAParameter) {
+  XmlList root = parse_xml("<ParameterList name=\"scene\"><Parameter name=\"x\" type=\"int\" value=\"1\"/></ParameterList>", "scene.xml");
+  try {
+    apply_override(root, "x/y=2");
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("--set x/y=2"));
+    EXPECT_THAT(error.what(), HasSubstr("\"x\" is a parameter: it has a value, and nothing below it"));
+  }
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ std::string read_text(const Communicator& comm, const std::string& path);
 XmlList parse_xml(const std::string& text, const std::string& file);
 
 /// Applies `--set path=value`, path being list names and a parameter's name separated by "/". Lists and parameters that do not stand in the file
-/// are made; the reader then says whether they mean anything. Throws InputError if there is no "=".
+/// are made; the reader then says whether they mean anything. Throws InputError if there is no "=", or if the path goes on below a parameter.
 void apply_override(XmlList& root, const std::string& assignment);
 
 /// The same for a value that another file gives, at `place`, which errors then name.
