@@ -142,6 +142,24 @@ const std::vector<Case> cases{
      R"xml(<ParameterList name="interface">)xml"},
     {"slave_facet_with_all_nodes_fixed", R"xml(value="lower/bottom"/>)xml", R"xml(value="lower"/>)xml", "make this side the master", ""},
     {"nan_in_a_table", R"xml(name="values" type="string" value="0, 1")xml", R"xml(name="values" type="string" value="0, nan")xml", "nan", "0, nan"},
+    {"decimal_comma", R"xml(value="0.3")xml", R"xml(value="0,3")xml", "the decimal sign is a point", R"xml(value="0,3")xml"},
+    {"assignment", R"xml(value="ramp(t)")xml", R"xml(value="t=1 ? 1 : 0")xml", "\"==\" compares", "t=1 ?"},
+    {"field_twice", R"xml(<ParameterList name="contact">)xml", R"xml(<ParameterList name="output">
+      <Parameter name="fields" type="string" value="displacement, gap, displacement"/></ParameterList>
+  <ParameterList name="contact">)xml",
+     "\"displacement\" twice", "displacement, gap"},
+    {"quantity_called_time", R"xml(<ParameterList name="contact">)xml", R"xml(<ParameterList name="quantities"><ParameterList name="time">
+      <Parameter name="type" type="string" value="contact force"/></ParameterList></ParameterList>
+  <ParameterList name="contact">)xml",
+     "a column of history.csv is called \"time\" already", ""},
+    {"steps_without_end", R"xml(<ParameterList name="contact">)xml", R"xml(<ParameterList name="stepping">
+      <Parameter name="step" type="double" value="1e-20"/></ParameterList>
+  <ParameterList name="contact">)xml",
+     "\"step\": is 1e-20 of an \"end time\" of 1", "1e-20"},
+    {"minimum_above_step", R"xml(<ParameterList name="contact">)xml", R"xml(<ParameterList name="stepping">
+      <Parameter name="minimum step" type="double" value="3"/></ParameterList>
+  <ParameterList name="contact">)xml",
+     "\"minimum step\": is 3, larger than \"step\", 1", R"xml(value="3")xml"},
     {"malformed_xml", R"xml(<ParameterList name="loads">)xml", R"xml(<ParameterList name="loads")xml", "scene.xml:", ""},
     {"unknown_check_quantity", R"xml(<ParameterList name="contact">)xml", R"xml(<ParameterList name="checks"><ParameterList name="c">
       <Parameter name="quantity" type="string" value="forse"/><Parameter name="low" type="double" value="0"/></ParameterList></ParameterList>
@@ -225,6 +243,17 @@ TEST(LinearSolver, AMisspeltParameterOfMueLuIsRefusedWithFileAndLine) {
   EXPECT_EQ(ending.code, 2);
   EXPECT_NE(ending.output.find(fmt::format("scene.xml:{}: error: linear solver/muelu", line_of(scene, muelu))), std::string::npos) << ending.output;
   EXPECT_NE(ending.output.find("max levles"), std::string::npos) << ending.output;
+}
+
+TEST(Kinematics, ABodyBeyondTheAxisIsRefused) {
+  const std::string scene = replaced(good_scene, R"xml(value="plane strain")xml", R"xml(value="axisymmetric")xml");
+  for (const int ranks : {1, 2}) {
+    const files::path directory = files::path(SCRATCH) / fmt::format("beyond_the_axis_np{}", ranks);
+    const Ending ending = run(directory, scene, ranks, {"--set", "bodies/lower/mesh/translation=-0.5, 0"});
+    EXPECT_EQ(ending.code, 2);
+    EXPECT_NE(ending.output.find("body 'lower' reaches x = -0.5, beyond the axis"), std::string::npos) << ending.output;
+    expect_nothing_but_the_log(directory / "results");
+  }
 }
 
 TEST(GoodScene, Runs) {

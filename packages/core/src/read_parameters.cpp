@@ -70,7 +70,10 @@ Place ReadParameters::place(const std::string& name) const {
   return list ? list->place : frame().place;
 }
 
-void ReadParameters::error(const std::string& name, const std::string& message) { say(place(name), message); }
+void ReadParameters::error(const std::string& name, const std::string& message) {
+  const std::string quoted = '"' + name + '"';
+  say(place(name), name.empty() || message.find(quoted) != std::string::npos ? message : quoted + ": " + message);
+}
 
 const XmlParameter* ReadParameters::find(const std::string& name, const Says& says, const std::vector<std::string>& types) {
   frame().known.push_back(name);

@@ -1,10 +1,15 @@
 #include "mortise/nonlinear/load_stepper.hpp"
 
+#include <fmt/format.h>
+
 #include <Tpetra_Vector.hpp>
 
 #include "mortise/nonlinear/step_schedule.hpp"
 
 namespace mortise {
+namespace {
+constexpr double least_step = 1e-9;  // over the end time
+}
 
 void SteppingOptions::describe(Parameters& parameters) {
   parameters.add("end time", end_time, Says("pseudo-time at which the run ends; it starts at 0").unit("time").above(0.0));
@@ -17,11 +22,14 @@ void SteppingOptions::describe(Parameters& parameters) {
   parameters.add(
       "predictor", predictor, {{"none", Predictor::none}, {"linear", Predictor::linear}},
       "where Newton's iterations start: at the last state, or at the line through the last two, which suits motion that goes on as before");
-  if (maximum_step && *maximum_step < step) parameters.error("maximum step", "is smaller than `step`");
-  if (minimum_step && *minimum_step > step) parameters.error("minimum step", "is larger than `step`");
+  if (!(step >= least_step * end_time))
+    parameters.error("step",
+                     fmt::format("is {} of an \"end time\" of {}; allowed: >= {} of it, a thousand million steps", step, end_time, least_step));
+  if (maximum_step && *maximum_step < step) parameters.error("maximum step", fmt::format("is {}, smaller than \"step\", {}", *maximum_step, step));
+  if (minimum_step && *minimum_step > step) parameters.error("minimum step", fmt::format("is {}, larger than \"step\", {}", *minimum_step, step));
   for (const double time : output_times)
     if (!(time > 0.0 && time <= end_time)) {
-      parameters.error("output times", "lie after 0 and not after `end time`; please remove " + std::to_string(time));
+      parameters.error("output times", fmt::format("lie after 0 and not after \"end time\", {}; please remove {}", end_time, time));
       break;
     }
 }

@@ -162,6 +162,23 @@ LinearSystemTraits traits_of(const Scene& scene, const Map& dofs) {
   return traits;
 }
 
+// Rings have no radius beyond the axis. Collective.
+void refuse_beyond_axis(const Mesh& mesh, double length, const std::vector<Place>& places) {
+  std::vector<double> mine(places.size(), 0.0), least(mine);
+  for (LocalOrdinal node = 0; node < mesh.owned_body_count(); ++node) {
+    const auto body = mesh.body_of_node[node];
+    const bool is_rigid = topology(mesh.blocks[body].shape).dimension < mesh.dimension;
+    if (!is_rigid) mine[body] = std::min(mine[body], mesh.coordinates[node][0]);
+  }
+  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MIN, static_cast<int>(mine.size()), mine.data(), least.data());
+  std::vector<Diagnostic> diagnostics;
+  for (std::size_t body = 0; body < places.size(); ++body)
+    if (least[body] < -1e-9 * length)
+      diagnostics.push_back({places[body], fmt::format("body '{}' reaches x = {:.6g}, beyond the axis of an axisymmetric scene; allowed: x >= 0",
+                                                       mesh.blocks[body].name, least[body])});
+  if (!diagnostics.empty()) throw InputError(diagnostics);
+}
+
 }  // namespace
 
 Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Timers& timers) {
@@ -176,6 +193,7 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
     properties.push_back({body.name, body.place, body.value.rigid.value ? nullptr : material_of(scene, body.value).law.options, body.value.element});
     places.push_back(body.place);
   }
+  if (scene.kinematics == Kinematics::axisymmetric) refuse_beyond_axis(*mesh_, size_.length, places);
   const auto bodies = std::make_shared<Bodies>(mesh_, scene.kinematics, scene.thickness, properties);
   bodies_ = bodies;
   effects_ = effects_of(scene, *bodies_);

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "history_columns.hpp"
 #include "memory.hpp"
 #include "mortise/core/parameter_tree.hpp"
 #include "mortise/io/csv_writer.hpp"
@@ -44,7 +45,7 @@ class Observers {
         newton_(comm, directory.file("newton.csv"),
                 {"step", "try", "time", "dt", "iteration", "momentum", "momentum_absolute", "gap", "complementarity", "increment", "step_length",
                  "active", "stick", "slip", "changed", "linear_iterations", "seconds", "undone"}),
-        history_(comm, directory.file("history.csv"), history_columns(evaluation)) {
+        history_(comm, directory.file("history.csv"), columns_with(evaluation)) {
     if (scene.output.contact_profiles)
       profiles_ =
           std::make_unique<CsvWriter>(comm, directory.file("profiles.csv"),
@@ -78,8 +79,8 @@ class Observers {
   }
 
  private:
-  static std::vector<std::string> history_columns(const StepEvaluation& evaluation) {
-    std::vector<std::string> columns{"step", "time", "newton_iterations"};
+  static std::vector<std::string> columns_with(const StepEvaluation& evaluation) {
+    std::vector<std::string> columns = history_columns();
     for (const auto& name : evaluation.names()) columns.push_back(name);
     return columns;
   }

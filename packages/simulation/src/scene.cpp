@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fields.hpp"
+#include "history_columns.hpp"
 #include "names.hpp"
 
 namespace mortise {
@@ -67,6 +68,8 @@ void OutputOptions::describe(Parameters& parameters) {
   parameters.add("fields", fields, "fields written to fields.xdmf and fields.h5: any of " + quoted_list(known) + "; an empty text: no such files");
   for (const auto& field : fields)
     if (std::find(known.begin(), known.end(), field) == known.end()) parameters.error("fields", unknown_name("field", field, known));
+  for (auto field = fields.begin(); field != fields.end(); ++field)
+    if (std::find(fields.begin(), field, *field) != field) parameters.error("fields", "names \"" + *field + "\" twice");
   parameters.add("every step", every_step,
                  Says("fields are written after every so many steps, and at the end; 0: at the output times and the end only").at_least(0));
   parameters.add(
@@ -93,6 +96,10 @@ void Scene::describe(Parameters& parameters) {
   parameters.list("linear solver", linear_solver, "how linear systems are solved");
   parameters.list("output", output, "what is written besides the summary");
   parameters.named("quantities", quantities, "numbers wanted of the run: every step's in history.csv, the last ones in summary.json");
+  for (const auto& quantity : quantities)
+    if (const auto& taken = history_columns(); std::find(taken.begin(), taken.end(), quantity.name) != taken.end())
+      parameters.error("quantities",
+                       fmt::format("a column of history.csv is called \"{}\" already; please give the quantity another name", quantity.name));
   parameters.named("checks", checks, "bounds on quantities at the end; a run that misses one ends with exit code 4");
   if (kinematics == Kinematics::three_dimensional && output.contact_profiles)
     parameters.error("output", "contact profiles are written in plane and axisymmetric scenes only; please remove \"contact profiles\"");
