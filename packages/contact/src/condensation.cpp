@@ -141,7 +141,7 @@ void ContactSystem::Implementation::condense_node(std::size_t p, std::size_t s, 
     const auto view = rhs.getLocalViewHost(Tpetra::Access::ReadOnly);
     for (int i = 0; i < dimension; ++i) rhs_s[i] = view(first_row + i, 0);
   }
-  for (int i = 0; i < dimension; ++i) copy_row(system, first_row + i, kept.columns, momentum[i]);
+  for (int i = 0; i < dimension; ++i) copy_row(system, first_row + i, kept.columns, momentum[i]);  // the same columns: see SystemScatter
   const std::vector<LocalOrdinal>& columns = kept.columns;
 
   // Linearised complementarity: constraint . dd + (C - C_z z) + C_z z^{k+1} = 0
