@@ -201,7 +201,8 @@ void SystemScatter::add(Matrix& system, const NodePositions& positions, LocalOrd
     std::transform(columns.begin(), columns.end(), column_buffer_.begin(), [this](LocalOrdinal c) { return remote_column_of_[c]; });
     summed = remote_matrix_->sumIntoLocalValues(positions.remote_row[node] + component, count, values.data(), column_buffer_.data());
   }
-  if (summed != count) throw std::logic_error("contact: an entry of the condensed system has no place in its graph");
+  if (summed != count)
+    throw std::logic_error("contact: an entry of the condensed system has no place in its matrix; make the matrix on the graph of system_graph()");
 }
 
 void SystemScatter::add(Vector& vector, const NodePositions& positions, LocalOrdinal node, int component, double value) {

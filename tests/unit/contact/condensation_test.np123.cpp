@@ -366,6 +366,7 @@ TEST(ReferenceGeometry, GapIsTheTransposeOfTheForce) {
   ContactSystem& contact = *fixture.contact;
   std::optional<StepFailure> failure;
   Vector d(fixture.dofs);
+  start(fixture);
   contact.evaluate(d, true, failure);
   bool changed = false;
   contact.system_graph([&] { return fixture.bulk; }, changed);
