@@ -85,6 +85,31 @@ TEST(Misuse, MapsThatDoNotFit) {
   EXPECT_THAT(of_dofs.refused<std::invalid_argument>(), HasSubstr("one row for each node"));
 }
 
+TEST(Misuse, FacetsOfUnknownNodes) {
+  Host slave, master;
+  if (!slave.pair.slave.empty()) slave.pair.slave = {{0, 99}};
+  EXPECT_THAT(slave.refused<InputError>(), HasSubstr("contact/joint: the slave surface names node 99, which the model does not have"));
+  if (!master.pair.master.empty()) master.pair.master = {{2, 99}};
+  EXPECT_THAT(master.refused<InputError>(), HasSubstr("contact/joint: the master surface names node 99, which the model does not have"));
+}
+
+TEST(Misuse, FacetsOnTheWrongRanks) {
+  Host twice;
+  twice.pair.master = {{2, 3}, {3, 2}};
+  EXPECT_THAT(twice.refused<InputError>(), HasSubstr("the master facet of nodes 2, 3 is given on rank 0 and again on rank 0"));
+  if (twice.comm->getSize() == 1) return;
+  twice.pair.master = {{2, 3}};
+  EXPECT_THAT(twice.refused<InputError>(), HasSubstr("the master facet of nodes 2, 3 is given on rank 0 and again on rank 1"));
+  for (const int rank : {0, 1}) {
+    Host missing, turned;
+    if (missing.comm->getRank() == rank) missing.pair.slave.clear();
+    EXPECT_THAT(missing.refused<InputError>(), HasSubstr("the slave facet of nodes 0, 1, as rank " + std::to_string(1 - rank) +
+                                                         " gives it, is not given on rank " + std::to_string(rank)));
+    if (turned.comm->getRank() == rank) turned.pair.slave = {{1, 0}};
+    EXPECT_THAT(turned.refused<InputError>(), HasSubstr("is not given on rank"));
+  }
+}
+
 /// The calls of one linearisation.
 struct Calls {
   explicit Calls(const std::shared_ptr<Formulation>& formulation = std::make_shared<DualMortar>()) : fixture(surfaces(formulation)) {}
