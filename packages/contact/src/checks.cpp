@@ -4,10 +4,46 @@
 
 #include <Teuchos_RCPDecl.hpp>
 #include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
+#include <stdexcept>
 
+#include "mortise/core/dof_map.hpp"
 #include "mortise/mortar/surface_nodes.hpp"
 
 namespace mortise::detail {
+
+void refuse_unfit_maps(const Map& owned_nodes, const Map& dofs, const MultiVector& reference, const MultiVector& fixed) {
+  const std::size_t dimension = reference.getNumVectors();
+  if (dimension != 2 && dimension != 3)
+    throw std::invalid_argument(fmt::format("contact: the reference positions have {} columns; give 2 in the plane, 3 in space", dimension));
+  if (fixed.getNumVectors() != dimension)
+    throw std::invalid_argument(
+        fmt::format("contact: the marks of prescribed components have {} columns, the reference positions {}", fixed.getNumVectors(), dimension));
+  const auto has_rows_of_nodes = [&](const MultiVector& one) { return one.getMap()->isSameAs(owned_nodes); };
+  if (!has_rows_of_nodes(reference) || !has_rows_of_nodes(fixed))
+    throw std::invalid_argument(
+        "contact: reference positions and marks of prescribed components need one row for each node of `owned_nodes`, in its order");
+  if (!make_dof_map(owned_nodes, static_cast<int>(dimension))->isSameAs(dofs))
+    throw std::invalid_argument(
+        "contact: the map of the dofs has to have the nodes in the order of `owned_nodes`, the components of a node together, with the ids dimension "
+        "* "
+        "node + component: take make_dof_map(*owned_nodes, dimension) of mortise/core/dof_map.hpp");
+}
+
+void refuse_incomplete_pairs(const Communicator& comm, const std::vector<ContactPair>& pairs) {
+  std::vector<Diagnostic> diagnostics;
+  for (const ContactPair& pair : pairs) {
+    if (!(pair.youngs_modulus > 0.0))
+      diagnostics.push_back(
+          {pair.place, fmt::format("Young's modulus is {}; set ContactPair::youngs_modulus to that of the softer side, above 0: no node "
+                                   "closes without",
+                                   pair.youngs_modulus)});
+    if (!pair.options.formulation.options) diagnostics.push_back({pair.place, "the formulation is null; give a Formulation, as DualMortar"});
+    if (!pair.options.friction.options) diagnostics.push_back({pair.place, "the law of friction is null; give NoFriction for none"});
+  }
+  throw_if_any(comm, diagnostics);
+}
+
 void refuse_shared_nodes(const Map& owned_nodes, const std::vector<ContactPair>& pairs) {
   const auto nodes = Teuchos::rcpFromRef(owned_nodes);
   std::vector<std::vector<char>> slave, master;

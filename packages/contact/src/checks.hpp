@@ -1,11 +1,18 @@
 #pragma once
-// What several pairs must not have in common.
+// What ContactSystem is given: refused at once where nothing right could come of it.
 
 #include <vector>
 
 #include "mortise/contact/contact_system.hpp"
 
 namespace mortise::detail {
+
+/// Collective. Throws std::invalid_argument for maps and vectors that do not fit together: dofs that are not those of make_dof_map(), positions and
+/// marks of prescribed components on other nodes.
+void refuse_unfit_maps(const Map& owned_nodes, const Map& dofs, const MultiVector& reference, const MultiVector& fixed);
+
+/// Collective. Throws InputError for a pair without Young's modulus, formulation or law of friction.
+void refuse_incomplete_pairs(const Communicator& comm, const std::vector<ContactPair>& pairs);
 
 /// Collective. Throws InputError for a node that is slave in two pairs, or slave in one pair and master in another: its multiplier could
 /// not be eliminated from its own rows.

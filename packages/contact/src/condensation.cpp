@@ -8,6 +8,7 @@
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "implementation.hpp"
 
@@ -37,6 +38,7 @@ void replace_row(Matrix& matrix, LocalOrdinal row, const std::vector<LocalOrdina
 // part of it that acts through D and M.
 void ContactSystem::add_stiffness(const Vector& z, Matrix& system) {
   Implementation& self = *implementation_;
+  self.require_system("add_stiffness", system);
   const int dimension = self.dimension;
   const auto scope = self.timers.scope("condensation");
   const auto z_values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
@@ -141,7 +143,7 @@ void ContactSystem::Implementation::condense_node(std::size_t p, std::size_t s, 
     const auto view = rhs.getLocalViewHost(Tpetra::Access::ReadOnly);
     for (int i = 0; i < dimension; ++i) rhs_s[i] = view(first_row + i, 0);
   }
-  for (int i = 0; i < dimension; ++i) copy_row(system, first_row + i, kept.columns, momentum[i]);
+  for (int i = 0; i < dimension; ++i) copy_row(system, first_row + i, kept.columns, momentum[i]);  // the same columns: see SystemScatter
   const std::vector<LocalOrdinal>& columns = kept.columns;
 
   // Linearised complementarity: constraint . dd + (C - C_z z) + C_z z^{k+1} = 0
@@ -227,6 +229,9 @@ void ContactSystem::Implementation::condense_node(std::size_t p, std::size_t s, 
 
 void ContactSystem::condense(const Vector& z, Matrix& system, Vector& rhs) {
   Implementation& self = *implementation_;
+  if (keeps_multipliers())
+    throw std::logic_error("contact: condense() where a formulation keeps its multipliers as unknowns: solve with saddle_point_blocks()");
+  self.require_system("condense", system);
   const auto scope = self.timers.scope("condensation");
   self.recovery.clear();
   for (const bool middles : {true, false}) {
@@ -247,6 +252,7 @@ void ContactSystem::condense(const Vector& z, Matrix& system, Vector& rhs) {
 
 void ContactSystem::recover(const Vector& increment, Vector& z_new) const {
   const Implementation& self = *implementation_;
+  if (!self.scatter) throw std::logic_error("contact: recover() before any condense()");
   const auto scope = self.timers.scope("condensation");
   const Graph& graph = *self.scatter->graph();
   Vector on_columns(graph.getColMap());

@@ -68,6 +68,10 @@ double ContactSystem::Implementation::maximum(double value) const {
 ContactSystem::ContactSystem(RCP<const Map> owned_nodes, RCP<const Map> dofs, RCP<const MultiVector> reference, RCP<const MultiVector> fixed,
                              const InterfaceMeasure& measure, std::vector<ContactPair> pairs, const Timers& timers)
     : implementation_(std::make_unique<Implementation>()) {
+  detail::refuse_unfit_maps(*owned_nodes, *dofs, *reference, *fixed);
+  for (ContactPair& pair : pairs)
+    if (pair.place.path.empty()) pair.place.path = "contact/" + pair.name;
+  detail::refuse_incomplete_pairs(*owned_nodes->getComm(), pairs);
   Implementation& self = *implementation_;
   self.owned_nodes = std::move(owned_nodes);
   self.dofs = std::move(dofs);
@@ -135,6 +139,7 @@ void ContactSystem::evaluate(const Vector& d, bool derivatives, std::optional<St
 void ContactSystem::Implementation::evaluate(const RCP<const MultiVector>& x, bool derivatives, std::optional<StepFailure>& failure) {
   const auto scope = timers.scope("contact");
   evaluated_at = x;
+  has_derivatives = derivatives;
   for (const auto& pair : pairs) {
     {
       const auto part = timers.scope("search");

@@ -33,7 +33,8 @@ struct ContactSystem::Implementation {
   std::vector<std::vector<LocalOrdinal>> master_nodes;      ///< [pair] local indices in owned_nodes
   std::unique_ptr<detail::SystemScatter> scatter;
   bool pattern_changed = true;
-  bool middles_first = false;  ///< there are multipliers that are condensed before others, on any rank
+  bool has_derivatives = false;  ///< of the last evaluation
+  bool middles_first = false;    ///< there are multipliers that are condensed before others, on any rank
   std::vector<RecoveryRow> recovery;
 
   RCP<const MultiVector> evaluated_at, accepted_at;  ///< positions of the last evaluation, of the accepted state; null: none yet
@@ -60,6 +61,10 @@ struct ContactSystem::Implementation {
   std::vector<std::vector<ContactState>> states(const Vector& z) const;
   /// Collective. Positions x on the owned nodes: those of the last evaluation.
   void find_lost_contact(const MultiVector& x, std::optional<StepFailure>& failure) const;
+  /// Throw std::logic_error on every rank, if `caller` was called too early.
+  void require_linearisation(const char* caller) const;
+  /// The same, and for a matrix that is no system to add to.
+  void require_system(const char* caller, const Matrix& system) const;
   /// Sums over ranks.
   double sum(double value) const;
   double maximum(double value) const;

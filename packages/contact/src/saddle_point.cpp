@@ -21,6 +21,7 @@ bool loads(const MortarInterface& interface, std::size_t s, LocalOrdinal node) {
 
 ContactSystem::SaddlePointBlocks ContactSystem::saddle_point_blocks(const Vector& z) const {
   const Implementation& self = *implementation_;
+  self.require_linearisation("saddle_point_blocks");
   const int dimension = self.dimension;
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
 

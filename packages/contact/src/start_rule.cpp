@@ -1,11 +1,14 @@
 // The initial guess of a step. Only the guess: no residual is changed by it.
 
+#include <fmt/format.h>
+
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "implementation.hpp"
 
@@ -36,8 +39,12 @@ bool master_is_unheld(const detail::PairCoupling& pair, const Map& owned_nodes, 
 // A node whose gap is zero up to round-off would be open or closed at random: it starts closed, at a pressure that no result can see.
 // Where a body that only contact holds has no closed node, its system is singular: the nodes nearest to contact start closed,
 // z_n = c_n g + 1e-6 E.
-void ContactSystem::start_step(Vector& d, const std::vector<char>& unheld, Vector& z) {
+void ContactSystem::start_step(const Vector& d, const std::vector<char>& unheld, Vector& z) {
   Implementation& self = *implementation_;
+  const std::size_t nodes = self.owned_nodes->getNodeNumElements();
+  if (self.maximum(unheld.size() != nodes) > 0.0)
+    throw std::invalid_argument(
+        fmt::format("contact: start_step() needs one entry of `unheld` for each owned node; this rank gave {} for {}", unheld.size(), nodes));
   self.marked = self.accepted;  // after a step that was undone
   const auto evaluate_or_throw = [&](const RCP<const MultiVector>& x) {
     std::optional<StepFailure> failure;

@@ -23,11 +23,15 @@ void sort_unique(Columns& columns) {
   columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
 }
 
-Columns bulk_columns(const Graph& bulk, LocalOrdinal row) {
-  Graph::local_inds_host_view_type local;
-  bulk.getLocalRowView(row, local);
-  Columns columns(local.extent(0));
-  for (std::size_t k = 0; k < columns.size(); ++k) columns[k] = bulk.getColMap()->getGlobalElement(local(k));
+// Of the rows of all components of a node together: hosts that leave out zeros give them different columns, and condensation combines the rows.
+Columns bulk_columns(const Graph& bulk, LocalOrdinal node, int dimension) {
+  Columns columns;
+  for (LocalOrdinal row = dimension * node; row < dimension * (node + 1); ++row) {
+    Graph::local_inds_host_view_type local;
+    bulk.getLocalRowView(row, local);
+    for (std::size_t k = 0; k < local.extent(0); ++k) columns.push_back(bulk.getColMap()->getGlobalElement(local(k)));
+  }
+  sort_unique(columns);
   return columns;
 }
 
@@ -40,7 +44,7 @@ void add_columns(const Graph& bulk, const std::vector<PairCoupling*>& pairs, int
     for (std::size_t s = 0; s < pair->slave_nodes().size(); ++s) {
       const SlaveNode& slave = pair->slave_nodes()[s];
       if (!slave.carries_multiplier || pair->before_corners(s) != before_corners) continue;
-      Columns columns = bulk_columns(bulk, dimension * slave.owned_node);
+      Columns columns = bulk_columns(bulk, slave.owned_node, dimension);
       for (const LocalOrdinal node : pair->interface().coupled_nodes(s))
         for (int i = 0; i < dimension; ++i) columns.push_back(dimension * nodes.getGlobalElement(node) + i);
       if (const auto found = of_middles.find(slave.id); found != of_middles.end())
@@ -197,7 +201,8 @@ void SystemScatter::add(Matrix& system, const NodePositions& positions, LocalOrd
     std::transform(columns.begin(), columns.end(), column_buffer_.begin(), [this](LocalOrdinal c) { return remote_column_of_[c]; });
     summed = remote_matrix_->sumIntoLocalValues(positions.remote_row[node] + component, count, values.data(), column_buffer_.data());
   }
-  if (summed != count) throw std::logic_error("contact: an entry of the condensed system has no place in its graph");
+  if (summed != count)
+    throw std::logic_error("contact: an entry of the condensed system has no place in its matrix; make the matrix on the graph of system_graph()");
 }
 
 void SystemScatter::add(Vector& vector, const NodePositions& positions, LocalOrdinal node, int component, double value) {

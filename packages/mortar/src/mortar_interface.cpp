@@ -5,6 +5,7 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
 
+#include "facet_placement.hpp"
 #include "interface_implementation.hpp"
 #include "mortise/mortar/surface_nodes.hpp"
 
@@ -63,6 +64,7 @@ MortarInterface::MortarInterface(RCP<const Map> owned_nodes, RCP<const MultiVect
                        "\"frozen normals\", take \"exact\"");
   }
   refuse_unknown_facets(input, dimension);
+  refuse_misplaced_facets(*owned_nodes, slave, master, place);
   refuse_common_nodes(input);
   implementation_ = dimension == 2 ? make_interface<2>(input) : make_interface<3>(input);
 }

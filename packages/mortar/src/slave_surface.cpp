@@ -12,6 +12,7 @@
 #include <set>
 
 #include "exchange.hpp"
+#include "facet_placement.hpp"
 #include "mortise/mortar/auxiliary_plane.hpp"
 
 namespace mortise {
@@ -19,31 +20,16 @@ namespace {
 
 constexpr double no_free_normal = 0.1;  // share of the averaged normal that free directions keep, below which nothing can be pushed
 
-// A facet as it travels between ranks.
-struct FacetIds {
-  std::array<GlobalOrdinal, most_side_nodes> nodes{};
-  int count = 0;
-};
-
-// All slave facets of nodes that belong to other ranks: their owners know them. Throws InputError for a node without owner.
-std::vector<SurfaceFacet> facets_of_foreign_nodes(const Map& owned_nodes, const std::vector<GlobalOrdinal>& foreign, const SurfaceFacets& facets,
-                                                  const Place& place) {
+// All slave facets of nodes that belong to other ranks: their owners know them.
+std::vector<SurfaceFacet> facets_of_foreign_nodes(const Map& owned_nodes, const std::vector<GlobalOrdinal>& foreign, const SurfaceFacets& facets) {
   const Communicator& comm = *owned_nodes.getComm();
   std::vector<int> owners(foreign.size());
   owned_nodes.getRemoteIndexList(Teuchos::arrayViewFromVector(foreign), Teuchos::arrayViewFromVector(owners));
-  std::vector<Diagnostic> diagnostics;
-  for (std::size_t n = 0; n < foreign.size(); ++n)
-    if (owners[n] < 0) diagnostics.push_back({place, fmt::format("the slave surface names node {}, which the model does not have", foreign[n])});
-  throw_if_any(comm, diagnostics);
   std::vector<std::vector<GlobalOrdinal>> ask(comm.getSize());
   for (std::size_t n = 0; n < foreign.size(); ++n) ask[owners[n]].push_back(foreign[n]);
   std::multimap<GlobalOrdinal, FacetIds> known;
-  for (const SurfaceFacet& facet : facets) {
-    FacetIds ids;
-    ids.count = static_cast<int>(facet.size());
-    std::copy(facet.begin(), facet.end(), ids.nodes.begin());
-    for (const GlobalOrdinal node : facet) known.insert({node, ids});
-  }
+  for (const SurfaceFacet& facet : facets)
+    for (const GlobalOrdinal node : facet) known.insert({node, FacetIds(facet)});
   std::vector<std::vector<FacetIds>> answer(comm.getSize());
   const auto asked = all_to_all(comm, ask);
   for (std::size_t rank = 0; rank < asked.size(); ++rank)
@@ -51,7 +37,7 @@ std::vector<SurfaceFacet> facets_of_foreign_nodes(const Map& owned_nodes, const 
       for (auto [one, end] = known.equal_range(node); one != end; ++one) answer[rank].push_back(one->second);
   std::set<SurfaceFacet> all;
   for (const auto& part : all_to_all(comm, answer))
-    for (const FacetIds& ids : part) all.insert(SurfaceFacet(ids.nodes.begin(), ids.nodes.begin() + ids.count));
+    for (const FacetIds& ids : part) all.insert(ids.facet());
   return {all.begin(), all.end()};
 }
 
@@ -104,7 +90,7 @@ SlaveSurface make_slave_surface(const RCP<const Map>& owned_nodes, const RCP<con
   surface.nodes_with_normal = surface.node_ids.size();
 
   std::set<SurfaceFacet> all_facets(facets.begin(), facets.end());
-  for (const SurfaceFacet& facet : facets_of_foreign_nodes(*owned_nodes, foreign, facets, place)) all_facets.insert(facet);
+  for (const SurfaceFacet& facet : facets_of_foreign_nodes(*owned_nodes, foreign, facets)) all_facets.insert(facet);
   std::map<GlobalOrdinal, LocalOrdinal> local_of;
   for (std::size_t n = 0; n < surface.node_ids.size(); ++n) local_of[surface.node_ids[n]] = static_cast<LocalOrdinal>(n);
   for (const SurfaceFacet& facet : all_facets)

@@ -1,36 +1,176 @@
-// An application of its own that uses the contact library alone: a square's bottom pressed onto the top of another, both known as facets only.
+// An application of its own that embeds contact: two blocks that do not match, pressed, then drawn along one another with friction.
 
-#include <Tpetra_Core.hpp>
-#include <Tpetra_Map.hpp>
-#include <Tpetra_MultiVector.hpp>
-#include <Tpetra_Vector.hpp>
+#include <Teuchos_CommHelpers.hpp>
 #include <cmath>
+#include <cstdio>
+#include <optional>
+#include <stdexcept>
 
-#include "mortise/contact/contact_system.hpp"
-#include "mortise/core/dof_map.hpp"
+#include "blocks.hpp"
+#include "mortise/core/error.hpp"
+#include "mortise/nonlinear/linear_solver.hpp"
+
+namespace host {
+
+constexpr double friction = 0.3, tolerance = 1e-10;
+
+double sum_over_ranks(const Blocks& blocks, double mine) {
+  double all = 0.0;
+  Teuchos::reduceAll(*blocks.comm, Teuchos::REDUCE_SUM, mine, Teuchos::outArg(all));
+  return all;
+}
+
+// Rows of prescribed dofs: s dd = s (prescribed - d). They are the application's, and replaced after condense().
+void prescribe(const Blocks& blocks, const Vector& target, const Vector& d, Matrix& A, Vector& rhs) {
+  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(blocks.dofs->getNodeNumElements()); ++row) {
+    const GlobalOrdinal id = blocks.dofs->getGlobalElement(row);
+    if (!Blocks::held(id / 2)) continue;
+    Matrix::local_inds_host_view_type columns;
+    Matrix::values_host_view_type values;
+    A.getLocalRowView(row, columns, values);
+    std::vector<double> replaced(columns.extent(0), 0.0);
+    for (std::size_t k = 0; k < replaced.size(); ++k)
+      if (A.getColMap()->getGlobalElement(columns(k)) == id) replaced[k] = E;
+    A.replaceLocalValues(row, Teuchos::ArrayView<const LocalOrdinal>(columns.data(), columns.extent(0)), Teuchos::arrayViewFromVector(replaced));
+    rhs.replaceLocalValue(row, E * (target.getData()[row] - d.getData()[row]));
+  }
+}
+
+// |r| of free dofs, and by how much prescribed dofs are off.
+std::array<double, 2> residuals(const Blocks& blocks, const Vector& r, const Vector& target, const Vector& d) {
+  double free = 0.0, off = 0.0;
+  for (std::size_t row = 0; row < blocks.dofs->getNodeNumElements(); ++row)
+    if (Blocks::held(blocks.dofs->getGlobalElement(static_cast<LocalOrdinal>(row)) / 2))
+      off += std::abs(target.getData()[row] - d.getData()[row]);
+    else
+      free += r.getData()[row] * r.getData()[row];
+  return {std::sqrt(sum_over_ranks(blocks, free)), sum_over_ranks(blocks, off)};
+}
+
+/// What a Newton solve leaves beside d and z.
+struct Solved {
+  bool converged = false;
+  Vector r;  ///< forces that are not balanced: the reactions of prescribed dofs
+};
+
+Solved solve_step(const Blocks& blocks, ContactSystem& contact, const Matrix& K, LinearSolver& solver, const Vector& target, Vector& d, Vector& z) {
+  const std::vector<char> unheld(blocks.nodes->getNodeNumElements(), 0);  // no body is held by contact alone
+  contact.start_step(d, unheld, z);
+  RCP<Matrix> A;
+  Solved solved{false, Vector(blocks.dofs)};
+  Vector internal(blocks.dofs), rhs(blocks.dofs), increment(blocks.dofs), z_new(contact.multiplier_map());
+  for (int iteration = 0; iteration < 30; ++iteration) {
+    std::optional<StepFailure> failure;
+    contact.evaluate(d, true, failure);
+    throw_if_any(*blocks.comm, failure);  // on every rank: undo the step, take a smaller one
+
+    K.apply(d, internal);
+    Tpetra::deep_copy(solved.r, internal);
+    contact.add_contact_force(z, solved.r);
+    const ContactNorms norms = contact.norms(z);
+    const auto [unbalanced, off] = residuals(blocks, solved.r, target, d);
+    solved.converged = unbalanced <= tolerance * internal.norm2() && off <= tolerance && norms.gap <= tolerance &&
+                       norms.complementarity <= tolerance && norms.changed == 0;
+    if (solved.converged && iteration > 0) return solved;
+    contact.mark_states(z);
+
+    bool changed = false;
+    const RCP<const Graph> graph = contact.system_graph([&] { return blocks.graph(); }, changed);
+    changed |= A.is_null();
+    if (changed)
+      A = rcp(new Matrix(graph));
+    else
+      A->resumeFill();
+    A->setAllToScalar(0.0);
+    blocks.assemble(*A);
+    contact.add_stiffness(z, *A);
+    rhs.update(-1.0, internal, 0.0);  // without the forces of contact
+    contact.condense(z, *A, rhs);
+    prescribe(blocks, target, d, *A, rhs);
+    A->fillComplete(blocks.dofs, blocks.dofs);
+
+    solver.set_matrix(A, changed, {});
+    solver.solve(rhs, increment);
+    contact.recover(increment, z_new);
+    d.update(1.0, increment, 1.0);
+    Tpetra::deep_copy(z, z_new);
+  }
+  return solved;
+}
+
+// The sum of the reactions of the lower (0) or upper (1) edge.
+std::array<double, 2> reaction(const Blocks& blocks, const Vector& r, int block) {
+  std::array<double, 2> mine{};
+  for (std::size_t row = 0; row < blocks.dofs->getNodeNumElements(); ++row) {
+    const GlobalOrdinal id = blocks.dofs->getGlobalElement(static_cast<LocalOrdinal>(row));
+    if (Blocks::held(id / 2) && Blocks::block_of(id / 2) == block) mine[id % 2] += r.getData()[row];
+  }
+  return {sum_over_ranks(blocks, mine[0]), sum_over_ranks(blocks, mine[1])};
+}
+
+bool near(const char* what, double value, double expected, double scale) {
+  const bool right = std::abs(value - expected) <= 1e-8 * scale;
+  if (!right) std::printf("%s is %.15g, expected %.15g\n", what, value, expected);
+  return right;
+}
+
+// Presses by `down` until time 1, then draws to the right by `right` until time 2.
+int run() {
+  constexpr double down = 0.02, right = 0.12, force = E * down * width / height;
+  const Blocks blocks;
+  ContactSystem contact(blocks.nodes, blocks.dofs, blocks.reference, blocks.fixed, {}, {blocks.pair(friction)}, Timers());
+  Matrix K(blocks.graph());
+  blocks.assemble(K);
+  K.fillComplete(blocks.dofs, blocks.dofs);
+  LinearSolverOptions options;
+  options.kind.value = LinearSolverOptions::Kind::mumps;
+  const auto solver = make_linear_solver(options, blocks.comm, Timers());
+  Vector d(blocks.dofs), z(contact.multiplier_map()), target(blocks.dofs);
+
+  bool all_right = true;
+  double time = 0.0, step = 0.25;
+  while (time < 2.0) {
+    for (const GlobalOrdinal id : blocks.dofs->getNodeElementList())
+      if (Blocks::held(id / 2) && Blocks::block_of(id / 2) == 1)
+        target.replaceGlobalValue(id, id % 2 == 0 ? right * std::max(0.0, time + step - 1.0) : -down * std::min(1.0, time + step));
+    const Vector d_start(d, Teuchos::Copy), z_start(z, Teuchos::Copy);
+    Solved solved{false, Vector(blocks.dofs)};
+    try {
+      solved = solve_step(blocks, contact, K, *solver, target, d, z);
+    } catch (const StepFailure&) {
+    }
+    if (!solved.converged) {  // nothing was accepted: the next start_step() goes back by itself
+      Tpetra::deep_copy(d, d_start);
+      Tpetra::deep_copy(z, z_start);
+      step /= 2.0;
+      if (step < 1e-3) throw std::runtime_error("no step converges");
+      continue;
+    }
+    contact.accept_states(z);
+    time += step;
+    const auto below = reaction(blocks, solved.r, 0), above = reaction(blocks, solved.r, 1);
+    // Poisson's ratio 0: one column of height 2, whatever the meshes. Then: forces balance, and so does each body.
+    if (time == 1.0) all_right &= near("the pressing force", -above[1], force, force) && near("the shear force", above[0], 0.0, force);
+    const auto on_slave = contact.resultant(0, z);
+    for (int i = 0; i < 2; ++i)
+      all_right &= near("the sum of both reactions", below[i] + above[i], 0.0, force) &&
+                   near("the contact force", std::abs(on_slave[i]), std::abs(above[i]), force);
+  }
+  // The upper block slides as a whole: Coulomb's law at each node that is closed.
+  for (const ContactNodeState& node : contact.node_states(0, z))
+    if (node.closed)
+      all_right &= node.state == ContactState::slip && near("the shear traction", std::abs(node.shear), friction * node.pressure, force);
+  return all_right && contact.norms(z).active > 0 ? 0 : 1;
+}
+
+}  // namespace host
 
 int main(int argc, char** argv) {
-  using namespace mortise;
   Tpetra::ScopeGuard scope(&argc, &argv);
-  const auto comm = Tpetra::getDefaultComm();
-  const auto nodes = rcp(new const Map(4, comm->getRank() == 0 ? 4 : 0, 0, comm));
-  const auto dofs = make_dof_map(*nodes, 2);
-  const auto reference = rcp(new MultiVector(nodes, 2)), fixed = rcp(new MultiVector(nodes, 2));
-  const double x[4] = {0.0, 1.0, 1.0, 0.0};
-  for (int node = 0; node < 4 && comm->getRank() == 0; ++node) reference->replaceLocalValue(node, 0, x[node]);
-  ContactPair pair;
-  pair.name = "pair";
-  pair.youngs_modulus = 1.0;
-  if (comm->getRank() == 0) {
-    pair.slave = {{0, 1}};
-    pair.master = {{2, 3}};
+  try {
+    return host::run();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
   }
-  ContactSystem contact(nodes, dofs, reference, fixed, {}, {pair}, Timers());
-  Vector d(dofs), z(contact.multiplier_map()), force(dofs);
-  contact.start_step(d, std::vector<char>(nodes->getNodeNumElements(), 1), z);
-  contact.add_contact_force(z, force);
-  const auto resultant = contact.resultant(0, z);
-  // The surfaces touch: both nodes start closed at 1e-6 E, so the slave is pushed up by 1e-6 over a length of 1.
-  const bool right = contact.norms(z).active == 2 && std::abs(resultant[1] - 1e-6) < 1e-18 && force.normInf() > 0.0;
-  return right ? 0 : 1;
 }

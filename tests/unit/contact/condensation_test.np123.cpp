@@ -162,6 +162,12 @@ std::vector<Case> cases() {
     add_friction("", 0.12);
     set("coulomb, reference")->options.geometry = ContactGeometry::reference;
   }
+  for (const auto& name : {"coulomb, mixed", "space, coulomb, mixed", "quadratic, plane, coulomb", "quadratic, space, coulomb", "penalty, coulomb"}) {
+    const auto whole = std::find_if(all.begin(), all.end(), [&](const Case& one) { return one.name == name; });
+    if (whole == all.end()) throw std::logic_error(name);
+    all.push_back({whole->name + ", zeros dropped", whole->surfaces});
+    all.back().surfaces.zeros_dropped = true;
+  }
   for (Case& one : all) one.surfaces.options.mortar.search_reach = 1.0;
   return all;
 }
@@ -360,6 +366,7 @@ TEST(ReferenceGeometry, GapIsTheTransposeOfTheForce) {
   ContactSystem& contact = *fixture.contact;
   std::optional<StepFailure> failure;
   Vector d(fixture.dofs);
+  start(fixture);
   contact.evaluate(d, true, failure);
   bool changed = false;
   contact.system_graph([&] { return fixture.bulk; }, changed);

@@ -26,7 +26,7 @@ enum class ContactGeometry { current, reference };
 struct ContactOptions {
   MortarOptions mortar;
   ContactGeometry geometry = ContactGeometry::current;
-  std::optional<double> complementarity_constant;  ///< c_n and c_t; default E / (h A_j)
+  std::optional<double> complementarity_constant;  ///< c_n A_j, and c_t A_j; default E / h, of regularised conditions a tenth of that
   Choice<Formulation> formulation{"dual mortar", std::make_shared<DualMortar>(), {}};
   Choice<FrictionLaw> friction{"none", std::make_shared<NoFriction>(), {}};
   void describe(Parameters& parameters);
@@ -36,21 +36,26 @@ struct ContactOptions {
 struct ContactPair {
   std::string name;
   Place place;
-  SurfaceFacets slave, master;  ///< as MortarInterface wants them
-  double youngs_modulus = 0.0;  ///< of the softer side: sets c_n, the start rule and the stiffness of regularised conditions
+  /// As MortarInterface wants them: every slave facet on each rank that owns a node of it, every master facet on one rank. Oriented as
+  /// surface_facet.hpp says, with their normals out of the bodies: in the plane the body is on the left of the way along the nodes, in space a
+  /// facet's nodes go round anticlockwise as seen from outside. Facets turned inside out are not found out: they never touch.
+  SurfaceFacets slave, master;
+  /// Above 0. Of the softer side: sets c_n, the start rule and the stiffness of regularised conditions.
+  double youngs_modulus = 0.0;
   ContactOptions options;
   std::optional<std::size_t> second_pass_of;  ///< an earlier pair of a two-pass formulation, with the sides exchanged
 };
 
 /// Norms and counts after an evaluation, over all ranks.
 struct ContactNorms {
-  double gap = 0.0;              ///< max |g_j| / (A_j h) over closed nodes
-  double complementarity = 0.0;  ///< max |C| relative to max |z| (with a floor)
-  double force = 0.0;            ///< |f_c|
-  double violation = 0.0;        ///< |A_j C_j| over all nodes [force]
-  int active = 0;                ///< closed nodes
-  int sticking = 0;              ///< of them
-  int changed = 0;               ///< nodes whose state is not that of the last committed Newton iterate
+  double gap = 0.0;  ///< max |g_j| / (A_j h) over closed nodes; 0 of regularised pairs
+  double complementarity =
+      0.0;                 ///< max |C| relative to max |z| (with a floor), without C_n of closed nodes that are not regularised: that is the gap
+  double force = 0.0;      ///< |f_c|
+  double violation = 0.0;  ///< |A_j C_j| over all nodes [force]
+  int active = 0;          ///< closed nodes
+  int sticking = 0;        ///< of them
+  int changed = 0;         ///< nodes whose state is not that last marked or, after start_step(), accepted
 };
 
 /// What can be known of an owned slave node after a solve.
@@ -64,12 +69,13 @@ struct ContactNodeState {
   double weight = 0.0;    ///< A_j
   bool closed = false;
   ContactState state = ContactState::open;
-  double covered = 0.0;           ///< sum_k D_jk: the force on the slave side is -covered * traction
-  double shear = 0.0;             ///< z . tau, tau = n turned by +90 degrees; in space |z - (z . n) n|
-  double shear_bound = 0.0;       ///< rho, of closed nodes; friction only
-  double slip = 0.0;              ///< along tau, in space its size, since the start of the step [length]; friction only
-  double slip_path = 0.0;         ///< |slip| summed over the accepted steps [length]; friction only
-  std::array<double, 3> force{};  ///< D_jj z_j, force of this node's multiplier on the slave side is -force
+  double covered = 0.0;      ///< sum_k D_jk: the force on the slave side is -covered * traction
+  double shear = 0.0;        ///< z . tau, tau = n turned by +90 degrees; in space |z - (z . n) n|
+  double shear_bound = 0.0;  ///< rho, of closed nodes; friction only
+  double slip = 0.0;         ///< along tau, in space its size, since the start of the step [length]; friction only
+  double slip_path = 0.0;    ///< |slip| summed over the accepted steps [length]; friction only
+  std::array<double, 3>
+      force{};  ///< the force of this node's multiplier on the slave side is -force: sum_k D_jk z_j, with variational mortar that of the gap
 };
 
 /// How the integrals of a pair, of both passes if there are two, are spread over the ranks, in the last evaluation.
@@ -95,8 +101,9 @@ class ContactSystem {
   /// @param dofs       owned dofs (dimension * node + component) of `owned_nodes`
   /// @param reference  [owned nodes x dim] reference positions
   /// @param fixed      [owned nodes x dim] 1 where prescribed
-  /// @throws InputError for a slave node in two pairs, a node that is slave in one pair and master in another, and what
-  ///         MortarInterface refuses
+  /// @throws InputError for a pair without Young's modulus, formulation or law of friction, a slave node in two pairs, a node that is slave in one
+  ///         pair and master in another where its multiplier is eliminated, and what MortarInterface refuses; at the pair's name if it has no place
+  /// @throws std::invalid_argument for `dofs` that are not make_dof_map(*owned_nodes, dim), and vectors on other nodes
   ContactSystem(RCP<const Map> owned_nodes, RCP<const Map> dofs, RCP<const MultiVector> reference, RCP<const MultiVector> fixed,
                 const InterfaceMeasure& measure, std::vector<ContactPair> pairs, const Timers& timers);
   ~ContactSystem();
@@ -112,9 +119,10 @@ class ContactSystem {
   /// Map of z: ids lie above all dof ids.
   const RCP<const Map>& multiplier_map() const;
 
-  /// Integrals at displacement d (kept until the next call); searches where needed. Local failures go to `failure`: those of
-  /// MortarInterface, and lost contact: a node closed in the accepted state or when last marked that went through the master surface so far
-  /// that nothing is within reach any more. A node that opened or ran off the master's edge is not lost.
+  /// Integrals at displacement d (kept until the next call); searches where needed. Slips are those since the last start_step(): before the first
+  /// there are none. Local failures go to `failure`, which comes in empty (throw_if_any() tells all ranks): those of MortarInterface, and lost
+  /// contact: a node closed in the accepted state or when last marked that went through the master surface so far that nothing is within reach any
+  /// more. A node that opened or ran off the master's edge is not lost.
   void evaluate(const Vector& d, bool derivatives, std::optional<StepFailure>& failure);
 
   /// Graph of the condensed system: the bulk's and what the pairs couple. `changed` is set if it differs from the one of the last call: only then is
@@ -140,19 +148,22 @@ class ContactSystem {
   /// hold to their tolerance yet. `round` counts from 1 within a step. Collective.
   Augmentation augment(const Vector& z, int round);
 
-  /// K += C~ = d(f_c)/dd at fixed z. `system` has system_graph(). Needs evaluate(d, true).
+  /// K += C~ = d(f_c)/dd at fixed z. `system` has system_graph() as asked for after the last evaluate(d, true), and is being filled.
+  /// @throws std::logic_error where that, or start_step(), was left out
   void add_stiffness(const Vector& z, Matrix& system);
 
-  /// Turns `system` (K~, Dirichlet rows untouched) and `rhs` (-r without f_c) into the condensed system; keeps what recover() needs.
+  /// Turns `system` (K~, in rows of prescribed dofs too) and `rhs` (-r without f_c) into the condensed system; keeps what recover() needs. Rows of
+  /// prescribed dofs may be replaced afterwards, not before.
+  /// @throws std::logic_error as add_stiffness(), and where keeps_multipliers()
   void condense(const Vector& z, Matrix& system, Vector& rhs);
-  /// z^{k+1} from the displacement increment.
+  /// z^{k+1} from the whole displacement increment, with that of prescribed dofs.
   void recover(const Vector& increment, Vector& z_new) const;
 
   /// What multigrid needs to know of the system that was condensed last, at z, d of the last evaluate.
   Decoupling decoupling(const Vector& z) const;
 
-  /// The blocks of the saddle point form: f_c = B(d) z, C_d, C_z on the maps of d and z. B and C_d hold zeros, so that their patterns change only
-  /// with the candidates.
+  /// The blocks of the saddle point form at the last evaluate(d, true): f_c = B(d) z, C_d, C_z on the maps of d and z. B and C_d hold zeros, so that
+  /// their patterns change only with the candidates.
   struct SaddlePointBlocks {
     RCP<Matrix> B, C_d, C_z;
   };
@@ -161,8 +172,8 @@ class ContactSystem {
   /// Goes back to the accepted states, and start rule: multipliers of nodes that touch, and seeds for bodies that only contact holds, are set to a
   /// small pressure. Only the guess z is changed.
   /// Slips are measured from the accepted state on; before any is accepted, from d on.
-  /// @param unheld_bodies  for each owned node whether it belongs to a body that nothing but contact holds
-  void start_step(Vector& d, const std::vector<char>& unheld, Vector& z);
+  /// @param unheld  for each owned node whether it belongs to a body that nothing but contact holds
+  void start_step(const Vector& d, const std::vector<char>& unheld, Vector& z);
 
   /// States of the owned slave nodes of a pair.
   std::vector<ContactNodeState> node_states(std::size_t pair, const Vector& z) const;

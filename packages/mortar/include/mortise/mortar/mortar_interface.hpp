@@ -34,7 +34,7 @@ enum class Linearisation {
   frozen_normals  ///< none: iterates converge to the same solution, linearly
 };
 
-/// The measure on the interface: thickness t, or 2 pi r of the current slave radius.
+/// The measure on the interface in the plane: thickness t, or 2 pi r of the current slave radius. In space it is not used.
 struct InterfaceMeasure {
   bool axisymmetric = false;
   double thickness = 1.0;
@@ -178,7 +178,7 @@ class MortarInterface {
   std::vector<GapCurvature> gap_curvatures(const MultiVector& x, const std::vector<double>& pressures) const;
 
   /// Collective. For some owned slave nodes (indices into slave_nodes()) the distance along the given unit normals, at positions `x`
-  /// [owned nodes x 2, finite], of the nearest master facet that faces the normal; negative: it stands behind the node, which has gone through
+  /// [owned nodes x dim, finite], of the nearest master facet that faces the normal; negative: it stands behind the node, which has gone through
   /// it. However far, other than evaluate(). No value: no such facet.
   std::vector<std::optional<double>> distances_to_master(const MultiVector& x, const std::vector<std::size_t>& nodes,
                                                          const std::vector<SpatialVector>& normals) const;

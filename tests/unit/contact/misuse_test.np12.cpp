@@ -1,0 +1,202 @@
+// What a host application can get wrong, and is told on every rank.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "mortise/contact/formulation/standard_mortar.hpp"
+#include "two_surfaces.hpp"
+
+namespace mortise {
+namespace {
+
+using test::Fixture;
+using ::testing::HasSubstr;
+
+/// What is thrown, on every rank alike: "" if nothing is.
+template <class Error, class Call>
+std::string thrown(const Call& call) {
+  std::string text;
+  try {
+    call();
+  } catch (const Error& error) {
+    text = error.what();
+  }
+  int mine = text.empty() ? 0 : 1, all = 0;
+  Teuchos::reduceAll(*Tpetra::getDefaultComm(), Teuchos::REDUCE_SUM, mine, Teuchos::outArg(all));
+  EXPECT_EQ(all, mine * Tpetra::getDefaultComm()->getSize()) << "not on every rank";
+  return text;
+}
+
+/// Two facets that face each other, node n on rank n modulo the ranks, and how they are given.
+struct Host {
+  RCP<const Communicator> comm = Tpetra::getDefaultComm();
+  RCP<const Map> nodes = owned(), dofs = make_dof_map(*nodes, 2);
+  RCP<MultiVector> reference = rcp(new MultiVector(nodes, 2)), fixed = rcp(new MultiVector(nodes, 2));
+  ContactPair pair;
+
+  Host() {
+    pair.name = "joint";
+    pair.youngs_modulus = 1.0;
+    const double x[4] = {0.0, 1.0, 1.0, 0.0};
+    for (const GlobalOrdinal node : nodes->getNodeElementList()) reference->replaceGlobalValue(node, 0, x[node]);
+    const auto mine = [&](GlobalOrdinal node) { return nodes->isNodeGlobalElement(node); };
+    if (mine(0) || mine(1)) pair.slave = {{0, 1}};
+    if (mine(2)) pair.master = {{2, 3}};
+  }
+  RCP<const Map> owned() const {
+    std::vector<GlobalOrdinal> ids;
+    for (GlobalOrdinal node = 0; node < 4; ++node)
+      if (node % comm->getSize() == comm->getRank()) ids.push_back(node);
+    return rcp(new Map(4, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, comm));
+  }
+  template <class Error>
+  std::string refused() const {
+    return thrown<Error>([&] { ContactSystem(nodes, dofs, reference, fixed, {}, {pair}, Timers()); });
+  }
+};
+
+TEST(Misuse, PairsThatAreNotComplete) {
+  EXPECT_EQ(Host().refused<std::exception>(), "");
+  Host soft;
+  soft.pair.youngs_modulus = 0.0;
+  EXPECT_THAT(soft.refused<InputError>(), HasSubstr("contact/joint: Young's modulus is 0"));
+  soft.pair.youngs_modulus = std::nan("");
+  EXPECT_THAT(soft.refused<InputError>(), HasSubstr("Young's modulus is nan"));
+  Host lawless;
+  lawless.pair.options.friction.options = nullptr;
+  EXPECT_THAT(lawless.refused<InputError>(), HasSubstr("contact/joint: the law of friction is null"));
+  Host formless;
+  formless.pair.options.formulation.options = nullptr;
+  EXPECT_THAT(formless.refused<InputError>(), HasSubstr("contact/joint: the formulation is null"));
+}
+
+TEST(Misuse, MapsThatDoNotFit) {
+  Host by_component;
+  std::vector<GlobalOrdinal> ids;
+  for (int i = 0; i < 2; ++i)
+    for (const GlobalOrdinal node : by_component.nodes->getNodeElementList()) ids.push_back(2 * node + i);
+  by_component.dofs = rcp(new Map(8, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, by_component.comm));
+  EXPECT_THAT(by_component.refused<std::invalid_argument>(), HasSubstr("make_dof_map"));
+  Host one_column;
+  one_column.fixed = rcp(new MultiVector(one_column.nodes, 1));
+  EXPECT_THAT(one_column.refused<std::invalid_argument>(), HasSubstr("prescribed components have 1 columns"));
+  Host of_dofs;
+  of_dofs.reference = rcp(new MultiVector(of_dofs.dofs, 2));
+  EXPECT_THAT(of_dofs.refused<std::invalid_argument>(), HasSubstr("one row for each node"));
+}
+
+TEST(Misuse, FacetsOfUnknownNodes) {
+  Host slave, master;
+  if (!slave.pair.slave.empty()) slave.pair.slave = {{0, 99}};
+  EXPECT_THAT(slave.refused<InputError>(), HasSubstr("contact/joint: the slave surface names node 99, which the model does not have"));
+  if (!master.pair.master.empty()) master.pair.master = {{2, 99}};
+  EXPECT_THAT(master.refused<InputError>(), HasSubstr("contact/joint: the master surface names node 99, which the model does not have"));
+}
+
+TEST(Misuse, FacetsOnTheWrongRanks) {
+  Host twice;
+  twice.pair.master = {{2, 3}, {3, 2}};
+  EXPECT_THAT(twice.refused<InputError>(), HasSubstr("the master facet of nodes 2, 3 is given on rank 0 and again on rank 0"));
+  if (twice.comm->getSize() == 1) return;
+  twice.pair.master = {{2, 3}};
+  EXPECT_THAT(twice.refused<InputError>(), HasSubstr("the master facet of nodes 2, 3 is given on rank 0 and again on rank 1"));
+  for (const int rank : {0, 1}) {
+    Host missing, turned;
+    if (missing.comm->getRank() == rank) missing.pair.slave.clear();
+    EXPECT_THAT(missing.refused<InputError>(), HasSubstr("the slave facet of nodes 0, 1, as rank " + std::to_string(1 - rank) +
+                                                         " gives it, is not given on rank " + std::to_string(rank)));
+    if (turned.comm->getRank() == rank) turned.pair.slave = {{1, 0}};
+    EXPECT_THAT(turned.refused<InputError>(), HasSubstr("is not given on rank"));
+  }
+}
+
+/// The calls of one linearisation.
+struct Calls {
+  explicit Calls(const std::shared_ptr<Formulation>& formulation = std::make_shared<DualMortar>()) : fixture(surfaces(formulation)) {}
+
+  static Fixture surfaces(const std::shared_ptr<Formulation>& formulation) {
+    test::TwoSurfaces surfaces = test::arch_on_ground();
+    surfaces.options.formulation.options = formulation;
+    const auto coulomb = std::make_shared<CoulombFriction>();
+    coulomb->coefficient = Expression(0.3);
+    surfaces.options.friction.options = coulomb;
+    return {surfaces, Tpetra::getDefaultComm()};
+  }
+  void start() { contact.start_step(d, std::vector<char>(fixture.nodes->getNodeNumElements(), 0), z); }
+  void evaluate(bool derivatives, double right = 0.0) {
+    const auto at = Fixture::vector(fixture.dofs, [&](GlobalOrdinal id) { return id < 12 && id % 2 == 0 ? right : 0.0; });
+    std::optional<StepFailure> failure;
+    contact.evaluate(*at, derivatives, failure);
+  }
+  void make_matrix() {
+    bool changed = false;
+    matrix = fixture.springs(contact.system_graph([&] { return fixture.bulk; }, changed));
+  }
+  std::string add_stiffness() {
+    return thrown<std::logic_error>([&] { contact.add_stiffness(z, *matrix); });
+  }
+  std::string condense() {
+    Vector rhs(fixture.dofs);
+    return thrown<std::logic_error>([&] { contact.condense(z, *matrix, rhs); });
+  }
+
+  Fixture fixture;
+  ContactSystem& contact = *fixture.contact;
+  Vector d{fixture.dofs}, z{contact.multiplier_map()};
+  RCP<Matrix> matrix = rcp(new Matrix(fixture.bulk));
+};
+
+TEST(Misuse, CallsOutOfOrder) {
+  Calls unstarted;
+  unstarted.evaluate(true);
+  unstarted.make_matrix();
+  EXPECT_THAT(unstarted.add_stiffness(), HasSubstr("before any start_step()"));
+  EXPECT_THAT(unstarted.condense(), HasSubstr("before any start_step()"));
+
+  Calls underived;
+  underived.start();
+  underived.evaluate(false);
+  underived.make_matrix();
+  EXPECT_THAT(underived.condense(), HasSubstr("evaluate(d, true, failure)"));
+
+  Calls graphless;
+  graphless.start();
+  graphless.evaluate(true);
+  EXPECT_THAT(graphless.add_stiffness(), HasSubstr("before any system_graph()"));
+
+  Calls stale;
+  stale.start();
+  stale.evaluate(true);
+  stale.make_matrix();
+  EXPECT_EQ(stale.condense(), "");
+  stale.evaluate(true, 2.3);
+  EXPECT_THAT(stale.condense(), HasSubstr("candidates of contact changed"));
+  stale.make_matrix();
+  EXPECT_EQ(stale.condense(), "");
+  stale.matrix = rcp(new Matrix(stale.fixture.bulk));
+  EXPECT_THAT(stale.condense(), HasSubstr("another graph"));
+
+  Calls complete;
+  complete.start();
+  complete.evaluate(true);
+  complete.make_matrix();
+  complete.matrix->fillComplete(complete.fixture.dofs, complete.fixture.dofs);
+  EXPECT_THAT(complete.add_stiffness(), HasSubstr("resumeFill()"));
+  complete.matrix->resumeFill();
+  EXPECT_EQ(complete.add_stiffness(), "");
+
+  Calls kept(std::make_shared<StandardMortar>());
+  kept.start();
+  kept.evaluate(true);
+  kept.make_matrix();
+  EXPECT_THAT(kept.condense(), HasSubstr("saddle_point_blocks()"));
+}
+
+TEST(Misuse, TooFewNodesSaidToBeHeld) {
+  Calls calls;
+  const std::vector<char> none;
+  EXPECT_THAT(thrown<std::invalid_argument>([&] { calls.contact.start_step(calls.d, none, calls.z); }), HasSubstr("for each owned node"));
+}
+
+}  // namespace
+}  // namespace mortise
