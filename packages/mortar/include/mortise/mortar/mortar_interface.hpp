@@ -120,9 +120,9 @@ class MortarInterface {
   /// @param fixed          [owned nodes x dim] 1 where the displacement is prescribed, else 0
   /// @param slave          every slave facet with a node owned by this rank (so a facet may stand on two ranks)
   /// @param master         the master facets of this rank, each on exactly one rank
-  /// @throws InputError (at `place`) for a slave facet whose nodes, or middles of edges, all lack a multiplier ("make this side the master"), a
-  ///         facet of zero length, an empty surface, a node on both sides, quadratic facets with node to segment, variational mortar in space or
-  ///         without the normals' derivatives
+  /// @throws InputError (at `place`, on every rank) for facets on other ranks than that or of nodes that nobody owns, a slave facet whose nodes, or
+  ///         middles of edges, all lack a multiplier ("make this side the master"), a facet of zero length, an empty surface, a node on both sides,
+  ///         quadratic facets with node to segment, variational mortar in space or without the normals' derivatives
   MortarInterface(RCP<const Map> owned_nodes, RCP<const MultiVector> reference, RCP<const MultiVector> fixed, const SurfaceFacets& slave,
                   const SurfaceFacets& master, const InterfaceMeasure& measure, const MortarOptions& options, const Place& place);
   ~MortarInterface();
