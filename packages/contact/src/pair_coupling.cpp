@@ -123,7 +123,7 @@ void PairCoupling::follow_pattern() {
 
 bool PairCoupling::hands_over() const {
   const bool becomes_exact = !regularisation_ || regularisation_->augmentations > 0;
-  return !uses_reference() && formulation().coupling() == Coupling::dual_mortar && becomes_exact;
+  return dimension_ > 2 && !uses_reference() && formulation().coupling() == Coupling::dual_mortar && becomes_exact;
 }
 
 bool PairCoupling::splits_kinks() const { return dimension_ == 2 && !uses_reference() && pair_.options.mortar.coupling != Coupling::node_to_segment; }
@@ -151,10 +151,10 @@ void PairCoupling::accept_cover() {
 }
 
 bool PairCoupling::adapt_surface(const MultiVector& x) {
-  const bool split = splits_kinks() && interface_->split_kinks(x, nearest_accepted_);  // the next search renews the pattern
-  const bool handed = hands_over() && interface_->hand_over(accepted_cover_);
-  if (handed) follow_pattern();
-  return split || handed;
+  if (splits_kinks()) return interface_->split_kinks(x, nearest_accepted_);  // the next search renews the pattern
+  const bool changed = hands_over() && interface_->hand_over(accepted_cover_);
+  if (changed) follow_pattern();
+  return changed;
 }
 
 void PairCoupling::evaluate(const MultiVector& x, bool derivatives, std::optional<StepFailure>& failure) {

@@ -135,7 +135,8 @@ class PairCoupling {
 
  private:
   bool uses_reference() const { return pair_.options.geometry == ContactGeometry::reference; }
-  /// Whether nodes that are hardly covered hand their functions over: where dual multipliers follow the bodies until conditions hold exactly.
+  /// Whether nodes that are hardly covered hand their functions over: in space, where dual multipliers follow the bodies until conditions hold
+  /// exactly.
   bool hands_over() const;
   /// Whether facets that meet in a kink have their own normals: in the plane, where they are integrated over and follow the bodies.
   bool splits_kinks() const;

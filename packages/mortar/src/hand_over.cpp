@@ -88,16 +88,9 @@ bool Interface<dim>::hand_over(const std::vector<double>& cover) {
   const auto carries_enough = [&](LocalOrdinal node) {
     return slave.carries[node] && covered[node] >= (handed_over_[node] > 0.0 ? hysteresis : 1.0) * hardly_covered;
   };
-  // A kink is to see the gap at itself alone, and not the mean of a facet that stands off.
-  const auto beside_kink = [&](std::size_t s) {
-    const auto& facets = slave.facets_of[s];
-    return std::any_of(facets.begin(), facets.end(), [&](std::size_t f) {
-      return std::any_of(slave.facets[f].begin(), slave.facets[f].end(), [&](LocalOrdinal node) { return !kinks_.empty() && kinks_[node] != 0; });
-    });
-  };
   std::vector<double> hands(slave.owned.size(), 0.0);
   for (std::size_t s = 0; s < hands.size(); ++s) {
-    if (!slave.carries[s] || carries_enough(static_cast<LocalOrdinal>(s)) || beside_kink(s)) continue;
+    if (!slave.carries[s] || carries_enough(static_cast<LocalOrdinal>(s))) continue;
     for (const std::size_t f : slave.facets_of[s])
       if (std::any_of(slave.facets[f].begin(), slave.facets[f].end(), carries_enough)) hands[s] = 1.0;
   }

