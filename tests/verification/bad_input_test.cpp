@@ -159,7 +159,7 @@ const std::vector<Case> cases{
     {"minimum_above_step", R"xml(<ParameterList name="contact">)xml", R"xml(<ParameterList name="stepping">
       <Parameter name="minimum step" type="double" value="3"/></ParameterList>
   <ParameterList name="contact">)xml",
-     "\"minimum step\": is 3, larger than \"step\", 1", R"xml(value="3")xml"},
+     "\"minimum step\": is 3, larger than \"step\", 1", R"xml(name="minimum step")xml"},
     {"malformed_xml", R"xml(<ParameterList name="loads">)xml", R"xml(<ParameterList name="loads")xml", "scene.xml:", ""},
     {"unknown_check_quantity", R"xml(<ParameterList name="contact">)xml", R"xml(<ParameterList name="checks"><ParameterList name="c">
       <Parameter name="quantity" type="string" value="forse"/><Parameter name="low" type="double" value="0"/></ParameterList></ParameterList>
