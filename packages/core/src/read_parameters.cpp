@@ -70,9 +70,11 @@ Place ReadParameters::place(const std::string& name) const {
   return list ? list->place : frame().place;
 }
 
+// A message that begins with a name says itself what it is about.
 void ReadParameters::error(const std::string& name, const std::string& message) {
   const std::string quoted = '"' + name + '"';
-  say(place(name), name.empty() || message.find(quoted) != std::string::npos ? message : quoted + ": " + message);
+  const bool named = name.empty() || message.front() == '"' || message.find(quoted) != std::string::npos;
+  say(place(name), named ? message : quoted + ": " + message);
 }
 
 const XmlParameter* ReadParameters::find(const std::string& name, const Says& says, const std::vector<std::string>& types) {
