@@ -272,6 +272,24 @@ TEST(BadInputs, AreAllReportedAtOnce) {
   for (const char* wrong : {"5x", "cels x", "contacts"}) EXPECT_NE(ending.output.find(wrong), std::string::npos) << ending.output;
 }
 
+TEST(Files, AnEmptySceneIsAnInputError) {
+  const Ending ending = run(files::path(SCRATCH) / "empty", "", 2);
+  EXPECT_EQ(ending.code, 2) << ending.output;
+  EXPECT_NE(ending.output.find("not well-formed XML"), std::string::npos) << ending.output;
+}
+
+TEST(Checks, AMissedOneIsSaidQuietlyToo) {
+  const std::string scene = replaced(good_scene, R"xml(  <ParameterList name="contact">)xml", R"xml(  <ParameterList name="quantities"><ParameterList name="force">
+    <Parameter name="type" type="string" value="contact force"/></ParameterList></ParameterList>
+  <ParameterList name="checks"><ParameterList name="too much"><Parameter name="quantity" type="string" value="force"/>
+    <Parameter name="low" type="double" value="1e9"/></ParameterList></ParameterList>
+  <ParameterList name="contact">)xml");
+  const Ending ending = run(files::path(SCRATCH) / "missed_check", scene, 1, {"--quiet"});
+  EXPECT_EQ(ending.code, 4) << ending.output;
+  EXPECT_NE(ending.output.find("check too much: 1e+09 <= force"), std::string::npos) << ending.output;
+  EXPECT_NE(ending.output.find("MISSED"), std::string::npos) << ending.output;
+}
+
 TEST(Files, AMissingSceneIsAFileError) {
   for (const int ranks : {1, 2}) {
     const Ending ending = launch({MPIEXEC, "-n", std::to_string(ranks), MORTISE, "run", std::string(SCRATCH) + "/no_such_scene.xml"}, 60);

@@ -7,6 +7,7 @@
 #include <Teuchos_CommHelpers.hpp>
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <set>
@@ -110,7 +111,9 @@ std::string read_text(const Communicator& comm, const std::string& path) {
   if (comm.getRank() == 0) {
     std::ifstream file(path, std::ios::binary);
     std::ostringstream content;
-    if (file && content << file.rdbuf()) {
+    std::error_code none;
+    const bool empty = std::filesystem::is_regular_file(path, none) && std::filesystem::file_size(path, none) == 0;
+    if (file && (content << file.rdbuf() || empty)) {  // nothing to copy is a failure of <<
       text = content.str();
       size = static_cast<long long>(text.size());
     }

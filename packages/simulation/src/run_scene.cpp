@@ -191,7 +191,9 @@ void report_end(const RunRecord& record, const std::optional<StepFailure>& failu
     if (const auto found = record.quantities.find(name); found != record.quantities.end()) log.info(fmt::format("{} = {:.10g}", name, found->second));
   for (const auto& check : record.checks) {
     const std::string low = check.low ? fmt::format("{:g} <= ", *check.low) : "", high = check.high ? fmt::format(" <= {:g}", *check.high) : "";
-    log.info(fmt::format("check {}: {}{}{}: {:.10g}: {}", check.name, low, check.quantity, high, check.value, check.ok ? "ok" : "MISSED"));
+    const std::string line =
+        fmt::format("check {}: {}{}{}: {:.10g}: {}", check.name, low, check.quantity, high, check.value, check.ok ? "ok" : "MISSED");
+    check.ok ? log.info(line) : log.warning(line);
   }
   for (const auto& [pair, load] : record.integration)
     if (load.segments > 0)
