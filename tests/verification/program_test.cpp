@@ -191,6 +191,18 @@ TEST(Program, ARunThatDoesNotConvergeIsCode3AndKeepsTheLastGoodState) {
   }
 }
 
+// The block is pulled off the wall from t = 0.5 on; nothing but the wall holds it in x.
+TEST(Program, ABodyThatComesFreeIsNamed) {
+  for (const int ranks : {1, 2}) {
+    const Ending ending = mortise({"run", std::string(INPUTS) + "/verification/held_by_contact.xml", "--set", "loads/left/x=p*(2*t-1)", "--set",
+                                   "stepping/step=0.1", "-o", std::string(SCRATCH) + "/commands/freed"},
+                                  ranks);
+    EXPECT_EQ(ending.code, 3) << ending.output;
+    const std::string last = ending.output.substr(ending.output.find("not converged; the last converged state is that of time 0.5"));
+    EXPECT_NE(last.find("free to move: body 'block' (translation in x); contact alone held this"), std::string::npos) << ending.output;
+  }
+}
+
 TEST(Program, KeepRefusesADirectoryWithResults) {
   const std::string directory = std::string(SCRATCH) + "/commands/kept", scene = write_scene("kept", "");
   std::filesystem::remove_all(directory);

@@ -67,7 +67,9 @@ bool run_steps(SemiSmoothSystem& system, const SteppingOptions& stepping, const 
         if (start_step) start_step(tried);
         solve_step(system, report.time, newton, tried, report.newton, observer.iteration);
         break;
-      } catch (const StepFailure& failure) {
+      } catch (const StepFailure& caught) {
+        const std::string explanation = observer.explain ? observer.explain() : "";
+        const StepFailure failure = explanation.empty() ? caught : StepFailure(caught.kind(), fmt::format("{} ({})", explanation, caught.what()));
         last_failure = failure;
         ++report.cutbacks;
         report.undone.push_back(to_string(failure.kind()) + ": " + failure.what());

@@ -37,11 +37,13 @@ RCP<Vector> SemiSmoothSystem::multipliers(Vector& x) const {
   return x.offsetViewNonConst(implementation_->multipliers, implementation_->parts.dofs->getNodeNumElements());
 }
 double SemiSmoothSystem::time() const { return implementation_->time; }
+RCP<const Vector> SemiSmoothSystem::linearised_at() const { return implementation_->jacobian_at; }
 double SemiSmoothSystem::stiffness_scale() const { return implementation_->stiffness_scale; }
 
-// Whoever changes time may have used the contact for itself: nothing that it holds is relied upon any more.
+// Whoever changes time may have used the contact for itself: nothing that it holds is relied upon any more. Jacobians belong to a time.
 void SemiSmoothSystem::set_time(double time) {
   implementation_->time = time;
+  implementation_->jacobian_at = Teuchos::null;
   implementation_->contact_at = Teuchos::null;
 }
 

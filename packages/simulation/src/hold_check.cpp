@@ -11,6 +11,8 @@
 #include <cmath>
 #include <limits>
 
+#include "rigid_mode_names.hpp"
+
 namespace mortise {
 namespace {
 
@@ -43,12 +45,7 @@ class RigidModes {
   int per_body() const { return axisymmetric_ ? 1 : dimension_ == 2 ? 3 : 6; }
   int rotations() const { return axisymmetric_ ? 0 : dimension_ == 2 ? 1 : 3; }
   int count() const { return per_body() * static_cast<int>(bodies_); }
-  const char* name(int mode) const {
-    static const char* plane[] = {"translation in x", "translation in y", "rotation"};
-    static const char* space[] = {"translation in x", "translation in y", "translation in z",
-                                  "rotation about x", "rotation about y", "rotation about z"};
-    return axisymmetric_ ? "translation along the axis" : dimension_ == 2 ? plane[mode] : space[mode];
-  }
+  const char* name(int mode) const { return rigid_mode_name(dimension_, axisymmetric_, mode); }
 
   /// row += rotation of `body` in the plane, over its size.
   void add_rotation(int body, int rotation, Eigen::RowVectorXd& row) const { row(per_body() * body + per_body() - rotations() + rotation) += 1.0; }
@@ -209,20 +206,12 @@ std::vector<char> check_held(const Mesh& mesh, bool axisymmetric, const MultiVec
   Eigen::MatrixXd contact = Eigen::MatrixXd::Zero(modes.count(), modes.count());
   for (const auto& pair : pairs) contact += contact_gram(mesh, modes, pair);
 
-  // One free motion at a time: the mode with the greatest part in what is left of the null space is named and taken out.
-  Eigen::MatrixXd free_motions = null_space(prescribed + sum_over_ranks(mesh, contact));
   std::vector<Diagnostic> diagnostics;
-  for (Eigen::Index left = free_motions.cols(); left > 0; --left) {
-    Eigen::Index mode = 0;
-    free_motions.rowwise().squaredNorm().maxCoeff(&mode);
-    const Eigen::Index body = mode / modes.per_body();
+  for (const auto& [body, mode] : distinct_modes(null_space(prescribed + sum_over_ranks(mesh, contact)), modes.per_body()))
     diagnostics.push_back(
         {body_places[body], fmt::format("body '{}' can move: {}; neither boundary conditions nor contact hold it; contact holds where a slave "
                                         "facet is within reach at the start, along its normal, and with friction along the surface",
-                                        mesh.blocks[body].name, modes.name(static_cast<int>(mode % modes.per_body())))});
-    const Eigen::VectorXd taken = free_motions.row(mode).transpose().normalized();
-    free_motions -= (free_motions * taken).eval() * taken.transpose();
-  }
+                                        mesh.blocks[body].name, modes.name(mode))});
   if (!diagnostics.empty()) throw InputError(diagnostics);
 
   std::vector<char> only_contact;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "free_motions.hpp"
 #include "history_columns.hpp"
 #include "memory.hpp"
 #include "mortise/core/parameter_tree.hpp"
@@ -240,7 +241,9 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
   };
   {
     const auto timer = timers.scope("steps");
-    record.converged = run_steps(system, scene.stepping, scene.newton, x, start_step, observers.functions(), failure);
+    StepperObserver functions = observers.functions();
+    functions.explain = [&] { return describe_free_motions(model, system); };
+    record.converged = run_steps(system, scene.stepping, scene.newton, x, start_step, functions, failure);
     observers.finish(x);
   }
   if (!record.steps.empty()) record.checks = evaluate_checks(scene.checks, record.quantities);

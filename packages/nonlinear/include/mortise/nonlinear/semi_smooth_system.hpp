@@ -70,6 +70,8 @@ class SemiSmoothSystem {
   void residual(const Vector& x, Vector& F, ResidualNorms& norms);
   /// Prepares J at x, and takes the states of the nodes at x as those that ResidualNorms::changed counts against.
   void jacobian(const Vector& x);
+  /// x of the last jacobian(); null if there was none since set_time().
+  RCP<const Vector> linearised_at() const;
   /// y = J v by the saddle point blocks, at the x of the last jacobian().
   void apply(const Vector& v, Vector& y) const;
   /// Newton direction: solves J dx = -F at the x of the last jacobian(), by condensation or, where the contact keeps multipliers, as a saddle point

@@ -1,0 +1,110 @@
+#include "free_motions.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/Eigenvalues>
+#include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
+#include <Tpetra_Vector.hpp>
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "mortise/solid/bodies.hpp"
+#include "rigid_mode_names.hpp"
+
+namespace mortise {
+namespace {
+
+/// Forces over stiffness times motion below which nothing holds a motion, where all bodies are alike: what contact normals that turn with the loads
+/// give is of the size of strains, what contact holds is of the size of one.
+constexpr double hardly_resisted = 1e-4;
+
+/// Of the softest body over that of the stiffest one: contact is as stiff as the softer side.
+double ratio_of_moduli(const Bodies& bodies) {
+  double least = std::numeric_limits<double>::max(), largest = 0.0;
+  for (const auto& body : bodies.properties())
+    if (!body.is_rigid()) {
+      least = std::min(least, body.material->youngs_modulus);
+      largest = std::max(largest, body.material->youngs_modulus);
+    }
+  return largest > 0.0 ? least / largest : 1.0;
+}
+
+/// mesh.blocks indices of the bodies that only contact holds.
+std::vector<int> unheld_bodies(const Model& model) {
+  const Mesh& mesh = *model.mesh();
+  std::vector<int> mine(mesh.blocks.size(), 0), all(mine.size());
+  for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node)
+    if (model.held_by_contact_only()[node]) mine[mesh.body_of_node[node]] = 1;
+  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, static_cast<int>(mine.size()), mine.data(), all.data());
+  std::vector<int> bodies;
+  for (std::size_t body = 0; body < all.size(); ++body)
+    if (all[body]) bodies.push_back(static_cast<int>(body));
+  return bodies;
+}
+
+/// The rigid body modes, with what the rotations of reference points do.
+RCP<MultiVector> modes_with_points(const Model& model, const Vector& displacement) {
+  const Mesh& mesh = *model.mesh();
+  const RCP<MultiVector> modes = rigid_body_modes(*model.bodies(), displacement);
+  const auto values = modes->getLocalViewHost(Tpetra::Access::ReadWrite);
+  const int dimension = mesh.dimension, rotations = dimension == 2 ? 1 : 3;
+  for (const ReferencePoint& point : mesh.reference_points) {
+    if (point.rotation_node < 0 || point.rotation_node >= mesh.owned_count()) continue;
+    for (int i = 0; i < dimension; ++i)
+      for (int mode = 0; mode < dimension + rotations; ++mode)
+        values(dimension * point.rotation_node + i, mode) = i < rotations && mode == dimension + i ? point.arm : 0.0;
+  }
+  return modes;
+}
+
+}  // namespace
+
+std::string describe_free_motions(const Model& model, SemiSmoothSystem& system) {
+  const Mesh& mesh = *model.mesh();
+  const std::vector<int> bodies = unheld_bodies(model);
+  if (bodies.empty() || system.linearised_at().is_null()) return {};
+  const RCP<MultiVector> modes = modes_with_points(model, *system.displacement(*system.linearised_at()));
+  const int per_body = static_cast<int>(modes->getNumVectors()), count = per_body * static_cast<int>(bodies.size());
+
+  // Columns of A; rows of C as forces.
+  MultiVector A(system.map(), count);
+  const RCP<const Vector> weights = model.contact()->weights();
+  for (int column = 0; column < count; ++column) {
+    Vector motion(system.map());
+    {
+      const auto from = modes->getVector(column % per_body)->getLocalViewHost(Tpetra::Access::ReadOnly);
+      const auto to = motion.getLocalViewHost(Tpetra::Access::ReadWrite);
+      for (std::size_t dof = 0; dof < from.extent(0); ++dof)
+        if (mesh.body_of_node[dof / mesh.dimension] == bodies[column / per_body]) to(dof, 0) = from(dof, 0);
+    }
+    const RCP<Vector> force = A.getVectorNonConst(column);
+    system.apply(motion, *force);
+    const RCP<Vector> conditions = system.multipliers(*force);
+    conditions->elementWiseMultiply(1.0, *weights, *conditions, 0.0);
+    force->scale(1.0 / (system.stiffness_scale() * motion.norm2()));
+  }
+
+  MultiVector gram(rcp(new Map(count, 0, mesh.comm, Tpetra::LocallyReplicated)), count);
+  gram.multiply(Teuchos::TRANS, Teuchos::NO_TRANS, 1.0, A, A, 0.0);
+  Eigen::MatrixXd products(count, count);
+  const auto values = gram.getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (int column = 0; column < count; ++column)
+    for (int row = 0; row < count; ++row) products(row, column) = values(row, column);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(products);
+  const double bound = hardly_resisted * ratio_of_moduli(*model.bodies());
+  const auto found = (solver.eigenvalues().array() < bound * bound).count();
+  auto motions = distinct_modes(solver.eigenvectors().leftCols(found), per_body);
+  std::sort(motions.begin(), motions.end());
+  std::vector<std::string> names;
+  for (const auto& [body, mode] : motions)
+    names.push_back(fmt::format("body '{}' ({})", mesh.blocks[bodies[body]].name,
+                                rigid_mode_name(mesh.dimension, model.bodies()->kinematics() == Kinematics::axisymmetric, mode)));
+  if (names.empty()) return {};
+  return fmt::format("free to move: {}; contact alone held this, and has opened or slips", fmt::join(names, ", "));
+}
+
+}  // namespace mortise
