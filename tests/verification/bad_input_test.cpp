@@ -198,11 +198,6 @@ Ending run(const files::path& directory, const std::string& scene, int ranks, co
   return launch(command, 60);
 }
 
-void expect_nothing_but_the_log(const files::path& results) {
-  if (!files::exists(results)) return;
-  for (const auto& entry : files::directory_iterator(results)) EXPECT_EQ(entry.path().filename(), "log.txt");
-}
-
 TEST_P(BadInput, IsRefusedWithFileAndLine) {
   const auto& [bad, ranks] = GetParam();
   const files::path directory = files::path(SCRATCH) / fmt::format("{}_np{}", bad.name, ranks);
@@ -212,7 +207,7 @@ TEST_P(BadInput, IsRefusedWithFileAndLine) {
   EXPECT_NE(ending.output.find(bad.message), std::string::npos) << ending.output;
   const std::string place = bad.marker.empty() ? "scene.xml:" : fmt::format("scene.xml:{}: error", line_of(scene, bad.marker));
   EXPECT_NE(ending.output.find(place), std::string::npos) << "expected " << place << " in\n" << ending.output;
-  expect_nothing_but_the_log(directory / "results");
+  EXPECT_FALSE(files::exists(directory / "results"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, BadInput, ::testing::Combine(::testing::ValuesIn(cases), ::testing::Values(1, 2)),
@@ -252,7 +247,7 @@ TEST(Kinematics, ABodyBeyondTheAxisIsRefused) {
     const Ending ending = run(directory, scene, ranks, {"--set", "bodies/lower/mesh/translation=-0.5, 0"});
     EXPECT_EQ(ending.code, 2);
     EXPECT_NE(ending.output.find("body 'lower' reaches x = -0.5, beyond the axis"), std::string::npos) << ending.output;
-    expect_nothing_but_the_log(directory / "results");
+    EXPECT_FALSE(files::exists(directory / "results"));
   }
 }
 
@@ -270,6 +265,19 @@ TEST(BadInputs, AreAllReportedAtOnce) {
   const Ending ending = run(files::path(SCRATCH) / "all_at_once", scene, 1);
   EXPECT_EQ(ending.code, 2);
   for (const char* wrong : {"5x", "cels x", "contacts"}) EXPECT_NE(ending.output.find(wrong), std::string::npos) << ending.output;
+}
+
+/// An error that shows only once the model is built.
+TEST(BadInputs, LeaveAnEarlierRunAsItWas) {
+  const files::path directory = files::path(SCRATCH) / "earlier_run", results = directory / "results";
+  ASSERT_EQ(run(directory, good_scene, 1).code, 0);
+  const std::string summary = read_file(results / "summary.json");
+  const auto time = files::last_write_time(results);
+  std::ofstream(directory / "scene.xml") << replaced(good_scene, R"xml(value="upper/left")xml", R"xml(value="upper/lefd")xml");
+  const Ending ending = launch({MORTISE, "run", directory / "scene.xml", "-o", results}, 60);
+  EXPECT_EQ(ending.code, 2) << ending.output;
+  EXPECT_EQ(read_file(results / "summary.json"), summary);
+  EXPECT_EQ(files::last_write_time(results), time) << "nothing may be made in it, even for a moment";
 }
 
 TEST(Files, AnEmptySceneIsAnInputError) {

@@ -222,8 +222,8 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
   SemiSmoothSystem system(model.parts(), timers);
   StepEvaluation evaluation(scene, model, system);
 
-  // From here on the scene is one that can be run: what an earlier run left makes room.
-  directory.remove_earlier_run();
+  // From here on the scene is one that can be run: only now is anything made, and what an earlier run left makes room.
+  directory.begin_run();
   log.open(directory.file("log.txt"));
   report_model(options.scene, scene, model, log);
   write_file(*comm, directory.file("effective.xml"), [&] { return effective_xml(scene); });
