@@ -179,8 +179,10 @@ class Observers {
   double time_ = 0.0, dt_ = 0.0;
 };
 
-ExitCode exit_code(const RunRecord& record) {
-  if (!record.converged) return ExitCode::not_converged;
+bool is_input(const std::optional<StepFailure>& failure) { return failure && failure->kind() == FailureKind::input; }
+
+ExitCode exit_code(const RunRecord& record, const std::optional<StepFailure>& failure) {
+  if (!record.converged) return is_input(failure) ? ExitCode::invalid_input : ExitCode::not_converged;
   for (const auto& check : record.checks)
     if (!check.ok) return ExitCode::check_missed;
   return ExitCode::done;
@@ -200,8 +202,9 @@ void report_end(const RunRecord& record, const std::optional<StepFailure>& failu
       log.info(fmt::format("contact {}: {} slave facets, {} overlaps; largest over mean work of the ranks {:.2f}{}", pair, load.facets, load.segments,
                            load.imbalance, load.redistributions > 0 ? fmt::format(", as owned {:.2f}", load.imbalance_as_owned) : ""));
   if (!record.converged)
-    log.warning(fmt::format("not converged; the last converged state is that of time {:g}{}", record.steps.empty() ? 0.0 : record.steps.back().time,
-                            failure ? fmt::format(": {}", failure->what()) : ""));
+    log.warning(fmt::format(
+        "{}; the last converged state is that of time {:g}{}", is_input(failure) ? "stopped by an error of the input" : "not converged",
+        record.steps.empty() ? 0.0 : record.steps.back().time, failure && !is_input(failure) ? fmt::format(": {}", failure->what()) : ""));
   int iterations = 0;
   for (const auto& step : record.steps) iterations += step.newton.newton_steps();
   const auto total = record.seconds.find("total");
@@ -240,11 +243,15 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
   };
   {
     const auto timer = timers.scope("steps");
-    record.converged = run_steps(system, scene.stepping, scene.newton, x, start_step, observers.functions(), failure);
+    try {
+      record.converged = run_steps(system, scene.stepping, scene.newton, x, start_step, observers.functions(), failure);
+    } catch (const InputError& error) {  // on every rank: a quantity's expression without a value
+      failure.emplace(FailureKind::input, error.what());
+    }
     observers.finish(x);
   }
   if (!record.steps.empty()) record.checks = evaluate_checks(scene.checks, record.quantities);
-  record.exit = exit_code(record);
+  record.exit = exit_code(record, failure);
 
   for (std::size_t pair = 0; pair < scene.contact.size(); ++pair)
     record.integration.emplace_back(scene.contact[pair].name, model.contact()->integration_load(pair));
@@ -258,6 +265,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
   report_end(record, failure, directory.path(), log);
   write_file(*comm, directory.file("summary.json"),
              [&, json = summary(record, model)] { return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"; });
+  if (is_input(failure)) throw *failure;
   return record.exit;
 }
 

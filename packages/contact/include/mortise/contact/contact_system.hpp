@@ -133,8 +133,10 @@ class ContactSystem {
   void add_contact_force(const Vector& z, Vector& r) const;
   /// The parts of z across the normals of the last evaluate, of pairs with friction; 0 elsewhere.
   RCP<Vector> shear_tractions(const Vector& z) const;
-  /// C(d, z), d of the last evaluate; rows in units of traction.
+  /// C(d, z), d of the last evaluate; rows in units of traction. NaN where a law of friction has no bound.
   void complementarity(const Vector& z, Vector& C) const;
+  /// Puts what the law of friction says at a node of this rank where it has no bound into `failure`, if that is empty (kind input).
+  void find_friction_failure(const Vector& z, std::optional<StepFailure>& failure) const;
   ContactNorms norms(const Vector& z) const;
   /// A_j for every component of each multiplier.
   RCP<Vector> weights() const;
