@@ -100,7 +100,7 @@ class ContactSystem {
  public:
   /// @param dofs       owned dofs (dimension * node + component) of `owned_nodes`
   /// @param reference  [owned nodes x dim] reference positions
-  /// @param fixed      [owned nodes x dim] 1 where prescribed
+  /// @param fixed      [owned nodes x dim] 1 where prescribed, 2 where it follows a rigid body or a reference point, else 0
   /// @throws InputError for a pair without Young's modulus, formulation or law of friction, a slave node in two pairs, a node that is slave in one
   ///         pair and master in another where its multiplier is eliminated, and what MortarInterface refuses; at the pair's name if it has no place
   /// @throws std::invalid_argument for `dofs` that are not make_dof_map(*owned_nodes, dim), and vectors on other nodes
