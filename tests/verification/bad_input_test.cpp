@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -162,6 +163,19 @@ const std::vector<Case> cases{
       <Parameter name="minimum step" type="double" value="3"/></ParameterList>
   <ParameterList name="contact">)xml",
      "\"minimum step\": is 3, larger than \"step\", 1", R"xml(name="minimum step")xml"},
+    {"too_many_cells", R"xml("cells x" type="int" value="3")xml", R"xml("cells x" type="int" value="2000000000")xml", "allowed: >= 0 and <= 500000",
+     "2000000000"},
+    {"more_dofs_than_can_be_numbered", R"xml("cells x" type="int" value="3"/>
+        <Parameter name="cells y" type="int" value="2"/>)xml",
+     R"xml("cells x" type="int" value="100000"/>
+        <Parameter name="cells y" type="int" value="100000"/>)xml",
+     "the mesh of body 'lower' would have 10000000000 elements and 10000200001 nodes; the model's 2e+10 dofs are more than the",
+     R"xml(name="lower")xml"},
+    {"smallest_cell_too_small", R"xml("cells x" type="int" value="3"/>)xml",
+     R"xml("cells x" type="int" value="0"/>
+        <ParameterList name="grading x"><Parameter name="smallest cell" type="double" value="1e-9"/>
+          <Parameter name="refined length" type="double" value="1"/></ParameterList>)xml",
+     "asks for more than 500000 cells", R"xml(name="lower")xml"},
     {"malformed_xml", R"xml(<ParameterList name="loads">)xml", R"xml(<ParameterList name="loads")xml", "scene.xml:", ""},
     {"unknown_check_quantity", R"xml(<ParameterList name="contact">)xml", R"xml(<ParameterList name="checks"><ParameterList name="c">
       <Parameter name="quantity" type="string" value="forse"/><Parameter name="low" type="double" value="0"/></ParameterList></ParameterList>
@@ -250,6 +264,24 @@ TEST(Kinematics, ABodyBeyondTheAxisIsRefused) {
     EXPECT_EQ(ending.code, 2);
     EXPECT_NE(ending.output.find("body 'lower' reaches x = -0.5, beyond the axis"), std::string::npos) << ending.output;
     EXPECT_FALSE(files::exists(directory / "results"));
+  }
+}
+
+// 1e9 nodes of Q4 take 200 GB or more: each couples with the nodes of an element, 4 blocks of 2 x 2 numbers with their columns, 192 bytes.
+TEST(Meshes, ThatNoMemoryHoldsAreRefusedBeforeTheyAreBuilt) {
+  if (sysconf(_SC_PHYS_PAGES) > 200L * 1024 * 1024 * 1024 / sysconf(_SC_PAGESIZE)) GTEST_SKIP() << "this machine has more than 200 GiB";
+  const files::path directory = files::path(SCRATCH) / "no_memory";
+  files::create_directories(directory);
+  std::ofstream(directory / "scene.xml") << good_scene;
+  const std::vector<std::string> settings{"--set", "bodies/lower/mesh/cells x=32000", "--set", "bodies/lower/mesh/cells y=32000"};
+  for (const char* command : {"check", "run"}) {
+    std::vector<std::string> words{MORTISE, command, directory / "scene.xml"};
+    words.insert(words.end(), settings.begin(), settings.end());
+    const Ending ending = launch(words, 60);
+    EXPECT_EQ(ending.code, 2) << ending.output;
+    EXPECT_NE(ending.output.find("the mesh of body 'lower' would have 1024000000 elements and 1024064001 nodes; the model would take more than"),
+              std::string::npos)
+        << ending.output;
   }
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "describe_cells.hpp"
 #include "mortise/mesh/generators.hpp"
 
 namespace mortise {
@@ -65,6 +66,9 @@ CurveComplex ProfileMesh::build_surface(const Place& place) const {
     const Vector2d start(corners.back()[0], corners.back()[1]);
     const double length = arc ? std::abs(arc->sweep) * (start - arc->center).norm() : (end - start).norm();
     if (length < 1e-9 * cell_size) return;  // two arcs that meet, or no turn at all
+    if (length / cell_size > most_cells)
+      throw InputError(place, fmt::format("\"cell size\" {:g} asks for more than {} lines on a length of {:g}; please make it larger", cell_size,
+                                          most_cells, length));
     corners.push_back({end.x(), end.y()});
     const int last = static_cast<int>(corners.size()) - 1;
     PatchComplex::Edge edge{last - 1, last, Spacing(cells_for(length, cell_size))};

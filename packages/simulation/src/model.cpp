@@ -10,6 +10,7 @@
 #include <algorithm>
 
 #include "contributions.hpp"
+#include "mesh_limits.hpp"
 #include "mortise/simulation/hold_check.hpp"
 #include "scene_bodies.hpp"
 
@@ -185,6 +186,7 @@ void refuse_beyond_axis(const Mesh& mesh, double length, const std::vector<Place
 Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Timers& timers) {
   {
     const auto timer = timers.scope("mesh");
+    refuse_too_large(*comm, scene);
     mesh_ = make_mesh(comm, scene);
     size_ = mesh_size(*mesh_);
   }
