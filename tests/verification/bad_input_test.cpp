@@ -253,7 +253,24 @@ TEST(LinearSolver, AMisspeltParameterOfMueLuIsRefusedWithFileAndLine) {
   const Ending ending = run(files::path(SCRATCH) / "muelu", scene, 1);
   EXPECT_EQ(ending.code, 2);
   EXPECT_NE(ending.output.find(fmt::format("scene.xml:{}: error: linear solver/muelu", line_of(scene, muelu))), std::string::npos) << ending.output;
-  EXPECT_NE(ending.output.find("max levles"), std::string::npos) << ending.output;
+  EXPECT_NE(ending.output.find(R"(linear solver/muelu: "max levles" is no parameter of MueLu; did you mean "max levels"? They are listed in)"),
+            std::string::npos)
+      << ending.output;
+  EXPECT_EQ(ending.output.find('\n'), ending.output.find("\n---")) << "one line, then what mpiexec has to say:\n" << ending.output;
+}
+
+TEST(LinearSolver, AParameterOfBelosOfAWrongTypeIsRefusedInOneLine) {
+  const std::string belos = R"xml(<ParameterList name="belos">)xml";
+  const std::string scene = with_solver(R"xml(<Parameter name="type" type="string" value="iterative"/>)xml"
+                                        "\n" +
+                                        belos + R"xml(<Parameter name="Maximum Iterations" type="string" value="many"/></ParameterList>)xml");
+  const Ending ending = run(files::path(SCRATCH) / "belos", scene, 1);
+  EXPECT_EQ(ending.code, 2);
+  EXPECT_NE(ending.output.find(fmt::format("scene.xml:{}: error: linear solver/belos: Error, the parameter", line_of(scene, belos))),
+            std::string::npos)
+      << ending.output;
+  EXPECT_NE(ending.output.find("The correct type is \"int\""), std::string::npos) << ending.output;
+  EXPECT_EQ(ending.output.find('\n'), ending.output.find("\n---")) << "one line, then what mpiexec has to say:\n" << ending.output;
 }
 
 TEST(Kinematics, ABodyBeyondTheAxisIsRefused) {
