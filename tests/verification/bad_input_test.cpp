@@ -151,6 +151,23 @@ const std::vector<Case> cases{
       <Parameter name="fields" type="string" value="displacement, gap, displacement"/></ParameterList>
   <ParameterList name="contact">)xml",
      "\"displacement\" twice", "displacement, gap"},
+    {"unknown_field", R"xml(<ParameterList name="contact">)xml", R"xml(<ParameterList name="output">
+      <Parameter name="fields" type="string" value="displacment"/></ParameterList>
+  <ParameterList name="contact">)xml",
+     "there is no field \"displacment\"; did you mean \"displacement\"? There are: \"displacement\", ", "displacment"},
+    {"too_many_numbers", R"xml(<Parameter name="corners" type="string" value="0, 1, 1, 1, 1, 2, 0, 2"/>)xml",
+     R"xml(<Parameter name="translation" type="string" value="0, 1, 2"/>)xml", "\"translation\": is \"0, 1, 2\"; it needs two numbers", "0, 1, 2"},
+    {"variable_without_a_name", R"xml(<ParameterList name="tables">)xml",
+     R"xml(<ParameterList name="variables"><Parameter name="" type="double" value="1"/></ParameterList><ParameterList name="tables">)xml",
+     "variables: <Parameter> without \"name\"", R"xml(<Parameter name="")xml"},
+    {"variable_of_itself", R"xml(<ParameterList name="tables">)xml",
+     R"xml(<ParameterList name="variables"><Parameter name="a" type="string" value="a + 1"/></ParameterList><ParameterList name="tables">)xml",
+     "variables: \"a\": cannot evaluate \"a + 1\"", "a + 1"},
+    {"component_z_in_the_plane", R"xml(<ParameterList name="contact">)xml", R"xml(<ParameterList name="quantities"><ParameterList name="force">
+      <Parameter name="type" type="string" value="contact force"/>
+      <Parameter name="component" type="string" value="z"/></ParameterList></ParameterList>
+  <ParameterList name="contact">)xml",
+     "quantities/force: \"component\" is \"z\"", R"xml(name="force")xml"},
     {"quantity_called_time", R"xml(<ParameterList name="contact">)xml", R"xml(<ParameterList name="quantities"><ParameterList name="time">
       <Parameter name="type" type="string" value="contact force"/></ParameterList></ParameterList>
   <ParameterList name="contact">)xml",
