@@ -418,7 +418,8 @@ TEST(Files, AnEmptySceneIsAnInputError) {
 }
 
 TEST(Checks, AMissedOneIsSaidQuietlyToo) {
-  const std::string scene = replaced(good_scene, R"xml(  <ParameterList name="contact">)xml", R"xml(  <ParameterList name="quantities"><ParameterList name="force">
+  const std::string scene =
+      replaced(good_scene, R"xml(  <ParameterList name="contact">)xml", R"xml(  <ParameterList name="quantities"><ParameterList name="force">
     <Parameter name="type" type="string" value="contact force"/></ParameterList></ParameterList>
   <ParameterList name="checks"><ParameterList name="too much"><Parameter name="quantity" type="string" value="force"/>
     <Parameter name="low" type="double" value="1e9"/></ParameterList></ParameterList>
@@ -427,6 +428,41 @@ TEST(Checks, AMissedOneIsSaidQuietlyToo) {
   EXPECT_EQ(ending.code, 4) << ending.output;
   EXPECT_NE(ending.output.find("check too much: 1e+09 <= force"), std::string::npos) << ending.output;
   EXPECT_NE(ending.output.find("MISSED"), std::string::npos) << ending.output;
+}
+
+/// A rigid tool comes down on the lower block. Its body lies to the left of the way along the points.
+TEST(Masters, ThatTurnTheirBacksAreWarnedOf) {
+  const auto with_tool = [](const std::string& points) {
+    std::string scene = replaced(
+        good_scene, R"xml(<Parameter name="corners" type="string" value="0, 1, 1, 1, 1, 2, 0, 2"/>
+        <Parameter name="cells x" type="int" value="2"/>
+        <Parameter name="cells y" type="int" value="2"/>)xml",
+        R"xml(<Parameter name="points" type="string" value=")xml" + points + R"xml("/><Parameter name="cell size" type="double" value="0.5"/>)xml");
+    scene = replaced(scene, R"xml(<Parameter name="material" type="string" value="soft"/>
+      <Parameter name="element" type="string" value="Q4"/>)xml",
+                     R"xml(<Parameter name="rigid" type="bool" value="true"/>)xml");
+    scene = replaced(scene, R"xml(<Parameter name="type" type="string" value="block"/>
+        <Parameter name="points")xml",
+                     R"xml(<Parameter name="type" type="string" value="profile"/>
+        <Parameter name="points")xml");
+    scene = replaced(scene, R"xml(value="upper/left"/>)xml",
+                     R"xml(value="upper/reference"/><Parameter name="y" type="string" value="-0.01*t"/>
+      <Parameter name="rotation" type="double" value="0"/>)xml");
+    scene = replaced(scene, R"xml(value="upper/top"/>)xml", R"xml(value="lower/left"/>)xml");
+    return replaced(scene, R"xml(value="upper/bottom"/>)xml", R"xml(value="upper/profile"/>)xml");
+  };
+  const std::string warning = "contact/interface: the master \"upper/profile\" turns its back on the slave \"seat\"";
+  for (const int ranks : {1, 2})
+    for (const char* height : {"1", "1.5"}) {  // touching, and far beyond the reach
+      const auto said = [&](const std::string& points) {
+        const Ending ending = run(files::path(SCRATCH) / fmt::format("turned_np{}", ranks), with_tool(points), ranks);
+        EXPECT_EQ(ending.code, 0) << ending.output;
+        return ending.output;
+      };
+      const std::string right = said(fmt::format("-0.5, {0}, 1.5, {0}", height)), wrong = said(fmt::format("1.5, {0}, -0.5, {0}", height));
+      EXPECT_EQ(right.find(warning), std::string::npos) << right;
+      EXPECT_NE(wrong.find(warning), std::string::npos) << wrong;
+    }
 }
 
 TEST(Files, AMissingSceneIsAFileError) {

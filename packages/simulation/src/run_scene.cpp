@@ -23,6 +23,7 @@
 #include "run_record.hpp"
 #include "step_evaluation.hpp"
 #include "timer_sums.hpp"
+#include "turned_masters.hpp"
 
 namespace mortise {
 namespace {
@@ -229,6 +230,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
   directory.begin_run();
   log.open(directory.file("log.txt"));
   report_model(options.scene, scene, model, log);
+  warn_of_turned_masters(model, scene, log);
   write_file(*comm, directory.file("effective.xml"), [&] { return effective_xml(scene); });
 
   RunRecord record;

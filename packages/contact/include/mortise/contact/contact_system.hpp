@@ -121,9 +121,13 @@ class ContactSystem {
 
   /// Integrals at displacement d (kept until the next call); searches where needed. Slips are those since the last start_step(): before the first
   /// there are none. Local failures go to `failure`, which comes in empty (throw_if_any() tells all ranks): those of MortarInterface, and lost
-  /// contact: a node closed in the accepted state or when last marked, or open and in front of the master in the accepted state, that went through the
-  /// master surface so far that nothing is within reach any more. A node that opened or ran off the master's edge is not lost.
+  /// contact: a node closed in the accepted state or when last marked, or open and in front of the master in the accepted state, that went through
+  /// the master surface so far that nothing is within reach any more. A node that opened or ran off the master's edge is not lost.
   void evaluate(const Vector& d, bool derivatives, std::optional<StepFailure>& failure);
+
+  /// Pairs whose master seems to have its solid side on the wrong side: at the last evaluate() no slave node has a master facet before or behind it
+  /// that faces it, however far, and half of them or more have the back of one before them. Collective.
+  std::vector<std::size_t> pairs_with_turned_master() const;
 
   /// Graph of the condensed system: the bulk's and what the pairs couple. `changed` is set if it differs from the one of the last call: only then is
   /// `bulk` asked for the bulk's, which is not kept.
