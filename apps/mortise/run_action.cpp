@@ -19,7 +19,7 @@ Outcome run_action(const Program& program) {
   } catch (const FileError& error) {
     outcome = {ExitCode::files, error.what()};
   } catch (const StepFailure& failure) {
-    outcome = {ExitCode::not_converged, failure.what()};
+    outcome = {failure.kind() == FailureKind::input ? ExitCode::invalid_input : ExitCode::not_converged, failure.what()};
   } catch (const std::bad_alloc&) {
     outcome = {ExitCode::internal, "out of memory"};
   } catch (const std::exception& error) {

@@ -1,5 +1,7 @@
 #include "mortise/contact/friction.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 
@@ -18,9 +20,22 @@ void CoulombFriction::describe(Parameters& parameters) {
       Says("shear traction that is never exceeded, as the shear yield stress of the softer side; default: none").unit("stress").above(0.0));
 }
 
+namespace {
+bool is_coefficient(double value) { return value >= 0.0 && std::isfinite(value); }
+}  // namespace
+
+std::optional<Diagnostic> CoulombFriction::complaint(double pressure, double slip_path) const {
+  const double value = coefficient.at({pressure, slip_path});
+  if (is_coefficient(value)) return {};
+  const double shown = std::isnan(value) ? std::abs(value) : value;  // some operations give a sign to what is not a number
+  return Diagnostic{coefficient.place(), fmt::format("\"{}\" is {:g} at pressure = {:g}, slip = {:g}; allowed: >= 0 and finite", coefficient.source(),
+                                                     shown, pressure, slip_path)};
+}
+
 // d(mu p)/dp of an expression by central differences: exact to 1e-10 of mu, which no Newton step notices.
 FrictionBound CoulombFriction::bound(double pressure, double slip_path) const {
   const auto at = [&](double p) { return coefficient.at({p, slip_path}) * p; };
+  if (!is_coefficient(coefficient.at({pressure, slip_path}))) return {std::numeric_limits<double>::quiet_NaN(), 0.0};
   FrictionBound result{at(pressure), 0.0};
   if (largest_traction && result.value >= *largest_traction) return {*largest_traction, 0.0};
   if (coefficient.is_constant()) return {result.value, coefficient.at({0.0, 0.0})};

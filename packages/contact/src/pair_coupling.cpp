@@ -66,7 +66,7 @@ double PairCoupling::closing_pressure(std::size_t s) const {
 }
 
 // A component that is prescribed takes one tangent: there the node bears no shear traction.
-Complementarity PairCoupling::complementarity(std::size_t s, const SpatialVector& z) const {
+Complementarity PairCoupling::complementarity(std::size_t s, const SpatialVector& z, std::optional<Diagnostic>* complaint) const {
   const NodeRow& row = rows_[s];
   const SlaveNode& node = slave_nodes()[s];
   const auto fixed = std::count(node.fixed.begin(), node.fixed.end(), true);
@@ -74,6 +74,11 @@ Complementarity PairCoupling::complementarity(std::size_t s, const SpatialVector
   const auto without_fixed = [&](Complementarity law, const Frame& in) {
     if (rubs && fixed > 0 && law.state != ContactState::open) hold_tangent(law, in, z, 0);
     return law;
+  };
+  const auto bound = [&](double pressure) {
+    const double path = slip_[s].start.path;
+    if (complaint != nullptr) *complaint = friction_->complaint(pressure, path);
+    return friction_->bound(pressure, path);
   };
   // What the law of friction sees of slip and traction.
   TangentVector slip = row.slip;
@@ -84,7 +89,6 @@ Complementarity PairCoupling::complementarity(std::size_t s, const SpatialVector
     if (rubs && fixed > 0) slip[0] = 0.0;
     const double scale = pair_.youngs_modulus / size_ * start_[s].stiffening, body = complementarity_constant(s) * node.weight;
     const RegularisedNode stiffness{regularisation_->normal * scale, regularisation_->tangential * scale, body, start_[s].multiplier};
-    const auto bound = [&](double pressure) { return friction_->bound(pressure, slip_[s].start.path); };
     return without_fixed(regularised(stiffness, row.gap, slip, row.covered, in, z, rubs ? &bound : nullptr), in);
   }
   const double c = complementarity_constant(s);
@@ -95,7 +99,7 @@ Complementarity PairCoupling::complementarity(std::size_t s, const SpatialVector
     slip[0] = 0.0;
     borne -= in.tangents.row(0).dot(z) * in.tangents.row(0).transpose();
   }
-  return without_fixed(with_friction(c, c, row.gap, slip, in, borne, friction_->bound(z.dot(row.normal) - c * row.gap, slip_[s].start.path)), in);
+  return without_fixed(with_friction(c, c, row.gap, slip, in, borne, bound(z.dot(row.normal) - c * row.gap)), in);
 }
 
 SpatialVector PairCoupling::constraint_gradient(const Complementarity& law, std::size_t s, std::size_t entry) const {

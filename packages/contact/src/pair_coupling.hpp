@@ -129,7 +129,8 @@ class PairCoupling {
   /// The multipliers become those of z.
   void augment(std::size_t s, const SpatialVector& z) { start_[s] = start_from(s, z); }
   /// C and its linearisation, of the law that the node obeys. A node with a fixed component carries no shear traction.
-  Complementarity complementarity(std::size_t s, const SpatialVector& z) const;
+  /// @param complaint  gets what the law of friction says where it has no bound; C is NaN there
+  Complementarity complementarity(std::size_t s, const SpatialVector& z, std::optional<Diagnostic>* complaint = nullptr) const;
   /// Derivative of C of node s, whose linearisation is `law`, in entry dim c + i of its coupled nodes, at fixed z.
   SpatialVector constraint_gradient(const Complementarity& law, std::size_t s, std::size_t entry) const;
 

@@ -44,18 +44,32 @@ InputError::InputError(Place place, std::string message) : InputError(std::vecto
 
 std::string to_string(FailureKind kind) {
   switch (kind) {
-    case FailureKind::inverted_element: return "inverted element";
-    case FailureKind::material: return "material";
-    case FailureKind::inverted_facet: return "inverted facet";
-    case FailureKind::projection: return "projection";
-    case FailureKind::augmentation: return "augmentation";
-    case FailureKind::lost_contact: return "lost contact";
-    case FailureKind::linear_solver: return "linear solver";
-    case FailureKind::not_finite: return "not finite";
-    case FailureKind::line_search: return "line search";
-    case FailureKind::diverged: return "diverged";
-    case FailureKind::too_many_iterations: return "too many iterations";
-    case FailureKind::cycling_active_set: return "cycling active set";
+    case FailureKind::inverted_element:
+      return "inverted element";
+    case FailureKind::material:
+      return "material";
+    case FailureKind::inverted_facet:
+      return "inverted facet";
+    case FailureKind::projection:
+      return "projection";
+    case FailureKind::augmentation:
+      return "augmentation";
+    case FailureKind::lost_contact:
+      return "lost contact";
+    case FailureKind::linear_solver:
+      return "linear solver";
+    case FailureKind::not_finite:
+      return "not finite";
+    case FailureKind::input:
+      return "input";
+    case FailureKind::line_search:
+      return "line search";
+    case FailureKind::diverged:
+      return "diverged";
+    case FailureKind::too_many_iterations:
+      return "too many iterations";
+    case FailureKind::cycling_active_set:
+      return "cycling active set";
   }
   return "unknown";
 }

@@ -19,6 +19,9 @@ const std::vector<std::string> time_and_position{"t", "x", "y", "z"};
 // muParser takes "=" for an assignment to an argument.
 bool assigns(const std::string& source) { return std::regex_search(source, std::regex("(^|[^=!<>])=([^=]|$)")); }
 
+// Without the sign that some operations give what is not a number.
+double shown(double value) { return std::isnan(value) ? std::abs(value) : value; }
+
 std::string names_of(const std::vector<std::string>& arguments, const Symbols& symbols) {
   std::string names;
   for (const auto& name : arguments) names += name + ", ";
@@ -71,7 +74,7 @@ struct Expression::Parsed {
     } catch (const mu::Parser::exception_type& error) {
       throw InputError(place, fmt::format("cannot evaluate \"{}\": {}; known names: {}", source, error.GetMsg(), names_of(names, symbols)));
     }
-    if (constant && !std::isfinite(value)) throw InputError(place, fmt::format("\"{}\" is {}, not a finite number", source, value));
+    if (constant && !std::isfinite(value)) throw InputError(place, fmt::format("\"{}\" is {}, not a finite number", source, shown(value)));
   }
   explicit Parsed(double number) : source(fmt::format("{}", number)), value(number) {}
 };
@@ -96,7 +99,8 @@ double Expression::operator()(double t, double x, double y, double z) const {
   if (parsed_->constant) return parsed_->value;
   const double value = at({t, x, y, z});
   if (!std::isfinite(value))
-    throw InputError(parsed_->place, fmt::format("\"{}\" is {} at t = {}, x = {}, y = {}, z = {}", parsed_->source, value, t, x, y, z));
+    throw InputError(parsed_->place,
+                     fmt::format("\"{}\" is {} at t = {:g}, x = {:g}, y = {:g}, z = {:g}", parsed_->source, shown(value), t, x, y, z));
   return value;
 }
 

@@ -17,16 +17,18 @@ bool valid_name(const std::string& name) {
 }
 
 // Reserved because expressions use them.
-const std::vector<std::string> reserved = {"t",     "x",    "y",    "z",    "pi",   "sin",  "cos",  "tan",  "asin", "acos", "atan", "sinh", "cosh", "tanh", "asinh",
-                                           "acosh", "atanh", "log2", "log10", "log",  "ln",   "exp",  "sqrt", "sign", "rint", "abs",  "min",  "max",  "sum",  "avg"};
+const std::vector<std::string> reserved = {"t",    "x",    "y",    "z",    "pi",    "sin",   "cos",   "tan",  "asin",  "acos",
+                                           "atan", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "log2", "log10", "log",
+                                           "ln",   "exp",  "sqrt", "sign", "rint",  "abs",   "min",   "max",  "sum",   "avg"};
 
 std::string wrong_name(const std::string& name) {
   if (!valid_name(name)) return fmt::format("\"{}\" cannot be named in expressions; please use letters, digits and underscores", name);
-  if (std::find(reserved.begin(), reserved.end(), name) != reserved.end()) return fmt::format("\"{}\" already has a meaning in expressions; please choose another name", name);
+  if (std::find(reserved.begin(), reserved.end(), name) != reserved.end())
+    return fmt::format("\"{}\" already has a meaning in expressions; please choose another name", name);
   return "";
 }
 
-std::vector<double> numbers(const XmlParameter* parameter, const Symbols& symbols) {
+std::vector<double> numbers(const XmlParameter* parameter, const Symbols& symbols) try {
   std::vector<double> values;
   for (const std::string& one : split(parameter->value)) {
     const Expression expression(one, symbols, parameter->place);
@@ -34,6 +36,8 @@ std::vector<double> numbers(const XmlParameter* parameter, const Symbols& symbol
     values.push_back(expression());
   }
   return values;
+} catch (const InputError& error) {
+  throw InputError(parameter->place, fmt::format("\"{}\": {}", parameter->name, error.diagnostics().front().message));
 }
 
 Table read_table(const XmlList& list, const Symbols& symbols) {
@@ -41,7 +45,8 @@ Table read_table(const XmlList& list, const Symbols& symbols) {
     if (!list.parameter(name)) throw InputError(list.place, fmt::format("a table needs \"times\" and \"values\"; \"{}\" is missing", name));
   for (const XmlParameter& parameter : list.parameters)
     if (parameter.name != "times" && parameter.name != "values")
-      throw InputError(parameter.place, fmt::format("unknown parameter \"{}\"{}; a table has \"times\" and \"values\"", parameter.name, did_you_mean(parameter.name, {"times", "values"})));
+      throw InputError(parameter.place, fmt::format("unknown parameter \"{}\"{}; a table has \"times\" and \"values\"", parameter.name,
+                                                    did_you_mean(parameter.name, {"times", "values"})));
   const Table table{numbers(list.parameter("times"), symbols), numbers(list.parameter("values"), symbols)};
   if (table.times.empty()) throw InputError(list.place, "the table is empty");
   if (table.times.size() != table.values.size())

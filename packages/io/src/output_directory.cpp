@@ -1,13 +1,13 @@
 #include "mortise/io/output_directory.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <Teuchos_CommHelpers.hpp>
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <vector>
 
@@ -24,25 +24,29 @@ std::vector<std::filesystem::path> run_files(const std::string& directory, std::
   return files;
 }
 
-/// Why no files can be made in the directory.
-std::optional<std::string> prepare(const std::string& directory, bool keep) {
+/// Why no files could be made in the directory, or why it could not be made. Touches nothing.
+std::optional<std::string> obstacle(const std::string& directory, bool keep) {
+  namespace fs = std::filesystem;
   std::error_code error;
-  if (std::filesystem::exists(directory, error) && !std::filesystem::is_directory(directory, error)) return "it exists and is not a directory";
-  std::filesystem::create_directories(directory, error);
+  fs::path there = fs::absolute(directory, error);
+  while (!error && !fs::exists(there, error) && there != there.root_path()) there = there.parent_path();
   if (error) return error.message();
+  if (!fs::is_directory(there, error)) return fmt::format("{} exists and is not a directory", there.string());
+  if (access(there.c_str(), W_OK | X_OK) != 0) return fmt::format("{}: {}", there.string(), std::strerror(errno));
+  if (!fs::exists(directory, error)) return {};
   const auto earlier = run_files(directory, error);
   if (error) return error.message();
   if (keep && !earlier.empty())
     return fmt::format("it holds a run ({}), which is to be kept; please choose another directory", earlier.front().filename().string());
-  const std::string probe = directory + "/.mortise-probe";
-  errno = 0;
-  std::ofstream stream(probe);
-  stream.close();
-  if (!stream) return errno != 0 ? std::strerror(errno) : "no files can be made in it";
-  std::filesystem::remove(probe, error);
   for (const auto& file : earlier)
-    if (std::filesystem::is_directory(file, error)) return fmt::format("{} in it is a directory", file.filename().string());
+    if (fs::is_directory(file, error)) return fmt::format("{} in it is a directory", file.filename().string());
   return {};
+}
+
+std::optional<std::string> make_directory(const std::string& directory) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  return error ? std::optional(error.message()) : std::nullopt;
 }
 
 std::optional<std::string> remove_run(const std::string& directory) {
@@ -70,11 +74,18 @@ bool is_run_file(const std::string& name) {
 
 OutputDirectory::OutputDirectory(RCP<const Communicator> comm, std::string path, bool keep) : comm_(std::move(comm)), path_(std::move(path)) {
   std::optional<std::string> reason;
-  if (comm_->getRank() == 0) reason = prepare(path_, keep);
+  if (comm_->getRank() == 0) reason = obstacle(path_, keep);
   throw_if_any_file_error(*comm_, "cannot write to the directory", path_, reason);
 }
 
-void OutputDirectory::remove_earlier_run() {
+void OutputDirectory::make() const {
+  std::optional<std::string> reason;
+  if (comm_->getRank() == 0) reason = make_directory(path_);
+  throw_if_any_file_error(*comm_, "cannot make the directory", path_, reason);
+}
+
+void OutputDirectory::begin_run() const {
+  make();
   std::optional<std::string> reason;
   if (comm_->getRank() == 0) reason = remove_run(path_);
   throw_if_any_file_error(*comm_, "cannot replace the run in", path_, reason);

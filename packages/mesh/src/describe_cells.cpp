@@ -4,7 +4,8 @@ namespace mortise {
 
 void describe_cells(Parameters& parameters, int& cells, GradingOptions& grading, const std::string& cells_name, const std::string& grading_name,
                     const std::string& direction) {
-  parameters.add(cells_name, cells, Says("number of cells " + direction + "; 0: as many as the grading's \"smallest cell\" asks for").at_least(0));
+  parameters.add(cells_name, cells,
+                 Says("number of cells " + direction + "; 0: as many as the grading's \"smallest cell\" asks for").at_least(0).at_most(most_cells));
   parameters.list(grading_name, grading, Says("how the cells are graded " + direction));
   if (cells == 0 && !grading.smallest_cell)
     parameters.error(cells_name, "give \"" + cells_name + "\", or a \"smallest cell\" in \"" + grading_name + "\"");

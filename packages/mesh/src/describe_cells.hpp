@@ -7,6 +7,9 @@
 
 namespace mortise {
 
+/// Most cells along a line. So many in each of three directions, cut into tetrahedra, can still be numbered by GlobalOrdinal in several blocks.
+constexpr int most_cells = 500000;
+
 /// A number of cells and a grading, of which exactly one says how many cells there are.
 void describe_cells(Parameters& parameters, int& cells, GradingOptions& grading, const std::string& cells_name, const std::string& grading_name,
                     const std::string& direction);

@@ -83,7 +83,7 @@ PatchComplex HalfDiskMesh::build(CellShape cell, const Place& place) const {
 
 void FullDiskMesh::describe_shape(Parameters& parameters) {
   parameters.add("radius", radius, Says("radius of the disk").unit("length").above(0.0));
-  parameters.add("cells around", cells_around, Says("number of cells on each quarter of the circle").at_least(1).required());
+  parameters.add("cells around", cells_around, Says("number of cells on each quarter of the circle").at_least(1).at_most(most_cells).required());
   describe_cells(parameters, cells_across, grading_across, "cells across", "grading across", "from the circle to the inner patch");
 }
 

@@ -1,5 +1,8 @@
 #include "mortise/mesh/mesh_options.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "mortise/mesh/generators.hpp"
@@ -13,7 +16,8 @@ void MeshOptions::describe(Parameters& parameters) {
   const std::string numbers = dimension_ == 2 ? "\"x, y\"" : "\"x, y, z\"";
   parameters.add("translation", translation, Says("moves the mesh after its rotation: " + numbers).unit("length"));
   if (translation.size() != static_cast<std::size_t>(dimension_)) {
-    parameters.error("translation", (dimension_ == 2 ? "needs two numbers, " : "needs three numbers, ") + numbers);
+    parameters.error("translation",
+                     fmt::format("is \"{}\"; it needs {} numbers, {}", fmt::join(translation, ", "), dimension_ == 2 ? "two" : "three", numbers));
     translation.assign(dimension_, 0.0);
   }
 }
@@ -38,7 +42,8 @@ void VolumeMesh::describe_rotation(Parameters& parameters) {
       "rotation axis", rotation_axis,
       "direction of the axis that it turns about, \"x, y, z\"; for instance, 120 degrees about \"1, 1, 1\" take x to y, y to z and z to x");
   if (rotation_axis.size() != 3 || std::all_of(rotation_axis.begin(), rotation_axis.end(), [](double r) { return r == 0.0; })) {
-    parameters.error("rotation axis", "needs three numbers, \"x, y, z\", of which not all are zero");
+    parameters.error("rotation axis",
+                     fmt::format("is \"{}\"; it needs three numbers, \"x, y, z\", of which not all are zero", fmt::join(rotation_axis, ", ")));
     rotation_axis = {0.0, 0.0, 1.0};
   }
 }

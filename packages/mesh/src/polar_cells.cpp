@@ -4,18 +4,20 @@
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
 
+#include "describe_cells.hpp"
 #include "mortise/mesh/generators.hpp"
 
 namespace mortise {
 
 void PolarCells::describe(Parameters& parameters) {
   parameters.add("radius", radius, Says("radius of the body").unit("length").above(0.0));
-  parameters.add("cells along", cells_along,
-                 Says("number of cells on the arc between the lowest point and 45 degrees; 0: as \"grading along\" asks for").at_least(0));
+  parameters.add(
+      "cells along", cells_along,
+      Says("number of cells on the arc between the lowest point and 45 degrees; 0: as \"grading along\" asks for").at_least(0).at_most(most_cells));
   parameters.add("cells beyond", cells_beyond,
-                 Says("number of cells on the arc between 45 degrees and the diameter; 0: as fits the others").at_least(0));
+                 Says("number of cells on the arc between 45 degrees and the diameter; 0: as fits the others").at_least(0).at_most(most_cells));
   parameters.add("cells across", cells_across,
-                 Says("number of cells between the arc and the inner patch; 0: as \"grading across\" asks for").at_least(0));
+                 Says("number of cells between the arc and the inner patch; 0: as \"grading across\" asks for").at_least(0).at_most(most_cells));
   parameters.list("grading along", grading_along, Says("grading of the arc from the lowest point (its start) to 45 degrees"));
   parameters.list("grading across", grading_across, Says("grading from the lowest point (its start) to the inner patch, half the radius above"));
   if (cells_along == 0 && !grading_along.smallest_cell)

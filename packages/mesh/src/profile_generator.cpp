@@ -1,11 +1,13 @@
 // A polyline with rounded corners.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "describe_cells.hpp"
 #include "mortise/mesh/generators.hpp"
 
 namespace mortise {
@@ -41,15 +43,18 @@ void ProfileMesh::describe_shape(Parameters& parameters) {
                  Says("radii of the arcs that round the points between the first and the last, one for each; 0: a sharp corner").unit("length"));
   parameters.add("cell size", cell_size, Says("largest length of the lines that the profile is cut into").unit("length").above(0.0).required());
   if (points.size() % 2 != 0 || (!points.empty() && points.size() < 4)) {
-    parameters.error("points", fmt::format("needs x and y of two points or more, not {} numbers", points.size()));
+    parameters.error("points",
+                     fmt::format("is \"{}\"; it needs x and y of two points or more, not {} number(s)", fmt::join(points, ", "), points.size()));
     points.clear();
   }
   const std::size_t inner = points.size() < 4 ? 0 : points.size() / 2 - 2;
   if (!radii.empty() && radii.size() != inner) {
-    parameters.error("radii", fmt::format("needs {} number(s), one for each point between the first and the last, not {}", inner, radii.size()));
+    parameters.error("radii", fmt::format("is \"{}\"; it needs {} number(s), one for each point between the first and the last, not {}",
+                                          fmt::join(radii, ", "), inner, radii.size()));
     radii.clear();
   }
-  if (std::any_of(radii.begin(), radii.end(), [](double r) { return r < 0.0; })) parameters.error("radii", "a radius is not negative");
+  for (const double radius : radii)
+    if (radius < 0.0) parameters.error("radii", fmt::format("one is {:g}; allowed: >= 0", radius));
 }
 
 PatchComplex ProfileMesh::build(CellShape, const Place& place) const {
@@ -65,6 +70,9 @@ CurveComplex ProfileMesh::build_surface(const Place& place) const {
     const Vector2d start(corners.back()[0], corners.back()[1]);
     const double length = arc ? std::abs(arc->sweep) * (start - arc->center).norm() : (end - start).norm();
     if (length < 1e-9 * cell_size) return;  // two arcs that meet, or no turn at all
+    if (length / cell_size > most_cells)
+      throw InputError(place, fmt::format("\"cell size\" {:g} asks for more than {} lines on a length of {:g}; please make it larger", cell_size,
+                                          most_cells, length));
     corners.push_back({end.x(), end.y()});
     const int last = static_cast<int>(corners.size()) - 1;
     PatchComplex::Edge edge{last - 1, last, Spacing(cells_for(length, cell_size))};

@@ -1,6 +1,7 @@
 // Bodies of one patch: block, wedge, ring sector.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
@@ -30,7 +31,8 @@ void BlockMesh::describe_shape(Parameters& parameters) {
                  Says("corners of a general quadrilateral in place of the rectangle, counterclockwise from bottom left: \"x1, y1, ..., x4, y4\"")
                      .unit("length"));
   if (!corners.empty() && corners.size() != 8) {
-    parameters.error("corners", fmt::format("needs eight numbers (x and y of four corners), not {}", corners.size()));
+    parameters.error("corners",
+                     fmt::format("is \"{}\"; it needs eight numbers (x and y of four corners), not {}", fmt::join(corners, ", "), corners.size()));
     corners.clear();
   }
   describe_cells(parameters, cells_x, grading_x, "cells x", "grading x", "from left to right");
@@ -73,9 +75,11 @@ void RingSectorMesh::describe_shape(Parameters& parameters) {
   parameters.add("outer radius", outer_radius, Says("radius of the side \"outer\"").unit("length").above(0.0));
   parameters.add("start angle", start_angle, Says("where the sector starts, counterclockwise from the x axis").unit("degrees"));
   parameters.add("end angle", end_angle, Says("where the sector ends").unit("degrees"));
-  if (outer_radius <= inner_radius) parameters.error("outer radius", "has to be larger than \"inner radius\"");
+  if (outer_radius <= inner_radius)
+    parameters.error("outer radius", fmt::format("is {:g}; it has to be larger than \"inner radius\", {:g}", outer_radius, inner_radius));
   if (end_angle <= start_angle || end_angle - start_angle >= 360.0)
-    parameters.error("end angle", "has to lie above \"start angle\" by less than 360 degrees");
+    parameters.error("end angle",
+                     fmt::format("is {:g}; it has to lie above \"start angle\", {:g}, by less than 360 degrees", end_angle, start_angle));
   describe_cells(parameters, cells_radial, grading_radial, "cells radial", "grading radial", "from the inner to the outer radius");
   describe_cells(parameters, cells_around, grading_around, "cells around", "grading around",
                  "from the start to the end angle (sizes on the inner arc)");

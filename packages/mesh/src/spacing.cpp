@@ -7,6 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "describe_cells.hpp"
+
 namespace mortise {
 namespace {
 
@@ -16,9 +18,11 @@ double geometric_sum(double q, int n) {
   return std::abs(n * log_q) < 1e-12 ? n : std::expm1(n * log_q) / std::expm1(log_q);
 }
 
-/// Runs that start with the smallest cell at a line's start: equal cells on the refined length, then growing ones.
+/// Runs that start with the smallest cell at a line's start: equal cells on the refined length, then growing ones. Of more than most_cells cells the
+/// first run alone.
 std::vector<Spacing::Run> refined_runs(double length, double smallest, double refined, double growth) {
   refined = std::min(std::max(refined, smallest), length);
+  if (refined / smallest > most_cells) return {{most_cells + 1, refined, 1.0}};
   const int equal = std::max(1, static_cast<int>(std::ceil(refined / smallest - 1e-9)));
   const double cell = refined / equal, rest = length - refined;
   std::vector<Spacing::Run> runs{{equal, refined, 1.0}};
@@ -28,7 +32,8 @@ std::vector<Spacing::Run> refined_runs(double length, double smallest, double re
   }
   // The fewest cells n with cell (g + g^2 + ... + g^n) >= rest; then the growth q <= g with equality.
   int n = 1;
-  while (cell * growth * geometric_sum(growth, n) < rest) ++n;
+  while (n <= most_cells && cell * growth * geometric_sum(growth, n) < rest) ++n;
+  if (n > most_cells) return {{n, rest, 1.0}};
   if (cell * n >= rest) {  // not even equal cells fit: make them a little smaller
     runs.push_back({n, rest, 1.0});
     return runs;
@@ -117,6 +122,9 @@ Spacing GradingOptions::spacing(double length, int cells, const Place& place) co
     if (*smallest_cell > reach)
       throw InputError(place, fmt::format("\"smallest cell\" {} is larger than the {} that it has to fit into", *smallest_cell, reach));
     const auto runs = refined_runs(reach, *smallest_cell, refined_length, growth);
+    if (runs.front().cells > most_cells)
+      throw InputError(place, fmt::format("\"smallest cell\" {:g} asks for more than {} cells on a length of {:g}; please make it larger",
+                                          *smallest_cell, most_cells, length));
     switch (toward) {
       case FineEnd::start:
         return Spacing(runs);

@@ -13,12 +13,14 @@
 
 #include "exchange.hpp"
 #include "facet_placement.hpp"
+#include "held_facets.hpp"
 #include "mortise/mortar/auxiliary_plane.hpp"
 
 namespace mortise {
 namespace {
 
-constexpr double no_free_normal = 0.1;  // share of the averaged normal that free directions keep, below which nothing can be pushed
+constexpr double follows_another = 2.0;  // in the marks of what is fixed
+constexpr double no_free_normal = 0.1;   // share of the averaged normal that free directions keep, below which nothing can be pushed
 
 // All slave facets of nodes that belong to other ranks: their owners know them.
 std::vector<SurfaceFacet> facets_of_foreign_nodes(const Map& owned_nodes, const std::vector<GlobalOrdinal>& foreign, const SurfaceFacets& facets) {
@@ -43,7 +45,7 @@ std::vector<SurfaceFacet> facets_of_foreign_nodes(const Map& owned_nodes, const 
 
 template <int dim>
 std::string written(const Eigen::Matrix<double, dim, 1>& x) {
-  return fmt::format("({})", fmt::join(x.data(), x.data() + dim, ", "));
+  return fmt::format("({:g})", fmt::join(x.data(), x.data() + dim, ", "));
 }
 
 // "5 (0, 1) and 6 (1, 1)"
@@ -154,6 +156,7 @@ SlaveSurface make_slave_surface(const RCP<const Map>& owned_nodes, const RCP<con
   throw_if_any(*owned_nodes->getComm(), diagnostics);
 
   surface.facets_of.resize(surface.owned.size());
+  HeldFacets held;
   for (const SurfaceFacet& ids : facets) {
     const Facet<LocalOrdinal> facet = local(ids);
     const FacetPoints<dim> points = points_of<dim>(facet, x);
@@ -161,10 +164,16 @@ SlaveSurface make_slave_surface(const RCP<const Map>& owned_nodes, const RCP<con
     for (const LocalOrdinal node : facet) carries.push_back(surface.carries[node]);
     const std::size_t corners = facet_corners(dim, facet.size());
     const bool quadratic = facet.size() > corners;  // then the middles of edges carry what nodes without multiplier leave to others
-    if (std::none_of(carries.begin() + static_cast<std::ptrdiff_t>(quadratic ? corners : 0), carries.end(), [](char one) { return one != 0; }))
-      diagnostics.push_back({place, fmt::format("the slave facet between nodes {} has prescribed displacements at all {}, so it can carry no "
-                                                "contact; please make this side the master",
-                                                written<dim>(ids, points), quadratic ? "middles of its edges" : "its nodes")});
+    if (owned_nodes->isNodeGlobalElement(ids.front())) {
+      ++held.all;
+      if (std::none_of(carries.begin() + static_cast<std::ptrdiff_t>(quadratic ? corners : 0), carries.end(), [](char one) { return one != 0; })) {
+        ++held.held;
+        held.quadratic |= quadratic;
+        for (const LocalOrdinal node : facet)
+          for (int i = 0; i < dim; ++i) (F_view(node, i) == follows_another ? held.follow : held.prescribed) |= F_view(node, i) != 0.0;
+        if (held.nodes.size() < named_facets) held.nodes.push_back(written<dim>(ids, points));
+      }
+    }
     if (!sound(points))
       diagnostics.push_back({place, fmt::format("the slave facet between nodes {} has no area, or is not convex", written<dim>(ids, points))});
     const FacetVector weights = facet_weights(points, measure);
@@ -178,6 +187,7 @@ SlaveSurface make_slave_surface(const RCP<const Map>& owned_nodes, const RCP<con
     surface.normals.push_back(facet);
     surface.multipliers.push_back({multiplier_shares(carries, corners), weights});
   }
+  if (const auto refusal = refusal_of(held, *owned_nodes->getComm(), place)) diagnostics.push_back(*refusal);
   throw_if_any(*owned_nodes->getComm(), diagnostics);
   return surface;
 }

@@ -7,6 +7,7 @@
 #include <BelosSolverFactory_Tpetra.hpp>
 #include <BelosTpetraAdapter.hpp>
 #include <MueLu_CreateTpetraPreconditioner.hpp>
+#include <MueLu_MasterList.hpp>
 #include <MueLu_ParameterListInterpreter.hpp>
 #include <MueLu_TpetraOperator.hpp>
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include "decoupled_multigrid.hpp"
 #include "interface_correction.hpp"
 #include "linear_system_checks.hpp"
+#include "solver_parameters.hpp"
 #include "sparse_parts.hpp"
 
 namespace mortise::detail {
@@ -283,23 +285,32 @@ class IterativeSolver : public LinearSolver {
   double extra_iterations_ = 0.0;              ///< beyond those, with the matrices since
 };
 
-// Both packages check names and types; asked here, with no matrix at hand, so that a misspelt name is found before the mesh is made.
+// Names and types, with no matrix at hand. Names first: on a wrong one MueLu prints all that it has.
 void check_lists(const LinearSolverOptions& options, const RCP<const Communicator>& comm) {
+  const auto& muelu = options.muelu;
   std::vector<Diagnostic> found;
+  const bool has_factories = muelu.value.isSublist("Hierarchy");  // MueLu's other interface, with names of one's own
+  if (!has_factories)
+    found =
+        unknown_parameters(muelu.value, *MueLu::MasterList::List(), muelu.place, "MueLu", "the MueLu User's Guide (trilinos.github.io)", "level ");
   try {
     Teuchos::ParameterList list = muelu_list(options, 2, 1000, comm->getSize());
-    MueLu::ParameterListInterpreter<Scalar, LocalOrdinal, GlobalOrdinal, NodeType>(list, comm);
+    if (found.empty()) MueLu::ParameterListInterpreter<Scalar, LocalOrdinal, GlobalOrdinal, NodeType>(list, comm);
   } catch (const std::exception& error) {
-    found.push_back({options.muelu.place, error.what()});
+    found.push_back({muelu.place, in_one_line(error.what())});
   }
   try {
     const auto list = rcp(new Teuchos::ParameterList(belos_defaults(options, options.tolerance, small_basis)));
     list->setParameters(options.belos.value);
     Belos::TpetraSolverFactory<Scalar, MultiVector, Operator> factory;
     const auto gmres = factory.create("GMRES", Teuchos::null);
-    list->validateParameters(*gmres->getValidParameters());
+    const auto valid = gmres->getValidParameters();
+    const auto unknown = unknown_parameters(options.belos.value, *valid, options.belos.place, "Belos' GMRES",
+                                            "the documentation of Belos::BlockGmresSolMgr (trilinos.github.io)");
+    found.insert(found.end(), unknown.begin(), unknown.end());
+    if (unknown.empty()) list->validateParameters(*valid);
   } catch (const std::exception& error) {
-    found.push_back({options.belos.place, error.what()});
+    found.push_back({options.belos.place, in_one_line(error.what())});
   }
   if (!found.empty()) throw InputError(std::move(found));
 }

@@ -68,7 +68,7 @@ bool run_steps(SemiSmoothSystem& system, const SteppingOptions& stepping, const 
         solve_step(system, report.time, newton, tried, report.newton, observer.iteration);
         break;
       } catch (const StepFailure& caught) {
-        const std::string explanation = observer.explain ? observer.explain() : "";
+        const std::string explanation = observer.explain ? observer.explain(caught) : "";
         const StepFailure failure = explanation.empty() ? caught : StepFailure(caught.kind(), fmt::format("{} ({})", explanation, caught.what()));
         last_failure = failure;
         ++report.cutbacks;

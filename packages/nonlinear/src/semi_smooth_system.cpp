@@ -59,10 +59,12 @@ void SemiSmoothSystem::residual(const Vector& x, Vector& F, ResidualNorms& norms
   self.sum_forces(*d, *z, *r);
   double force = std::max(self.internal.norm2(), self.external.norm2());
   double other = 0.0, violation = 0.0;
+  std::optional<StepFailure> failure;  // why something is not finite
   if (self.parts.contact) {
     const RCP<Vector> C = multipliers(F);
     self.parts.contact->complementarity(*z, *C);
     other = C->norm2();
+    if (!std::isfinite(other)) self.parts.contact->find_friction_failure(*z, failure);
     const ContactNorms contact = self.parts.contact->norms(*z);
     norms.gap = contact.gap;
     norms.complementarity = contact.complementarity;
@@ -78,7 +80,7 @@ void SemiSmoothSystem::residual(const Vector& x, Vector& F, ResidualNorms& norms
   if (self.reduction) self.reduction->gather(*r);
   std::vector<double> deviation;  // d - prescribed
   double largest = 0.0;
-  if (self.parts.prescribed) deviation = self.parts.prescribed->values(self.time);
+  if (self.parts.prescribed) deviation = self.parts.prescribed->values(self.time, failure);
   {
     if (self.reduction) largest = self.reduction->deviation(*d, 0.0, *r);
     const auto displacements = d->getLocalViewHost(Tpetra::Access::ReadOnly);
@@ -102,6 +104,7 @@ void SemiSmoothSystem::residual(const Vector& x, Vector& F, ResidualNorms& norms
   if (self.reduction) self.reduction->deviation(*d, self.stiffness_scale, *r);
   const double rows = r->norm2();
   norms.finite = std::isfinite(rows) && std::isfinite(force) && std::isfinite(other);
+  if (!norms.finite) throw_if_any(self.comm(), failure);  // all ranks have the same norms
   norms.merit = norms.finite ? std::hypot(rows, violation) : std::numeric_limits<double>::infinity();
 }
 

@@ -69,11 +69,10 @@ std::vector<Values> prescribed_values(const Model& model, const Values& times) {
   const auto& prescribed = *model.parts().prescribed;
   std::vector<Values> values(prescribed.dofs().size(), Values(times.size()));
   for (std::size_t i = 0; i < times.size(); ++i) {
-    const Values now = prescribed.values(times[i]);
-    for (std::size_t n = 0; n < now.size(); ++n) {
-      if (!std::isfinite(now[n])) throw StepFailure(FailureKind::not_finite, fmt::format("a boundary condition has no value at time {:g}", times[i]));
-      values[n][i] = now[n];
-    }
+    std::optional<StepFailure> failure;
+    const Values now = prescribed.values(times[i], failure);
+    if (failure) throw *failure;
+    for (std::size_t n = 0; n < now.size(); ++n) values[n][i] = now[n];
   }
   return values;
 }

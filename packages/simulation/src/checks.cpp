@@ -1,5 +1,7 @@
 #include "mortise/simulation/checks.hpp"
 
+#include <fmt/format.h>
+
 #include "names.hpp"
 
 namespace mortise {
@@ -9,7 +11,7 @@ void CheckOptions::describe(Parameters& parameters) {
   parameters.add("low", low, "the least value allowed at the end; default: no bound");
   parameters.add("high", high, "the largest value allowed at the end; default: no bound");
   if (!low && !high) parameters.error("quantity", "a check without a bound; please add \"low\" or \"high\"");
-  if (low && high && *low > *high) parameters.error("high", "\"high\" lies below \"low\"");
+  if (low && high && *low > *high) parameters.error("high", fmt::format("is {:g}, below \"low\", {:g}", *high, *low));
 }
 
 std::vector<CheckResult> evaluate_checks(const std::vector<Named<CheckOptions>>& checks, const std::map<std::string, double>& values) {

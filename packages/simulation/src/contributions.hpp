@@ -64,7 +64,7 @@ class PrescribedBoundary final : public PrescribedDisplacements {
  public:
   explicit PrescribedBoundary(PrescribedMotion motion) : motion_(std::move(motion)) {}
   const std::vector<LocalOrdinal>& dofs() const override { return motion_.dofs(); }
-  std::vector<double> values(double time) const override { return motion_.values(time); }
+  std::vector<double> values(double time, std::optional<StepFailure>& failure) const override { return motion_.values(time, failure); }
 
  private:
   PrescribedMotion motion_;

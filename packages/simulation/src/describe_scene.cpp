@@ -125,8 +125,7 @@ std::string describe_scene(const std::string& path, DescriptionFormat format) {
   if (list == nullptr) {
     std::vector<std::string> names;
     for (const auto& known : tree.lists) names.push_back(known.name);
-    const std::string whose = of_scene ? "the scene" : "a " + first + " file";
-    throw InputError({{}, fmt::format("{}; {}'s lists are {}", unknown_name("list", path, names), whose, quoted_list(names))});
+    throw InputError({{}, unknown_name(of_scene ? "list of a scene" : "list of a " + first + " file", below, names)});
   }
   return formatted(*list, format);
 }
@@ -175,7 +174,7 @@ std::string list_choices(const std::string& topic) {
     for (const auto& [name, sentence] : choices) text += fmt::format("{:<{}}  {}\n", name, width, sentence);
     return text;
   }
-  throw InputError({{}, unknown_name("topic", topic, choice_topics()) + "; there are " + quoted_list(choice_topics())});
+  throw InputError({{}, unknown_name("topic", topic, choice_topics())});
 }
 
 }  // namespace mortise

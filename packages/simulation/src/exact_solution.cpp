@@ -1,5 +1,7 @@
 #include "mortise/simulation/exact_solution.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace mortise {
@@ -23,7 +25,8 @@ void HertzLineContact::describe(Parameters& parameters) {
   parameters.add("second poisson's ratio", second_poissons_ratio, Says("of the other body").unit("-").above(-1.0).at_most(0.5));
   parameters.add("center", center, Says("x of the middle of the contact zone").unit("length"));
   if (second_radius && !(1.0 / radius + 1.0 / *second_radius > 0.0))
-    parameters.error("second radius", "a hollow body has to have a larger radius than the cylinder in it");
+    parameters.error("second radius",
+                     fmt::format("is {:g}; a hollow body has to have a larger radius than the cylinder in it, {:g}", *second_radius, radius));
 }
 
 double HertzLineContact::half_width(double time) const {
@@ -84,7 +87,8 @@ void LameRing::describe(Parameters& parameters) {
   add_in_time(parameters, "outer pressure", outer_pressure, Says("on the outer surface; an expression of t").unit("stress"));
   parameters.add("center x", center_x, Says("x of the centre").unit("length"));
   parameters.add("center y", center_y, Says("y of the centre").unit("length"));
-  if (outer_radius <= inner_radius) parameters.error("outer radius", "the outer radius has to be larger than the inner one");
+  if (outer_radius <= inner_radius)
+    parameters.error("outer radius", fmt::format("is {:g}; it has to be larger than \"inner radius\", {:g}", outer_radius, inner_radius));
 }
 
 LameRing::Constants LameRing::constants(double time) const {

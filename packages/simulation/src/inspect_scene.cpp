@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
+#include "mesh_limits.hpp"
 #include "mortise/simulation/model.hpp"
 #include "mortise/simulation/read_scene.hpp"
 #include "mortise/simulation/run.hpp"
 #include "report_model.hpp"
 #include "run_log.hpp"
 #include "step_evaluation.hpp"
+#include "turned_masters.hpp"
 
 namespace mortise {
 
@@ -17,10 +19,15 @@ void inspect_scene(const RCP<const Communicator>& comm, const RunOptions& option
   SemiSmoothSystem system(model.parts(), timers);
   const StepEvaluation evaluation(scene, model, system);
   report_model(options.scene, scene, model, log);
+  warn_of_turned_masters(model, scene, log);
   log.info(fmt::format("  diagonal of the model {:.6g}, shortest side of an element {:.6g}", model.size().length, model.size().shortest_side));
   const MemoryEstimate memory = estimated_memory(model);
   log.info(fmt::format("  about {:.0f} MiB: {:.0f} until here, {:.0f} for the linear systems", memory.so_far + memory.linear_systems, memory.so_far,
                        memory.linear_systems));
+  if (const double there = memory_of_machines(*comm); there > 0.0 && memory.so_far + memory.linear_systems > there)
+    log.warning(
+        fmt::format("that is more than the {:.0f} MiB here{}; please make the meshes coarser, take another solver, or run it on more machines", there,
+                    comm->getSize() > 1 ? ", of all machines together" : ""));
   log.info("no errors");
 }
 

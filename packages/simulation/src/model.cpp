@@ -10,6 +10,7 @@
 #include <algorithm>
 
 #include "contributions.hpp"
+#include "mesh_limits.hpp"
 #include "mortise/simulation/hold_check.hpp"
 #include "scene_bodies.hpp"
 
@@ -89,10 +90,11 @@ RCP<MultiVector> reference_positions(const Mesh& mesh) {
   return positions;
 }
 
-RCP<MultiVector> marked_components(const Mesh& mesh, const std::vector<LocalOrdinal>& dofs) {
+/// `mark` in the components of owned nodes that are `dofs`, 0 elsewhere.
+RCP<MultiVector> marked_components(const Mesh& mesh, const std::vector<LocalOrdinal>& dofs, double mark) {
   const auto marks = rcp(new MultiVector(mesh.owned_nodes, static_cast<std::size_t>(mesh.dimension)));
   const auto view = marks->getLocalViewHost(Tpetra::Access::ReadWrite);
-  for (const LocalOrdinal dof : dofs) view(dof / mesh.dimension, dof % mesh.dimension) = 1.0;
+  for (const LocalOrdinal dof : dofs) view(dof / mesh.dimension, dof % mesh.dimension) = mark;
   return marks;
 }
 
@@ -184,6 +186,7 @@ void refuse_beyond_axis(const Mesh& mesh, double length, const std::vector<Place
 Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Timers& timers) {
   {
     const auto timer = timers.scope("mesh");
+    refuse_too_large(*comm, scene);
     mesh_ = make_mesh(comm, scene);
     size_ = mesh_size(*mesh_);
   }
@@ -228,9 +231,9 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   collect.throw_found(*comm);
   if (!mesh_->reference_points.empty()) parts_.dependent = std::make_shared<TiedNodes>(*bodies_, parts_.prescribed->dofs());
 
-  std::vector<LocalOrdinal> not_free = parts_.prescribed->dofs();
-  if (parts_.dependent) not_free.insert(not_free.end(), parts_.dependent->dofs().begin(), parts_.dependent->dofs().end());
-  const auto fixed = marked_components(*mesh_, parts_.prescribed->dofs()), kept = marked_components(*mesh_, not_free);
+  // None of the dofs that follow is prescribed.
+  const auto fixed = marked_components(*mesh_, parts_.prescribed->dofs(), 1.0), kept = rcp(new MultiVector(*fixed, Teuchos::Copy));
+  if (parts_.dependent) kept->update(1.0, *marked_components(*mesh_, parts_.dependent->dofs(), 2.0), 1.0);
   const bool axisymmetric = scene.kinematics == Kinematics::axisymmetric;
   std::vector<HoldingPair> holding;
   for (const auto& pair : pairs)

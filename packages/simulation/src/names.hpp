@@ -18,9 +18,11 @@ std::vector<std::string> names_of(const std::vector<Named<T>>& entries) {
   return names;
 }
 
-/// there is no material "stel"; did you mean "steel"?
+/// there is no material "stel"; did you mean "steel"? There are: "rubber", "steel"
 inline std::string unknown_name(const std::string& what, const std::string& name, const std::vector<std::string>& known) {
-  return fmt::format("there is no {} \"{}\"{}", what, name, did_you_mean(name, known));
+  const std::string hint = did_you_mean(name, known);
+  const std::string all = known.empty() ? "there is none" : "there are: " + quoted_list(known);
+  return fmt::format("there is no {} \"{}\"{}", what, name, hint.empty() ? "; " + all : hint + " T" + all.substr(1));
 }
 
 }  // namespace mortise

@@ -1,5 +1,8 @@
 // Quantities of one contact pair.
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <Eigen/Geometry>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
@@ -74,7 +77,7 @@ void ContactRadius::describe(Parameters& parameters) {
   parameters.add("axis", axis, "direction of the axis: \"x, y, z\"");
   for (auto [name, values] : {std::pair{"center", &center}, std::pair{"axis", &axis}})
     if (values->size() != 3) {
-      parameters.error(name, "needs three numbers, \"x, y, z\"");
+      parameters.error(name, fmt::format("is \"{}\"; it needs three numbers, \"x, y, z\"", fmt::join(*values, ", ")));
       values->assign({0.0, 0.0, 1.0});
     }
   if (Eigen::Vector3d(axis.data()).isZero(0.0)) parameters.error("axis", "needs a direction, not \"0, 0, 0\"");

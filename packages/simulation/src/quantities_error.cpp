@@ -45,7 +45,7 @@ void ErrorNorm::describe(Parameters& parameters) {
   parameters.list("exact", list, "what the field is compared with");
   if (of != Of::contact_pressure && (from || to))
     parameters.error(from ? "from" : "to", "a range counts for the contact pressure only; please remove it");
-  if (from && to && *from >= *to) parameters.error("to", "\"to\" has to lie above \"from\"");
+  if (from && to && *from >= *to) parameters.error("to", fmt::format("is {:g}; it has to lie above \"from\", {:g}", *to, *from));
 }
 
 bool ErrorNorm::is_known(double time) const {

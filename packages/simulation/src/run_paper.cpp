@@ -47,7 +47,7 @@ Json run_one(const RCP<const Communicator>& comm, const PaperRun& run, const Pap
 
   Json json{{"identity", wanted}, {"rival", run.is_rival}, {"exit", static_cast<int>(ExitCode::files)}, {"reused", false}, {"seconds", 0.0}, {"said", ""}};
   try {
-    OutputDirectory(comm, results, false).remove_earlier_run();
+    OutputDirectory(comm, results, false).begin_run();
     std::filesystem::remove(record);
   } catch (const std::exception& error) {
     json["said"] = error.what();
@@ -88,7 +88,8 @@ ExitCode run_paper(const RCP<const Communicator>& comm, const PaperOptions& opti
   const std::string page = directory.file("paper.html");
   require_page_python(*comm, page);
   for (const char* old : {"paper.html", "paper.json"}) std::filesystem::remove(directory.file(old));
-  OutputDirectory scenes(comm, directory.file("scenes"), false);
+  const OutputDirectory scenes(comm, directory.file("scenes"), false);
+  scenes.make();
 
   std::vector<PaperRun> wanted;
   for (const auto& run : paper_runs())

@@ -62,7 +62,7 @@ void write_profiles(const RCP<const Communicator>& comm, const std::string& path
 
 /// Nothing of an earlier run may pass for results of this one.
 void remove_earlier(OutputDirectory& directory) {
-  directory.remove_earlier_run();
+  directory.begin_run();
   for (const char* ending : {"inp", "sta", "cvg", "dat", "frd", "12d", "log"}) std::filesystem::remove(directory.file(std::string("peer.") + ending));
 }
 

@@ -57,7 +57,7 @@ ExitCode run_point(const RCP<const Communicator>& comm, const RunOptions& option
   const std::vector<PathPoint> path = points_of(*point.path.options);
   const Law law = point.material.options->law();
   OutputDirectory directory(comm, options.directory.empty() ? default_directory(options.scene) : options.directory, options.keep);
-  directory.remove_earlier_run();
+  directory.begin_run();
   write_file(*comm, directory.file("effective.xml"), [&] { return effective_xml(point); });
   log.info(fmt::format("{}: {}, {}, {} steps", options.scene, point.material.type, point.path.type, path.size() - 1));
 

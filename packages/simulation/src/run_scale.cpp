@@ -82,7 +82,7 @@ ExitCode run_scale(const RCP<const Communicator>& comm, const ScaleOptions& opti
   require_page_python(*comm, page);
   std::vector<ScalePoint> points = planned_points(scene, options, directory);
   for (const char* old : {"scale.csv", "scale.json", "scale.svg", "report.html", "runs"}) std::filesystem::remove_all(directory.file(old));
-  OutputDirectory(comm, directory.file("runs"), false);
+  OutputDirectory(comm, directory.file("runs"), false).make();
 
   std::map<int, double> bandwidth;
   for (const int ranks : rank_counts(options.ranks)) {

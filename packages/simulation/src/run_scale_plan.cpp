@@ -116,6 +116,7 @@ ExitCode plan_scale(const RCP<const Communicator>& comm, const ScaleOptions& opt
   const Scene scene = read_scene(*comm, options.scene, options.settings);
   const ScalePlan plan = make_scale_plan(comm, scene, options.plan);
   const OutputDirectory directory(comm, options.directory.empty() ? default_directory(options.scene) + "-scale" : options.directory, false);
+  directory.make();
   {
     std::vector<std::string> names{"rank"};
     for (const Column& column : columns()) names.push_back(column.name);

@@ -24,6 +24,7 @@
 #include "run_record.hpp"
 #include "step_evaluation.hpp"
 #include "timer_sums.hpp"
+#include "turned_masters.hpp"
 
 namespace mortise {
 namespace {
@@ -180,8 +181,10 @@ class Observers {
   double time_ = 0.0, dt_ = 0.0;
 };
 
-ExitCode exit_code(const RunRecord& record) {
-  if (!record.converged) return ExitCode::not_converged;
+bool is_input(const std::optional<StepFailure>& failure) { return failure && failure->kind() == FailureKind::input; }
+
+ExitCode exit_code(const RunRecord& record, const std::optional<StepFailure>& failure) {
+  if (!record.converged) return is_input(failure) ? ExitCode::invalid_input : ExitCode::not_converged;
   for (const auto& check : record.checks)
     if (!check.ok) return ExitCode::check_missed;
   return ExitCode::done;
@@ -201,8 +204,9 @@ void report_end(const RunRecord& record, const std::optional<StepFailure>& failu
       log.info(fmt::format("contact {}: {} slave facets, {} overlaps; largest over mean work of the ranks {:.2f}{}", pair, load.facets, load.segments,
                            load.imbalance, load.redistributions > 0 ? fmt::format(", as owned {:.2f}", load.imbalance_as_owned) : ""));
   if (!record.converged)
-    log.warning(fmt::format("not converged; the last converged state is that of time {:g}{}", record.steps.empty() ? 0.0 : record.steps.back().time,
-                            failure ? fmt::format(": {}", failure->what()) : ""));
+    log.warning(fmt::format(
+        "{}; the last converged state is that of time {:g}{}", is_input(failure) ? "stopped by an error of the input" : "not converged",
+        record.steps.empty() ? 0.0 : record.steps.back().time, failure && !is_input(failure) ? fmt::format(": {}", failure->what()) : ""));
   int iterations = 0;
   for (const auto& step : record.steps) iterations += step.newton.newton_steps();
   const auto total = record.seconds.find("total");
@@ -223,10 +227,11 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
   SemiSmoothSystem system(model.parts(), timers);
   StepEvaluation evaluation(scene, model, system);
 
-  // From here on the scene is one that can be run: what an earlier run left makes room.
-  directory.remove_earlier_run();
+  // From here on the scene is one that can be run: only now is anything made, and what an earlier run left makes room.
+  directory.begin_run();
   log.open(directory.file("log.txt"));
   report_model(options.scene, scene, model, log);
+  warn_of_turned_masters(model, scene, log);
   write_file(*comm, directory.file("effective.xml"), [&] { return effective_xml(scene); });
 
   RunRecord record;
@@ -242,12 +247,18 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
   {
     const auto timer = timers.scope("steps");
     StepperObserver functions = observers.functions();
-    functions.explain = [&] { return describe_free_motions(model, system); };
-    record.converged = run_steps(system, scene.stepping, scene.newton, x, start_step, functions, failure);
+    functions.explain = [&](const StepFailure& caught) {
+      return caught.kind() == FailureKind::input ? std::string() : describe_free_motions(model, system);
+    };
+    try {
+      record.converged = run_steps(system, scene.stepping, scene.newton, x, start_step, functions, failure);
+    } catch (const InputError& error) {  // on every rank: a quantity's expression without a value
+      failure.emplace(FailureKind::input, error.what());
+    }
     observers.finish(x);
   }
   if (!record.steps.empty()) record.checks = evaluate_checks(scene.checks, record.quantities);
-  record.exit = exit_code(record);
+  record.exit = exit_code(record, failure);
 
   for (std::size_t pair = 0; pair < scene.contact.size(); ++pair)
     record.integration.emplace_back(scene.contact[pair].name, model.contact()->integration_load(pair));
@@ -261,6 +272,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
   report_end(record, failure, directory.path(), log);
   write_file(*comm, directory.file("summary.json"),
              [&, json = summary(record, model)] { return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"; });
+  if (is_input(failure)) throw *failure;
   return record.exit;
 }
 

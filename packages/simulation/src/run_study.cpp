@@ -36,7 +36,7 @@ ExitCode run_study(const RCP<const Communicator>& comm, const StudyOptions& opti
   require_page_python(*comm, page);
   if (options.fresh) forget(directory);
   for (const char* old : {"study.csv", "study.json", "report.html"}) std::filesystem::remove(directory.file(old));
-  OutputDirectory(comm, directory.file("points"), false);
+  OutputDirectory(comm, directory.file("points"), false).make();
   write_file(*comm, scene, [&] { return plan.scene_text; });
 
   StudyResults results;

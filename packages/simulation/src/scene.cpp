@@ -1,5 +1,8 @@
 #include "mortise/simulation/scene.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "fields.hpp"
@@ -22,7 +25,7 @@ namespace {
 /// "x, y", "x, y, z" or nothing; the scene's dimension is asked for later.
 void check_position(Parameters& parameters, const std::string& name, std::vector<double>& position) {
   if (position.empty() || position.size() == 2 || position.size() == 3) return;
-  parameters.error(name, "needs two numbers, \"x, y\", or in space three, \"x, y, z\"");
+  parameters.error(name, fmt::format("is \"{}\"; it needs two numbers, \"x, y\", or in space three, \"x, y, z\"", fmt::join(position, ", ")));
   position.clear();
 }
 }  // namespace

@@ -12,7 +12,10 @@ StepEvaluation::StepEvaluation(const Scene& scene, const Model& model, SemiSmoot
     try {
       quantity.value.quantity.options->prepare(at);
     } catch (const InputError& error) {
-      diagnostics.insert(diagnostics.end(), error.diagnostics().begin(), error.diagnostics().end());
+      for (Diagnostic one : error.diagnostics()) {
+        if (one.place.path.empty()) one.place = quantity.place;
+        diagnostics.push_back(std::move(one));
+      }
     }
     at.earlier.push_back(quantity.name);
   }

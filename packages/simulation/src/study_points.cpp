@@ -36,8 +36,7 @@ std::vector<Labels> excluded(const Named<AssignmentList>& entry, const StudyFile
     for (std::string& label : about[axis]) {
       boost::algorithm::trim(label);
       if (std::find(labels[axis].begin(), labels[axis].end(), label) == labels[axis].end())
-        diagnostics.push_back(
-            {one.place, unknown_name("value of \"" + one.path + "\"", label, labels[axis]) + "; it has " + quoted_list(labels[axis])});
+        diagnostics.push_back({one.place, unknown_name("value of \"" + one.path + "\"", label, labels[axis])});
     }
   }
   return about;
@@ -61,8 +60,7 @@ void read_peer(StudyPoint& point, const Assignment& said, std::vector<Diagnostic
     known.push_back(name);
     if (name == said.value) point.peer = peer;
   }
-  if (std::find(known.begin(), known.end(), said.value) == known.end())
-    diagnostics.push_back({said.place, unknown_name("peer", said.value, known) + "; there are " + quoted_list(known)});
+  if (std::find(known.begin(), known.end(), said.value) == known.end()) diagnostics.push_back({said.place, unknown_name("peer", said.value, known)});
 }
 
 /// Takes "ranks", "peer", "peer penalty" and "time limit" out of the settings: they say how the scene is run and are no part of it.

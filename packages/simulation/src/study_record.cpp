@@ -111,7 +111,7 @@ Json run_all(const Communicator& comm, const StudyPoint& point, const StudyPoint
   for (int repeat = 0; repeat < options.repeats; ++repeat) {
     try {
       // Nothing of an earlier run may pass for results of one that fails.
-      OutputDirectory(Teuchos::rcpFromRef(comm), options.directory, false).remove_earlier_run();
+      OutputDirectory(Teuchos::rcpFromRef(comm), options.directory, false).begin_run();
     } catch (const FileError& error) {
       record["said"] = error.what();
       return record;

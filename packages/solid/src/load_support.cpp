@@ -8,7 +8,7 @@ double evaluate(const Expression& expression, double time, const std::array<doub
   try {
     return expression(time, position[0], position[1], position[2]);
   } catch (const InputError& error) {
-    if (!failure) failure.emplace(FailureKind::not_finite, error.what());
+    if (!failure) failure.emplace(FailureKind::input, error.what());
     return std::numeric_limits<double>::quiet_NaN();
   }
 }

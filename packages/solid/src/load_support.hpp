@@ -1,5 +1,5 @@
 #pragma once
-// What the kinds of loads share.
+// What loads and boundary conditions share.
 
 #include <array>
 #include <optional>

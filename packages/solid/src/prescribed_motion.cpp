@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 
+#include "load_support.hpp"
 #include "mortise/mesh/build_mesh.hpp"
 #include "mortise/mesh/reference_point.hpp"
 #include "mortise/mesh/sets.hpp"
@@ -68,6 +68,10 @@ PrescribedMotion::PrescribedMotion(const Bodies& bodies, const std::vector<Named
   };
   std::map<LocalOrdinal, Prescribed> prescribed;
   const Followers followers(bodies);
+  const auto compared = [this](const Source& source, double time) {
+    std::optional<StepFailure> none;
+    return value(source, time, none);
+  };
   for (std::size_t n = 0; n < conditions.size(); ++n) {
     const auto& condition = conditions[n];
     const std::array<const std::optional<Expression>*, 3> components{&condition.value.x, &condition.value.y, &condition.value.z};
@@ -112,7 +116,7 @@ PrescribedMotion::PrescribedMotion(const Bodies& bodies, const std::vector<Named
           const auto [other, is_new] = prescribed.try_emplace(mesh.dimension * node + component, Prescribed{source, n});
           if (is_new) continue;
           const bool same = std::all_of(std::begin(compared_times), std::end(compared_times),
-                                        [&](double t) { return agree(value(source, t), value(other->second.source, t), length); });
+                                        [&](double t) { return agree(compared(source, t), compared(other->second.source, t), length); });
           if (same) continue;
           const auto& first = conditions[other->second.condition];
           diagnostics.push_back({condition.place, fmt::format("boundary conditions \"{}\" ({}:{}) and \"{}\" prescribe {} differently at the node of "
@@ -131,7 +135,7 @@ PrescribedMotion::PrescribedMotion(const Bodies& bodies, const std::vector<Named
     const auto [entry, is_new] = prescribed.try_emplace(dof, Prescribed{{static_cast<LocalOrdinal>(expressions_.size() - 1), {}}, 0});
     if (is_new) continue;
     const auto& [source, condition] = entry->second;
-    const bool zero = std::all_of(std::begin(compared_times), std::end(compared_times), [&, &s = source](double t) { return value(s, t) == 0.0; });
+    const bool zero = std::all_of(std::begin(compared_times), std::end(compared_times), [&, &s = source](double t) { return compared(s, t) == 0.0; });
     if (!zero)
       diagnostics.push_back(
           {conditions[condition].place, fmt::format("boundary condition \"{}\" moves a reference point in {}, in which nothing follows it",
@@ -144,19 +148,14 @@ PrescribedMotion::PrescribedMotion(const Bodies& bodies, const std::vector<Named
   }
 }
 
-double PrescribedMotion::value(const Source& source, double time) const {
-  try {
-    return source.factor * expressions_[source.expression](time, source.position[0], source.position[1], source.position[2]);
-  } catch (const InputError&) {
-    // Only this rank may be affected: a value that is not finite is found by all ranks together, in the residual.
-    return std::numeric_limits<double>::quiet_NaN();
-  }
+double PrescribedMotion::value(const Source& source, double time, std::optional<StepFailure>& failure) const {
+  return source.factor * evaluate(expressions_[source.expression], time, source.position, failure);
 }
 
-std::vector<double> PrescribedMotion::values(double time) const {
+std::vector<double> PrescribedMotion::values(double time, std::optional<StepFailure>& failure) const {
   std::vector<double> values;
   values.reserve(sources_.size());
-  for (const Source& source : sources_) values.push_back(value(source, time));
+  for (const Source& source : sources_) values.push_back(value(source, time, failure));
   return values;
 }
 

@@ -84,9 +84,12 @@ TEST(CsvWriter, NumbersReadBackExactlyAndTextIsQuoted) {
   EXPECT_THAT(file_error([&] { csv.row({1.0}); }), HasSubstr("1 values for 3 columns"));
 }
 
-TEST(OutputDirectory, IsMadeWithItsParents) {
+TEST(OutputDirectory, IsMadeWithItsParentsWhenARunBegins) {
   const test::ScratchDirectory scratch(world());
   const OutputDirectory directory(world(), scratch.file("results/patch"), false);
+  EXPECT_TRUE(std::filesystem::is_empty(scratch.path())) << "nothing may be made before";
+  world()->barrier();
+  directory.begin_run();
   EXPECT_TRUE(std::filesystem::is_directory(directory.path()));
   EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
   EXPECT_EQ(directory.file("log.txt"), scratch.file("results/patch") + "/log.txt");
@@ -101,7 +104,7 @@ TEST(OutputDirectory, ReplacesARunWholeAndLeavesTheRest) {
   OutputDirectory directory(world(), scratch.path(), false);
   EXPECT_EQ(content(scratch.file("summary.json")), "old") << "opening must not remove anything";
   world()->barrier();
-  directory.remove_earlier_run();
+  directory.begin_run();
   for (const char* name : {"summary.json", "fields.h5", "checkpoint-12.h5"}) EXPECT_FALSE(std::filesystem::exists(scratch.file(name))) << name;
   for (const char* name : {"notes.txt", "checkpoint-.h5"}) EXPECT_TRUE(std::filesystem::exists(scratch.file(name))) << name;
 }

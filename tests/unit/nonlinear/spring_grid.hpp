@@ -215,7 +215,7 @@ class Edges : public PrescribedDisplacements {
     }
   }
   const std::vector<LocalOrdinal>& dofs() const override { return dofs_; }
-  std::vector<double> values(double time) const override {
+  std::vector<double> values(double time, std::optional<StepFailure>&) const override {
     std::vector<double> result = rates_;
     for (double& value : result) value *= time;
     return result;

@@ -93,7 +93,8 @@ Assembled assemble(const RCP<const Communicator>& comm, const BodySetup& setup) 
   }
   const Named<BoundaryConditionOptions> left{"left", {}, {{"body/left", {}}, Expression("t*y", {}), {}}};
   const PrescribedMotion motion(*bodies, {left});
-  const auto values = motion.values(0.3);
+  const auto values = motion.values(0.3, failure);
+  EXPECT_FALSE(failure);
   for (std::size_t n = 0; n < values.size(); ++n) result.prescribed.emplace_back(bodies->dofs()->getGlobalElement(motion.dofs()[n]), values[n]);
   result.energy = bodies->stored_energies(local)[0];
   return result;

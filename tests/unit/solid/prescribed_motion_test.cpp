@@ -1,6 +1,8 @@
 #include "mortise/solid/prescribed_motion.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
 
 #include "solid_test_support.hpp"
 
@@ -44,9 +46,26 @@ TEST(PrescribedMotion, HoldsTheNamedComponentsAscending) {
     }
   }
   EXPECT_EQ(motion.dofs(), dofs);
-  const auto actual = motion.values(0.25);
+  std::optional<StepFailure> failure;
+  const auto actual = motion.values(0.25, failure);
+  EXPECT_FALSE(failure);
   ASSERT_EQ(actual.size(), values.size());
   for (std::size_t n = 0; n < values.size(); ++n) EXPECT_DOUBLE_EQ(actual[n], values[n]);
+}
+
+TEST(PrescribedMotion, SaysWhichExpressionHasNoValue) {
+  const auto bodies = make_test_bodies(self(), {});
+  auto top = condition("top", 7, "body/top", "", "");
+  top.value.x = Expression("sqrt(1 - t)", {}, top.place);
+  const PrescribedMotion motion(*bodies, {top});
+  std::optional<StepFailure> failure;
+  for (const double value : motion.values(0.75, failure)) EXPECT_DOUBLE_EQ(value, 0.5);
+  EXPECT_FALSE(failure);
+  for (const double value : motion.values(2.0, failure)) EXPECT_TRUE(std::isnan(value));
+  ASSERT_TRUE(failure);
+  EXPECT_EQ(failure->kind(), FailureKind::input);
+  EXPECT_THAT(failure->what(), ::testing::HasSubstr("scene.xml:7: error: boundary conditions/top: \"sqrt(1 - t)\" is"));
+  EXPECT_THAT(failure->what(), ::testing::HasSubstr("at t = 2, x = "));
 }
 
 TEST(PrescribedMotion, TakesTheSameValueTwiceButNotTwoValues) {

@@ -238,7 +238,9 @@ TEST(SpacePrescribedMotion, HoldsTheNamedComponentsAscending) {
     if (std::abs(X[2]) < 1e-12) dofs.push_back(3 * node + 2), values.push_back(0.5 * X[0]);
   }
   EXPECT_EQ(motion.dofs(), dofs);
-  const auto actual = motion.values(0.25);
+  std::optional<StepFailure> failure;
+  const auto actual = motion.values(0.25, failure);
+  EXPECT_FALSE(failure);
   ASSERT_EQ(actual.size(), values.size());
   for (std::size_t n = 0; n < values.size(); ++n) EXPECT_DOUBLE_EQ(actual[n], values[n]);
   // Two values of z at one node are named with its place.

@@ -100,7 +100,7 @@ class ContactSystem {
  public:
   /// @param dofs       owned dofs (dimension * node + component) of `owned_nodes`
   /// @param reference  [owned nodes x dim] reference positions
-  /// @param fixed      [owned nodes x dim] 1 where prescribed
+  /// @param fixed      [owned nodes x dim] 1 where prescribed, 2 where it follows a rigid body or a reference point, else 0
   /// @throws InputError for a pair without Young's modulus, formulation or law of friction, a slave node in two pairs, a node that is slave in one
   ///         pair and master in another where its multiplier is eliminated, and what MortarInterface refuses; at the pair's name if it has no place
   /// @throws std::invalid_argument for `dofs` that are not make_dof_map(*owned_nodes, dim), and vectors on other nodes
@@ -121,9 +121,13 @@ class ContactSystem {
 
   /// Integrals at displacement d (kept until the next call); searches where needed. Slips are those since the last start_step(): before the first
   /// there are none. Local failures go to `failure`, which comes in empty (throw_if_any() tells all ranks): those of MortarInterface, and lost
-  /// contact: a node closed in the accepted state or when last marked, or open and in front of the master in the accepted state, that went through the
-  /// master surface so far that nothing is within reach any more. A node that opened or ran off the master's edge is not lost.
+  /// contact: a node closed in the accepted state or when last marked, or open and in front of the master in the accepted state, that went through
+  /// the master surface so far that nothing is within reach any more. A node that opened or ran off the master's edge is not lost.
   void evaluate(const Vector& d, bool derivatives, std::optional<StepFailure>& failure);
+
+  /// Pairs whose master seems to have its solid side on the wrong side: at the last evaluate() no slave node has a master facet before or behind it
+  /// that faces it, however far, and half of them or more have the back of one before them. Collective.
+  std::vector<std::size_t> pairs_with_turned_master() const;
 
   /// Graph of the condensed system: the bulk's and what the pairs couple. `changed` is set if it differs from the one of the last call: only then is
   /// `bulk` asked for the bulk's, which is not kept.
@@ -133,8 +137,10 @@ class ContactSystem {
   void add_contact_force(const Vector& z, Vector& r) const;
   /// The parts of z across the normals of the last evaluate, of pairs with friction; 0 elsewhere.
   RCP<Vector> shear_tractions(const Vector& z) const;
-  /// C(d, z), d of the last evaluate; rows in units of traction.
+  /// C(d, z), d of the last evaluate; rows in units of traction. NaN where a law of friction has no bound.
   void complementarity(const Vector& z, Vector& C) const;
+  /// Puts what the law of friction says at a node of this rank where it has no bound into `failure`, if that is empty (kind input).
+  void find_friction_failure(const Vector& z, std::optional<StepFailure>& failure) const;
   ContactNorms norms(const Vector& z) const;
   /// A_j for every component of each multiplier.
   RCP<Vector> weights() const;

@@ -18,8 +18,11 @@ struct FrictionLaw : Described {
   /// False: no code and no memory of friction for the pair.
   virtual bool acts() const { return true; }
 
-  /// rho at a contact pressure >= 0 [stress] and a slip path accumulated up to the start of the step [length].
+  /// rho at a contact pressure >= 0 [stress] and a slip path accumulated up to the start of the step [length]; NaN where the law has none.
   virtual FrictionBound bound(double pressure, double slip_path) const = 0;
+
+  /// Why there is no bound at a pressure and a slip path; nothing where there is one.
+  virtual std::optional<Diagnostic> complaint(double /*pressure*/, double /*slip_path*/) const { return {}; }
 };
 
 /// Nodes slip freely.
@@ -37,6 +40,7 @@ struct CoulombFriction : FrictionLaw {
   /// A coefficient of 0 is no friction.
   bool acts() const override { return !coefficient.is_constant() || coefficient.at({0.0, 0.0}) > 0.0; }
   FrictionBound bound(double pressure, double slip_path) const override;
+  std::optional<Diagnostic> complaint(double pressure, double slip_path) const override;
 };
 
 /// rho given, whatever the pressure.

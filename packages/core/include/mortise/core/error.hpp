@@ -55,6 +55,7 @@ enum class FailureKind {
   lost_contact,      ///< closed nodes that moved beyond the reach of their master surface
   linear_solver,     ///< true residual of a linear solve too large, or a singular matrix
   not_finite,        ///< NaN or Inf
+  input,             ///< an expression of the scene that has no value to go on with; the text has its place
   line_search,       ///< no step along the Newton direction makes the residual smaller
   diverged,
   too_many_iterations,

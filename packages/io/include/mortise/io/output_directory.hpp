@@ -10,13 +10,16 @@ namespace mortise {
 /// A directory for the files of one run.
 class OutputDirectory {
  public:
-  /// Creates the directory if it does not exist and makes sure that files can be made in it. Nothing that is there is touched. Collective.
+  /// Makes sure that files can be made in the directory, or the directory where it does not exist. Touches nothing. Collective.
   /// @param keep  refuse a directory that holds files of a run
   /// @throws FileError on all ranks: not a directory, not writable, refused
   OutputDirectory(RCP<const Communicator> comm, std::string path, bool keep);
 
-  /// Removes the files of an earlier run, whole; files that no run writes are left. Collective. Throws FileError on all ranks.
-  void remove_earlier_run();
+  /// Makes the directory, with those above it, where it does not exist. Collective. Throws FileError on all ranks.
+  void make() const;
+
+  /// Makes the directory and removes the files of an earlier run, whole; files that no run writes are left. Collective. Throws FileError on all ranks.
+  void begin_run() const;
 
   const std::string& path() const { return path_; }
   /// Path of a file in the directory.

@@ -117,7 +117,8 @@ class MortarInterface {
  public:
   /// @param owned_nodes    one-to-one map of all nodes of the model
   /// @param reference      [owned nodes x dim] reference positions
-  /// @param fixed          [owned nodes x dim] 1 where the displacement is prescribed, else 0
+  /// @param fixed          [owned nodes x dim] 1 where the displacement is prescribed, 2 where it follows a rigid body or a reference point, else 0;
+  ///                       only messages tell 1 from 2
   /// @param slave          every slave facet with a node owned by this rank (so a facet may stand on two ranks)
   /// @param master         the master facets of this rank, each on exactly one rank
   /// @throws InputError (at `place`, on every rank) for facets on other ranks than that or of nodes that nobody owns, a slave facet whose nodes, or

@@ -44,8 +44,8 @@ class PrescribedDisplacements {
   virtual ~PrescribedDisplacements() = default;
   /// Owned dofs (local indices in the map of owned dofs), ascending; constant in time.
   virtual const std::vector<LocalOrdinal>& dofs() const = 0;
-  /// Their values at pseudo-time `time`, in the same order.
-  virtual std::vector<double> values(double time) const = 0;
+  /// Their values at pseudo-time `time`, in the same order. Local failures go to `failure` if that is empty; values are not finite there.
+  virtual std::vector<double> values(double time, std::optional<StepFailure>& failure) const = 0;
 };
 
 /// Displacements of owned dofs that follow from others: nodes of rigid bodies and tied sets, which follow reference points.

@@ -43,7 +43,7 @@ struct StepperObserver {
   std::function<void(const NewtonIteration&)> iteration;
   std::function<void(const StepReport&, const Vector& x)> accepted;   ///< after commit
   std::function<void(const StepReport&, const StepFailure&)> undone;  ///< a try failed
-  std::function<std::string()> explain;                               ///< what lies behind a failure, to stand before its message
+  std::function<std::string(const StepFailure&)> explain;             ///< what lies behind a failure, to stand before its message
 };
 
 /// Runs from time 0 to the end. On return x is the last converged state. Returns true at the end time; false when the smallest step failed

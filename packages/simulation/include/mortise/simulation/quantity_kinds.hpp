@@ -121,6 +121,7 @@ struct Spread : Quantity {
 /// Displacement of a point, given by its reference position, interpolated in the element that holds it. [length]
 struct PointDisplacement : Quantity {
   Located<double> x, y;
+  std::optional<double> z;    ///< in three dimensions
   Located<std::string> body;  ///< empty: any
   Component component = Component::y;
   void describe(Parameters& parameters) override;

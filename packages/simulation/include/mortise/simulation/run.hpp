@@ -25,7 +25,8 @@ std::string default_directory(const std::string& file);
 
 /// Collective. Leaves in the directory: summary.json, newton.csv, history.csv, effective.xml, log.txt and, if the scene names fields,
 /// fields.xdmf and fields.h5. A scene that cannot be run leaves the directory as it was.
-/// Returns done, not_converged or check_missed. Throws InputError and FileError on all ranks.
+/// Returns done, not_converged or check_missed. Throws on all ranks: InputError, FileError, and StepFailure of kind input if an expression of the
+/// scene has no value at a later time; results until then are kept.
 ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& options);
 
 /// Collective. Reads a scene, builds its mesh and all else that a run needs, says on rank 0 what it found; solves nothing, writes nothing.

@@ -12,7 +12,7 @@
 namespace mortise {
 
 /// A load on bodies. Every rank computes the sides and elements that touch its nodes and writes only the rows it owns.
-/// An expression without a finite value is put into `failure` if that is empty (kind not_finite); nothing throws on one rank only.
+/// An expression without a finite value is put into `failure` if that is empty (kind input); nothing throws on one rank only.
 class Load {
  public:
   virtual ~Load() = default;

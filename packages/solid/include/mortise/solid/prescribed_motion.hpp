@@ -29,8 +29,9 @@ class PrescribedMotion {
   /// Owned dofs (local indices in Bodies::dofs()), ascending.
   const std::vector<LocalOrdinal>& dofs() const { return dofs_; }
 
-  /// Their values at pseudo-time `time`, in the same order; NaN where an expression has no finite value.
-  std::vector<double> values(double time) const;
+  /// Their values at pseudo-time `time`, in the same order. An expression without a finite value is put into `failure` if that is empty (kind input),
+  /// its value is NaN; nothing throws on one rank only.
+  std::vector<double> values(double time, std::optional<StepFailure>& failure) const;
 
  private:
   struct Source {
@@ -38,7 +39,7 @@ class PrescribedMotion {
     std::array<double, 3> position;
     double factor = 1.0;
   };
-  double value(const Source& source, double time) const;
+  double value(const Source& source, double time, std::optional<StepFailure>& failure) const;
 
   std::vector<Expression> expressions_;
   std::vector<LocalOrdinal> dofs_;

@@ -1,0 +1,18 @@
+#pragma once
+// How large meshes will be, before any of them is built.
+
+#include <vector>
+
+#include "mortise/mesh/build_mesh.hpp"
+
+namespace mortise {
+
+/// Of one body.
+struct MeshCounts {
+  GlobalOrdinal elements = 0, nodes = 0;
+};
+
+/// Of each body, from its description alone, in no time and memory. Throws InputError for what build_mesh() refuses of descriptions.
+std::vector<MeshCounts> mesh_counts(const std::vector<BodyDescription>& bodies);
+
+}  // namespace mortise

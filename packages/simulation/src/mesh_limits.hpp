@@ -1,0 +1,15 @@
+#pragma once
+// Meshes that no run can hold, refused before they are built.
+
+#include "mortise/simulation/scene.hpp"
+
+namespace mortise {
+
+/// Collective. Throws InputError, on all ranks, at the largest body: more dofs than the ranks can number, or a model that takes more memory than the
+/// machines have, whatever solver it has.
+void refuse_too_large(const Communicator& comm, const Scene& scene);
+
+/// Collective. Memory of all machines that the ranks run on, in MiB; 0 if one of them does not say.
+double memory_of_machines(const Communicator& comm);
+
+}  // namespace mortise
