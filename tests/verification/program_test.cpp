@@ -191,6 +191,17 @@ TEST(Program, ARunThatDoesNotConvergeIsCode3AndKeepsTheLastGoodState) {
   }
 }
 
+// The block begins 0.02 in the wall and 0.03 above the floor.
+TEST(Program, SurfacesThatBeginInOneAnotherAreTold) {
+  for (const int ranks : {1, 3}) {
+    const Ending ending =
+        mortise({"check", std::string(INPUTS) + "/verification/held_by_contact.xml", "--set", "bodies/block/mesh/translation=-0.02,0.03"}, ranks);
+    EXPECT_EQ(ending.code, 0) << ending.output;
+    EXPECT_NE(ending.output.find("contact on wall: the surfaces begin by up to 0.02 in one another"), std::string::npos) << ending.output;
+    EXPECT_EQ(ending.output.find("contact on floor: the surfaces begin"), std::string::npos) << ending.output;
+  }
+}
+
 // The block is pulled off the wall from t = 0.5 on; nothing but the wall holds it in x.
 TEST(Program, ABodyThatComesFreeIsNamed) {
   for (const int ranks : {1, 2}) {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "contact_at_start.hpp"
 #include "mesh_limits.hpp"
 #include "mortise/simulation/model.hpp"
 #include "mortise/simulation/read_scene.hpp"
@@ -7,7 +8,6 @@
 #include "report_model.hpp"
 #include "run_log.hpp"
 #include "step_evaluation.hpp"
-#include "turned_masters.hpp"
 
 namespace mortise {
 
@@ -19,7 +19,7 @@ void inspect_scene(const RCP<const Communicator>& comm, const RunOptions& option
   SemiSmoothSystem system(model.parts(), timers);
   const StepEvaluation evaluation(scene, model, system);
   report_model(options.scene, scene, model, log);
-  warn_of_turned_masters(model, scene, log);
+  report_contact_at_start(model, scene, log);
   log.info(fmt::format("  diagonal of the model {:.6g}, shortest side of an element {:.6g}", model.size().length, model.size().shortest_side));
   const MemoryEstimate memory = estimated_memory(model);
   log.info(fmt::format("  about {:.0f} MiB: {:.0f} until here, {:.0f} for the linear systems", memory.so_far + memory.linear_systems, memory.so_far,

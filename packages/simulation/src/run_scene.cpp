@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "contact_at_start.hpp"
 #include "free_motions.hpp"
 #include "history_columns.hpp"
 #include "memory.hpp"
@@ -24,7 +25,6 @@
 #include "run_record.hpp"
 #include "step_evaluation.hpp"
 #include "timer_sums.hpp"
-#include "turned_masters.hpp"
 
 namespace mortise {
 namespace {
@@ -231,7 +231,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
   directory.begin_run();
   log.open(directory.file("log.txt"));
   report_model(options.scene, scene, model, log);
-  warn_of_turned_masters(model, scene, log);
+  report_contact_at_start(model, scene, log);
   write_file(*comm, directory.file("effective.xml"), [&] { return effective_xml(scene); });
 
   RunRecord record;
