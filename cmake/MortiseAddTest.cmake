@@ -8,9 +8,15 @@ set(MORTISE_MPI_ENVIRONMENT OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONF
   OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_btl_vader_single_copy_mechanism=none OMPI_MCA_mpi_yield_when_idle=1 OMP_NUM_THREADS=1
   OPENBLAS_NUM_THREADS=1)
 
+# Sanitizers make a program slower by about ten.
+set(mortise_test_seconds 300)
+if(MORTISE_SANITIZE)
+  set(mortise_test_seconds 3000)
+endif()
+
 function(mortise_add_mpi_test name executable ranks)
   add_test(NAME ${name} COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} $<TARGET_FILE:${executable}> ${ARGN})
-  set_tests_properties(${name} PROPERTIES PROCESSORS ${ranks} TIMEOUT 300 ENVIRONMENT "${MORTISE_MPI_ENVIRONMENT}")
+  set_tests_properties(${name} PROPERTIES PROCESSORS ${ranks} TIMEOUT ${mortise_test_seconds} ENVIRONMENT "${MORTISE_MPI_ENVIRONMENT}")
 endfunction()
 
 function(mortise_add_unit_tests package)
