@@ -214,6 +214,26 @@ TEST(Program, ABodyThatComesFreeIsNamed) {
   }
 }
 
+// Friction of 0.3 on the floor, pressed by 4 t, bears the pull of 4 (2 t - 1) up to t = 1 / 1.7. The run stops within the last twenty of the smallest
+// steps, 0.1 / 1024, before.
+TEST(Program, FrictionThatCanBearNoMoreIsNamed) {
+  const double limit = 1.0 / 1.7;
+  for (const int ranks : {1, 2}) {
+    const std::string directory = std::string(SCRATCH) + "/commands/slipped", pair = "contact/on floor/friction/";
+    const Ending ending = mortise({"run", std::string(INPUTS) + "/verification/held_by_contact.xml", "--set", "loads/left/x=p*(2*t-1)", "--set",
+                                   pair + "type=coulomb", "--set", pair + "coefficient=0.3", "--set", "stepping/step=0.1", "-o", directory},
+                                  ranks);
+    EXPECT_EQ(ending.code, 3) << ending.output;
+    const double last = summary_of(directory).at("steps").back().at("time");
+    EXPECT_LT(last, limit);
+    EXPECT_GT(last, limit - 20.0 * 0.1 / 1024.0);
+    const std::string end = ending.output.substr(ending.output.find("not converged; the last converged state"));
+    EXPECT_NE(end.find("closed nodes of contact \"on floor\" slip; a body that friction alone holds along the surface can bear no more"),
+              std::string::npos)
+        << ending.output;
+  }
+}
+
 TEST(Program, KeepRefusesADirectoryWithResults) {
   const std::string directory = std::string(SCRATCH) + "/commands/kept", scene = write_scene("kept", "");
   std::filesystem::remove_all(directory);

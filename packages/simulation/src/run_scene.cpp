@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "contact_at_start.hpp"
-#include "free_motions.hpp"
+#include "explain_failure.hpp"
 #include "history_columns.hpp"
 #include "memory.hpp"
 #include "mortise/core/parameter_tree.hpp"
@@ -247,9 +247,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
   {
     const auto timer = timers.scope("steps");
     StepperObserver functions = observers.functions();
-    functions.explain = [&](const StepFailure& caught) {
-      return caught.kind() == FailureKind::input ? std::string() : describe_free_motions(model, system);
-    };
+    functions.explain = [&](const StepFailure& caught) { return explain_failure(caught, model, system); };
     try {
       record.converged = run_steps(system, scene.stepping, scene.newton, x, start_step, functions, failure);
     } catch (const InputError& error) {  // on every rank: a quantity's expression without a value

@@ -1,4 +1,4 @@
-#include "free_motions.hpp"
+#include "explain_failure.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -33,6 +33,9 @@ double ratio_of_moduli(const Bodies& bodies) {
   return largest > 0.0 ? least / largest : 1.0;
 }
 
+/// A vector is kept for each of their motions: where more bodies lie loose, nothing is said.
+constexpr std::size_t most_bodies = 10;
+
 /// mesh.blocks indices of the bodies that only contact holds.
 std::vector<int> unheld_bodies(const Model& model) {
   const Mesh& mesh = *model.mesh();
@@ -61,12 +64,42 @@ RCP<MultiVector> modes_with_points(const Model& model, const Vector& displacemen
   return modes;
 }
 
-}  // namespace
+/// Pairs of which all closed nodes slip, contact evaluated at z's displacement: they bear a given force along the surface and no more.
+std::string describe_exhausted_friction(const Model& model, const Vector& z) {
+  const auto& rubbing =
+      std::find_if(model.effects().begin(), model.effects().end(), [](const auto& effect) { return effect.first == "friction"; })->second;
+  std::vector<std::string> found;
+  for (std::size_t pair = 0; pair < model.contact()->pairs(); ++pair) {
+    const std::string& name = model.contact()->pair_name(pair);
+    if (std::find(rubbing.begin(), rubbing.end(), name) == rubbing.end()) continue;
+    int mine[2] = {0, 0}, all[2];  // closed, sticking
+    for (const ContactNodeState& node : model.contact()->node_states(pair, z)) {
+      mine[0] += node.closed;
+      mine[1] += node.state == ContactState::stick;
+    }
+    Teuchos::reduceAll(*model.mesh()->comm, Teuchos::REDUCE_SUM, 2, mine, all);
+    if (all[0] > 0 && all[1] == 0) found.push_back(fmt::format("all {} closed nodes of contact \"{}\" slip", all[0], name));
+  }
+  if (found.empty()) return {};
+  return fmt::format("{}; a body that friction alone holds along the surface can bear no more", fmt::join(found, ", "));
+}
 
-std::string describe_free_motions(const Model& model, SemiSmoothSystem& system) {
+/// An evaluation that failed has reasons of its own.
+bool newton_did_not_end(FailureKind kind) {
+  switch (kind) {
+    case FailureKind::linear_solver:
+    case FailureKind::line_search:
+    case FailureKind::diverged:
+    case FailureKind::too_many_iterations:
+    case FailureKind::cycling_active_set:
+      return true;
+    default:
+      return false;
+  }
+}
+
+std::string describe_free_motions(const std::vector<int>& bodies, const Model& model, SemiSmoothSystem& system) {
   const Mesh& mesh = *model.mesh();
-  const std::vector<int> bodies = unheld_bodies(model);
-  if (bodies.empty() || system.linearised_at().is_null()) return {};
   const RCP<MultiVector> modes = modes_with_points(model, *system.displacement(*system.linearised_at()));
   const int per_body = static_cast<int>(modes->getNumVectors()), count = per_body * static_cast<int>(bodies.size());
 
@@ -105,6 +138,16 @@ std::string describe_free_motions(const Model& model, SemiSmoothSystem& system) 
                                 rigid_mode_name(mesh.dimension, model.bodies()->kinematics() == Kinematics::axisymmetric, mode)));
   if (names.empty()) return {};
   return fmt::format("free to move: {}; contact alone held this, and has opened or slips", fmt::join(names, ", "));
+}
+
+}  // namespace
+
+std::string explain_failure(const StepFailure& failure, const Model& model, SemiSmoothSystem& system) {
+  const std::vector<int> bodies = unheld_bodies(model);
+  if (failure.kind() == FailureKind::input || bodies.empty() || bodies.size() > most_bodies || system.linearised_at().is_null()) return {};
+  const std::string free = describe_free_motions(bodies, model, system);
+  if (!free.empty() || !newton_did_not_end(failure.kind())) return free;
+  return describe_exhausted_friction(model, *system.multipliers(*system.linearised_at()));
 }
 
 }  // namespace mortise
