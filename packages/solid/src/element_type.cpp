@@ -91,8 +91,7 @@ std::vector<Diagnostic> check_combination(const BodyProperties& body, Kinematics
         if (f_bar && kinematics == Kinematics::plane_stress)
           refuse(fmt::format("element \"{}\" has no meaning in plane stress, which does not lock; take \"Q4\"", to_string(body.element)));
         if (kinematics == Kinematics::plane_stress && !law.plane_stress)
-          refuse(fmt::format("the material \"{}\" has no plane stress form; take \"{}\" or \"{}\"", law.name, StVenantKirchhoff::name,
-                             SmallStrainLinear::name));
+          refuse(fmt::format("the material \"{}\" has no plane stress form; take an elastic law, such as \"{}\"", law.name, Hencky::name));
       },
       body.material->law());
   return diagnostics;

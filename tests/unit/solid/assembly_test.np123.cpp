@@ -191,7 +191,7 @@ TEST(Failures, OnOneRankSurfaceOnAll) {
 
 TEST(Refusals, OfABodyAreThrownOnEveryRank) {
   const auto mesh = make_test_mesh(world(), {});
-  EXPECT_THROW(Bodies(mesh, Kinematics::plane_stress, 1.0, {{"body", {}, make_material("hencky"), ElementType::q4}}), InputError);
+  EXPECT_THROW(Bodies(mesh, Kinematics::plane_stress, 1.0, {{"body", {}, make_material("j2 plasticity"), ElementType::q4}}), InputError);
   const auto bodies = make_test_bodies(world(), {});
   const Named<BoundaryConditionOptions> missing{"left", {}, {{"body/lefd", {}}, Expression(0.0), {}}};
   EXPECT_THROW(PrescribedMotion(*bodies, {missing}), InputError);

@@ -48,8 +48,8 @@ TEST(Bodies, RefuseWhatHasNoMeaningByName) {
   names(refusal("small strain linear", ElementType::q4_f_bar, Kinematics::plane_strain), "Q4 F-bar");
   names(refusal("small strain linear", ElementType::q4_f_bar, Kinematics::axisymmetric), "small strain linear");
   names(refusal("st venant kirchhoff", ElementType::q4_f_bar, Kinematics::plane_stress), "plane stress");
-  names(refusal("hencky", ElementType::q4, Kinematics::plane_stress), "hencky");
-  names(refusal("neo hooke", ElementType::t3, Kinematics::plane_stress), "neo hooke");
+  names(refusal("j2 plasticity", ElementType::q4, Kinematics::plane_stress), "j2 plasticity");
+  names(refusal("j2 plasticity", ElementType::t3, Kinematics::plane_stress), "no plane stress form");
 }
 
 TEST(Bodies, RefuseAMeshWithAnInvertedElement) {

@@ -13,9 +13,10 @@ namespace mortise {
 /// tau = 2 c (b - J^(-2 beta) I),   A_ijkl = 2 c delta_ik b_jl + 2 c J^(-2 beta) (delta_il delta_jk + 2 beta delta_ij delta_kl).
 struct NeoHooke {
   static constexpr const char* name = "neo hooke";
-  static constexpr const char* sentence = "compressible neo-Hookean solid c (I1 - 3) + (c / beta) (J^(-2 beta) - 1); finite deformation";
+  static constexpr const char* sentence =
+      "compressible neo-Hookean solid c (I1 - 3) + (c / beta) (J^(-2 beta) - 1); finite deformation, also plane stress";
   static constexpr bool small_strain = false;
-  static constexpr bool plane_stress = false;
+  static constexpr bool plane_stress = true;
 
   double c, beta;
   explicit NeoHooke(const ElasticConstants& constants)
@@ -42,6 +43,13 @@ struct NeoHooke {
         result.tangent(p, q) = 2.0 * c * ((i == k ? b(j, l) : 0.0) + volumetric * isotropic);
       }
     return result;
+  }
+
+  /// F with the out-of-plane stretch that plane stress asks for: with the in-plane determinant j, tau_33 = 0 is F_33^2 = (j F_33)^(-2 beta), so that
+  /// F_33 = j^(-beta / (1 + beta)) = j^(-nu / (1 - nu)). The other components 13, 23, 31, 32 are zero.
+  Matrix3 with_plane_stress(Matrix3 F) const {
+    F(2, 2) = std::pow(F.topLeftCorner<2, 2>().determinant(), -beta / (1.0 + beta));
+    return F;
   }
 
  private:
