@@ -7,6 +7,19 @@
 #include "quantity_support.hpp"
 
 namespace mortise {
+namespace {
+
+/// At both ends.
+std::array<double, 2> part_of(const PressedFacet& facet, ContactTraction::Part part) {
+  using Part = ContactTraction::Part;
+  if (part == Part::pressure) return facet.pressure;
+  if (part == Part::shear) return facet.shear;
+  const std::size_t axis = part == Part::x ? 0 : 1;
+  return {facet.traction[0][axis], facet.traction[1][axis]};
+}
+
+}  // namespace
+
 void StickHalfWidth::describe(Parameters& parameters) {
   PairQuantity::describe(parameters);
   describe_measure(parameters, measure);
@@ -36,14 +49,15 @@ double StickHalfWidth::evaluate(const QuantityContext& context) {
 void ContactTraction::describe(Parameters& parameters) {
   PairQuantity::describe(parameters);
   parameters.add("x", x, Says("position on the slave surface; left out: the traction of largest size").unit("length"));
-  parameters.add("part", part, {{"pressure", Part::pressure}, {"shear", Part::shear}}, "the normal or the tangential part");
+  parameters.add("part", part, {{"pressure", Part::pressure}, {"shear", Part::shear}, {"x", Part::x}, {"y", Part::y}},
+                 "what acts along or across the normal of the slave surface as it stands, or along an axis; of the traction of slave on master");
   describe_measure(parameters, measure);
 }
 
 double ContactTraction::evaluate(const QuantityContext& context) {
   double sum = 0.0, count = 0.0, largest = 0.0, smallest = 0.0;
   for (const PressedFacet& facet : pressed_facets(context, pair_, measure)) {
-    const auto& values = part == Part::pressure ? facet.pressure : facet.shear;
+    const std::array<double, 2> values = part_of(facet, part);
     for (const double value : values) largest = std::max(largest, value), smallest = std::min(smallest, value);
     const double a = facet.position[0][0], b = facet.position[1][0];
     if (!x || a == b || !(std::min(a, b) <= *x && *x <= std::max(a, b))) continue;

@@ -72,7 +72,7 @@ double PressedFacet::length() const { return std::hypot(position[1][0] - positio
 std::vector<PressedFacet> pressed_facets(const QuantityContext& context, std::size_t pair, TractionMeasure measure) {
   const bool undeformed = measure == TractionMeasure::reference;
   const Mesh& mesh = context.mesh();
-  MultiVector owned(mesh.owned_nodes, 4), local(mesh.local_nodes, 4);  // start as zero
+  MultiVector owned(mesh.owned_nodes, 6), local(mesh.local_nodes, 6);  // start as zero
   {
     const auto values = owned.getLocalViewHost(Tpetra::Access::ReadWrite);
     for (const auto& state : context.contact->node_states(pair, *context.multipliers)) {
@@ -81,6 +81,7 @@ std::vector<PressedFacet> pressed_facets(const QuantityContext& context, std::si
       values(state.owned_node, 1) = state.closed ? 1.0 : 0.0;
       values(state.owned_node, 2) = factor * state.shear;
       values(state.owned_node, 3) = factor * state.shear_bound;
+      for (int i = 0; i < 2; ++i) values(state.owned_node, 4 + i) = factor * state.traction[i];
     }
   }
   local.doImport(owned, Import(mesh.owned_nodes, mesh.local_nodes), Tpetra::INSERT);
@@ -101,6 +102,7 @@ std::vector<PressedFacet> pressed_facets(const QuantityContext& context, std::si
         facet.closed[end] = values(node, 1) != 0.0;
         facet.shear[end] = values(node, 2);
         facet.shear_bound[end] = values(node, 3);
+        for (int i = 0; i < 2; ++i) facet.traction[end][i] = values(node, 4 + i);
       }
       facets.push_back(facet);
     }

@@ -36,6 +36,7 @@ void describe_measure(Parameters& parameters, TractionMeasure& measure);
 struct PressedFacet {
   std::array<std::array<double, 2>, 2> position{};
   std::array<double, 2> pressure{}, shear{}, shear_bound{};
+  std::array<std::array<double, 2>, 2> traction{};  ///< [end] components of z
   std::array<bool, 2> closed{};
   double length() const;
 };

@@ -64,6 +64,28 @@ TEST(Quantity, SpreadOfTwoStresses) {
   EXPECT_TRUE(std::isnan(TwoBlocks().value(Spread()))) << "without stress there is nothing to compare with";
 }
 
+// Blocks that turn under a traction that stays: what is along the surface changes, what is along x does not.
+TEST(Quantity, PartsOfTheContactTraction) {
+  TwoBlocks blocks;
+  const double angle = 0.3, cosine = std::cos(angle), sine = std::sin(angle), pressure = 3.0, shear = 0.7;
+  blocks.move([=](int, const Point& X) { return Point{(cosine - 1.0) * X[0] - sine * X[1], sine * X[0] + (cosine - 1.0) * X[1]}; });
+  blocks.press([=](double) { return pressure; }, shear);
+  const auto part = [](ContactTraction::Part which, TractionMeasure measure = TractionMeasure::pair) {
+    ContactTraction traction;
+    traction.part = which;
+    traction.measure = measure;
+    return traction;
+  };
+  using Part = ContactTraction::Part;
+  EXPECT_NEAR(blocks.value(part(Part::x)), shear, 1e-13);
+  EXPECT_NEAR(blocks.value(part(Part::y)), -pressure, 1e-13);
+  EXPECT_NEAR(blocks.value(part(Part::pressure)), shear * sine + pressure * cosine, 1e-13);
+  EXPECT_NEAR(blocks.value(part(Part::shear)), shear * cosine - pressure * sine, 1e-13);
+  ContactTraction there = part(Part::x, TractionMeasure::reference);
+  there.x = 1.9;
+  EXPECT_NEAR(blocks.value(std::move(there)), shear, 1e-12) << "no length changes";
+}
+
 TEST(Quantity, DisplacementOfNodes) {
   TwoBlocks blocks;
   blocks.move([](int body, const Point& X) { return Point{0.01 * X[0] - 0.02, body == 0 ? 0.003 * X[1] : -0.05}; });

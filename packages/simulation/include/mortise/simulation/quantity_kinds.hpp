@@ -192,10 +192,10 @@ struct StickHalfWidth : PairQuantity {
   double evaluate(const QuantityContext& context) override;
 };
 
-/// Nodal pressure or shear traction of a pair at a position x of its slave surface, linear between nodes; 0 where there is no such position, the
-/// mean where there are several. Without x: the one of largest size. [stress]
+/// Nodal pressure, shear traction or component of the traction z of a pair at a position x of its slave surface, linear between nodes; 0 where there
+/// is no such position, the mean where there are several. Without x: the one of largest size. [stress]
 struct ContactTraction : PairQuantity {
-  enum class Part { pressure, shear };
+  enum class Part { pressure, shear, x, y };
   std::optional<double> x;
   Part part = Part::pressure;
   TractionMeasure measure = TractionMeasure::pair;
