@@ -154,6 +154,20 @@ TEST(Program, RunLeavesItsFilesAndABalancedSupport) {
   }
 }
 
+/// No force acts on a block that its support carries along: what round-off leaves of forces is in balance.
+TEST(Program, ABodyThatOnlyMovesIsInBalance) {
+  const std::string directory = std::string(SCRATCH) + "/commands/moved";
+  const std::string checks = R"(<ParameterList name="checks"><ParameterList name="balance"><Parameter name="quantity" type="string" value="largest"/>
+    <Parameter name="high" type="double" value="1e-12"/></ParameterList></ParameterList>)";
+  const Ending ending =
+      mortise({"run", write_scene("moved", checks), "-o", directory, "--set", "variables/force=0", "--set", "boundary conditions/floor/x=0.3*t",
+               "--set", "boundary conditions/floor/y=0.7*t", "--set", "stepping/step=0.1", "--set", "quantities/balance/type=momentum imbalance",
+               "--set", "quantities/largest/type=over time", "--set", "quantities/largest/quantity=balance"},
+              2);
+  EXPECT_EQ(ending.code, 0) << ending.output;
+  EXPECT_NE(summary_of(directory)["quantities"]["support"], 0.0) << "there has to be round-off";
+}
+
 TEST(Program, EffectiveSceneGivesTheSameRun) {
   const std::string directory = std::string(SCRATCH) + "/commands/";
   ASSERT_EQ(mortise({"run", write_scene("first", ""), "-o", directory + "first"}).code, 0);

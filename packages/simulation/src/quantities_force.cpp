@@ -156,6 +156,7 @@ double contact_imbalance(const QuantityContext& context) {
   return scale > 0.0 ? std::hypot(sum[0], sum[1], sum[2]) / scale : 0.0;
 }
 
+/// Forces no larger than round-off are none, and none are in balance.
 double total_imbalance(const QuantityContext& context) {
   const auto load = context.external_force->getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto reaction = context.reaction->getLocalViewHost(Tpetra::Access::ReadOnly);
@@ -182,7 +183,7 @@ double total_imbalance(const QuantityContext& context) {
     largest = std::max(largest, std::abs(sum[i]));
     scale = std::max({scale, loads[i], reactions[i]});
   }
-  return scale > 0.0 ? largest / scale : 0.0;
+  return scale > context.force_round_off ? largest / scale : 0.0;
 }
 
 }  // namespace

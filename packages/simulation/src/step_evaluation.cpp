@@ -2,6 +2,7 @@
 
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Vector.hpp>
+#include <limits>
 
 namespace mortise {
 
@@ -43,6 +44,13 @@ RCP<Vector> StepEvaluation::local(const Vector& displacement) const {
   return values;
 }
 
+// A force is a stiffness times a position, and that is known to eps (L + |u|): summed over all dofs, of which the stiffness scale is the mean
+// diagonal.
+double StepEvaluation::force_round_off(const Vector& displacement) const {
+  const double sum_of_diagonal = system_.stiffness_scale() * static_cast<double>(model_.dofs());
+  return std::numeric_limits<double>::epsilon() * sum_of_diagonal * (model_.size().length + displacement.normInf());
+}
+
 std::vector<double> StepEvaluation::quantities(const Vector& x, double time) {
   if (scene_.quantities.empty()) return {};
   const auto displacement = system_.displacement(x);
@@ -65,6 +73,7 @@ std::vector<double> StepEvaluation::quantities(const Vector& x, double time) {
   context.multipliers = multipliers.get();
   context.reaction = &reaction;
   context.external_force = &external;
+  context.force_round_off = force_round_off(*displacement);
   for (const auto& quantity : scene_.quantities) {
     const double value = quantity.value.quantity.options->evaluate(context);
     context.earlier.push_back(quantity.name);

@@ -27,6 +27,7 @@ class StepEvaluation {
 
  private:
   QuantityContext context() const;
+  double force_round_off(const Vector& displacement) const;
   RCP<Vector> local(const Vector& displacement) const;
   void evaluate_contact(const Vector& displacement) const;
 

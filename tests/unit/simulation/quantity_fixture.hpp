@@ -100,6 +100,7 @@ class TwoBlocks {
     context.multipliers = multipliers.get();
     context.reaction = reaction.get();
     context.external_force = external.get();
+    context.force_round_off = force_round_off;
     context.prescribed = &prescribed;
     return context;
   }
@@ -122,6 +123,7 @@ class TwoBlocks {
   std::unique_ptr<ContactSystem> contact;
   RCP<Vector> displacement, local_displacement, multipliers, reaction, external;
   std::vector<LocalOrdinal> prescribed;
+  double force_round_off = 0.0;
 };
 
 }  // namespace mortise::test

@@ -143,6 +143,10 @@ TEST(Quantity, BalanceOfLoadsAndReactions) {
   EXPECT_NEAR(blocks.value(MomentumImbalance(imbalance)), 0.0, 1e-15);
   blocks.reaction = blocks.nodal([](int, const Point& X) { return Point{X[1] == 0.0 ? 0.3 : 0.0, X[1] == 0.0 ? 6.0 : 0.0}; });
   EXPECT_NEAR(blocks.value(MomentumImbalance(imbalance)), 1.5 / 30.0, 1e-15);
+  blocks.force_round_off = 29.9;
+  EXPECT_NEAR(blocks.value(MomentumImbalance(imbalance)), 1.5 / 30.0, 1e-15);
+  blocks.force_round_off = 30.1;
+  EXPECT_EQ(blocks.value(MomentumImbalance(imbalance)), 0.0) << "no forces are in balance";
 
   TwoBlocks rings(Kinematics::axisymmetric);
   rings.external = rings.nodal([](int, const Point&) { return Point{7.0, 0.0}; });

@@ -27,6 +27,7 @@ struct QuantityContext {
   const Vector* multipliers = nullptr;         ///< z; null without contact
   const Vector* reaction = nullptr;            ///< f_int - f_ext + f_c on owned dofs: on prescribed ones the force of the support on the body
   const Vector* external_force = nullptr;      ///< f_ext on owned dofs
+  double force_round_off = 0.0;                ///< what round-off of positions and stresses may leave of a sum of |forces|, over all ranks
   const std::vector<LocalOrdinal>* prescribed = nullptr;  ///< prescribed owned dofs
   const Symbols* symbols = nullptr;                       ///< variables and tables of the scene
   std::vector<std::string> earlier{};                     ///< quantities that the scene names before this one
