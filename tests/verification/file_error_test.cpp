@@ -1,0 +1,41 @@
+// Scenes that cannot be read, results that cannot be written.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "scene_support.hpp"
+
+namespace {
+
+using namespace scene_support;
+
+TEST(Files, AnEmptySceneIsAnInputError) {
+  const Ending ending = run(files::path(SCRATCH) / "empty", "", 2);
+  EXPECT_EQ(ending.code, 2) << ending.output;
+  EXPECT_NE(ending.output.find("not well-formed XML"), std::string::npos) << ending.output;
+}
+
+TEST(Files, AMissingSceneIsAFileError) {
+  for (const int ranks : {1, 2}) {
+    const Ending ending = launch({MPIEXEC, "-n", std::to_string(ranks), MORTISE, "run", std::string(SCRATCH) + "/no_such_scene.xml"}, 60);
+    EXPECT_EQ(ending.code, 5) << ending.output;
+    EXPECT_NE(ending.output.find("no_such_scene.xml"), std::string::npos) << ending.output;
+  }
+}
+
+TEST(Files, OutputThatCannotBeWrittenIsAFileError) {
+  for (const int ranks : {1, 2}) {
+    // A file stands where the directory should be: that stops root too.
+    const files::path directory = files::path(SCRATCH) / fmt::format("unwritable_np{}", ranks);
+    files::remove_all(directory);
+    files::create_directories(directory);
+    std::ofstream(directory / "scene.xml") << good_scene;
+    std::ofstream(directory / "results") << "a file";
+    const Ending ending = launch({MPIEXEC, "-n", std::to_string(ranks), MORTISE, "run", directory / "scene.xml", "-o", directory / "results"}, 60);
+    EXPECT_EQ(ending.code, 5) << ending.output;
+    EXPECT_NE(ending.output.find("results"), std::string::npos) << ending.output;
+    EXPECT_EQ(read_file(directory / "results"), "a file");
+  }
+}
+
+}  // namespace

@@ -1,0 +1,77 @@
+// Bodies where they cannot be, meshes too large to be built, masters the wrong way round.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "scene_support.hpp"
+
+namespace {
+
+using namespace scene_support;
+
+TEST(Kinematics, ABodyBeyondTheAxisIsRefused) {
+  const std::string scene = replaced(good_scene, R"xml(value="plane strain")xml", R"xml(value="axisymmetric")xml");
+  for (const int ranks : {1, 2}) {
+    const files::path directory = files::path(SCRATCH) / fmt::format("beyond_the_axis_np{}", ranks);
+    const Ending ending = run(directory, scene, ranks, {"--set", "bodies/lower/mesh/translation=-0.5, 0"});
+    EXPECT_EQ(ending.code, 2);
+    EXPECT_NE(ending.output.find("body 'lower' reaches x = -0.5, beyond the axis"), std::string::npos) << ending.output;
+    EXPECT_FALSE(files::exists(directory / "results"));
+  }
+}
+
+// 1e9 nodes of Q4 take 200 GB or more: each couples with the nodes of an element, 4 blocks of 2 x 2 numbers with their columns, 192 bytes.
+TEST(Meshes, ThatNoMemoryHoldsAreRefusedBeforeTheyAreBuilt) {
+  if (sysconf(_SC_PHYS_PAGES) > 200L * 1024 * 1024 * 1024 / sysconf(_SC_PAGESIZE)) GTEST_SKIP() << "this machine has more than 200 GiB";
+  const files::path directory = files::path(SCRATCH) / "no_memory";
+  files::create_directories(directory);
+  std::ofstream(directory / "scene.xml") << good_scene;
+  const std::vector<std::string> settings{"--set", "bodies/lower/mesh/cells x=32000", "--set", "bodies/lower/mesh/cells y=32000"};
+  for (const char* command : {"check", "run"}) {
+    std::vector<std::string> words{MORTISE, command, directory / "scene.xml"};
+    words.insert(words.end(), settings.begin(), settings.end());
+    const Ending ending = launch(words, 60);
+    EXPECT_EQ(ending.code, 2) << ending.output;
+    EXPECT_NE(ending.output.find("the mesh of body 'lower' would have 1024000000 elements and 1024064001 nodes; the model would take more than"),
+              std::string::npos)
+        << ending.output;
+  }
+}
+
+/// A rigid tool comes down on the lower block. Its body lies to the left of the way along the points.
+TEST(Masters, ThatTurnTheirBacksAreWarnedOf) {
+  const auto with_tool = [](const std::string& points) {
+    std::string scene = replaced(
+        good_scene, R"xml(<Parameter name="corners" type="string" value="0, 1, 1, 1, 1, 2, 0, 2"/>
+        <Parameter name="cells x" type="int" value="2"/>
+        <Parameter name="cells y" type="int" value="2"/>)xml",
+        R"xml(<Parameter name="points" type="string" value=")xml" + points + R"xml("/><Parameter name="cell size" type="double" value="0.5"/>)xml");
+    scene = replaced(scene, R"xml(<Parameter name="material" type="string" value="soft"/>
+      <Parameter name="element" type="string" value="Q4"/>)xml",
+                     R"xml(<Parameter name="rigid" type="bool" value="true"/>)xml");
+    scene = replaced(scene, R"xml(<Parameter name="type" type="string" value="block"/>
+        <Parameter name="points")xml",
+                     R"xml(<Parameter name="type" type="string" value="profile"/>
+        <Parameter name="points")xml");
+    scene = replaced(scene, R"xml(value="upper/left"/>)xml",
+                     R"xml(value="upper/reference"/><Parameter name="y" type="string" value="-0.01*t"/>
+      <Parameter name="rotation" type="double" value="0"/>)xml");
+    scene = replaced(scene, R"xml(value="upper/top"/>)xml", R"xml(value="lower/left"/>)xml");
+    return replaced(scene, R"xml(value="upper/bottom"/>)xml", R"xml(value="upper/profile"/>)xml");
+  };
+  const std::string warning = "contact/interface: the master \"upper/profile\" turns its back on the slave \"seat\"";
+  for (const int ranks : {1, 2})
+    for (const char* height : {"1", "1.5"}) {  // touching, and far beyond the reach
+      const auto said = [&](const std::string& points) {
+        const Ending ending = run(files::path(SCRATCH) / fmt::format("turned_np{}", ranks), with_tool(points), ranks);
+        EXPECT_EQ(ending.code, 0) << ending.output;
+        return ending.output;
+      };
+      const std::string right = said(fmt::format("-0.5, {0}, 1.5, {0}", height)), wrong = said(fmt::format("1.5, {0}, -0.5, {0}", height));
+      EXPECT_EQ(right.find(warning), std::string::npos) << right;
+      EXPECT_NE(wrong.find(warning), std::string::npos) << wrong;
+    }
+}
+
+}  // namespace
