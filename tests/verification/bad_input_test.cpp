@@ -151,6 +151,22 @@ TEST(BadInputs, AreAllReportedAtOnce) {
   for (const char* wrong : {"5x", "cels x", "contacts"}) EXPECT_NE(ending.output.find(wrong), std::string::npos) << ending.output;
 }
 
+/// What was refused is not missing as well.
+TEST(BadInputs, AreReportedOnce) {
+  const std::string cells = R"xml("cells x" type="int" value="2000000000")xml", smallest = R"xml("smallest cell" type="double" value="-1")xml";
+  const std::string given = R"xml("cells x" type="int" value="3"/>)xml",
+                    grading =
+                        R"xml("cells x" type="int" value="0"/><ParameterList name="grading x"><Parameter name=)xml" + smallest + "/></ParameterList>";
+  for (const auto& [wrong, to] :
+       {std::pair<std::string, std::string>{cells, "<Parameter name=" + cells + "/>"}, {smallest, "<Parameter name=" + grading}}) {
+    const Ending ending = run(files::path(SCRATCH) / "once", replaced(good_scene, "<Parameter name=" + given, to), 1);
+    EXPECT_EQ(ending.code, 2);
+    const auto message = ending.output.find(": error: ");
+    ASSERT_NE(message, std::string::npos) << ending.output;
+    EXPECT_EQ(ending.output.find(": error: ", message + 1), std::string::npos) << ending.output;
+  }
+}
+
 /// An error that shows only once the model is built.
 TEST(BadInputs, LeaveAnEarlierRunAsItWas) {
   const files::path directory = files::path(SCRATCH) / "earlier_run", results = directory / "results";

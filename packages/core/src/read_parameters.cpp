@@ -60,7 +60,7 @@ void collect(const XmlList& list, const std::string& path, std::vector<Assignmen
 }  // namespace
 
 ReadParameters::ReadParameters(const XmlList& root, const Symbols& symbols, const std::vector<std::string>& ignored) : symbols_(symbols) {
-  frames_.push_back({&root, root.place, ignored, true});
+  frames_.push_back({"", &root, root.place, ignored});
 }
 
 Place ReadParameters::place(const std::string& name) const {
@@ -70,11 +70,19 @@ Place ReadParameters::place(const std::string& name) const {
   return list ? list->place : frame().place;
 }
 
-// A message that begins with a name says itself what it is about.
+// A message that begins with a name says itself what it is about. One about a parameter that was refused would be about the default in its place.
 void ReadParameters::error(const std::string& name, const std::string& message) {
-  const std::string quoted = '"' + name + '"';
-  const bool named = name.empty() || message.front() == '"' || message.find(quoted) != std::string::npos;
-  say(place(name), named ? message : quoted + ": " + message);
+  const auto names = [](const std::string& text, const std::string& one) { return text.find('"' + one + '"') != std::string::npos; };
+  const bool named = name.empty() || message.front() == '"' || names(message, name);
+  const std::string text = named ? message : '"' + name + "\": " + message;
+  for (const auto& path : frame().refused)
+    if (std::all_of(path.begin(), path.end(), [&](const std::string& one) { return names(text, one); })) return;
+  say(place(name), text);
+}
+
+void ReadParameters::refuse(const std::string& name, const Place& where, const std::string& message) {
+  frame().refused.push_back({name});
+  say(where, message);
 }
 
 const XmlParameter* ReadParameters::find(const std::string& name, const Says& says, const std::vector<std::string>& types) {
@@ -82,15 +90,15 @@ const XmlParameter* ReadParameters::find(const std::string& name, const Says& sa
   const XmlParameter* parameter = frame().list ? frame().list->parameter(name) : nullptr;
   if (!parameter) {
     if (frame().list && frame().list->list(name)) {
-      say(frame().list->list(name)->place, fmt::format("\"{}\" is a parameter, not a list: {}", name, says.sentence()));
+      refuse(name, frame().list->list(name)->place, fmt::format("\"{}\" is a parameter, not a list: {}", name, says.sentence()));
     } else if (says.is_required()) {
-      say(frame().place, fmt::format("\"{}\" is missing; please add it: {}", name, says.sentence()));
+      refuse(name, frame().place, fmt::format("\"{}\" is missing; please add it: {}", name, says.sentence()));
     }
     return nullptr;
   }
   // An empty type is the command line's; a string may hold an expression for any kind.
   if (!parameter->type.empty() && parameter->type != "string" && std::find(types.begin(), types.end(), parameter->type) == types.end()) {
-    say(parameter->place, fmt::format("parameter \"{}\" has type \"{}\"; please give {}", name, parameter->type, quoted_list(types)));
+    refuse(name, parameter->place, fmt::format("parameter \"{}\" has type \"{}\"; please give {}", name, parameter->type, quoted_list(types)));
     return nullptr;
   }
   return parameter;
@@ -100,16 +108,17 @@ std::optional<double> ReadParameters::number(const XmlParameter& parameter, cons
   try {
     const Expression expression(text, symbols_, parameter.place);
     if (!expression.is_constant()) {
-      say(parameter.place, fmt::format("\"{}\" is \"{}\"; it may depend on variables, but not on t, x, y or z", parameter.name, text));
+      refuse(parameter.name, parameter.place,
+             fmt::format("\"{}\" is \"{}\"; it may depend on variables, but not on t, x, y or z", parameter.name, text));
       return std::nullopt;
     }
     if (!in_range(expression(), says)) {
-      say(parameter.place, fmt::format("\"{}\" is {}; allowed: {}", parameter.name, expression(), range_text(says)));
+      refuse(parameter.name, parameter.place, fmt::format("\"{}\" is {}; allowed: {}", parameter.name, expression(), range_text(says)));
       return std::nullopt;
     }
     return expression();
   } catch (const InputError& error) {
-    for (const Diagnostic& one : error.diagnostics()) say(one.place, fmt::format("\"{}\": {}", parameter.name, one.message));
+    for (const Diagnostic& one : error.diagnostics()) refuse(parameter.name, one.place, fmt::format("\"{}\": {}", parameter.name, one.message));
     return std::nullopt;
   }
 }
@@ -130,7 +139,7 @@ void ReadParameters::add(const std::string& name, int& value, const Says& says) 
   const auto read = number(*parameter, parameter->value, says);
   if (!read) return;
   if (*read != std::round(*read) || std::abs(*read) > 2147483647.0)
-    say(parameter->place, fmt::format("\"{}\" is {}; it has to be a whole number", name, *read));
+    refuse(name, parameter->place, fmt::format("\"{}\" is {}; it has to be a whole number", name, *read));
   else
     value = static_cast<int>(*read);
 }
@@ -141,13 +150,13 @@ void ReadParameters::add(const std::string& name, bool& value, const Says& says)
   if (parameter->value == "true" || parameter->value == "false")
     value = parameter->value == "true";
   else
-    say(parameter->place, fmt::format("\"{}\" is \"{}\"; please write true or false", name, parameter->value));
+    refuse(name, parameter->place, fmt::format("\"{}\" is \"{}\"; please write true or false", name, parameter->value));
 }
 
 void ReadParameters::add(const std::string& name, std::string& value, const Says& says) {
   const XmlParameter* parameter = find(name, says, {"string"});
   if (!parameter) return;
-  if (says.is_required() && parameter->value.empty()) say(parameter->place, fmt::format("\"{}\" is empty", name));
+  if (says.is_required() && parameter->value.empty()) refuse(name, parameter->place, fmt::format("\"{}\" is empty", name));
   value = parameter->value;
 }
 
@@ -159,11 +168,11 @@ void ReadParameters::add(const std::string& name, Expression& value, const Says&
     Expression read = usual ? Expression(parameter->value, symbols_, parameter->place)
                             : Expression::of(says.arguments(), parameter->value, symbols_, parameter->place);
     if (read.is_constant() && !in_range(read(), says))
-      say(parameter->place, fmt::format("\"{}\" is {}; allowed: {}", name, read(), range_text(says)));
+      refuse(name, parameter->place, fmt::format("\"{}\" is {}; allowed: {}", name, read(), range_text(says)));
     else
       value = std::move(read);
   } catch (const InputError& error) {
-    for (const Diagnostic& one : error.diagnostics()) say(one.place, fmt::format("\"{}\": {}", name, one.message));
+    for (const Diagnostic& one : error.diagnostics()) refuse(name, one.place, fmt::format("\"{}\": {}", name, one.message));
   }
 }
 
@@ -198,8 +207,8 @@ void ReadParameters::add_enumeration(const std::string& name, std::size_t& index
   if (!parameter) return;
   const auto found = std::find(names.begin(), names.end(), parameter->value);
   if (found == names.end())
-    say(parameter->place,
-        fmt::format("\"{}\" is \"{}\"; allowed: {}{}", name, parameter->value, quoted_list(names), did_you_mean(parameter->value, names)));
+    refuse(name, parameter->place,
+           fmt::format("\"{}\" is \"{}\"; allowed: {}{}", name, parameter->value, quoted_list(names), did_you_mean(parameter->value, names)));
   else
     index = static_cast<std::size_t>(found - names.begin());
 }
@@ -220,13 +229,18 @@ bool ReadParameters::begin_list(const std::string& name, const Says& says) {
   const XmlList* given = frame().list ? frame().list->list(name) : nullptr;
   Place where = given ? given->place : frame().place;
   if (!given) where.path = joined_path(where.path, name);
-  frames_.push_back({given, where, {}, true});
+  frames_.push_back({name, given, where});
   return true;
 }
 
 void ReadParameters::end_list() {
   report_unknown(frame());
+  const Frame inner = std::move(frames_.back());
   frames_.pop_back();
+  for (auto path : inner.refused) {
+    path.insert(path.begin(), inner.name);
+    frame().refused.push_back(std::move(path));
+  }
 }
 
 void ReadParameters::named_lists(const std::string& name, const NamedAccess& access, const Says& says) {
@@ -241,7 +255,7 @@ void ReadParameters::named_lists(const std::string& name, const NamedAccess& acc
     say(parameter.place, fmt::format("unknown parameter \"{}\"; the list \"{}\" holds lists with names of your choice", parameter.name, name));
   for (const XmlList& entry : given->lists) {
     access.append(entry.name, entry.place);
-    frames_.push_back({&entry, entry.place, {}, true});
+    frames_.push_back({entry.name, &entry, entry.place});
     access.describe(access.size() - 1, *this);
     end_list();
   }

@@ -51,6 +51,27 @@ struct Inner {
   }
 };
 
+struct Fine {
+  std::optional<double> size;
+  void describe(Parameters& parameters) { parameters.add("size", size, Says("how fine").above(0.0)); }
+};
+
+/// Parameters that bound and replace each other.
+struct Bounds {
+  int count = 0;
+  double low = 0.0, high = 1.0;
+  Fine fine, other;
+  void describe(Parameters& parameters) {
+    parameters.add("count", count, Says("how many").at_least(0));
+    parameters.add("low", low, Says("from").at_least(0.0));
+    parameters.add("high", high, Says("to").at_least(0.0));
+    parameters.list("fine", fine, "how fine");
+    parameters.list("other", other, "nothing that anything here is about");
+    if (count == 0 && !fine.size) parameters.error("count", "give \"count\", or a \"size\" in \"fine\"");
+    if (low > high) parameters.error("high", "is below \"low\"");
+  }
+};
+
 struct Options {
   double tolerance = 1e-9;
   int count = 3;
@@ -60,6 +81,7 @@ struct Options {
   std::optional<Expression> motion;
   std::vector<std::string> names{"a", "b"};
   Inner inner;
+  std::vector<Named<Bounds>> bounds;
   std::vector<Named<Entry>> entries;
   Teuchos::ParameterList solver;
   std::string needed;
@@ -74,6 +96,7 @@ struct Options {
     parameters.add("names", names, "who");
     parameters.add("needed", needed, Says("what nobody can guess").required());
     parameters.list("inner", inner, "inside");
+    parameters.named("bounds", bounds, "from where to where");
     parameters.named("entries", entries, "things");
     parameters.verbatim("solver", solver, "handed on");
   }
@@ -164,6 +187,20 @@ TEST(ReadParameters, SaysAllErrorsAtOnceWithTheirLines) {
   EXPECT_THAT(errors, HasSubstr("entries/one: \"type\" is \"bal\"; allowed: \"ball\", \"box\"; did you mean \"ball\"?"));
   EXPECT_THAT(errors, HasSubstr("entries/two: \"type\" is missing"));
   EXPECT_THAT(errors, HasSubstr("scene.xml:1: error: \"needed\" is missing; please add it: what nobody can guess"));
+}
+
+// A parameter that was refused has its default, of which the scene says nothing.
+TEST(ReadParameters, SaysNothingMoreOfWhatItRefused) {
+  const auto errors_of = [](const std::string& bounds) { return read(needed + list("bounds", list("one", bounds))).errors; };
+  const std::string low = parameter("low", "int", "2"), count = parameter("count", "int", "1");
+  EXPECT_EQ(errors_of(parameter("count", "int", "-1")), "scene.xml:5: error: bounds/one: \"count\" is -1; allowed: >= 0\n");
+  EXPECT_EQ(errors_of(list("fine", parameter("size", "int", "0"))), "scene.xml:6: error: bounds/one/fine: \"size\" is 0; allowed: > 0\n");
+  EXPECT_EQ(errors_of(count + low + parameter("high", "int", "-1")), "scene.xml:7: error: bounds/one: \"high\" is -1; allowed: >= 0\n");
+  EXPECT_EQ(errors_of(count + parameter("low", "double", "2x") + parameter("high", "int", "0")).find("is below"), std::string::npos);
+
+  EXPECT_EQ(errors_of(count + low), "scene.xml:4: error: bounds/one: \"high\": is below \"low\"\n");
+  EXPECT_THAT(errors_of(low + parameter("count", "int", "-1")), HasSubstr("is below \"low\"")) << "of other parameters it is said";
+  EXPECT_THAT(errors_of(list("other", parameter("size", "int", "0"))), HasSubstr("give \"count\"")) << "a list of the same kind, but not that one";
 }
 
 TEST(ReadParameters, RefusesWhatIsNoNumber) {

@@ -194,7 +194,7 @@ class Parameters {
   /// Place of the parameter or list `name` of the current list: where the scene gives it, or the list's own if it does not. Empty when not reading.
   virtual Place place(const std::string& name) const = 0;
 
-  /// Says that something is wrong with what was just read (bounds between parameters, meaningless combinations). Does nothing when not reading.
+  /// Says that what was just read does not go together. Does nothing when not reading, or if a parameter that the message quotes was refused.
   virtual void error(const std::string& name, const std::string& message) = 0;
 
  protected:

@@ -43,13 +43,16 @@ class ReadParameters : public Parameters {
 
  private:
   struct Frame {
+    std::string name;
     const XmlList* list;  ///< null: the scene does not have it
     Place place;
-    std::vector<std::string> known;
+    std::vector<std::string> known{};
     bool check_unknown = true;
+    std::vector<std::vector<std::string>> refused{};  ///< parameters that keep their defaults, below the names of the lists within that hold them
   };
   const XmlParameter* find(const std::string& name, const Says& says, const std::vector<std::string>& types);
   void say(const Place& place, const std::string& message) { diagnostics_.push_back({place, message}); }
+  void refuse(const std::string& name, const Place& where, const std::string& message);
   std::optional<double> number(const XmlParameter& parameter, const std::string& text, const Says& says);
   void report_unknown(const Frame& frame);
   Frame& frame() { return frames_.back(); }
