@@ -21,22 +21,41 @@ TEST(Kinematics, ABodyBeyondTheAxisIsRefused) {
   }
 }
 
-// 1e9 nodes of Q4 take 200 GB or more: each couples with the nodes of an element, 4 blocks of 2 x 2 numbers with their columns, 192 bytes.
-TEST(Meshes, ThatNoMemoryHoldsAreRefusedBeforeTheyAreBuilt) {
-  if (sysconf(_SC_PHYS_PAGES) > 200L * 1024 * 1024 * 1024 / sysconf(_SC_PAGESIZE)) GTEST_SKIP() << "this machine has more than 200 GiB";
-  const files::path directory = files::path(SCRATCH) / "no_memory";
+/// What commands say of the lower block with so many cells in each direction.
+void expect_refused(const std::vector<std::vector<std::string>>& commands, const std::string& cells, const std::string& message) {
+  const files::path directory = files::path(SCRATCH) / "too_large";
   files::create_directories(directory);
   std::ofstream(directory / "scene.xml") << good_scene;
-  const std::vector<std::string> settings{"--set", "bodies/lower/mesh/cells x=32000", "--set", "bodies/lower/mesh/cells y=32000"};
-  for (const char* command : {"check", "run"}) {
-    std::vector<std::string> words{MORTISE, command, directory / "scene.xml"};
-    words.insert(words.end(), settings.begin(), settings.end());
+  for (const auto& command : commands) {
+    std::vector<std::string> words{MORTISE};
+    words.insert(words.end(), command.begin(), command.end());
+    words.insert(words.end(),
+                 {directory / "scene.xml", "--set", "bodies/lower/mesh/cells x=" + cells, "--set", "bodies/lower/mesh/cells y=" + cells});
     const Ending ending = launch(words, 60);
     EXPECT_EQ(ending.code, 2) << ending.output;
-    EXPECT_NE(ending.output.find("the mesh of body 'lower' would have 1024000000 elements and 1024064001 nodes; the model would take more than"),
-              std::string::npos)
-        << ending.output;
+    EXPECT_NE(ending.output.find(message), std::string::npos) << ending.output;
   }
+}
+
+bool machine_has_more_than(long gib) { return sysconf(_SC_PHYS_PAGES) > gib * 1024 * 1024 * 1024 / sysconf(_SC_PAGESIZE); }
+
+// 1e9 nodes of Q4 take 200 GB or more: each couples with the nodes of an element, 4 blocks of 2 x 2 numbers with their columns, 192 bytes.
+TEST(Meshes, ThatNoMemoryHoldsAreRefusedBeforeTheyAreBuilt) {
+  if (machine_has_more_than(200)) GTEST_SKIP() << "this machine has more than 200 GiB";
+  expect_refused({{"check"}, {"run"}}, "32000",
+                 "the mesh of body 'lower' would have 1024000000 elements and 1024064001 nodes; the model would take more than");
+}
+
+// A plan has no matrix, but their nodes and elements, 60 bytes each.
+TEST(Meshes, ThatNoMemoryHoldsAreNotPlannedEither) {
+  if (machine_has_more_than(55)) GTEST_SKIP() << "this machine has more than 55 GiB";
+  expect_refused({{"scale", "--plan", "1000"}}, "32000",
+                 "the mesh of body 'lower' would have 1024000000 elements and 1024064001 nodes; the mesh alone would take more than");
+}
+
+TEST(Meshes, WithMoreDofsThanCanBeNumberedAreNotPlanned) {
+  expect_refused({{"scale", "--plan", "2"}}, "100000", "the model's 2e+10 dofs are more than the 4.295e+09 that 2 rank(s) can number");
+  expect_refused({{"scale", "--plan", "1000"}}, "100000", "the model's 1e+10 nodes are more than the 2.147e+09 that 1 rank(s) can number");
 }
 
 /// A rigid tool comes down on the lower block. Its body lies to the left of the way along the points.

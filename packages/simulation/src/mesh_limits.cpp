@@ -26,14 +26,59 @@ int ranks_on_this_machine(const Communicator& comm) {
   return ranks;
 }
 
-/// Of a model, at least: position, body and id of each node; nodes and id of each element; value and column of each entry of a stiffness in which a
-/// node meets the nodes of one of its elements alone.
-double least_bytes(const MeshCounts& mesh, int dimension, int nodes_of_element, bool is_rigid) {
-  const auto elements = static_cast<double>(mesh.elements), nodes = static_cast<double>(mesh.nodes);
-  const double of_mesh = nodes * (3 * sizeof(double) + sizeof(int) + sizeof(GlobalOrdinal)) +
-                         elements * (sizeof(LocalOrdinal) * nodes_of_element + sizeof(GlobalOrdinal));
-  const double entries = is_rigid ? 0.0 : nodes * nodes_of_element * dimension * dimension;
-  return of_mesh + entries * (sizeof(double) + sizeof(LocalOrdinal));
+/// Of a mesh, at least: position, body and id of each node; nodes and id of each element.
+double least_mesh_bytes(const MeshCounts& mesh, int nodes_of_element) {
+  return static_cast<double>(mesh.nodes) * (3 * sizeof(double) + sizeof(int) + sizeof(GlobalOrdinal)) +
+         static_cast<double>(mesh.elements) * (sizeof(LocalOrdinal) * nodes_of_element + sizeof(GlobalOrdinal));
+}
+
+/// Of a stiffness, at least: value and column of each entry, if a node meets the nodes of one of its elements alone.
+double least_stiffness_bytes(const MeshCounts& mesh, int dimension, int nodes_of_element) {
+  return static_cast<double>(mesh.nodes) * nodes_of_element * dimension * dimension * (sizeof(double) + sizeof(LocalOrdinal));
+}
+
+/// Of all bodies.
+struct ModelSize {
+  double nodes = 0.0, dofs = 0.0, mesh_bytes = 0.0, stiffness_bytes = 0.0;
+  Place place;       ///< of the largest body
+  std::string mesh;  ///< words for its mesh
+};
+
+ModelSize model_size(const Scene& scene) {
+  const auto bodies = body_descriptions(scene);
+  const auto counts = mesh_counts(bodies);
+  ModelSize size;
+  std::size_t largest = 0;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const int dimension = bodies[b].mesh->dimension();
+    const CellTopology& cell = topology(bodies[b].shape);
+    size.nodes += static_cast<double>(counts[b].nodes);
+    size.dofs += static_cast<double>(counts[b].nodes) * dimension;
+    size.mesh_bytes += least_mesh_bytes(counts[b], cell.nodes);
+    if (cell.dimension == dimension) size.stiffness_bytes += least_stiffness_bytes(counts[b], dimension, cell.nodes);
+    if (counts[b].nodes > counts[largest].nodes) largest = b;
+  }
+  size.place = bodies[largest].place;
+  size.mesh =
+      fmt::format("the mesh of body '{}' would have {} elements and {} nodes", bodies[largest].name, counts[largest].elements, counts[largest].nodes);
+  return size;
+}
+
+/// `count` dofs or nodes are shared by `ranks`.
+void refuse_more_than_ids(const ModelSize& size, double count, const char* of, int ranks) {
+  const double most = static_cast<double>(std::numeric_limits<LocalOrdinal>::max()) * ranks;
+  if (count > most)
+    throw InputError(size.place, fmt::format("{}; the model's {:.4g} {} are more than the {:.4g} that {} rank(s) can number; please make it coarser",
+                                             size.mesh, count, of, most, ranks));
+}
+
+/// `what` takes at least `bytes`; `advice`: what helps beside coarser meshes.
+void refuse_more_than_memory(const Communicator& comm, const ModelSize& size, double bytes, const char* what, const char* advice) {
+  constexpr double gib = 1024.0 * 1024.0 * 1024.0;
+  const double memory = memory_of_machines(comm) / 1024.0;
+  if (memory > 0.0 && bytes / gib > memory)
+    throw InputError(size.place, fmt::format("{}; {} would take more than {:.1f} GiB, and there are {:.1f} GiB here; please make it coarser, or {}",
+                                             size.mesh, what, bytes / gib, memory, advice));
 }
 
 }  // namespace
@@ -47,32 +92,16 @@ double memory_of_machines(const Communicator& comm) {
 }
 
 void refuse_too_large(const Communicator& comm, const Scene& scene) {
-  const auto bodies = body_descriptions(scene);
-  const auto counts = mesh_counts(bodies);
-  double dofs = 0.0, bytes = 0.0;
-  std::size_t largest = 0;
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const int dimension = bodies[b].mesh->dimension();
-    const CellTopology& cell = topology(bodies[b].shape);
-    dofs += static_cast<double>(counts[b].nodes) * dimension;
-    bytes += least_bytes(counts[b], dimension, cell.nodes, cell.dimension < dimension);
-    if (counts[b].nodes > counts[largest].nodes) largest = b;
-  }
-  const std::string what =
-      fmt::format("the mesh of body '{}' would have {} elements and {} nodes", bodies[largest].name, counts[largest].elements, counts[largest].nodes);
-  const double most = static_cast<double>(std::numeric_limits<LocalOrdinal>::max()) * comm.getSize();
-  if (dofs > most)
-    throw InputError(bodies[largest].place,
-                     fmt::format("{}; the model's {:.4g} dofs are more than the {:.4g} that {} rank(s) can number; please make "
-                                 "it coarser",
-                                 what, dofs, most, comm.getSize()));
-  constexpr double gib = 1024.0 * 1024.0 * 1024.0;
-  const double memory = memory_of_machines(comm) / 1024.0;
-  if (memory > 0.0 && bytes / gib > memory)
-    throw InputError(bodies[largest].place,
-                     fmt::format("{}; the model would take more than {:.1f} GiB, and there are {:.1f} GiB here; please make it "
-                                 "coarser, or run it on more machines",
-                                 what, bytes / gib, memory));
+  const ModelSize size = model_size(scene);
+  refuse_more_than_ids(size, size.dofs, "dofs", comm.getSize());
+  refuse_more_than_memory(comm, size, size.mesh_bytes + size.stiffness_bytes, "the model", "run it on more machines");
+}
+
+void refuse_too_large_to_plan(const Communicator& comm, const Scene& scene, int ranks) {
+  const ModelSize size = model_size(scene);
+  refuse_more_than_ids(size, size.dofs, "dofs", ranks);
+  refuse_more_than_ids(size, size.nodes, "nodes", comm.getSize());
+  refuse_more_than_memory(comm, size, size.mesh_bytes, "the mesh alone", "plan it on a machine that has more");
 }
 
 }  // namespace mortise

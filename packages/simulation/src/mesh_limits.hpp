@@ -9,6 +9,9 @@ namespace mortise {
 /// machines have, whatever solver it has.
 void refuse_too_large(const Communicator& comm, const Scene& scene);
 
+/// The same for a plan, made on the ranks of `comm`, of a run on `ranks` others: a plan takes the mesh alone.
+void refuse_too_large_to_plan(const Communicator& comm, const Scene& scene, int ranks);
+
 /// Collective. Memory of all machines that the ranks run on, in MiB; 0 if one of them does not say.
 double memory_of_machines(const Communicator& comm);
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "memory_estimate.hpp"
+#include "mesh_limits.hpp"
 #include "mortise/mesh/sets.hpp"
 #include "mortise/mortar/facet_partition.hpp"
 #include "mortise/mortar/mortar_interface.hpp"
@@ -133,6 +134,7 @@ double PairPlan::least_imbalance(int ranks) const {
 }
 
 ScalePlan make_scale_plan(const RCP<const Communicator>& comm, const Scene& scene, int ranks) {
+  refuse_too_large_to_plan(*comm, scene, ranks);
   const std::vector<BodyDescription> bodies = body_descriptions(scene);
   const std::vector<std::string> sides = contact_sides(scene);
   ScalePlan plan;
