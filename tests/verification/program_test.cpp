@@ -1,7 +1,9 @@
 // The commands and the exit codes of the program.
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -129,6 +131,31 @@ TEST(Program, CheckSolvesAndWritesNothing) {
   EXPECT_EQ(ending.code, 0) << ending.output;
   EXPECT_NE(ending.output.find("24 dofs"), std::string::npos) << ending.output;
   EXPECT_NE(ending.output.find("MiB"), std::string::npos) << ending.output;
+}
+
+// Factors of a cube of N nodes take 8 * 9 * 2 * 12.75 N^(4/3) bytes and more. The run ends before there are any: its load has no value after t = 0.
+TEST(Program, RunAndCheckWarnOfFactorsThatDoNotFitIntoMemory) {
+  const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (memory > 64e9) GTEST_SKIP() << "this machine has so much memory that it would take too long";
+  const std::string scene = write_scene("too_large", ""), cells = std::to_string(static_cast<int>(std::ceil(std::pow(memory / 1836.0, 0.25))));
+  std::vector<std::string> words{"",      scene,
+                                 "--set", "kinematics=three dimensional",
+                                 "--set", "bodies/block/element=H8",
+                                 "--set", "bodies/block/mesh/type=brick",
+                                 "--set", "linear solver/type=mumps",
+                                 "--set", "boundary conditions/floor/z=0",
+                                 "--set", "loads/press/y=1/(t<=0)",
+                                 "--set", "stepping/minimum step=1"};
+  for (const char* direction : {"x", "y", "z"})
+    words.insert(words.end(), {"--set", std::string("bodies/block/mesh/cells ") + direction + "=" + cells});
+  const std::string about = "until here, ", warning = "that is more than the ",
+                    advice = " MiB here; please make the meshes coarser, take another solver";
+  for (const auto& [command, code] : {std::pair<std::string, int>{"check", 0}, {"run", 2}}) {
+    words.front() = command;
+    const Ending ending = mortise(words);
+    EXPECT_EQ(ending.code, code) << ending.output;
+    for (const std::string& said : {about, warning, advice}) EXPECT_NE(ending.output.find(said), std::string::npos) << ending.output;
+  }
 }
 
 TEST(Program, RunLeavesItsFilesAndABalancedSupport) {

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include "contact_at_start.hpp"
-#include "mesh_limits.hpp"
 #include "mortise/simulation/model.hpp"
 #include "mortise/simulation/read_scene.hpp"
 #include "mortise/simulation/run.hpp"
@@ -21,13 +20,7 @@ void inspect_scene(const RCP<const Communicator>& comm, const RunOptions& option
   report_model(options.scene, scene, model, log);
   report_contact_at_start(model, scene, log);
   log.info(fmt::format("  diagonal of the model {:.6g}, shortest side of an element {:.6g}", model.size().length, model.size().shortest_side));
-  const MemoryEstimate memory = estimated_memory(model);
-  log.info(fmt::format("  about {:.0f} MiB: {:.0f} until here, {:.0f} for the linear systems", memory.so_far + memory.linear_systems, memory.so_far,
-                       memory.linear_systems));
-  if (const double there = memory_of_machines(*comm); there > 0.0 && memory.so_far + memory.linear_systems > there)
-    log.warning(
-        fmt::format("that is more than the {:.0f} MiB here{}; please make the meshes coarser, take another solver, or run it on more machines", there,
-                    comm->getSize() > 1 ? ", of all machines together" : ""));
+  report_memory(model, log);
   log.info("no errors");
 }
 

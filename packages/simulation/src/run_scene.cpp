@@ -232,6 +232,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
   log.open(directory.file("log.txt"));
   report_model(options.scene, scene, model, log);
   report_contact_at_start(model, scene, log);
+  report_memory(model, log);
   write_file(*comm, directory.file("effective.xml"), [&] { return effective_xml(scene); });
 
   RunRecord record;
