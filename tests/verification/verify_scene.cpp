@@ -2,8 +2,6 @@
 // on the first number of ranks, or what --scale says), equal Newton counts, times of contact where there is contact.
 // Ranks may be followed by a linear solver, "2:iterative"; iterative solvers have to agree to 1e-8 and may need other numbers of Newton iterations.
 // verify_scene MPIEXEC MORTISE SCENE DIRECTORY RANKS[:SOLVER]... [--set path=value]... [--scale quantity=scale]...
-// [--any-counts: Newton's counts may differ, for scenes where nodes that are exactly alike change their state at once and round-off decides which
-// first]
 
 #include <fmt/format.h>
 
@@ -22,16 +20,13 @@ struct Arguments {
   std::string mpiexec, mortise, scene, directory;
   std::vector<std::string> ranks, settings;
   std::map<std::string, double> scales;
-  bool any_counts = false;
 };
 
 Arguments parse(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
-  Arguments arguments{words.at(0), words.at(1), words.at(2), words.at(3), {}, {}, {}, false};
+  Arguments arguments{words.at(0), words.at(1), words.at(2), words.at(3), {}, {}, {}};
   for (std::size_t i = 4; i < words.size(); ++i) {
-    if (words[i] == "--any-counts") {
-      arguments.any_counts = true;
-    } else if (words[i] == "--set") {
+    if (words[i] == "--set") {
       arguments.settings.push_back(words.at(++i));
     } else if (words[i] == "--scale") {
       const std::string& scale = words.at(++i);
@@ -74,7 +69,7 @@ bool contact_is_timed(const Json& summary) {
 
 int compare(const Json& reference, const Json& other, const std::string& ranks, const Arguments& arguments, bool iterative) {
   int failures = 0;
-  if (!iterative && !arguments.any_counts && newton_counts(reference) != newton_counts(other)) {
+  if (!iterative && newton_counts(reference) != newton_counts(other)) {
     fmt::print("{} ranks: other Newton counts\n", ranks);
     ++failures;
   }

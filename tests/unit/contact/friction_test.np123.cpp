@@ -178,5 +178,32 @@ TEST(Coulomb, SticksInsideTheConeAndSlipsOnIt) {
   EXPECT_NEAR(at(3.0, -0.1).C[1], -c * -0.1, 1e-15);  // slips against its traction: sticks instead
 }
 
+// Round-off of a traction at the bound does not choose the derivative, and nothing changes C.
+TEST(Coulomb, SlipsAtTheBoundUpToRoundOff) {
+  const double c = 7.0, rho = 3.0;
+  const auto sticks = [](const Complementarity& node) { return node.state == ContactState::stick; };
+  const auto plane = [&](double shear, double slip) {
+    const Frame frame = make_frame(Eigen::Vector2d(0.0, -1.0), 0);
+    return with_friction(c, c, 0.0, TangentVector::Constant(1, slip), frame, Eigen::Vector2d(shear, -10.0), {rho, 0.3});
+  };
+  const auto space = [&](double shear, double slip) {  // along a direction between the tangents
+    const Frame frame = make_frame(Eigen::Vector3d(0.0, 0.0, -1.0), 0);
+    const Eigen::Vector2d along(0.6, 0.8);
+    const SpatialVector z = 10.0 * frame.normal + frame.tangents.transpose() * (shear * along);
+    return with_friction(c, c, 0.0, slip * along, frame, z, {rho, 0.3});
+  };
+  for (const double off : {-1e-10, -1e-15, 0.0, 1e-15, 1e-10}) {
+    EXPECT_FALSE(sticks(plane(rho * (1.0 + off), 0.0))) << off;
+    EXPECT_FALSE(sticks(space(rho * (1.0 + off), 0.0))) << off;
+  }
+  for (const double slip : {-0.1, 0.0, 0.1}) {
+    const double shear = rho * (1.0 - 1e-10) - c * slip;  // |y| just below the bound: C of stick
+    EXPECT_NEAR(plane(shear, slip).C[1], -c * slip, 1e-14);
+    EXPECT_NEAR((space(shear, slip).C.tail(2) + c * slip * Eigen::Vector2d(0.6, 0.8)).norm(), 0.0, 1e-14);
+  }
+  EXPECT_TRUE(sticks(plane(rho * (1.0 - 1e-8), 0.0)));
+  EXPECT_TRUE(sticks(space(rho * (1.0 - 1e-8), 0.0)));
+}
+
 }  // namespace
 }  // namespace mortise

@@ -84,5 +84,19 @@ TEST(RegularisedNode, SwingsAcrossTheConeOnASofterSpring) {
     }
 }
 
+// As the exact conditions: round-off of a traction at the bound does not choose the derivative, and nothing changes C = z_tau - Pi_rho(y).
+TEST(RegularisedNode, SlipsAtTheBoundUpToRoundOff) {
+  const NodeOnSpring node(1.0, 0.0, 1.0, 10.0, bound);
+  const auto at = [&](double off) {
+    const SpatialVector z = pressure * node.frame.normal + bound * (1.0 + 11.0 * off) * node.frame.tangents.row(0).transpose();
+    return node.law(0.0, z);  // y = 10/11 z_tau + 1/11 lambda_tau = rho (1 + 10 off)
+  };
+  for (const double off : {-1e-11, -1e-15, 0.0, 1e-15}) {
+    EXPECT_EQ(at(off).state, ContactState::slip) << off;
+    EXPECT_NEAR(at(off).C[1], bound * std::max(off, 11.0 * off), 1e-15) << off;
+  }
+  EXPECT_EQ(at(-1e-8).state, ContactState::stick);
+}
+
 }  // namespace
 }  // namespace mortise

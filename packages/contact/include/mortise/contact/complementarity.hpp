@@ -53,26 +53,33 @@ inline Complementarity closed_node(double c_n, double gap, const Frame& frame, c
 /// The direction e = y / |y| of slip and how the bound's share of the traction turns with y:  d(rho e) = e drho + turning dy.
 struct SlipDirection {
   TangentVector along;
+  double length = 0.0;    ///< of the projection of y on the ball of radius rho; NaN with rho
   TangentMatrix turning;  ///< rho / |y| (I - e e^T); 0 in the plane
   SlipDirection(const TangentVector& y, double bound) : along(TangentVector::Zero(y.size())), turning(TangentMatrix::Zero(y.size(), y.size())) {
-    const double length = y.norm();
-    if (!(length > 0.0)) return;
-    along = y / length;
-    if (y.size() > 1) turning = bound / length * (TangentMatrix::Identity(2, 2) - along * along.transpose());
+    const double norm = y.norm();
+    length = norm < bound ? norm : bound;
+    if (!(norm > 0.0)) return;
+    along = y / norm;
+    if (y.size() > 1) turning = bound / norm * (TangentMatrix::Identity(2, 2) - along * along.transpose());
   }
 };
+
+/// Share of the bound from which on a node counts as slipping. Where |y| = rho both derivatives of C are valid; a node that slipped in the last step
+/// starts the next one there, up to what Newton's tolerance and round-off leave, and these are not to choose for each node anew.
+inline constexpr double at_the_bound = 1.0 - 1e-9;
 
 /// C of a closed node with friction (Hueber, Wohlmuth 2005; Gitterle et al. 2010, with all rows in units of traction). With y = z_tau + c_t u and the
 /// bound rho at the pressure z_n - c_n g:
 ///   stick   |y| < rho   C_tau = -c_t u
 ///   slip                C_tau = z_tau - rho y / |y|
+/// Just below the bound (at_the_bound) it is C of stick with the derivative of slip.
 /// @param slip  weighted slip u of the step: the slave's motion relative to the master along tau_a, times the weight
 inline Complementarity with_friction(double c_n, double c_t, double gap, const TangentVector& slip, const Frame& frame, const SpatialVector& z,
                                      const FrictionBound& bound) {
   const Eigen::Index tangents = slip.size();
   Complementarity result = closed_node(c_n, gap, frame, z);
   const TangentVector y = result.C.tail(tangents) + c_t * slip;
-  if (y.norm() < bound.value) {
+  if (y.norm() < at_the_bound * bound.value) {
     result.state = ContactState::stick;
     result.C.tail(tangents) = -c_t * slip;
     result.C_z.bottomRows(tangents).setZero();
@@ -82,7 +89,7 @@ inline Complementarity with_friction(double c_n, double c_t, double gap, const T
   }
   const SlipDirection direction(y, bound.value);
   const TangentVector slope = bound.slope * direction.along;
-  result.C.tail(tangents) -= bound.value * direction.along;
+  result.C.tail(tangents) -= direction.length * direction.along;
   if (tangents > 1) {
     result.C_z.bottomRows(tangents) -= direction.turning * frame.tangents;
     result.normal_factor.bottomRows(tangents) -= direction.turning * SpatialMatrix(result.normal_factor.bottomRows(tangents));

@@ -41,14 +41,14 @@ Complementarity regularised(const RegularisedNode& node, double gap, const Tange
   // dC_tau = dz_tau - response dy - slope dp,   dy = (1 - theta_t) dz_tau + stiffness (du - u dw / w)
   TangentMatrix response = TangentMatrix::Identity(tangents, tangents);
   TangentVector slope = TangentVector::Zero(tangents);
-  if (y.norm() < limit.value) {
+  if (y.norm() < at_the_bound * limit.value) {
     result.state = ContactState::stick;
     result.C.tail(tangents) -= y;
   } else {
     const SlipDirection direction(y, limit.value);
     response = direction.turning;
     slope = limit.slope * direction.along;
-    result.C.tail(tangents) -= limit.value * direction.along;
+    result.C.tail(tangents) -= direction.length * direction.along;
   }
   const TangentMatrix of_traction = TangentMatrix::Identity(tangents, tangents) - (1.0 - theta_t) * response;
   result.C_z.bottomRows(tangents) = of_traction * frame.tangents - (1.0 - theta_n) * slope * frame.normal.transpose();
