@@ -3,6 +3,12 @@
 #include "interval.hpp"
 
 namespace mortise {
+namespace {
+
+SpatialPoint in_space(const Point& point) { return {point[0], point[1], 0.0}; }
+SpatialPoint in_space(const SpatialPoint& point) { return point; }
+
+}  // namespace
 
 BodySet::BodySet(const std::vector<BodyDescription>& bodies) {
   for (const auto& body : bodies) {
@@ -23,6 +29,11 @@ CellNodes BodySet::element_nodes(GlobalOrdinal element) const {
   auto nodes = with_complex(body, [&](const auto& complex) { return complex.element_nodes(element - first_element_[body]); });
   for (GlobalOrdinal& node : nodes) node += first_node_[body];
   return nodes;
+}
+
+SpatialPoint BodySet::coordinate(GlobalOrdinal node) const {
+  const int body = body_of_node(node);
+  return with_complex(body, [&](const auto& complex) { return in_space(complex.coordinate(node - first_node_[body])); });
 }
 
 }  // namespace mortise

@@ -95,9 +95,6 @@ void fill_blocks(Mesh& mesh, const BodySet& set, const std::vector<BodyDescripti
       for (const GlobalOrdinal node : set.element_nodes(element)) block.connectivity.push_back(mesh.local_nodes->getLocalElement(node));
 }
 
-SpatialPoint in_space(const Point& point) { return {point[0], point[1], 0.0}; }
-SpatialPoint in_space(const SpatialPoint& point) { return point; }
-
 void fill_nodes(Mesh& mesh, const BodySet& set) {
   for (const GlobalOrdinal node : mesh.local_nodes->getNodeElementList()) {
     if (node >= set.node_count()) {  // a reference point, placed with its followers
@@ -105,10 +102,8 @@ void fill_nodes(Mesh& mesh, const BodySet& set) {
       mesh.body_of_node.push_back(-1);
       continue;
     }
-    const int body = set.body_of_node(node);
-    mesh.coordinates.push_back(
-        set.with_complex(body, [&](const auto& complex) { return in_space(complex.coordinate(node - set.first_node(body))); }));
-    mesh.body_of_node.push_back(body);
+    mesh.coordinates.push_back(set.coordinate(node));
+    mesh.body_of_node.push_back(set.body_of_node(node));
   }
 }
 

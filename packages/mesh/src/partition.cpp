@@ -1,16 +1,15 @@
 #include "partition.hpp"
 
-#include <metis.h>
-
 #include <Teuchos_CommHelpers.hpp>
 #include <Teuchos_OrdinalTraits.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_TieBreak.hpp>
 #include <algorithm>
 #include <limits>
-#include <memory>
 #include <numeric>
 #include <stdexcept>
+
+#include "element_graph.hpp"
 
 namespace mortise {
 namespace {
@@ -21,10 +20,6 @@ bool on_contact(const BodySet& bodies, const std::vector<std::vector<bool>>& is_
     if (is_contact[body][side.name]) return true;
   return false;
 }
-
-struct MetisFree {
-  void operator()(idx_t* memory) const { METIS_Free(memory); }
-};
 
 /// Chooses among the ranks that hold a node by their numbers alone.
 class AlternatingOwner : public Tpetra::Details::TieBreak<LocalOrdinal, GlobalOrdinal> {
@@ -64,28 +59,14 @@ int owner_among(std::vector<int> holders) {
 
 std::vector<int> ranks_of_elements(const BodySet& bodies, const std::vector<std::vector<bool>>& is_contact, int ranks) {
   if (bodies.element_count() > std::numeric_limits<idx_t>::max() / 8) throw std::runtime_error("the mesh has more elements than METIS can number");
-  idx_t elements = static_cast<idx_t>(bodies.element_count()), nodes = static_cast<idx_t>(bodies.node_count());
+  idx_t elements = static_cast<idx_t>(bodies.element_count());
   std::vector<idx_t> part(elements);
   if (ranks == 1) return std::vector<int>(part.size(), 0);  // METIS wants two parts
   if (elements < ranks) {
     std::iota(part.begin(), part.end(), 0);
     return {part.begin(), part.end()};
   }
-  // Dual graph: elements that share a side. Those that share two corners in the plane, or three in space, do.
-  std::unique_ptr<idx_t, MetisFree> offsets, neighbours;
-  {
-    std::vector<idx_t> element_offsets{0}, element_nodes;
-    for (idx_t e = 0; e < elements; ++e) {
-      const auto ids = bodies.element_nodes(e);
-      element_nodes.insert(element_nodes.end(), ids.begin(), ids.begin() + bodies.cell(bodies.body_of_element(e)).corners);
-      element_offsets.push_back(static_cast<idx_t>(element_nodes.size()));
-    }
-    idx_t shared = bodies.dimension(), numbering = 0, *rows = nullptr, *columns = nullptr;
-    if (METIS_MeshToDual(&elements, &nodes, element_offsets.data(), element_nodes.data(), &shared, &numbering, &rows, &columns) != METIS_OK)
-      throw std::runtime_error("METIS could not build the graph of elements");
-    offsets.reset(rows);
-    neighbours.reset(columns);
-  }
+  ElementGraph graph = element_graph(bodies, is_contact);
   // Two weights to be balanced: elements, and elements on contact sides.
   std::vector<idx_t> weights;
   idx_t contact_elements = 0;
@@ -106,8 +87,8 @@ std::vector<int> ranks_of_elements(const BodySet& bodies, const std::vector<std:
   options[METIS_OPTION_NUMBERING] = 0;
   // Recursive bisection balances several weights better; the k-way method is faster for many ranks.
   const auto method = ranks <= 8 ? METIS_PartGraphRecursive : METIS_PartGraphKway;
-  const int status = method(&elements, &constraints, offsets.get(), neighbours.get(), weights.data(), nullptr, nullptr, &parts, nullptr, nullptr,
-                            options, &cut, part.data());
+  const int status = method(&elements, &constraints, graph.offsets.data(), graph.neighbours.data(), weights.data(), nullptr, graph.weights.data(),
+                            &parts, nullptr, nullptr, options, &cut, part.data());
   if (status != METIS_OK) throw std::runtime_error("METIS could not partition the mesh");
   return {part.begin(), part.end()};
 }

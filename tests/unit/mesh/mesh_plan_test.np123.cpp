@@ -5,8 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <Teuchos_CommHelpers.hpp>
+#include <Teuchos_DefaultSerialComm.hpp>
 #include <Tpetra_Core.hpp>
 #include <Tpetra_Map.hpp>
+#include <cmath>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -82,6 +85,41 @@ TEST(MeshPlan, SharesEverythingOutOnce) {
     EXPECT_EQ(elements, 6 * 6 * 6 + 6 * 4 * 4 * 4);
     EXPECT_EQ(nodes, 7 * 7 * 7 + 5 * 5 * 5);
     EXPECT_EQ(static_cast<std::size_t>(elements), plan.rank_of_element.size());
+  }
+}
+
+// Two bricks of 12 x 12 x 12 cells on one another: what faces one another is on one rank but along the cuts through the interface. A cut that is
+// straight parts a row of pairs on each side at most, 2 x 12 of 144; two of them quarter the interface. Without regard to contact any 1 - 1 / ranks
+// would be.
+TEST(MeshPlan, KeepsTogetherWhatFacesOneAnother) {
+  auto lower = std::make_shared<BrickMesh>(), upper = std::make_shared<BrickMesh>();
+  for (auto* brick : {lower.get(), upper.get()}) {
+    brick->width = brick->depth = brick->height = 1.0;
+    brick->cells_x = brick->cells_y = brick->cells_z = 12;
+  }
+  upper->translation = {0.0, 0.0, 1.0};
+  const std::vector<BodyDescription> bodies{{"lower", {}, lower, CellShape::hexahedron8}, {"upper", {}, upper, CellShape::hexahedron8}};
+  const auto mesh = build_mesh(rcp(new Teuchos::SerialComm<int>()), bodies, sides);
+  const auto elements_by_place = [&](const std::string& side) {
+    std::map<std::pair<long, long>, GlobalOrdinal> elements;
+    for (const Side& one : mesh->side_sets.at(side).sides) {
+      const Block& block = mesh->blocks[one.block];
+      double x = 0.0, y = 0.0;
+      for (int a = 0; a < block.nodes_per_element; ++a) {
+        x += mesh->coordinates[block.nodes(one.element)[a]][0] / block.nodes_per_element;
+        y += mesh->coordinates[block.nodes(one.element)[a]][1] / block.nodes_per_element;
+      }
+      elements[{std::lround(24.0 * x), std::lround(24.0 * y)}] = block.element_ids[one.element];
+    }
+    return elements;
+  };
+  const auto below = elements_by_place("lower/top"), above = elements_by_place("upper/bottom");
+  ASSERT_EQ(below.size(), 144u);
+  for (const auto& [ranks, most] : std::vector<std::pair<int, int>>{{2, 24}, {4, 48}}) {
+    const MeshPlan plan = plan_mesh(bodies, sides, ranks);
+    int parted = 0;
+    for (const auto& [place, element] : below) parted += plan.rank_of_element[element] != plan.rank_of_element[above.at(place)];
+    EXPECT_LE(parted, most) << ranks << " ranks";
   }
 }
 
