@@ -205,5 +205,26 @@ TEST(Coulomb, SlipsAtTheBoundUpToRoundOff) {
   EXPECT_TRUE(sticks(space(rho * (1.0 - 1e-8), 0.0)));
 }
 
+// Newton's method leaves the traction on a tangent of the circle: longer than the bound by its turn, which must not hide that it slips the wrong way.
+TEST(Coulomb, SticksWhereItSlipsAgainstATurnedTraction) {
+  const double c = 7.0, rho = 3.0, turn = 0.1;
+  const Frame frame = make_frame(Eigen::Vector3d(0.0, 0.0, -1.0), 0);
+  const Eigen::Vector2d before(0.6, 0.8), across(-0.8, 0.6);
+  const auto at = [&](double slip) {
+    const SpatialVector z = 10.0 * frame.normal + frame.tangents.transpose() * (rho * (before + std::tan(turn) * across));
+    return with_friction(c, c, 0.0, slip * before, frame, z, {rho, 0.3});
+  };
+  const double excess = rho / std::cos(turn) - rho;  // of the traction
+  for (const double reversed : {0.2 * excess, 0.9 * excess, 2.0 * excess, 0.5 * rho}) {
+    const Complementarity node = at(-reversed / c);
+    EXPECT_EQ(node.state, ContactState::stick) << reversed;
+    EXPECT_NEAR((node.C.tail(2) - reversed * before).norm(), 0.0, 1e-14) << reversed;  // no less than a tenth of the excess
+  }
+  EXPECT_EQ(at(-0.05 * excess / c).state, ContactState::slip);  // far beyond the bound for so little slip
+  EXPECT_EQ(at(0.0).state, ContactState::slip);
+  EXPECT_EQ(at(0.2 * excess / c).state, ContactState::slip);
+  EXPECT_EQ(at(-3.0 * rho / c).state, ContactState::slip);  // far enough to turn the traction round
+}
+
 }  // namespace
 }  // namespace mortise

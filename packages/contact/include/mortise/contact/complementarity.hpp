@@ -68,26 +68,40 @@ struct SlipDirection {
 /// starts the next one there, up to what Newton's tolerance and round-off leave, and these are not to choose for each node anew.
 inline constexpr double at_the_bound = 1.0 - 1e-9;
 
+/// Distance beyond the bound, in c_t |u|, up to which a node of space that slips against its traction sticks. Newton leaves the traction of a
+/// slipping node on a tangent of the circle |t| = rho: after a turn by theta |t| = rho / cos(theta), which is no sign that it slips on.
+inline constexpr double against_the_traction = 10.0;
+
+/// @param t      shear traction
+/// @param cu     c_t u
+/// @param bound  rho
+inline bool sticks(const TangentVector& t, const TangentVector& cu, double bound) {
+  if ((t + cu).norm() < at_the_bound * bound) return true;
+  const double length = t.norm();
+  return t.size() > 1 && length > bound && cu.norm() < bound && length * (length - bound) < -against_the_traction * t.dot(cu);
+}
+
 /// C of a closed node with friction (Hueber, Wohlmuth 2005; Gitterle et al. 2010, with all rows in units of traction). With y = z_tau + c_t u and the
 /// bound rho at the pressure z_n - c_n g:
 ///   stick   |y| < rho   C_tau = -c_t u
 ///   slip                C_tau = z_tau - rho y / |y|
-/// Just below the bound (at_the_bound) it is C of stick with the derivative of slip.
+/// In space a node whose slip is against its traction, 0 < |t| - rho < -10 c_t u . t / |t| with t = z_tau and c_t |u| < rho, sticks too: then
+/// |t| - rho < 10 |C_tau|, so C vanishes where it did. Just below the bound (at_the_bound) it is C of stick with the derivative of slip.
 /// @param slip  weighted slip u of the step: the slave's motion relative to the master along tau_a, times the weight
 inline Complementarity with_friction(double c_n, double c_t, double gap, const TangentVector& slip, const Frame& frame, const SpatialVector& z,
                                      const FrictionBound& bound) {
   const Eigen::Index tangents = slip.size();
   Complementarity result = closed_node(c_n, gap, frame, z);
-  const TangentVector y = result.C.tail(tangents) + c_t * slip;
-  if (y.norm() < at_the_bound * bound.value) {
+  const TangentVector t = result.C.tail(tangents), cu = c_t * slip;
+  if (sticks(t, cu, bound.value)) {
     result.state = ContactState::stick;
-    result.C.tail(tangents) = -c_t * slip;
+    result.C.tail(tangents) = -cu;
     result.C_z.bottomRows(tangents).setZero();
     result.normal_factor.bottomRows(tangents).setZero();
     result.slip_factor = -c_t * TangentMatrix::Identity(tangents, tangents);
     return result;
   }
-  const SlipDirection direction(y, bound.value);
+  const SlipDirection direction(t + cu, bound.value);
   const TangentVector slope = bound.slope * direction.along;
   result.C.tail(tangents) -= direction.length * direction.along;
   if (tangents > 1) {
