@@ -27,6 +27,9 @@ using LinearProblem = Belos::LinearProblem<Scalar, MultiVector, Operator>;
 /// At most.
 constexpr int levels = 8;
 
+/// Rows of the coarsest level, at most, and of any coarse level on one rank, at least, where there are several.
+constexpr int rows_on_one_rank = 5000;
+
 std::string name_of_level(int level) { return fmt::format("level {}", level); }
 
 /// Symmetric Gauss-Seidel.
@@ -53,16 +56,15 @@ Teuchos::ParameterList muelu_defaults(int equations, GlobalOrdinal rows, int ran
   list.set("aggregation: drop tol", 1e-8);
   set_smoother(list, 1);
   for (int level = 1; level < levels; ++level) set_smoother(list.sublist(name_of_level(level)), 2);
-  // The coarse solver is KLU2, which is right on one rank only: all coarse levels but very large ones go to one rank, and there is always
-  // one.
-  list.set("coarse: max size", static_cast<int>(std::clamp<GlobalOrdinal>(rows / 5, ranks == 1 ? 2000 : 1, 5000)));
+  // The coarse solver is KLU2, which is right on one rank only: what is small enough for it is moved to one rank, and there is always a coarse level.
+  list.set("coarse: max size", static_cast<int>(std::clamp<GlobalOrdinal>(rows / 5, ranks == 1 ? 2000 : 1, rows_on_one_rank)));
   if (ranks == 1) {
     list.set("transpose: use implicit", true);  // no restriction is stored beside the prolongator; repartitioning needs it
   } else {
     list.set("repartition: enable", true);
     list.set("repartition: partitioner", "zoltan2");
     list.set("repartition: start level", 1);
-    list.set("repartition: min rows per proc", 100000);
+    list.set("repartition: min rows per proc", rows_on_one_rank);
   }
   return list;
 }

@@ -53,13 +53,14 @@ double true_residual(const Matrix& matrix, const Vector& b, const Vector& x) {
   return r.norm2() / b.norm2();
 }
 
-// The iterative one coarsens small grids too, as it would large ones.
-std::unique_ptr<LinearSolver> solver_of(Kind kind, double tolerance = 1e-10, int iterations = 500) {
+// The iterative one coarsens small grids too, as it would large ones; coarse levels of so many rows or more on each rank are shared.
+std::unique_ptr<LinearSolver> solver_of(Kind kind, double tolerance = 1e-10, int iterations = 500, int shared_from = 5000) {
   LinearSolverOptions options;
   options.kind.value = kind;
   options.tolerance = tolerance;
   options.maximum_iterations = iterations;
   options.muelu.value.set("coarse: max size", 100);
+  options.muelu.value.set("repartition: min rows per proc", shared_from);
   return make_linear_solver(options, Tpetra::getDefaultComm(), Timers());
 }
 
@@ -221,6 +222,21 @@ TEST(Iterative, SolvesInAboutAsManyIterationsOnFinerGrids) {
     RecordProperty("iterations_" + std::to_string(n), report.iterations);
   }
   EXPECT_LE(iterations[1], 2 * iterations[0]);
+}
+
+TEST(Iterative, SharesLargeCoarseLevelsAmongRanks) {
+  const auto grid = std::make_shared<SpringGrid>(Tpetra::getDefaultComm(), 96, 96, Numbering::blocks);
+  const auto matrix = stiffness(grid, true);
+  const auto b = loads(*grid);
+  const auto iterations = [&](int shared_from) {
+    Vector x(grid->dofs);
+    const auto solver = solver_of(Kind::iterative, 1e-10, 500, shared_from);
+    solver->set_matrix(matrix, true, {[&] { return grid->near_null_space(); }, {}});
+    const LinearSolveReport report = solver->solve(*b, x);
+    EXPECT_LE(true_residual(*matrix, *b, x), 1e-9);
+    return report.iterations;
+  };
+  EXPECT_LE(iterations(500), 1.5 * iterations(100000));
 }
 
 // The tolerance of a solve is used where it is looser than that of the options: fewer iterations, and a residual that keeps to it.
