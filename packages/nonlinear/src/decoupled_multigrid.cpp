@@ -57,13 +57,21 @@ DecoupledSystem::DecoupledSystem(RCP<const Matrix> A, const Decoupling& decoupli
   }
   inner_->fillComplete(dofs, dofs);
   inverse_->fillComplete(dofs, dofs);
+
+  Vector marks(A_->getDomainMap());
+  {
+    const auto mark = marks.getLocalViewHost(Tpetra::Access::ReadWrite);
+    const auto inverse = inverse_->getLocalMatrixHost();
+    for (LocalOrdinal row = 0; row < inverse.numRows(); ++row) mark(row, 0) = inverse.rowConst(row).length > 0 ? 1.0 : 0.0;
+  }
+  relative_ = marked_columns(*A_, marks);
 }
 
 // L' A S' = A + A (S' - I) + (L' - I) A + (L' - I) A (S' - I): what is added has entries near the contact alone.
 RCP<Matrix> DecoupledSystem::matrix() const {
   const RCP<const Map> dofs = A_->getRowMap();
   Matrix by_trial(dofs, 0), by_test(dofs, 0), by_both(dofs, 0);
-  Tpetra::MatrixMatrix::Multiply(*columns_of_relative_motion(), false, *decoupling_.trial, false, by_trial);
+  Tpetra::MatrixMatrix::Multiply(*relative_, false, *decoupling_.trial, false, by_trial);
   Tpetra::MatrixMatrix::Multiply(*decoupling_.test, true, *A_, false, by_test);
   Tpetra::MatrixMatrix::Multiply(*decoupling_.test, true, by_trial, false, by_both);
   return sum_without_zeros(*A_, *sum(*sum(by_trial, by_test), *sum(by_both, *inner_)));
@@ -84,16 +92,6 @@ void RowsOfDecoupled::apply(const MultiVector& x, MultiVector& y, Teuchos::ETran
   A_->apply(moved, of_A);
   test_->apply(of_A, y, Teuchos::TRANS);
   relative_->apply(x, y, Teuchos::NO_TRANS, 1.0, 1.0);
-}
-
-RCP<const Matrix> DecoupledSystem::columns_of_relative_motion() const {
-  Vector marks(A_->getDomainMap());
-  {
-    const auto mark = marks.getLocalViewHost(Tpetra::Access::ReadWrite);
-    const auto inverse = inverse_->getLocalMatrixHost();
-    for (LocalOrdinal row = 0; row < inverse.numRows(); ++row) mark(row, 0) = inverse.rowConst(row).length > 0 ? 1.0 : 0.0;
-  }
-  return marked_columns(*A_, marks);
 }
 
 Vector DecoupledSystem::joined() const {
@@ -136,6 +134,8 @@ void DecoupledSystem::test(const MultiVector& x, MultiVector& y) const {
 
 void DecoupledSystem::relative_motion(const MultiVector& b, MultiVector& w) const { inverse_->apply(b, w); }
 
+void DecoupledSystem::subtract_relative_motion(const MultiVector& w, MultiVector& b) const { relative_->apply(w, b, Teuchos::NO_TRANS, -1.0, 1.0); }
+
 void DecoupledSystem::take_out_eliminated(MultiVector& modes) const {
   const MultiVector all(modes, Teuchos::Copy);
   decoupling_.eliminated->apply(all, modes, Teuchos::NO_TRANS, -1.0, 1.0);
@@ -144,7 +144,7 @@ void DecoupledSystem::take_out_eliminated(MultiVector& modes) const {
 void DecoupledPreconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar, Scalar) const {
   MultiVector rest(x, Teuchos::Copy), tested(x.getMap(), x.getNumVectors()), solved(x.getMap(), x.getNumVectors());
   system_->relative_motion(x, y);
-  relative_->apply(y, rest, Teuchos::NO_TRANS, -1.0, 1.0);
+  system_->subtract_relative_motion(y, rest);
   system_->test(rest, tested);
   preconditioner_->apply(tested, solved);
   system_->add_trial(solved, y);

@@ -35,6 +35,7 @@ class RowsOfDecoupled : public Operator {
 ///   A^-1 b ~ w + S' C^-1 L' (b - A w).
 class DecoupledSystem {
  public:
+  /// Collective.
   DecoupledSystem(RCP<const Matrix> A, const Decoupling& decoupling);
 
   /// C. Collective.
@@ -46,8 +47,8 @@ class DecoupledSystem {
   void test(const MultiVector& x, MultiVector& y) const;
   /// w: the relative motion that the equations of the eliminated directions ask for by themselves.
   void relative_motion(const MultiVector& b, MultiVector& w) const;
-  /// The columns of A in which w may differ from 0; the others are empty. Collective.
-  RCP<const Matrix> columns_of_relative_motion() const;
+  /// b -= A w
+  void subtract_relative_motion(const MultiVector& w, MultiVector& b) const;
   /// 1 at the dofs of closed slave nodes and of the nodes that they follow. Collective.
   Vector joined() const;
   /// 1 at those of them that are no closed slave nodes'. Collective.
@@ -61,21 +62,20 @@ class DecoupledSystem {
   RCP<const Matrix> A_;
   Decoupling decoupling_;
   RCP<Matrix> inner_, inverse_;  ///< N A_D N; (N A_D N + I - N)^-1 N
+  RCP<const Matrix> relative_;   ///< the columns of A in which w may differ from 0; the others are empty
 };
 
 /// The same with a preconditioner P of C in the place of its inverse.
 class DecoupledPreconditioner : public Operator {
  public:
-  /// Collective.
   DecoupledPreconditioner(std::shared_ptr<const DecoupledSystem> system, RCP<const Operator> preconditioner)
-      : relative_(system->columns_of_relative_motion()), system_(std::move(system)), preconditioner_(std::move(preconditioner)) {}
+      : system_(std::move(system)), preconditioner_(std::move(preconditioner)) {}
   Teuchos::RCP<const Map> getDomainMap() const override { return preconditioner_->getDomainMap(); }
   Teuchos::RCP<const Map> getRangeMap() const override { return preconditioner_->getRangeMap(); }
   /// y = w + S' P L' (x - A w)
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar, Scalar) const override;
 
  private:
-  RCP<const Matrix> relative_;
   std::shared_ptr<const DecoupledSystem> system_;
   RCP<const Operator> preconditioner_;
 };

@@ -1,7 +1,6 @@
 #include "interface_correction.hpp"
 
 #include <Tpetra_CrsMatrix.hpp>
-#include <Tpetra_Import.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
@@ -10,25 +9,36 @@
 
 namespace mortise::detail {
 
-InterfaceCorrection::InterfaceCorrection(RCP<const Operator> rows, const RCP<const Matrix>& block, RCP<const Operator> preconditioner)
-    : preconditioner_(std::move(preconditioner)),
-      to_dofs_(preconditioner_->getRangeMap(), rows->getRangeMap()),
-      rows_(std::move(rows)),
-      inverse_(make_mumps_solver({}, {}, "direct solver of the nodes in contact")) {
+InterfaceSolution::InterfaceSolution(const RCP<const Matrix>& block, const RCP<const Map>& dofs)
+    : to_m_(dofs, block->getRowMap()), inverse_(make_mumps_solver({}, {}, "direct solver of the nodes in contact")) {
   inverse_->set_matrix(block, true, {});
+}
+
+void InterfaceSolution::add(const Vector& x_m, Vector& y) const {
+  Vector change(to_m_.getTargetMap()), changed(to_m_.getTargetMap());
+  inverse_->solve(x_m, change);
+  changed.doImport(y, to_m_, Tpetra::INSERT);
+  changed.update(1.0, change, 1.0);
+  y.doExport(changed, to_m_, Tpetra::INSERT);  // ADD would replace what stays on its rank
+}
+
+void InterfaceSolution::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar, Scalar) const {
+  Vector x_m(to_m_.getTargetMap());
+  y.putScalar(0.0);
+  for (std::size_t v = 0; v < x.getNumVectors(); ++v) {
+    x_m.doImport(*x.getVector(v), to_m_, Tpetra::INSERT);
+    add(x_m, *y.getVectorNonConst(v));
+  }
 }
 
 void InterfaceCorrection::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar, Scalar) const {
   preconditioner_->apply(x, y);
-  Vector of_rows(to_dofs_.getTargetMap()), residual(of_rows.getMap()), correction(of_rows.getMap()), corrected(of_rows.getMap());
+  Vector product(rows_->getRangeMap()), residual(rows_->getRangeMap());
   for (std::size_t v = 0; v < x.getNumVectors(); ++v) {
-    residual.doImport(*x.getVector(v), to_dofs_, Tpetra::INSERT);
-    rows_->apply(*y.getVector(v), of_rows);
-    residual.update(-1.0, of_rows, 1.0);
-    inverse_->solve(residual, correction);
-    corrected.doImport(*y.getVector(v), to_dofs_, Tpetra::INSERT);
-    corrected.update(1.0, correction, 1.0);
-    y.getVectorNonConst(v)->doExport(corrected, to_dofs_, Tpetra::INSERT);  // ADD would replace what stays on its rank
+    residual.doImport(*x.getVector(v), solution_->to_m(), Tpetra::INSERT);
+    rows_->apply(*y.getVector(v), product);
+    residual.update(-1.0, product, 1.0);
+    solution_->add(residual, *y.getVectorNonConst(v));
   }
 }
 

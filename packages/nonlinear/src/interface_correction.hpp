@@ -1,12 +1,34 @@
 #pragma once
-// What a multigrid cycle leaves of a contact system at the nodes in contact, taken away by a direct solve there.
+// The nodes in contact, solved for directly: where a solve starts, and what a multigrid cycle leaves there.
 
+#include <Tpetra_Import.hpp>
 #include <memory>
 
 #include "mortise/core/types.hpp"
 #include "mortise/nonlinear/linear_solver.hpp"
 
 namespace mortise::detail {
+
+/// The exact solution in some dofs m, those elsewhere held: y_m = C_mm^-1 x_m, 0 elsewhere.
+class InterfaceSolution : public Operator {
+ public:
+  /// @param block  C_mm
+  /// @param dofs   of all of C
+  /// Collective.
+  InterfaceSolution(const RCP<const Matrix>& block, const RCP<const Map>& dofs);
+  Teuchos::RCP<const Map> getDomainMap() const override { return to_m_.getSourceMap(); }
+  Teuchos::RCP<const Map> getRangeMap() const override { return to_m_.getSourceMap(); }
+  /// Throws StepFailure(linear_solver), on every rank, if C_mm is singular.
+  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar, Scalar) const override;
+  /// y_m += C_mm^-1 x_m. Throws as apply().
+  void add(const Vector& x_m, Vector& y) const;
+  /// From all of C to m.
+  const Import& to_m() const { return to_m_; }
+
+ private:
+  Import to_m_;
+  std::unique_ptr<LinearSolver> inverse_;  ///< of C_mm
+};
 
 /// A preconditioner V of C and, after it, the exact solution in some dofs m:
 ///   y = V x,   y_m += C_mm^-1 (x - C y)_m.
@@ -16,20 +38,18 @@ namespace mortise::detail {
 /// closed or begun to slip.
 class InterfaceCorrection : public Operator {
  public:
-  /// @param rows   C_m, one row at least, each on the rank that owns it in C
-  /// @param block  C_mm
-  /// Collective.
-  InterfaceCorrection(RCP<const Operator> rows, const RCP<const Matrix>& block, RCP<const Operator> preconditioner);
+  /// @param rows  C_m, one row at least, each on the rank that owns it in C
+  InterfaceCorrection(RCP<const Operator> rows, RCP<const InterfaceSolution> solution, RCP<const Operator> preconditioner)
+      : preconditioner_(std::move(preconditioner)), rows_(std::move(rows)), solution_(std::move(solution)) {}
   Teuchos::RCP<const Map> getDomainMap() const override { return preconditioner_->getDomainMap(); }
   Teuchos::RCP<const Map> getRangeMap() const override { return preconditioner_->getRangeMap(); }
-  /// Throws StepFailure(linear_solver), on every rank, if C_mm is singular.
+  /// Throws as InterfaceSolution::apply().
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar, Scalar) const override;
 
  private:
   RCP<const Operator> preconditioner_;
-  Import to_dofs_;                         ///< of all of C to m
-  RCP<const Operator> rows_;               ///< C_m
-  std::unique_ptr<LinearSolver> inverse_;  ///< of C_mm
+  RCP<const Operator> rows_;  ///< C_m
+  RCP<const InterfaceSolution> solution_;
 };
 
 }  // namespace mortise::detail

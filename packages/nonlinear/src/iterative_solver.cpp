@@ -121,7 +121,7 @@ class IterativeSolver : public LinearSolver {
   void set_matrix(const RCP<const Matrix>& matrix, bool, const MultigridInput& multigrid) override {
     matrix_ = matrix;
     multigrid_ = multigrid;
-    preconditioner_ = Teuchos::null;
+    preconditioner_ = start_ = Teuchos::null;
     is_fresh_ = false;
     if (extra_iterations_ >= iterations_of_set_up || cycle_.is_null() || !cycle_->getDomainMap()->isSameAs(*matrix->getDomainMap())) forget();
   }
@@ -139,6 +139,7 @@ class IterativeSolver : public LinearSolver {
     std::optional<StepFailure> failure;
     try {
       if (preconditioner_.is_null()) prepare();
+      if (!start_.is_null()) start_->apply(b, x);
       report.iterations = iterate(b, x);
       // An earlier matrix's hierarchy that does not do is replaced on the way.
       if (!is_fresh_ && !converged_) {
@@ -162,7 +163,7 @@ class IterativeSolver : public LinearSolver {
 
  private:
   void forget() {
-    cycle_ = preconditioner_ = Teuchos::null;
+    cycle_ = preconditioner_ = start_ = Teuchos::null;
     extra_iterations_ = 0.0;
   }
 
@@ -187,7 +188,9 @@ class IterativeSolver : public LinearSolver {
     const RCP<const Map> m = marked_ids(marked_and_neighbours(*matrix_, now_or_then, decoupled->dimension()));
     if (m->getGlobalNumElements() > 0) {
       const auto rows = rcp(new RowsOfDecoupled(decoupled->rows(m)));
-      preconditioner_ = rcp(new InterfaceCorrection(rows, rows->block(), cycle_));
+      const auto solution = rcp(new InterfaceSolution(rows->block(), matrix_->getRowMap()));
+      start_ = rcp(new DecoupledPreconditioner(decoupled, solution));
+      preconditioner_ = rcp(new InterfaceCorrection(rows, solution, cycle_));
     }
     preconditioner_ = rcp(new DecoupledPreconditioner(decoupled, preconditioner_));
   }
@@ -281,6 +284,7 @@ class IterativeSolver : public LinearSolver {
   MultigridInput multigrid_;
   RCP<const Vector> joined_;                    ///< 1 at what was joined when the hierarchy was made
   RCP<const Operator> cycle_, preconditioner_;  ///< of a hierarchy; with contact around it
+  RCP<const Operator> start_;                   ///< of the nodes in contact alone: where a solve starts
   int setups_ = 0, basis_ = small_basis;
   bool is_fresh_ = false, converged_ = false;  ///< the hierarchy: made for this matrix; the last solve
   double fresh_iterations_per_digit_ = 0.0;    ///< of the residual, with the matrix that the hierarchy was made for

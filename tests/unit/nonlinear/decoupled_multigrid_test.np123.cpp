@@ -22,9 +22,10 @@ void add(Matrix& matrix, GlobalOrdinal row, GlobalOrdinal column, double value) 
 /// Two bodies of springs, one above the other, each node of the upper one's lower edge bound to the node below it: in y, free to slide in x.
 class TwoBodies {
  public:
-  /// @param open  slave nodes, from the left, that are not in contact
-  TwoBodies(const RCP<const Communicator>& comm, int nx, int ny, int open = 0)
-      : grid_(std::make_shared<SpringGrid>(comm, nx, ny, Numbering::blocks, ny / 2)), open_(open) {}
+  /// @param open   slave nodes, from the left, that are not in contact
+  /// @param ratio  of the upper body's stiffness to the lower one's
+  TwoBodies(const RCP<const Communicator>& comm, int nx, int ny, int open = 0, double ratio = 1.0)
+      : grid_(std::make_shared<SpringGrid>(comm, nx, ny, Numbering::blocks, ny / 2)), open_(open), ratio_(ratio) {}
 
   const SpringGrid& grid() const { return *grid_; }
 
@@ -37,10 +38,12 @@ class TwoBodies {
     matrix->fillComplete(grid_->dofs, grid_->dofs);
     matrix->resumeFill();
     for (const int node : grid_->owned_nodes())
-      for (int i = 0; i < 2 && is_held(node); ++i) {
+      for (int i = 0; i < 2; ++i) {
         const auto row = matrix->getLocalMatrixHost().row(grid_->dofs->getLocalElement(grid_->dof(node, i)));
-        for (LocalOrdinal k = 0; k < row.length; ++k)
-          row.value(k) = matrix->getColMap()->getGlobalElement(row.colidx(k)) == grid_->dof(node, i) ? 1.0 : 0.0;
+        for (LocalOrdinal k = 0; k < row.length; ++k) {
+          if (node / grid_->nx() >= grid_->cut()) row.value(k) *= ratio_;
+          if (is_held(node)) row.value(k) = matrix->getColMap()->getGlobalElement(row.colidx(k)) == grid_->dof(node, i) ? 1.0 : 0.0;
+        }
       }
     matrix->fillComplete(grid_->dofs, grid_->dofs);
     return matrix;
@@ -96,6 +99,14 @@ class TwoBodies {
     return {trial, test, eliminated, 2};
   }
 
+  /// The right-hand side of gaps along y at closed slave nodes, -1 and 1 in turn, and nothing else.
+  Vector gaps() const {
+    Vector result(grid_->dofs);
+    for (const int node : grid_->owned_nodes())
+      if (is_slave(node)) result.replaceGlobalValue(grid_->dof(node, 1), node % 2 == 0 ? 1.0 : -1.0);
+    return result;
+  }
+
   bool is_held(int node) const { return node < grid_->nx() || node / grid_->nx() == grid_->ny() - 1; }
 
  private:
@@ -103,6 +114,7 @@ class TwoBodies {
   int master(int slave) const { return slave - grid_->nx(); }
   std::shared_ptr<const SpringGrid> grid_;
   int open_;
+  double ratio_;
 };
 
 struct Solved {
@@ -228,13 +240,26 @@ TEST_F(Contact, RowsAreThoseOfTheWholeMatrix) {
   EXPECT_LE(of_rows.normInf(), 1e-13 * expected.normInf());
 }
 
+TEST_F(Contact, SolutionAloneLeavesNoResidualThere) {
+  const detail::InterfaceSolution solution(system.rows(joined).block(), C->getRowMap());
+  const Vector x = wavy(C->getRangeMap());
+  Vector y(C->getDomainMap()), residual(x, Teuchos::Copy);
+  y.putScalar(1.0);
+  solution.apply(x, y, Teuchos::NO_TRANS, 1.0, 0.0);
+  C->apply(y, residual, Teuchos::NO_TRANS, -1.0, 1.0);
+  EXPECT_LE(part(residual, joined).normInf(), 1e-12 * x.normInf());
+  EXPECT_GT(part(y, joined).normInf(), 0.1);
+  for (const GlobalOrdinal id : joined->getNodeElementList()) y.replaceGlobalValue(id, 0.0);
+  EXPECT_EQ(y.normInf(), 0.0);
+}
+
 // Whatever went before: nothing is left of the residual where it corrects, and nothing is changed elsewhere.
 TEST_F(Contact, CorrectionLeavesNoResidualThere) {
   const auto diagonal = rcp(new Matrix(C->getRowMap(), 1));
   for (const GlobalOrdinal id : C->getRowMap()->getNodeElementList()) add(*diagonal, id, id, 0.1 + 0.01 * static_cast<double>(id % 7));
   diagonal->fillComplete(C->getDomainMap(), C->getRangeMap());
   const auto rows = rcp(new detail::RowsOfDecoupled(system.rows(joined)));
-  const detail::InterfaceCorrection correction(rows, rows->block(), diagonal);
+  const detail::InterfaceCorrection correction(rows, rcp(new detail::InterfaceSolution(rows->block(), C->getRowMap())), diagonal);
   const Vector x = wavy(C->getRangeMap());
   Vector y(C->getDomainMap()), before(C->getDomainMap()), residual(x, Teuchos::Copy);
   correction.apply(x, y, Teuchos::NO_TRANS, 1.0, 0.0);
@@ -245,6 +270,41 @@ TEST_F(Contact, CorrectionLeavesNoResidualThere) {
   EXPECT_GT(part(y, joined).normInf(), 0.1);
   for (const GlobalOrdinal id : joined->getNodeElementList()) y.replaceGlobalValue(id, 0.0);
   EXPECT_EQ(y.normInf(), 0.0);
+}
+
+/// Of right-hand side b, as a share of it, what is left where the nodes in contact and their neighbours alone have been solved for.
+double left_by_start(const TwoBodies& bodies, const Vector& b) {
+  const RCP<const Matrix> A = bodies.condensed();
+  const auto system = std::make_shared<const detail::DecoupledSystem>(A, bodies.decoupling());
+  const RCP<const Map> m = detail::marked_ids(detail::marked_and_neighbours(*A, system->joined(), 2));
+  const auto solution = rcp(new detail::InterfaceSolution(system->rows(m).block(), A->getRowMap()));
+  Vector x(b.getMap()), r(b, Teuchos::Copy);
+  detail::DecoupledPreconditioner(system, solution).apply(b, x, Teuchos::NO_TRANS, 1.0, 0.0);
+  A->apply(x, r, Teuchos::NO_TRANS, -1.0, 1.0);
+  return r.norm2() / b.norm2();
+}
+
+// A gap closed by the slave alone, its body at rest, leaves the slave's stiffness times the gap. Solved for with what is around them, bodies alike
+// give way by a half each, and of a stiff and a soft one the soft one by all of it.
+TEST(Start, LeavesOfAGapWhatTheSofterBodyFeels) {
+  const RCP<const Communicator> comm = Tpetra::getDefaultComm();
+  const TwoBodies alike(comm, 16, 16), stiff(comm, 16, 16, 0, 1000.0);
+  EXPECT_GT(left_by_start(alike, alike.gaps()), 1e-3);
+  EXPECT_LE(left_by_start(stiff, stiff.gaps()), 2.0 * left_by_start(alike, alike.gaps()));
+}
+
+TEST(Start, IsWhereASolveBegins) {
+  const RCP<const Communicator> comm = Tpetra::getDefaultComm();
+  const TwoBodies bodies(comm, 16, 16, 0, 1000.0);
+  const RCP<Matrix> A = bodies.condensed();
+  const Vector b = bodies.gaps();
+  const double left = left_by_start(bodies, b);
+  ASSERT_LT(left, 0.9);
+  const auto solver = multigrid_solver(comm, 100);
+  solver->set_matrix(A, true, in_contact(bodies));
+  Vector x(b.getMap());
+  EXPECT_EQ(solver->solve(b, x, 1.01 * left).iterations, 0);
+  EXPECT_GT(solver->solve(b, x, 0.5 * left).iterations, 0);
 }
 
 }  // namespace
