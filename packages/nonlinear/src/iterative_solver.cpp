@@ -139,7 +139,10 @@ class IterativeSolver : public LinearSolver {
     std::optional<StepFailure> failure;
     try {
       if (preconditioner_.is_null()) prepare();
-      if (!start_.is_null()) start_->apply(b, x);
+      if (!start_.is_null()) {
+        const auto scope = timers_.scope("linear solve");
+        start_->apply(b, x);
+      }
       report.iterations = iterate(b, x);
       // An earlier matrix's hierarchy that does not do is replaced on the way.
       if (!is_fresh_ && !converged_) {
