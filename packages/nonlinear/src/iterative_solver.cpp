@@ -14,6 +14,7 @@
 #include <cmath>
 
 #include "decoupled_multigrid.hpp"
+#include "hierarchy_wear.hpp"
 #include "interface_correction.hpp"
 #include "linear_system_checks.hpp"
 #include "solver_parameters.hpp"
@@ -96,12 +97,6 @@ constexpr int small_basis = 50, large_basis = 200;
 /// What stands for 0 in a rigid body mode, as a share of its largest entry.
 constexpr double vanishing = 1e-14;
 
-/// Iterations that take about as long as a set-up (docs/solvers.md).
-constexpr double iterations_of_set_up = 10.0;
-
-/// Of the residual, at least, from which a rate of convergence is taken: what is left after a hierarchy was replaced may be less.
-constexpr double digits_of_a_rate = 2.0;
-
 /// Moves the marked nodes, each of as many dofs as it has coordinates, away from all others, so that aggregates are made of them alone.
 void set_apart(MultiVector& coordinates, const Vector& marks, double distance) {
   const auto x = coordinates.getLocalViewHost(Tpetra::Access::ReadWrite);
@@ -123,7 +118,7 @@ class IterativeSolver : public LinearSolver {
     multigrid_ = multigrid;
     preconditioner_ = start_ = Teuchos::null;
     is_fresh_ = false;
-    if (extra_iterations_ >= iterations_of_set_up || cycle_.is_null() || !cycle_->getDomainMap()->isSameAs(*matrix->getDomainMap())) forget();
+    if (wear_.is_worn() || cycle_.is_null() || !cycle_->getDomainMap()->isSameAs(*matrix->getDomainMap())) forget();
   }
 
   std::optional<Tolerances> tolerances() const override {
@@ -167,7 +162,7 @@ class IterativeSolver : public LinearSolver {
  private:
   void forget() {
     cycle_ = preconditioner_ = start_ = Teuchos::null;
-    extra_iterations_ = 0.0;
+    wear_ = {};
   }
 
   // Contact is decoupled and corrected with the matrix and the states of its nodes as they are, whatever matrix the hierarchy was made for.
@@ -250,21 +245,19 @@ class IterativeSolver : public LinearSolver {
     return modes;
   }
 
-  // A hierarchy serves the matrices that follow, those of the next Newton steps, until what they take more iterations than the one that it was made
-  // for adds up to those that take as long as a new one.
+  // A hierarchy serves the matrices that follow, those of the next Newton steps, until it is worn.
   int iterate(const Vector& b, Vector& x) {
     const auto scope = timers_.scope("linear solve");
     Vector r(b.getMap());
     const double digits = std::max(1.0, std::log10(true_residual(*matrix_, b, x, r) / (tolerance_ * b.norm2())));
-    const double expected = digits * fresh_iterations_per_digit_;
     const auto problem = rcp(new LinearProblem(matrix_, rcp(&x, false), rcp(&b, false)));
     problem->setRightPrec(preconditioner_);
     if (!problem->setProblem()) throw std::runtime_error("Belos refuses the linear problem");
     const auto list = rcp(new Teuchos::ParameterList(belos_defaults(options_, tolerance_, basis_)));
     list->setParameters(options_.belos.value);
     if (!is_fresh_) {
-      const double most = expected + iterations_of_set_up - extra_iterations_;
-      list->set("Maximum Iterations", std::min(list->get<int>("Maximum Iterations"), std::max(1, static_cast<int>(std::ceil(most)))));
+      const double most = std::min<double>(list->get<int>("Maximum Iterations"), std::ceil(wear_.most_iterations(digits)));
+      list->set("Maximum Iterations", static_cast<int>(most));
     }
     Belos::TpetraSolverFactory<Scalar, MultiVector, Operator> factory;
     const auto gmres = factory.create("GMRES", list);
@@ -272,10 +265,7 @@ class IterativeSolver : public LinearSolver {
     converged_ = gmres->solve() == Belos::Converged;
     const int iterations = gmres->getNumIters();
     if (iterations > basis_) basis_ = large_basis;
-    if (!is_fresh_)
-      extra_iterations_ += std::max(0.0, iterations - expected);
-    else if (digits >= digits_of_a_rate || fresh_iterations_per_digit_ == 0.0)
-      fresh_iterations_per_digit_ = iterations / digits;
+    wear_.record(iterations, digits);
     return iterations;
   }
 
@@ -290,8 +280,7 @@ class IterativeSolver : public LinearSolver {
   RCP<const Operator> start_;                   ///< of the nodes in contact alone: where a solve starts
   int setups_ = 0, basis_ = small_basis;
   bool is_fresh_ = false, converged_ = false;  ///< the hierarchy: made for this matrix; the last solve
-  double fresh_iterations_per_digit_ = 0.0;    ///< of the residual, with the matrix that the hierarchy was made for
-  double extra_iterations_ = 0.0;              ///< beyond those, with the matrices since
+  HierarchyWear wear_;                         ///< of the hierarchy
 };
 
 // Names and types, with no matrix at hand. Names first: on a wrong one MueLu prints all that it has.

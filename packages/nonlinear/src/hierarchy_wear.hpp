@@ -1,0 +1,34 @@
+#pragma once
+
+#include <limits>
+
+namespace mortise::detail {
+
+/// Iterations of GMRES that take about as long as making a hierarchy (docs/solvers.md).
+constexpr double iterations_of_set_up = 10.0;
+
+/// Tells when a hierarchy that serves one matrix after another is to be made anew. A life of solves that took iterations i_k to reduce residuals by
+/// d_k digits has cost c = (S + sum i_k) / sum d_k iterations a digit, with S those of the set-up. It is least where the next digit costs as much as
+/// all before it on average; from there on another life pays, if it is like this one. What a fresh hierarchy takes is not asked for: the first solve
+/// may be easier than all that follow, and a new hierarchy no better.
+class HierarchyWear {
+ public:
+  /// A solve with the hierarchy.
+  /// @param iterations of GMRES.
+  /// @param digits of the residual, its decadic logarithm's fall; > 0.
+  void record(int iterations, double digits);
+
+  /// Whether solves have taken more than one iteration, in sum, beyond the least average: counts are whole numbers, and one more says nothing.
+  bool is_worn() const { return beyond_ > 1.0; }
+
+  /// Iterations of a solve of so many digits at which it had better have begun with a new hierarchy. Infinite before the first solve.
+  double most_iterations(double digits) const { return digits * least_average_ + iterations_of_set_up; }
+
+ private:
+  double iterations_ = iterations_of_set_up;  ///< S + sum i_k
+  double digits_ = 0.0;                       ///< sum d_k
+  double least_average_ = std::numeric_limits<double>::infinity();
+  double beyond_ = 0.0;  ///< sum of max(0, i_k - d_k min c)
+};
+
+}  // namespace mortise::detail
