@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "split.hpp"
@@ -25,11 +26,35 @@ bool in_range(double value, const Says& says) {
   return true;
 }
 
+/// Whether all of the text is a number of this type.
+template <class Number>
+bool reads(const std::string& text, Number& value) {
+  const char* end = text.data() + text.size();
+  const auto [last, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && last == end;
+}
+
+/// What a command line says has no type: its look gives one.
+void set_by_look(Teuchos::ParameterList& list, const std::string& name, const std::string& text) {
+  int whole = 0;
+  double number = 0.0;
+  if (text == "true" || text == "false")
+    list.set(name, text == "true");
+  else if (reads(text, whole))
+    list.set(name, whole);
+  else if (reads(text, number))
+    list.set(name, number);
+  else
+    list.set(name, text);
+}
+
 Teuchos::ParameterList to_teuchos(const XmlList& list, const Symbols& symbols, std::vector<Diagnostic>& diagnostics) {
   Teuchos::ParameterList result(list.name);
   for (const XmlParameter& one : list.parameters) {
     try {
-      if (one.type == "bool" || ((one.value == "true" || one.value == "false") && one.type.empty())) {
+      if (one.type.empty()) {
+        set_by_look(result, one.name, one.value);
+      } else if (one.type == "bool") {
         if (one.value != "true" && one.value != "false")
           throw InputError(one.place, fmt::format("\"{}\" is \"{}\"; please write true or false", one.name, one.value));
         result.set(one.name, one.value == "true");

@@ -233,6 +233,19 @@ TEST(ReadParameters, TakesOverridesFromTheCommandLine) {
   EXPECT_THAT(read(scene, {"count"}).errors, HasSubstr("please write --set path=value"));
 }
 
+TEST(ReadParameters, TypesOverridesOfWhatIsHandedOnByTheirLook) {
+  const std::string scene = needed + list("solver", parameter("max levels", "int", "3"));
+  const Read result =
+      read(scene, {"solver/max levels=5", "solver/drop tol=1e-8", "solver/deep/flag=false", "solver/deep/scheme=3 by 3", "solver/deep/damping=-.5"});
+  EXPECT_EQ(result.errors, "");
+  const Teuchos::ParameterList& solver = result.options.solver;
+  EXPECT_EQ(solver.get<int>("max levels"), 5);
+  EXPECT_EQ(solver.get<double>("drop tol"), 1e-8);
+  EXPECT_FALSE(solver.sublist("deep").get<bool>("flag"));
+  EXPECT_EQ(solver.sublist("deep").get<std::string>("scheme"), "3 by 3");
+  EXPECT_EQ(solver.sublist("deep").get<double>("damping"), -0.5);
+}
+
 TEST(ParameterTree, EffectiveSceneReadsBackTheSame) {
   Read first =
       read(list("variables", parameter("n", "int", "4")) + needed + parameter("load", "string", "n*t &lt; 2") + parameter("motion", "string", "t") +
