@@ -31,18 +31,10 @@ constexpr int levels = 8;
 /// Rows of the coarsest level, at most, and of any coarse level on one rank, at least, where there are several.
 constexpr int rows_on_one_rank = 5000;
 
-std::string name_of_level(int level) { return fmt::format("level {}", level); }
-
-/// Symmetric Gauss-Seidel.
-void set_smoother(Teuchos::ParameterList& list, int sweeps) {
-  list.set("smoother: type", "RELAXATION");
-  list.sublist("smoother: params").set("relaxation: type", "Symmetric Gauss-Seidel");
-  list.sublist("smoother: params").set("relaxation: sweeps", sweeps);
-}
-
 // Smoothed aggregation. Aggregates do not cross where the coordinates say that two bodies are far apart ("cut"), whatever contact couples;
 // the matrix that smooths the prolongator is the whole one all the same. It is scaled with the sums of rows: scaled with the diagonal, its largest
-// eigenvalue, by which the smoothing is damped everywhere, would be that of the few rows in contact.
+// eigenvalue, by which the smoothing is damped everywhere, would be that of the few rows in contact. The smoother is scaled likewise, but its
+// eigenvalue is that of prescribed rows, so the prolongator's has to be estimated anew.
 Teuchos::ParameterList muelu_defaults(int equations, GlobalOrdinal rows, int ranks) {
   Teuchos::ParameterList list("MueLu");
   list.set("verbosity", "none");
@@ -52,11 +44,16 @@ Teuchos::ParameterList muelu_defaults(int equations, GlobalOrdinal rows, int ran
   list.set("multigrid algorithm", "sa");
   list.set("sa: use filtered matrix", false);
   list.set("sa: use rowsumabs diagonal scaling", true);
+  list.set("sa: calculate eigenvalue estimate", true);
   list.set("rap: fix zero diagonals", true);  // of coarse dofs beyond those of an aggregate of a single node
   list.set("aggregation: drop scheme", "distance laplacian");
   list.set("aggregation: drop tol", 1e-8);
-  set_smoother(list, 1);
-  for (int level = 1; level < levels; ++level) set_smoother(list.sublist(name_of_level(level)), 2);
+  // Coarse levels are small but hard: they are gone through twice, and have aggregates in the order of the graph, which are half as large.
+  list.set("cycle type", "W");
+  for (int level = 2; level < levels; ++level) list.sublist(fmt::format("level {}", level)).set("aggregation: ordering", "graph");
+  list.set("smoother: type", "CHEBYSHEV");
+  list.sublist("smoother: params").set("chebyshev: degree", 2);
+  list.sublist("smoother: params").set("chebyshev: ratio eigenvalue", 8.0);
   // The coarse solver is KLU2, which is right on one rank only: what is small enough for it is moved to one rank, and there is always a coarse level.
   list.set("coarse: max size", static_cast<int>(std::clamp<GlobalOrdinal>(rows / 5, ranks == 1 ? 2000 : 1, rows_on_one_rank)));
   if (ranks == 1) {
@@ -70,12 +67,11 @@ Teuchos::ParameterList muelu_defaults(int equations, GlobalOrdinal rows, int ran
   return list;
 }
 
-/// The defaults with what a scene gives. A smoother that it gives is that of all levels.
+/// The defaults with what a scene gives. Parameters of the default smoother say nothing to another one.
 Teuchos::ParameterList muelu_list(const LinearSolverOptions& options, int equations, GlobalOrdinal rows, int ranks) {
   Teuchos::ParameterList list = muelu_defaults(equations, rows, ranks);
   const Teuchos::ParameterList& given = options.muelu.value;
-  if (std::any_of(given.begin(), given.end(), [&](const auto& item) { return item.first.rfind("smoother:", 0) == 0; }))
-    for (int level = 1; level < levels; ++level) list.remove(name_of_level(level));
+  if (given.isParameter("smoother: type")) list.remove("smoother: params");
   list.setParameters(given);
   return list;
 }
@@ -93,6 +89,9 @@ Teuchos::ParameterList belos_defaults(const LinearSolverOptions& options, double
 
 /// Vectors that GMRES keeps, allocated at its start, before it restarts: for the first systems, and from one on that took more.
 constexpr int small_basis = 50, large_basis = 200;
+
+/// True residuals up to so many times the tolerance do.
+constexpr double accepted = 10.0;
 
 /// What stands for 0 in a rigid body mode, as a share of its largest entry.
 constexpr double vanishing = 1e-14;
@@ -153,7 +152,7 @@ class IterativeSolver : public LinearSolver {
 
     Vector r(b.getMap());
     report.relative_residual = true_residual(*matrix_, b, x, r) / size;
-    if (report.relative_residual <= 10.0 * tolerance_) return report;
+    if (report.relative_residual <= accepted * tolerance_) return report;
     forget();
     throw StepFailure(FailureKind::linear_solver, fmt::format("{}: the true relative residual is {:.1e} after {} iterations (tolerance {:.1e})",
                                                               name(), report.relative_residual, report.iterations, tolerance_));
@@ -262,7 +261,8 @@ class IterativeSolver : public LinearSolver {
     Belos::TpetraSolverFactory<Scalar, MultiVector, Operator> factory;
     const auto gmres = factory.create("GMRES", list);
     gmres->setProblem(problem);
-    converged_ = gmres->solve() == Belos::Converged;
+    // Near round-off GMRES ends on its own residual, and Belos finds the true one a trifle above the tolerance: no fault of the hierarchy.
+    converged_ = gmres->solve() == Belos::Converged || true_residual(*matrix_, b, x, r) <= accepted * tolerance_ * b.norm2();
     const int iterations = gmres->getNumIters();
     if (iterations > basis_) basis_ = large_basis;
     wear_.record(iterations, digits);
