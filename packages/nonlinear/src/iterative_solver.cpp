@@ -28,7 +28,10 @@ using LinearProblem = Belos::LinearProblem<Scalar, MultiVector, Operator>;
 /// At most.
 constexpr int levels = 8;
 
-/// Rows of the coarsest level, at most, and of any coarse level on one rank, at least, where there are several.
+/// Rows of the coarsest level, at most: KLU2 takes seconds for a few thousand in space.
+constexpr int rows_of_coarsest = 1000;
+
+/// Rows of any coarse level on each of several ranks, at least.
 constexpr int rows_on_one_rank = 5000;
 
 // Smoothed aggregation. Aggregates do not cross where the coordinates say that two bodies are far apart ("cut"), whatever contact couples;
@@ -55,7 +58,7 @@ Teuchos::ParameterList muelu_defaults(int equations, GlobalOrdinal rows, int ran
   list.sublist("smoother: params").set("chebyshev: degree", 2);
   list.sublist("smoother: params").set("chebyshev: ratio eigenvalue", 8.0);
   // The coarse solver is KLU2, which is right on one rank only: what is small enough for it is moved to one rank, and there is always a coarse level.
-  list.set("coarse: max size", static_cast<int>(std::clamp<GlobalOrdinal>(rows / 5, ranks == 1 ? 2000 : 1, rows_on_one_rank)));
+  list.set("coarse: max size", static_cast<int>(std::clamp<GlobalOrdinal>(rows / 5, ranks == 1 ? rows_of_coarsest : 1, rows_of_coarsest)));
   if (ranks == 1) {
     list.set("transpose: use implicit", true);  // no restriction is stored beside the prolongator; repartitioning needs it
   } else {
