@@ -28,17 +28,46 @@ using LinearProblem = Belos::LinearProblem<Scalar, MultiVector, Operator>;
 /// At most.
 constexpr int levels = 8;
 
+std::string name_of_level(int level) { return fmt::format("level {}", level); }
+
 /// Rows of the coarsest level, at most: KLU2 takes seconds for a few thousand in space.
 constexpr int rows_of_coarsest = 1000;
 
 /// Rows of any coarse level on each of several ranks, at least.
 constexpr int rows_on_one_rank = 5000;
 
+/// What smooths within a cycle. Chebyshev polynomials take a third of the time of Gauss-Seidel sweeps, which a processor cannot stream, but want
+/// eigenvalues that are nearly real.
+enum class Smoother { chebyshev, gauss_seidel };
+
+/// Iterations after which another smoother is tried, with a hierarchy for the matrix at hand.
+constexpr int most_with_chebyshev = 100;
+
+// Coarse levels are small but hard. With Chebyshev polynomials they are gone through twice, and have aggregates in the order of the graph, half as
+// large as in that of the rows: level k holds the aggregates of level k - 1.
+void set_smoother(Teuchos::ParameterList& list, Smoother smoother) {
+  if (smoother == Smoother::chebyshev) {
+    list.set("smoother: type", "CHEBYSHEV");
+    list.sublist("smoother: params").set("chebyshev: degree", 2);
+    list.sublist("smoother: params").set("chebyshev: ratio eigenvalue", 8.0);
+    list.set("cycle type", "W");
+    for (int level = 2; level < levels; ++level) list.sublist(name_of_level(level)).set("aggregation: ordering", "graph");
+    return;
+  }
+  const auto set_sweeps = [](Teuchos::ParameterList& of_level, int sweeps) {
+    of_level.set("smoother: type", "RELAXATION");
+    of_level.sublist("smoother: params").set("relaxation: type", "Symmetric Gauss-Seidel");
+    of_level.sublist("smoother: params").set("relaxation: sweeps", sweeps);
+  };
+  set_sweeps(list, 1);
+  for (int level = 1; level < levels; ++level) set_sweeps(list.sublist(name_of_level(level)), 2);
+}
+
 // Smoothed aggregation. Aggregates do not cross where the coordinates say that two bodies are far apart ("cut"), whatever contact couples;
 // the matrix that smooths the prolongator is the whole one all the same. It is scaled with the sums of rows: scaled with the diagonal, its largest
 // eigenvalue, by which the smoothing is damped everywhere, would be that of the few rows in contact. The smoother is scaled likewise, but its
 // eigenvalue is that of prescribed rows, so the prolongator's has to be estimated anew.
-Teuchos::ParameterList muelu_defaults(int equations, GlobalOrdinal rows, int ranks) {
+Teuchos::ParameterList muelu_defaults(Smoother smoother, int equations, GlobalOrdinal rows, int ranks) {
   Teuchos::ParameterList list("MueLu");
   list.set("verbosity", "none");
   list.set("problem: type", "unknown");
@@ -51,12 +80,7 @@ Teuchos::ParameterList muelu_defaults(int equations, GlobalOrdinal rows, int ran
   list.set("rap: fix zero diagonals", true);  // of coarse dofs beyond those of an aggregate of a single node
   list.set("aggregation: drop scheme", "distance laplacian");
   list.set("aggregation: drop tol", 1e-8);
-  // Coarse levels are small but hard: they are gone through twice, and have aggregates in the order of the graph, which are half as large.
-  list.set("cycle type", "W");
-  for (int level = 2; level < levels; ++level) list.sublist(fmt::format("level {}", level)).set("aggregation: ordering", "graph");
-  list.set("smoother: type", "CHEBYSHEV");
-  list.sublist("smoother: params").set("chebyshev: degree", 2);
-  list.sublist("smoother: params").set("chebyshev: ratio eigenvalue", 8.0);
+  set_smoother(list, smoother);
   // The coarse solver is KLU2, which is right on one rank only: what is small enough for it is moved to one rank, and there is always a coarse level.
   list.set("coarse: max size", static_cast<int>(std::clamp<GlobalOrdinal>(rows / 5, ranks == 1 ? rows_of_coarsest : 1, rows_of_coarsest)));
   if (ranks == 1) {
@@ -70,12 +94,17 @@ Teuchos::ParameterList muelu_defaults(int equations, GlobalOrdinal rows, int ran
   return list;
 }
 
-/// The defaults with what a scene gives. Parameters of the default smoother say nothing to another one.
-Teuchos::ParameterList muelu_list(const LinearSolverOptions& options, int equations, GlobalOrdinal rows, int ranks) {
-  Teuchos::ParameterList list = muelu_defaults(equations, rows, ranks);
-  const Teuchos::ParameterList& given = options.muelu.value;
-  if (given.isParameter("smoother: type")) list.remove("smoother: params");
-  list.setParameters(given);
+/// Whether a scene says how to smooth.
+bool gives_smoother(const Teuchos::ParameterList& muelu) {
+  return std::any_of(muelu.begin(), muelu.end(), [](const auto& item) { return item.first.rfind("smoother:", 0) == 0; });
+}
+
+/// The defaults with what a scene gives. A smoother that it gives is that of all levels, in place of the default one.
+Teuchos::ParameterList muelu_list(const LinearSolverOptions& options, Smoother smoother, int equations, GlobalOrdinal rows, int ranks) {
+  Teuchos::ParameterList list = muelu_defaults(smoother, equations, rows, ranks);
+  if (gives_smoother(options.muelu.value))
+    for (const char* name : {"smoother: params", "cycle type"}) list.remove(name, false);
+  list.setParameters(options.muelu.value);
   return list;
 }
 
@@ -141,10 +170,17 @@ class IterativeSolver : public LinearSolver {
         start_->apply(b, x);
       }
       report.iterations = iterate(b, x);
-      // An earlier matrix's hierarchy that does not do is replaced on the way.
+      // An earlier matrix's hierarchy that does not do is replaced on the way, and a smoother that does not do for good.
       if (!is_fresh_ && !converged_) {
         forget();
         prepare();
+        report.iterations += iterate(b, x);
+      }
+      if (!converged_ && has_other_smoother()) {
+        smoother_ = Smoother::gauss_seidel;
+        forget();
+        prepare();
+        x.putScalar(0.0);
         report.iterations += iterate(b, x);
       }
     } catch (const std::exception& error) {
@@ -162,6 +198,8 @@ class IterativeSolver : public LinearSolver {
   }
 
  private:
+  bool has_other_smoother() const { return smoother_ == Smoother::chebyshev && !gives_smoother(options_.muelu.value); }
+
   void forget() {
     cycle_ = preconditioner_ = start_ = Teuchos::null;
     wear_ = {};
@@ -202,7 +240,7 @@ class IterativeSolver : public LinearSolver {
       equations = static_cast<int>(matrix_->getGlobalNumRows() / near_null_space.coordinates->getGlobalLength());
     const RCP<Matrix> matrix = decoupled != nullptr ? decoupled->matrix() : Teuchos::rcp_const_cast<Matrix>(matrix_);
     const auto rows = static_cast<GlobalOrdinal>(matrix->getGlobalNumRows());
-    Teuchos::ParameterList list = muelu_list(options_, equations, rows, matrix->getComm()->getSize());
+    Teuchos::ParameterList list = muelu_list(options_, smoother_, equations, rows, matrix->getComm()->getSize());
     auto& user_data = list.sublist("user data");
     if (near_null_space.coordinates.is_null()) {
       list.set("aggregation: drop scheme", "classical");
@@ -257,10 +295,10 @@ class IterativeSolver : public LinearSolver {
     if (!problem->setProblem()) throw std::runtime_error("Belos refuses the linear problem");
     const auto list = rcp(new Teuchos::ParameterList(belos_defaults(options_, tolerance_, basis_)));
     list->setParameters(options_.belos.value);
-    if (!is_fresh_) {
-      const double most = std::min<double>(list->get<int>("Maximum Iterations"), std::ceil(wear_.most_iterations(digits)));
-      list->set("Maximum Iterations", static_cast<int>(most));
-    }
+    double most = list->get<int>("Maximum Iterations");
+    if (!is_fresh_) most = std::min(most, std::ceil(wear_.most_iterations(digits)));
+    if (has_other_smoother()) most = std::min<double>(most, most_with_chebyshev);
+    list->set("Maximum Iterations", static_cast<int>(most));
     Belos::TpetraSolverFactory<Scalar, MultiVector, Operator> factory;
     const auto gmres = factory.create("GMRES", list);
     gmres->setProblem(problem);
@@ -282,6 +320,7 @@ class IterativeSolver : public LinearSolver {
   RCP<const Operator> cycle_, preconditioner_;  ///< of a hierarchy; with contact around it
   RCP<const Operator> start_;                   ///< of the nodes in contact alone: where a solve starts
   int setups_ = 0, basis_ = small_basis;
+  Smoother smoother_ = Smoother::chebyshev;
   bool is_fresh_ = false, converged_ = false;  ///< the hierarchy: made for this matrix; the last solve
   HierarchyWear wear_;                         ///< of the hierarchy
 };
@@ -295,7 +334,7 @@ void check_lists(const LinearSolverOptions& options, const RCP<const Communicato
     found =
         unknown_parameters(muelu.value, *MueLu::MasterList::List(), muelu.place, "MueLu", "the MueLu User's Guide (trilinos.github.io)", "level ");
   try {
-    Teuchos::ParameterList list = muelu_list(options, 2, 1000, comm->getSize());
+    Teuchos::ParameterList list = muelu_list(options, Smoother::chebyshev, 2, 1000, comm->getSize());
     if (found.empty()) MueLu::ParameterListInterpreter<Scalar, LocalOrdinal, GlobalOrdinal, NodeType>(list, comm);
   } catch (const std::exception& error) {
     found.push_back({muelu.place, in_one_line(error.what())});
