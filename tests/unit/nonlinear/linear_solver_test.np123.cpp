@@ -260,7 +260,7 @@ TEST(Iterative, SharesLargeCoarseLevelsAmongRanks) {
 // The tolerance of a solve is used where it is looser than that of the options: fewer iterations, and a residual that keeps to it.
 TEST(Iterative, StopsAtTheToleranceOfTheSolve) {
   const auto grid = std::make_shared<SpringGrid>(Tpetra::getDefaultComm(), 48, 48, Numbering::blocks);
-  const auto matrix = stiffness(grid, true);
+  const auto matrix = stiffness(grid, true, 1.0, 0.0);
   const auto b = loads(*grid);
   const auto solver = solver_of(Kind::iterative, 1e-10);
   solver->set_matrix(matrix, true, {[&] { return grid->near_null_space(); }, {}});
