@@ -4,8 +4,8 @@
 
 namespace mortise::detail {
 
-/// Iterations of GMRES that take about as long as making a hierarchy (docs/solvers.md).
-constexpr double iterations_of_set_up = 25.0;
+/// Iterations of GMRES that making a hierarchy counts as: fewer than take as long, as what an old one costs grows with model and ranks (docs/solvers.md).
+constexpr double iterations_of_set_up = 10.0;
 
 /// Tells when a hierarchy that serves one matrix after another is to be made anew. A life of solves that took iterations i_k to reduce residuals by
 /// d_k digits has cost c = (S + sum i_k) / sum d_k iterations a digit, with S those of the set-up. It is least where the next digit costs as much as
