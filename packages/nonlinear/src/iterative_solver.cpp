@@ -303,7 +303,12 @@ class IterativeSolver : public LinearSolver {
     const auto gmres = factory.create("GMRES", list);
     gmres->setProblem(problem);
     // Near round-off GMRES ends on its own residual, and Belos finds the true one a trifle above the tolerance: no fault of the hierarchy.
-    converged_ = gmres->solve() == Belos::Converged || true_residual(*matrix_, b, x, r) <= accepted * tolerance_ * b.norm2();
+    try {
+      converged_ = gmres->solve() == Belos::Converged || true_residual(*matrix_, b, x, r) <= accepted * tolerance_ * b.norm2();
+    } catch (const std::exception&) {  // overflow
+      if (!has_other_smoother()) throw;
+      converged_ = false;
+    }
     const int iterations = gmres->getNumIters();
     if (iterations > basis_) basis_ = large_basis;
     wear_.record(iterations, digits);
