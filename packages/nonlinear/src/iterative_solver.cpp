@@ -36,8 +36,8 @@ constexpr int rows_of_coarsest = 1000;
 /// Rows of any coarse level on each of several ranks, at least.
 constexpr int rows_on_one_rank = 5000;
 
-/// What smooths within a cycle. Chebyshev polynomials take a third of the time of Gauss-Seidel sweeps, which a processor cannot stream, but want
-/// eigenvalues that are nearly real.
+/// What smooths within a cycle. With Chebyshev polynomials an iteration takes half of the time that it takes with Gauss-Seidel sweeps, which a
+/// processor cannot stream, but they want eigenvalues that are nearly real.
 enum class Smoother { chebyshev, gauss_seidel };
 
 /// Iterations after which another smoother is tried, with a hierarchy for the matrix at hand.
@@ -82,7 +82,7 @@ Teuchos::ParameterList muelu_defaults(Smoother smoother, int equations, GlobalOr
   list.set("aggregation: drop tol", 1e-8);
   set_smoother(list, smoother);
   // The coarse solver is KLU2, which is right on one rank only: what is small enough for it is moved to one rank, and there is always a coarse level.
-  list.set("coarse: max size", static_cast<int>(std::clamp<GlobalOrdinal>(rows / 5, ranks == 1 ? rows_of_coarsest : 1, rows_of_coarsest)));
+  list.set("coarse: max size", ranks == 1 ? rows_of_coarsest : static_cast<int>(std::clamp<GlobalOrdinal>(rows / 5, 1, rows_of_coarsest)));
   if (ranks == 1) {
     list.set("transpose: use implicit", true);  // no restriction is stored beside the prolongator; repartitioning needs it
   } else {
