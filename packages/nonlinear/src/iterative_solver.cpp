@@ -44,14 +44,18 @@ enum class Smoother { chebyshev, gauss_seidel };
 constexpr int most_with_chebyshev = 100;
 
 // Coarse levels are small but hard. With Chebyshev polynomials they are gone through twice, and have aggregates in the order of the graph, half as
-// large as in that of the rows: level k holds the aggregates of level k - 1.
-void set_smoother(Teuchos::ParameterList& list, Smoother smoother) {
+// large as in that of the rows: level k holds the aggregates of level k - 1. Where aggregates are cut at the border of ranks, twice the degree pays.
+void set_smoother(Teuchos::ParameterList& list, Smoother smoother, int ranks) {
   if (smoother == Smoother::chebyshev) {
-    list.set("smoother: type", "CHEBYSHEV");
-    list.sublist("smoother: params").set("chebyshev: degree", 2);
-    list.sublist("smoother: params").set("chebyshev: ratio eigenvalue", 8.0);
-    list.set("cycle type", "W");
+    const auto set_polynomial = [](Teuchos::ParameterList& of_level, int degree) {
+      of_level.set("smoother: type", "CHEBYSHEV");
+      of_level.sublist("smoother: params").set("chebyshev: degree", degree);
+      of_level.sublist("smoother: params").set("chebyshev: ratio eigenvalue", 8.0);
+    };
+    set_polynomial(list, 2);
+    for (int level = 1; level < levels; ++level) set_polynomial(list.sublist(name_of_level(level)), ranks == 1 ? 2 : 4);
     for (int level = 2; level < levels; ++level) list.sublist(name_of_level(level)).set("aggregation: ordering", "graph");
+    list.set("cycle type", "W");
     return;
   }
   const auto set_sweeps = [](Teuchos::ParameterList& of_level, int sweeps) {
@@ -67,7 +71,7 @@ void set_smoother(Teuchos::ParameterList& list, Smoother smoother) {
 // the matrix that smooths the prolongator is the whole one all the same. It is scaled with the sums of rows: scaled with the diagonal, its largest
 // eigenvalue, by which the smoothing is damped everywhere, would be that of the few rows in contact. The smoother is scaled likewise, but its
 // eigenvalue is that of prescribed rows, so the prolongator's has to be estimated anew.
-Teuchos::ParameterList muelu_defaults(Smoother smoother, int equations, GlobalOrdinal rows, int ranks) {
+Teuchos::ParameterList muelu_defaults(int equations, GlobalOrdinal rows, int ranks) {
   Teuchos::ParameterList list("MueLu");
   list.set("verbosity", "none");
   list.set("problem: type", "unknown");
@@ -80,7 +84,6 @@ Teuchos::ParameterList muelu_defaults(Smoother smoother, int equations, GlobalOr
   list.set("rap: fix zero diagonals", true);  // of coarse dofs beyond those of an aggregate of a single node
   list.set("aggregation: drop scheme", "distance laplacian");
   list.set("aggregation: drop tol", 1e-8);
-  set_smoother(list, smoother);
   // The coarse solver is KLU2, which is right on one rank only: what is small enough for it is moved to one rank, and there is always a coarse level.
   list.set("coarse: max size", ranks == 1 ? rows_of_coarsest : static_cast<int>(std::clamp<GlobalOrdinal>(rows / 5, 1, rows_of_coarsest)));
   if (ranks == 1) {
@@ -99,11 +102,10 @@ bool gives_smoother(const Teuchos::ParameterList& muelu) {
   return std::any_of(muelu.begin(), muelu.end(), [](const auto& item) { return item.first.rfind("smoother:", 0) == 0; });
 }
 
-/// The defaults with what a scene gives. A smoother that it gives is that of all levels, in place of the default one.
+/// The defaults with what a scene gives. A smoother that it gives is that of all levels, in place of the default one and all that goes with it.
 Teuchos::ParameterList muelu_list(const LinearSolverOptions& options, Smoother smoother, int equations, GlobalOrdinal rows, int ranks) {
-  Teuchos::ParameterList list = muelu_defaults(smoother, equations, rows, ranks);
-  if (gives_smoother(options.muelu.value))
-    for (const char* name : {"smoother: params", "cycle type"}) list.remove(name, false);
+  Teuchos::ParameterList list = muelu_defaults(equations, rows, ranks);
+  if (!gives_smoother(options.muelu.value)) set_smoother(list, smoother, ranks);
   list.setParameters(options.muelu.value);
   return list;
 }
