@@ -97,12 +97,14 @@ Teuchos::ParameterList muelu_defaults(int equations, GlobalOrdinal rows, int ran
   return list;
 }
 
-/// Whether a scene says how to smooth.
+/// Whether a scene says how to smooth, on one level at least. Parameters of a level's smoother alone are those of the default one.
 bool gives_smoother(const Teuchos::ParameterList& muelu) {
-  return std::any_of(muelu.begin(), muelu.end(), [](const auto& item) { return item.first.rfind("smoother:", 0) == 0; });
+  return std::any_of(muelu.begin(), muelu.end(), [&](const auto& item) {
+    return item.first.rfind("smoother:", 0) == 0 || (item.second.isList() && muelu.sublist(item.first).isParameter("smoother: type"));
+  });
 }
 
-/// The defaults with what a scene gives. A smoother that it gives is that of all levels, in place of the default one and all that goes with it.
+/// The defaults with what a scene gives. A smoother that it gives, be it of one level, stands in place of the default one and all that goes with it.
 Teuchos::ParameterList muelu_list(const LinearSolverOptions& options, Smoother smoother, int equations, GlobalOrdinal rows, int ranks) {
   Teuchos::ParameterList list = muelu_defaults(equations, rows, ranks);
   if (!gives_smoother(options.muelu.value)) set_smoother(list, smoother, ranks);

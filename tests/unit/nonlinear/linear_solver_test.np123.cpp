@@ -326,6 +326,19 @@ TEST(Iterative, RestartsLaterOnceASystemTookManyIterations) {
   EXPECT_EQ(itself[1], large[1]);
 }
 
+// MueLu's own smoother of all levels is symmetric Gauss-Seidel, so to ask for it on one of them is to ask for it on all.
+TEST(Iterative, TakesASmootherForOneLevel) {
+  const auto grid = std::make_shared<SpringGrid>(Tpetra::getDefaultComm(), 32, 32, Numbering::blocks);
+  const auto iterations = [&](bool of_one_level) {
+    LinearSolverOptions options;
+    options.kind.value = Kind::iterative;
+    options.muelu.value.set("coarse: max size", 100);
+    (of_one_level ? options.muelu.value.sublist("level 1") : options.muelu.value).set("smoother: type", "RELAXATION");
+    return iterations_of_two_solves(*make_linear_solver(options, Tpetra::getDefaultComm(), Timers()), grid);
+  };
+  EXPECT_EQ(iterations(true), iterations(false));
+}
+
 TEST(Iterative, RefusesParametersItsPackagesDoNotKnow) {
   LinearSolverOptions options;
   options.kind.value = Kind::iterative;
