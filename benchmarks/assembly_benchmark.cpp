@@ -1,5 +1,6 @@
-// What the assembly of the stiffness of a square of n x n cells, or of a cube of as many, costs, for linear elements and every law: against Hencky's law on the same element, against
-// one product of the same matrix with a vector, and how much of it is the law alone (stress and tangent at all points). Plastic laws flow everywhere.
+// What the assembly of the stiffness of a square of n x n cells, or of a cube of about as many, costs, for linear elements and every law: against
+// Hencky's law on the same element, against one product of the same matrix with a vector, and how much of it is the law alone (stress and tangent at
+// all points). Plastic laws flow everywhere.
 //
 //     assembly_benchmark [n = 280]        280: 157 922 dofs in the plane, 238 521 in space
 //
@@ -129,16 +130,15 @@ void measure(const RCP<const Communicator>& comm, int cells, ElementType element
   std::vector<Case> cases;
   for (const Material& material : materials()) {
     if (!check_combination({"body", {}, material.options, element}, kinematics).empty()) continue;
-    cases.push_back(
-        {material.name,
-         std::make_unique<Bodies>(mesh, kinematics, 1.0, std::vector<BodyProperties>{{"body", {}, material.options, element}}),
-         {},
-         {},
-         material.options->law(),
-         {},
-         {},
-         {},
-         {}});
+    cases.push_back({material.name,
+                     std::make_unique<Bodies>(mesh, kinematics, 1.0, std::vector<BodyProperties>{{"body", {}, material.options, element}}),
+                     {},
+                     {},
+                     material.options->law(),
+                     {},
+                     {},
+                     {},
+                     {}});
     cases.back().matrix = rcp(new Matrix(cases.back().bodies->graph()));
     cases.back().matrix->fillComplete();
   }
@@ -188,6 +188,7 @@ int main(int argc, char** argv) {
         "| element | law | elements | 10⁶ elements/s | stiffness, µs/element | law alone, µs/element | force, µs/element | stiffness / hencky | "
         "stiffness / product |\n"
         "|---|---|---|---|---|---|---|---|---|\n");
-  for (const auto element : {ElementType::q4, ElementType::q4_f_bar, ElementType::t3, ElementType::h8, ElementType::h8_f_bar}) measure(comm, cells, element);
+  for (const auto element : {ElementType::q4, ElementType::q4_f_bar, ElementType::t3, ElementType::h8, ElementType::h8_f_bar})
+    measure(comm, cells, element);
   return 0;
 }
