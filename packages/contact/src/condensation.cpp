@@ -28,6 +28,12 @@ void copy_row(const Matrix& matrix, LocalOrdinal row, std::vector<LocalOrdinal>&
   values.assign(value_view.data(), value_view.data() + value_view.extent(0));
 }
 
+// The sign and the weight that turn condition a, a traction, into a force.
+double own_row_scale(int a, const SlaveNode& slave, const NodeRow& node) { return a == 0 ? -slave.weight : -node.D; }
+
+// Conditions that do not stand in the place of the momentum of a fixed component.
+bool in_own_rows(const RecoveryRow& kept, int a) { return std::find(kept.condition.begin(), kept.condition.end(), a) == kept.condition.end(); }
+
 void replace_row(Matrix& matrix, LocalOrdinal row, const std::vector<LocalOrdinal>& columns, const std::vector<double>& values) {
   matrix.replaceLocalValues(row, static_cast<LocalOrdinal>(columns.size()), values.data(), columns.data());
 }
@@ -75,43 +81,42 @@ void ContactSystem::add_stiffness(const Vector& z, Matrix& system) {
 
 // Conditions that give z as a function of d, of a node j:  z^{k+1} = b + S dd,  b = z - C_z^-1 C,  S = -C_z^-1 C_d.
 // Its rows and those of the nodes m it is coupled to:  A_m += c_jm S,  rhs_m -= c_jm b.
-void ContactSystem::Implementation::eliminate_by_law(std::size_t p, const Vector& z, Matrix& system, Vector& rhs) {
-  const auto z_values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
+void ContactSystem::Implementation::eliminate_by_law(std::size_t p, std::size_t s, const detail::NodeMultiplier& multiplier, Matrix& system) {
   const PairCoupling& pair = *pairs[p];
+  if (multiplier_of[p][s] < 0) return;
+  const Complementarity law = pair.complementarity(s, multiplier);
+  if (law.state == ContactState::open) return;
   const NodePositions& positions = scatter->positions(p);
-  std::vector<double> values;
-  for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
-    if (multiplier_of[p][s] < 0) continue;
-    const SpatialVector zs = z_of(z_values, p, s);
-    const Complementarity law = pair.complementarity(s, zs);
-    if (law.state == ContactState::open) continue;
-    const NodeRow& node = pair.rows()[s];
-    const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
+  const NodeRow& node = pair.rows()[s];
+  const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
 
-    RecoveryRow row;
-    row.multiplier = multiplier_of[p][s];
-    for (const LocalOrdinal c : coupled)
-      for (int i = 0; i < dimension; ++i) row.columns.push_back(positions.column[dimension * c + i]);
-    const SpatialMatrix inverse = law.C_z.inverse();
-    row.b = zs - inverse * law.C;
-    for (auto& values_of : row.S) values_of.resize(row.columns.size());
-    for (std::size_t c = 0; c < row.columns.size(); ++c) {
-      const SpatialVector slope = -inverse * pair.constraint_gradient(law, s, c);
-      for (int i = 0; i < dimension; ++i) row.S[i][c] = slope[i];
-    }
-    const auto add = [&](LocalOrdinal m, double coefficient) {
-      if (coefficient == 0.0) return;
-      for (int i = 0; i < dimension; ++i) {
-        values = row.S[i];
-        for (double& value : values) value *= coefficient;
-        scatter->add(system, positions, m, i, row.columns, values);
-        scatter->add(rhs, positions, m, i, -coefficient * row.b[i]);
-      }
-    };
-    add(pair.slave_nodes()[s].local_node, node.D);
-    for (std::size_t c = 0; c < coupled.size(); ++c) add(coupled[c], node.coefficients[c]);
-    recovery.push_back(std::move(row));
+  RecoveryRow row;
+  row.multiplier = multiplier_of[p][s];
+  row.pair = p;
+  row.node = s;
+  row.by_law = true;
+  for (const LocalOrdinal c : coupled)
+    for (int i = 0; i < dimension; ++i) row.columns.push_back(positions.column[dimension * c + i]);
+  row.z = multiplier.z;
+  row.C = law.C;
+  row.inverse = law.C_z.inverse();
+  for (auto& values_of : row.S) values_of.resize(row.columns.size());
+  for (std::size_t c = 0; c < row.columns.size(); ++c) {
+    const SpatialVector slope = -row.inverse * pair.constraint_gradient(law, s, c, multiplier);
+    for (int i = 0; i < dimension; ++i) row.S[i][c] = slope[i];
   }
+  std::vector<double> values;
+  const auto add = [&](LocalOrdinal m, double coefficient) {
+    if (coefficient == 0.0) return;
+    for (int i = 0; i < dimension; ++i) {
+      values = row.S[i];
+      for (double& value : values) value *= coefficient;
+      scatter->add(system, positions, m, i, row.columns, values);
+    }
+  };
+  add(pair.slave_nodes()[s].local_node, node.D);
+  for (std::size_t c = 0; c < coupled.size(); ++c) add(coupled[c], node.coefficients[c]);
+  recovery.push_back(std::move(row));
 }
 
 // For a closed node j with the linearised momentum rows  D z = rhs_j - K~_j dd  (rhs = -r without f_c, free components) and the linearised
@@ -124,25 +129,21 @@ void ContactSystem::Implementation::eliminate_by_law(std::size_t p, const Vector
 // Open nodes: z^{k+1} = 0, their rows stay momentum rows.
 // The rows of a corner hold the multipliers of the middles of its edges too,  D_cc z_c + sum_m D_mc z_m = rhs_c - K~_c dd,  those of a middle its own
 // only. With the middles condensed first, which adds their D_mc (b_m + S_m dd) to rows of corners, the corners' rows are as above.
-void ContactSystem::Implementation::condense_node(std::size_t p, std::size_t s, const Vector& z, Matrix& system, Vector& rhs) {
+void ContactSystem::Implementation::condense_node(std::size_t p, std::size_t s, const detail::NodeMultiplier& multiplier, Matrix& system) {
   const PairCoupling& pair = *pairs[p];
-  const SpatialVector zs = z_of(z.getLocalViewHost(Tpetra::Access::ReadOnly), p, s);
-  if (multiplier_of[p][s] < 0 || !pair.closed(s, zs)) return;
+  if (multiplier_of[p][s] < 0 || !pair.closed(s, multiplier)) return;
   const NodePositions& positions = scatter->positions(p);
   std::array<std::vector<double>, 3> momentum, constraint, row_values;
   const SlaveNode& slave = pair.slave_nodes()[s];
   const NodeRow& node = pair.rows()[s];
   const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
   const LocalOrdinal first_row = dimension * slave.owned_node;
-  const Complementarity law = pair.complementarity(s, zs);
+  const Complementarity law = pair.complementarity(s, multiplier);
 
   RecoveryRow kept;
   kept.multiplier = multiplier_of[p][s];
-  SpatialVector rhs_s(dimension);
-  {
-    const auto view = rhs.getLocalViewHost(Tpetra::Access::ReadOnly);
-    for (int i = 0; i < dimension; ++i) rhs_s[i] = view(first_row + i, 0);
-  }
+  kept.pair = p;
+  kept.node = s;
   for (int i = 0; i < dimension; ++i) copy_row(system, first_row + i, kept.columns, momentum[i]);  // the same columns: see SystemScatter
   const std::vector<LocalOrdinal>& columns = kept.columns;
 
@@ -151,39 +152,39 @@ void ContactSystem::Implementation::condense_node(std::size_t p, std::size_t s, 
   for (std::size_t c = 0; c < coupled.size(); ++c)
     for (int i = 0; i < dimension; ++i) {
       const auto found = std::lower_bound(columns.begin(), columns.end(), positions.column[dimension * coupled[c] + i]);
-      const SpatialVector gradient = pair.constraint_gradient(law, s, dimension * c + i);
+      const SpatialVector gradient = pair.constraint_gradient(law, s, dimension * c + i, multiplier);
       for (int a = 0; a < dimension; ++a) constraint[a][found - columns.begin()] += gradient[a];
     }
-  const SpatialVector constant = law.C - law.C_z * zs;
+  kept.z = multiplier.z;
+  kept.C = law.C;
+  kept.C_z = law.C_z;
 
   // E z^{k+1} = e - L dd, one row for each component: momentum where free, where fixed the condition along the tangent that is this component.
   const Frame frame = pair.frame(s);
+  kept.axes.resize(dimension, dimension);
+  kept.axes << frame.normal.transpose(), frame.tangents;
   SpatialMatrix E = SpatialMatrix::Zero(dimension, dimension);
-  SpatialVector e(dimension);
   std::array<const std::vector<double>*, 3> L{};
-  std::array<bool, 3> in_own_rows{true, true, true};  // of the conditions
+  kept.condition.fill(-1);
   for (int i = 0; i < dimension; ++i) {
     if (slave.fixed[i]) {
       Eigen::Index tangent = 0;
       frame.tangents.col(i).cwiseAbs().maxCoeff(&tangent);
       const auto a = static_cast<int>(1 + tangent);
-      in_own_rows[a] = false;
+      kept.condition[i] = a;
       E.row(i) = law.C_z.row(a);
-      e[i] = -constant[a];
       L[i] = &constraint[a];
     } else {
       E(i, i) = node.D;
-      e[i] = rhs_s[i];
       L[i] = &momentum[i];
     }
   }
-  const SpatialMatrix inverse = E.inverse();
-  kept.b = inverse * e;
+  kept.inverse = E.inverse();
   for (int i = 0; i < dimension; ++i) {
     kept.S[i].assign(columns.size(), 0.0);
     for (int k = 0; k < dimension; ++k)
-      if (inverse(i, k) != 0.0)
-        for (std::size_t c = 0; c < columns.size(); ++c) kept.S[i][c] -= inverse(i, k) * (*L[k])[c];
+      if (kept.inverse(i, k) != 0.0)
+        for (std::size_t c = 0; c < columns.size(); ++c) kept.S[i][c] -= kept.inverse(i, k) * (*L[k])[c];
   }
 
   for (std::size_t c = 0; c < coupled.size(); ++c) {
@@ -193,38 +194,84 @@ void ContactSystem::Implementation::condense_node(std::size_t p, std::size_t s, 
       row_values[i].resize(columns.size());
       for (std::size_t k = 0; k < columns.size(); ++k) row_values[i][k] = coefficient * kept.S[i][k];
       scatter->add(system, positions, coupled[c], i, columns, row_values[i]);
-      scatter->add(rhs, positions, coupled[c], i, -coefficient * kept.b[i]);
     }
   }
 
   // Own rows. Equation a: constraint_a dd + constant_a + C_z,a (b + S dd) = 0, scaled to forces.
-  SpatialVector right(dimension);
   for (int a = 0; a < dimension; ++a) {
-    const double scale = a == 0 ? -slave.weight : -node.D;
+    const double scale = own_row_scale(a, slave, node);
     row_values[a].resize(columns.size());
     for (std::size_t k = 0; k < columns.size(); ++k) {
       double value = constraint[a][k];
       for (int i = 0; i < dimension; ++i) value += law.C_z(a, i) * kept.S[i][k];
       row_values[a][k] = scale * value;
     }
-    right[a] = -scale * (constant[a] + law.C_z.row(a).dot(kept.b));
   }
-  const auto out = rhs.getLocalViewHost(Tpetra::Access::ReadWrite);
   for (int i = 0; i < dimension; ++i) {
     if (slave.fixed[i]) continue;
     std::vector<double>& values = momentum[i];
     values.assign(columns.size(), 0.0);
-    double value = 0.0;
     for (int a = 0; a < dimension; ++a) {
-      if (!in_own_rows[a]) continue;
-      const double component = a == 0 ? frame.normal[i] : frame.tangents(a - 1, i);
-      for (std::size_t k = 0; k < columns.size(); ++k) values[k] += component * row_values[a][k];
-      value += component * right[a];
+      if (!in_own_rows(kept, a)) continue;
+      for (std::size_t k = 0; k < columns.size(); ++k) values[k] += kept.axes(a, i) * row_values[a][k];
     }
     replace_row(system, first_row + i, columns, values);
-    out(first_row + i, 0) = value;
   }
   recovery.push_back(std::move(kept));
+}
+
+// What the two functions above do to the right-hand side, in the same order.
+void ContactSystem::Implementation::add_right_hand_side(RecoveryRow& kept, const SpatialVector& z, const SpatialVector& C, Vector& rhs) {
+  const PairCoupling& pair = *pairs[kept.pair];
+  const NodePositions& positions = scatter->positions(kept.pair);
+  const SlaveNode& slave = pair.slave_nodes()[kept.node];
+  const NodeRow& node = pair.rows()[kept.node];
+  const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(kept.node);
+  const LocalOrdinal first_row = dimension * slave.owned_node;
+  const auto add_to_coupled = [&] {
+    for (std::size_t c = 0; c < coupled.size(); ++c)
+      for (int i = 0; i < dimension && node.coefficients[c] != 0.0; ++i)
+        scatter->add(rhs, positions, coupled[c], i, -node.coefficients[c] * kept.b[i]);
+  };
+  if (kept.by_law) {
+    kept.b = z - kept.inverse * C;
+    for (int i = 0; i < dimension && node.D != 0.0; ++i) scatter->add(rhs, positions, slave.local_node, i, -node.D * kept.b[i]);
+    add_to_coupled();
+    return;
+  }
+  const SpatialVector constant = C - kept.C_z * z;
+  SpatialVector e(dimension), right(dimension);
+  {
+    const auto view = rhs.getLocalViewHost(Tpetra::Access::ReadOnly);
+    for (int i = 0; i < dimension; ++i) e[i] = kept.condition[i] < 0 ? view(first_row + i, 0) : -constant[kept.condition[i]];
+  }
+  kept.b = kept.inverse * e;
+  add_to_coupled();
+  for (int a = 0; a < dimension; ++a) right[a] = -own_row_scale(a, slave, node) * (constant[a] + kept.C_z.row(a).dot(kept.b));
+  const auto out = rhs.getLocalViewHost(Tpetra::Access::ReadWrite);
+  for (int i = 0; i < dimension; ++i) {
+    if (slave.fixed[i]) continue;
+    double value = 0.0;
+    for (int a = 0; a < dimension; ++a)
+      if (in_own_rows(kept, a)) value += kept.axes(a, i) * right[a];
+    out(first_row + i, 0) = value;
+  }
+}
+
+void ContactSystem::Implementation::condense_right_hand_side(const Vector* C, Vector& rhs) {
+  const SpatialVector none = SpatialVector::Zero(dimension);
+  const auto part = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      RecoveryRow& row = recovery[k];
+      if (C == nullptr)
+        add_right_hand_side(row, row.z, row.C, rhs);
+      else
+        add_right_hand_side(row, none, z_of(C->getLocalViewHost(Tpetra::Access::ReadOnly), row.pair, row.node), rhs);
+    }
+    scatter->finish(rhs);
+  };
+  if (middles_first) part(0, middles_condensed);
+  part(middles_first ? middles_condensed : 0, recovery.size());
 }
 
 void ContactSystem::condense(const Vector& z, Matrix& system, Vector& rhs) {
@@ -234,20 +281,30 @@ void ContactSystem::condense(const Vector& z, Matrix& system, Vector& rhs) {
   self.require_system("condense", system);
   const auto scope = self.timers.scope("condensation");
   self.recovery.clear();
+  std::vector<std::vector<detail::NodeMultiplier>> multipliers;
+  for (std::size_t p = 0; p < self.pairs.size(); ++p) multipliers.push_back(self.multipliers_of(z.getLocalViewHost(Tpetra::Access::ReadOnly), p));
   for (const bool middles : {true, false}) {
     if (middles && !self.middles_first) continue;
     for (std::size_t p = 0; p < self.pairs.size(); ++p) {
       const PairCoupling& pair = *self.pairs[p];
-      if (pair.formulation().elimination() == Elimination::law) {
-        if (!middles) self.eliminate_by_law(p, z, system, rhs);
-        continue;
+      for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
+        if (pair.before_corners(s) != middles) continue;
+        if (pair.is_eliminated_by_law(s))
+          self.eliminate_by_law(p, s, multipliers[p][s], system);
+        else
+          self.condense_node(p, s, multipliers[p][s], system);
       }
-      for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s)
-        if (pair.before_corners(s) == middles) self.condense_node(p, s, z, system, rhs);
     }
     self.scatter->finish(system);
-    self.scatter->finish(rhs);
+    if (middles) self.middles_condensed = self.recovery.size();
   }
+  self.condense_right_hand_side(nullptr, rhs);
+  self.left_out = self.tied_conditions(z, multipliers);
+}
+
+void ContactSystem::condense_right_hand_side(const Vector& C, Vector& rhs) {
+  const auto scope = implementation_->timers.scope("condensation");
+  implementation_->condense_right_hand_side(&C, rhs);
 }
 
 void ContactSystem::recover(const Vector& increment, Vector& z_new) const {

@@ -31,6 +31,7 @@ std::vector<ContactNodeState> ContactSystem::node_states(std::size_t pair, const
   const Implementation& self = *implementation_;
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
   std::vector<ContactNodeState> states;
+  const std::vector<detail::NodeMultiplier> multipliers = self.multipliers_of(values, pair);
   for (std::size_t s = 0; s < self.multiplier_of[pair].size(); ++s) {
     const SlaveNode& slave = self.pairs[pair]->slave_nodes()[s];
     const detail::NodeRow& row = self.pairs[pair]->rows()[s];
@@ -45,7 +46,7 @@ std::vector<ContactNodeState> ContactSystem::node_states(std::size_t pair, const
     state.pressure = zs.dot(row.normal);
     state.gap = row.gap / slave.weight;
     state.weight = slave.weight;
-    if (slave.carries_multiplier) state.state = self.pairs[pair]->complementarity(s, zs).state;
+    if (slave.carries_multiplier) state.state = self.pairs[pair]->complementarity(s, multipliers[s]).state;
     state.closed = state.state != ContactState::open;
     state.covered = row.covered;
     state.shear = signed_size(across);

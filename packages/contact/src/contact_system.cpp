@@ -32,6 +32,12 @@ struct FrictionList {
 void ContactOptions::describe(Parameters& parameters) {
   parameters.add("geometry", geometry, {{"current", ContactGeometry::current}, {"reference", ContactGeometry::reference}},
                  "configuration that carries the contact geometry: current, or reference for small displacements");
+  parameters.add("full cover", full_cover,
+                 Says("covered share of a facet below which the multiplier of a slave node is tied to those of its neighbours, so that a sliver "
+                      "of contact bears no peak; 0: none is tied, as in most published computations")
+                     .unit("-")
+                     .at_least(0.0)
+                     .at_most(1.0));
   parameters.add("complementarity constant", complementarity_constant,
                  Says("c_n times A_j: weighs gap against pressure in the choice of the active set; changes no solution; default: Young's modulus "
                       "of the softer side over the shortest slave facet, of penalty and augmented Lagrange a tenth of that")
@@ -226,13 +232,15 @@ void ContactSystem::complementarity(const Vector& z, Vector& C) const {
   const auto part = self.timers.scope("contact residual");
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto result = C.getLocalViewHost(Tpetra::Access::OverwriteAll);
-  for (std::size_t p = 0; p < self.pairs.size(); ++p)
+  for (std::size_t p = 0; p < self.pairs.size(); ++p) {
+    const std::vector<detail::NodeMultiplier> multipliers = self.multipliers_of(values, p);
     for (std::size_t s = 0; s < self.multiplier_of[p].size(); ++s) {
       const LocalOrdinal first = self.multiplier_of[p][s];
       if (first < 0) continue;
-      const SpatialVector value = self.pairs[p]->complementarity(s, self.z_of(values, p, s)).C;
+      const SpatialVector value = self.pairs[p]->complementarity(s, multipliers[s]).C;
       for (int i = 0; i < self.dimension; ++i) result(first + i, 0) = value[i];
     }
+  }
 }
 
 RCP<Vector> ContactSystem::weights() const {
@@ -258,17 +266,18 @@ ContactNorms ContactSystem::norms(const Vector& z) const {
     floor = std::max(floor, 1e-9 * pair.definition().youngs_modulus);
     // What the round-off of positions leaves of c g and c u; regularised conditions weigh them with less, c eps / (c + eps).
     round_off = std::max(round_off, 4.0 * std::numeric_limits<double>::epsilon() * self.extent * pair.definition().youngs_modulus / pair.size());
+    const std::vector<detail::NodeMultiplier> multipliers = self.multipliers_of(values, p);
     for (std::size_t s = 0; s < self.multiplier_of[p].size(); ++s) {
       if (self.multiplier_of[p][s] < 0) continue;
-      const SpatialVector zs = self.z_of(values, p, s);
-      const Complementarity law = pair.complementarity(s, zs);
+      const SpatialVector& zs = multipliers[s].z;
+      const Complementarity law = pair.complementarity(s, multipliers[s]);
       const bool closed = law.state != ContactState::open;
       const SpatialVector& C = law.C;
       squares += std::pow(pair.slave_nodes()[s].weight, 2) * C.squaredNorm();
       traction = std::max(traction, zs.norm());
       const bool exactly_closed = closed && !pair.regularisation();  // then C_n is the gap
       violation = std::max(violation, exactly_closed ? C.tail(self.dimension - 1).norm() : C.norm());
-      if (exactly_closed) gap = std::max(gap, std::abs(pair.rows()[s].gap) / (pair.slave_nodes()[s].weight * pair.size()));
+      if (exactly_closed) gap = std::max(gap, std::abs(pair.gap(s, multipliers[s])) / (pair.slave_nodes()[s].weight * pair.size()));
       active += closed;
       sticking += law.state == ContactState::stick;
       changed += law.state != self.marked[p][s];
@@ -293,8 +302,9 @@ std::vector<std::vector<ContactState>> ContactSystem::Implementation::states(con
   std::vector<std::vector<ContactState>> states;
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     states.emplace_back(multiplier_of[p].size(), ContactState::open);
+    const std::vector<detail::NodeMultiplier> of_nodes = multipliers_of(values, p);
     for (std::size_t s = 0; s < multiplier_of[p].size(); ++s)
-      if (multiplier_of[p][s] >= 0) states[p][s] = pairs[p]->complementarity(s, z_of(values, p, s)).state;
+      if (multiplier_of[p][s] >= 0) states[p][s] = pairs[p]->complementarity(s, of_nodes[s]).state;
   }
   return states;
 }
@@ -333,7 +343,8 @@ Augmentation ContactSystem::augment(const Vector& z, int round) {
     detail::PairCoupling& pair = *self.pairs[p];
     if (!pair.regularisation() || pair.regularisation()->augmentations == 0) continue;
     double mine = 0.0;
-    for (std::size_t s = 0; s < pair.rows().size(); ++s) mine = std::max(mine, pair.violation(s, self.z_of(values, p, s)));
+    const std::vector<detail::NodeMultiplier> multipliers = self.multipliers_of(values, p);
+    for (std::size_t s = 0; s < pair.rows().size(); ++s) mine = std::max(mine, pair.violation(s, multipliers[s]));
     const double violation = self.maximum(mine);
     if (violation <= pair.regularisation()->tolerance) continue;
     result.more = true;

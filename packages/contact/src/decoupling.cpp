@@ -112,14 +112,14 @@ Decoupling ContactSystem::decoupling(const Vector& z) const {
   std::vector<std::pair<LocalOrdinal, SpatialMatrix>> eliminated;  // owned node, N_j
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
     const detail::PairCoupling& pair = *self.pairs[p];
+    const std::vector<detail::NodeMultiplier> multipliers = self.multipliers_of(values, p);
     if (pair.formulation().elimination() != Elimination::momentum) continue;
     const Map& nodes = *pair.interface().local_nodes();
     MultiVector fixed(pair.interface().local_nodes(), static_cast<std::size_t>(dimension));
     fixed.doImport(*self.fixed, Import(self.owned_nodes, pair.interface().local_nodes()), Tpetra::REPLACE);
     const auto is_fixed = fixed.getLocalViewHost(Tpetra::Access::ReadOnly);
     for (std::size_t s = 0; s < pair.rows().size(); ++s) {
-      const SpatialVector zs = self.z_of(values, p, s);
-      if (self.multiplier_of[p][s] < 0 || !pair.closed(s, zs)) continue;
+      if (self.multiplier_of[p][s] < 0 || pair.is_eliminated_by_law(s) || !pair.closed(s, multipliers[s])) continue;
       const SlaveNode& slave = pair.slave_nodes()[s];
       const detail::NodeRow& row = pair.rows()[s];
       SpatialMatrix free = SpatialMatrix::Zero(dimension, dimension);  // I - F
@@ -128,7 +128,7 @@ Decoupling ContactSystem::decoupling(const Vector& z) const {
         const RecoveryRow& kept = self.recovery[kept_of[static_cast<std::size_t>(self.multiplier_of[p][s])]];
         return own_stiffness(kept, self.scatter->positions(p), slave.local_node, row.D, dimension);
       };
-      const auto [N, P, Q] = directions(free, row, pair.frame(s), pair.complementarity(s, zs), stiffness_of_node);
+      const auto [N, P, Q] = directions(free, row, pair.frame(s), pair.complementarity(s, multipliers[s]), stiffness_of_node);
       for (int i = 0; i < dimension; ++i) {
         const LocalOrdinal dof = dimension * slave.owned_node + i;
         const bool middle = pair.before_corners(s);

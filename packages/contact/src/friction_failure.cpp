@@ -13,18 +13,19 @@ void ContactSystem::find_friction_failure(const Vector& z, std::optional<StepFai
   const Implementation& self = *implementation_;
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto reference = self.reference->getLocalViewHost(Tpetra::Access::ReadOnly);
-  for (std::size_t p = 0; p < self.pairs.size(); ++p)
-    for (std::size_t s = 0; s < self.multiplier_of[p].size(); ++s) {
-      if (failure) return;
+  for (std::size_t p = 0; p < self.pairs.size(); ++p) {
+    const std::vector<detail::NodeMultiplier> multipliers = self.multipliers_of(values, p);
+    for (std::size_t s = 0; s < self.multiplier_of[p].size() && !failure; ++s) {
       if (self.multiplier_of[p][s] < 0) continue;
       std::optional<Diagnostic> complaint;
-      self.pairs[p]->complementarity(s, self.z_of(values, p, s), &complaint);
+      self.pairs[p]->complementarity(s, multipliers[s], &complaint);
       if (!complaint) continue;
       std::vector<double> position;
       for (int i = 0; i < self.dimension; ++i) position.push_back(reference(self.pairs[p]->slave_nodes()[s].owned_node, i));
       complaint->message += fmt::format("; at the slave node of reference position ({:g})", fmt::join(position, ", "));
       failure.emplace(FailureKind::input, to_string(*complaint));
     }
+  }
 }
 
 }  // namespace mortise

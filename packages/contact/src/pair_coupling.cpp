@@ -16,6 +16,7 @@ PairCoupling::PairCoupling(RCP<const Map> owned_nodes, RCP<const MultiVector> re
       dimension_(static_cast<int>(reference_->getNumVectors())) {
   interface_ = std::make_unique<MortarInterface>(owned_nodes_, reference_, std::move(fixed), pair_.slave, pair_.master, measure, pair_.options.mortar,
                                                  pair_.place);
+  ties_ = MultiplierTies(slave_nodes(), pair_.slave, owned_nodes_->getComm());
   size_ = interface_->shortest_facet();
   rows_.resize(slave_nodes().size());
   if (variational()) openings_.resize(rows_.size());
@@ -55,9 +56,17 @@ std::vector<GapCurvature> PairCoupling::gap_curvatures(const std::vector<double>
   return frozen_ ? std::vector<GapCurvature>() : interface_->gap_curvatures(*local_positions_, pressures);
 }
 
-bool PairCoupling::closed(std::size_t s, const SpatialVector& z) const {
-  if (regularisation_) return complementarity(s, z).state != ContactState::open;
-  return covered(s) && z.dot(rows_[s].normal) - complementarity_constant(s) * rows_[s].gap > 0.0;
+bool PairCoupling::closed(std::size_t s, const NodeMultiplier& multiplier) const {
+  if (regularisation_) return complementarity(s, multiplier).state != ContactState::open;
+  return covered(s) && multiplier.z.dot(rows_[s].normal) - complementarity_constant(s) * gap(s, multiplier) > 0.0;
+}
+
+double PairCoupling::gap(std::size_t s, const NodeMultiplier& multiplier) const {
+  return multiplier.shift.size() == 0 ? rows_[s].gap : rows_[s].gap + rows_[s].normal.dot(multiplier.shift);
+}
+
+TangentVector PairCoupling::slip(std::size_t s, const NodeMultiplier& multiplier) const {
+  return multiplier.shift.size() == 0 ? rows_[s].slip : TangentVector(rows_[s].slip - frame(s).tangents * multiplier.shift);
 }
 
 double PairCoupling::closing_pressure(std::size_t s) const {
@@ -66,8 +75,15 @@ double PairCoupling::closing_pressure(std::size_t s) const {
 }
 
 // A component that is prescribed takes one tangent: there the node bears no shear traction.
-Complementarity PairCoupling::complementarity(std::size_t s, const SpatialVector& z, std::optional<Diagnostic>* complaint) const {
+Complementarity PairCoupling::complementarity(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* complaint) const {
+  Complementarity law = law_of(s, multiplier, complaint);
+  if (multiplier.tie > 0.0) law.C_z += multiplier.tie * shift_factor(law, s);
+  return law;
+}
+
+Complementarity PairCoupling::law_of(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* complaint) const {
   const NodeRow& row = rows_[s];
+  const SpatialVector& z = multiplier.z;
   const SlaveNode& node = slave_nodes()[s];
   const auto fixed = std::count(node.fixed.begin(), node.fixed.end(), true);
   const bool rubs = friction_ != nullptr && !slip_[s].start.nodes.empty() && fixed < dimension_ - 1;
@@ -81,7 +97,8 @@ Complementarity PairCoupling::complementarity(std::size_t s, const SpatialVector
     return friction_->bound(pressure, path);
   };
   // What the law of friction sees of slip and traction.
-  TangentVector slip = row.slip;
+  TangentVector slip = this->slip(s, multiplier);
+  const double gap = this->gap(s, multiplier);
   SpatialVector borne = z;
   if (regularisation_) {
     if (!covered(s)) return open_node(z);
@@ -89,25 +106,40 @@ Complementarity PairCoupling::complementarity(std::size_t s, const SpatialVector
     if (rubs && fixed > 0) slip[0] = 0.0;
     const double scale = pair_.youngs_modulus / size_ * start_[s].stiffening, body = complementarity_constant(s) * node.weight;
     const RegularisedNode stiffness{regularisation_->normal * scale, regularisation_->tangential * scale, body, start_[s].multiplier};
-    return without_fixed(regularised(stiffness, row.gap, slip, row.covered, in, z, rubs ? &bound : nullptr), in);
+    return without_fixed(regularised(stiffness, gap, slip, row.covered, in, z, rubs ? &bound : nullptr), in);
   }
   const double c = complementarity_constant(s);
-  if (!closed(s, z)) return open_node(z);
+  if (!closed(s, multiplier)) return open_node(z);
   const Frame in = frame(s);
-  if (!rubs) return closed_node(c, row.gap, in, z);
+  if (!rubs) return closed_node(c, gap, in, z);
   if (fixed > 0) {
     slip[0] = 0.0;
     borne -= in.tangents.row(0).dot(z) * in.tangents.row(0).transpose();
   }
-  return without_fixed(with_friction(c, c, row.gap, slip, in, borne, bound(z.dot(row.normal) - c * row.gap)), in);
+  return without_fixed(with_friction(c, c, gap, slip, in, borne, bound(z.dot(row.normal) - c * gap)), in);
 }
 
-SpatialVector PairCoupling::constraint_gradient(const Complementarity& law, std::size_t s, std::size_t entry) const {
+SpatialMatrix PairCoupling::shift_factor(const Complementarity& law, std::size_t s) const {
+  SpatialMatrix factor = law.gap_factor * rows_[s].normal.transpose();
+  if (law.slip_factor.size() > 0) factor.bottomRows(dimension_ - 1) -= law.slip_factor * frame(s).tangents;
+  return factor;
+}
+
+// At fixed q:   d(n . q) = q . dn,   d(T q)_a = (turn_a^T q) . dn.
+SpatialVector PairCoupling::constraint_gradient(const Complementarity& law, std::size_t s, std::size_t entry,
+                                                const NodeMultiplier& multiplier) const {
   const NodeRow& row = rows_[s];
   const auto column = static_cast<Eigen::Index>(entry);
   SpatialVector gradient = law.gap_factor * row.dgap[entry] + law.normal_factor * row.dnormal.col(column);
   if (law.slip_factor.size() > 0) gradient.tail(dimension_ - 1) += law.slip_factor * row.dslip.col(column);
   if (regularisation_) gradient += law.weight_factor * row.dcovered[entry];
+  if (multiplier.shift.size() == 0) return gradient;
+  gradient += law.gap_factor * multiplier.shift.dot(row.dnormal.col(column));
+  if (law.slip_factor.size() == 0) return gradient;
+  const Frame in = frame(s);
+  TangentVector turned(dimension_ - 1);
+  for (Eigen::Index a = 0; a < turned.size(); ++a) turned[a] = multiplier.shift.dot(in.turn[a] * row.dnormal.col(column));
+  gradient.tail(dimension_ - 1) -= law.slip_factor * turned;
   return gradient;
 }
 
@@ -123,11 +155,6 @@ void PairCoupling::follow_pattern() {
   local_positions_ = rcp(new MultiVector(interface_->local_nodes(), static_cast<std::size_t>(dimension_)));
   position_in_row_.assign(interface_->local_nodes()->getNodeNumElements(), -1);
   place_slip_histories();
-}
-
-bool PairCoupling::hands_over() const {
-  const bool becomes_exact = !regularisation_ || regularisation_->augmentations > 0;
-  return dimension_ > 2 && !uses_reference() && formulation().coupling() == Coupling::dual_mortar && becomes_exact;
 }
 
 bool PairCoupling::splits_kinks() const { return dimension_ == 2 && !uses_reference() && pair_.options.mortar.coupling != Coupling::node_to_segment; }
@@ -149,16 +176,12 @@ void PairCoupling::find_nearest_facets() {
 
 void PairCoupling::accept_cover() {
   if (splits_kinks()) find_nearest_facets();
-  if (!hands_over()) return;
-  accepted_cover_.resize(rows_.size());
-  for (std::size_t s = 0; s < rows_.size(); ++s) accepted_cover_[s] = rows_[s].cover / slave_nodes()[s].weight;
+  accepted_covered_.resize(rows_.size());
+  for (std::size_t s = 0; s < rows_.size(); ++s) accepted_covered_[s] = covered(s);
 }
 
 bool PairCoupling::adapt_surface(const MultiVector& x) {
-  if (splits_kinks()) return interface_->split_kinks(x, nearest_accepted_);  // the next search renews the pattern
-  const bool changed = hands_over() && interface_->hand_over(accepted_cover_);
-  if (changed) follow_pattern();
-  return changed;
+  return splits_kinks() && interface_->split_kinks(x, nearest_accepted_);  // the next search renews the pattern
 }
 
 void PairCoupling::evaluate(const MultiVector& x, bool derivatives, std::optional<StepFailure>& failure) {
@@ -171,6 +194,9 @@ void PairCoupling::evaluate(const MultiVector& x, bool derivatives, std::optiona
   local_positions_->doImport(reference ? *reference_ : x, *import_, Tpetra::REPLACE);
   interface_->evaluate(*local_positions_, slopes, couplings_, normals_, failure);
   sum_to_rows(slopes);
+  if (has_ties())
+    ties_.measure(couplings_, slave_nodes(), *interface_->local_nodes(), pair_.options.full_cover, size_ / pair_.youngs_modulus, dimension_,
+                  slopes && !reference);
   if (regularisation_ && derivatives && !reference) measure_covered();
   if (reference) {
     freeze();
@@ -183,15 +209,9 @@ void PairCoupling::evaluate(const MultiVector& x, bool derivatives, std::optiona
 void PairCoupling::sum_to_rows(bool derivatives) {
   const std::size_t slaves = rows_.size();
   std::vector<std::vector<std::pair<const FacetCoupling*, int>>> facets_of(slaves);
-  for (NodeRow& row : rows_) row.cover = 0.0;
-  for (const FacetCoupling& facet : couplings_) {
-    const FacetVector cover = hands_over() ? covered_weights(dimension_, facet) : FacetVector();
-    for (std::size_t j = 0; j < facet.slave.size(); ++j) {
-      if (static_cast<std::size_t>(facet.slave[j]) >= slaves) continue;
-      facets_of[facet.slave[j]].push_back({&facet, static_cast<int>(j)});
-      if (cover.size() > 0) rows_[facet.slave[j]].cover += cover[static_cast<Eigen::Index>(j)];
-    }
-  }
+  for (const FacetCoupling& facet : couplings_)
+    for (std::size_t j = 0; j < facet.slave.size(); ++j)
+      if (static_cast<std::size_t>(facet.slave[j]) < slaves) facets_of[facet.slave[j]].push_back({&facet, static_cast<int>(j)});
 
   for (std::size_t s = 0; s < slaves; ++s) {
     const std::vector<LocalOrdinal>& coupled = interface_->coupled_nodes(s);
@@ -262,12 +282,11 @@ RegularisedStart PairCoupling::start_from(std::size_t s, const SpatialVector& z)
   return start;
 }
 
-double PairCoupling::violation(std::size_t s, const SpatialVector& z) const {
-  const NodeRow& row = rows_[s];
-  const ContactState state = complementarity(s, z).state;
+double PairCoupling::violation(std::size_t s, const NodeMultiplier& multiplier) const {
+  const ContactState state = complementarity(s, multiplier).state;
   if (state == ContactState::open) return 0.0;
-  const double slip = state == ContactState::stick ? row.slip.norm() : 0.0;
-  return std::max(std::abs(row.gap), slip) / (row.covered * size_);
+  const double slip = state == ContactState::stick ? this->slip(s, multiplier).norm() : 0.0;
+  return std::max(std::abs(gap(s, multiplier)), slip) / (rows_[s].covered * size_);
 }
 
 // Small displacements: D, M and n are those of the reference configuration. With the multipliers' own functions as weights the gap is

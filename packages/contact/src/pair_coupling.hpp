@@ -8,6 +8,7 @@
 #include "mortise/contact/complementarity.hpp"
 #include "mortise/contact/contact_system.hpp"
 #include "mortise/contact/regularised.hpp"
+#include "multiplier_ties.hpp"
 
 namespace mortise::detail {
 
@@ -20,7 +21,6 @@ struct NodeRow {
   double D = 0.0;        ///< D_jj
   double covered = 0.0;  ///< sum_k D_jk = sum_l M_jl
   double gap = 0.0;      ///< weighted gap g_j
-  double cover = 0.0;    ///< covered part of the node's own weight A_j, whoever has its function
   SpatialVector normal;
   std::vector<double> coefficients;                                                   ///< [coupled nodes] c_jm, 0 at j itself
   PositionGradient dgap;                                                              ///< empty without derivatives
@@ -29,6 +29,15 @@ struct NodeRow {
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 2>
       dslip;                  ///< [tangents x dim coupled nodes]; empty without derivatives or friction
   PositionGradient dcovered;  ///< regularised pairs only
+};
+
+/// The multiplier of a slave node as its conditions see it.
+struct NodeMultiplier {
+  SpatialVector z;
+  SpatialVector shift;  ///< q_j of MultiplierTies; empty: 0
+  double tie = 0.0;     ///< dq_j / dz_j
+
+  NodeMultiplier(SpatialVector own) : z(std::move(own)) {}  // NOLINT(google-explicit-constructor): one without ties
 };
 
 /// What a slip is measured against: the couplings of a slave node in an accepted state.
@@ -66,10 +75,11 @@ class PairCoupling {
 
   /// Takes the couplings of the last evaluate(), at an accepted state, as those that later slips are measured against. Friction only.
   void take_slip_reference();
-  /// The state of the last evaluate() is accepted: what is covered now, and how near, decides about adapt_surface() in the next step.
+  /// The state of the last evaluate() is accepted: what is covered now, and how near, decides about adapt_surface() and newly_covered() in the next
+  /// step.
   void accept_cover();
-  /// Nodes that were hardly covered in the accepted state, with positions x, hand their functions over, and kinks are split. Whether that changed
-  /// anything, and so the pattern; the same on every rank. Couplings have to be evaluated again.
+  /// Kinks are split as the accepted state, with positions x, tells. Whether that changed anything, and so the pattern; the same on every rank.
+  /// Couplings have to be evaluated again.
   bool adapt_surface(const MultiVector& x);
   /// A step starts from the accepted state.
   void start_step();
@@ -112,12 +122,24 @@ class PairCoupling {
 
   /// Element size h of the scaling and of the start rule.
   double size() const { return size_; }
+  /// g + n . q and u - T q.
+  double gap(std::size_t s, const NodeMultiplier& multiplier) const;
+  TangentVector slip(std::size_t s, const NodeMultiplier& multiplier) const;
   /// c_n of slave node s: unless given E / (h A_j), of regularised conditions a tenth of that.
   double complementarity_constant(std::size_t s) const;
   /// Whether node s has a multiplier and its function anything to act on: D_jj / A_j > 1e-12, of standard multipliers sum_k D_jk / A_j.
   bool covered(std::size_t s) const;
-  /// Closed: covered and z_n - c_n g > 0, or what a regularised condition has in its place.
-  bool closed(std::size_t s, const SpatialVector& z) const;
+  /// Closed: covered and z_n - c_n (g + n . q) > 0, or what a regularised condition has in its place.
+  bool closed(std::size_t s, const NodeMultiplier& multiplier) const;
+  /// Of hardly covered nodes; none of penalty.
+  const MultiplierTies& ties() const { return ties_; }
+  /// Whether node s was not covered in the accepted state: then its multiplier says nothing yet.
+  bool is_newly_covered(std::size_t s) const { return covered(s) && !accepted_covered_.empty() && !accepted_covered_[s]; }
+  /// Whether the multiplier of node s is eliminated by its conditions and not by its momentum: those of regularised ones, and of a tied node of which
+  /// so little is covered, D_jj < (1 - w) A_j, that its tie is the larger pivot.
+  bool is_eliminated_by_law(std::size_t s) const {
+    return formulation().elimination() == Elimination::law || rows_[s].D * size_ < ties_.compliance(s) * pair_.youngs_modulus;
+  }
   /// z_n above which a covered node without history is closed: c_n g, of regularised conditions c g / w.
   double closing_pressure(std::size_t s) const;
   /// The frame of slave node s. Tangents of partly fixed nodes are the fixed directions first.
@@ -125,23 +147,26 @@ class PairCoupling {
   /// An accepted state may give nodes whose normal has come near it another reference axis of the tangents. Friction only.
   void choose_axes();
   /// How far conditions that are regularised are from holding exactly: |gap| of a closed node, |slip| of a sticking one, over h.
-  double violation(std::size_t s, const SpatialVector& z) const;
+  double violation(std::size_t s, const NodeMultiplier& multiplier) const;
   /// The multipliers become those of z.
   void augment(std::size_t s, const SpatialVector& z) { start_[s] = start_from(s, z); }
   /// C and its linearisation, of the law that the node obeys. A node with a fixed component carries no shear traction.
   /// @param complaint  gets what the law of friction says where it has no bound; C is NaN there
-  Complementarity complementarity(std::size_t s, const SpatialVector& z, std::optional<Diagnostic>* complaint = nullptr) const;
-  /// Derivative of C of node s, whose linearisation is `law`, in entry dim c + i of its coupled nodes, at fixed z.
-  SpatialVector constraint_gradient(const Complementarity& law, std::size_t s, std::size_t entry) const;
+  Complementarity complementarity(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* complaint = nullptr) const;
+  /// Derivative of C of node s, whose linearisation is `law`, in entry dim c + i of its coupled nodes, at fixed z and q.
+  SpatialVector constraint_gradient(const Complementarity& law, std::size_t s, std::size_t entry, const NodeMultiplier& multiplier) const;
+  /// Derivative of C of node s with respect to q_j: C sees g + n . q and u - T q.
+  SpatialMatrix shift_factor(const Complementarity& law, std::size_t s) const;
 
  private:
   bool uses_reference() const { return pair_.options.geometry == ContactGeometry::reference; }
-  /// Whether nodes that are hardly covered hand their functions over: in space, where dual multipliers follow the bodies until conditions hold
-  /// exactly.
-  bool hands_over() const;
   /// Whether facets that meet in a kink have their own normals: in the plane, where they are integrated over and follow the bodies.
   bool splits_kinks() const;
   void find_nearest_facets();
+  /// Whether conditions hold exactly in the end: then slivers ask for ties.
+  bool has_ties() const { return !regularisation_ || regularisation_->augmentations > 0; }
+  /// C and its linearisation at fixed q.
+  Complementarity law_of(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* complaint) const;
   void follow_pattern();
   void sum_to_rows(bool derivatives);
   void freeze();
@@ -157,13 +182,14 @@ class PairCoupling {
   RCP<const Map> owned_nodes_;
   RCP<const MultiVector> reference_;
   std::unique_ptr<MortarInterface> interface_;
+  MultiplierTies ties_;
   RCP<const Import> import_;
   RCP<MultiVector> local_positions_;
   std::vector<FacetCoupling> couplings_;
   std::vector<NodalNormal> normals_;
   std::vector<NodeRow> rows_;
   std::vector<SpatialVector> openings_;  ///< of slave nodes, variational mortar only: derivative of the gap by a translation of the master
-  std::vector<double> accepted_cover_;   ///< [slave nodes] by the node's weight; empty where nobody hands over
+  std::vector<char> accepted_covered_;   ///< [slave nodes] in the accepted state; empty before the first
   std::vector<Facet<LocalOrdinal>> nearest_accepted_;  ///< [slave nodes] facet of the node nearest to the master; empty where kinks stay
   const FrictionLaw* friction_ = nullptr;
   std::vector<SlipHistory> slip_;  ///< [slave nodes]; empty without friction

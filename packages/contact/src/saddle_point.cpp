@@ -17,6 +17,20 @@ bool loads(const MortarInterface& interface, std::size_t s, LocalOrdinal node) {
   const std::vector<LocalOrdinal>& nodes = interface.loaded_nodes(s);
   return std::binary_search(nodes.begin(), nodes.end(), node);
 }
+
+// to += from, which may be null; neither is read before.
+void add_rows(const RCP<const Matrix>& from, Matrix& to) {
+  if (from.is_null()) return;
+  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(from->getNodeNumRows()); ++row) {
+    Matrix::local_inds_host_view_type columns;
+    Matrix::values_host_view_type values;
+    from->getLocalRowView(row, columns, values);
+    for (std::size_t k = 0; k < columns.extent(0); ++k) {
+      const GlobalOrdinal column = from->getColMap()->getGlobalElement(columns(k));
+      to.insertGlobalValues(from->getRowMap()->getGlobalElement(row), 1, &values(k), &column);
+    }
+  }
+}
 }  // namespace
 
 ContactSystem::SaddlePointBlocks ContactSystem::saddle_point_blocks(const Vector& z) const {
@@ -24,6 +38,10 @@ ContactSystem::SaddlePointBlocks ContactSystem::saddle_point_blocks(const Vector
   self.require_linearisation("saddle_point_blocks");
   const int dimension = self.dimension;
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
+
+  std::vector<std::vector<detail::NodeMultiplier>> multipliers;
+  for (std::size_t p = 0; p < self.pairs.size(); ++p) multipliers.push_back(self.multipliers_of(values, p));
+  const Implementation::TieBlocks tied = self.tied_conditions(z, multipliers);
 
   std::vector<GlobalOrdinal> rows;  // of B, also of other ranks' nodes
   std::size_t widest = 1;
@@ -47,8 +65,10 @@ ContactSystem::SaddlePointBlocks ContactSystem::saddle_point_blocks(const Vector
               static_cast<std::size_t>(pair->variational() ? dimension : 1);
   Matrix B(row_map, Teuchos::arrayViewFromVector(sizes));
   SaddlePointBlocks blocks;
-  blocks.C_d = rcp(new Matrix(self.multipliers, widest));
-  blocks.C_z = rcp(new Matrix(self.multipliers, static_cast<std::size_t>(dimension)));
+  const std::size_t wider_d = tied.of_positions.is_null() ? 0 : tied.of_positions->getNodeMaxNumRowEntries(),
+                    wider_z = tied.of_multipliers.is_null() ? 0 : tied.of_multipliers->getNodeMaxNumRowEntries();
+  blocks.C_d = rcp(new Matrix(self.multipliers, widest + wider_d));
+  blocks.C_z = rcp(new Matrix(self.multipliers, static_cast<std::size_t>(dimension) + wider_z));
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
     const detail::PairCoupling& pair = *self.pairs[p];
     const Map& nodes = *pair.interface().local_nodes();
@@ -56,7 +76,7 @@ ContactSystem::SaddlePointBlocks ContactSystem::saddle_point_blocks(const Vector
       const LocalOrdinal first = self.multiplier_of[p][s];
       if (first < 0) continue;
       const detail::NodeRow& row = pair.rows()[s];
-      const Complementarity law = pair.complementarity(s, self.z_of(values, p, s));
+      const Complementarity law = pair.complementarity(s, multipliers[p][s]);
       const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
       for (int k = 0; k < dimension; ++k) {  // the force of the unit multiplier e_k
         const GlobalOrdinal multiplier = self.multipliers->getGlobalElement(first + k);
@@ -80,13 +100,15 @@ ContactSystem::SaddlePointBlocks ContactSystem::saddle_point_blocks(const Vector
         }
         for (std::size_t c = 0; c < coupled.size(); ++c)
           for (int k = 0; k < dimension; ++k) {
-            const double value = pair.constraint_gradient(law, s, dimension * c + k)[i];
+            const double value = pair.constraint_gradient(law, s, dimension * c + k, multipliers[p][s])[i];
             const GlobalOrdinal dof = dimension * nodes.getGlobalElement(coupled[c]) + k;
             blocks.C_d->insertGlobalValues(multiplier, 1, &value, &dof);
           }
       }
     }
   }
+  add_rows(tied.of_multipliers, *blocks.C_z);
+  add_rows(tied.of_positions, *blocks.C_d);
   B.fillComplete(self.multipliers, self.dofs);
   blocks.B = Tpetra::exportAndFillCompleteCrsMatrix<Matrix>(rcp(&B, false), Export(row_map, self.dofs), self.multipliers, self.dofs);
   blocks.C_d->fillComplete(self.dofs, self.multipliers);

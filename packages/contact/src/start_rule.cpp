@@ -34,6 +34,20 @@ bool master_is_unheld(const detail::PairCoupling& pair, const Map& owned_nodes, 
   return false;
 }
 
+// A tied node that the master comes to cover starts with the mean that its multiplier is tied to.
+template <class Implementation, class View>
+void start_newly_covered(const Implementation& self, std::size_t p, const View& z) {
+  const detail::MultiplierTies& ties = self.pairs[p]->ties();
+  if (!ties.any()) return;
+  const RCP<MultiVector> on_nodes = ties.on_nodes(*self.owned_multipliers(p, z));
+  for (const detail::MultiplierTie& tie : ties.ties()) {
+    if (!self.pairs[p]->is_newly_covered(tie.node)) continue;
+    const SpatialVector deviation = detail::MultiplierTies::deviation(tie, *on_nodes);
+    const LocalOrdinal first = self.multiplier_of[p][tie.node];
+    for (int i = 0; i < self.dimension; ++i) z(first + i, 0) -= deviation[i];
+  }
+}
+
 }  // namespace
 
 // A node whose gap is zero up to round-off would be open or closed at random: it starts closed, at a pressure that no result can see.
@@ -75,14 +89,16 @@ void ContactSystem::start_step(const Vector& d, const std::vector<char>& unheld,
       const LocalOrdinal first = self.multiplier_of[p][s];
       for (int i = 0; i < self.dimension; ++i) values(first + i, 0) = z_n * pair.rows()[s].normal[i];
     };
+    start_newly_covered(self, p, values);
+    const std::vector<detail::NodeMultiplier> multipliers = self.multipliers_of(values, p);
     double active = 0.0, nearest = std::numeric_limits<double>::max();
     for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
       if (!pair.covered(s)) {
-        if (self.multiplier_of[p][s] >= 0) set(s, 0.0);  // it may just have handed over
+        if (self.multiplier_of[p][s] >= 0) set(s, 0.0);
         continue;
       }
       const double gap = pair.rows()[s].gap / pair.slave_nodes()[s].weight;
-      bool closed = pair.closed(s, self.z_of(values, p, s));
+      bool closed = pair.closed(s, multipliers[s]);
       if (!closed && std::abs(gap) < touching * pair.size()) {
         set(s, pressure);
         closed = true;

@@ -144,6 +144,7 @@ void FacetIntegrator2d::accumulate(const Interval& covered, std::size_t masters,
   const auto n = static_cast<Eigen::Index>(line_.x.size()), count = static_cast<Eigen::Index>(masters);
   const Eigen::Index masses = FacetMoments::masses(n), rows = FacetMoments::rows(n, count);
   moments_.value.setZero(rows);
+  moments_.whole = whole_facet(line_.x, measure_, derivatives);
   if (derivatives) raw_.setZero(rows, 4 * n + 2 * count);
   boost::container::static_vector<Eigen::Index, 18> to;
   for (const Pair& pair : pairs_) {

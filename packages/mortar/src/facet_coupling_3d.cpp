@@ -73,6 +73,7 @@ void FacetIntegrator3d::accumulate(const std::vector<Eigen::Vector3d>& x, bool d
   const auto n = static_cast<Eigen::Index>(plane_.slave.size()), count = static_cast<Eigen::Index>(coupling.master.size());
   const Eigen::Index masses = FacetMoments::masses(n), rows = FacetMoments::rows(n, count);
   moments_.value.setZero(rows);
+  moments_.whole = whole_facet(plane_, derivatives);
   if (derivatives) raw_.setZero(rows, 6 * n + 3 * count);
   std::vector<Eigen::Index> to(static_cast<std::size_t>(FacetMoments::rows(n, 8)));
   for (const Pair& pair : pairs_) {

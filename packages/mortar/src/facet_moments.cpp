@@ -56,6 +56,7 @@ class Combination {
     coupling.dD.setZero(derivatives ? n * n : 0, columns);
     coupling.dM.setZero(derivatives ? n * masters : 0, columns);
     coupling.dgap.setZero(derivatives ? n : 0, columns);
+    coupling.dcover.setZero(derivatives ? n : 0, columns);
     const auto& value = moments_.value;
     const auto& slope = moments_.slope;
     // [masters x n] int L_i N_l, [n] int L_i g
@@ -64,6 +65,7 @@ class Combination {
     const Small M_N = T_ * M_L_ * T_.transpose();
     Slopes weight_slope;
     if (derivatives) weight_slope.noalias() = mass_of_ * slope.topLeftCorner(masses, moving);
+    measure_cover(weight_slope, coupling);
 
     bool any = false;
     for (int j = 0; j < n; ++j) {
@@ -107,6 +109,17 @@ class Combination {
   }
 
  private:
+  // c = int_cov N / int N,   dc = (d int_cov N - c d int N) / int N
+  void measure_cover(const Slopes& weight_slope, FacetCoupling& coupling) const {
+    const FacetVector& whole = moments_.whole.weights;
+    coupling.cover = weight_.cwiseQuotient(whole);
+    if (coupling.dcover.size() == 0) return;
+    const Eigen::MatrixXd& slope = moments_.whole.slope;
+    coupling.dcover.leftCols(weight_slope.cols()) = weight_slope;
+    coupling.dcover.leftCols(slope.cols()) -= coupling.cover.asDiagonal() * slope;
+    coupling.dcover = whole.cwiseInverse().asDiagonal() * Eigen::MatrixXd(coupling.dcover);
+  }
+
   // From int phi_j Ñ_i to int phi_j N_k.
   void to_shape(FacetCoupling& coupling) const {
     coupling.D *= basis_->to_shape.transpose();

@@ -6,6 +6,7 @@
 
 #include "mortise/mortar/mortar_interface.hpp"
 #include "mortise/mortar/quadratic_facet.hpp"
+#include "whole_facet.hpp"
 
 namespace mortise {
 
@@ -16,6 +17,7 @@ struct FacetMoments {
   Eigen::VectorXd value;
   Eigen::MatrixXd slope;            ///< [rows x columns] derivatives with respect to the coupling's columns
   Eigen::Index moving_columns = 0;  ///< of the leading columns; the others move the gap only
+  WholeFacet whole;                 ///< its columns are the leading ones
 
   static Eigen::Index masses(Eigen::Index nodes) { return nodes * (nodes + 1) / 2; }
   static Eigen::Index rows(Eigen::Index nodes, Eigen::Index masters) { return masses(nodes) + nodes * masters + nodes; }

@@ -34,7 +34,6 @@ class Interface final : public InterfaceImplementation {
   void evaluate(const MultiVector& x, bool derivatives, std::vector<FacetCoupling>& couplings, std::vector<NodalNormal>& normals,
                 std::optional<StepFailure>& failure) override;
   std::vector<GapCurvature> gap_curvatures(const MultiVector& x, const std::vector<double>& pressures) override;
-  bool hand_over(const std::vector<double>& cover) override;
   bool split_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest) override;
   std::vector<std::optional<double>> distances_to_master(const MultiVector& x, const std::vector<std::size_t>& nodes,
                                                          const std::vector<SpatialVector>& normals) override;
@@ -49,10 +48,6 @@ class Interface final : public InterfaceImplementation {
   Candidates find(const Positions<dim>& x, const std::vector<PlacedFacet<dim>>& placed_master, const Motion& motion) const;
   void number_nodes();
   void collect_met();
-  std::vector<double> on_facets(const std::vector<double>& owned) const;
-  /// Who a facet cannot do without: somebody to take over what its other nodes leave; of quadratic ones with several corners that carry a middle.
-  enum class Heirs { any, middles };
-  void keep(Heirs heirs, const std::vector<double>& covered, std::vector<double>& hands) const;
   bool balance(const Positions<dim>& slave_x);
   FacetReach limits_of(const Facet<LocalOrdinal>& nodes, const Positions<dim>& x) const {
     return {reach, reach + longest_edge<dim>(points_of<dim>(nodes, x))};
@@ -80,8 +75,6 @@ class Interface final : public InterfaceImplementation {
   GuestFacets guests_;
   std::vector<FacetCoupling> guest_couplings_;                      ///< [guests]
   std::vector<std::size_t> segments_of_facet_, segments_of_guest_;  ///< [facets], [guests] of the last evaluation
-  RCP<const Import> to_facets_;                                     ///< from owned nodes to all nodes of the facets
-  std::vector<double> handed_over_;                                 ///< [nodes of the facets] 1 where so; empty before the first choice
   std::vector<char> kinks_;                                         ///< [nodes of the facets] 1 where so; empty before the first choice
   bool counted_ = false;                                            ///< there has been one
 };

@@ -87,7 +87,6 @@ std::vector<std::optional<double>> MortarInterface::distances_to_master(const Mu
   return implementation_->distances_to_master(x, nodes, normals);
 }
 
-bool MortarInterface::hand_over(const std::vector<double>& cover) { return implementation_->hand_over(cover); }
 bool MortarInterface::split_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest) {
   return implementation_->split_kinks(x, nearest);
 }

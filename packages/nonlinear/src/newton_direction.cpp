@@ -1,5 +1,6 @@
 // The linear systems of a Newton step.
 
+#include "left_out_couplings.hpp"
 #include "semi_smooth_system_parts.hpp"
 
 namespace mortise {
@@ -106,6 +107,34 @@ LinearSolveReport SemiSmoothSystem::Implementation::solve_saddle_point(const Vec
   return report;
 }
 
+// The condensed system at hand, with its prescribed rows eliminated, for J~ (dd, dz) = -(0, C): displacements that are prescribed or follow others
+// stay as they are, and so do multipliers of open nodes.
+void SemiSmoothSystem::Implementation::solve_again(const Vector& C, Vector& dd, Vector& dz, LinearSolveReport& report) {
+  Vector rhs(parts.dofs);
+  parts.contact->condense_right_hand_side(C, rhs);
+  const RCP<Vector> q_rhs = reduction ? reduction->reduced(rhs) : rcp(&rhs, false);
+  {
+    const auto view = q_rhs->getLocalViewHost(Tpetra::Access::ReadWrite);
+    for (const LocalOrdinal row : reduction ? reduction->places(fixed) : fixed) view(row, 0) = 0.0;
+  }
+  Vector dq(q_rhs->getMap());
+  report.iterations += parts.linear_solver->solve(*q_rhs, dq, tolerance).iterations;
+  if (reduction)
+    Tpetra::deep_copy(dd, *reduction->expanded(dq));
+  else
+    Tpetra::deep_copy(dd, dq);
+  parts.contact->recover(dd, dz);
+}
+
+// From the step of J~ to that of J = J~ + L, see left_out_couplings.hpp.
+void SemiSmoothSystem::Implementation::correct(LinearSolveReport& report, Vector& dd, Vector& dz) {
+  const auto scope = timers.scope("tied multipliers");
+  const RCP<const Vector> weights = parts.contact->weights();
+  detail::correct_step(
+      *weights, std::max(tolerance, 1e-10), [&](const Vector& C, Vector& change_d, Vector& change_z) { solve_again(C, change_d, change_z, report); },
+      [&](const Vector& change_d, const Vector& change_z, Vector& y) { parts.contact->apply_left_out(change_d, change_z, y); }, dd, dz);
+}
+
 // The free rows of J dx = -F condensed to (K~ condensed) dd = rhs, then reduced to the unknowns if some displacements follow others. The
 // prescribed rows s dd = -s (d - prescribed) are solved at once, their columns go to the right-hand side; contact's recovery needs the whole dd.
 // Where a formulation keeps its multipliers the whole system is solved as it is.
@@ -148,14 +177,14 @@ LinearSolveReport SemiSmoothSystem::newton_direction(const Vector& F, Vector& di
   MultigridInput multigrid;
   if (parts.near_null_space) multigrid.near_null_space = [&] { return parts.near_null_space(*d); };
   if (parts.contact) multigrid.decoupling = [&] { return parts.contact->decoupling(*z); };
-  const LinearSolveReport report = self.reduction ? self.solve_reduced(matrix, *d, r, prescribed_increment, rhs, multigrid, *dd)
-                                                  : self.solve(matrix, self.fixed, prescribed_increment, rhs, multigrid, *dd);
-  if (parts.contact) {
-    const RCP<Vector> dz = multipliers(direction);
-    Vector z_new(self.multipliers);
-    parts.contact->recover(*dd, z_new);
-    dz->update(1.0, z_new, -1.0, *z, 0.0);
-  }
+  LinearSolveReport report = self.reduction ? self.solve_reduced(matrix, *d, r, prescribed_increment, rhs, multigrid, *dd)
+                                            : self.solve(matrix, self.fixed, prescribed_increment, rhs, multigrid, *dd);
+  if (!parts.contact) return report;
+  const RCP<Vector> dz = multipliers(direction);
+  Vector z_new(self.multipliers);
+  parts.contact->recover(*dd, z_new);
+  dz->update(1.0, z_new, -1.0, *z, 0.0);
+  if (parts.contact->leaves_out_couplings()) self.correct(report, *dd, *dz);
   return report;
 }
 

@@ -158,6 +158,8 @@ struct SemiSmoothSystem::Implementation {
                                   const MultigridInput& multigrid, Vector& dd);
   LinearSolveReport solve_saddle_point(const Vector& d, const Vector& z, const Vector& r, const Vector& C, const Vector& increment,
                                        GeometricContactStiffness geometric_stiffness, Vector& dd, Vector& dz);
+  void solve_again(const Vector& C, Vector& dd, Vector& dz, LinearSolveReport& report);
+  void correct(LinearSolveReport& report, Vector& dd, Vector& dz);
   void match_elimination(const RCP<const Graph>& graph, const std::vector<LocalOrdinal>& prescribed);
 
   void evaluate_at_jacobian() {

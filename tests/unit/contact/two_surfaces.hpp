@@ -88,7 +88,7 @@ inline TwoSurfaces dome_on_waves(bool triangles = false) {
 }
 
 /// Of dome_on_waves(): the master ends a tenth of a facet behind the nodes of the slave's last but one row, so that the last row, nodes 3, 7, 11 and
-/// 15, hands its functions over.
+/// 15, is tied to it.
 inline TwoSurfaces hardly_covered(TwoSurfaces surfaces) {
   for (Point& x : surfaces.master) x[0] *= 2.2 / 2.7;
   return surfaces;

@@ -26,6 +26,7 @@ enum class ContactGeometry { current, reference };
 struct ContactOptions {
   MortarOptions mortar;
   ContactGeometry geometry = ContactGeometry::current;
+  double full_cover = 1.0;                         ///< c_0: a slave node of which less is covered is tied to its neighbours; 0: none is
   std::optional<double> complementarity_constant;  ///< c_n A_j, and c_t A_j; default E / h, of regularised conditions a tenth of that
   Choice<Formulation> formulation{"dual mortar", std::make_shared<DualMortar>(), {}};
   Choice<FrictionLaw> friction{"none", std::make_shared<NoFriction>(), {}};
@@ -164,6 +165,16 @@ class ContactSystem {
   void condense(const Vector& z, Matrix& system, Vector& rhs);
   /// z^{k+1} from the whole displacement increment, with that of prescribed dofs.
   void recover(const Vector& increment, Vector& z_new) const;
+
+  /// Whether, at the last condense(), hardly covered nodes that are in contact have multipliers that depend on one another's: condense() takes their
+  /// own alone and leaves the rest of the linearised conditions out, which are L(dd, dz) of apply_left_out(). The step of the condensed system then is
+  /// not Newton's; it is that of  J~ = J - L. The same on every rank.
+  bool leaves_out_couplings() const;
+  /// y = L(dd, dz) at the last condense(): rows of C.
+  void apply_left_out(const Vector& dd, const Vector& dz, Vector& y) const;
+  /// The right-hand side of the system of the last condense() for J~ (dd, dz) = -(r, C) with any r and C: `rhs` holds -r and is turned into it. Then
+  /// recover() gives dz.
+  void condense_right_hand_side(const Vector& C, Vector& rhs);
 
   /// What multigrid needs to know of the system that was condensed last, at z, d of the last evaluate.
   Decoupling decoupling(const Vector& z) const;

@@ -70,14 +70,14 @@ struct FacetCoupling {
   FacetMatrix D;
   Eigen::MatrixXd M;  ///< [slave x master] M(j,l) = int phi_j N_l
   FacetVector gap;    ///< [slave] int w_j g, w the gap weighting
+  FacetVector cover;  ///< [slave] covered share of each node's weight, int N_j (Ñ_j) over the covered part by that over the whole facet; empty with
+                      ///< node to segment
   /// Derivatives; column dim c + i belongs to component i of columns[c]. Empty if not asked for.
   Eigen::MatrixXd dD;    ///< row slave.size() j + k
   Eigen::MatrixXd dM;    ///< row j master.size() + l
-  Eigen::MatrixXd dgap;  ///< row j
+  Eigen::MatrixXd dgap;    ///< row j
+  Eigen::MatrixXd dcover;  ///< row j
 };
-
-/// int N_k (Ñ_k) over the covered part of the facet, for all its nodes k, whoever has multipliers: columns of D summed.
-FacetVector covered_weights(int dimension, const FacetCoupling& coupling);
 
 /// What one slave facet adds to the Hessian of a weighted sum of all weighted gaps.
 struct GapCurvature {
@@ -133,13 +133,6 @@ class MortarInterface {
   /// tenth of the shortest facet since the last real search. Returns (the same on every rank) whether local_nodes() and the pattern were rebuilt.
   /// Does nothing if a position is not finite; evaluate() then reports it.
   bool search(const MultiVector& x);
-
-  /// Dual multipliers: chooses which nodes have one from now on. A node of whose weight less than a tenth is covered (a fifth if it has handed over
-  /// already) hands its function phi_j over to nodes of its facets that have more, as nodes do that carry no multiplier. Its rows of D, M and gap are
-  /// zero then. Every facet keeps a node that carries. Collective.
-  /// @param cover  [slave_nodes()] covered_weights() summed over the facets, by A_j
-  /// @return whether any node of any rank hands over that did not, or the other way round: local_nodes() and the pattern were rebuilt
-  bool hand_over(const std::vector<double>& cover);
 
   /// In the plane: chooses the kinks from now on, convex nodes at which the slave surface turns by more than 30 degrees (5 if it is one already). The
   /// facets that meet there have their own normals, and the node that of the one that is nearest to the master. Collective.

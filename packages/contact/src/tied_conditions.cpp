@@ -1,0 +1,167 @@
+// What the ties of hardly covered nodes add to the conditions and to their linearisation.
+//
+// The conditions of node j see g_j + n_j . q_j and u_j - T_j q_j, with q = S(d) z of MultiplierTies. With G_j = dC_j / dq_j
+//   dC_j = ... + G_j ( sum_k S_jk dz_k + (dS z)_j ).
+// The term k = j stands in C_z of the node's own law. The rest,  L (dd, dz),  couples multipliers of different nodes, also of different ranks: it is
+// left out where each node's multiplier is condensed by itself.
+
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Export.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
+#include <Tpetra_Vector.hpp>
+#include <algorithm>
+
+#include "implementation.hpp"
+
+namespace mortise {
+namespace {
+
+using detail::MultiplierTie;
+using detail::MultiplierTies;
+
+// s_j: 1 of the tied node, -T of its receivers.
+double sign_of(const MultiplierTie& tie, std::size_t member) { return member == 0 ? 1.0 : -tie.shares[member - 1]; }
+LocalOrdinal node_of(const MultiplierTie& tie, std::size_t member) {
+  return member == 0 ? static_cast<LocalOrdinal>(tie.node) : tie.receivers[member - 1];
+}
+
+}  // namespace
+
+void ContactSystem::Implementation::add_ties(std::size_t p, const MultiVector& z, std::vector<detail::NodeMultiplier>& multipliers) const {
+  const MultiplierTies& ties = pairs[p]->ties();
+  const RCP<MultiVector> q = ties.gradient(*ties.on_nodes(z), dimension);
+  const std::vector<double> diagonal = ties.diagonal();
+  const auto view = q->getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (std::size_t s = 0; s < multipliers.size(); ++s) {
+    if (diagonal[s] == 0.0) continue;
+    multipliers[s].tie = diagonal[s];
+    multipliers[s].shift.resize(dimension);
+    for (int i = 0; i < dimension; ++i) multipliers[s].shift[i] = view(s, i);
+  }
+}
+
+// dq_j = sum over the ties of  s_j sigma sum_m s_m dz_m  +  (s_j dsigma + ds_j sigma) r + s_j sigma dr,   dr = -sum_k dT_k z_k,  ds_k = -dT_k.
+ContactSystem::Implementation::TieBlocks ContactSystem::Implementation::tie_blocks(const Vector& z) const {
+  const GlobalOrdinal offset = dofs->getMaxAllGlobalIndex() + 1;
+  const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
+  std::vector<RCP<MultiVector>> z_on_nodes;
+  std::vector<GlobalOrdinal> rows;
+  std::vector<std::size_t> entries_z, entries_d;
+  std::map<GlobalOrdinal, std::array<std::size_t, 2>> sizes;  // by node
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    const MultiplierTies& ties = pairs[p]->ties();
+    z_on_nodes.emplace_back();
+    if (!ties.any()) continue;
+    z_on_nodes.back() = ties.on_nodes(*owned_multipliers(p, values));
+    for (const MultiplierTie& tie : ties.ties())
+      for (std::size_t member = 0; member <= tie.receivers.size(); ++member) {
+        auto& size = sizes[ties.nodes()->getGlobalElement(node_of(tie, member))];
+        size[0] += 1 + tie.receivers.size();
+        size[1] += tie.dcompliance.size();
+      }
+  }
+  for (const auto& [node, size] : sizes)
+    for (int i = 0; i < dimension; ++i) {
+      rows.push_back(offset + dimension * node + i);
+      entries_z.push_back(size[0]);
+      entries_d.push_back(size[1]);
+    }
+  const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
+  const auto map = rcp(new Map(invalid, rows.data(), static_cast<LocalOrdinal>(rows.size()), 0, dofs->getComm()));
+  Matrix of_multipliers(map, Teuchos::arrayViewFromVector(entries_z)), of_positions(map, Teuchos::arrayViewFromVector(entries_d));
+  std::vector<GlobalOrdinal> columns;
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    const MultiplierTies& ties = pairs[p]->ties();
+    if (!ties.any()) continue;
+    const auto of_node = z_on_nodes[p]->getLocalViewHost(Tpetra::Access::ReadOnly);
+    for (const MultiplierTie& tie : ties.ties()) {
+      const SpatialVector r = MultiplierTies::deviation(tie, *z_on_nodes[p]);
+      columns.clear();
+      for (const LocalOrdinal node : tie.columns)
+        for (int k = 0; k < dimension && tie.dcompliance.size() > 0; ++k)
+          columns.push_back(dimension * pairs[p]->interface().local_nodes()->getGlobalElement(node) + k);
+      for (std::size_t j = 0; j <= tie.receivers.size(); ++j) {
+        const double sign = sign_of(tie, j);
+        const GlobalOrdinal first = offset + dimension * ties.nodes()->getGlobalElement(node_of(tie, j));
+        for (int i = 0; i < dimension; ++i) {
+          for (std::size_t m = 0; m <= tie.receivers.size(); ++m) {
+            const GlobalOrdinal column = offset + dimension * ties.nodes()->getGlobalElement(node_of(tie, m)) + i;
+            const double value = sign * tie.compliance * sign_of(tie, m);
+            of_multipliers.insertGlobalValues(first + i, 1, &value, &column);
+          }
+          if (columns.empty()) continue;
+          Eigen::RowVectorXd slope = sign * r[i] * tie.dcompliance;
+          if (j > 0) slope -= tie.compliance * r[i] * tie.dshares.row(static_cast<Eigen::Index>(j) - 1);
+          for (std::size_t k = 0; k < tie.receivers.size(); ++k)
+            slope -= sign * tie.compliance * of_node(tie.receivers[k], i) * tie.dshares.row(static_cast<Eigen::Index>(k));
+          of_positions.insertGlobalValues(first + i, static_cast<LocalOrdinal>(columns.size()), slope.data(), columns.data());
+        }
+      }
+    }
+  }
+  of_multipliers.fillComplete(multipliers, multipliers);
+  of_positions.fillComplete(dofs, multipliers);
+  const Export to_owners(map, multipliers);
+  return {Tpetra::exportAndFillCompleteCrsMatrix<Matrix>(rcp(&of_multipliers, false), to_owners, multipliers, multipliers),
+          Tpetra::exportAndFillCompleteCrsMatrix<Matrix>(rcp(&of_positions, false), to_owners, dofs, multipliers)};
+}
+
+// Rows of closed nodes, multiplied by G_j; without the node's own multiplier.
+ContactSystem::Implementation::TieBlocks ContactSystem::Implementation::tied_conditions(
+    const Vector& z, const std::vector<std::vector<detail::NodeMultiplier>>& of_nodes) const {
+  if (!any_ties()) return {};
+  std::vector<std::pair<LocalOrdinal, SpatialMatrix>> factors;  // first multiplier, G_j
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    for (std::size_t s = 0; s < of_nodes[p].size(); ++s) {
+      if (multiplier_of[p][s] < 0 || of_nodes[p][s].tie == 0.0) continue;
+      const Complementarity law = pairs[p]->complementarity(s, of_nodes[p][s]);
+      if (law.state != ContactState::open) factors.emplace_back(multiplier_of[p][s], pairs[p]->shift_factor(law, s));
+    }
+  if (maximum(factors.empty() ? 0.0 : 1.0) == 0.0) return {};
+  const TieBlocks blocks = tie_blocks(z);
+  const auto multiplied = [&](const Matrix& block, const RCP<const Map>& domain, bool own_left_out) {
+    std::vector<std::size_t> sizes(multipliers->getNodeNumElements(), 0);
+    const auto each_row = [&](const auto& act) {
+      for (const auto& [first, G] : factors)
+        for (int m = 0; m < dimension; ++m) {
+          Matrix::local_inds_host_view_type columns;
+          Matrix::values_host_view_type entries;
+          block.getLocalRowView(first + m, columns, entries);
+          act(first, G, m, columns, entries);
+        }
+    };
+    each_row([&](LocalOrdinal first, const SpatialMatrix&, int, const auto& columns, const auto&) {
+      for (int i = 0; i < dimension; ++i) sizes[first + i] += columns.extent(0);
+    });
+    const auto result = rcp(new Matrix(multipliers, Teuchos::arrayViewFromVector(sizes)));
+    each_row([&](LocalOrdinal first, const SpatialMatrix& G, int m, const auto& columns, const auto& entries) {
+      for (std::size_t k = 0; k < columns.extent(0); ++k) {
+        const GlobalOrdinal column = block.getColMap()->getGlobalElement(columns(k));
+        if (own_left_out && column == multipliers->getGlobalElement(first + m)) continue;
+        for (int i = 0; i < dimension; ++i) {
+          const double value = G(i, m) * entries(k);
+          result->insertGlobalValues(multipliers->getGlobalElement(first + i), 1, &value, &column);
+        }
+      }
+    });
+    result->fillComplete(domain, multipliers);
+    return result;
+  };
+  return {multiplied(*blocks.of_multipliers, multipliers, true), multiplied(*blocks.of_positions, dofs, false)};
+}
+
+bool ContactSystem::leaves_out_couplings() const { return !implementation_->left_out.of_multipliers.is_null(); }
+
+void ContactSystem::apply_left_out(const Vector& dd, const Vector& dz, Vector& y) const {
+  const Implementation& self = *implementation_;
+  if (self.left_out.of_multipliers.is_null()) {
+    y.putScalar(0.0);
+    return;
+  }
+  const auto scope = self.timers.scope("condensation");
+  self.left_out.of_multipliers->apply(dz, y);
+  self.left_out.of_positions->apply(dd, y, Teuchos::NO_TRANS, 1.0, 1.0);
+}
+
+}  // namespace mortise
