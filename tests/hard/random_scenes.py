@@ -85,6 +85,7 @@ def main():
     arguments = parser.parse_args()
     arguments.program = os.path.abspath(arguments.program)
     os.makedirs(arguments.output, exist_ok=True)
+    numbered = collections.defaultdict(list)
     counts, by_family, start = collections.Counter(), collections.defaultdict(collections.Counter), time.time()
     numbers = range(arguments.first, arguments.first + arguments.count)
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
@@ -92,11 +93,15 @@ def main():
             verdict, name, text, seconds = result
             counts[verdict] += 1
             by_family[name][verdict] += 1
+            numbered[verdict].append(str(number))
             left = (time.time() - start) / done * (arguments.count - done)
             print(f"{number} {name}: {verdict}, {seconds:.1f} s; about {math.ceil(left)} s left" + (f"\n  {text}" if text else ""), flush=True)
     print()
     for name in sorted(by_family):
         print(f"{name}: " + ", ".join(f"{by_family[name][verdict]} {verdict}" for verdict in ("right", "stopped", "WRONG")))
+    for verdict in ("stopped", "WRONG"):
+        if numbered[verdict]:
+            print(f"{verdict}: " + " ".join(numbered[verdict]))
     print(f"seed {arguments.seed}: {counts['right']} right, {counts['stopped']} stopped with a reason, {counts['WRONG']} WRONG, {time.time() - start:.0f} s")
     return 4 if counts["WRONG"] else 0
 
