@@ -48,13 +48,16 @@ void HardCase::describe(Parameters& parameters) {
   parameters.named("expected", expected, "what figures have to be at the end, by names of your choice");
   parameters.add("always", always, "expression of t, the scene's variables and quantities that has to hold after each step, before a stop as well");
   parameters.list("stop", stop, "which stops are true");
+  parameters.add("every ranks", every_ranks,
+                 "whether it is run on all numbers of ranks that are asked for; otherwise, as where times are compared, on the first one");
   if (expected.empty() && !stop.required)
     parameters.error("", "nothing is expected; please add the list \"expected\", or a \"stop\" that is required");
 }
 
 void HardFile::describe(Parameters& parameters) {
-  parameters.add("time limit", time_limit,
-                 Says("wall time after which a run is ended and counts as wrong, unless its settings say another").unit("s").above(0.0));
+  parameters.add(
+      "time limit", time_limit,
+      Says("wall time, for each rank, after which a run is ended and counts as wrong, unless its settings say another").unit("s").above(0.0));
   parameters.named("cases", cases, Says("the cases, by names of your choice").required());
 }
 

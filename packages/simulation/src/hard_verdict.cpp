@@ -5,16 +5,21 @@
 #include <algorithm>
 #include <cmath>
 #include <regex>
+#include <sstream>
 
 namespace mortise {
 namespace {
 
-/// The last line of what the run said, without what comes before the reason.
+/// The last line that is a warning or an error of the program: mpirun adds lines of its own when ranks end with a code.
 std::string reason_of(const StudyRecord& record) {
-  std::string line = record.said.substr(record.said.find_last_of('\n') + 1);
-  for (const std::string start : {"warning: ", "error: "})
-    if (line.rfind(start, 0) == 0) line.erase(0, start.size());
-  return line.empty() ? "it says nothing" : line;
+  std::string reason;
+  std::istringstream said(record.said);
+  for (std::string line; std::getline(said, line);) {
+    if (line.rfind("warning: ", 0) == 0) reason = line.substr(std::string("warning: ").size());
+    if (line.find("error: ") != std::string::npos) reason = line;
+  }
+  if (!reason.empty()) return reason;
+  return record.said.empty() ? "it says nothing" : record.said.substr(record.said.find_last_of('\n') + 1);
 }
 
 /// What does not hold after one of the steps; empty if all is well.
@@ -68,6 +73,11 @@ double HardFigure::excess() const {
   const double half = 0.5 * (high - low);
   const double distance = std::abs(value - 0.5 * (low + high));
   return half > 0.0 ? distance / half : (distance > 0.0 ? std::numeric_limits<double>::infinity() : 0.0);
+}
+
+double HardFigure::room() const {
+  if (std::isinf(low)) return std::abs(high);
+  return std::isinf(high) ? std::abs(low) : 0.5 * (high - low);
 }
 
 std::string HardFigure::allowed() const {
@@ -135,8 +145,7 @@ void compare_ranks(const HardVerdict& first, int first_ranks, HardVerdict& other
   }
   for (std::size_t i = 0; i < std::min(first.figures.size(), other.figures.size()); ++i) {
     const HardFigure &a = first.figures[i], &b = other.figures[i];
-    const double range = b.high - b.low;
-    const double allowed = std::max(1e-6 * std::max(std::abs(a.value), std::abs(b.value)), std::isfinite(range) ? 0.5e-3 * range : 0.0);
+    const double allowed = std::max(1e-6 * std::max(std::abs(a.value), std::abs(b.value)), 1e-3 * b.room());
     if (std::abs(a.value - b.value) <= allowed) continue;
     other.verdict = Verdict::wrong;
     other.why = fmt::format("{} is {:.9g}, on {} rank(s) {:.9g}", b.name, b.value, first_ranks, a.value);

@@ -28,6 +28,8 @@ struct HardFigure {
   bool ok() const { return value >= low && value <= high; }
   /// How far it is beyond the middle of its range, over half of the range; with one bound 0 or infinity.
   double excess() const;
+  /// Half of the range; of one bound, its size.
+  double room() const;
   /// "0.5 within 0.01", "0.4 to 0.6", "at most 0.6"
   std::string allowed() const;
 };

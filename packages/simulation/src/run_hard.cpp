@@ -88,12 +88,16 @@ ExitCode run_hard(const RCP<const Communicator>& comm, const HardOptions& option
 
   Runner runner(comm, plan, options);
   std::vector<HardRow> rows;
-  const std::size_t all = plan.lines.size() * options.ranks.size();
+  const auto ranks_of = [&](const HardLine& line) {
+    return plan.case_of(line).value.every_ranks ? options.ranks : std::vector<int>{options.ranks.front()};
+  };
+  std::size_t all = 0;
+  for (const HardLine& line : plan.lines) all += ranks_of(line).size();
   rows.reserve(all);
   double seconds = 0.0;
   for (const HardLine& line : plan.lines) {
     const std::size_t first = rows.size();
-    for (const int ranks : options.ranks) {
+    for (const int ranks : ranks_of(line)) {
       rows.push_back(runner.run(line, ranks));
       HardRow& row = rows.back();
       if (rows.size() - 1 > first) compare_ranks(rows[first].verdict, rows[first].ranks, row.verdict);

@@ -44,6 +44,7 @@ struct HardCase {
   std::vector<Named<HardExpectation>> expected;
   Located<std::string> always;  ///< expression of t, variables and quantities that holds after each step; empty: none
   HardStop stop;
+  bool every_ranks = true;  ///< whether it is run on all numbers of ranks that are asked for, or on the first one
   void describe(Parameters& parameters);
 };
 
