@@ -18,6 +18,7 @@ constexpr const char* examples = R"(Examples:
   mortise study inputs/studies/hertz_elastic.xml             errors against mesh size and time, one page
   mortise scale inputs/scaling/pressed_blocks.xml            efficiency on 1, 2, 4 ... ranks of this machine, one page
   mortise paper -o page                                      every example of the paper, one page with its figures and tables
+  mortise hard -o hard                                       the ledger of hard cases: which end right, which wrong
   mortise describe contact                                   every parameter with default, unit and meaning
   mortise list materials
 
@@ -63,6 +64,7 @@ int main(int argc, char** argv) {
   mortise::add_point_command(app, program);
   mortise::add_paper_command(app, program);
   mortise::add_study_command(app, program);
+  mortise::add_hard_command(app, program);
   mortise::add_scale_command(app, program);
   mortise::add_peer_command(app, program);
   mortise::add_describe_command(app, program);

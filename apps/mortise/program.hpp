@@ -34,6 +34,7 @@ void add_list_command(CLI::App& app, Program& program);
 void add_doctor_command(CLI::App& app, Program& program);
 void add_paper_command(CLI::App& app, Program& program);
 void add_study_command(CLI::App& app, Program& program);
+void add_hard_command(CLI::App& app, Program& program);
 void add_scale_command(CLI::App& app, Program& program);
 void add_peer_command(CLI::App& app, Program& program);
 

@@ -9,6 +9,7 @@
 #include "fields.hpp"
 #include "mortise/core/parameter_tree.hpp"
 #include "mortise/simulation/exact_solution.hpp"
+#include "mortise/simulation/hard_file.hpp"
 #include "mortise/simulation/point.hpp"
 #include "mortise/simulation/scene.hpp"
 #include "mortise/simulation/study_file.hpp"
@@ -32,6 +33,11 @@ ListRecord study_tree() {
   return collect_parameters("study", study, CollectParameters::What::declarations);
 }
 
+ListRecord hard_tree() {
+  HardFile ledger;
+  return collect_parameters("hard", ledger, CollectParameters::What::declarations);
+}
+
 /// A kind of files besides scenes, by its name.
 struct FileKind {
   std::string name, sentence;
@@ -42,7 +48,8 @@ struct FileKind {
 const std::vector<FileKind>& file_kinds() {
   static const std::vector<FileKind> kinds{
       {"point", "what `mortise point` reads: a material and the path of one point of it", point_tree, true},
-      {"study", "what `mortise study` reads: a scene, what is varied of it, and what errors are measured against", study_tree, false}};
+      {"study", "what `mortise study` reads: a scene, what is varied of it, and what errors are measured against", study_tree, false},
+      {"hard", "what `mortise hard` reads: hard cases and what is expected of them", hard_tree, false}};
   return kinds;
 }
 

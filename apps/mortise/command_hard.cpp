@@ -1,0 +1,58 @@
+#include <memory>
+#include <regex>
+
+#include "mortise/simulation/hard.hpp"
+#include "program.hpp"
+
+namespace mortise {
+namespace {
+
+std::string is_pattern(const std::string& text) {
+  try {
+    const std::regex pattern(text);
+  } catch (const std::regex_error& error) {
+    return std::string("no regular expression: ") + error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+void add_hard_command(CLI::App& app, Program& program) {
+  auto* command = app.add_subcommand("hard", "run the ledger of hard cases: which end right, stop with a true reason, or end wrong");
+  const auto options = std::make_shared<HardOptions>();
+  const auto list = std::make_shared<bool>(false);
+  options->version = MORTISE_VERSION;
+  command->add_option("LEDGER", options->ledger, "ledger file; default: inputs/hard/ledger.xml");
+  command->add_option("-o,--output", options->directory, "directory for the pages and the results of all runs; default: results/hard")
+      ->type_name("DIR");
+  command->add_flag("--list", *list, "say the cases, how many runs each has and what makes it hard; run nothing");
+  command->add_option("--only", options->only, "run only the cases whose names match this regular expression somewhere, sweeps included")
+      ->check(CLI::Validator(is_pattern, ""))
+      ->type_name("PATTERN");
+  command->add_option("--ranks", options->ranks, "MPI ranks; each case is run on each of these numbers, separated by commas; default: 1")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber)
+      ->type_name("N,...")
+      ->allow_extra_args(false);
+  command->add_flag("--sweeps", options->sweeps, "run sweeps as well, cases with axes");
+  command->add_flag("--fresh", options->fresh,
+                    "forget what DIR holds; otherwise runs that this program finished in an earlier call are not repeated");
+  command->add_flag_callback(
+      "--quiet", [options] { options->verbosity = Verbosity::quiet; }, "say nothing but warnings and errors");
+  command->footer(
+      "Leaves ledger.csv, hard-cases.md and hard-cases.html, which needs no other file, and a directory for each run. May be killed at any time: "
+      "called\n"
+      "again, it runs what is missing. `mortise describe hard` says what a ledger may say.\n"
+      "Exit codes: 0 if no line is wrong, 2 if the ledger is invalid, 4 if a line is wrong.\n"
+      "Example: mortise hard --only corner --ranks 1,3 -o corners");
+  command->callback([&program, options, list] {
+    program.launches = true;
+    program.action = [&program, options, list] {
+      if (!*list) return run_hard(program.comm, *options);
+      return print(program, list_hard(program.comm, *options)), ExitCode::done;
+    };
+  });
+}
+
+}  // namespace mortise
