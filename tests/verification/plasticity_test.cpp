@@ -201,7 +201,7 @@ TEST(Stepping, WhatUndidAStepIsNamedAndOutputTimesAreHit) {
     if (!row.at("undone").empty()) {
       ++undone;
       EXPECT_EQ(row.at("undone"), "too many iterations");
-      EXPECT_EQ(row.at("iteration"), "3");
+      EXPECT_GE(number(row, "iteration"), 3.0);  // and those that were progress
     }
   for (const auto& step : results.summary.at("steps")) cutbacks += step.at("cutbacks").get<std::size_t>();
   EXPECT_GT(undone, 0u);

@@ -9,8 +9,12 @@ void LinearSolverOptions::describe(Parameters& parameters) {
   parameters.add("type", kind, {{"automatic", Kind::automatic}, {"mumps", Kind::mumps}, {"klu2", Kind::klu2}, {"iterative", Kind::iterative}},
                  "automatic: iterative in space from 10000 unknowns on, otherwise mumps; mumps: direct, on any number of ranks; klu2: direct, on one "
                  "rank; iterative: GMRES with algebraic multigrid");
-  parameters.add("residual bound", residual_bound,
-                 Says("largest true relative residual |b - A x| / |b| of a direct solver; beyond it the step is undone").unit("-").above(0.0));
+  parameters.add(
+      "residual bound", residual_bound,
+      Says("largest backward error |b - A x| / (|A| |x| + |b|) of a direct solver after refinement, which is tried where |b - A x| / |b| is "
+           "larger than this; beyond it the step is undone")
+          .unit("-")
+          .above(0.0));
   parameters.add("tolerance", tolerance, Says("relative residual to which the iterative solver goes at most").unit("-").above(0.0).below(1.0));
   parameters.add(
       "largest tolerance", largest_tolerance,

@@ -5,6 +5,7 @@
 #include <Tpetra_Vector.hpp>
 
 #include "mortise/nonlinear/step_schedule.hpp"
+#include "repeated_course.hpp"
 
 namespace mortise {
 namespace {
@@ -57,6 +58,7 @@ bool run_steps(SemiSmoothSystem& system, const SteppingOptions& stepping, const 
   for (int step = 1; !schedule.finished(); ++step) {
     StepReport report;
     report.step = step;
+    detail::RepeatedCourse course;
     for (;;) {
       report.time = schedule.next_time();
       report.dt = report.time - schedule.time();
@@ -69,12 +71,18 @@ bool run_steps(SemiSmoothSystem& system, const SteppingOptions& stepping, const 
         break;
       } catch (const StepFailure& caught) {
         const std::string explanation = observer.explain ? observer.explain(caught) : "";
-        const StepFailure failure = explanation.empty() ? caught : StepFailure(caught.kind(), fmt::format("{} ({})", explanation, caught.what()));
+        StepFailure failure = explanation.empty() ? caught : StepFailure(caught.kind(), fmt::format("{} ({})", explanation, caught.what()));
+        const bool in_vain = course.add(caught, report.newton);
+        if (in_vain)
+          failure = StepFailure(failure.kind(),
+                                fmt::format("{}; a smaller step is of no use: the last {} tries, each with half the step of the one before, "
+                                            "went through the same states of contact",
+                                            failure.what(), detail::RepeatedCourse::enough));
         last_failure = failure;
         ++report.cutbacks;
         report.undone.push_back(to_string(failure.kind()) + ": " + failure.what());
         if (observer.undone) observer.undone(report, failure);
-        if (!schedule.cut()) return false;
+        if (in_vain || !schedule.cut()) return false;
       }
     }
     last_failure.reset();

@@ -15,7 +15,11 @@
 namespace mortise {
 
 void NewtonOptions::describe(Parameters& parameters) {
-  parameters.add("maximum iterations", maximum_iterations, Says("Newton iterations after which the step is undone").at_least(1));
+  parameters.add(
+      "maximum iterations", maximum_iterations,
+      Says("Newton iterations without progress after which the step is undone; one that leads to new states of contact and to the smallest "
+           "residual so far is progress")
+          .at_least(1));
   parameters.add("momentum tolerance", momentum_tolerance,
                  Says("bound on |r| of the free dofs over the largest of |f_int|, |f_ext| and |f_c|, reactions included").unit("-").above(0.0));
   parameters.add("gap tolerance", gap_tolerance,

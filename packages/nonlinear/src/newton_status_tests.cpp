@@ -9,9 +9,14 @@
 #include <cmath>
 #include <ostream>
 
+#include "newton_progress.hpp"
 #include "semi_smooth_newton_group.hpp"
 
 namespace mortise::detail {
+namespace {
+/// Of the increment's tolerance: a correction below it that changes states has no effect.
+constexpr double no_effect = 1e-3;
+}  // namespace
 
 NewtonHistory::NewtonHistory(NewtonReport& report) : report_(report), last_time_(Teuchos::Time::wallTime()) { report_.iterations.clear(); }
 
@@ -43,14 +48,19 @@ std::ostream& IterateTest::print(std::ostream& stream, int indent) const {
 }
 
 std::vector<ConvergenceCriterion> convergence_criteria(const NewtonOptions& options, double length) {
+  using Iterates = IterateTest::Iterates;
   std::vector<ConvergenceCriterion> criteria;
   const auto bounded = [&](const std::string& name, double ResidualNorms::*norm, double tolerance) {
-    criteria.push_back({fmt::format("{} (tolerance {:.1e})", name, tolerance), [=](const NewtonIteration& at) { return at.norms.*norm <= tolerance; },
+    criteria.push_back({fmt::format("{} (tolerance {:.1e})", name, tolerance),
+                        [=](const Iterates& iterates) { return iterates.back().norms.*norm <= tolerance; },
                         [=](const NewtonIteration& at) { return fmt::format("{:.2e}", at.norms.*norm); }});
   };
   const auto is_round_off = [](const ResidualNorms& norms) { return norms.momentum_absolute <= norms.round_off; };
   criteria.push_back({fmt::format("momentum (tolerance {:.1e})", options.momentum_tolerance),
-                      [=](const NewtonIteration& at) { return at.norms.momentum <= options.momentum_tolerance || is_round_off(at.norms); },
+                      [=](const Iterates& iterates) {
+                        const ResidualNorms& norms = iterates.back().norms;
+                        return norms.momentum <= options.momentum_tolerance || is_round_off(norms);
+                      },
                       [](const NewtonIteration& at) { return fmt::format("{:.2e}", at.norms.momentum); }});
   bounded("prescribed displacements", &ResidualNorms::prescribed, options.increment_tolerance);
   bounded("gap", &ResidualNorms::gap, options.gap_tolerance);
@@ -58,19 +68,27 @@ std::vector<ConvergenceCriterion> convergence_criteria(const NewtonOptions& opti
   // The correction that led to an iterate says how wrong the one before was. If the residual is far below its tolerance the iterate itself is
   // known to be right, and computing a correction that only confirms it would be one iteration for nothing.
   criteria.push_back({fmt::format("increment (tolerance {:.1e})", options.increment_tolerance),
-                      [=](const NewtonIteration& at) {
+                      [=](const Iterates& iterates) {
+                        const NewtonIteration& at = iterates.back();
                         const bool small = at.iteration > 0 && at.increment <= options.increment_tolerance * length;
                         return small || at.norms.momentum <= 1e-3 * options.momentum_tolerance || (at.iteration > 0 && is_round_off(at.norms));
                       },
                       [=](const NewtonIteration& at) { return fmt::format("{:.2e}", at.increment / length); }});
   // The starting point has no active set before it; its complementarity has been tested above.
-  criteria.push_back({"active set settled", [](const NewtonIteration& at) { return at.iteration == 0 || at.norms.changed == 0; },
-                      [](const NewtonIteration& at) { return fmt::format("{} of {} active nodes changed", at.norms.changed, at.norms.active); }});
+  criteria.push_back({"changes of state (none allowed)",
+                      [=, others = criteria](const Iterates& iterates) {
+                        const NewtonIteration& last = iterates.back();
+                        if (last.iteration == 0 || last.norms.changed == 0) return true;
+                        if (last.step_length < 1.0 || last.increment > no_effect * options.increment_tolerance * length) return false;
+                        const Iterates before(iterates.begin(), iterates.end() - 1);
+                        return std::all_of(others.begin(), others.end(), [&](const auto& other) { return other.met(iterates) && other.met(before); });
+                      },
+                      [](const NewtonIteration& at) { return fmt::format("{} nodes, {} closed", at.norms.changed, at.norms.active); }});
   return criteria;
 }
 
 NOX::StatusTest::StatusType ConvergenceTest::check(const Iterates& iterates) {
-  return criterion_.met(iterates.back()) ? NOX::StatusTest::Converged : NOX::StatusTest::Unconverged;
+  return criterion_.met(iterates) ? NOX::StatusTest::Converged : NOX::StatusTest::Unconverged;
 }
 
 std::optional<StepFailure> reason_to_give_up(const std::vector<NewtonIteration>& iterates, const NewtonOptions& options,
@@ -95,11 +113,14 @@ std::optional<StepFailure> reason_to_give_up(const std::vector<NewtonIteration>&
                        fmt::format("the active set repeats itself every {} Newton iterations ({} active nodes, {} changed last)", length,
                                    last.norms.active, last.norms.changed));
 
-  if (last.iteration >= options.maximum_iterations) {
+  const int in_vain = iterations_without_progress(iterates);
+  if (in_vain >= options.maximum_iterations) {
     std::string missed;
     for (const ConvergenceCriterion& criterion : criteria)
-      if (!criterion.met(last)) missed += fmt::format("{}{}: {}", missed.empty() ? "" : ", ", criterion.name, criterion.value(last));
-    return StepFailure(FailureKind::too_many_iterations, fmt::format("not converged after {} Newton iterations: {}", last.iteration, missed));
+      if (!criterion.met(iterates)) missed += fmt::format("{}{}: {}", missed.empty() ? "" : ", ", criterion.name, criterion.value(last));
+    return StepFailure(FailureKind::too_many_iterations,
+                       fmt::format("not converged after {} Newton iterations{}; criteria that are not met: {}", last.iteration,
+                                   in_vain < last.iteration ? fmt::format(", {} of them without progress", in_vain) : "", missed));
   }
   return std::nullopt;
 }

@@ -44,14 +44,17 @@ class IterateTest : public NOX::StatusTest::Generic {
   NOX::StatusTest::StatusType status_ = NOX::StatusTest::Unevaluated;
 };
 
-/// What has to be true of an iterate that is a solution.
+/// What has to be true of the last iterate if it is a solution.
 struct ConvergenceCriterion {
   std::string name;  ///< with the tolerance, for messages
-  std::function<bool(const NewtonIteration&)> met;
+  std::function<bool(const IterateTest::Iterates&)> met;
   std::function<std::string(const NewtonIteration&)> value;
 };
 
-/// All of them: momentum, prescribed displacements, gap, complementarity, increment, active set.
+/// All of them: momentum, prescribed displacements, gap, complementarity, increment, states of the nodes. The last is met where no node has another
+/// state than the iterate was computed with, and where states change without an effect: the last two iterates meet all other criteria, and from one
+/// to the other no displacement changes by more than 1e-3 of the tolerance. F is continuous across a change of state, so both are solutions, and
+/// which of the states a node on the border between two has is up to round-off.
 /// @param length size of the model
 std::vector<ConvergenceCriterion> convergence_criteria(const NewtonOptions& options, double length);
 

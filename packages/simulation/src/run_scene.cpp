@@ -10,6 +10,7 @@
 #include "contact_at_start.hpp"
 #include "explain_failure.hpp"
 #include "history_columns.hpp"
+#include "limit_load.hpp"
 #include "memory.hpp"
 #include "mortise/core/parameter_tree.hpp"
 #include "mortise/io/csv_writer.hpp"
@@ -248,7 +249,10 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
   {
     const auto timer = timers.scope("steps");
     StepperObserver functions = observers.functions();
-    functions.explain = [&](const StepFailure& caught) { return explain_failure(caught, model, system); };
+    functions.explain = [&](const StepFailure& caught) {
+      const std::string explanation = explain_failure(caught, model, system);
+      return explanation.empty() ? explain_limit_load(caught, model, system, x) : explanation;
+    };
     try {
       record.converged = run_steps(system, scene.stepping, scene.newton, x, start_step, functions, failure);
     } catch (const InputError& error) {  // on every rank: a quantity's expression without a value

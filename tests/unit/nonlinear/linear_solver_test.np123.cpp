@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Core.hpp>
 
 #include "spring_grid.hpp"
@@ -170,6 +171,55 @@ TEST(Singular, IsAStepFailureAndTheSolverGoesOn) {
   solver->set_matrix(matrix, false, {});
   solver->solve(*b, x);
   EXPECT_LE(true_residual(*matrix, *b, x), 1e-12);
+}
+
+// Springs that only the lower edge holds, by `foot` in each direction.
+RCP<Matrix> weakly_held(const std::shared_ptr<SpringGrid>& grid, double foot) {
+  const auto matrix = rcp(new Matrix(grid->graph));
+  Vector zero(grid->dofs), local_zero(grid->local_dofs);
+  std::optional<StepFailure> failure;
+  test::Springs(grid, 1.0).add_jacobian({0.0, zero, local_zero}, *matrix, failure);
+  for (const int node : grid->owned_nodes())
+    for (int i = 0; node < grid->nx() && i < 2; ++i) {
+      const GlobalOrdinal id = grid->dof(node, i);
+      matrix->sumIntoGlobalValues(id, 1, &foot, &id);
+    }
+  matrix->fillComplete(grid->dofs, grid->dofs);
+  return matrix;
+}
+
+// The condition is some 1e12, so that |b - A x| / |b| stays far above 1e-8 however well the system is solved. What the feet bear is what is loaded,
+// to round-off times the condition.
+TEST(IllConditioned, IsSolvedWhereTheBackwardErrorIsRoundOff) {
+  const auto comm = Tpetra::getDefaultComm();
+  const auto grid = std::make_shared<SpringGrid>(comm, 9, 9);
+  constexpr double foot = 1e-10;
+  const auto matrix = weakly_held(grid, foot);
+  const auto b = loads(*grid);
+  Vector x(grid->dofs);
+  const auto solver = solver_of(Kind::mumps);
+  solver->set_matrix(matrix, true, {});
+  EXPECT_EQ(failure_of(*solver, *b, x), "");
+  double mine[2] = {0.0, 0.0}, all[2];  // borne, loaded; in the first direction
+  for (const int node : grid->owned_nodes()) {
+    const LocalOrdinal row = grid->dofs->getLocalElement(grid->dof(node, 0));
+    if (node < grid->nx()) mine[0] += foot * x.getLocalViewHost(Tpetra::Access::ReadOnly)(row, 0);
+    mine[1] += b->getLocalViewHost(Tpetra::Access::ReadOnly)(row, 0);
+  }
+  Teuchos::reduceAll(*comm, Teuchos::REDUCE_SUM, 2, mine, all);
+  EXPECT_NEAR(all[0], all[1], 1e-3 * std::abs(all[1]));
+}
+
+// Feet below round-off are no feet: the backward error of what the factors give is small, but no digit of it is right.
+TEST(Singular, IsRefusedThoughItsBackwardErrorIsSmall) {
+  const auto grid = std::make_shared<SpringGrid>(Tpetra::getDefaultComm(), 9, 9);
+  Vector x(grid->dofs);
+  const auto solver = solver_of(Kind::mumps);
+  for (const double foot : {1e-18, 1e-17}) {
+    solver->set_matrix(weakly_held(grid, foot), true, {});
+    const std::string message = failure_of(*solver, *loads(*grid), x);
+    EXPECT_NE(message.find("singular"), std::string::npos) << message;
+  }
 }
 
 TEST(NotFinite, IsAStepFailure) {

@@ -54,7 +54,8 @@ class LinearSolver {
 
   /// Solves A x = b (the first solve after set_matrix() factorises) to a relative residual of `tolerance`, or of tolerances()->least if that is
   /// larger, and checks the true residual. Throws StepFailure(linear_solver), on every rank, if the matrix or b is not finite, the matrix is
-  /// singular or the true relative residual exceeds the bound of the options (the iterative solver: ten times the tolerance).
+  /// singular, the backward error of a direct solver exceeds the bound of the options, or the true relative residual of the iterative one ten times
+  /// the tolerance.
   virtual LinearSolveReport solve(const Vector& b, Vector& x, double tolerance = 0.0) = 0;
 };
 
@@ -71,7 +72,7 @@ struct LinearSolverOptions {
   /// From here on it takes less time than a factorisation, and much less memory (docs/results/space.md).
   static constexpr GlobalOrdinal fewest_for_multigrid = 10000;
   Located<Kind> kind{Kind::automatic, {}};
-  double residual_bound = 1e-8;     ///< of the direct solvers' true relative residual
+  double residual_bound = 1e-8;     ///< of the direct solvers' backward error |b - A x| / (|A| |x| + |b|)
   double tolerance = 1e-10;         ///< of the iterative solver
   double largest_tolerance = 1e-3;  ///< of the iterative solver, while Newton's iterate is far from the solution
   int maximum_iterations = 500;

@@ -1,0 +1,92 @@
+// When a Newton solve with contact gets on, when it is done though states change, when a smaller step is of no use.
+
+#include "../../../packages/nonlinear/src/newton_progress.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../../../packages/nonlinear/src/newton_status_tests.hpp"
+#include "../../../packages/nonlinear/src/repeated_course.hpp"
+
+namespace mortise {
+namespace {
+
+using Iterates = std::vector<NewtonIteration>;
+
+/// Iterates with these active sets and merits, 100 closed nodes each.
+Iterates course(const std::vector<long long>& sets, const std::vector<double>& merits) {
+  Iterates iterates;
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    NewtonIteration iterate;
+    iterate.iteration = static_cast<int>(k);
+    iterate.norms.active_set = {sets[k], -sets[k]};
+    iterate.norms.merit = merits[k];
+    iterate.norms.active = 100;
+    iterates.push_back(iterate);
+  }
+  return iterates;
+}
+
+TEST(Progress, IsNewStatesAndASmallerMerit) {
+  EXPECT_EQ(detail::iterations_without_progress(course({1, 2, 3, 4}, {9, 8, 7, 6})), 0);
+  EXPECT_EQ(detail::iterations_without_progress(course({1, 2, 3, 2}, {9, 8, 7, 6})), 1);  // states that were there before
+  EXPECT_EQ(detail::iterations_without_progress(course({1, 2, 3, 4}, {9, 8, 8, 7})), 1);  // a merit that rests
+  EXPECT_EQ(detail::iterations_without_progress(course({0, 0, 0, 0}, {9, 8, 7, 6})), 3);  // no contact
+}
+
+TEST(Progress, EndsWhereEachClosedNodeMayHaveChanged) {
+  Iterates iterates = course({1, 2, 3, 4}, {9, 8, 7, 6});
+  for (NewtonIteration& iterate : iterates) iterate.norms.active = 2;
+  EXPECT_EQ(detail::iterations_without_progress(iterates), 1);
+}
+
+/// Iterates that meet all other criteria, the last one with other states than it was computed with and led to by `increment`.
+bool is_done(double increment, double momentum_before, double complementarity = 0.0) {
+  const NewtonOptions options;
+  Iterates iterates = course({1, 2, 3}, {1, 1, 1});
+  for (NewtonIteration& iterate : iterates) {
+    iterate.norms.momentum = 1e-13;
+    iterate.norms.momentum_absolute = 1.0;  // more than round-off
+  }
+  iterates[1].norms.momentum = momentum_before;
+  iterates[2].increment = increment;
+  iterates[2].norms.complementarity = complementarity;
+  iterates[2].norms.changed = 7;
+  for (const auto& criterion : detail::convergence_criteria(options, 1.0))
+    if (!criterion.met(iterates)) return false;
+  return true;
+}
+
+TEST(ChangesOfState, WithoutAnEffectAreNoReasonToGoOn) {
+  EXPECT_TRUE(is_done(1e-14, 1e-13));
+  EXPECT_FALSE(is_done(1e-9, 1e-13));         // displacements change
+  EXPECT_FALSE(is_done(1e-14, 1e-6));         // the iterate before was no solution
+  EXPECT_FALSE(is_done(1e-14, 1e-13, 1e-6));  // this one is none
+}
+
+NewtonReport report_of(const std::vector<long long>& sets) {
+  NewtonReport report;
+  report.iterations = course(sets, std::vector<double>(sets.size(), 1.0));
+  return report;
+}
+
+TEST(RepeatedCourse, IsTheSameStatesAndReasonThreeTimes) {
+  const StepFailure failure(FailureKind::too_many_iterations, "");
+  detail::RepeatedCourse same, other, varied;
+  EXPECT_FALSE(same.add(failure, report_of({1, 2, 3})));
+  EXPECT_FALSE(same.add(failure, report_of({1, 2, 3})));
+  EXPECT_TRUE(same.add(failure, report_of({1, 2, 3})));
+  for (const long long last : {3, 4, 3, 4, 3}) EXPECT_FALSE(varied.add(failure, report_of({1, 2, last})));
+  for (const FailureKind kind : {FailureKind::line_search, FailureKind::too_many_iterations, FailureKind::line_search})
+    EXPECT_FALSE(other.add(StepFailure(kind, ""), report_of({1, 2, 3})));
+}
+
+TEST(RepeatedCourse, DoesNotCountFailuresOfEvaluationsNorSolvesWithoutChangesOfState) {
+  detail::RepeatedCourse evaluation, without_contact;
+  for (int k = 0; k < 5; ++k) {
+    EXPECT_FALSE(evaluation.add(StepFailure(FailureKind::inverted_element, ""), report_of({1, 2, 3})));
+    EXPECT_FALSE(without_contact.add(StepFailure(FailureKind::line_search, ""), report_of({0, 0, 0})));
+  }
+}
+
+}  // namespace
+}  // namespace mortise
