@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "contact_at_start.hpp"
+#include "contact_watch.hpp"
 #include "explain_failure.hpp"
 #include "history_columns.hpp"
 #include "memory.hpp"
@@ -248,6 +249,8 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
   {
     const auto timer = timers.scope("steps");
     StepperObserver functions = observers.functions();
+    const ContactWatch watch(model, scene);
+    functions.examine = [&](const Vector& at) { watch.examine(*system.displacement(at)); };
     functions.explain = [&](const StepFailure& caught) { return explain_failure(caught, model, system); };
     try {
       record.converged = run_steps(system, scene.stepping, scene.newton, x, start_step, functions, failure);
