@@ -6,8 +6,12 @@ void MortarOptions::describe(Parameters& parameters) {
   parameters.add("gap weighting", gap_weighting, {{"dual", GapWeighting::dual}, {"standard", GapWeighting::standard}},
                  "functions that weight the gap: the dual ones of the multiplier, or the standard shape functions, which keep the gap's sign on "
                  "strongly curved coarse facets");
-  parameters.add("search reach", search_reach,
-                 Says("distance up to which facets can touch; default: the length of the pair's longest facet").unit("length").above(0.0));
+  parameters.add(
+      "search reach", search_reach,
+      Says("distance up to which facets can touch; default: the length of the pair's longest facet, in a scene more if the surfaces begin deeper "
+           "in one another")
+          .unit("length")
+          .above(0.0));
   parameters.add(
       "linearisation", linearisation, {{"exact", Linearisation::exact}, {"frozen normals", Linearisation::frozen_normals}},
       "what Newton's method knows of the contact geometry: all, or all but how the nodal normals turn, as many programs have it; changes no "

@@ -68,6 +68,7 @@ bool run_steps(SemiSmoothSystem& system, const SteppingOptions& stepping, const 
         if (!rate.is_null()) tried.update(report.dt, *rate, 1.0);
         if (start_step) start_step(tried);
         solve_step(system, report.time, newton, tried, report.newton, observer.iteration);
+        if (observer.examine) observer.examine(tried);
         break;
       } catch (const StepFailure& caught) {
         const std::string explanation = observer.explain ? observer.explain(caught) : "";

@@ -235,6 +235,9 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   const auto fixed = marked_components(*mesh_, parts_.prescribed->dofs(), 1.0), kept = rcp(new MultiVector(*fixed, Teuchos::Copy));
   if (parts_.dependent) kept->update(1.0, *marked_components(*mesh_, parts_.dependent->dofs(), 2.0), 1.0);
   const bool axisymmetric = scene.kinematics == Kinematics::axisymmetric;
+  surfaces_at_start_ = examine_surfaces(*mesh_, scene, size_.length);
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    if (const auto& reach = surfaces_at_start_.pairs[pairs[p].second_pass_of.value_or(p)].reach) pairs[p].options.mortar.search_reach = reach;
   std::vector<HoldingPair> holding;
   for (const auto& pair : pairs)
     holding.push_back({&pair.slave, &pair.master, pair.options.mortar.search_reach.value_or(0.0), pair.options.friction.options->acts()});

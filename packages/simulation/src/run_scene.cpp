@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "contact_at_start.hpp"
+#include "contact_watch.hpp"
 #include "explain_failure.hpp"
 #include "history_columns.hpp"
 #include "limit_load.hpp"
@@ -249,6 +250,8 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
   {
     const auto timer = timers.scope("steps");
     StepperObserver functions = observers.functions();
+    const ContactWatch watch(model, scene);
+    functions.examine = [&](const Vector& at) { watch.examine(*system.displacement(at)); };
     functions.explain = [&](const StepFailure& caught) {
       const std::string explanation = explain_failure(caught, model, system);
       return explanation.empty() ? explain_limit_load(caught, model, system, x) : explanation;

@@ -62,6 +62,8 @@ void TieOptions::describe(Parameters& parameters) {
 void ContactPairOptions::describe(Parameters& parameters) {
   parameters.add("slave", slave, Says("side set that carries the multipliers: the finer, softer or shorter one").required());
   parameters.add("master", master, Says("side set that it may touch").required());
+  parameters.add("initial overlap", initial_overlap, {{"interference", InitialOverlap::interference}, {"error", InitialOverlap::error}},
+                 "surfaces that begin in one another: interference, the first step pushes them apart, whatever the depth; error, the scene is refused");
   contact.describe(parameters);
 }
 

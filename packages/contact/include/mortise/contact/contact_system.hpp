@@ -126,10 +126,6 @@ class ContactSystem {
   /// the master surface so far that nothing is within reach any more. A node that opened or ran off the master's edge is not lost.
   void evaluate(const Vector& d, bool derivatives, std::optional<StepFailure>& failure);
 
-  /// Pairs whose master seems to have its solid side on the wrong side: at the last evaluate() no slave node has a master facet before or behind it
-  /// that faces it, however far, and half of them or more have the back of one before them. Collective.
-  std::vector<std::size_t> pairs_with_turned_master() const;
-
   /// Graph of the condensed system: the bulk's and what the pairs couple. `changed` is set if it differs from the one of the last call: only then is
   /// `bulk` asked for the bulk's, which is not kept.
   RCP<const Graph> system_graph(const std::function<RCP<const Graph>()>& bulk, bool& changed);

@@ -41,6 +41,7 @@ struct StepReport {
 struct StepperObserver {
   std::function<void(int step, double time, double dt)> begin;  ///< before each try
   std::function<void(const NewtonIteration&)> iteration;
+  std::function<void(const Vector& x)> examine;  ///< a converged state before it is accepted: throws StepFailure, on every rank, if it must not be
   std::function<void(const StepReport&, const Vector& x)> accepted;   ///< after commit
   std::function<void(const StepReport&, const StepFailure&)> undone;  ///< a try failed
   std::function<std::string(const StepFailure&)> explain;             ///< what lies behind a failure, to stand before its message

@@ -11,6 +11,7 @@
 #include "mortise/mesh/build_mesh.hpp"
 #include "mortise/nonlinear/semi_smooth_system.hpp"
 #include "mortise/simulation/scene.hpp"
+#include "mortise/simulation/surfaces_at_start.hpp"
 #include "mortise/solid/bodies.hpp"
 
 namespace mortise {
@@ -40,6 +41,8 @@ class Model {
   /// For each owned node whether it belongs to a body that nothing but contact holds.
   const std::vector<char>& held_by_contact_only() const { return held_by_contact_only_; }
   const Effects& effects() const { return effects_; }
+  /// How the surfaces lie before anything moves.
+  const SurfacesAtStart& surfaces_at_start() const { return surfaces_at_start_; }
 
   GlobalOrdinal dofs() const;
   /// Slave nodes that carry a multiplier, over all ranks.
@@ -60,6 +63,7 @@ class Model {
   std::shared_ptr<const Bodies> bodies_;
   std::vector<char> held_by_contact_only_;
   Effects effects_;
+  SurfacesAtStart surfaces_at_start_;
   SystemParts parts_;
 };
 

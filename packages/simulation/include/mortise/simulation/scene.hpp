@@ -52,9 +52,16 @@ struct LoadChoice {
   void describe(Parameters& parameters);
 };
 
+/// What becomes of surfaces that begin in one another.
+enum class InitialOverlap {
+  interference,  ///< the overlap is the load that it is
+  error          ///< refused
+};
+
 /// Two surfaces that may touch.
 struct ContactPairOptions {
   Located<std::string> slave, master;
+  InitialOverlap initial_overlap = InitialOverlap::interference;
   ContactOptions contact;
   void describe(Parameters& parameters);
 };

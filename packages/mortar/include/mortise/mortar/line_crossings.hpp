@@ -1,0 +1,69 @@
+#pragma once
+// Where straight lines cross oriented surfaces, from whichever side: what tells inside from outside.
+
+#include <Eigen/Core>
+#include <array>
+#include <boost/container/static_vector.hpp>
+#include <limits>
+#include <vector>
+
+#include "mortise/core/types.hpp"
+#include "mortise/shape/surface_facet.hpp"
+
+namespace mortise {
+
+/// Positions of a facet's nodes, in order; in 2D z = 0.
+using FacetPlaces = boost::container::static_vector<Eigen::Vector3d, most_side_nodes>;
+
+/// A facet of this rank, oriented as surface_facet.hpp says. `tag` says to the caller what it belongs to.
+struct TaggedFacet {
+  FacetPlaces points;
+  int tag = 0;
+};
+
+/// The points x + s d of a line with low <= s <= high, d a unit vector.
+struct LineSegment {
+  Eigen::Vector3d x, d;
+  double low = 0.0, high = 0.0;
+};
+
+struct Crossing {
+  double s = 0.0;
+  bool leaves = false;  ///< the line goes along the facet's outward normal, out of the body
+  int tag = 0;
+};
+
+/// The centre of a facet, of a quadratic one of its part, and points just beside its corners, with its unit normal: a line from such a point passes
+/// beside the edges that the surfaces of conforming meshes share.
+struct SurfacePoint {
+  Eigen::Vector3d x, normal;
+  int node = 0;  ///< place of the nearest node among the facet's
+};
+
+/// None of a facet without area.
+std::vector<SurfacePoint> surface_points(int dimension, const FacetPlaces& facet);
+
+/// Collective: for each segment of this rank the crossings with the facets of all ranks, in ascending order of s. Quadratic facets count by their
+/// linear parts. A facet within three degrees of the line's direction is passed by. Facets travel to the ranks whose box of segments they meet.
+std::vector<std::vector<Crossing>> crossings(const Communicator& comm, int dimension, const std::vector<TaggedFacet>& facets,
+                                             const std::vector<LineSegment>& segments);
+
+/// An axis-parallel box; empty as it is made.
+struct Box3 {
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::max());
+  Eigen::Vector3d high = Eigen::Vector3d::Constant(-std::numeric_limits<double>::max());
+
+  void enclose(const Eigen::Vector3d& x) { low = low.cwiseMin(x), high = high.cwiseMax(x); }
+  bool empty() const { return low[0] > high[0]; }
+  double diagonal() const { return empty() ? 0.0 : (high - low).norm(); }
+  Box3 widened(double by) const;
+  bool holds(const Eigen::Vector3d& x) const { return (x.array() >= low.array()).all() && (x.array() <= high.array()).all(); }
+  bool meets(const Box3& other) const { return (low.array() <= other.high.array()).all() && (high.array() >= other.low.array()).all(); }
+  /// The part of a segment in the box: false if there is none.
+  bool cut(LineSegment& segment) const;
+};
+
+/// The boxes of all ranks together. Collective.
+std::vector<Box3> boxes_over_ranks(const Communicator& comm, const std::vector<Box3>& mine);
+
+}  // namespace mortise

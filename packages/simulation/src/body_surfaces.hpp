@@ -1,0 +1,46 @@
+#pragma once
+// The surfaces of all bodies as oriented facets at given positions.
+
+#include <functional>
+#include <vector>
+
+#include "mortise/mesh/mesh.hpp"
+#include "mortise/mortar/line_crossings.hpp"
+
+namespace mortise {
+
+/// Position of a local node; in 2D z = 0.
+using PlaceOfNode = std::function<Eigen::Vector3d(LocalOrdinal node)>;
+
+PlaceOfNode reference_places(const Mesh& mesh);
+
+FacetPlaces places_of(const Mesh& mesh, const Side& side, const PlaceOfNode& at);
+
+/// The facets of a body on this rank, each on one rank: those of `set` with the tag `in_set`, the others of its surface with `elsewhere`.
+std::vector<TaggedFacet> tagged_surface(const Mesh& mesh, std::size_t body, const SideSet& set, int in_set, int elsewhere, const PlaceOfNode& at);
+
+/// The side set that is the whole surface of a body.
+const SideSet& whole_surface(const Mesh& mesh, std::size_t body);
+
+/// Whether a body is made of a surface alone, with a solid side and no inside.
+bool is_rigid(const Mesh& mesh, std::size_t body);
+
+/// The box of each body's surface, over all ranks. Collective.
+std::vector<Box3> body_boxes(const Mesh& mesh, const PlaceOfNode& at);
+
+/// The body whose sides a set holds. Collective; a set is not empty and belongs to one body.
+std::size_t body_of(const Mesh& mesh, const SideSet& set);
+
+/// A point of a surface with the node that it is next to.
+struct SurfaceProbe {
+  SurfacePoint point;
+  LocalOrdinal node = 0;
+};
+
+/// The points of the set's facets on this rank.
+std::vector<SurfaceProbe> probes_of(const Mesh& mesh, const SideSet& set, const PlaceOfNode& at);
+
+/// Length of the longest facet of the set, over all ranks, between corners. Collective.
+double longest_facet(const Mesh& mesh, const SideSet& set, const PlaceOfNode& at);
+
+}  // namespace mortise

@@ -1,0 +1,128 @@
+#include "contact_watch.hpp"
+
+#include <fmt/format.h>
+
+#include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+#include <algorithm>
+
+#include "mortise/mesh/sets.hpp"
+#include "penetration.hpp"
+
+namespace mortise {
+namespace {
+
+constexpr double round_off = 1e-6;  ///< of depths, over the size of the model
+constexpr double most = 0.5;        ///< share of a slave surface that is within another body when the whole body is
+
+PlaceOfNode current_places(const Mesh& mesh, const Vector& local_displacement) {
+  const auto u = local_displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
+  const LocalOrdinal dimension = mesh.dimension;
+  return [&mesh, u, dimension](LocalOrdinal node) {
+    Eigen::Vector3d x(mesh.coordinates[static_cast<std::size_t>(node)].data());
+    for (LocalOrdinal i = 0; i < dimension; ++i) x[i] += u(dimension * node + i, 0);
+    return x;
+  };
+}
+
+[[noreturn]] void fail(const Mesh& mesh, const std::string& pair, const DeepestPoint& at, const std::string& what) {
+  const auto& x = at.place;
+  throw StepFailure(
+      FailureKind::lost_contact,
+      fmt::format("contact \"{}\": node {} of the slave at ({:.6g}, {:.6g}{}) {}; no facet of the master acts on it: the body has passed "
+                  "through; please take a smaller \"maximum step\", or see which side of the master faces the slave",
+                  pair, at.node, x[0], x[1], mesh.dimension == 3 ? fmt::format(", {:.6g}", x[2]) : "", what));
+}
+
+}  // namespace
+
+ContactWatch::ContactWatch(const Model& model, const Scene& scene)
+    : model_(model), scene_(scene), to_local_nodes_(model.mesh()->owned_nodes, model.mesh()->local_nodes) {
+  const Mesh& mesh = *model.mesh();
+  for (std::size_t p = 0; p < scene.contact.size(); ++p) {
+    const ContactPairOptions& options = scene.contact[p].value;
+    const SideSet &slave = require_side_set(mesh, options.slave), &master = require_side_set(mesh, options.master);
+    const PairAtStart& start = model.surfaces_at_start().pairs[p];
+    const double reach = options.contact.mortar.search_reach.value_or(start.reach.value_or(start.longest));
+    // Couplings of the reference configuration stay for ever: what they do not cover they never will.
+    const bool frozen = options.contact.geometry == ContactGeometry::reference;
+    Pair pair{p, slave, master, body_of(mesh, slave), body_of(mesh, master), frozen ? round_off * model.size().length : reach};
+    if (pair.slave_body != pair.master_body && !start.is_swallowed) pairs_.push_back(pair);
+  }
+}
+
+std::vector<char> ContactWatch::covered(std::size_t pair) const {
+  const Mesh& mesh = *model_.mesh();
+  Vector owned(mesh.owned_nodes), local(mesh.local_nodes);
+  {
+    const Vector no_pressure(model_.contact()->multiplier_map());
+    const auto marks = owned.getLocalViewHost(Tpetra::Access::ReadWrite);
+    for (const ContactNodeState& node : model_.contact()->node_states(pair, no_pressure)) marks(node.owned_node, 0) = node.covered > 0.0;
+  }
+  local.doImport(owned, to_local_nodes_, Tpetra::INSERT);
+  const auto marks = local.getLocalViewHost(Tpetra::Access::ReadOnly);
+  std::vector<char> result;
+  for (LocalOrdinal node = 0; node < mesh.local_count(); ++node) result.push_back(marks(node, 0) != 0.0);
+  return result;
+}
+
+void ContactWatch::examine(const Vector& displacement) const {
+  if (pairs_.empty()) return;
+  const Mesh& mesh = *model_.mesh();
+  const double touching = round_off * model_.size().length;
+  Vector local(model_.bodies()->local_dofs());
+  local.doImport(displacement, *model_.bodies()->ghost_import(), Tpetra::INSERT);
+  const PlaceOfNode at = current_places(mesh, local);
+  const std::vector<Box3> boxes = body_boxes(mesh, at);
+
+  // Of each pair the probes beside nodes that are not covered and may be in the other body; how many there are, and all.
+  std::vector<std::vector<SurfaceProbe>> probes(pairs_.size());
+  std::vector<double> mine, counts(2 * pairs_.size());
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    const Pair& pair = pairs_[p];
+    const std::vector<char> is_covered = covered(pair.index);
+    double all = 0.0;
+    for (const SurfaceProbe& probe : probes_of(mesh, pair.slave, at)) {
+      all += 1.0;
+      if (is_covered[probe.node]) continue;
+      if (may_penetrate(probe.point, boxes[pair.slave_body], boxes[pair.master_body], is_rigid(mesh, pair.master_body), touching))
+        probes[p].push_back(probe);
+    }
+    mine.insert(mine.end(), {static_cast<double>(probes[p].size()), all});
+  }
+  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), counts.data());
+
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    if (counts[2 * p] == 0.0) continue;
+    const Pair& pair = pairs_[p];
+    const std::string &name = scene_.contact[pair.index].name, &master = mesh.blocks[pair.master_body].name;
+    const bool rigid = is_rigid(mesh, pair.master_body);
+    const auto own = tagged_surface(mesh, pair.slave_body, pair.slave, SurfaceTags::own, SurfaceTags::own, at);
+    const auto other = tagged_surface(mesh, pair.master_body, pair.master, SurfaceTags::front, SurfaceTags::rest, at);
+    const auto found =
+        penetrations({*mesh.comm, mesh.dimension, own, other, boxes[pair.slave_body], boxes[pair.master_body], rigid, touching}, probes[p]);
+    using Kind = Penetration::Kind;
+    const auto depths = [&](Kind kind) {
+      std::vector<double> depths;
+      for (const Penetration& one : found)
+        depths.push_back(one.kind == kind && (kind == Kind::swallowed || one.depth > pair.reach) ? one.depth : 0.0);
+      return depths;
+    };
+    if (const DeepestPoint lost = deepest_point(mesh, at, probes[p], depths(Kind::overlap)); lost.depth > 0.0)
+      fail(mesh, name, lost, fmt::format("lies {:.3g} behind the surface of '{}', beyond the search reach {:.3g}", lost.depth, master, pair.reach));
+    if (const DeepestPoint lost = deepest_point(mesh, at, probes[p], depths(Kind::pierced)); lost.depth > 0.0)
+      fail(mesh, name, lost, fmt::format("belongs to a body that '{}' lies in, {:.3g} deep, entered through its back", master, lost.depth));
+    const std::vector<double> swallowed = depths(Kind::swallowed);
+    const auto within = static_cast<double>(std::count_if(swallowed.begin(), swallowed.end(), [](double depth) { return depth > 0.0; }));
+    double all = 0.0;
+    Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, within, Teuchos::outArg(all));
+    if (all < most * counts[2 * p + 1]) continue;
+    const DeepestPoint lost = deepest_point(mesh, at, probes[p], swallowed);
+    fail(mesh, name, lost,
+         fmt::format("lies {} '{}', {:.3g} behind its surface, with most of the slave", rigid ? "behind" : "within", master, lost.depth));
+  }
+}
+
+}  // namespace mortise

@@ -1,0 +1,159 @@
+// Bodies that begin in one another, against the same bodies moved into one another; bodies that pass through one another are told.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "scene_support.hpp"
+
+namespace {
+
+using namespace scene_support;
+using Json = nlohmann::json;
+
+std::string parameter(const std::string& name, const std::string& value) {
+  return fmt::format(R"(<Parameter name="{}" type="string" value="{}"/>)", name, value) + "\n";
+}
+
+std::string list(const std::string& name, const std::string& content) {
+  return fmt::format("<ParameterList name=\"{}\">\n{}</ParameterList>\n", name, content);
+}
+
+/// A block 1 x 1 (x 1) on a base 3 x 1 (x 3); the edges of the block lie within facets of the base.
+struct Case {
+  double depth = 0.24;
+  bool driven = false;  ///< the block begins on the base and is moved in; else it begins in it
+  int base_cells = 15, top_cells = 6;
+  bool space = false, base_is_slave = false;
+  std::string element = "Q4", pair = "", step = "1";
+};
+
+std::string scene_of(const Case& one) {
+  const auto body = [&](const std::string& name, const std::string& width, int cells, const std::string& translation) {
+    const std::string along = std::to_string(cells), layers = one.space ? "2" : "4";
+    return list(name, parameter("material", "soft") + parameter("element", one.element) +
+                          list("mesh", parameter("type", one.space ? "brick" : "block") + parameter("width", width) + parameter("height", "1") +
+                                           (one.space ? parameter("depth", width) + parameter("cells z", layers) : "") + parameter("cells x", along) +
+                                           parameter("cells y", one.space ? along : layers) + parameter("translation", translation)));
+  };
+  const std::string height = one.driven ? "0" : fmt::format("{}", -one.depth), motion = one.driven ? fmt::format("{}*t", -one.depth) : "0",
+                    level = one.space ? "0, 0, " : "0, ";
+  const auto hold = [&](const std::string& name, const std::string& set, const std::string& across) {
+    return list(name,
+                parameter("set", set) + parameter("x", "0") + parameter("y", one.space ? "0" : across) + (one.space ? parameter("z", across) : ""));
+  };
+  return list("overlap", parameter("kinematics", one.space ? "three dimensional" : "plane strain") +
+                             list("materials", list("soft", parameter("type", "neo hooke") + parameter("young's modulus", "1000") +
+                                                                parameter("poisson's ratio", "0.3"))) +
+                             list("bodies", body("base", "3", one.base_cells, one.space ? "-1.07, -1.07, -1" : "-1.07, -1") +
+                                                body("top", "1", one.top_cells, level + height)) +
+                             list("boundary conditions", hold("floor", "base/bottom", "0") + hold("ram", "top/top", motion)) +
+                             list("contact", list("joint", parameter("slave", one.base_is_slave ? "base/top" : "top/bottom") +
+                                                               parameter("master", one.base_is_slave ? "top/bottom" : "base/top") + one.pair)) +
+                             list("stepping", parameter("end time", "1") + parameter("step", one.step)) + list("output", parameter("fields", "")) +
+                             list("quantities", list("p", parameter("type", "contact force") + parameter("component", one.space ? "z" : "y"))));
+}
+
+double force_of(const Case& one, const std::string& name, int ranks = 1) {
+  const files::path directory = files::path(SCRATCH) / ("overlap_" + name);
+  const Ending ending = run(directory, scene_of(one), ranks);
+  EXPECT_EQ(ending.code, 0) << ending.output;
+  if (ending.code != 0) return 0.0;
+  return Json::parse(read_file((directory / "results" / "summary.json").string())).at("quantities").at("p").get<double>();
+}
+
+/// A hyperelastic body without friction knows no way: beginning in one another and moved into one another end in the same state.
+void expect_force_of_driven(Case one, const std::string& name, int ranks = 1) {
+  const double begun = force_of(one, name, ranks);
+  one.driven = true, one.step = "0.25";
+  const double driven = force_of(one, name + "_driven");
+  EXPECT_GT(std::abs(driven), 0.0);
+  EXPECT_NEAR(begun / driven, 1.0, 1e-8) << name;
+}
+
+TEST(InitialOverlap, GivesTheForceOfABodyThatIsMovedIn) {
+  for (const double depth : {0.002, 0.05, 0.19, 0.24, 0.4})
+    for (const bool base_is_slave : {false, true}) {
+      Case one;
+      one.depth = depth, one.base_is_slave = base_is_slave;
+      expect_force_of_driven(one, fmt::format("{}_{}", depth, base_is_slave));
+    }
+}
+
+// 0.1 is two and a half facets there.
+TEST(InitialOverlap, DeeperThanFacetsIsTheSameOnAnyNumberOfRanks) {
+  Case one;
+  one.depth = 0.1, one.base_cells = 75, one.top_cells = 30;
+  for (const int ranks : {1, 2, 3}) expect_force_of_driven(one, fmt::format("fine_np{}", ranks), ranks);
+}
+
+TEST(InitialOverlap, InSpaceGivesTheForceOfABodyThatIsMovedIn) {
+  for (const bool base_is_slave : {false, true}) {
+    Case one;
+    one.space = true, one.element = "H8", one.depth = 0.25, one.base_cells = 15, one.top_cells = 6, one.base_is_slave = base_is_slave;
+    expect_force_of_driven(one, fmt::format("space_{}", base_is_slave), 2);
+  }
+}
+
+TEST(InitialOverlap, IsToldOrRefused) {
+  Case one;
+  const Ending told = run(files::path(SCRATCH) / "overlap_told", scene_of(one), 2);
+  EXPECT_EQ(told.code, 0);
+  EXPECT_NE(told.output.find("contact joint: the surfaces begin by up to 0.24 in one another, deepest at node "), std::string::npos) << told.output;
+  EXPECT_NE(told.output.find("That is more than the longest facet, 0.2"), std::string::npos) << told.output;
+  one.pair = parameter("initial overlap", "error");
+  const files::path directory = files::path(SCRATCH) / "overlap_refused";
+  const Ending refused = run(directory, scene_of(one), 2);
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.output.find("contact/joint: the surfaces begin by 0.24 in one another"), std::string::npos) << refused.output;
+  EXPECT_FALSE(files::exists(directory / "results"));
+}
+
+// Couplings of the reference configuration cover nothing beyond the reach. The block, 0.5 above the base, comes down by 0.6.
+TEST(BodiesThatPassThrough, WhereNothingIsCoupledFail) {
+  for (const int ranks : {1, 2}) {
+    Case one;
+    one.depth = 0.6, one.driven = true, one.step = "0.1", one.pair = parameter("geometry", "reference");
+    const std::string scene = replaced(scene_of(one), R"(value="0, 0"/>)", R"(value="0, 0.5"/>)");
+    const Ending ending = run(files::path(SCRATCH) / "frozen", scene, ranks);
+    EXPECT_EQ(ending.code, 3) << ending.output;
+    EXPECT_NE(ending.output.find("contact \"joint\": node "), std::string::npos) << ending.output;
+    EXPECT_NE(ending.output.find("no facet of the master acts on it"), std::string::npos) << ending.output;
+  }
+}
+
+/// A rigid table, its solid side below, comes up from below the block and out of it on the other side: no facet of it ever faces the slave.
+TEST(BodiesThatPassThrough, TheBackOfARigidSurfaceFail) {
+  Case one;
+  one.depth = -10.0;
+  std::string scene = scene_of(one);
+  scene = replaced(scene, "<ParameterList name=\"top\">",
+                   R"(<ParameterList name="table">
+<Parameter name="rigid" type="bool" value="true"/>
+<ParameterList name="mesh">
+<Parameter name="type" type="string" value="profile"/>
+<Parameter name="points" type="string" value="3, 8, -2, 8"/>
+<Parameter name="cell size" type="double" value="0.5"/>
+</ParameterList>
+</ParameterList>
+<ParameterList name="top">)");
+  scene = replaced(scene, "<ParameterList name=\"ram\">", R"(<ParameterList name="rise">
+<Parameter name="set" type="string" value="table/reference"/>
+<Parameter name="x" type="string" value="0"/>
+<Parameter name="y" type="string" value="2.6*t"/>
+<Parameter name="rotation" type="string" value="0"/>
+</ParameterList>
+<ParameterList name="ram">)");
+  scene = replaced(scene, R"(value="top/top"/>)", R"(value="top/left"/>)");
+  scene = replaced(scene, R"(value="top/bottom"/>)", R"(value="top/top"/>)");
+  scene = replaced(scene, R"(value="base/top"/>)", R"(value="table/profile"/>)");
+  for (const int ranks : {1, 2}) {
+    const Ending ending = run(files::path(SCRATCH) / "through_the_back", scene, ranks, {"--set", "stepping/step=0.05"});
+    EXPECT_EQ(ending.code, 3) << ending.output;
+    EXPECT_NE(ending.output.find("entered through its back"), std::string::npos) << ending.output;
+  }
+}
+
+}  // namespace
