@@ -17,6 +17,7 @@ PairCoupling::PairCoupling(RCP<const Map> owned_nodes, RCP<const MultiVector> re
   interface_ = std::make_unique<MortarInterface>(owned_nodes_, reference_, std::move(fixed), pair_.slave, pair_.master, measure, pair_.options.mortar,
                                                  pair_.place);
   size_ = interface_->shortest_facet();
+  if (corner_rule() == CornerRule::master_normal) interface_->split_kinks(*reference_, {});
   rows_.resize(slave_nodes().size());
   if (variational()) openings_.resize(rows_.size());
   for (NodeRow& row : rows_) row.slip = TangentVector::Zero(dimension_ - 1);
@@ -130,7 +131,7 @@ bool PairCoupling::hands_over() const {
   return dimension_ > 2 && !uses_reference() && formulation().coupling() == Coupling::dual_mortar && becomes_exact;
 }
 
-bool PairCoupling::splits_kinks() const { return dimension_ == 2 && !uses_reference() && pair_.options.mortar.coupling != Coupling::node_to_segment; }
+CornerRule PairCoupling::corner_rule() const { return uses_reference() ? CornerRule::averaged : pair_.options.mortar.corner_rule(dimension_); }
 
 // By the mean gap: phi_j sum to 1.
 void PairCoupling::find_nearest_facets() {
@@ -148,14 +149,14 @@ void PairCoupling::find_nearest_facets() {
 }
 
 void PairCoupling::accept_cover() {
-  if (splits_kinks()) find_nearest_facets();
+  if (corner_rule() == CornerRule::nearest_facet) find_nearest_facets();
   if (!hands_over()) return;
   accepted_cover_.resize(rows_.size());
   for (std::size_t s = 0; s < rows_.size(); ++s) accepted_cover_[s] = rows_[s].cover / slave_nodes()[s].weight;
 }
 
 bool PairCoupling::adapt_surface(const MultiVector& x) {
-  if (splits_kinks()) return interface_->split_kinks(x, nearest_accepted_);  // the next search renews the pattern
+  if (corner_rule() != CornerRule::averaged) return interface_->split_kinks(x, nearest_accepted_);  // the next search renews the pattern
   const bool changed = hands_over() && interface_->hand_over(accepted_cover_);
   if (changed) follow_pattern();
   return changed;

@@ -91,6 +91,8 @@ class PairCoupling {
   const std::vector<SlipHistory>& slip_histories() const { return slip_; }
   long slip_evaluations() const { return slip_evaluations_; }
   const MortarInterface& interface() const { return *interface_; }
+  /// Which rule acts at kinks of the slave surface: averaged where the geometry is frozen.
+  CornerRule corner_rule() const;
   const std::vector<SlaveNode>& slave_nodes() const { return interface_->slave_nodes(); }
   const std::vector<NodeRow>& rows() const { return rows_; }
   /// Couplings of facets with derivatives; empty when the geometry is frozen.
@@ -139,8 +141,6 @@ class PairCoupling {
   /// Whether nodes that are hardly covered hand their functions over: in space, where dual multipliers follow the bodies until conditions hold
   /// exactly.
   bool hands_over() const;
-  /// Whether facets that meet in a kink have their own normals: in the plane, where they are integrated over and follow the bodies.
-  bool splits_kinks() const;
   void find_nearest_facets();
   void follow_pattern();
   void sum_to_rows(bool derivatives);
@@ -164,7 +164,8 @@ class PairCoupling {
   std::vector<NodeRow> rows_;
   std::vector<SpatialVector> openings_;  ///< of slave nodes, variational mortar only: derivative of the gap by a translation of the master
   std::vector<double> accepted_cover_;   ///< [slave nodes] by the node's weight; empty where nobody hands over
-  std::vector<Facet<LocalOrdinal>> nearest_accepted_;  ///< [slave nodes] facet of the node nearest to the master; empty where kinks stay
+  std::vector<Facet<LocalOrdinal>>
+      nearest_accepted_;  ///< [slave nodes] facet of the node nearest to the master; empty but with the rule `nearest facet`
   const FrictionLaw* friction_ = nullptr;
   std::vector<SlipHistory> slip_;  ///< [slave nodes]; empty without friction
   std::optional<Regularisation> regularisation_;

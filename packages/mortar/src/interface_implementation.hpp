@@ -33,6 +33,7 @@ class InterfaceImplementation {
   virtual std::vector<GapCurvature> gap_curvatures(const MultiVector& x, const std::vector<double>& pressures) = 0;
   virtual bool hand_over(const std::vector<double>& cover) = 0;
   virtual bool split_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest) = 0;
+  virtual long kinks(const MultiVector& x) = 0;
   virtual std::vector<std::optional<double>> distances_to_master(const MultiVector& x, const std::vector<std::size_t>& nodes,
                                                                  const std::vector<SpatialVector>& normals) = 0;
 

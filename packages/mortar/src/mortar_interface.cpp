@@ -91,6 +91,7 @@ bool MortarInterface::hand_over(const std::vector<double>& cover) { return imple
 bool MortarInterface::split_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest) {
   return implementation_->split_kinks(x, nearest);
 }
+long MortarInterface::kinks(const MultiVector& x) const { return implementation_->kinks(x); }
 void MortarInterface::retain(std::vector<std::vector<GlobalOrdinal>> nodes) { implementation_->retained = std::move(nodes); }
 const RCP<const Map>& MortarInterface::local_nodes() const { return implementation_->local_nodes; }
 const std::vector<SlaveNode>& MortarInterface::slave_nodes() const { return implementation_->slave.owned; }

@@ -7,6 +7,8 @@
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 
+#include "report_corners.hpp"
+
 namespace mortise {
 namespace {
 
@@ -50,6 +52,7 @@ void report_contact_at_start(const Model& model, const Scene& scene, RunLog& log
   }
   warn_of_turned_masters(model, scene, log);
   report_overlaps(model, scene, log);
+  report_corners(*contact, log);
 }
 
 }  // namespace mortise
