@@ -27,6 +27,17 @@ IntegrationLoad ContactSystem::integration_load(std::size_t pair) const {
   return load;
 }
 
+CornerReport ContactSystem::corners(std::size_t pair) const {
+  const Implementation& self = *implementation_;
+  CornerReport report;
+  report.rule = self.pairs[pair]->corner_rule();
+  report.as_asked = report.rule == self.pairs[pair]->definition().options.mortar.corners;
+  long mine = self.pairs[pair]->interface().kinks(*self.evaluated_at);
+  if (const auto other = second_pass(pair)) mine += self.pairs[*other]->interface().kinks(*self.evaluated_at);
+  report.kinks = static_cast<long>(self.sum(static_cast<double>(mine)));
+  return report;
+}
+
 std::vector<ContactNodeState> ContactSystem::node_states(std::size_t pair, const Vector& z) const {
   const Implementation& self = *implementation_;
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);

@@ -18,6 +18,7 @@ PairCoupling::PairCoupling(RCP<const Map> owned_nodes, RCP<const MultiVector> re
                                                  pair_.place);
   ties_ = MultiplierTies(slave_nodes(), pair_.slave, owned_nodes_->getComm());
   size_ = interface_->shortest_facet();
+  if (corner_rule() == CornerRule::master_normal) interface_->split_kinks(*reference_, {});
   rows_.resize(slave_nodes().size());
   if (variational()) openings_.resize(rows_.size());
   for (NodeRow& row : rows_) row.slip = TangentVector::Zero(dimension_ - 1);
@@ -157,7 +158,7 @@ void PairCoupling::follow_pattern() {
   place_slip_histories();
 }
 
-bool PairCoupling::splits_kinks() const { return dimension_ == 2 && !uses_reference() && pair_.options.mortar.coupling != Coupling::node_to_segment; }
+CornerRule PairCoupling::corner_rule() const { return uses_reference() ? CornerRule::averaged : pair_.options.mortar.corner_rule(dimension_); }
 
 // By the mean gap: phi_j sum to 1.
 void PairCoupling::find_nearest_facets() {
@@ -175,13 +176,13 @@ void PairCoupling::find_nearest_facets() {
 }
 
 void PairCoupling::accept_cover() {
-  if (splits_kinks()) find_nearest_facets();
+  if (corner_rule() == CornerRule::nearest_facet) find_nearest_facets();
   accepted_covered_.resize(rows_.size());
   for (std::size_t s = 0; s < rows_.size(); ++s) accepted_covered_[s] = covered(s);
 }
 
 bool PairCoupling::adapt_surface(const MultiVector& x) {
-  return splits_kinks() && interface_->split_kinks(x, nearest_accepted_);  // the next search renews the pattern
+  return corner_rule() != CornerRule::averaged && interface_->split_kinks(x, nearest_accepted_);  // the next search renews the pattern
 }
 
 void PairCoupling::evaluate(const MultiVector& x, bool derivatives, std::optional<StepFailure>& failure) {

@@ -101,6 +101,8 @@ class PairCoupling {
   const std::vector<SlipHistory>& slip_histories() const { return slip_; }
   long slip_evaluations() const { return slip_evaluations_; }
   const MortarInterface& interface() const { return *interface_; }
+  /// Which rule acts at kinks of the slave surface: averaged where the geometry is frozen.
+  CornerRule corner_rule() const;
   const std::vector<SlaveNode>& slave_nodes() const { return interface_->slave_nodes(); }
   const std::vector<NodeRow>& rows() const { return rows_; }
   /// Couplings of facets with derivatives; empty when the geometry is frozen.
@@ -160,8 +162,6 @@ class PairCoupling {
 
  private:
   bool uses_reference() const { return pair_.options.geometry == ContactGeometry::reference; }
-  /// Whether facets that meet in a kink have their own normals: in the plane, where they are integrated over and follow the bodies.
-  bool splits_kinks() const;
   void find_nearest_facets();
   /// Whether conditions hold exactly in the end: then slivers ask for ties.
   bool has_ties() const { return !regularisation_ || regularisation_->augmentations > 0; }
@@ -190,7 +190,8 @@ class PairCoupling {
   std::vector<NodeRow> rows_;
   std::vector<SpatialVector> openings_;  ///< of slave nodes, variational mortar only: derivative of the gap by a translation of the master
   std::vector<char> accepted_covered_;   ///< [slave nodes] in the accepted state; empty before the first
-  std::vector<Facet<LocalOrdinal>> nearest_accepted_;  ///< [slave nodes] facet of the node nearest to the master; empty where kinks stay
+  std::vector<Facet<LocalOrdinal>>
+      nearest_accepted_;  ///< [slave nodes] facet of the node nearest to the master; empty but with the rule `nearest facet`
   const FrictionLaw* friction_ = nullptr;
   std::vector<SlipHistory> slip_;  ///< [slave nodes]; empty without friction
   std::optional<Regularisation> regularisation_;

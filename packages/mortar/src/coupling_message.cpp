@@ -7,7 +7,7 @@ namespace mortise {
 // Each list begins with its length, each matrix with its rows and columns.
 std::size_t coupling_bytes(std::size_t slaves, std::size_t masters, std::size_t columns, int dimension) {
   const std::size_t values = slaves * slaves + slaves * masters + 2 * slaves;
-  const std::size_t header = 2 + slaves, lists = 2 + masters + columns, sizes = 8 * 2;
+  const std::size_t header = 2 + slaves, lists = 2 + masters + columns, sizes = 10 * 2;
   return sizeof(Words::value_type) * (header + lists + sizes + values * (1 + static_cast<std::size_t>(dimension) * columns));
 }
 
@@ -23,7 +23,8 @@ void put_coupling(WordWriter& to, const CouplingHeader& header, const FacetCoupl
   to.put_matrix(coupling.M);
   to.put_matrix(coupling.gap);
   to.put_matrix(coupling.cover);
-  for (const Eigen::MatrixXd* slope : {&coupling.dD, &coupling.dM, &coupling.dgap, &coupling.dcover}) to.put_matrix(*slope);
+  to.put_matrix(coupling.facing);
+  for (const Eigen::MatrixXd* slope : {&coupling.dD, &coupling.dM, &coupling.dgap, &coupling.dcover, &coupling.dfacing}) to.put_matrix(*slope);
 }
 
 CouplingHeader get_header(WordReader& from) {
@@ -44,7 +45,8 @@ void get_coupling(WordReader& from, const CouplingHeader& header, const std::fun
   from.get_matrix(coupling.M);
   from.get_matrix(coupling.gap);
   from.get_matrix(coupling.cover);
-  for (Eigen::MatrixXd* slope : {&coupling.dD, &coupling.dM, &coupling.dgap, &coupling.dcover}) from.get_matrix(*slope);
+  from.get_matrix(coupling.facing);
+  for (Eigen::MatrixXd* slope : {&coupling.dD, &coupling.dM, &coupling.dgap, &coupling.dcover, &coupling.dfacing}) from.get_matrix(*slope);
 }
 
 }  // namespace mortise

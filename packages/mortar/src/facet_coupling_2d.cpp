@@ -66,6 +66,9 @@ bool FacetIntegrator2d::integrate(const SlaveFacetData& slave, const std::vector
   choose_basis(covered);
   accumulate(covered, coupling.master.size(), derivatives);
   if (derivatives) chain(slave, coupling);
+  coupling.facing.resize(0, 2);
+  coupling.dfacing.resize(0, 0);
+  if (slave.at_corner) face(slave, derivatives, coupling);
   return combine(moments_, *slave.multipliers, functions_, derivatives, coupling);
 }
 
@@ -166,20 +169,42 @@ void FacetIntegrator2d::accumulate(const Interval& covered, std::size_t masters,
 }
 
 void FacetIntegrator2d::chain(const SlaveFacetData& slave, FacetCoupling& coupling) {
-  auto& columns = coupling.columns;
-  const Eigen::Index first_master = place_columns(slave, coupling.master, columns);
-  const auto n = static_cast<Eigen::Index>(slave.nodes.size()), masters = static_cast<Eigen::Index>(coupling.master.size());
-
-  moments_.slope.setZero(raw_.rows(), 2 * static_cast<Eigen::Index>(columns.size()));
+  first_master_ = place_columns(slave, coupling.master, coupling.columns);
+  chain_columns(slave, coupling, raw_, moments_.slope);
   moments_.moving_columns = moments_.slope.cols();
-  moments_.slope.leftCols(2 * n) = raw_.leftCols(2 * n);
-  moments_.slope.middleCols(2 * first_master, 2 * masters) = raw_.rightCols(2 * masters);
+}
+
+// From derivatives with respect to slave positions, slave normals, masters to those with respect to the coupling's columns.
+void FacetIntegrator2d::chain_columns(const SlaveFacetData& slave, FacetCoupling& coupling, const Eigen::MatrixXd& raw,
+                                      Eigen::MatrixXd& slope) const {
+  auto& columns = coupling.columns;
+  const auto n = static_cast<Eigen::Index>(slave.nodes.size()), masters = static_cast<Eigen::Index>(coupling.master.size());
+  slope.setZero(raw.rows(), 2 * static_cast<Eigen::Index>(columns.size()));
+  slope.leftCols(2 * n) = raw.leftCols(2 * n);
+  slope.middleCols(2 * first_master_, 2 * masters) = raw.rightCols(2 * masters);
   for (Eigen::Index node = 0; node < n; ++node) {
     const NodalNormal& normal = *slave.normals[static_cast<std::size_t>(node)];
     for (std::size_t c = 0; c < normal.columns.size(); ++c)
-      moments_.slope.middleCols<2>(2 * place_of(columns, normal.columns[c])).noalias() +=
-          raw_.middleCols<2>(2 * (n + node)) * normal.derivative.middleCols<2>(2 * static_cast<Eigen::Index>(c));
+      slope.middleCols<2>(2 * place_of(columns, normal.columns[c])).noalias() +=
+          raw.middleCols<2>(2 * (n + node)) * normal.derivative.middleCols<2>(2 * static_cast<Eigen::Index>(c));
   }
+}
+
+// FacetCoupling::facing.
+void FacetIntegrator2d::face(const SlaveFacetData& slave, bool derivatives, FacetCoupling& coupling) {
+  const auto n = static_cast<Eigen::Index>(slave.nodes.size()), masters = static_cast<Eigen::Index>(coupling.master.size());
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(2 * n);
+  if (derivatives) raw_.setZero(2 * n, 4 * n + 2 * masters);
+  for (const Pair& pair : pairs_) {
+    integrate_facing(line_, pair.line, pair.overlap, measure_, rule(), derivatives, facing_);
+    sum += facing_.value;
+    if (!derivatives) continue;
+    raw_.leftCols(4 * n) += facing_.derivative.leftCols(4 * n);
+    for (std::size_t l = 0; l < pair.place.size(); ++l)
+      raw_.middleCols<2>(4 * n + 2 * pair.place[l]) += facing_.derivative.middleCols<2>(4 * n + 2 * static_cast<Eigen::Index>(l));
+  }
+  coupling.facing = sum.reshaped<Eigen::RowMajor>(n, 2);
+  if (derivatives) chain_columns(slave, coupling, raw_, coupling.dfacing);
 }
 
 }  // namespace mortise

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "facet_geometry.hpp"
+#include "facing_2d.hpp"
 #include "mortise/mortar/segment_2d.hpp"
 #include "slave_facet.hpp"
 
@@ -41,6 +42,8 @@ class FacetIntegrator2d {
   void choose_basis(const Interval& covered);
   void accumulate(const Interval& covered, std::size_t masters, bool derivatives);
   void chain(const SlaveFacetData& slave, FacetCoupling& coupling);
+  void chain_columns(const SlaveFacetData& slave, FacetCoupling& coupling, const Eigen::MatrixXd& raw, Eigen::MatrixXd& slope) const;
+  void face(const SlaveFacetData& slave, bool derivatives, FacetCoupling& coupling);
   const std::vector<LinePoint>& rule() const { return line_.x.size() == 2 ? rule_ : rule_of_quadratic_; }
 
   InterfaceMeasure measure_;
@@ -49,7 +52,9 @@ class FacetIntegrator2d {
   SlaveCurve line_;
   std::vector<Pair> pairs_;
   SegmentIntegrals segment_;
+  FacingIntegrals facing_;
   Eigen::MatrixXd raw_;               ///< derivatives with respect to slave positions, slave normals, masters
+  Eigen::Index first_master_ = 0;     ///< of the coupling's columns
   std::vector<LocalOrdinal> master_;  ///< nodes, for second derivatives
   FacetMoments moments_;
 };

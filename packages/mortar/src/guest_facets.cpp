@@ -33,6 +33,7 @@ GuestFacets::GuestFacets(const std::vector<TravellingFacet>& travellers, const S
       facet.nodes.push_back(node);
       const std::size_t next = slave.stencils.size() + stencils.size();
       if (!traveller.stencils[a].of_node) {
+        facet.at_kink = true;
         facet.normals.push_back(next);
         stencils.push_back(make_stencil(node, traveller.stencils[a], local));
         continue;

@@ -15,6 +15,7 @@ struct GuestFacet {
   std::vector<Facet<LocalOrdinal>> candidates;
   FacetMultipliers multipliers;
   std::vector<int> receivers;
+  bool at_kink = false;  ///< it has normals of its own
 };
 
 /// All of them, with the stencils of those normals that the rank does not have anyway: they are numbered behind SlaveSurface::stencils.

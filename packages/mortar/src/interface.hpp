@@ -35,6 +35,7 @@ class Interface final : public InterfaceImplementation {
                 std::optional<StepFailure>& failure) override;
   std::vector<GapCurvature> gap_curvatures(const MultiVector& x, const std::vector<double>& pressures) override;
   bool split_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest) override;
+  long kinks(const MultiVector& x) override;
   std::vector<std::optional<double>> distances_to_master(const MultiVector& x, const std::vector<std::size_t>& nodes,
                                                          const std::vector<SpatialVector>& normals) override;
 
@@ -47,6 +48,7 @@ class Interface final : public InterfaceImplementation {
   double least_height(const Positions<dim>& slave_x, const std::vector<PlacedFacet<dim>>& placed_master) const;
   Candidates find(const Positions<dim>& x, const std::vector<PlacedFacet<dim>>& placed_master, const Motion& motion) const;
   void number_nodes();
+  void couple_beyond_corners(std::size_t facet, std::vector<LocalOrdinal>& nodes) const;
   void collect_met();
   bool balance(const Positions<dim>& slave_x);
   FacetReach limits_of(const Facet<LocalOrdinal>& nodes, const Positions<dim>& x) const {
@@ -54,9 +56,11 @@ class Interface final : public InterfaceImplementation {
   }
   std::size_t segments_of(SlaveFacetData& data, const std::vector<Facet<LocalOrdinal>>& candidates, const Positions<dim>& x, bool derivatives,
                           FacetCoupling& coupling);
-  void couple_facets(const Positions<dim>& x, bool derivatives, const std::vector<NodalNormal>& normals, std::vector<FacetCoupling>& couplings,
+  void couple_facets(const Positions<dim>& x, bool derivatives, std::vector<NodalNormal>& normals, std::vector<FacetCoupling>& couplings,
                      std::optional<StepFailure>& failure);
   void pass_couplings(std::vector<FacetCoupling>& couplings);
+  /// Kinks of owned nodes get the normals that their facets' couplings [facets] call for, and their rows the weights.
+  void settle_corners(bool derivatives, std::vector<NodalNormal>& normals, std::vector<FacetCoupling>& couplings) const;
   std::size_t couple_nodes(const Positions<dim>& x, bool derivatives, const std::vector<NodalNormal>& normals,
                            std::vector<FacetCoupling>& couplings) const;
 

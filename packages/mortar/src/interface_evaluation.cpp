@@ -20,8 +20,9 @@ std::size_t Interface<dim>::segments_of(SlaveFacetData& data, const std::vector<
 
 // Couplings of this rank's facets, in their order, whoever integrates them: sums do not depend on that. Collective, after a failure too.
 template <int dim>
-void Interface<dim>::couple_facets(const Positions<dim>& x, bool derivatives, const std::vector<NodalNormal>& normals,
+void Interface<dim>::couple_facets(const Positions<dim>& x, bool derivatives, std::vector<NodalNormal>& normals,
                                    std::vector<FacetCoupling>& couplings, std::optional<StepFailure>& failure) {
+  const bool master_normals = options_.corner_rule(dim) == CornerRule::master_normal;
   couplings.resize(slave.facets.size());
   guest_couplings_.resize(guests_.facets.size());
   segments_of_facet_.assign(slave.facets.size(), 0);
@@ -34,6 +35,7 @@ void Interface<dim>::couple_facets(const Positions<dim>& x, bool derivatives, co
       data.multipliers = &slave.multipliers[f];
       data.normals.clear();
       for (const LocalOrdinal normal : slave.normals[f]) data.normals.push_back(&normals[normal]);
+      data.at_corner = master_normals && slave.normals[f] != slave.facets[f];
       segments_of_facet_[f] = segments_of(data, candidates_[f], x, derivatives, couplings[f]);
     }
     for (std::size_t g = 0; g < guests_.facets.size() && !failure; ++g) {
@@ -42,6 +44,7 @@ void Interface<dim>::couple_facets(const Positions<dim>& x, bool derivatives, co
       data.multipliers = &guest.multipliers;
       data.normals.clear();
       for (const std::size_t normal : guest.normals) data.normals.push_back(&normals[normal]);
+      data.at_corner = master_normals && guest.at_kink;
       segments_of_guest_[g] = segments_of(data, guest.candidates, x, derivatives, guest_couplings_[g]);
     }
   } catch (const StepFailure& one) {
@@ -57,6 +60,8 @@ void Interface<dim>::couple_facets(const Positions<dim>& x, bool derivatives, co
     }
   counted_ = true;
   if (distribution_) pass_couplings(couplings);
+  if constexpr (dim == 2)
+    if (master_normals && !failure) settle_corners(derivatives, normals, couplings);
   segments.clear();
   for (std::size_t f = 0; f < couplings.size(); ++f)
     if (segments_of_facet_[f] > 0) {

@@ -171,10 +171,12 @@ void Interface<dim>::number_nodes() {
   local_nodes = map_of(ids, owned_nodes_->getComm());
   coupled.assign(slave.owned.size(), {});
   loaded.assign(slave.owned.size(), {});
+  const bool turn_with_both_sides = options_.corner_rule(dim) == CornerRule::master_normal && !kinks_.empty();
   for (std::size_t s = 0; s < slave.owned.size(); ++s) {
     loaded[s].push_back(slave.owned[s].local_node);
     for (const std::size_t f : slave.facets_of[s]) {
       coupled[s].insert(coupled[s].end(), slave.facets[f].begin(), slave.facets[f].end());
+      if (turn_with_both_sides) couple_beyond_corners(f, coupled[s]);
       for (const LocalOrdinal node : slave.facets[f]) {
         const auto& columns = slave.stencils[node].columns;
         coupled[s].insert(coupled[s].end(), columns.begin(), columns.end());
@@ -188,6 +190,21 @@ void Interface<dim>::number_nodes() {
     for (std::vector<LocalOrdinal>* nodes : {&coupled[s], &loaded[s]}) {
       std::sort(nodes->begin(), nodes->end());
       nodes->erase(std::unique(nodes->begin(), nodes->end()), nodes->end());
+    }
+  }
+}
+
+// A corner's normal depends on both of its facets, and so do the couplings of either.
+template <int dim>
+void Interface<dim>::couple_beyond_corners(std::size_t facet, std::vector<LocalOrdinal>& nodes) const {
+  for (const LocalOrdinal corner : slave.facets[facet]) {
+    if (static_cast<std::size_t>(corner) >= slave.owned.size() || kinks_[corner] == 0) continue;
+    for (const std::size_t f : slave.facets_of[corner]) {
+      for (const LocalOrdinal node : slave.facets[f]) {
+        const auto& columns = slave.stencils[node].columns;
+        nodes.insert(nodes.end(), columns.begin(), columns.end());
+      }
+      for (const auto& candidate : candidates_[f]) nodes.insert(nodes.end(), candidate.begin(), candidate.end());
     }
   }
 }

@@ -32,6 +32,7 @@ class InterfaceImplementation {
                         std::optional<StepFailure>& failure) = 0;
   virtual std::vector<GapCurvature> gap_curvatures(const MultiVector& x, const std::vector<double>& pressures) = 0;
   virtual bool split_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest) = 0;
+  virtual long kinks(const MultiVector& x) = 0;
   virtual std::vector<std::optional<double>> distances_to_master(const MultiVector& x, const std::vector<std::size_t>& nodes,
                                                                  const std::vector<SpatialVector>& normals) = 0;
 

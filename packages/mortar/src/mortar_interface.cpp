@@ -90,6 +90,7 @@ std::vector<std::optional<double>> MortarInterface::distances_to_master(const Mu
 bool MortarInterface::split_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest) {
   return implementation_->split_kinks(x, nearest);
 }
+long MortarInterface::kinks(const MultiVector& x) const { return implementation_->kinks(x); }
 void MortarInterface::retain(std::vector<std::vector<GlobalOrdinal>> nodes) { implementation_->retained = std::move(nodes); }
 const RCP<const Map>& MortarInterface::local_nodes() const { return implementation_->local_nodes; }
 const std::vector<SlaveNode>& MortarInterface::slave_nodes() const { return implementation_->slave.owned; }

@@ -17,6 +17,12 @@ void MortarOptions::describe(Parameters& parameters) {
       "what Newton's method knows of the contact geometry: all, or all but how the nodal normals turn, as many programs have it; changes no "
       "solution");
   parameters.add(
+      "corners", corners,
+      {{"master normal", CornerRule::master_normal}, {"nearest facet", CornerRule::nearest_facet}, {"averaged", CornerRule::averaged}},
+      "normals at convex corners of a slave surface in 2D, where facets meet at an angle: the facets have their own, and the node that of the master "
+      "that they cover, or that of its facet nearest to the master; or all take the average. Variational mortar takes the nearest facet for the "
+      "master's normal");
+  parameters.add(
       "balance", balance,
       Says("largest over mean work of the ranks, in overlaps of two facets, above which the next search hands slave facets to other ranks; "
            "changes no solution")
@@ -27,6 +33,11 @@ void MortarOptions::describe(Parameters& parameters) {
                      .unit("-")
                      .at_least(2.0)
                      .at_most(20.0));
+}
+
+CornerRule MortarOptions::corner_rule(int dimension) const {
+  if (dimension != 2 || coupling == Coupling::node_to_segment) return CornerRule::averaged;
+  return coupling == Coupling::variational_mortar && corners == CornerRule::master_normal ? CornerRule::nearest_facet : corners;
 }
 
 }  // namespace mortise

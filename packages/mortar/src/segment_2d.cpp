@@ -71,19 +71,9 @@ void integrate_lines(const SlaveLine<double, n>& slave, const MasterLine<double,
     return;
   }
   using Dual = Sacado::Fad::SFad<double, columns>;
-  SlaveLine<Dual, n> dual_slave;
-  MasterLine<Dual, m> dual_master;
-  for (int i = 0; i < 2; ++i) {
-    for (int a = 0; a < n; ++a) {
-      dual_slave.x[a][i] = Dual(columns, 2 * a + i, slave.x[a][i]);
-      dual_slave.normal[a][i] = Dual(columns, 2 * (n + a) + i, slave.normal[a][i]);
-    }
-    for (int l = 0; l < m; ++l) dual_master.y[l][i] = Dual(columns, 2 * (2 * n + l) + i, master.y[l][i]);
-  }
-  const Dual low = overlap.low_is_master ? lift_root(dual_slave, dual_master.y[1], Dual(overlap.interval.low)) : Dual(overlap.interval.low);
-  const Dual high = overlap.high_is_master ? lift_root(dual_slave, dual_master.y[0], Dual(overlap.interval.high)) : Dual(overlap.interval.high);
+  const DualLines<Dual, n, m> lines(slave, master, overlap);
   std::array<Dual, rows> sum;
-  integrate<n, m>(dual_slave, dual_master, low, high, basis, measure, rule, sum);
+  integrate<n, m>(lines.slave, lines.master, lines.low, lines.high, basis, measure, rule, sum);
   result.value.resize(rows);
   result.derivative.resize(rows, columns);
   for (int q = 0; q < rows; ++q) {

@@ -31,6 +31,29 @@ auto with_lines(const SlaveCurve& slave, const LinePoints& master, const Act& ac
   return master.size() == 2 ? act(line_of<3>(slave), line_of<2>(master)) : act(line_of<3>(slave), line_of<3>(master));
 }
 
+/// The same two facets and the ends of their overlap with derivatives with respect to slave positions, nodal normals and master positions, in this
+/// order, two components each.
+template <class Dual, int n, int m>
+struct DualLines {
+  SlaveLine<Dual, n> slave;
+  MasterLine<Dual, m> master;
+  Dual low, high;
+
+  DualLines(const SlaveLine<double, n>& of_slave, const MasterLine<double, m>& of_master, const Overlap& overlap)
+      : low(overlap.interval.low), high(overlap.interval.high) {
+    constexpr int columns = 2 * (2 * n + m);
+    for (int i = 0; i < 2; ++i) {
+      for (int a = 0; a < n; ++a) {
+        slave.x[a][i] = Dual(columns, 2 * a + i, of_slave.x[a][i]);
+        slave.normal[a][i] = Dual(columns, 2 * (n + a) + i, of_slave.normal[a][i]);
+      }
+      for (int l = 0; l < m; ++l) master.y[l][i] = Dual(columns, 2 * (2 * n + l) + i, of_master.y[l][i]);
+    }
+    if (overlap.low_is_master) low = lift_root(slave, master.y[1], low);
+    if (overlap.high_is_master) high = lift_root(slave, master.y[0], high);
+  }
+};
+
 /// Calls act(xi, weight, eta, gap) at each point of a rule on the overlap [low, high]; the sum of the weights is its measure.
 template <int n, int m, class S, class Act>
 void for_each_point(const SlaveLine<S, n>& slave, const MasterLine<S, m>& master, const S& low, const S& high, const InterfaceMeasure& measure,

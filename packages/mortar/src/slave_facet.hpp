@@ -13,6 +13,7 @@ struct SlaveFacetData {
   boost::container::static_vector<const NodalNormal*, most_side_nodes> normals;
   boost::container::static_vector<const NormalStencil*, most_side_nodes> stencils;  ///< of the normals; for second derivatives only
   const FacetMultipliers* multipliers = nullptr;
+  bool at_corner = false;  ///< one of its nodes takes the master's normal: FacetCoupling::facing is asked for
 };
 
 /// How near a master facet has to be: at least one that overlaps within `touch`, then all that do within `all` take part.

@@ -7,9 +7,9 @@
 // and int phi_j g of the closed node, which is to see the gap at the node alone, gets a share of what lies away from it, of the size of the facet.
 // And the node's pressure leans over by theta / 2. With the facet's own normal at both ends the gap is linear, and so are the positions of the
 // projected points: int phi_j g = g_j int phi_j, and likewise for the forces' moment. The facet that stands off then does no more than give the node
-// its weight, until its other end comes to the master. The node's normal is that of the facet that is nearest to the master, in the mean. All this is
-// chosen between steps only, as it jumps, and with hysteresis: a corner that folds onto the master stays split until it is almost flat, since by the
-// average its pressure would lean over again.
+// its weight, until its other end comes to the master. The node's own normal is the master's, see settle_corners.cpp; or that of the facet that is
+// nearest to the master, in the mean. Which nodes are kinks, and which facet is nearest, is chosen between steps only, as it jumps, and with
+// hysteresis: a corner that folds onto the master stays split until it is almost flat, since by the average its pressure would lean over again.
 
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Map.hpp>
@@ -23,7 +23,15 @@ namespace mortise {
 namespace {
 
 /// Angles above which a convex node becomes a kink, and stays one.
-constexpr double sharp = 30.0 * boost::math::double_constants::degree, flat = 5.0 * boost::math::double_constants::degree;
+struct KinkAngles {
+  double sharp, flat;
+};
+
+// The nearest facet's normal is half the angle off the average; the master's is between the two.
+constexpr KinkAngles kink_angles(CornerRule rule) {
+  constexpr double degree = boost::math::double_constants::degree;
+  return rule == CornerRule::master_normal ? KinkAngles{10.0 * degree, 2.0 * degree} : KinkAngles{30.0 * degree, 5.0 * degree};
+}
 
 }  // namespace
 
@@ -31,15 +39,18 @@ template <>
 bool Interface<2>::split_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest) {
   const Positions<2> positions = (*slave_positions_)(x);
   const auto is_projected = [](const NormalStencil& stencil) { return stencil.projected[0] || stencil.projected[1]; };
+  const bool nearest_facet = options_.corner_rule(2) == CornerRule::nearest_facet;
+  const KinkAngles angles = kink_angles(options_.corner_rule(2));
   kinks_.resize(slave.nodes_with_normal, 0);
+  const std::vector<char> kinks_before = kinks_;
   std::vector<std::optional<std::size_t>> before, now;
   for (std::size_t n = 0; n < kinks_.size(); ++n) {
     NormalStencil& stencil = slave.stencils[n];
-    kinks_[n] = turn_at(stencil, positions) > (kinks_[n] ? flat : sharp);
+    kinks_[n] = turn_at(stencil, positions) > (kinks_[n] ? angles.flat : angles.sharp);
     before.push_back(stencil.only);
     stencil.only.reset();
     for (std::size_t e = 0; e < stencil.facets.size(); ++e)
-      if (kinks_[n] && n < nearest.size() && stencil.facets[e].nodes == nearest[n]) stencil.only = e;
+      if (kinks_[n] && nearest_facet && n < nearest.size() && stencil.facets[e].nodes == nearest[n]) stencil.only = e;
     now.push_back(stencil.only);
   }
   const std::vector<Facet<LocalOrdinal>> normals_before = slave.normals;
@@ -55,7 +66,7 @@ bool Interface<2>::split_kinks(const MultiVector& x, const std::vector<Facet<Loc
     }
   }
   int any = 0;
-  const bool changed = before != now || normals_before != slave.normals;
+  const bool changed = kinks_before != kinks_ || before != now || normals_before != slave.normals;
   Teuchos::reduceAll(*owned_nodes_->getComm(), Teuchos::REDUCE_MAX, static_cast<int>(changed), Teuchos::outArg(any));
   if (any == 0) return false;
   searched_at_ = Teuchos::null;  // other normals, other candidates
@@ -65,6 +76,19 @@ bool Interface<2>::split_kinks(const MultiVector& x, const std::vector<Facet<Loc
 template <>
 bool Interface<3>::split_kinks(const MultiVector&, const std::vector<Facet<LocalOrdinal>>&) {
   return false;
+}
+
+template <>
+long Interface<2>::kinks(const MultiVector& x) {
+  const Positions<2> positions = (*slave_positions_)(x);
+  const double sharp = kink_angles(options_.corner_rule(2)).sharp;
+  return std::count_if(slave.stencils.begin(), slave.stencils.begin() + static_cast<std::ptrdiff_t>(slave.owned.size()),
+                       [&](const NormalStencil& stencil) { return turn_at(stencil, positions) > sharp; });
+}
+
+template <>
+long Interface<3>::kinks(const MultiVector&) {
+  return 0;
 }
 
 }  // namespace mortise

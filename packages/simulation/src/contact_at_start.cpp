@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <Tpetra_Vector.hpp>
+
+#include "report_corners.hpp"
+
 namespace mortise {
 namespace {
 
@@ -20,6 +24,18 @@ void report_pair(const Named<ContactPairOptions>& options, const PairAtStart& pa
   }
 }
 
+// Collective.
+void report_corners_of(const Model& model, RunLog& log) {
+  std::optional<StepFailure> failure;
+  model.contact()->evaluate(Vector(model.bodies()->dofs()), false, failure);
+  try {
+    throw_if_any(*model.mesh()->comm, failure);
+  } catch (const StepFailure&) {
+    return;  // the first step says so
+  }
+  report_corners(*model.contact(), log);
+}
+
 }  // namespace
 
 void report_contact_at_start(const Model& model, const Scene& scene, RunLog& log) {
@@ -32,6 +48,7 @@ void report_contact_at_start(const Model& model, const Scene& scene, RunLog& log
                             stray.overlap.depth > 0.0 ? fmt::format("begin by up to {:.3g} in one another", stray.overlap.depth)
                                                       : std::string("lie wholly in one another"),
                             to_string(dimension, stray.overlap)));
+  if (model.contact()) report_corners_of(model, log);
 }
 
 }  // namespace mortise

@@ -65,6 +65,29 @@ void add_quadratic(std::vector<Case>& all) {
   }
 }
 
+// Corners that take the master's normal: their rows depend on both of their facets.
+void add_corners(std::vector<Case>& all) {
+  const auto add = [&](const std::string& name, double coefficient, bool quadratic = false) {
+    const TwoSurfaces corner = test::corner_on_ground();
+    all.push_back({"corner, " + name, quadratic ? test::quadratic(corner, true, true) : corner});
+    auto coulomb = std::make_shared<CoulombFriction>();
+    coulomb->coefficient = Expression(coefficient);
+    if (coefficient > 0.0) all.back().surfaces.options.friction.options = coulomb;
+    return &all.back().surfaces;
+  };
+  add("frictionless", 0.0);
+  add("coulomb", 0.12);
+  add("coulomb, high", 2.0);
+  add("coulomb, axisymmetric", 0.12)->measure = {true, 1.0};
+  add("coulomb, standard weighting", 0.12)->options.mortar.gap_weighting = GapWeighting::standard;
+  add("coulomb, nearest facet", 0.12)->options.mortar.corners = CornerRule::nearest_facet;
+  add("coulomb, quadratic", 0.12, true);
+  for (const test::NamedFormulation& formulation : test::other_formulations()) {
+    add(formulation.name, 0.0)->options.formulation.options = formulation.options;
+    add(formulation.name + ", coulomb", 0.12)->options.formulation.options = formulation.options;
+  }
+}
+
 std::vector<Case> cases() {
   std::vector<Case> all;
   all.push_back({"current", test::arch_on_ground()});
@@ -152,6 +175,7 @@ std::vector<Case> cases() {
   add_in_space("hardly covered, coulomb, augmented lagrange", 0.12)->options.formulation.options = augmented;
   add_in_space("hardly covered, coulomb, high, augmented lagrange", 3.0)->options.formulation.options = augmented;
   add_quadratic(all);
+  add_corners(all);
   for (const test::NamedFormulation& formulation : test::other_formulations()) {
     if (!test::in_space(formulation)) continue;
     add_in_space(formulation.name, {})->options.formulation.options = formulation.options;

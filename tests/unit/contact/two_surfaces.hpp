@@ -46,6 +46,13 @@ inline TwoSurfaces arch_on_ground() {
   return surfaces;
 }
 
+/// Slave: 6 nodes along the ground up to a corner of 30 degrees, node 2, and up behind it, with two weaker ones; master: that of arch_on_ground().
+inline TwoSurfaces corner_on_ground() {
+  TwoSurfaces surfaces = arch_on_ground();
+  surfaces.slave = {{0.1, 0.01, 0.0}, {1.1, -0.02, 0.0}, {2.1, -0.04, 0.0}, {2.85, 0.4, 0.0}, {3.4, 1.05, 0.0}, {3.7, 1.9, 0.0}};
+  return surfaces;
+}
+
 /// Grids of quadrilaterals, or of triangles. Slave: 4 x 4 nodes of a gentle dome over [0.1, 3.1] x [0.2, 3.05]; master: 5 x 4 nodes of waves over
 /// [0, 2.7] x [0, 3.3], so the slave runs off on one side.
 inline TwoSurfaces dome_on_waves(bool triangles = false) {

@@ -1,4 +1,4 @@
-// Facets that meet in a kink have their own normals; on any number of ranks the same ones.
+// Facets that meet in a kink have their own normals, the node the master's or the nearest facet's; on any number of ranks the same ones.
 
 #include <gtest/gtest.h>
 
@@ -13,6 +13,7 @@ using namespace test;
 
 constexpr double degree = 3.14159265358979323846 / 180.0, side = 0.5;
 constexpr GlobalOrdinal corner = 2, above = 3;
+constexpr CornerRule rules[] = {CornerRule::master_normal, CornerRule::nearest_facet};
 
 Eigen::Vector2d towards(double angle) { return {std::cos(angle * degree), std::sin(angle * degree)}; }
 
@@ -28,9 +29,10 @@ TwoLines folding(double angle) {
   return lines;
 }
 
-// Not flat, not touching, and in disorder.
-TwoLines uneven(double angle) {
+// Not flat, not touching, and in disorder. The master is tilted about the corner.
+TwoLines uneven(double angle, double tilt = 0.0) {
   TwoLines lines = folding(angle);
+  for (Eigen::Vector2d& x : lines.master) x.y() = std::tan(tilt * degree) * x.x();
   for (std::size_t n = 0; n < lines.slave.size(); ++n)
     lines.slave[n] += Eigen::Vector2d(2.0 + 0.01 * disorder(n), 0.03 + 0.02 * disorder(n + 7));  // off the axis of rotation too
   for (std::size_t n = 0; n < lines.master.size(); ++n) lines.master[n] += Eigen::Vector2d(2.0, 0.02 * disorder(n + 31));
@@ -52,9 +54,11 @@ bool split(SurfacePair& pair, const std::vector<SpatialVector>& points) {
 }
 
 // The facet that stands off has a linear gap, so the corner sees the gap at its own place alone, which is zero, and pushes there.
-TEST(SplitKinks, LetACornerSeeItsOwnGap) {
+void expect_that_a_corner_sees_its_own_gap(CornerRule rule) {
   for (const double angle : {35.0, 50.0, 65.0, 75.0}) {
-    const Surfaces surfaces = folding(angle);
+    TwoLines lines = folding(angle);
+    lines.options.corners = rule;
+    const Surfaces surfaces = lines;
     const auto averaged = evaluated(surfaces);
     EXPECT_GT(std::abs(averaged->dense().gap[corner]), 1e-3 * side * side) << angle;  // what the matter is
 
@@ -68,23 +72,81 @@ TEST(SplitKinks, LetACornerSeeItsOwnGap) {
     for (Eigen::Index l = 0; l < coupling.M.cols(); ++l) moment += coupling.M(corner, l) * surfaces.points[surfaces.slaves + l].x();
     EXPECT_LT(std::abs(moment), 1e-13 * reach) << angle;
     EXPECT_EQ(coupling.normal.segment<2>(2 * corner), Eigen::Vector2d(0.0, -1.0)) << angle;
+    if (rule == CornerRule::master_normal && angle < 60.0) {  // half of either facet, which is all covered, seen along the master's normal
+      EXPECT_NEAR(coupling.D(corner, corner), 0.5 * (0.7 + side * std::cos(angle * degree)), 1e-13);
+    }
     EXPECT_FALSE(split(pair, surfaces.points));
   }
 }
 
+TEST(SplitKinks, LetACornerSeeItsOwnGap) {
+  for (const CornerRule rule : rules) expect_that_a_corner_sees_its_own_gap(rule);
+}
+
+// Two sides that are one another's image in a master that is its own: so is everything of the corner.
+TEST(SplitKinks, LeaveSymmetryAlone) {
+  for (const double angle : {20.0, 45.0, 70.0})
+    for (const double depth : {-0.02, 0.1}) {
+      TwoLines lines;
+      lines.slave = {-2.0 * side * towards(-angle), -side * towards(-angle), {0.0, 0.0}, side * towards(angle), 2.0 * side * towards(angle)};
+      for (Eigen::Vector2d& x : lines.slave) x.y() += depth;
+      lines.master = line(
+          8, -4.0, 4.0, [](double x) { return -0.1 * x * x; }, true);
+      lines.options.search_reach = 0.3;
+      SurfacePair pair(lines, alone());
+      split(pair, Surfaces(lines).points);
+      const DenseCoupling coupling = pair.dense();
+      EXPECT_NEAR(coupling.normal[2 * corner], 0.0, 1e-15) << angle;
+      EXPECT_NEAR(coupling.normal[2 * corner + 1], -1.0, 1e-15) << angle;
+      EXPECT_LT(std::abs(coupling.gap[above] - coupling.gap[corner - 1]), 1e-15);
+      EXPECT_LT((coupling.M.row(corner) - coupling.M.row(corner).reverse()).cwiseAbs().maxCoeff(), 1e-14);
+    }
+}
+
+void expect_exact_derivatives_of(const TwoLines& lines, bool curved_slave, bool curved_master = false) {
+  const Surfaces surfaces = curved_slave || curved_master ? quadratic(lines, curved_slave, curved_master, 0.02) : Surfaces(lines);
+  SurfacePair pair(surfaces, alone());
+  ASSERT_TRUE(split(pair, surfaces.points));
+  expect_exact_derivatives(surfaces, &pair);
+}
+
 TEST(SplitKinks, HasExactDerivatives) {
-  for (const double angle : {35.0, 70.0})
-    for (const bool axisymmetric : {false, true})
-      for (const bool curved : {false, true})
-        for (const bool standard : {false, true}) {
-          TwoLines lines = uneven(angle);
-          lines.measure.axisymmetric = axisymmetric;
-          if (standard) lines.options.gap_weighting = GapWeighting::standard;
-          const Surfaces surfaces = curved ? quadratic(lines, true, false, 0.02) : Surfaces(lines);
-          SurfacePair pair(surfaces, alone());
-          ASSERT_TRUE(split(pair, surfaces.points));
-          expect_exact_derivatives(surfaces, &pair);
-        }
+  for (const CornerRule rule : rules)
+    for (const double angle : {35.0, 70.0})
+      for (const bool axisymmetric : {false, true})
+        for (const bool curved : {false, true})
+          for (const bool standard : {false, true}) {
+            TwoLines lines = uneven(angle);
+            lines.measure.axisymmetric = axisymmetric;
+            lines.options.corners = rule;
+            if (standard) lines.options.gap_weighting = GapWeighting::standard;
+            expect_exact_derivatives_of(lines, curved);
+          }
+}
+
+// The master's normal inside the wedge of the sides' normals, at its edges, where it is followed less and less, and where it is not any more; of
+// standard multipliers too, and of curved masters.
+TEST(SplitKinks, HasExactDerivativesOfTheMastersNormal) {
+  for (const double tilt : {30.0, 55.0, 66.0, 76.0, 4.0, -5.0, -14.0, -17.0, -25.0})
+    for (const Coupling coupling : {Coupling::dual_mortar, Coupling::standard_mortar}) {
+      SCOPED_TRACE(tilt);
+      TwoLines lines = uneven(60.0, tilt);
+      lines.options.coupling = coupling;
+      expect_exact_derivatives_of(lines, false);
+      expect_exact_derivatives_of(lines, true, true);
+    }
+}
+
+// Facets between two corners, and one that is prescribed.
+TEST(SplitKinks, HasExactDerivativesOfSeveralCorners) {
+  TwoLines lines = uneven(25.0);
+  lines.options.search_reach = 1.0;
+  lines.slave[above + 1] = lines.slave[above] + side * towards(50.0);
+  lines.slave.front() = lines.slave[1] + Eigen::Vector2d(-0.7, 0.3);
+  expect_exact_derivatives_of(lines, false);
+  expect_exact_derivatives_of(lines, true);
+  lines.fixed_x = lines.fixed_y = {static_cast<std::size_t>(above)};
+  expect_exact_derivatives_of(lines, false);
 }
 
 TEST(SplitKinks, HasExactSecondDerivatives) {
@@ -99,55 +161,78 @@ TEST(SplitKinks, HasExactSecondDerivatives) {
     }
 }
 
-TEST(SplitKinks, GiveTheValuesOfOneRank) {
+void expect_the_values_of_one_rank(CornerRule rule, double balance) {
   const auto comm = Tpetra::getDefaultComm();
-  for (const double balance : {1.0, 100.0}) {
-    TwoLines lines = uneven(60.0);
-    lines.options.balance = balance;
-    const Surfaces surfaces = lines;
-    SurfacePair serial(surfaces, alone());
-    split(serial, surfaces.points);
-    const DenseCoupling expected = serial.dense();
-    for (const int blocks : {1, 2}) {
-      SurfacePair pair(surfaces, comm, [&](std::size_t n) { return static_cast<int>(n) / blocks % comm->getSize(); });
-      EXPECT_TRUE(split(pair, surfaces.points));
-      EXPECT_LT((pair.dense().stacked() - expected.stacked()).cwiseAbs().maxCoeff(), 1e-13);
-    }
-    SurfacePair pair(surfaces, comm, [&](std::size_t n) { return n < surfaces.slaves ? 0 : comm->getSize() - 1; });  // one owns it all
+  TwoLines lines = uneven(60.0);
+  lines.options.balance = balance;
+  lines.options.corners = rule;
+  const Surfaces surfaces = lines;
+  SurfacePair serial(surfaces, alone());
+  split(serial, surfaces.points);
+  const DenseCoupling expected = serial.dense();
+  for (const int blocks : {1, 2}) {
+    SurfacePair pair(surfaces, comm, [&](std::size_t n) { return static_cast<int>(n) / blocks % comm->getSize(); });
     EXPECT_TRUE(split(pair, surfaces.points));
     EXPECT_LT((pair.dense().stacked() - expected.stacked()).cwiseAbs().maxCoeff(), 1e-13);
-    if (balance == 1.0 && comm->getSize() > 1) {
-      int moved = 0;
-      Teuchos::reduceAll(*comm, Teuchos::REDUCE_MAX, pair.interface->load().redistributions, Teuchos::outArg(moved));
-      EXPECT_GT(moved, 0);
-    }
+  }
+  SurfacePair pair(surfaces, comm, [&](std::size_t n) { return n < surfaces.slaves ? 0 : comm->getSize() - 1; });  // one owns it all
+  EXPECT_TRUE(split(pair, surfaces.points));
+  EXPECT_LT((pair.dense().stacked() - expected.stacked()).cwiseAbs().maxCoeff(), 1e-13);
+  for (const FacetCoupling& coupling : pair.couplings)
+    for (const LocalOrdinal s : coupling.slave)
+      if (static_cast<std::size_t>(s) < pair.interface->slave_nodes().size())
+        for (const LocalOrdinal node : coupling.columns)
+          EXPECT_TRUE(std::binary_search(pair.interface->coupled_nodes(s).begin(), pair.interface->coupled_nodes(s).end(), node));
+  if (balance == 1.0 && comm->getSize() > 1) {
+    int moved = 0;
+    Teuchos::reduceAll(*comm, Teuchos::REDUCE_MAX, pair.interface->load().redistributions, Teuchos::outArg(moved));
+    EXPECT_GT(moved, 0);
   }
 }
 
-// A bend of less than 30 degrees, a concave corner, one on a line of symmetry. A corner stays split until it is almost flat.
-TEST(SplitKinks, LeaveBendsConcaveAndFixedCorners) {
+TEST(SplitKinks, GiveTheValuesOfOneRank) {
+  for (const CornerRule rule : rules)
+    for (const double balance : {1.0, 100.0}) expect_the_values_of_one_rank(rule, balance);
+}
+
+// A bend of less than the angle of a kink, a concave corner, one on a line of symmetry. A corner stays split until it is almost flat.
+void expect_corners_between(CornerRule rule, double sharp, double almost_flat) {
+  const auto with_rule = [&](TwoLines lines) {
+    lines.options.corners = rule;
+    return lines;
+  };
+  const auto one = [&](double angle) {
+    TwoLines lines = with_rule(folding(angle));
+    lines.slave.back() = lines.slave[above] + side * towards(angle);  // no bend
+    return lines;
+  };
   const auto is_split = [](const TwoLines& lines) {
     const Surfaces surfaces = lines;
     SurfacePair pair(surfaces, alone());
     return split(pair, surfaces.points);
   };
-  EXPECT_TRUE(is_split(folding(31.0)));
-  EXPECT_FALSE(is_split(folding(29.0)));
-  TwoLines concave = folding(0.0);
+  EXPECT_TRUE(is_split(one(sharp + 1.0)));
+  EXPECT_FALSE(is_split(one(sharp - 1.0)));
+  TwoLines concave = one(0.0);
   concave.slave[above] = side * towards(-40.0);
   concave.slave[above + 1] = 2.0 * side * towards(-40.0);
   EXPECT_FALSE(is_split(concave));
-  TwoLines fixed = folding(60.0);
+  TwoLines fixed = one(60.0);
   fixed.fixed_x = {static_cast<std::size_t>(corner)};
   EXPECT_FALSE(is_split(fixed));
 
-  const Surfaces sharp = folding(60.0), bent = folding(6.0), flat = folding(4.0);
-  SurfacePair pair(sharp, alone());
-  EXPECT_TRUE(split(pair, sharp.points));
+  const Surfaces steep = one(60.0), bent = one(almost_flat + 0.5), flat = one(almost_flat - 0.5);
+  SurfacePair pair(steep, alone());
+  EXPECT_TRUE(split(pair, steep.points));
   EXPECT_FALSE(split(pair, bent.points));
   EXPECT_TRUE(split(pair, flat.points));
   const auto averaged = evaluated(flat);
   EXPECT_LT((pair.dense().stacked() - averaged->dense().stacked()).cwiseAbs().maxCoeff(), 1e-14);
+}
+
+TEST(SplitKinks, LeaveBendsConcaveAndFixedCorners) {
+  expect_corners_between(CornerRule::master_normal, 10.0, 2.0);
+  expect_corners_between(CornerRule::nearest_facet, 30.0, 5.0);
 }
 
 }  // namespace

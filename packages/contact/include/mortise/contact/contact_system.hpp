@@ -87,6 +87,13 @@ struct IntegrationLoad {
   int redistributions = 0;          ///< searches that gave facets to other ranks
 };
 
+/// Kinks of a pair's slave surfaces in 2D, and what gives them their normals.
+struct CornerReport {
+  long kinks = 0;  ///< over all ranks
+  CornerRule rule = CornerRule::averaged;
+  bool as_asked = true;  ///< the rule is the pair's option; false: something else of the pair calls for this one
+};
+
 /// How far an augmented Lagrange update was from being needed no more, over all ranks.
 struct Augmentation {
   bool more = false;       ///< the multipliers were updated: solve again
@@ -188,6 +195,8 @@ class ContactSystem {
   /// @param unheld  for each owned node whether it belongs to a body that nothing but contact holds
   void start_step(const Vector& d, const std::vector<char>& unheld, Vector& z);
 
+  /// At the last evaluate(). Collective.
+  CornerReport corners(std::size_t pair) const;
   /// States of the owned slave nodes of a pair.
   std::vector<ContactNodeState> node_states(std::size_t pair, const Vector& z) const;
   /// Collective.

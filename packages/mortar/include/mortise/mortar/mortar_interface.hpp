@@ -28,6 +28,13 @@ enum class Coupling {
 /// Which functions weight the gap.
 enum class GapWeighting { dual, standard };
 
+/// Normals at kinks of a slave surface in 2D: convex nodes at which it turns.
+enum class CornerRule {
+  master_normal,  ///< facets have their own normals, the node has the master's, averaged over what the node's facets cover
+  nearest_facet,  ///< facets have their own normals, the node has that of the facet nearest to the master
+  averaged        ///< the average of the two facets' normals, as everywhere else
+};
+
 /// What Newton's method knows of the nodal normals' derivatives.
 enum class Linearisation {
   exact,
@@ -48,8 +55,12 @@ struct MortarOptions {
   std::optional<double> search_reach;  ///< distance up to which facets can touch; default: the longest facet of the pair
   int gauss_points = 5;                ///< per overlap of two facets in the plane
   Linearisation linearisation = Linearisation::exact;
-  double balance = 1.5;  ///< largest over mean work of the ranks, in overlaps, above which slave facets change rank
+  CornerRule corners = CornerRule::master_normal;  ///< asked for; corner_rule() tells which one acts
+  double balance = 1.5;                            ///< largest over mean work of the ranks, in overlaps, above which slave facets change rank
   void describe(Parameters& parameters);
+  /// Which rule acts: averaged in 3D and with node to segment; nearest facet in the place of the master's normal with variational mortar, whose
+  /// second derivatives do not know that.
+  CornerRule corner_rule(int dimension) const;
 };
 
 /// Matrices over the nodes of one slave facet.
@@ -62,10 +73,13 @@ using FacetVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, mo
 /// quadratic facets they are dual to, or are, the functions Ñ_j of quadratic_facet.hpp, and so are w_j and the weight A_j.
 /// Node to segment: one slave node with the facet that it meets, phi_j a point load: D_jj is its share w of the surface, M_jl = w N_l, the gap w
 /// times the distance.
+/// At a kink that takes the master's normal rows of D, M and gap of the node's owner are weighed with the facet's projected length: see
+/// corner_normal.hpp.
 struct FacetCoupling {
   Facet<LocalOrdinal> slave;
   std::vector<LocalOrdinal> master;   ///< nodes of the master facets that the slave facet overlaps, without repeats
-  std::vector<LocalOrdinal> columns;  ///< nodes on whose positions the values depend: slave, ring (neighbours that shape the normals), master
+  std::vector<LocalOrdinal> columns;  ///< nodes on whose positions the values depend: slave, ring (neighbours that shape the normals), master, and
+                                      ///< those of a kink's other facet
   /// D(j,k) = int phi_j N_k; dual: off-diagonal only for nodes k without multiplier, and where j is the middle of an edge, for corners k
   FacetMatrix D;
   Eigen::MatrixXd M;  ///< [slave x master] M(j,l) = int phi_j N_l
@@ -77,6 +91,10 @@ struct FacetCoupling {
   Eigen::MatrixXd dM;    ///< row j master.size() + l
   Eigen::MatrixXd dgap;    ///< row j
   Eigen::MatrixXd dcover;  ///< row j
+  /// m_j = -int N_j <-n.n_m> n_m, with the normals n of the facet and n_m of the master: row j, of facets at a kink that takes the master's normal;
+  /// else empty. Derivatives: row 2 j + i.
+  Eigen::Matrix<double, Eigen::Dynamic, 2> facing;
+  Eigen::MatrixXd dfacing;
 };
 
 /// What one slave facet adds to the Hessian of a weighted sum of all weighted gaps.
@@ -85,7 +103,7 @@ struct GapCurvature {
   Eigen::MatrixXd hessian;            ///< [dim x columns squared]
 };
 
-/// Averaged unit normal of an owned slave node and its derivative.
+/// Unit normal of an owned slave node and its derivative: averaged, but at kinks.
 struct NodalNormal {
   SpatialVector normal;
   std::vector<LocalOrdinal> columns;
@@ -134,12 +152,16 @@ class MortarInterface {
   /// Does nothing if a position is not finite; evaluate() then reports it.
   bool search(const MultiVector& x);
 
-  /// In the plane: chooses the kinks from now on, convex nodes at which the slave surface turns by more than 30 degrees (5 if it is one already). The
-  /// facets that meet there have their own normals, and the node that of the one that is nearest to the master. Collective.
+  /// In 2D: chooses the kinks from now on, convex nodes at which the slave surface turns by more than 10 degrees (2 if it is one already); with the
+  /// rule `nearest facet` 30 (5). The facets that meet there have their own normals, and the node what MortarOptions::corner_rule() says. Collective.
   /// @param x        [owned nodes x 2] positions that tell
-  /// @param nearest  [slave_nodes()] that facet, by its nodes; empty where none is covered: then the node's normal stays the average
+  /// @param nearest  [slave_nodes()] the facet nearest to the master, by its nodes; empty where none is covered: then the node's normal stays the
+  ///                 average. No other rule needs it: empty
   /// @return whether anything changed on any rank: local_nodes() and the pattern will be rebuilt by the next search()
   bool split_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest);
+
+  /// In 2D: how many owned slave nodes are kinks at positions `x` [owned nodes x 2], whatever rule acts. Collective.
+  long kinks(const MultiVector& x) const;
 
   /// Further nodes that each owned slave node stays coupled to from the next rebuild of the pattern on, by id: those that a slip is measured
   /// against. Until then they have to stand in coupled_nodes() already.
