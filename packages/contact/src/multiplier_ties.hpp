@@ -61,7 +61,7 @@ class MultiplierTies {
   RCP<MultiVector> on_nodes(const MultiVector& z) const;
   /// q_j of owned nodes from z of all nodes() [x dim].
   RCP<MultiVector> gradient(const MultiVector& z_on_nodes, int dimension) const;
-  /// Derivative of q_j with respect to z_j, the same for all components [owned].
+  /// Derivative of q_j with respect to z_j, the same for all components [owned]. 0: no tie has to do with the node.
   std::vector<double> diagonal() const;
   /// sigma_b of an owned node; 0: it is not tied.
   double compliance(std::size_t s) const { return compliance_.empty() ? 0.0 : compliance_[s]; }

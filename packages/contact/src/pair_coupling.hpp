@@ -35,7 +35,7 @@ struct NodeRow {
 struct NodeMultiplier {
   SpatialVector z;
   SpatialVector shift;  ///< q_j of MultiplierTies; empty: 0
-  double tie = 0.0;     ///< dq_j / dz_j
+  double tie = 0.0;     ///< sigma_j
 
   NodeMultiplier(SpatialVector own) : z(std::move(own)) {}  // NOLINT(google-explicit-constructor): one without ties
 };

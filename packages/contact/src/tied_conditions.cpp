@@ -2,8 +2,9 @@
 //
 // The conditions of node j see g_j + n_j . q_j and u_j - T_j q_j, with q = S(d) z of MultiplierTies. With G_j = dC_j / dq_j
 //   dC_j = ... + G_j ( sum_k S_jk dz_k + (dS z)_j ).
-// The term k = j stands in C_z of the node's own law. The rest,  L (dd, dz),  couples multipliers of different nodes, also of different ranks: it is
-// left out where each node's multiplier is condensed by itself.
+// The node's own compliance sigma_j dz_j stands in C_z of its law. The rest,  L (dd, dz),  couples multipliers of different nodes, also of different
+// ranks: it is left out where each node's multiplier is condensed by itself. What a receiver has of its own of the ties of others, T^2 sigma, belongs
+// to the rest: together with the tied node's multiplier it all but cancels.
 
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Export.hpp>
@@ -35,7 +36,7 @@ void ContactSystem::Implementation::add_ties(std::size_t p, const MultiVector& z
   const auto view = q->getLocalViewHost(Tpetra::Access::ReadOnly);
   for (std::size_t s = 0; s < multipliers.size(); ++s) {
     if (diagonal[s] == 0.0) continue;
-    multipliers[s].tie = diagonal[s];
+    multipliers[s].tie = ties.compliance(s);
     multipliers[s].shift.resize(dimension);
     for (int i = 0; i < dimension; ++i) multipliers[s].shift[i] = view(s, i);
   }
@@ -107,41 +108,47 @@ ContactSystem::Implementation::TieBlocks ContactSystem::Implementation::tie_bloc
           Tpetra::exportAndFillCompleteCrsMatrix<Matrix>(rcp(&of_positions, false), to_owners, dofs, multipliers)};
 }
 
-// Rows of closed nodes, multiplied by G_j; without the node's own multiplier.
+// Rows of closed nodes, multiplied by G_j, but for sigma_j dz_j.
 ContactSystem::Implementation::TieBlocks ContactSystem::Implementation::tied_conditions(
     const Vector& z, const std::vector<std::vector<detail::NodeMultiplier>>& of_nodes) const {
   if (!any_ties()) return {};
-  std::vector<std::pair<LocalOrdinal, SpatialMatrix>> factors;  // first multiplier, G_j
+  struct Factor {
+    LocalOrdinal first;  // multiplier
+    double tie;
+    SpatialMatrix G;
+  };
+  std::vector<Factor> factors;
   for (std::size_t p = 0; p < pairs.size(); ++p)
     for (std::size_t s = 0; s < of_nodes[p].size(); ++s) {
-      if (multiplier_of[p][s] < 0 || of_nodes[p][s].tie == 0.0) continue;
+      if (multiplier_of[p][s] < 0 || of_nodes[p][s].shift.size() == 0) continue;
       const Complementarity law = pairs[p]->complementarity(s, of_nodes[p][s]);
-      if (law.state != ContactState::open) factors.emplace_back(multiplier_of[p][s], pairs[p]->shift_factor(law, s));
+      if (law.state != ContactState::open) factors.push_back({multiplier_of[p][s], of_nodes[p][s].tie, pairs[p]->shift_factor(law, s)});
     }
   if (maximum(factors.empty() ? 0.0 : 1.0) == 0.0) return {};
   const TieBlocks blocks = tie_blocks(z);
-  const auto multiplied = [&](const Matrix& block, const RCP<const Map>& domain, bool own_left_out) {
+  const auto multiplied = [&](const Matrix& block, const RCP<const Map>& domain, bool of_multipliers) {
     std::vector<std::size_t> sizes(multipliers->getNodeNumElements(), 0);
     const auto each_row = [&](const auto& act) {
-      for (const auto& [first, G] : factors)
+      for (const Factor& factor : factors)
         for (int m = 0; m < dimension; ++m) {
           Matrix::local_inds_host_view_type columns;
           Matrix::values_host_view_type entries;
-          block.getLocalRowView(first + m, columns, entries);
-          act(first, G, m, columns, entries);
+          block.getLocalRowView(factor.first + m, columns, entries);
+          act(factor, m, columns, entries);
         }
     };
-    each_row([&](LocalOrdinal first, const SpatialMatrix&, int, const auto& columns, const auto&) {
-      for (int i = 0; i < dimension; ++i) sizes[first + i] += columns.extent(0);
+    each_row([&](const Factor& factor, int, const auto& columns, const auto&) {
+      for (int i = 0; i < dimension; ++i) sizes[factor.first + i] += columns.extent(0);
     });
     const auto result = rcp(new Matrix(multipliers, Teuchos::arrayViewFromVector(sizes)));
-    each_row([&](LocalOrdinal first, const SpatialMatrix& G, int m, const auto& columns, const auto& entries) {
+    each_row([&](const Factor& factor, int m, const auto& columns, const auto& entries) {
       for (std::size_t k = 0; k < columns.extent(0); ++k) {
         const GlobalOrdinal column = block.getColMap()->getGlobalElement(columns(k));
-        if (own_left_out && column == multipliers->getGlobalElement(first + m)) continue;
-        for (int i = 0; i < dimension; ++i) {
-          const double value = G(i, m) * entries(k);
-          result->insertGlobalValues(multipliers->getGlobalElement(first + i), 1, &value, &column);
+        const bool own = of_multipliers && column == multipliers->getGlobalElement(factor.first + m);
+        const double entry = own ? entries(k) - factor.tie : entries(k);
+        for (int i = 0; i < dimension && entry != 0.0; ++i) {
+          const double value = factor.G(i, m) * entry;
+          result->insertGlobalValues(multipliers->getGlobalElement(factor.first + i), 1, &value, &column);
         }
       }
     });
