@@ -91,6 +91,8 @@ class PairCoupling {
   const std::vector<SlipHistory>& slip_histories() const { return slip_; }
   long slip_evaluations() const { return slip_evaluations_; }
   const MortarInterface& interface() const { return *interface_; }
+  /// From the owned nodes to interface().local_nodes().
+  const Import& import() const { return *import_; }
   const std::vector<SlaveNode>& slave_nodes() const { return interface_->slave_nodes(); }
   const std::vector<NodeRow>& rows() const { return rows_; }
   /// Couplings of facets with derivatives; empty when the geometry is frozen.

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "mortise/nonlinear/semi_smooth_system.hpp"
+#include "mortise/simulation/contact_hold.hpp"
 #include "mortise/simulation/model.hpp"
 
 namespace mortise {
@@ -13,6 +14,6 @@ namespace mortise {
 /// and Newton's method did not come to an end, pairs of which all closed nodes slip. A point in space that turns is taken to have turned by a small
 /// angle: free rotations of one that has turned far are not found. Collective.
 /// @returns in words for people; empty if there is nothing to say
-std::string explain_failure(const StepFailure& failure, const Model& model, SemiSmoothSystem& system);
+std::string explain_failure(const StepFailure& failure, const Model& model, SemiSmoothSystem& system, const ContactRecord& record);
 
 }  // namespace mortise

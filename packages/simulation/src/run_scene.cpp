@@ -20,6 +20,7 @@
 #include "mortise/simulation/newton_table.hpp"
 #include "mortise/simulation/read_scene.hpp"
 #include "mortise/simulation/run.hpp"
+#include "mortise/simulation/state_check.hpp"
 #include "report_model.hpp"
 #include "run_log.hpp"
 #include "run_record.hpp"
@@ -248,7 +249,17 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
   {
     const auto timer = timers.scope("steps");
     StepperObserver functions = observers.functions();
-    functions.explain = [&](const StepFailure& caught) { return explain_failure(caught, model, system); };
+    std::optional<StateCheck> check;
+    if (StateCheck::is_needed(model)) {
+      check.emplace(model, scene.newton.increment_tolerance * model.parts().length, [&](const std::string& line) { log.warning(line); });
+      functions.verify = [&](const Vector& from, Vector& to, int round) { return check->verify(system, from, to, round); };
+      functions.predict = [&](const Vector& at, double dt, Vector& rate) { check->without_free_motions(system, at, dt, rate); };
+      functions.explain = [&](const StepFailure& caught) { return explain_failure(caught, model, system, check->record()); };
+      functions.accepted = [&, accepted = functions.accepted](const StepReport& report, const Vector& at) {
+        check->accept();
+        accepted(report, at);
+      };
+    }
     try {
       record.converged = run_steps(system, scene.stepping, scene.newton, x, start_step, functions, failure);
     } catch (const InputError& error) {  // on every rank: a quantity's expression without a value
