@@ -252,9 +252,19 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
     std::optional<StateCheck> check;
     if (StateCheck::is_needed(model)) {
       check.emplace(model, scene.newton.increment_tolerance * model.parts().length, [&](const std::string& line) { log.warning(line); });
-      functions.verify = [&](const Vector& from, Vector& to, int round) { return check->verify(system, from, to, round); };
+      functions.verify = [&](const Vector& from, Vector& to, int round) {
+        const auto timer = timers.scope("state check");
+        return check->verify(system, from, to, round);
+      };
       functions.predict = [&](const Vector& at, double dt, Vector& rate) { check->without_free_motions(system, at, dt, rate); };
-      functions.explain = [&](const StepFailure& caught) { return explain_failure(caught, model, system, check->record()); };
+      functions.explain = [&](const StepFailure& caught) {
+        if (!check->refused().empty()) return check->refused() + "; put back, it found no equilibrium";
+        return explain_failure(caught, model, system, check->record());
+      };
+      functions.begin = [&, begin = functions.begin](int step, double time, double dt) {
+        check->begin();
+        begin(step, time, dt);
+      };
       functions.accepted = [&, accepted = functions.accepted](const StepReport& report, const Vector& at) {
         check->accept();
         accepted(report, at);

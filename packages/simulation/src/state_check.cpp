@@ -91,20 +91,18 @@ bool StateCheck::verify(const SemiSmoothSystem& system, const Vector& before, Ve
                                describe_motion(*modes, is_flight ? motions.rigid : freely, b), allowed));
     which.push_back(bodies_[b]);
   }
-  if (!gone.empty() && round == 1 && !freely.isZero(0.0)) {
+  if (!gone.empty()) {
+    refused_ = fmt::format("free to move: {}; {}", fmt::join(gone, ", "), record_.describe(model_, which, hold.pairs));
+    if (round > 1 || freely.isZero(0.0))
+      throw StepFailure(FailureKind::lost_contact,
+                        refused_ +
+                            ". Between two states at rest that are that far apart there is motion with inertia: hold the body in this direction, "
+                            "by a boundary condition or by friction, or end before");
     NodePlaces half_way = to;
     for (std::size_t node = 0; node < to.x.size(); ++node) half_way.x[node] = 0.5 * (from.x[node] + to.x[node]);
     subtract(*modes, freely, motions.middle, half_way, 1.0, *system.displacement(after));
-    warn_(fmt::format("  free to move: {}: put back along its free motions and solved again", fmt::join(gone, ", ")));
+    warn_(fmt::format("  {}. Put back, and solved again from there", refused_));
     return false;
-  }
-  if (!gone.empty()) {
-    const std::string contact = record_.describe(model_, which, hold.pairs);
-    throw StepFailure(
-        FailureKind::lost_contact,
-        fmt::format("free to move: {}; {}. Between two states at rest that are that far apart there is motion with inertia: hold the body "
-                    "in this direction, by a boundary condition or by friction, or end before",
-                    fmt::join(gone, ", "), contact));
   }
 
   pairs_ = hold.pairs;

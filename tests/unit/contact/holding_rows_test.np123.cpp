@@ -147,7 +147,7 @@ TEST(HoldingRows, OpenNodesHoldNothingAndNodesWithoutABodyAreLeftOut) {
   MultiVector places(fixture.nodes, 3);
   const auto pulled = fixture.multipliers([](std::size_t) { return -1e6; }), pressed = fixture.multipliers([](std::size_t) { return 1e6; });
   EXPECT_TRUE(fixture.contact->holding_rows(*pulled, places).empty());
-  places.getVectorNonConst(0)->putScalar(-1.0);
+  for (std::size_t n = 0; n < fixture.nodes->getNodeNumElements(); ++n) places.replaceLocalValue(n, 0, -1.0);
   EXPECT_TRUE(fixture.contact->holding_rows(*pressed, places).empty());
 }
 

@@ -41,6 +41,11 @@ class StateCheck {
   /// @throws StepFailure(lost_contact), on every rank, for a body that went farther again, or, held or not, farther than the model is long
   bool verify(const SemiSmoothSystem& system, const Vector& before, Vector& after, int round);
 
+  /// A try of a step begins.
+  void begin() { refused_.clear(); }
+  /// Why a solution of this try was refused, if one was.
+  const std::string& refused() const { return refused_; }
+
   /// The state that verify() passed last is accepted.
   void accept() { record_.accept(pairs_); }
 
@@ -66,6 +71,7 @@ class StateCheck {
   Eigen::VectorXd freely_;                   ///< its step's motion along what was free
   std::vector<Eigen::Vector3d> middle_;
   std::set<std::pair<int, int>> said_;
+  std::string refused_;
 };
 
 /// mesh.blocks indices of the bodies that only contact holds. Collective.
