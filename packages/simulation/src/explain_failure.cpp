@@ -125,19 +125,24 @@ std::string describe_free_motions(const std::vector<int>& bodies, const Model& m
   const auto found = (solver.eigenvalues().array() < bound * bound).count();
   auto motions = distinct_modes(solver.eigenvectors().leftCols(found), per_body);
   std::sort(motions.begin(), motions.end());
-  std::vector<std::string> names;
-  for (const auto& [body, mode] : motions)
-    names.push_back(fmt::format("body '{}' ({})", mesh.blocks[bodies[body]].name,
-                                rigid_mode_name(mesh.dimension, model.bodies()->kinematics() == Kinematics::axisymmetric, mode)));
-  if (names.empty()) return {};
+  if (motions.empty()) return {};
+  const bool axisymmetric = model.bodies()->kinematics() == Kinematics::axisymmetric;
   std::vector<int> which;
-  for (const auto& [body, mode] : motions)
-    if (which.empty() || which.back() != bodies[body]) which.push_back(bodies[body]);
+  std::vector<std::vector<std::string>> names;
+  for (const auto& [body, mode] : motions) {
+    if (which.empty() || which.back() != bodies[body]) {
+      which.push_back(bodies[body]);
+      names.emplace_back();
+    }
+    names.back().emplace_back(rigid_mode_name(mesh.dimension, axisymmetric, mode));
+  }
+  std::vector<std::string> free;
+  for (std::size_t b = 0; b < which.size(); ++b) free.push_back(fmt::format("body '{}' ({})", mesh.blocks[which[b]].name, fmt::join(names[b], ", ")));
   const Vector& x = *system.linearised_at();
   const NodePlaces at = node_places(mesh, system.displacement(x).get());
-  const RigidModes bodies_now(mesh, model.bodies()->kinematics() == Kinematics::axisymmetric, bodies, at.x);
+  const RigidModes bodies_now(mesh, axisymmetric, bodies, at.x);
   const ContactHold now = contact_hold(model, bodies_now, at, *system.multipliers(x));
-  return fmt::format("free to move: {}; {}", fmt::join(names, ", "), record.describe(model, which, now.pairs));
+  return fmt::format("free to move: {}; {}", fmt::join(free, ", "), record.describe(model, which, now.pairs));
 }
 
 }  // namespace
