@@ -258,7 +258,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
       };
       functions.predict = [&](const Vector& at, double dt, Vector& rate) { check->without_free_motions(system, at, dt, rate); };
       functions.explain = [&](const StepFailure& caught) {
-        if (!check->refused().empty()) return check->refused() + "; put back, it found no equilibrium";
+        if (!check->refused().empty() && caught.kind() != FailureKind::input) return check->refused() + "; put back, it found no equilibrium";
         return explain_failure(caught, model, system, check->record());
       };
       functions.begin = [&, begin = functions.begin](int step, double time, double dt) {
