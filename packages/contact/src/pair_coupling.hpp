@@ -103,6 +103,8 @@ class PairCoupling {
   const MortarInterface& interface() const { return *interface_; }
   /// Which rule acts at kinks of the slave surface: averaged where the geometry is frozen.
   CornerRule corner_rule() const;
+  /// From the owned nodes to interface().local_nodes().
+  const Import& import() const { return *import_; }
   const std::vector<SlaveNode>& slave_nodes() const { return interface_->slave_nodes(); }
   const std::vector<NodeRow>& rows() const { return rows_; }
   /// Couplings of facets with derivatives; empty when the geometry is frozen.

@@ -36,18 +36,34 @@ void SteppingOptions::describe(Parameters& parameters) {
 }
 
 namespace {
-// Newton's method, and again as long as augmented Lagrange multipliers are updated.
-void solve_step(SemiSmoothSystem& system, double time, const NewtonOptions& options, Vector& x, NewtonReport& report,
-                const std::function<void(const NewtonIteration&)>& observer) {
-  solve_newton(system, time, options, x, report, observer);
-  report.solves = 1;
-  while (system.augment(x, report.solves)) {
-    NewtonReport next;
-    solve_newton(system, time, options, x, next, observer);
-    report.iterations.insert(report.iterations.end(), next.iterations.begin(), next.iterations.end());
-    ++report.solves;
+/// Newton's method as often as a step needs it; `report` is that of all of them.
+class StepSolver {
+ public:
+  StepSolver(SemiSmoothSystem& system, double time, const NewtonOptions& options, NewtonReport& report,
+             const std::function<void(const NewtonIteration&)>& observer)
+      : system_(system), time_(time), options_(options), report_(report), observer_(observer) {
+    report_ = {};
+    report_.solves = 0;
   }
-}
+
+  /// And again as long as augmented Lagrange multipliers are updated.
+  void solve(Vector& x) {
+    int round = 0;
+    do {
+      NewtonReport next;
+      solve_newton(system_, time_, options_, x, next, observer_);
+      report_.iterations.insert(report_.iterations.end(), next.iterations.begin(), next.iterations.end());
+      ++report_.solves;
+    } while (system_.augment(x, ++round));
+  }
+
+ private:
+  SemiSmoothSystem& system_;
+  double time_;
+  const NewtonOptions& options_;
+  NewtonReport& report_;
+  const std::function<void(const NewtonIteration&)>& observer_;
+};
 }  // namespace
 
 bool run_steps(SemiSmoothSystem& system, const SteppingOptions& stepping, const NewtonOptions& newton, Vector& x,
@@ -63,15 +79,21 @@ bool run_steps(SemiSmoothSystem& system, const SteppingOptions& stepping, const 
       report.time = schedule.next_time();
       report.dt = report.time - schedule.time();
       Tpetra::deep_copy(tried, x);
+      bool solved = false;
       try {
         if (observer.begin) observer.begin(step, report.time, report.dt);
         if (!rate.is_null()) tried.update(report.dt, *rate, 1.0);
         if (start_step) start_step(tried);
-        solve_step(system, report.time, newton, tried, report.newton, observer.iteration);
-        if (observer.examine) observer.examine(tried);
+        StepSolver solver(system, report.time, newton, report.newton, observer.iteration);
+        for (int round = 1;; ++round) {
+          solver.solve(tried);
+          solved = true;
+          if (!observer.verify || observer.verify(x, tried, round)) break;
+          solved = false;
+        }
         break;
       } catch (const StepFailure& caught) {
-        const std::string explanation = observer.explain ? observer.explain(caught) : "";
+        const std::string explanation = observer.explain && !solved ? observer.explain(caught) : "";
         StepFailure failure = explanation.empty() ? caught : StepFailure(caught.kind(), fmt::format("{} ({})", explanation, caught.what()));
         const bool in_vain = course.add(caught, report.newton);
         if (in_vain)
@@ -91,6 +113,7 @@ bool run_steps(SemiSmoothSystem& system, const SteppingOptions& stepping, const 
     if (stepping.predictor == Predictor::linear) {
       if (rate.is_null()) rate = rcp(new Vector(x.getMap()));
       rate->update(1.0 / report.dt, tried, -1.0 / report.dt, x, 0.0);
+      if (observer.predict) observer.predict(tried, report.dt, *rate);
     }
     Tpetra::deep_copy(x, tried);
     schedule.accept(report.newton.newton_steps() <= stepping.easy_iterations);

@@ -12,6 +12,7 @@
 #include <limits>
 #include <vector>
 
+#include "mortise/simulation/state_check.hpp"
 #include "mortise/solid/bodies.hpp"
 #include "rigid_mode_names.hpp"
 
@@ -36,19 +37,6 @@ double ratio_of_moduli(const Bodies& bodies) {
 /// A vector is kept for each of their motions: where more bodies lie loose, nothing is said.
 constexpr std::size_t most_bodies = 10;
 
-/// mesh.blocks indices of the bodies that only contact holds.
-std::vector<int> unheld_bodies(const Model& model) {
-  const Mesh& mesh = *model.mesh();
-  std::vector<int> mine(mesh.blocks.size(), 0), all(mine.size());
-  for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node)
-    if (model.held_by_contact_only()[node]) mine[mesh.body_of_node[node]] = 1;
-  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, static_cast<int>(mine.size()), mine.data(), all.data());
-  std::vector<int> bodies;
-  for (std::size_t body = 0; body < all.size(); ++body)
-    if (all[body]) bodies.push_back(static_cast<int>(body));
-  return bodies;
-}
-
 /// The rigid body modes, with what the rotations of reference points do.
 RCP<MultiVector> modes_with_points(const Model& model, const Vector& displacement) {
   const Mesh& mesh = *model.mesh();
@@ -65,10 +53,11 @@ RCP<MultiVector> modes_with_points(const Model& model, const Vector& displacemen
 }
 
 /// Pairs of which all closed nodes slip, contact evaluated at z's displacement: they bear a given force along the surface and no more.
-std::string describe_exhausted_friction(const Model& model, const Vector& z) {
+std::string describe_exhausted_friction(const std::vector<int>& bodies, const Model& model, const Vector& z) {
   const auto& rubbing =
       std::find_if(model.effects().begin(), model.effects().end(), [](const auto& effect) { return effect.first == "friction"; })->second;
-  std::vector<std::string> found;
+  std::vector<std::string> found, held;
+  std::vector<int> touched;
   for (std::size_t pair = 0; pair < model.contact()->pairs(); ++pair) {
     const std::string& name = model.contact()->pair_name(pair);
     if (std::find(rubbing.begin(), rubbing.end(), name) == rubbing.end()) continue;
@@ -78,10 +67,14 @@ std::string describe_exhausted_friction(const Model& model, const Vector& z) {
       mine[1] += node.state == ContactState::stick;
     }
     Teuchos::reduceAll(*model.mesh()->comm, Teuchos::REDUCE_SUM, 2, mine, all);
-    if (all[0] > 0 && all[1] == 0) found.push_back(fmt::format("all {} closed nodes of contact \"{}\" slip", all[0], name));
+    if (all[0] == 0 || all[1] > 0) continue;
+    found.push_back(fmt::format("all {} closed nodes of contact \"{}\" slip", all[0], name));
+    touched.insert(touched.end(), model.bodies_of_pairs()[pair].begin(), model.bodies_of_pairs()[pair].end());
   }
   if (found.empty()) return {};
-  return fmt::format("{}; a body that friction alone holds along the surface can bear no more", fmt::join(found, ", "));
+  for (const int body : bodies)
+    if (std::find(touched.begin(), touched.end(), body) != touched.end()) held.push_back(fmt::format("'{}'", model.mesh()->blocks[body].name));
+  return fmt::format("{}; a body that friction alone holds along the surface can bear no more: {}", fmt::join(found, ", "), fmt::join(held, ", "));
 }
 
 /// An evaluation that failed has reasons of its own.
@@ -98,7 +91,7 @@ bool newton_did_not_end(FailureKind kind) {
   }
 }
 
-std::string describe_free_motions(const std::vector<int>& bodies, const Model& model, SemiSmoothSystem& system) {
+std::string describe_free_motions(const std::vector<int>& bodies, const Model& model, SemiSmoothSystem& system, const ContactRecord& record) {
   const Mesh& mesh = *model.mesh();
   const RCP<MultiVector> modes = modes_with_points(model, *system.displacement(*system.linearised_at()));
   const int per_body = static_cast<int>(modes->getNumVectors()), count = per_body * static_cast<int>(bodies.size());
@@ -132,22 +125,34 @@ std::string describe_free_motions(const std::vector<int>& bodies, const Model& m
   const auto found = (solver.eigenvalues().array() < bound * bound).count();
   auto motions = distinct_modes(solver.eigenvectors().leftCols(found), per_body);
   std::sort(motions.begin(), motions.end());
-  std::vector<std::string> names;
-  for (const auto& [body, mode] : motions)
-    names.push_back(fmt::format("body '{}' ({})", mesh.blocks[bodies[body]].name,
-                                rigid_mode_name(mesh.dimension, model.bodies()->kinematics() == Kinematics::axisymmetric, mode)));
-  if (names.empty()) return {};
-  return fmt::format("free to move: {}; contact alone held this, and has opened or slips", fmt::join(names, ", "));
+  if (motions.empty()) return {};
+  const bool axisymmetric = model.bodies()->kinematics() == Kinematics::axisymmetric;
+  std::vector<int> which;
+  std::vector<std::vector<std::string>> names;
+  for (const auto& [body, mode] : motions) {
+    if (which.empty() || which.back() != bodies[body]) {
+      which.push_back(bodies[body]);
+      names.emplace_back();
+    }
+    names.back().emplace_back(rigid_mode_name(mesh.dimension, axisymmetric, mode));
+  }
+  std::vector<std::string> free;
+  for (std::size_t b = 0; b < which.size(); ++b) free.push_back(fmt::format("body '{}' ({})", mesh.blocks[which[b]].name, fmt::join(names[b], ", ")));
+  const Vector& x = *system.linearised_at();
+  const NodePlaces at = node_places(mesh, system.displacement(x).get());
+  const RigidModes bodies_now(mesh, axisymmetric, bodies, at.x);
+  const ContactHold now = contact_hold(model, bodies_now, at, *system.multipliers(x));
+  return fmt::format("free to move: {}; {}", fmt::join(free, ", "), record.describe(model, which, now.pairs));
 }
 
 }  // namespace
 
-std::string explain_failure(const StepFailure& failure, const Model& model, SemiSmoothSystem& system) {
-  const std::vector<int> bodies = unheld_bodies(model);
+std::string explain_failure(const StepFailure& failure, const Model& model, SemiSmoothSystem& system, const ContactRecord& record) {
+  const std::vector<int> bodies = bodies_held_by_contact_only(model);
   if (failure.kind() == FailureKind::input || bodies.empty() || bodies.size() > most_bodies || system.linearised_at().is_null()) return {};
-  const std::string free = describe_free_motions(bodies, model, system);
+  const std::string free = describe_free_motions(bodies, model, system, record);
   if (!free.empty() || !newton_did_not_end(failure.kind())) return free;
-  return describe_exhausted_friction(model, *system.multipliers(*system.linearised_at()));
+  return describe_exhausted_friction(bodies, model, *system.multipliers(*system.linearised_at()));
 }
 
 }  // namespace mortise

@@ -124,6 +124,21 @@ ContactPair make_pair(const Mesh& mesh, const Bodies& bodies, const Named<Contac
   return pair;
 }
 
+/// mesh.blocks indices of the bodies of each pair. Collective.
+std::vector<std::vector<int>> bodies_of(const Mesh& mesh, const std::vector<ContactPair>& pairs) {
+  const std::size_t blocks = mesh.blocks.size();
+  std::vector<int> mine(pairs.size() * blocks, 0), all(mine.size());
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    for (const auto* facets : {&pairs[p].slave, &pairs[p].master})
+      for (const auto& facet : *facets) mine[blocks * p + mesh.body_of_node[mesh.local_nodes->getLocalElement(facet[0])]] = 1;
+  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, static_cast<int>(mine.size()), mine.data(), all.data());
+  std::vector<std::vector<int>> bodies(pairs.size());
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    for (std::size_t body = 0; body < blocks; ++body)
+      if (all[blocks * p + body]) bodies[p].push_back(static_cast<int>(body));
+  return bodies;
+}
+
 Effects effects_of(const Scene& scene, const Bodies& bodies) {
   std::vector<std::string> finite, small, f_bar, plastic, pairs, rubbing, loads, conditions;
   std::vector<std::string> rigid, ties;
@@ -245,6 +260,7 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   for (LocalOrdinal node = 0; node < mesh_->owned_count(); ++node) held_by_contact_only_.push_back(only_contact[mesh_->body_of_node[node]]);
 
   if (pairs.empty()) return;
+  bodies_of_pairs_ = bodies_of(*mesh_, pairs);
   const InterfaceMeasure measure{axisymmetric, scene.thickness};
   parts_.contact =
       std::make_shared<ContactSystem>(mesh_->owned_nodes, bodies_->dofs(), reference_positions(*mesh_), kept, measure, std::move(pairs), timers);

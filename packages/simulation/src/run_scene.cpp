@@ -22,6 +22,7 @@
 #include "mortise/simulation/newton_table.hpp"
 #include "mortise/simulation/read_scene.hpp"
 #include "mortise/simulation/run.hpp"
+#include "mortise/simulation/state_check.hpp"
 #include "report_model.hpp"
 #include "run_log.hpp"
 #include "run_record.hpp"
@@ -251,11 +252,32 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
     const auto timer = timers.scope("steps");
     StepperObserver functions = observers.functions();
     const ContactWatch watch(model, scene);
-    functions.examine = [&](const Vector& at) { watch.examine(*system.displacement(at)); };
+    std::optional<StateCheck> check;
+    if (StateCheck::is_needed(model))
+      check.emplace(model, scene.newton.increment_tolerance * model.parts().length, [&](const std::string& line) { log.warning(line); });
+    functions.verify = [&](const Vector& from, Vector& to, int round) {
+      watch.examine(*system.displacement(to));
+      if (!check) return true;
+      const auto timer = timers.scope("state check");
+      return check->verify(system, from, to, round);
+    };
     functions.explain = [&](const StepFailure& caught) {
-      const std::string explanation = explain_failure(caught, model, system);
+      if (check && !check->refused().empty() && caught.kind() != FailureKind::input)
+        return check->refused() + "; put back, it found no equilibrium";
+      const std::string explanation = check ? explain_failure(caught, model, system, check->record()) : std::string();
       return explanation.empty() ? explain_limit_load(caught, model, system, x) : explanation;
     };
+    if (check) {
+      functions.predict = [&](const Vector& at, double dt, Vector& rate) { check->without_free_motions(system, at, dt, rate); };
+      functions.begin = [&, begin = functions.begin](int step, double time, double dt) {
+        check->begin();
+        begin(step, time, dt);
+      };
+      functions.accepted = [&, accepted = functions.accepted](const StepReport& report, const Vector& at) {
+        check->accept();
+        accepted(report, at);
+      };
+    }
     try {
       record.converged = run_steps(system, scene.stepping, scene.newton, x, start_step, functions, failure);
     } catch (const InputError& error) {  // on every rank: a quantity's expression without a value

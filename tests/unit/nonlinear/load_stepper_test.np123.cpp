@@ -160,6 +160,86 @@ TEST(Stepper, AFailingStartIsAFailedTry) {
   EXPECT_EQ(result.accepted[0].time, 0.5);
 }
 
+// A solution that verify() refuses leaves no trace and is not explained: its failure speaks for itself.
+TEST(Stepper, ASolutionThatIsRefusedIsAFailedTry) {
+  Problem problem(Tpetra::getDefaultComm(), moved(1e30));
+  StepperObserver observer;
+  std::vector<double> verified;
+  int explained = 0;
+  observer.verify = [&](const Vector& from, Vector& x, int round) {
+    EXPECT_EQ(round, 1);
+    EXPECT_EQ(from.normInf(), verified.size() < 2 ? 0.0 : problem.x->normInf());
+    verified.push_back(x.normInf());
+    if (x.normInf() > 0.7 && verified.size() == 1) throw StepFailure(FailureKind::lost_contact, "went too far");
+    return true;
+  };
+  observer.explain = [&](const StepFailure&) {
+    ++explained;
+    return std::string("never");
+  };
+  std::vector<StepReport> accepted;
+  observer.accepted = [&](const StepReport& report, const Vector&) { accepted.push_back(report); };
+  std::optional<StepFailure> failure;
+  EXPECT_TRUE(run_steps(*problem.system, {}, {}, *problem.x, {}, observer, failure));
+  ASSERT_EQ(accepted.size(), 2u);
+  EXPECT_EQ(accepted[0].undone, std::vector<std::string>{"lost contact: went too far"});
+  EXPECT_EQ(problem.brittle->times, (std::vector<double>{0.5, 1.0}));
+  ASSERT_EQ(verified.size(), 3u);
+  EXPECT_DOUBLE_EQ(verified[0], 1.0);
+  EXPECT_DOUBLE_EQ(verified[1], 0.5);
+  EXPECT_EQ(explained, 0);
+}
+
+// Newton's iterations from another start belong to the same try.
+TEST(Stepper, ASolutionMayBeSentBackToAnotherStart) {
+  Problem problem(Tpetra::getDefaultComm(), moved(1e30)), plain(Tpetra::getDefaultComm(), moved(1e30));
+  const Walk without = walk(plain, {});
+  StepperObserver observer;
+  std::vector<int> rounds;
+  observer.verify = [&](const Vector& from, Vector& x, int round) {
+    rounds.push_back(round);
+    if (round == 1) Tpetra::deep_copy(x, from);
+    return round == 2;
+  };
+  std::vector<StepReport> accepted;
+  observer.accepted = [&](const StepReport& report, const Vector&) { accepted.push_back(report); };
+  std::optional<StepFailure> failure;
+  EXPECT_TRUE(run_steps(*problem.system, {}, {}, *problem.x, {}, observer, failure));
+  EXPECT_EQ(rounds, (std::vector<int>{1, 2}));
+  ASSERT_EQ(accepted.size(), 1u);
+  EXPECT_EQ(accepted[0].cutbacks, 0);
+  EXPECT_EQ(accepted[0].newton.solves, 2);
+  EXPECT_EQ(accepted[0].newton.newton_steps(), 2 * without.accepted.at(0).newton.newton_steps());
+  plain.x->update(-1.0, *problem.x, 1.0);
+  EXPECT_LE(plain.x->normInf(), 1e-7);
+}
+
+// The rate that a hook leaves is what the next step starts with.
+TEST(Stepper, TheLineOfThePredictorMayBeChanged) {
+  Problem problem(Tpetra::getDefaultComm(), moved(1e30));
+  SteppingOptions stepping;
+  stepping.step = 0.25;
+  StepperObserver observer;
+  observer.predict = [&](const Vector& x, double dt, Vector& rate) {
+    EXPECT_EQ(dt, 0.25);
+    EXPECT_DOUBLE_EQ(rate.normInf(), 1.0);  // the edge moves by t
+    EXPECT_DOUBLE_EQ(x.normInf(), problem.brittle->times.back());
+    rate.putScalar(0.0);
+  };
+  std::optional<StepFailure> failure;
+  int starts = 0;
+  EXPECT_TRUE(run_steps(
+      *problem.system, stepping, {}, *problem.x,
+      [&](Vector& x) {
+        Vector difference(x, Teuchos::Copy);
+        difference.update(-1.0, problem.brittle->committed, 1.0);
+        EXPECT_EQ(difference.normInf(), 0.0);
+        ++starts;
+      },
+      observer, failure));
+  EXPECT_EQ(starts, 4);
+}
+
 TEST(Stepper, AgreesWithOneRank) {
   Problem problem(Tpetra::getDefaultComm(), moved(0.3)), alone(test::this_rank_only(), moved(0.3));
   const Walk result = walk(problem, {}), alone_result = walk(alone, {});

@@ -102,6 +102,19 @@ struct Augmentation {
   std::string pair;        ///< where
 };
 
+/// A direction in which a closed slave node holds bodies to one another, as what a traction along it does to each of them: rigid motions that do no
+/// work against any of these forces are not held by contact.
+struct HoldingRow {
+  /// On the nodes of one body, over the largest coefficient c_jm of the slave node: no unit. In the plane the moment has its third component alone.
+  struct Wrench {
+    int body = 0;
+    std::array<double, 3> force{}, moment{};
+  };
+  std::size_t pair = 0;
+  bool along_surface = false;  ///< a tangent of a node that sticks; else the normal
+  std::vector<Wrench> bodies;
+};
+
 /// All pairs. z holds `dimension` components for each owned slave node that may carry a multiplier.
 /// Displacements are given on the owned dofs. Collective in all members but the accessors.
 class ContactSystem {
@@ -199,6 +212,11 @@ class ContactSystem {
   CornerReport corners(std::size_t pair) const;
   /// States of the owned slave nodes of a pair.
   std::vector<ContactNodeState> node_states(std::size_t pair, const Vector& z) const;
+  /// Of the owned slave nodes of all pairs, at z, d of the last evaluate(d, true): the normal of each closed node, and where it sticks the tangents
+  /// along which it may bear shear. Collective.
+  /// @param places  [owned nodes x 1 + dim] the body that a node counts for, below 0: none; its position, relative to the point of the body that
+  ///                moments are taken about, in any unit
+  std::vector<HoldingRow> holding_rows(const Vector& z, const MultiVector& places) const;
   /// Collective.
   IntegrationLoad integration_load(std::size_t pair) const;
   /// Bytes that the slip histories of all pairs take, over all ranks; 0 without friction. Collective.

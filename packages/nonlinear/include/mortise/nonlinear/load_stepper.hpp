@@ -41,10 +41,15 @@ struct StepReport {
 struct StepperObserver {
   std::function<void(int step, double time, double dt)> begin;  ///< before each try
   std::function<void(const NewtonIteration&)> iteration;
-  std::function<void(const Vector& x)> examine;  ///< a converged state before it is accepted: throws StepFailure, on every rank, if it must not be
+  /// A solution x of the step from the accepted state `from`, before it is committed; contact was evaluated at it last, with derivatives. `round`
+  /// counts the solutions of a try from 1. Returns whether x stands; else it has made x another start, from which the step is solved once more. May
+  /// throw StepFailure, on every rank: the try is undone.
+  std::function<bool(const Vector& from, Vector& x, int round)> verify;
+  /// May change the rate of the step of length dt that was accepted in x: the line that the next step starts at.
+  std::function<void(const Vector& x, double dt, Vector& rate)> predict;
   std::function<void(const StepReport&, const Vector& x)> accepted;   ///< after commit
   std::function<void(const StepReport&, const StepFailure&)> undone;  ///< a try failed
-  std::function<std::string(const StepFailure&)> explain;             ///< what lies behind a failure, to stand before its message
+  std::function<std::string(const StepFailure&)> explain;             ///< what lies behind a failure of Newton's method, to stand before its message
 };
 
 /// Runs from time 0 to the end. On return x is the last converged state. Returns true at the end time; false when the smallest step failed

@@ -40,6 +40,8 @@ class Model {
   const std::shared_ptr<ContactSystem>& contact() const { return parts_.contact; }
   /// For each owned node whether it belongs to a body that nothing but contact holds.
   const std::vector<char>& held_by_contact_only() const { return held_by_contact_only_; }
+  /// mesh.blocks indices of the bodies on either side of each contact pair, second passes behind all pairs of the scene.
+  const std::vector<std::vector<int>>& bodies_of_pairs() const { return bodies_of_pairs_; }
   const Effects& effects() const { return effects_; }
   /// How the surfaces lie before anything moves.
   const SurfacesAtStart& surfaces_at_start() const { return surfaces_at_start_; }
@@ -62,6 +64,7 @@ class Model {
   MeshSize size_;
   std::shared_ptr<const Bodies> bodies_;
   std::vector<char> held_by_contact_only_;
+  std::vector<std::vector<int>> bodies_of_pairs_;
   Effects effects_;
   SurfacesAtStart surfaces_at_start_;
   SystemParts parts_;

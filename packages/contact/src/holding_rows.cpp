@@ -1,0 +1,87 @@
+// What contact holds bodies with: the forces of its multipliers, body by body.
+
+#include <Eigen/Geometry>
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
+#include <Tpetra_Vector.hpp>
+#include <algorithm>
+
+#include "implementation.hpp"
+
+namespace mortise {
+namespace {
+
+void add_force(const SpatialVector& force, const SpatialVector& arm, int body, std::vector<HoldingRow::Wrench>& wrenches) {
+  auto found = std::find_if(wrenches.begin(), wrenches.end(), [&](const auto& wrench) { return wrench.body == body; });
+  if (found == wrenches.end()) found = wrenches.insert(found, {body});
+  Eigen::Vector3d f = Eigen::Vector3d::Zero(), x = Eigen::Vector3d::Zero();
+  f.head(force.size()) = force;
+  x.head(arm.size()) = arm;
+  const Eigen::Vector3d moment = x.cross(f);
+  for (int i = 0; i < 3; ++i) {
+    found->force[i] += f[i];
+    found->moment[i] += moment[i];
+  }
+}
+
+}  // namespace
+
+// A multiplier acts at the nodes m with c_jm; with variational mortar its normal part acts with -dg_j/dx_m instead.
+std::vector<HoldingRow> ContactSystem::holding_rows(const Vector& z, const MultiVector& places) const {
+  const Implementation& self = *implementation_;
+  const Eigen::Index dimension = self.dimension;
+  const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
+  std::vector<HoldingRow> rows;
+  for (std::size_t p = 0; p < self.pairs.size(); ++p) {
+    const detail::PairCoupling& pair = *self.pairs[p];
+    MultiVector local(pair.interface().local_nodes(), static_cast<std::size_t>(1 + dimension));
+    local.doImport(places, pair.import(), Tpetra::REPLACE);
+    const auto at = local.getLocalViewHost(Tpetra::Access::ReadOnly);
+    for (std::size_t s = 0; s < pair.rows().size(); ++s) {
+      if (self.multiplier_of[p][s] < 0) continue;
+      const ContactState state = pair.complementarity(s, self.z_of(values, p, s)).state;
+      if (state == ContactState::open) continue;
+      const detail::NodeRow& row = pair.rows()[s];
+      const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
+      const LocalOrdinal own = pair.slave_nodes()[s].local_node;
+      const auto add_row = [&](bool along_surface, const auto& force_at) {
+        HoldingRow result{p, along_surface, {}};
+        double largest = 0.0;
+        for (std::size_t c = 0; c < coupled.size(); ++c) {
+          const SpatialVector force = force_at(c);
+          largest = std::max(largest, force.norm());
+          const int body = static_cast<int>(at(coupled[c], 0));
+          if (body < 0 || force.isZero(0.0)) continue;
+          SpatialVector arm(dimension);
+          for (Eigen::Index i = 0; i < dimension; ++i) arm[i] = at(coupled[c], static_cast<std::size_t>(1 + i));
+          add_force(force, arm, body, result.bodies);
+        }
+        if (result.bodies.empty()) return;
+        for (HoldingRow::Wrench& wrench : result.bodies)
+          for (int i = 0; i < 3; ++i) {
+            wrench.force[i] /= largest;
+            wrench.moment[i] /= largest;
+          }
+        rows.push_back(std::move(result));
+      };
+      const auto along = [&](const SpatialVector& direction) {
+        return [&](std::size_t c) { return SpatialVector((row.coefficients[c] + (coupled[c] == own ? row.D : 0.0)) * direction); };
+      };
+      if (pair.variational())
+        add_row(false, [&](std::size_t c) { return SpatialVector(-Eigen::Map<const Eigen::VectorXd>(&row.dgap[dimension * c], dimension)); });
+      else
+        add_row(false, along(row.normal));
+      if (state != ContactState::stick) continue;
+      const Frame in = pair.frame(s);
+      const bool partly_fixed = pair.slave_nodes()[s].partly_fixed();  // its first tangent bears no shear
+      for (Eigen::Index a = partly_fixed ? 1 : 0; a < in.tangents.rows(); ++a) {
+        const SpatialVector tangent = in.tangents.row(a).transpose();
+        add_row(true, along(tangent));
+      }
+    }
+  }
+  return rows;
+}
+
+}  // namespace mortise

@@ -1,0 +1,80 @@
+#pragma once
+// A state is accepted only if it is an equilibrium that holds.
+
+#include <functional>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mortise/nonlinear/semi_smooth_system.hpp"
+#include "mortise/simulation/body_motion.hpp"
+#include "mortise/simulation/contact_hold.hpp"
+#include "mortise/simulation/model.hpp"
+
+namespace mortise {
+
+/// Looks at each state that Newton's method found, for the bodies that contact alone holds: which of their rigid motions nothing holds there, and how
+/// far they went along these in the step. Collective in all members.
+class StateCheck {
+ public:
+  /// @param resolution  what displacements are known to [length]
+  /// @param warn        gets what is said of motions that are free, on every rank
+  StateCheck(const Model& model, double resolution, std::function<void(const std::string&)> warn);
+
+  /// Whether a model has bodies that contact alone holds. Collective.
+  static bool is_needed(const Model& model);
+
+  /// From the accepted state `before` to `after`, where contact was evaluated last, with derivatives. Says which motions are free, each once.
+  ///
+  /// A motion that nothing holds costs nothing, so equilibrium does not say how far a body goes along it. What may have moved it within the step are
+  /// the bodies that it touches: by their own motion and by deformation. With m the largest motion of a node of bodies that boundary conditions hold,
+  /// of a prescribed dof and of another body that contact moved, and e the largest deformation, each over the step, a body that is carried goes no
+  /// farther than m + e, plus what Newton's method leaves undetermined. Twice that is allowed, as motions of different nodes add up: a body that
+  /// turns with what carries it goes farther at its rim. A body that leaves an equilibrium for another place goes as far however small the step is,
+  /// while m and e fall with it.
+  ///
+  /// A body that went farther may have been thrown there by an iterate on the way. In the first round of a try it is put back along its free motions,
+  /// deformed as it is: what is in one another then is closed.
+  /// @returns whether `after` is accepted; if not it is another start
+  /// @throws StepFailure(lost_contact), on every rank, for a body that went farther again, or, held or not, farther than the model is long
+  bool verify(const SemiSmoothSystem& system, const Vector& before, Vector& after, int round);
+
+  /// A try of a step begins.
+  void begin() { refused_.clear(); }
+  /// Why a solution of this try was refused, if one was.
+  const std::string& refused() const { return refused_; }
+
+  /// The state that verify() passed last is accepted.
+  void accept() { record_.accept(pairs_); }
+
+  /// Takes free motions of the accepted state out of the rate at which the last step of length dt, which ended at x, moved.
+  void without_free_motions(const SemiSmoothSystem& system, const Vector& x, double dt, Vector& rate) const;
+
+  const ContactRecord& record() const { return record_; }
+
+ private:
+  /// d -= factor times a motion in the numbers of `modes`, at nodes and at what they follow.
+  void subtract(const RigidModes& modes, const Eigen::VectorXd& motion, const std::vector<Eigen::Vector3d>& middle, const NodePlaces& half_way,
+                double factor, Vector& d) const;
+  void say_new(const RigidModes& modes, const Eigen::MatrixXd& free, const BodyMotions& motions);
+
+  const Model& model_;
+  double resolution_;
+  std::function<void(const std::string&)> warn_;
+  std::vector<int> bodies_;
+  RCP<const MultiVector> fixed_;
+  ContactRecord record_;
+  std::vector<PairHold> pairs_;
+  std::unique_ptr<const RigidModes> modes_;  ///< of the state that verify() passed last
+  Eigen::VectorXd freely_;                   ///< its step's motion along what was free
+  std::vector<Eigen::Vector3d> middle_;
+  std::set<std::pair<int, int>> said_;
+  std::string refused_;
+};
+
+/// mesh.blocks indices of the bodies that only contact holds. Collective.
+std::vector<int> bodies_held_by_contact_only(const Model& model);
+
+}  // namespace mortise

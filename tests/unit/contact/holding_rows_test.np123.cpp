@@ -1,0 +1,155 @@
+// What holds bodies against the forces of contact itself.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "formulations.hpp"
+#include "two_surfaces.hpp"
+
+namespace mortise {
+namespace {
+
+using test::Fixture;
+using test::TwoSurfaces;
+
+const Eigen::Vector3d pole[2] = {{0.4, 0.7, -0.1}, {-0.3, 0.2, 0.5}};  // that moments are taken about
+
+TwoSurfaces with_friction(TwoSurfaces surfaces, const std::shared_ptr<Formulation>& formulation) {
+  auto coulomb = std::make_shared<CoulombFriction>();
+  coulomb->coefficient = Expression(0.3);
+  surfaces.options.friction.options = coulomb;
+  if (formulation) surfaces.options.formulation.options = formulation;
+  return surfaces;
+}
+
+Eigen::Vector3d position(const TwoSurfaces& surfaces, GlobalOrdinal node) {
+  const auto slaves = static_cast<GlobalOrdinal>(surfaces.slave.size());
+  const test::Point& x = node < slaves ? surfaces.slave[static_cast<std::size_t>(node)] : surfaces.master[static_cast<std::size_t>(node - slaves)];
+  return {x[0], x[1], surfaces.dimension == 2 ? 0.0 : x[2]};
+}
+
+using Wrenches = Eigen::Matrix<double, 6, 2>;  // of both bodies
+
+Wrenches of_row(const HoldingRow& row) {
+  Wrenches result = Wrenches::Zero();
+  for (const auto& wrench : row.bodies) result.col(wrench.body) << Eigen::Vector3d(wrench.force.data()), Eigen::Vector3d(wrench.moment.data());
+  return result;
+}
+
+/// Of the contact force of z, over all ranks.
+Wrenches of_force(const Fixture& fixture, const TwoSurfaces& surfaces, const Vector& z) {
+  const int dim = surfaces.dimension;
+  Vector force(fixture.dofs);
+  fixture.contact->add_contact_force(z, force);
+  const auto values = force.getLocalViewHost(Tpetra::Access::ReadOnly);
+  Wrenches mine = Wrenches::Zero(), all = mine;
+  for (std::size_t n = 0; n < fixture.nodes->getNodeNumElements(); ++n) {
+    const GlobalOrdinal node = fixture.nodes->getGlobalElement(static_cast<LocalOrdinal>(n));
+    const int body = node < static_cast<GlobalOrdinal>(surfaces.slave.size()) ? 0 : 1;
+    Eigen::Vector3d f = Eigen::Vector3d::Zero();
+    for (int i = 0; i < dim; ++i) f[i] = values(dim * n + i, 0);
+    mine.col(body).head<3>() += f;
+    Eigen::Vector3d arm = position(surfaces, node) - pole[body];
+    if (dim == 2) arm.z() = 0.0;
+    mine.col(body).tail<3>() += arm.cross(f);
+  }
+  Teuchos::reduceAll(*fixture.nodes->getComm(), Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), all.data());
+  return all;
+}
+
+/// All nodes that are covered closed; nothing has slipped, so they stick.
+void compare(const TwoSurfaces& surfaces) {
+  Fixture fixture(surfaces, Tpetra::getDefaultComm());
+  ContactSystem& contact = *fixture.contact;
+  const int dim = surfaces.dimension;
+  Vector d(fixture.dofs), none(contact.multiplier_map());
+  contact.start_step(d, std::vector<char>(fixture.nodes->getNodeNumElements(), 0), none);
+  std::optional<StepFailure> failure;
+  contact.evaluate(d, true, failure);
+  ASSERT_FALSE(failure);
+  const RCP<Vector> z = fixture.multipliers([](std::size_t) { return 1e6; });
+
+  MultiVector places(fixture.nodes, static_cast<std::size_t>(1 + dim));
+  for (std::size_t n = 0; n < fixture.nodes->getNodeNumElements(); ++n) {
+    const GlobalOrdinal node = fixture.nodes->getGlobalElement(static_cast<LocalOrdinal>(n));
+    const int body = node < static_cast<GlobalOrdinal>(surfaces.slave.size()) ? 0 : 1;
+    places.replaceLocalValue(n, 0, body);
+    for (int i = 0; i < dim; ++i) places.replaceLocalValue(n, 1 + i, position(surfaces, node)[i] - pole[body][i]);
+  }
+  const std::vector<HoldingRow> rows = contact.holding_rows(*z, places);
+
+  // Rows come node by node.
+  std::vector<ContactNodeState> closed;
+  int sticking = 0;
+  for (const auto& node : contact.node_states(0, *z)) {
+    if (node.closed) closed.push_back(node);
+    sticking += node.state == ContactState::stick;
+  }
+  ASSERT_EQ(rows.size(), closed.size() + static_cast<std::size_t>((dim - 1) * sticking));
+  const GlobalOrdinal offset = fixture.dofs->getMaxAllGlobalIndex() + 1;
+  const auto comm = fixture.nodes->getComm();
+  std::size_t next = 0;
+  int compared = 0, most = 0;
+  for (int rank = 0; rank < comm->getSize(); ++rank) {  // all help to find the force of one row at a time
+    int count = static_cast<int>(rows.size());
+    Teuchos::broadcast(*comm, rank, Teuchos::outArg(count));
+    most += count;
+    for (int r = 0; r < count; ++r) {
+      Vector one(contact.multiplier_map());
+      const bool mine = rank == comm->getRank();
+      if (mine) {
+        if (!rows[r].along_surface) ++next;
+        const ContactNodeState& node = closed[next - 1];
+        // A traction across the normal acts through coefficients alone: the row's force on a body has its direction.
+        const Eigen::Vector3d force = of_row(rows[r]).col(0).head<3>();
+        const Eigen::Vector3d direction = rows[r].along_surface ? Eigen::Vector3d(force.normalized()) : Eigen::Vector3d(node.normal.data());
+        if (rows[r].along_surface) EXPECT_NEAR(direction.dot(Eigen::Vector3d(node.normal.data())), 0.0, 1e-12);
+        for (int i = 0; i < dim; ++i) one.replaceGlobalValue(offset + dim * node.node + i, direction[i]);
+      }
+      const Wrenches expected = of_force(fixture, surfaces, one);
+      if (!mine) continue;
+      const Wrenches found = of_row(rows[r]);
+      const double scale = expected.col(0).head<3>().norm() / found.col(0).head<3>().norm();
+      EXPECT_LE(std::min((scale * found - expected).norm(), (scale * found + expected).norm()), 1e-11 * expected.norm());
+      ++compared;
+    }
+  }
+  EXPECT_EQ(compared, static_cast<int>(rows.size()));
+  EXPECT_GT(most, dim * 3);
+}
+
+TEST(HoldingRows, AreTheForcesOfContactInThePlane) {
+  compare(with_friction(test::arch_on_ground(), nullptr));
+  for (const auto& formulation : test::other_formulations()) {
+    SCOPED_TRACE(formulation.name);
+    compare(with_friction(test::arch_on_ground(), formulation.options));
+  }
+}
+
+TEST(HoldingRows, AreTheForcesOfContactInSpace) {
+  compare(with_friction(test::dome_on_waves(), nullptr));
+  compare(with_friction(test::quadratic(test::dome_on_waves(), true, true), nullptr));
+  for (const auto& formulation : test::other_formulations()) {
+    if (!test::in_space(formulation)) continue;
+    SCOPED_TRACE(formulation.name);
+    compare(with_friction(test::dome_on_waves(), formulation.options));
+  }
+}
+
+TEST(HoldingRows, OpenNodesHoldNothingAndNodesWithoutABodyAreLeftOut) {
+  const TwoSurfaces surfaces = with_friction(test::arch_on_ground(), nullptr);
+  Fixture fixture(surfaces, Tpetra::getDefaultComm());
+  Vector d(fixture.dofs), z(fixture.contact->multiplier_map());
+  fixture.contact->start_step(d, std::vector<char>(fixture.nodes->getNodeNumElements(), 0), z);
+  std::optional<StepFailure> failure;
+  fixture.contact->evaluate(d, true, failure);
+  MultiVector places(fixture.nodes, 3);
+  const auto pulled = fixture.multipliers([](std::size_t) { return -1e6; }), pressed = fixture.multipliers([](std::size_t) { return 1e6; });
+  EXPECT_TRUE(fixture.contact->holding_rows(*pulled, places).empty());
+  for (std::size_t n = 0; n < fixture.nodes->getNodeNumElements(); ++n) places.replaceLocalValue(n, 0, -1.0);
+  EXPECT_TRUE(fixture.contact->holding_rows(*pressed, places).empty());
+}
+
+}  // namespace
+}  // namespace mortise
