@@ -103,6 +103,26 @@ TEST(SplitKinks, LeaveSymmetryAlone) {
     }
 }
 
+// A flat master under a corner between facets along x and at 60 degrees: its normal inside the wedge of theirs and up to 10 degrees beyond it, that
+// of the nearer facet from 20 degrees on, and between in between.
+TEST(SplitKinks, TakeTheMastersNormalNearTheWedge) {
+  const auto angle_of_normal = [](double tilt) {  // from the first facet's normal
+    TwoLines lines = folding(60.0);
+    for (Eigen::Vector2d& x : lines.master) x.y() = std::tan(tilt * degree) * x.x();
+    lines.options.search_reach = 1.0;
+    SurfacePair pair(lines, alone());
+    split(pair, Surfaces(lines).points);
+    const Eigen::Vector2d normal = pair.dense().normal.segment<2>(2 * corner);
+    EXPECT_NEAR(normal.norm(), 1.0, 1e-15);
+    return std::atan2(normal.x(), -normal.y()) / degree;
+  };
+  for (const double inside : {-9.5, -4.0, 0.0, 20.0, 59.0, 69.5}) EXPECT_NEAR(angle_of_normal(inside), inside, 1e-12);
+  for (const double beyond : {-20.5, -35.0}) EXPECT_NEAR(angle_of_normal(beyond), 0.0, 1e-12);
+  EXPECT_NEAR(angle_of_normal(80.5), 60.0, 1e-12);
+  EXPECT_NEAR(angle_of_normal(-15.0), -7.5, 1e-12);  // half of what it leaves by, in the middle of the transition
+  EXPECT_NEAR(angle_of_normal(75.0), 67.5, 1e-12);
+}
+
 // Half of it, with the corner on the line of symmetry, is half of it.
 TEST(SplitKinks, SeeHalfOfACornerOnALineOfSymmetry) {
   for (const double angle : {6.0, 45.0, 70.0})
