@@ -35,6 +35,10 @@ NormalStencil own_side(LocalOrdinal node, const NodeTangents& facet);
 /// The angle by which a plane surface turns at a node, positive where it is convex. 0 at its ends and at nodes with projected components.
 double turn_at(const NormalStencil& stencil, const Positions<2>& x);
 
+/// The angle by which a plane surface and its mirror image turn at a node on a line of symmetry, where one component is projected out and one facet
+/// ends, positive where they are convex. 0 at other nodes.
+double mirrored_turn_at(const NormalStencil& stencil, const Positions<2>& x);
+
 /// Normalised sum of the unit normals of the node's facets at the node, without the `projected` components:  s = P sum_e n_e,  n = s / |s|,
 ///   n_e = (t_y, -t_x) / |t| in the plane,  n_e = c / |c|, c = t_1 x t_2 in space,
 ///   dn = (I - n n^T) P sum_e dn_e / |s|,

@@ -58,6 +58,16 @@ double turn_at(const NormalStencil& stencil, const Positions<2>& x) {
   return std::atan2(before.x() * behind.y() - before.y() * behind.x(), before.dot(behind));
 }
 
+// Half of it is the turn from the facet's normal to its free component, or the other way round where the facet starts at the node.
+double mirrored_turn_at(const NormalStencil& stencil, const Positions<2>& x) {
+  if (stencil.facets.size() != 1 || stencil.projected[0] == stencil.projected[1]) return 0.0;
+  const Eigen::Vector2d normal = Side(stencil.facets.front(), x).normal;
+  Eigen::Vector2d free = normal;
+  free[stencil.projected[0] ? 0 : 1] = 0.0;
+  const double turn = 2.0 * std::atan2(normal.x() * free.y() - normal.y() * free.x(), normal.dot(free));
+  return stencil.facets.front().nodes[1] == stencil.node ? turn : -turn;
+}
+
 bool average_normal(const NormalStencil& stencil, const Positions<2>& x, bool derivatives, NodalNormal& result) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   boost::container::small_vector<const NodeTangents*, 2> facets;

@@ -62,6 +62,26 @@ void weigh(const CornerSide& side, double w, const std::vector<LocalOrdinal>& co
   coupling.gap[j] *= w * w;
 }
 
+// The weights of the facets' lengths as seen along the corner's normal, which turns by `turn` in the corner's columns.
+void measure_weights(SettledCorner& corner, const NodalNormal& normal, const Eigen::RowVectorXd& turn, bool moves) {
+  const Eigen::RowVector2d left = to_the_left_of(normal.normal);
+  for (std::size_t e = 0; e < 2; ++e) {
+    if (corner.sides[e].normal == nullptr) continue;
+    const NodalNormal& own = *corner.sides[e].normal;
+    corner.weight[e] = std::max(0.0, own.normal.dot(normal.normal));
+    corner.turn_of_weight[e] = (corner.weight[e] > 0.0 ? left.dot(own.normal.transpose()) : 0.0) * turn;
+    if (moves && corner.weight[e] > 0.0)
+      add_columns(corner.columns, own.columns, Eigen::RowVectorXd(normal.normal.transpose() * own.derivative), corner.turn_of_weight[e]);
+  }
+}
+
+// On a line of symmetry: the corner's normal lies along it.
+void settle_half(SettledCorner& corner, bool derivatives, bool moves, const NodalNormal& normal) {
+  for (const CornerSide& side : corner.sides)
+    if (side.normal != nullptr) corner.columns = side.normal->columns;
+  measure_weights(corner, normal, Eigen::RowVectorXd::Zero(derivatives ? 2 * static_cast<Eigen::Index>(corner.columns.size()) : 0), moves);
+}
+
 // Sets the normal of the corner. False where nothing is covered: it keeps the average.
 bool settle(SettledCorner& corner, bool derivatives, bool moves, NodalNormal& normal) {
   Eigen::Vector2d facing = Eigen::Vector2d::Zero();
@@ -88,15 +108,8 @@ bool settle(SettledCorner& corner, bool derivatives, bool moves, NodalNormal& no
   }
   normal.normal = found.normal;
   normal.columns = corner.columns;
-  const Eigen::RowVector2d left = to_the_left_of(normal.normal);
-  normal.derivative = left.transpose() * turn;
-  for (std::size_t e = 0; e < 2; ++e) {
-    const NodalNormal& own = *corner.sides[e].normal;
-    corner.weight[e] = std::max(0.0, own.normal.dot(normal.normal));
-    corner.turn_of_weight[e] = (corner.weight[e] > 0.0 ? left.dot(own.normal.transpose()) : 0.0) * turn;
-    if (moves && corner.weight[e] > 0.0)
-      add_columns(corner.columns, own.columns, Eigen::RowVectorXd(normal.normal.transpose() * own.derivative), corner.turn_of_weight[e]);
-  }
+  normal.derivative = to_the_left_of(normal.normal).transpose() * turn;
+  measure_weights(corner, normal, turn, moves);
   return true;
 }
 
@@ -114,7 +127,13 @@ void Interface<2>::settle_corners(bool derivatives, std::vector<NodalNormal>& no
       corner.sides[place == 1 ? 0 : 1] = {segments_of_facet_[f] > 0 ? &couplings[f] : nullptr, static_cast<Eigen::Index>(place),
                                           &normals[slave.normals[f][place]]};
     }
-    if (settle(corner, derivatives, derivatives && options_.linearisation == Linearisation::exact, normals[s])) settled.push_back(std::move(corner));
+    const bool moves = derivatives && options_.linearisation == Linearisation::exact;
+    const auto& projected = slave.stencils[s].projected;
+    if (projected[0] || projected[1])
+      settle_half(corner, derivatives, moves, normals[s]);
+    else if (!settle(corner, derivatives, moves, normals[s]))
+      continue;
+    settled.push_back(std::move(corner));
   }
   for (const SettledCorner& corner : settled)
     for (std::size_t e = 0; e < 2; ++e)

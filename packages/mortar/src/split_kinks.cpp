@@ -33,24 +33,30 @@ constexpr KinkAngles kink_angles(CornerRule rule) {
   return rule == CornerRule::master_normal ? KinkAngles{10.0 * degree, 2.0 * degree} : KinkAngles{30.0 * degree, 5.0 * degree};
 }
 
+bool is_projected(const NormalStencil& stencil) { return stencil.projected[0] || stencil.projected[1]; }
+
+// On a line of symmetry the master's normal is that line, on which half of the corner is seen.
+double turn_of_corner(CornerRule rule, const NormalStencil& stencil, const Positions<2>& x) {
+  return rule == CornerRule::master_normal && is_projected(stencil) ? mirrored_turn_at(stencil, x) : turn_at(stencil, x);
+}
+
 }  // namespace
 
 template <>
 bool Interface<2>::split_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest) {
   const Positions<2> positions = (*slave_positions_)(x);
-  const auto is_projected = [](const NormalStencil& stencil) { return stencil.projected[0] || stencil.projected[1]; };
-  const bool nearest_facet = options_.corner_rule(2) == CornerRule::nearest_facet;
-  const KinkAngles angles = kink_angles(options_.corner_rule(2));
+  const CornerRule rule = options_.corner_rule(2);
+  const KinkAngles angles = kink_angles(rule);
   kinks_.resize(slave.nodes_with_normal, 0);
   const std::vector<char> kinks_before = kinks_;
   std::vector<std::optional<std::size_t>> before, now;
   for (std::size_t n = 0; n < kinks_.size(); ++n) {
     NormalStencil& stencil = slave.stencils[n];
-    kinks_[n] = turn_at(stencil, positions) > (kinks_[n] ? angles.flat : angles.sharp);
+    kinks_[n] = turn_of_corner(rule, stencil, positions) > (kinks_[n] ? angles.flat : angles.sharp);
     before.push_back(stencil.only);
     stencil.only.reset();
     for (std::size_t e = 0; e < stencil.facets.size(); ++e)
-      if (kinks_[n] && nearest_facet && n < nearest.size() && stencil.facets[e].nodes == nearest[n]) stencil.only = e;
+      if (kinks_[n] && rule == CornerRule::nearest_facet && n < nearest.size() && stencil.facets[e].nodes == nearest[n]) stencil.only = e;
     now.push_back(stencil.only);
   }
   const std::vector<Facet<LocalOrdinal>> normals_before = slave.normals;
@@ -60,7 +66,7 @@ bool Interface<2>::split_kinks(const MultiVector& x, const std::vector<Facet<Loc
     slave.normals[f] = facet;
     if (std::none_of(facet.begin(), facet.end(), [&](LocalOrdinal node) { return kinks_[node] != 0; })) continue;
     for (std::size_t a = 0; a < facet.size(); ++a) {
-      if (is_projected(slave.stencils[facet[a]])) continue;
+      if (is_projected(slave.stencils[facet[a]]) && kinks_[facet[a]] == 0) continue;
       slave.normals[f][a] = static_cast<LocalOrdinal>(slave.stencils.size());
       slave.stencils.push_back(own_side(facet[a], tangents_at<2>(facet, a)));
     }
@@ -81,9 +87,10 @@ bool Interface<3>::split_kinks(const MultiVector&, const std::vector<Facet<Local
 template <>
 long Interface<2>::kinks(const MultiVector& x) {
   const Positions<2> positions = (*slave_positions_)(x);
-  const double sharp = kink_angles(options_.corner_rule(2)).sharp;
+  const CornerRule rule = options_.corner_rule(2);
+  const double sharp = kink_angles(rule).sharp;
   return std::count_if(slave.stencils.begin(), slave.stencils.begin() + static_cast<std::ptrdiff_t>(slave.owned.size()),
-                       [&](const NormalStencil& stencil) { return turn_at(stencil, positions) > sharp; });
+                       [&](const NormalStencil& stencil) { return turn_of_corner(rule, stencil, positions) > sharp; });
 }
 
 template <>

@@ -103,6 +103,66 @@ TEST(SplitKinks, LeaveSymmetryAlone) {
     }
 }
 
+// A flat master under a corner between facets along x and at 60 degrees: its normal inside the wedge of theirs and up to 10 degrees beyond it, that
+// of the nearer facet from 20 degrees on, and between in between.
+TEST(SplitKinks, TakeTheMastersNormalNearTheWedge) {
+  const auto angle_of_normal = [](double tilt) {  // from the first facet's normal
+    TwoLines lines = folding(60.0);
+    for (Eigen::Vector2d& x : lines.master) x.y() = std::tan(tilt * degree) * x.x();
+    lines.options.search_reach = 1.0;
+    SurfacePair pair(lines, alone());
+    split(pair, Surfaces(lines).points);
+    const Eigen::Vector2d normal = pair.dense().normal.segment<2>(2 * corner);
+    EXPECT_NEAR(normal.norm(), 1.0, 1e-15);
+    return std::atan2(normal.x(), -normal.y()) / degree;
+  };
+  for (const double inside : {-9.5, -4.0, 0.0, 20.0, 59.0, 69.5}) EXPECT_NEAR(angle_of_normal(inside), inside, 1e-12);
+  for (const double beyond : {-20.5, -35.0}) EXPECT_NEAR(angle_of_normal(beyond), 0.0, 1e-12);
+  EXPECT_NEAR(angle_of_normal(80.5), 60.0, 1e-12);
+  EXPECT_NEAR(angle_of_normal(-15.0), -7.5, 1e-12);  // half of what it leaves by, in the middle of the transition
+  EXPECT_NEAR(angle_of_normal(75.0), 67.5, 1e-12);
+}
+
+// Half of it, with the corner on the line of symmetry, is half of it.
+TEST(SplitKinks, SeeHalfOfACornerOnALineOfSymmetry) {
+  for (const double angle : {6.0, 45.0, 70.0})
+    for (const bool axisymmetric : {false, true})
+      for (const bool ends_there : {false, true}) {
+        TwoLines whole, half;
+        whole.slave = {-2.0 * side * towards(-angle), -side * towards(-angle), {0.0, 0.0}, side * towards(angle), 2.0 * side * towards(angle)};
+        whole.master = line(
+            8, -4.0, 4.0, [](double x) { return -0.1 * x * x; }, true);
+        whole.options.search_reach = half.options.search_reach = 0.3;
+        const auto part = [&](const Points& points) {
+          return ends_there ? Points(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(points.size() + 1) / 2)
+                            : Points(points.end() - static_cast<std::ptrdiff_t>(points.size() + 1) / 2, points.end());
+        };
+        half.slave = part(whole.slave);
+        Points left = whole.master;
+        std::reverse(left.begin(), left.end());  // ascending in x
+        half.master = part(left);
+        std::reverse(half.master.begin(), half.master.end());
+        half.fixed_x = {ends_there ? half.slave.size() - 1 : 0};
+        half.measure.axisymmetric = axisymmetric && !ends_there;
+        SurfacePair of_half(half, alone()), of_whole(whole, alone());
+        ASSERT_TRUE(split(of_half, Surfaces(half).points));
+        if (!half.measure.axisymmetric) {
+          ASSERT_TRUE(split(of_whole, Surfaces(whole).points));
+          const DenseCoupling one = of_half.dense(), two = of_whole.dense();
+          const auto h = static_cast<Eigen::Index>(half.fixed_x.front());
+          EXPECT_NEAR(one.gap[h], 0.5 * two.gap[corner], 1e-14) << angle;
+          EXPECT_NEAR(one.D(h, h), 0.5 * two.D(corner, corner), 1e-14) << angle;
+          EXPECT_EQ(one.normal.segment<2>(2 * h), Eigen::Vector2d(0.0, -1.0));
+        }
+        for (std::size_t n = 0; n < half.slave.size(); ++n)
+          if (n != half.fixed_x.front()) half.slave[n] += Eigen::Vector2d(0.0, 0.01 * disorder(n));
+        for (Eigen::Vector2d& x : half.slave) x.y() += 0.013;
+        SurfacePair uneven_half(half, alone());
+        ASSERT_TRUE(split(uneven_half, Surfaces(half).points));
+        expect_exact_derivatives(half, &uneven_half);
+      }
+}
+
 void expect_exact_derivatives_of(const TwoLines& lines, bool curved_slave, bool curved_master = false) {
   const Surfaces surfaces = curved_slave || curved_master ? quadratic(lines, curved_slave, curved_master, 0.02) : Surfaces(lines);
   SurfacePair pair(surfaces, alone());
