@@ -21,6 +21,7 @@
 #include "mortise/simulation/newton_table.hpp"
 #include "mortise/simulation/read_scene.hpp"
 #include "mortise/simulation/run.hpp"
+#include "precision.hpp"
 #include "report_model.hpp"
 #include "run_log.hpp"
 #include "run_record.hpp"
@@ -232,6 +233,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
   directory.begin_run();
   log.open(directory.file("log.txt"));
   report_model(options.scene, scene, model, log);
+  report_precision(model, scene, log);
   report_contact_at_start(model, scene, log);
   report_memory(model, log);
   write_file(*comm, directory.file("effective.xml"), [&] { return effective_xml(scene); });
