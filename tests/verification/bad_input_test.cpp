@@ -35,6 +35,7 @@ const std::vector<Case> cases{
      R"xml(value="2"/><Parameter)xml"},
     {"mistyped", R"xml(value="1000")xml", R"xml(value="5x")xml", "5x", R"xml(value="5x")xml"},
     {"out_of_range", R"xml(value="0.3")xml", R"xml(value="0.7")xml", "poisson's ratio", R"xml(value="0.7")xml"},
+    {"modulus_beyond_squares", R"xml(value="1000")xml", R"xml(value="1e-170")xml", "allowed: 1e-120 to 1e+120", ""},
     {"broken_expression", R"xml(value="ramp(t)")xml", R"xml(value="ramp(t")xml", "ramp(t", R"xml(value="ramp(t")xml"},
     {"unknown_variable", R"xml(value="ramp(t)")xml", R"xml(value="speed*t")xml", "speed", "speed*t"},
     {"unknown_material", R"xml(name="material" type="string" value="soft"/>

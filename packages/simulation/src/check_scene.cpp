@@ -4,6 +4,7 @@
 
 #include "mortise/simulation/model.hpp"
 #include "names.hpp"
+#include "precision.hpp"
 
 namespace mortise {
 namespace {
@@ -47,6 +48,8 @@ std::vector<Diagnostic> check_scene(const Scene& scene) {
     const auto wrong = check_combination({body.name, body.place, material->value.law.options, body.value.element}, scene.kinematics);
     diagnostics.insert(diagnostics.end(), wrong.begin(), wrong.end());
   }
+  const auto moduli = moduli_out_of_range(scene);
+  diagnostics.insert(diagnostics.end(), moduli.begin(), moduli.end());
   for (const auto& tie : scene.reference_points) check_position(scene, tie.value.position, tie.place, diagnostics);
   for (const auto& pair : scene.contact)
     if (!pair.value.slave.value.empty() && pair.value.slave.value == pair.value.master.value)

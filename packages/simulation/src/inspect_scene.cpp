@@ -4,6 +4,7 @@
 #include "mortise/simulation/model.hpp"
 #include "mortise/simulation/read_scene.hpp"
 #include "mortise/simulation/run.hpp"
+#include "precision.hpp"
 #include "report_model.hpp"
 #include "run_log.hpp"
 #include "step_evaluation.hpp"
@@ -18,6 +19,7 @@ void inspect_scene(const RCP<const Communicator>& comm, const RunOptions& option
   SemiSmoothSystem system(model.parts(), timers);
   const StepEvaluation evaluation(scene, model, system);
   report_model(options.scene, scene, model, log);
+  report_precision(model, scene, log);
   report_contact_at_start(model, scene, log);
   log.info(fmt::format("  diagonal of the model {:.6g}, shortest side of an element {:.6g}", model.size().length, model.size().shortest_side));
   report_memory(model, log);

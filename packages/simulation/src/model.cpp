@@ -12,6 +12,7 @@
 #include "contributions.hpp"
 #include "mesh_limits.hpp"
 #include "mortise/simulation/hold_check.hpp"
+#include "precision.hpp"
 #include "scene_bodies.hpp"
 
 namespace mortise {
@@ -82,11 +83,12 @@ RCP<Mesh> make_mesh(const RCP<const Communicator>& comm, const Scene& scene) {
   return mesh;
 }
 
-RCP<MultiVector> reference_positions(const Mesh& mesh) {
+/// From `origin` on.
+RCP<MultiVector> reference_positions(const Mesh& mesh, const std::array<double, 3>& origin) {
   const auto positions = rcp(new MultiVector(mesh.owned_nodes, static_cast<std::size_t>(mesh.dimension)));
   const auto view = positions->getLocalViewHost(Tpetra::Access::OverwriteAll);
   for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node)
-    for (int i = 0; i < mesh.dimension; ++i) view(node, i) = mesh.coordinates[node][i];
+    for (int i = 0; i < mesh.dimension; ++i) view(node, i) = mesh.coordinates[node][i] - origin[i];
   return positions;
 }
 
@@ -262,8 +264,9 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   if (pairs.empty()) return;
   bodies_of_pairs_ = bodies_of(*mesh_, pairs);
   const InterfaceMeasure measure{axisymmetric, scene.thickness};
-  parts_.contact =
-      std::make_shared<ContactSystem>(mesh_->owned_nodes, bodies_->dofs(), reference_positions(*mesh_), kept, measure, std::move(pairs), timers);
+  parts_.contact = std::make_shared<ContactSystem>(mesh_->owned_nodes, bodies_->dofs(),
+                                                   reference_positions(*mesh_, contact_origin(*mesh_, size_.length, axisymmetric)), kept, measure,
+                                                   std::move(pairs), timers);
 }
 
 Model::~Model() = default;

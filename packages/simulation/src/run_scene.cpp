@@ -23,6 +23,7 @@
 #include "mortise/simulation/read_scene.hpp"
 #include "mortise/simulation/run.hpp"
 #include "mortise/simulation/state_check.hpp"
+#include "precision.hpp"
 #include "report_model.hpp"
 #include "run_log.hpp"
 #include "run_record.hpp"
@@ -234,6 +235,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
   directory.begin_run();
   log.open(directory.file("log.txt"));
   report_model(options.scene, scene, model, log);
+  report_precision(model, scene, log);
   report_contact_at_start(model, scene, log);
   report_memory(model, log);
   write_file(*comm, directory.file("effective.xml"), [&] { return effective_xml(scene); });

@@ -222,6 +222,22 @@ TEST(Singular, IsRefusedThoughItsBackwardErrorIsSmall) {
   }
 }
 
+// A right-hand side in the range of a singular matrix has solutions. What is returned, if the factorisation meets no zero pivot, is one of them.
+TEST(Singular, WithAConsistentRightHandSideIsRefusedOrSolved) {
+  const auto grid = std::make_shared<SpringGrid>(Tpetra::getDefaultComm(), 9, 9);
+  const auto matrix = weakly_held(grid, 0.0);
+  Vector b(grid->dofs), x(grid->dofs);
+  matrix->apply(*loads(*grid), b);
+  const auto solver = solver_of(Kind::mumps);
+  solver->set_matrix(matrix, true, {});
+  const std::string message = failure_of(*solver, b, x);
+  RecordProperty("message", message);
+  if (message.empty())
+    EXPECT_LE(true_residual(*matrix, b, x), 1e-8);
+  else
+    EXPECT_NE(message.find("singular"), std::string::npos) << message;
+}
+
 TEST(NotFinite, IsAStepFailure) {
   const auto grid = std::make_shared<SpringGrid>(Tpetra::getDefaultComm(), 5, 5);
   Vector x(grid->dofs);
