@@ -28,36 +28,36 @@ struct Case {
   int base_cells = 15, top_cells = 6;
   bool space = false, base_is_slave = false;
   bool same_width = false;  ///< of base and block
+  std::string base_height = "1", base_side = "top";
   std::string element = "Q4", pair = "", step = "1";
 };
 
 std::string scene_of(const Case& one) {
-  const auto body = [&](const std::string& name, const std::string& width, int cells, const std::string& translation) {
+  const auto body = [&](const std::string& name, const std::string& width, const std::string& height, int cells, const std::string& translation) {
     const std::string along = std::to_string(cells), layers = one.space ? "2" : "4";
     return list(name, parameter("material", "soft") + parameter("element", one.element) +
-                          list("mesh", parameter("type", one.space ? "brick" : "block") + parameter("width", width) + parameter("height", "1") +
+                          list("mesh", parameter("type", one.space ? "brick" : "block") + parameter("width", width) + parameter("height", height) +
                                            (one.space ? parameter("depth", width) + parameter("cells z", layers) : "") + parameter("cells x", along) +
                                            parameter("cells y", one.space ? along : layers) + parameter("translation", translation)));
   };
   const std::string height = one.driven ? "0" : fmt::format("{}", -one.depth), motion = one.driven ? fmt::format("{}*t", -one.depth) : "0",
                     level = one.space ? "0, 0, " : "0, ";
+  const std::string place = one.space ? "-1.07, -1.07, -1" : (one.same_width ? "0, -" : "-1.07, -") + one.base_height;
   const auto hold = [&](const std::string& name, const std::string& set, const std::string& across) {
     return list(name,
                 parameter("set", set) + parameter("x", "0") + parameter("y", one.space ? "0" : across) + (one.space ? parameter("z", across) : ""));
   };
-  return list("overlap", parameter("kinematics", one.space ? "three dimensional" : "plane strain") +
-                             list("materials", list("soft", parameter("type", "neo hooke") + parameter("young's modulus", "1000") +
-                                                                parameter("poisson's ratio", "0.3"))) +
-                             list("bodies", body("base", one.same_width ? "1" : "3", one.base_cells,
-                                                 one.same_width ? "0, -1"
-                                                 : one.space    ? "-1.07, -1.07, -1"
-                                                                : "-1.07, -1") +
-                                                body("top", "1", one.top_cells, level + height)) +
-                             list("boundary conditions", hold("floor", "base/bottom", "0") + hold("ram", "top/top", motion)) +
-                             list("contact", list("joint", parameter("slave", one.base_is_slave ? "base/top" : "top/bottom") +
-                                                               parameter("master", one.base_is_slave ? "top/bottom" : "base/top") + one.pair)) +
-                             list("stepping", parameter("end time", "1") + parameter("step", one.step)) + list("output", parameter("fields", "")) +
-                             list("quantities", list("p", parameter("type", "contact force") + parameter("component", one.space ? "z" : "y"))));
+  return list("overlap",
+              parameter("kinematics", one.space ? "three dimensional" : "plane strain") +
+                  list("materials",
+                       list("soft", parameter("type", "neo hooke") + parameter("young's modulus", "1000") + parameter("poisson's ratio", "0.3"))) +
+                  list("bodies", body("base", one.same_width ? "1" : "3", one.base_height, one.base_cells, place) +
+                                     body("top", "1", "1", one.top_cells, level + height)) +
+                  list("boundary conditions", hold("floor", "base/bottom", "0") + hold("ram", "top/top", motion)) +
+                  list("contact", list("joint", parameter("slave", one.base_is_slave ? "base/" + one.base_side : "top/bottom") +
+                                                    parameter("master", one.base_is_slave ? "top/bottom" : "base/" + one.base_side) + one.pair)) +
+                  list("stepping", parameter("end time", "1") + parameter("step", one.step)) + list("output", parameter("fields", "")) +
+                  list("quantities", list("p", parameter("type", "contact force") + parameter("component", one.space ? "z" : "y"))));
 }
 
 double force_of(const Case& one, const std::string& name, int ranks = 1) {
@@ -140,6 +140,15 @@ TEST(InitialOverlap, OfAShrinkFitIsLamesOnAnyMesh) {
   for (const int cells : {24, 48, 96})
     for (const bool outer_is_slave : {false, true})
       EXPECT_NEAR(shrink_fit(overlap, cells, outer_is_slave) / (pressure * b), 1.0, overlap / b) << cells;
+}
+
+// The far side of a base that is thinner than a facet is within reach, and faces away.
+TEST(InitialOverlap, WithAThinBodyDoesNotCoupleItsFarSide) {
+  Case one;
+  one.base_height = "0.15", one.depth = 0.05;
+  const double near_side = force_of(one, "thin_top");
+  one.base_side = "surface";
+  EXPECT_NEAR(force_of(one, "thin_surface") / near_side, 1.0, 1e-10);
 }
 
 TEST(InitialOverlap, IsToldOrRefused) {

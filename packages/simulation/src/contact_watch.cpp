@@ -9,13 +9,12 @@
 #include <algorithm>
 
 #include "mortise/mesh/sets.hpp"
-#include "penetration.hpp"
+#include "surface_view.hpp"
 
 namespace mortise {
 namespace {
 
 constexpr double round_off = 1e-6;  ///< of depths, over the size of the model
-constexpr double most = 0.5;        ///< share of a slave surface that is within another body when the whole body is
 
 PlaceOfNode current_places(const Mesh& mesh, const Vector& local_displacement) {
   const auto u = local_displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
@@ -135,7 +134,7 @@ void ContactWatch::examine(const Vector& displacement) const {
     const auto within = static_cast<double>(std::count_if(swallowed.begin(), swallowed.end(), [](double depth) { return depth > 0.0; }));
     double all = 0.0;
     Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, within, Teuchos::outArg(all));
-    if (all < most * counts[2 * p + 1]) continue;
+    if (all < most_of_a_surface * counts[2 * p + 1]) continue;
     const DeepestPoint lost = deepest_point(mesh, at, probes[p], swallowed);
     fail(mesh, name, lost,
          fmt::format("lies {} '{}', {:.3g} behind its surface, with most of the slave", rigid ? "behind" : "within", master, lost.depth));
