@@ -9,13 +9,12 @@
 #include <algorithm>
 
 #include "mortise/mesh/sets.hpp"
-#include "penetration.hpp"
+#include "surface_view.hpp"
 
 namespace mortise {
 namespace {
 
 constexpr double round_off = 1e-6;  ///< of depths, over the size of the model
-constexpr double most = 0.5;        ///< share of a slave surface that is within another body when the whole body is
 
 PlaceOfNode current_places(const Mesh& mesh, const Vector& local_displacement) {
   const auto u = local_displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
@@ -47,25 +46,42 @@ ContactWatch::ContactWatch(const Model& model, const Scene& scene)
     const PairAtStart& start = model.surfaces_at_start().pairs[p];
     const double reach = options.contact.mortar.search_reach.value_or(start.reach.value_or(start.longest));
     // Couplings of the reference configuration stay for ever: what they do not cover they never will.
-    const bool frozen = options.contact.geometry == ContactGeometry::reference;
-    Pair pair{p, slave, master, body_of(mesh, slave), body_of(mesh, master), frozen ? round_off * model.size().length : reach};
+    const bool is_frozen = options.contact.geometry == ContactGeometry::reference;
+    Pair pair{p, slave, master, body_of(mesh, slave), body_of(mesh, master), is_frozen ? round_off * model.size().length : reach, is_frozen};
     if (pair.slave_body != pair.master_body && !start.is_swallowed) pairs_.push_back(pair);
   }
 }
 
-std::vector<char> ContactWatch::covered(std::size_t pair) const {
+std::vector<char> ContactWatch::on_local_nodes(const std::vector<char>& owned) const {
   const Mesh& mesh = *model_.mesh();
-  Vector owned(mesh.owned_nodes), local(mesh.local_nodes);
+  Vector from(mesh.owned_nodes), to(mesh.local_nodes);
   {
-    const Vector no_pressure(model_.contact()->multiplier_map());
-    const auto marks = owned.getLocalViewHost(Tpetra::Access::ReadWrite);
-    for (const ContactNodeState& node : model_.contact()->node_states(pair, no_pressure)) marks(node.owned_node, 0) = node.covered > 0.0;
+    const auto marks = from.getLocalViewHost(Tpetra::Access::ReadWrite);
+    for (std::size_t node = 0; node < owned.size(); ++node) marks(node, 0) = owned[node];
   }
-  local.doImport(owned, to_local_nodes_, Tpetra::INSERT);
-  const auto marks = local.getLocalViewHost(Tpetra::Access::ReadOnly);
+  to.doImport(from, to_local_nodes_, Tpetra::INSERT);
+  const auto marks = to.getLocalViewHost(Tpetra::Access::ReadOnly);
   std::vector<char> result;
   for (LocalOrdinal node = 0; node < mesh.local_count(); ++node) result.push_back(marks(node, 0) != 0.0);
   return result;
+}
+
+// A node that carries no multiplier counts as not covered although its neighbours act for it. Beyond the reach that makes no difference; where the
+// reach is nothing, nodes beside a covered one count as covered.
+std::vector<char> ContactWatch::covered(const Pair& pair) const {
+  const Mesh& mesh = *model_.mesh();
+  const Vector no_pressure(model_.contact()->multiplier_map());
+  std::vector<char> owned(static_cast<std::size_t>(mesh.owned_count()), 0);
+  for (const ContactNodeState& node : model_.contact()->node_states(pair.index, no_pressure)) owned[node.owned_node] = node.covered > 0.0;
+  std::vector<char> local = on_local_nodes(owned);
+  if (!pair.is_frozen) return local;
+  for (const Side& side : pair.slave.sides) {
+    const std::vector<LocalOrdinal> nodes = mesh.side_nodes(side);
+    if (std::none_of(nodes.begin(), nodes.end(), [&](LocalOrdinal node) { return local[node]; })) continue;
+    for (const LocalOrdinal node : nodes)
+      if (node < mesh.owned_count()) owned[node] = 1;
+  }
+  return on_local_nodes(owned);
 }
 
 void ContactWatch::examine(const Vector& displacement) const {
@@ -82,7 +98,7 @@ void ContactWatch::examine(const Vector& displacement) const {
   std::vector<double> mine, counts(2 * pairs_.size());
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     const Pair& pair = pairs_[p];
-    const std::vector<char> is_covered = covered(pair.index);
+    const std::vector<char> is_covered = covered(pair);
     double all = 0.0;
     for (const SurfaceProbe& probe : probes_of(mesh, pair.slave, at)) {
       all += 1.0;
@@ -118,7 +134,7 @@ void ContactWatch::examine(const Vector& displacement) const {
     const auto within = static_cast<double>(std::count_if(swallowed.begin(), swallowed.end(), [](double depth) { return depth > 0.0; }));
     double all = 0.0;
     Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, within, Teuchos::outArg(all));
-    if (all < most * counts[2 * p + 1]) continue;
+    if (all < most_of_a_surface * counts[2 * p + 1]) continue;
     const DeepestPoint lost = deepest_point(mesh, at, probes[p], swallowed);
     fail(mesh, name, lost,
          fmt::format("lies {} '{}', {:.3g} behind its surface, with most of the slave", rigid ? "behind" : "within", master, lost.depth));

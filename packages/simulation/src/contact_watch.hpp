@@ -22,10 +22,12 @@ class ContactWatch {
     std::size_t index;  ///< of the scene and the contact system
     const SideSet &slave, &master;
     std::size_t slave_body, master_body;
-    double reach;  ///< beyond which what is not covered is not seen
+    double reach;    ///< beyond which what is not covered is not seen
+    bool is_frozen;  ///< its couplings are those of the reference configuration
   };
 
-  std::vector<char> covered(std::size_t pair) const;  ///< [local nodes]
+  std::vector<char> covered(const Pair& pair) const;  ///< [local nodes]
+  std::vector<char> on_local_nodes(const std::vector<char>& owned) const;
 
   const Model& model_;
   const Scene& scene_;

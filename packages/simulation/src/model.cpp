@@ -141,6 +141,17 @@ std::vector<std::vector<int>> bodies_of(const Mesh& mesh, const std::vector<Cont
   return bodies;
 }
 
+// The iteration that pushes surfaces apart that overlap by d leaves pressures of E d / L, L the size of the bodies, and gaps of second order, d^2 / 2
+// R. Nodes stay closed through it if c_n A < 2 E R / (L d); half of E / d is that for R = L / 4. Beside it E / h of short facets makes all nodes
+// open, and close again, for ever.
+void take_up(const PairAtStart& start, ContactPair& pair) {
+  if (!start.reach) return;
+  pair.options.mortar.search_reach = start.reach;
+  constexpr double share = 0.5;
+  auto& constant = pair.options.complementarity_constant;
+  if (!constant && !pair.options.formulation.options->regularisation()) constant = share * pair.youngs_modulus / start.overlap.depth;
+}
+
 Effects effects_of(const Scene& scene, const Bodies& bodies) {
   std::vector<std::string> finite, small, f_bar, plastic, pairs, rubbing, loads, conditions;
   std::vector<std::string> rigid, ties;
@@ -253,8 +264,7 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   if (parts_.dependent) kept->update(1.0, *marked_components(*mesh_, parts_.dependent->dofs(), 2.0), 1.0);
   const bool axisymmetric = scene.kinematics == Kinematics::axisymmetric;
   surfaces_at_start_ = examine_surfaces(*mesh_, scene, size_.length);
-  for (std::size_t p = 0; p < pairs.size(); ++p)
-    if (const auto& reach = surfaces_at_start_.pairs[pairs[p].second_pass_of.value_or(p)].reach) pairs[p].options.mortar.search_reach = reach;
+  for (std::size_t p = 0; p < pairs.size(); ++p) take_up(surfaces_at_start_.pairs[pairs[p].second_pass_of.value_or(p)], pairs[p]);
   std::vector<HoldingPair> holding;
   for (const auto& pair : pairs)
     holding.push_back({&pair.slave, &pair.master, pair.options.mortar.search_reach.value_or(0.0), pair.options.friction.options->acts()});

@@ -2,130 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <Teuchos_CommHelpers.hpp>
-#include <Tpetra_Map.hpp>
 #include <algorithm>
 #include <set>
 
-#include "body_surfaces.hpp"
 #include "mortise/mesh/sets.hpp"
-#include "penetration.hpp"
+#include "surface_view.hpp"
 
 namespace mortise {
 namespace {
 
-constexpr double round_off = 1e-6;   ///< of depths, over the size of the model: less was meant to touch
-constexpr double most = 0.5;         ///< share of a slave surface that is within another body when the whole body is
-constexpr double back_behind = 0.1;  ///< of a facet: a back no further behind the slave than that may have been meant to touch it
-
-double sum(const Communicator& comm, double mine) {
-  double all = 0.0;
-  Teuchos::reduceAll(comm, Teuchos::REDUCE_SUM, mine, Teuchos::outArg(all));
-  return all;
-}
-
-double least(const Communicator& comm, double mine) {
-  double all = 0.0;
-  Teuchos::reduceAll(comm, Teuchos::REDUCE_MIN, mine, Teuchos::outArg(all));
-  return all;
-}
-
-/// All bodies in the reference configuration.
-struct BodiesAtStart {
-  const Mesh& mesh;
-  PlaceOfNode at;
-  std::vector<Box3> boxes;
-  double length, touching;
-};
-
-/// One surface of a pair, or of two bodies that are compared.
-struct Surface {
-  std::string name;
-  const SideSet& set;
-  std::size_t body;
-};
-
-/// What the probes of `from` find of the body of `to`.
-struct View {
-  DeepestPoint deepest;
-  double probes = 0.0, overlapping = 0.0, swallowed = 0.0;  ///< numbers over all ranks
-  DeepestPoint swallowed_at;
-};
-
-View look(const BodiesAtStart& bodies, const Surface& from, const Surface& to) {
-  const Mesh& mesh = bodies.mesh;
-  const std::vector<SurfaceProbe> probes = probes_of(mesh, from.set, bodies.at);
-  const auto own = tagged_surface(mesh, from.body, from.set, SurfaceTags::own, SurfaceTags::own, bodies.at);
-  const auto other = tagged_surface(mesh, to.body, to.set, SurfaceTags::front, SurfaceTags::rest, bodies.at);
-  const auto found = penetrations(
-      {*mesh.comm, mesh.dimension, own, other, bodies.boxes[from.body], bodies.boxes[to.body], is_rigid(mesh, to.body), bodies.touching}, probes);
-  std::vector<double> depths, swallowed;
-  for (const Penetration& one : found) {
-    depths.push_back(one.kind == Penetration::Kind::overlap ? one.depth : 0.0);
-    swallowed.push_back(one.kind == Penetration::Kind::swallowed ? one.depth : 0.0);
-  }
-  const auto count = [&](const std::vector<double>& of) {
-    return sum(*mesh.comm, static_cast<double>(std::count_if(of.begin(), of.end(), [](double depth) { return depth > 0.0; })));
-  };
-  View view;
-  view.probes = sum(*mesh.comm, static_cast<double>(probes.size()));
-  view.overlapping = count(depths);
-  view.swallowed = count(swallowed);
-  view.deepest = deepest_point(mesh, bodies.at, probes, depths);
-  view.swallowed_at = deepest_point(mesh, bodies.at, probes, swallowed);
-  return view;
-}
-
-/// From the deepest point on through the other body: how far its back is. No value: it has none there.
-std::optional<double> distance_to_back(const BodiesAtStart& bodies, const DeepestPoint& deepest, const Surface& to) {
-  const Mesh& mesh = bodies.mesh;
-  std::vector<LineSegment> lines;
-  if (mesh.comm->getRank() == 0) lines.push_back({deepest.place, deepest.normal, bodies.touching, bodies.length});
-  double mine = std::numeric_limits<double>::max();
-  for (const auto& found :
-       crossings(*mesh.comm, mesh.dimension, tagged_surface(mesh, to.body, to.set, SurfaceTags::front, SurfaceTags::rest, bodies.at), lines))
-    for (const Crossing& crossing : found)
-      if (crossing.leaves) mine = std::min(mine, crossing.s);
-  const double distance = least(*mesh.comm, mine);
-  return distance < std::numeric_limits<double>::max() ? std::optional(distance) : std::nullopt;
-}
-
-/// What the slave sees along its normals.
-struct Outlook {
-  std::optional<double> gap;
-  bool backs = false;  ///< no front of the master at all, but for half of the probes or more its back
-};
-
-// Lines are as long as the next front needs: surfaces that touch cost next to nothing.
-Outlook look_ahead(const BodiesAtStart& bodies, const Surface& slave, const Surface& master, double longest) {
-  const Mesh& mesh = bodies.mesh;
-  const std::vector<SurfaceProbe> probes = probes_of(mesh, slave.set, bodies.at);
-  std::vector<TaggedFacet> fronts;
-  for (LocalOrdinal s = 0; s < master.set.owned; ++s) fronts.push_back({places_of(mesh, master.set.sides[s], bodies.at), SurfaceTags::front});
-  const double all = sum(*mesh.comm, static_cast<double>(probes.size()));
-  for (double reach = longest;; reach *= 4.0) {
-    std::vector<LineSegment> lines;
-    for (const SurfaceProbe& probe : probes) {
-      LineSegment line{probe.point.x, probe.point.normal, -back_behind * longest, std::min(reach, bodies.length)};
-      const double low = line.low;
-      if (!bodies.boxes[master.body].widened(-low).cut(line)) continue;
-      line.low = low;
-      lines.push_back(line);
-    }
-    double nearest = std::numeric_limits<double>::max(), backs = 0.0;
-    for (const auto& found : crossings(*mesh.comm, mesh.dimension, fronts, lines)) {
-      bool back = false;
-      for (const Crossing& crossing : found) {
-        back = back || crossing.leaves;
-        if (!crossing.leaves && crossing.s >= -bodies.touching) nearest = std::min(nearest, crossing.s);
-      }
-      backs += back;
-    }
-    const double gap = least(*mesh.comm, nearest);
-    if (gap < std::numeric_limits<double>::max()) return {gap, false};
-    if (reach >= bodies.length) return {std::nullopt, sum(*mesh.comm, backs) >= most * all};
-  }
-}
+constexpr double round_off = 1e-6;  ///< of depths, over the size of the model: less was meant to touch
 
 OverlapPlace place_of(const DeepestPoint& deepest, const std::string& surface) {
   return {deepest.depth, deepest.node, surface, {deepest.place[0], deepest.place[1], deepest.place[2]}};
@@ -134,14 +20,14 @@ OverlapPlace place_of(const DeepestPoint& deepest, const std::string& surface) {
 /// A pair while it is examined.
 struct Examined {
   const Named<ContactPairOptions>& options;
-  Surface slave, master;
-  View from_slave, from_master;
+  NamedSurface slave, master;
+  SurfaceView from_slave, from_master;
   PairAtStart result;
   bool deepest_is_slave = true;
 
   const DeepestPoint& deepest() const { return deepest_is_slave ? from_slave.deepest : from_master.deepest; }
-  const Surface& penetrating() const { return deepest_is_slave ? slave : master; }
-  const Surface& penetrated() const { return deepest_is_slave ? master : slave; }
+  const NamedSurface& penetrating() const { return deepest_is_slave ? slave : master; }
+  const NamedSurface& penetrated() const { return deepest_is_slave ? master : slave; }
   bool overlaps() const { return result.overlap.depth > 0.0; }
 };
 
@@ -153,7 +39,7 @@ Examined examine(const BodiesAtStart& bodies, const Named<ContactPairOptions>& o
   const Mesh& mesh = bodies.mesh;
   const auto surface = [&](const Located<std::string>& name) {
     const SideSet& set = require_side_set(mesh, name);
-    return Surface{name.value, set, body_of(mesh, set)};
+    return NamedSurface{name.value, set, body_of(mesh, set)};
   };
   Examined pair{options, surface(options.value.slave), surface(options.value.master), {}, {}, {}};
   PairAtStart& result = pair.result;
@@ -162,7 +48,7 @@ Examined examine(const BodiesAtStart& bodies, const Named<ContactPairOptions>& o
   pair.from_slave = look(bodies, pair.slave, pair.master);
   pair.from_master = look(bodies, pair.master, pair.slave);
   pair.deepest_is_slave = pair.from_slave.deepest.depth >= pair.from_master.deepest.depth;
-  result.is_swallowed = pair.from_slave.swallowed >= most * pair.from_slave.probes;
+  result.is_swallowed = pair.from_slave.swallowed >= most_of_a_surface * pair.from_slave.probes;
   if (pair.deepest().depth > 0.0) result.overlap = place_of(pair.deepest(), pair.penetrating().name);
   return pair;
 }
@@ -204,7 +90,7 @@ void complain_of_overlap(const BodiesAtStart& bodies, Examined& pair, std::vecto
 
 void complain_of_sides(const BodiesAtStart& bodies, Examined& pair, bool bodies_have_fronts, std::vector<Diagnostic>& diagnostics) {
   const auto& [name, place, options] = pair.options;
-  const View& view = pair.from_slave;
+  const SurfaceView& view = pair.from_slave;
   const std::string& master_body = bodies.mesh.blocks[pair.master.body].name;
   const bool rigid = is_rigid(bodies.mesh, pair.master.body);
   if (!bodies_have_fronts && view.swallowed > 0.0 && (!rigid || pair.result.is_swallowed)) {
@@ -236,14 +122,14 @@ std::vector<StrayOverlap> stray_overlaps(const BodiesAtStart& bodies, const std:
       if (connected.count({a, b}) > 0 || (is_rigid(mesh, a) && is_rigid(mesh, b))) continue;
       const bool open = is_rigid(mesh, a) || is_rigid(mesh, b);  // the solid side has no box
       if (!open && !bodies.boxes[a].meets(bodies.boxes[b])) continue;
-      const Surface first{mesh.blocks[a].name + "/surface", whole_surface(mesh, a), a},
+      const NamedSurface first{mesh.blocks[a].name + "/surface", whole_surface(mesh, a), a},
           second{mesh.blocks[b].name + "/surface", whole_surface(mesh, b), b};
-      const View forward = look(bodies, first, second), backward = look(bodies, second, first);
+      const SurfaceView forward = look(bodies, first, second), backward = look(bodies, second, first);
       const bool from_first = forward.deepest.depth >= backward.deepest.depth;
       const DeepestPoint& deepest = from_first ? forward.deepest : backward.deepest;
       if (deepest.depth > 0.0)
         strays.push_back({mesh.blocks[a].name, mesh.blocks[b].name, place_of(deepest, from_first ? first.name : second.name)});
-      else if (const View& within = forward.swallowed > 0.0 ? forward : backward; within.swallowed > 0.0 && !open) {
+      else if (const SurfaceView& within = forward.swallowed > 0.0 ? forward : backward; within.swallowed > 0.0 && !open) {
         strays.push_back(
             {mesh.blocks[a].name, mesh.blocks[b].name, place_of(within.swallowed_at, forward.swallowed > 0.0 ? first.name : second.name)});
         strays.back().overlap.depth = 0.0;
