@@ -16,6 +16,7 @@ import shutil
 import sys
 import time
 
+sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # -I leaves it out
 from random_bodies import Scene
 from scene_checks import check_alone, check_companion, companions_of, stop_is_told
