@@ -19,7 +19,7 @@ import time
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # -I leaves it out
 from random_bodies import Scene
-from scene_checks import check_alone, check_companion, companions_of, stop_is_told
+from scene_checks import check_alone, check_companion, companions_of, false_reason, stop_is_told
 from scene_writer import run
 
 FAMILIES = {"pressed": 8, "over_the_edge": 5, "walls": 3, "dead_load": 3, "lifted": 1, "pushed_too_hard": 1, "held_by_friction": 2, "dragged": 3, "corner": 4}
@@ -54,6 +54,8 @@ def judge(arguments, number):
                 stops.append(f"{kind}: {result.reason}")
             else:
                 wrong.append(f"{kind}: exit code {result.code}: {result.reason}")
+    elif false_reason(scene, main):
+        wrong.append(f"a false reason: {main.reason}")
     elif stop_is_told(main) and (main.code == 3 or scene.has_no_answer()):
         if not scene.has_no_answer():
             stops.append(main.reason)
