@@ -82,7 +82,7 @@ def main():
     parser.add_argument("--count", type=int, default=500)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--ranks", type=int, default=1, help="MPI ranks of the scene itself; its companions run on one")
-    parser.add_argument("--limit", type=float, default=60.0, help="seconds that a run may take")
+    parser.add_argument("--limit", type=float, default=60.0, help="seconds of processor time that a run may take on each rank")
     parser.add_argument("--keep", action="store_true", help="keep all runs, not only those that are wrong")
     parser.add_argument("-o", "--output", default="results/random")
     arguments = parser.parse_args()
