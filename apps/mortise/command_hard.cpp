@@ -30,7 +30,9 @@ void add_hard_command(CLI::App& app, Program& program) {
   command->add_option("--only", options->only, "run only the cases whose names match this regular expression somewhere, sweeps included")
       ->check(CLI::Validator(is_pattern, ""))
       ->type_name("PATTERN");
-  command->add_option("--ranks", options->ranks, "MPI ranks; each case is run on each of these numbers, separated by commas; default: 1")
+  command
+      ->add_option("--ranks", options->ranks,
+                   "MPI ranks; cases are run on each of these numbers, separated by commas, sweeps on the first; default: 1")
       ->delimiter(',')
       ->check(CLI::PositiveNumber)
       ->type_name("N,...")

@@ -76,7 +76,9 @@ TEST(Hard, ComparesWithCompanionsAndRanksAndGoesOnWhereItWas) {
       "companions",
       list("stiff", list("settings", parameter("variables/E1", "2000") + parameter("variables/E2", "2000") + parameter("variables/E3", "2000"))));
   const std::string sweep = list("axes", list("u", parameter("setting", "variables/u") + parameter("values", "0.01, 0.02")));
-  write_ledger("companions", a_case("twice_as_stiff", sweep + stiffer + expect_stress("stiff_stress/2")) + a_case("alone", expect_stress("s")));
+  const std::string everywhere = "<Parameter name=\"every ranks\" type=\"bool\" value=\"true\"/>\n";
+  write_ledger("companions",
+               a_case("twice_as_stiff", everywhere + sweep + stiffer + expect_stress("stiff_stress/2")) + a_case("alone", expect_stress("s")));
   Ending ending = hard("companions", {"--only", "twice", "--ranks", "1,3"});
   EXPECT_EQ(ending.code, 0) << ending.output;
   EXPECT_THAT(ending.output, AllOf(HasSubstr("4/4 twice_as_stiff, u = 0.02, 3 rank(s): right"), Not(HasSubstr("alone"))));

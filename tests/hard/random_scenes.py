@@ -16,9 +16,10 @@ import shutil
 import sys
 import time
 
+sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # -I leaves it out
 from random_bodies import Scene
-from scene_checks import check_alone, check_companion, companions_of, stop_is_told
+from scene_checks import check_alone, check_companion, companions_of, false_reason, stop_is_told
 from scene_writer import run
 
 FAMILIES = {"pressed": 8, "over_the_edge": 5, "walls": 3, "dead_load": 3, "lifted": 1, "pushed_too_hard": 1, "held_by_friction": 2, "dragged": 3, "corner": 4}
@@ -53,6 +54,8 @@ def judge(arguments, number):
                 stops.append(f"{kind}: {result.reason}")
             else:
                 wrong.append(f"{kind}: exit code {result.code}: {result.reason}")
+    elif false_reason(scene, main):
+        wrong.append(f"a false reason: {main.reason}")
     elif stop_is_told(main) and (main.code == 3 or scene.has_no_answer()):
         if not scene.has_no_answer():
             stops.append(main.reason)
@@ -79,7 +82,7 @@ def main():
     parser.add_argument("--count", type=int, default=500)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--ranks", type=int, default=1, help="MPI ranks of the scene itself; its companions run on one")
-    parser.add_argument("--limit", type=float, default=60.0, help="seconds that a run may take")
+    parser.add_argument("--limit", type=float, default=60.0, help="seconds of processor time that a run may take on each rank")
     parser.add_argument("--keep", action="store_true", help="keep all runs, not only those that are wrong")
     parser.add_argument("-o", "--output", default="results/random")
     arguments = parser.parse_args()

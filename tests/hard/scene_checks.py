@@ -130,6 +130,12 @@ def check_companion(kind, scene, main, other):
     return wrong
 
 
+def false_reason(scene, result):
+    """Whether a run says that nothing holds a block that has an equilibrium under its dead loads."""
+    told = any(text in result.said for text in ("free to move", "bear no more", "no equilibrium"))
+    return told and scene.under_dead_load() and not scene.has_no_answer()
+
+
 def stop_is_told(result):
     """Whether a run that did not come to its end says why."""
     return result.code in (2, 3) and len(result.reason) > 20

@@ -2,6 +2,8 @@
 
 import json
 import os
+import resource
+import signal
 import subprocess
 from xml.sax.saxutils import quoteattr
 
@@ -53,7 +55,8 @@ class Result:
 
 
 def run(program, scene, directory, ranks=1, limit=60.0):
-    """Writes the scene into the directory and runs it there. Code -1: it did not end within the limit."""
+    """Writes the scene into the directory and runs it there. The limit is of processor time, for each rank, as other programs may keep the machine busy; of
+    wall time it is twenty times that. Code -1: it did not end within the limit."""
     os.makedirs(directory, exist_ok=True)
     path = os.path.join(directory, "scene.xml")
     with open(path, "w") as file:
@@ -61,8 +64,15 @@ def run(program, scene, directory, ranks=1, limit=60.0):
     command = [program, "run", path, "-o", os.path.join(directory, "run"), "--quiet"]
     if ranks > 1:
         command = ["mpirun", "-n", str(ranks)] + command
+    seconds = int(limit)
+
+    def bound():
+        resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 5))
+
     try:
-        ending = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=limit)
+        ending = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=20 * seconds, preexec_fn=bound)
     except subprocess.TimeoutExpired:
-        return Result(-1, f"did not end within {limit:g} s", directory + "/none")
+        return Result(-1, f"did not end within {20 * seconds} s", directory + "/none")
+    if ending.returncode == -signal.SIGXCPU:
+        return Result(-1, f"did not end within {seconds} s of processor time", directory + "/none")
     return Result(ending.returncode, ending.stdout, os.path.join(directory, "run"))

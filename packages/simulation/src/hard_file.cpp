@@ -48,8 +48,10 @@ void HardCase::describe(Parameters& parameters) {
   parameters.named("expected", expected, "what figures have to be at the end, by names of your choice");
   parameters.add("always", always, "expression of t, the scene's variables and quantities that has to hold after each step, before a stop as well");
   parameters.list("stop", stop, "which stops are true");
+  every_ranks = axes.empty();
   parameters.add("every ranks", every_ranks,
-                 "whether it is run on all numbers of ranks that are asked for; otherwise, as where times are compared, on the first one");
+                 "whether it is run on all numbers of ranks that are asked for, or on the first one only, as where times are compared; default of "
+                 "sweeps: false");
   if (expected.empty() && !stop.required)
     parameters.error("", "nothing is expected; please add the list \"expected\", or a \"stop\" that is required");
 }

@@ -30,7 +30,8 @@ HardOutcome run_hard_line(const Communicator& comm, const HardRun& run, int rank
   const StudyPointOptions options{run.scene, run.text, directory, version, 1};
   const auto earlier = earlier_record(comm, point, options);
   HardOutcome outcome;
-  outcome.record = earlier ? *earlier : run_point(comm, point, options);
+  // One that ran into its time limit is run again: the machine may have been busy.
+  outcome.record = earlier && !earlier->stopped_after ? *earlier : run_point(comm, point, options);
   outcome.history = read_table(directory + "/history.csv");
   const auto times = outcome.history.find("time");
   if (times != outcome.history.end() && !times->second.empty()) {

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "hard_plan.hpp"
-#include "hard_tables.hpp"
 #include "study_record.hpp"
+#include "text_table.hpp"
 
 namespace mortise {
 

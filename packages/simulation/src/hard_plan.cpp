@@ -6,13 +6,13 @@
 #include <filesystem>
 #include <map>
 #include <regex>
-#include <set>
 
 #include "mortise/core/read_parameters.hpp"
 #include "mortise/core/xml.hpp"
 #include "mortise/simulation/read_scene.hpp"
 #include "mortise/simulation/scene.hpp"
 #include "names.hpp"
+#include "throw_all.hpp"
 
 namespace mortise {
 namespace {
@@ -111,16 +111,6 @@ void check_expressions(const Named<HardCase>& one, const HardLine& line, std::ve
     diagnostics.push_back(
         {one.value.stop.reason.place, fmt::format("\"{}\" is no regular expression: {}", one.value.stop.reason.value, error.what())});
   }
-}
-
-/// In the order of lines, each once.
-void throw_all(std::vector<Diagnostic> diagnostics) {
-  std::stable_sort(diagnostics.begin(), diagnostics.end(), [](const auto& a, const auto& b) { return a.place.line < b.place.line; });
-  std::set<std::string> said;
-  std::vector<Diagnostic> once;
-  for (const auto& one : diagnostics)
-    if (said.insert(to_string(one)).second) once.push_back(one);
-  if (!once.empty()) throw InputError(once);
 }
 
 bool is_chosen(const Named<HardCase>& one, const HardOptions& options) {

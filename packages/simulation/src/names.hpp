@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,13 @@ std::vector<std::string> names_of(const std::vector<Named<T>>& entries) {
   std::vector<std::string> names;
   for (const auto& entry : entries) names.push_back(entry.name);
   return names;
+}
+
+/// A name that every file system takes: what may be no letter, digit or one of =,._-+ becomes an underscore.
+inline std::string name_for_files(std::string text) {
+  for (char& c : text)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && std::string("=,._-+").find(c) == std::string::npos) c = '_';
+  return text;
 }
 
 /// there is no material "stel"; did you mean "steel"? There are: "rubber", "steel"

@@ -10,6 +10,7 @@
 #include "mortise/simulation/read_scene.hpp"
 #include "mortise/simulation/study_points.hpp"
 #include "names.hpp"
+#include "throw_all.hpp"
 
 namespace mortise {
 namespace {
@@ -109,17 +110,6 @@ void check_quantities(const StudyPlan& plan, const StudyPoint& point, std::vecto
       diagnostics.push_back({place, fmt::format("to extrapolate takes three levels or more; the axis \"{}\" has {}", plan.file.axes[plan.along].name,
                                                 plan.labels[plan.along].size())});
   }
-}
-
-/// In the order of lines, each once.
-void throw_all(std::vector<Diagnostic> diagnostics) {
-  if (diagnostics.empty()) return;
-  std::stable_sort(diagnostics.begin(), diagnostics.end(), [](const auto& a, const auto& b) { return a.place.line < b.place.line; });
-  std::set<std::string> said;
-  std::vector<Diagnostic> once;
-  for (const auto& one : diagnostics)
-    if (said.insert(to_string(one)).second) once.push_back(one);
-  throw InputError(once);
 }
 
 }  // namespace

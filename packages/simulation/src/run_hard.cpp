@@ -9,6 +9,7 @@
 #include "mortise/io/files.hpp"
 #include "mortise/io/output_directory.hpp"
 #include "mortise/simulation/hard.hpp"
+#include "names.hpp"
 #include "run_log.hpp"
 
 namespace mortise {
@@ -21,12 +22,6 @@ std::string build_of(const std::string& version) {
                      std::filesystem::last_write_time(program).time_since_epoch().count());
 }
 
-std::string file_name(std::string text) {
-  for (char& c : text)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && std::string("=,._-+").find(c) == std::string::npos) c = '_';
-  return text;
-}
-
 /// Runs lines, and each companion once however many lines it stands beside.
 class Runner {
  public:
@@ -35,11 +30,11 @@ class Runner {
 
   HardRow run(const HardLine& line, int ranks) {
     const auto& one = plan_.case_of(line);
-    const std::string folder = options_.directory + "/" + file_name(one.name) + (line.label.empty() ? "" : "/" + file_name(line.label));
+    const std::string folder = options_.directory + "/" + name_for_files(one.name) + (line.label.empty() ? "" : "/" + name_for_files(line.label));
     HardRow row{&line, ranks, outcome_of(line.run, ranks, folder + fmt::format("/np{}", ranks)), {}};
     std::vector<HardOutcome> companions;
     for (std::size_t c = 0; c < line.companions.size(); ++c)
-      companions.push_back(outcome_of(line.companions[c], options_.ranks.front(), folder + "/" + file_name(one.value.companions[c].name)));
+      companions.push_back(outcome_of(line.companions[c], options_.ranks.front(), folder + "/" + name_for_files(one.value.companions[c].name)));
     row.verdict = judge(one, line, row.outcome, companions);
     return row;
   }
@@ -83,7 +78,7 @@ ExitCode run_hard(const RCP<const Communicator>& comm, const HardOptions& option
   const HardPlan plan = read_hard(*comm, options);
   OutputDirectory directory(comm, options.directory, false);
   if (options.fresh)
-    for (const auto& one : plan.cases) std::filesystem::remove_all(directory.file(file_name(one.name)));
+    for (const auto& one : plan.cases) std::filesystem::remove_all(directory.file(name_for_files(one.name)));
   directory.make();
 
   Runner runner(comm, plan, options);

@@ -14,13 +14,6 @@ namespace {
 
 using Labels = std::vector<std::string>;
 
-/// A name that every file system takes.
-std::string file_name(std::string text) {
-  for (char& c : text)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && std::string("=,._-+").find(c) == std::string::npos) c = '_';
-  return text;
-}
-
 /// What an entry of "exclude" says of each axis: labels that it is about; none: all of them.
 std::vector<Labels> excluded(const Named<AssignmentList>& entry, const StudyFile& study, const std::vector<Labels>& labels,
                              std::vector<Diagnostic>& diagnostics) {
@@ -120,7 +113,7 @@ std::vector<StudyPoint> study_points(const StudyFile& study, std::vector<Diagnos
       const auto& value = values[axis][of_axis[axis]];
       point.labels.push_back(value.name);
       point.titles.push_back(study.axes[axis].value.choices.empty() ? study.axes[axis].name + " = " + value.name : value.name);
-      point.name += (axis == 0 ? "" : ",") + file_name(study.axes[axis].name + "=" + value.name);
+      point.name += (axis == 0 ? "" : ",") + name_for_files(study.axes[axis].name + "=" + value.name);
       point.settings.insert(point.settings.end(), value.value.all.begin(), value.value.all.end());
     }
     const bool left_out = std::any_of(excludes.begin(), excludes.end(), [&](const std::vector<Labels>& about) {

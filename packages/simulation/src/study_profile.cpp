@@ -3,20 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/tokenizer.hpp>
 #include <cmath>
 #include <fstream>
 #include <stdexcept>
 
 #include "mortise/core/error.hpp"
+#include "text_table.hpp"
 
 namespace mortise {
 namespace {
-
-std::vector<std::string> cells_of(const std::string& line) {
-  const boost::tokenizer<boost::escaped_list_separator<char>> cells(line, boost::escaped_list_separator<char>("", ",", "\""));
-  return {cells.begin(), cells.end()};
-}
 
 /// Value at s, approached from the side of `toward`, on which it is 0 beyond the end.
 double value(const TractionProfile& profile, double s, double toward) {

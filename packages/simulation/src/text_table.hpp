@@ -7,6 +7,9 @@
 
 namespace mortise {
 
+/// The cells of a line of comma separated values, without the quotes around texts.
+std::vector<std::string> cells_of(const std::string& line);
+
 /// Columns of a table of comma separated values by their names, rows in their order; texts as they stand.
 using TextTable = std::map<std::string, std::vector<std::string>>;
 

@@ -1,4 +1,4 @@
-#include "hard_tables.hpp"
+#include "text_table.hpp"
 
 #include <boost/tokenizer.hpp>
 #include <cstdlib>
@@ -7,14 +7,11 @@
 #include <sstream>
 
 namespace mortise {
-namespace {
 
 std::vector<std::string> cells_of(const std::string& line) {
   const boost::tokenizer<boost::escaped_list_separator<char>> cells(line, boost::escaped_list_separator<char>("", ",", "\""));
   return {cells.begin(), cells.end()};
 }
-
-}  // namespace
 
 TextTable read_table(const std::string& path) {
   std::ifstream file(path);
