@@ -22,16 +22,24 @@ class Scenes {
  public:
   Scenes(const Communicator& comm, const std::string& ledger) : comm_(comm), folder_(std::filesystem::path(ledger).parent_path()) {}
 
-  /// The file, its text, and what make_scene says of it under the point's settings. The point gets names of its quantities and its symbols.
-  HardRun complete(const Located<std::string>& scene, StudyPoint point, std::vector<Diagnostic>& diagnostics) {
+  /// The file, its text, and what make_scene says of it under the point's settings. The point gets names of its quantities and its symbols; of a
+  /// scene that may be refused under its settings those that it has without.
+  HardRun complete(const Located<std::string>& scene, StudyPoint point, bool may_be_refused, std::vector<Diagnostic>& diagnostics) {
     HardRun run{(folder_ / scene.value).string(), {}, std::move(point)};
     run.point.settings.insert(run.point.settings.begin(), {"output/fields", "", scene.place});
     try {
       const Read& read = find(run.scene);
       run.text = read.text;
-      XmlList changed = read.root;
-      for (const Assignment& one : run.point.settings) apply_override(changed, one.path, one.value, one.place);
-      const Scene made = make_scene(changed);
+      const Scene made = [&] {
+        XmlList changed = read.root;
+        for (const Assignment& one : run.point.settings) apply_override(changed, one.path, one.value, one.place);
+        if (!may_be_refused) return make_scene(changed);
+        try {
+          return make_scene(changed);
+        } catch (const InputError&) {
+          return make_scene(read.root);
+        }
+      }();
       run.point.quantities = names_of(made.quantities);
       run.point.symbols = made.symbols;
     } catch (const InputError& error) {
@@ -143,12 +151,16 @@ HardPlan read_hard(const Communicator& comm, const HardOptions& options) {
   for (const auto& one : ledger.cases) {
     if (!is_chosen(one, options)) continue;
     plan.cases.push_back(one);
+    const std::vector<double>& codes = one.value.stop.codes;
+    const bool may_be_refused =
+        !one.value.stop.reason.value.empty() && std::find(codes.begin(), codes.end(), static_cast<double>(ExitCode::invalid_input)) != codes.end();
     for (const StudyPoint& point : study_points(as_study(ledger, one.value), diagnostics)) {
-      HardLine line{plan.cases.size() - 1, point.labels.empty() ? "" : point.label(), scenes.complete(one.value.scene, point, diagnostics), {}};
+      HardLine line{
+          plan.cases.size() - 1, point.labels.empty() ? "" : point.label(), scenes.complete(one.value.scene, point, may_be_refused, diagnostics), {}};
       for (const auto& companion : one.value.companions) {
         const StudyPoint beside = companion_point(one.value, companion, point, diagnostics);
         const Located<std::string>& scene = companion.value.scene;
-        line.companions.push_back(scenes.complete(scene.value.empty() ? one.value.scene : scene, beside, diagnostics));
+        line.companions.push_back(scenes.complete(scene.value.empty() ? one.value.scene : scene, beside, false, diagnostics));
       }
       check_expressions(one, line, diagnostics);
       plan.lines.push_back(std::move(line));
