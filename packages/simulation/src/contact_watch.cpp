@@ -93,28 +93,38 @@ void ContactWatch::examine(const Vector& displacement) const {
   const PlaceOfNode at = current_places(mesh, local);
   const std::vector<Box3> boxes = body_boxes(mesh, at);
 
-  // Of each pair the probes beside nodes that are not covered and may be in the other body; how many there are, and all.
+  // Of each pair the probes beside nodes that are not covered and may be in the other body; how many there are, all, and those beside covered nodes.
   std::vector<std::vector<SurfaceProbe>> probes(pairs_.size());
-  std::vector<double> mine, counts(2 * pairs_.size());
+  std::vector<double> mine, counts(3 * pairs_.size());
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     const Pair& pair = pairs_[p];
     const std::vector<char> is_covered = covered(pair);
-    double all = 0.0;
+    double all = 0.0, acted_on = 0.0;
     for (const SurfaceProbe& probe : probes_of(mesh, pair.slave, at)) {
       all += 1.0;
+      acted_on += is_covered[probe.node];
       if (is_covered[probe.node]) continue;
       if (may_penetrate(probe.point, boxes[pair.slave_body], boxes[pair.master_body], is_rigid(mesh, pair.master_body), touching))
         probes[p].push_back(probe);
     }
-    mine.insert(mine.end(), {static_cast<double>(probes[p].size()), all});
+    mine.insert(mine.end(), {static_cast<double>(probes[p].size()), all, acted_on});
   }
   Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), counts.data());
 
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
-    if (counts[2 * p] == 0.0) continue;
     const Pair& pair = pairs_[p];
     const std::string &name = scene_.contact[pair.index].name, &master = mesh.blocks[pair.master_body].name;
     const bool rigid = is_rigid(mesh, pair.master_body);
+    if (rigid && counts[3 * p + 2] == 0.0 &&
+        look_ahead({mesh, at, boxes, model_.size().length, touching}, {"", pair.slave, pair.slave_body}, {"", pair.master, pair.master_body},
+                   model_.surfaces_at_start().pairs[pair.index].longest)
+            .backs)
+      throw StepFailure(
+          FailureKind::lost_contact,
+          fmt::format("contact \"{}\": the rigid body '{}' turns its back on the slave: no facet of it faces the slave any more, and most of "
+                      "the slave sees its back: the body has passed through, or around it; please take a smaller \"maximum step\"",
+                      name, master));
+    if (counts[3 * p] == 0.0) continue;
     const auto own = tagged_surface(mesh, pair.slave_body, pair.slave, SurfaceTags::own, SurfaceTags::own, at);
     const auto other = tagged_surface(mesh, pair.master_body, pair.master, SurfaceTags::front, SurfaceTags::rest, at);
     const auto found =
@@ -134,7 +144,7 @@ void ContactWatch::examine(const Vector& displacement) const {
     const auto within = static_cast<double>(std::count_if(swallowed.begin(), swallowed.end(), [](double depth) { return depth > 0.0; }));
     double all = 0.0;
     Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, within, Teuchos::outArg(all));
-    if (all < most_of_a_surface * counts[2 * p + 1]) continue;
+    if (all < most_of_a_surface * counts[3 * p + 1]) continue;
     const DeepestPoint lost = deepest_point(mesh, at, probes[p], swallowed);
     fail(mesh, name, lost,
          fmt::format("lies {} '{}', {:.3g} behind its surface, with most of the slave", rigid ? "behind" : "within", master, lost.depth));

@@ -95,7 +95,7 @@ std::vector<TaggedFacet> top_and_bottom(std::size_t nodes) {
   return facets;
 }
 
-TEST(LineCrossings, InSpaceHoldForFacetsOfAnyShape) {
+TEST(LineCrossings, In3DHoldForFacetsOfAnyShape) {
   for (const std::size_t nodes : {3u, 4u, 6u, 8u}) {
     const auto facets = top_and_bottom(nodes);
     EXPECT_THAT(along(facets, 3, {{0.37, 0.21, 0.25}, {0.0, 0.0, 1.0}, 0.0, 5.0}), ElementsAre(Crosses(0.75, true, 1))) << nodes;

@@ -101,7 +101,7 @@ TEST(InitialOverlap, OfAnyDepthIsFoundWithItsPlace) {
     }
 }
 
-TEST(InitialOverlap, InSpaceHoldsForEveryFacet) {
+TEST(InitialOverlap, In3DHoldsForEveryFacet) {
   for (const char* element : {"H8", "Tet4", "Tet10", "H20"})
     for (const double depth : {0.02, 0.24, 0.4}) {
       Case one;
