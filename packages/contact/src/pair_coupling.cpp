@@ -105,7 +105,9 @@ Complementarity PairCoupling::law_of(std::size_t s, const NodeMultiplier& multip
     if (!covered(s)) return open_node(z);
     const Frame in = frame(s);
     if (rubs && fixed > 0) slip[0] = 0.0;
-    const double scale = pair_.youngs_modulus / size_ * start_[s].stiffening, body = complementarity_constant(s) * node.weight;
+    // The body's stiffness, in series with the tie: a mean gap answers to a traction by both.
+    const double own = complementarity_constant(s) * node.weight, body = own / (1.0 + own * start_[s].softness);
+    const double scale = pair_.youngs_modulus / size_ * start_[s].stiffening;
     const RegularisedNode stiffness{regularisation_->normal * scale, regularisation_->tangential * scale, body, start_[s].multiplier};
     return without_fixed(regularised(stiffness, gap, slip, row.covered, in, z, rubs ? &bound : nullptr), in);
   }
@@ -273,14 +275,21 @@ void PairCoupling::choose_axes() {
 }
 
 // Augmented Lagrange: a node moves by its force, z_n w, over a stiffness of the body, so its mean gap g / w answers to its traction in proportion to
-// w / A_j. An update divides g / w by 1 + eps times that compliance: with eps alone hardly at all where w is small.
+// w / A_j. An update divides g / w by 1 + eps times that compliance: with eps alone hardly at all where w is small, but for tied nodes, which give way
+// by sigma / w.
 RegularisedStart PairCoupling::start_from(std::size_t s, const SpatialVector& z) const {
   RegularisedStart start{SpatialVector::Zero(dimension_)};
   if (friction_ != nullptr) start.multiplier.tail(dimension_ - 1) = frame(s).tangents * z;
   if (regularisation_->augmentations == 0) return start;
   start.multiplier[0] = z.dot(rows_[s].normal);
-  if (covered(s)) start.stiffening = slave_nodes()[s].weight / rows_[s].covered;
+  set_stiffness(s, start);
   return start;
+}
+
+void PairCoupling::set_stiffness(std::size_t s, RegularisedStart& start) const {
+  if (!covered(s)) return;
+  start.softness = ties_.compliance(s) / rows_[s].covered;
+  start.stiffening = start.softness > 0.0 ? 1.0 : slave_nodes()[s].weight / rows_[s].covered;
 }
 
 double PairCoupling::violation(std::size_t s, const NodeMultiplier& multiplier) const {

@@ -57,6 +57,7 @@ struct SlipHistory {
 /// What the conditions of a regularised node start from: fixed while they are solved, renewed by an update of the multipliers and by a step.
 struct RegularisedStart {
   SpatialVector multiplier;  ///< normal, along tau_a; nothing normal with penalty, no shear traction without friction
+  double softness = 0.0;     ///< sigma / w: what a mean gap gives way by to the node's tie, per traction; of augmented Lagrange
   double stiffening = 1.0;   ///< factor of eps; of augmented Lagrange A_j / w, so that a mean gap calls for the same force whatever is covered
 };
 
@@ -177,6 +178,8 @@ class PairCoupling {
   void measure_slip(bool derivatives);
   void measure_frozen_slip();
   void measure_covered();
+  /// What the cover of the last evaluate() says of softness and stiffening. Augmented Lagrange.
+  void set_stiffness(std::size_t s, RegularisedStart& start) const;
   /// From z at the couplings of the last evaluate().
   RegularisedStart start_from(std::size_t s, const SpatialVector& z) const;
 

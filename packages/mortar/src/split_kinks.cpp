@@ -22,16 +22,9 @@
 namespace mortise {
 namespace {
 
-/// Angles above which a convex node becomes a kink, and stays one.
-struct KinkAngles {
-  double sharp, flat;
-};
-
-// The nearest facet's normal is half the angle off the average; the master's is between the two.
-constexpr KinkAngles kink_angles(CornerRule rule) {
-  constexpr double degree = boost::math::double_constants::degree;
-  return rule == CornerRule::master_normal ? KinkAngles{10.0 * degree, 2.0 * degree} : KinkAngles{30.0 * degree, 5.0 * degree};
-}
+/// Angles above which a convex node becomes a kink, and stays one. A circle of twelve facets or more has none: where facets stand for an arc, as a
+/// disk that rolls, the averaged normals are the nearer ones.
+constexpr double sharp = 30.0 * boost::math::double_constants::degree, flat = 5.0 * boost::math::double_constants::degree;
 
 bool is_projected(const NormalStencil& stencil) { return stencil.projected[0] || stencil.projected[1]; }
 
@@ -46,13 +39,12 @@ template <>
 bool Interface<2>::split_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest) {
   const Positions<2> positions = (*slave_positions_)(x);
   const CornerRule rule = options_.corner_rule(2);
-  const KinkAngles angles = kink_angles(rule);
   kinks_.resize(slave.nodes_with_normal, 0);
   const std::vector<char> kinks_before = kinks_;
   std::vector<std::optional<std::size_t>> before, now;
   for (std::size_t n = 0; n < kinks_.size(); ++n) {
     NormalStencil& stencil = slave.stencils[n];
-    kinks_[n] = turn_of_corner(rule, stencil, positions) > (kinks_[n] ? angles.flat : angles.sharp);
+    kinks_[n] = turn_of_corner(rule, stencil, positions) > (kinks_[n] ? flat : sharp);
     before.push_back(stencil.only);
     stencil.only.reset();
     for (std::size_t e = 0; e < stencil.facets.size(); ++e)
@@ -88,7 +80,6 @@ template <>
 long Interface<2>::kinks(const MultiVector& x) {
   const Positions<2> positions = (*slave_positions_)(x);
   const CornerRule rule = options_.corner_rule(2);
-  const double sharp = kink_angles(rule).sharp;
   return std::count_if(slave.stencils.begin(), slave.stencils.begin() + static_cast<std::ptrdiff_t>(slave.owned.size()),
                        [&](const NormalStencil& stencil) { return turn_of_corner(rule, stencil, positions) > sharp; });
 }

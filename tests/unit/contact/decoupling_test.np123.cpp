@@ -20,6 +20,7 @@ TwoSurfaces flat(double largest_shear) {
   tresca->traction = largest_shear;
   surfaces.options.friction.options = tresca;
   surfaces.options.geometry = ContactGeometry::reference;  // normals do not turn
+  surfaces.options.full_cover = 0.0;                       // ties mix conditions with momentum
   return surfaces;
 }
 

@@ -114,43 +114,6 @@ TEST(Slip, PathAndWorkGrowWithAcceptedSteps) {
   EXPECT_GT(contact.friction_evaluations(), 0);
 }
 
-// Nodes hand their functions over, between two steps, once the master has drawn back: slips of the next step are measured against the couplings of
-// the accepted state with the functions as they are now. A pair that stays where it is has not slipped; the surfaces do not touch all over.
-TEST(Slip, IsMeasuredWithTheFunctionsOfTheStep) {
-  TwoSurfaces surfaces = test::hardly_covered(test::dome_on_waves());
-  surfaces.options.friction = flat(ContactGeometry::current, 0.3).options.friction;
-  surfaces.options.mortar.search_reach = 1.0;
-  Fixture fixture(surfaces, Tpetra::getDefaultComm());
-  ContactSystem& contact = *fixture.contact;
-  const std::vector<char> held(fixture.nodes->getNodeNumElements(), 0);
-  const auto master_by = [&](double way) {
-    return Fixture::vector(fixture.dofs,
-                           [&](GlobalOrdinal id) { return id % 3 == 0 && id / 3 >= static_cast<GlobalOrdinal>(surfaces.slave.size()) ? way : 0.0; });
-  };
-  Vector z(contact.multiplier_map());
-  const auto covered_in_last_row = [&] {
-    double mine = 0.0, all = 0.0;
-    for (const ContactNodeState& node : contact.node_states(0, z))
-      if (node.node % 4 == 3) mine += node.covered;
-    Teuchos::reduceAll(*fixture.nodes->getComm(), Teuchos::REDUCE_SUM, mine, Teuchos::outArg(all));
-    return all;
-  };
-  contact.start_step(*master_by(0.6), held, z);
-  EXPECT_GT(covered_in_last_row(), 0.0);
-  const auto back = master_by(0.0);
-  std::optional<StepFailure> failure;
-  contact.evaluate(*back, false, failure);
-  EXPECT_GT(covered_in_last_row(), 0.0);  // the choice stays through a step
-  contact.accept_states(z);
-  for (int tries = 0; tries < 2; ++tries) {  // undone and tried again
-    contact.start_step(*back, held, z);
-    EXPECT_EQ(covered_in_last_row(), 0.0);
-    for (const ContactNodeState& node : contact.node_states(0, z)) EXPECT_NEAR(node.slip, 0.0, 1e-14);
-    contact.evaluate(*master_by(-0.3), false, failure);
-  }
-  EXPECT_FALSE(failure);
-}
-
 TEST(Slip, APairWithoutFrictionRemembersNothing) {
   TwoSurfaces surfaces = flat(ContactGeometry::current, 0.3);
   surfaces.options.friction = ContactOptions().friction;

@@ -152,8 +152,8 @@ class MortarInterface {
   /// Does nothing if a position is not finite; evaluate() then reports it.
   bool search(const MultiVector& x);
 
-  /// In 2D: chooses the kinks from now on, convex nodes at which the slave surface turns by more than 10 degrees (2 if it is one already); with the
-  /// rule `nearest facet` 30 (5). The facets that meet there have their own normals, and the node what MortarOptions::corner_rule() says. Collective.
+  /// In 2D: chooses the kinks from now on, convex nodes at which the slave surface turns by more than 30 degrees (5 if it is one already). The
+  /// facets that meet there have their own normals, and the node what MortarOptions::corner_rule() says. Collective.
   /// @param x        [owned nodes x 2] positions that tell
   /// @param nearest  [slave_nodes()] the facet nearest to the master, by its nodes; empty where none is covered: then the node's normal stays the
   ///                 average. No other rule needs it: empty
