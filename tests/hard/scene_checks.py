@@ -73,7 +73,9 @@ def check_alone(scene, result):
             want(abs(abs(result[f"f{axis}"]) - abs(result[f"floor_{axis}"])) <= ROUND_OFF * scale,
                  f"contact force {axis} {result[f'f{axis}']:.6g} is not what holds the base, {result[f'floor_{axis}']:.6g}")
     want(result["lowest"] >= -ROUND_OFF * max(result["peak"], 1e-12 * scene.E[1]), f"contact pulls: pressure {result['lowest']:.3g}")
-    want(result["gap"] >= -ROUND_OFF * scene.facet(), f"penetration {-result['gap']:.3g}, facet {scene.facet():.3g}")
+    # Multipliers of hardly covered nodes are tied: gap / A = sigma (z - T z) / A, sigma = A h / E at most, |z - T z| twice the peak at most.
+    yields = 2 * scene.facet() * result["peak"] / min(scene.E)
+    want(result["gap"] >= -ROUND_OFF * scene.facet() - yields, f"penetration {-result['gap']:.3g}, facet {scene.facet():.3g}")
     want(result["largest"] <= 3 * (sum(scene.w) + sum(scene.W)), f"displacement {result['largest']:.3g}, far beyond the bodies")
     known = known_force(scene)
     if known is not None:

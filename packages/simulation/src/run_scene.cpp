@@ -263,11 +263,18 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
       const auto timer = timers.scope("state check");
       return check->verify(system, from, to, round);
     };
+    // Smaller tries of a step often end where less can be told: then what an earlier one showed is said again.
+    std::string known;
     functions.explain = [&](const StepFailure& caught) {
-      if (check && !check->refused().empty() && caught.kind() != FailureKind::input)
-        return check->refused() + "; put back, it found no equilibrium";
-      const std::string explanation = check ? explain_failure(caught, model, system, check->record()) : std::string();
-      return explanation.empty() ? explain_limit_load(caught, model, system, x) : explanation;
+      if (check && !check->refused().empty() && caught.kind() != FailureKind::input) return check->refused() + "; put back, it found no equilibrium";
+      std::string explanation = check ? explain_failure(caught, model, system, check->record()) : std::string();
+      if (explanation.empty()) explanation = explain_limit_load(caught, model, system, x);
+      if (!explanation.empty()) return known = explanation;
+      return known.empty() ? known : known + "; so an earlier try of this step";
+    };
+    functions.accepted = [&, accepted = functions.accepted](const StepReport& report, const Vector& at) {
+      known.clear();
+      accepted(report, at);
     };
     if (check) {
       functions.predict = [&](const Vector& at, double dt, Vector& rate) { check->without_free_motions(system, at, dt, rate); };
