@@ -129,7 +129,7 @@ std::string ContactRecord::describe(const Model& model, const std::vector<int>& 
     else if (closed == 0 && !ever_closed_.empty() && ever_closed_[p])
       held.push_back(fmt::format("{} had opened before", name));
     else if (closed == 0)
-      never.push_back(fmt::format("{} has not closed so far", name));
+      never.push_back(fmt::format("{} has not closed in any accepted state", name));
     else if (!has_friction(model, model.contact()->pair_name(p)))
       held.push_back(fmt::format("{} is closed at {} nodes, without friction", name, closed));
     else if (now[p].sticking == 0)
