@@ -2,19 +2,21 @@
 // Multipliers of hardly covered slave nodes are tied to those of their neighbours: a ghost penalty on multipliers.
 //
 // Where the master ends a small part of a facet into it, the multipliers of the far nodes act on next to nothing: a force F takes the multiplier
-// F / D_bb, however small D_bb is. The tie of such a node b resists the deviation r_b of its multiplier from a mean of its neighbours',
-//   r_b = z_b - sum_k T_bk z_k,   sum_k T_bk = 1,   with the energy  sum_b sigma_b |r_b|^2 / 2,   whose gradient is
+// F / D_bb, however small D_bb is. The tie of such a node b resists the deviation r_b of its multiplier from a mean of its neighbours':
+//   r_b = z_b - sum_k T_bk z_k,   sum_k T_bk = 1.
+// Ties have the energy sum_b sigma_b |r_b|^2 / 2 with the gradient
 //   q_j = sum_b s_bj sigma_b r_b,   s_bb = 1,   s_bk = -T_bk,
-// a length times a weight. It is added to the weighted gap and taken from the weighted slip,  g_j + n_j . q_j,   u_j - T_j q_j  (rows of T_j the
-// tangents).
-// Forces, D and M are what they are. Of a node that hardly anything covers, g_b ~ 0, is left z_b -> sum_k T_bk z_k, and its condition goes to its
-// neighbours, whose gaps become g_k + T_bk g_b: redistribution is the limit. Equal multipliers have r = 0: patch tests stay exact. All of it is a
-// function of the state, C^1 in the cover from 0 to 1:
+// a length times a weight. With rows of T_j the tangents, weighted gap and slip become
+//   g_j + n_j . q_j,   u_j - T_j q_j.
+// Forces, D and M are what they are. Where hardly anything is covered, g_b ~ 0 leaves z_b -> sum_k T_bk z_k. The node's condition goes to its
+// neighbours, whose gaps become g_k + T_bk g_b: redistribution is the limit. Equal multipliers have r = 0: patch tests stay exact.
+//
+// All of it is a function of the state, C^1 in the cover from 0 to 1:
 //   c_b^2 = sum_e (c^e_b)^2,   w_b = s^2 (3 - 2 s),   s = min(1, c_b / c_0),   sigma_b = (1 - w_b) A_b h / E,
-//   T_bk = sum_e (d^e_b / sum_e' d^e'_b) (c^e_k + eta C) / sum_k' (c^e_k' + eta C),   d^e_b = int_e phi_b,   C = sum_k' c^e_k',
-// with the covered share c^e of FacetCoupling::cover, and k the neighbours of b along the edges of facet e that carry multipliers. A node that a
-// whole facet covers is not tied, one beside the aligned edge of a master neither. References: Burman (C. R. Math. 348, 2010) for the ghost penalty
-// of cut elements.
+//   T_bk = sum_e (d^e_b / sum_e' d^e'_b) (c^e_k + eta C) / sum_k' (c^e_k' + eta C),   d^e_b = int_e phi_b,   C = sum_k' c^e_k'.
+// Here c^e is the covered share FacetCoupling::cover, and k are the neighbours of b along the edges of facet e that carry multipliers. A node that a
+// whole facet covers is not tied. One beside the aligned edge of a master is not tied either.
+// References: Burman (C. R. Math. 348, 2010) for the ghost penalty of cut elements.
 
 #include <Eigen/Core>
 #include <vector>
