@@ -5,6 +5,8 @@
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Map.hpp>
 #include <algorithm>
+#include <cstdint>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
@@ -138,11 +140,19 @@ struct FieldWriter::Implementation {
 
     description = {"fields.h5", nodes.size(), elements.size(), size, {}};
     for (const Block& block : mesh->blocks) description.bodies.push_back(block.name);
-    write_xdmf();
+    const std::string head = xdmf_head(description);
+    write_file(*comm, xdmf_path, [&] { return head + xdmf_tail(); });
+    tail_of_xdmf = head.size();
   }
 
-  void write_xdmf() const {
-    write_file(*comm, xdmf_path, [&] { return xdmf_text(description, steps); });
+  /// The step takes the place of the tail, which follows it.
+  void write_xdmf(const XdmfStep& step) {
+    const std::string grid = xdmf_step(description, step, steps);
+    std::optional<std::string> reason;
+    if (comm->getRank() == 0) reason = replace_end_of_file(xdmf_path, tail_of_xdmf, grid + xdmf_tail());
+    throw_if_any_file_error(*comm, "cannot write", xdmf_path, reason);
+    tail_of_xdmf += grid.size();
+    ++steps;
   }
 
   /// Empty if the fields can be written.
@@ -165,7 +175,8 @@ struct FieldWriter::Implementation {
   std::string hdf5_path, xdmf_path;
   IdOrder nodes, elements;
   XdmfMesh description;
-  std::vector<XdmfStep> steps;
+  std::uintmax_t tail_of_xdmf = 0;  ///< bytes before it
+  std::size_t steps = 0;            ///< written so far
 };
 
 FieldWriter::FieldWriter(RCP<const Mesh> mesh, const std::string& directory)
@@ -185,7 +196,7 @@ void FieldWriter::write(double time, const std::vector<Field>& fields) {
 
   XdmfStep step{time, {}};
   Hdf5File file(self.comm, self.hdf5_path, Hdf5File::Mode::append);
-  const std::string group = step_group(self.steps.size());
+  const std::string group = step_group(self.steps);
   file.make_group(group);
   for (const Field& field : fields) {
     const IdOrder& order = field.center == Field::Center::node ? self.nodes : self.elements;
@@ -199,8 +210,7 @@ void FieldWriter::write(double time, const std::vector<Field>& fields) {
     step.fields.push_back({field.name, field.center, field.kind});
   }
   file.close();
-  self.steps.push_back(step);
-  self.write_xdmf();
+  self.write_xdmf(step);
 }
 
 }  // namespace mortise

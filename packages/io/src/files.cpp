@@ -1,6 +1,8 @@
 #include "mortise/io/files.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <Teuchos_CommHelpers.hpp>
 #include <cerrno>
@@ -47,6 +49,30 @@ std::optional<std::string> replace_file(const std::string& path, const std::stri
   std::error_code ignored;
   std::filesystem::remove(temporary, ignored);
   return error.message();
+}
+
+std::optional<std::string> replace_end_of_file(const std::string& path, std::uintmax_t offset, const std::string& content) {
+  const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
+  if (file < 0) return std::strerror(errno);
+  const auto begin = static_cast<off_t>(offset);
+  const auto write = [&](const std::string& end) -> std::optional<std::string> {
+    for (std::size_t done = 0; done < end.size();) {
+      const ssize_t written = ::pwrite(file, end.data() + done, end.size() - done, begin + static_cast<off_t>(done));
+      if (written < 0 && errno != EINTR) return std::strerror(errno);
+      if (written > 0) done += static_cast<std::size_t>(written);
+    }
+    if (::ftruncate(file, begin + static_cast<off_t>(end.size())) != 0) return std::strerror(errno);
+    return {};
+  };
+  std::error_code error;
+  std::string former(std::filesystem::file_size(path, error) - offset, '\0');
+  std::optional<std::string> reason;
+  if (error || ::pread(file, former.data(), former.size(), begin) != static_cast<ssize_t>(former.size()))
+    reason = error ? error.message() : std::strerror(errno);
+  else if ((reason = write(content)))
+    write(former);
+  ::close(file);
+  return reason;
 }
 
 void write_file(const Communicator& comm, const std::string& path, const std::function<std::string()>& content) {

@@ -11,13 +11,12 @@ namespace {
 
 const xmlChar* text(const std::string& string) { return reinterpret_cast<const xmlChar*>(string.c_str()); }
 
-/// libxml2's writer into memory, with elements that close with their scope.
-class Document {
+/// Part of a document in memory, by libxml2's writer. Elements close with their scope.
+class Part {
  public:
-  Document() : buffer_(xmlBufferCreate(), xmlBufferFree), writer_(xmlNewTextWriterMemory(buffer_.get(), 0), xmlFreeTextWriter) {
+  Part() : buffer_(xmlBufferCreate(), xmlBufferFree), writer_(xmlNewTextWriterMemory(buffer_.get(), 0), xmlFreeTextWriter) {
     if (buffer_ == nullptr || writer_ == nullptr) throw std::bad_alloc();
     xmlTextWriterSetIndent(writer_.get(), 1);
-    xmlTextWriterStartDocument(writer_.get(), nullptr, "UTF-8", nullptr);
   }
 
   class Element {
@@ -38,7 +37,7 @@ class Document {
   Element element(const std::string& name) { return Element(writer_.get(), name); }
 
   std::string finish() {
-    xmlTextWriterEndDocument(writer_.get());
+    xmlTextWriterFlush(writer_.get());
     return reinterpret_cast<const char*>(xmlBufferContent(buffer_.get()));
   }
 
@@ -47,40 +46,39 @@ class Document {
   std::unique_ptr<xmlTextWriter, decltype(&xmlFreeTextWriter)> writer_;
 };
 
-void data_item(Document& document, const XdmfMesh& mesh, const std::string& path, const std::string& dimensions, bool whole) {
-  auto item = document.element("DataItem");
+void data_item(Part& part, const XdmfMesh& mesh, const std::string& path, const std::string& dimensions, bool whole) {
+  auto item = part.element("DataItem");
   item.attribute("Dimensions", dimensions).attribute("NumberType", whole ? "Int" : "Float").attribute("Precision", "8").attribute("Format", "HDF");
   item.content(mesh.hdf5_name + ":" + path);
 }
 
-void attribute(Document& document, const XdmfMesh& mesh, const XdmfField& field, const std::string& path) {
+void attribute(Part& part, const XdmfMesh& mesh, const XdmfField& field, const std::string& path) {
   static const char* const types[] = {"Scalar", "Vector", "Tensor6", "Scalar"};
   const int components = stored_components(field.kind);
   const long long rows = field.center == Field::Center::node ? mesh.nodes : mesh.elements;
-  auto attribute = document.element("Attribute");
+  auto attribute = part.element("Attribute");
   attribute.attribute("Name", field.name)
       .attribute("AttributeType", types[static_cast<int>(field.kind)])
       .attribute("Center", field.center == Field::Center::node ? "Node" : "Cell");
-  data_item(document, mesh, path, components == 1 ? fmt::format("{}", rows) : fmt::format("{} {}", rows, components),
-            field.kind == FieldKind::integer);
+  data_item(part, mesh, path, components == 1 ? fmt::format("{}", rows) : fmt::format("{} {}", rows, components), field.kind == FieldKind::integer);
 }
 
-void step_grid(Document& document, const XdmfMesh& mesh, const XdmfStep& step, std::size_t index) {
-  auto grid = document.element("Grid");
+void step_grid(Part& part, const XdmfMesh& mesh, const XdmfStep& step, std::size_t index) {
+  auto grid = part.element("Grid");
   grid.attribute("Name", fmt::format("step {}", index)).attribute("GridType", "Uniform");
-  document.element("Time").attribute("Value", fmt::format("{}", step.time));
+  part.element("Time").attribute("Value", fmt::format("{}", step.time));
   {
-    auto topology = document.element("Topology");
+    auto topology = part.element("Topology");
     topology.attribute("TopologyType", "Mixed").attribute("NumberOfElements", fmt::format("{}", mesh.elements));
-    data_item(document, mesh, "/mesh/topology", fmt::format("{}", mesh.topology_size), true);
+    data_item(part, mesh, "/mesh/topology", fmt::format("{}", mesh.topology_size), true);
   }
   {
-    auto geometry = document.element("Geometry");
+    auto geometry = part.element("Geometry");
     geometry.attribute("GeometryType", "XYZ");
-    data_item(document, mesh, "/mesh/coordinates", fmt::format("{} 3", mesh.nodes), false);
+    data_item(part, mesh, "/mesh/coordinates", fmt::format("{} 3", mesh.nodes), false);
   }
-  attribute(document, mesh, {"body", Field::Center::cell, FieldKind::integer}, "/mesh/body");
-  for (const auto& field : step.fields) attribute(document, mesh, field, step_group(index) + "/" + field.name);
+  attribute(part, mesh, {"body", Field::Center::cell, FieldKind::integer}, "/mesh/body");
+  for (const auto& field : step.fields) attribute(part, mesh, field, step_group(index) + "/" + field.name);
 }
 
 }  // namespace
@@ -92,19 +90,26 @@ int stored_components(FieldKind kind) {
 
 std::string step_group(std::size_t step) { return fmt::format("/steps/{}", step); }
 
-std::string xdmf_text(const XdmfMesh& mesh, const std::vector<XdmfStep>& steps) {
-  Document document;
-  {
-    auto root = document.element("Xdmf");
-    root.attribute("Version", "3.0");
-    auto domain = document.element("Domain");
-    for (std::size_t body = 0; body < mesh.bodies.size(); ++body)
-      document.element("Information").attribute("Name", fmt::format("body {}", body)).attribute("Value", mesh.bodies[body]);
-    auto series = document.element("Grid");
-    series.attribute("Name", "fields").attribute("GridType", "Collection").attribute("CollectionType", "Temporal");
-    for (std::size_t step = 0; step < steps.size(); ++step) step_grid(document, mesh, steps[step], step);
+std::string xdmf_head(const XdmfMesh& mesh) {
+  std::string head = R"(<?xml version="1.0" encoding="UTF-8"?>
+<Xdmf Version="3.0">
+<Domain>
+)";
+  for (std::size_t body = 0; body < mesh.bodies.size(); ++body) {
+    Part part;
+    part.element("Information").attribute("Name", fmt::format("body {}", body)).attribute("Value", mesh.bodies[body]);
+    head += part.finish();
   }
-  return document.finish();
+  return head + R"(<Grid Name="fields" GridType="Collection" CollectionType="Temporal">
+)";
 }
+
+std::string xdmf_step(const XdmfMesh& mesh, const XdmfStep& step, std::size_t index) {
+  Part part;
+  step_grid(part, mesh, step, index);
+  return part.finish();
+}
+
+std::string xdmf_tail() { return "</Grid>\n</Domain>\n</Xdmf>\n"; }
 
 }  // namespace mortise

@@ -33,7 +33,15 @@ int stored_components(FieldKind kind);
 /// Path of a field in the HDF5 file; `step` from 0.
 std::string step_group(std::size_t step);
 
-/// The whole file.
-std::string xdmf_text(const XdmfMesh& mesh, const std::vector<XdmfStep>& steps);
+// The file is head, steps, tail. A step replaces the tail by itself and the tail, so that each costs the same.
+
+/// From the document's first line to the start tag of the collection of steps.
+std::string xdmf_head(const XdmfMesh& mesh);
+
+/// The grid of one step; `index` from 0.
+std::string xdmf_step(const XdmfMesh& mesh, const XdmfStep& step, std::size_t index);
+
+/// The end tags of what the head opens.
+std::string xdmf_tail();
 
 }  // namespace mortise

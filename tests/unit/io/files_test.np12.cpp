@@ -3,9 +3,11 @@
 #include "mortise/io/files.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
 #include <Tpetra_Core.hpp>
 #include <cmath>
+#include <csignal>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -56,6 +58,43 @@ TEST(Files, JsonIsReplacedWholeAndReadsBackExactly) {
   EXPECT_TRUE(json["nothing"].is_null());
   EXPECT_FALSE(json.contains("old"));
   EXPECT_FALSE(std::filesystem::exists(path + ".part"));
+}
+
+/// A limit of this process on the size of files, for one scope; what goes beyond it fails and sends no signal.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : former_action_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &former_);
+    const rlimit limit{bytes, former_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &former_);
+    std::signal(SIGXFSZ, former_action_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  rlimit former_{};
+  void (*former_action_)(int);
+};
+
+TEST(Files, EndOfAFileIsReplacedOrKept) {
+  const test::ScratchDirectory scratch(world());
+  if (world()->getRank() != 0) return;
+  const std::string path = scratch.file("index");
+  ASSERT_EQ(replace_file(path, "head tail"), std::nullopt);
+  EXPECT_EQ(replace_end_of_file(path, 5, "one tail"), std::nullopt);
+  EXPECT_EQ(content(path), "head one tail");
+  EXPECT_EQ(replace_end_of_file(path, 9, "."), std::nullopt);
+  EXPECT_EQ(content(path), "head one .");
+  {
+    const FileSizeLimit limit(20);
+    EXPECT_THAT(replace_end_of_file(path, 9, std::string(100, 'x')), ::testing::Optional(std::string("File too large")));
+  }
+  EXPECT_EQ(content(path), "head one .");
+  EXPECT_THAT(replace_end_of_file(scratch.file("none"), 0, "a"), ::testing::Optional(std::string("No such file or directory")));
 }
 
 TEST(Files, UnwritablePathNamesPathAndReasonOnAllRanks) {

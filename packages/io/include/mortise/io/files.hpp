@@ -1,6 +1,7 @@
 #pragma once
 // Files that one rank writes for all: failures surface on every rank.
 
+#include <cstdint>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -17,7 +18,11 @@ void throw_if_any_file_error(const Communicator& comm, const std::string& what, 
 /// Returns why it could not.
 std::optional<std::string> replace_file(const std::string& path, const std::string& content);
 
-/// The same for all ranks: rank 0 writes what `content` gives there. Collective. Throws FileError on all ranks.
+/// Replaces what stands from byte `offset` of `path` to its end by `content`, in one write. If that fails, the file has its former end again. No
+/// communication. Returns why it could not.
+std::optional<std::string> replace_end_of_file(const std::string& path, std::uintmax_t offset, const std::string& content);
+
+/// `replace_file` for all ranks: rank 0 writes what `content` gives there. Collective. Throws FileError on all ranks.
 void write_file(const Communicator& comm, const std::string& path, const std::function<std::string()>& content);
 
 /// Writes `json`, indented by two, on rank 0; names in their order, numbers in full precision, those that are not finite as null. Collective. Throws
