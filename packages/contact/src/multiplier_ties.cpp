@@ -9,6 +9,7 @@
 #include <array>
 #include <boost/container/static_vector.hpp>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "mortise/mortar/quadratic_facet.hpp"
@@ -116,19 +117,18 @@ void MultiplierTies::measure(const std::vector<FacetCoupling>& couplings, const 
     return (1.0 - cover) * (1.0 - cover) * (1.0 + 2.0 * cover);
   };
   const auto is_tied = [&](std::size_t s) { return owned[s].carries_multiplier && force[s] > no_force * owned[s].weight && rest(s) > full; };
-  std::vector<std::vector<std::pair<const FacetCoupling*, std::size_t>>> facets_of(owned.size());
+  std::map<std::size_t, std::vector<std::pair<const FacetCoupling*, std::size_t>>> facets_of;
   for (const FacetCoupling& facet : couplings)
     for (std::size_t a = 0; a < facet.slave.size(); ++a)
       if (const auto s = static_cast<std::size_t>(facet.slave[a]); s < owned.size() && is_tied(s)) facets_of[s].emplace_back(&facet, a);
 
-  for (std::size_t s = 0; s < owned.size(); ++s) {
-    if (facets_of[s].empty()) continue;
+  for (const auto& [s, facets] : facets_of) {
     MultiplierTie tie;
     tie.node = s;
     tie.compliance = rest(s) * owned[s].weight * softness;
     std::vector<FacetShares> shares;
     Slope all;  // sum_e d^e of the facets with receivers
-    for (const auto& [facet, a] : facets_of[s]) {
+    for (const auto& [facet, a] : facets) {
       shares.push_back(shares_on(*facet, a, dimension, derivatives));
       if (!shares.back().places.empty()) all.value += facet->D.row(static_cast<Eigen::Index>(a)).sum();
       for (const LocalOrdinal node : facet->columns) tie.columns.push_back(node);
@@ -145,8 +145,8 @@ void MultiplierTies::measure(const std::vector<FacetCoupling>& couplings, const 
     };
     all.gradient.setZero(width);
     tie.dcompliance.setZero(width);
-    for (std::size_t f = 0; f < facets_of[s].size(); ++f) {
-      const auto& [facet, a] = facets_of[s][f];
+    for (std::size_t f = 0; f < facets.size(); ++f) {
+      const auto& [facet, a] = facets[f];
       for (const std::size_t k : shares[f].places) {
         const LocalOrdinal receiver = nodes_->getLocalElement(local_nodes.getGlobalElement(facet->slave[k]));
         if (std::find(tie.receivers.begin(), tie.receivers.end(), receiver) == tie.receivers.end()) tie.receivers.push_back(receiver);
@@ -161,8 +161,8 @@ void MultiplierTies::measure(const std::vector<FacetCoupling>& couplings, const 
     }
     tie.shares.assign(tie.receivers.size(), 0.0);
     tie.dshares.setZero(static_cast<Eigen::Index>(tie.receivers.size()), width);
-    for (std::size_t f = 0; f < facets_of[s].size(); ++f) {
-      const auto& [facet, a] = facets_of[s][f];
+    for (std::size_t f = 0; f < facets.size(); ++f) {
+      const auto& [facet, a] = facets[f];
       if (shares[f].places.empty()) continue;
       const Slope own = force_of(*facet, a);
       for (std::size_t k = 0; k < shares[f].places.size(); ++k) {

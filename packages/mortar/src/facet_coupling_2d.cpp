@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "surface_search.hpp"
+#include "whole_facet.hpp"
 
 namespace mortise {
 namespace {
@@ -147,7 +148,8 @@ void FacetIntegrator2d::accumulate(const Interval& covered, std::size_t masters,
   const auto n = static_cast<Eigen::Index>(line_.x.size()), count = static_cast<Eigen::Index>(masters);
   const Eigen::Index masses = FacetMoments::masses(n), rows = FacetMoments::rows(n, count);
   moments_.value.setZero(rows);
-  moments_.whole = whole_facet(line_.x, measure_, derivatives);
+  moments_.whole = whole_facet(line_.x, measure_, false).weights;
+  moments_.whole_slope = [this] { return whole_facet(line_.x, measure_, true).slope; };
   if (derivatives) raw_.setZero(rows, 4 * n + 2 * count);
   boost::container::static_vector<Eigen::Index, 18> to;
   for (const Pair& pair : pairs_) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "whole_facet.hpp"
+
 namespace mortise {
 
 FacetIntegrator3d::FacetIntegrator3d(const MortarOptions& options)
@@ -73,7 +75,8 @@ void FacetIntegrator3d::accumulate(const std::vector<Eigen::Vector3d>& x, bool d
   const auto n = static_cast<Eigen::Index>(plane_.slave.size()), count = static_cast<Eigen::Index>(coupling.master.size());
   const Eigen::Index masses = FacetMoments::masses(n), rows = FacetMoments::rows(n, count);
   moments_.value.setZero(rows);
-  moments_.whole = whole_facet(plane_, derivatives);
+  moments_.whole = whole_facet(plane_, false).weights;
+  moments_.whole_slope = [this] { return whole_facet(plane_, true).slope; };
   if (derivatives) raw_.setZero(rows, 6 * n + 3 * count);
   std::vector<Eigen::Index> to(static_cast<std::size_t>(FacetMoments::rows(n, 8)));
   for (const Pair& pair : pairs_) {

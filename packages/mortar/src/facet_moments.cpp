@@ -8,6 +8,8 @@ namespace {
 
 /// int phi_j below this share of its value for the whole facet is round-off of a facet that is not covered.
 constexpr double negligible_cover = 1e-12;
+/// A node with this share of its weight is not tied: 1 - w, of second order in what is missing, is round-off.
+constexpr double full_cover = 1.0 - 1e-7;
 
 // With N = T L the dual basis of the restricted N is
 //   phi = A L,   A = D_e T^-T M_L^-1,   M_L = int L L^T,   D_e = diag int N_j,   int N = T M_L l with l = T^T 1 (the sum of all N is 1),
@@ -56,7 +58,6 @@ class Combination {
     coupling.dD.setZero(derivatives ? n * n : 0, columns);
     coupling.dM.setZero(derivatives ? n * masters : 0, columns);
     coupling.dgap.setZero(derivatives ? n : 0, columns);
-    coupling.dcover.setZero(derivatives ? n : 0, columns);
     const auto& value = moments_.value;
     const auto& slope = moments_.slope;
     // [masters x n] int L_i N_l, [n] int L_i g
@@ -65,7 +66,9 @@ class Combination {
     const Small M_N = T_ * M_L_ * T_.transpose();
     Slopes weight_slope;
     if (derivatives) weight_slope.noalias() = mass_of_ * slope.topLeftCorner(masses, moving);
-    measure_cover(weight_slope, coupling);
+    coupling.cover = weight_.cwiseQuotient(moments_.whole);
+    coupling.dcover.resize(0, 0);
+    if (derivatives && coupling.cover.minCoeff() < full_cover) differentiate_cover(weight_slope, columns, coupling);
 
     bool any = false;
     for (int j = 0; j < n; ++j) {
@@ -110,14 +113,12 @@ class Combination {
 
  private:
   // c = int_cov N / int N,   dc = (d int_cov N - c d int N) / int N
-  void measure_cover(const Slopes& weight_slope, FacetCoupling& coupling) const {
-    const FacetVector& whole = moments_.whole.weights;
-    coupling.cover = weight_.cwiseQuotient(whole);
-    if (coupling.dcover.size() == 0) return;
-    const Eigen::MatrixXd& slope = moments_.whole.slope;
+  void differentiate_cover(const Slopes& weight_slope, Eigen::Index columns, FacetCoupling& coupling) const {
+    const Eigen::MatrixXd slope = moments_.whole_slope();
+    coupling.dcover.setZero(n, columns);
     coupling.dcover.leftCols(weight_slope.cols()) = weight_slope;
     coupling.dcover.leftCols(slope.cols()) -= coupling.cover.asDiagonal() * slope;
-    coupling.dcover = whole.cwiseInverse().asDiagonal() * Eigen::MatrixXd(coupling.dcover);
+    coupling.dcover = moments_.whole.cwiseInverse().asDiagonal() * Eigen::MatrixXd(coupling.dcover);
   }
 
   // From int phi_j Ñ_i to int phi_j N_k.

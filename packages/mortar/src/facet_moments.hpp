@@ -2,11 +2,11 @@
 // From integrals over one slave facet to its D, M and gap, and their derivatives: the same in the plane and in space.
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "mortise/mortar/mortar_interface.hpp"
 #include "mortise/mortar/quadratic_facet.hpp"
-#include "whole_facet.hpp"
 
 namespace mortise {
 
@@ -15,9 +15,10 @@ namespace mortise {
 struct FacetMoments {
   FacetMatrix T, extrapolation;  ///< [n x n] T and T^-T, constant: which basis carries the integrals does not change phi
   Eigen::VectorXd value;
-  Eigen::MatrixXd slope;            ///< [rows x columns] derivatives with respect to the coupling's columns
-  Eigen::Index moving_columns = 0;  ///< of the leading columns; the others move the gap only
-  WholeFacet whole;                 ///< its columns are the leading ones
+  Eigen::MatrixXd slope;                         ///< [rows x columns] derivatives with respect to the coupling's columns
+  Eigen::Index moving_columns = 0;               ///< of the leading columns; the others move the gap only
+  FacetVector whole;                             ///< [n] int N_j (Ñ_j) over the whole facet as it is
+  std::function<Eigen::MatrixXd()> whole_slope;  ///< its derivatives, in leading columns; asked for where a part of the facet is covered
 
   static Eigen::Index masses(Eigen::Index nodes) { return nodes * (nodes + 1) / 2; }
   static Eigen::Index rows(Eigen::Index nodes, Eigen::Index masters) { return masses(nodes) + nodes * masters + nodes; }

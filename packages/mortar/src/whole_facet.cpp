@@ -27,7 +27,7 @@ template <class Shape>
 WholeFacet of_line(const LinePoints& x, const InterfaceMeasure& measure, bool derivatives) {
   constexpr int n = Shape::nodes;
   constexpr double two_pi = boost::math::double_constants::two_pi;
-  static const std::vector<LinePoint> rule = gauss_legendre(5);
+  static const std::vector<LinePoint> rule = gauss_legendre(n == 2 ? 2 : 5);  // |x'| of a straight line is constant
   WholeFacet whole;
   whole.weights = FacetVector::Zero(n);
   whole.slope.setZero(derivatives ? n : 0, derivatives ? 2 * n : 0);
@@ -51,7 +51,8 @@ WholeFacet of_line(const LinePoints& x, const InterfaceMeasure& measure, bool de
   return whole;
 }
 
-// int N_a (X_xi x X_eta) dxi, X the projections on the plane.
+// int N_a (X_xi x X_eta) dxi, X the projections on the plane. The rules are exact: degree 1 on a triangle of 3 nodes, 4 with 6; on quadrilaterals of
+// 4 nodes degree 2 in each direction, 5 with 8.
 template <class Shape>
 WholeFacet on_plane(const AuxiliaryPlane& plane, const std::vector<CellPoint>& rule, bool derivatives) {
   constexpr int n = Shape::nodes;
@@ -87,14 +88,15 @@ WholeFacet whole_facet(const LinePoints& x, const InterfaceMeasure& measure, boo
 }
 
 WholeFacet whole_facet(const AuxiliaryPlane& plane, bool derivatives) {
-  static const std::vector<CellPoint> triangle = triangle_rule(7), square = quadrilateral_rule(3), square_of_8 = quadrilateral_rule(4);
+  static const std::vector<CellPoint> triangle = triangle_rule(1), triangle_of_6 = triangle_rule(7), square = quadrilateral_rule(2),
+                                      square_of_8 = quadrilateral_rule(3);
   switch (plane.slave.size()) {
     case 3:
       return on_plane<Triangle3>(plane, triangle, derivatives);
     case 4:
       return on_plane<Quadrilateral4>(plane, square, derivatives);
     case 6:
-      return on_plane<Triangle6>(plane, triangle, derivatives);
+      return on_plane<Triangle6>(plane, triangle_of_6, derivatives);
     default:
       return on_plane<Quadrilateral8>(plane, square_of_8, derivatives);
   }
