@@ -33,28 +33,32 @@ void Energy::prepare(const QuantityContext& context) {
   displacement_ = rcp(new Vector(context.bodies.dofs()));
 }
 
-// What a work is done by, on all owned dofs. From outside act loads, and supports on prescribed dofs; with r = f_int - f_ext + f_c the internal
-// forces are r + f_ext - f_c. Friction takes what its forces on both sides do not give back: f_c of the shear tractions alone.
+// What a work is done by, on all owned dofs. From outside act loads, and supports on prescribed dofs. Reference points act on their followers, and
+// there their work is counted: a point that is carried round by an angle a with a moment M would do M a, while its followers do M sin a along the
+// chords of their ways, as do all other nodes of the body. With r = f_int - f_ext + f_c the internal forces are r + f_ext - f_c, and what supports
+// and points do is r. Friction takes what its forces on both sides do not give back: f_c of the shear tractions alone.
 RCP<Vector> Energy::force(const QuantityContext& context) const {
   const auto result = rcp(new Vector(context.bodies.dofs()));
   const auto add_contact_force = [&](const Vector& multipliers) { context.contact->add_contact_force(multipliers, *result); };
   if (of == Of::friction) {
     add_contact_force(*context.contact->shear_tractions(*context.multipliers));
-  } else if (of == Of::internal_work) {
+    return result;
+  }
+  if (of == Of::internal_work) {
     if (context.contact != nullptr) add_contact_force(*context.multipliers);
     result->update(1.0, *context.reaction, 1.0, *context.external_force, -1.0);
-    // No element acts on a reference point: what stands there is gathered from its followers, where it is counted.
-    const Mesh& mesh = context.mesh();
-    const auto values = result->getLocalViewHost(Tpetra::Access::ReadWrite);
-    for (const ReferencePoint& point : mesh.reference_points)
-      for (const LocalOrdinal node : {point.node, point.rotation_node})
-        for (int i = 0; i < mesh.dimension && node >= 0 && node < mesh.owned_count(); ++i) values(mesh.dimension * node + i, 0) = 0.0;
   } else {
     result->assign(*context.external_force);
     const auto reaction = context.reaction->getLocalViewHost(Tpetra::Access::ReadOnly);
     const auto values = result->getLocalViewHost(Tpetra::Access::ReadWrite);
-    for (const LocalOrdinal dof : *context.prescribed) values(dof, 0) += reaction(dof, 0);
+    for (const auto* dofs : {context.prescribed, context.following})
+      for (std::size_t n = 0; dofs != nullptr && n < dofs->size(); ++n) values((*dofs)[n], 0) += reaction((*dofs)[n], 0);
   }
+  const Mesh& mesh = context.mesh();
+  const auto values = result->getLocalViewHost(Tpetra::Access::ReadWrite);
+  for (const ReferencePoint& point : mesh.reference_points)
+    for (const LocalOrdinal node : {point.node, point.rotation_node})
+      for (int i = 0; i < mesh.dimension && node >= 0 && node < mesh.owned_count(); ++i) values(mesh.dimension * node + i, 0) = 0.0;
   return result;
 }
 

@@ -34,6 +34,7 @@ QuantityContext StepEvaluation::context() const {
   context.contact = model_.contact().get();
   for (const auto& pair : scene_.contact) context.pairs.push_back({pair.name, pair.value.slave.value, pair.value.master.value});
   context.prescribed = &model_.parts().prescribed->dofs();
+  if (model_.parts().dependent) context.following = &model_.parts().dependent->dofs();
   context.symbols = &scene_.symbols;
   return context;
 }

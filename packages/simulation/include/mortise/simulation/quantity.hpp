@@ -25,10 +25,12 @@ struct QuantityContext {
   const Vector* displacement = nullptr;        ///< owned dofs
   const Vector* local_displacement = nullptr;  ///< owned dofs, then ghosts
   const Vector* multipliers = nullptr;         ///< z; null without contact
-  const Vector* reaction = nullptr;            ///< f_int - f_ext + f_c on owned dofs: on prescribed ones the force of the support on the body
-  const Vector* external_force = nullptr;      ///< f_ext on owned dofs
-  double force_round_off = 0.0;                ///< what round-off of positions and stresses may leave of a sum of |forces|, over all ranks
+  /// f_int - f_ext + f_c on owned dofs: on prescribed ones the force of the support on the body, on followers that of their reference point
+  const Vector* reaction = nullptr;
+  const Vector* external_force = nullptr;                 ///< f_ext on owned dofs
+  double force_round_off = 0.0;                           ///< what round-off of positions and stresses may leave of a sum of |forces|, over all ranks
   const std::vector<LocalOrdinal>* prescribed = nullptr;  ///< prescribed owned dofs
+  const std::vector<LocalOrdinal>* following = nullptr;   ///< owned dofs that follow reference points; null: none does
   const Symbols* symbols = nullptr;                       ///< variables and tables of the scene
   std::vector<std::string> earlier{};                     ///< quantities that the scene names before this one
   std::vector<double> earlier_values{};                   ///< theirs at this time; empty while quantities are prepared
