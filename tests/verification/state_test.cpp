@@ -104,6 +104,77 @@ std::string between_blocks(const std::string& x, const std::string& y, double en
          place_of("mid");
 }
 
+/// Runs a scene of inputs/hard.
+Outcome run_hard(const std::string& scene, int ranks, const Words& settings) {
+  const std::string results = std::string(SCRATCH) + "/" + scene;
+  Words command{MPIEXEC, "-n", std::to_string(ranks), MORTISE, "run", std::string(INPUTS) + "/hard/" + scene + ".xml", "-o", results};
+  for (const std::string& setting : settings) command.insert(command.end(), {"--set", setting});
+  const Ending ending = launch(command, 120);
+  return {ending.code, ending.output, nlohmann::json::parse(read_file(results + "/summary.json"))};
+}
+
+/// The number that follows some words in the last line that holds them.
+double number_after(const std::string& output, const std::string& words) {
+  const auto at = output.rfind(words);
+  return at == std::string::npos ? std::nan("") : std::stod(output.substr(at + words.size()));
+}
+
+// A block under a dead load on friction of 0.05: all its nodes slip outwards. Where the block comes to rest, one of them sticks.
+TEST(States, ABlockOnFrictionThatIsNearlyUsedUpFindsItsRest) {
+  for (const int ranks : {1, 3})
+    for (const std::string pull : {"0", "0.5", "0.9"}) {
+      const Outcome result = run_hard("dead_load", ranks, {"variables/mu=0.05", "variables/pull=" + pull});
+      ASSERT_EQ(result.code, 0) << result.output;
+      EXPECT_NEAR(result.quantity("force"), 5.0, 5e-6);
+      EXPECT_NEAR(result.quantity("aside"), -0.25 * std::stod(pull), 5e-6);
+    }
+}
+
+// By statics the load over what friction bears is 1.2.
+TEST(States, FrictionThatIsUsedUpIsToldFromContactThatOpens) {
+  for (const int ranks : {1, 2}) {
+    const Outcome result = run_hard("dead_load", ranks, {"variables/mu=0.3", "variables/pull=1.2"});
+    EXPECT_EQ(result.code, 3) << result.output;
+    const std::string end = result.output.substr(result.output.find("not converged; the last"));
+    EXPECT_NE(end.find("friction is used up by body 'block' (translation in x)"), std::string::npos) << result.output;
+    EXPECT_EQ(end.find("has opened"), std::string::npos) << result.output;
+    EXPECT_NEAR(number_after(end, "the load along this motion is ") / number_after(end, "friction bears at most "), 1.2, 1e-4);
+  }
+}
+
+// A tall block on a rough incline topples when its centre is above its edge, tan(angle) = 2 / 8, long before it slides.
+TEST(States, ABlockThatTopplesIsNamed) {
+  const Outcome result = run_hard("incline", 1, {"variables/mu=5", "variables/tall=8", "variables/E=1e7", "variables/g=1"});
+  EXPECT_EQ(result.code, 3) << result.output;
+  const double topples = 0.5 * (1.0 + std::atan(0.25) * 180.0 / M_PI / 20.0);
+  EXPECT_NEAR(result.last_time(), topples, 0.01 * topples);
+  const std::string end = result.output.substr(result.output.find("not converged; the last"));
+  EXPECT_NE(end.find("body 'block' (rotation)"), std::string::npos) << result.output;
+  EXPECT_EQ(end.find("friction is used up"), std::string::npos) << result.output;
+}
+
+// A shaft pressed into a hub by 0.01, which overhangs it: friction of 0.2 bears no less than Lame's pressure says. A part of that pulls it out, and it
+// has to stay; predicted, what the first step pushes apart would go on.
+TEST(States, APressFitBearsItsLoad) {
+  const double over = 0.01, pressure = 1000.0 * over * (4.0 - 1.0) / (2.0 * 4.0);  // radii 1 and 2
+  for (const int ranks : {1, 3})
+    for (const double share : {0.6, 0.8}) {
+      const double pull = share * 2.0 * 0.2 * pressure;
+      const std::string scene =
+          text("kinematics", "axisymmetric") + list("bodies", block("shaft", 1.0, 1.0, 4, 6, "0, 0") + block("hub", 1.01, 1.4, 4, 7, "0.99, -0.2")) +
+          list("boundary conditions", condition("hub", "hub/right", {{"y", "0"}}) + condition("axis", "shaft/left", {{"x", "0"}})) +
+          list("loads", list("pull", text("type", "dead traction") + text("set", "shaft/top") + text("y", std::to_string(pull) + "*t"))) +
+          list("contact", pair("fit", "shaft/right", "hub/left", 0.2)) + stepping(1.0, 0.25) +
+          list("quantities", list("held", text("type", "reaction") + text("set", "hub/right") + text("component", "y")) +
+                                 list("out", text("type", "mean") + text("field", "displacement y") + text("on", "shaft")));
+      const Outcome result = run("press_fit", scene, ranks);
+      ASSERT_EQ(result.code, 0) << result.output;
+      EXPECT_NEAR(std::abs(result.quantity("held")), M_PI * pull, 1e-5 * M_PI * pull);
+      EXPECT_GT(result.quantity("out"), 0.0);
+      EXPECT_LT(result.quantity("out"), over);
+    }
+}
+
 // With little friction it is ejected: squeezed out by walls whose normals meet at an angle. It goes up by half of the wall's motion, 0.05, and no
 // further.
 TEST(States, ADiskThatIsShotOutIsNotAccepted) {

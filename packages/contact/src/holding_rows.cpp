@@ -1,4 +1,4 @@
-// What contact holds bodies with: the forces of its multipliers, body by body.
+// What contact holds bodies with, and what friction bears where it slips: the forces of multipliers, body by body.
 
 #include <Eigen/Geometry>
 #include <Tpetra_Import.hpp>
@@ -6,6 +6,7 @@
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
+#include <cmath>
 
 #include "implementation.hpp"
 
@@ -23,6 +24,25 @@ void add_force(const SpatialVector& force, const SpatialVector& arm, int body, s
     found->force[i] += f[i];
     found->moment[i] += moment[i];
   }
+}
+
+/// Forces at the coupled nodes of a slave node, summed for each body.
+/// @param at        [local nodes] body and arm
+/// @param largest   gets the largest force
+template <class View, class ForceAt>
+std::vector<HoldingRow::Wrench> wrenches(const std::vector<LocalOrdinal>& coupled, const View& at, int dimension, const ForceAt& force_at,
+                                         double& largest) {
+  std::vector<HoldingRow::Wrench> result;
+  for (std::size_t c = 0; c < coupled.size(); ++c) {
+    const SpatialVector force = force_at(c);
+    largest = std::max(largest, force.norm());
+    const int body = static_cast<int>(at(coupled[c], 0));
+    if (body < 0 || force.isZero(0.0)) continue;
+    SpatialVector arm(dimension);
+    for (int i = 0; i < dimension; ++i) arm[i] = at(coupled[c], static_cast<std::size_t>(1 + i));
+    add_force(force, arm, body, result);
+  }
+  return result;
 }
 
 }  // namespace
@@ -46,17 +66,8 @@ std::vector<HoldingRow> ContactSystem::holding_rows(const Vector& z, const Multi
       const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
       const LocalOrdinal own = pair.slave_nodes()[s].local_node;
       const auto add_row = [&](bool along_surface, const auto& force_at) {
-        HoldingRow result{p, along_surface, {}};
         double largest = 0.0;
-        for (std::size_t c = 0; c < coupled.size(); ++c) {
-          const SpatialVector force = force_at(c);
-          largest = std::max(largest, force.norm());
-          const int body = static_cast<int>(at(coupled[c], 0));
-          if (body < 0 || force.isZero(0.0)) continue;
-          SpatialVector arm(dimension);
-          for (Eigen::Index i = 0; i < dimension; ++i) arm[i] = at(coupled[c], static_cast<std::size_t>(1 + i));
-          add_force(force, arm, body, result.bodies);
-        }
+        HoldingRow result{p, along_surface, wrenches(coupled, at, self.dimension, force_at, largest)};
         if (result.bodies.empty()) return;
         for (HoldingRow::Wrench& wrench : result.bodies)
           for (int i = 0; i < 3; ++i) {
@@ -82,6 +93,43 @@ std::vector<HoldingRow> ContactSystem::holding_rows(const Vector& z, const Multi
     }
   }
   return rows;
+}
+
+// w = sum_m c_jm x_m along tau_a is what a slip changes by: a unit traction along tau_a acts at the nodes m with c_jm tau_a.
+std::vector<SlidingNode> ContactSystem::sliding_nodes(const Vector& z, const MultiVector& places) const {
+  const Implementation& self = *implementation_;
+  const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
+  std::vector<SlidingNode> nodes;
+  for (std::size_t p = 0; p < self.pairs.size(); ++p) {
+    const detail::PairCoupling& pair = *self.pairs[p];
+    if (pair.friction() == nullptr || pair.regularisation()) continue;
+    const std::vector<detail::NodeMultiplier> multipliers = self.multipliers_of(values, p);
+    MultiVector local(pair.interface().local_nodes(), static_cast<std::size_t>(1 + self.dimension));
+    local.doImport(places, pair.import(), Tpetra::REPLACE);
+    const auto at = local.getLocalViewHost(Tpetra::Access::ReadOnly);
+    for (std::size_t s = 0; s < pair.rows().size(); ++s) {
+      if (self.multiplier_of[p][s] < 0 || pair.slave_nodes()[s].partly_fixed()) continue;
+      const Complementarity law = pair.complementarity(s, multipliers[s]);
+      if (law.state != ContactState::slip) continue;
+      SlidingNode node{p, self.multiplier_of[p][s], pair.frame(s), 0.0, pair.complementarity_constant(s), pair.rows()[s].covered, {}, {}};
+      for (Eigen::Index a = 0; a < node.frame.tangents.rows(); ++a)  // C_tau = z_tau - rho y / |y|
+        node.bound = std::hypot(node.bound, node.frame.tangents.row(a).dot(multipliers[s].z) - law.C[1 + a]);
+      if (!(node.bound > 0.0)) continue;
+      node.slip = pair.slip(s, multipliers[s]);
+      const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
+      const LocalOrdinal own = pair.slave_nodes()[s].local_node;
+      for (Eigen::Index a = 0; a < node.frame.tangents.rows(); ++a) {
+        const SpatialVector tangent = node.frame.tangents.row(a).transpose();
+        double largest = 0.0;
+        node.along.push_back(wrenches(
+            coupled, at, self.dimension,
+            [&](std::size_t c) { return SpatialVector((pair.rows()[s].coefficients[c] + (coupled[c] == own ? pair.rows()[s].D : 0.0)) * tangent); },
+            largest));
+      }
+      nodes.push_back(std::move(node));
+    }
+  }
+  return nodes;
 }
 
 }  // namespace mortise

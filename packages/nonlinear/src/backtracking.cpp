@@ -27,7 +27,7 @@ bool Backtracking::compute(NOX::Abstract::Group& group, double& step, const NOX:
     iterate.computeF();
     return std::isfinite(iterate.getNormF());
   };
-  const bool is_stuck = shortened_ == most_shortened;
+  const bool is_stuck = shortened_ == most_shortened || before.starts_elsewhere();
   double longest = 0.0, shortest = smallest_step_length;  // that can be evaluated; that is worth taking
   bool changes_states = false;                            // the longest
   for (double length = 1.0; length >= shortest; length *= 0.5) {

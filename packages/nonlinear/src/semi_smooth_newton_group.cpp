@@ -58,6 +58,7 @@ NOX::Abstract::Group& SemiSmoothNewtonGroup::operator=(const NOX::Abstract::Grou
   *x_ = *from.x_;
   has_F_ = from.has_F_;
   has_newton_ = from.has_newton_;
+  starts_elsewhere_ = from.starts_elsewhere_;
   if (has_F_) *F_ = *from.F_;
   if (has_newton_) *newton_ = *from.newton_;
   increment_ = from.increment_;
@@ -74,7 +75,7 @@ RCP<NOX::Abstract::Group> SemiSmoothNewtonGroup::clone(NOX::CopyType type) const
 
 void SemiSmoothNewtonGroup::become_new_iterate() {
   number_ = shared_->next++;
-  has_F_ = has_newton_ = false;
+  has_F_ = has_newton_ = starts_elsewhere_ = false;
   increment_ = -1.0;
   step_length_ = shortened_ = 1.0;
   linear_solve_ = {};
@@ -136,8 +137,22 @@ NOX::Abstract::Group::ReturnType SemiSmoothNewtonGroup::computeNewton(Teuchos::P
   const double tolerance = linear_tolerance(list.get("Tolerance", 0.0));
   const auto geometric_stiffness =
       norms_.changed <= settled * norms_.active ? GeometricContactStiffness::included : GeometricContactStiffness::left_out;
-  newton_solve_ = system_->newton_direction(*tpetra_vector(static_cast<const NOX::Abstract::Vector&>(*F_)), *tpetra_vector(*newton_), tolerance,
-                                            geometric_stiffness);
+  const RCP<const Vector> x = tpetra_vector(static_cast<const NOX::Abstract::Vector&>(*x_)), F = tpetra_vector(static_cast<const NOX::Abstract::Vector&>(*F_));
+  const RCP<Vector> direction = tpetra_vector(*newton_);
+  const auto& better_start = system_->parts().better_start;
+  if (const RCP<Vector> start = better_start ? better_start(*x, *F) : Teuchos::null; !start.is_null()) {
+    // x + direction is where Newton's method gets to from there.
+    starts_elsewhere_ = true;
+    Vector F_start(F->getMap());
+    ResidualNorms norms;
+    shared_->jacobian = 0;
+    system_->residual(*start, F_start, norms);
+    system_->jacobian(*start);
+    newton_solve_ = system_->newton_direction(F_start, *direction, tolerance, geometric_stiffness);
+    direction->update(1.0, *start, -1.0, *x, 1.0);
+  } else {
+    newton_solve_ = system_->newton_direction(*F, *direction, tolerance, geometric_stiffness);
+  }
   shortened_ = 1.0;
   if (const auto& limit = shared_->control.largest_increment) {
     const double increment = system_->displacement(*tpetra_vector(static_cast<const NOX::Abstract::Vector&>(*newton_)))->normInf();

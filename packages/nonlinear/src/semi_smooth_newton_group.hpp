@@ -65,6 +65,8 @@ class SemiSmoothNewtonGroup : public NOX::Abstract::Group {
   double increment() const { return increment_; }
   /// Share of the Newton direction that led here.
   double step_length() const { return step_length_; }
+  /// Whether the Newton direction is that of SystemParts::better_start: then nothing is known of the residual on the way.
+  bool starts_elsewhere() const { return starts_elsewhere_; }
   /// Of the linear solve that led here.
   const LinearSolveReport& linear_solve() const { return linear_solve_; }
 
@@ -80,7 +82,7 @@ class SemiSmoothNewtonGroup : public NOX::Abstract::Group {
   std::shared_ptr<Shared> shared_;
   unsigned long number_;
   RCP<NOX::Thyra::Vector> x_, F_, newton_;
-  bool has_F_ = false, has_newton_ = false;
+  bool has_F_ = false, has_newton_ = false, starts_elsewhere_ = false;
   double increment_ = -1.0, step_length_ = 1.0;
   double shortened_ = 1.0;  ///< share of the Newton direction that `newton_` is
   ResidualNorms norms_;

@@ -2,9 +2,13 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <cmath>
+
+#include "mortise/solid/rotation_vector.hpp"
 
 namespace mortise {
 namespace {
@@ -114,6 +118,33 @@ BodyMotions body_motions(const Mesh& mesh, const RigidModes& modes, const NodePl
   all.pop_back();
   result.deformation = std::move(all);
   return result;
+}
+
+void move_bodies(const Mesh& mesh, const RigidModes& modes, const Eigen::VectorXd& motion, const std::vector<Eigen::Vector3d>& middle,
+                 const NodePlaces& half_way, double factor, Vector& d) {
+  const auto v = d.getLocalViewHost(Tpetra::Access::ReadWrite);
+  std::vector<char> turns(static_cast<std::size_t>(mesh.owned_count()), 0);
+  for (std::size_t p = 0; p < mesh.reference_points.size(); ++p) {
+    const ReferencePoint& point = mesh.reference_points[p];
+    const LocalOrdinal node = point.rotation_node;
+    if (node < 0 || node >= mesh.owned_count()) continue;
+    turns[node] = 1;
+    const int b = modes.number(mesh.body_of_node[node]);
+    if (b < 0) continue;
+    const Vector3d rotation = factor * rotation_of(modes, motion, b);
+    if (mesh.dimension == 2) {
+      v(2 * node, 0) += point.arm * rotation.z();
+      continue;
+    }
+    const Vector3d components = spin(half_way.turned[p]).fullPivLu().solve(rotation);
+    for (int i = 0; i < 3; ++i) v(3 * node + i, 0) += point.arm * components[i];
+  }
+  for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node) {
+    const int b = modes.number(mesh.body_of_node[node]);
+    if (b < 0 || turns[node]) continue;
+    const Vector3d at_node = motion_at(modes, motion, b, middle[b], half_way.x[node]);
+    for (int i = 0; i < mesh.dimension; ++i) v(mesh.dimension * node + i, 0) += factor * at_node[i];
+  }
 }
 
 }  // namespace mortise

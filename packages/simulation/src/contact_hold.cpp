@@ -14,20 +14,6 @@
 namespace mortise {
 namespace {
 
-constexpr double hardly_held = 1e-4;
-
-/// [owned nodes] body and arm for ContactSystem::holding_rows(); arms over the sizes of the bodies.
-RCP<MultiVector> places(const Mesh& mesh, const RigidModes& modes, const std::vector<Eigen::Vector3d>& x) {
-  const auto result = rcp(new MultiVector(mesh.owned_nodes, static_cast<std::size_t>(1 + mesh.dimension)));
-  const auto values = result->getLocalViewHost(Tpetra::Access::OverwriteAll);
-  for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node) {
-    const int b = modes.number(mesh.body_of_node[node]);
-    values(node, 0) = b;
-    for (int i = 0; i < mesh.dimension; ++i) values(node, 1 + i) = b < 0 ? 0.0 : (x[node][i] - modes.centre(b)[i]) / modes.size(b);
-  }
-  return result;
-}
-
 bool has_friction(const Model& model, const std::string& pair) {
   for (const auto& [effect, names] : model.effects())
     if (effect == "friction") return std::find(names.begin(), names.end(), pair) != names.end();
@@ -50,6 +36,17 @@ std::vector<int> groups_of(const Eigen::MatrixXd& gram, int per_body) {
 
 }  // namespace
 
+RCP<MultiVector> contact_places(const Mesh& mesh, const RigidModes& modes, const std::vector<Eigen::Vector3d>& x) {
+  const auto result = rcp(new MultiVector(mesh.owned_nodes, static_cast<std::size_t>(1 + mesh.dimension)));
+  const auto values = result->getLocalViewHost(Tpetra::Access::OverwriteAll);
+  for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node) {
+    const int b = modes.number(mesh.body_of_node[node]);
+    values(node, 0) = b;
+    for (int i = 0; i < mesh.dimension; ++i) values(node, 1 + i) = b < 0 ? 0.0 : (x[node][i] - modes.centre(b)[i]) / modes.size(b);
+  }
+  return result;
+}
+
 ContactHold contact_hold(const Model& model, const RigidModes& modes, const NodePlaces& at, const Vector& z) {
   const Mesh& mesh = *model.mesh();
   const ContactSystem& contact = *model.contact();
@@ -60,7 +57,7 @@ ContactHold contact_hold(const Model& model, const RigidModes& modes, const Node
   Eigen::Map<Eigen::MatrixXd> gram(mine.data(), size, size);
   double* counts = mine.data() + static_cast<std::size_t>(size) * size;
   bool after_normal = false;  // tangents of a node follow its normal
-  for (const HoldingRow& row : contact.holding_rows(z, *places(mesh, modes, at.x))) {
+  for (const HoldingRow& row : contact.holding_rows(z, *contact_places(mesh, modes, at.x))) {
     if (!row.along_surface) ++counts[2 * row.pair];
     if (row.along_surface && after_normal) ++counts[2 * row.pair + 1];
     after_normal = !row.along_surface;
@@ -82,7 +79,7 @@ ContactHold contact_hold(const Model& model, const RigidModes& modes, const Node
   return hold;
 }
 
-Eigen::MatrixXd free_motions(const Eigen::MatrixXd& gram, int per_body) {
+Eigen::MatrixXd free_motions(const Eigen::MatrixXd& gram, int per_body, double hardly_held) {
   const std::vector<int> group = groups_of(gram, per_body);
   Eigen::MatrixXd motions(gram.rows(), 0);
   for (int g = 0; g < static_cast<int>(group.size()); ++g) {

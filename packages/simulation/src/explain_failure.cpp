@@ -52,45 +52,6 @@ RCP<MultiVector> modes_with_points(const Model& model, const Vector& displacemen
   return modes;
 }
 
-/// Pairs of which all closed nodes slip, contact evaluated at z's displacement: they bear a given force along the surface and no more.
-std::string describe_exhausted_friction(const std::vector<int>& bodies, const Model& model, const Vector& z) {
-  const auto& rubbing =
-      std::find_if(model.effects().begin(), model.effects().end(), [](const auto& effect) { return effect.first == "friction"; })->second;
-  std::vector<std::string> found, held;
-  std::vector<int> touched;
-  for (std::size_t pair = 0; pair < model.contact()->pairs(); ++pair) {
-    const std::string& name = model.contact()->pair_name(pair);
-    if (std::find(rubbing.begin(), rubbing.end(), name) == rubbing.end()) continue;
-    int mine[2] = {0, 0}, all[2];  // closed, sticking
-    for (const ContactNodeState& node : model.contact()->node_states(pair, z)) {
-      mine[0] += node.closed;
-      mine[1] += node.state == ContactState::stick;
-    }
-    Teuchos::reduceAll(*model.mesh()->comm, Teuchos::REDUCE_SUM, 2, mine, all);
-    if (all[0] == 0 || all[1] > 0) continue;
-    found.push_back(fmt::format("all {} closed nodes of contact \"{}\" slip", all[0], name));
-    touched.insert(touched.end(), model.bodies_of_pairs()[pair].begin(), model.bodies_of_pairs()[pair].end());
-  }
-  if (found.empty()) return {};
-  for (const int body : bodies)
-    if (std::find(touched.begin(), touched.end(), body) != touched.end()) held.push_back(fmt::format("'{}'", model.mesh()->blocks[body].name));
-  return fmt::format("{}; a body that friction alone holds along the surface can bear no more: {}", fmt::join(found, ", "), fmt::join(held, ", "));
-}
-
-/// An evaluation that failed has reasons of its own.
-bool newton_did_not_end(FailureKind kind) {
-  switch (kind) {
-    case FailureKind::linear_solver:
-    case FailureKind::line_search:
-    case FailureKind::diverged:
-    case FailureKind::too_many_iterations:
-    case FailureKind::cycling_active_set:
-      return true;
-    default:
-      return false;
-  }
-}
-
 std::string describe_free_motions(const std::vector<int>& bodies, const Model& model, SemiSmoothSystem& system, const ContactRecord& record) {
   const Mesh& mesh = *model.mesh();
   const RCP<MultiVector> modes = modes_with_points(model, *system.displacement(*system.linearised_at()));
@@ -147,12 +108,10 @@ std::string describe_free_motions(const std::vector<int>& bodies, const Model& m
 
 }  // namespace
 
-std::string explain_failure(const StepFailure& failure, const Model& model, SemiSmoothSystem& system, const ContactRecord& record) {
+std::string explain_failure(const Model& model, SemiSmoothSystem& system, const ContactRecord& record) {
   const std::vector<int> bodies = bodies_held_by_contact_only(model);
-  if (failure.kind() == FailureKind::input || bodies.empty() || bodies.size() > most_bodies || system.linearised_at().is_null()) return {};
-  const std::string free = describe_free_motions(bodies, model, system, record);
-  if (!free.empty() || !newton_did_not_end(failure.kind())) return free;
-  return describe_exhausted_friction(bodies, model, *system.multipliers(*system.linearised_at()));
+  if (bodies.empty() || bodies.size() > most_bodies || system.linearised_at().is_null()) return {};
+  return describe_free_motions(bodies, model, system, record);
 }
 
 }  // namespace mortise

@@ -28,6 +28,7 @@
 #include "report_model.hpp"
 #include "run_log.hpp"
 #include "run_record.hpp"
+#include "slip_settlement.hpp"
 #include "step_evaluation.hpp"
 #include "timer_sums.hpp"
 
@@ -229,7 +230,13 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
   Scene scene = read_scene(*comm, options.scene, options.settings);
   OutputDirectory directory(comm, options.directory.empty() ? default_directory(options.scene) : options.directory, options.keep);
   const Model model(comm, scene, timers);
-  SemiSmoothSystem system(model.parts(), timers);
+  SystemParts parts = model.parts();
+  std::optional<SlipSettlement> settlement;
+  if (SlipSettlement::is_needed(model)) {
+    settlement.emplace(model);
+    parts.better_start = [&](const Vector& at, const Vector& F) { return settlement->better_start(at, F); };
+  }
+  SemiSmoothSystem system(std::move(parts), timers);
   StepEvaluation evaluation(scene, model, system);
 
   // From here on the scene is one that can be run: only now is anything made, and what an earlier run left makes room.
@@ -266,9 +273,11 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
     };
     // Smaller tries of a step often end where less can be told: then what an earlier one showed is said again.
     std::string known;
-    functions.explain = [&](const StepFailure& caught) {
-      if (check && !check->refused().empty() && caught.kind() != FailureKind::input) return check->refused() + "; put back, it found no equilibrium";
-      std::string explanation = check ? explain_failure(caught, model, system, check->record()) : std::string();
+    functions.explain = [&](const StepFailure& caught) -> std::string {
+      if (caught.kind() == FailureKind::input) return {};
+      if (check && !check->refused().empty()) return check->refused() + "; put back, it found no equilibrium";
+      std::string explanation = settlement ? settlement->overload() : std::string();
+      if (explanation.empty() && check) explanation = explain_failure(model, system, check->record());
       if (explanation.empty()) explanation = explain_limit_load(caught, model, system, x);
       if (!explanation.empty()) return known = explanation;
       return known.empty() ? known : known + "; so an earlier try of this step";
@@ -290,6 +299,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
     if (check) {
       functions.begin = [&, begin = functions.begin](int step, double time, double dt) {
         check->begin();
+        if (settlement) settlement->begin();
         begin(step, time, dt);
       };
       functions.accepted = [&, accepted = functions.accepted](const StepReport& report, const Vector& at) {

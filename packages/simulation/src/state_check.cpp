@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/LU>
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <cmath>
 
-#include "mortise/solid/rotation_vector.hpp"
 #include "prescribed_rows.hpp"
 #include "rigid_mode_names.hpp"
 
@@ -51,16 +49,18 @@ std::vector<int> bodies_held_by_contact_only(const Model& model) {
   return bodies;
 }
 
-bool StateCheck::is_needed(const Model& model) { return model.contact() && !bodies_held_by_contact_only(model).empty(); }
-
-StateCheck::StateCheck(const Model& model, double resolution, std::function<void(const std::string&)> warn)
-    : model_(model), resolution_(resolution), warn_(std::move(warn)), bodies_(bodies_held_by_contact_only(model)) {
+RCP<const MultiVector> prescribed_marks(const Model& model) {
   const Mesh& mesh = *model.mesh();
   const auto fixed = rcp(new MultiVector(mesh.owned_nodes, static_cast<std::size_t>(mesh.dimension)));
   const auto values = fixed->getLocalViewHost(Tpetra::Access::ReadWrite);
   for (const LocalOrdinal dof : model.parts().prescribed->dofs()) values(dof / mesh.dimension, dof % mesh.dimension) = 1.0;
-  fixed_ = fixed;
+  return fixed;
 }
+
+bool StateCheck::is_needed(const Model& model) { return model.contact() && !bodies_held_by_contact_only(model).empty(); }
+
+StateCheck::StateCheck(const Model& model, double resolution, std::function<void(const std::string&)> warn)
+    : model_(model), resolution_(resolution), warn_(std::move(warn)), bodies_(bodies_held_by_contact_only(model)), fixed_(prescribed_marks(model)) {}
 
 bool StateCheck::verify(const SemiSmoothSystem& system, const Vector& before, Vector& after, int round) {
   const Mesh& mesh = *model_.mesh();
@@ -100,7 +100,7 @@ bool StateCheck::verify(const SemiSmoothSystem& system, const Vector& before, Ve
                             "by a boundary condition or by friction, or end before");
     NodePlaces half_way = to;
     for (std::size_t node = 0; node < to.x.size(); ++node) half_way.x[node] = 0.5 * (from.x[node] + to.x[node]);
-    subtract(*modes, freely, motions.middle, half_way, 1.0, *system.displacement(after));
+    move_bodies(mesh, *modes, freely, motions.middle, half_way, -1.0, *system.displacement(after));
     warn_(fmt::format("  {}. Put back, and solved again from there", refused_));
     return false;
   }
@@ -129,34 +129,6 @@ void StateCheck::say_new(const RigidModes& modes, const Eigen::MatrixXd& free, c
   }
 }
 
-void StateCheck::subtract(const RigidModes& modes, const Eigen::VectorXd& motion, const std::vector<Eigen::Vector3d>& middle,
-                          const NodePlaces& half_way, double factor, Vector& d) const {
-  const Mesh& mesh = *model_.mesh();
-  const auto v = d.getLocalViewHost(Tpetra::Access::ReadWrite);
-  std::vector<char> turns(static_cast<std::size_t>(mesh.owned_count()), 0);
-  for (std::size_t p = 0; p < mesh.reference_points.size(); ++p) {
-    const ReferencePoint& point = mesh.reference_points[p];
-    const LocalOrdinal node = point.rotation_node;
-    if (node < 0 || node >= mesh.owned_count()) continue;
-    turns[node] = 1;
-    const int b = modes.number(mesh.body_of_node[node]);
-    if (b < 0) continue;
-    const Eigen::Vector3d rotation = factor * rotation_of(modes, motion, b);
-    if (mesh.dimension == 2) {
-      v(2 * node, 0) -= point.arm * rotation.z();
-      continue;
-    }
-    const Eigen::Vector3d components = spin(half_way.turned[p]).fullPivLu().solve(rotation);
-    for (int i = 0; i < 3; ++i) v(3 * node + i, 0) -= point.arm * components[i];
-  }
-  for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node) {
-    const int b = modes.number(mesh.body_of_node[node]);
-    if (b < 0 || turns[node]) continue;
-    const Eigen::Vector3d at_node = motion_at(modes, motion, b, middle[b], half_way.x[node]);
-    for (int i = 0; i < mesh.dimension; ++i) v(mesh.dimension * node + i, 0) -= factor * at_node[i];
-  }
-}
-
 void StateCheck::without_free_motions(const SemiSmoothSystem& system, const Vector& x, double dt, Vector& rate) const {
   if (!modes_ || freely_.isZero(0.0)) return;
   const Mesh& mesh = *model_.mesh();
@@ -167,7 +139,7 @@ void StateCheck::without_free_motions(const SemiSmoothSystem& system, const Vect
     for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node)
       for (int i = 0; i < mesh.dimension; ++i) half_way.x[node][i] -= 0.5 * dt * v(mesh.dimension * node + i, 0);
   }
-  subtract(*modes_, freely_, middle_, half_way, 1.0 / dt, *velocity);
+  move_bodies(mesh, *modes_, freely_, middle_, half_way, -1.0 / dt, *velocity);
 }
 
 }  // namespace mortise

@@ -115,6 +115,19 @@ struct HoldingRow {
   std::vector<Wrench> bodies;
 };
 
+/// A closed slave node that slips against friction: the shear traction rho y / |y| at y = z_tau + c_t u.
+struct SlidingNode {
+  std::size_t pair = 0;
+  LocalOrdinal multiplier = 0;  ///< local index of the first component of its z
+  Frame frame;
+  double bound = 0.0;      ///< rho, above 0
+  double stiffness = 0.0;  ///< c_t
+  double weight = 0.0;     ///< sum_k D_jk: u / weight is a length
+  TangentVector slip;      ///< weighted slip u of the step
+  /// [tangents] What a unit traction along tau_a does to each body: forces are areas. A rigid motion changes u_a by its work on them.
+  std::vector<std::vector<HoldingRow::Wrench>> along;
+};
+
 /// All pairs. z holds `dimension` components for each owned slave node that may carry a multiplier.
 /// Displacements are given on the owned dofs. Collective in all members but the accessors.
 class ContactSystem {
@@ -217,6 +230,9 @@ class ContactSystem {
   /// @param places  [owned nodes x 1 + dim] the body that a node counts for, below 0: none; its position, relative to the point of the body that
   ///                moments are taken about, in any unit
   std::vector<HoldingRow> holding_rows(const Vector& z, const MultiVector& places) const;
+  /// Of the owned slave nodes of all pairs with friction that is not regularised, at z, d of the last evaluate(); those that bear shear freely, without
+  /// a fixed component. `places` as above. Collective.
+  std::vector<SlidingNode> sliding_nodes(const Vector& z, const MultiVector& places) const;
   /// Collective.
   IntegrationLoad integration_load(std::size_t pair) const;
   /// Bytes that the slip histories of all pairs take, over all ranks; 0 without friction. Collective.

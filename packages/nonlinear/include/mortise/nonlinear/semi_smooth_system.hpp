@@ -37,6 +37,9 @@ struct SystemParts {
   std::shared_ptr<ContactSystem> contact;             ///< null: no contact in the scene
   std::shared_ptr<LinearSolver> linear_solver;
   std::function<NearNullSpace(const Vector& displacement)> near_null_space;
+  /// Where the Jacobian at x is singular although the system has a solution: a better point to linearise at, close to x as far as Newton's method is
+  /// concerned; null where there is none. F is F(x), the contact is evaluated at x, with derivatives. Collective; empty: never.
+  std::function<RCP<Vector>(const Vector& x, const Vector& F)> better_start;
   double length = 1.0;  ///< size of the model
 };
 

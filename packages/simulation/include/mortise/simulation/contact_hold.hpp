@@ -21,13 +21,16 @@ struct ContactHold {
   std::vector<PairHold> pairs;  ///< [contact pairs]
 };
 
+/// [owned nodes x 1 + dim] body and arm for ContactSystem::holding_rows() and sliding_nodes(); arms over the sizes of the bodies.
+RCP<MultiVector> contact_places(const Mesh& mesh, const RigidModes& modes, const std::vector<Eigen::Vector3d>& x);
+
 /// At z and the displacement that contact was evaluated at last, with derivatives: `at`. Collective.
 ContactHold contact_hold(const Model& model, const RigidModes& modes, const NodePlaces& at, const Vector& z);
 
 /// Motions that a Gram matrix of what holds them leaves free: orthonormal columns [rows of gram x motions]. Bodies that hold one another are looked
-/// at together, others by themselves. A motion is free where what it costs is below (1e-4)^2 of the most that another one costs: contact normals turn
-/// with the loads, by as much as bodies are strained, and that holds nothing.
-Eigen::MatrixXd free_motions(const Eigen::MatrixXd& gram, int per_body);
+/// at together, others by themselves. A motion is free where what it costs is below hardly_held^2 of the most that another one costs: contact normals
+/// turn with the loads, by as much as bodies are strained, and that holds nothing.
+Eigen::MatrixXd free_motions(const Eigen::MatrixXd& gram, int per_body, double hardly_held = 1e-4);
 
 /// What pairs did in accepted states.
 class ContactRecord {

@@ -55,9 +55,6 @@ class StateCheck {
   const ContactRecord& record() const { return record_; }
 
  private:
-  /// d -= factor times a motion in the numbers of `modes`, at nodes and at what they follow.
-  void subtract(const RigidModes& modes, const Eigen::VectorXd& motion, const std::vector<Eigen::Vector3d>& middle, const NodePlaces& half_way,
-                double factor, Vector& d) const;
   void say_new(const RigidModes& modes, const Eigen::MatrixXd& free, const BodyMotions& motions);
 
   const Model& model_;
@@ -76,5 +73,8 @@ class StateCheck {
 
 /// mesh.blocks indices of the bodies that only contact holds. Collective.
 std::vector<int> bodies_held_by_contact_only(const Model& model);
+
+/// [owned nodes x dim] 1 where a displacement is prescribed, else 0.
+RCP<const MultiVector> prescribed_marks(const Model& model);
 
 }  // namespace mortise
