@@ -75,7 +75,9 @@ bool StateCheck::verify(const SemiSmoothSystem& system, const Vector& before, Ve
 
   const Eigen::MatrixXd free = free_motions(gram, modes->per_body());
   const BodyMotions motions = body_motions(mesh, *modes, from, to, model_.parts().prescribed->dofs());
-  const Eigen::VectorXd freely = free * (free.transpose() * motions.rigid), held = motions.rigid - freely;
+  const auto along = [&](const Eigen::MatrixXd& directions) { return Eigen::VectorXd(directions * (directions.transpose() * motions.rigid)); };
+  const Eigen::VectorXd freely = along(free), formerly = free_before_.cols() > 0 ? along(free_before_) : freely;
+  const Eigen::VectorXd loosely = formerly.norm() > freely.norm() ? formerly : freely, held = motions.rigid - loosely;
 
   const double deformation = *std::max_element(motions.deformation.begin(), motions.deformation.end());
   std::vector<std::string> gone;
@@ -86,26 +88,27 @@ bool StateCheck::verify(const SemiSmoothSystem& system, const Vector& before, Ve
       if (other != b) moved = std::max(moved, size_of(*modes, held, other));
     const double allowed = allowance * (moved + deformation + resolution_), length = model_.parts().length;
     const bool is_flight = size_of(*modes, motions.rigid, b) > std::max(allowed, length);
-    if (size_of(*modes, freely, b) <= allowed && !is_flight) continue;
+    if (size_of(*modes, loosely, b) <= allowed && !is_flight) continue;
     gone.push_back(fmt::format("body '{}' ({}; allowed: {:.3g}, twice what moves and deforms around it)", mesh.blocks[bodies_[b]].name,
-                               describe_motion(*modes, is_flight ? motions.rigid : freely, b), allowed));
+                               describe_motion(*modes, is_flight ? motions.rigid : loosely, b), allowed));
     which.push_back(bodies_[b]);
   }
   if (!gone.empty()) {
     refused_ = fmt::format("free to move: {}; {}", fmt::join(gone, ", "), record_.describe(model_, which, hold.pairs));
-    if (round > 1 || freely.isZero(0.0))
+    if (round > 1 || loosely.isZero(0.0))
       throw StepFailure(FailureKind::lost_contact,
                         refused_ +
                             ". Between two states at rest that are that far apart there is motion with inertia: hold the body in this direction, "
                             "by a boundary condition or by friction, or end before");
     NodePlaces half_way = to;
     for (std::size_t node = 0; node < to.x.size(); ++node) half_way.x[node] = 0.5 * (from.x[node] + to.x[node]);
-    move_bodies(mesh, *modes, freely, motions.middle, half_way, -1.0, *system.displacement(after));
+    move_bodies(mesh, *modes, loosely, motions.middle, half_way, -1.0, *system.displacement(after));
     warn_(fmt::format("  {}. Put back, and solved again from there", refused_));
     return false;
   }
 
   pairs_ = hold.pairs;
+  free_ = free;
   freely_ = freely;
   middle_ = motions.middle;
   modes_ = std::move(modes);

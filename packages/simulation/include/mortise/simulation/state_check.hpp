@@ -35,6 +35,9 @@ class StateCheck {
   /// turns with what carries it goes farther at its rim. A body that leaves an equilibrium for another place goes as far however small the step is,
   /// while m and e fall with it.
   ///
+  /// The motions are those that nothing holds in `after`, or those that nothing held in `before`: a body that was thrown out of a gap may lie on an
+  /// edge that holds it.
+  ///
   /// A body that went farther may have been thrown there by an iterate on the way. In the first round of a try it is put back along its free motions,
   /// deformed as it is: what is in one another then is closed.
   /// @returns whether `after` is accepted; if not it is another start
@@ -47,7 +50,10 @@ class StateCheck {
   const std::string& refused() const { return refused_; }
 
   /// The state that verify() passed last is accepted.
-  void accept() { record_.accept(pairs_); }
+  void accept() {
+    record_.accept(pairs_);
+    free_before_ = free_;
+  }
 
   /// Takes free motions of the accepted state out of the rate at which the last step of length dt, which ended at x, moved.
   void without_free_motions(const SemiSmoothSystem& system, const Vector& x, double dt, Vector& rate) const;
@@ -65,6 +71,7 @@ class StateCheck {
   ContactRecord record_;
   std::vector<PairHold> pairs_;
   std::unique_ptr<const RigidModes> modes_;  ///< of the state that verify() passed last
+  Eigen::MatrixXd free_, free_before_;       ///< free_motions() of that state, and of the one accepted last; no columns before the first
   Eigen::VectorXd freely_;                   ///< its step's motion along what was free
   std::vector<Eigen::Vector3d> middle_;
   std::set<std::pair<int, int>> said_;
