@@ -314,7 +314,10 @@ void ContactSystem::Implementation::take_slip_references() {
     if (pair->friction() != nullptr) pair->take_slip_reference();
 }
 
-void ContactSystem::mark_states(const Vector& z) { implementation_->marked = implementation_->states(z); }
+void ContactSystem::mark_states(const Vector& z) {
+  implementation_->marked = implementation_->states(z);
+  for (const auto& pair : implementation_->pairs) pair->mark_cover();
+}
 
 void ContactSystem::accept_states(const Vector& z) {
   Implementation& self = *implementation_;

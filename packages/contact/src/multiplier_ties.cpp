@@ -18,7 +18,6 @@ namespace mortise::detail {
 namespace {
 
 constexpr double least_share = 0.01;  // eta: what a neighbour without cover has, over the sum of the neighbours' covers
-constexpr double no_force = 1e-12;    // int phi_b over A_b of a node that is not covered
 constexpr double full = 1e-13;        // 1 - w that is round-off
 
 RCP<const Map> map_of(const std::vector<GlobalOrdinal>& ids, const RCP<const Communicator>& comm) {
@@ -53,31 +52,32 @@ Slope force_of(const FacetCoupling& facet, std::size_t a) {
   return force;
 }
 
-// (c_k + eta C) / sum_k' (c_k' + eta C) of the neighbours that have multipliers.
+// (c_k + eta C) / sum_k' (c_k' + eta C) of the neighbours that have multipliers. A middle of a quadratic facet may have none while others of the
+// facet do: where a strip is covered, far corners get less than the middle between them. Then all others stand in for neighbours.
 struct FacetShares {
-  boost::container::static_vector<std::size_t, 2> places;
-  boost::container::static_vector<Slope, 2> shares;
+  boost::container::static_vector<std::size_t, most_side_nodes> places;
+  boost::container::static_vector<Slope, most_side_nodes> shares;
 };
 
 FacetShares shares_on(const FacetCoupling& facet, std::size_t a, int dimension, bool derivatives) {
   FacetShares result;
   for (const std::size_t k : neighbours(a, facet.slave.size(), dimension))
     if (force_of(facet, k).value > 0.0) result.places.push_back(k);
+  for (std::size_t k = 0, none = result.places.empty(); none && k < facet.slave.size(); ++k)
+    if (k != a && force_of(facet, k).value > 0.0) result.places.push_back(k);
   const std::size_t count = result.places.size();
-  if (count == 1) {
-    Slope one{1.0, {}};
-    if (derivatives) one.gradient.setZero(facet.dcover.cols());
-    result.shares.push_back(one);
-  } else if (count == 2) {
-    const auto first = static_cast<Eigen::Index>(result.places[0]), second = static_cast<Eigen::Index>(result.places[1]);
-    const double c = facet.cover[first], d = facet.cover[second], sum = c + d, scale = 1.0 / (1.0 + 2.0 * least_share);
-    // scale (c / (c + d) + eta)
-    Slope one{scale * (c / sum + least_share), {}}, other{scale * (d / sum + least_share), {}};
-    if (derivatives) {
-      one.gradient = scale / (sum * sum) * (d * facet.dcover.row(first) - c * facet.dcover.row(second));
-      other.gradient = -one.gradient;
-    }
-    result.shares = {one, other};
+  double sum = 0.0;
+  Eigen::RowVectorXd slope = Eigen::RowVectorXd::Zero(derivatives ? facet.dcover.cols() : 0);
+  for (const std::size_t k : result.places) {
+    sum += facet.cover[static_cast<Eigen::Index>(k)];
+    if (derivatives) slope += facet.dcover.row(static_cast<Eigen::Index>(k));
+  }
+  const double scale = 1.0 / (1.0 + static_cast<double>(count) * least_share);
+  for (const std::size_t k : result.places) {  // scale (c_k / C + eta)
+    const double cover = facet.cover[static_cast<Eigen::Index>(k)];
+    Slope share{scale * (cover / sum + least_share), {}};
+    if (derivatives) share.gradient = scale / (sum * sum) * (sum * facet.dcover.row(static_cast<Eigen::Index>(k)) - cover * slope);
+    result.shares.push_back(std::move(share));
   }
   return result;
 }
@@ -98,25 +98,25 @@ MultiplierTies::MultiplierTies(const std::vector<SlaveNode>& owned, const Surfac
 }
 
 // Of a node b all facets stand among the couplings of its owner.
-void MultiplierTies::measure(const std::vector<FacetCoupling>& couplings, const std::vector<SlaveNode>& owned, const Map& local_nodes,
-                             double full_cover, double softness, int dimension, bool derivatives) {
+void MultiplierTies::measure(const std::vector<FacetCoupling>& couplings, const std::vector<SlaveNode>& owned,
+                             const std::function<bool(std::size_t)>& covered, const Map& local_nodes, double full_cover, double softness,
+                             int dimension, bool derivatives) {
   ties_.clear();
   compliance_.clear();
   any_ = false;
   if (full_cover == 0.0) return;
-  std::vector<double> squares(owned.size(), 0.0), force(owned.size(), 0.0);
+  std::vector<double> squares(owned.size(), 0.0);
   for (const FacetCoupling& facet : couplings)
     for (std::size_t a = 0; a < facet.slave.size(); ++a) {
       const auto s = static_cast<std::size_t>(facet.slave[a]);
       if (s >= owned.size() || facet.cover.size() == 0) continue;
       squares[s] += std::pow(facet.cover[static_cast<Eigen::Index>(a)], 2);
-      force[s] += facet.D.row(static_cast<Eigen::Index>(a)).sum();
     }
   const auto rest = [&](std::size_t s) {  // 1 - w
     const double cover = std::min(1.0, std::sqrt(squares[s]) / full_cover);
     return (1.0 - cover) * (1.0 - cover) * (1.0 + 2.0 * cover);
   };
-  const auto is_tied = [&](std::size_t s) { return owned[s].carries_multiplier && force[s] > no_force * owned[s].weight && rest(s) > full; };
+  const auto is_tied = [&](std::size_t s) { return covered(s) && rest(s) > full; };
   std::map<std::size_t, std::vector<std::pair<const FacetCoupling*, std::size_t>>> facets_of;
   for (const FacetCoupling& facet : couplings)
     for (std::size_t a = 0; a < facet.slave.size(); ++a)

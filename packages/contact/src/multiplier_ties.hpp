@@ -19,6 +19,7 @@
 // References: Burman (C. R. Math. 348, 2010) for the ghost penalty of cut elements.
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "mortise/core/spatial.hpp"
@@ -45,11 +46,12 @@ class MultiplierTies {
   MultiplierTies(const std::vector<SlaveNode>& owned, const SurfaceFacets& slave, const RCP<const Communicator>& comm);
 
   /// Ties of the current couplings.
+  /// @param covered  whether an owned node has anything to act on; others have multipliers of 0 and take no part
   /// @param full_cover  c_0; 0: there are none
   /// @param softness    h / E [length / stress]
   /// @param derivatives  which the couplings then have to have
-  void measure(const std::vector<FacetCoupling>& couplings, const std::vector<SlaveNode>& owned, const Map& local_nodes, double full_cover,
-               double softness, int dimension, bool derivatives);
+  void measure(const std::vector<FacetCoupling>& couplings, const std::vector<SlaveNode>& owned, const std::function<bool(std::size_t)>& covered,
+               const Map& local_nodes, double full_cover, double softness, int dimension, bool derivatives);
 
   /// Whether there are any, on any rank.
   bool any() const { return any_; }

@@ -45,7 +45,7 @@ double PairCoupling::complementarity_constant(std::size_t s) const {
 bool PairCoupling::covered(std::size_t s) const {
   const SlaveNode& node = slave_nodes()[s];
   const bool dual = pair_.options.mortar.coupling == Coupling::dual_mortar;  // else int phi_j N_j may be negative on a part of a quadratic facet
-  return node.carries_multiplier && (dual ? rows_[s].D : rows_[s].covered) > 1e-12 * node.weight;
+  return node.carries_multiplier && (dual ? rows_[s].D : rows_[s].covered) > 0.0;
 }
 
 SpatialVector PairCoupling::resultant(std::size_t s, const SpatialVector& z) const {
@@ -105,10 +105,9 @@ Complementarity PairCoupling::law_of(std::size_t s, const NodeMultiplier& multip
     if (!covered(s)) return open_node(z);
     const Frame in = frame(s);
     if (rubs && fixed > 0) slip[0] = 0.0;
-    // The body's stiffness, in series with the tie: a mean gap answers to a traction by both.
-    const double own = complementarity_constant(s) * node.weight, body = own / (1.0 + own * start_[s].softness);
     const double scale = pair_.youngs_modulus / size_ * start_[s].stiffening;
-    const RegularisedNode stiffness{regularisation_->normal * scale, regularisation_->tangential * scale, body, start_[s].multiplier};
+    const RegularisedNode stiffness{regularisation_->normal * scale, regularisation_->tangential * scale, complementarity_constant(s) * node.weight,
+                                    node.weight, start_[s].multiplier};
     return without_fixed(regularised(stiffness, gap, slip, row.covered, in, z, rubs ? &bound : nullptr), in);
   }
   const double c = complementarity_constant(s);
@@ -179,8 +178,13 @@ void PairCoupling::find_nearest_facets() {
 
 void PairCoupling::accept_cover() {
   if (corner_rule() == CornerRule::nearest_facet) find_nearest_facets();
-  accepted_covered_.resize(rows_.size());
-  for (std::size_t s = 0; s < rows_.size(); ++s) accepted_covered_[s] = covered(s);
+  mark_cover();
+  accepted_covered_ = marked_covered_;
+}
+
+void PairCoupling::mark_cover() {
+  marked_covered_.resize(rows_.size());
+  for (std::size_t s = 0; s < rows_.size(); ++s) marked_covered_[s] = covered(s);
 }
 
 bool PairCoupling::adapt_surface(const MultiVector& x) {
@@ -198,8 +202,9 @@ void PairCoupling::evaluate(const MultiVector& x, bool derivatives, std::optiona
   interface_->evaluate(*local_positions_, slopes, couplings_, normals_, failure);
   sum_to_rows(slopes);
   if (has_ties())
-    ties_.measure(couplings_, slave_nodes(), *interface_->local_nodes(), pair_.options.full_cover, size_ / pair_.youngs_modulus, dimension_,
-                  slopes && !reference);
+    ties_.measure(
+        couplings_, slave_nodes(), [this](std::size_t s) { return covered(s); }, *interface_->local_nodes(), pair_.options.full_cover,
+        size_ / pair_.youngs_modulus, dimension_, slopes && !reference);
   if (regularisation_ && derivatives && !reference) measure_covered();
   if (reference) {
     freeze();
@@ -274,9 +279,9 @@ void PairCoupling::choose_axes() {
       axes_[s] = transverse_axis(rows_[s].normal);
 }
 
-// Augmented Lagrange: a node moves by its force, z_n w, over a stiffness of the body, so its mean gap g / w answers to its traction in proportion to
-// w / A_j. An update divides g / w by 1 + eps times that compliance: with eps alone hardly at all where w is small, but for tied nodes, which give way
-// by sigma / w.
+// Augmented Lagrange: a node moves by its force, z_n w, over a stiffness of the body, so its mean gap g / w answers to its traction by w / A_j times
+// h/E; where it is tied by sigma / w too. An update divides g / w by 1 + eps kappa h/E with kappa = w / A_j + sigma E / (h w): eps makes up for a
+// small kappa.
 RegularisedStart PairCoupling::start_from(std::size_t s, const SpatialVector& z) const {
   RegularisedStart start{SpatialVector::Zero(dimension_)};
   if (friction_ != nullptr) start.multiplier.tail(dimension_ - 1) = frame(s).tangents * z;
@@ -288,15 +293,15 @@ RegularisedStart PairCoupling::start_from(std::size_t s, const SpatialVector& z)
 
 void PairCoupling::set_stiffness(std::size_t s, RegularisedStart& start) const {
   if (!covered(s)) return;
-  start.softness = ties_.compliance(s) / rows_[s].covered;
-  start.stiffening = start.softness > 0.0 ? 1.0 : slave_nodes()[s].weight / rows_[s].covered;
+  const double covered = rows_[s].covered, tie = ties_.compliance(s) * pair_.youngs_modulus / (size_ * covered);
+  start.stiffening = 1.0 / std::min(1.0, covered / slave_nodes()[s].weight + tie);
 }
 
 double PairCoupling::violation(std::size_t s, const NodeMultiplier& multiplier) const {
   const ContactState state = complementarity(s, multiplier).state;
   if (state == ContactState::open) return 0.0;
   const double slip = state == ContactState::stick ? this->slip(s, multiplier).norm() : 0.0;
-  return std::max(std::abs(gap(s, multiplier)), slip) / (rows_[s].covered * size_);
+  return std::max(std::abs(gap(s, multiplier)), slip) / (slave_nodes()[s].weight * size_);
 }
 
 // Small displacements: D, M and n are those of the reference configuration. With the multipliers' own functions as weights the gap is

@@ -57,8 +57,7 @@ struct SlipHistory {
 /// What the conditions of a regularised node start from: fixed while they are solved, renewed by an update of the multipliers and by a step.
 struct RegularisedStart {
   SpatialVector multiplier;  ///< normal, along tau_a; nothing normal with penalty, no shear traction without friction
-  double softness = 0.0;     ///< sigma / w: what a mean gap gives way by to the node's tie, per traction; of augmented Lagrange
-  double stiffening = 1.0;   ///< factor of eps; of augmented Lagrange A_j / w, so that a mean gap calls for the same force whatever is covered
+  double stiffening = 1.0;   ///< factor of eps; of augmented Lagrange, so that a mean gap falls by as much in an update whatever is covered
 };
 
 /// A pair, its interface and what was last evaluated.
@@ -79,6 +78,8 @@ class PairCoupling {
   /// The state of the last evaluate() is accepted: what is covered now, and how near, decides about adapt_surface() and newly_covered() in the next
   /// step.
   void accept_cover();
+  /// What is covered now is no new cover any more.
+  void mark_cover();
   /// Kinks are split as the accepted state, with positions x, tells. Whether that changed anything, and so the pattern; the same on every rank.
   /// Couplings have to be evaluated again.
   bool adapt_surface(const MultiVector& x);
@@ -132,14 +133,17 @@ class PairCoupling {
   TangentVector slip(std::size_t s, const NodeMultiplier& multiplier) const;
   /// c_n of slave node s: unless given E / (h A_j), of regularised conditions a tenth of that.
   double complementarity_constant(std::size_t s) const;
-  /// Whether node s has a multiplier and its function anything to act on: D_jj / A_j > 1e-12, of standard multipliers sum_k D_jk / A_j.
+  /// Whether node s has a multiplier and its function anything to act on: D_jj > 0, of standard multipliers sum_k D_jk. What is
+  /// round-off of a facet that is not covered is no part of it: see FacetMoments.
   bool covered(std::size_t s) const;
   /// Closed: covered and z_n - c_n (g + n . q) > 0, or what a regularised condition has in its place.
   bool closed(std::size_t s, const NodeMultiplier& multiplier) const;
   /// Of hardly covered nodes; none of penalty.
   const MultiplierTies& ties() const { return ties_; }
-  /// Whether node s was not covered in the accepted state: then its multiplier says nothing yet.
-  bool is_newly_covered(std::size_t s) const { return covered(s) && !accepted_covered_.empty() && !accepted_covered_[s]; }
+  /// Whether node s was not covered when that was last marked, or accepted since: then its multiplier says nothing yet.
+  bool is_newly_covered(std::size_t s) const { return covered(s) && !marked_covered_.empty() && !marked_covered_[s]; }
+  /// Whether hardly covered nodes are tied.
+  bool has_ties() const { return pair_.options.full_cover > 0.0 && (!regularisation_ || regularisation_->augmentations > 0); }
   /// Whether the multiplier of node s is eliminated by its conditions and not by its momentum: those of regularised ones, and of a tied node of which
   /// so little is covered, D_jj < (1 - w) A_j, that its tie is the larger pivot.
   bool is_eliminated_by_law(std::size_t s) const {
@@ -151,7 +155,8 @@ class PairCoupling {
   Frame frame(std::size_t s) const { return make_frame(rows_[s].normal, axes_[s]); }
   /// An accepted state may give nodes whose normal has come near it another reference axis of the tangents. Friction only.
   void choose_axes();
-  /// How far conditions that are regularised are from holding exactly: |gap| of a closed node, |slip| of a sticking one, over h.
+  /// How far conditions that are regularised are from holding exactly: |gap| of a closed node, |slip| of a sticking one, over A_j h, as of
+  /// exact ones.
   double violation(std::size_t s, const NodeMultiplier& multiplier) const;
   /// The multipliers become those of z.
   void augment(std::size_t s, const SpatialVector& z) { start_[s] = start_from(s, z); }
@@ -166,8 +171,6 @@ class PairCoupling {
  private:
   bool uses_reference() const { return pair_.options.geometry == ContactGeometry::reference; }
   void find_nearest_facets();
-  /// Whether conditions hold exactly in the end: then slivers ask for ties.
-  bool has_ties() const { return !regularisation_ || regularisation_->augmentations > 0; }
   /// C and its linearisation at fixed q.
   Complementarity law_of(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* complaint) const;
   void follow_pattern();
@@ -178,7 +181,7 @@ class PairCoupling {
   void measure_slip(bool derivatives);
   void measure_frozen_slip();
   void measure_covered();
-  /// What the cover of the last evaluate() says of softness and stiffening. Augmented Lagrange.
+  /// What the cover of the last evaluate() says of stiffening. Augmented Lagrange.
   void set_stiffness(std::size_t s, RegularisedStart& start) const;
   /// From z at the couplings of the last evaluate().
   RegularisedStart start_from(std::size_t s, const SpatialVector& z) const;
@@ -195,6 +198,7 @@ class PairCoupling {
   std::vector<NodeRow> rows_;
   std::vector<SpatialVector> openings_;  ///< of slave nodes, variational mortar only: derivative of the gap by a translation of the master
   std::vector<char> accepted_covered_;   ///< [slave nodes] in the accepted state; empty before the first
+  std::vector<char> marked_covered_;     ///< [slave nodes] when last marked
   std::vector<Facet<LocalOrdinal>>
       nearest_accepted_;  ///< [slave nodes] facet of the node nearest to the master; empty but with the rule `nearest facet`
   const FrictionLaw* friction_ = nullptr;

@@ -1,4 +1,4 @@
-// The initial guess of a step. Only the guess: no residual is changed by it.
+// Guesses of multipliers, at the start of a step and where the cover changes. Only guesses: no residual is changed by them.
 
 #include <fmt/format.h>
 
@@ -34,21 +34,56 @@ bool master_is_unheld(const detail::PairCoupling& pair, const Map& owned_nodes, 
   return false;
 }
 
-// A tied node that the master comes to cover starts with the mean that its multiplier is tied to.
-template <class Implementation, class View>
-void start_newly_covered(const Implementation& self, std::size_t p, const View& z) {
-  const detail::MultiplierTies& ties = self.pairs[p]->ties();
-  if (!ties.any()) return;
-  const RCP<MultiVector> on_nodes = ties.on_nodes(*self.owned_multipliers(p, z));
-  for (const detail::MultiplierTie& tie : ties.ties()) {
-    if (!self.pairs[p]->is_newly_covered(tie.node)) continue;
-    const SpatialVector deviation = detail::MultiplierTies::deviation(tie, *on_nodes);
-    const LocalOrdinal first = self.multiplier_of[p][tie.node];
-    for (int i = 0; i < self.dimension; ++i) z(first + i, 0) -= deviation[i];
-  }
-}
-
 }  // namespace
+
+// The solution is continuous where a facet begins to be covered: nothing acts there, so r_b = z_b - sum_k T_bk z_k = 0. But T, a quotient of covers,
+// is steep there, and with r_b != 0 as with z_b = 0 so would be the residual: its linearisation would be worth nothing. Nodes that begin to be
+// covered together are tied to one another: z = T z is solved by sweeps.
+bool ContactSystem::follow_cover(Vector& z) const {
+  constexpr int most_sweeps = 100;
+  constexpr double settled = 1e-8;  // change of a sweep over the largest multiplier
+  bool tied = false, changed = false;
+  const Implementation& self = *implementation_;
+  const auto values = z.getLocalViewHost(Tpetra::Access::ReadWrite);
+  for (std::size_t p = 0; p < self.pairs.size(); ++p) {
+    const detail::PairCoupling& pair = *self.pairs[p];
+    if (!pair.has_ties()) continue;
+    tied = true;
+    const auto set = [&](std::size_t s, const SpatialVector& zs) {
+      for (int i = 0; i < self.dimension; ++i) values(self.multiplier_of[p][s] + i, 0) = zs[i];
+    };
+    for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
+      if (self.multiplier_of[p][s] < 0 || pair.covered(s) || self.z_of(values, p, s).isZero(0.0)) continue;
+      set(s, SpatialVector::Zero(self.dimension));
+      changed = true;
+    }
+    if (!pair.ties().any()) continue;
+    std::vector<const detail::MultiplierTie*> new_ones;
+    for (const detail::MultiplierTie& tie : pair.ties().ties())
+      if (pair.is_newly_covered(tie.node)) new_ones.push_back(&tie);
+    if (self.maximum(new_ones.empty() ? 0.0 : 1.0) == 0.0) continue;
+    changed = true;
+    double change = 1.0, largest = 0.0;
+    for (int sweep = 0; sweep < most_sweeps && change > settled * largest; ++sweep) {
+      const RCP<MultiVector> on_nodes = pair.ties().on_nodes(*self.owned_multipliers(p, values));
+      change = largest = 0.0;
+      for (const detail::MultiplierTie* tie : new_ones) {
+        const SpatialVector deviation = detail::MultiplierTies::deviation(*tie, *on_nodes), zs = self.z_of(values, p, tie->node) - deviation;
+        set(tie->node, zs);
+        change = std::max(change, deviation.norm());
+        largest = std::max(largest, zs.norm());
+      }
+      change = self.maximum(change);
+      largest = self.maximum(largest);
+    }
+    for (const detail::MultiplierTie* tie : new_ones) {
+      detail::NodeMultiplier settled(self.z_of(values, p, tie->node));  // q_b of its own tie is 0
+      settled.tie = tie->compliance;
+      if (!pair.closed(tie->node, settled)) set(tie->node, SpatialVector::Zero(self.dimension));
+    }
+  }
+  return tied && self.maximum(changed) > 0.0;
+}
 
 // A node whose gap is zero up to round-off would be open or closed at random: it starts closed, at a pressure that no result can see.
 // Where a body that only contact holds has no closed node, its system is singular: the nodes nearest to contact start closed,
@@ -80,6 +115,7 @@ void ContactSystem::start_step(const Vector& d, const std::vector<char>& unheld,
   if (first || adapted) self.take_slip_references();
   for (const auto& pair : self.pairs) pair->start_step();
   evaluate_or_throw(x);
+  follow_cover(z);
 
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadWrite);
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
@@ -89,7 +125,6 @@ void ContactSystem::start_step(const Vector& d, const std::vector<char>& unheld,
       const LocalOrdinal first = self.multiplier_of[p][s];
       for (int i = 0; i < self.dimension; ++i) values(first + i, 0) = z_n * pair.rows()[s].normal[i];
     };
-    start_newly_covered(self, p, values);
     const std::vector<detail::NodeMultiplier> multipliers = self.multipliers_of(values, p);
     double active = 0.0, nearest = std::numeric_limits<double>::max();
     for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {

@@ -101,7 +101,9 @@ void SemiSmoothNewtonGroup::computeX(const NOX::Abstract::Group& group, const NO
 NOX::Abstract::Group::ReturnType SemiSmoothNewtonGroup::computeF() {
   if (has_F_) return Ok;
   try {
-    system_->residual(*tpetra_vector(static_cast<const NOX::Abstract::Vector&>(*x_)), *tpetra_vector(*F_), norms_);
+    const RCP<Vector> x = tpetra_vector(static_cast<NOX::Abstract::Vector&>(*x_));
+    system_->residual(*x, *tpetra_vector(*F_), norms_);
+    if (system_->follow_cover(*x)) system_->residual(*x, *tpetra_vector(*F_), norms_);
   } catch (const StepFailure& failure) {  // on every rank
     if (!shared_->control.trial || increment_ < 0.0) throw;
     failure_ = failure;

@@ -108,6 +108,13 @@ void SemiSmoothSystem::residual(const Vector& x, Vector& F, ResidualNorms& norms
   norms.merit = norms.finite ? std::hypot(rows, violation) : std::numeric_limits<double>::infinity();
 }
 
+bool SemiSmoothSystem::follow_cover(Vector& x) {
+  Implementation& self = *implementation_;
+  if (!self.parts.contact) return false;
+  self.evaluate_contact(*displacement(x), true);
+  return self.parts.contact->follow_cover(*multipliers(x));
+}
+
 void SemiSmoothSystem::forces(const Vector& x, Vector& r) {
   Implementation& self = *implementation_;
   const RCP<const Vector> d = displacement(x);

@@ -44,5 +44,99 @@ TEST_P(StartRule, ClosesNodesThatTouchAndSeedsUnheldBodies) {
   EXPECT_LE(fixture.contact->norms(z).active, 2);
 }
 
+/// A flat slave of squares, 4 x 4 nodes at unit distance, one column of them in the plane's case 6 nodes; the master, at height 0, ends at x = `end`.
+TwoSurfaces flat_up_to(double end, bool space) {
+  TwoSurfaces flat = space ? test::dome_on_waves() : TwoSurfaces();
+  if (!space) {
+    for (int i = 0; i < 6; ++i) flat.slave.push_back({1.0 * i, 0.0, 0.0});
+    for (int i = 0; i < 3; ++i) flat.master.push_back({end * (1.0 - i / 2.0) - 1.0 * (i == 2), 0.0, 0.0});
+    flat.fixed.assign(flat.size(), {});
+    return flat;
+  }
+  for (std::size_t n = 0; n < flat.slave.size(); ++n) flat.slave[n] = {1.0 * (n % 4), 1.0 * static_cast<double>(n / 4), 0.0};
+  for (std::size_t n = 0; n < flat.master.size(); ++n)
+    flat.master[n] = {-1.0 + (end + 1.0) * static_cast<double>(n % 5) / 4.0, -1.0 + 5.0 * static_cast<double>(n / 5) / 3.0, 0.0};
+  return flat;
+}
+
+// The slave comes to stand over the master by a tenth of a facet more. Under an even pressure p the nodes that begin to be covered take p: then
+// nothing of a condition changes. In space they are tied to one another as well: sweeps end where one changes less than 1e-8 of p, and
+// each that is new has a share of less than (c' + eta C) / C = 0.063 in the others, with c' / C = 0.05 / 0.95 and eta = 0.01.
+TEST(FollowCover, StartsWhatBeginsToBeCoveredWithTheMeanOfItsNeighbours) {
+  for (const bool space : {false, true}) {
+    const TwoSurfaces flat = flat_up_to(space ? 1.9 : 2.9, space);
+    const int dim = flat.dimension;
+    const GlobalOrdinal edge = space ? 3 : 4;  // of the nodes that begin to be covered the first
+    Fixture fixture(flat, Tpetra::getDefaultComm());
+    const auto slave_dofs = static_cast<GlobalOrdinal>(flat.slave.size()) * dim, offset = fixture.dofs->getMaxAllGlobalIndex() + 1;
+    const auto moved = [&](double along, double up) {
+      return Fixture::vector(fixture.dofs, [&](GlobalOrdinal id) {
+        return id >= slave_dofs ? 0.0 : id % dim == 0 ? along : id % dim == dim - 1 ? up : 0.0;
+      });
+    };
+    const auto is_new = [&](GlobalOrdinal id) { return space ? ((id - offset) / dim) % 4 == 3 : (id - offset) / dim == edge; };
+    const double p = 3.0;
+    const auto even = [&](bool with_new) {
+      return Fixture::vector(fixture.contact->multiplier_map(), [&](GlobalOrdinal id) {
+        const bool covered = space || (id - offset) / dim <= edge;
+        return (id - offset) % dim == dim - 1 && covered && (with_new || !is_new(id)) ? -p : 0.0;
+      });
+    };
+    const RCP<Vector> z = even(false), expected = even(true);
+    const auto off = [&] {
+      Vector difference(*z, Teuchos::Copy);
+      difference.update(-1.0, *expected, 1.0);
+      return difference.normInf();
+    };
+    ContactSystem& contact = *fixture.contact;
+    const std::vector<char> held(fixture.nodes->getNodeNumElements(), 0);
+    std::optional<StepFailure> failure;
+    contact.start_step(*moved(0.0, 0.0), held, *z);
+    contact.mark_states(*z);
+    EXPECT_FALSE(contact.follow_cover(*z));
+
+    contact.evaluate(*moved(-0.2, 0.0), true, failure);
+    EXPECT_TRUE(contact.follow_cover(*z));
+    EXPECT_LE(off(), 1e-8 * p);
+    Vector C(contact.multiplier_map());
+    contact.complementarity(*expected, C);
+    EXPECT_LE(C.normInf(), 1e-13 * 1000.0);
+
+    // Marked, it is Newton's to say.
+    contact.mark_states(*z);
+    z->scale(2.0);
+    EXPECT_FALSE(contact.follow_cover(*z));
+    EXPECT_NEAR(z->normInf(), 2.0 * p, 1e-3 * p);
+
+    // What is not covered any more has none.
+    contact.evaluate(*moved(0.0, 0.0), true, failure);
+    EXPECT_TRUE(contact.follow_cover(*z));
+    z->scale(0.5);
+    z->update(1.0, *expected, -1.0);
+    EXPECT_NEAR(z->normInf(), p, 1e-14 * p);  // at the nodes of the edge alone
+
+    // A node that is to open does not start closed.
+    contact.mark_states(*z);
+    z->assign(*even(false));
+    contact.evaluate(*moved(-0.2, 100.0), true, failure);
+    contact.follow_cover(*z);
+    const auto view = z->getLocalViewHost(Tpetra::Access::ReadOnly);
+    for (std::size_t k = 0; k < view.extent(0); ++k)
+      if (is_new(contact.multiplier_map()->getGlobalElement(static_cast<LocalOrdinal>(k)))) EXPECT_EQ(view(k, 0), 0.0);
+  }
+}
+
+// Without ties multipliers are Newton's alone.
+TEST(FollowCover, LeavesAlonePairsWithoutTies) {
+  TwoSurfaces flat = flat_up_to(2.9, false);
+  flat.options.full_cover = 0.0;
+  Fixture fixture(flat, Tpetra::getDefaultComm());
+  Vector d(fixture.dofs), z(fixture.contact->multiplier_map());
+  fixture.contact->start_step(d, std::vector<char>(fixture.nodes->getNodeNumElements(), 0), z);
+  z.putScalar(1.0);
+  EXPECT_FALSE(fixture.contact->follow_cover(z));
+  EXPECT_EQ(z.normInf(), 1.0);
+}
+
 }  // namespace
 }  // namespace mortise

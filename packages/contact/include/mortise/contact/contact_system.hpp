@@ -175,8 +175,12 @@ class ContactSystem {
   /// A_j for every component of each multiplier.
   RCP<Vector> weights() const;
 
-  /// Takes the states at z, d of the last evaluate, as those that `changed` counts against: once for each Newton iterate.
+  /// Takes the states at z, d of the last evaluate, as those that `changed` counts against, and what is covered: once for each Newton iterate.
   void mark_states(const Vector& z);
+  /// Multipliers of nodes that the last evaluate finds not covered become 0; those of nodes that came to be covered since the last mark_states(),
+  /// start_step() or accept_states() take the mean that they are tied to, if that keeps them closed. Only pairs with ties. True if any did.
+  /// Collective.
+  bool follow_cover(Vector& z) const;
   /// Takes the states at z, d of the last evaluate, as those of the accepted state that the next step starts from; slip paths grow.
   void accept_states(const Vector& z);
 
@@ -196,8 +200,8 @@ class ContactSystem {
   void recover(const Vector& increment, Vector& z_new) const;
 
   /// Whether, at the last condense(), hardly covered nodes that are in contact have multipliers that depend on one another's: condense() takes their
-  /// own alone and leaves the rest of the linearised conditions out, which are L(dd, dz) of apply_left_out(). The step of the condensed system then is
-  /// not Newton's; it is that of  J~ = J - L. The same on every rank.
+  /// own alone and leaves the rest of the linearised conditions out, which are L(dd, dz) of apply_left_out(). The step of the condensed system then
+  /// is not Newton's; it is that of  J~ = J - L. The same on every rank.
   bool leaves_out_couplings() const;
   /// y = L(dd, dz) at the last condense(): rows of C.
   void apply_left_out(const Vector& dd, const Vector& dz, Vector& y) const;

@@ -8,7 +8,8 @@ namespace mortise {
 /// What a regularised condition starts from and how stiff it is.
 struct RegularisedNode {
   double normal_stiffness = 0.0, tangential_stiffness = 0.0;  ///< eps_n, eps_t [traction / length]
-  double body_stiffness = 0.0;                                ///< c, of what the node hangs on [traction / length]
+  double body_stiffness = 0.0;                                ///< c, of what the node hangs on where it is covered wholly [traction / length]
+  double full_weight = 1.0;                                   ///< A, its share of the surface where it is covered wholly
   SpatialVector multiplier;                                   ///< (lambda_n, lambda_tau) in the node's frame: held fixed
 };
 
@@ -18,27 +19,32 @@ struct RegularisedNode {
 /// with z itself weighed in, it does so as the exact conditions do, and the solution is the same:
 ///   p = (1 - theta_n) z_n + theta_n (lambda_n - eps_n g / w)         open (C = z) unless p > 0,  C_n = z_n - p
 ///   y = (1 - theta_t) z_tau + theta_t (lambda_tau + eps_t u / w)     C_tau = z_tau - Pi_rho(y),  rho at p
-/// with theta = c / (c + eps) (docs/formulations.md says why not 1; Sitzmann, Willner, Wohlmuth 2015).
+/// with theta = c w / (c w + eps A) (docs/formulations.md says why not 1; Sitzmann, Willner, Wohlmuth 2015). A node that is covered in part moves by
+/// its force w z_n: theta eps / w = c eps / (c w + eps A) stays bounded with w -> 0, so that a tie's part of the gap throws no node from state to
+/// state.
 /// @param bound  of a pressure; null: without friction, C_tau = z_tau
 template <class Bound>
 Complementarity regularised(const RegularisedNode& node, double gap, const TangentVector& slip, double weight, const Frame& frame,
                             const SpatialVector& z, const Bound* bound) {
-  const auto share = [&](double stiffness) { return node.body_stiffness / (node.body_stiffness + stiffness); };
+  const double body = node.body_stiffness * weight;
+  const auto share = [&](double stiffness) { return body / (body + stiffness * node.full_weight); };
   const double theta_n = share(node.normal_stiffness), normal_stiffness = theta_n * node.normal_stiffness / weight;
   const double z_n = z.dot(frame.normal), pressure = (1.0 - theta_n) * z_n + theta_n * node.multiplier[0] - normal_stiffness * gap;
   if (!(pressure > 0.0)) return open_node(z);
   const Eigen::Index tangents = frame.tangents.rows();
-  // dp = (1 - theta_n) dz_n - normal_stiffness (dg - g dw / w)
+  // dp = (1 - theta_n) dz_n - normal_stiffness dg - theta_n / w ((1 - theta_n) (z_n - lambda_n) - normal_stiffness g) dw
   Complementarity result = closed_node(normal_stiffness, gap, frame, z);
   result.C[0] = z_n - pressure;
   result.C_z.row(0) = theta_n * frame.normal.transpose();
-  result.weight_factor[0] = -normal_stiffness * gap / weight;
+  result.weight_factor[0] = theta_n / weight * ((1.0 - theta_n) * (z_n - node.multiplier[0]) - normal_stiffness * gap);
   result.normal_factor.row(0) = theta_n * z.transpose();
   if (bound == nullptr) return result;
   const double theta_t = share(node.tangential_stiffness), stiffness = theta_t * node.tangential_stiffness / weight;
-  const TangentVector y = (1.0 - theta_t) * result.C.tail(tangents) + theta_t * node.multiplier.tail(tangents) + stiffness * slip;
+  const TangentVector beyond = result.C.tail(tangents) - node.multiplier.tail(tangents);  // z_tau - lambda_tau
+  const TangentVector y = node.multiplier.tail(tangents) + (1.0 - theta_t) * beyond + stiffness * slip;
   const FrictionBound limit = (*bound)(pressure);
-  // dC_tau = dz_tau - response dy - slope dp,   dy = (1 - theta_t) dz_tau + stiffness (du - u dw / w)
+  // dC_tau = dz_tau - response dy - slope dp,   dy = (1 - theta_t) dz_tau + stiffness du - theta_t / w ((1 - theta_t) (z_tau - lambda_tau) +
+  // stiffness u) dw
   TangentMatrix response = TangentMatrix::Identity(tangents, tangents);
   TangentVector slope = TangentVector::Zero(tangents);
   if (y.norm() < at_the_bound * limit.value) {
@@ -56,7 +62,8 @@ Complementarity regularised(const RegularisedNode& node, double gap, const Tange
       of_traction * SpatialMatrix(result.normal_factor.bottomRows(tangents)) - (1.0 - theta_n) * slope * z.transpose();
   result.gap_factor.tail(tangents) = normal_stiffness * slope;
   result.slip_factor = -stiffness * response;
-  result.weight_factor.tail(tangents) = stiffness / weight * (response * slip) - normal_stiffness * gap / weight * slope;
+  result.weight_factor.tail(tangents) =
+      theta_t / weight * (response * ((1.0 - theta_t) * beyond + stiffness * slip)) + result.weight_factor[0] * slope;
   return result;
 }
 

@@ -90,7 +90,7 @@ struct FacetCoupling {
   Eigen::MatrixXd dD;    ///< row slave.size() j + k
   Eigen::MatrixXd dM;    ///< row j master.size() + l
   Eigen::MatrixXd dgap;    ///< row j
-  Eigen::MatrixXd dcover;  ///< row j
+  Eigen::MatrixXd dcover;  ///< row j; empty too where the whole facet is covered
   /// m_j = -int N_j <-n.n_m> n_m, with the normals n of the facet and n_m of the master: row j, of facets at a kink that takes the master's normal;
   /// else empty. Derivatives: row 2 j + i.
   Eigen::Matrix<double, Eigen::Dynamic, 2> facing;

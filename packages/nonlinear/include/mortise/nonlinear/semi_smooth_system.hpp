@@ -71,6 +71,9 @@ class SemiSmoothSystem {
   /// F(x) = (r, C); Dirichlet rows hold s (d - prescribed), rows of followers s (d - what they follow), whose forces stand in the rows of what
   /// they follow. Throws StepFailure on every rank.
   void residual(const Vector& x, Vector& F, ResidualNorms& norms);
+  /// The multipliers of x follow what is covered at its displacement (ContactSystem::follow_cover()), from the last jacobian() on. True if any
+  /// changed.
+  bool follow_cover(Vector& x);
   /// Prepares J at x, and takes the states of the nodes at x as those that ResidualNorms::changed counts against.
   void jacobian(const Vector& x);
   /// x of the last jacobian(); null if there was none since set_time().

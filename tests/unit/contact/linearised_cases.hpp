@@ -1,0 +1,240 @@
+#pragma once
+// Cases that the linearised contact is tested on: formulations, friction, fixed nodes, cover, in the plane and in space.
+
+#include <gtest/gtest.h>
+
+#include "formulations.hpp"
+#include "two_surfaces.hpp"
+
+namespace mortise::test {
+
+inline double wiggle(GlobalOrdinal id) { return std::sin(12.9898 * static_cast<double>(id) + 0.7); }
+
+struct Case {
+  std::string name;
+  TwoSurfaces surfaces;
+};
+
+// Quadratic facets: middles whose multipliers act on corners, of the same and of other ranks, with and without a multiplier of their own.
+inline void add_quadratic(std::vector<Case>& all) {
+  const auto add = [&](const std::string& name, const TwoSurfaces& linear, bool master, std::optional<double> coefficient) {
+    all.push_back({"quadratic, " + name, quadratic(linear, true, master)});
+    if (coefficient) {
+      auto coulomb = std::make_shared<CoulombFriction>();
+      coulomb->coefficient = Expression(*coefficient);
+      all.back().surfaces.options.friction.options = coulomb;
+    }
+    return &all.back().surfaces;
+  };
+  const TwoSurfaces arch = arch_on_ground(), dome = dome_on_waves(), faceted = dome_on_waves(true);
+  const std::array<bool, 3> in_x = {true, false, false}, all_of_plane = {true, true, false}, everything = {true, true, true};
+  add("plane", arch, true, {});
+  add("plane, linear master", arch, false, {});
+  add("plane, standard weighting", arch, true, {})->options.mortar.gap_weighting = GapWeighting::standard;
+  add("plane, partly fixed", arch, true, {})->fixed[0] = in_x;
+  add("plane, corner fixed", arch, true, {})->fixed[2] = all_of_plane;
+  add("plane, reference", arch, true, {})->options.geometry = ContactGeometry::reference;
+  add("plane, axisymmetric", arch, true, 0.12)->measure = {true, 1.0};
+  add("plane, coulomb, mostly stick", arch, true, 2.0);
+  add("plane, coulomb", arch, true, 0.12);
+  add("plane, coulomb, partly fixed", arch, true, 0.12)->fixed[0] = in_x;
+  add("plane, coulomb, corner fixed", arch, true, 0.12)->fixed[2] = all_of_plane;
+  add("space", dome, true, {});
+  add("space, triangles", faceted, false, {});
+  add("space, coulomb", dome, false, 0.12);
+  add("space, coulomb, high, triangles", faceted, true, 3.0);
+  add("space, symmetry plane", dome, false, 0.12)->fixed[1] = in_x;
+  add("space, corner fixed", dome, false, 0.12)->fixed[5] = everything;
+  add("space, middle fixed", dome, false, 0.12)->fixed[20] = everything;
+  add("space, triangles, middle fixed", faceted, false, {})->fixed[20] = everything;
+  add("space, hardly covered", hardly_covered(dome), true, {});
+  add("space, hardly covered, coulomb", hardly_covered(dome), false, 0.12);
+  add("space, hardly covered, triangles", hardly_covered(faceted), false, 0.12);
+  add("space, hardly covered, corner", hardly_covered_at_a_corner(dome), true, {});
+  add("space, hardly covered, corner, coulomb", hardly_covered_at_a_corner(dome), false, 0.12);
+  add("space, hardly covered, corner, triangles", hardly_covered_at_a_corner(faceted), false, 0.12);
+  for (const NamedFormulation& formulation : other_formulations()) {
+    if (formulation.options->coupling() == Coupling::node_to_segment) continue;
+    add("plane, " + formulation.name, arch, true, 0.12)->options.formulation.options = formulation.options;
+    if (in_space(formulation)) add("space, " + formulation.name, dome, false, 0.12)->options.formulation.options = formulation.options;
+  }
+}
+
+// Corners that take the master's normal: their rows depend on both of their facets.
+inline void add_corners(std::vector<Case>& all) {
+  const auto add = [&](const std::string& name, double coefficient, bool quadratic = false) {
+    const TwoSurfaces corner = corner_on_ground();
+    all.push_back({"corner, " + name, quadratic ? test::quadratic(corner, true, true) : corner});
+    auto coulomb = std::make_shared<CoulombFriction>();
+    coulomb->coefficient = Expression(coefficient);
+    if (coefficient > 0.0) all.back().surfaces.options.friction.options = coulomb;
+    return &all.back().surfaces;
+  };
+  add("frictionless", 0.0);
+  add("coulomb", 0.12);
+  add("coulomb, high", 2.0);
+  add("coulomb, axisymmetric", 0.12)->measure = {true, 1.0};
+  add("coulomb, standard weighting", 0.12)->options.mortar.gap_weighting = GapWeighting::standard;
+  add("coulomb, nearest facet", 0.12)->options.mortar.corners = CornerRule::nearest_facet;
+  add("coulomb, quadratic", 0.12, true);
+  for (const NamedFormulation& formulation : other_formulations()) {
+    add(formulation.name, 0.0)->options.formulation.options = formulation.options;
+    add(formulation.name + ", coulomb", 0.12)->options.formulation.options = formulation.options;
+  }
+}
+
+inline std::vector<Case> cases() {
+  std::vector<Case> all;
+  all.push_back({"current", arch_on_ground()});
+  all.push_back({"standard weighting", arch_on_ground()});
+  all.back().surfaces.options.mortar.gap_weighting = GapWeighting::standard;
+  all.push_back({"partly fixed", arch_on_ground()});
+  all.back().surfaces.fixed[0] = {true, false, false};
+  all.push_back({"crosspoint", arch_on_ground()});
+  all.back().surfaces.fixed[2] = {true, true, false};
+  all.push_back({"axisymmetric", arch_on_ground()});
+  all.back().surfaces.measure = {true, 1.0};
+  all.push_back({"reference", arch_on_ground()});
+  all.back().surfaces.options.geometry = ContactGeometry::reference;
+  const auto add_friction = [&](const std::string& name, double coefficient, const std::shared_ptr<FrictionLaw>& given = {}) {
+    all.push_back({name, arch_on_ground()});
+    auto coulomb = std::make_shared<CoulombFriction>();
+    coulomb->coefficient = Expression(coefficient);
+    all.back().surfaces.options.friction.options = given ? given : coulomb;
+    return &all.back().surfaces;
+  };
+  add_friction("coulomb, mostly stick", 2.0);
+  add_friction("coulomb, mixed", 0.12);
+  add_friction("coulomb, mostly slip", 0.02);
+  add_friction("coulomb, partly fixed", 0.12)->fixed[0] = {true, false, false};
+  add_friction("coulomb, crosspoint", 0.12)->fixed[2] = {true, true, false};
+  add_friction("coulomb, axisymmetric", 0.12)->measure = {true, 1.0};
+  add_friction("coulomb, reference", 0.12)->options.geometry = ContactGeometry::reference;
+  add_friction("coulomb, standard weighting", 0.12)->options.mortar.gap_weighting = GapWeighting::standard;
+  auto tresca = std::make_shared<TrescaFriction>();
+  tresca->traction = 0.8;
+  add_friction("tresca", 0.0, tresca);
+  auto of_pressure = std::make_shared<CoulombFriction>();
+  of_pressure->coefficient = Expression::of({"pressure", "slip"}, "0.05 + 0.2*exp(-pressure/5)", {});
+  of_pressure->largest_traction = 0.9;
+  add_friction("coulomb of pressure, bounded", 0.0, of_pressure);
+  // The master ends a little behind slave node 4: node 5 is tied to it, and 4 to 3 and 5.
+  const auto end_behind = [](TwoSurfaces& surfaces, double end) {
+    for (Point& x : surfaces.master) x[0] *= end / 4.6;
+  };
+  all.push_back({"hardly covered", arch_on_ground()});
+  end_behind(all.back().surfaces, 4.2);
+  for (const double coefficient : {0.12, 3.0})
+    end_behind(*add_friction(coefficient < 1.0 ? "hardly covered, coulomb" : "hardly covered, coulomb, high", coefficient), 4.15);
+  end_behind(*add_friction("hardly covered, half, coulomb", 0.12), 4.6);
+  auto* turned = add_friction("hardly covered, axisymmetric", 0.12);
+  end_behind(*turned, 4.2);
+  turned->measure = {true, 1.0};
+  end_behind(*add_friction("hardly covered, standard weighting", 0.12), 4.2);
+  all.back().surfaces.options.mortar.gap_weighting = GapWeighting::standard;
+  end_behind(*add_friction("hardly covered, reference", 0.12), 4.2);
+  all.back().surfaces.options.geometry = ContactGeometry::reference;
+  // In space.
+  const auto add_in_space = [&](const std::string& name, std::optional<double> coefficient, bool triangles = false) {
+    if (coefficient)
+      add_friction("space, " + name, *coefficient);
+    else
+      all.push_back({"space, " + name, {}});
+    TwoSurfaces surfaces = dome_on_waves(triangles);
+    if (name.find("hardly covered") != std::string::npos) surfaces = hardly_covered(surfaces);
+    surfaces.options = all.back().surfaces.options;
+    all.back().surfaces = surfaces;
+    return &all.back().surfaces;
+  };
+  add_in_space("frictionless", {});
+  add_in_space("triangles", {}, true);
+  add_in_space("standard weighting", {})->options.mortar.gap_weighting = GapWeighting::standard;
+  add_in_space("symmetry plane", {})->fixed[1] = {true, false, false};
+  add_in_space("symmetry edge", {})->fixed[0] = {true, true, false};
+  add_in_space("crosspoint", {})->fixed[5] = {true, true, true};
+  add_in_space("reference", {})->options.geometry = ContactGeometry::reference;
+  add_in_space("coulomb, mostly stick", 3.0);
+  add_in_space("coulomb, mixed", 0.12);
+  add_in_space("coulomb, mostly slip", 0.02);
+  add_in_space("coulomb, triangles", 0.12, true);
+  add_in_space("coulomb, symmetry plane", 0.12)->fixed[1] = {true, false, false};
+  add_in_space("coulomb, symmetry edge", 0.12)->fixed[0] = {true, true, false};
+  add_in_space("coulomb, crosspoint", 0.12)->fixed[5] = {true, true, true};
+  add_in_space("coulomb, reference", 0.12)->options.geometry = ContactGeometry::reference;
+  add_in_space("hardly covered", {});
+  add_in_space("hardly covered, coulomb", 0.12);
+  add_in_space("hardly covered, coulomb, high", 3.0);
+  add_in_space("hardly covered, triangles", 0.12, true);
+  add_in_space("hardly covered, symmetry plane", 0.12)->fixed[2] = {false, true, false};
+  const auto augmented = std::make_shared<AugmentedLagrange>();
+  add_in_space("hardly covered, coulomb, augmented lagrange", 0.12)->options.formulation.options = augmented;
+  add_in_space("hardly covered, coulomb, high, augmented lagrange", 3.0)->options.formulation.options = augmented;
+  add_quadratic(all);
+  add_corners(all);
+  for (const NamedFormulation& formulation : other_formulations()) {
+    if (!in_space(formulation)) continue;
+    add_in_space(formulation.name, {})->options.formulation.options = formulation.options;
+    add_in_space(formulation.name + ", coulomb", 0.12)->options.formulation.options = formulation.options;
+  }
+  for (const NamedFormulation& formulation : other_formulations()) {
+    const auto set = [&](const std::string& name) {
+      all.back().name = formulation.name + (name.empty() ? "" : ", ") + name;
+      all.back().surfaces.options.formulation.options = formulation.options;
+      return &all.back().surfaces;
+    };
+    all.push_back({"", arch_on_ground()});
+    set("");
+    add_friction("", 0.12);
+    set("coulomb");
+    add_friction("", 2.0);
+    set("coulomb, high");
+    add_friction("", 0.12);
+    set("coulomb, partly fixed")->fixed[0] = {true, false, false};
+    add_friction("", 0.12);
+    set("coulomb, crosspoint")->fixed[2] = {true, true, false};
+    add_friction("", 0.12);
+    set("coulomb, axisymmetric")->measure = {true, 1.0};
+    add_friction("", 0.12);
+    set("coulomb, reference")->options.geometry = ContactGeometry::reference;
+  }
+  for (const auto& name : {"coulomb, mixed", "space, coulomb, mixed", "quadratic, plane, coulomb", "quadratic, space, coulomb", "penalty, coulomb"}) {
+    const auto whole = std::find_if(all.begin(), all.end(), [&](const Case& one) { return one.name == name; });
+    if (whole == all.end()) throw std::logic_error(name);
+    all.push_back({whole->name + ", zeros dropped", whole->surfaces});
+    all.back().surfaces.zeros_dropped = true;
+  }
+  for (Case& one : all) one.surfaces.options.mortar.search_reach = 1.0;
+  return all;
+}
+
+/// Indices of the cases, or of those alone whose multipliers are eliminated.
+inline std::vector<int> indices(bool eliminated_only) {
+  std::vector<int> result;
+  const std::vector<Case> all = cases();
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (!eliminated_only || all[i].surfaces.options.formulation.options->elimination() != Elimination::none) result.push_back(static_cast<int>(i));
+  return result;
+}
+
+inline std::string test_name(const ::testing::TestParamInfo<int>& info) {
+  std::string name = cases()[info.param].name;
+  std::replace(name.begin(), name.end(), ' ', '_');
+  name.erase(std::remove(name.begin(), name.end(), ','), name.end());
+  return name;
+}
+
+/// Where the step started: slips are measured from here.
+inline void start(Fixture& fixture) {
+  const auto before = Fixture::vector(fixture.dofs, [](GlobalOrdinal id) { return 0.01 * std::sin(3.1 * static_cast<double>(id) + 0.2); });
+  const std::vector<char> held(fixture.nodes->getNodeNumElements(), 0);
+  Vector z(fixture.contact->multiplier_map());
+  fixture.contact->start_step(*before, held, z);
+  fixture.contact->augment(*fixture.multipliers([](std::size_t node) { return 0.3 * node; }), 1);
+}
+
+// Some nodes pressed, some open (in space those further on too); the tangential part is not zero, as it is before Newton has converged.
+inline double pressure(std::size_t node) {
+  return node == 1 || node == 2 || node == 3 || node == 4 ? 3.0 + node : (node == 0 ? 2.0 : node > 5 && node % 3 != 0 ? 2.5 : 0.0);
+}
+
+}  // namespace mortise::test
