@@ -87,7 +87,7 @@ struct IntegrationLoad {
   int redistributions = 0;          ///< searches that gave facets to other ranks
 };
 
-/// Kinks of a pair's slave surfaces in 2D, and what gives them their normals.
+/// Kinks of a pair's slave surfaces, and what gives them their normals.
 struct CornerReport {
   long kinks = 0;  ///< over all ranks
   CornerRule rule = CornerRule::averaged;
@@ -183,8 +183,8 @@ class ContactSystem {
   void recover(const Vector& increment, Vector& z_new) const;
 
   /// Whether, at the last condense(), hardly covered nodes that are in contact have multipliers that depend on one another's: condense() takes their
-  /// own alone and leaves the rest of the linearised conditions out, which are L(dd, dz) of apply_left_out(). The step of the condensed system then is
-  /// not Newton's; it is that of  J~ = J - L. The same on every rank.
+  /// own alone and leaves the rest of the linearised conditions out, which are L(dd, dz) of apply_left_out(). The step of the condensed system then
+  /// is not Newton's; it is that of  J~ = J - L. The same on every rank.
   bool leaves_out_couplings() const;
   /// y = L(dd, dz) at the last condense(): rows of C.
   void apply_left_out(const Vector& dd, const Vector& dz, Vector& y) const;
