@@ -127,13 +127,17 @@ void MultiplierTies::measure(const std::vector<FacetCoupling>& couplings, const 
     tie.node = s;
     tie.compliance = rest(s) * owned[s].weight * softness;
     std::vector<FacetShares> shares;
-    Slope all;  // sum_e d^e of the facets with receivers
+    Slope all, tying;  // sum_e d^e of the facets with receivers, and sum_e d^e a^e
     for (const auto& [facet, a] : facets) {
       shares.push_back(shares_on(*facet, a, dimension, derivatives));
-      if (!shares.back().places.empty()) all.value += facet->D.row(static_cast<Eigen::Index>(a)).sum();
+      const double own = facet->D.row(static_cast<Eigen::Index>(a)).sum();
+      if (!shares.back().places.empty()) {
+        all.value += own;
+        tying.value += own * facet->alignment;
+      }
       for (const LocalOrdinal node : facet->columns) tie.columns.push_back(node);
     }
-    if (!(all.value > 0.0)) continue;
+    if (!(tying.value > 0.0)) continue;
     std::sort(tie.columns.begin(), tie.columns.end());
     tie.columns.erase(std::unique(tie.columns.begin(), tie.columns.end()), tie.columns.end());
     const auto width = derivatives ? dimension * static_cast<Eigen::Index>(tie.columns.size()) : 0;
@@ -144,6 +148,7 @@ void MultiplierTies::measure(const std::vector<FacetCoupling>& couplings, const 
       }
     };
     all.gradient.setZero(width);
+    tying.gradient.setZero(width);
     tie.dcompliance.setZero(width);
     for (std::size_t f = 0; f < facets.size(); ++f) {
       const auto& [facet, a] = facets[f];
@@ -157,8 +162,15 @@ void MultiplierTies::measure(const std::vector<FacetCoupling>& couplings, const 
       const auto row = static_cast<Eigen::Index>(a);
       add(*facet, facet->dcover.row(row), -6.0 * (1.0 - cover) / (full_cover * full_cover) * facet->cover[row] * owned[s].weight * softness,
           tie.dcompliance);
-      if (!shares[f].places.empty()) add(*facet, force_of(*facet, a).gradient, 1.0, all.gradient);
+      if (shares[f].places.empty()) continue;
+      const Slope own = force_of(*facet, a);
+      add(*facet, own.gradient, 1.0, all.gradient);
+      add(*facet, own.gradient, facet->alignment, tying.gradient);
+      if (facet->dalignment.size() > 0) add(*facet, facet->dalignment, own.value, tying.gradient);
     }
+    const double share = tying.value / all.value;
+    tie.dcompliance = share * tie.dcompliance + tie.compliance / all.value * (tying.gradient - share * all.gradient);
+    tie.compliance *= share;
     tie.shares.assign(tie.receivers.size(), 0.0);
     tie.dshares.setZero(static_cast<Eigen::Index>(tie.receivers.size()), width);
     for (std::size_t f = 0; f < facets.size(); ++f) {

@@ -1,15 +1,17 @@
 #pragma once
-// The normal of a convex corner of a slave surface in 2D, that of the master which its two facets cover.
+// The normal of a convex corner of a slave surface, that of the master which its facets cover.
 
 #include <Eigen/Core>
+#include <vector>
 
 namespace mortise {
 
 /// n_j of a corner j and how it turns.
+template <int dim>
 struct CornerNormal {
-  Eigen::Vector2d normal;
-  /// The angle of n_j changes by  of_master dmu + of_before dnu_1 + of_behind dnu_2  with those of m_j and of the facets' normals.
-  double of_master = 1.0, of_before = 0.0, of_behind = 0.0;
+  Eigen::Matrix<double, dim, 1> normal;
+  Eigen::Matrix<double, dim, dim> of_facing;               ///< dn_j / dm_j
+  std::vector<Eigen::Matrix<double, dim, dim>> of_facets;  ///< [facets] dn_j / dn_f
 };
 
 /// n_j = m_j / |m_j|, kept near the wedge of the facets' normals [n_1, n_2]: where m_j leaves the wedge by an angle e, n_j leaves it by
@@ -18,6 +20,12 @@ struct CornerNormal {
 /// where nothing has a kink, and what the master does far off does not push a side along itself.
 /// @param facing         m_j, not 0
 /// @param before,behind  unit normals of the facet that ends at the corner and of the one that starts there
-CornerNormal corner_normal(const Eigen::Vector2d& facing, const Eigen::Vector2d& before, const Eigen::Vector2d& behind);
+CornerNormal<2> corner_normal(const Eigen::Vector2d& facing, const Eigen::Vector2d& before, const Eigen::Vector2d& behind);
+
+/// The same in space, where the wedge is the convex cone of all the facets' normals: with p the unit vector of the cone that is nearest to m_j, o the
+/// unit vector across it towards m_j, and e the angle between the two,
+///   n_j = cos(e') p + sin(e') o,   e' = e (1 - S(e / 10 degrees - 1)).
+/// @param facets  unit normals, at least one
+CornerNormal<3> corner_normal(const Eigen::Vector3d& facing, const std::vector<Eigen::Vector3d>& facets);
 
 }  // namespace mortise

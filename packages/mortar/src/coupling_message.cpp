@@ -24,7 +24,9 @@ void put_coupling(WordWriter& to, const CouplingHeader& header, const FacetCoupl
   to.put_matrix(coupling.gap);
   to.put_matrix(coupling.cover);
   to.put_matrix(coupling.facing);
-  for (const Eigen::MatrixXd* slope : {&coupling.dD, &coupling.dM, &coupling.dgap, &coupling.dcover, &coupling.dfacing}) to.put_matrix(*slope);
+  to.put(coupling.alignment);
+  for (const Eigen::MatrixXd* slope : {&coupling.dD, &coupling.dM, &coupling.dgap, &coupling.dcover, &coupling.dfacing, &coupling.dalignment})
+    to.put_matrix(*slope);
 }
 
 CouplingHeader get_header(WordReader& from) {
@@ -46,7 +48,9 @@ void get_coupling(WordReader& from, const CouplingHeader& header, const std::fun
   from.get_matrix(coupling.gap);
   from.get_matrix(coupling.cover);
   from.get_matrix(coupling.facing);
-  for (Eigen::MatrixXd* slope : {&coupling.dD, &coupling.dM, &coupling.dgap, &coupling.dcover, &coupling.dfacing}) from.get_matrix(*slope);
+  coupling.alignment = from.get<double>();
+  for (Eigen::MatrixXd* slope : {&coupling.dD, &coupling.dM, &coupling.dgap, &coupling.dcover, &coupling.dfacing, &coupling.dalignment})
+    from.get_matrix(*slope);
 }
 
 }  // namespace mortise

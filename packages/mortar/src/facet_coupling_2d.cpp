@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "facet_alignment.hpp"
 #include "surface_search.hpp"
 #include "whole_facet.hpp"
 
@@ -70,7 +71,7 @@ bool FacetIntegrator2d::integrate(const SlaveFacetData& slave, const std::vector
   coupling.facing.resize(0, 2);
   coupling.dfacing.resize(0, 0);
   if (slave.at_corner) face(slave, derivatives, coupling);
-  return combine(moments_, *slave.multipliers, functions_, derivatives, coupling);
+  return combine_aligned(moments_, *slave.multipliers, functions_, derivatives, coupling);
 }
 
 bool FacetIntegrator2d::curve(const SlaveFacetData& slave, const std::vector<Facet<LocalOrdinal>>& masters, const FacetReach& reach,

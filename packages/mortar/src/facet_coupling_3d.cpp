@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "facet_alignment.hpp"
 #include "whole_facet.hpp"
 
 namespace mortise {
@@ -29,7 +30,10 @@ bool FacetIntegrator3d::integrate(const SlaveFacetData& slave, const std::vector
   if (!choose_basis(static_cast<Eigen::Index>(nodes.size()))) return false;
   accumulate(x, derivatives, coupling);
   if (derivatives) chain(slave, coupling);
-  return combine(moments_, *slave.multipliers, functions_, derivatives, coupling);
+  coupling.facing.resize(0, 3);
+  coupling.dfacing.resize(0, 0);
+  if (slave.at_corner) face(x, derivatives, coupling);
+  return combine_aligned(moments_, *slave.multipliers, functions_, derivatives, coupling);
 }
 
 bool FacetIntegrator3d::find_pairs(const std::vector<Facet<LocalOrdinal>>& masters, const FacetReach& reach, const std::vector<Eigen::Vector3d>& x,
@@ -120,6 +124,39 @@ void FacetIntegrator3d::chain(const SlaveFacetData& slave, FacetCoupling& coupli
     for (std::size_t c = 0; c < normal.columns.size(); ++c)
       slope.block(raw_.rows() - n, 3 * place_of(columns, normal.columns[c]), n, 3) +=
           raw_.block(raw_.rows() - n, 3 * (n + a), n, 3).lazyProduct(normal.derivative.middleCols(3 * static_cast<Eigen::Index>(c), 3));
+  }
+}
+
+// FacetCoupling::facing. With m in the frame E of the plane, E^T m is that of space, and
+//   d(E^T m) = E^T dm + sum_i m_i de_i,   de_1 = -(dp . e_1) p,   de_2 = -(dp . e_2) p,   de_3 = dp:
+// the frame tilts with the plane and does not spin.
+void FacetIntegrator3d::face(const std::vector<Eigen::Vector3d>& x, bool derivatives, FacetCoupling& coupling) {
+  const auto n = static_cast<Eigen::Index>(plane_.slave.size()), count = static_cast<Eigen::Index>(coupling.master.size());
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(3 * n);
+  if (derivatives) raw_.setZero(3 * n, 3 * (n + count));
+  for (const Pair& pair : pairs_) {
+    integrate_facing(plane_.slave, pair.nodes, pair.overlap, derivatives, facing_);
+    sum += facing_.value;
+    if (!derivatives) continue;
+    raw_.leftCols(3 * n) += facing_.derivative.leftCols(3 * n);
+    for (std::size_t l = 0; l < pair.place.size(); ++l)
+      raw_.middleCols<3>(3 * (n + pair.place[l])) += facing_.derivative.middleCols<3>(3 * (n + static_cast<Eigen::Index>(l)));
+  }
+  coupling.facing = sum.reshaped<Eigen::RowMajor>(n, 3) * plane_.frame;
+  if (!derivatives) return;
+  std::vector<Eigen::Vector3d> vectors(plane_.slave.begin(), plane_.slave.end());
+  for (const LocalOrdinal node : coupling.master) vectors.push_back(plane_.to_frame(x[node]));
+  plane_.to_global(vectors, raw_);
+  coupling.dfacing.setZero(3 * n, 3 * static_cast<Eigen::Index>(coupling.columns.size()));
+  const auto axes = plane_.frame.topRows<2>();
+  const Eigen::Vector3d p = plane_.frame.row(2).transpose();
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const Eigen::Vector3d m = sum.segment<3>(3 * j);
+    auto slope = coupling.dfacing.middleRows<3>(3 * j);
+    slope.leftCols(3 * (n + count)) = plane_.frame.transpose() * raw_.middleRows<3>(3 * j);
+    const Eigen::Matrix<double, 3, 2> tilted = m.z() * axes.transpose() - p * m.head<2>().transpose();
+    for (std::size_t a = 0; a < facet_corners(3, plane_.slave.size()); ++a)
+      slope.middleCols<3>(3 * static_cast<Eigen::Index>(a)) += tilted * plane_.tilt[a] * plane_.frame;
   }
 }
 

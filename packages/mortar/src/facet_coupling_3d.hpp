@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "facing_3d.hpp"
 #include "mortise/mortar/segment_3d.hpp"
 #include "slave_facet.hpp"
 
@@ -35,6 +36,7 @@ class FacetIntegrator3d {
   bool choose_basis(Eigen::Index nodes);
   void accumulate(const std::vector<Eigen::Vector3d>& x, bool derivatives, const FacetCoupling& coupling);
   void chain(const SlaveFacetData& slave, FacetCoupling& coupling);
+  void face(const std::vector<Eigen::Vector3d>& x, bool derivatives, FacetCoupling& coupling);
 
   FacetFunctions functions_;
   AuxiliaryPlane plane_;
@@ -43,6 +45,7 @@ class FacetIntegrator3d {
   std::vector<Overlap3d> overlaps_;
   Eigen::MatrixXd basis_;  ///< L = basis N
   SegmentIntegrals3d segment_;
+  FacingIntegrals3d facing_;
   Eigen::MatrixXd raw_;  ///< derivatives with respect to slave positions, slave normals, masters
   FacetMoments moments_;
 };

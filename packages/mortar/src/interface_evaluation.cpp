@@ -60,8 +60,7 @@ void Interface<dim>::couple_facets(const Positions<dim>& x, bool derivatives, st
     }
   counted_ = true;
   if (distribution_) pass_couplings(couplings);
-  if constexpr (dim == 2)
-    if (master_normals && !failure) settle_corners(derivatives, normals, couplings);
+  if (master_normals && !failure) settle_corners(derivatives, normals, couplings);
   segments.clear();
   for (std::size_t f = 0; f < couplings.size(); ++f)
     if (segments_of_facet_[f] > 0) {

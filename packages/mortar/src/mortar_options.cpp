@@ -19,9 +19,9 @@ void MortarOptions::describe(Parameters& parameters) {
   parameters.add(
       "corners", corners,
       {{"master normal", CornerRule::master_normal}, {"nearest facet", CornerRule::nearest_facet}, {"averaged", CornerRule::averaged}},
-      "normals at convex corners of a slave surface in 2D, where facets meet at an angle: the facets have their own, and the node that of the master "
-      "that they cover, or that of its facet nearest to the master; or all take the average. Variational mortar takes the nearest facet for the "
-      "master's normal");
+      "normals at convex edges and corners of a slave surface, where facets meet at an angle: the facets have their own, and the node that of the "
+      "master that they cover, or, in 2D, that of its facet nearest to the master; or all take the average. Variational mortar takes the nearest "
+      "facet for the master's normal, and 3D the average for the nearest facet");
   parameters.add(
       "balance", balance,
       Says("largest over mean work of the ranks, in overlaps of two facets, above which the next search hands slave facets to other ranks; "
@@ -36,7 +36,8 @@ void MortarOptions::describe(Parameters& parameters) {
 }
 
 CornerRule MortarOptions::corner_rule(int dimension) const {
-  if (dimension != 2 || coupling == Coupling::node_to_segment) return CornerRule::averaged;
+  if (coupling == Coupling::node_to_segment) return CornerRule::averaged;
+  if (dimension == 3) return corners == CornerRule::nearest_facet ? CornerRule::averaged : corners;
   return coupling == Coupling::variational_mortar && corners == CornerRule::master_normal ? CornerRule::nearest_facet : corners;
 }
 

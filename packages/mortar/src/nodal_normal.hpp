@@ -29,6 +29,9 @@ struct NormalStencil {
   std::optional<std::size_t> only;    ///< the one of the facets that shapes the normal alone, at a kink in the plane; none: all do
 };
 
+/// Whether the node lies on a line or plane of symmetry, or is held aside.
+inline bool is_projected(const NormalStencil& stencil) { return stencil.projected[0] || stencil.projected[1] || stencil.projected[2]; }
+
 /// The stencil of a facet's own normal at one of its nodes.
 NormalStencil own_side(LocalOrdinal node, const NodeTangents& facet);
 
@@ -38,6 +41,10 @@ double turn_at(const NormalStencil& stencil, const Positions<2>& x);
 /// The angle by which a plane surface and its mirror image turn at a node on a line of symmetry, where one component is projected out and one facet
 /// ends, positive where they are convex. 0 at other nodes.
 double mirrored_turn_at(const NormalStencil& stencil, const Positions<2>& x);
+
+/// The largest angle by which a surface in space turns at an edge of the node, less the largest by which it turns the other way: positive where it is
+/// convex. With projected components at the edges between facets and their mirror images too.
+double turn_at(const NormalStencil& stencil, const Positions<3>& x);
 
 /// Normalised sum of the unit normals of the node's facets at the node, without the `projected` components:  s = P sum_e n_e,  n = s / |s|,
 ///   n_e = (t_y, -t_x) / |t| in the plane,  n_e = c / |c|, c = t_1 x t_2 in space,

@@ -1,5 +1,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include "mortise/shape/quadrilateral8.hpp"
 #include "mortise/shape/triangle6.hpp"
@@ -42,6 +44,43 @@ NodeTangents tangents_at<3>(const Facet<LocalOrdinal>& facet, std::size_t a) {
   result.slope.resize(2, 3);
   result.slope << -1.0, 1.0, 0.0, -1.0, 0.0, 1.0;
   return result;
+}
+
+// Two facets meet at an edge where they have another node in common. They turn away from one another by the angle of their normals; each then lies
+// behind the other's plane, from the node towards the mean of its nodes.
+double turn_at(const NormalStencil& stencil, const Positions<3>& x) {
+  const auto inwards = [&](const NodeTangents& facet) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const LocalOrdinal node : facet.nodes) sum += x[node] - x[stencil.node];
+    return Eigen::Vector3d(sum.normalized());
+  };
+  double outwards = 0.0, back = 0.0;
+  const auto meet = [&](const Eigen::Vector3d& n_a, const Eigen::Vector3d& t_a, const Eigen::Vector3d& n_b, const Eigen::Vector3d& t_b) {
+    const double angle = std::atan2(n_a.cross(n_b).norm(), n_a.dot(n_b));
+    double& most = n_a.dot(t_b) + n_b.dot(t_a) < 0.0 ? outwards : back;
+    most = std::max(most, angle);
+  };
+  std::vector<Eigen::Vector3d> n, t;
+  for (const NodeTangents& facet : stencil.facets) {
+    const auto [u, v] = tangents(facet, x);
+    n.push_back(u.cross(v).normalized());
+    t.push_back(inwards(facet));
+  }
+  for (std::size_t a = 0; a < n.size(); ++a) {
+    const auto& nodes = stencil.facets[a].nodes;
+    for (std::size_t b = 0; b < a; ++b)
+      if (std::any_of(stencil.facets[b].nodes.begin(), stencil.facets[b].nodes.end(),
+                      [&](LocalOrdinal node) { return node != stencil.node && std::find(nodes.begin(), nodes.end(), node) != nodes.end(); }))
+        meet(n[a], t[a], n[b], t[b]);
+    for (int i = 0; i < 3; ++i) {
+      if (!stencil.projected[i]) continue;
+      Eigen::Vector3d image = n[a], inwards_image = t[a];
+      image[i] = -image[i];
+      inwards_image[i] = -inwards_image[i];
+      meet(n[a], t[a], image, inwards_image);
+    }
+  }
+  return outwards - back;
 }
 
 bool average_normal(const NormalStencil& stencil, const Positions<3>& x, bool derivatives, NodalNormal& result) {

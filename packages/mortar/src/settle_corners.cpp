@@ -1,7 +1,7 @@
-// Corners of the slave surface in 2D that take the master's normal.
+// Corners of the slave surface that take the master's normal: in the plane, and in space nodes on edges and at their ends.
 //
-// The facets f at a kink j have their own normals n_f (see split_kinks.cpp). What they cover of the master gives the node its normal, and the length
-// that is seen along it their weight:
+// The facets f at a kink j have their own normals n_f (see split_kinks.cpp). What they cover of the master gives the node its normal, and the length,
+// or area, that is seen along it their weight:
 //   m_j = -sum_f int N_j <-n_f.n_m> n_m,   n_j = m_j / |m_j| but for corner_normal(),   w_f = <n_f.n_j>,
 //   D_jk = sum_f w_f int phi_j N_k,   M_jl = sum_f w_f int phi_j N_l,   g_j = n_j . sum_f w_f int phi_j (xhat - x) = sum_f w_f^2 int phi_j g.
 // No side is chosen: what is symmetric stays so. A facet that stands off and one that lies on the master both enter smoothly. Weights w_f are needed:
@@ -16,8 +16,6 @@
 namespace mortise {
 namespace {
 
-Eigen::RowVector2d to_the_left_of(const SpatialVector& v) { return {-v[1], v[0]}; }
-
 // A facet at the corner: where the corner stands on it, its own normal there.
 struct CornerSide {
   FacetCoupling* coupling = nullptr;  ///< null: not covered
@@ -26,33 +24,34 @@ struct CornerSide {
 };
 
 // Adds the part of a derivative in `from` to that in `columns`, which holds them all.
-template <class Slope, class Part>
+template <int dim, class Slope, class Part>
 void add_columns(const std::vector<LocalOrdinal>& columns, const std::vector<LocalOrdinal>& from, const Part& part, Slope& slope) {
   for (std::size_t c = 0; c < from.size(); ++c) {
     const auto place = std::find(columns.begin(), columns.end(), from[c]) - columns.begin();
-    slope.template middleCols<2>(2 * place) += part.template middleCols<2>(2 * static_cast<Eigen::Index>(c));
+    slope.template middleCols<dim>(dim * place) += part.template middleCols<dim>(dim * static_cast<Eigen::Index>(c));
   }
 }
 
 // What a corner makes of its own row: taken from the couplings of all corners before any of these is changed.
 struct SettledCorner {
-  std::array<CornerSide, 2> sides;  // the facet that ends here, the one that starts here
-  std::array<double, 2> weight{};
-  std::array<Eigen::RowVectorXd, 2> turn_of_weight;  // in `columns`; empty without derivatives
+  std::vector<CornerSide> sides;
+  std::vector<double> weight;
+  std::vector<Eigen::RowVectorXd> slope_of_weight;  // in `columns`; empty without derivatives
   std::vector<LocalOrdinal> columns;
 };
 
 // Row j of a facet's coupling times the weight w, of the gap times w^2. `columns` of dw become part of those of the coupling.
+template <int dim>
 void weigh(const CornerSide& side, double w, const std::vector<LocalOrdinal>& columns, const Eigen::RowVectorXd& dw) {
   FacetCoupling& coupling = *side.coupling;
   const Eigen::Index j = side.place, nodes = coupling.D.rows(), masters = coupling.M.cols();
   if (dw.size() > 0) {
     for (const LocalOrdinal node : columns) place_of(coupling.columns, node);
-    const auto size = 2 * static_cast<Eigen::Index>(coupling.columns.size());
-    for (Eigen::MatrixXd* slope : {&coupling.dD, &coupling.dM, &coupling.dgap, &coupling.dcover})
+    const auto size = dim * static_cast<Eigen::Index>(coupling.columns.size());
+    for (Eigen::MatrixXd* slope : {&coupling.dD, &coupling.dM, &coupling.dgap, &coupling.dcover, &coupling.dalignment})
       slope->conservativeResizeLike(Eigen::MatrixXd::Zero(slope->rows(), size));
     Eigen::RowVectorXd change = Eigen::RowVectorXd::Zero(size);
-    add_columns(coupling.columns, columns, dw, change);
+    add_columns<dim>(coupling.columns, columns, dw, change);
     for (Eigen::Index k = 0; k < nodes; ++k) coupling.dD.row(nodes * j + k) = w * coupling.dD.row(nodes * j + k) + coupling.D(j, k) * change;
     for (Eigen::Index l = 0; l < masters; ++l) coupling.dM.row(masters * j + l) = w * coupling.dM.row(masters * j + l) + coupling.M(j, l) * change;
     coupling.dgap.row(j) = w * w * coupling.dgap.row(j) + 2.0 * w * coupling.gap[j] * change;
@@ -62,82 +61,117 @@ void weigh(const CornerSide& side, double w, const std::vector<LocalOrdinal>& co
   coupling.gap[j] *= w * w;
 }
 
-// The weights of the facets' lengths as seen along the corner's normal, which turns by `turn` in the corner's columns.
-void measure_weights(SettledCorner& corner, const NodalNormal& normal, const Eigen::RowVectorXd& turn, bool moves) {
-  const Eigen::RowVector2d left = to_the_left_of(normal.normal);
-  for (std::size_t e = 0; e < 2; ++e) {
-    if (corner.sides[e].normal == nullptr) continue;
-    const NodalNormal& own = *corner.sides[e].normal;
-    corner.weight[e] = std::max(0.0, own.normal.dot(normal.normal));
-    corner.turn_of_weight[e] = (corner.weight[e] > 0.0 ? left.dot(own.normal.transpose()) : 0.0) * turn;
-    if (moves && corner.weight[e] > 0.0)
-      add_columns(corner.columns, own.columns, Eigen::RowVectorXd(normal.normal.transpose() * own.derivative), corner.turn_of_weight[e]);
+// The weights of the facets as seen along the corner's normal, with its derivative in the corner's columns (empty without derivatives).
+template <int dim>
+void measure_weights(SettledCorner& corner, const SpatialVector& normal, const Eigen::MatrixXd& slope, bool moves) {
+  for (const CornerSide& side : corner.sides) {
+    const NodalNormal& own = *side.normal;
+    const double weight = std::max(0.0, own.normal.dot(normal));
+    corner.weight.push_back(weight);
+    corner.slope_of_weight.emplace_back(Eigen::RowVectorXd::Zero(slope.cols()));
+    if (!moves || !(weight > 0.0)) continue;
+    corner.slope_of_weight.back() = own.normal.transpose() * slope;
+    add_columns<dim>(corner.columns, own.columns, Eigen::RowVectorXd(normal.transpose() * own.derivative), corner.slope_of_weight.back());
   }
 }
 
-// On a line of symmetry: the corner's normal lies along it.
+// n_j of m_j and the facets' normals: the surface turns from the first to the second.
+CornerNormal<2> direction_of(const SettledCorner& corner, const Eigen::Vector2d& facing, const NormalStencil&) {
+  return corner_normal(facing, corner.sides[0].normal->normal, corner.sides[1].normal->normal);
+}
+
+// The same in space, where a corner may stand on planes of symmetry. The half that is seen and its images have the sum P m_j, P without the
+// components across the planes, and the part of their cone in all these planes is the cone of P n_f: these take the place of m_j and n_f.
+CornerNormal<3> direction_of(const SettledCorner& corner, const Eigen::Vector3d& facing, const NormalStencil& stencil) {
+  const Eigen::Matrix3d P = Eigen::Vector3d(!stencil.projected[0], !stencil.projected[1], !stencil.projected[2]).asDiagonal();
+  constexpr double none = 1e-6;  // of a facet across these planes, which adds nothing to the cone
+  std::vector<Eigen::Vector3d> seen;
+  std::vector<Eigen::Matrix3d> of_facet(corner.sides.size(), Eigen::Matrix3d::Zero());
+  std::vector<std::size_t> from;
+  for (std::size_t e = 0; e < corner.sides.size(); ++e) {
+    const Eigen::Vector3d along = P * corner.sides[e].normal->normal;
+    const double length = along.norm();
+    if (!(length > none)) continue;
+    seen.push_back(along / length);
+    of_facet[e] = (P - seen.back() * seen.back().transpose()) / length;
+    from.push_back(e);
+  }
+  CornerNormal<3> result = corner_normal(Eigen::Vector3d(P * facing), seen);
+  result.of_facing *= P;
+  for (std::size_t g = 0; g < from.size(); ++g) of_facet[from[g]] = result.of_facets[g] * of_facet[from[g]];
+  result.of_facets = std::move(of_facet);
+  return result;
+}
+
+template <int dim>
+bool has_direction(const Eigen::Matrix<double, dim, 1>& facing, const NormalStencil& stencil) {
+  double square = 0.0;
+  for (int i = 0; i < dim; ++i)
+    if (!stencil.projected[i]) square += facing[i] * facing[i];
+  return square > 0.0;
+}
+
+// On a line of symmetry in the plane: the corner's normal lies along it.
 void settle_half(SettledCorner& corner, bool derivatives, bool moves, const NodalNormal& normal) {
-  for (const CornerSide& side : corner.sides)
-    if (side.normal != nullptr) corner.columns = side.normal->columns;
-  measure_weights(corner, normal, Eigen::RowVectorXd::Zero(derivatives ? 2 * static_cast<Eigen::Index>(corner.columns.size()) : 0), moves);
+  for (const CornerSide& side : corner.sides) corner.columns = side.normal->columns;
+  measure_weights<2>(corner, normal.normal, Eigen::MatrixXd::Zero(2, derivatives ? 2 * static_cast<Eigen::Index>(corner.columns.size()) : 0), moves);
 }
 
 // Sets the normal of the corner. False where nothing is covered: it keeps the average.
-bool settle(SettledCorner& corner, bool derivatives, bool moves, NodalNormal& normal) {
-  Eigen::Vector2d facing = Eigen::Vector2d::Zero();
+template <int dim>
+bool settle(SettledCorner& corner, bool derivatives, bool moves, const NormalStencil& stencil, NodalNormal& normal) {
+  Eigen::Matrix<double, dim, 1> facing = Eigen::Matrix<double, dim, 1>::Zero();
   for (const CornerSide& side : corner.sides) {
     for (const LocalOrdinal node : side.normal->columns) place_of(corner.columns, node);
     if (side.coupling == nullptr) continue;
     facing += side.coupling->facing.row(side.place).transpose();
     for (const LocalOrdinal node : side.coupling->columns) place_of(corner.columns, node);
   }
-  if (!(facing.norm() > 0.0)) return false;
-  const CornerNormal found = corner_normal(facing, corner.sides[0].normal->normal, corner.sides[1].normal->normal);
-  Eigen::RowVectorXd turn = Eigen::RowVectorXd::Zero(derivatives ? 2 * static_cast<Eigen::Index>(corner.columns.size()) : 0);
-  if (moves) {
-    const Eigen::RowVector2d of_facing = found.of_master / facing.squaredNorm() * to_the_left_of(facing);
-    for (const CornerSide& side : corner.sides)
+  if (!has_direction<dim>(facing, stencil)) return false;
+  const CornerNormal<dim> found = direction_of(corner, facing, stencil);
+  Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(dim, derivatives ? dim * static_cast<Eigen::Index>(corner.columns.size()) : 0);
+  if (moves)
+    for (std::size_t e = 0; e < corner.sides.size(); ++e) {
+      const CornerSide& side = corner.sides[e];
       if (side.coupling != nullptr)
-        add_columns(corner.columns, side.coupling->columns, Eigen::RowVectorXd(of_facing * side.coupling->dfacing.middleRows<2>(2 * side.place)),
-                    turn);
-    const std::array<double, 2> of_side = {found.of_before, found.of_behind};
-    for (std::size_t e = 0; e < 2; ++e) {
-      const NodalNormal& own = *corner.sides[e].normal;
-      add_columns(corner.columns, own.columns, Eigen::RowVectorXd(of_side[e] * to_the_left_of(own.normal) * own.derivative), turn);
+        add_columns<dim>(corner.columns, side.coupling->columns,
+                         Eigen::MatrixXd(found.of_facing * side.coupling->dfacing.template middleRows<dim>(dim * side.place)), slope);
+      add_columns<dim>(corner.columns, side.normal->columns, Eigen::MatrixXd(found.of_facets[e] * side.normal->derivative), slope);
     }
-  }
   normal.normal = found.normal;
   normal.columns = corner.columns;
-  normal.derivative = to_the_left_of(normal.normal).transpose() * turn;
-  measure_weights(corner, normal, turn, moves);
+  normal.derivative = slope;
+  measure_weights<dim>(corner, normal.normal, slope, moves);
   return true;
 }
 
 }  // namespace
 
-template <>
-void Interface<2>::settle_corners(bool derivatives, std::vector<NodalNormal>& normals, std::vector<FacetCoupling>& couplings) const {
+template <int dim>
+void Interface<dim>::settle_corners(bool derivatives, std::vector<NodalNormal>& normals, std::vector<FacetCoupling>& couplings) const {
   std::vector<SettledCorner> settled;
+  const bool moves = derivatives && options_.linearisation == Linearisation::exact;
   for (std::size_t s = 0; s < slave.owned.size() && !kinks_.empty(); ++s) {
     if (kinks_[s] == 0 || !slave.carries[s]) continue;
     SettledCorner corner;
     for (const std::size_t f : slave.facets_of[s]) {
       const Facet<LocalOrdinal>& facet = slave.facets[f];
-      const auto place = static_cast<std::size_t>(std::find(facet.begin(), facet.end(), slave.owned[s].local_node) - facet.begin());
-      corner.sides[place == 1 ? 0 : 1] = {segments_of_facet_[f] > 0 ? &couplings[f] : nullptr, static_cast<Eigen::Index>(place),
-                                          &normals[slave.normals[f][place]]};
+      const auto place = std::find(facet.begin(), facet.end(), slave.owned[s].local_node) - facet.begin();
+      const CornerSide side = {segments_of_facet_[f] > 0 ? &couplings[f] : nullptr, place, &normals[slave.normals[f][place]]};
+      corner.sides.insert(dim == 2 && place == 1 ? corner.sides.begin() : corner.sides.end(), side);  // the one that ends here first
     }
-    const bool moves = derivatives && options_.linearisation == Linearisation::exact;
-    const auto& projected = slave.stencils[s].projected;
-    if (projected[0] || projected[1])
+    if (dim == 2 && is_projected(slave.stencils[s]))
       settle_half(corner, derivatives, moves, normals[s]);
-    else if (!settle(corner, derivatives, moves, normals[s]))
+    else if (!settle<dim>(corner, derivatives, moves, slave.stencils[s], normals[s]))
       continue;
     settled.push_back(std::move(corner));
   }
   for (const SettledCorner& corner : settled)
-    for (std::size_t e = 0; e < 2; ++e)
-      if (corner.sides[e].coupling != nullptr) weigh(corner.sides[e], corner.weight[e], corner.columns, corner.turn_of_weight[e]);
+    for (std::size_t e = 0; e < corner.sides.size(); ++e)
+      if (corner.sides[e].coupling != nullptr) weigh<dim>(corner.sides[e], corner.weight[e], corner.columns, corner.slope_of_weight[e]);
 }
+
+template void Interface<2>::settle_corners(bool, std::vector<NodalNormal>&, std::vector<FacetCoupling>&) const;
+template void Interface<3>::settle_corners(bool, std::vector<NodalNormal>&, std::vector<FacetCoupling>&) const;
 
 }  // namespace mortise

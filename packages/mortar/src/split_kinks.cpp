@@ -1,4 +1,4 @@
-// Kinks of the slave surface in the plane.
+// Kinks of the slave surface: corners in the plane, in space nodes on edges and at their ends.
 //
 // Where two facets meet at an angle, the average n of their normals belongs to neither. Let one of them lie flat on the master and the other stand
 // off by the angle theta. Projected along a field that turns from n to the next node's normal, the gap of the facet that stands off is no linear
@@ -26,19 +26,19 @@ namespace {
 /// disk that rolls, the averaged normals are the nearer ones.
 constexpr double sharp = 30.0 * boost::math::double_constants::degree, flat = 5.0 * boost::math::double_constants::degree;
 
-bool is_projected(const NormalStencil& stencil) { return stencil.projected[0] || stencil.projected[1]; }
-
 // On a line of symmetry the master's normal is that line, on which half of the corner is seen.
 double turn_of_corner(CornerRule rule, const NormalStencil& stencil, const Positions<2>& x) {
   return rule == CornerRule::master_normal && is_projected(stencil) ? mirrored_turn_at(stencil, x) : turn_at(stencil, x);
 }
 
+double turn_of_corner(CornerRule, const NormalStencil& stencil, const Positions<3>& x) { return turn_at(stencil, x); }
+
 }  // namespace
 
-template <>
-bool Interface<2>::split_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest) {
-  const Positions<2> positions = (*slave_positions_)(x);
-  const CornerRule rule = options_.corner_rule(2);
+template <int dim>
+bool Interface<dim>::split_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest) {
+  const Positions<dim> positions = (*slave_positions_)(x);
+  const CornerRule rule = options_.corner_rule(dim);
   kinks_.resize(slave.nodes_with_normal, 0);
   const std::vector<char> kinks_before = kinks_;
   std::vector<std::optional<std::size_t>> before, now;
@@ -60,7 +60,7 @@ bool Interface<2>::split_kinks(const MultiVector& x, const std::vector<Facet<Loc
     for (std::size_t a = 0; a < facet.size(); ++a) {
       if (is_projected(slave.stencils[facet[a]]) && kinks_[facet[a]] == 0) continue;
       slave.normals[f][a] = static_cast<LocalOrdinal>(slave.stencils.size());
-      slave.stencils.push_back(own_side(facet[a], tangents_at<2>(facet, a)));
+      slave.stencils.push_back(own_side(facet[a], tangents_at<dim>(facet, a)));
     }
   }
   int any = 0;
@@ -71,22 +71,17 @@ bool Interface<2>::split_kinks(const MultiVector& x, const std::vector<Facet<Loc
   return true;
 }
 
-template <>
-bool Interface<3>::split_kinks(const MultiVector&, const std::vector<Facet<LocalOrdinal>>&) {
-  return false;
-}
-
-template <>
-long Interface<2>::kinks(const MultiVector& x) {
-  const Positions<2> positions = (*slave_positions_)(x);
-  const CornerRule rule = options_.corner_rule(2);
+template <int dim>
+long Interface<dim>::kinks(const MultiVector& x) {
+  const Positions<dim> positions = (*slave_positions_)(x);
+  const CornerRule rule = options_.corner_rule(dim);
   return std::count_if(slave.stencils.begin(), slave.stencils.begin() + static_cast<std::ptrdiff_t>(slave.owned.size()),
                        [&](const NormalStencil& stencil) { return turn_of_corner(rule, stencil, positions) > sharp; });
 }
 
-template <>
-long Interface<3>::kinks(const MultiVector&) {
-  return 0;
-}
+template bool Interface<2>::split_kinks(const MultiVector&, const std::vector<Facet<LocalOrdinal>>&);
+template bool Interface<3>::split_kinks(const MultiVector&, const std::vector<Facet<LocalOrdinal>>&);
+template long Interface<2>::kinks(const MultiVector&);
+template long Interface<3>::kinks(const MultiVector&);
 
 }  // namespace mortise

@@ -10,11 +10,11 @@ namespace {
 const char* described(CornerRule rule) {
   switch (rule) {
     case CornerRule::master_normal:
-      return "the master's there (master normal)";
+      return "the master's (master normal)";
     case CornerRule::nearest_facet:
       return "that of the facet nearest to the master (nearest facet)";
     default:
-      return "the average of both facets' (averaged)";
+      return "the average of the facets' (averaged)";
   }
 }
 
@@ -28,8 +28,8 @@ void report_corners(const ContactSystem& contact, RunLog& log) {
     if (second_passes.count(pair) > 0) continue;
     const CornerReport corners = contact.corners(pair);
     if (corners.kinks == 0) continue;
-    log.info(fmt::format("  contact {}: the slave surface has {} convex corner{}; the normal at a corner is {}{}", contact.pair_name(pair),
-                         corners.kinks, corners.kinks == 1 ? "" : "s", described(corners.rule),
+    log.info(fmt::format("  contact {}: the slave surface has {} node{} at convex edges or corners; the normal there is {}{}",
+                         contact.pair_name(pair), corners.kinks, corners.kinks == 1 ? "" : "s", described(corners.rule),
                          corners.as_asked ? "" : ", the rule for this formulation and geometry"));
   }
 }

@@ -83,6 +83,26 @@ TEST(SplitKinks, LetACornerSeeItsOwnGap) {
   for (const CornerRule rule : rules) expect_that_a_corner_sees_its_own_gap(rule);
 }
 
+// The far end of the side that stands off is held: its function is nobody's, and the corner sees its own gap still. Along the master it is the
+// corner's.
+TEST(SplitKinks, LeaveTheFunctionOfAHeldNodeThatStandsOff) {
+  for (const double angle : {35.0, 50.0}) {
+    TwoLines lines = folding(angle);
+    lines.fixed_x = lines.fixed_y = {static_cast<std::size_t>(above)};
+    SurfacePair pair(lines, alone());
+    ASSERT_TRUE(split(pair, Surfaces(lines).points));
+    const DenseCoupling coupling = pair.dense();
+    EXPECT_LT(std::abs(coupling.gap[corner]), 1e-13) << angle;
+    EXPECT_EQ(coupling.D(corner, above), 0.0) << angle;
+    EXPECT_NEAR(coupling.D(corner, corner), 0.5 * (0.7 + side * std::cos(angle * degree)), 1e-13) << angle;
+    for (Eigen::Vector2d& x : lines.master) x.y() = std::tan(angle * degree) * x.x();
+    for (Eigen::Vector2d& x : lines.slave) x.y() += 0.01;
+    SurfacePair along(lines, alone());
+    ASSERT_TRUE(split(along, Surfaces(lines).points));
+    EXPECT_NEAR(along.dense().D(corner, above), 0.5 * side, 1e-13) << angle;
+  }
+}
+
 // Two sides that are one another's image in a master that is its own: so is everything of the corner.
 TEST(SplitKinks, LeaveSymmetryAlone) {
   for (const double angle : {20.0, 45.0, 70.0})

@@ -87,7 +87,7 @@ struct IntegrationLoad {
   int redistributions = 0;          ///< searches that gave facets to other ranks
 };
 
-/// Kinks of a pair's slave surfaces in 2D, and what gives them their normals.
+/// Kinks of a pair's slave surfaces, and what gives them their normals.
 struct CornerReport {
   long kinks = 0;  ///< over all ranks
   CornerRule rule = CornerRule::averaged;

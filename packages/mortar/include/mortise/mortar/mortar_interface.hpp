@@ -28,11 +28,11 @@ enum class Coupling {
 /// Which functions weight the gap.
 enum class GapWeighting { dual, standard };
 
-/// Normals at kinks of a slave surface in 2D: convex nodes at which it turns.
+/// Normals at kinks of a slave surface: convex nodes at which it turns, in space those on its edges and at their ends.
 enum class CornerRule {
   master_normal,  ///< facets have their own normals, the node has the master's, averaged over what the node's facets cover
-  nearest_facet,  ///< facets have their own normals, the node has that of the facet nearest to the master
-  averaged        ///< the average of the two facets' normals, as everywhere else
+  nearest_facet,  ///< facets have their own normals, the node has that of the facet nearest to the master; in the plane
+  averaged        ///< the average of the facets' normals, as everywhere else
 };
 
 /// What Newton's method knows of the nodal normals' derivatives.
@@ -58,8 +58,8 @@ struct MortarOptions {
   CornerRule corners = CornerRule::master_normal;  ///< asked for; corner_rule() tells which one acts
   double balance = 1.5;                            ///< largest over mean work of the ranks, in overlaps, above which slave facets change rank
   void describe(Parameters& parameters);
-  /// Which rule acts: averaged in 3D and with node to segment; nearest facet in the place of the master's normal with variational mortar, whose
-  /// second derivatives do not know that.
+  /// Which rule acts: averaged with node to segment, and in space in the place of the nearest facet; nearest facet in the place of the master's
+  /// normal with variational mortar, whose second derivatives do not know that.
   CornerRule corner_rule(int dimension) const;
 };
 
@@ -87,14 +87,17 @@ struct FacetCoupling {
   FacetVector cover;  ///< [slave] covered share of each node's weight, int N_j (Ñ_j) over the covered part by that over the whole facet; empty with
                       ///< node to segment
   /// Derivatives; column dim c + i belongs to component i of columns[c]. Empty if not asked for.
-  Eigen::MatrixXd dD;    ///< row slave.size() j + k
-  Eigen::MatrixXd dM;    ///< row j master.size() + l
+  Eigen::MatrixXd dD;      ///< row slave.size() j + k
+  Eigen::MatrixXd dM;      ///< row j master.size() + l
   Eigen::MatrixXd dgap;    ///< row j
   Eigen::MatrixXd dcover;  ///< row j; empty too where the whole facet is covered
   /// m_j = -int N_j <-n.n_m> n_m, with the normals n of the facet and n_m of the master: row j, of facets at a kink that takes the master's normal;
-  /// else empty. Derivatives: row 2 j + i.
-  Eigen::Matrix<double, Eigen::Dynamic, 2> facing;
+  /// else empty. Derivatives: row dim j + i.
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most_side_nodes, 3> facing;
   Eigen::MatrixXd dfacing;
+  /// Of such a facet 1 where it lies along the master, 0 where it stands off by 20 degrees or more, smooth in between; of others 1, no derivatives.
+  double alignment = 1.0;
+  Eigen::MatrixXd dalignment;  ///< one row
 };
 
 /// What one slave facet adds to the Hessian of a weighted sum of all weighted gaps.
@@ -152,15 +155,15 @@ class MortarInterface {
   /// Does nothing if a position is not finite; evaluate() then reports it.
   bool search(const MultiVector& x);
 
-  /// In 2D: chooses the kinks from now on, convex nodes at which the slave surface turns by more than 30 degrees (5 if it is one already). The
-  /// facets that meet there have their own normals, and the node what MortarOptions::corner_rule() says. Collective.
-  /// @param x        [owned nodes x 2] positions that tell
+  /// Chooses the kinks from now on, convex nodes at which the slave surface turns by more than 30 degrees (5 if it is one already). The facets that
+  /// meet there have their own normals, and the node what MortarOptions::corner_rule() says. Collective.
+  /// @param x        [owned nodes x dim] positions that tell
   /// @param nearest  [slave_nodes()] the facet nearest to the master, by its nodes; empty where none is covered: then the node's normal stays the
   ///                 average. No other rule needs it: empty
   /// @return whether anything changed on any rank: local_nodes() and the pattern will be rebuilt by the next search()
   bool split_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest);
 
-  /// In 2D: how many owned slave nodes are kinks at positions `x` [owned nodes x 2], whatever rule acts. Collective.
+  /// How many owned slave nodes are kinks at positions `x` [owned nodes x dim], whatever rule acts. Collective.
   long kinks(const MultiVector& x) const;
 
   /// Further nodes that each owned slave node stays coupled to from the next rebuild of the pattern on, by id: those that a slip is measured
