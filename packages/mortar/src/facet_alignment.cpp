@@ -13,15 +13,17 @@ constexpr double lies_along = 10.0 * boost::math::double_constants::degree;
 // a = 1 - S(theta / 10 degrees - 1), S(t) = t^2 (3 - 2 t) on [0, 1], with the angle theta at which the facet stands on the master in the mean:
 //   cos theta = |m| / A,   m = sum_j m_j,   A = sum_j c_j int N_j,   the covered area,
 //   dcos theta = (m / |m|) . dm / A - cos theta dA / A.
-void measure_alignment(const WholeFacet& whole, int dimension, bool derivatives, FacetCoupling& coupling) {
+void measure_alignment(const FacetMoments& moments, int dimension, bool derivatives, FacetCoupling& coupling) {
   const Eigen::RowVectorXd m = coupling.facing.colwise().sum();
-  const double area = coupling.cover.dot(whole.weights), cosine = std::min(1.0, m.norm() / area), t = std::acos(cosine) / lies_along - 1.0;
+  const double area = coupling.cover.dot(moments.whole), cosine = std::min(1.0, m.norm() / area), t = std::acos(cosine) / lies_along - 1.0;
   coupling.alignment = t <= 0.0 ? 1.0 : (t < 1.0 ? 1.0 - t * t * (3.0 - 2.0 * t) : 0.0);
   if (!derivatives) return;
-  coupling.dalignment.setZero(1, coupling.dcover.cols());
+  coupling.dalignment.setZero(1, coupling.dD.cols());
   if (t <= 0.0 || t >= 1.0) return;
-  Eigen::RowVectorXd of_area = whole.weights.transpose() * coupling.dcover;
-  of_area.head(whole.slope.cols()) += coupling.cover.transpose() * whole.slope;
+  Eigen::RowVectorXd of_area = Eigen::RowVectorXd::Zero(coupling.dD.cols());
+  if (coupling.dcover.size() > 0) of_area += moments.whole.transpose() * coupling.dcover;  // none: covered as a whole
+  const Eigen::MatrixXd slope = moments.whole_slope();
+  of_area.head(slope.cols()) += coupling.cover.transpose() * slope;
   Eigen::RowVectorXd of_cosine = -cosine * of_area;
   for (Eigen::Index j = 0; j < coupling.facing.rows(); ++j)
     of_cosine += m.normalized() * coupling.dfacing.middleRows(dimension * j, dimension);
@@ -64,7 +66,7 @@ bool combine_aligned(const FacetMoments& moments, const FacetMultipliers& multip
   const Eigen::Index n = multipliers.share.rows();
   const bool own = multipliers.share.isIdentity(0.0);
   const bool any = combine(moments, own ? multipliers : FacetMultipliers{FacetMatrix::Identity(n, n), multipliers.weights}, functions, derivatives, coupling);
-  measure_alignment(moments.whole, functions.dimension, derivatives, coupling);
+  measure_alignment(moments, functions.dimension, derivatives, coupling);
   return own ? any : any && inherit(multipliers.share, derivatives, coupling);
 }
 
