@@ -142,17 +142,6 @@ TEST(States, FrictionThatIsUsedUpIsToldFromContactThatOpens) {
   }
 }
 
-// A tall block on a rough incline topples when its centre is above its edge, tan(angle) = 2 / 8, long before it slides.
-TEST(States, ABlockThatTopplesIsNamed) {
-  const Outcome result = run_hard("incline", 1, {"variables/mu=5", "variables/tall=8", "variables/E=1e7", "variables/g=1"});
-  EXPECT_EQ(result.code, 3) << result.output;
-  const double topples = 0.5 * (1.0 + std::atan(0.25) * 180.0 / M_PI / 20.0);
-  EXPECT_NEAR(result.last_time(), topples, 0.01 * topples);
-  const std::string end = result.output.substr(result.output.find("not converged; the last"));
-  EXPECT_NE(end.find("body 'block' (rotation)"), std::string::npos) << result.output;
-  EXPECT_EQ(end.find("friction is used up"), std::string::npos) << result.output;
-}
-
 // A shaft pressed into a hub by 0.01, which overhangs it: friction of 0.2 bears no less than Lame's pressure says. A part of that pulls it out, and it
 // has to stay; predicted, what the first step pushes apart would go on.
 TEST(States, APressFitBearsItsLoad) {

@@ -53,9 +53,10 @@ FrictionBalance balance_friction(const std::vector<SlidingRow>& rows, const Eige
       const double fall = at.slope.dot(step);
       double share = 1.0;
       Work next = work_at(rows, load, balance.motion + step, rounding, sum);
-      for (; !(next.value <= at.value + 1e-4 * share * fall) && share > 1e-6; share *= 0.5)
-        next = work_at(rows, load, balance.motion + 0.5 * share * step, rounding, sum);
-      if (!(next.value < at.value)) break;  // round-off
+      // Close to the minimum W does not show what its slope does.
+      const auto is_better = [&] { return next.value <= at.value + 1e-4 * share * fall || next.slope.norm() <= 0.5 * at.slope.norm(); };
+      for (; !is_better() && share > 1e-6; share *= 0.5) next = work_at(rows, load, balance.motion + 0.5 * share * step, rounding, sum);
+      if (!is_better()) break;  // round-off
       balance.motion += share * step;
       at = next;
       if (!(balance.motion.norm() <= longest)) return balance;

@@ -23,7 +23,7 @@ namespace {
 
 constexpr double hardly_slips = 1e-4;  ///< work of slips on a motion, over the most that they do on another one, below which friction does not see it
 constexpr double hardly_held = 1e-2;   ///< of free_motions(): what tilts of the surface hold is weak next to friction, or Newton's step along it is short
-constexpr double rests = 1e-6;         ///< share of its bound that the traction of a node is below it by, if it does not slip
+constexpr double rests = 1e-3;         ///< share of its bound that the traction of a node is below it by, if it does not slip
 constexpr double round_off = 1e-13;    ///< what the forces along motions lack, over what friction bears, below which they lack nothing
 constexpr double in_balance = 1e-2;    ///< what the forces on a body lack along motions that are held, over the load along those that slip
 
@@ -249,7 +249,9 @@ RCP<Vector> SlipSettlement::better_start(const Vector& x, const Vector& F) {
     rest(i);
   }
   Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MIN, least, Teuchos::outArg(least_of_all));
-  if (sum(resting) == 0.0 && sliding.is_singular && least == least_of_all && !nodes.empty()) rest(slipped_least);
+  const bool some_rest = sum(resting) > 0.0;
+  if (balance.borne && !some_rest && mesh.dimension == 2) return Teuchos::null;  // W is flat there: Newton's own step is as good
+  if (!balance.borne && least == least_of_all && !nodes.empty()) rest(slipped_least);
   for (std::size_t i = 0; i < nodes.size(); ++i) change_shear(i, tractions[i] - sliding.traction[i]);
   return result;
 }
