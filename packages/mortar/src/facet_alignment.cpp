@@ -23,8 +23,7 @@ void measure_alignment(const WholeFacet& whole, int dimension, bool derivatives,
   Eigen::RowVectorXd of_area = whole.weights.transpose() * coupling.dcover;
   of_area.head(whole.slope.cols()) += coupling.cover.transpose() * whole.slope;
   Eigen::RowVectorXd of_cosine = -cosine * of_area;
-  for (Eigen::Index j = 0; j < coupling.facing.rows(); ++j)
-    of_cosine += m.normalized() * coupling.dfacing.middleRows(dimension * j, dimension);
+  for (Eigen::Index j = 0; j < coupling.facing.rows(); ++j) of_cosine += m.normalized() * coupling.dfacing.middleRows(dimension * j, dimension);
   coupling.dalignment = 6.0 * t * (1.0 - t) / (lies_along * std::sqrt(1.0 - cosine * cosine) * area) * of_cosine;
 }
 
@@ -63,7 +62,8 @@ bool combine_aligned(const FacetMoments& moments, const FacetMultipliers& multip
   if (coupling.facing.rows() == 0) return combine(moments, multipliers, functions, derivatives, coupling);
   const Eigen::Index n = multipliers.share.rows();
   const bool own = multipliers.share.isIdentity(0.0);
-  const bool any = combine(moments, own ? multipliers : FacetMultipliers{FacetMatrix::Identity(n, n), multipliers.weights}, functions, derivatives, coupling);
+  const bool any =
+      combine(moments, own ? multipliers : FacetMultipliers{FacetMatrix::Identity(n, n), multipliers.weights}, functions, derivatives, coupling);
   measure_alignment(moments.whole, functions.dimension, derivatives, coupling);
   return own ? any : any && inherit(multipliers.share, derivatives, coupling);
 }
