@@ -25,8 +25,7 @@ void measure_alignment(const FacetMoments& moments, int dimension, bool derivati
   const Eigen::MatrixXd slope = moments.whole_slope();
   of_area.head(slope.cols()) += coupling.cover.transpose() * slope;
   Eigen::RowVectorXd of_cosine = -cosine * of_area;
-  for (Eigen::Index j = 0; j < coupling.facing.rows(); ++j)
-    of_cosine += m.normalized() * coupling.dfacing.middleRows(dimension * j, dimension);
+  for (Eigen::Index j = 0; j < coupling.facing.rows(); ++j) of_cosine += m.normalized() * coupling.dfacing.middleRows(dimension * j, dimension);
   coupling.dalignment = 6.0 * t * (1.0 - t) / (lies_along * std::sqrt(1.0 - cosine * cosine) * area) * of_cosine;
 }
 
@@ -65,7 +64,8 @@ bool combine_aligned(const FacetMoments& moments, const FacetMultipliers& multip
   if (coupling.facing.rows() == 0) return combine(moments, multipliers, functions, derivatives, coupling);
   const Eigen::Index n = multipliers.share.rows();
   const bool own = multipliers.share.isIdentity(0.0);
-  const bool any = combine(moments, own ? multipliers : FacetMultipliers{FacetMatrix::Identity(n, n), multipliers.weights}, functions, derivatives, coupling);
+  const bool any =
+      combine(moments, own ? multipliers : FacetMultipliers{FacetMatrix::Identity(n, n), multipliers.weights}, functions, derivatives, coupling);
   measure_alignment(moments, functions.dimension, derivatives, coupling);
   return own ? any : any && inherit(multipliers.share, derivatives, coupling);
 }

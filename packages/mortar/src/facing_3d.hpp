@@ -7,8 +7,8 @@
 
 namespace mortise {
 
-/// m_j = -int N_j <-p.n_m> n_m over an overlap, with the normal p of the slave facet's plane and the unit normals n_m of the master; of quadratic slave
-/// facets with Ñ_j for N_j. In the frame of the plane, over which the master stands at the height z(s),
+/// m_j = -int N_j <-p.n_m> n_m over an overlap, with the normal p of the slave facet's plane and the unit normals n_m of the master; of quadratic
+/// slave facets with Ñ_j for N_j. In the frame of the plane, over which the master stands at the height z(s),
 ///   n_m = (z', -1) / (1 + z'^2)^(1/2),   -<-p.n_m> n_m = (-z', 1) / (1 + z'^2).
 struct FacingIntegrals3d {
   Eigen::VectorXd value;  ///< component i of m_j, in the frame, in row 3 j + i
