@@ -142,8 +142,8 @@ TEST(States, FrictionThatIsUsedUpIsToldFromContactThatOpens) {
   }
 }
 
-// A shaft pressed into a hub by 0.01, which overhangs it: friction of 0.2 bears no less than Lame's pressure says. A part of that pulls it out, and it
-// has to stay; predicted, what the first step pushes apart would go on.
+// A shaft pressed into a hub by 0.01, which overhangs it: friction of 0.2 bears no less than Lame's pressure says. A part of that pulls it out, and
+// it has to stay; predicted, what the first step pushes apart would go on.
 TEST(States, APressFitBearsItsLoad) {
   const double over = 0.01, pressure = 1000.0 * over * (4.0 - 1.0) / (2.0 * 4.0);  // radii 1 and 2
   for (const int ranks : {1, 3})

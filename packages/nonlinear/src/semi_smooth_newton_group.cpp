@@ -139,7 +139,8 @@ NOX::Abstract::Group::ReturnType SemiSmoothNewtonGroup::computeNewton(Teuchos::P
   const double tolerance = linear_tolerance(list.get("Tolerance", 0.0));
   const auto geometric_stiffness =
       norms_.changed <= settled * norms_.active ? GeometricContactStiffness::included : GeometricContactStiffness::left_out;
-  const RCP<const Vector> x = tpetra_vector(static_cast<const NOX::Abstract::Vector&>(*x_)), F = tpetra_vector(static_cast<const NOX::Abstract::Vector&>(*F_));
+  const RCP<const Vector> x = tpetra_vector(static_cast<const NOX::Abstract::Vector&>(*x_)),
+                          F = tpetra_vector(static_cast<const NOX::Abstract::Vector&>(*F_));
   const RCP<Vector> direction = tpetra_vector(*newton_);
   const auto& better_start = system_->parts().better_start;
   if (const RCP<Vector> start = better_start ? better_start(*x, *F) : Teuchos::null; !start.is_null()) {

@@ -22,10 +22,11 @@ namespace mortise {
 namespace {
 
 constexpr double hardly_slips = 1e-4;  ///< work of slips on a motion, over the most that they do on another one, below which friction does not see it
-constexpr double hardly_held = 1e-2;   ///< of free_motions(): what tilts of the surface hold is weak next to friction, or Newton's step along it is short
-constexpr double rests = 1e-3;         ///< share of its bound that the traction of a node is below it by, if it does not slip
-constexpr double round_off = 1e-13;    ///< what the forces along motions lack, over what friction bears, below which they lack nothing
-constexpr double in_balance = 1e-2;    ///< what the forces on a body lack along motions that are held, over the load along those that slip
+constexpr double hardly_held =
+    1e-2;                       ///< of free_motions(): what tilts of the surface hold is weak next to friction, or Newton's step along it is short
+constexpr double rests = 1e-3;  ///< share of its bound that the traction of a node is below it by, if it does not slip
+constexpr double round_off = 1e-13;  ///< what the forces along motions lack, over what friction bears, below which they lack nothing
+constexpr double in_balance = 1e-2;  ///< what the forces on a body lack along motions that are held, over the load along those that slip
 
 /// The work of sliding nodes on some motions, columns of `motions`.
 std::vector<SlidingRow> sliding_rows(const std::vector<SlidingNode>& nodes, const std::vector<TangentVector>& slips, const RigidModes& modes,
@@ -173,8 +174,7 @@ bool SlipSettlement::find_sliding(const Vector& x, const Vector& F, Sliding& fou
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> tangent(stiffness);
   found.is_singular = !(tangent.eigenvalues()[0] > hardly_slips * if_stuck);
   if (found.is_singular) return true;
-  const Eigen::VectorXd step =
-      tangent.eigenvectors() * (tangent.eigenvectors().transpose() * missing).cwiseQuotient(tangent.eigenvalues());
+  const Eigen::VectorXd step = tangent.eigenvectors() * (tangent.eigenvectors().transpose() * missing).cwiseQuotient(tangent.eigenvalues());
   double along = 0.0;
   for (const SlidingRow& row : found.rows) along += row.bound * (row.work * step).norm();
   return sum(along) > slipped;

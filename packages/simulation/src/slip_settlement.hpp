@@ -8,9 +8,9 @@
 
 namespace mortise {
 
-/// A node that slips bears a given traction, whatever its slip: where all nodes of a body slip the Jacobian is singular along the surface. There is an
-/// equilibrium all the same if friction can bear the load: then some nodes slip the other way, or stick. Which these are depends on where the body goes
-/// to as a whole, which the Jacobian does not tell; balance_friction() does.
+/// A node that slips bears a given traction, whatever its slip: where all nodes of a body slip the Jacobian is singular along the surface. There is
+/// an equilibrium all the same if friction can bear the load: then some nodes slip the other way, or stick. Which these are depends on where the body
+/// goes to as a whole, which the Jacobian does not tell; balance_friction() does.
 class SlipSettlement {
  public:
   /// Collective.
@@ -26,8 +26,8 @@ class SlipSettlement {
 
   /// A try of a step begins.
   void begin() { overload_.clear(); }
-  /// Of the last iterate of this try where friction alone held a body, in equilibrium across the surface, and did not bear its load: body, motion, load
-  /// and what friction bears. Empty if there was none, or a later one held.
+  /// Of the last iterate of this try where friction alone held a body, in equilibrium across the surface, and did not bear its load: body, motion,
+  /// load and what friction bears. Empty if there was none, or a later one held.
   const std::string& overload() const { return overload_; }
 
  private:

@@ -1,11 +1,11 @@
 // Where bodies that slip come to rest against friction.
 
+#include "mortise/simulation/friction_balance.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-
-#include "mortise/simulation/friction_balance.hpp"
 
 namespace mortise {
 namespace {
