@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "launch.hpp"
+#include "scene_text.hpp"
 
 namespace {
 
@@ -14,16 +15,9 @@ namespace files = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using namespace scene_text;
 
 const std::string directory = SCRATCH;
-
-std::string parameter(const std::string& name, const std::string& value) {
-  return "<Parameter name=\"" + name + "\" type=\"string\" value=\"" + value + "\"/>\n";
-}
-
-std::string list(const std::string& name, const std::string& content) {
-  return "<ParameterList name=\"" + name + "\">\n" + content + "</ParameterList>\n";
-}
 
 /// A case of layers between walls, whose stress is the variable s, or of another scene.
 std::string a_case(const std::string& name, const std::string& rest, const std::string& scene = "layers.xml") {

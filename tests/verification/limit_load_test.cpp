@@ -56,4 +56,19 @@ TEST(LimitLoad, IsNotSeenInABarThatHardens) {
   EXPECT_FALSE(stop.names_a_limit()) << stop.output;
 }
 
+// An arch under a tool with a dead load: in the failed tries the tool comes loose, as contact alone holds it.
+TEST(LimitLoad, OfAnArchThatSnapsThroughIsNamed) {
+  for (const int ranks : {1, 2}) {
+    const Stop stop = run("../hard/arch.xml", "arch" + std::to_string(ranks), {"variables/steps=10"}, ranks);
+    EXPECT_EQ(stop.code, 3);
+    EXPECT_TRUE(stop.names_a_limit()) << stop.output;
+    EXPECT_NE(stop.output.find("no point flows"), std::string::npos) << stop.output;
+  }
+}
+
+// Moved instead, the tool passes the maximum of its force.
+TEST(LimitLoad, IsPassedUnderPrescribedDisplacements) {
+  EXPECT_EQ(run("../hard/arch.xml", "arch_moved", {"boundary conditions/tool/y=-rise*t", "loads/weight/y=0"}).code, 0);
+}
+
 }  // namespace

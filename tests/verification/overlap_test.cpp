@@ -7,19 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "scene_support.hpp"
+#include "scene_text.hpp"
 
 namespace {
 
 using namespace scene_support;
+using namespace scene_text;
 using Json = nlohmann::json;
-
-std::string parameter(const std::string& name, const std::string& value) {
-  return fmt::format(R"(<Parameter name="{}" type="string" value="{}"/>)", name, value) + "\n";
-}
-
-std::string list(const std::string& name, const std::string& content) {
-  return fmt::format("<ParameterList name=\"{}\">\n{}</ParameterList>\n", name, content);
-}
 
 /// A block 1 x 1 (x 1) on a base 3 x 1 (x 3); the edges of the block lie within facets of the base.
 struct Case {

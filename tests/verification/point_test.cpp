@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "launch.hpp"
+#include "scene_text.hpp"
 
 namespace {
 
@@ -24,11 +25,9 @@ Ending mortise(std::vector<std::string> words, int ranks = 1, const std::string&
   return launch(command, 120);
 }
 
-const std::string directory = std::string(SCRATCH) + "/point";
+using scene_text::parameter;
 
-std::string parameter(const std::string& name, const std::string& value) {
-  return "<Parameter name=\"" + name + "\" type=\"string\" value=\"" + value + "\"/>\n";
-}
+const std::string directory = std::string(SCRATCH) + "/point";
 
 /// A point file; `type` stands in line 2, `path` from line 7 on.
 std::string write_point(const std::string& name, const std::string& type, const std::string& path) {

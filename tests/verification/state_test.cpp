@@ -9,45 +9,37 @@
 #include <nlohmann/json.hpp>
 
 #include "launch.hpp"
+#include "scene_text.hpp"
 
 namespace {
 
+using namespace scene_text;
 using Words = std::vector<std::string>;
 
-std::string text(const std::string& name, const std::string& value) {
-  return "<Parameter name=\"" + name + "\" type=\"string\" value=\"" + value + "\"/>\n";
-}
-std::string list(const std::string& name, const std::string& content) {
-  return "<ParameterList name=\"" + name + "\">\n" + content + "</ParameterList>\n";
-}
-std::string of_type(const std::string& name, const std::string& type, const std::string& value) {
-  return "<Parameter name=\"" + name + "\" type=\"" + type + "\" value=\"" + value + "\"/>\n";
-}
-
 std::string block(const std::string& name, double width, double height, int cells_x, int cells_y, const std::string& translation) {
-  return list(name, text("material", "soft") +
-                        list("mesh", text("type", "block") + of_type("width", "double", std::to_string(width)) +
+  return list(name, parameter("material", "soft") +
+                        list("mesh", parameter("type", "block") + of_type("width", "double", std::to_string(width)) +
                                          of_type("height", "double", std::to_string(height)) + of_type("cells x", "int", std::to_string(cells_x)) +
-                                         of_type("cells y", "int", std::to_string(cells_y)) + text("translation", translation)));
+                                         of_type("cells y", "int", std::to_string(cells_y)) + parameter("translation", translation)));
 }
 std::string disk(const std::string& name, double radius, const std::string& translation) {
-  return list(name, text("material", "soft") + list("mesh", text("type", "disk") + of_type("radius", "double", std::to_string(radius)) +
-                                                                of_type("cells around", "int", "8") + of_type("cells across", "int", "4") +
-                                                                text("translation", translation)));
+  return list(name, parameter("material", "soft") + list("mesh", parameter("type", "disk") + of_type("radius", "double", std::to_string(radius)) +
+                                                                     of_type("cells around", "int", "8") + of_type("cells across", "int", "4") +
+                                                                     parameter("translation", translation)));
 }
 std::string sides(const std::string& name, const std::string& of, const std::string& where) {
-  return list(name, text("of", of) + text("kind", "sides") + text("where", where));
+  return list(name, parameter("of", of) + parameter("kind", "sides") + parameter("where", where));
 }
 std::string condition(const std::string& name, const std::string& set, const std::map<std::string, std::string>& values) {
-  std::string content = text("set", set);
-  for (const auto& [component, value] : values) content += text(component, value);
+  std::string content = parameter("set", set);
+  for (const auto& [component, value] : values) content += parameter(component, value);
   return list(name, content);
 }
 std::string pair(const std::string& name, const std::string& slave, const std::string& master, double friction, const std::string& formulation = "") {
-  return list(name,
-              text("slave", slave) + text("master", master) +
-                  (friction > 0.0 ? list("friction", text("type", "coulomb") + of_type("coefficient", "double", std::to_string(friction))) : "") +
-                  (formulation.empty() ? "" : list("formulation", text("type", formulation))));
+  return list(
+      name, parameter("slave", slave) + parameter("master", master) +
+                (friction > 0.0 ? list("friction", parameter("type", "coulomb") + of_type("coefficient", "double", std::to_string(friction))) : "") +
+                (formulation.empty() ? "" : list("formulation", parameter("type", formulation))));
 }
 std::string stepping(double end, double step) {
   return list("stepping", of_type("end time", "double", std::to_string(end)) + of_type("step", "double", std::to_string(step)));
@@ -55,7 +47,7 @@ std::string stepping(double end, double step) {
 std::string place_of(const std::string& body) {
   std::string content;
   for (const std::string component : {"x", "y"})
-    content += list("u" + component, text("type", "mean") + text("field", "displacement " + component) + text("on", body));
+    content += list("u" + component, parameter("type", "mean") + parameter("field", "displacement " + component) + parameter("on", body));
   return list("quantities", content);
 }
 
@@ -76,7 +68,7 @@ Outcome run(const std::string& name, const std::string& content, int ranks, Word
   const std::filesystem::path directory = std::filesystem::path(SCRATCH);
   std::filesystem::create_directories(directory);
   const std::string scene = directory / (name + ".xml"), results = directory / name;
-  const std::string soft = list("materials", list("soft", text("type", "neo hooke") + of_type("young's modulus", "double", "1000") +
+  const std::string soft = list("materials", list("soft", parameter("type", "neo hooke") + of_type("young's modulus", "double", "1000") +
                                                               of_type("poisson's ratio", "double", "0.3")));
   std::ofstream(scene) << list(name, soft + content);
   Words command{MPIEXEC, "-n", std::to_string(ranks), MORTISE, "run", scene, "-o", results};

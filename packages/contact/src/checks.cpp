@@ -1,11 +1,13 @@
 #include "checks.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Teuchos_RCPDecl.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <stdexcept>
+#include <vector>
 
 #include "mortise/core/dof_map.hpp"
 #include "mortise/mortar/surface_nodes.hpp"
@@ -44,7 +46,7 @@ void refuse_incomplete_pairs(const Communicator& comm, const std::vector<Contact
   throw_if_any(comm, diagnostics);
 }
 
-void refuse_shared_nodes(const Map& owned_nodes, const std::vector<ContactPair>& pairs) {
+void refuse_shared_nodes(const Map& owned_nodes, const MultiVector& reference, const std::vector<ContactPair>& pairs) {
   const auto nodes = Teuchos::rcpFromRef(owned_nodes);
   std::vector<std::vector<char>> slave, master;
   for (const ContactPair& pair : pairs) {
@@ -55,10 +57,15 @@ void refuse_shared_nodes(const Map& owned_nodes, const std::vector<ContactPair>&
   bool kept = false;
   for (const ContactPair& pair : pairs) kept |= pair.options.formulation.options->elimination() == Elimination::none;
   std::vector<Diagnostic> diagnostics;
-  const auto first_common = [&](const std::vector<char>& one, const std::vector<char>& other) -> std::optional<GlobalOrdinal> {
+  const auto first_common = [&](const std::vector<char>& one, const std::vector<char>& other) -> std::optional<LocalOrdinal> {
     for (std::size_t node = 0; node < one.size(); ++node)
-      if (one[node] && other[node]) return owned_nodes.getGlobalElement(static_cast<LocalOrdinal>(node));
+      if (one[node] && other[node]) return static_cast<LocalOrdinal>(node);
     return std::nullopt;
+  };
+  const auto place = [&](LocalOrdinal node) {
+    std::vector<double> x;
+    for (std::size_t i = 0; i < reference.getNumVectors(); ++i) x.push_back(reference.getVector(i)->getData()[node]);
+    return fmt::format("at ({:.6g}) of the reference configuration", fmt::join(x, ", "));
   };
   for (std::size_t p = 0; p < pairs.size(); ++p)
     for (std::size_t q = 0; q < pairs.size(); ++q) {
@@ -66,15 +73,15 @@ void refuse_shared_nodes(const Map& owned_nodes, const std::vector<ContactPair>&
       if (p < q)
         if (const auto node = first_common(slave[p], slave[q]))
           diagnostics.push_back(
-              {pairs[q].place, fmt::format("node {} is a slave here and in pair \"{}\"; a node can be slave in one pair only: make this side "
+              {pairs[q].place, fmt::format("node {} is a slave here and in pair \"{}\", {}; a node can be slave in one pair only: make this side "
                                            "the master of one of them, or split the surface into sets without common nodes",
-                                           *node, pairs[p].name)});
+                                           owned_nodes.getGlobalElement(*node), pairs[p].name, place(*node))});
       if (kept || (!eliminated(p) && !eliminated(q))) continue;
       if (const auto node = first_common(slave[p], master[q]))
         diagnostics.push_back(
-            {pairs[p].place, fmt::format("node {} is a slave here and a master in pair \"{}\"; its multiplier could not be eliminated: split the "
+            {pairs[p].place, fmt::format("node {} is a slave here and a master in pair \"{}\", {}; its multiplier could not be eliminated: split the "
                                          "surface into sets without common nodes, or exchange slave and master",
-                                         *node, pairs[q].name)});
+                                         owned_nodes.getGlobalElement(*node), pairs[q].name, place(*node))});
     }
   throw_if_any(*owned_nodes.getComm(), diagnostics);
 }

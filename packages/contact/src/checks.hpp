@@ -16,6 +16,6 @@ void refuse_incomplete_pairs(const Communicator& comm, const std::vector<Contact
 
 /// Collective. Throws InputError for a node that is slave in two pairs, or slave in one pair and master in another: its multiplier could
 /// not be eliminated from its own rows.
-void refuse_shared_nodes(const Map& owned_nodes, const std::vector<ContactPair>& pairs);
+void refuse_shared_nodes(const Map& owned_nodes, const MultiVector& reference, const std::vector<ContactPair>& pairs);
 
 }  // namespace mortise::detail

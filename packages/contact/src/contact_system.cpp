@@ -87,7 +87,7 @@ ContactSystem::ContactSystem(RCP<const Map> owned_nodes, RCP<const Map> dofs, RC
   self.dimension = static_cast<int>(self.reference->getNumVectors());
   self.extent = 0.0;
   for (std::size_t i = 0; i < self.reference->getNumVectors(); ++i) self.extent = std::max(self.extent, self.reference->getVector(i)->normInf());
-  detail::refuse_shared_nodes(*self.owned_nodes, pairs);
+  detail::refuse_shared_nodes(*self.owned_nodes, *self.reference, pairs);
   for (ContactPair& pair : pairs) {
     const Formulation& formulation = *pair.options.formulation.options;
     pair.options.mortar.coupling = formulation.coupling();

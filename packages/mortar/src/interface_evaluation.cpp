@@ -48,9 +48,10 @@ void Interface<dim>::couple_facets(const Positions<dim>& x, bool derivatives, st
       segments_of_guest_[g] = segments_of(data, guest.candidates, x, derivatives, guest_couplings_[g]);
     }
   } catch (const StepFailure& one) {
-    std::vector<GlobalOrdinal> nodes;
-    for (const LocalOrdinal node : data.nodes) nodes.push_back(local_nodes->getGlobalElement(node));
-    failure = StepFailure(one.kind(), fmt::format("{} (slave facet of nodes {})", one.what(), fmt::join(nodes, ", ")));
+    std::vector<std::string> nodes;
+    for (const LocalOrdinal node : data.nodes)
+      nodes.push_back(fmt::format("{}, now at ({:.6g})", local_nodes->getGlobalElement(node), fmt::join(x[node].data(), x[node].data() + dim, ", ")));
+    failure = StepFailure(one.kind(), fmt::format("{} (slave facet of nodes {})", one.what(), fmt::join(nodes, "; ")));
   }
   load.facets = load.segments = 0;
   for (const auto* counts : {&segments_of_facet_, &segments_of_guest_})
@@ -119,9 +120,12 @@ void Interface<dim>::evaluate(const MultiVector& x, bool derivatives, std::vecto
   for (std::size_t n = 0; n < normals.size(); ++n) {
     const NormalStencil& stencil = n < slave.stencils.size() ? slave.stencils[n] : guests_.stencils[n - slave.stencils.size()];
     if (!average_normal(stencil, positions, derivatives, normals[n]) && !failure)
-      failure = StepFailure(FailureKind::inverted_facet,
-                            fmt::format("the slave surface has no normal at node {}: a facet lost its {}, or facets folded onto one another",
-                                        local_nodes->getGlobalElement(stencil.node), dim == 2 ? "length" : "area"));
+      failure = StepFailure(
+          FailureKind::inverted_facet,
+          fmt::format("the slave surface has no normal at node {}, now at ({:.6g}): a facet lost its {}, or facets folded onto one "
+                      "another",
+                      local_nodes->getGlobalElement(stencil.node),
+                      fmt::join(positions[stencil.node].data(), positions[stencil.node].data() + dim, ", "), dim == 2 ? "length" : "area"));
   }
   if (derivatives && options_.linearisation == Linearisation::frozen_normals)
     for (NodalNormal& normal : normals) normal.derivative.setZero();

@@ -87,8 +87,9 @@ std::vector<PlasticPoint> plastic_points(const Bodies& bodies, const Vector& dis
   return points;
 }
 
-/// "91 % of body 'bar'", ... : the share of each body's volume that flows from the converged state to the failed one.
-std::vector<std::string> describe_flow(const Model& model, const Vector& failed, const Vector& converged) {
+}  // namespace
+
+std::string describe_flow(const Model& model, const Vector& failed, const Vector& converged) {
   const Mesh& mesh = *model.mesh();
   const auto before = plastic_points(*model.bodies(), converged), after = plastic_points(*model.bodies(), failed);
   std::vector<double> mine(2 * mesh.blocks.size(), 0.0), all(mine.size());
@@ -101,10 +102,8 @@ std::vector<std::string> describe_flow(const Model& model, const Vector& failed,
   for (std::size_t block = 0; block < mesh.blocks.size(); ++block)
     if (all[2 * block + 1] > 0.0)
       shares.push_back(fmt::format("{:.3g} % of body '{}'", 100.0 * all[2 * block + 1] / all[2 * block], mesh.blocks[block].name));
-  return shares;
+  return shares.empty() ? "no point flows, so the structure buckles or snaps through" : fmt::format("plastic flow in {}", fmt::join(shares, ", "));
 }
-
-}  // namespace
 
 std::string explain_limit_load(const StepFailure& failure, const Model& model, SemiSmoothSystem& system, const Vector& converged) {
   if (!newton_came_to_no_end(failure.kind()) || system.linearised_at().is_null()) return {};
@@ -116,10 +115,8 @@ std::string explain_limit_load(const StepFailure& failure, const Model& model, S
     return {};
   }
   if (!stiffness || !(*stiffness < hardly_stiff)) return {};
-  const auto flow = describe_flow(model, *system.displacement(failed), *system.displacement(converged));
-  return fmt::format(
-      "no equilibrium beyond this load: against more of it the stiffness is {:.1e} of the elastic one; {}", *stiffness,
-      flow.empty() ? "no point flows, so the structure buckles or snaps through" : fmt::format("plastic flow in {}", fmt::join(flow, ", ")));
+  return fmt::format("no equilibrium beyond this load: against more of it the stiffness is {:.1e} of the elastic one; {}", *stiffness,
+                     describe_flow(model, *system.displacement(failed), *system.displacement(converged)));
 }
 
 }  // namespace mortise

@@ -18,4 +18,8 @@ namespace mortise {
 /// @returns in words for people, with the share of each body's volume that flows; empty if the failure has another cause
 std::string explain_limit_load(const StepFailure& failure, const Model& model, SemiSmoothSystem& system, const Vector& converged);
 
+/// "plastic flow in 91 % of body 'bar'", the share of each body's volume that flows between two displacements; or that none does, and what it means
+/// beyond a limit. Collective.
+std::string describe_flow(const Model& model, const Vector& failed, const Vector& converged);
+
 }  // namespace mortise

@@ -31,6 +31,7 @@
 #include "slip_settlement.hpp"
 #include "step_evaluation.hpp"
 #include "timer_sums.hpp"
+#include "turning_point.hpp"
 
 namespace mortise {
 namespace {
@@ -273,8 +274,13 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
     };
     // Smaller tries of a step often end where less can be told: then what an earlier one showed is said again.
     std::string known;
+    const double smallest = scene.stepping.minimum_step.value_or(scene.stepping.step / 1024.0);
     functions.explain = [&](const StepFailure& caught) -> std::string {
       if (caught.kind() == FailureKind::input) return {};
+      const double from = record.steps.empty() ? 0.0 : record.steps.back().time, to = system.time();
+      if (to - from < 2.0 * smallest && !system.linearised_at().is_null())
+        if (const std::string turns = explain_turning_point(model, system, x, Vector(*system.linearised_at(), Teuchos::Copy), from, to); !turns.empty())
+          return known = turns;
       if (check && !check->refused().empty()) return check->refused() + "; put back, it found no equilibrium";
       std::string explanation = settlement ? settlement->overload() : std::string();
       if (explanation.empty() && check) explanation = explain_failure(model, system, check->record());

@@ -57,8 +57,8 @@ Bodies::Bodies(RCP<const Mesh> mesh, Kinematics kinematics, double thickness, st
     blocks_.push_back(make_element_block(context, properties_[n], kinematics_, thickness_));
     const auto [element, determinant] = blocks_.back()->smallest_reference_determinant();
     if (!(determinant > 0.0))
-      diagnostics.push_back({properties_[n].place, fmt::format("body \"{}\": element {} of the mesh is inverted, det J = {:.3g}", properties_[n].name,
-                                                               context.block.element_ids[element], determinant)});
+      diagnostics.push_back({properties_[n].place, fmt::format("body \"{}\": element {} {} is inverted, det J = {:.3g}", properties_[n].name,
+                                                               context.block.element_ids[element], element_place(context, element), determinant)});
   }
   throw_if_any(*mesh_->comm, diagnostics);
 }

@@ -1,5 +1,9 @@
 #include "element_block.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
 #include <stdexcept>
 
 #include "cell_block.hpp"
@@ -13,6 +17,14 @@
 #include "mortise/shape/triangle6.hpp"
 
 namespace mortise {
+
+std::string element_place(const BlockContext& context, LocalOrdinal element) {
+  const int nodes = context.block.nodes_per_element;
+  std::array<double, 3> middle{};
+  for (int a = 0; a < nodes; ++a)
+    for (int i = 0; i < 3; ++i) middle[i] += context.mesh.coordinates[context.block.nodes(element)[a]][i] / nodes;
+  return fmt::format("at ({:.6g}) of the reference configuration", fmt::join(middle.begin(), middle.begin() + context.mesh.dimension, ", "));
+}
 
 std::unique_ptr<ElementBlock> make_element_block(const BlockContext& context, const BodyProperties& body, Kinematics kinematics, double thickness) {
   constexpr auto standard = ElementFormulation::standard, f_bar = ElementFormulation::f_bar;

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "mortise/solid/bodies.hpp"
@@ -17,6 +18,9 @@ struct BlockContext {
   LocalOrdinal index;  ///< of the block in the mesh
   const NodalSparsity& sparsity;
 };
+
+/// The middle of an element's nodes in the reference configuration, for people: "at (1, 0.5) of the reference configuration".
+std::string element_place(const BlockContext& context, LocalOrdinal element);
 
 /// `displacement`: on the local dofs; `force`: on the owned dofs. See Bodies for what the members do.
 class ElementBlock {
