@@ -63,7 +63,7 @@ bool PairCoupling::closed(std::size_t s, const NodeMultiplier& multiplier) const
 }
 
 double PairCoupling::gap(std::size_t s, const NodeMultiplier& multiplier) const {
-  return multiplier.shift.size() == 0 ? rows_[s].gap : rows_[s].gap + rows_[s].normal.dot(multiplier.shift);
+  return multiplier.shift.size() == 0 ? own_gap(s) : own_gap(s) + rows_[s].normal.dot(multiplier.shift);
 }
 
 TangentVector PairCoupling::slip(std::size_t s, const NodeMultiplier& multiplier) const {
@@ -72,7 +72,7 @@ TangentVector PairCoupling::slip(std::size_t s, const NodeMultiplier& multiplier
 
 double PairCoupling::closing_pressure(std::size_t s) const {
   const double share = regularisation_ ? slave_nodes()[s].weight / rows_[s].covered : 1.0;
-  return complementarity_constant(s) * share * rows_[s].gap;
+  return complementarity_constant(s) * share * own_gap(s);
 }
 
 // A component that is prescribed takes one tangent: there the node bears no shear traction.
@@ -275,8 +275,8 @@ void PairCoupling::choose_axes() {
 }
 
 // Augmented Lagrange: a node moves by its force, z_n w, over a stiffness of the body, so its mean gap g / w answers to its traction in proportion to
-// w / A_j. An update divides g / w by 1 + eps times that compliance: with eps alone hardly at all where w is small, but for tied nodes, which give way
-// by sigma / w.
+// w / A_j. An update divides g / w by 1 + eps times that compliance: with eps alone hardly at all where w is small, but for tied nodes, which give
+// way by sigma / w.
 RegularisedStart PairCoupling::start_from(std::size_t s, const SpatialVector& z) const {
   RegularisedStart start{SpatialVector::Zero(dimension_)};
   if (friction_ != nullptr) start.multiplier.tail(dimension_ - 1) = frame(s).tangents * z;
