@@ -22,7 +22,7 @@ struct Case {
   int base_cells = 15, top_cells = 6;
   bool space = false, base_is_slave = false;
   bool same_width = false;  ///< of base and block
-  std::string base_height = "1", base_side = "top";
+  std::string base_height = "1", base_side = "top", base_left = "-1.07";
   std::string element = "Q4", pair = "", step = "1";
 };
 
@@ -36,7 +36,7 @@ std::string scene_of(const Case& one) {
   };
   const std::string height = one.driven ? "0" : fmt::format("{}", -one.depth), motion = one.driven ? fmt::format("{}*t", -one.depth) : "0",
                     level = one.space ? "0, 0, " : "0, ";
-  const std::string place = one.space ? "-1.07, -1.07, -1" : (one.same_width ? "0, -" : "-1.07, -") + one.base_height;
+  const std::string place = one.space ? "-1.07, -1.07, -1" : (one.same_width ? "0" : one.base_left) + ", -" + one.base_height;
   const auto hold = [&](const std::string& name, const std::string& set, const std::string& across) {
     return list(name,
                 parameter("set", set) + parameter("x", "0") + parameter("y", one.space ? "0" : across) + (one.space ? parameter("z", across) : ""));
@@ -63,9 +63,9 @@ double force_of(const Case& one, const std::string& name, int ranks = 1) {
 }
 
 /// A hyperelastic body without friction knows no way: beginning in one another and moved into one another end in the same state.
-void expect_force_of_driven(Case one, const std::string& name, int ranks = 1) {
+void expect_force_of_driven(Case one, const std::string& name, int ranks = 1, const std::string& step = "0.25") {
   const double begun = force_of(one, name, ranks);
-  one.driven = true, one.step = "0.25";
+  one.driven = true, one.step = step;
   const double driven = force_of(one, name + "_driven");
   EXPECT_GT(std::abs(driven), 0.0);
   EXPECT_NEAR(begun / driven, 1.0, 1e-8) << name;
@@ -93,6 +93,15 @@ TEST(InitialOverlap, In3DGivesTheForceOfABodyThatIsMovedIn) {
     Case one;
     one.space = true, one.element = "H8", one.depth = 0.25, one.base_cells = 15, one.top_cells = 6, one.base_is_slave = base_is_slave;
     expect_force_of_driven(one, fmt::format("space_{}", base_is_slave), 2);
+  }
+}
+
+// Five facets deep across the edge of the base, where one step does not arrive: smaller ones take up their shares.
+TEST(InitialOverlap, IsTakenUpInPartsWhereOneStepIsTooMuch) {
+  for (const bool base_is_slave : {false, true}) {
+    Case one;
+    one.depth = 0.2, one.base_cells = 74, one.top_cells = 25, one.base_left = "-2.9", one.base_is_slave = base_is_slave;
+    expect_force_of_driven(one, fmt::format("across_edge_{}", base_is_slave), 1, "0.05");
   }
 }
 

@@ -136,6 +136,10 @@ bool ContactSystem::keeps_multipliers() const {
   const auto& pairs = implementation_->pairs;
   return std::any_of(pairs.begin(), pairs.end(), [](const auto& pair) { return pair->formulation().elimination() == Elimination::none; });
 }
+void ContactSystem::allow_overlap(std::size_t pair, double depth) {
+  implementation_->pairs[pair]->allow_overlap(depth);
+  if (const auto other = second_pass(pair)) implementation_->pairs[*other]->allow_overlap(depth);
+}
 const RCP<const Map>& ContactSystem::multiplier_map() const { return implementation_->multipliers; }
 
 void ContactSystem::evaluate(const Vector& d, bool derivatives, std::optional<StepFailure>& failure) {

@@ -63,7 +63,7 @@ bool PairCoupling::closed(std::size_t s, const NodeMultiplier& multiplier) const
 }
 
 double PairCoupling::gap(std::size_t s, const NodeMultiplier& multiplier) const {
-  return multiplier.shift.size() == 0 ? rows_[s].gap : rows_[s].gap + rows_[s].normal.dot(multiplier.shift);
+  return multiplier.shift.size() == 0 ? own_gap(s) : own_gap(s) + rows_[s].normal.dot(multiplier.shift);
 }
 
 TangentVector PairCoupling::slip(std::size_t s, const NodeMultiplier& multiplier) const {
@@ -72,7 +72,7 @@ TangentVector PairCoupling::slip(std::size_t s, const NodeMultiplier& multiplier
 
 double PairCoupling::closing_pressure(std::size_t s) const {
   const double share = regularisation_ ? slave_nodes()[s].weight / rows_[s].covered : 1.0;
-  return complementarity_constant(s) * share * rows_[s].gap;
+  return complementarity_constant(s) * share * own_gap(s);
 }
 
 // A component that is prescribed takes one tangent: there the node bears no shear traction.

@@ -128,7 +128,11 @@ class PairCoupling {
 
   /// Element size h of the scaling and of the start rule.
   double size() const { return size_; }
-  /// g + n . q and u - T q.
+  /// The part of an overlap that conditions do not see from now on.
+  void allow_overlap(double depth) { overlap_ = depth; }
+  /// g of slave node s at the last evaluate(), beyond the overlap that is allowed.
+  double own_gap(std::size_t s) const { return rows_[s].gap + overlap_ * slave_nodes()[s].weight; }
+  /// That and n . q; u - T q.
   double gap(std::size_t s, const NodeMultiplier& multiplier) const;
   TangentVector slip(std::size_t s, const NodeMultiplier& multiplier) const;
   /// c_n of slave node s: unless given E / (h A_j), of regularised conditions a tenth of that.
@@ -210,6 +214,7 @@ class PairCoupling {
   std::vector<double> frozen_gap_;
   std::vector<LocalOrdinal> position_in_row_;
   double size_ = 1.0;
+  double overlap_ = 0.0;  ///< allowed
   int dimension_ = 2;
   bool frozen_ = false;
 };

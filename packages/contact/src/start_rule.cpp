@@ -132,7 +132,7 @@ void ContactSystem::start_step(const Vector& d, const std::vector<char>& unheld,
         if (self.multiplier_of[p][s] >= 0) set(s, 0.0);
         continue;
       }
-      const double gap = pair.rows()[s].gap / pair.slave_nodes()[s].weight;
+      const double gap = pair.own_gap(s) / pair.slave_nodes()[s].weight;
       bool closed = pair.closed(s, multipliers[s]);
       if (!closed && std::abs(gap) < touching * pair.size()) {
         set(s, pressure);
@@ -146,7 +146,7 @@ void ContactSystem::start_step(const Vector& d, const std::vector<char>& unheld,
     nearest = -self.maximum(-nearest);
     const double reach = std::max(near * pair.size(), nearest + touching * pair.size());
     for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
-      if (!pair.covered(s) || pair.rows()[s].gap > reach * pair.slave_nodes()[s].weight) continue;
+      if (!pair.covered(s) || pair.own_gap(s) > reach * pair.slave_nodes()[s].weight) continue;
       set(s, std::max(0.0, pair.closing_pressure(s)) + pressure);
     }
   }

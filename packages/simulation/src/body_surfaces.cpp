@@ -60,13 +60,18 @@ std::vector<SurfaceProbe> probes_of(const Mesh& mesh, const SideSet& set, const 
   return probes;
 }
 
+std::vector<double> side_lengths(const Mesh& mesh, const Side& side, const PlaceOfNode& at) {
+  const std::vector<LocalOrdinal> nodes = mesh.side_nodes(side);
+  const std::size_t corners = facet_corners(mesh.dimension, nodes.size());
+  std::vector<double> lengths;
+  for (std::size_t a = 0; a < corners; ++a) lengths.push_back((at(nodes[(a + 1) % corners]) - at(nodes[a])).norm());
+  std::sort(lengths.begin(), lengths.end());
+  return lengths;
+}
+
 double longest_facet(const Mesh& mesh, const SideSet& set, const PlaceOfNode& at) {
   double mine = 0.0, longest = 0.0;
-  for (LocalOrdinal s = 0; s < set.owned; ++s) {
-    const std::vector<LocalOrdinal> nodes = mesh.side_nodes(set.sides[s]);
-    const std::size_t corners = facet_corners(mesh.dimension, nodes.size());
-    for (std::size_t a = 0; a < corners; ++a) mine = std::max(mine, (at(nodes[(a + 1) % corners]) - at(nodes[a])).norm());
-  }
+  for (LocalOrdinal s = 0; s < set.owned; ++s) mine = std::max(mine, side_lengths(mesh, set.sides[s], at).back());
   Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, mine, Teuchos::outArg(longest));
   return longest;
 }

@@ -40,6 +40,9 @@ struct SurfaceProbe {
 /// The points of the set's facets on this rank.
 std::vector<SurfaceProbe> probes_of(const Mesh& mesh, const SideSet& set, const PlaceOfNode& at);
 
+/// Lengths between the corners of a facet that follow one another, ascending.
+std::vector<double> side_lengths(const Mesh& mesh, const Side& side, const PlaceOfNode& at);
+
 /// Length of the longest facet of the set, over all ranks, between corners. Collective.
 double longest_facet(const Mesh& mesh, const SideSet& set, const PlaceOfNode& at);
 

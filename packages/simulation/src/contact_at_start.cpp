@@ -5,6 +5,7 @@
 #include <Tpetra_Vector.hpp>
 
 #include "report_corners.hpp"
+#include "roles.hpp"
 
 namespace mortise {
 namespace {
@@ -41,6 +42,7 @@ void report_corners_of(const Model& model, RunLog& log) {
 void report_contact_at_start(const Model& model, const Scene& scene, RunLog& log) {
   const SurfacesAtStart& start = model.surfaces_at_start();
   const int dimension = model.mesh()->dimension;
+  report_roles(*model.mesh(), scene, log);
   for (std::size_t pair = 0; pair < start.pairs.size(); ++pair) report_pair(scene.contact[pair], start.pairs[pair], dimension, log);
   for (const StrayOverlap& stray : start.strays)
     log.warning(fmt::format("bodies '{}' and '{}' {}, at {}, and no contact pair connects them: they pass through one another", stray.first,

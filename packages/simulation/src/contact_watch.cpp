@@ -8,23 +8,12 @@
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 
+#include "current_places.hpp"
 #include "mortise/mesh/sets.hpp"
 #include "surface_view.hpp"
 
 namespace mortise {
 namespace {
-
-constexpr double round_off = 1e-6;  ///< of depths, over the size of the model
-
-PlaceOfNode current_places(const Mesh& mesh, const Vector& local_displacement) {
-  const auto u = local_displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
-  const LocalOrdinal dimension = mesh.dimension;
-  return [&mesh, u, dimension](LocalOrdinal node) {
-    Eigen::Vector3d x(mesh.coordinates[static_cast<std::size_t>(node)].data());
-    for (LocalOrdinal i = 0; i < dimension; ++i) x[i] += u(dimension * node + i, 0);
-    return x;
-  };
-}
 
 [[noreturn]] void fail(const Mesh& mesh, const std::string& pair, const DeepestPoint& at, const std::string& what) {
   const auto& x = at.place;
@@ -47,23 +36,9 @@ ContactWatch::ContactWatch(const Model& model, const Scene& scene)
     const double reach = options.contact.mortar.search_reach.value_or(start.reach.value_or(start.longest));
     // Couplings of the reference configuration stay for ever: what they do not cover they never will.
     const bool is_frozen = options.contact.geometry == ContactGeometry::reference;
-    Pair pair{p, slave, master, body_of(mesh, slave), body_of(mesh, master), is_frozen ? round_off * model.size().length : reach, is_frozen};
+    Pair pair{p, slave, master, body_of(mesh, slave), body_of(mesh, master), is_frozen ? touching_depth * model.size().length : reach, is_frozen};
     if (pair.slave_body != pair.master_body && !start.is_swallowed) pairs_.push_back(pair);
   }
-}
-
-std::vector<char> ContactWatch::on_local_nodes(const std::vector<char>& owned) const {
-  const Mesh& mesh = *model_.mesh();
-  Vector from(mesh.owned_nodes), to(mesh.local_nodes);
-  {
-    const auto marks = from.getLocalViewHost(Tpetra::Access::ReadWrite);
-    for (std::size_t node = 0; node < owned.size(); ++node) marks(node, 0) = owned[node];
-  }
-  to.doImport(from, to_local_nodes_, Tpetra::INSERT);
-  const auto marks = to.getLocalViewHost(Tpetra::Access::ReadOnly);
-  std::vector<char> result;
-  for (LocalOrdinal node = 0; node < mesh.local_count(); ++node) result.push_back(marks(node, 0) != 0.0);
-  return result;
 }
 
 // A node that carries no multiplier counts as not covered although its neighbours act for it. Beyond the reach that makes no difference; where the
@@ -73,7 +48,7 @@ std::vector<char> ContactWatch::covered(const Pair& pair) const {
   const Vector no_pressure(model_.contact()->multiplier_map());
   std::vector<char> owned(static_cast<std::size_t>(mesh.owned_count()), 0);
   for (const ContactNodeState& node : model_.contact()->node_states(pair.index, no_pressure)) owned[node.owned_node] = node.covered > 0.0;
-  std::vector<char> local = on_local_nodes(owned);
+  std::vector<char> local = on_local_nodes(mesh, to_local_nodes_, owned);
   if (!pair.is_frozen) return local;
   for (const Side& side : pair.slave.sides) {
     const std::vector<LocalOrdinal> nodes = mesh.side_nodes(side);
@@ -81,16 +56,14 @@ std::vector<char> ContactWatch::covered(const Pair& pair) const {
     for (const LocalOrdinal node : nodes)
       if (node < mesh.owned_count()) owned[node] = 1;
   }
-  return on_local_nodes(owned);
+  return on_local_nodes(mesh, to_local_nodes_, owned);
 }
 
 void ContactWatch::examine(const Vector& displacement) const {
   if (pairs_.empty()) return;
   const Mesh& mesh = *model_.mesh();
-  const double touching = round_off * model_.size().length;
-  Vector local(model_.bodies()->local_dofs());
-  local.doImport(displacement, *model_.bodies()->ghost_import(), Tpetra::INSERT);
-  const PlaceOfNode at = current_places(mesh, local);
+  const double touching = touching_depth * model_.size().length;
+  const PlaceOfNode at = current_places(*model_.bodies(), displacement);
   const std::vector<Box3> boxes = body_boxes(mesh, at);
 
   // Of each pair the probes beside nodes that are not covered and may be in the other body; how many there are, all, and those beside covered nodes.

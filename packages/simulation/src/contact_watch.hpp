@@ -28,7 +28,6 @@ class ContactWatch {
   };
 
   std::vector<char> covered(const Pair& pair) const;  ///< [local nodes]
-  std::vector<char> on_local_nodes(const std::vector<char>& owned) const;
 
   const Model& model_;
   const Scene& scene_;

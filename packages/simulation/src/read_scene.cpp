@@ -2,13 +2,16 @@
 
 #include "mortise/core/read_parameters.hpp"
 #include "mortise/simulation/model.hpp"
+#include "roles.hpp"
 
 namespace mortise {
 
 Scene read_scene(const Communicator& comm, const std::string& file, const std::vector<std::string>& settings) {
   XmlList root = parse_xml(read_text(comm, file), file);
   for (const auto& setting : settings) apply_override(root, setting);
-  return make_scene(root);
+  Scene scene = make_scene(root);
+  assign_roles(comm, scene);
+  return scene;
 }
 
 Scene make_scene(const XmlList& root) {

@@ -62,8 +62,13 @@ void TieOptions::describe(Parameters& parameters) {
 void ContactPairOptions::describe(Parameters& parameters) {
   parameters.add("slave", slave, Says("side set that carries the multipliers: the finer, softer or shorter one").required());
   parameters.add("master", master, Says("side set that it may touch").required());
+  parameters.add(
+      "roles", roles, {{"as given", ContactRoles::as_given}, {"automatic", ContactRoles::automatic}},
+      "automatic: slave and master are exchanged if the master is the better slave: the deformable one, else the softer one if moduli differ "
+      "by more than a factor of 2, else the finer one");
   parameters.add("initial overlap", initial_overlap, {{"interference", InitialOverlap::interference}, {"error", InitialOverlap::error}},
-                 "surfaces that begin in one another: interference, the first step pushes them apart, whatever the depth; error, the scene is refused");
+                 "surfaces that begin in one another: interference, the first step pushes them apart, whatever the depth, or its share if it is cut "
+                 "short; error, the scene is refused");
   contact.describe(parameters);
 }
 

@@ -150,6 +150,9 @@ class ContactSystem {
   ContactGeometry geometry(std::size_t pair) const;
   /// Whether multipliers stay unknowns of the linear system: then saddle_point_blocks() takes the place of condense() and recover().
   bool keeps_multipliers() const;
+  /// By how much the surfaces of a pair may lie in one another, 0 unless said: what is left of an overlap that is taken up bit by bit. Conditions of
+  /// the pair see gaps g_j + depth A_j from now on; node_states() tells those that there are.
+  void allow_overlap(std::size_t pair, double depth);
   /// Map of z: ids lie above all dof ids.
   const RCP<const Map>& multiplier_map() const;
 

@@ -58,9 +58,16 @@ enum class InitialOverlap {
   error          ///< refused
 };
 
+/// Which of a pair's surfaces is the slave.
+enum class ContactRoles {
+  as_given,
+  automatic  ///< the better one
+};
+
 /// Two surfaces that may touch.
 struct ContactPairOptions {
   Located<std::string> slave, master;
+  ContactRoles roles = ContactRoles::as_given;
   InitialOverlap initial_overlap = InitialOverlap::interference;
   ContactOptions contact;
   void describe(Parameters& parameters);

@@ -1,0 +1,93 @@
+// What depends on which side is the slave: corners of the master in slave facets, slaves that are stiffer and finer.
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "launch.hpp"
+
+namespace {
+
+using Json = nlohmann::json;
+
+struct Outcome {
+  Ending ending;
+  Json quantities;
+  bool says(const std::string& text) const { return ending.output.find(text) != std::string::npos; }
+};
+
+Outcome run(const std::string& scene, const std::string& name, const std::vector<std::string>& settings, int ranks = 1) {
+  const std::string results = std::string(SCRATCH) + "/roles/" + name;
+  std::vector<std::string> words{MPIEXEC, "-n", std::to_string(ranks), MORTISE, "run", std::string(INPUTS) + "/hard/" + scene, "-o", results};
+  for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
+  Outcome outcome{launch(words, 120), {}};
+  outcome.quantities = Json::parse(read_file(results + "/summary.json")).at("quantities");
+  return outcome;
+}
+
+const std::vector<std::string> corner_is_master{"variables/E_square=100000", "contact/c/slave=block/top", "contact/c/master=skin"};
+
+std::vector<std::string> with(std::vector<std::string> settings, const std::string& more) {
+  settings.push_back(more);
+  return settings;
+}
+
+// The corner of a stiff square, 0.2 deep in the middle of a facet of 0.67: contact would begin at 3/8 of that.
+TEST(CornerInASlaveFacet, WithoutForceIsNotAccepted) {
+  for (const int ranks : {1, 2, 3}) {
+    const Outcome outcome = run("corner.xml", "no_force_np" + std::to_string(ranks), with(corner_is_master, "variables/nb=3"), ranks);
+    EXPECT_EQ(outcome.ending.code, 3) << outcome.ending.output;
+    EXPECT_TRUE(outcome.says("node 36 of the master at (")) << outcome.ending.output;
+    EXPECT_TRUE(outcome.says("a corner, lies 0.199 deep in a slave facet of length 0.667 whose nodes carry no force; please make the slave finer"))
+        << outcome.ending.output;
+  }
+}
+
+// The depth under load is 3/8 of the facet, 0.107, but for what the facet bends.
+TEST(CornerInASlaveFacet, WithForceIsWarnedOf) {
+  const Outcome outcome = run("corner.xml", "late", with(corner_is_master, "variables/nb=7"));
+  EXPECT_EQ(outcome.ending.code, 0) << outcome.ending.output;
+  EXPECT_TRUE(outcome.says("deep in a slave facet of length 0.286")) << outcome.ending.output;
+  EXPECT_GT(outcome.quantities.at("force"), 0.0);
+}
+
+TEST(CornerInASlaveFacet, IsNotSeenWhereThereIsNone) {
+  for (const std::string nodes : {"variables/nb=4", "variables/nb=15"}) {  // a node below the corner; the corner is the slave
+    const Outcome outcome =
+        nodes == "variables/nb=4" ? run("corner.xml", "on_node", with(corner_is_master, nodes)) : run("corner.xml", "slave", {nodes});
+    EXPECT_EQ(outcome.ending.code, 0) << outcome.ending.output;
+    EXPECT_FALSE(outcome.says("deep in a slave facet")) << outcome.ending.output;
+  }
+}
+
+// A block four times as fine as its base.
+TEST(SlaveThatIsStifferAndFiner, IsWarnedOfWithTheExcess) {
+  for (const int stiffer : {1, 3, 10, 1000}) {
+    const Outcome outcome = run("block_on_base.xml", "stiffer_" + std::to_string(stiffer),
+                                {"variables/nt=20", "variables/E_block=" + std::to_string(1000 * stiffer), "variables/steps=2"});
+    EXPECT_EQ(outcome.ending.code, 0) << outcome.ending.output;
+    const std::string percent = stiffer == 1 ? "" : stiffer == 3 ? "30 %" : stiffer == 10 ? "100 %" : "300 %";
+    EXPECT_EQ(outcome.says("peaks of pressure may be too high by about " + percent), stiffer > 1) << outcome.ending.output;
+  }
+}
+
+TEST(AutomaticRoles, TakeTheSofterSideThenTheFinerOneThenTheGivenOne) {
+  struct Case {
+    std::string name, settings, chosen;
+  };
+  const std::string automatic = "contact/c/roles=automatic";
+  for (const auto& [name, setting, chosen] : {Case{"softer", "variables/E_block=100000", "the slave is \"base/top\": its body is softer"},
+                                              Case{"finer", "variables/nb=30", "the slave is \"base/top\": its facets are shorter"},
+                                              Case{"given", "variables/nb=15", "the slave is \"block/bottom\": both are alike"}}) {
+    const Outcome outcome = run("block_on_base.xml", name, {automatic, setting, "variables/steps=2"});
+    EXPECT_EQ(outcome.ending.code, 0) << outcome.ending.output;
+    EXPECT_TRUE(outcome.says(chosen)) << outcome.ending.output;
+  }
+  const std::vector<std::string> stiff{"variables/E_block=100000", "variables/nt=20", "variables/steps=2"};
+  const double automatically = run("block_on_base.xml", "automatic", with(stiff, automatic)).quantities.at("peak"),
+               by_hand = run("block_on_base.xml", "by_hand", with(with(stiff, "contact/c/slave=base/top"), "contact/c/master=block/bottom"))
+                             .quantities.at("peak");
+  EXPECT_EQ(automatically, by_hand);
+}
+
+}  // namespace
