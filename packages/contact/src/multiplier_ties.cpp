@@ -116,7 +116,8 @@ void MultiplierTies::measure(const std::vector<FacetCoupling>& couplings, const 
     const double cover = std::min(1.0, std::sqrt(squares[s]) / full_cover);
     return (1.0 - cover) * (1.0 - cover) * (1.0 + 2.0 * cover);
   };
-  const auto is_tied = [&](std::size_t s) { return covered(s) && rest(s) > full; };
+  // Node to segment has no covered shares.
+  const auto is_tied = [&](std::size_t s) { return covered(s) && squares[s] > 0.0 && rest(s) > full; };
   std::map<std::size_t, std::vector<std::pair<const FacetCoupling*, std::size_t>>> facets_of;
   for (const FacetCoupling& facet : couplings)
     for (std::size_t a = 0; a < facet.slave.size(); ++a)

@@ -70,10 +70,9 @@ TangentVector PairCoupling::slip(std::size_t s, const NodeMultiplier& multiplier
   return multiplier.shift.size() == 0 ? rows_[s].slip : TangentVector(rows_[s].slip - frame(s).tangents * multiplier.shift);
 }
 
-double PairCoupling::closing_pressure(std::size_t s) const {
-  const double share = regularisation_ ? slave_nodes()[s].weight / rows_[s].covered : 1.0;
-  return complementarity_constant(s) * share * own_gap(s);
-}
+// Of regularised conditions without history, lambda = 0:  (1 - theta) z_n > theta eps g / w  where  theta / (1 - theta) = c w / (eps A_j),  c = c_n
+// A_j.
+double PairCoupling::closing_pressure(std::size_t s) const { return complementarity_constant(s) * own_gap(s); }
 
 // A component that is prescribed takes one tangent: there the node bears no shear traction.
 Complementarity PairCoupling::complementarity(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* complaint) const {

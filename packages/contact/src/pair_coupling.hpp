@@ -153,7 +153,7 @@ class PairCoupling {
   bool is_eliminated_by_law(std::size_t s) const {
     return formulation().elimination() == Elimination::law || rows_[s].D * size_ < ties_.compliance(s) * pair_.youngs_modulus;
   }
-  /// z_n above which a covered node without history is closed: c_n g, of regularised conditions c g / w.
+  /// z_n above which a covered node without history is closed: c_n g.
   double closing_pressure(std::size_t s) const;
   /// The frame of slave node s. Tangents of partly fixed nodes are the fixed directions first.
   Frame frame(std::size_t s) const { return make_frame(rows_[s].normal, axes_[s]); }

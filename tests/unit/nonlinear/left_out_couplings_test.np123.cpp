@@ -106,11 +106,12 @@ TEST(LeftOutCouplings, TheStepIsThatOfTheWholeSystem) {
     }
 }
 
-// L has rows at 8 multipliers, so that I - L s is the identity but for them: 9 Krylov vectors are enough, and one solve takes the step.
+// L has rows at 8 multipliers, so that I - L s is the identity but for them: 9 Krylov vectors are enough. Belos asks for the residual at its start
+// and at its end besides, and one solve takes the step.
 TEST(LeftOutCouplings, AsManySolvesAsRows) {
   System system(3.0);
   system.correct(1e-13);
-  EXPECT_LE(system.solves, count / 3 + 2);
+  EXPECT_LE(system.solves, count / 3 + 4);
 }
 
 // Rows of forces: with tolerance t the part that is left out is met to t in the norm of weights.
