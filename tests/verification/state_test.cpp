@@ -142,12 +142,12 @@ TEST(States, APressFitBearsItsLoad) {
     for (const double share : {0.6, 0.8}) {
       const double pull = share * 2.0 * 0.2 * pressure;
       const std::string scene =
-          text("kinematics", "axisymmetric") + list("bodies", block("shaft", 1.0, 1.0, 4, 6, "0, 0") + block("hub", 1.01, 1.4, 4, 7, "0.99, -0.2")) +
+          parameter("kinematics", "axisymmetric") + list("bodies", block("shaft", 1.0, 1.0, 4, 6, "0, 0") + block("hub", 1.01, 1.4, 4, 7, "0.99, -0.2")) +
           list("boundary conditions", condition("hub", "hub/right", {{"y", "0"}}) + condition("axis", "shaft/left", {{"x", "0"}})) +
-          list("loads", list("pull", text("type", "dead traction") + text("set", "shaft/top") + text("y", std::to_string(pull) + "*t"))) +
+          list("loads", list("pull", parameter("type", "dead traction") + parameter("set", "shaft/top") + parameter("y", std::to_string(pull) + "*t"))) +
           list("contact", pair("fit", "shaft/right", "hub/left", 0.2)) + stepping(1.0, 0.25) +
-          list("quantities", list("held", text("type", "reaction") + text("set", "hub/right") + text("component", "y")) +
-                                 list("out", text("type", "mean") + text("field", "displacement y") + text("on", "shaft")));
+          list("quantities", list("held", parameter("type", "reaction") + parameter("set", "hub/right") + parameter("component", "y")) +
+                                 list("out", parameter("type", "mean") + parameter("field", "displacement y") + parameter("on", "shaft")));
       const Outcome result = run("press_fit", scene, ranks);
       ASSERT_EQ(result.code, 0) << result.output;
       EXPECT_NEAR(std::abs(result.quantity("held")), M_PI * pull, 1e-5 * M_PI * pull);
