@@ -10,6 +10,9 @@
 // its weight, until its other end comes to the master. The node's own normal is the master's, see settle_corners.cpp; or that of the facet that is
 // nearest to the master, in the mean. Which nodes are kinks, and which facet is nearest, is chosen between steps only, as it jumps, and with
 // hysteresis: a corner that folds onto the master stays split until it is almost flat, since by the average its pressure would lean over again.
+//
+// In 3D the kinks are those of the undeformed surface. Around a deep punch a coarse smooth surface bends by more than 30 degrees as well; split there,
+// facets that are hardly covered stand steep to the master, and Newton's method does not converge.
 
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Map.hpp>
@@ -39,12 +42,13 @@ template <int dim>
 bool Interface<dim>::split_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest) {
   const Positions<dim> positions = (*slave_positions_)(x);
   const CornerRule rule = options_.corner_rule(dim);
+  const bool is_first = kinks_.empty();
   kinks_.resize(slave.nodes_with_normal, 0);
   const std::vector<char> kinks_before = kinks_;
   std::vector<std::optional<std::size_t>> before, now;
   for (std::size_t n = 0; n < kinks_.size(); ++n) {
     NormalStencil& stencil = slave.stencils[n];
-    kinks_[n] = turn_of_corner(rule, stencil, positions) > (kinks_[n] ? flat : sharp);
+    kinks_[n] = (dim == 2 || is_first || kinks_[n]) && turn_of_corner(rule, stencil, positions) > (kinks_[n] ? flat : sharp);
     before.push_back(stencil.only);
     stencil.only.reset();
     for (std::size_t e = 0; e < stencil.facets.size(); ++e)

@@ -52,6 +52,13 @@ RCP<MultiVector> modes_with_points(const Model& model, const Vector& displacemen
   return modes;
 }
 
+std::vector<PairHold> pairs_now(const std::vector<int>& bodies, const Model& model, SemiSmoothSystem& system) {
+  const Vector& x = *system.linearised_at();
+  const NodePlaces at = node_places(*model.mesh(), system.displacement(x).get());
+  const RigidModes modes(*model.mesh(), model.bodies()->kinematics() == Kinematics::axisymmetric, bodies, at.x);
+  return contact_hold(model, modes, at, *system.multipliers(x)).pairs;
+}
+
 std::string describe_free_motions(const std::vector<int>& bodies, const Model& model, SemiSmoothSystem& system, const ContactRecord& record) {
   const Mesh& mesh = *model.mesh();
   const RCP<MultiVector> modes = modes_with_points(model, *system.displacement(*system.linearised_at()));
@@ -99,14 +106,19 @@ std::string describe_free_motions(const std::vector<int>& bodies, const Model& m
   }
   std::vector<std::string> free;
   for (std::size_t b = 0; b < which.size(); ++b) free.push_back(fmt::format("body '{}' ({})", mesh.blocks[which[b]].name, fmt::join(names[b], ", ")));
-  const Vector& x = *system.linearised_at();
-  const NodePlaces at = node_places(mesh, system.displacement(x).get());
-  const RigidModes bodies_now(mesh, axisymmetric, bodies, at.x);
-  const ContactHold now = contact_hold(model, bodies_now, at, *system.multipliers(x));
-  return fmt::format("free to move: {}; {}", fmt::join(free, ", "), record.describe(model, which, now.pairs));
+  return fmt::format("free to move: {}; {}", fmt::join(free, ", "), record.describe(model, which, pairs_now(bodies, model, system)));
 }
 
 }  // namespace
+
+std::string describe_held_bodies(const Model& model, SemiSmoothSystem& system, const ContactRecord& record) {
+  const std::vector<int> bodies = bodies_held_by_contact_only(model);
+  if (bodies.empty() || bodies.size() > most_bodies || system.linearised_at().is_null()) return {};
+  std::vector<std::string> names;
+  for (const int body : bodies) names.push_back(fmt::format("'{}'", model.mesh()->blocks[body].name));
+  return fmt::format("nothing but contact holds {}; in the last iterate {}", fmt::join(names, ", "),
+                     record.describe(model, bodies, pairs_now(bodies, model, system)));
+}
 
 std::string explain_failure(const Model& model, SemiSmoothSystem& system, const ContactRecord& record) {
   const std::vector<int> bodies = bodies_held_by_contact_only(model);

@@ -16,4 +16,8 @@ namespace mortise {
 /// @returns in words for people; empty if there is nothing to say
 std::string explain_failure(const Model& model, SemiSmoothSystem& system, const ContactRecord& record);
 
+/// What contact does to the bodies that it alone holds, at the last SemiSmoothSystem::jacobian(): said where no reason is known. Collective.
+/// @returns in words for people; empty if there are no such bodies
+std::string describe_held_bodies(const Model& model, SemiSmoothSystem& system, const ContactRecord& record);
+
 }  // namespace mortise

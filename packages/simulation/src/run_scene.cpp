@@ -282,14 +282,16 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
       if (caught.kind() == FailureKind::input) return {};
       const double from = record.steps.empty() ? 0.0 : record.steps.back().time, to = system.time();
       if (to - from < 2.0 * smallest && !system.linearised_at().is_null())
-        if (const std::string turns = explain_turning_point(model, system, x, Vector(*system.linearised_at(), Teuchos::Copy), from, to); !turns.empty())
+        if (const std::string turns = explain_turning_point(model, system, x, Vector(*system.linearised_at(), Teuchos::Copy), from, to);
+            !turns.empty())
           return known = turns;
       if (check && !check->refused().empty()) return check->refused() + "; put back, it found no equilibrium";
       std::string explanation = settlement ? settlement->overload() : std::string();
       if (explanation.empty() && check) explanation = explain_failure(model, system, check->record());
       if (explanation.empty()) explanation = explain_limit_load(caught, model, system, x);
       if (!explanation.empty()) return known = explanation;
-      return known.empty() ? known : known + "; so an earlier try of this step";
+      if (known.empty()) return check ? describe_held_bodies(model, system, check->record()) : known;
+      return known + "; so an earlier try of this step";
     };
     functions.accepted = [&, accepted = functions.accepted](const StepReport& report, const Vector& at) {
       known.clear();

@@ -155,7 +155,8 @@ class MortarInterface {
   /// Does nothing if a position is not finite; evaluate() then reports it.
   bool search(const MultiVector& x);
 
-  /// Chooses the kinks from now on, convex nodes at which the slave surface turns by more than 30 degrees (5 if it is one already). The facets that
+  /// Chooses the kinks from now on, convex nodes at which the slave surface turns by more than 30 degrees (5 if it is one already; in 3D those of the
+  /// first call alone). The facets that
   /// meet there have their own normals, and the node what MortarOptions::corner_rule() says. Collective.
   /// @param x        [owned nodes x dim] positions that tell
   /// @param nearest  [slave_nodes()] the facet nearest to the master, by its nodes; empty where none is covered: then the node's normal stays the
