@@ -13,6 +13,7 @@
 #include "corner_watch.hpp"
 #include "explain_failure.hpp"
 #include "history_columns.hpp"
+#include "jump_check.hpp"
 #include "limit_load.hpp"
 #include "memory.hpp"
 #include "mortise/core/parameter_tree.hpp"
@@ -268,19 +269,24 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
     CornerWatch corners(model, scene, warn);
     std::optional<StateCheck> check;
     if (StateCheck::is_needed(model)) check.emplace(model, scene.newton.increment_tolerance * model.parts().length, warn);
+    JumpCheck jump(model.parts().length);
+    const auto last_time = [&] { return record.steps.empty() ? 0.0 : record.steps.back().time; };
     functions.verify = [&](const Vector& from, Vector& to, int round) {
       watch.examine(*system.displacement(to));
       if (model.contact()) corners.examine(*system.displacement(to), *system.multipliers(to));
-      if (!check) return true;
-      const auto timer = timers.scope("state check");
-      return check->verify(system, from, to, round);
+      if (check) {
+        const auto timer = timers.scope("state check");
+        if (!check->verify(system, from, to, round)) return false;
+      }
+      jump.verify(*system.displacement(from), *system.displacement(to), system.time() - last_time());
+      return true;
     };
     // Smaller tries of a step often end where less can be told: then what an earlier one showed is said again.
     std::string known;
     const double smallest = scene.stepping.minimum_step.value_or(scene.stepping.step / 1024.0);
     functions.explain = [&](const StepFailure& caught) -> std::string {
       if (caught.kind() == FailureKind::input) return {};
-      const double from = record.steps.empty() ? 0.0 : record.steps.back().time, to = system.time();
+      const double from = last_time(), to = system.time();
       if (to - from < 2.0 * smallest && !system.linearised_at().is_null())
         if (const std::string turns = explain_turning_point(model, system, x, Vector(*system.linearised_at(), Teuchos::Copy), from, to);
             !turns.empty())
@@ -296,6 +302,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
     functions.accepted = [&, accepted = functions.accepted](const StepReport& report, const Vector& at) {
       known.clear();
       corners.accept();
+      jump.accept();
       accepted(report, at);
     };
     // An overlap is taken up by the end of the first step. A try that is cut short takes up its share, as if the bodies were moved into one another.

@@ -1,0 +1,32 @@
+#pragma once
+// A step whose solution lies on another branch of equilibria: between the two there is motion with inertia.
+
+#include <optional>
+
+#include "mortise/nonlinear/semi_smooth_system.hpp"
+
+namespace mortise {
+
+/// Compares steps by their rates, the largest change of a displacement over the change of pseudo-time. Along a path of equilibria a step of half the
+/// length has nearly the same rate; a jump is as far however short the step, so that its rate doubles. Asked of a step that goes more than a part of
+/// the model much faster than the step before: it is tried with half the length, and stands if its rate is no larger than that. Collective
+/// in all members.
+class JumpCheck {
+ public:
+  /// @param length  size of the model
+  explicit JumpCheck(double length) : length_(length) {}
+
+  /// Of a solution `to` of the step of length dt from the accepted state `from`, both displacements.
+  /// @throws StepFailure(lost_contact), on every rank, for one that may have jumped
+  void verify(const Vector& from, const Vector& to, double dt);
+  /// What verify() passed last is accepted.
+  void accept();
+
+ private:
+  double length_;
+  std::optional<double> accepted_;  ///< rate of the last step
+  std::optional<double> refused_;   ///< rate of the step's last try that was refused
+  double passed_ = 0.0;
+};
+
+}  // namespace mortise
