@@ -1,4 +1,4 @@
-#include "jump_check.hpp"
+#include "mortise/simulation/jump_check.hpp"
 
 #include <fmt/format.h>
 

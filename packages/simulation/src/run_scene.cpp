@@ -13,7 +13,7 @@
 #include "corner_watch.hpp"
 #include "explain_failure.hpp"
 #include "history_columns.hpp"
-#include "jump_check.hpp"
+#include "mortise/simulation/jump_check.hpp"
 #include "limit_load.hpp"
 #include "memory.hpp"
 #include "mortise/core/parameter_tree.hpp"
@@ -291,7 +291,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
         if (const std::string turns = explain_turning_point(model, system, x, Vector(*system.linearised_at(), Teuchos::Copy), from, to);
             !turns.empty())
           return known = turns;
-      if (check && !check->refused().empty()) return check->refused() + "; put back, it found no equilibrium";
+      if (check && !check->refused().empty()) return known = check->refused() + "; put back, it found no equilibrium";
       std::string explanation = settlement ? settlement->overload() : std::string();
       if (explanation.empty() && check) explanation = explain_failure(model, system, check->record());
       if (explanation.empty()) explanation = explain_limit_load(caught, model, system, x);
