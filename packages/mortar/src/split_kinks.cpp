@@ -1,18 +1,20 @@
 // Kinks of the slave surface: corners in the plane, in space nodes on edges and at their ends.
 //
-// Where two facets meet at an angle, the average n of their normals belongs to neither. Let one of them lie flat on the master and the other stand
-// off by the angle theta. Projected along a field that turns from n to the next node's normal, the gap of the facet that stands off is no linear
-// function,
-//   g(xi) = height(xi) / cos(angle of n(xi) to the master's normal),
-// and int phi_j g of the closed node, which is to see the gap at the node alone, gets a share of what lies away from it, of the size of the facet.
-// And the node's pressure leans over by theta / 2. With the facet's own normal at both ends the gap is linear, and so are the positions of the
-// projected points: int phi_j g = g_j int phi_j, and likewise for the forces' moment. The facet that stands off then does no more than give the node
-// its weight, until its other end comes to the master. The node's own normal is the master's, see settle_corners.cpp; or that of the facet that is
-// nearest to the master, in the mean. Which nodes are kinks, and which facet is nearest, is chosen between steps only, as it jumps, and with
-// hysteresis: a corner that folds onto the master stays split until it is almost flat, since by the average its pressure would lean over again.
+// Where two facets meet at an angle, the average n of their normals belongs to neither. Let one of them lie flat on the master, and let the other
+// stand off by the angle theta. Along a field that turns from n to the next node's normal, the gap of the facet that stands off is not linear:
+//   g(xi) = height(xi) / cos(angle of n(xi) to the master's normal).
+// The integral of phi_j g of the closed node is to see the gap at that node alone. It gets a share of what lies away from it, of the size of the
+// facet. And the node's pressure leans over by theta / 2.
 //
-// In 3D the kinks are those of the undeformed surface. Around a deep punch a coarse smooth surface bends by more than 30 degrees as well; split there,
-// facets that are hardly covered stand steep to the master, and Newton's method does not converge.
+// With the facet's own normal at both ends the gap is linear, and so are the positions of the projected points. Then int phi_j g = g_j int phi_j, and
+// likewise for the forces' moment. The facet that stands off does no more than give the node its weight, until its other end comes to the master. The
+// node's own normal is the master's, see settle_corners.cpp; or that of the facet that is nearest to the master, in the mean.
+//
+// Which nodes are kinks, and which facet is nearest, jumps. So it is chosen between steps only, and with hysteresis. A corner that folds onto the
+// master stays split until it is almost flat, since by the average its pressure would lean over again.
+//
+// In 3D the kinks are those of the undeformed surface. Around a deep punch a coarse smooth surface bends by more than 30 degrees as well; split
+// there, facets that are hardly covered stand steep to the master, and Newton's method does not converge.
 
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Map.hpp>

@@ -10,8 +10,8 @@ namespace mortise {
 namespace {
 
 constexpr double far = 0.05;         ///< of the model: what a step has to go to be asked
-constexpr double much_faster = 2.5;  // than the step before: up to a maximum of the load, where u goes like a root, it is 1/(sqrt 2 - 1) = 2.4
-constexpr double same_rate = 1.5;    ///< between 1, on a path, and 2, of a jump
+constexpr double much_faster = 2.5;  ///< than the step before: up to a maximum of the load, where u goes like a root, it is 1/(sqrt 2 - 1) = 2.4
+constexpr double same_rate = 1.5;    ///< between 1 on a path, 1.4 at a maximum of the load, and 2 of a jump
 
 }  // namespace
 
