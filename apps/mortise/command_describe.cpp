@@ -13,7 +13,8 @@ void add_describe_command(CLI::App& app, Program& program) {
   };
   auto* command = app.add_subcommand("describe", "say every parameter with its default, unit, range and meaning");
   const auto options = std::make_shared<Options>();
-  command->add_option("PATH", options->path, "a list of the scene, e.g. contact or stepping, or point, study, hard: those files; default: the whole scene");
+  command->add_option("PATH", options->path,
+                      "a list of the scene, e.g. contact or stepping, or point, study, hard: those files; default: the whole scene");
   const std::map<std::string, DescriptionFormat> formats{
       {"text", DescriptionFormat::text}, {"md", DescriptionFormat::markdown}, {"rng", DescriptionFormat::relax_ng}};
   command->add_option("--format", options->format, "text, md (Markdown) or rng (RELAX NG schema)")
@@ -23,6 +24,7 @@ void add_describe_command(CLI::App& app, Program& program) {
       ->type_name("DIR");
   command->footer("Example: mortise describe contact");
   command->callback([&program, options] {
+    program.uses_mpi = false;
     program.action = [&program, options] {
       if (options->directory.empty()) {
         print(program, describe_scene(options->path, options->format));
@@ -38,7 +40,10 @@ void add_list_command(CLI::App& app, Program& program) {
   auto* command = app.add_subcommand("list", "say what can be chosen in a scene");
   const auto topic = std::make_shared<std::string>();
   command->add_option("TOPIC", *topic, "what to list")->required()->check(CLI::IsMember(choice_topics()));
-  command->callback([&program, topic] { program.action = [&program, topic] { return print(program, list_choices(*topic)), ExitCode::done; }; });
+  command->callback([&program, topic] {
+    program.uses_mpi = false;
+    program.action = [&program, topic] { return print(program, list_choices(*topic)), ExitCode::done; };
+  });
 }
 
 }  // namespace mortise

@@ -14,7 +14,10 @@ void add_point_command(CLI::App& app, Program& program) {
   command->footer(
       "Leaves point.csv, point.svg, point.png, summary.json and effective.xml. `mortise describe point` says what a point file may say.\n"
       "Example: mortise point inputs/tutorial/point_steel.xml --set path/steps=20 -o coarse");
-  command->callback([&program, options] { program.action = [&program, options] { return run_point(program.comm, *options); }; });
+  command->callback([&program, options] {
+    program.uses_mpi = false;
+    program.action = [&program, options] { return run_point(program.comm, *options); };
+  });
 }
 
 }  // namespace mortise

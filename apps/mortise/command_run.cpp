@@ -1,9 +1,21 @@
 #include <memory>
 
+#include "mortise/simulation/read_scene.hpp"
 #include "mortise/simulation/run.hpp"
+#include "mortise/simulation/scene.hpp"
 #include "program.hpp"
 
 namespace mortise {
+namespace {
+
+/// The scene of a command, which is empty until the program has read it.
+std::shared_ptr<Scene> read_before(Program& program, const std::shared_ptr<RunOptions>& options) {
+  const auto scene = std::make_shared<Scene>();
+  program.read = [&program, options, scene] { *scene = read_scene(*program.comm, options->scene, options->settings); };
+  return scene;
+}
+
+}  // namespace
 
 void add_input_arguments(CLI::App& command, const std::string& file, const std::string& meaning, RunOptions& options) {
   command.add_option(file, options.scene, meaning)->required();
@@ -33,14 +45,20 @@ void add_run_command(CLI::App& app, Program& program) {
   command->footer(
       "Leaves summary.json, newton.csv, history.csv, fields.xdmf, fields.h5, effective.xml and log.txt.\n"
       "Example: mpirun -n 2 mortise run inputs/paper/hertz_elastic.xml --set variables/n=8 -o fine");
-  command->callback([&program, options] { program.action = [&program, options] { return run_scene(program.comm, *options); }; });
+  command->callback([&program, options] {
+    const auto scene = read_before(program, options);
+    program.action = [&program, options, scene] { return run_scene(program.comm, std::move(*scene), *options); };
+  });
 }
 
 void add_check_command(CLI::App& app, Program& program) {
   auto* command = app.add_subcommand("check", "read a scene, build its meshes, say its effects, sizes and memory; solve nothing");
   const auto options = std::make_shared<RunOptions>();
   add_input_arguments(*command, "SCENE", "scene file", *options);
-  command->callback([&program, options] { program.action = [&program, options] { return inspect_scene(program.comm, *options), ExitCode::done; }; });
+  command->callback([&program, options] {
+    const auto scene = read_before(program, options);
+    program.action = [&program, options, scene] { return inspect_scene(program.comm, *scene, *options), ExitCode::done; };
+  });
 }
 
 }  // namespace mortise

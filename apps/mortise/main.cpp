@@ -2,9 +2,11 @@
 
 #include <Teuchos_DefaultSerialComm.hpp>
 #include <Tpetra_Core.hpp>
-#include <cstdlib>
 #include <iostream>
+#include <optional>
 
+#include "allocator.hpp"
+#include "launch.hpp"
 #include "program.hpp"
 
 namespace {
@@ -24,31 +26,44 @@ constexpr const char* examples = R"(Examples:
 
 Exit codes: 0 done, 1 usage, 2 invalid input, 3 not converged, 4 a check of the scene missed, 5 files, 70 internal)";
 
-/// Whether mpirun, or what a cluster has in its place, started this process.
-bool started_by_mpirun() {
-  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"})
-    if (std::getenv(name) != nullptr) return true;
-  return false;
+/// Of ranks that leave the answer to the first: an error would make mpirun end all ranks, perhaps before the first has answered.
+constexpr int others_code = 0;
+
+/// What the program is to do: the input first, then the action.
+mortise::Outcome run_program(const mortise::Program& program) {
+  return mortise::run_action(program, [&] {
+    if (program.read) program.read();
+    return program.action();
+  });
 }
 
+/// Without MPI.
 int run_alone(mortise::Program& program) {
-  if (started_by_mpirun()) {
-    std::cerr << "this command starts runs by itself, with mpirun if more ranks are asked for (-n): please call it without mpirun" << std::endl;
-    return static_cast<int>(mortise::ExitCode::usage);
-  }
   program.comm = program.exit_comm = Teuchos::rcp(new Teuchos::SerialComm<int>);
-  return mortise::agree_on_exit(program, mortise::run_action(program));
+  return mortise::agree_on_exit(program, run_program(program));
 }
 
-/// With MPI, on every rank: `answer` is the exit code.
-int run_with_mpi(char** argv, mortise::Program& program, const std::function<int()>& answer) {
+/// With MPI, on every rank.
+int run_with_mpi(char** argv, mortise::Program& program) {
   int first_word = 1;  // Kokkos would answer to --help as well
+  std::optional<mortise::AloneInMpi> alone(std::in_place);
   Tpetra::ScopeGuard scope(&first_word, &argv);
+  alone.reset();
   program.comm = Tpetra::getDefaultComm();
   program.exit_comm = program.comm->duplicate();
-  const int code = answer();
+  const int code = mortise::agree_on_exit(program, run_program(program));
   program.comm = program.exit_comm = Teuchos::null;
   return code;
+}
+
+/// A process alone reads its input before it starts MPI: an error of the input is said at once. Returns the exit code of such an error.
+std::optional<int> read_alone(mortise::Program& program) {
+  program.comm = Teuchos::rcp(new Teuchos::SerialComm<int>);
+  const mortise::Outcome outcome = mortise::run_action(program, [&] { return program.read(), mortise::ExitCode::done; });
+  program.comm = Teuchos::null;
+  program.read = nullptr;
+  if (outcome.code == mortise::ExitCode::done) return std::nullopt;
+  return static_cast<int>(outcome.code);
 }
 
 }  // namespace
@@ -74,12 +89,22 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     // All ranks read the same command line; one of them answers.
-    return run_with_mpi(argv, program, [&] {
-      const bool asked_for_help = error.get_exit_code() == 0;
-      if (program.is_first_rank()) app.exit(error);
-      return static_cast<int>(asked_for_help ? mortise::ExitCode::done : mortise::ExitCode::usage);
-    });
+    if (!mortise::is_first_process()) return others_code;
+    const bool asked_for_help = error.get_exit_code() == 0;
+    app.exit(error);
+    return static_cast<int>(asked_for_help ? mortise::ExitCode::done : mortise::ExitCode::usage);
+  }
+  if (program.launches && mortise::started_by_mpirun()) {
+    if (!mortise::is_first_process()) return others_code;
+    std::cerr << "this command starts runs by itself, with mpirun if more ranks are asked for (-n): please call it without mpirun" << std::endl;
+    return static_cast<int>(mortise::ExitCode::usage);
   }
   if (program.launches) return run_alone(program);
-  return run_with_mpi(argv, program, [&] { return mortise::agree_on_exit(program, mortise::run_action(program)); });
+  if (!mortise::started_by_mpirun()) {
+    if (!program.uses_mpi) return run_alone(program);
+    if (program.read)
+      if (const auto code = read_alone(program)) return *code;
+  }
+  mortise::keep_freed_memory();
+  return run_with_mpi(argv, program);
 }

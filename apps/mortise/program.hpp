@@ -16,7 +16,9 @@ struct RunOptions;
 struct Program {
   RCP<const Communicator> comm;
   RCP<const Communicator> exit_comm;  ///< a duplicate that carries nothing but the agreement on the exit code
+  std::function<void()> read;         ///< reads the input with `comm`, before the action; empty where there is none
   std::function<ExitCode()> action;
+  bool uses_mpi = true;   ///< false: alone, the action runs without MPI, whose start takes longer than most answers
   bool launches = false;  ///< the action starts runs of this program: it gets no MPI, as programs that use MPI cannot start others that do
 
   bool is_first_rank() const { return comm->getRank() == 0; }
@@ -52,8 +54,8 @@ struct Outcome {
   std::string message;
 };
 
-/// Runs the action; an exception becomes its exit code and message, which the first rank prints.
-Outcome run_action(const Program& program);
+/// Runs what is to be done; an exception becomes its exit code and message, which the first rank prints.
+Outcome run_action(const Program& program, const std::function<ExitCode()>& action);
 
 /// Collective: agrees on the largest of all ranks' codes. A rank that finds itself alone here (another one is stuck in a collective call that
 /// this rank will never join) says why and ends the whole program with code 70 instead of waiting for ever.

@@ -10,10 +10,10 @@ void print(const Program& program, const std::string& text) {
   if (program.is_first_rank()) std::cout << text << std::flush;
 }
 
-Outcome run_action(const Program& program) {
+Outcome run_action(const Program& program, const std::function<ExitCode()>& action) {
   Outcome outcome;
   try {
-    outcome.code = program.action();
+    outcome.code = action();
   } catch (const InputError& error) {
     outcome = {ExitCode::invalid_input, error.what()};
   } catch (const FileError& error) {

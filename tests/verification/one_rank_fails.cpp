@@ -16,5 +16,5 @@ int main(int argc, char** argv) {
     program.comm->barrier();
     return mortise::ExitCode::done;
   };
-  return mortise::agree_on_exit(program, mortise::run_action(program));
+  return mortise::agree_on_exit(program, mortise::run_action(program, program.action));
 }

@@ -78,6 +78,40 @@ TEST(Program, WrongUsageIsCode1) {
   EXPECT_EQ(mortise({"list", "animals"}).code, 1);
 }
 
+TEST(Program, OneOfAllRanksSaysWhatIsWrongWithTheCommandLine) {
+  const std::string scene = write_scene("ranks", ""), study = std::string(INPUTS) + "/studies/hertz_elastic.xml";
+  struct Case {
+    std::vector<std::string> words;
+    std::string said;
+    int code;
+  };
+  for (const auto& [words, said, code] :
+       {Case{{"run", scene, "--colour"}, "The following argument was not expected: --colour", 1},
+        Case{{"study", study}, "please call it without mpirun", 1},
+        Case{{"run", scene, "--set", "stepping/farce=1", "-o", std::string(SCRATCH) + "/commands/ranks"}, "unknown parameter", 2}}) {
+    const Ending ending = mortise(words, 3);
+    EXPECT_EQ(ending.code, code) << ending.output;
+    const std::size_t first = ending.output.find(said);
+    ASSERT_NE(first, std::string::npos) << ending.output;
+    EXPECT_EQ(ending.output.find(said, first + 1), std::string::npos) << ending.output;
+  }
+}
+
+// Alone, the input is read without MPI; with mpirun all ranks read it.
+TEST(Program, SaysTheSameWithAndWithoutMpirun) {
+  const std::string scene = write_scene("alone", "");
+  for (const auto& [setting, code] : {std::pair{"variables/force=2", 0}, {"variables/force=two", 2}, {"bodies/block/material=hard", 2}}) {
+    const std::string results = std::filesystem::path(SCRATCH) / "commands/alone";
+    const std::vector<std::string> words{"run", scene, "--set", setting, "--quiet", "-o", results};
+    std::vector<std::string> alone{MORTISE};
+    alone.insert(alone.end(), words.begin(), words.end());
+    const Ending one = launch(alone, 60), two = mortise(words, 2);
+    EXPECT_EQ(one.code, code) << one.output;
+    EXPECT_EQ(two.code, code) << two.output;
+    EXPECT_EQ(two.output.find(one.output), 0u) << one.output << two.output;
+  }
+}
+
 TEST(Program, DescribesAListInEveryFormat) {
   for (const char* format : {"text", "md", "rng"}) {
     const Ending ending = mortise({"describe", "stepping", "--format", format});

@@ -2,7 +2,6 @@
 
 #include "contact_at_start.hpp"
 #include "mortise/simulation/model.hpp"
-#include "mortise/simulation/read_scene.hpp"
 #include "mortise/simulation/run.hpp"
 #include "precision.hpp"
 #include "report_model.hpp"
@@ -11,10 +10,9 @@
 
 namespace mortise {
 
-void inspect_scene(const RCP<const Communicator>& comm, const RunOptions& options) {
+void inspect_scene(const RCP<const Communicator>& comm, const Scene& scene, const RunOptions& options) {
   RunLog log(comm, options.verbosity);
   const Timers timers;
-  const Scene scene = read_scene(*comm, options.scene, options.settings);
   const Model model(comm, scene, timers);
   SemiSmoothSystem system(model.parts(), timers);
   const StepEvaluation evaluation(scene, model, system);

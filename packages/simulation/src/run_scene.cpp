@@ -13,7 +13,6 @@
 #include "corner_watch.hpp"
 #include "explain_failure.hpp"
 #include "history_columns.hpp"
-#include "mortise/simulation/jump_check.hpp"
 #include "limit_load.hpp"
 #include "memory.hpp"
 #include "mortise/core/parameter_tree.hpp"
@@ -21,9 +20,9 @@
 #include "mortise/io/field_writer.hpp"
 #include "mortise/io/files.hpp"
 #include "mortise/io/output_directory.hpp"
+#include "mortise/simulation/jump_check.hpp"
 #include "mortise/simulation/model.hpp"
 #include "mortise/simulation/newton_table.hpp"
-#include "mortise/simulation/read_scene.hpp"
 #include "mortise/simulation/run.hpp"
 #include "mortise/simulation/state_check.hpp"
 #include "precision.hpp"
@@ -227,10 +226,9 @@ void report_end(const RunRecord& record, const std::optional<StepFailure>& failu
 
 std::string default_directory(const std::string& file) { return "results/" + std::filesystem::path(file).stem().string(); }
 
-ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& options) {
+ExitCode run_scene(const RCP<const Communicator>& comm, Scene scene, const RunOptions& options) {
   RunLog log(comm, options.verbosity);
   const Timers timers;
-  Scene scene = read_scene(*comm, options.scene, options.settings);
   OutputDirectory directory(comm, options.directory.empty() ? default_directory(options.scene) : options.directory, options.keep);
   const Model model(comm, scene, timers);
   SystemParts parts = model.parts();

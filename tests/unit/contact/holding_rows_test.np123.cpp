@@ -58,6 +58,18 @@ Wrenches of_force(const Fixture& fixture, const TwoSurfaces& surfaces, const Vec
   return all;
 }
 
+/// The slave is body 0, the master body 1.
+MultiVector places_in(const Fixture& fixture, const TwoSurfaces& surfaces) {
+  MultiVector places(fixture.nodes, static_cast<std::size_t>(1 + surfaces.dimension));
+  for (std::size_t n = 0; n < fixture.nodes->getNodeNumElements(); ++n) {
+    const GlobalOrdinal node = fixture.nodes->getGlobalElement(static_cast<LocalOrdinal>(n));
+    const int body = node < static_cast<GlobalOrdinal>(surfaces.slave.size()) ? 0 : 1;
+    places.replaceLocalValue(n, 0, body);
+    for (int i = 0; i < surfaces.dimension; ++i) places.replaceLocalValue(n, 1 + i, position(surfaces, node)[i] - pole[body][i]);
+  }
+  return places;
+}
+
 /// All nodes that are covered closed; nothing has slipped, so they stick.
 void compare(const TwoSurfaces& surfaces) {
   Fixture fixture(surfaces, Tpetra::getDefaultComm());
@@ -70,14 +82,7 @@ void compare(const TwoSurfaces& surfaces) {
   ASSERT_FALSE(failure);
   const RCP<Vector> z = fixture.multipliers([](std::size_t) { return 1e6; });
 
-  MultiVector places(fixture.nodes, static_cast<std::size_t>(1 + dim));
-  for (std::size_t n = 0; n < fixture.nodes->getNodeNumElements(); ++n) {
-    const GlobalOrdinal node = fixture.nodes->getGlobalElement(static_cast<LocalOrdinal>(n));
-    const int body = node < static_cast<GlobalOrdinal>(surfaces.slave.size()) ? 0 : 1;
-    places.replaceLocalValue(n, 0, body);
-    for (int i = 0; i < dim; ++i) places.replaceLocalValue(n, 1 + i, position(surfaces, node)[i] - pole[body][i]);
-  }
-  const std::vector<HoldingRow> rows = contact.holding_rows(*z, places);
+  const std::vector<HoldingRow> rows = contact.holding_rows(*z, places_in(fixture, surfaces));
 
   // Rows come node by node.
   std::vector<ContactNodeState> closed;
@@ -149,6 +154,63 @@ TEST(HoldingRows, OpenNodesHoldNothingAndNodesWithoutABodyAreLeftOut) {
   EXPECT_TRUE(fixture.contact->holding_rows(*pulled, places).empty());
   for (std::size_t n = 0; n < fixture.nodes->getNodeNumElements(); ++n) places.replaceLocalValue(n, 0, -1.0);
   EXPECT_TRUE(fixture.contact->holding_rows(*pressed, places).empty());
+}
+
+/// The slave is moved as a whole, by so little that what is coupled stays the same; its shear is more than friction bears.
+void compare_sliding(const TwoSurfaces& surfaces) {
+  Fixture fixture(surfaces, Tpetra::getDefaultComm());
+  ContactSystem& contact = *fixture.contact;
+  const auto comm = fixture.nodes->getComm();
+  const int dim = surfaces.dimension;
+  const auto slaves = static_cast<GlobalOrdinal>(surfaces.slave.size());
+  const double distance = 1e-7;
+  const Eigen::Vector3d motion = distance * (dim == 2 ? Eigen::Vector3d(1.0, 0.0, 0.0) : Eigen::Vector3d(0.8, -0.6, 0.0));
+  Vector d(fixture.dofs), none(contact.multiplier_map());
+  contact.start_step(d, std::vector<char>(fixture.nodes->getNodeNumElements(), 0), none);
+  std::optional<StepFailure> failure;
+  contact.evaluate(d, true, failure);
+  for (std::size_t n = 0; n < fixture.nodes->getNodeNumElements(); ++n)
+    for (int i = 0; i < dim; ++i)
+      if (fixture.nodes->getGlobalElement(static_cast<LocalOrdinal>(n)) < slaves) d.replaceLocalValue(dim * n + i, motion[i]);
+  contact.evaluate(d, true, failure);
+  ASSERT_FALSE(failure);
+  const RCP<Vector> z = fixture.multipliers([](std::size_t) { return 1e6; });                                           // closes what is covered
+  for (std::size_t n = 0; n < z->getLocalLength(); n += static_cast<std::size_t>(dim)) z->replaceLocalValue(n, 0.6e6);  // twice what friction bears
+
+  const std::vector<SlidingNode> nodes = contact.sliding_nodes(*z, places_in(fixture, surfaces));
+  int slipping = 0, most = 0;
+  for (const auto& node : contact.node_states(0, *z)) slipping += node.state == ContactState::slip;
+  ASSERT_EQ(static_cast<int>(nodes.size()), slipping);
+  for (int rank = 0; rank < comm->getSize(); ++rank) {
+    int count = static_cast<int>(nodes.size()) * (dim - 1);
+    Teuchos::broadcast(*comm, rank, Teuchos::outArg(count));
+    most += count;
+    for (int k = 0; k < count; ++k) {
+      const bool mine = rank == comm->getRank();
+      const std::size_t a = static_cast<std::size_t>(k % (dim - 1));
+      Vector one(contact.multiplier_map());
+      if (mine) {
+        const SlidingNode& node = nodes[static_cast<std::size_t>(k / (dim - 1))];
+        for (int i = 0; i < dim; ++i) one.replaceLocalValue(node.multiplier + i, node.frame.tangents(static_cast<Eigen::Index>(a), i));
+      }
+      const Wrenches expected = of_force(fixture, surfaces, one);
+      if (!mine) continue;
+      const SlidingNode& node = nodes[static_cast<std::size_t>(k / (dim - 1))];
+      HoldingRow row;
+      row.bodies = node.along[a];
+      const Wrenches found = of_row(row);
+      EXPECT_LE(std::min((found - expected).norm(), (found + expected).norm()), 1e-11 * expected.norm());
+      // Where the surfaces stand apart, a slip also sees the normal turn: gap over radius.
+      EXPECT_NEAR(std::abs(node.slip[static_cast<Eigen::Index>(a)]), std::abs(found.col(0).head<3>().dot(motion)), 1e-2 * distance * node.weight);
+      EXPECT_GT(node.bound, 0.0);
+    }
+  }
+  EXPECT_GT(most, 3 * (dim - 1));
+}
+
+TEST(SlidingNodes, BearTheForcesOfContactAndSlipAsTheirBodiesMove) {
+  compare_sliding(with_friction(test::arch_on_ground(), nullptr));
+  compare_sliding(with_friction(test::dome_on_waves(), nullptr));
 }
 
 }  // namespace

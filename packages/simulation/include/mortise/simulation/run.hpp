@@ -10,6 +10,8 @@
 
 namespace mortise {
 
+struct Scene;
+
 /// How a scene or a point file is run.
 struct RunOptions {
   std::string scene;                  ///< file
@@ -23,14 +25,14 @@ struct RunOptions {
 /// results/<name of the file without its ending>.
 std::string default_directory(const std::string& file);
 
-/// Collective. Leaves in the directory: summary.json, newton.csv, history.csv, effective.xml, log.txt and, if the scene names fields,
+/// Collective. Runs the scene that was read from options.scene. Leaves in the directory: summary.json, newton.csv, history.csv, effective.xml, log.txt and, if the scene names fields,
 /// fields.xdmf and fields.h5. A scene that cannot be run leaves the directory as it was.
 /// Returns done, not_converged or check_missed. Throws on all ranks: InputError, FileError, and StepFailure of kind input if an expression of the
 /// scene has no value at a later time; results until then are kept.
-ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& options);
+ExitCode run_scene(const RCP<const Communicator>& comm, Scene scene, const RunOptions& options);
 
-/// Collective. Reads a scene, builds its mesh and all else that a run needs, says on rank 0 what it found; solves nothing, writes nothing.
-void inspect_scene(const RCP<const Communicator>& comm, const RunOptions& options);
+/// Collective. Builds the scene's mesh and all else that a run needs, says on rank 0 what it found; solves nothing, writes nothing.
+void inspect_scene(const RCP<const Communicator>& comm, const Scene& scene, const RunOptions& options);
 
 /// Collective. Drives one material point as a point file (options.scene) says. Leaves in the directory: point.csv, summary.json, effective.xml and,
 /// if python3 with matplotlib is here, point.svg and point.png. A file that cannot be run leaves the directory as it was.
