@@ -1,8 +1,8 @@
 #include "launch.hpp"
 
+#include <array>
 #include <cstdlib>
 #include <cstring>
-#include <utility>
 
 namespace mortise {
 
@@ -19,20 +19,16 @@ bool is_first_process() {
 }
 
 // By default a process alone starts the daemon orted, so that it could start others. If the process is killed, the daemon stays, and it grows. It
-// also opens every network of the machine. A process that talks to none but itself needs neither.
-AloneInMpi::AloneInMpi() {
-  if (started_by_mpirun()) return;
-  using Setting = std::pair<const char*, const char*>;
-  for (const auto& [name, value] :
-       {Setting{"OMPI_MCA_ess_singleton_isolated", "1"}, Setting{"OMPI_MCA_btl", "self"}, Setting{"OMPI_MCA_pml", "ob1"}}) {
-    if (std::getenv(name) != nullptr) continue;
-    setenv(name, value, 1);
-    set_.push_back(name);
-  }
-}
+// also opens every network of the machine. A process that talks to none but itself needs neither. Without the daemon all such processes would share
+// one directory for temporary files, which the first to end removes: none makes it, and shared file pointers, which are not used, do without it.
+constexpr std::array<std::array<const char*, 2>, 5> settings{{{"OMPI_MCA_ess_singleton_isolated", "1"},
+                                                              {"OMPI_MCA_btl", "self"},
+                                                              {"OMPI_MCA_pml", "ob1"},
+                                                              {"OMPI_MCA_orte_create_session_dirs", "0"},
+                                                              {"OMPI_MCA_sharedfp", "individual"}}};
 
-AloneInMpi::~AloneInMpi() {
-  for (const char* name : set_) unsetenv(name);
+void start_mpi_alone() {
+  for (const auto& [name, value] : settings) setenv(name, value, 0);
 }
 
 }  // namespace mortise

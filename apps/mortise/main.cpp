@@ -46,9 +46,7 @@ int run_alone(mortise::Program& program) {
 /// With MPI, on every rank.
 int run_with_mpi(char** argv, mortise::Program& program) {
   int first_word = 1;  // Kokkos would answer to --help as well
-  std::optional<mortise::AloneInMpi> alone(std::in_place);
   Tpetra::ScopeGuard scope(&first_word, &argv);
-  alone.reset();
   program.comm = Tpetra::getDefaultComm();
   program.exit_comm = program.comm->duplicate();
   const int code = mortise::agree_on_exit(program, run_program(program));
@@ -104,6 +102,7 @@ int main(int argc, char** argv) {
     if (!program.uses_mpi) return run_alone(program);
     if (program.read)
       if (const auto code = read_alone(program)) return *code;
+    mortise::start_mpi_alone();
   }
   mortise::keep_freed_memory();
   return run_with_mpi(argv, program);

@@ -37,7 +37,7 @@ TEST(LinearSolver, AMisspeltParameterOfMueLuIsRefusedWithFileAndLine) {
             std::string::npos)
       << ending.output;
   const auto message = ending.output.find(": error: ");
-  EXPECT_EQ(ending.output.find('\n', message), ending.output.find("\n---", message)) << "one line, then what mpiexec has to say:\n" << ending.output;
+  EXPECT_EQ(ending.output.find('\n', message), ending.output.size() - 1) << "one line:\n" << ending.output;
 }
 
 TEST(LinearSolver, AParameterOfBelosOfAWrongTypeIsRefusedInOneLine) {
@@ -52,7 +52,7 @@ TEST(LinearSolver, AParameterOfBelosOfAWrongTypeIsRefusedInOneLine) {
       << ending.output;
   EXPECT_NE(ending.output.find("The correct type is \"int\""), std::string::npos) << ending.output;
   const auto message = ending.output.find(": error: ");
-  EXPECT_EQ(ending.output.find('\n', message), ending.output.find("\n---", message)) << "one line, then what mpiexec has to say:\n" << ending.output;
+  EXPECT_EQ(ending.output.find('\n', message), ending.output.size() - 1) << "one line:\n" << ending.output;
 }
 
 }  // namespace
