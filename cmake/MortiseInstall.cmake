@@ -5,4 +5,7 @@ configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/MortiseConfig.cmake.in"
   INSTALL_DESTINATION "${config_directory}")
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/MortiseConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/MortiseConfig.cmake" "${PROJECT_BINARY_DIR}/MortiseConfigVersion.cmake" DESTINATION "${config_directory}")
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/inputs" DESTINATION "${CMAKE_INSTALL_DATADIR}/mortise")
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs/reference/" DESTINATION "${CMAKE_INSTALL_DATADIR}/mortise/schema" FILES_MATCHING PATTERN "*.rng")
+install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/CHANGELOG.md" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 install(EXPORT MortiseTargets NAMESPACE Mortise:: DESTINATION "${config_directory}")

@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <memory>
 
 #include "mortise/io/files.hpp"
@@ -15,12 +16,16 @@ void add_describe_command(CLI::App& app, Program& program) {
   const auto options = std::make_shared<Options>();
   command->add_option("PATH", options->path,
                       "a list of the scene, e.g. contact or stepping, or point, study, hard: those files; default: the whole scene");
-  const std::map<std::string, DescriptionFormat> formats{
-      {"text", DescriptionFormat::text}, {"md", DescriptionFormat::markdown}, {"rng", DescriptionFormat::relax_ng}};
-  command->add_option("--format", options->format, "text, md (Markdown) or rng (RELAX NG schema)")
+  const std::map<std::string, DescriptionFormat> formats{{"text", DescriptionFormat::text},
+                                                         {"md", DescriptionFormat::markdown},
+                                                         {"rng", DescriptionFormat::relax_ng},
+                                                         {"json", DescriptionFormat::json}};
+  command->add_option("--format", options->format, "text, md (Markdown), rng (RELAX NG schema) or json")
       ->transform(CLI::CheckedTransformer(formats))
       ->option_text("FORMAT");
-  command->add_option("-o,--output", options->directory, "write the whole reference, a page for each list, and the schema into this directory")
+  command
+      ->add_option("-o,--output", options->directory,
+                   "write into this directory: with rng or json the one file, else the whole reference, a page for each list, and the schemas")
       ->type_name("DIR");
   command->footer("Example: mortise describe contact");
   command->callback([&program, options] {
@@ -28,6 +33,13 @@ void add_describe_command(CLI::App& app, Program& program) {
     program.action = [&program, options] {
       if (options->directory.empty()) {
         print(program, describe_scene(options->path, options->format));
+        return ExitCode::done;
+      }
+      std::filesystem::create_directories(options->directory);
+      if (options->format == DescriptionFormat::relax_ng || options->format == DescriptionFormat::json) {
+        const std::string kind = options->path.empty() ? "scene" : options->path.substr(0, options->path.find('/'));
+        write_file(*program.comm, options->directory + "/" + kind + (options->format == DescriptionFormat::json ? ".json" : ".rng"),
+                   [&] { return describe_scene(options->path, options->format); });
         return ExitCode::done;
       }
       for (const auto& page : reference_pages()) write_file(*program.comm, options->directory + "/" + page.file, [&] { return page.content; });

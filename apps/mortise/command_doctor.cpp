@@ -42,8 +42,8 @@ std::string state_of(LinearSolverOptions::Kind kind, const RCP<const Communicato
 
 ExitCode doctor(const Program& program) {
   const int ranks = program.comm->getSize(), on_node = ranks_on_node(), available = cores();
-  std::string text = fmt::format("mortise   {}\nTrilinos  {}\nMPI       {}\nEigen     {}.{}.{}\ncompiler  {}\n", MORTISE_VERSION,
-                                 TRILINOS_VERSION_STRING, mpi_version(), EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, __VERSION__);
+  std::string text = fmt::format("mortise   {}\nTrilinos  {}\nMPI       {}\nEigen     {}.{}.{}\ncompiler  {}\n", version(), TRILINOS_VERSION_STRING,
+                                 mpi_version(), EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, __VERSION__);
   text += fmt::format("ranks     {}, {} on this machine, which offers {} core(s)\n", ranks, on_node, available);
   if (on_node > available) text += "          more ranks than cores: expect them to wait for each other\n";
   const char* threads = std::getenv("OMP_NUM_THREADS");

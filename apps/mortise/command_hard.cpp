@@ -22,7 +22,7 @@ void add_hard_command(CLI::App& app, Program& program) {
   auto* command = app.add_subcommand("hard", "run the ledger of hard cases: which end right, stop with a true reason, or end wrong");
   const auto options = std::make_shared<HardOptions>();
   const auto list = std::make_shared<bool>(false);
-  options->version = MORTISE_VERSION;
+  options->version = version();
   command->add_option("LEDGER", options->ledger, "ledger file; default: inputs/hard/ledger.xml");
   command->add_option("-o,--output", options->directory, "directory for the pages and the results of all runs; default: results/hard")
       ->type_name("DIR");

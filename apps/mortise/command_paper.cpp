@@ -8,7 +8,7 @@ namespace mortise {
 void add_paper_command(CLI::App& app, Program& program) {
   auto* command = app.add_subcommand("paper", "run every example of the paper and draw one page of figures and tables beside the paper's numbers");
   const auto options = std::make_shared<PaperOptions>();
-  options->version = MORTISE_VERSION;
+  options->version = version();
   command->add_option("-o,--output", options->directory, "directory for the page and for the results of each run; default: results/paper")
       ->type_name("DIR");
   command->add_option("--only", options->only, "run only these, separated by commas; the page shows no others")

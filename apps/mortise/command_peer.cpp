@@ -9,7 +9,7 @@ namespace mortise {
 void add_peer_command(CLI::App& app, Program& program) {
   auto* command = app.add_subcommand("peer", "run a scene by another program, for comparison: CalculiX");
   const auto options = std::make_shared<PeerOptions>();
-  options->version = MORTISE_VERSION;
+  options->version = version();
   options->peer = Peer::calculix_mortar;
   command->add_option("SCENE", options->scene, "scene file")->required();
   command->add_option("--set", options->settings, "replace a value of the file: path=value, e.g. variables/n=16; may be repeated")

@@ -8,7 +8,7 @@ namespace mortise {
 void add_point_command(CLI::App& app, Program& program) {
   auto* command = app.add_subcommand("point", "drive one material point: stress-strain curve and plot");
   const auto options = std::make_shared<RunOptions>();
-  options->version = MORTISE_VERSION;
+  options->version = version();
   add_input_arguments(*command, "LAW", "point file: a list \"material\" and a list \"path\"", *options);
   add_output_arguments(*command, "LAW", *options);
   command->footer(

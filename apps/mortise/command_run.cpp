@@ -39,7 +39,7 @@ void add_output_arguments(CLI::App& command, const std::string& file, RunOptions
 void add_run_command(CLI::App& app, Program& program) {
   auto* command = app.add_subcommand("run", "run a scene");
   const auto options = std::make_shared<RunOptions>();
-  options->version = MORTISE_VERSION;
+  options->version = version();
   add_input_arguments(*command, "SCENE", "scene file", *options);
   add_output_arguments(*command, "SCENE", *options);
   command->footer(

@@ -22,7 +22,7 @@ WeakVariable weak_variable(const std::string& text) {
 void add_scale_command(CLI::App& app, Program& program) {
   auto* command = app.add_subcommand("scale", "how a scene scales: run it on growing numbers of ranks, or plan it for more than there are");
   const auto options = std::make_shared<ScaleOptions>();
-  options->version = MORTISE_VERSION;
+  options->version = version();
   options->ranks = cores();
   command->add_option("SCENE", options->scene, "scene file")->required();
   command->add_option("--set", options->settings, "replace a value of the file: path=value, e.g. variables/n=16; may be repeated")

@@ -8,7 +8,7 @@ namespace mortise {
 void add_study_command(CLI::App& app, Program& program) {
   auto* command = app.add_subcommand("study", "what accuracy costs: run a scene under many settings, draw errors against mesh size and time");
   const auto options = std::make_shared<StudyOptions>();
-  options->version = MORTISE_VERSION;
+  options->version = version();
   command->add_option("STUDY", options->study, "study file")->required();
   command
       ->add_option("-o,--output", options->directory,

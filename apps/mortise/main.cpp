@@ -1,12 +1,16 @@
 // mortise: contact between bodies that deform. `mortise --help` says what it can do.
 
+#include <fmt/ranges.h>
+
 #include <Teuchos_DefaultSerialComm.hpp>
 #include <Tpetra_Core.hpp>
+#include <algorithm>
 #include <iostream>
 #include <optional>
 
 #include "allocator.hpp"
 #include "launch.hpp"
+#include "mortise/core/xml.hpp"
 #include "program.hpp"
 
 namespace {
@@ -28,6 +32,15 @@ Exit codes: 0 done, 1 usage, 2 invalid input, 3 not converged, 4 a check of the 
 
 /// Of ranks that leave the answer to the first: an error would make mpirun end all ranks, perhaps before the first has answered.
 constexpr int others_code = 0;
+
+/// What is to be said of a first word that is no command; "" if it is one.
+std::string unknown_command(const CLI::App& app, int argc, char** argv) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(command->get_name());
+  if (argc < 2 || argv[1][0] == '-' || std::find(names.begin(), names.end(), argv[1]) != names.end()) return {};
+  const std::string known = fmt::format("{}", fmt::join(names, ", "));
+  return fmt::format("\"{}\" is no command{}\nThe commands are {}.", argv[1], mortise::did_you_mean(argv[1], names), known);
+}
 
 /// What the program is to do: the input first, then the action.
 mortise::Outcome run_program(const mortise::Program& program) {
@@ -69,7 +82,7 @@ std::optional<int> read_alone(mortise::Program& program) {
 int main(int argc, char** argv) {
   mortise::Program program;
   CLI::App app("Mortise: contact between bodies that deform, slide and yield", "mortise");
-  app.set_version_flag("--version", "mortise " MORTISE_VERSION);
+  app.set_version_flag("--version", "mortise " + mortise::version());
   app.footer(examples);
   app.require_subcommand(1);
   mortise::add_run_command(app, program);
@@ -89,7 +102,11 @@ int main(int argc, char** argv) {
     // All ranks read the same command line; one of them answers.
     if (!mortise::is_first_process()) return others_code;
     const bool asked_for_help = error.get_exit_code() == 0;
-    app.exit(error);
+    if (const std::string unknown = unknown_command(app, argc, argv); !asked_for_help && !unknown.empty())
+      std::cerr << unknown << std::endl;
+    else
+      app.exit(error);
+    if (!std::cout.flush()) return static_cast<int>(mortise::ExitCode::files);
     return static_cast<int>(asked_for_help ? mortise::ExitCode::done : mortise::ExitCode::usage);
   }
   if (program.launches && mortise::started_by_mpirun()) {

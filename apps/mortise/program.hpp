@@ -24,7 +24,11 @@ struct Program {
   bool is_first_rank() const { return comm->getRank() == 0; }
 };
 
+/// "0.2.0 (1a2b3c4)": the number, and the git revision that was built.
+std::string version();
+
 /// Prints on the first rank only.
+/// @throws FileError  if standard output does not take it
 void print(const Program& program, const std::string& text);
 
 /// Each adds its command to the command line and sets program.action when it is chosen.

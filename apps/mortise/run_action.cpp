@@ -7,7 +7,9 @@
 namespace mortise {
 
 void print(const Program& program, const std::string& text) {
-  if (program.is_first_rank()) std::cout << text << std::flush;
+  if (!program.is_first_rank()) return;
+  std::cout << text << std::flush;
+  if (!std::cout) throw FileError("cannot write to standard output");
 }
 
 Outcome run_action(const Program& program, const std::function<ExitCode()>& action) {

@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <boost/algorithm/string/replace.hpp>
 #include <algorithm>
+#include <boost/algorithm/string/replace.hpp>
+#include <nlohmann/json.hpp>
 
 #include "mortise/core/parameter_tree.hpp"
 
@@ -68,6 +69,23 @@ void markdown_of(const ListRecord& list, const std::string& path, std::string& o
   }
 }
 
+nlohmann::ordered_json json_of(const ListRecord& list) {
+  nlohmann::ordered_json json{{"name", list.name}, {"sentence", list.says.sentence()}};
+  for (const ParameterRecord& one : list.parameters) {
+    nlohmann::ordered_json parameter{{"name", one.name}, {"kind", one.kind_text()}};
+    if (one.says.is_required()) parameter["required"] = true;
+    for (const auto& [key, text] :
+         {std::pair{"default", one.says.is_required() ? "" : one.value}, {"unit", one.says.unit()}, {"range", one.range_text()}})
+      if (!text.empty()) parameter[key] = text;
+    if (!one.choices.empty()) parameter["choices"] = one.choices;
+    parameter["sentence"] = one.says.sentence();
+    json["parameters"].push_back(std::move(parameter));
+  }
+  for (const auto& [type, kind] : list.kinds) json["kinds"][type] = json_of(kind);
+  for (const ListRecord& one : list.lists) json["lists"].push_back(json_of(one));
+  return json;
+}
+
 class RelaxNg {
  public:
   std::string grammar(const ListRecord& tree, bool symbols) {
@@ -80,9 +98,12 @@ class RelaxNg {
     }
     alternatives(tree);
     line("</choice></zeroOrMore></element></start>");
-    line("<define name=\"anything\"><zeroOrMore><choice><ref name=\"parameter\"/><element name=\"ParameterList\"><attribute name=\"name\"/>"
-         "<ref name=\"anything\"/></element></choice></zeroOrMore></define>");
-    line("<define name=\"parameter\"><element name=\"Parameter\"><attribute name=\"name\"/><attribute name=\"type\"/><attribute name=\"value\"/></element></define>");
+    line(
+        "<define name=\"anything\"><zeroOrMore><choice><ref name=\"parameter\"/><element name=\"ParameterList\"><attribute name=\"name\"/>"
+        "<ref name=\"anything\"/></element></choice></zeroOrMore></define>");
+    line(
+        "<define name=\"parameter\"><element name=\"Parameter\"><attribute name=\"name\"/><attribute name=\"type\"/><attribute "
+        "name=\"value\"/></element></define>");
     line("</grammar>");
     return out_;
   }
@@ -156,8 +177,6 @@ class RelaxNg {
   std::string out_;
 };
 
-
-
 void verbatim_of(const Teuchos::ParameterList& list, const std::string& indent, std::string& out) {
   for (const auto& one : list) {
     const std::string& name = one.first;
@@ -209,6 +228,8 @@ std::string to_markdown(const ListRecord& tree) {
   markdown_of(tree, "", out);
   return out;
 }
+
+std::string to_json(const ListRecord& tree) { return json_of(tree).dump(2) + "\n"; }
 
 std::string to_relax_ng(const ListRecord& tree, bool symbols) { return RelaxNg().grammar(tree, symbols); }
 

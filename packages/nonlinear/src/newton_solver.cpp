@@ -21,7 +21,9 @@ void NewtonOptions::describe(Parameters& parameters) {
            "residual so far is progress")
           .at_least(1));
   parameters.add("momentum tolerance", momentum_tolerance,
-                 Says("bound on |r| of the free dofs over the largest of |f_int|, |f_ext| and |f_c|, reactions included").unit("-").above(0.0));
+                 Says("bound on |r| of the free dofs over the largest of |f_int|, |f_ext| and |f_c|, reactions included; round-off is 1e-15 at best")
+                     .unit("-")
+                     .at_least(1e-15));
   parameters.add("gap tolerance", gap_tolerance,
                  Says("bound on the gap of closed nodes over the length of the shortest slave facet").unit("-").above(0.0));
   parameters.add("complementarity tolerance", complementarity_tolerance,

@@ -54,6 +54,7 @@ const std::vector<FileKind>& file_kinds() {
 }
 
 std::string formatted(const ListRecord& list, DescriptionFormat format) {
+  if (format == DescriptionFormat::json) return to_json(list);
   return format == DescriptionFormat::markdown ? to_markdown(list) : to_text(list);
 }
 

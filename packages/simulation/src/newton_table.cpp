@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace mortise {
 
-std::string step_header(int step, int steps, double time, double dt) {
-  return steps > 0 ? fmt::format("step {}/{}  t={:.6g}  dt={:.6g}", step, steps, time, dt)
-                   : fmt::format("step {}  t={:.6g}  dt={:.6g}", step, time, dt);
+std::string step_header(int step, double time, double end_time, double dt) {
+  return fmt::format("step {}  t={:.6g} of {:.6g}  dt={:.6g}", step, time, end_time, dt);
 }
 
 std::string newton_header() { return " it     |r|/|f|    |gap|     |du|    active   stick/slip  changed   lin      s"; }
@@ -20,10 +21,17 @@ std::string newton_line(const NewtonIteration& iteration) {
                      iteration.seconds);
 }
 
-std::string step_footer(const StepReport& report) {
+std::string step_footer(const StepReport& report, double seconds_left) {
   double seconds = 0.0;
   for (const auto& iteration : report.newton.iterations) seconds += iteration.seconds;
-  return fmt::format("  done in {} iterations, {:.2f} s", report.newton.newton_steps(), seconds);
+  return fmt::format("  done in {} iterations, {:.2f} s{}", report.newton.newton_steps(), seconds,
+                     seconds_left < 1.0 ? "" : "; about " + duration(seconds_left) + " left");
+}
+
+std::string duration(double seconds) {
+  if (seconds < 99.5) return fmt::format("{:.0f} s", seconds);
+  const long minutes = std::lround(seconds / 60.0);
+  return minutes < 100 ? fmt::format("{} min", minutes) : fmt::format("{} h {} min", minutes / 60, minutes % 60);
 }
 
 }  // namespace mortise

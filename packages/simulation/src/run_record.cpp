@@ -1,6 +1,11 @@
 #include "run_record.hpp"
 
+#include <fmt/chrono.h>
+#include <unistd.h>
+
+#include <array>
 #include <cmath>
+#include <ctime>
 #include <nlohmann/json.hpp>
 
 namespace mortise {
@@ -44,12 +49,23 @@ Json effects_json(const Effects& effects) {
   return json;
 }
 
+std::string host_name() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
+}
+
+/// ISO 8601.
+std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
+
 }  // namespace
 
 Json summary(const RunRecord& record, const Model& model) {
   Json json;
   json["scene"] = record.scene;
+  json["settings"] = record.settings;
   json["version"] = record.version;
+  json["host"] = host_name();
+  json["date"] = utc_now();
   json["ranks"] = model.mesh()->comm->getSize();
   json["dofs"] = model.dofs();
   json["elements"] = model.size().elements;

@@ -15,6 +15,7 @@ namespace mortise {
 /// Everything that happened, gathered while the run goes on.
 struct RunRecord {
   std::string scene, version;
+  std::vector<std::string> settings;  ///< "path=value" of the command line
   bool converged = false;
   ExitCode exit = ExitCode::internal;
   std::vector<StepReport> steps;

@@ -4,6 +4,7 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -61,7 +62,6 @@ class Observers {
           std::make_unique<CsvWriter>(comm, directory.file("profiles.csv"),
                                       std::vector<std::string>{"time", "pair", "part", "arc_length", "x", "y", "pressure", "shear", "gap", "state"});
     if (!scene.output.fields.empty()) fields_ = std::make_unique<FieldWriter>(mesh, directory.path());
-    steps_ = static_cast<int>(std::ceil(scene.stepping.end_time / scene.stepping.step - 1e-9));
   }
 
   StepperObserver functions() {
@@ -99,7 +99,7 @@ class Observers {
     if (step != step_) try_ = 0;
     last_iteration_.clear();
     step_ = step, time_ = time, dt_ = dt;
-    log_.info(step_header(step, steps_, time, dt));
+    log_.info(step_header(step, time, scene_.stepping.end_time, dt));
     log_.info(newton_header());
   }
 
@@ -149,9 +149,15 @@ class Observers {
       record_.quantities[names[i]] = values[i];
     }
     history_.row(row);
-    log_.info(step_footer(report));
+    log_.info(step_footer(report, seconds_left(report.time)));
     if (is_output_time(report) || (scene_.output.every_step > 0 && report.step % scene_.output.every_step == 0)) write_fields(report, x);
     if (is_output_time(report)) write_profiles(report, x);
+  }
+
+  /// As if the rest of the scene's time went on as fast as what is done of it.
+  double seconds_left(double time) const {
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin_;
+    return taken.count() * (scene_.stepping.end_time - time) / time;
   }
 
   bool is_output_time(const StepReport& report) const {
@@ -185,8 +191,9 @@ class Observers {
   std::vector<CsvValue> last_iteration_;
   std::unique_ptr<FieldWriter> fields_;
   std::unique_ptr<CsvWriter> profiles_;
-  int steps_ = 0, step_ = 0, try_ = 0, written_ = 0;
+  int step_ = 0, try_ = 0, written_ = 0;
   double time_ = 0.0, dt_ = 0.0;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
 bool is_input(const std::optional<StepFailure>& failure) { return failure && failure->kind() == FailureKind::input; }
@@ -252,6 +259,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, Scene scene, const RunOp
   RunRecord record;
   record.scene = options.scene;
   record.version = options.version;
+  record.settings = options.settings;
   record.quantity_order = evaluation.names();
   Observers observers(comm, scene, directory, model.mesh(), evaluation, log, record, timers);
   Vector x(system.map());

@@ -84,8 +84,11 @@ class CollectParameters : public Parameters {
 /// The part of a tree below a path of list names ("contact/<name>" or "contact"); null if there is none.
 const ListRecord* find_list(const ListRecord& tree, const std::string& path);
 
-std::string to_text(const ListRecord& tree);          ///< for a terminal
-std::string to_markdown(const ListRecord& tree);      ///< tables, one for each list
+std::string to_text(const ListRecord& tree);      ///< for a terminal
+std::string to_markdown(const ListRecord& tree);  ///< tables, one for each list
+/// For programs: {"name", "sentence", "parameters": [{"name", "kind", "default", "unit", "range", "choices", "required", "sentence"}], "kinds":
+/// {type: list}, "lists": [list]}; a key without a value is left out. From declarations.
+std::string to_json(const ListRecord& tree);
 /// Schema in RELAX NG's XML syntax; from declarations.
 /// @param symbols  whether the file may hold the lists "variables" and "tables"
 std::string to_relax_ng(const ListRecord& tree, bool symbols = true);

@@ -6,7 +6,7 @@
 
 namespace mortise {
 
-enum class DescriptionFormat { text, markdown, relax_ng };
+enum class DescriptionFormat { text, markdown, relax_ng, json };
 
 /// Describes the list at `path` ("" : the whole scene; "contact", "bodies/<name>/mesh", ...), "<name>" standing for any name. Throws InputError,
 /// with the nearest names, if there is no such list. "point" and what is below it ("point/path") is about point files, "study" about study files.

@@ -7,8 +7,8 @@
 
 namespace mortise {
 
-/// "step 12/40  t=0.300  dt=0.025". `steps` is an estimate from the step size; 0: not shown.
-std::string step_header(int step, int steps, double time, double dt);
+/// "step 12  t=0.3 of 1  dt=0.025".
+std::string step_header(int step, double time, double end_time, double dt);
 
 /// Names of the table's columns.
 std::string newton_header();
@@ -16,7 +16,10 @@ std::string newton_header();
 /// One line per iteration; |r|/|f| is ResidualNorms::momentum, the number that has a tolerance.
 std::string newton_line(const NewtonIteration& iteration);
 
-/// What a finished step says: iterations and time.
-std::string step_footer(const StepReport& report);
+/// What a finished step says: iterations, time and, if it is a second or more, the time left.
+std::string step_footer(const StepReport& report, double seconds_left);
+
+/// "42 s", "7 min", "2 h 5 min".
+std::string duration(double seconds);
 
 }  // namespace mortise
