@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace mortise::detail {
 
@@ -229,18 +230,23 @@ void PairCoupling::sum_to_rows(bool derivatives) {
     row.dgap.assign(derivatives ? dimension_ * coupled.size() : 0, 0.0);
     row.dnormal.setZero(dimension_, derivatives ? dimension_ * static_cast<Eigen::Index>(coupled.size()) : 0);
     for (std::size_t c = 0; c < coupled.size(); ++c) position_in_row_[coupled[c]] = static_cast<LocalOrdinal>(c);
+    const auto place = [&](LocalOrdinal node) {
+      const LocalOrdinal found = position_in_row_[node];
+      if (found < 0) throw std::logic_error("contact: a slave node is coupled with a node that is not in its pattern");
+      return found;
+    };
 
     for (const auto& [facet, j] : facets_of[s]) {
       row.D += facet->D(j, j);
       row.covered += facet->D.row(j).sum();
       for (int k = 0; k < static_cast<int>(facet->slave.size()); ++k)
-        if (k != j && facet->D(j, k) != 0.0) row.coefficients[position_in_row_[facet->slave[k]]] += facet->D(j, k);
-      for (std::size_t l = 0; l < facet->master.size(); ++l) row.coefficients[position_in_row_[facet->master[l]]] -= facet->M(j, l);
+        if (k != j && facet->D(j, k) != 0.0) row.coefficients[place(facet->slave[k])] += facet->D(j, k);
+      for (std::size_t l = 0; l < facet->master.size(); ++l) row.coefficients[place(facet->master[l])] -= facet->M(j, l);
       row.gap += facet->gap(j);
       if (!derivatives) continue;
       for (std::size_t c = 0; c < facet->columns.size(); ++c)
         for (int i = 0; i < dimension_; ++i)
-          row.dgap[dimension_ * position_in_row_[facet->columns[c]] + i] += facet->dgap(j, dimension_ * static_cast<Eigen::Index>(c) + i);
+          row.dgap[dimension_ * place(facet->columns[c]) + i] += facet->dgap(j, dimension_ * static_cast<Eigen::Index>(c) + i);
       if (variational())  // master nodes are the last columns
         for (std::size_t c = facet->columns.size() - facet->master.size(); c < facet->columns.size(); ++c)
           openings_[s] += facet->dgap.block(j, dimension_ * static_cast<Eigen::Index>(c), 1, dimension_).transpose();
@@ -249,8 +255,9 @@ void PairCoupling::sum_to_rows(bool derivatives) {
     if (axes_[s] < 0) axes_[s] = transverse_axis(row.normal);
     if (derivatives)
       for (std::size_t c = 0; c < normals_[s].columns.size(); ++c)
-        row.dnormal.middleCols(dimension_ * position_in_row_[normals_[s].columns[c]], dimension_) +=
+        row.dnormal.middleCols(dimension_ * place(normals_[s].columns[c]), dimension_) +=
             normals_[s].derivative.middleCols(dimension_ * static_cast<Eigen::Index>(c), dimension_);
+    for (const LocalOrdinal node : coupled) position_in_row_[node] = -1;
   }
 }
 

@@ -119,7 +119,11 @@ void Interface<dim>::evaluate(const MultiVector& x, bool derivatives, std::vecto
   normals.resize(slave.stencils.size() + guests_.stencils.size());
   for (std::size_t n = 0; n < normals.size(); ++n) {
     const NormalStencil& stencil = n < slave.stencils.size() ? slave.stencils[n] : guests_.stencils[n - slave.stencils.size()];
-    if (!average_normal(stencil, positions, derivatives, normals[n]) && !failure)
+    if (average_normal(stencil, positions, derivatives, normals[n])) continue;
+    normals[n] = NodalNormal();  // of an earlier evaluation, whose nodes had other numbers
+    normals[n].normal = SpatialVector::Unit(dim, 0);
+    if (derivatives) normals[n].derivative.setZero(dim, 0);
+    if (!failure)
       failure = StepFailure(
           FailureKind::inverted_facet,
           fmt::format("the slave surface has no normal at node {}, now at ({:.6g}): a facet lost its {}, or facets folded onto one "

@@ -143,7 +143,11 @@ SlaveSurface make_slave_surface(const RCP<const Map>& owned_nodes, const RCP<con
     for (int i = 0; i < dim; ++i)
       if (is_fixed[i]) free[i] = 0.0;
     surface.carries[n] = free.norm() >= no_free_normal;
-    if (surface.carries[n]) surface.stencils[n].projected = is_fixed;
+    if (surface.carries[n]) {
+      // A facet that lies along the plane, as the side of a body that is held aside, has no mirror image: the average stays as it is.
+      surface.stencils[n].projected = is_fixed;
+      if (!average_normal(surface.stencils[n], x, false, normal)) surface.stencils[n].projected = {};
+    }
     if (n >= owned.size()) continue;
     SlaveNode node;
     node.id = surface.node_ids[n];

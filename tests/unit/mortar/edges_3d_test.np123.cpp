@@ -316,5 +316,42 @@ TEST(EdgesInSpace, SeeHalfOfAnEdgeInAPlaneOfSymmetry) {
   }
 }
 
+// The numbers of the normals' nodes are those of the last search.
+TEST(EdgesInSpace, LeaveNoNormalOfAnEarlierPatternAfterAFailure) {
+  Standing standing;
+  standing.turn = on_edge(30.0);
+  const Surfaces surfaces = standing.surfaces();
+  SurfacePair pair(surfaces, alone());
+  ASSERT_TRUE(split(pair, surfaces.points));
+  std::vector<SpatialVector> moved = surfaces.points;
+  for (std::size_t n = surfaces.slaves; n < moved.size(); ++n) moved[n] += Eigen::Vector3d(9.0, 0.0, 0.0);  // beyond reach
+  ASSERT_TRUE(pair.search(moved));
+  const std::size_t tip = lowest_node(surfaces);
+  for (const SurfaceFacet& facet : surfaces.slave)
+    if (std::find(facet.begin(), facet.end(), static_cast<GlobalOrdinal>(tip)) != facet.end())
+      for (const GlobalOrdinal node : facet) moved[static_cast<std::size_t>(node)] = moved[tip];
+  pair.evaluate(moved, true);
+  ASSERT_TRUE(pair.failure);
+  for (std::size_t s = 0; s < pair.interface->slave_nodes().size(); ++s)
+    for (const LocalOrdinal node : pair.normals[s].columns)
+      EXPECT_TRUE(std::binary_search(pair.interface->coupled_nodes(s).begin(), pair.interface->coupled_nodes(s).end(), node)) << s;
+}
+
+// Sides of a brick that are held across themselves, and its bottom, are one slave surface.
+TEST(EdgesInSpace, MayBelongToSidesThatAreHeldAside) {
+  Standing standing;
+  Surfaces surfaces = standing.surfaces();
+  for (std::size_t n = 0; n < surfaces.slaves; ++n)
+    if (surfaces.points[n][0] == 0.0) fix(surfaces, n, {0});
+  SurfacePair pair(surfaces, alone());
+  ASSERT_TRUE(split(pair, surfaces.points));
+  const DenseCoupling coupling = pair.dense();
+  for (std::size_t n = 0; n < surfaces.slaves; ++n)
+    if (surfaces.points[n][0] == 0.0 && surfaces.points[n][2] == 0.0) {
+      const auto row = static_cast<Eigen::Index>(n);
+      EXPECT_LT((coupling.normal.segment<3>(3 * row) - Eigen::Vector3d(0.0, 0.0, -1.0)).norm(), 1e-14);
+    }
+}
+
 }  // namespace
 }  // namespace mortise
