@@ -324,7 +324,7 @@ TEST(EdgesInSpace, LeaveNoNormalOfAnEarlierPatternAfterAFailure) {
   SurfacePair pair(surfaces, alone());
   ASSERT_TRUE(split(pair, surfaces.points));
   std::vector<SpatialVector> moved = surfaces.points;
-  for (std::size_t n = surfaces.slaves; n < moved.size(); ++n) moved[n] += Eigen::Vector3d(9.0, 0.0, 0.0);  // beyond reach
+  for (std::size_t n = surfaces.slaves; n < moved.size(); ++n) moved[n] += Eigen::Vector3d(1.6, 0.4, 0.0);
   ASSERT_TRUE(pair.search(moved));
   const std::size_t tip = lowest_node(surfaces);
   for (const SurfaceFacet& facet : surfaces.slave)
