@@ -5,6 +5,7 @@
 #include "facet_alignment.hpp"
 #include "surface_search.hpp"
 #include "whole_facet.hpp"
+#include "yielding_sides.hpp"
 
 namespace mortise {
 namespace {
@@ -121,11 +122,20 @@ bool FacetIntegrator2d::find_pairs(const SlaveFacetData& slave, const std::vecto
   master_nodes.clear();
   pairs_.clear();
   bool touches = false;
-  for (const Facet<LocalOrdinal>& nodes : masters) {
+  std::vector<Facet<LocalOrdinal>> near;
+  std::vector<double> distances;
+  for (const Facet<LocalOrdinal>& nodes : masters)
+    if (const double distance = facet_distance(line_.x, line_on(nodes, x)); distance <= reach.all) {
+      near.push_back(nodes);
+      distances.push_back(distance);
+    }
+  const std::vector<char> yields = slave.goes_on ? yielding_facets(slave.nodes, near, x) : std::vector<char>(near.size(), 0);
+  for (std::size_t f = 0; f < near.size(); ++f) {
+    if (yields[f] != 0) continue;
+    const Facet<LocalOrdinal>& nodes = near[f];
+    const double distance = distances[f];
     Pair pair;
     pair.line = line_on(nodes, x);
-    const double distance = facet_distance(line_.x, pair.line);
-    if (distance > reach.all) continue;
     const auto overlap = find_overlap(line_, pair.line);
     if (!overlap) continue;
     touches = touches || distance <= reach.touch;

@@ -3,6 +3,7 @@
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
+#include <algorithm>
 
 #include "coupling_message.hpp"
 #include "interface.hpp"
@@ -28,6 +29,13 @@ void Interface<dim>::couple_facets(const Positions<dim>& x, bool derivatives, st
   segments_of_facet_.assign(slave.facets.size(), 0);
   segments_of_guest_.assign(guests_.facets.size(), 0);
   SlaveFacetData data;
+  const auto goes_on = [this](const auto& numbers) {  // normals of the ends; on a line of symmetry the image goes on
+    return dim == 2 && std::all_of(numbers.begin(), numbers.begin() + 2, [this](std::size_t n) {
+             const std::size_t own = slave.stencils.size();
+             const NormalStencil& stencil = n < own ? slave.stencils[n] : guests_.stencils[n - own];
+             return stencil.facets.size() == 2 || is_projected(stencil);
+           });
+  };
   try {
     for (std::size_t f = 0; f < slave.facets.size() && !failure; ++f) {
       if (distribution_ && !distribution_->integrated_here(f)) continue;
@@ -35,6 +43,7 @@ void Interface<dim>::couple_facets(const Positions<dim>& x, bool derivatives, st
       data.multipliers = &slave.multipliers[f];
       data.normals.clear();
       for (const LocalOrdinal normal : slave.normals[f]) data.normals.push_back(&normals[normal]);
+      data.goes_on = goes_on(slave.normals[f]);
       data.at_corner = master_normals && slave.normals[f] != slave.facets[f];
       segments_of_facet_[f] = segments_of(data, candidates_[f], x, derivatives, couplings[f]);
     }
@@ -44,6 +53,7 @@ void Interface<dim>::couple_facets(const Positions<dim>& x, bool derivatives, st
       data.multipliers = &guest.multipliers;
       data.normals.clear();
       for (const std::size_t normal : guest.normals) data.normals.push_back(&normals[normal]);
+      data.goes_on = goes_on(guest.normals);
       data.at_corner = master_normals && guest.at_kink;
       segments_of_guest_[g] = segments_of(data, guest.candidates, x, derivatives, guest_couplings_[g]);
     }

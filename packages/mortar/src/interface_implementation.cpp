@@ -13,6 +13,7 @@
 #include <set>
 
 #include "interface.hpp"
+#include "yielding_sides.hpp"
 
 namespace mortise {
 namespace {
@@ -118,7 +119,8 @@ double Interface<dim>::least_height(const Positions<dim>& slave_x, const std::ve
   return all;
 }
 
-// The master facets that each slave facet may overlap within reach + its longest edge after a motion. Collective.
+// The master facets that each slave facet may overlap within reach + its longest edge after a motion; beside a corner of the master all that are as
+// near, since which of them take part depends on the others. Collective.
 template <int dim>
 typename Interface<dim>::Candidates Interface<dim>::find(const Positions<dim>& x, const std::vector<PlacedFacet<dim>>& placed_master,
                                                          const Motion& motion) const {
@@ -141,8 +143,10 @@ typename Interface<dim>::Candidates Interface<dim>::find(const Positions<dim>& x
     for (std::size_t j = 0; j < facet.size(); ++j) sound = average_normal(slave.stencils[slave.normals[f][j]], x, false, normals[j]) && sound;
     if (!sound) continue;  // evaluate() says what is wrong
     const OverlapTest<dim> may_overlap(points_of<dim>(facet, x), normals, motion);
+    bool beside_corner = false;
+    if constexpr (dim == 2) beside_corner = any_may_yield(near[f], 2.0 * motion.turn);
     for (const PlacedFacet<dim>& one : near[f])
-      if (may_overlap(one.points())) result[f].push_back(one.ids());
+      if (beside_corner || may_overlap(one.points())) result[f].push_back(one.ids());
   }
   return result;
 }

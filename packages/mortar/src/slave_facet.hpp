@@ -13,6 +13,7 @@ struct SlaveFacetData {
   boost::container::static_vector<const NodalNormal*, most_side_nodes> normals;
   boost::container::static_vector<const NormalStencil*, most_side_nodes> stencils;  ///< of the normals; for second derivatives only
   const FacetMultipliers* multipliers = nullptr;
+  bool goes_on = false;    ///< at both its ends the surface goes on smoothly: what the master has behind a corner may yield (2D)
   bool at_corner = false;  ///< one of its nodes takes the master's normal: FacetCoupling::facing is asked for
 };
 

@@ -79,7 +79,7 @@ ContactHold contact_hold(const Model& model, const RigidModes& modes, const Node
   return hold;
 }
 
-Eigen::MatrixXd free_motions(const Eigen::MatrixXd& gram, int per_body, double hardly_held) {
+Eigen::MatrixXd free_motions(const Eigen::MatrixXd& gram, int per_body, double hardly_held, const Eigen::MatrixXd& reference) {
   const std::vector<int> group = groups_of(gram, per_body);
   Eigen::MatrixXd motions(gram.rows(), 0);
   for (int g = 0; g < static_cast<int>(group.size()); ++g) {
@@ -88,15 +88,14 @@ Eigen::MatrixXd free_motions(const Eigen::MatrixXd& gram, int per_body, double h
       for (int m = 0; group[b] == g && m < per_body; ++m) rows.push_back(per_body * static_cast<Eigen::Index>(b) + m);
     if (rows.empty()) continue;
     const auto size = static_cast<Eigen::Index>(rows.size());
-    Eigen::MatrixXd part(size, size);
-    for (Eigen::Index i = 0; i < size; ++i)
-      for (Eigen::Index k = 0; k < size; ++k) part(i, k) = gram(rows[i], rows[k]);
+    const Eigen::MatrixXd part = gram(rows, rows);
+    const double could_cost = reference.size() > 0 ? reference(rows, rows).cwiseAbs().rowwise().sum().maxCoeff() : 0.0;
     // Most groups are held: a factorisation says so, for a tenth of what eigenvalues cost. The largest sum of a row is no less than the largest
     // eigenvalue.
-    const double bound = hardly_held * hardly_held * part.cwiseAbs().rowwise().sum().maxCoeff();
+    const double bound = hardly_held * hardly_held * std::max(could_cost, part.cwiseAbs().rowwise().sum().maxCoeff());
     if (bound > 0.0 && (part - bound * Eigen::MatrixXd::Identity(size, size)).llt().info() == Eigen::Success) continue;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(part);
-    const double most = solver.eigenvalues()[size - 1];
+    const double most = std::max(could_cost, solver.eigenvalues()[size - 1]);
     const Eigen::Index found = most > 0.0 ? (solver.eigenvalues().array() < hardly_held * hardly_held * most).count() : size;
     const Eigen::Index first = motions.cols();
     motions.conservativeResize(Eigen::NoChange, first + found);

@@ -119,11 +119,19 @@ bool SlipSettlement::find_sliding(const Vector& x, const Vector& F, Sliding& fou
   std::vector<double> gram(prescribed.data(), prescribed.data() + prescribed.size());
   sum(gram);
   const Eigen::MatrixXd held = Eigen::Map<const Eigen::MatrixXd>(gram.data(), count, count) + hold.gram;
-  const Eigen::MatrixXd free = free_motions(held, modes.per_body(), hardly_held);
+
+  // What the nodes that slip would hold if they were stuck, rows of unit forces as those of `held`.
+  found.nodes = contact.sliding_nodes(*z, *contact_places(mesh, modes, found.at.x));
+  std::vector<double> if_all_stuck(static_cast<std::size_t>(count * count), 0.0);
+  Eigen::Map<Eigen::MatrixXd> stuck(if_all_stuck.data(), count, count);
+  for (const SlidingRow& row :
+       sliding_rows(found.nodes, std::vector<TangentVector>(found.nodes.size()), modes, Eigen::MatrixXd::Identity(count, count)))
+    stuck += row.work.transpose() * row.work / (row.weight * row.weight);
+  sum(if_all_stuck);
+  const Eigen::MatrixXd free = free_motions(held, modes.per_body(), hardly_held, stuck);
   if (free.cols() == 0) return false;
 
   // Of a node that has just begun to slip the law knows the direction, although u = 0: y = z_tau + c_t u is beyond the bound by c_t times a slip.
-  found.nodes = contact.sliding_nodes(*z, *contact_places(mesh, modes, found.at.x));
   const auto multipliers = z->getLocalViewHost(Tpetra::Access::ReadOnly);
   std::vector<TangentVector> directions, slips;
   for (const SlidingNode& node : found.nodes) {
@@ -170,7 +178,7 @@ bool SlipSettlement::find_sliding(const Vector& x, const Vector& F, Sliding& fou
   found.imbalance = (residual - residual * found.motions * found.motions.transpose()).norm();
   const Eigen::VectorXd missing = found.load - by_law;
   if (missing.norm() <= round_off * forces) return false;  // singular, but consistent
-  stiffness += if_stuck * found.motions.transpose() * held * found.motions / held.norm();
+  stiffness += if_stuck * found.motions.transpose() * held * found.motions / std::max(held.norm(), stuck.norm());
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> tangent(stiffness);
   found.is_singular = !(tangent.eigenvalues()[0] > hardly_slips * if_stuck);
   if (found.is_singular) return true;
