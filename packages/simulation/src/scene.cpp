@@ -93,7 +93,7 @@ void Scene::describe(Parameters& parameters) {
   parameters.add("kinematics", kinematics, kinematics_names(),
                  "how the third direction behaves; axisymmetric: x is the radius, y the axis; three dimensional: bodies of space");
   parameters.add("thickness", thickness,
-                 Says("thickness of the model out of the plane; axisymmetric scenes do not use it").unit("length").above(0.0));
+                 Says("thickness of the model out of the plane; axisymmetric scenes do not use it").unit("length").at_least(1e-30).at_most(1e30));
   parameters.named("materials", materials, "the materials, by names of your choice");
   parameters.named("bodies", bodies, "the bodies, by names of your choice; each is meshed by itself");
   parameters.named("sets", sets, "parts of sides and bodies, by names of your choice");
