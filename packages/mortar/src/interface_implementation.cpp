@@ -31,6 +31,8 @@ std::vector<GlobalOrdinal> nodes_of(const SurfaceFacets& facets) {
 
 /// Between two real searches no node moves further than this share of the least facet height.
 constexpr double free_motion = 0.1;
+/// The most that a facet turns until the next search.
+const double turn_until_next = std::asin(2.0 * free_motion);
 
 }  // namespace
 
@@ -144,7 +146,7 @@ typename Interface<dim>::Candidates Interface<dim>::find(const Positions<dim>& x
     if (!sound) continue;  // evaluate() says what is wrong
     const OverlapTest<dim> may_overlap(points_of<dim>(facet, x), normals, motion);
     bool beside_corner = false;
-    if constexpr (dim == 2) beside_corner = any_may_yield(near[f], 2.0 * motion.turn);
+    if constexpr (dim == 2) beside_corner = any_may_yield(near[f], 2.0 * turn_until_next);
     for (const PlacedFacet<dim>& one : near[f])
       if (beside_corner || may_overlap(one.points())) result[f].push_back(one.ids());
   }
@@ -237,7 +239,7 @@ bool Interface<dim>::search(const MultiVector& x) {
   const std::vector<PlacedFacet<dim>> placed = place_master(x);
   searched_at_ = rcp(new MultiVector(x, Teuchos::Copy));
   free_distance_ = free_motion * least_height(slave_x, placed);
-  const Motion until_next = {2.0 * free_distance_, std::asin(2.0 * free_motion)};
+  const Motion until_next = {2.0 * free_distance_, turn_until_next};
   const Motion longer = {4.0 * free_distance_, std::asin(4.0 * free_motion)};
   // What is needed until the next search has to stand among the candidates; only then they, and the pattern, may stay as they are.
   const Candidates needed = first ? Candidates() : find(slave_x, placed, until_next);
