@@ -63,6 +63,7 @@ int run_with_mpi(char** argv, mortise::Program& program) {
   program.comm = Tpetra::getDefaultComm();
   program.exit_comm = program.comm->duplicate();
   const int code = mortise::agree_on_exit(program, run_program(program));
+  program.read = program.action = nullptr;  // they hold what must not outlive MPI
   program.comm = program.exit_comm = Teuchos::null;
   return code;
 }
