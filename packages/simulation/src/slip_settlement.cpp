@@ -24,7 +24,7 @@ namespace {
 constexpr double hardly_slips = 1e-4;  ///< work of slips on a motion, over the most that they do on another one, below which friction does not see it
 constexpr double hardly_held =
     1e-2;                       ///< of free_motions(): what tilts of the surface hold is weak next to friction, or Newton's step along it is short
-constexpr double rests = 1e-3;  ///< share of its bound that the traction of a node is below it by, if it does not slip
+constexpr double rests = 1e-6;  ///< share of its bound that the traction of a node is below it by, if it does not slip: it moves by 700 roundings
 constexpr double round_off = 1e-13;  ///< what the forces along motions lack, over what friction bears, below which they lack nothing
 constexpr double in_balance = 1e-2;  ///< what the forces on a body lack along motions that are held, over the load along those that slip
 
