@@ -17,6 +17,7 @@
 #include "mortise/simulation/friction_balance.hpp"
 #include "mortise/simulation/state_check.hpp"
 #include "prescribed_rows.hpp"
+#include "residual_work.hpp"
 
 namespace mortise {
 namespace {
@@ -44,20 +45,6 @@ std::vector<SlidingRow> sliding_rows(const std::vector<SlidingNode>& nodes, cons
     rows.push_back(std::move(row));
   }
   return rows;
-}
-
-/// Work of the residual on the motions of the bodies. Prescribed rows hold no forces, and are not moved.
-Eigen::RowVectorXd work_of_residual(const Mesh& mesh, const RigidModes& modes, const NodePlaces& at, const MultiVector& fixed, const Vector& F) {
-  const auto forces = F.getLocalViewHost(Tpetra::Access::ReadOnly);
-  const auto prescribed = fixed.getLocalViewHost(Tpetra::Access::ReadOnly);
-  Eigen::RowVectorXd work = Eigen::RowVectorXd::Zero(modes.count());
-  for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node) {
-    Eigen::Vector3d force = Eigen::Vector3d::Zero();
-    for (int i = 0; i < mesh.dimension; ++i)
-      if (prescribed(node, i) == 0.0) force[i] = forces(mesh.dimension * node + i, 0);
-    modes.add(mesh.body_of_node[node], at.x[node], force, work);
-  }
-  return work;
 }
 
 }  // namespace
