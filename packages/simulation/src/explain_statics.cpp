@@ -128,7 +128,7 @@ class BodyStatics {
     return low;
   }
 
-  /// Of the body that turns most: its rotation, and the places of contact on it that the motion leaves closed.
+  /// Of the body that turns most: its rotation, and the places of contact that are at rest meanwhile, or at least stay closed.
   struct Turn {
     double angle = 0.0;  ///< of the motion
     std::string about;
@@ -140,33 +140,31 @@ class BodyStatics {
     for (int b = 0; b < static_cast<int>(bodies_.size()); ++b)
       if (const Eigen::Vector3d w = rotation_of(*modes_, all, b); w.norm() * modes_->size(b) > axis.norm() * modes_->size(turning))
         turning = b, axis = w;
-    const double share = axis.norm() * modes_->size(turning) / all.cwiseAbs().maxCoeff();
-    if (!(share >= 0.5)) return {};
-    // The ends of what stays closed: along the axis in space, else in x.
-    const Eigen::Vector3d direction = mesh_.dimension == 3 ? Eigen::Vector3d(axis.normalized()) : Eigen::Vector3d::UnitX();
-    const auto end = [&](double sign) {
-      double best = -std::numeric_limits<double>::infinity();
-      std::vector<double> place(3);
-      for (std::size_t i = 0; i < nodes_.size(); ++i) {
-        const auto& on = nodes_[i].normal;
-        const bool touches = std::any_of(on.begin(), on.end(), [&](const auto& wrench) { return wrench.body == turning; });
-        if (!touches || !(resistance(cones_[i], motion) > -rests)) continue;
-        const Eigen::Vector3d& x = at_.x[nodes_[i].owned_node];
-        if (const double score = sign * direction.dot(x); score > best) best = score, place.assign(x.begin(), x.end());
-      }
-      return best_offer(*mesh_.comm, best, place, 3);
+    if (!(axis.norm() * modes_->size(turning) > tilts * all.cwiseAbs().maxCoeff())) return {};
+    const auto stays_closed = [&](std::size_t i) {
+      const auto& on = nodes_[i].normal;
+      return resistance(cones_[i], motion) > -rests && std::any_of(on.begin(), on.end(), [&](const auto& wrench) { return wrench.body == turning; });
     };
-    const std::vector<double> from = end(-1.0), to = end(1.0);
+    const auto is_at_rest = [&](std::size_t i) {
+      const Eigen::Vector3d& x = at_.x[nodes_[i].owned_node];
+      return resistance(cones_[i], motion) > -rests && std::all_of(nodes_[i].normal.begin(), nodes_[i].normal.end(), [&](const auto& wrench) {
+               return motion_at(*modes_, all, wrench.body, modes_->centre(wrench.body), x).norm() <= tilts * all.norm();
+             });
+    };
+    // Along the axis in space, else in x.
+    const Eigen::Vector3d direction = mesh_.dimension == 3 ? Eigen::Vector3d(axis.normalized()) : Eigen::Vector3d::UnitX();
+    std::vector<double> from = end_of(-direction, is_at_rest), to = end_of(direction, is_at_rest);
+    if (from.empty()) from = end_of(-direction, stays_closed), to = end_of(direction, stays_closed);
     Turn turn{axis.norm(), {}};
     if (from.empty()) return turn;
+    const double least = 1e-9 * modes_->size(turning);
     const auto point = [&](const std::vector<double>& x) {
-      const auto shown = [&](int i) { return std::abs(x[i]) < 1e-9 * modes_->size(turning) ? 0.0 : x[i]; };
+      const auto shown = [&](int i) { return std::abs(x[i]) < least ? 0.0 : x[i]; };
       return mesh_.dimension == 3 ? fmt::format("({:.4g}, {:.4g}, {:.4g})", shown(0), shown(1), shown(2))
                                   : fmt::format("({:.4g}, {:.4g})", shown(0), shown(1));
     };
     const double length = (Eigen::Vector3d(to.data()) - Eigen::Vector3d(from.data())).norm();
-    turn.about = length > 1e-9 * modes_->size(turning) ? fmt::format("its contact from {} to {}", point(from), point(to))
-                                                       : fmt::format("its contact at {}", point(from));
+    turn.about = length > least ? fmt::format("from {} to {}", point(from), point(to)) : fmt::format("at {}", point(from));
     return turn;
   }
 
@@ -177,12 +175,12 @@ class BodyStatics {
     return !(of_all > -rests);
   }
 
-  /// Whether the motion slips at a place with friction that bears the load.
+  /// Whether the motion slips at a place with friction that bears the load, by more than strains make of places on an edge that turns.
   bool slips(const Eigen::VectorXd& motion) const {
     int mine = 0, all = 0;
     for (const BearingCone& cone : cones_)
       if (cone.along.cols() > 0 && resistance(cone, motion) > -rests &&
-          (cone.along.transpose() * motion).norm() > rests * cone.along.norm() * motion.norm())
+          (cone.along.transpose() * motion).norm() > tilts * cone.along.norm() * motion.norm())
         mine = 1;
     Teuchos::reduceAll(*mesh_.comm, Teuchos::REDUCE_MAX, mine, Teuchos::outArg(all));
     return all > 0;
@@ -205,6 +203,18 @@ class BodyStatics {
   }
 
  private:
+  /// The farthest place of contact in a direction of those that `counts` says; empty if there is none.
+  template <class Counts>
+  std::vector<double> end_of(const Eigen::Vector3d& direction, const Counts& counts) const {
+    double best = -std::numeric_limits<double>::infinity();
+    std::vector<double> place(3);
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      const Eigen::Vector3d& x = at_.x[nodes_[i].owned_node];
+      if (const double score = direction.dot(x); score > best && counts(i)) best = score, place.assign(x.begin(), x.end());
+    }
+    return best_offer(*mesh_.comm, best, place, 3);
+  }
+
   /// The nodes that may bear something, and of the bodies those that have any.
   void find_nodes(const std::vector<int>& held, const Vector& z) {
     const bool axisymmetric = model_.bodies()->kinematics() == Kinematics::axisymmetric;
@@ -276,8 +286,9 @@ std::string describe_fall(const BodyStatics& statics, Eigen::VectorXd motion) {
     return fmt::format("no equilibrium: body {} is lifted off: a load of {:.6g} pulls it away from {}, which only pushes", statics.names(motion),
                        load, statics.contacts());
   if (const auto turn = statics.turn_of(motion); turn.angle > 0.0)
-    return fmt::format("no equilibrium: body {} tips over about {}: the load turns it with a moment of {:.6g}, and no force of {} turns it back",
-                       statics.names(motion, true), turn.about, load * load / turn.angle, statics.contacts());
+    return fmt::format(
+        "no equilibrium: body {} tips over about its contact {}: the load turns it with a moment of {:.6g}, and no force of {} turns it back",
+        statics.names(motion, true), turn.about, load * load / turn.angle, statics.contacts());
   return fmt::format("no equilibrium: body {} is not held along this motion: the load on it is {:.6g}, and no force of {} acts against it",
                      statics.names(motion), load, statics.contacts());
 }
@@ -288,9 +299,8 @@ StaticsReason judge(const BodyStatics& statics) {
   if (borne.bearing == Bearing::not_borne) return {StaticsVerdict::falls, describe_fall(statics, borne.missing)};
   if (!statics.is_whole() || !statics.sees_all_motions()) return {};
   if (borne.bearing == Bearing::borne && statics.is_borne_with_room())
-    return {StaticsVerdict::held, fmt::format("by statics {} can bear the load of {}: there is an equilibrium of rigid bodies, which Newton's method "
-                                              "did not find",
-                                              statics.contacts(), statics.bodies())};
+    return {StaticsVerdict::held,
+            fmt::format("by statics {} can bear the load of {}: as rigid bodies they would be at rest", statics.contacts(), statics.bodies())};
   return {StaticsVerdict::marginal, fmt::format("the load of {} is at the limit of what {} bears: the difference is below round-off, so that statics "
                                                 "does not tell whether there is an equilibrium",
                                                 statics.bodies(), statics.contacts())};

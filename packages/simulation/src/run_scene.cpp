@@ -277,7 +277,13 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
       if (model.contact()) corners.examine(*system.displacement(to), *system.multipliers(to));
       if (check) {
         const auto timer = timers.scope("state check");
-        if (!check->verify(system, from, to, round)) return false;
+        try {
+          if (!check->verify(system, from, to, round)) return false;
+        } catch (const StepFailure& far) {  // on every rank
+          const StaticsReason statics = explain_statics(model, system, from);
+          if (statics.words.empty()) throw;
+          throw StepFailure(far.kind(), fmt::format("{}; the state that was found is too far away: {}", statics.words, far.what()));
+        }
       }
       jump.verify(*system.displacement(from), *system.displacement(to), system.time() - last_time());
       return true;
@@ -301,7 +307,8 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const RunOptions& option
       if (explanation.empty() && check && !may_hold) explanation = explain_failure(model, system, check->record());
       if (explanation.empty()) explanation = explain_limit_load(caught, model, system, x);
       if (!explanation.empty()) return known = explanation;
-      if (known.empty() && may_hold) return fmt::format("{}; {}", statics.words, describe_held_bodies(model, system, check->record()));
+      if (known.empty() && may_hold)
+        return fmt::format("{}; Newton's method found no equilibrium; {}", statics.words, describe_held_bodies(model, system, check->record()));
       if (known.empty()) return check ? describe_held_bodies(model, system, check->record()) : known;
       return known + "; so an earlier try of this step";
     };
