@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "implementation.hpp"
+#include "mortise/contact/bearing_node.hpp"
 
 namespace mortise {
 namespace {
@@ -126,6 +127,45 @@ std::vector<SlidingNode> ContactSystem::sliding_nodes(const Vector& z, const Mul
             [&](std::size_t c) { return SpatialVector((pair.rows()[s].coefficients[c] + (coupled[c] == own ? pair.rows()[s].D : 0.0)) * tangent); },
             largest));
       }
+      nodes.push_back(std::move(node));
+    }
+  }
+  return nodes;
+}
+
+std::vector<BearingNode> ContactSystem::bearing_nodes(const Vector& z, const MultiVector& places) const {
+  const Implementation& self = *implementation_;
+  const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
+  std::vector<BearingNode> nodes;
+  for (std::size_t p = 0; p < self.pairs.size(); ++p) {
+    const detail::PairCoupling& pair = *self.pairs[p];
+    const std::vector<detail::NodeMultiplier> multipliers = self.multipliers_of(values, p);
+    MultiVector local(pair.interface().local_nodes(), static_cast<std::size_t>(1 + self.dimension));
+    local.doImport(places, pair.import(), Tpetra::REPLACE);
+    const auto at = local.getLocalViewHost(Tpetra::Access::ReadOnly);
+    for (std::size_t s = 0; s < pair.rows().size(); ++s) {
+      if (self.multiplier_of[p][s] < 0 || !pair.covered(s)) continue;
+      const SlaveNode& slave = pair.slave_nodes()[s];
+      const detail::NodeRow& row = pair.rows()[s];
+      BearingNode node{p, slave.owned_node, pair.closed(s, multipliers[s]), 0.0, {}, {}};
+      if (!node.closed && pair.own_gap(s) > detail::near * pair.size() * slave.weight) continue;
+      const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
+      double largest = 0.0;
+      const auto along = [&](const SpatialVector& direction) {
+        const auto force_at = [&](std::size_t c) {
+          return SpatialVector((row.coefficients[c] + (coupled[c] == slave.local_node ? row.D : 0.0)) * direction);
+        };
+        return wrenches(coupled, at, self.dimension, force_at, largest);
+      };
+      const auto against_gap = [&](std::size_t c) {
+        return SpatialVector(-Eigen::Map<const Eigen::VectorXd>(&row.dgap[static_cast<std::size_t>(self.dimension) * c], self.dimension));
+      };
+      node.normal = pair.variational() ? wrenches(coupled, at, self.dimension, against_gap, largest) : along(row.normal);
+      if (node.normal.empty()) continue;
+      if (pair.friction() != nullptr) node.friction = pair.friction()->largest_ratio();
+      const Frame in = pair.frame(s);
+      for (Eigen::Index a = slave.partly_fixed() ? 1 : 0; node.friction > 0.0 && a < in.tangents.rows(); ++a)
+        node.along.push_back(along(in.tangents.row(a).transpose()));
       nodes.push_back(std::move(node));
     }
   }

@@ -12,6 +12,9 @@
 
 namespace mortise::detail {
 
+/// Distance over h up to which nodes of a body that only contact holds count as about to close.
+constexpr double near = 0.1;
+
 /// Derivatives of one scalar of a slave node with respect to the positions of its coupled nodes; entry dim c + i is component i of node c.
 using PositionGradient = std::vector<double>;
 

@@ -17,7 +17,6 @@ namespace {
 
 constexpr double touching = 1e-8;      // |g_j| / (A_j h) below which a node touches: then the sign of g is round-off
 constexpr double small_strain = 1e-6;  // the pressure it starts with, over Young's modulus
-constexpr double near = 0.1;           // distance over h up to which nodes of an unheld body are seeded
 
 bool slave_is_unheld(const detail::PairCoupling& pair, const std::vector<char>& unheld) {
   for (const SlaveNode& slave : pair.slave_nodes())
@@ -144,7 +143,7 @@ void ContactSystem::start_step(const Vector& d, const std::vector<char>& unheld,
     const bool needed = self.maximum(slave_is_unheld(pair, unheld) || master_is_unheld(pair, *self.owned_nodes, unheld)) > 0.0;
     if (!needed || self.sum(active) > 0.0) continue;
     nearest = -self.maximum(-nearest);
-    const double reach = std::max(near * pair.size(), nearest + touching * pair.size());
+    const double reach = std::max(detail::near * pair.size(), nearest + touching * pair.size());
     for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
       if (!pair.covered(s) || pair.own_gap(s) > reach * pair.slave_nodes()[s].weight) continue;
       set(s, std::max(0.0, pair.closing_pressure(s)) + pressure);

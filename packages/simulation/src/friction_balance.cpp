@@ -3,11 +3,13 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace mortise {
 namespace {
 
 constexpr double first_rounding = 1e-2, last_rounding = 1e-10;  // over `longest`
+constexpr double of_slips = 1e-6;                               // the last rounding over the mean slip, if that is less
 constexpr int most_iterations = 60;                             // of each rounding
 constexpr double settled = 1e-12;                               // of the load that friction could bear: what is left of the gradient
 
@@ -17,6 +19,19 @@ struct Work {
   Eigen::VectorXd slope;
   Eigen::MatrixXd curvature;
 };
+
+/// A rounding that is not small next to the slips leaves all nodes below their bounds, as if all rested. Below round-off of positions slips are
+/// nothing.
+double last_rounding_of(const std::vector<SlidingRow>& rows, double longest, const Sum& sum) {
+  std::vector<double> sums(2, 0.0);
+  for (const SlidingRow& row : rows) {
+    sums[0] += row.bound * row.slip.norm();
+    sums[1] += row.bound * row.weight;
+  }
+  sum(sums);
+  const double mean = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
+  return std::clamp(of_slips * mean, std::numeric_limits<double>::epsilon() * longest, last_rounding * longest);
+}
 
 double rounded(const TangentVector& v, double e) { return std::hypot(v.norm(), e); }
 
@@ -45,8 +60,10 @@ Work work_at(const std::vector<SlidingRow>& rows, const Eigen::VectorXd& load, c
 FrictionBalance balance_friction(const std::vector<SlidingRow>& rows, const Eigen::VectorXd& load, double longest, const Sum& sum) {
   FrictionBalance balance;
   balance.motion = Eigen::VectorXd::Zero(load.size());
+  const double last = last_rounding_of(rows, longest, sum);
   double rounding = first_rounding * longest;
-  for (; rounding >= 0.99 * last_rounding * longest; rounding *= 0.1) {
+  for (bool is_last = false; !is_last;) {
+    is_last = rounding <= last;
     Work at = work_at(rows, load, balance.motion, rounding, sum);
     for (int iteration = 0; iteration < most_iterations && at.slope.norm() > settled * at.forces; ++iteration) {
       const Eigen::VectorXd step = -at.curvature.ldlt().solve(at.slope);
@@ -61,11 +78,12 @@ FrictionBalance balance_friction(const std::vector<SlidingRow>& rows, const Eige
       at = next;
       if (!(balance.motion.norm() <= longest)) return balance;
     }
+    if (!is_last) rounding = std::max(0.1 * rounding, last);
   }
   balance.borne = true;
   for (const SlidingRow& row : rows) {
     const TangentVector v = row.slip + row.work * balance.motion;
-    balance.traction.push_back(row.bound / rounded(v, 10.0 * rounding * row.weight) * v);
+    balance.traction.push_back(row.bound / rounded(v, rounding * row.weight) * v);
   }
   return balance;
 }

@@ -13,6 +13,7 @@
 #include "contact_watch.hpp"
 #include "corner_watch.hpp"
 #include "explain_failure.hpp"
+#include "explain_statics.hpp"
 #include "history_columns.hpp"
 #include "limit_load.hpp"
 #include "memory.hpp"
@@ -282,7 +283,13 @@ ExitCode run_scene(const RCP<const Communicator>& comm, Scene scene, const RunOp
       if (model.contact()) corners.examine(*system.displacement(to), *system.multipliers(to));
       if (check) {
         const auto timer = timers.scope("state check");
-        if (!check->verify(system, from, to, round)) return false;
+        try {
+          if (!check->verify(system, from, to, round)) return false;
+        } catch (const StepFailure& far) {  // on every rank
+          const StaticsReason statics = explain_statics(model, system, from);
+          if (statics.words.empty()) throw;
+          throw StepFailure(far.kind(), fmt::format("{}; the state that was found is too far away: {}", statics.words, far.what()));
+        }
       }
       jump.verify(*system.displacement(from), *system.displacement(to), system.time() - last_time());
       return true;
@@ -292,16 +299,22 @@ ExitCode run_scene(const RCP<const Communicator>& comm, Scene scene, const RunOp
     const double smallest = scene.stepping.minimum_step.value_or(scene.stepping.step / 1024.0);
     functions.explain = [&](const StepFailure& caught) -> std::string {
       if (caught.kind() == FailureKind::input) return {};
+      const StaticsReason statics = check ? explain_statics(model, system, x) : StaticsReason{};
+      if (statics.verdict == StaticsVerdict::falls) return known = statics.words;
+      const bool may_hold = statics.verdict != StaticsVerdict::unknown;
       const double from = last_time(), to = system.time();
       if (to - from < 2.0 * smallest && !system.linearised_at().is_null())
         if (const std::string turns = explain_turning_point(model, system, x, Vector(*system.linearised_at(), Teuchos::Copy), from, to);
             !turns.empty())
           return known = turns;
       if (check && !check->refused().empty()) return known = check->refused() + "; put back, it found no equilibrium";
-      std::string explanation = settlement ? settlement->overload() : std::string();
-      if (explanation.empty() && check) explanation = explain_failure(model, system, check->record());
+      // What Newton's last iterate says of motions is no reason where statics says that contact can hold the bodies.
+      std::string explanation = settlement && !may_hold ? settlement->overload() : std::string();
+      if (explanation.empty() && check && !may_hold) explanation = explain_failure(model, system, check->record());
       if (explanation.empty()) explanation = explain_limit_load(caught, model, system, x);
       if (!explanation.empty()) return known = explanation;
+      if (known.empty() && may_hold)
+        return fmt::format("{}; Newton's method found no equilibrium; {}", statics.words, describe_held_bodies(model, system, check->record()));
       if (known.empty()) return check ? describe_held_bodies(model, system, check->record()) : known;
       return known + "; so an earlier try of this step";
     };

@@ -17,6 +17,7 @@
 #include "mortise/simulation/friction_balance.hpp"
 #include "mortise/simulation/state_check.hpp"
 #include "prescribed_rows.hpp"
+#include "residual_work.hpp"
 
 namespace mortise {
 namespace {
@@ -24,7 +25,7 @@ namespace {
 constexpr double hardly_slips = 1e-4;  ///< work of slips on a motion, over the most that they do on another one, below which friction does not see it
 constexpr double hardly_held =
     1e-2;                       ///< of free_motions(): what tilts of the surface hold is weak next to friction, or Newton's step along it is short
-constexpr double rests = 1e-3;  ///< share of its bound that the traction of a node is below it by, if it does not slip
+constexpr double rests = 1e-6;  ///< share of its bound that the traction of a node is below it by, if it does not slip: it moves by 700 roundings
 constexpr double round_off = 1e-13;  ///< what the forces along motions lack, over what friction bears, below which they lack nothing
 constexpr double in_balance = 1e-2;  ///< what the forces on a body lack along motions that are held, over the load along those that slip
 
@@ -44,20 +45,6 @@ std::vector<SlidingRow> sliding_rows(const std::vector<SlidingNode>& nodes, cons
     rows.push_back(std::move(row));
   }
   return rows;
-}
-
-/// Work of the residual on the motions of the bodies. Prescribed rows hold no forces, and are not moved.
-Eigen::RowVectorXd work_of_residual(const Mesh& mesh, const RigidModes& modes, const NodePlaces& at, const MultiVector& fixed, const Vector& F) {
-  const auto forces = F.getLocalViewHost(Tpetra::Access::ReadOnly);
-  const auto prescribed = fixed.getLocalViewHost(Tpetra::Access::ReadOnly);
-  Eigen::RowVectorXd work = Eigen::RowVectorXd::Zero(modes.count());
-  for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node) {
-    Eigen::Vector3d force = Eigen::Vector3d::Zero();
-    for (int i = 0; i < mesh.dimension; ++i)
-      if (prescribed(node, i) == 0.0) force[i] = forces(mesh.dimension * node + i, 0);
-    modes.add(mesh.body_of_node[node], at.x[node], force, work);
-  }
-  return work;
 }
 
 }  // namespace

@@ -51,6 +51,24 @@ TEST(FrictionBalance, InThePlaneOneNodeRests) {
   }
 }
 
+// Slips of a step that hardly changes anything, next to the size of the model. At a load of 1 two nodes bear it equally well.
+TEST(FrictionBalance, InThePlaneOneNodeRestsHoweverSmallSlipsAre) {
+  for (const double size : {1e-3, 1e-6, 1e-9}) {
+    const std::vector<SlidingRow> rows{in_line(1.0, -3.0 * size), in_line(2.0, -1.0 * size), in_line(1.5, 0.2 * size), in_line(2.5, size)};
+    for (const double load : {-4.0, -1.0, 0.0, 0.99999, 1.00001, 3.0}) {
+      const FrictionBalance balance = balance_friction(rows, load_of({load}), 10.0, alone);
+      ASSERT_TRUE(balance.borne) << size << ' ' << load;
+      int resting = 0;
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        if (std::abs(balance.traction[i][0]) < (1.0 - 1e-6) * rows[i].bound) {
+          ++resting;
+          EXPECT_NEAR(rows[i].slip[0] + balance.motion[0], 0.0, 1e-3 * size);
+        }
+      EXPECT_EQ(resting, 1) << size << ' ' << load;
+    }
+  }
+}
+
 TEST(FrictionBalance, MoreThanFrictionBearsIsNotBorne) {
   const std::vector<SlidingRow> rows{in_line(1.0, -3e-4), in_line(2.0, -1e-4), in_line(1.5, 2e-4)};
   EXPECT_TRUE(balance_friction(rows, load_of({4.4}), 1.0, alone).borne);

@@ -128,6 +128,8 @@ struct SlidingNode {
   std::vector<std::vector<HoldingRow::Wrench>> along;
 };
 
+struct BearingNode;
+
 /// All pairs. z holds `dimension` components for each owned slave node that may carry a multiplier.
 /// Displacements are given on the owned dofs. Collective in all members but the accessors.
 class ContactSystem {
@@ -237,9 +239,12 @@ class ContactSystem {
   /// @param places  [owned nodes x 1 + dim] the body that a node counts for, below 0: none; its position, relative to the point of the body that
   ///                moments are taken about, in any unit
   std::vector<HoldingRow> holding_rows(const Vector& z, const MultiVector& places) const;
-  /// Of the owned slave nodes of all pairs with friction that is not regularised, at z, d of the last evaluate(); those that bear shear freely, without
-  /// a fixed component. `places` as above. Collective.
+  /// Of the owned slave nodes of all pairs with friction that is not regularised, at z, d of the last evaluate(); those that bear shear freely,
+  /// without a fixed component. `places` as above. Collective.
   std::vector<SlidingNode> sliding_nodes(const Vector& z, const MultiVector& places) const;
+  /// Of the owned slave nodes of all pairs, at z, d of the last evaluate(d, true): those that are closed, or covered and as near as the nodes are
+  /// that start_step() closes for an unheld body, 0.1 h. `places` as above. Collective.
+  std::vector<BearingNode> bearing_nodes(const Vector& z, const MultiVector& places) const;
   /// Collective.
   IntegrationLoad integration_load(std::size_t pair) const;
   /// Bytes that the slip histories of all pairs take, over all ranks; 0 without friction. Collective.

@@ -1,6 +1,7 @@
 #pragma once
 // Friction laws: how much shear traction a closed node bears before it slips. A new law: a struct here, and its line in friction_registry().
 
+#include <limits>
 #include <optional>
 
 #include "mortise/core/parameters.hpp"
@@ -21,6 +22,9 @@ struct FrictionLaw : Described {
   /// rho at a contact pressure >= 0 [stress] and a slip path accumulated up to the start of the step [length]; NaN where the law has none.
   virtual FrictionBound bound(double pressure, double slip_path) const = 0;
 
+  /// A number that rho / pressure never exceeds; infinite where none is known.
+  virtual double largest_ratio() const { return std::numeric_limits<double>::infinity(); }
+
   /// Why there is no bound at a pressure and a slip path; nothing where there is one.
   virtual std::optional<Diagnostic> complaint(double /*pressure*/, double /*slip_path*/) const { return {}; }
 };
@@ -30,6 +34,7 @@ struct NoFriction : FrictionLaw {
   void describe(Parameters&) override {}
   bool acts() const override { return false; }
   FrictionBound bound(double, double) const override { return {}; }
+  double largest_ratio() const override { return 0.0; }
 };
 
 /// rho = min(mu p, largest traction).
@@ -40,6 +45,7 @@ struct CoulombFriction : FrictionLaw {
   /// A coefficient of 0 is no friction.
   bool acts() const override { return !coefficient.is_constant() || coefficient.at({0.0, 0.0}) > 0.0; }
   FrictionBound bound(double pressure, double slip_path) const override;
+  double largest_ratio() const override { return coefficient.is_constant() ? coefficient.at({0.0, 0.0}) : FrictionLaw::largest_ratio(); }
   std::optional<Diagnostic> complaint(double pressure, double slip_path) const override;
 };
 

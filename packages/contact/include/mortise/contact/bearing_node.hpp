@@ -1,0 +1,22 @@
+#pragma once
+// What a slave node can bear where it stands, closed or about to close.
+
+#include <vector>
+
+#include "mortise/contact/contact_system.hpp"
+
+namespace mortise {
+
+/// A covered slave node whose gap is within reach of closing.
+struct BearingNode {
+  std::size_t pair = 0;
+  LocalOrdinal owned_node = 0;
+  bool closed = false;
+  double friction = 0.0;  ///< |z_tau| <= friction z_n whatever z_n; infinite: the law says no more
+  /// What a unit pressure does to each body, as f_c: forces on bodies are its negative.
+  std::vector<HoldingRow::Wrench> normal;
+  /// [tangents that may bear shear] What a unit traction along tau_a does to each body; empty without friction.
+  std::vector<std::vector<HoldingRow::Wrench>> along;
+};
+
+}  // namespace mortise
