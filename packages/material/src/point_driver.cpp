@@ -47,8 +47,8 @@ class Point {
   }
 
  private:
-  /// Newton's method for tau_aa = 0 in y_a = ln F_aa, dF = L F with L_aa = d y_a: d tau_aa = sum_b A_aabb d y_b + tau_aa d y_a (no sum over a);
-  /// small strain: in y_a = F_aa with d sigma_aa = sum_b A_aabb d y_b.
+  /// Newton's method for tau_aa = 0 in y_a = ln F_aa, dF = L F with L_aa = d y_a: d tau_aa = sum_b A_aabb d y_b + tau_aa d y_a (no sum over a). Small
+  /// strain: in y_a = F_aa with d sigma_aa = sum_b A_aabb d y_b.
   void find_free_stretches(int number, const PathPoint& target) {
     constexpr int most_iterations = 60;
     constexpr double longest = 0.5, shortest = 1e-13;  // of a change of y; below the latter there is but round-off

@@ -31,7 +31,7 @@ class BodySet {
 
   /// Global node ids of an element.
   CellNodes element_nodes(GlobalOrdinal element) const;
-  /// In the reference configuration; the third is 0 in the plane.
+  /// In the reference configuration; the third is 0 in 2D.
   SpatialPoint coordinate(GlobalOrdinal node) const;
   const CellTopology& cell(int body) const { return topology(shapes_[body]); }
   int dimension() const { return dimension_; }

@@ -15,7 +15,7 @@ inline std::vector<std::array<int, 2>> find_edge_corners(CellShape shape) {
   if (cell.dimension == 1) return corners.empty() ? corners : std::vector<std::array<int, 2>>{{0, 1}};
   for (const auto& side : cell.sides) {
     const CellTopology& of_side = topology(cell.side);
-    // Middles follow the side's corners, each after the one that its edge starts at.
+    // Mid-side nodes follow the side's corners, each after the one that its edge starts at.
     for (int a = of_side.corners; a < of_side.nodes; ++a) {
       const int start = a - of_side.corners;
       corners[side[a] - cell.corners] = {side[start], side[(start + 1) % of_side.corners]};

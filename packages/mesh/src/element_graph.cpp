@@ -20,7 +20,7 @@ struct DualGraph {
   std::unique_ptr<idx_t, MetisFree> offsets, neighbours;
 };
 
-/// Elements that share two corners in the plane, or three in space, share a side.
+/// Elements that share two corners in 2D, or three in 3D, share a side.
 DualGraph dual_graph(const BodySet& bodies) {
   idx_t elements = static_cast<idx_t>(bodies.element_count()), nodes = static_cast<idx_t>(bodies.node_count());
   std::vector<idx_t> element_offsets{0}, element_nodes;

@@ -9,8 +9,8 @@
 
 namespace mortise {
 
-/// Pairs of elements of two bodies that are nearest to one another, by the middles of their sides in contact in the reference configuration: there is
-/// no nearer such side of another body to either. At most one pair for a side, so that no element has many.
+/// Pairs of elements of two bodies that are nearest to one another. The distance is that of the midpoints of their sides in contact in the reference
+/// configuration. There is no nearer such side of another body to either. At most one pair for a side, so that no element has many.
 /// @param is_contact  [body][side name index]
 std::vector<std::array<GlobalOrdinal, 2>> facing_elements(const BodySet& bodies, const std::vector<std::vector<bool>>& is_contact);
 

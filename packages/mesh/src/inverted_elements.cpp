@@ -25,8 +25,8 @@ struct Inverted {
   SpatialPoint position{};
 };
 
-/// det J is looked at in the nodes and in the points of a rule. On linear triangles and tetrahedra it is constant; on bilinear quadrilaterals it is
-/// linear in each reference coordinate without a mixed term, so that it is positive everywhere if it is so in the corners.
+/// det J is evaluated at the nodes and at the points of a rule. On linear triangles and tetrahedra it is constant. On bilinear quadrilaterals it is
+/// linear in each reference coordinate without a mixed term: it is positive everywhere if it is so in the corners.
 template <class Cell>
 std::vector<std::array<double, Cell::dimension>> places_to_look_at(int rule_points) {
   std::vector<std::array<double, Cell::dimension>> places;

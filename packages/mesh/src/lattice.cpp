@@ -5,8 +5,8 @@
 namespace mortise {
 namespace {
 
-/// In how many directions at once a node of a cell may be a middle: hexahedra and quadrilaterals have nodes on their edges, but cells that are cut
-/// into triangles or tetrahedra also on the diagonals.
+/// In how many directions at once a node of a cell may be a midpoint. Hexahedra and quadrilaterals have nodes on their edges; cells that are cut into
+/// triangles or tetrahedra have them also on the diagonals.
 std::size_t most_middles(CellShape shape) {
   switch (shape) {
     case CellShape::triangle6:

@@ -41,7 +41,7 @@ class Octant {
   static Vector3d between(const Vector3d& a, const Vector3d& b, double share) { return (1.0 - share) * a + share * b; }
   static double between(double a, double b, double share) { return mortise::between(a, b, share); }
 
-  /// The trilinear block with corners on the axes, on the diagonals of faces and on that of space, in shares of the radius.
+  /// The trilinear block with corners on the axes, on the diagonals of faces and on the space diagonal, in shares of the radius.
   Vector3d inner(const Vector3d& share) const {
     constexpr double face_diagonal = 0.38, space_diagonal = 0.32;
     Vector3d position = Vector3d::Zero();

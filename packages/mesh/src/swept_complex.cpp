@@ -64,8 +64,8 @@ SweptComplex::Cell SweptComplex::cell_of(GlobalOrdinal element) const {
   return {cell % per_layer, static_cast<int>(cell / per_layer), static_cast<int>(element % elements_per_cell())};
 }
 
-/// A prism over the triangle with the profile's nodes a < b < c is cut into {a, b, c, c'}, {a, b, b', c'} and {a, a', b', c'}, where ' marks the
-/// upper layer. The diagonals that this draws on the prism's sides depend on the order of two nodes alone, so that neighbours draw the same.
+/// A prism over the triangle with the profile's nodes a < b < c is cut into {a, b, c, c'}, {a, b, b', c'} and {a, a', b', c'}. Here ' marks the upper
+/// layer. The diagonals that this draws on the prism's sides depend on the order of two nodes alone, so that neighbours draw the same.
 SweptComplex::Corners SweptComplex::corners_of(const Cell& cell) const {
   const int lower = 2 * cell.layer, upper = lower + 2;
   Corners corners;

@@ -12,10 +12,11 @@ namespace mortise::detail {
 constexpr double smallest_step_length = 1.0 / 1024.0;
 
 /// Halves a step until the merit m falls: m(x + lambda dx) <= (1 - 1e-4 lambda) m(x). An iterate that cannot be evaluated counts as infinite; one
-/// whose residual is below all tolerances is taken, as what is left of it is round-off. The merit has kinks where contact changes its state
-/// or friction its direction, and beside one of them it may rise along any step or fall by next to nothing. So the longest step that can be evaluated
-/// is taken where it changes states and none of 1/32 of it or more makes the merit fall, and after three steps in a row that were shortened with
-/// nodes in contact, to get away from there.
+/// whose residual is below all tolerances is taken, as what is left of it is round-off. The merit has kinks where contact changes its state or
+/// friction its direction. Beside one of them it may rise along any step or fall by next to nothing. To get away from there, the longest step that
+/// can be evaluated is taken in two cases:
+/// * it changes states, and no step of 1/32 of it or more makes the merit fall;
+/// * three steps in a row were shortened with nodes in contact.
 class Backtracking : public NOX::LineSearch::Generic {
  public:
   explicit Backtracking(const NewtonOptions& options) : options_(options) {}

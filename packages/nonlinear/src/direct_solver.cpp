@@ -16,9 +16,10 @@ namespace {
 /// Steps of iterative refinement at most.
 constexpr int most_refinements = 3;
 
-/// Correction over solution up to which a solution is one. Of a singular matrix whose right-hand side is not in its range the factors, with pivots of
-/// round-off, give a huge multiple of a null vector. Its backward error is small, but as A does not see it each step of refinement adds the same
-/// multiple again: corrections are then half, a third, a quarter of the solution. Of any other matrix they are about round-off times its condition.
+/// Correction over solution up to which a solution is accepted. Take a singular matrix whose right-hand side is not in its range. Its factors, with
+/// pivots of round-off, give a huge multiple of a null vector. The backward error is small, but as A does not see this vector each step of refinement
+/// adds the same multiple again: corrections are then half, a third, a quarter of the solution. Of any other matrix they are about round-off times
+/// its condition number.
 constexpr double certain = 1e-2;
 
 /// What refinement came to.
@@ -100,8 +101,8 @@ class DirectSolver : public LinearSolver {
     return refined;
   }
 
-  // Amesos2 reads the values of a matrix in its analysis and, from then on, once before each numeric factorisation that follows a solve:
-  // every factorisation here is followed by a solve, and a solver that failed is dropped.
+  // Amesos2 reads the values of a matrix in its analysis and, from then on, once before each numeric factorisation that follows a solve. Every
+  // factorisation here is followed by a solve, and a solver that failed is dropped.
   void factor() {
     if (amesos2_.is_null()) {
       amesos2_ = make(matrix_);
@@ -160,8 +161,8 @@ class Klu2Solver : public DirectSolver {
   using DirectSolver::DirectSolver;
 
  protected:
-  // On one rank Amesos2 hands KLU2 the matrix's own arrays, whatever the global ids are, unless it is told that they have gaps: then it takes
-  // the path of many ranks, whose results are wrong.
+  // On one rank Amesos2 gives KLU2 the matrix's own arrays, whatever the global ids are. Told that the ids have gaps, it takes the path of many
+  // ranks, whose results are wrong.
   RCP<Amesos2Solver> make(const RCP<const Matrix>& matrix) override { return Amesos2::create<Matrix, MultiVector>("KLU2", matrix); }
 };
 

@@ -33,7 +33,7 @@ class MumpsError : public std::runtime_error {
 RCP<Amesos2Solver> make_mumps_adapter(const RCP<const Matrix>& matrix);
 void set_mumps_work_space(Amesos2Solver& mumps, int percent);
 
-/// @param work_space  extra work space of the first factorisation, in percent; more is taken where that does not do
+/// @param work_space  extra work space of the first factorisation, in percent; more is taken where that is not enough
 std::unique_ptr<LinearSolver> make_mumps_solver(const LinearSolverOptions& options, const Timers& timers, const std::string& name,
                                                 int work_space = 50);
 std::unique_ptr<LinearSolver> make_klu2_solver(const LinearSolverOptions& options, const Timers& timers);

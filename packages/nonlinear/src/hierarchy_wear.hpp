@@ -4,13 +4,14 @@
 
 namespace mortise::detail {
 
-/// Iterations of GMRES that making a hierarchy counts as: fewer than take as long, as what an old one costs grows with model and ranks (docs/solvers.md).
+/// Iterations of GMRES that making a hierarchy counts as. Fewer than take as long: what an old one costs grows with model and ranks
+/// (docs/solvers.md).
 constexpr double iterations_of_set_up = 10.0;
 
-/// Tells when a hierarchy that serves one matrix after another is to be made anew. A life of solves that took iterations i_k to reduce residuals by
-/// d_k digits has cost c = (S + sum i_k) / sum d_k iterations a digit, with S those of the set-up. It is least where the next digit costs as much as
-/// all before it on average; from there on another life pays, if it is like this one. What a fresh hierarchy takes is not asked for: the first solve
-/// may be easier than all that follow, and a new hierarchy no better.
+/// Tells when a hierarchy that serves one matrix after another is stale and has to be rebuilt. Let its solves have taken iterations i_k to reduce
+/// residuals by d_k digits. The cost so far is c = (S + sum i_k) / sum d_k iterations a digit, with S those of the set-up. It is least where the next
+/// digit costs as much as all before it on average; from there on another hierarchy saves time, if it is like this one. The iterations of a fresh
+/// hierarchy are not used: the first solve may be easier than all that follow, and a new hierarchy no better.
 class HierarchyWear {
  public:
   /// A solve with the hierarchy.

@@ -33,9 +33,9 @@ class InterfaceSolution : public Operator {
 /// A preconditioner V of C and, after it, the exact solution in some dofs m:
 ///   y = V x,   y_m += C_mm^-1 (x - C y)_m.
 /// Made for the nodes in contact and their neighbours. A slave that is stiffer by orders of magnitude makes the diagonal at the nodes of the master
-/// large, but not what a motion costs that it does not feel, M^ d_m = 0. Such motions are as short as facets are: no coarse level has them, and
-/// smoothers, which divide by the diagonal or by sums of rows, hardly change them. Also, V may be that of an earlier C, which differs where nodes have
-/// opened, closed or begun to slip.
+/// large. The energy of a motion that it does not feel, M^ d_m = 0, stays small. Such motions are as short as facets are: no coarse level has them,
+/// and smoothers, which divide by the diagonal or by sums of rows, hardly change them. Also, V may be that of an earlier C, which differs where nodes
+/// have opened, closed or begun to slip.
 class InterfaceCorrection : public Operator {
  public:
   /// @param rows  C_m, one row at least, each on the rank that owns it in C

@@ -30,7 +30,7 @@ constexpr int levels = 8;
 
 std::string name_of_level(int level) { return fmt::format("level {}", level); }
 
-/// Rows of the coarsest level, at most: KLU2 takes seconds for a few thousand in space.
+/// Rows of the coarsest level, at most: KLU2 takes seconds for a few thousand in 3D.
 constexpr int rows_of_coarsest = 1000;
 
 /// Rows of any coarse level on each of several ranks, at least.
@@ -43,7 +43,7 @@ enum class Smoother { chebyshev, gauss_seidel };
 /// Iterations after which another smoother is tried, with a hierarchy for the matrix at hand.
 constexpr int most_with_chebyshev = 100;
 
-// Coarse levels are small but hard. With Chebyshev polynomials they are gone through twice, and have aggregates in the order of the graph, half as
+// Coarse levels are small but hard. With Chebyshev polynomials they are passed twice. Their aggregates follow the order of the graph and are half as
 // large as in that of the rows: level k holds the aggregates of level k - 1. Where aggregates are cut at the border of ranks, twice the degree pays.
 void set_smoother(Teuchos::ParameterList& list, Smoother smoother, int ranks) {
   if (smoother == Smoother::chebyshev) {
@@ -67,10 +67,10 @@ void set_smoother(Teuchos::ParameterList& list, Smoother smoother, int ranks) {
   for (int level = 1; level < levels; ++level) set_sweeps(list.sublist(name_of_level(level)), 2);
 }
 
-// Smoothed aggregation. Aggregates do not cross where the coordinates say that two bodies are far apart ("cut"), whatever contact couples;
-// the matrix that smooths the prolongator is the whole one all the same. It is scaled with the sums of rows: scaled with the diagonal, its largest
-// eigenvalue, by which the smoothing is damped everywhere, would be that of the few rows in contact. The smoother is scaled likewise, but its
-// eigenvalue is that of prescribed rows, so the prolongator's has to be estimated anew.
+// Smoothed aggregation. Aggregates do not cross where the coordinates say that two bodies are far apart ("cut"), whatever contact couples. The matrix
+// that smooths the prolongator is the whole one all the same. It is scaled with the sums of rows. Scaled with the diagonal, its largest eigenvalue,
+// by which the smoothing is damped everywhere, would be that of the few rows in contact. The smoother is scaled likewise, but its eigenvalue is that
+// of prescribed rows, so the prolongator's has to be estimated separately.
 Teuchos::ParameterList muelu_defaults(int equations, GlobalOrdinal rows, int ranks) {
   Teuchos::ParameterList list("MueLu");
   list.set("verbosity", "none");
@@ -174,7 +174,7 @@ class IterativeSolver : public LinearSolver {
         start_->apply(b, x);
       }
       report.iterations = iterate(b, x);
-      // An earlier matrix's hierarchy that does not do is replaced on the way, and a smoother that does not do for good.
+      // A hierarchy of an earlier matrix that fails is replaced during the solve; a smoother that fails is replaced for good.
       if (!is_fresh_ && !converged_) {
         forget();
         prepare();
@@ -267,8 +267,8 @@ class IterativeSolver : public LinearSolver {
     is_fresh_ = true;
   }
 
-  // A row that is a multiple of the identity's (Dirichlet) takes no part in a rigid motion. Elsewhere no entry is 0 exactly: MueLu ends, on one rank
-  // alone, where a mode vanishes on an aggregate of a single node, as a rotation does on its axis and a translation at a node that slips across it.
+  // A row that is a multiple of the identity's (Dirichlet) takes no part in a rigid motion. Elsewhere no entry is exactly 0. MueLu ends, on one rank
+  // alone, where a mode vanishes on an aggregate of a single node. A rotation does so on its axis, a translation at a node that slips across it.
   RCP<MultiVector> modes_without_fixed_rows(const MultiVector& rigid_body_modes, const DecoupledSystem* decoupled) const {
     const auto modes = rcp(new MultiVector(rigid_body_modes, Teuchos::Copy));
     if (decoupled != nullptr) decoupled->take_out_eliminated(*modes);
@@ -289,7 +289,7 @@ class IterativeSolver : public LinearSolver {
     return modes;
   }
 
-  // A hierarchy serves the matrices that follow, those of the next Newton steps, until it is worn.
+  // A hierarchy serves the matrices that follow, those of the next Newton steps, until it is stale.
   int iterate(const Vector& b, Vector& x) {
     const auto scope = timers_.scope("linear solve");
     Vector r(b.getMap());

@@ -107,8 +107,8 @@ LinearSolveReport SemiSmoothSystem::Implementation::solve_saddle_point(const Vec
   return report;
 }
 
-// The condensed system at hand, with its prescribed rows eliminated, for J~ (dd, dz) = -(0, C): displacements that are prescribed or follow others
-// stay as they are, and so do multipliers of open nodes.
+// Solves J~ (dd, dz) = -(0, C) with the condensed system at hand and its prescribed rows eliminated. Displacements that are prescribed or follow
+// others do not change, and neither do multipliers of open nodes.
 void SemiSmoothSystem::Implementation::solve_again(const Vector& C, Vector& dd, Vector& dz, LinearSolveReport& report) {
   Vector rhs(parts.dofs);
   parts.contact->condense_right_hand_side(C, rhs);

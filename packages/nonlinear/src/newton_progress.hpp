@@ -8,7 +8,7 @@
 namespace mortise::detail {
 
 /// Iterations that led neither to states of contact that are new in this solve nor to a smaller merit than any before. A front between stick and slip
-/// may run through the nodes one after the other, which takes as many iterations as it passes nodes and is no reason to give up. As a front passes
+/// may run through the nodes one after the other. It takes as many iterations as it passes nodes, which is no reason to give up. As a front passes
 /// each node once, no more iterations than there are closed nodes count as progress.
 int iterations_without_progress(const std::vector<NewtonIteration>& iterates);
 

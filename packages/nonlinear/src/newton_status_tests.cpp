@@ -97,8 +97,8 @@ std::optional<StepFailure> reason_to_give_up(const std::vector<NewtonIteration>&
   if (!last.norms.finite || !std::isfinite(last.increment))
     return StepFailure(FailureKind::not_finite, fmt::format("residual or increment is not finite in Newton iteration {}", last.iteration));
 
-  // Iterate 0 may be in equilibrium but for what has just been prescribed, and iterate 1 again if that moved a body as a whole up to contact:
-  // their |r| alone are no measure of the problem, the force that the first correction would take is.
+  // Iterate 0 may be in equilibrium but for what has just been prescribed, and iterate 1 again if that moved a body as a whole up to contact. Their
+  // |r| alone are no measure of the problem; the force that the first correction would take is.
   if (iterates.size() > 2) {
     const double first = std::max({iterates[0].norms.momentum_absolute, iterates[1].norms.momentum_absolute, stiffness * iterates[1].increment});
     if (last.norms.momentum_absolute > options.divergence * first)

@@ -10,15 +10,16 @@
 
 namespace mortise::detail {
 
-/// Watches the failed tries of one load step. From a state without load, as at first contact of bodies that touch, and small strains the system is
-/// homogeneous of degree one in the load: half the step goes through the same states of contact, and fails where the whole one did.
+/// Watches the failed tries of one load step. With small strains and from a state without load, as at first contact of bodies that touch, the system
+/// is homogeneous of degree one in the load. Half the step then goes through the same states of contact, and fails where the whole one did.
 class RepeatedCourse {
  public:
   /// Tries of the same course after which a smaller step is of no use.
   static constexpr int enough = 3;
 
-  /// Takes the next failed try. @returns whether it and the `enough` - 1 before it ended Newton's method for the same reason after the same sequence
-  /// of states of contact, in which states changed. Failures of an evaluation have reasons that depend on the size of a step: they never count.
+  /// Takes the next failed try. Failures of an evaluation have reasons that depend on the size of a step: they never count.
+  /// @returns whether it and the `enough` - 1 before it ended Newton's method for the same reason after the same sequence of states of contact.
+  /// States have to change in that sequence.
   bool add(const StepFailure& failure, const NewtonReport& report);
 
  private:

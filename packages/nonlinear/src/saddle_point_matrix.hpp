@@ -8,8 +8,8 @@
 
 namespace mortise::detail {
 
-/// Numbers the rows of two maps as those of one map without gaps, which linear solvers ask for: on each rank those of the first map, then those of
-/// the second. Collective in all members.
+/// Numbers the rows of two maps as those of one map without gaps, which linear solvers ask for. On each rank those of the first map come first, then
+/// those of the second. Collective in all members.
 class SaddlePointMatrix {
  public:
   SaddlePointMatrix(RCP<const Map> first, RCP<const Map> second);

@@ -131,8 +131,8 @@ double SemiSmoothNewtonGroup::linear_tolerance(double forcing) const {
   return std::clamp(std::max(forcing, sufficient), tolerances->least, tolerances->largest);
 }
 
-// Where geometry stands still the next multipliers follow from the states of the nodes, whatever the last ones are. Those may be a thousand times too
-// large as long as the states are wrong, and so would be their geometric stiffness: it has to wait for the states to settle.
+// Where geometry does not change, the next multipliers follow from the states of the nodes, whatever the last ones are. As long as the states are
+// wrong the last ones may be a thousand times too large, and so would be their geometric stiffness: it has to wait for the states to settle.
 NOX::Abstract::Group::ReturnType SemiSmoothNewtonGroup::computeNewton(Teuchos::ParameterList& list) {
   if (has_newton_) return Ok;
   if (!has_F_ || !isJacobian()) return BadDependency;

@@ -10,8 +10,8 @@
 namespace mortise {
 namespace {
 
-// Forces below this, relative to stiffness times displacement, are what round-off leaves of f_int: the momentum of a body that only moved
-// rigidly is measured against it instead of against nothing.
+// Forces below this, relative to stiffness times displacement, are the round-off of f_int. The momentum of a body that only moved rigidly is measured
+// against it instead of against nothing.
 constexpr double round_off_floor = 1e-6;
 
 }  // namespace

@@ -34,7 +34,7 @@ class NodalForce final : public Load {
   std::vector<LocalOrdinal> nodes_;
 };
 
-/// f_a = integral of N_a T dGamma0, in the plane dGamma0 = reference length x thickness or 2 pi R.
+/// f_a = integral of N_a T dGamma0, in 2D dGamma0 = reference length x thickness or 2 pi R.
 class DeadTraction final : public Load {
  public:
   DeadTraction(std::shared_ptr<const Bodies> bodies, const DeadTractionOptions& options)

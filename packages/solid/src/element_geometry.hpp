@@ -47,7 +47,7 @@ struct ElementGeometry {
     return J;
   }
 
-  /// F = I + sum_a u_a x dN_a/dX, in the plane with F_33 = r / R where axisymmetric. `thickness` counts for the plane kinematics.
+  /// F = I + sum_a u_a x dN_a/dX, in 2D with F_33 = r / R where axisymmetric. `thickness` counts for 2D kinematics.
   static Point point(const Shape& shape, const Positions& X, const Positions& u, double thickness) {
     Point at;
     at.N = shape.N;
@@ -90,7 +90,7 @@ struct ElementGeometry {
   }
 
  private:
-  /// The rows of `gradient` times a matrix, in space.
+  /// The rows of `gradient` times a matrix, in 3D.
   static Positions times(const Positions& gradient, const Matrix3& matrix) {
     Positions result;
     for (int a = 0; a < nodes; ++a)

@@ -12,7 +12,7 @@
 
 namespace mortise {
 
-/// Points that integrate the stiffness of an undistorted cell exactly; radii and hoop strains of axisymmetric triangles take more: with one point,
+/// Points that integrate the stiffness of an undistorted cell exactly. Axisymmetric triangles need more for radii and hoop strains: with one point,
 /// the hoop strain of linear ones leaves a mode without stiffness.
 constexpr int quadrature_points(CellShape shape, Kinematics kinematics) {
   const bool axisymmetric = kinematics == Kinematics::axisymmetric;

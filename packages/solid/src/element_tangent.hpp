@@ -1,5 +1,5 @@
 #pragma once
-// An element's force and stiffness from what its points have, in the plane and in space.
+// An element's force and stiffness from what its points have, in 2D and 3D.
 
 #include <array>
 #include <type_traits>
@@ -24,8 +24,8 @@ void add_point_force(const typename Geometry::Point& at, const Matrix3& stress, 
   }
 }
 
-/// Sums, over the points of an element, K += G^T A G, and for F-bar  + G^T q (tr G0 - tr G),  q = (1/n) A:(I x I) + (1/n) (1 - n) tau x I  over the
-/// n directions that F-bar scales: 2 in plane strain, 3 (with the hoop) if axisymmetric and in space.
+/// Sums K += G^T A G over the points of an element, and for F-bar  + G^T q (tr G0 - tr G),  q = (1/n) A:(I x I) + (1/n) (1 - n) tau x I. Here n is
+/// the number of directions that F-bar scales: 2 in plane strain, 3 (with the hoop) if axisymmetric and in 3D.
 template <class Geometry, class Components, bool f_bar>
 class ElementTangent {
  public:
@@ -33,7 +33,7 @@ class ElementTangent {
   using Point = typename Geometry::Point;
   struct Nothing {};
   using Centre = std::conditional_t<f_bar, Point, Nothing>;
-  /// In the plane columns run as rows do; in space the nodes run first, filled up: the innermost loops are over them.
+  /// In 2D columns run as rows do; in 3D the nodes run first, filled up: the innermost loops are over them.
   static constexpr int width = filled_up(nodes);
   static constexpr int column(int b, int k) { return dimension == 3 ? k * width + b : dimension * b + k; }
   using Stiffness = std::array<std::array<double, dimension == 3 ? 3 * width : dofs>, dofs>;  ///< rows dimension * a + i, columns column(b, k)

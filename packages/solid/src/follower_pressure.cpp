@@ -5,10 +5,10 @@
 namespace mortise {
 namespace {
 
-/// With t_1, t_2 the current tangents of a side (in the plane t_2 = e_z) and n dgamma = t_1 x t_2 w dxi, w = 1, thickness or 2 pi r:
+/// With t_1, t_2 the current tangents of a side (in 2D t_2 = e_z) and n dgamma = t_1 x t_2 w dxi, w = 1, thickness or 2 pi r:
 ///   r_a = integral of N_a p w t_1 x t_2 dxi
-///   d r_a / d x_b = integral of N_a p ( w (dN_b/dxi_1 e_j x t_2 + dN_b/dxi_2 t_1 x e_j) + 2 pi N_b (t_1 x t_2) x e_r ) dxi, the last term if
-/// axisymmetric.
+///   d r_a / d x_b = integral of N_a p ( w (dN_b/dxi_1 e_j x t_2 + dN_b/dxi_2 t_1 x e_j) + 2 pi N_b (t_1 x t_2) x e_r ) dxi
+/// The last term is there if axisymmetric.
 class FollowerPressure final : public Load {
  public:
   FollowerPressure(std::shared_ptr<const Bodies> bodies, const FollowerPressureOptions& options)

@@ -13,7 +13,7 @@ namespace mortise {
 /// The value, or NaN with `failure` set if there is none.
 double evaluate(const Expression& expression, double time, const std::array<double, 3>& position, std::optional<StepFailure>& failure);
 
-/// The components x, y and z of a load. Throws InputError if z is given with bodies in the plane.
+/// The components x, y and z of a load. Throws InputError if z is given with 2D bodies.
 std::vector<Expression> components(const Bodies& bodies, const Expression& x, const Expression& y, const std::optional<Expression>& z);
 
 /// Collective: runs a look-up in the mesh and makes its InputError, if any, one of all ranks.

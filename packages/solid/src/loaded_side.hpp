@@ -22,8 +22,8 @@ struct SidePoint {
 /// Where a point of a side is, at given positions of the side's nodes.
 struct SidePosition {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  std::array<Eigen::Vector3d, 2> tangents{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};  ///< dx/dxi_i; the second in the plane: e_z
-  Eigen::Vector3d area;  ///< tangents[0] x tangents[1]: the outward normal times area (in the plane length) per reference area
+  std::array<Eigen::Vector3d, 2> tangents{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};  ///< dx/dxi_i; the second in 2D: e_z
+  Eigen::Vector3d area;  ///< tangents[0] x tangents[1]: the outward normal times area (in 2D length) per reference area
 };
 
 /// A side of an element.

@@ -86,7 +86,7 @@ LocalOrdinal* NodalSparsity::write_columns(std::size_t row, LocalOrdinal* column
   return columns;
 }
 
-// The rows as the graph holds them, ascending: handed over one by one each would be searched for what it has already.
+// The rows as the graph holds them, ascending: entries given one by one would each be searched for in what the row has already.
 RCP<const Graph> NodalSparsity::graph() const {
   const std::size_t rows = dofs_->getNodeNumElements();
   Graph::local_graph_device_type::row_map_type::non_const_type starts("starts", rows + 1);

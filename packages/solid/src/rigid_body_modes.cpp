@@ -36,7 +36,7 @@ RCP<MultiVector> rigid_body_modes(const Bodies& bodies, const Vector& displaceme
     }
     const LocalOrdinal dof = dimension * node;
     for (int i = 0; i < dimension; ++i) mode(dof + i, i) = 1.0;
-    // Turning in the plane of the directions i and j moves the node by (-x_j, x_i); in space about x, y, z.
+    // Turning about the normal to the directions i and j moves the node by (-x_j, x_i); in 3D about x, y, z.
     const auto turn = [&](int column, int i, int j) {
       mode(dof + i, column) = -(x(node, j) - total[j] / total[3]);
       mode(dof + j, column) = x(node, i) - total[i] / total[3];

@@ -7,8 +7,8 @@
 
 namespace mortise {
 
-/// The ids of `columns` in their order, and after them, ascending, those of `further` (in any order, repeated or not) that are not among them: local
-/// ids of the old map are those of the new one. Collective.
+/// The ids of `columns` in their order, and after them, ascending, those of `further` that are not among them. `further` may be in any order and may
+/// repeat ids. Local ids of the old map are those of the new one. Collective.
 RCP<const Map> with_further_columns(const Map& columns, std::vector<GlobalOrdinal> further);
 
 }  // namespace mortise

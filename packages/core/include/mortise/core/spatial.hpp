@@ -1,5 +1,5 @@
 #pragma once
-// Vectors and matrices of the plane or of space, by the model's dimension. They live on the stack.
+// Vectors and matrices in 2D or 3D, by the model's dimension. They live on the stack.
 
 #include <Eigen/Core>
 

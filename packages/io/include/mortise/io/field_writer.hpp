@@ -29,9 +29,13 @@ struct Field {
 
 /// Writes fields of one mesh step by step. All members are collective; what goes wrong with a file is a FileError on all ranks.
 ///
-/// fields.h5: /mesh/coordinates [nodes x 3] (reference), /mesh/topology (mixed: each element its XDMF type and its nodes), /mesh/body [elements]
-/// (index of the body), /steps/<number>/<field>, tensors in XDMF's order xx, xy, xz, yy, yz, zz. Nodes and elements stand in the order of their ids,
-/// whatever the number of ranks. Both files are complete and closed after each call.
+/// fields.h5 holds
+///   /mesh/coordinates  [nodes x 3], reference
+///   /mesh/topology     mixed: each element its XDMF type and its nodes
+///   /mesh/body         [elements], index of the body
+///   /steps/<number>/<field>
+/// Tensors have XDMF's order xx, xy, xz, yy, yz, zz. Nodes and elements stand in the order of their ids, whatever the number of ranks. Both files are
+/// complete and closed after each call.
 class FieldWriter {
  public:
   /// Makes both files in `directory` and writes the mesh. Node ids and element ids have to be 0 ... number - 1: std::invalid_argument.

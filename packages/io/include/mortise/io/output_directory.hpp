@@ -18,7 +18,8 @@ class OutputDirectory {
   /// Makes the directory, with those above it, where it does not exist. Collective. Throws FileError on all ranks.
   void make() const;
 
-  /// Makes the directory and removes the files of an earlier run, whole; files that no run writes are left. Collective. Throws FileError on all ranks.
+  /// Makes the directory and removes the files of an earlier run, whole. Files that no run writes are left. Collective.
+  /// @throws FileError on all ranks
   void begin_run() const;
 
   const std::string& path() const { return path_; }
@@ -30,8 +31,11 @@ class OutputDirectory {
   std::string path_;
 };
 
-/// Whether a run writes a file of this name: summary.json, newton.csv, history.csv, profiles.csv, fields.xdmf, fields.h5, effective.xml, log.txt,
-/// checkpoint-*.h5, point.csv, point.svg, point.png.
+/// Whether a run writes a file of this name:
+/// * summary.json, effective.xml, log.txt, checkpoint-*.h5,
+/// * newton.csv, history.csv, profiles.csv,
+/// * fields.xdmf, fields.h5,
+/// * point.csv, point.svg, point.png.
 bool is_run_file(const std::string& name);
 
 }  // namespace mortise

@@ -10,8 +10,8 @@ namespace mortise {
 
 /// Multiplicative plasticity F = F_e F_p with Hencky's elasticity and isotropic hardening (Simo 1992, CMAME 99; de Souza Neto, Peric, Owen 2008,
 /// chapter 14):
-///   b_e = F C_p^-1 F^T,  C_p = F_p^T F_p,   e = 1/2 ln b_e,   tau = 2 G dev e + K tr e I,   q = sqrt(3/2) |dev tau| <= sigma_y(alpha),
-/// flow along dev tau. Backward Euler with the exponential map keeps the axes of the trial b_e, which takes C_p^-1 of the last step:
+///   b_e = F C_p^-1 F^T,  C_p = F_p^T F_p,   e = 1/2 ln b_e,   tau = 2 G dev e + K tr e I,   q = sqrt(3/2) |dev tau| <= sigma_y(alpha).
+/// Plastic flow is along dev tau. Backward Euler with the exponential map keeps the axes of the trial b_e, which takes C_p^-1 of the last step:
 ///   e = e_tr - x (3/2) dev tau_tr / q_tr,   q = q_tr - 3 G x = sigma_y(alpha + x).
 struct FiniteJ2 {
   static constexpr const char* name = "j2 plasticity";

@@ -32,11 +32,11 @@ struct PlasticIncrement {
   double slope = 0.0;   ///< d sigma_y / d alpha at the end; may be infinite
 };
 
-/// Solves trial_stress - stiffness x - sigma_y(alpha + x) = 0 for x in [0, (trial_stress - sigma_y(alpha)) / stiffness], with
-/// trial_stress > sigma_y(alpha) and stiffness = 3 G > 0. The left side falls in x: there is exactly one root, and it is bracketed all the way.
-/// Newton's method with bisection finds it in x; where hardening takes nearly all of the excess (Ludwik near alpha = 0, where x may be as small as
-/// 1e-42) the unknown is the stress s, s + stiffness (alpha(s) - alpha) = trial_stress on [sigma_y(alpha), trial_stress], by TOMS 748 (Alefeld,
-/// Potra, Shi 1995).
+/// Solves trial_stress - stiffness x - sigma_y(alpha + x) = 0 for x in [0, (trial_stress - sigma_y(alpha)) / stiffness], with trial_stress >
+/// sigma_y(alpha) and stiffness = 3 G > 0. The left side falls in x: there is exactly one root, and it is bracketed all the way. Newton's method with
+/// bisection finds it in x. Hardening may take nearly all of the excess: near alpha = 0 of Ludwik's law x may be as small as 1e-42. There the unknown
+/// is the stress s, with s + stiffness (alpha(s) - alpha) = trial_stress on [sigma_y(alpha), trial_stress]. TOMS 748 (Alefeld, Potra, Shi 1995) finds
+/// it.
 PlasticIncrement return_map(const Hardening& hardening, double trial_stress, double alpha, double stiffness);
 
 /// A hardening law of a scene.

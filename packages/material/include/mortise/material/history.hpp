@@ -8,9 +8,9 @@ namespace mortise {
 /// Of laws whose stress depends on the current deformation alone.
 struct NoState {};
 
-/// Law::State, what a point of the law remembers of the last converged step; NoState for laws without. The members stress, energy,
-/// stress_and_tangent of a law with a state take it as their last argument; updated(F, state) is what the next step starts from, and
-/// equivalent_plastic_strain(F, state) what it shows.
+/// Law::State, the values that a point of the law keeps from the last converged step; NoState for laws without. The members stress, energy,
+/// stress_and_tangent of a law with a state take it as their last argument. updated(F, state) is what the next step starts from.
+/// equivalent_plastic_strain(F, state) is the value for output.
 template <class Law, class = void>
 struct StateOf {
   using type = NoState;

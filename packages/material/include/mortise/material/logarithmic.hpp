@@ -27,8 +27,8 @@ Eigen::Matrix<double, Components::size, 1> dyad(const Matrix3& n, int a, int c) 
   return result;
 }
 
-/// logarithmic_tangent() for all components, through the part c of A_ijkl = c_ijkl + delta_ik tau_jl that is symmetric in ij and in kl: with
-/// M_a = n_a n_a^T, S_ac = n_a n_c^T + n_c n_a^T, and L the change of F
+/// logarithmic_tangent() for all components, through the part c of A_ijkl = c_ijkl + delta_ik tau_jl that is symmetric in ij and in kl. With M_a =
+/// n_a n_a^T, S_ac = n_a n_c^T + n_c n_a^T, and L the change of F,
 ///   dtau - L tau - tau L^T = c : L,   c = lambda I x I + sum_a (2 mu - 2 tau_a) M_a x M_a + sum_{a > c} (theta_ac b_c - tau_c) S_ac x S_ac.
 inline Eigen::Matrix<double, 9, 9> logarithmic_tangent_in_space(const Spectrum& b, double lambda, double mu, const Matrix3& stress) {
   constexpr int row[6] = {0, 1, 2, 0, 1, 0}, column[6] = {0, 1, 2, 1, 2, 2};
@@ -57,10 +57,10 @@ inline Eigen::Matrix<double, 9, 9> logarithmic_tangent_in_space(const Spectrum& 
   return tangent;
 }
 
-/// A (see StressAndTangent) of tau_a = lambda tr e + 2 mu e_a + const with b = F B F^T for a constant B, at the Kirchhoff stress `stress`:
-/// db = L b + b L^T, so in the axes of b the normal strains change by de_a = L_aa and, off the diagonal, for an isotropic function,
+/// A (see StressAndTangent) of tau_a = lambda tr e + 2 mu e_a + const with b = F B F^T for a constant B, at the Kirchhoff stress `stress`. As db = L
+/// b + b L^T, in the axes of b the normal strains change by de_a = L_aa. Off the diagonal, for an isotropic function,
 ///   d tau_ab = theta_ab (L_ab b_b + b_a L_ba),   theta_ab = (tau_a - tau_b) / (b_a - b_b) = mu (ln b_a - ln b_b) / (b_a - b_b).
-/// The slopes may be the secant ones of a law whose deviator is parallel to that of e; what its tangent has beyond them is the caller's.
+/// The slopes may be the secant ones of a law whose deviator is parallel to that of e. What its tangent has beyond them, the caller adds.
 template <class Components>
 Eigen::Matrix<double, Components::size, Components::size> logarithmic_tangent(const Spectrum& b, double lambda, double mu, const Matrix3& stress) {
   constexpr int size = Components::size;

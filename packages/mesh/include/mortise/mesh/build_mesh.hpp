@@ -11,7 +11,7 @@
 
 namespace mortise {
 
-/// Of the cells of a rigid body's surface, in a mesh of the plane or of space.
+/// Shape of the cells of a rigid body's surface, in a 2D or 3D mesh.
 constexpr CellShape rigid_shape(int dimension) { return dimension == 2 ? CellShape::line2 : CellShape::quadrilateral4; }
 
 /// A body to be meshed.
@@ -22,12 +22,11 @@ struct BodyDescription {
   CellShape shape = CellShape::quadrilateral4;  ///< rigid_shape(): a rigid body, of which the surface alone is meshed
 };
 
-/// Builds the mesh of all bodies. Collective. Node and element ids are contiguous per body, in the order of `bodies`, and do not depend on
-/// the number of ranks. On more than one rank the elements are shared out by METIS so that both their number and that of the elements on
-/// `contact_sides` ("body/side") are balanced; names that are no sides of the bodies are passed over (see require_side_set).
-/// Besides its named sides each body gets a side set "body/surface" (all of them) and a node set "body" (all its nodes).
-/// Reference points get the ids beyond those of all bodies, and a node set each; followers come with add_followers().
-/// All bodies are of the plane, or all of space.
+/// Builds the mesh of all bodies. Collective. Node and element ids are contiguous per body, in the order of `bodies`, and do not depend on the number
+/// of ranks. On more than one rank METIS distributes the elements. It balances both their number and that of the elements on `contact_sides`
+/// ("body/side"). Names that are no sides of the bodies are passed over (see require_side_set). Besides its named sides each body gets a side set
+/// "body/surface" (all of them) and a node set "body" (all its nodes). Reference points get the ids beyond those of all bodies, and a node set each;
+/// followers come with add_followers(). All bodies are 2D, or all are 3D.
 /// @throws InputError on all ranks: no body, repeated names, bodies of different dimension, elements that do not fit the mesh, shapes without
 /// meaning, an inverted element (with its det J).
 RCP<Mesh> build_mesh(const RCP<const Communicator>& comm, const std::vector<BodyDescription>& bodies, const std::vector<std::string>& contact_sides,

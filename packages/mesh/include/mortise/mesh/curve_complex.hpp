@@ -1,5 +1,5 @@
 #pragma once
-// The pure description of a rigid body in the plane: its surface, cut into lines.
+// The pure description of a rigid body in 2D: its surface, cut into lines.
 
 #include "mortise/mesh/patch_complex.hpp"
 

@@ -46,8 +46,8 @@ struct FullDiskMesh : PlaneMesh {
   PatchComplex build(CellShape cell, const Place& place) const override;
 };
 
-/// Cells of round bodies about the origin whose lowest point is where cells can be made small: an inner patch or block, and others between it and the
-/// surface, of which one has the lowest point.
+/// Cells of round bodies about the origin whose lowest point is where cells can be made small. There is an inner patch or block. Others lie between
+/// it and the surface; one of them has the lowest point.
 struct PolarCells {
   static constexpr double inner = 0.5;  ///< where the inner patch or block ends on an axis, as a share of the radius
   double radius = 1.0;

@@ -9,8 +9,8 @@
 namespace mortise {
 
 /// The grid points inside a line, a rectangle or a cuboid of cells (none on its boundary) that are nodes of cells of a shape. Coordinates are
-/// doubled: even ones are corners of cells, odd ones middles. First come the corners, then the points that are middles in the first direction only,
-/// and so on; among each kind the first direction runs fastest. Nothing of the mesh's size is stored.
+/// doubled: even ones are corners of cells, odd ones midpoints. First come the corners, then the points that are midpoints in the first direction
+/// only, and so on; among each kind the first direction runs fastest. Nothing of the mesh's size is stored.
 class Lattice {
  public:
   using Point = std::array<int, 3>;  ///< the first `dimension` entries count
@@ -23,12 +23,12 @@ class Lattice {
   Point point(GlobalOrdinal index) const;
 
  private:
-  /// Points in direction d that are middles of cells, or corners.
+  /// Number of points in direction d that are midpoints of cells, or corners.
   GlobalOrdinal points(int d, bool are_middles) const { return are_middles ? cells_[d] : cells_[d] - 1; }
 
   int dimension_;
   std::array<int, 3> cells_;
-  std::array<GlobalOrdinal, 9> first_{};  ///< [kinds: bit d is set for middles in direction d] first index, and the end
+  std::array<GlobalOrdinal, 9> first_{};  ///< [kinds: bit d is set for midpoints in direction d] first index, and the end
 };
 
 }  // namespace mortise

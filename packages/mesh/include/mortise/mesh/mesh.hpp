@@ -38,12 +38,12 @@ struct SideSet {
 
 /// A node that belongs to no element and whose motion others follow:
 ///   d_i = u + (R(theta) - I) (X_i - X),   R the rotation by theta about the point, identity for points that do not rotate.
-/// In space theta is the rotation vector: R turns by |theta| about its direction.
+/// In 3D theta is the rotation vector: R turns by |theta| about its direction.
 struct ReferencePoint {
   std::string name;                               ///< of its node set
   bool is_placed = false;                         ///< its position was given
   LocalOrdinal node = 0;                          ///< carries u; on every rank
-  LocalOrdinal rotation_node = -1;                ///< carries arm * theta, in the plane in its first component; -1: does not rotate
+  LocalOrdinal rotation_node = -1;                ///< carries arm * theta, in 2D in its first component; -1: does not rotate
   double arm = 1.0;                               ///< [length] of the farthest corner of the box around the followers; makes a rotation a length
   std::array<bool, 3> follows{true, true, true};  ///< components of u that are followed
   std::vector<LocalOrdinal> followers;            ///< local nodes (owned and ghosts), ascending

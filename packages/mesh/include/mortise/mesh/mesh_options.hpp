@@ -37,7 +37,7 @@ struct MeshOptions : Described {
   int dimension_;
 };
 
-/// Options of a mesh in the plane.
+/// Options of a 2D mesh.
 struct PlaneMesh : MeshOptions {
   PlaneMesh() : MeshOptions(2) {}
 
@@ -54,7 +54,7 @@ struct PlaneMesh : MeshOptions {
   Placement placement() const { return {rotation, {translation.at(0), translation.at(1)}}; }
 };
 
-/// Options of a mesh in space.
+/// Options of a 3D mesh.
 struct VolumeMesh : MeshOptions {
   std::vector<double> rotation_axis{0.0, 0.0, 1.0};  ///< through the origin
   VolumeMesh() : MeshOptions(3) {}
@@ -74,10 +74,10 @@ struct VolumeMesh : MeshOptions {
   }
 };
 
-/// The built-in kinds in the plane: block, wedge, ring sector, disk, quarter disk, half disk and, for rigid bodies, profile.
+/// The built-in 2D kinds: block, wedge, ring sector, disk, quarter disk, half disk and, for rigid bodies, profile.
 const Registry<PlaneMesh>& plane_mesh_registry();
 
-/// All built-in kinds: those in the plane, and those in space: brick, cylinder, extruded, revolved, sphere octant.
+/// All built-in kinds: the 2D ones, and the 3D ones: brick, cylinder, extruded, revolved, sphere octant.
 const Registry<MeshOptions>& mesh_registry();
 
 }  // namespace mortise

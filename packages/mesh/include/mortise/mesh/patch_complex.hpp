@@ -13,7 +13,7 @@
 
 namespace mortise {
 
-/// A position in the plane.
+/// A position in 2D.
 using Point = std::array<double, 2>;
 
 /// Rotation about the origin, then translation.
@@ -25,9 +25,9 @@ struct Placement {
 
 class CurveComplex;
 
-/// Corners, edges between them (straight or circular arcs) and patches that four edges bound, each filled by transfinite interpolation.
-/// Nodes are numbered corners first, then the interiors of edges, then the interiors of patches; elements patch by patch. Both are
-/// functions of their number: nothing of the size of the mesh is stored. Quadratic cells have their middles on the arcs.
+/// Corners, edges between them (straight or circular arcs) and patches that four edges bound, each filled by transfinite interpolation. Nodes are
+/// numbered corners first, then the interiors of edges, then the interiors of patches; elements patch by patch. Both are functions of their number:
+/// nothing of the size of the mesh is stored. Quadratic cells have their mid-side nodes on the arcs.
 class PatchComplex {
  public:
   struct Edge {
@@ -55,7 +55,7 @@ class PatchComplex {
   /// The same body in other cells.
   PatchComplex with_shape(CellShape shape) const { return PatchComplex(shape, corners_, edges_, patches_, placement_); }
 
-  /// Nodes of an element: corners counterclockwise, then the middles of its sides.
+  /// Nodes of an element: corners counterclockwise, then the mid-side nodes.
   CellNodes element_nodes(GlobalOrdinal element) const;
 
   /// The named sides alone, as a chain of lines: what is left of the body if it is rigid.
@@ -71,7 +71,7 @@ class PatchComplex {
   std::vector<int> sides_of_node(GlobalOrdinal node) const;
 
  private:
-  /// Point (i, j) of a patch's grid; i runs from corner 0 to 1, j from corner 0 to 3. Both are doubled: odd ones are middles of cells (see Lattice).
+  /// Point (i, j) of a patch's grid; i runs from corner 0 to 1, j from corner 0 to 3. Both are doubled: odd ones are midpoints (see Lattice).
   struct GridPoint {
     int patch, i, j;
   };

@@ -1,5 +1,5 @@
 #pragma once
-// The pure description of a rigid body of space: its surface, cut into quadrilaterals.
+// The pure description of a rigid body in 3D: its surface, cut into quadrilaterals.
 
 #include <array>
 #include <functional>

@@ -1,11 +1,11 @@
 #pragma once
-// Where a body of space stands.
+// Where a 3D body stands.
 
 #include <array>
 
 namespace mortise {
 
-/// A position in space.
+/// A position in 3D.
 using SpatialPoint = std::array<double, 3>;
 
 /// Rotation about an axis through the origin, then translation.

@@ -1,5 +1,5 @@
 #pragma once
-// The pure description of a body of space: a plane body swept along a line or about an axis.
+// The pure description of a 3D body: a plane body swept along a line or about an axis.
 
 #include <array>
 #include <optional>
@@ -28,8 +28,8 @@ using Sweep = std::variant<Extrusion, Revolution>;
 SpatialPoint swept(const Sweep& sweep, const Point& point, double share);
 
 /// Layers of cells over the elements of a plane body: hexahedra over quadrilaterals; three tetrahedra in each prism over a triangle. Nodes and
-/// elements are numbered layer by layer, in the order of the plane body; the middles of quadratic cells' upright edges make layers of their own. Has
-/// the members of PatchComplex that a mesh is built from.
+/// elements are numbered layer by layer, in the order of the plane body. The mid-side nodes of quadratic cells' upright edges make layers of their
+/// own. Has the members of PatchComplex that a mesh is built from.
 class SweptComplex {
  public:
   /// Shape of the plane elements below cells of this shape.

@@ -1,5 +1,5 @@
 #pragma once
-// The pure description of a structured body of space: hexahedral blocks that share corners, edges and faces.
+// The pure description of a structured 3D body: hexahedral blocks that share corners, edges and faces.
 
 #include <array>
 #include <functional>
@@ -29,8 +29,9 @@ class VolumeComplex {
   /// Position of a grid point, before the placement. At a point that several blocks share it is asked for one of them.
   using Position = std::function<SpatialPoint(const GridPoint&)>;
 
-  /// Blocks that share an edge have to run through it in the same direction with the same number of cells (then the diagonals that cut hexahedra into
-  /// tetrahedra meet); else throws std::logic_error (an error of the generator).
+  /// Blocks that share an edge have to run through it in the same direction with the same number of cells. Then the diagonals that cut hexahedra into
+  /// tetrahedra meet.
+  /// @throws std::logic_error otherwise (an error of the generator)
   VolumeComplex(CellShape shape, std::vector<Block> blocks, Position position, SpatialPlacement placement);
 
   CellShape shape() const { return shape_; }

@@ -1,5 +1,5 @@
 #pragma once
-// The built-in meshes of space.
+// The built-in 3D meshes.
 
 #include "mortise/mesh/generators.hpp"
 
@@ -35,8 +35,8 @@ struct SphereOctantMesh : VolumeMesh, PolarCells {
   ShellComplex build_surface(const Place& place) const override;
 };
 
-/// A mesh of the plane, swept. Sides: those of the plane mesh, and where the sweep starts and ends: "start" and "end", or "sweep start" and "sweep
-/// end" if the plane mesh has a side of such a name. A rigid body has those of the plane mesh alone.
+/// A plane mesh, swept. Its sides are those of the plane mesh, and those where the sweep starts and ends: "start" and "end". These two are called
+/// "sweep start" and "sweep end" if the plane mesh has a side of such a name. A rigid body has the sides of the plane mesh alone.
 struct SweptMesh : VolumeMesh {
   Choice<PlaneMesh> profile;
 

@@ -16,9 +16,9 @@ class CycleDetector {
   /// Takes the next iterate: a fingerprint of its active set and the size of the correction that led to it.
   void add(const std::array<long long, 2>& active_set, double increment);
 
-  /// Length (2, 3, ...) of the cycle that the last iterates went through twice, or 0. An iterate counts as a repetition of that one cycle
-  /// earlier if its active set is the same and its correction has not become smaller than half: sets that return on the way to a solution are
-  /// no cycle.
+  /// Length (2, 3, ...) of the cycle that the last iterates went through twice, or 0. An iterate repeats that of one cycle earlier under two
+  /// conditions: its active set is the same, and its correction has not become smaller than half. Sets that return on the way to a solution are no
+  /// cycle.
   int cycle() const;
 
  private:

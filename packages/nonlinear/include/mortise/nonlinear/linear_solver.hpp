@@ -53,9 +53,12 @@ class LinearSolver {
   virtual std::optional<Tolerances> tolerances() const { return std::nullopt; }
 
   /// Solves A x = b (the first solve after set_matrix() factorises) to a relative residual of `tolerance`, or of tolerances()->least if that is
-  /// larger, and checks the true residual. Throws StepFailure(linear_solver), on every rank, if the matrix or b is not finite, the matrix is
-  /// singular, the backward error of a direct solver exceeds the bound of the options, or the true relative residual of the iterative one ten times
-  /// the tolerance.
+  /// larger, and checks the true residual.
+  /// @throws StepFailure (linear_solver), on every rank, if
+  /// * the matrix or b is not finite,
+  /// * the matrix is singular,
+  /// * the backward error of a direct solver exceeds the bound of the options,
+  /// * the true relative residual of the iterative solver exceeds ten times the tolerance.
   virtual LinearSolveReport solve(const Vector& b, Vector& x, double tolerance = 0.0) = 0;
 };
 
@@ -66,7 +69,8 @@ struct LinearSystemTraits {
   std::string not_iterative;  ///< why the iterative solver cannot solve them, a sentence; empty: it can
 };
 
-/// Which solver, and how. `automatic`: the iterative solver in space from `fewest_for_multigrid` unknowns on if it can solve the systems, else MUMPS.
+/// Which solver, and its settings. `automatic` is the iterative solver in 3D from `fewest_for_multigrid` unknowns on if it can solve the systems.
+/// Else it is MUMPS.
 struct LinearSolverOptions {
   enum class Kind { automatic, mumps, klu2, iterative };
   /// From here on it takes less time than a factorisation, and much less memory (docs/results/space.md).
@@ -80,8 +84,9 @@ struct LinearSolverOptions {
   void describe(Parameters& parameters);
 };
 
-/// Makes the solver that `options` ask for; throws InputError where that cannot work (KLU2 on more than one rank, systems that the iterative solver
-/// cannot solve, a parameter that MueLu or Belos does not know).
+/// Makes the solver that `options` ask for.
+/// @throws InputError where that cannot work: KLU2 on more than one rank, systems that the iterative solver cannot solve, a parameter that MueLu or
+/// Belos does not know
 std::unique_ptr<LinearSolver> make_linear_solver(const LinearSolverOptions& options, const RCP<const Communicator>& comm, const Timers& timers,
                                                  const LinearSystemTraits& traits = {});
 

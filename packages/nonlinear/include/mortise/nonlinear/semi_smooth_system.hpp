@@ -37,8 +37,8 @@ struct SystemParts {
   std::shared_ptr<ContactSystem> contact;             ///< null: no contact in the scene
   std::shared_ptr<LinearSolver> linear_solver;
   std::function<NearNullSpace(const Vector& displacement)> near_null_space;
-  /// Where the Jacobian at x is singular although the system has a solution: a better point to linearise at, close to x as far as Newton's method is
-  /// concerned; null where there is none. F is F(x), the contact is evaluated at x, with derivatives. Collective; empty: never.
+  /// For an x at which the Jacobian is singular although the system has a solution: a better point to linearise at, or null where there is none. It
+  /// is close to x as far as Newton's method is concerned. F is F(x), the contact is evaluated at x, with derivatives. Collective; empty: never.
   std::function<RCP<Vector>(const Vector& x, const Vector& F)> better_start;
   double length = 1.0;  ///< size of the model
 };
@@ -80,10 +80,11 @@ class SemiSmoothSystem {
   RCP<const Vector> linearised_at() const;
   /// y = J v by the saddle point blocks, at the x of the last jacobian().
   void apply(const Vector& v, Vector& y) const;
-  /// Newton direction: solves J dx = -F at the x of the last jacobian(), by condensation or, where the contact keeps multipliers, as a saddle point
-  /// system. F is F(x): a condensing contact forms the rows of C itself. `tolerance`: see LinearSolver::solve(). Without the geometric stiffness of
-  /// contact it is not Newton's direction but one that where contact's geometry stands still depends on the states of the nodes alone and not on
-  /// their multipliers. Throws StepFailure(linear_solver) on every rank.
+  /// Newton direction: solves J dx = -F at the x of the last jacobian(). It does so by condensation or, where the contact keeps multipliers, as a
+  /// saddle point system. F is F(x): a condensing contact forms the rows of C itself. `tolerance`: see LinearSolver::solve(). Without the geometric
+  /// stiffness of contact it is not Newton's direction. Where contact's geometry does not change, it depends on the states of the nodes alone
+  /// and not on their multipliers.
+  /// @throws StepFailure (linear_solver) on every rank
   LinearSolveReport newton_direction(const Vector& F, Vector& direction, double tolerance = 0.0,
                                      GeometricContactStiffness geometric_stiffness = GeometricContactStiffness::included);
 

@@ -5,9 +5,9 @@
 
 namespace mortise {
 
-/// Shapes of elements and of their sides. Corners come first, then the middles of edges. Nodes of plane cells are numbered counterclockwise; of
-/// hexahedra the bottom's counterclockwise seen from above, then the top's (edges: bottom, top, upright); of tetrahedra the base's counterclockwise
-/// seen from the apex. Rigid bodies are made of lines in the plane, of triangles or quadrilaterals in space: such a cell is its own only side.
+/// Shapes of elements and of their sides. Corners come first, then mid-side nodes. Nodes of plane cells are numbered counterclockwise. Hexahedra have
+/// the bottom's nodes counterclockwise seen from above, then the top's (edges: bottom, top, upright). Tetrahedra have the base's nodes
+/// counterclockwise seen from the apex. Rigid bodies are made of lines in 2D, of triangles or quadrilaterals in 3D: such a cell is its own only side.
 enum class CellShape { line2, line3, triangle3, triangle6, quadrilateral4, quadrilateral8, tetrahedron4, tetrahedron10, hexahedron8, hexahedron20 };
 
 /// Topology of a reference cell.
@@ -16,8 +16,8 @@ struct CellTopology {
   int nodes;
   int corners;     ///< the first nodes
   CellShape side;  ///< shape of every side; of lines: the line itself
-  /// sides[s]: the cell's nodes on side s, in the order of the side's shape. In the plane the outward normal is on the right of the direction of
-  /// travel, n = (t_y, -t_x); in space the corners run counterclockwise seen from outside.
+  /// sides[s]: the cell's nodes on side s, in the order of the side's shape. In 2D the outward normal is on the right of the direction of travel, n =
+  /// (t_y, -t_x); in 3D the corners run counterclockwise seen from outside.
   std::vector<std::vector<int>> sides;
 };
 

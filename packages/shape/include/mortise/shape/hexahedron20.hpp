@@ -7,10 +7,10 @@
 
 namespace mortise {
 
-/// Serendipity hexahedron on [-1, 1]^3: the corners of Hexahedron8, then the middles of the bottom's edges, of the top's, of the upright ones.
+/// Serendipity hexahedron on [-1, 1]^3: the corners of Hexahedron8, then the mid-side nodes of the bottom's edges, of the top's, of the upright ones.
 /// Reference volume 8. With s_i = xi_ai xi_i:
-///   corners                    N_a = (1 + s_1)(1 + s_2)(1 + s_3)(s_1 + s_2 + s_3 - 2) / 8
-///   middles, where xi_ak = 0   N_a = (1 - xi_k^2)(1 + s_l)(1 + s_m) / 4
+///   corners                           N_a = (1 + s_1)(1 + s_2)(1 + s_3)(s_1 + s_2 + s_3 - 2) / 8
+///   mid-side nodes, where xi_ak = 0   N_a = (1 - xi_k^2)(1 + s_l)(1 + s_m) / 4
 struct Hexahedron20 {
   static constexpr CellShape shape = CellShape::hexahedron20;
   static constexpr int dimension = 3;

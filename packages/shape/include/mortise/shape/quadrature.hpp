@@ -18,7 +18,7 @@ struct LinePoint {
 /// Throws std::invalid_argument for points < 1.
 std::vector<LinePoint> gauss_legendre(int points);
 
-/// A point of a rule on a reference cell of the plane or of space. The weights sum to the cell's reference area or volume.
+/// A point of a rule on a 2D or 3D reference cell. The weights sum to the cell's reference area or volume.
 struct CellPoint {
   std::array<double, 3> xi{};  ///< 0 beyond the cell's dimension
   double weight = 0.0;

@@ -7,9 +7,9 @@
 
 namespace mortise {
 
-/// Serendipity quadrilateral on [-1, 1]^2: the corners of Quadrilateral4, then the middles of the sides 01, 12, 23, 30. Reference area 4.
-///   corners  N_a = (1 + xi_a xi)(1 + eta_a eta)(xi_a xi + eta_a eta - 1) / 4
-///   middles  N_a = (1 - xi^2)(1 + eta_a eta) / 2  where xi_a = 0,  (1 + xi_a xi)(1 - eta^2) / 2  where eta_a = 0
+/// Serendipity quadrilateral on [-1, 1]^2: the corners of Quadrilateral4, then the mid-side nodes of 01, 12, 23, 30. Reference area 4.
+///   corners         N_a = (1 + xi_a xi)(1 + eta_a eta)(xi_a xi + eta_a eta - 1) / 4
+///   mid-side nodes  N_a = (1 - xi^2)(1 + eta_a eta) / 2  where xi_a = 0,  (1 + xi_a xi)(1 - eta^2) / 2  where eta_a = 0
 struct Quadrilateral8 {
   static constexpr CellShape shape = CellShape::quadrilateral8;
   static constexpr int dimension = 2;

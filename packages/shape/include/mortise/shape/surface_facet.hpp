@@ -9,9 +9,8 @@
 
 namespace mortise {
 
-/// Nodes of a facet, in the order of its shape: in the plane a line of 2 (or 3) nodes with the outward normal on the right of the direction of
-/// travel, n = (t_y, -t_x); in space a triangle of 3 (or 6) or a quadrilateral of 4 (or 8) nodes whose corners run counterclockwise seen from
-/// outside.
+/// Nodes of a facet, in the order of its shape. In 2D it is a line of 2 (or 3) nodes with the outward normal on the right of the direction of travel,
+/// n = (t_y, -t_x). In 3D it is a triangle of 3 (or 6) or a quadrilateral of 4 (or 8) nodes whose corners run counterclockwise seen from outside.
 template <class Ordinal>
 using Facet = boost::container::static_vector<Ordinal, most_side_nodes>;
 

@@ -7,8 +7,8 @@
 
 namespace mortise {
 
-/// Quadratic tetrahedron: the corners of Tetrahedron4, then the middles of the edges 01, 12, 20, 03, 13, 23. With L the functions of
-/// Tetrahedron4 the corners have N = L_a (2 L_a - 1), the middles 4 L_a L_b. Reference volume 1/6.
+/// Quadratic tetrahedron: the corners of Tetrahedron4, then the mid-side nodes of the edges 01, 12, 20, 03, 13, 23. With L the functions of
+/// Tetrahedron4 the corners have N = L_a (2 L_a - 1), the mid-side nodes 4 L_a L_b. Reference volume 1/6.
 struct Tetrahedron10 {
   static constexpr CellShape shape = CellShape::tetrahedron10;
   static constexpr int dimension = 3;

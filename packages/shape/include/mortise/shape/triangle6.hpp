@@ -7,8 +7,8 @@
 
 namespace mortise {
 
-/// Quadratic triangle: corners (0,0), (1,0), (0,1), then the middles of the sides 01, 12, 20. With L = (1 - xi - eta, xi, eta) the corners have
-/// N = L_a (2 L_a - 1), the middles 4 L_a L_b. Reference area 1/2.
+/// Quadratic triangle: corners (0,0), (1,0), (0,1), then the mid-side nodes of 01, 12, 20. With L = (1 - xi - eta, xi, eta) the corners have N = L_a
+/// (2 L_a - 1), the mid-side nodes 4 L_a L_b. Reference area 1/2.
 struct Triangle6 {
   static constexpr CellShape shape = CellShape::triangle6;
   static constexpr int dimension = 2;

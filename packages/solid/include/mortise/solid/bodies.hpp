@@ -55,7 +55,7 @@ class Bodies {
   int stress_components() const { return dimension() == 3 ? 6 : 4; }
   double thickness() const { return thickness_; }
   const std::vector<BodyProperties>& properties() const { return properties_; }
-  /// Factor that makes a length in the plane at radius r an area: the thickness, or 2 pi r; 1 in three dimensions.
+  /// Factor that makes a length in 2D at radius r an area: the thickness, or 2 pi r; 1 in 3D.
   double depth(double radius) const;
 
   const RCP<const Map>& dofs() const { return dofs_; }
@@ -67,7 +67,7 @@ class Bodies {
   RCP<const Graph> graph() const { return sparsity_->graph(); }
 
   /// residual += f_int, f_int = integral of tau : grad eta dV0, on owned dofs.
-  /// det F <= 0 (or at the centre, det F0 <= 0) is put into `failure` if that is empty; the sum is then of no use.
+  /// det F <= 0 (or at the centre, det F0 <= 0) is put into `failure` if that is empty; the sum is then meaningless.
   void add_internal_force(const Vector& local_displacement, Vector& residual, std::optional<StepFailure>& failure) const;
 
   /// matrix += d f_int / d displacement. `matrix` has graph(), or more entries and more columns after its own.
@@ -115,8 +115,10 @@ class Bodies {
   std::vector<std::unique_ptr<ElementBlock>> blocks_;
 };
 
-/// The rigid body modes about the current configuration, on the owned dofs. Plane: translations in x and y and the rotation (-y, x) about the
-/// centre of the current nodes; axisymmetric: the translation in z; space: three translations, rotations about x, y and z. Collective.
+/// The rigid body modes about the current configuration, on the owned dofs. Collective.
+/// * 2D: translations in x and y and the rotation (-y, x) about the centre of the current nodes;
+/// * axisymmetric: the translation in z;
+/// * 3D: three translations, rotations about x, y and z.
 RCP<MultiVector> rigid_body_modes(const Bodies& bodies, const Vector& displacement);
 
 /// Current positions of the owned nodes, a column for each direction. `displacement` is on the owned dofs.

@@ -43,9 +43,8 @@ struct BodyProperties {
   bool is_rigid() const { return material == nullptr; }
 };
 
-/// Says what has no meaning: an element of space with kinematics of the plane and the other way round, F-bar with small strain or plane stress,
-/// a law without a plane stress form under plane stress.
-/// Empty if all is well. No communication.
+/// Reports what has no meaning: a 3D element with 2D kinematics and the other way round, F-bar with small strain or plane stress, a law without a
+/// plane stress form under plane stress. Empty if all is well. No communication.
 std::vector<Diagnostic> check_combination(const BodyProperties& body, Kinematics kinematics);
 
 }  // namespace mortise

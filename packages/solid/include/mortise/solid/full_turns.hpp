@@ -1,5 +1,5 @@
 #pragma once
-// Rotation vectors of space that come to a full turn.
+// Rotation vectors in 3D that come to a full turn.
 
 #include <array>
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace mortise {
 
-/// At a full turn, |theta| = 2 pi, 4 pi, ..., components across the axis turn nothing: moments about them, T(theta)^T m, vanish from the equations,
-/// whether they are in balance or not, and Newton finds solutions that are none. Reference points whose free components would be such are watched.
+/// At a full turn, |theta| = 2 pi, 4 pi, ..., components across the axis turn nothing. Moments about them, T(theta)^T m, vanish from the equations,
+/// whether they are in balance or not, and Newton finds false solutions. Reference points whose free components would be such are watched.
 class FullTurns {
  public:
   /// `prescribed`: owned dofs, ascending.

@@ -29,7 +29,7 @@ class Load {
 
 /// A load of a scene; each kind declares its parameters.
 struct LoadOptions : Described {
-  /// Makes the load. Collective. Throws InputError on all ranks for sets and bodies that do not exist, and for a z in the plane.
+  /// Makes the load. Collective. Throws InputError on all ranks for sets and bodies that do not exist, and for a z in 2D.
   virtual std::unique_ptr<Load> make(const std::shared_ptr<const Bodies>& bodies) const = 0;
 };
 
@@ -45,8 +45,8 @@ struct NodalForceOptions : LoadOptions {
 /// A moment of fixed direction on a reference point that rotates. [force length]
 struct MomentOptions : LoadOptions {
   Located<std::string> point;
-  std::optional<Expression> moment;                        ///< of t; in the plane
-  std::array<std::optional<Expression>, 3> moment_vector;  ///< of t; in space, about axes that do not turn; no value: 0
+  std::optional<Expression> moment;                        ///< of t; in 2D
+  std::array<std::optional<Expression>, 3> moment_vector;  ///< of t; in 3D, about axes that do not turn; no value: 0
   void describe(Parameters& parameters) override;
   std::unique_ptr<Load> make(const std::shared_ptr<const Bodies>& bodies) const override;
 };
@@ -61,7 +61,7 @@ struct DeadTractionOptions : LoadOptions {
 };
 
 /// Pressure on the current surface, against its current outward normal. [stress]
-/// f_ext_a = - integral of N_a p n dgamma; in the plane the thickness is the reference one.
+/// f_ext_a = - integral of N_a p n dgamma; in 2D the thickness is the reference one.
 struct FollowerPressureOptions : LoadOptions {
   Located<std::string> set;
   Expression pressure;  ///< of t and the reference position

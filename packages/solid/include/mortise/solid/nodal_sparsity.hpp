@@ -15,8 +15,8 @@ class NodalSparsity {
   /// As many dofs a node as the mesh has dimensions.
   NodalSparsity(const Mesh& mesh, const RCP<const Map>& dofs, const RCP<const Map>& local_dofs);
 
-  /// Fill complete; domain and range are the owned dofs. Made anew by each call: it has dimension^2 entries for each pair of nodes that stands here,
-  /// and is of use only until it has become a matrix, or part of a wider graph. Collective.
+  /// Fill complete; domain and range are the owned dofs. Rebuilt by each call. It has dimension^2 entries for each pair of nodes that stands here,
+  /// and is needed only until it has become a matrix, or part of a wider graph. Collective.
   RCP<const Graph> graph() const;
 
   /// Where, in a row of the owned node `row`, the columns of the local node `column` start. -1: `row` is a ghost, or the two share no element.

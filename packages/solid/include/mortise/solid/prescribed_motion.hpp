@@ -15,15 +15,18 @@ struct BoundaryConditionOptions {
   Located<std::string> set;                                  ///< node or side set
   std::optional<Expression> x, y, z;                         ///< displacement [length]; no value: free; z only in three dimensions
   std::optional<Expression> rotation;                        ///< of a reference point of the plane [degrees], counterclockwise; no value: free
-  std::array<std::optional<Expression>, 3> rotation_vector;  ///< of a reference point of space [degrees]; no value: free
+  std::array<std::optional<Expression>, 3> rotation_vector;  ///< of a reference point in 3D [degrees]; no value: free
   void describe(Parameters& parameters);
 };
 
 /// All prescribed dofs of this rank and their values over time: those of the conditions, and 0 for dofs of reference points that nothing follows.
 class PrescribedMotion {
  public:
-  /// Collective. Throws InputError on all ranks: a set that does not exist, a condition that prescribes nothing, z in the plane or a node that
-  /// follows a reference point, a dof that two conditions prescribe differently (naming both).
+  /// Collective.
+  /// @throws InputError on all ranks for
+  /// * a set that does not exist,
+  /// * a condition that prescribes nothing, z in 2D or a node that follows a reference point,
+  /// * a dof that two conditions prescribe differently (naming both).
   PrescribedMotion(const Bodies& bodies, const std::vector<Named<BoundaryConditionOptions>>& conditions);
 
   /// Owned dofs (local indices in Bodies::dofs()), ascending.

@@ -16,11 +16,11 @@ struct OfRotation {
 /// R(theta) x: R turns by |theta| [radians] about the direction of theta (Rodrigues), for theta of any length, 0 included.
 OfRotation turn(const Eigen::Vector3d& theta, const Eigen::Vector3d& x);
 
-/// T(theta), which makes the spin in space of the rates of the components: dR = [d omega]x R with d omega = T d theta. At full turns, |theta| = 2 pi,
-/// 4 pi, ..., it takes everything across theta to 0.
+/// T(theta), which turns the rates of the components into the spin about fixed axes: dR = [d omega]x R with d omega = T d theta. At full turns,
+/// theta| = 2 pi, 4 pi, ..., it takes everything across theta to 0.
 Eigen::Matrix3d spin(const Eigen::Vector3d& theta);
 
-/// T(theta)^T m, by which a moment m about axes fixed in space works on the components of theta: m . d omega = T^T m . d theta.
+/// T(theta)^T m, by which a moment m about fixed axes works on the components of theta: m . d omega = T^T m . d theta.
 OfRotation generalised_moment(const Eigen::Vector3d& theta, const Eigen::Vector3d& m);
 
 /// Smallest |T(theta) v| of the unit vectors v that have the `free` components alone; 1 if there are none. With all of them 2 |sin(t/2)| / t, t =
