@@ -43,6 +43,8 @@ struct ContactSystem::Implementation {
   Timers timers;
   int dimension = 2;
   double extent = 0.0;  ///< largest coordinate of the reference positions
+  /// To which gaps and slips are known.
+  double position_round_off() const { return 4.0 * std::numeric_limits<double>::epsilon() * extent; }
   std::vector<std::unique_ptr<detail::PairCoupling>> pairs;
   std::vector<std::vector<LocalOrdinal>> multiplier_of;     ///< [pair][slave node] local index of the first component in z, -1: none
   std::vector<std::vector<ContactState>> marked, accepted;  ///< [pair][slave node] when last marked, of the accepted state

@@ -58,6 +58,7 @@ void PairCoupling::take_slip_reference() {
 
 void PairCoupling::start_step() {
   start_ = accepted_start_;
+  settling_ = accepted_settling_;
   marked_covered_ = accepted_covered_;
   if (regularisation_ && regularisation_->augmentations > 0)
     for (std::size_t s = 0; s < start_.size(); ++s) set_stiffness(s, start_[s]);
