@@ -318,9 +318,10 @@ std::vector<std::vector<ContactState>> ContactSystem::Implementation::states(con
   return states;
 }
 
-void ContactSystem::Implementation::take_slip_references() {
-  for (const auto& pair : pairs)
-    if (pair->friction() != nullptr) pair->take_slip_reference();
+void ContactSystem::Implementation::take_slip_references(const Vector& z) {
+  const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    if (pairs[p]->friction() != nullptr) pairs[p]->take_slip_reference(multipliers_of(values, p), accepted[p]);
 }
 
 void ContactSystem::mark_states(const Vector& z) {
@@ -338,7 +339,7 @@ void ContactSystem::accept_states(const Vector& z) {
     if (self.pairs[p]->friction() != nullptr)
       for (std::size_t s = 0; s < self.accepted[p].size(); ++s) self.pairs[p]->accept_slip(s, self.accepted[p][s]);
   }
-  self.take_slip_references();
+  self.take_slip_references(z);
   self.accept_cover();
 }
 

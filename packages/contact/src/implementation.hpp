@@ -108,7 +108,7 @@ struct ContactSystem::Implementation {
   bool any_ties() const {
     return std::any_of(pairs.begin(), pairs.end(), [](const auto& pair) { return pair->ties().any(); });
   }
-  void take_slip_references();
+  void take_slip_references(const Vector& z);
   std::vector<std::vector<ContactState>> states(const Vector& z) const;
   /// Collective. Positions x on the owned nodes: those of the last evaluation.
   void find_lost_contact(const MultiVector& x, std::optional<StepFailure>& failure) const;

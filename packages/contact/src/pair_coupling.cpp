@@ -67,8 +67,13 @@ double PairCoupling::gap(std::size_t s, const NodeMultiplier& multiplier) const 
   return multiplier.shift.size() == 0 ? own_gap(s) : own_gap(s) + rows_[s].normal.dot(multiplier.shift);
 }
 
+// u_j - (T_j q - T_j^old q^old): slips are those of the step, so what a tie bears is so too. With T_j q alone, a tied node that sticks would slip anew
+// in each step by what its tie bears, until that bears nothing.
 TangentVector PairCoupling::slip(std::size_t s, const NodeMultiplier& multiplier) const {
-  return multiplier.shift.size() == 0 ? rows_[s].slip : TangentVector(rows_[s].slip - frame(s).tangents * multiplier.shift);
+  TangentVector slip = rows_[s].slip;
+  if (multiplier.shift.size() > 0) slip -= frame(s).tangents * multiplier.shift;
+  if (friction_ != nullptr && slip_[s].start.tie.size() > 0) slip += slip_[s].start.tie;
+  return slip;
 }
 
 // Of regularised conditions without history, lambda = 0:  (1 - theta) z_n > theta eps g / w  where  theta / (1 - theta) = c w / (eps A_j),  c = c_n

@@ -49,6 +49,7 @@ struct SlipReference {
   std::vector<GlobalOrdinal> nodes;  ///< nodes it was coupled to, itself among them; empty: none, so that it slips freely in this step
   std::vector<double> coefficients;  ///< [nodes] c_jm
   TangentVector position;            ///< tau_a . sum_m c_jm x_m; frozen geometry only
+  TangentVector tie;                 ///< tau_a . q, what its tie shifted the slip by; empty: open, or not tied
   double path = 0.0;                 ///< slipped until then [length]
 };
 
@@ -83,8 +84,10 @@ class PairCoupling {
   /// Evaluates at x, the positions of the last search().
   void evaluate(const MultiVector& x, bool derivatives, std::optional<StepFailure>& failure);
 
-  /// Takes the couplings of the last evaluate(), at an accepted state, as those that later slips are measured against. Friction only.
-  void take_slip_reference();
+  /// Takes the couplings and ties of the last evaluate(), at an accepted state, as those that later slips are measured against. Friction only.
+  /// @param multipliers  [slave nodes]
+  /// @param states       [slave nodes]
+  void take_slip_reference(const std::vector<NodeMultiplier>& multipliers, const std::vector<ContactState>& states);
   /// The state of the last evaluate() is accepted: what is covered now, and how near, decides about adapt_surface() and newly_covered() in the next
   /// step.
   void accept_cover();
