@@ -41,10 +41,11 @@ TEST(PatchTest, VariationalMortarPassesToRoundOff) {
   EXPECT_EQ(outcome.code, done) << outcome.said;
 }
 
-// Normal forces -z dg/dd do the work -sum z Dg, none between states with g = 0, but for what the trapezoidal rule errs by: in each step the integral
-// of z' dg/dt, of third order, as g vanishes at both ends. Where a node of the base passes a corner of the block within the step its second
-// derivative has a jump: the same order, times what depends on when. So the sum is of order two, one that is of the first order or stays has a fitted
-// order of one or none, and 1.5 lies between. Forces through D and M leave what the mesh makes of the corners.
+// Normal forces -z dg/dd do the work -sum z Dg. Between states with g = 0 it is zero but for the error of the trapezoidal rule. In each step this
+// error is the integral of z' dg/dt, of third order, as g vanishes at both ends. Where a node of the base passes a corner of the block within the
+// step its second derivative has a jump: the error has the same order, times a factor that depends on when. So the sum is of order two. One that is
+// of the first order or stays has a fitted order of one or none, and 1.5 lies between. Forces through D and M leave the work that the mesh makes of
+// the corners.
 TEST(SlidingBlock, NormalForcesOfVariationalMortarLoseWorkToStepsOnly) {
   const auto order = [](const std::string& type) {
     std::vector<double> errors;
@@ -92,8 +93,8 @@ TEST(PatchTest, IterationsOfAllSolvesAreCounted) {
   EXPECT_NE(outcome.said.find(" " + std::to_string(iterations) + " Newton iterations"), std::string::npos) << outcome.said;
 }
 
-// Forces at nodes that do not fit those of a uniform traction on the other side: errors of the order of the stress itself in a facet's corner,
-// momentum kept (Taylor, Papadopoulos 1991).
+// Forces at nodes that do not fit those of a uniform traction on the other side. Errors are of the order of the stress itself in a facet's corner;
+// momentum is kept (Taylor, Papadopoulos 1991).
 TEST(PatchTest, NodeToSegmentFailsInOnePass) {
   const Outcome outcome = run("paper/patch_test.xml", "single pass", {list + "type=node to segment"});
   EXPECT_EQ(outcome.code, check_missed) << outcome.said;
@@ -133,8 +134,8 @@ TEST(Hertz, PressuresOscillateFromNodeToNodeOnSegmentsOnly) {
 }
 
 // The punch's edges run through facets and cover some of their nodes by a few per cent. An update divides gaps by 1 + stiffness = 11 where a node
-// moves by h/E times its traction, so that those of a facet's length are within 1e-6 h after 6; the body is stiffer against tractions that vary from
-// node to node: twice as many. What gaps are left is 1e-6 h of an indentation of about a facet: the force agrees to 1e-5.
+// moves by h/E times its traction. So gaps of a facet's length are within 1e-6 h after 6 updates. The body is stiffer against tractions that vary
+// from node to node: twice as many. The remaining gaps are 1e-6 h of an indentation of about a facet: the force agrees to 1e-5.
 TEST(Punch, AugmentedLagrangeFindsTheForceOfExactConditionsInFewUpdates) {
   const auto with = [&](const std::string& type) {
     return run("verification/3d/punch.xml", "punch " + type, {"contact/face/formulation/type=" + type});

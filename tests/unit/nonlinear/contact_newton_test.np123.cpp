@@ -299,8 +299,8 @@ TEST(ContactNewton, AStepEndsWhenUpdatesOfTheMultipliersAreExhausted) {
   expect_exhausted(*failure);
 }
 
-// What was closed in the accepted state may not go through the other body: the upper body is put three rows deep into the lower one, beyond
-// the reach of one facet.
+// What was closed in the accepted state may not go through the other body. The upper body is put three rows deep into the lower one, beyond the reach
+// of one facet.
 TEST(ContactSystem, ContactLostSinceTheAcceptedStateIsAFailureOnAllRanks) {
   Problem problem(Tpetra::getDefaultComm(), pressed(0.2));
   SemiSmoothSystem& system = *problem.system;
