@@ -314,8 +314,10 @@ std::vector<std::vector<ContactState>> ContactSystem::Implementation::states(con
 }
 
 void ContactSystem::Implementation::take_slip_references() {
-  for (const auto& pair : pairs)
-    if (pair->friction() != nullptr) pair->take_slip_reference();
+  const RCP<const Vector> z = accepted_multipliers.is_null() ? RCP<const Vector>(rcp(new Vector(multipliers))) : accepted_multipliers;
+  const auto values = z->getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    if (pairs[p]->friction() != nullptr) pairs[p]->take_slip_reference(multipliers_of(values, p));
 }
 
 void ContactSystem::mark_states(const Vector& z) {
@@ -333,6 +335,7 @@ void ContactSystem::accept_states(const Vector& z) {
     if (self.pairs[p]->friction() != nullptr)
       for (std::size_t s = 0; s < self.accepted[p].size(); ++s) self.pairs[p]->accept_slip(s, self.accepted[p][s]);
   }
+  self.accepted_multipliers = rcp(new Vector(z, Teuchos::Copy));
   self.take_slip_references();
   self.accept_cover();
 }

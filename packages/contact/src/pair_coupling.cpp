@@ -66,8 +66,16 @@ double PairCoupling::gap(std::size_t s, const NodeMultiplier& multiplier) const 
   return multiplier.shift.size() == 0 ? own_gap(s) : own_gap(s) + rows_[s].normal.dot(multiplier.shift);
 }
 
+// u is the motion since the start of the step, so it takes what ties have given way by since then:
+//   u - (T q - T^old q^old).
+// Where nothing changes that is 0, whatever the ties bear. Both are components in the node's frame of their time: they turn with the surface, and
+// the second is a constant of the step.
 TangentVector PairCoupling::slip(std::size_t s, const NodeMultiplier& multiplier) const {
-  return multiplier.shift.size() == 0 ? rows_[s].slip : TangentVector(rows_[s].slip - frame(s).tangents * multiplier.shift);
+  TangentVector slip = rows_[s].slip;
+  if (friction_ == nullptr) return slip;
+  if (slip_[s].start.tie.size() > 0) slip += slip_[s].start.tie;
+  if (multiplier.shift.size() > 0) slip -= frame(s).tangents * multiplier.shift;
+  return slip;
 }
 
 // Of regularised conditions without history, lambda = 0:  (1 - theta) z_n > theta eps g / w  where  theta / (1 - theta) = c w / (eps A_j),  c = c_n

@@ -45,6 +45,7 @@ struct SlipReference {
   std::vector<GlobalOrdinal> nodes;  ///< nodes it was coupled to, itself among them; empty: none, so that it slips freely in this step
   std::vector<double> coefficients;  ///< [nodes] c_jm
   TangentVector position;            ///< tau_a . sum_m c_jm x_m; frozen geometry only
+  TangentVector tie;                 ///< T_j q_j, what ties had taken of slip by then
   double path = 0.0;                 ///< slipped until then [length]
 };
 
@@ -73,8 +74,9 @@ class PairCoupling {
   /// Evaluates at x, the positions of the last search().
   void evaluate(const MultiVector& x, bool derivatives, std::optional<StepFailure>& failure);
 
-  /// Takes the couplings of the last evaluate(), at an accepted state, as those that later slips are measured against. Friction only.
-  void take_slip_reference();
+  /// Takes the couplings of the last evaluate(), at an accepted state, and the ties of its multipliers as those that later slips are measured
+  /// against. Friction only.
+  void take_slip_reference(const std::vector<NodeMultiplier>& multipliers);
   /// The state of the last evaluate() is accepted: what is covered now, and how near, decides about adapt_surface() and newly_covered() in the next
   /// step.
   void accept_cover();
@@ -132,7 +134,7 @@ class PairCoupling {
   void allow_overlap(double depth) { overlap_ = depth; }
   /// g of slave node s at the last evaluate(), beyond the overlap that is allowed.
   double own_gap(std::size_t s) const { return rows_[s].gap + overlap_ * slave_nodes()[s].weight; }
-  /// That and n . q; u - T q.
+  /// That and n . q; u - (T q - T^old q^old).
   double gap(std::size_t s, const NodeMultiplier& multiplier) const;
   TangentVector slip(std::size_t s, const NodeMultiplier& multiplier) const;
   /// c_n of slave node s: unless given E / (h A_j), of regularised conditions a tenth of that.
@@ -169,7 +171,7 @@ class PairCoupling {
   Complementarity complementarity(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* complaint = nullptr) const;
   /// Derivative of C of node s, whose linearisation is `law`, in entry dim c + i of its coupled nodes, at fixed z and q.
   SpatialVector constraint_gradient(const Complementarity& law, std::size_t s, std::size_t entry, const NodeMultiplier& multiplier) const;
-  /// Derivative of C of node s with respect to q_j: C sees g + n . q and u - T q.
+  /// Derivative of C of node s with respect to q_j: C sees g + n . q and u - (T q - T^old q^old).
   SpatialMatrix shift_factor(const Complementarity& law, std::size_t s) const;
 
  private:

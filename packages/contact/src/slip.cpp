@@ -35,7 +35,7 @@ void PairCoupling::place_slip_histories() {
   }
 }
 
-void PairCoupling::take_slip_reference() {
+void PairCoupling::take_slip_reference(const std::vector<NodeMultiplier>& multipliers) {
   const auto x = local_positions_->getLocalViewHost(Tpetra::Access::ReadOnly);
   for (std::size_t s = 0; s < slip_.size(); ++s) {
     SlipReference& reference = slip_[s].accepted;
@@ -43,9 +43,10 @@ void PairCoupling::take_slip_reference() {
     const std::vector<LocalOrdinal>& coupled = interface_->coupled_nodes(s);
     reference.nodes.clear();
     reference.coefficients.clear();
-    reference.position = TangentVector::Zero(dimension_ - 1);
+    reference.position = reference.tie = TangentVector::Zero(dimension_ - 1);
     if (!covered(s)) continue;
     const Frame in = frame(s);
+    if (multipliers[s].shift.size() > 0) reference.tie = in.tangents * multipliers[s].shift;
     for (std::size_t c = 0; c < coupled.size(); ++c) {
       const double coefficient = row.coefficients[c] + (coupled[c] == slave_nodes()[s].local_node ? row.D : 0.0);
       if (coefficient == 0.0) continue;
