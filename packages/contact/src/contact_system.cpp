@@ -318,8 +318,9 @@ std::vector<std::vector<ContactState>> ContactSystem::Implementation::states(con
   return states;
 }
 
-void ContactSystem::Implementation::take_slip_references(const Vector& z) {
-  const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
+void ContactSystem::Implementation::take_slip_references() {
+  const RCP<const Vector> z = accepted_multipliers.is_null() ? RCP<const Vector>(rcp(new Vector(multipliers))) : accepted_multipliers;
+  const auto values = z->getLocalViewHost(Tpetra::Access::ReadOnly);
   for (std::size_t p = 0; p < pairs.size(); ++p)
     if (pairs[p]->friction() != nullptr) pairs[p]->take_slip_reference(multipliers_of(values, p), accepted[p]);
 }
@@ -339,7 +340,8 @@ void ContactSystem::accept_states(const Vector& z) {
     if (self.pairs[p]->friction() != nullptr)
       for (std::size_t s = 0; s < self.accepted[p].size(); ++s) self.pairs[p]->accept_slip(s, self.accepted[p][s]);
   }
-  self.take_slip_references(z);
+  self.accepted_multipliers = rcp(new Vector(z, Teuchos::Copy));
+  self.take_slip_references();
   self.accept_cover();
 }
 

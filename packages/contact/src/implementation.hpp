@@ -58,6 +58,7 @@ struct ContactSystem::Implementation {
   TieBlocks left_out;                 ///< L at the last condense(); null: nothing is
 
   RCP<const MultiVector> evaluated_at, accepted_at;  ///< positions of the last evaluation, of the accepted state; null: none yet
+  RCP<const Vector> accepted_multipliers;            ///< null: none yet, so that all are 0
 
   void evaluate(const RCP<const MultiVector>& x, bool derivatives, std::optional<StepFailure>& failure);
   /// The last evaluation was that of the accepted state.
@@ -108,7 +109,8 @@ struct ContactSystem::Implementation {
   bool any_ties() const {
     return std::any_of(pairs.begin(), pairs.end(), [](const auto& pair) { return pair->ties().any(); });
   }
-  void take_slip_references(const Vector& z);
+  /// From the last evaluation, that of the accepted state, and the accepted multipliers.
+  void take_slip_references();
   std::vector<std::vector<ContactState>> states(const Vector& z) const;
   /// Collective. Positions x on the owned nodes: those of the last evaluation.
   void find_lost_contact(const MultiVector& x, std::optional<StepFailure>& failure) const;

@@ -67,8 +67,8 @@ double PairCoupling::gap(std::size_t s, const NodeMultiplier& multiplier) const 
   return multiplier.shift.size() == 0 ? own_gap(s) : own_gap(s) + rows_[s].normal.dot(multiplier.shift);
 }
 
-// u_j - (T_j q - T_j^old q^old): slips are those of the step, so what a tie bears is so too. With T_j q alone, a tied node that sticks would slip anew
-// in each step by what its tie bears, until that bears nothing.
+// u_j - (T_j q - T_j^old q^old): slips are those of the step, so what a tie bears is so too. With T_j q alone, a tied node that sticks would slip
+// anew in each step by what its tie bears, until that bears nothing.
 TangentVector PairCoupling::slip(std::size_t s, const NodeMultiplier& multiplier) const {
   TangentVector slip = rows_[s].slip;
   if (multiplier.shift.size() > 0) slip -= frame(s).tangents * multiplier.shift;

@@ -146,7 +146,7 @@ class PairCoupling {
   void allow_overlap(double depth) { overlap_ = depth; }
   /// g of slave node s at the last evaluate(), beyond the overlap that is allowed.
   double own_gap(std::size_t s) const { return rows_[s].gap + overlap_ * slave_nodes()[s].weight; }
-  /// That and n . q; u - T q.
+  /// That and n . q; u - (T q - T^old q^old).
   double gap(std::size_t s, const NodeMultiplier& multiplier) const;
   TangentVector slip(std::size_t s, const NodeMultiplier& multiplier) const;
   /// c_n of slave node s: unless given E / (h A_j), of regularised conditions a tenth of that.
@@ -194,7 +194,7 @@ class PairCoupling {
   Complementarity complementarity(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* complaint = nullptr) const;
   /// Derivative of C of node s, whose linearisation is `law`, in entry dim c + i of its coupled nodes, at fixed z and q.
   SpatialVector constraint_gradient(const Complementarity& law, std::size_t s, std::size_t entry, const NodeMultiplier& multiplier) const;
-  /// Derivative of C of node s with respect to q_j: C sees g + n . q and u - T q.
+  /// Derivative of C of node s with respect to q_j: C sees g + n . q and u - (T q - T^old q^old).
   SpatialMatrix shift_factor(const Complementarity& law, std::size_t s) const;
 
  private:

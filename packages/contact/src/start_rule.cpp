@@ -111,7 +111,7 @@ void ContactSystem::start_step(const Vector& d, const std::vector<char>& unheld,
     self.pattern_changed = true;
     evaluate_or_throw(self.accepted_at);
   }
-  if (first || adapted) self.take_slip_references(z);
+  if (first || adapted) self.take_slip_references();
   for (const auto& pair : self.pairs) pair->start_step();
   evaluate_or_throw(x);
   follow_cover(z);
