@@ -13,7 +13,7 @@ namespace mortise {
 /// Where the Newton iterations of a step start.
 enum class Predictor {
   none,   ///< at the last accepted state
-  linear  ///< at the line through the last two accepted states: points that flow start flowing
+  linear  ///< at the line through the last two accepted states: points that flow start flowing; at the last one where it is still a solution
 };
 
 /// Pseudo-time and its steps.
