@@ -67,8 +67,7 @@ class StepSolver {
 };
 
 /// Whether F(x) = 0 at `time` to the tolerances: nothing that drives the bodies has changed. The Newton solve tests increments and states itself.
-bool is_solution(SemiSmoothSystem& system, double time, const NewtonOptions& options, const Vector& x) {
-  system.set_time(time);
+bool is_solution(SemiSmoothSystem& system, const NewtonOptions& options, const Vector& x) {
   Vector F(system.map());
   ResidualNorms norms;
   system.residual(x, F, norms);
@@ -94,9 +93,11 @@ bool run_steps(SemiSmoothSystem& system, const SteppingOptions& stepping, const 
       bool solved = false;
       try {
         if (observer.begin) observer.begin(step, report.time, report.dt);
-        if (start_step) start_step(tried);
+        system.set_time(report.time);
         // Motion does not go on where the last state is a solution of this step too. Carried on all the same, it may end in another equilibrium.
-        if (!rate.is_null() && !is_solution(system, report.time, newton, tried)) {
+        const bool may_rest = rate.is_null() || system.prescribed_deviation(x) <= newton.increment_tolerance;
+        if (may_rest && start_step) start_step(tried);
+        if (!rate.is_null() && (!may_rest || !is_solution(system, newton, tried))) {
           tried.update(1.0, x, report.dt, *rate, 0.0);
           if (start_step) start_step(tried);
         }
