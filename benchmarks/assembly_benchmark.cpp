@@ -1,8 +1,8 @@
-// What the assembly of the stiffness of a square of n x n cells, or of a cube of about as many, costs, for linear elements and every law: against
-// Hencky's law on the same element, against one product of the same matrix with a vector, and how much of it is the law alone (stress and tangent at
-// all points). Plastic laws flow everywhere.
+// Cost of assembling the stiffness of a square of n x n cells, or of a cube of about as many, for linear elements and every law. It is given relative
+// to Hencky's law on the same element and to one product of the same matrix with a vector. A third figure is the share of the law alone (stress and
+// tangent at all points). Plastic laws flow everywhere.
 //
-//     assembly_benchmark [n = 280]        280: 157 922 dofs in the plane, 238 521 in space
+//     assembly_benchmark [n = 280]        280: 157 922 dofs in 2D, 238 521 in 3D
 //
 // All are timed in turns, so that what else the machine does strikes all; medians of 11 repetitions.
 

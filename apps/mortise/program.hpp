@@ -61,8 +61,8 @@ struct Outcome {
 /// Runs what is to be done; an exception becomes its exit code and message, which the first rank prints.
 Outcome run_action(const Program& program, const std::function<ExitCode()>& action);
 
-/// Collective: agrees on the largest of all ranks' codes. A rank that finds itself alone here (another one is stuck in a collective call that
-/// this rank will never join) says why and ends the whole program with code 70 instead of waiting for ever.
+/// Collective: agrees on the largest of all ranks' codes. A rank may find itself alone here, while another one is stuck in a collective call that
+/// this rank will never join. It then says why and ends the whole program with code 70 instead of waiting for ever.
 int agree_on_exit(const Program& program, const Outcome& outcome);
 
 }  // namespace mortise

@@ -1,5 +1,5 @@
-# Fails on an arrow between packages that the table below (docs/architecture.md) does not have: in CMake's own dependency graph, and in #includes; on
-# heavy headers in public ones, on MPI at a material point, on printing below `simulation` and on a global communicator.
+# Fails on an arrow between packages that the table below (docs/architecture.md) does not have: in CMake's own dependency graph, and in #includes.
+# Fails also on heavy headers in public ones, on MPI at a material point, on printing below `simulation` and on a global communicator.
 #   cmake -D SOURCE=... -D BUILD=... -D SCRATCH=... -P check_packages.cmake
 
 cmake_minimum_required(VERSION 3.25)

@@ -41,10 +41,11 @@ TEST(PatchTest, VariationalMortarPassesToRoundOff) {
   EXPECT_EQ(outcome.code, done) << outcome.said;
 }
 
-// Normal forces -z dg/dd do the work -sum z Dg, none between states with g = 0, but for what the trapezoidal rule errs by: in each step the integral
-// of z' dg/dt, of third order, as g vanishes at both ends. Where a node of the base passes a corner of the block within the step its second
-// derivative has a jump: the same order, times what depends on when. So the sum is of order two, one that is of the first order or stays has a fitted
-// order of one or none, and 1.5 lies between. Forces through D and M leave what the mesh makes of the corners.
+// Normal forces -z dg/dd do the work -sum z Dg. Between states with g = 0 it is zero but for the error of the trapezoidal rule. In each step this
+// error is the integral of z' dg/dt, of third order, as g vanishes at both ends. Where a node of the base passes a corner of the block within the
+// step its second derivative has a jump: the error has the same order, times a factor that depends on when. So the sum is of order two. One that is
+// of the first order or stays has a fitted order of one or none, and 1.5 lies between. Forces through D and M leave the work that the mesh makes of
+// the corners.
 TEST(SlidingBlock, NormalForcesOfVariationalMortarLoseWorkToStepsOnly) {
   const auto order = [](const std::string& type) {
     std::vector<double> errors;
@@ -69,13 +70,14 @@ TEST(PatchTest, MortarPenaltyPassesToRoundOff) {
   }
 }
 
-// Gaps up to tolerance h change tractions by up to 10 E / h of that: 10 tolerance E / sigma of them, E = 210000, sigma = 450.
+// Multipliers are wrong by up to `tolerance` of the largest. Stresses in a facet's corner follow from differences of a few of them: ten times that.
 TEST(PatchTest, AugmentedLagrangePassesToItsTolerance) {
-  const double tolerance = 1e-12;
+  const double tolerance = 1e-10;
   for (const std::string discretisation : {"dual mortar", "standard mortar"}) {
     const Outcome outcome = run("paper/patch_test.xml", "augmented " + discretisation,
-                                {list + "type=augmented lagrange", list + "discretisation=" + discretisation, list + "tolerance=1e-12"});
-    EXPECT_LE(outcome.quantities.at("stress_spread").get<double>(), 10.0 * tolerance * 210000.0 / 450.0) << outcome.said;
+                                {list + "type=augmented lagrange", list + "discretisation=" + discretisation, list + "tolerance=1e-10"});
+    for (const Json& step : outcome.steps) EXPECT_EQ(step.at("undone"), Json::array()) << outcome.said;
+    EXPECT_LE(outcome.quantities.at("stress_spread").get<double>(), 10.0 * tolerance) << outcome.said;
   }
 }
 
@@ -91,8 +93,8 @@ TEST(PatchTest, IterationsOfAllSolvesAreCounted) {
   EXPECT_NE(outcome.said.find(" " + std::to_string(iterations) + " Newton iterations"), std::string::npos) << outcome.said;
 }
 
-// Forces at nodes that do not fit those of a uniform traction on the other side: errors of the order of the stress itself in a facet's corner,
-// momentum kept (Taylor, Papadopoulos 1991).
+// Forces at nodes that do not fit those of a uniform traction on the other side. Errors are of the order of the stress itself in a facet's corner;
+// momentum is kept (Taylor, Papadopoulos 1991).
 TEST(PatchTest, NodeToSegmentFailsInOnePass) {
   const Outcome outcome = run("paper/patch_test.xml", "single pass", {list + "type=node to segment"});
   EXPECT_EQ(outcome.code, check_missed) << outcome.said;
@@ -132,8 +134,8 @@ TEST(Hertz, PressuresOscillateFromNodeToNodeOnSegmentsOnly) {
 }
 
 // The punch's edges run through facets and cover some of their nodes by a few per cent. An update divides gaps by 1 + stiffness = 11 where a node
-// moves by h/E times its traction, so that those of a facet's length are within 1e-6 h after 6; the body is stiffer against tractions that vary from
-// node to node: twice as many. What gaps are left is 1e-6 h of an indentation of about a facet: the force agrees to 1e-5.
+// moves by h/E times its traction. So gaps of a facet's length are within 1e-6 h after 6 updates. The body is stiffer against tractions that vary
+// from node to node: twice as many. The remaining gaps are 1e-6 h of an indentation of about a facet: the force agrees to 1e-5.
 TEST(Punch, AugmentedLagrangeFindsTheForceOfExactConditionsInFewUpdates) {
   const auto with = [&](const std::string& type) {
     return run("verification/3d/punch.xml", "punch " + type, {"contact/face/formulation/type=" + type});
@@ -147,6 +149,31 @@ TEST(Punch, AugmentedLagrangeFindsTheForceOfExactConditionsInFewUpdates) {
     EXPECT_EQ(step.at("undone"), Json::array());
     EXPECT_LE(step.at("solves").get<int>() - 1, 12);
   }
+}
+
+// Three layers, a thin soft one between two blocks, in confined compression of small strain: u M / (1/E1 + h2/E2 + 1/E3) whatever the displacement.
+// The thin layer is far stiffer against a gap than its facets, so that updates settle slowly. Friction has nothing to do. The force is right to the
+// tolerance of the multipliers.
+TEST(Layers, AugmentedLagrangeFindsTheClosedFormAtEveryScale) {
+  const double modulus = 0.7 / (1.3 * 0.4), compliance = 1.0 / 1000.0 + 0.001 / 10.0 + 1.0 / 1000.0;
+  for (const std::string mu : {"0", "0.3"})
+    for (const std::string u : {"1e-2", "1e-3", "1e-4", "1e-5", "1e-6", "1e-7", "1e-8"}) {
+      const Outcome outcome = run("hard/layers.xml", "layers " + mu + " " + u,
+                                  {"contact/lower/formulation/type=augmented lagrange", "contact/upper/formulation/type=augmented lagrange",
+                                   "variables/mu=" + mu, "variables/u=" + u, "variables/E2=10", "variables/h2=0.001", "checks/balance/high=1"});
+      EXPECT_EQ(outcome.code, done) << outcome.said;
+      const double exact = std::stod(u) * modulus / compliance;
+      EXPECT_NEAR(outcome.quantities.at("stress").get<double>(), exact, 1e-6 * exact) << mu << ", " << u;
+    }
+}
+
+// What is not exact after so many updates is no solution, and the run says how far off it is.
+TEST(Layers, AugmentedLagrangeThatIsCutShortIsNotAccepted) {
+  const Outcome outcome = run("hard/layers.xml", "layers cut short",
+                              {"contact/lower/formulation/type=augmented lagrange", "contact/upper/formulation/type=augmented lagrange",
+                               "contact/lower/formulation/augmentations=2", "variables/E2=10", "variables/h2=0.001", "variables/u=1e-6"});
+  EXPECT_EQ(outcome.code, not_converged) << outcome.said;
+  EXPECT_NE(outcome.said.find("after 2 updates of the multipliers, one more would change them by"), std::string::npos) << outcome.said;
 }
 
 // Nodes that start to slip, stick again and open: a stiffness that is a multiple of the bodies' must not throw them from slip one way to slip the

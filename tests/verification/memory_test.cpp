@@ -43,10 +43,10 @@ Beyond beyond_the_model(const Scene& scene) {
   return result;
 }
 
-// Of a factorisation the estimate counts an ideal ordering of a square or a cube: orderings of other shapes, and fronts that were merged with their
+// Of a factorisation the estimate counts an ideal ordering of a square or a cube. Orderings of other shapes, and fronts that were merged with their
 // neighbours, are off by tens of percents each. Of multigrid it counts as many matrices as were measured on one family of meshes; aggregates are not
-// as good everywhere. Vectors, contact and output are not counted: a tenth of the linear systems, if these are large. Together less than a factor of
-// two, either way; the plane's formula in space, or one solver's for the other, is off by more.
+// as good everywhere. Vectors, contact and output are not counted: a tenth of the linear systems, if these are large. Together that is less than a
+// factor of two, either way. The 2D formula in 3D, or one solver's for the other, is off by more.
 TEST(Memory, IsEstimatedToAFactorOfTwo) {
   const std::vector<std::string> plane{"variables/n=48", "variables/F=800", "variables/mu=0", "variables/steps=2"}, space{"variables/n=16"};
   for (const Scene& scene : {Scene{"paper/hertz_elastic.xml", "mumps", plane},

@@ -1,4 +1,4 @@
-// `mortise peer` in space: decks against what the manual of CalculiX says of elements and faces, and its results against ours.
+// `mortise peer` in 3D: decks against what the manual of CalculiX says of elements and faces, and its results against ours.
 
 #include <gtest/gtest.h>
 

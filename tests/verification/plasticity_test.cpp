@@ -172,8 +172,8 @@ TEST(Plasticity, DisplacementElementsLockWhereFBarDoesNot) {
   EXPECT_EQ(locked.code, 4);
 }
 
-// Without friction the billet stays a block, which its averaged corner normals would not let it be. A corner takes the platen's normal, which turns by
-// about the platen's strain, 5000 / 2.1e6: forces differ by its square.
+// Without friction the billet stays a block, which its averaged corner normals would not let it be. A corner takes the platen's normal, which turns
+// by about the platen's strain, 5000 / 2.1e6: forces differ by its square.
 TEST(Upsetting, FreeSidesInTheSlaveChangeNothingWhereTheyDoNotTouch) {
   const std::string scene = input("verification/upsetting_plane.xml");
   const Results skin = run(scene, "upset_skin", {"variables/mu=0", "variables/nx=10"}),
@@ -183,7 +183,7 @@ TEST(Upsetting, FreeSidesInTheSlaveChangeNothingWhereTheyDoNotTouch) {
   for (const char* name : {"force", "spread"}) EXPECT_NEAR(skin.quantity(name) / top.quantity(name), 1.0, std::pow(5000.0 / 2.1e6, 2)) << name;
 }
 
-// The node of the free side below the corner comes to the platen, and stays before it: a pressure of up to 5000 moves the face of the elastic platen,
+// The node of the free side below the corner comes to the platen, and stays before it. A pressure of up to 5000 moves the face of the elastic platen,
 // 2 high, by no more than 2 * 5000 / 2.1e6.
 TEST(Upsetting, FreeSidesFoldOntoThePlatenAndNotThroughIt) {
   const double platen = 7.0, yields = 2.0 * 5000.0 / 2.1e6;

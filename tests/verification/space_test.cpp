@@ -1,4 +1,4 @@
-// Contact in space from outside, against what the plane and other programs find.
+// Contact in 3D from outside, against the results of 2D and of other programs.
 
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ double difference_of_layer_and_plane(const std::vector<std::string>& settings) {
 // The nodes of the layer lie on two symmetry planes; friction acts along them.
 TEST(Layer, FlatIsPlaneStrain) { EXPECT_LE(difference_of_layer_and_plane({}), 1e-8); }
 
-// Auxiliary planes in space, nodal normals in the plane: the same but for the curvature within a facet.
+// Auxiliary planes in 3D, nodal normals in 2D: the same but for the curvature within a facet.
 TEST(Layer, CurvedDiffersByWhatFallsWithTheMesh) {
   const double coarse = difference_of_layer_and_plane({"contact/joint/geometry=current"}),
                fine = difference_of_layer_and_plane({"contact/joint/geometry=current", "variables/n=16"});
@@ -75,8 +75,8 @@ int most_iterations(const std::string& stiffness_ratio, const std::string& mu, c
   return most;
 }
 
-// A preconditioner that does not depend on the ratio takes as many iterations, half as many again for the shape of what is in contact, and no more
-// than ten with the hierarchy of before.
+// A preconditioner that does not depend on the ratio takes as many iterations. Half as many again are allowed for the shape of the surfaces in
+// contact, and ten more for the hierarchy of an earlier matrix.
 TEST(PressedBlocks, StiffSlavesTakeAsManyIterations) {
   for (const char* mu : {"0", "0.2"}) EXPECT_LE(most_iterations("1000", mu), 1.5 * most_iterations("1", mu) + 10) << mu;
 }

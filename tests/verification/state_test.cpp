@@ -195,7 +195,7 @@ TEST(States, ABlockThatIsLetGoStays) {
   EXPECT_LT(result.quantity("uy"), 0.2 - 0.05);  // below the upper one
 }
 
-// Without a force it stays between tool and wall, where it may be anywhere; from 0.3 of the tool's 0.4 on the wall stops it, and by symmetry its
+// Without a force it stays between tool and wall, where it may be anywhere. From 0.3 of the tool's 0.4 on the wall stops it, and by symmetry its
 // middle goes half of the rest.
 TEST(States, ABlockThatIsCarriedBeforeItTouchesIsAccepted) {
   const std::string scene =

@@ -1,6 +1,10 @@
-// Runs a scene on several numbers of ranks: exit code 0 (so all its checks hold) on each, quantities equal to 1e-10 of their scale (their value
-// on the first number of ranks, or what --scale says), equal Newton counts, times of contact where there is contact.
-// Ranks may be followed by a linear solver, "2:iterative"; iterative solvers have to agree to 1e-8 and may need other numbers of Newton iterations.
+// Runs a scene on several numbers of ranks and checks
+// * exit code 0 (so all its checks hold) on each,
+// * quantities equal to 1e-10 of their scale (their value on the first number of ranks, or what --scale says),
+// * equal Newton counts,
+// * times of contact where there is contact.
+//
+// Ranks may be followed by a linear solver, "2:iterative". Iterative solvers have to agree to 1e-8 and may need other numbers of Newton iterations.
 // verify_scene MPIEXEC MORTISE SCENE DIRECTORY RANKS[:SOLVER]... [--set path=value]... [--scale quantity=scale]...
 
 #include <fmt/format.h>

@@ -268,8 +268,11 @@ ContactNorms ContactSystem::norms(const Vector& z) const {
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
     const detail::PairCoupling& pair = *self.pairs[p];
     floor = std::max(floor, 1e-9 * pair.definition().youngs_modulus);
-    // What the round-off of positions leaves of c g and c u; regularised conditions weigh them with less, c eps / (c + eps).
-    round_off = std::max(round_off, 4.0 * std::numeric_limits<double>::epsilon() * self.extent * pair.definition().youngs_modulus / pair.size());
+    // What the round-off of positions leaves of c g and c u; penalty weighs them with less, c eps / (c + eps). Augmented Lagrange is judged by the
+    // return map, not by its C, in which gaps count for 1 + eps/c times less: multipliers would be updated from gaps that Newton's method let be.
+    const bool is_augmented = pair.regularisation() && pair.regularisation()->augmentations > 0;
+    round_off = std::max(round_off, is_augmented ? pair.mismatch_of(self.position_round_off())
+                                                 : self.position_round_off() * pair.definition().youngs_modulus / pair.size());
     const std::vector<detail::NodeMultiplier> multipliers = self.multipliers_of(values, p);
     for (std::size_t s = 0; s < self.multiplier_of[p].size(); ++s) {
       if (self.multiplier_of[p][s] < 0) continue;
@@ -280,7 +283,9 @@ ContactNorms ContactSystem::norms(const Vector& z) const {
       squares += std::pow(pair.slave_nodes()[s].weight, 2) * C.squaredNorm();
       traction = std::max(traction, zs.norm());
       const bool exactly_closed = closed && !pair.regularisation();  // then C_n is the gap
-      violation = std::max(violation, exactly_closed ? C.tail(self.dimension - 1).norm() : C.norm());
+      violation = std::max(violation, is_augmented     ? std::max(pair.mismatch(s, multipliers[s]), C.norm())
+                                      : exactly_closed ? C.tail(self.dimension - 1).norm()
+                                                       : C.norm());
       if (exactly_closed) gap = std::max(gap, std::abs(pair.gap(s, multipliers[s])) / (pair.slave_nodes()[s].weight * pair.size()));
       active += closed;
       sticking += law.state == ContactState::stick;
@@ -314,8 +319,10 @@ std::vector<std::vector<ContactState>> ContactSystem::Implementation::states(con
 }
 
 void ContactSystem::Implementation::take_slip_references() {
-  for (const auto& pair : pairs)
-    if (pair->friction() != nullptr) pair->take_slip_reference();
+  const RCP<const Vector> z = accepted_multipliers.is_null() ? RCP<const Vector>(rcp(new Vector(multipliers))) : accepted_multipliers;
+  const auto values = z->getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    if (pairs[p]->friction() != nullptr) pairs[p]->take_slip_reference(multipliers_of(values, p), accepted[p]);
 }
 
 void ContactSystem::mark_states(const Vector& z) {
@@ -333,6 +340,7 @@ void ContactSystem::accept_states(const Vector& z) {
     if (self.pairs[p]->friction() != nullptr)
       for (std::size_t s = 0; s < self.accepted[p].size(); ++s) self.pairs[p]->accept_slip(s, self.accepted[p][s]);
   }
+  self.accepted_multipliers = rcp(new Vector(z, Teuchos::Copy));
   self.take_slip_references();
   self.accept_cover();
 }
@@ -342,24 +350,47 @@ void ContactSystem::Implementation::accept_cover() {
   for (const auto& pair : pairs) pair->accept_cover();
 }
 
+// Pairs act on one another through their bodies: if one goes on all do.
 Augmentation ContactSystem::augment(const Vector& z, int round) {
   Implementation& self = *implementation_;
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
+  const double resolution = self.position_round_off();
+  constexpr double known_to = 1e-9;  // of the largest multiplier of all pairs: to what Newton's method by default finds those of any pair
+  std::vector<std::pair<std::size_t, double>> changes;  // of the augmented Lagrange pairs
   Augmentation result;
+  double largest = 0.0;
+  for (std::size_t p = 0; p < self.pairs.size(); ++p)
+    for (std::size_t s = 0; s < self.pairs[p]->rows().size(); ++s) largest = std::max(largest, self.z_of(values, p, s).norm());
+  largest = self.maximum(largest);
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
-    detail::PairCoupling& pair = *self.pairs[p];
+    const detail::PairCoupling& pair = *self.pairs[p];
     if (!pair.regularisation() || pair.regularisation()->augmentations == 0) continue;
-    double mine = 0.0;
+    double change = 0.0, traction = 0.0;
     const std::vector<detail::NodeMultiplier> multipliers = self.multipliers_of(values, p);
-    for (std::size_t s = 0; s < pair.rows().size(); ++s) mine = std::max(mine, pair.violation(s, multipliers[s]));
-    const double violation = self.maximum(mine);
-    if (violation <= pair.regularisation()->tolerance) continue;
-    result.more = true;
+    for (std::size_t s = 0; s < pair.rows().size(); ++s) {
+      change = std::max(change, pair.change_of_update(s, multipliers[s], resolution));
+      traction = std::max(traction, pair.traction(s, multipliers[s]));
+    }
+    change = self.maximum(change);
+    traction = self.maximum(traction);
+    changes.emplace_back(p, change);
+    const double tolerance = pair.regularisation()->tolerance;
+    const std::optional<double> error = pair.error_of_multipliers(change, round);
+    if (error && *error <= std::max(tolerance * traction, known_to * largest)) continue;
+    const double relative = error ? *error / traction : std::numeric_limits<double>::infinity();
     result.exhausted |= round > pair.regularisation()->augmentations;
-    if (violation > result.violation) {
-      result.violation = violation;
+    if (!result.more || relative > result.error) {
+      result.error = relative;
+      result.change = change / traction;
+      result.tolerance = tolerance;
       result.pair = pair.definition().name;
     }
+    result.more = true;
+  }
+  if (!result.more || result.exhausted) return result;
+  for (const auto& [p, change] : changes) {
+    detail::PairCoupling& pair = *self.pairs[p];
+    pair.settle_stiffness(change, round);
     for (std::size_t s = 0; s < pair.rows().size(); ++s) pair.augment(s, self.z_of(values, p, s));
   }
   return result;

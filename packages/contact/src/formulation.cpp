@@ -25,8 +25,9 @@ void Penalty::describe(Parameters& parameters) {
 
 void AugmentedLagrange::describe(Parameters& parameters) {
   Penalty::describe(parameters);
-  parameters.add("tolerance", tolerance,
-                 Says("gap of closed nodes, and slip of sticking ones, over the shortest slave facet, at which a step is done").unit("-").above(0.0));
+  parameters.add(
+      "tolerance", tolerance,
+      Says("error of the multipliers over the largest one of the pair at which a step is done, as told from how they settle").unit("-").above(0.0));
   parameters.add("augmentations", augmentations, Says("updates of the multipliers after which the step is undone").at_least(1));
 }
 

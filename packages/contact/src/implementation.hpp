@@ -43,6 +43,8 @@ struct ContactSystem::Implementation {
   Timers timers;
   int dimension = 2;
   double extent = 0.0;  ///< largest coordinate of the reference positions
+  /// To which gaps and slips are known.
+  double position_round_off() const { return 4.0 * std::numeric_limits<double>::epsilon() * extent; }
   std::vector<std::unique_ptr<detail::PairCoupling>> pairs;
   std::vector<std::vector<LocalOrdinal>> multiplier_of;     ///< [pair][slave node] local index of the first component in z, -1: none
   std::vector<std::vector<ContactState>> marked, accepted;  ///< [pair][slave node] when last marked, of the accepted state
@@ -56,6 +58,7 @@ struct ContactSystem::Implementation {
   TieBlocks left_out;                 ///< L at the last condense(); null: nothing is
 
   RCP<const MultiVector> evaluated_at, accepted_at;  ///< positions of the last evaluation, of the accepted state; null: none yet
+  RCP<const Vector> accepted_multipliers;            ///< null: none yet, so that all are 0
 
   void evaluate(const RCP<const MultiVector>& x, bool derivatives, std::optional<StepFailure>& failure);
   /// The last evaluation was that of the accepted state.
@@ -106,6 +109,7 @@ struct ContactSystem::Implementation {
   bool any_ties() const {
     return std::any_of(pairs.begin(), pairs.end(), [](const auto& pair) { return pair->ties().any(); });
   }
+  /// From the last evaluation, that of the accepted state, and the accepted multipliers.
   void take_slip_references();
   std::vector<std::vector<ContactState>> states(const Vector& z) const;
   /// Collective. Positions x on the owned nodes: those of the last evaluation.

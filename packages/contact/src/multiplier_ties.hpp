@@ -7,7 +7,8 @@
 // Ties have the energy sum_b sigma_b |r_b|^2 / 2 with the gradient
 //   q_j = sum_b s_bj sigma_b r_b,   s_bb = 1,   s_bk = -T_bk,
 // a length times a weight. With rows of T_j the tangents, weighted gap and slip become
-//   g_j + n_j . q_j,   u_j - T_j q_j.
+//   g_j + n_j . q_j,   u_j - (T_j q_j - T_j^old q_j^old).
+// A gap is absolute and a slip one since the start of the step, ^old: so are their ties.
 // Forces, D and M are what they are. Where hardly anything is covered, g_b ~ 0 leaves z_b -> sum_k T_bk z_k. The node's condition goes to its
 // neighbours, whose gaps become g_k + T_bk g_b: redistribution is the limit. Equal multipliers have r = 0: patch tests stay exact.
 //

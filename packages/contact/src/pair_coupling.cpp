@@ -67,8 +67,13 @@ double PairCoupling::gap(std::size_t s, const NodeMultiplier& multiplier) const 
   return multiplier.shift.size() == 0 ? own_gap(s) : own_gap(s) + rows_[s].normal.dot(multiplier.shift);
 }
 
+// u_j - (T_j q - T_j^old q^old): slips are those of the step, so what a tie bears is so too. With T_j q alone, a tied node that sticks would slip
+// anew in each step by what its tie bears, until that bears nothing.
 TangentVector PairCoupling::slip(std::size_t s, const NodeMultiplier& multiplier) const {
-  return multiplier.shift.size() == 0 ? rows_[s].slip : TangentVector(rows_[s].slip - frame(s).tangents * multiplier.shift);
+  TangentVector slip = rows_[s].slip;
+  if (multiplier.shift.size() > 0) slip -= frame(s).tangents * multiplier.shift;
+  if (friction_ != nullptr && slip_[s].start.tie.size() > 0) slip += slip_[s].start.tie;
+  return slip;
 }
 
 // Of regularised conditions without history, lambda = 0:  (1 - theta) z_n > theta eps g / w  where  theta / (1 - theta) = c w / (eps A_j),  c = c_n
@@ -82,12 +87,23 @@ Complementarity PairCoupling::complementarity(std::size_t s, const NodeMultiplie
   return law;
 }
 
+bool PairCoupling::rubs(std::size_t s) const {
+  const SlaveNode& node = slave_nodes()[s];
+  const auto fixed = std::count(node.fixed.begin(), node.fixed.end(), true);
+  return friction_ != nullptr && !slip_[s].start.nodes.empty() && fixed < dimension_ - 1;
+}
+
+RegularisedNode PairCoupling::regularised_node(std::size_t s) const {
+  const double scale = pair_.youngs_modulus / size_ * start_[s].stiffening * settling_.hardening, weight = slave_nodes()[s].weight;
+  return {regularisation_->normal * scale, regularisation_->tangential * scale, complementarity_constant(s) * weight, weight, start_[s].multiplier};
+}
+
 Complementarity PairCoupling::law_of(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* complaint) const {
   const NodeRow& row = rows_[s];
   const SpatialVector& z = multiplier.z;
   const SlaveNode& node = slave_nodes()[s];
   const auto fixed = std::count(node.fixed.begin(), node.fixed.end(), true);
-  const bool rubs = friction_ != nullptr && !slip_[s].start.nodes.empty() && fixed < dimension_ - 1;
+  const bool rubs = this->rubs(s);
   const auto without_fixed = [&](Complementarity law, const Frame& in) {
     if (rubs && fixed > 0 && law.state != ContactState::open) hold_tangent(law, in, z, 0);
     return law;
@@ -105,10 +121,7 @@ Complementarity PairCoupling::law_of(std::size_t s, const NodeMultiplier& multip
     if (!covered(s)) return open_node(z);
     const Frame in = frame(s);
     if (rubs && fixed > 0) slip[0] = 0.0;
-    const double scale = pair_.youngs_modulus / size_ * start_[s].stiffening;
-    const RegularisedNode stiffness{regularisation_->normal * scale, regularisation_->tangential * scale, complementarity_constant(s) * node.weight,
-                                    node.weight, start_[s].multiplier};
-    return without_fixed(regularised(stiffness, gap, slip, row.covered, in, z, rubs ? &bound : nullptr), in);
+    return without_fixed(regularised(regularised_node(s), gap, slip, row.covered, in, z, rubs ? &bound : nullptr), in);
   }
   const double c = complementarity_constant(s);
   if (!closed(s, multiplier)) return open_node(z);
@@ -303,11 +316,76 @@ void PairCoupling::set_stiffness(std::size_t s, RegularisedStart& start) const {
   start.stiffening = 1.0 / std::min(1.0, covered / slave_nodes()[s].weight + tie);
 }
 
-double PairCoupling::violation(std::size_t s, const NodeMultiplier& multiplier) const {
-  const ContactState state = complementarity(s, multiplier).state;
-  if (state == ContactState::open) return 0.0;
-  const double slip = state == ContactState::stick ? this->slip(s, multiplier).norm() : 0.0;
-  return std::max(std::abs(gap(s, multiplier)), slip) / (slave_nodes()[s].weight * size_);
+double PairCoupling::distance_to_return_map(std::size_t s, const NodeMultiplier& multiplier, const RegularisedNode& node) const {
+  const bool rubs = this->rubs(s);
+  const double path = rubs ? slip_[s].start.path : 0.0;
+  const auto bound = [&](double pressure) { return friction_->bound(pressure, path); };
+  TangentVector slip = rubs ? this->slip(s, multiplier) : TangentVector(TangentVector::Zero(dimension_ - 1));
+  if (rubs && slave_nodes()[s].partly_fixed()) slip[0] = 0.0;
+  const Frame in = frame(s);
+  SpatialVector distance = return_map(node, gap(s, multiplier), slip, rows_[s].covered, rubs ? &bound : nullptr);
+  distance[0] -= multiplier.z.dot(in.normal);
+  if (rubs)
+    distance.tail(dimension_ - 1) -= in.tangents * multiplier.z;
+  else
+    distance.tail(dimension_ - 1).setZero();
+  return distance.norm();
+}
+
+double PairCoupling::mismatch(std::size_t s, const NodeMultiplier& multiplier) const {
+  if (!covered(s)) return multiplier.z.norm();
+  return distance_to_return_map(s, multiplier, regularised_node(s)) * rows_[s].covered / slave_nodes()[s].weight;
+}
+
+double PairCoupling::change_of_update(std::size_t s, const NodeMultiplier& multiplier, double resolution) const {
+  if (!covered(s)) return 0.0;
+  RegularisedNode node = regularised_node(s);
+  const Frame in = frame(s);
+  node.multiplier[0] = multiplier.z.dot(in.normal);
+  node.multiplier.tail(dimension_ - 1) = in.tangents * multiplier.z;
+  const double change = distance_to_return_map(s, multiplier, node);
+  if (change <= resolution * std::max(node.normal_stiffness, node.tangential_stiffness)) return 0.0;
+  return change * rows_[s].covered / slave_nodes()[s].weight;
+}
+
+double PairCoupling::traction(std::size_t s, const NodeMultiplier& multiplier) const {
+  return covered(s) ? multiplier.z.norm() * rows_[s].covered / slave_nodes()[s].weight : 0.0;
+}
+
+double PairCoupling::mismatch_of(double resolution) const {
+  double largest = 0.0;
+  for (std::size_t s = 0; s < rows_.size(); ++s) {
+    if (!covered(s)) continue;
+    const RegularisedNode node = regularised_node(s);
+    largest = std::max(largest, std::max(node.normal_stiffness, node.tangential_stiffness) * rows_[s].covered / slave_nodes()[s].weight);
+  }
+  return largest * resolution;
+}
+
+// Bodies that give way by a gap for a traction over k: an update adds eps g to the multipliers and divides gaps by 1 + eps/k = 1/q. All that is still
+// missing of them is  k g = eps g (q + q^2 + ...) = (k/eps) eps g  with k/eps = q / (1 - q)  and the change eps g that comes next. So slow updates
+// have small changes and large errors. Changes that do not fall are those of nodes that change their states, or round-off: then at least the change
+// itself is an error.
+std::optional<double> PairCoupling::error_of_multipliers(double change, int round) const {
+  if (change == 0.0) return 0.0;
+  if (round > 1 && change < last_change_) return change * change / (last_change_ - change);
+  if (settling_.ratio) return change * std::max(1.0, *settling_.ratio);
+  return std::nullopt;
+}
+
+// Where eps/k is less than `facet`, eps times facet k/eps makes it that. A ratio of two changes may be that of nodes that change their states: no
+// more than tenfold at once. The solution does not depend on eps.
+void PairCoupling::settle_stiffness(double change, int round) {
+  constexpr double facet = 10.0;  // the default stiffness, over that of a body that gives way by h/E for its traction
+  constexpr double most = 10.0;
+  double factor = 1.0;
+  if (round > 1 && change < last_change_) {
+    const double ratio = change / (last_change_ - change);
+    factor = std::clamp(facet * ratio, 1.0, most);
+    settling_.ratio = ratio / factor;
+  }
+  settling_.hardening *= factor;
+  last_change_ = factor * change;
 }
 
 // Small displacements: D, M and n are those of the reference configuration. With the multipliers' own functions as weights the gap is

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "mortise/contact/complementarity.hpp"
@@ -48,6 +49,7 @@ struct SlipReference {
   std::vector<GlobalOrdinal> nodes;  ///< nodes it was coupled to, itself among them; empty: none, so that it slips freely in this step
   std::vector<double> coefficients;  ///< [nodes] c_jm
   TangentVector position;            ///< tau_a . sum_m c_jm x_m; frozen geometry only
+  TangentVector tie;                 ///< tau_a . q, what its tie shifted the slip by; empty: open, or not tied
   double path = 0.0;                 ///< slipped until then [length]
 };
 
@@ -63,6 +65,12 @@ struct RegularisedStart {
   double stiffening = 1.0;   ///< factor of eps; of augmented Lagrange, so that a mean gap falls by as much in an update whatever is covered
 };
 
+/// What updates of the multipliers have shown of the bodies. Augmented Lagrange.
+struct Settling {
+  double hardening = 1.0;       ///< factor of eps of all nodes: how much stiffer than facets the bodies are
+  std::optional<double> ratio;  ///< their stiffness against the slowest of the changes, over eps; none: not known yet
+};
+
 /// A pair, its interface and what was last evaluated.
 class PairCoupling {
  public:
@@ -76,8 +84,10 @@ class PairCoupling {
   /// Evaluates at x, the positions of the last search().
   void evaluate(const MultiVector& x, bool derivatives, std::optional<StepFailure>& failure);
 
-  /// Takes the couplings of the last evaluate(), at an accepted state, as those that later slips are measured against. Friction only.
-  void take_slip_reference();
+  /// Takes the couplings and ties of the last evaluate(), at an accepted state, as those that later slips are measured against. Friction only.
+  /// @param multipliers  [slave nodes]
+  /// @param states       [slave nodes]
+  void take_slip_reference(const std::vector<NodeMultiplier>& multipliers, const std::vector<ContactState>& states);
   /// The state of the last evaluate() is accepted: what is covered now, and how near, decides about adapt_surface() and newly_covered() in the next
   /// step.
   void accept_cover();
@@ -92,6 +102,7 @@ class PairCoupling {
   template <class Multiplier>
   void accept_multipliers(const Multiplier& z) {
     for (std::size_t s = 0; s < accepted_start_.size(); ++s) accepted_start_[s] = start_from(s, z(s));
+    accepted_settling_ = settling_;
   }
   /// Adds the slip of an accepted state to the path. Friction only; take_slip_reference() follows.
   void accept_slip(std::size_t s, ContactState state);
@@ -135,7 +146,7 @@ class PairCoupling {
   void allow_overlap(double depth) { overlap_ = depth; }
   /// g of slave node s at the last evaluate(), beyond the overlap that is allowed.
   double own_gap(std::size_t s) const { return rows_[s].gap + overlap_ * slave_nodes()[s].weight; }
-  /// That and n . q; u - T q.
+  /// That and n . q; u - (T q - T^old q^old).
   double gap(std::size_t s, const NodeMultiplier& multiplier) const;
   TangentVector slip(std::size_t s, const NodeMultiplier& multiplier) const;
   /// c_n of slave node s: unless given E / (h A_j), of regularised conditions a tenth of that.
@@ -162,9 +173,20 @@ class PairCoupling {
   Frame frame(std::size_t s) const { return make_frame(rows_[s].normal, axes_[s]); }
   /// An accepted state may give nodes whose normal has come near it another reference axis of the tangents. Friction only.
   void choose_axes();
-  /// How far conditions that are regularised are from holding exactly: |gap| of a closed node, |slip| of a sticking one, over A_j h, as of
-  /// exact ones.
-  double violation(std::size_t s, const NodeMultiplier& multiplier) const;
+  /// Augmented Lagrange, as a force over A_j: how far z of node s is from what its conditions give.
+  double mismatch(std::size_t s, const NodeMultiplier& multiplier) const;
+  /// The same with lambda = z, what an update and the next solve begin with: eps g / w of a closed node, eps u / w of one that sticks. Less than
+  /// `resolution` in gap or slip [length] is none.
+  double change_of_update(std::size_t s, const NodeMultiplier& multiplier, double resolution) const;
+  /// |z_j| w / A_j.
+  double traction(std::size_t s, const NodeMultiplier& multiplier) const;
+  /// The largest of mismatch() that a gap or slip of `resolution` [length] makes.
+  double mismatch_of(double resolution) const;
+  /// What `change`, the largest change_of_update() over all ranks, and those of earlier rounds and steps say of the error of the multipliers. None:
+  /// nothing yet.
+  std::optional<double> error_of_multipliers(double change, int round) const;
+  /// From now on updates shall converge as fast as those of a body as stiff as its facets; before the multipliers are updated.
+  void settle_stiffness(double change, int round);
   /// The multipliers become those of z.
   void augment(std::size_t s, const SpatialVector& z) { start_[s] = start_from(s, z); }
   /// C and its linearisation, of the law that the node obeys. A node with a fixed component carries no shear traction.
@@ -172,12 +194,18 @@ class PairCoupling {
   Complementarity complementarity(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* complaint = nullptr) const;
   /// Derivative of C of node s, whose linearisation is `law`, in entry dim c + i of its coupled nodes, at fixed z and q.
   SpatialVector constraint_gradient(const Complementarity& law, std::size_t s, std::size_t entry, const NodeMultiplier& multiplier) const;
-  /// Derivative of C of node s with respect to q_j: C sees g + n . q and u - T q.
+  /// Derivative of C of node s with respect to q_j: C sees g + n . q and u - (T q - T^old q^old).
   SpatialMatrix shift_factor(const Complementarity& law, std::size_t s) const;
 
  private:
   bool uses_reference() const { return pair_.options.geometry == ContactGeometry::reference; }
   void find_nearest_facets();
+  /// Of a regularised node that is covered.
+  RegularisedNode regularised_node(std::size_t s) const;
+  /// Whether node s bears shear traction, if it is closed.
+  bool rubs(std::size_t s) const;
+  /// How far z is from the return map from lambda; in all of |z - z'|.
+  double distance_to_return_map(std::size_t s, const NodeMultiplier& multiplier, const RegularisedNode& node) const;
   /// C and its linearisation at fixed q.
   Complementarity law_of(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* complaint) const;
   void follow_pattern();
@@ -212,7 +240,9 @@ class PairCoupling {
   std::vector<SlipHistory> slip_;  ///< [slave nodes]; empty without friction
   std::optional<Regularisation> regularisation_;
   std::vector<RegularisedStart> accepted_start_, start_;  ///< [slave nodes]; empty unless regularised
-  std::vector<int> axes_;                                 ///< [slave nodes] reference axis of the tangents; -1: none chosen yet
+  Settling accepted_settling_, settling_;
+  double last_change_ = 0.0;  ///< of the round before, at the present stiffness
+  std::vector<int> axes_;     ///< [slave nodes] reference axis of the tangents; -1: none chosen yet
   long slip_evaluations_ = 0;
   std::vector<double> frozen_gap_;
   std::vector<LocalOrdinal> position_in_row_;

@@ -35,7 +35,7 @@ void PairCoupling::place_slip_histories() {
   }
 }
 
-void PairCoupling::take_slip_reference() {
+void PairCoupling::take_slip_reference(const std::vector<NodeMultiplier>& multipliers, const std::vector<ContactState>& states) {
   const auto x = local_positions_->getLocalViewHost(Tpetra::Access::ReadOnly);
   for (std::size_t s = 0; s < slip_.size(); ++s) {
     SlipReference& reference = slip_[s].accepted;
@@ -44,8 +44,10 @@ void PairCoupling::take_slip_reference() {
     reference.nodes.clear();
     reference.coefficients.clear();
     reference.position = TangentVector::Zero(dimension_ - 1);
+    reference.tie.resize(0);
     if (!covered(s)) continue;
     const Frame in = frame(s);
+    if (states[s] != ContactState::open && multipliers[s].shift.size() > 0) reference.tie = in.tangents * multipliers[s].shift;
     for (std::size_t c = 0; c < coupled.size(); ++c) {
       const double coefficient = row.coefficients[c] + (coupled[c] == slave_nodes()[s].local_node ? row.D : 0.0);
       if (coefficient == 0.0) continue;
@@ -58,6 +60,7 @@ void PairCoupling::take_slip_reference() {
 
 void PairCoupling::start_step() {
   start_ = accepted_start_;
+  settling_ = accepted_settling_;
   marked_covered_ = accepted_covered_;
   if (regularisation_ && regularisation_->augmentations > 0)
     for (std::size_t s = 0; s < start_.size(); ++s) set_stiffness(s, start_[s]);

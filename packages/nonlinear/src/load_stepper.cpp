@@ -46,15 +46,16 @@ class StepSolver {
     report_.solves = 0;
   }
 
-  /// And again as long as augmented Lagrange multipliers are updated.
+  /// And again as long as augmented Lagrange multipliers are updated. A solve that needed no Newton step found the conditions of the multipliers met
+  /// as well as its tolerances tell: then further updates have no effect.
   void solve(Vector& x) {
     int round = 0;
+    NewtonReport next;
     do {
-      NewtonReport next;
       solve_newton(system_, time_, options_, x, next, observer_);
       report_.iterations.insert(report_.iterations.end(), next.iterations.begin(), next.iterations.end());
       ++report_.solves;
-    } while (system_.augment(x, ++round));
+    } while ((round == 0 || next.newton_steps() > 0) && system_.augment(x, ++round));
   }
 
  private:

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <limits>
 
 #include "active_set_hash.hpp"
@@ -139,9 +140,14 @@ bool SemiSmoothSystem::augment(const Vector& x, int round) {
   self.evaluate_contact(*displacement(x), true);
   const Augmentation result = self.parts.contact->augment(*multipliers(x), round);
   if (result.exhausted)
-    throw StepFailure(FailureKind::augmentation,
-                      fmt::format("contact \"{}\": after {} updates of the multipliers, gaps or slips of {:.2e} facets are left", result.pair,
-                                  round - 1, result.violation));
+    throw StepFailure(
+        FailureKind::augmentation,
+        fmt::format("contact \"{}\": after {} updates of the multipliers, one more would change them by {:.2e} of the largest one, {}; allowed "
+                    "is an error of {:.0e}; please allow more \"augmentations\", or take smaller steps",
+                    result.pair, round - 1, result.change,
+                    std::isfinite(result.error) ? fmt::format("and they are wrong by about {:.2e} of it", result.error)
+                                                : std::string("and they have not fallen once"),
+                    result.tolerance));
   return result.more;
 }
 

@@ -291,7 +291,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, Scene scene, const RunOp
           throw StepFailure(far.kind(), fmt::format("{}; the state that was found is too far away: {}", statics.words, far.what()));
         }
       }
-      jump.verify(*system.displacement(from), *system.displacement(to), system.time() - last_time());
+      jump.verify(*system.displacement(from), *system.displacement(to), system.time() - last_time(), check && check->went_far());
       return true;
     };
     // Smaller tries of a step often end where less can be told: then what an earlier one showed is said again.

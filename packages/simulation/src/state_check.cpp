@@ -82,11 +82,13 @@ bool StateCheck::verify(const SemiSmoothSystem& system, const Vector& before, Ve
   const double deformation = *std::max_element(motions.deformation.begin(), motions.deformation.end());
   std::vector<std::string> gone;
   std::vector<int> which;
+  went_far_ = false;
   for (int b = 0; b < static_cast<int>(bodies_.size()); ++b) {
     double moved = motions.imposed;
     for (int other = 0; other < static_cast<int>(bodies_.size()); ++other)
       if (other != b) moved = std::max(moved, size_of(*modes, held, other));
     const double allowed = allowance * (moved + deformation + resolution_), length = model_.parts().length;
+    went_far_ = went_far_ || size_of(*modes, motions.rigid, b) > allowed;
     const bool is_flight = size_of(*modes, motions.rigid, b) > std::max(allowed, length);
     if (size_of(*modes, loosely, b) <= allowed && !is_flight) continue;
     gone.push_back(fmt::format("body '{}' ({}; allowed: {:.3g}, twice what moves and deforms around it)", mesh.blocks[bodies_[b]].name,

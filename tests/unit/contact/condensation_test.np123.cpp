@@ -90,9 +90,9 @@ TEST_P(Condensation, StepEqualsSaddlePointStep) {
 
   EXPECT_LE((increment - whole.head(n)).norm(), 1e-11 * whole.head(n).norm());
   EXPECT_LE((Fixture::dense(z_new, z_ids) - whole.tail(m)).norm(), 1e-11 * whole.tail(m).norm());
-  // Every diagonal of the condensed matrix is positive, as relaxation needs it. That of a penalty is what its stiffness makes it.
-  // In space a node that slips at the edge of its cone has only c_t D_jj^2 of its own across the slip, which the made-up springs may outdo.
-  // So has there a corner of quadratic facets of whose weight a tenth is covered: the facet's turn outdoes D_jj.
+  // Every diagonal of the condensed matrix is positive, as relaxation needs it. That of a penalty is what its stiffness makes it. In 3D a node that
+  // slips at the edge of its cone has only c_t D_jj^2 of its own across the slip, which the made-up springs may outdo. So has there a corner of
+  // quadratic facets of whose weight a tenth is covered: the facet's turn outdoes D_jj.
   const bool slips_in_space = one.surfaces.dimension == 3 && one.surfaces.options.friction.options->acts();
   const bool quadratic_in_space = one.surfaces.dimension == 3 && one.surfaces.slave_facets.front().size() > 4;
   if (one.surfaces.options.formulation.options->elimination() == Elimination::momentum && !slips_in_space && !quadratic_in_space)

@@ -1,4 +1,4 @@
-// The change of unknowns and of equations that multigrid is given, on flat surfaces that keep their normals and a symmetric bulk: what is left of the
+// The change of unknowns and of equations that multigrid is given, on flat surfaces that keep their normals and a symmetric bulk. The rest of the
 // condensed system has no part in the eliminated directions and is symmetric, whatever slips.
 
 #include <gtest/gtest.h>

@@ -41,7 +41,7 @@ inline std::vector<NamedFormulation> other_formulations() {
           {"augmented lagrange of standard mortar", augmented(Coupling::standard_mortar)}};
 }
 
-/// Whether a formulation is there for surfaces in space.
+/// Whether a formulation exists for 3D surfaces.
 inline bool in_space(const NamedFormulation& formulation) {
   const Coupling coupling = formulation.options->coupling();
   return coupling != Coupling::node_to_segment && coupling != Coupling::variational_mortar;

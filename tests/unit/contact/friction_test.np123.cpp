@@ -114,6 +114,67 @@ TEST(Slip, PathAndWorkGrowWithAcceptedSteps) {
   EXPECT_GT(contact.friction_evaluations(), 0);
 }
 
+// With ties bearing shear, in stick: a step in which nothing changes has no slip, after tries that were undone and in a rigid motion too. What ties
+// give way by is a part of slip only as far as it changes.
+TEST(Slip, OfTiedNodesVanishesInADwell) {
+  TwoSurfaces plane = test::arch_on_ground();
+  for (test::Point& x : plane.master) x[0] *= 4.15 / 4.6;
+  auto coulomb = std::make_shared<CoulombFriction>();
+  coulomb->coefficient = Expression(3.0);
+  for (TwoSurfaces surfaces : {plane, test::hardly_covered(test::dome_on_waves()), test::hardly_covered_at_a_corner(test::dome_on_waves(true))}) {
+    const int dimension = surfaces.dimension;
+    SCOPED_TRACE(dimension);
+    surfaces.options.friction.options = coulomb;
+    Fixture fixture(surfaces, Tpetra::getDefaultComm());
+    ContactSystem& contact = *fixture.contact;
+    const std::vector<char> held(fixture.nodes->getNodeNumElements(), 0);
+    const auto z = fixture.multipliers([](std::size_t node) { return 5.0 + std::sin(1.3 * static_cast<double>(node)); });
+    Vector d(fixture.dofs), guess(contact.multiplier_map());
+    const GlobalOrdinal offset = fixture.dofs->getMaxAllGlobalIndex() + 1;
+    const auto largest_slip_condition = [&](const Vector& at, const Vector& multipliers) {
+      std::optional<StepFailure> failure;
+      contact.evaluate(at, false, failure);
+      EXPECT_FALSE(failure);
+      EXPECT_GT(contact.norms(multipliers).sticking, 0);
+      Vector C(contact.multiplier_map());
+      contact.complementarity(multipliers, C);
+      double mine = 0.0, all = 0.0;
+      for (const auto& state : contact.node_states(0, multipliers)) {
+        if (state.state != ContactState::stick) continue;
+        for (int i = 1; i < dimension; ++i) {
+          const LocalOrdinal row = C.getMap()->getLocalElement(offset + dimension * state.node + i);
+          mine = std::max(mine, std::abs(C.getLocalViewHost(Tpetra::Access::ReadOnly)(row, 0)));
+        }
+      }
+      Teuchos::reduceAll(*Tpetra::getDefaultComm(), Teuchos::REDUCE_MAX, mine, Teuchos::outArg(all));
+      return all;
+    };
+    contact.start_step(d, held, guess);
+    EXPECT_GT(largest_slip_condition(d, *z), 1e-2);  // the first shear of the ties counts
+    contact.accept_states(*z);
+    for (int tries = 0; tries < 2; ++tries) {
+      contact.start_step(d, held, guess);
+      EXPECT_LE(largest_slip_condition(d, *z), 1e-12);
+      Vector changed(*z, Teuchos::Copy);
+      changed.scale(1.1);
+      EXPECT_GT(largest_slip_condition(d, changed), 1e-3);
+    }
+    if (dimension > 2) continue;
+    const double angle = 1.1, c = std::cos(angle), s = std::sin(angle);
+    const auto turned = motion(fixture, surfaces, [&](bool, const test::Point& X) {
+      return test::Point{c * X[0] - s * X[1] - X[0] + 3.0, s * X[0] + c * X[1] - X[1] - 2.0};
+    });
+    const auto turned_z = rcp(new Vector(contact.multiplier_map()));
+    for (std::size_t k = 0; k < turned_z->getLocalLength(); k += 2) {
+      const auto from = z->getLocalViewHost(Tpetra::Access::ReadOnly);
+      const auto to = turned_z->getLocalViewHost(Tpetra::Access::ReadWrite);
+      to(k, 0) = c * from(k, 0) - s * from(k + 1, 0);
+      to(k + 1, 0) = s * from(k, 0) + c * from(k + 1, 0);
+    }
+    EXPECT_LE(largest_slip_condition(*turned, *turned_z), 1e-10);
+  }
+}
+
 TEST(Slip, APairWithoutFrictionRemembersNothing) {
   TwoSurfaces surfaces = flat(ContactGeometry::current, 0.3);
   surfaces.options.friction = ContactOptions().friction;

@@ -1,5 +1,5 @@
 #pragma once
-// Cases that the linearised contact is tested on: formulations, friction, fixed nodes, cover, in the plane and in space.
+// Cases that the linearised contact is tested on: formulations, friction, fixed nodes, cover, in 2D and 3D.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ struct Case {
   TwoSurfaces surfaces;
 };
 
-// Quadratic facets: middles whose multipliers act on corners, of the same and of other ranks, with and without a multiplier of their own.
+// Quadratic facets: mid-side nodes whose multipliers act on corners, of the same and of other ranks, with and without a multiplier of their own.
 inline void add_quadratic(std::vector<Case>& all) {
   const auto add = [&](const std::string& name, const TwoSurfaces& linear, bool master, std::optional<double> coefficient) {
     all.push_back({"quadratic, " + name, quadratic(linear, true, master)});
@@ -134,7 +134,7 @@ inline std::vector<Case> cases() {
   all.back().surfaces.options.mortar.gap_weighting = GapWeighting::standard;
   end_behind(*add_friction("hardly covered, reference", 0.12), 4.2);
   all.back().surfaces.options.geometry = ContactGeometry::reference;
-  // In space.
+  // 3D.
   const auto add_in_space = [&](const std::string& name, std::optional<double> coefficient, bool triangles = false) {
     if (coefficient)
       add_friction("space, " + name, *coefficient);
@@ -232,7 +232,7 @@ inline void start(Fixture& fixture) {
   fixture.contact->augment(*fixture.multipliers([](std::size_t node) { return 0.3 * node; }), 1);
 }
 
-// Some nodes pressed, some open (in space those further on too); the tangential part is not zero, as it is before Newton has converged.
+// Some nodes pressed, some open (in 3D those further on too); the tangential part is not zero, as it is before Newton has converged.
 inline double pressure(std::size_t node) {
   return node == 1 || node == 2 || node == 3 || node == 4 ? 3.0 + node : (node == 0 ? 2.0 : node > 5 && node % 3 != 0 ? 2.5 : 0.0);
 }

@@ -44,7 +44,7 @@ TEST_P(StartRule, ClosesNodesThatTouchAndSeedsUnheldBodies) {
   EXPECT_LE(fixture.contact->norms(z).active, 2);
 }
 
-/// A flat slave of squares, 4 x 4 nodes at unit distance, one column of them in the plane's case 6 nodes; the master, at height 0, ends at x = `end`.
+/// A flat slave of squares, 4 x 4 nodes at unit distance; in 2D one row of 6 nodes. The master, at height 0, ends at x = `end`.
 TwoSurfaces flat_up_to(double end, bool space) {
   TwoSurfaces flat = space ? test::dome_on_waves() : TwoSurfaces();
   if (!space) {
@@ -60,8 +60,8 @@ TwoSurfaces flat_up_to(double end, bool space) {
 }
 
 // The slave comes to stand over the master by a tenth of a facet more. Under an even pressure p the nodes that begin to be covered take p: then
-// nothing of a condition changes. In space they are tied to one another as well: sweeps end where one changes less than 1e-8 of p, and
-// each that is new has a share of less than (c' + eta C) / C = 0.063 in the others, with c' / C = 0.05 / 0.95 and eta = 0.01.
+// nothing of a condition changes. In 3D they are tied to one another as well: sweeps end where one changes less than 1e-8 of p. Each node that is new
+// has a share of less than (c' + eta C) / C = 0.063 in the others, with c' / C = 0.05 / 0.95 and eta = 0.01.
 TEST(FollowCover, StartsWhatBeginsToBeCoveredWithTheMeanOfItsNeighbours) {
   for (const bool space : {false, true}) {
     const TwoSurfaces flat = flat_up_to(space ? 1.9 : 2.9, space);

@@ -23,12 +23,12 @@ namespace mortise::test {
 
 using Point = std::array<double, 3>;  // z = 0 in the plane
 
-/// Node ids: slave nodes first, then master nodes. The slave lies above, travelling to +x with its outward normal down; the master below,
-/// travelling to -x with its outward normal up. In space, and where they are quadratic, facets are listed.
+/// Node ids: slave nodes first, then master nodes. The slave lies above, travelling to +x with its outward normal down; the master below, travelling
+/// to -x with its outward normal up. In 3D, and where they are quadratic, facets are listed.
 struct TwoSurfaces {
   int dimension = 2;
   std::vector<Point> slave, master;
-  SurfaceFacets slave_facets, master_facets;  ///< node ids; empty in the plane: the polylines
+  SurfaceFacets slave_facets, master_facets;  ///< node ids; empty in 2D: the polylines
   std::vector<std::array<bool, 3>> fixed;     ///< [all nodes]
   ContactOptions options;
   InterfaceMeasure measure;
@@ -94,8 +94,8 @@ inline TwoSurfaces dome_on_waves(bool triangles = false) {
   return surfaces;
 }
 
-/// Of dome_on_waves(): the master ends a tenth of a facet behind the nodes of the slave's last but one row, so that the last row, nodes 3, 7, 11 and
-/// 15, is tied to it.
+/// Of dome_on_waves(): the master ends a tenth of a facet behind the nodes of the slave's last but one row. So the last row, nodes 3, 7, 11 and 15,
+/// is tied to it.
 inline TwoSurfaces hardly_covered(TwoSurfaces surfaces) {
   for (Point& x : surfaces.master) x[0] *= 2.2 / 2.7;
   return surfaces;
@@ -110,7 +110,7 @@ inline TwoSurfaces hardly_covered_at_a_corner(TwoSurfaces surfaces) {
   return surfaces;
 }
 
-/// The same surfaces of quadratic facets on either side, with the middles of edges a little off the straight ones.
+/// The same surfaces of quadratic facets on either side, with the mid-side nodes a little off the straight edges.
 inline TwoSurfaces quadratic(const TwoSurfaces& linear, bool slave, bool master) {
   TwoSurfaces result = linear;
   const auto polyline = [](std::size_t first, std::size_t count) {

@@ -10,7 +10,7 @@ namespace {
 
 using State = FiniteJ2::State;
 
-/// Flows first one way, then another, in the plane, so that the history has no axes in common with what comes.
+/// Flows first one way, then another, in one plane, so that the history has no axes in common with what comes.
 State strained(const FiniteJ2& law, const Matrix3& tilt = Matrix3::Identity()) {
   Matrix3 first = Matrix3::Identity(), second;
   first(0, 1) = 0.2;

@@ -146,8 +146,8 @@ double precise_increment(const LudwikHardening& law, double trial, double stiffn
 }
 
 TEST(ReturnMap, FirstPlasticIncrementOfLudwikOverTwelveDecades) {
-  // From alpha = 0, where the slope is infinite, to trial stresses r above the yield stress. alpha follows from a difference r of numbers of
-  // order 1, so that a relative error of a few eps / (n r) is in the trial stress itself.
+  // From alpha = 0, where the slope is infinite, to trial stresses r above the yield stress. alpha follows from a difference r of numbers of order 1.
+  // So the trial stress itself has a relative error of a few eps / (n r).
   constexpr double eps = std::numeric_limits<double>::epsilon();
   for (const auto& [elastic, law] : {std::pair{steel, steel_hardening}, {aluminium, aluminium_hardening}}) {
     const double stiffness = 3.0 * elastic.shear_modulus();

@@ -79,7 +79,7 @@ TYPED_TEST(EveryLaw, HasAPlaneStressForm) {
       const Matrix3 stress = law.stress(state.F, {});
       EXPECT_LE(std::abs(stress(2, 2)), 1e-11 * 1000.0) << state.name << " nu " << nu;
       EXPECT_LE(tangent_error<PlaneComponents>(law, state.F), bound) << state.name << " nu " << nu;
-      // As W is least in F_33, the derivatives of what it is there are the stresses in the plane.
+      // As W is least in F_33, the derivatives of that least value are the in-plane stresses.
       Matrix3 P = Matrix3::Zero();
       for (int k = 0; k < 2; ++k)
         for (int l = 0; l < 2; ++l) {

@@ -30,7 +30,7 @@ std::vector<Pair> facing(const std::vector<BodyDescription>& bodies, const std::
   return facing_elements(BodySet(bodies), contact_flags(BodySet(bodies), bodies, sides));
 }
 
-// Middles below 1, 3, 5, 7, 9, 11, above 2, 6, 10: those above are as far from two below, and take one of them each; with a gap between them too.
+// Midpoints below 1, 3, 5, 7, 9, 11, above 2, 6, 10: those above are as far from two below, and take one of them each. With a gap between them too.
 TEST(FacingElements, AreOneAnothersNearest) {
   for (const double gap : {0.0, 0.5}) {
     const auto pairs = facing({{"lower", {}, row(6, 0.0), CellShape::quadrilateral4}, {"upper", {}, row(3, 1.0 + gap), CellShape::quadrilateral4}},

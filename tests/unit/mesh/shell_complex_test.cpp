@@ -1,4 +1,4 @@
-// Surfaces of rigid bodies of space.
+// Surfaces of rigid bodies in 3D.
 
 #include "mortise/mesh/shell_complex.hpp"
 

@@ -1,4 +1,4 @@
-// The pure descriptions of all kinds of bodies of space: conformity, orientation, volumes, numbering, sides, inverse connectivity.
+// The pure descriptions of all kinds of 3D bodies: conformity, orientation, volumes, numbering, sides, inverse connectivity.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The built-in kinds of meshes of space: where their sides lie, their parameters and errors.
+// The built-in kinds of 3D meshes: where their sides lie, their parameters and errors.
 
 #include "mortise/mesh/volume_generators.hpp"
 

@@ -1,4 +1,4 @@
-// Distributed meshes of space: volumes, surfaces, ownership, ghosts, sets; the same for every number of ranks; errors.
+// Distributed 3D meshes: volumes, surfaces, ownership, ghosts, sets; the same for every number of ranks; errors.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

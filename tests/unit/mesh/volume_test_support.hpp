@@ -1,5 +1,5 @@
 #pragma once
-// Small meshes of space of every built-in kind, with the volumes that their linear cells fill; volumes by cells and by surfaces.
+// Small 3D meshes of every built-in kind, with the volumes that their linear cells fill; volumes by cells and by surfaces.
 
 #include <gtest/gtest.h>
 
@@ -93,7 +93,7 @@ inline std::vector<ExampleVolume> example_volumes() {
           {"sphere octant", octant, {"equator", "sphere", "x plane", "y plane"}, 0.0}};
 }
 
-/// visit(complex) of a body of space.
+/// visit(complex) of a 3D body.
 template <class Visit>
 void with_volume(const VolumeMesh& options, CellShape cell, const Visit& visit) {
   std::visit(

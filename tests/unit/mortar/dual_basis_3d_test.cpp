@@ -1,4 +1,4 @@
-// What D, M and the gap have to be in space: sums, biorthogonality, fields that are transferred exactly, slivers, nodes without multiplier.
+// What D, M and the gap have to be in 3D: sums, biorthogonality, fields that are transferred exactly, slivers, nodes without multiplier.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -171,9 +171,9 @@ TEST(MortarPartlyFixedInSpace, TurnsTheNormalIntoTheFreeDirections) {
   EXPECT_FALSE(evaluated(held)->interface->slave_nodes()[4].carries_multiplier);
 }
 
-// The same integrals from the definition: a warped slave facet over triangles, 300 x 300 points in its coordinates, areas on the plane across its
-// normal at the centre, the line along it through each point searched through all triangles. The integrands are continuous with kinks: the sum is off
-// by about (1/300)^2 of the second derivatives.
+// The same integrals from the definition: a warped slave facet over triangles, 300 x 300 points in its coordinates. Areas are those on the plane
+// across its normal at the centre. The line along that normal through each point is searched through all triangles. The integrands are continuous
+// with kinks: the sum is off by about (1/300)^2 of the second derivatives.
 TEST(MortarIntegralsInSpace, MatchBruteForce) {
   Surfaces surfaces = waves(1, 3, 0.1, FacetKind::quadrilaterals, FacetKind::triangles);
   surfaces.options.coupling = Coupling::standard_mortar;

@@ -132,9 +132,9 @@ TEST(MortarPartlyFixed, TurnsTheNormalIntoTheFreeDirection) {
   EXPECT_FALSE(evaluated(held)->interface->slave_nodes()[1].carries_multiplier);
 }
 
-// The same integrals from the definition: 40000 points on each slave facet, the ray along the normal searched through all master facets,
-// the dual basis from the 2 x 2 system of the sums. The masters' nodes are kinks of the integrand and fall between points: the rule's
-// error is (jump of the slope) (2/40000)^2 / 8 < 1e-9 per kink.
+// The same integrals from the definition: 40000 points on each slave facet, the ray along the normal searched through all master facets. The dual
+// basis comes from the 2 x 2 system of the sums. The masters' nodes are kinks of the integrand and fall between points. So the rule's error is (jump
+// of the slope) (2/40000)^2 / 8 < 1e-9 per kink.
 TEST(MortarIntegrals, MatchBruteForce) {
   for (const bool axisymmetric : {false, true})
     for (const auto weighting : {GapWeighting::dual, GapWeighting::standard}) {

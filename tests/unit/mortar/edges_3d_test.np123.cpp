@@ -1,4 +1,4 @@
-// Nodes on edges and corners of a slave surface in space take the master's normal; on any number of ranks the same one.
+// Nodes on edges and corners of a slave surface in 3D take the master's normal; on any number of ranks the same one.
 
 #include <gtest/gtest.h>
 

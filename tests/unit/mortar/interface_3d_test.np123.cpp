@@ -1,4 +1,4 @@
-// The interface in space on any number of ranks: the same values as on one, searches that change nothing, failures that are reported.
+// The interface in 3D on any number of ranks: the same values as on one, searches that change nothing, failures that are reported.
 
 #include <gtest/gtest.h>
 

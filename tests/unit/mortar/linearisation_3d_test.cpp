@@ -1,4 +1,4 @@
-// Derivatives of D, M, the weighted gap and the nodal normals in space against central differences.
+// Derivatives of D, M, the weighted gap and the nodal normals in 3D against central differences.
 
 #include <gtest/gtest.h>
 
@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(Cases, MortarLinearisationInSpace, ::testing::Range(std
 
 // Matching surfaces whose nodes moved apart by t along some directions: edges cross at angles of the size of t, and the vertices between them move
 // 1/t times as far as the nodes. The integrals are smooth along the way for t > 0, so their derivatives tend to a limit, linearly with t. On the way
-// the ones at 1e-3 and below are those of the exact integrals, which differ from the rule's by its error over that angle.
+// the derivatives at 1e-3 and below are those of the exact integrals. These differ from the rule's by its error over that angle.
 TEST(MortarLinearisationInSpaceNearTies, StaysThatOfTheWay) {
   for (const auto kind : {FacetKind::quadrilaterals, FacetKind::triangles}) {
     const Patch patch{2, 2, 0.0, 2.0, 0.0, 2.0, kind, [](double x, double y) { return 0.1 * std::sin(1.7 * x) * std::cos(1.3 * y); }};
@@ -96,7 +96,7 @@ TEST(MortarLinearisationInSpaceNearTies, StaysThatOfTheWay) {
   }
 }
 
-// Grids whose lines coincide in part, as those of bodies meshed with numbers that are multiples of one another do: whichever way round-off puts the
+// Grids whose lines coincide in part, as those of bodies meshed with numbers that are multiples of one another do. Whichever way round-off puts the
 // lines, the integrals are the same, and move as their derivatives say.
 TEST(MortarIntegralsInSpaceAtTies, AreContinuous) {
   const Surfaces tied = two_patches({12, 12, 0.2, 0.8, 0.2, 0.8}, {16, 16, 0.0, 1.0, 0.0, 1.0});

@@ -77,9 +77,9 @@ TEST_P(MortarLinearisation, SecondDerivativesAgreeWithDifferencesOfFirstOnes) {
   expect_exact_curvatures(surfaces, evaluated(surfaces, true).get());
 }
 
-// The overlaps of a master node's two facets change sides of a slave node: what is left of one of them may be too short to count, while the end of
-// the other is where it was. First derivatives are continuous there: they change by no more than what moves, 1e-10 of a facet, times second ones, of
-// size 10.
+// The overlaps of a master node's two facets change sides of a slave node. The rest of one of them may be too short to count, while the end of the
+// other is where it was. First derivatives are continuous there: they change by no more than what moves, 1e-10 of a facet, times second ones, of size
+// 10.
 TEST(MortarLinearisation, IsContinuousWhereAMasterNodePassesASlaveNode) {
   for (const auto coupling : {Coupling::dual_mortar, Coupling::standard_mortar}) {
     TwoLines lines;

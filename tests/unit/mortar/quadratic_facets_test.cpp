@@ -137,7 +137,7 @@ TEST(NonNegativeBasis, IsTheLeastOne) {
   expect_least_non_negative<Quadrilateral8>(3, square, 0.375);
 }
 
-/// Flat, with middles in the middles of straight edges.
+/// Flat, with mid-side nodes at the midpoints of straight edges.
 Surfaces flat_plane(int slaves, int masters, double low, double high, bool quadratic_master) {
   TwoLines lines;
   lines.slave = line(slaves, 0.0, 1.0, [](double) { return 0.0; });
@@ -230,7 +230,7 @@ TEST(QuadraticFacetsFlat, ShareTheFunctionsOfNodesWithoutMultiplier) {
   }
 }
 
-// Two coaxial arcs of radii 1 and 1.1, of quadratic facets: the distance is that of the circles up to the error of facets and normals, which falls
+// Two coaxial arcs of radii 1 and 1.1, of quadratic facets. The distance is that of the circles up to the error of facets and normals, which falls
 // with the third power of the facets' size at least.
 TEST(QuadraticFacetsCurved, MeasureTheGapOfArcs) {
   const auto error = [](int count) {
@@ -254,7 +254,7 @@ TEST(QuadraticFacetsCurved, MeasureTheGapOfArcs) {
   EXPECT_GT(error(4) / error(8), 8.0);
 }
 
-// Through corners, middles and edges of parts alike, far beyond the reach.
+// Through corners, mid-side nodes and edges of parts alike, far beyond the reach.
 TEST(QuadraticFacetsFlat, AreFoundHoweverFar) {
   for (const bool space : {false, true})
     for (const auto kind : {quads, triangles}) {

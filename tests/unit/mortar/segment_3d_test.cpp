@@ -1,4 +1,4 @@
-// Overlaps of facets in space, the integrals over them, and their derivatives.
+// Overlaps of facets in 3D, the integrals over them, and their derivatives.
 
 #include "mortise/mortar/segment_3d.hpp"
 
@@ -27,8 +27,8 @@ double area(const ClipPolygon& polygon) {
   return sum;
 }
 
-// Two concentric squares of side 2, one turned by t: an octagon about the unit circle whose sides' normals are t and pi/2 - t apart in turn;
-// area = sum of tan(half of the angle between neighbours).
+// Two concentric squares of side 2, one turned by t. They make an octagon about the unit circle whose sides' normals are t and pi/2 - t apart in
+// turn; area = sum of tan(half of the angle between neighbours).
 TEST(ConvexClip, MeasuresTurnedSquares) {
   for (const double t : {0.1, 0.3, M_PI / 4.0, 1.2}) {
     const ClipPolygon polygon = clip_convex(square(1.0, 0.0, false), square(1.0, t, true));
@@ -93,7 +93,7 @@ std::vector<Pair> pairs() {
   return all;
 }
 
-/// The integrals as a function of all positions and normals in space, plane and basis included in what moves and what stays.
+/// The integrals as a function of all positions and normals in 3D, plane and basis included in what moves and what stays.
 Eigen::VectorXd evaluate(const Pair& p, const Eigen::MatrixXd& basis, Eigen::MatrixXd* derivative = nullptr) {
   const auto plane = make_auxiliary_plane(p.slave);
   FacetVectors normals, master;

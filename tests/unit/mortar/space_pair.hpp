@@ -1,5 +1,5 @@
 #pragma once
-// Slave and master surfaces in space for the tests of the interface.
+// Slave and master surfaces in 3D for the tests of the interface.
 
 #include <Eigen/Geometry>
 

@@ -123,8 +123,8 @@ TEST(SplitKinks, LeaveSymmetryAlone) {
     }
 }
 
-// A flat master under a corner between facets along x and at 60 degrees: its normal inside the wedge of theirs and up to 10 degrees beyond it, that
-// of the nearer facet from 20 degrees on, and between in between.
+// A flat master under a corner between facets along x and at 60 degrees. The corner takes the master's normal inside the wedge of theirs and up to 10
+// degrees beyond it. It takes that of the nearer facet from 20 degrees on, and between these angles one in between.
 TEST(SplitKinks, TakeTheMastersNormalNearTheWedge) {
   const auto angle_of_normal = [](double tilt) {  // from the first facet's normal
     TwoLines lines = folding(60.0);
@@ -204,8 +204,8 @@ TEST(SplitKinks, HasExactDerivatives) {
           }
 }
 
-// The master's normal inside the wedge of the sides' normals, at its edges, where it is followed less and less, and where it is not any more; of
-// standard multipliers too, and of curved masters.
+// The master's normal inside the wedge of the sides' normals, at its edges, where it is followed less and less, and where it is not any more.
+// Standard multipliers and curved masters are covered too.
 TEST(SplitKinks, HasExactDerivativesOfTheMastersNormal) {
   for (const double tilt : {30.0, 55.0, 66.0, 76.0, 4.0, -5.0, -14.0, -17.0, -25.0})
     for (const Coupling coupling : {Coupling::dual_mortar, Coupling::standard_mortar}) {

@@ -217,7 +217,7 @@ class SurfacePair {
   Surfaces surfaces_;
 };
 
-/// The same surfaces with nodes in the middles of the edges of either side, moved off the straight edges by up to `bend` of their lengths.
+/// The same surfaces with mid-side nodes on either side, moved off the straight edges by up to `bend` of their lengths.
 inline Surfaces quadratic(const Surfaces& linear, bool slave, bool master, double bend) {
   Surfaces result = linear;
   const auto slaves = static_cast<GlobalOrdinal>(linear.slaves);

@@ -265,7 +265,7 @@ TEST(ContactNewton, IterativeAndDirectSolversAgree) {
   EXPECT_NEAR(with_iterative.reaction[1][1], with_direct.reaction[1][1], 1e-8 * std::abs(with_direct.reaction[1][1]));
 }
 
-// Each update divides the penetration by some factor: to 1e-14 facets takes more than two.
+// Each update divides the error of the multipliers by some factor: to 1e-14 of the largest takes more than two.
 TEST(ContactNewton, AStepEndsWhenUpdatesOfTheMultipliersAreExhausted) {
   const auto formulation = std::make_shared<AugmentedLagrange>();
   formulation->tolerance = 1e-14;
@@ -281,8 +281,7 @@ TEST(ContactNewton, AStepEndsWhenUpdatesOfTheMultipliersAreExhausted) {
   const auto expect_exhausted = [](const StepFailure& failure) {
     EXPECT_EQ(failure.kind(), FailureKind::augmentation);
     EXPECT_EQ(to_string(failure.kind()), "augmentation");
-    EXPECT_THAT(failure.what(), ::testing::MatchesRegex("contact \"pair\": after 2 updates of the multipliers, gaps or slips of "
-                                                        "[0-9]\\.[0-9][0-9]e-[0-9][0-9] facets are left"));
+    EXPECT_THAT(failure.what(), ::testing::StartsWith("contact \"pair\": after 2 updates of the multipliers, one more would change them by "));
   };
   try {
     problem.system->augment(*problem.x, 3);
@@ -300,8 +299,8 @@ TEST(ContactNewton, AStepEndsWhenUpdatesOfTheMultipliersAreExhausted) {
   expect_exhausted(*failure);
 }
 
-// What was closed in the accepted state may not go through the other body: the upper body is put three rows deep into the lower one, beyond
-// the reach of one facet.
+// What was closed in the accepted state may not go through the other body. The upper body is put three rows deep into the lower one, beyond the reach
+// of one facet.
 TEST(ContactSystem, ContactLostSinceTheAcceptedStateIsAFailureOnAllRanks) {
   Problem problem(Tpetra::getDefaultComm(), pressed(0.2));
   SemiSmoothSystem& system = *problem.system;

@@ -171,8 +171,8 @@ TEST(Decoupled, TakesAboutAsManyIterationsAsTheBodies) {
   RecordProperty("iterations_in_contact", of_contact.iterations);
 }
 
-// What lets go of the master is solved for exactly too, so that the hierarchy of before does: with fewer iterations than a new one and what
-// its set-up is worth, ten.
+// The nodes that lose contact are solved for exactly too, so that the earlier hierarchy is good enough. It takes fewer iterations than a new one plus
+// the ten that its set-up is worth.
 TEST(Decoupled, KeepsItsHierarchyWhenHalfOfTheContactOpens) {
   const RCP<const Communicator> comm = Tpetra::getDefaultComm();
   const TwoBodies closed(comm, 32, 32), half_open(comm, 32, 32, 16);

@@ -1,4 +1,4 @@
-// When a hierarchy is made anew.
+// When a hierarchy is rebuilt.
 #include "../../../packages/nonlinear/src/hierarchy_wear.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace mortise::detail {
 namespace {
 
-// Solves of so many digits until the hierarchy is worn, at most 1000, if its k-th solve takes `iterations(k)`.
+// Solves of so many digits until the hierarchy is stale, at most 1000, if its k-th solve takes `iterations(k)`.
 int life(const std::function<double(int)>& iterations, double digits) {
   HierarchyWear wear;
   int solves = 0;
@@ -53,7 +53,7 @@ TEST(HierarchyWear, DoesNotComeOfASingleIterationMore) {
 }
 
 // i_k = a + g k, as far as a solve is let go, each of one digit. The least cost of a life of n solves, c = (S + sum i_k) / n, by trying all n. The
-// hierarchy is worn after solves that took at most 1 + S beyond c, the last of them at most S: the life costs c + (1 + S) / n at most.
+// hierarchy is stale after solves that took at most 1 + S beyond c, the last of them at most S: the life costs c + (1 + S) / n at most.
 TEST(HierarchyWear, EndsALifeNearTheLeastCost) {
   constexpr double S = iterations_of_set_up;
   for (const double growth : {0.5, 1.0, 2.0, 5.0, 20.0})

@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-// The number of iterations of multigrid does not depend on the size of the grid: it may double at most, while the number of unknowns grows
+// The number of iterations of multigrid does not depend on the size of the grid. It may double at most, while the number of unknowns grows
 // sixteenfold (that of GMRES alone would grow fourfold).
 TEST(Iterative, SolvesInAboutAsManyIterationsOnFinerGrids) {
   std::vector<int> iterations;
@@ -43,8 +43,8 @@ std::vector<int> iterations_of_two_solves(LinearSolver& solver, const std::share
   return iterations;
 }
 
-// The skew part couples neighbours by a first difference, which outweighs the second differences of springs on coarse levels: eigenvalues are far
-// from real there, and Chebyshev polynomials make errors grow. The first solve finds that out, those that follow are Gauss-Seidel's.
+// The skew part couples neighbours by a first difference, which outweighs the second differences of springs on coarse levels. Eigenvalues are far
+// from real there, and Chebyshev polynomials make errors grow. The first solve finds that out; those that follow use Gauss-Seidel.
 TEST(Iterative, TakesAnotherSmootherWhereEigenvaluesAreFarFromReal) {
   const auto grid = std::make_shared<SpringGrid>(Tpetra::getDefaultComm(), 96, 96, Numbering::blocks);
   const auto solver = solver_of(Kind::iterative);

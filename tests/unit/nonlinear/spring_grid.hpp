@@ -1,5 +1,5 @@
 #pragma once
-// A grid of springs in the plane with large displacements, distributed over the ranks: a small nonlinear solid for tests.
+// A grid of springs in 2D with large displacements, distributed over the ranks: a small nonlinear solid for tests.
 
 #include <Teuchos_CommHelpers.hpp>
 #include <Teuchos_DefaultMpiComm.hpp>
@@ -108,8 +108,8 @@ class SpringGrid {
   std::vector<int> nodes_;
 };
 
-/// Springs of energy 1/2 k L^2 e^2 with e = (l^2 - L^2) / (2 L^2): force k e D on the end that D = x_b - x_a points to,
-/// derivative k (e I + D D^T / L^2). Fails (inverted element) when a spring has lost nine tenths of its length.
+/// Springs of energy 1/2 k L^2 e^2 with e = (l^2 - L^2) / (2 L^2). The force is k e D on the end that D = x_b - x_a points to, its derivative k (e I
+/// + D D^T / L^2). Fails (inverted element) when a spring has lost nine tenths of its length.
 class Springs : public Contribution {
  public:
   Springs(std::shared_ptr<const SpringGrid> grid, double stiffness) : grid_(std::move(grid)), stiffness_(stiffness) {}

@@ -56,7 +56,7 @@ TEST(BodyMotions, ARigidMotionLeavesNothing) {
     const RigidModes modes(*mesh, false, {1}, after.x);
     const BodyMotions motions = body_motions(*mesh, modes, before, after, {});
     EXPECT_LE(motions.deformation.at(0), 1e-13);
-    // Lower x reaches 3 in the plane, 1 in space.
+    // Lower x reaches 3 in 2D, 1 in 3D.
     EXPECT_NEAR(motions.imposed, 0.01 * (dimension == 2 ? 3.0 : 1.0), 1e-13);
     EXPECT_LE((rotation_of(modes, motions.rigid, 0) - 2.0 * std::tan(0.5 * angle) * axis.normalized()).norm(), 1e-12);
     for (std::size_t node = 0; node < after.x.size(); ++node) {

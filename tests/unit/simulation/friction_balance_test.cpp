@@ -25,7 +25,7 @@ Eigen::VectorXd load_of(std::initializer_list<double> values) {
 }
 
 /// The nodes of a block that is wider at its foot slip outwards. Sorted by slip, those left of one of them slip to the left, those right of it to the
-/// right, and it bears what is left: the load that a body bears at rest.
+/// right. This one bears the rest: the load that a body bears at rest.
 TEST(FrictionBalance, InThePlaneOneNodeRests) {
   const std::vector<SlidingRow> rows{in_line(1.0, -3e-4), in_line(2.0, -1e-4), in_line(1.5, 0.2e-4), in_line(2.5, 1e-4), in_line(1.0, 4e-4)};
   const double all = 8.0;

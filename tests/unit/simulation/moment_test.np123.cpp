@@ -1,4 +1,4 @@
-// Moments on reference points of space and the moments that hold them, against statics, work and the plane; at large rotations.
+// Moments on reference points in 3D and the moments that hold them, against statics, work and 2D results; at large rotations.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ std::string with_set(const std::string& set, const Values& values) {
   return content;
 }
 
-/// A soft bar 1 x 1 x 2, or a wider one of one layer or in the plane; "foot" holds its lower end, "grip" its upper one.
+/// A soft bar 1 x 1 x 2, or a wider one of one layer or in 2D; "foot" holds its lower end, "grip" its upper one.
 struct Bar {
   std::string kinematics = "three dimensional", element = "H8", material = "neo hooke";
   std::string mesh = parameter("type", "string", "brick") + parameter("height", "double", "2") + parameter("cells x", "int", "2") +

@@ -277,7 +277,7 @@ TEST(ErrorNorm, SurfaceQuantitiesStandWhereTheGeometryOfThePairIs) {
 }
 
 // p_h = c against Hertz over [0, 1.5 a]: |error|^2 = (1.5 c^2 a - 2 c p0 a pi/4 + 2/3 p0^2 a) / (2/3 p0^2 a). Eight Gauss points miss the integral of
-// sqrt(1 - x/a) up to the end of its range by less than 1e-3 relative, those of its square and of a constant not at all.
+// sqrt(1 - x/a) up to the end of its range by less than 1e-3 relative. They miss those of its square and of a constant not at all.
 TEST(ErrorNorm, OfPressureAgainstHertz) {
   TwoBlocks blocks;
   const auto hertz = std::make_shared<HertzLineContact>();

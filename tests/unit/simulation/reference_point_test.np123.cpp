@@ -64,7 +64,7 @@ std::string scene_text(const Case& one) {
                           list("stepping", parameter("end time", "double", "1") + parameter("step", "double", "0.25")));
 }
 
-/// The same in space: a wider brick on a brick.
+/// The same in 3D: a wider brick on a brick.
 std::string space_text(const Case& one) {
   const auto brick = [](const std::string& width, const std::string& depth, const std::string& cells, const std::string& translation) {
     return list("mesh", parameter("type", "string", "brick") + parameter("width", "string", width) + parameter("depth", "string", depth) +

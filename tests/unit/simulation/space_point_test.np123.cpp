@@ -1,4 +1,4 @@
-// The displacement of a point in space, in every element, of fields that the element holds exactly; the same on any number of ranks.
+// The displacement of a point in 3D, in every element, of fields that the element holds exactly; the same on any number of ranks.
 
 #include <gmock/gmock.h>
 

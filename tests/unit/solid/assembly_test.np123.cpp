@@ -17,7 +17,7 @@ std::array<double, 3> field(const std::array<double, 3>& X) {
   return {0.05 * std::sin(X[0] + 2.0 * X[1] - X[2]), 0.08 * std::cos(3.0 * X[0] - X[1] + X[2]), 0.06 * std::sin(X[0] - 2.0 * X[2])};
 }
 
-/// Bodies of `setup`, in space a distorted brick of the generator's.
+/// Bodies of `setup`, in 3D a distorted brick of the generator's.
 std::shared_ptr<Bodies> make_distributed(const RCP<const Communicator>& comm, const BodySetup& setup) {
   if (setup.kinematics != Kinematics::three_dimensional) return make_test_bodies(comm, setup);
   auto brick = std::make_shared<BrickMesh>();

@@ -48,8 +48,9 @@ inline std::map<int, std::array<int, 2>> edges_of(CellShape shape) {
   return edges;
 }
 
-/// The unit square or cube, each point s moved to position(s). Sides "body/left", "body/right" (x), in the plane "body/bottom", "body/top" (y), in
-/// space "body/front", "body/back" (y) and "body/bottom", "body/top" (z), and "body/surface". Middles of edges stay in the middle unless `curved`.
+/// The unit square or cube, each point s moved to position(s). Sides are "body/left", "body/right" (x) and "body/surface". In 2D there are also
+/// "body/bottom", "body/top" (y); in 3D "body/front", "body/back" (y) and "body/bottom", "body/top" (z). Mid-side nodes stay in the middle unless
+/// `curved`.
 inline RCP<Mesh> make_lattice_mesh(const RCP<const Communicator>& comm, CellShape shape, const std::array<int, 3>& cells,
                                    const std::function<std::array<double, 3>(const std::array<double, 3>&)>& position, bool curved) {
   const CellTopology& cell = topology(shape);

@@ -1,5 +1,5 @@
 #pragma once
-// A rigid brick in space that follows a point of its own.
+// A rigid brick in 3D that follows a point of its own.
 
 #include "mortise/mesh/build_mesh.hpp"
 #include "mortise/mesh/reference_point.hpp"

@@ -97,7 +97,7 @@ inline Vector local_field(const Bodies& bodies, const Field& field) {
   return u;
 }
 
-/// A point of space or a displacement there.
+/// A point in 3D or a displacement there.
 using Point3 = std::array<double, 3>;
 using SpaceField = std::function<Point3(const Point3&)>;
 
@@ -107,7 +107,7 @@ struct BrickSetup {
   std::string law = "hencky";
   std::array<int, 3> cells{2, 1, 1};
   double poissons_ratio = 0.3, distortion = 0.1;
-  bool curved = false;  ///< middles of edges move too
+  bool curved = false;  ///< mid-side nodes move too
 };
 
 inline RCP<Mesh> make_brick_mesh(const BrickSetup& setup) {
@@ -126,7 +126,7 @@ inline std::shared_ptr<Bodies> make_brick(const BrickSetup& setup) {
                                   std::vector<BodyProperties>{{"body", {}, make_material(setup.law, 1000.0, setup.poissons_ratio), setup.element}});
 }
 
-/// u(X) on the local dofs in space.
+/// u(X) on the local dofs in 3D.
 inline Eigen::VectorXd space_field(const Bodies& bodies, const SpaceField& field) {
   Eigen::VectorXd u(3 * bodies.mesh()->local_count());
   for (LocalOrdinal node = 0; node < bodies.mesh()->local_count(); ++node)

@@ -1,4 +1,4 @@
-// Loads and prescribed motions in space: resultants, equilibrium, and the follower pressure's tangent on sides of every shape.
+// Loads and prescribed motions in 3D: resultants, equilibrium, and the follower pressure's tangent on sides of every shape.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// Every element of space x law: the stiffness is the derivative of the internal force, which is that of the stored energy; motions and
-// deformations that have to be exact.
+// Every 3D element x law: the stiffness is the derivative of the internal force, which is that of the stored energy. Motions and deformations that
+// have to be exact.
 
 #include <gtest/gtest.h>
 
@@ -292,8 +292,8 @@ TEST(SpaceBodies, ReportAnInvertedElementByBodyAndNumber) {
   }
 }
 
-/// Tip deflection of a cantilever of length 10 and square section 1 x 1, clamped at the left, loaded by a unit shear force at the right end, over
-/// Timoshenko's L^3 / (3 E I) + 6/5 L / (G A).
+/// Tip deflection of a cantilever of length 10 and square section 1 x 1, clamped at the left, loaded by a unit shear force at the right end. It is
+/// given relative to Timoshenko's L^3 / (3 E I) + 6/5 L / (G A).
 double tip_deflection(ElementType element, double poissons_ratio) {
   const auto mesh = make_lattice_mesh(
       self(), cell_shape(element), {30, 3, 3},
@@ -325,8 +325,8 @@ double tip_deflection(ElementType element, double poissons_ratio) {
 }
 
 TEST(FBar, UnlocksNearlyIncompressibleBendingInSpace) {
-  // Linear elements of length h in a beam of height H add the energy of parasitic shear, (G / E) (h / H)^2 <= 0.06 of that of bending; as much again
-  // for the clamp and the curvature across, which they do not follow either.
+  // Linear elements of length h in a beam of height H add the energy of parasitic shear, (G / E) (h / H)^2 <= 0.06 of that of bending. As much again
+  // is allowed for the clamp and the curvature across, which they do not follow either.
   const double compressible = tip_deflection(ElementType::h8, 0.0), f_bar = tip_deflection(ElementType::h8_f_bar, 0.4999),
                standard = tip_deflection(ElementType::h8, 0.4999);
   RecordProperty("h8_compressible", std::to_string(compressible));

@@ -191,7 +191,7 @@ TEST_P(EverySetup, HomogeneousDeformationOfADistortedMeshIsExact) {
   const auto bodies = make_test_bodies(self(), setup);
   const Mesh& mesh = *bodies->mesh();
   const bool axisymmetric = setup.kinematics == Kinematics::axisymmetric;
-  // F constant: any in the plane; u_r = a R and u_z = b Z if axisymmetric.
+  // F constant: any in 2D; u_r = a R and u_z = b Z if axisymmetric.
   Eigen::Matrix2d gradient;
   gradient << 0.1, (axisymmetric ? 0.0 : 0.06), (axisymmetric ? 0.0 : -0.04), -0.08;
   const Field field = [&](double X, double Y) -> std::array<double, 2> {

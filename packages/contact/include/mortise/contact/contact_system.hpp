@@ -98,7 +98,9 @@ struct CornerReport {
 struct Augmentation {
   bool more = false;       ///< the multipliers were updated: solve again
   bool exhausted = false;  ///< more would be needed than the pair allows
-  double violation = 0.0;  ///< largest |gap| of closed and |slip| of sticking nodes over h
+  double error = 0.0;   ///< of the multipliers of the pair that is furthest from exact ones, over its largest; infinite where nothing is known of it
+  double change = 0.0;  ///< what one more update would change of them, over the same
+  double tolerance = 0.0;  ///< of `error`
   std::string pair;        ///< where
 };
 
@@ -189,8 +191,8 @@ class ContactSystem {
   /// Takes the states at z, d of the last evaluate, as those of the accepted state that the next step starts from; slip paths grow.
   void accept_states(const Vector& z);
 
-  /// After a Newton solve that ended in d, z of the last evaluate: updates the multipliers of augmented Lagrange pairs where their conditions do not
-  /// hold to their tolerance yet. `round` counts from 1 within a step. Collective.
+  /// After a Newton solve that ended in d, z of the last evaluate: updates the multipliers of augmented Lagrange pairs if those of any of them are
+  /// not exact to its tolerance yet. `round` counts from 1 within a step. Collective.
   Augmentation augment(const Vector& z, int round);
 
   /// K += C~ = d(f_c)/dd at fixed z. `system` has system_graph() as asked for after the last evaluate(d, true), and is being filled.

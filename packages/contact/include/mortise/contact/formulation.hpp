@@ -20,7 +20,7 @@ enum class Elimination {
 struct Regularisation {
   double normal = 0.0, tangential = 0.0;  ///< stiffness over E / h: traction per length is that times E / h
   int augmentations = 0;                  ///< most times that the multipliers are updated within a step; 0: penalty
-  double tolerance = 0.0;                 ///< gap and slip of closed, sticking nodes over h that are let be
+  double tolerance = 0.0;                 ///< error of the multipliers over the largest of the pair that is let be
 };
 
 /// The formulation of a contact pair.

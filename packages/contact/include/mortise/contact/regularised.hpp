@@ -67,4 +67,21 @@ Complementarity regularised(const RegularisedNode& node, double gap, const Tange
   return result;
 }
 
+/// The return map itself: (z_n, z_tau) = (max(0, lambda_n - eps_n g / w), Pi_rho(lambda_tau + eps_t u / w)), rho at that z_n. A multiplier lambda
+/// that it leaves as it is fulfils the exact conditions, whatever the stiffness.
+/// @param bound  of a pressure; null: without friction, lambda_tau stays
+template <class Bound>
+SpatialVector return_map(const RegularisedNode& node, double gap, const TangentVector& slip, double weight, const Bound* bound) {
+  SpatialVector result = node.multiplier;
+  const Eigen::Index tangents = result.size() - 1;
+  const double pressure = node.multiplier[0] - node.normal_stiffness * gap / weight;
+  if (!(pressure > 0.0)) return SpatialVector::Zero(result.size());
+  result[0] = pressure;
+  if (bound == nullptr) return result;
+  const TangentVector y = node.multiplier.tail(tangents) + node.tangential_stiffness / weight * slip;
+  const double limit = (*bound)(pressure).value, length = y.norm();
+  result.tail(tangents) = length > limit ? TangentVector(limit / length * y) : y;
+  return result;
+}
+
 }  // namespace mortise

@@ -44,6 +44,10 @@ class StateCheck {
   /// @throws StepFailure(lost_contact), on every rank, for a body that went farther again, or, held or not, farther than the model is long
   bool verify(const SemiSmoothSystem& system, const Vector& before, Vector& after, int round);
 
+  /// Whether a body, held or not, went farther than that in the state that verify() passed last. Contact that turns or levers it may take it there,
+  /// but so may a jump.
+  bool went_far() const { return went_far_; }
+
   /// A try of a step begins.
   void begin() { refused_.clear(); }
   /// Why a solution of this try was refused, if one was.
@@ -76,6 +80,7 @@ class StateCheck {
   std::vector<Eigen::Vector3d> middle_;
   std::set<std::pair<int, int>> said_;
   std::string refused_;
+  bool went_far_ = false;
 };
 
 /// mesh.blocks indices of the bodies that only contact holds. Collective.

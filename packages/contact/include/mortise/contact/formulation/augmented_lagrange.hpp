@@ -6,7 +6,7 @@ namespace mortise {
 
 /// Penalty whose multipliers are updated after each Newton solve until nothing penetrates (Uzawa; Simo, Laursen 1992; on mortar Puso, Laursen 2004).
 struct AugmentedLagrange : Penalty {
-  double tolerance = 1e-6;  ///< gap over h
+  double tolerance = 1e-6;  ///< error of the multipliers over the largest one
   int augmentations = 50;
   void describe(Parameters& parameters) override;
   std::optional<Regularisation> regularisation() const override {
