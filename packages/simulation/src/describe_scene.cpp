@@ -94,8 +94,8 @@ Choices contact_choices() {
 }
 
 Choices solvers() {
-  return {{"automatic", "MUMPS"},
-          {"mumps", "direct, any number of ranks"},
+  return {{"automatic", "iterative in 3D from 10 000 unknowns on where it can solve the systems, else mumps"},
+          {"mumps", "MUMPS: direct, any number of ranks"},
           {"klu2", "direct, one rank only"},
           {"iterative", "Belos GMRES preconditioned by MueLu with rigid body modes"}};
 }
