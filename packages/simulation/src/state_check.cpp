@@ -82,12 +82,17 @@ bool StateCheck::verify(const SemiSmoothSystem& system, const Vector& before, Ve
   const double deformation = *std::max_element(motions.deformation.begin(), motions.deformation.end());
   std::vector<std::string> gone;
   std::vector<int> which;
+  std::vector<char> touches(bodies_.size(), 1);
   went_far_ = false;
   for (int b = 0; b < static_cast<int>(bodies_.size()); ++b) {
     double moved = motions.imposed;
     for (int other = 0; other < static_cast<int>(bodies_.size()); ++other)
       if (other != b) moved = std::max(moved, size_of(*modes, held, other));
-    const double allowed = allowance * (moved + deformation + resolution_), length = model_.parts().length;
+    // What touched nothing when the step began and touches nothing now stays where it was, unless it has to go out of the way.
+    touches[b] = !gram.middleRows(b * modes->per_body(), modes->per_body()).isZero(0.0);
+    const bool stays = round == 1 && !touches[b] && !touches_before_.empty() && !touches_before_[b];
+    const double around = stays ? motions.deformation[b] : moved + deformation;
+    const double allowed = allowance * (around + resolution_), length = model_.parts().length;
     went_far_ = went_far_ || size_of(*modes, motions.rigid, b) > allowed;
     const bool is_flight = size_of(*modes, motions.rigid, b) > std::max(allowed, length);
     if (size_of(*modes, loosely, b) <= allowed && !is_flight) continue;
@@ -110,6 +115,7 @@ bool StateCheck::verify(const SemiSmoothSystem& system, const Vector& before, Ve
   }
 
   pairs_ = hold.pairs;
+  touches_ = touches;
   free_ = free;
   freely_ = freely;
   middle_ = motions.middle;

@@ -39,7 +39,8 @@ class StateCheck {
   /// edge that holds it.
   ///
   /// A body that went farther may have been thrown there by an iterate on the way. In the first round of a try it is put back along its free motions,
-  /// deformed as it is: what is in one another then is closed.
+  /// deformed as it is: what is in one another then is closed. One that nothing touches, neither before nor after, is put back from any distance
+  /// beyond its own deformation: if it has to go out of the way, it does so again.
   /// @returns whether `after` is accepted; if not it is another start
   /// @throws StepFailure(lost_contact), on every rank, for a body that went farther again, or, held or not, farther than the model is long
   bool verify(const SemiSmoothSystem& system, const Vector& before, Vector& after, int round);
@@ -57,6 +58,7 @@ class StateCheck {
   void accept() {
     record_.accept(pairs_);
     free_before_ = free_;
+    touches_before_ = touches_;
   }
 
   /// Takes free motions of the accepted state out of the rate at which the last step of length dt, which ended at x, moved.
@@ -74,9 +76,10 @@ class StateCheck {
   RCP<const MultiVector> fixed_;
   ContactRecord record_;
   std::vector<PairHold> pairs_;
-  std::unique_ptr<const RigidModes> modes_;  ///< of the state that verify() passed last
-  Eigen::MatrixXd free_, free_before_;       ///< free_motions() of that state, and of the one accepted last; no columns before the first
-  Eigen::VectorXd freely_;                   ///< its step's motion along what was free
+  std::unique_ptr<const RigidModes> modes_;     ///< of the state that verify() passed last
+  Eigen::MatrixXd free_, free_before_;          ///< free_motions() of that state, and of the one accepted last; no columns before the first
+  std::vector<char> touches_, touches_before_;  ///< [bodies] whether contact or a boundary condition held anything of them then
+  Eigen::VectorXd freely_;                      ///< its step's motion along what was free
   std::vector<Eigen::Vector3d> middle_;
   std::set<std::pair<int, int>> said_;
   std::string refused_;
