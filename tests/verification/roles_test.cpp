@@ -60,6 +60,63 @@ TEST(CornerInASlaveFacet, IsNotSeenWhereThereIsNone) {
   }
 }
 
+// A corner of the slave between facets of 1/3, its sides at 30 and 60 degrees to a rigid plane: standard weights see it when it is
+// 1/3 (sin 30 + sin 60)/2 h deep, 0.076. Dual weights hold it off at once.
+TEST(CornerOfTheSlave, ThatStandardWeightsDoNotSeeIsNotAccepted) {
+  const std::vector<std::string> coarse{"variables/n=3", "variables/steps=4"};
+  const std::string standard = "contact/c/formulation/type=standard mortar", variational = "contact/c/formulation/type=variational mortar";
+  for (const std::string& weights : {standard, variational, std::string("contact/c/gap weighting=standard")})
+    for (const int ranks : {1, 2}) {
+      const Outcome outcome = run("corner_on_plane.xml", "slave_corner_" + std::to_string(ranks), with(coarse, weights), ranks);
+      EXPECT_EQ(outcome.ending.code, 3) << weights << outcome.ending.output;
+      EXPECT_TRUE(outcome.says("of the slave at (")) << outcome.ending.output;
+      EXPECT_TRUE(
+          outcome.says("a corner between facets of length 0.333, lies 0.0518 deep in the master, where dual weights would hold it off, and these "
+                       "facets' nodes carry no force; please"))
+          << outcome.ending.output;
+    }
+  const Outcome deeper = run("corner_on_plane.xml", "slave_corner_deeper", with(with(coarse, standard), "variables/press=0.1"));
+  EXPECT_EQ(deeper.ending.code, 0) << deeper.ending.output;
+  EXPECT_TRUE(deeper.says("a corner between facets of length 0.333, lies")) << deeper.ending.output;
+  const Outcome dual = run("corner_on_plane.xml", "slave_corner_dual", coarse);
+  EXPECT_EQ(dual.ending.code, 0) << dual.ending.output;
+  EXPECT_FALSE(dual.says("warning")) << dual.ending.output;
+}
+
+// The ball's lowest point is 0.02 below a node of the block, but standard weights see it 0.25^2/(6 * 0.4) = 0.026 above: per direction h^2/(12 R).
+TEST(BallOnCoarseFacets, WithoutForceIsNotAccepted) {
+  for (const int ranks : {1, 2, 3}) {
+    const Outcome outcome = run("ball_on_coarse_3d.xml", "ball_np" + std::to_string(ranks), {"contact/c/formulation/type=standard mortar"}, ranks);
+    EXPECT_EQ(outcome.ending.code, 3) << outcome.ending.output;
+    EXPECT_EQ(outcome.quantities.at("force"), 0.0);
+    EXPECT_TRUE(outcome.says("lies 0.02 deep in the other body, and the pair carries no force; please make the slave finer"))
+        << outcome.ending.output;
+  }
+}
+
+TEST(BallOnCoarseFacets, ThatBeginsTooEarlyIsWarnedOf) {
+  for (const int ranks : {1, 2}) {
+    const Outcome coarse = run("ball_on_coarse_3d.xml", "ball_dual_np" + std::to_string(ranks), {}, ranks);
+    EXPECT_EQ(coarse.ending.code, 0) << coarse.ending.output;
+    EXPECT_TRUE(coarse.says("its force acts on 1 slave node at facets of length 0.25")) << coarse.ending.output;
+  }
+  const Outcome fine = run("ball_on_coarse_3d.xml", "ball_fine", {"variables/n=16", "variables/c=12"});
+  EXPECT_EQ(fine.ending.code, 0) << fine.ending.output;
+  EXPECT_FALSE(fine.says("its force acts on")) << fine.ending.output;
+}
+
+// A stamp that rises under its load.
+TEST(RoundedStamp, OnFacetsLongerThanItsEdgesIsWarnedOf) {
+  const Outcome coarse = run("stamp.xml", "stamp", {});
+  EXPECT_EQ(coarse.ending.code, 0) << coarse.ending.output;
+  EXPECT_GT(coarse.quantities.at("rise"), 0.0);
+  EXPECT_TRUE(coarse.says("its force acts on 2 slave nodes at facets of length 0.166")) << coarse.ending.output;
+  const Outcome fine = run("stamp.xml", "stamp_fine", {"variables/n=32"});
+  EXPECT_EQ(fine.ending.code, 0) << fine.ending.output;
+  EXPECT_LT(fine.quantities.at("rise"), 0.0);
+  EXPECT_FALSE(fine.says("its force acts on")) << fine.ending.output;
+}
+
 // A block four times as fine as its base.
 TEST(SlaveThatIsStifferAndFiner, IsWarnedOfWithTheExcess) {
   for (const int stiffer : {1, 3, 10, 1000}) {

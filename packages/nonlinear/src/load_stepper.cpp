@@ -65,6 +65,16 @@ class StepSolver {
   NewtonReport& report_;
   const std::function<void(const NewtonIteration&)>& observer_;
 };
+
+/// Whether F(x) = 0 at `time` to the tolerances: nothing that drives the bodies has changed. The Newton solve tests increments and states itself.
+bool is_solution(SemiSmoothSystem& system, const NewtonOptions& options, const Vector& x) {
+  Vector F(system.map());
+  ResidualNorms norms;
+  system.residual(x, F, norms);
+  const bool balanced = norms.momentum <= options.momentum_tolerance || norms.momentum_absolute <= norms.round_off;
+  return norms.finite && balanced && norms.prescribed <= options.increment_tolerance && norms.gap <= options.gap_tolerance &&
+         norms.complementarity <= options.complementarity_tolerance;
+}
 }  // namespace
 
 bool run_steps(SemiSmoothSystem& system, const SteppingOptions& stepping, const NewtonOptions& newton, Vector& x,
@@ -83,8 +93,14 @@ bool run_steps(SemiSmoothSystem& system, const SteppingOptions& stepping, const 
       bool solved = false;
       try {
         if (observer.begin) observer.begin(step, report.time, report.dt);
-        if (!rate.is_null()) tried.update(report.dt, *rate, 1.0);
-        if (start_step) start_step(tried);
+        system.set_time(report.time);
+        // Motion does not go on where the last state is a solution of this step too. Carried on all the same, it may end in another equilibrium.
+        const bool may_rest = rate.is_null() || system.prescribed_deviation(x) <= newton.increment_tolerance;
+        if (may_rest && start_step) start_step(tried);
+        if (!rate.is_null() && (!may_rest || !is_solution(system, newton, tried))) {
+          tried.update(1.0, x, report.dt, *rate, 0.0);
+          if (start_step) start_step(tried);
+        }
         StepSolver solver(system, report.time, newton, report.newton, observer.iteration);
         for (int round = 1;; ++round) {
           solver.solve(tried);

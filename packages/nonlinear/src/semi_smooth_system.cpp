@@ -109,6 +109,20 @@ void SemiSmoothSystem::residual(const Vector& x, Vector& F, ResidualNorms& norms
   norms.merit = norms.finite ? std::hypot(rows, violation) : std::numeric_limits<double>::infinity();
 }
 
+double SemiSmoothSystem::prescribed_deviation(const Vector& x) const {
+  const Implementation& self = *implementation_;
+  double mine = 0.0, largest = 0.0;
+  if (self.parts.prescribed) {
+    std::optional<StepFailure> failure;  // residual() says it
+    const std::vector<double> values = self.parts.prescribed->values(self.time, failure);
+    const RCP<const Vector> d = displacement(x);
+    const auto displacements = d->getLocalViewHost(Tpetra::Access::ReadOnly);
+    for (std::size_t i = 0; i < self.fixed.size(); ++i) mine = std::max(mine, std::abs(displacements(self.fixed[i], 0) - values[i]));
+  }
+  Teuchos::reduceAll(self.comm(), Teuchos::REDUCE_MAX, mine / self.parts.length, Teuchos::outArg(largest));
+  return largest;
+}
+
 bool SemiSmoothSystem::follow_cover(Vector& x) {
   Implementation& self = *implementation_;
   if (!self.parts.contact) return false;

@@ -1,5 +1,5 @@
 #pragma once
-// Corners of a master that lie in the middle of slave facets, where weighted gaps do not see them.
+// Corners of one surface that lie in facets of the other, where weighted gaps do not see them.
 
 #include <functional>
 #include <optional>
@@ -11,7 +11,8 @@
 
 namespace mortise {
 
-/// Looks at converged states: a weighted gap is a mean, and stays open while a corner of the master lies within a slave facet.
+/// Looks at converged states: a weighted gap is a mean, and stays open while a corner of the master lies within a slave facet, or with standard
+/// weights one of the slave within the master.
 class CornerWatch {
  public:
   /// @param warn  called once for each pair
@@ -21,21 +22,28 @@ class CornerWatch {
   void examine(const Vector& displacement, const Vector& multipliers);
   /// The solution that was examined last is an accepted state.
   void accept();
-  /// Which corners of the accepted state lie in slave facets that carry no force; empty: none.
+  /// Whether a warning of this pair of the scene has been given.
+  bool has_warned(std::size_t pair) const;
+  /// Which corners of the accepted state lie in the other body where the slave carries no force; empty: none.
   const std::string& without_force() const { return accepted_; }
 
  private:
-  /// A corner node with the facets of its body around it.
+  /// A node that may be a corner, with the facets around it: those of its pair's surface, and of its body.
   struct Candidate {
     LocalOrdinal node;
-    std::vector<Side> around;
+    std::vector<Side> of_pair, around;
+  };
+  struct Corner {
+    SurfaceProbe probe;
+    const Candidate* candidate;
   };
   struct Pair {
     std::size_t index;  ///< of the scene and the contact system
     const SideSet& slave;
     std::size_t slave_body, master_body;
     RCP<const Map> facets;  ///< of the slave, one to one: their numbers are tags
-    std::vector<Candidate> candidates;
+    const SideSet& master;
+    std::vector<Candidate> of_master, of_slave;  ///< the latter with standard weights alone
     bool is_warned = false;
   };
   struct Found {
@@ -44,9 +52,14 @@ class CornerWatch {
     std::string text;
   };
 
-  std::vector<SurfaceProbe> corners(const Pair& pair, const PlaceOfNode& at, const Box3& slave_box, double touching) const;
-  std::optional<Found> deepest(std::size_t p, const std::vector<SurfaceProbe>& corners, const PlaceOfNode& at, const std::vector<Box3>& boxes,
-                               double touching, const Vector& multipliers) const;
+  std::vector<Candidate> candidates(const SideSet& set, std::size_t body) const;
+  std::vector<Corner> corners(const std::vector<Candidate>& candidates, const PlaceOfNode& at, const Box3& other_box, double touching) const;
+  std::optional<Found> deepest_of_master(std::size_t p, const std::vector<Corner>& corners, const PlaceOfNode& at, const std::vector<Box3>& boxes,
+                                         double touching, const Vector& multipliers) const;
+  std::optional<Found> deepest_of_slave(std::size_t p, const std::vector<Corner>& corners, const PlaceOfNode& at, const std::vector<Box3>& boxes,
+                                        double touching, const Vector& multipliers) const;
+  static std::vector<SurfaceProbe> probes_of(const std::vector<Corner>& corners);
+  std::vector<char> closed(const Pair& pair, const Vector& multipliers) const;  ///< [local nodes]
 
   const Model& model_;
   const Scene& scene_;

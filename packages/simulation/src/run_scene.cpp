@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "coarse_slave.hpp"
 #include "contact_at_start.hpp"
 #include "contact_watch.hpp"
 #include "corner_watch.hpp"
@@ -27,6 +28,7 @@
 #include "mortise/simulation/newton_table.hpp"
 #include "mortise/simulation/run.hpp"
 #include "mortise/simulation/state_check.hpp"
+#include "overlap_watch.hpp"
 #include "precision.hpp"
 #include "report_model.hpp"
 #include "run_log.hpp"
@@ -274,13 +276,17 @@ ExitCode run_scene(const RCP<const Communicator>& comm, Scene scene, const RunOp
     const ContactWatch watch(model, scene);
     const auto warn = [&](const std::string& line) { log.warning(line); };
     CornerWatch corners(model, scene, warn);
+    OverlapWatch overlaps(model, scene, warn);
     std::optional<StateCheck> check;
     if (StateCheck::is_needed(model)) check.emplace(model, scene.newton.increment_tolerance * model.parts().length, warn);
     JumpCheck jump(model.parts().length);
     const auto last_time = [&] { return record.steps.empty() ? 0.0 : record.steps.back().time; };
     functions.verify = [&](const Vector& from, Vector& to, int round) {
       watch.examine(*system.displacement(to));
-      if (model.contact()) corners.examine(*system.displacement(to), *system.multipliers(to));
+      if (model.contact()) {
+        corners.examine(*system.displacement(to), *system.multipliers(to));
+        overlaps.examine(*system.displacement(to), *system.multipliers(to));
+      }
       if (check) {
         const auto timer = timers.scope("state check");
         try {
@@ -321,6 +327,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, Scene scene, const RunOp
     functions.accepted = [&, accepted = functions.accepted](const StepReport& report, const Vector& at) {
       known.clear();
       corners.accept();
+      overlaps.accept([&](std::size_t pair) { return corners.has_warned(pair); });
       jump.accept();
       accepted(report, at);
     };
@@ -356,10 +363,13 @@ ExitCode run_scene(const RCP<const Communicator>& comm, Scene scene, const RunOp
     try {
       record.converged = run_steps(system, scene.stepping, scene.newton, x, start_step, functions, failure);
       // On its way in a corner passes through a part of a facet before contact begins; a run that ends there has not found its force.
-      if (record.converged && !corners.without_force().empty()) {
-        failure.emplace(FailureKind::lost_contact, corners.without_force() + "; please make the slave finer there, or exchange slave and master");
+      const std::string& unfelt = corners.without_force().empty() ? overlaps.without_force() : corners.without_force();
+      if (record.converged && !unfelt.empty()) {
+        failure.emplace(FailureKind::lost_contact, unfelt + "; please make the slave finer there, or exchange slave and master");
         record.converged = false;
       }
+      if (record.converged && model.contact())
+        for (const std::string& line : slaves_too_coarse(model, scene, *system.displacement(x), *system.multipliers(x))) log.warning(line);
     } catch (const InputError& error) {  // on every rank: a quantity's expression without a value
       failure.emplace(FailureKind::input, error.what());
     }

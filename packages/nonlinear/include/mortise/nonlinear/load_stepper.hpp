@@ -13,7 +13,7 @@ namespace mortise {
 /// Where the Newton iterations of a step start.
 enum class Predictor {
   none,   ///< at the last accepted state
-  linear  ///< at the line through the last two accepted states: points that flow start flowing
+  linear  ///< at the line through the last two accepted states: points that flow start flowing; at the last one where it is still a solution
 };
 
 /// Pseudo-time and its steps.
@@ -53,7 +53,8 @@ struct StepperObserver {
 };
 
 /// Runs from time 0 to the end. On return x is the last converged state. Returns true at the end time; false when the smallest step failed
-/// (the last failure is then in `last_failure`). `start_step(x)` prepares the initial guess of each try (the contact start rule).
+/// (the last failure is then in `last_failure`). `start_step(x)` prepares the initial guess of each try (the contact start rule);
+/// with a predictor it prepares the last state, where no prescribed displacement changes, and the predicted one unless the last is a solution.
 bool run_steps(SemiSmoothSystem& system, const SteppingOptions& stepping, const NewtonOptions& newton, Vector& x,
                const std::function<void(Vector& x)>& start_step, const StepperObserver& observer, std::optional<StepFailure>& last_failure);
 

@@ -71,6 +71,8 @@ class SemiSmoothSystem {
   /// F(x) = (r, C); Dirichlet rows hold s (d - prescribed), rows of followers s (d - what they follow), whose forces stand in the rows of what
   /// they follow. Throws StepFailure on every rank.
   void residual(const Vector& x, Vector& F, ResidualNorms& norms);
+  /// max |d - prescribed| of x at the time that is set, relative to the size of the model; costs next to nothing. Collective.
+  double prescribed_deviation(const Vector& x) const;
   /// The multipliers of x follow what is covered at its displacement (ContactSystem::follow_cover()), from the last jacobian() on. True if any
   /// changed.
   bool follow_cover(Vector& x);
