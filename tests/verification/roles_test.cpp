@@ -105,16 +105,13 @@ TEST(BallOnCoarseFacets, ThatBeginsTooEarlyIsWarnedOf) {
   EXPECT_FALSE(fine.says("its force acts on")) << fine.ending.output;
 }
 
-// A stamp that rises under its load.
-TEST(RoundedStamp, OnFacetsLongerThanItsEdgesIsWarnedOf) {
-  const Outcome coarse = run("stamp.xml", "stamp", {});
-  EXPECT_EQ(coarse.ending.code, 0) << coarse.ending.output;
-  EXPECT_GT(coarse.quantities.at("rise"), 0.0);
-  EXPECT_TRUE(coarse.says("its force acts on 2 slave nodes at facets of length 0.166")) << coarse.ending.output;
-  const Outcome fine = run("stamp.xml", "stamp_fine", {"variables/n=32"});
-  EXPECT_EQ(fine.ending.code, 0) << fine.ending.output;
-  EXPECT_LT(fine.quantities.at("rise"), 0.0);
-  EXPECT_FALSE(fine.says("its force acts on")) << fine.ending.output;
+// On facets longer than its edges, whose sides are hidden behind the edge, as on a fine mesh.
+TEST(RoundedStamp, SinksUnderItsLoad) {
+  for (const std::string cells : {"variables/n=8", "variables/n=16", "variables/n=32"}) {
+    const Outcome outcome = run("stamp.xml", "stamp", {cells});
+    EXPECT_EQ(outcome.ending.code, 0) << outcome.ending.output;
+    EXPECT_LT(outcome.quantities.at("rise"), 0.0) << cells;
+  }
 }
 
 // A block four times as fine as its base.
