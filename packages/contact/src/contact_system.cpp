@@ -350,52 +350,6 @@ void ContactSystem::Implementation::accept_cover() {
   for (const auto& pair : pairs) pair->accept_cover();
 }
 
-// Pairs act on one another through their bodies: if one goes on all do.
-Augmentation ContactSystem::augment(const Vector& z, int round) {
-  Implementation& self = *implementation_;
-  const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
-  const double resolution = self.position_round_off();
-  constexpr double known_to = 1e-9;  // of the largest multiplier of all pairs: to what Newton's method by default finds those of any pair
-  std::vector<std::pair<std::size_t, double>> changes;  // of the augmented Lagrange pairs
-  Augmentation result;
-  double largest = 0.0;
-  for (std::size_t p = 0; p < self.pairs.size(); ++p)
-    for (std::size_t s = 0; s < self.pairs[p]->rows().size(); ++s) largest = std::max(largest, self.z_of(values, p, s).norm());
-  largest = self.maximum(largest);
-  for (std::size_t p = 0; p < self.pairs.size(); ++p) {
-    const detail::PairCoupling& pair = *self.pairs[p];
-    if (!pair.regularisation() || pair.regularisation()->augmentations == 0) continue;
-    double change = 0.0, traction = 0.0;
-    const std::vector<detail::NodeMultiplier> multipliers = self.multipliers_of(values, p);
-    for (std::size_t s = 0; s < pair.rows().size(); ++s) {
-      change = std::max(change, pair.change_of_update(s, multipliers[s], resolution));
-      traction = std::max(traction, pair.traction(s, multipliers[s]));
-    }
-    change = self.maximum(change);
-    traction = self.maximum(traction);
-    changes.emplace_back(p, change);
-    const double tolerance = pair.regularisation()->tolerance;
-    const std::optional<double> error = pair.error_of_multipliers(change, round);
-    if (error && *error <= std::max(tolerance * traction, known_to * largest)) continue;
-    const double relative = error ? *error / traction : std::numeric_limits<double>::infinity();
-    result.exhausted |= round > pair.regularisation()->augmentations;
-    if (!result.more || relative > result.error) {
-      result.error = relative;
-      result.change = change / traction;
-      result.tolerance = tolerance;
-      result.pair = pair.definition().name;
-    }
-    result.more = true;
-  }
-  if (!result.more || result.exhausted) return result;
-  for (const auto& [p, change] : changes) {
-    detail::PairCoupling& pair = *self.pairs[p];
-    pair.settle_stiffness(change, round);
-    for (std::size_t s = 0; s < pair.rows().size(); ++s) pair.augment(s, self.z_of(values, p, s));
-  }
-  return result;
-}
-
 long ContactSystem::friction_bytes() const {
   std::size_t bytes = 0;
   for (const auto& pair : implementation_->pairs) {
