@@ -9,6 +9,7 @@
 
 #include "mortise/core/error.hpp"
 #include "mortise/core/types.hpp"
+#include "mortise/material/tensor_components.hpp"
 #include "mortise/mesh/mesh.hpp"
 #include "mortise/solid/element_type.hpp"
 #include "mortise/solid/nodal_sparsity.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "mortise/core/error.hpp"
-#include "mortise/material/materials.hpp"
+#include "mortise/material/material_options.hpp"
 #include "mortise/shape/cell.hpp"
 
 namespace mortise {
