@@ -32,16 +32,16 @@ Complementarity closed_node(double c_n, double gap, const Frame& frame, const Sp
 struct SlipDirection {
   TangentVector along;
   double length = 0.0;    ///< of the projection of y on the ball of radius rho; NaN with rho
-  TangentMatrix turning;  ///< rho / |y| (I - e e^T); 0 in the plane
+  TangentMatrix turning;  ///< rho / |y| (I - e e^T); 0 in 2D
   SlipDirection(const TangentVector& y, double bound);
 };
 
-/// Share of the bound from which on a node counts as slipping. Where |y| = rho both derivatives of C are valid; a node that slipped in the last step
-/// starts the next one there, up to what Newton's tolerance and round-off leave, and these are not to choose for each node anew.
+/// Share of the bound from which on a node counts as slipping. Where |y| = rho both derivatives of C are valid. A node that slipped in the last step
+/// starts the next one there, up to what Newton's tolerance and round-off leave. These are not to choose for each node anew.
 inline constexpr double at_the_bound = 1.0 - 1e-9;
 
-/// Distance beyond the bound, in c_t |u|, up to which a node of space that slips against its traction sticks. Newton leaves the traction of a
-/// slipping node on a tangent of the circle |t| = rho: after a turn by theta |t| = rho / cos(theta), which is no sign that it slips on.
+/// Distance beyond the bound, in c_t |u|, up to which a node in 3D that slips against its traction sticks. Newton leaves the traction of a slipping
+/// node on a tangent of the circle |t| = rho. After a turn by theta |t| = rho / cos(theta), which is no sign that it slips on.
 inline constexpr double against_the_traction = 10.0;
 
 /// @param t      shear traction
@@ -53,7 +53,7 @@ bool sticks(const TangentVector& t, const TangentVector& cu, double bound);
 /// bound rho at the pressure z_n - c_n g:
 ///   stick   |y| < rho   C_tau = -c_t u
 ///   slip                C_tau = z_tau - rho y / |y|
-/// In space a node whose slip is against its traction, 0 < |t| - rho < -10 c_t u . t / |t| with t = z_tau and c_t |u| < rho, sticks too: then
+/// In 3D a node whose slip is against its traction sticks too: 0 < |t| - rho < -10 c_t u . t / |t| with t = z_tau and c_t |u| < rho. Then
 /// |t| - rho < 10 |C_tau|, so C vanishes where it did. Just below the bound (at_the_bound) it is C of stick with the derivative of slip.
 /// @param slip  weighted slip u of the step: the slave's motion relative to the master along tau_a, times the weight
 Complementarity with_friction(double c_n, double c_t, double gap, const TangentVector& slip, const Frame& frame, const SpatialVector& z,
