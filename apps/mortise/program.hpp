@@ -1,12 +1,15 @@
 #pragma once
 // What the commands of the program share.
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
 
 #include "mortise/core/error.hpp"
 #include "mortise/core/types.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace mortise {
 
