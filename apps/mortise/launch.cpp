@@ -20,7 +20,7 @@ bool is_first_process() {
 
 // By default a process alone starts the daemon orted, so that it could start others. If the process is killed, the daemon stays, and it grows. It
 // also opens every network of the machine. A process that talks to none but itself needs neither. Without the daemon all such processes would share
-// one directory for temporary files, which the first to end removes: none makes it, and shared file pointers, which are not used, do without it.
+// one directory for temporary files, which the first to end removes. So none makes it; shared file pointers, which are not used, do without it.
 constexpr std::array<std::array<const char*, 2>, 5> settings{{{"OMPI_MCA_ess_singleton_isolated", "1"},
                                                               {"OMPI_MCA_btl", "self"},
                                                               {"OMPI_MCA_pml", "ob1"},

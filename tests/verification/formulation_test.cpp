@@ -43,9 +43,9 @@ TEST(PatchTest, VariationalMortarPassesToRoundOff) {
 
 // Normal forces -z dg/dd do the work -sum z Dg. Between states with g = 0 it is zero but for the error of the trapezoidal rule. In each step this
 // error is the integral of z' dg/dt, of third order, as g vanishes at both ends. Where a node of the base passes a corner of the block within the
-// step its second derivative has a jump: the error has the same order, times a factor that depends on when. So the sum is of order two. One that is
-// of the first order or stays has a fitted order of one or none, and 1.5 lies between. Forces through D and M leave the work that the mesh makes of
-// the corners.
+// step its second derivative has a jump. The error then has the same order, times a factor that depends on when. So the sum is of order two. One that
+// is of the first order or stays has a fitted order of one or none, and 1.5 lies between. Forces through D and M leave the work that the mesh makes
+// of the corners.
 TEST(SlidingBlock, NormalForcesOfVariationalMortarLoseWorkToStepsOnly) {
   const auto order = [](const std::string& type) {
     std::vector<double> errors;

@@ -1,4 +1,4 @@
-// Runs a scene with several sets of settings; the Newton counts and the sizes of the active set of every iteration have to be the same in all.
+// Runs a scene with several sets of settings. The Newton counts and the sizes of the active set of every iteration have to be the same in all.
 // verify_counts MORTISE SCENE DIRECTORY SETTINGS SETTINGS..., SETTINGS being path=value,path=value,...
 
 #include <fmt/format.h>

@@ -12,8 +12,8 @@ namespace mortise {
 
 namespace detail {
 
-// Augmented Lagrange: a node moves by its force, z_n w, over a stiffness of the body, so its mean gap g / w answers to its traction by w / A_j times
-// h/E; where it is tied by sigma / w too. An update divides g / w by 1 + eps kappa h/E with kappa = w / A_j + sigma E / (h w): eps makes up for a
+// Augmented Lagrange: a node moves by its force, z_n w, over a stiffness of the body. So its mean gap g / w answers to its traction by w / A_j times
+// h/E, and where it is tied by sigma / w too. An update divides g / w by 1 + eps kappa h/E with kappa = w / A_j + sigma E / (h w): eps makes up for a
 // small kappa.
 RegularisedStart PairCoupling::start_from(std::size_t s, const SpatialVector& z) const {
   RegularisedStart start{SpatialVector::Zero(dimension_)};
@@ -76,10 +76,11 @@ double PairCoupling::mismatch_of(double resolution) const {
   return largest * resolution;
 }
 
-// Bodies that give way by a gap for a traction over k: an update adds eps g to the multipliers and divides gaps by 1 + eps/k = 1/q. All that is still
-// missing of them is  k g = eps g (q + q^2 + ...) = (k/eps) eps g  with k/eps = q / (1 - q)  and the change eps g that comes next. So slow updates
-// have small changes and large errors. Changes that do not fall are those of nodes that change their states, or round-off: then at least the change
-// itself is an error.
+// Bodies give way by a gap for a traction over k. An update adds eps g to the multipliers and divides gaps by 1 + eps/k = 1/q. With the change eps g
+// that comes next, all that is still missing of the multipliers is
+//   k g = eps g (q + q^2 + ...) = (k/eps) eps g,   k/eps = q / (1 - q).
+// So slow updates have small changes and large errors. Changes that do not fall are those of nodes that change their states, or round-off: then at
+// least the change itself is an error.
 std::optional<double> PairCoupling::error_of_multipliers(double change, int round) const {
   if (change == 0.0) return 0.0;
   if (round > 1 && change < last_change_) return change * change / (last_change_ - change);

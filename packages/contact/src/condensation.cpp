@@ -119,16 +119,16 @@ void ContactSystem::Implementation::eliminate_by_law(std::size_t p, std::size_t 
   recovery.push_back(std::move(row));
 }
 
-// For a closed node j with the linearised momentum rows  D z = rhs_j - K~_j dd  (rhs = -r without f_c, free components) and the linearised
-// C_tau = 0  (fixed components):
+// For a closed node j take the linearised momentum rows  D z = rhs_j - K~_j dd  (rhs = -r without f_c, free components) and the linearised C_tau = 0
+// (fixed components). They give
 //   z^{k+1} = b + S dd.
 // Rows of the nodes m it is coupled to:  A_m += c_jm S,  rhs_m -= c_jm b.   Its own rows, in the frame (n, tau), turned back to x, y:
 //   normal       -A_j c_n dg dd = A_j c_n g
 //   tangential   without friction (tau . K~_j - D z . dtau) dd = tau . rhs_j,   sticking D_jj c_t du dd = -D_jj c_t u
 // A node with a fixed component f: the tangent along f gives z_f, row f stays Dirichlet's, and the free rows hold the other conditions.
 // Open nodes: z^{k+1} = 0, their rows stay momentum rows.
-// The rows of a corner hold the multipliers of the middles of its edges too,  D_cc z_c + sum_m D_mc z_m = rhs_c - K~_c dd,  those of a middle its own
-// only. With the middles condensed first, which adds their D_mc (b_m + S_m dd) to rows of corners, the corners' rows are as above.
+// The rows of a corner hold the multipliers of its mid-side nodes too,  D_cc z_c + sum_m D_mc z_m = rhs_c - K~_c dd. Those of a mid-side node hold
+// its own only. So mid-side nodes are condensed first, which adds their D_mc (b_m + S_m dd) to rows of corners. Then the corners' rows are as above.
 void ContactSystem::Implementation::condense_node(std::size_t p, std::size_t s, const detail::NodeMultiplier& multiplier, Matrix& system) {
   const PairCoupling& pair = *pairs[p];
   if (multiplier_of[p][s] < 0 || !pair.closed(s, multiplier)) return;

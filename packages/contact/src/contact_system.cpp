@@ -270,7 +270,8 @@ ContactNorms ContactSystem::norms(const Vector& z) const {
     const detail::PairCoupling& pair = *self.pairs[p];
     floor = std::max(floor, 1e-9 * pair.definition().youngs_modulus);
     // What the round-off of positions leaves of c g and c u; penalty weighs them with less, c eps / (c + eps). Augmented Lagrange is judged by the
-    // return map, not by its C, in which gaps count for 1 + eps/c times less: multipliers would be updated from gaps that Newton's method let be.
+    // return map, not by its C, in which gaps count for 1 + eps/c times less. By C, multipliers would be updated from gaps that Newton's method let
+    // be.
     const bool is_augmented = pair.regularisation() && pair.regularisation()->augmentations > 0;
     round_off = std::max(round_off, is_augmented ? pair.mismatch_of(self.position_round_off())
                                                  : self.position_round_off() * pair.definition().youngs_modulus / pair.size());

@@ -26,8 +26,8 @@ RCP<Matrix> product(const Matrix& A, const Matrix& B) {
 
 RCP<Matrix> sum(const Matrix& A, const Matrix& B) { return Tpetra::MatrixMatrix::add(1.0, false, A, 1.0, false, B); }
 
-// Rows of slave nodes, of an operator less the identity, with respect to what the nodes they are coupled to move by. A middle of an edge is coupled
-// to corners, which are slave nodes themselves: rows of middles act on what rows of corners give.
+// Rows of slave nodes, of an operator less the identity, with respect to what the nodes they are coupled to move by. A mid-side node is coupled to
+// corners, which are slave nodes themselves: rows of mid-side nodes act on what rows of corners give.
 class SlaveRows {
  public:
   SlaveRows(const RCP<const Map>& dofs, const std::vector<std::size_t>& sizes, bool any_middles)
@@ -66,8 +66,8 @@ struct Directions {
   SpatialMatrix N, P, Q;
 };
 
-// In space friction holds a node that slips across the direction t of slip: its condition there is that of a spring next to the share 1 - rho / |y|
-// of the node's momentum. Either the spring is the stiffer part, and t is eliminated, or Q makes the momentum whole.
+// In 3D friction holds a node that slips across the direction t of slip. Its condition there is that of a spring next to the share 1 - rho / |y| of
+// the node's momentum. Either the spring is the stiffer part, and t is eliminated, or Q makes the momentum whole.
 Directions directions(const SpatialMatrix& free, const detail::NodeRow& row, const Frame& frame, const Complementarity& law,
                       const std::function<SpatialMatrix()>& stiffness_of_node) {
   const SpatialMatrix none = SpatialMatrix::Zero(free.rows(), free.cols());

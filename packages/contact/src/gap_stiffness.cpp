@@ -7,9 +7,9 @@
 
 namespace mortise {
 
-// With p = z_j . n_j and z' = z_j - p n_j the force of a multiplier is  f_m = -p dg_j/dx_m + c_jm z',  so at fixed z
-//   df_m = -p d(dg_j/dx_m) - dg_j/dx_m (z_j . dn_j) + dc_jm z' - c_jm ( n_j (z_j . dn_j) + p dn_j ),
-// of which add_stiffness() has the third term from the facets.
+// With p = z_j . n_j and z' = z_j - p n_j the force of a multiplier is  f_m = -p dg_j/dx_m + c_jm z'. So at fixed z
+//   df_m = -p d(dg_j/dx_m) - dg_j/dx_m (z_j . dn_j) + dc_jm z' - c_jm ( n_j (z_j . dn_j) + p dn_j ).
+// Its third term comes from the facets, by add_stiffness().
 void ContactSystem::Implementation::add_gap_stiffness(std::size_t p, const Vector& z, Matrix& system) {
   const detail::PairCoupling& pair = *pairs[p];
   const detail::NodePositions& positions = scatter->positions(p);

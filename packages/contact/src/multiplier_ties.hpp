@@ -1,8 +1,8 @@
 #pragma once
 // Multipliers of hardly covered slave nodes are tied to those of their neighbours: a ghost penalty on multipliers.
 //
-// Where the master ends a small part of a facet into it, the multipliers of the far nodes act on next to nothing: a force F takes the multiplier
-// F / D_bb, however small D_bb is. The tie of such a node b resists the deviation r_b of its multiplier from a mean of its neighbours':
+// Where the master ends a small part of a facet into it, the multipliers of the far nodes act on next to nothing. A force F takes the multiplier F /
+// D_bb, however small D_bb is. The tie of such a node b resists the deviation r_b of its multiplier from a mean of its neighbours':
 //   r_b = z_b - sum_k T_bk z_k,   sum_k T_bk = 1.
 // Ties have the energy sum_b sigma_b |r_b|^2 / 2 with the gradient
 //   q_j = sum_b s_bj sigma_b r_b,   s_bb = 1,   s_bk = -T_bk,
@@ -16,10 +16,11 @@
 //   c_b^2 = sum_e (c^e_b)^2,   w_b = s^2 (3 - 2 s),   s = min(1, c_b / c_0),   sigma_b = (1 - w_b) a_b A_b h / E,
 //   T_bk = sum_e (d^e_b / sum_e' d^e'_b) (c^e_k + eta C) / sum_k' (c^e_k' + eta C),   d^e_b = int_e phi_b,   C = sum_k' c^e_k'.
 // Here c^e is the covered share FacetCoupling::cover, and k are the neighbours of b along the edges of facet e that carry multipliers. A node that a
-// whole facet covers is not tied. One beside the aligned edge of a master is not tied either.
-// a_b = sum_e d^e_b a^e / sum_e d^e_b leaves out sides that stand off at a corner: a^e, FacetCoupling::alignment, falls from 1 to 0 while facet e
-// at a kink stands on the master at 10 to 20 degrees. The open node at the far end of such a side has no pressure to be compared with that of the
-// corner. References: Burman (C. R. Math. 348, 2010) for the ghost penalty of cut elements.
+// whole facet covers is not tied. One beside the aligned edge of a master is not tied either. The factor
+//   a_b = sum_e d^e_b a^e / sum_e d^e_b
+// leaves out sides that stand off at a corner. FacetCoupling::alignment a^e falls from 1 to 0 while facet e at a kink stands on the master at 10 to
+// 20 degrees. The open node at the far end of such a side has no pressure to be compared with that of the corner. References: Burman (C. R. Math.
+// 348, 2010) for the ghost penalty of cut elements.
 
 #include <Eigen/Core>
 #include <functional>

@@ -126,11 +126,11 @@ class PairCoupling {
   /// Couplings of facets with derivatives; empty when the geometry is frozen.
   const std::vector<FacetCoupling>& couplings() const { return couplings_; }
 
-  /// Whether the multiplier of slave node s is condensed before those of corners, whose momentum rows it stands in: middles of edges.
+  /// Whether the multiplier of slave node s is condensed before those of corners, whose momentum rows it stands in: that of a mid-side node.
   bool before_corners(std::size_t s) const { return slave_nodes()[s].middle && formulation().elimination() == Elimination::momentum; }
 
-  /// The force of a multiplier z of slave node s is  c_m z' - p dg/dx_m  at the node m. z' = z and p = 0, but
-  /// with variational mortar z' = z - (z . n) n and p = z . n.
+  /// The force of a multiplier z of slave node s is  c_m z' - p dg/dx_m  at the node m. With variational mortar z' = z - (z . n) n and p = z . n.
+  /// Else z' = z and p = 0.
   SpatialVector coupled_part(std::size_t s, const SpatialVector& z) const {
     return variational() ? SpatialVector(z - z.dot(rows_[s].normal) * rows_[s].normal) : z;
   }
@@ -162,8 +162,8 @@ class PairCoupling {
   bool is_newly_covered(std::size_t s) const { return covered(s) && !marked_covered_.empty() && !marked_covered_[s]; }
   /// Whether hardly covered nodes are tied.
   bool has_ties() const { return pair_.options.full_cover > 0.0 && (!regularisation_ || regularisation_->augmentations > 0); }
-  /// Whether the multiplier of node s is eliminated by its conditions and not by its momentum: those of regularised ones, and of a tied node of which
-  /// so little is covered, D_jj < (1 - w) A_j, that its tie is the larger pivot.
+  /// Whether the multiplier of node s is eliminated by its conditions and not by its momentum. So are those of regularised conditions, and that of a
+  /// tied node of which so little is covered, D_jj < (1 - w) A_j, that its tie is the larger pivot.
   bool is_eliminated_by_law(std::size_t s) const {
     return formulation().elimination() == Elimination::law || rows_[s].D * size_ < ties_.compliance(s) * pair_.youngs_modulus;
   }

@@ -74,8 +74,8 @@ void PairCoupling::start_step() {
   place_slip_histories();
 }
 
-// u_j = -T_j w,  w = sum_m (c_jm - c_jm^old) x_m, the rows of T_j the tangents tau_a:
-//   du_j = -dT_j w - T_j sum_m (dc_jm x_m + (c_jm - c_jm^old) dx_m),   d(tau_a) . w = (turn_a^T w) . dn.
+// u_j = -T_j w,  w = sum_m (c_jm - c_jm^old) x_m, the rows of T_j the tangents tau_a. With d(tau_a) . w = (turn_a^T w) . dn
+//   du_j = -dT_j w - T_j sum_m (dc_jm x_m + (c_jm - c_jm^old) dx_m).
 void PairCoupling::measure_slip(bool derivatives) {
   ++slip_evaluations_;
   const auto x = local_positions_->getLocalViewHost(Tpetra::Access::ReadOnly);

@@ -106,7 +106,7 @@ RCP<const Map> widened_columns(const Graph& bulk, const std::map<GlobalOrdinal, 
   return with_further_columns(*bulk.getColMap(), std::move(further));
 }
 
-// The bulk's graph with `columns_of_node` in the rows of owned nodes. Rows are handed over whole and ascending, those of other nodes as they are.
+// The bulk's graph with `columns_of_node` in the rows of owned nodes. Rows are given whole and ascending, those of other nodes as they are.
 RCP<const Graph> widened(const Graph& bulk, const std::map<GlobalOrdinal, Columns>& columns_of_node, const Map& owned_nodes, int dimension) {
   const RCP<const Map> dofs = bulk.getRowMap(), columns = widened_columns(bulk, columns_of_node, owned_nodes);
   const auto rows = static_cast<LocalOrdinal>(dofs->getNodeNumElements());

@@ -19,9 +19,9 @@ struct NodePositions {
 /// The condensed system's graph, and the rows this rank adds to on behalf of other ranks.
 class SystemScatter {
  public:
-  /// Builds the graph of the condensed system: the bulk's rows; for each slave node s the columns of its own bulk rows, the same in all
-  /// of them, and of the nodes it is coupled to; the same columns in the rows of the nodes its multiplier loads (they receive the slave's row by
-  /// condensation). Its columns are the bulk's, followed by further ones.
+  /// Builds the graph of the condensed system from the bulk's rows. The rows of each slave node s get the columns of its own bulk rows, the same in
+  /// all of them, and of the nodes it is coupled to. The same columns are in the rows of the nodes its multiplier loads, as they receive the slave's
+  /// row by condensation. Its columns are the bulk's, followed by further ones.
   /// @param middles_first  whether there are multipliers that are condensed before those of corners, whose rows they widen, on any rank
   SystemScatter(const RCP<const Map>& owned_nodes, const Graph& bulk, const std::vector<PairCoupling*>& pairs, bool middles_first);
 

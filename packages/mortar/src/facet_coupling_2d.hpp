@@ -21,8 +21,8 @@ class FacetIntegrator2d {
   bool integrate(const SlaveFacetData& slave, const std::vector<Facet<LocalOrdinal>>& masters, const FacetReach& reach, const Positions<2>& x,
                  bool derivatives, FacetCoupling& coupling);
 
-  /// The second derivatives of sum_j pressures_j g_j, standard weighting, whose first ones integrate() gives. With H and G the Hessian and the
-  /// gradient in slave positions, nodal normals and master positions, of which J is the derivative, they are J^T H J + sum_a G_a . d2n_a.
+  /// The second derivatives of sum_j pressures_j g_j, standard weighting, whose first ones integrate() gives. Let H and G be the Hessian and the
+  /// gradient in slave positions, nodal normals and master positions, and J the derivative of these. Then they are J^T H J + sum_a G_a . d2n_a.
   /// @param pressures  [nodes of the facet]
   bool curve(const SlaveFacetData& slave, const std::vector<Facet<LocalOrdinal>>& masters, const FacetReach& reach, const Positions<2>& x,
              const FacetVector& pressures, GapCurvature& result);

@@ -127,9 +127,8 @@ void FacetIntegrator3d::chain(const SlaveFacetData& slave, FacetCoupling& coupli
   }
 }
 
-// FacetCoupling::facing. With m in the frame E of the plane, E^T m is that of space, and
-//   d(E^T m) = E^T dm + sum_i m_i de_i,   de_1 = -(dp . e_1) p,   de_2 = -(dp . e_2) p,   de_3 = dp:
-// the frame tilts with the plane and does not spin.
+// FacetCoupling::facing. With m in the frame E of the plane, E^T m has the global components. The frame tilts with the plane and does not spin:
+//   d(E^T m) = E^T dm + sum_i m_i de_i,   de_1 = -(dp . e_1) p,   de_2 = -(dp . e_2) p,   de_3 = dp.
 void FacetIntegrator3d::face(const std::vector<Eigen::Vector3d>& x, bool derivatives, FacetCoupling& coupling) {
   const auto n = static_cast<Eigen::Index>(plane_.slave.size()), count = static_cast<Eigen::Index>(coupling.master.size());
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(3 * n);

@@ -1,5 +1,5 @@
 #pragma once
-// From the overlaps of one slave facet to its D, M and gap, and their derivatives with respect to nodal positions, in space.
+// From the overlaps of one slave facet to its D, M and gap, and their derivatives with respect to nodal positions, in 3D.
 
 #include <vector>
 
@@ -27,7 +27,7 @@ class FacetIntegrator3d {
 
  private:
   struct Pair {                                              ///< a master facet, once for each of its parts that meets one of the slave's
-    FacetVectors nodes;                                      ///< in the plane's frame
+    FacetVectors nodes;                                      ///< in the frame of the plane
     boost::container::static_vector<Eigen::Index, 8> place;  ///< in FacetCoupling::master
     Overlap3d overlap;
   };
@@ -40,7 +40,7 @@ class FacetIntegrator3d {
 
   FacetFunctions functions_;
   AuxiliaryPlane plane_;
-  FacetVectors normals_;  ///< in the plane's frame
+  FacetVectors normals_;  ///< in the frame of the plane
   std::vector<Pair> pairs_;
   std::vector<Overlap3d> overlaps_;
   Eigen::MatrixXd basis_;  ///< L = basis N

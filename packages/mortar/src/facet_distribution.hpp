@@ -30,7 +30,7 @@ struct TravellingFacet {
   SurfaceFacets candidates;
 };
 
-/// Every facet is known to the owners of its nodes, its receivers. One of them, which they agree on by ids alone, is its home: it integrates the
+/// Every facet is known to the owners of its nodes, its receivers. One of them, which they agree on by ids alone, is its home. It integrates the
 /// facet as long as work stays balanced, and gives it away when it does not. Facets are numbered as in SlaveSurface. Several ranks only.
 class FacetDistribution {
  public:

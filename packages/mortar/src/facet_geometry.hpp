@@ -1,5 +1,5 @@
 #pragma once
-// Sizes of facets in the plane (lines) and in space (triangles and quadrilaterals), linear and quadratic.
+// Sizes of facets in 2D (lines) and in 3D (triangles and quadrilaterals), linear and quadratic.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -67,13 +67,14 @@ inline Eigen::Vector3d central_normal(const FacetPoints<3>& x) {
   return x.size() == 3 ? (x[1] - x[0]).cross(x[2] - x[0]) : (x[2] - x[0]).cross(x[3] - x[1]);
 }
 
-/// The height H of a facet bounds how far its normals turn: if no node moves further than d, the sine of the angle is at most 2 d / H (to first
+/// The height H of a facet bounds how far its normals turn. If no node moves further than d, the sine of the angle is at most 2 d / H (to first
 /// order). 0 without extent.
-///   plane  the length of a line of 2 nodes. Of 3 nodes half the least |dx/dxi| of the nodes: that changes by 4 d at most, as at the first node,
-///   where
-///          it is -3/2 x_0 - 1/2 x_1 + 2 x_2;
-///   space  the least height of a triangle; the area over the longer line between the middles of opposite edges of a quadrilateral; the least one of
-///          the linear parts, which are what is compared with the other side.
+///   - A line of 2 nodes: its length.
+///   - A line of 3 nodes: half the least |dx/dxi| of the nodes. It changes by 4 d at most, as at the first node, where it is -3/2 x_0 - 1/2 x_1 + 2
+///     x_2.
+///   - A triangle: its least height.
+///   - A quadrilateral: its area over the longer line between the midpoints of opposite edges.
+///   - A quadratic facet in 3D: the least height of its linear parts, which are what is compared with the other side.
 inline double facet_height(const FacetPoints<2>& x) {
   if (x.size() == 2) return (x[1] - x[0]).norm();
   const Eigen::Vector2d along = 0.5 * (x[1] - x[0]), bend = x[0] + x[1] - 2.0 * x[2];

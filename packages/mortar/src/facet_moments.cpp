@@ -154,7 +154,7 @@ class Combination {
 
 FacetMatrix multiplier_shares(const std::vector<char>& carries, std::size_t corners) {
   const std::size_t count = carries.size();
-  // Heirs stand on a ring around the facet that starts at node `first`; a corner of a quadratic facet stands between the middles k - 1 and k.
+  // Heirs stand on a ring around the facet that starts at node `first`; a corner of a quadratic facet stands between the mid-side nodes k - 1 and k.
   const std::size_t first = count > corners ? corners : 0, ring = count - first;
   const auto on_ring = [&](std::size_t place) { return first + place % ring; };
   const bool any_on_ring = std::find(carries.begin() + static_cast<std::ptrdiff_t>(first), carries.end(), 1) != carries.end();

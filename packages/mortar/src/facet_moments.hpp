@@ -1,5 +1,5 @@
 #pragma once
-// From integrals over one slave facet to its D, M and gap, and their derivatives: the same in the plane and in space.
+// From integrals over one slave facet to its D, M and gap, and their derivatives: the same in 2D and in 3D.
 
 #include <Eigen/Core>
 #include <functional>
@@ -10,8 +10,8 @@
 
 namespace mortise {
 
-/// Integrals over all overlaps of a slave facet of n nodes, N = T L (shape functions) in a basis L of its shape functions that is well conditioned on
-/// the covered part. Rows:  int L_i L_j (i <= j, i first),   int L_i N_l (row i masters + l),   int L_i g.
+/// Integrals over all overlaps of a slave facet of n nodes. Its shape functions are N = T L, in a basis L of them that is well conditioned on the
+/// covered part. Rows:  int L_i L_j (i <= j, i first),   int L_i N_l (row i masters + l),   int L_i g.
 struct FacetMoments {
   FacetMatrix T, extrapolation;  ///< [n x n] T and T^-T, constant: which basis carries the integrals does not change phi
   Eigen::VectorXd value;
@@ -30,10 +30,10 @@ struct FacetMultipliers {
   FacetVector weights;  ///< int N_j, or int Ñ_j, over the facet in the reference configuration
 };
 
-/// S: nodes that carry keep their own function; that of one that does not goes in equal parts to its free edge neighbours, or where it has none to
-/// all free nodes of the facet, so that the sum of all phi stays 1. At least one node carries. Of quadratic facets the middles of edges inherit,
-/// those of the node's own edges, or of the edges next to a middle's: int phi_j N_k, which then is not 0 for the corners k of the middle's edge,
-/// would otherwise couple corners both ways. A corner inherits where no middle carries; then it has to be the only one that does.
+/// S: nodes that carry keep their own function. That of a node that does not goes in equal parts to its free edge neighbours, or where it has none to
+/// all free nodes of the facet. So the sum of all phi stays 1. At least one node carries. On quadratic facets mid-side nodes inherit: those of the
+/// node's own edges, or of the edges next to that of a mid-side node. Otherwise corners would be coupled both ways by int phi_j N_k, which then is
+/// not 0 for the corners k of the mid-side node's edge. A corner inherits where no mid-side node carries; then it has to be the only one that does.
 FacetMatrix multiplier_shares(const std::vector<char>& carries, std::size_t corners);
 
 /// The functions of multipliers and gap weighting, in a model of `dimension` dimensions.

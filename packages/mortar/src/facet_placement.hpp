@@ -20,8 +20,10 @@ struct FacetIds {
   SurfaceFacet facet() const { return {nodes.begin(), nodes.begin() + count}; }
 };
 
-/// Collective. Throws InputError at `place` for facets with nodes that the model does not have, a slave facet that is not given on each rank that
-/// owns a node of it, and a master facet that is given more than once.
+/// Collective. Throws InputError at `place` for
+///   - facets with nodes that the model does not have;
+///   - a slave facet that is not given on each rank that owns a node of it;
+///   - a master facet that is given more than once.
 void refuse_misplaced_facets(const Map& owned_nodes, const SurfaceFacets& slave, const SurfaceFacets& master, const Place& place);
 
 }  // namespace mortise

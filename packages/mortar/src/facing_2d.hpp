@@ -8,8 +8,8 @@
 
 namespace mortise {
 
-/// m_j = -int N_j <-n.n_m> n_m over an overlap, with the unit normals n of the slave facet and n_m of the master; of quadratic slave facets with Ñ_j
-/// for N_j. N_j <-n.n_m> is the length that the master sees of the facet.
+/// m_j = -int N_j <-n.n_m> n_m over an overlap, with the unit normals n of the slave facet and n_m of the master. On quadratic slave facets Ñ_j takes
+/// the place of N_j. N_j <-n.n_m> is the length that the master sees of the facet.
 struct FacingIntegrals {
   Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 6, 1> value;  ///< component i of m_j in row 2 j + i
   /// With respect to slave positions, nodal normals, master positions (two components each).

@@ -13,7 +13,7 @@ namespace mortise {
 struct HeldFacets {
   long held = 0, all = 0;
   bool prescribed = false, follow = false;  ///< what holds their nodes
-  bool quadratic = false;                   ///< the middles of edges are what is held
+  bool quadratic = false;                   ///< the mid-side nodes are what is held
   std::vector<std::string> nodes;           ///< of the first few, as text
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// One interface in the plane or in space: search and numbering stand in interface_implementation.cpp, integrals in interface_evaluation.cpp.
+// One interface in 2D or 3D: search and numbering stand in interface_implementation.cpp, integrals in interface_evaluation.cpp.
 
 #include <memory>
 #include <optional>
@@ -23,9 +23,9 @@ struct IntegratorOf<3> : FacetIntegrator3d {
   IntegratorOf(const InterfaceMeasure&, const MortarOptions& options) : FacetIntegrator3d(options) {}
 };
 
-// Candidates of a slave facet, kept from search to search: a superset of the master facets it can overlap now. Which of them take part is
-// decided in evaluate() from positions alone, so no result depends on when the last search was:
-//   the facet takes part if a master facet that it overlaps lies within the reach; then all within reach + its longest edge do.
+// Candidates of a slave facet, kept from search to search: a superset of the master facets it can overlap now. Which of them take part is decided in
+// evaluate() from positions alone, so no result depends on when the last search was. The facet takes part if a master facet that it overlaps lies
+// within the reach. Then all within reach + its longest edge do.
 template <int dim>
 class Interface final : public InterfaceImplementation {
  public:

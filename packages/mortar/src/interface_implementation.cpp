@@ -121,8 +121,8 @@ double Interface<dim>::least_height(const Positions<dim>& slave_x, const std::ve
   return all;
 }
 
-// The master facets that each slave facet may overlap within reach + its longest edge after a motion; beside a corner of the master all that are as
-// near, since which of them take part depends on the others. Collective.
+// The master facets that each slave facet may overlap within reach + its longest edge after a motion. Beside a corner of the master these are all
+// that are as near, since which of them take part depends on the others. Collective.
 template <int dim>
 typename Interface<dim>::Candidates Interface<dim>::find(const Positions<dim>& x, const std::vector<PlacedFacet<dim>>& placed_master,
                                                          const Motion& motion) const {

@@ -1,5 +1,5 @@
 #pragma once
-// What MortarInterface does, behind its public face: the same in the plane and in space.
+// What MortarInterface does, behind its public face: the same in 2D and in 3D.
 
 #include <memory>
 #include <optional>
@@ -68,7 +68,7 @@ struct Motion {
   double approach, turn;
 };
 
-/// Which master facets may lie under a slave facet after a motion, seen along its nodal normals in the plane, along its own normal in space.
+/// Which master facets may lie under a slave facet after a motion, seen along its nodal normals in 2D, along its own normal in 3D.
 template <int dim>
 class OverlapTest;
 
@@ -91,10 +91,10 @@ class OverlapTest<3> {
   bool operator()(const FacetPoints<3>& master) const;
 
  private:
-  bool stay_apart(const FacetVectors& slave, const FacetVectors& master) const;  ///< linear parts, in the plane's frame
+  bool stay_apart(const FacetVectors& slave, const FacetVectors& master) const;  ///< linear parts, in the frame of the plane
 
   std::optional<AuxiliaryPlane> plane_;
-  std::vector<FacetVectors> parts_;       ///< linear, of the slave, in the plane's frame
+  std::vector<FacetVectors> parts_;       ///< linear, of the slave, in the frame of the plane
   double approach_, tangent_, same_way_;  ///< tan of the turn; sine of what two normals can turn against one another
 };
 

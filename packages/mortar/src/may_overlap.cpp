@@ -14,7 +14,7 @@ struct Extent {
   double low, high;
 };
 
-// Of positions relative to `origin`, in the plane of their first two components.
+// Of positions relative to `origin`, by their first two components.
 template <class Points>
 Extent extent_along(const Eigen::Vector2d& axis, const Points& points, const Eigen::Vector2d& origin) {
   Extent extent{std::numeric_limits<double>::max(), -std::numeric_limits<double>::max()};
@@ -72,9 +72,9 @@ bool OverlapTest<3>::operator()(const FacetPoints<3>& master) const {
   return false;
 }
 
-// Two convex polygons of the plane are disjoint if an axis e along it, across one of their edges, separates them. After the motion points are nearer
-// by `approach` along e at most, and the plane across the new p' may turn by the angle w: e' = e - b p with b = e.p' / p.p', |b| <= tan w, lies along
-// it, and still separates points that were more than approach + tan w (height + approach) apart.
+// Two convex polygons of the plane are disjoint if an axis e along the plane, across one of their edges, separates them. After the motion points are
+// nearer by `approach` along e at most, and the plane across the new p' may turn by the angle w. Then e' = e - b p with b = e.p' / p.p', |b| <= tan
+// w, lies along that plane. It still separates points that were more than approach + tan w (height + approach) apart.
 bool OverlapTest<3>::stay_apart(const FacetVectors& slave, const FacetVectors& master) const {
   const double height = largest_height(slave) + largest_height(master);
   const double slack = approach_ + tangent_ * (height + approach_);

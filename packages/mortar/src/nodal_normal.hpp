@@ -26,7 +26,7 @@ struct NormalStencil {
   std::vector<NodeTangents> facets;
   std::vector<LocalOrdinal> columns;  ///< the nodes of all of them, without repeats
   std::array<bool, 3> projected{};    ///< components without a free direction, taken out of the average
-  std::optional<std::size_t> only;    ///< the one of the facets that shapes the normal alone, at a kink in the plane; none: all do
+  std::optional<std::size_t> only;    ///< the one of the facets that shapes the normal alone, at a kink in 2D; none: all do
 };
 
 /// Whether the node lies on a line or plane of symmetry, or is held aside.
@@ -38,24 +38,25 @@ NormalStencil own_side(LocalOrdinal node, const NodeTangents& facet);
 /// The angle by which a plane surface turns at a node, positive where it is convex. 0 at its ends and at nodes with projected components.
 double turn_at(const NormalStencil& stencil, const Positions<2>& x);
 
-/// The angle by which a plane surface and its mirror image turn at a node on a line of symmetry, where one component is projected out and one facet
-/// ends, positive where they are convex. 0 at other nodes.
+/// The angle by which a plane surface and its mirror image turn at a node on a line of symmetry, positive where they are convex. One component is
+/// projected out there, and one facet ends. 0 at other nodes.
 double mirrored_turn_at(const NormalStencil& stencil, const Positions<2>& x);
 
-/// The largest angle by which a surface in space turns at an edge of the node, less the largest by which it turns the other way: positive where it is
-/// convex. With projected components at the edges between facets and their mirror images too.
+/// The largest angle by which a surface in 3D turns at an edge of the node, less the largest by which it turns the other way. Positive where it is
+/// convex. With projected components the edges between facets and their mirror images count too.
 double turn_at(const NormalStencil& stencil, const Positions<3>& x);
 
-/// Normalised sum of the unit normals of the node's facets at the node, without the `projected` components:  s = P sum_e n_e,  n = s / |s|,
-///   n_e = (t_y, -t_x) / |t| in the plane,  n_e = c / |c|, c = t_1 x t_2 in space,
-///   dn = (I - n n^T) P sum_e dn_e / |s|,
-///   dn_e = R (I - t t^T / |t|^2) dt / |t|, R turns by -90 degrees,   dn_e = (I - n_e n_e^T) dc / |c|.
+/// Normalised sum of the unit normals of the node's facets at the node, without the `projected` components:
+///   s = P sum_e n_e,  n = s / |s|,   dn = (I - n n^T) P sum_e dn_e / |s|,
+///   2D:  n_e = (t_y, -t_x) / |t|,   dn_e = R (I - t t^T / |t|^2) dt / |t|,   R turns by -90 degrees,
+///   3D:  n_e = c / |c|, c = t_1 x t_2,   dn_e = (I - n_e n_e^T) dc / |c|.
 /// Returns false where a facet has no normal or the average does not point out of each of them (then `normal` is not meant to be used).
 bool average_normal(const NormalStencil& stencil, const Positions<2>& x, bool derivatives, NodalNormal& result);
 bool average_normal(const NormalStencil& stencil, const Positions<3>& x, bool derivatives, NodalNormal& result);
 
-/// Adds the second derivatives of `along` . n in the plane to a matrix of the positions of `columns`, two for each, which hold those of the stencil.
-/// n = (sin theta, -cos theta) lies at the mean of its sides' angles theta_e, so with b = dn/dtheta and the unit tangents t and their left normals v
+/// Adds the second derivatives of `along` . n, in 2D, to a matrix of the positions of `columns`, two for each. The columns hold those of the stencil.
+/// The normal n = (sin theta, -cos theta) lies at the mean of its sides' angles theta_e. So with b = dn/dtheta and the unit tangents t and their left
+/// normals v
 ///   d2(along . n) = -(along . n) (dtheta)^2 + (along . b) mean_e d2theta_e,   d2theta_e = -(t v^T + v t^T) / |t_e|^2 in the tangent t_e.
 /// With projected components n does not turn.
 /// @param normal  with its derivative

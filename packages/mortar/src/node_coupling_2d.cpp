@@ -14,8 +14,8 @@ constexpr double two_pi = 6.283185307179586476925286766559;
 /// A line that misses the end of a facet by this share of half its length still hits it: nodes that lie opposite one another.
 constexpr double end_tolerance = 1e-10;
 
-/// The surface goes on straight beyond its ends by this share of half a facet, so that nodes at corners that lie opposite one another do not come and
-/// go with every iteration.
+/// The surface goes on straight beyond its ends by this share of half a facet. Otherwise nodes at corners that lie opposite one another would come
+/// and go with every iteration.
 constexpr double extension = 0.01;
 
 using Dual = Sacado::Fad::SFad<double, 8>;  // of x, n, y_0, y_1

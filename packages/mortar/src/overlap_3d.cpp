@@ -1,4 +1,4 @@
-// Where a slave and a master facet lie over one another in space.
+// Where a slave and a master facet lie over one another in 3D.
 
 #include <Eigen/LU>
 #include <algorithm>

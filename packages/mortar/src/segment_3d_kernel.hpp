@@ -1,5 +1,5 @@
 #pragma once
-// The kernel of the integrals over an overlap in space, for any two shapes of facets.
+// The kernel of the integrals over an overlap in 3D, for any two shapes of facets.
 
 #include <Eigen/LU>
 #include <array>
@@ -44,11 +44,11 @@ Eigen::Matrix<double, 3, nodes> columns_of(const FacetVectors& vectors) {
   return result;
 }
 
-/// All integrals f at a point are functions of xi(s, X) and eta(s, Y), which obey sum N_a(xi) X_a = s and sum N_l(eta) Y_l = s, so with the slopes
-// f_S = df/dxi dxi/ds, f_M = df/deta deta/ds on the plane
-//   df = (f_S + f_M) . ds - f_S . sum N_a dX_a - f_M . sum N_l dY_l  (+ what g depends on directly: normals and heights),
-// and ds = sum of the shares times dv of the triangle's vertices, which move as vertex_parts() says. The gradients (two components per integral) are
-// kept one after the other, so that each of these terms is one long vector times a number.
+/// All integrals f at a point are functions of xi(s, X) and eta(s, Y), which obey sum N_a(xi) X_a = s and sum N_l(eta) Y_l = s. With the slopes f_S =
+/// df/dxi dxi/ds and f_M = df/deta deta/ds on the plane
+///   df = (f_S + f_M) . ds - f_S . sum N_a dX_a - f_M . sum N_l dY_l  (+ what g depends on directly: normals and heights).
+/// In this ds is the sum of the shares times dv of the triangle's vertices, which move as vertex_parts() says. The gradients (two components per
+/// integral) are kept one after the other, so that each of these terms is one long vector times a number.
 template <class Slave, class Master>
 class Integrator {
   static constexpr int n = Slave::nodes, m = Master::nodes;
@@ -186,9 +186,10 @@ class Integrator {
   }
 
   // A crossing v of edges at a small angle moves far when they move little. What it does while it slides along the first edge by ds (b - a) is to
-  // change the area beside the second one, which ends at the polygon's vertex e = v + k (m - l) (+ if the polygon leaves v along it, else -):
-  //   dI = ds (b - a) x (+-(e - v)) int_0^1 f(v + s (e - v)) (1 - s) ds,   ds = -w . (dx_first - dx_second) / (w . (b - a)),   w . (b - a) = (m - l)
-  //   x (b - a),
+  // change the area beside the second one. That edge ends at the polygon's vertex e = v + k (m - l); the sign is + if the polygon leaves v along it,
+  // else -. The change of an integral is
+  //   dI = ds (b - a) x (+-(e - v)) int_0^1 f(v + s (e - v)) (1 - s) ds,
+  //   ds = -w . (dx_first - dx_second) / (w . (b - a)),   w . (b - a) = (m - l) x (b - a),
   // in which the angle cancels. The derivative of the sum over the points of integration has the error of the rule divided by the angle instead.
   void add_nearly_parallel(const EdgeCrossing& crossing, const Gradients& of_vertex, const Eigen::Vector2d& v, const Eigen::Vector2d& end,
                            bool leaves, const FacetVectors& slave_nodes, const FacetVectors& master_nodes) {

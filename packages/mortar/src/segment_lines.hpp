@@ -1,5 +1,5 @@
 #pragma once
-// A slave and a master facet in the plane as lines of as many nodes as they have, and their points of integration, for any scalar.
+// A slave and a master facet in 2D as lines of as many nodes as they have, and their points of integration, for any scalar.
 
 #include <cmath>
 

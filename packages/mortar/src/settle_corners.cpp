@@ -1,7 +1,7 @@
-// Corners of the slave surface that take the master's normal: in the plane, and in space nodes on edges and at their ends.
+// Corners of the slave surface that take the master's normal: nodes in 2D, in 3D nodes on edges and at their ends.
 //
-// The facets f at a kink j have their own normals n_f (see split_kinks.cpp). What they cover of the master gives the node its normal, and the length,
-// or area, that is seen along it their weight:
+// The facets f at a kink j have their own normals n_f (see split_kinks.cpp). What they cover of the master gives the node its normal. The length, or
+// area, that is seen along that normal gives the facets their weight.
 //   m_j = -sum_f int N_j <-n_f.n_m> n_m,   n_j = m_j / |m_j| but for corner_normal(),   w_f = <n_f.n_j>,
 //   D_jk = sum_f w_f int phi_j N_k,   M_jl = sum_f w_f int phi_j N_l,   g_j = n_j . sum_f w_f int phi_j (xhat - x) = sum_f w_f^2 int phi_j g.
 // No side is chosen: what is symmetric stays so. A facet that stands off and one that lies on the master both enter smoothly. Weights w_f are needed:
@@ -80,8 +80,8 @@ CornerNormal<2> direction_of(const SettledCorner& corner, const Eigen::Vector2d&
   return corner_normal(facing, corner.sides[0].normal->normal, corner.sides[1].normal->normal);
 }
 
-// The same in space, where a corner may stand on planes of symmetry. The half that is seen and its images have the sum P m_j, P without the
-// components across the planes, and the part of their cone in all these planes is the cone of P n_f: these take the place of m_j and n_f.
+// The same in 3D, where a corner may stand on planes of symmetry. Let P leave out the components across these planes. The half that is seen and its
+// images have the sum P m_j, and the part of their cone in all these planes is the cone of P n_f. So P m_j and P n_f take the place of m_j and n_f.
 CornerNormal<3> direction_of(const SettledCorner& corner, const Eigen::Vector3d& facing, const NormalStencil& stencil) {
   const Eigen::Matrix3d P = Eigen::Vector3d(!stencil.projected[0], !stencil.projected[1], !stencil.projected[2]).asDiagonal();
   constexpr double none = 1e-6;  // of a facet across these planes, which adds nothing to the cone
@@ -111,7 +111,7 @@ bool has_direction(const Eigen::Matrix<double, dim, 1>& facing, const NormalSten
   return square > 0.0;
 }
 
-// On a line of symmetry in the plane: the corner's normal lies along it.
+// On a line of symmetry in 2D: the corner's normal lies along it.
 void settle_half(SettledCorner& corner, bool derivatives, bool moves, const NodalNormal& normal) {
   for (const CornerSide& side : corner.sides) corner.columns = side.normal->columns;
   measure_weights<2>(corner, normal.normal, Eigen::MatrixXd::Zero(2, derivatives ? 2 * static_cast<Eigen::Index>(corner.columns.size()) : 0), moves);

@@ -1,5 +1,5 @@
 #pragma once
-// A slave facet as the integration needs it, in the plane and in space.
+// A slave facet as the integration needs it, in 2D and in 3D.
 
 #include <boost/container/static_vector.hpp>
 

@@ -167,7 +167,7 @@ SlaveSurface make_slave_surface(const RCP<const Map>& owned_nodes, const RCP<con
     std::vector<char> carries;
     for (const LocalOrdinal node : facet) carries.push_back(surface.carries[node]);
     const std::size_t corners = facet_corners(dim, facet.size());
-    const bool quadratic = facet.size() > corners;  // then the middles of edges carry what nodes without multiplier leave to others
+    const bool quadratic = facet.size() > corners;  // then the mid-side nodes carry what nodes without multiplier leave to others
     if (owned_nodes->isNodeGlobalElement(ids.front())) {
       ++held.all;
       if (std::none_of(carries.begin() + static_cast<std::ptrdiff_t>(quadratic ? corners : 0), carries.end(), [](char one) { return one != 0; })) {

@@ -33,7 +33,7 @@ SlaveSurface make_slave_surface(const RCP<const Map>& owned_nodes, const RCP<con
 
 /// int N_j over a facet: t L / 2, or 2 pi L (r_j / 3 + r_k / 6). Of quadratic facets int Ñ_j (see NonNegativeBasis).
 FacetVector facet_weights(const FacetPoints<2>& x, const InterfaceMeasure& measure);
-/// The same over a facet in space, where there is no other measure than its area.
+/// The same over a facet in 3D, where there is no other measure than its area.
 FacetVector facet_weights(const FacetPoints<3>& x, const InterfaceMeasure& measure);
 
 /// Rows of a view [nodes x dim] as points.

@@ -1,7 +1,7 @@
-// Kinks of the slave surface: corners in the plane, in space nodes on edges and at their ends.
+// Kinks of the slave surface: corners in 2D, in 3D nodes on edges and at their ends.
 //
 // Where two facets meet at an angle, the average n of their normals belongs to neither. Let one of them lie flat on the master, and let the other
-// stand off by the angle theta. Along a field that turns from n to the next node's normal, the gap of the facet that stands off is not linear:
+// stand off by the angle theta. Along a field that turns from n to the next node's normal, the gap of the facet that stands off is not linear. It is
 //   g(xi) = height(xi) / cos(angle of n(xi) to the master's normal).
 // The integral of phi_j g of the closed node is to see the gap at that node alone. It gets a share of what lies away from it, of the size of the
 // facet. And the node's pressure leans over by theta / 2.
@@ -13,7 +13,7 @@
 // Which nodes are kinks, and which facet is nearest, jumps. So it is chosen between steps only, and with hysteresis. A corner that folds onto the
 // master stays split until it is almost flat, since by the average its pressure would lean over again.
 //
-// In 3D the kinks are those of the undeformed surface. Around a deep punch a coarse smooth surface bends by more than 30 degrees as well; split
+// In 3D the kinks are those of the undeformed surface. Around a deep punch a coarse smooth surface bends by more than 30 degrees as well. Split
 // there, facets that are hardly covered stand steep to the master, and Newton's method does not converge.
 
 #include <Teuchos_CommHelpers.hpp>

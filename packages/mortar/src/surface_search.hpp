@@ -38,8 +38,8 @@ struct PlacedFacet {
 /// Distance of two lines, of quadratic ones that of their linear parts; 0 if they cross.
 double facet_distance(const LinePoints& a, const LinePoints& b);
 
-/// Collective: for each slave facet the master facets, of all ranks, within its radius (in space: whose boxes, of control points, lie within it), in
-/// ascending order of node ids. A rendezvous in space: only one box per rank is known everywhere; master facets travel to the ranks whose box they
+/// Collective: for each slave facet the master facets, of all ranks, within its radius (in 3D: whose boxes, of control points, lie within it), in
+/// ascending order of node ids. A rendezvous by regions: only one box per rank is known everywhere; master facets travel to the ranks whose box they
 /// meet.
 /// @param radius  [slave] > 0
 template <int dim>
@@ -52,8 +52,8 @@ struct NormalLine {
   Eigen::Matrix<double, dim, 1> x, normal;
 };
 
-/// Collective: for each line the distance along its normal (negative: behind x) of the nearest master facet, of all ranks and however far, that
-/// faces the normal and that the line meets; no value if there is none. Master facets travel as in facets_within().
+/// Collective: for each line the distance along its normal (negative: behind x) of the nearest master facet that faces the normal and that the line
+/// meets. Facets of all ranks count, however far. No value if there is none. Master facets travel as in facets_within().
 template <int dim>
 std::vector<std::optional<double>> distances_along_normals(const Communicator& comm, const std::vector<NormalLine<dim>>& lines,
                                                            const std::vector<PlacedFacet<dim>>& master);

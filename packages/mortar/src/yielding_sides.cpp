@@ -1,15 +1,15 @@
 // Two sides of the master meet at a convex corner, such as the flat face and the wall of a punch. A smooth slave facet that leaves the flat face at
-// the angle theta is seen by both: lines along its normals run up to the wall once theta is above 3 degrees, however far away that is. With the
+// the angle theta is seen by both. Once theta is above 3 degrees, lines along its normals run up to the wall, however far away that is. With the
 // abscissa s beyond the corner the gap is then
 //   g = 0 (s < 0),   g = s / sin theta (s > 0),
 // which is not linear. The dual functions find the gap at a node of linear gaps only, so this one holds the facet's closed node deep in the flat
 // face. And the facet's cover jumps to 1 where theta passes 3 degrees, and with it ties, weights and forces: no solution stands on either side of
 // that.
 //
-// So a side yields to the one that faces the facet better, where lines along the facet's normals run up to it at more than 60 degrees to its own
-// normal: there the gap is more than twice the distance. A wedge that stands in a facet with both of its sides is touched with both. A surface that
-// goes on smoothly can touch a side only where it is turned towards it. Where it ends, or has a corner, a point may touch a side at any angle:
-// nothing yields.
+// So a side yields to the one that faces the facet better. It yields where lines along the facet's normals run up to it at more than 60 degrees to
+// its own normal: there the gap is more than twice the distance. A wedge that stands in a facet with both of its sides is touched with both. A
+// surface that goes on smoothly can touch a side only where it is turned towards it. Where it ends, or has a corner, a point may touch a side at any
+// angle: nothing yields.
 
 #include "yielding_sides.hpp"
 

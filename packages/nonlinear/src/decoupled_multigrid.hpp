@@ -28,11 +28,11 @@ class RowsOfDecoupled : public Operator {
   RCP<const Matrix> A_, test_, trial_, relative_, block_;
 };
 
-/// With the condensed matrix A and the change of unknowns and of equations S, L of a Decoupling, L A S is that of the bodies joined by stick or by
-/// slip without friction. Next to it, in the eliminated directions N, stands the relative motion w of the surfaces, each component with an equation
-/// of its own:
+/// Let A be the condensed matrix, and S, L the change of unknowns and of equations of a Decoupling. Then L A S is the matrix of the bodies joined by
+/// stick or by slip without friction. Next to it, in the eliminated directions N, stands the relative motion w of the surfaces. Each component of w
+/// has an equation of its own:
 ///   C = L' A S' + N A_D N,   S' = S (I - N),   L' = (I - N) L,   A_D the nodes' diagonal blocks of A.
-/// It has the near null space of the bodies, no matter how stiff they are relative to one another. With w = (N A_D N)^-1 N b,
+/// C has the near null space of the bodies, no matter how stiff they are relative to one another. With w = (N A_D N)^-1 N b,
 ///   A^-1 b ~ w + S' C^-1 L' (b - A w).
 class DecoupledSystem {
  public:

@@ -17,9 +17,9 @@ namespace {
 constexpr int most_refinements = 3;
 
 /// Correction over solution up to which a solution is accepted. Take a singular matrix whose right-hand side is not in its range. Its factors, with
-/// pivots of round-off, give a huge multiple of a null vector. The backward error is small, but as A does not see this vector each step of refinement
-/// adds the same multiple again: corrections are then half, a third, a quarter of the solution. Of any other matrix they are about round-off times
-/// its condition number.
+/// pivots of round-off, give a huge multiple of a null vector. The backward error is small. But A does not see this vector, so each step of
+/// refinement adds the same multiple again. Corrections are then half, a third, a quarter of the solution. Of any other matrix they are about
+/// round-off times its condition number.
 constexpr double certain = 1e-2;
 
 /// What refinement came to.

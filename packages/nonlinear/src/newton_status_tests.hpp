@@ -52,9 +52,9 @@ struct ConvergenceCriterion {
 };
 
 /// All of them: momentum, prescribed displacements, gap, complementarity, increment, states of the nodes. The last is met where no node has another
-/// state than the iterate was computed with. It is also met where states change without an effect: the last two iterates meet all other criteria, and
-/// between them no displacement changes by more than 1e-3 of the tolerance. F is continuous across a change of state, so both are solutions. Which of
-/// the states a node on the border between two has is up to round-off.
+/// state than the iterate was computed with. It is also met where states change without an effect. Then the last two iterates meet all other
+/// criteria, and between them no displacement changes by more than 1e-3 of the tolerance. F is continuous across a change of state, so both are
+/// solutions. Which of the states a node on the border between two has is up to round-off.
 /// @param length size of the model
 std::vector<ConvergenceCriterion> convergence_criteria(const NewtonOptions& options, double length);
 

@@ -11,7 +11,7 @@
 
 namespace mortise::detail {
 
-/// With d = (q, g(q)) and T = dd/dq, a residual r(d) = 0 becomes T^T r = 0 and its linearisation
+/// With d = (q, g(q)) and T = dd/dq, a residual r(d) = 0 becomes T^T r = 0. Its linearisation is
 ///   (T^T A T + sum_i r_i d2g_i/dq2) dq = T^T (rhs - A d0),   d0 = g(q) - d on the followers and 0 elsewhere,   dd = T dq + d0.
 /// The unknowns q are numbered without gaps, in the order of the dofs.
 class Reduction {

@@ -132,7 +132,8 @@ double SemiSmoothNewtonGroup::linear_tolerance(double forcing) const {
 }
 
 // Where geometry does not change, the next multipliers follow from the states of the nodes, whatever the last ones are. As long as the states are
-// wrong the last ones may be a thousand times too large, and so would be their geometric stiffness: it has to wait for the states to settle.
+// wrong the last ones may be a thousand times too large, and so would be their geometric stiffness. So this stiffness has to wait for the states to
+// settle.
 NOX::Abstract::Group::ReturnType SemiSmoothNewtonGroup::computeNewton(Teuchos::ParameterList& list) {
   if (has_newton_) return Ok;
   if (!has_F_ || !isJacobian()) return BadDependency;

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "calculix_deck.hpp"
+#include "mortise/material/materials.hpp"
 
 namespace mortise {
 namespace {

@@ -26,7 +26,7 @@ void write_surface(Text text, const std::string& name, const Mesh& mesh, const S
   }
 }
 
-/// Shortest distance of corners of a facet that follow each other: in the plane the shortest facet, in space the shortest edge of one.
+/// Shortest distance of corners of a facet that follow each other: in 2D the shortest facet, in 3D the shortest edge of one.
 double shortest(const Mesh& mesh, const SideSet& set) {
   double length = std::numeric_limits<double>::max();
   for (const Side& side : set.sides) {
@@ -59,8 +59,8 @@ std::string deck_contact(const Scene& scene, const Model& model, Peer peer, std:
     write_surface(text, fmt::format("SLAVE{}", p), mesh, slave);
     write_surface(text, fmt::format("MASTER{}", p), mesh, master);
     // Penalties, stress per length, against E/h, the stiffness of an element at the interface. Mortar has one for sticking only and bears a stiff
-    // one. The other two have one for the pressure as well: in the plane ten times stiffer ones end in divergence on the finer of the shipped meshes;
-    // in space, on flat surfaces, a softer one would take percents of the force.
+    // one. The other two have one for the pressure as well. In 2D ten times stiffer ones end in divergence on the finer of the shipped meshes. In 3D,
+    // on flat surfaces, a softer one would take percents of the force.
     const bool mortar = peer == Peer::calculix_mortar;
     const double of_element = softest(model, {&slave, &master}) / shortest(mesh, slave);
     const double pressing = penalty.value_or(mesh.dimension == 2 ? 1.0 : 50.0) * of_element, sticking = mortar ? 10.0 * of_element : 0.1 * pressing;

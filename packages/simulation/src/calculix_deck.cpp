@@ -1,6 +1,7 @@
 #include "calculix_deck.hpp"
 
 #include <fmt/format.h>
+#include "mortise/material/materials.hpp"
 
 namespace mortise {
 

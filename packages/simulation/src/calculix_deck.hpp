@@ -11,8 +11,8 @@
 namespace mortise {
 
 /// Numbers of a deck. Nodes and elements are those of the mesh, counted from 1. A plane mesh becomes one layer of bricks and wedges between z = 0 and
-/// z = thickness, every node of which is held in z: that is plane strain, also for the mortar contact, which refuses the plane elements of CalculiX
-/// (it does not take nodes with multiple point constraints, by which they are made of bricks). The second layer of nodes follows the first.
+/// z = thickness, with every node held in z: that is plane strain. The plane elements of CalculiX would not do for its mortar contact. CalculiX makes
+/// them of bricks by multiple point constraints, and mortar contact refuses nodes with such constraints. The second layer of nodes follows the first.
 struct DeckNumbers {
   explicit DeckNumbers(const Mesh& mesh) : nodes(mesh.owned_count()), dimension(mesh.dimension), layers(mesh.dimension == 2 ? 2 : 1) {}
 

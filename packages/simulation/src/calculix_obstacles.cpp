@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "calculix_deck.hpp"
+#include "mortise/material/materials.hpp"
 
 namespace mortise {
 namespace {

@@ -15,8 +15,10 @@ struct CalculixIncrement {
   int cutbacks = 0;  ///< tries before it
 };
 
-/// The last results of each kind: "DISP" (displacement), "FORC" (forces on nodes without those of contact: of supports and loads), "CONTACT" (gap,
-/// two slips, pressure, two shears), by the number of the node in the deck.
+/// The last results of each kind, by the number of the node in the deck:
+///   - "DISP": displacement;
+///   - "FORC": forces on nodes without those of contact, that is of supports and loads;
+///   - "CONTACT": gap, two slips, pressure, two shears.
 struct CalculixResults {
   std::string version;
   std::vector<CalculixIncrement> increments;

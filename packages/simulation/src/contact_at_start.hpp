@@ -6,8 +6,8 @@
 
 namespace mortise {
 
-/// A line for each pair: how deep its surfaces lie in one another and where, or how far apart they are; a warning for an overlap that is deeper than
-/// a facet, and for bodies that overlap without a pair.
+/// Logs a line for each pair: how deep its surfaces lie in one another and where, or how far apart they are. Warns of an overlap that is deeper than
+/// a facet, and of bodies that overlap without a pair.
 void report_contact_at_start(const Model& model, const Scene& scene, RunLog& log);
 
 }  // namespace mortise

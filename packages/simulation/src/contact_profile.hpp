@@ -20,8 +20,9 @@ struct ProfilePoint {
   ContactState state = ContactState::open;
 };
 
-/// The nodes of a pair's slave surface in the direction of travel (the body on the left), piece after piece; pieces start at the node of the lowest
-/// id that no facet leads to, closed ones, which end before their first node, at that of their lowest id. Only rank 0 holds the order.
+/// The nodes of a pair's slave surface in the direction of travel (the body on the left), piece after piece. An open piece starts at the node that no
+/// facet leads to; open pieces come in the order of these nodes' ids. A closed piece starts at its node of the lowest id and ends before it. Only
+/// rank 0 holds the order.
 class ContactProfile {
  public:
   /// Collective. `pair` is the pair's index.

@@ -12,10 +12,11 @@ class ContactWatch {
   ContactWatch(const Model& model, const Scene& scene);
 
   /// Collective. `displacement` is that of the last evaluation of the model's contact.
-  /// @throws StepFailure (lost_contact) on every rank: a slave node that no master facet covers lies within the master's body, farther behind its
-  /// surface
-  ///         than the reach; most of the slave lies within that body; or a rigid master lies within the slave's body, entered through its back; or no
-  ///         facet of a rigid master faces the slave any more and most of the slave sees its back
+  /// @throws StepFailure (lost_contact) on every rank if
+  ///   - a slave node that no master facet covers lies within the master's body, farther behind its surface than the reach;
+  ///   - most of the slave lies within that body;
+  ///   - a rigid master lies within the slave's body, entered through its back; or
+  ///   - no facet of a rigid master faces the slave any more and most of the slave sees its back.
   void examine(const Vector& displacement) const;
 
  private:

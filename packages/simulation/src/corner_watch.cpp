@@ -21,17 +21,18 @@
 namespace mortise {
 namespace {
 
-// A corner of the master in the middle of a slave facet of length h, a depth d behind it, with sides that leave the facet at the angle b: the gap is
+// A corner of the master stands in the middle of a slave facet of length h, a depth d behind it. Its sides leave the facet at the angle b: the gap is
 // x tan b - d at the distance x. With phi = (2 - 3 s) on either facet of a node the weighted gap is
-//   h/2 (h tan b / 4 - d)  of the facet itself,   h/2 (h tan b / 2 - d)  of the one beside it;
-// both nodes are open until d = 3/8 h tan b, and as soon as they carry force the corner stays that deep. Facets that stand for an arc turn by less
-// than 30 degrees, so that b < 15 degrees and d < 3/8 tan(15 degrees) h = 0.1 h: arc_depth. More takes a corner.
+//   h/2 (h tan b / 4 - d)  of the facet itself,   h/2 (h tan b / 2 - d)  of the one beside it.
+// Both nodes are open until d = 3/8 h tan b. As soon as they carry force the corner stays that deep. Facets that stand for an arc turn by less than
+// 30 degrees, so that b < 15 degrees and d < 3/8 tan(15 degrees) h = 0.1 h: arc_depth. More takes a corner.
 
-// A corner of the slave, a depth d behind the master, with facets that leave it at the angle b: the gap is x sin b - d at the distance x. With dual
-// weights 2 - 3 s a facet gives  h (h sin b (1 - 1) - d (2 - 3/2)) = -h d / 2:  the node closes at once. With standard weights 1 - s it gives
-//   h (h sin b / 6 - d / 2),  open until  d = h sin b / 3,
-// on rectangles  (h_x sin b_x + h_y sin b_y) / 3,  at most sqrt(2) h sin b / 3, and as soon as the node carries force the corner stays that deep. As
-// above b < 15 degrees unless there is a corner.
+// A corner of the slave stands a depth d behind the master. Its facets leave the master at the angle b: the gap is x sin b - d at the distance x.
+// With dual weights 2 - 3 s a facet gives  h (h sin b (1 - 1) - d (2 - 3/2)) = -h d / 2:  the node closes at once. With standard weights 1 - s it
+// gives
+//   h (h sin b / 6 - d / 2).
+// The node is open until  d = h sin b / 3,  on rectangles  d = (h_x sin b_x + h_y sin b_y) / 3,  at most sqrt(2) h sin b / 3. As soon as it carries
+// force the corner stays that deep. As above b < 15 degrees unless there is a corner.
 double allowed_of_slave(int dimension) { return std::sin(0.5 * kink_angle) / 3.0 * (dimension == 3 ? std::sqrt(2.0) : 1.0); }
 
 /// Whether gaps are weighed with the slave's shape functions.

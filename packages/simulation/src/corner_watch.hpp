@@ -11,8 +11,8 @@
 
 namespace mortise {
 
-/// Looks at converged states: a weighted gap is a mean, and stays open while a corner of the master lies within a slave facet, or with standard
-/// weights one of the slave within the master.
+/// Looks at converged states. A weighted gap is a mean: it stays open while a corner of the master lies within a slave facet. With standard weights
+/// it also stays open while a corner of the slave lies within the master.
 class CornerWatch {
  public:
   /// @param warn  called once for each pair

@@ -112,7 +112,7 @@ std::optional<ExactSolution::Point> LameRing::displacement(const Point& x, doubl
 std::optional<Eigen::Matrix3d> LameRing::stress(const Point& x, double time) const {
   const auto [A, B] = constants(time);
   const double dx = x[0] - center_x, dy = x[1] - center_y, r2 = dx * dx + dy * dy;
-  // sigma = A I - B/r^2 (e_r e_r - e_theta e_theta) in the plane, e_r e_r - e_theta e_theta = [cos 2 theta, sin 2 theta; sin 2 theta, -cos 2 theta]
+  // In x and y: sigma = A I - B/r^2 (e_r e_r - e_theta e_theta), e_r e_r - e_theta e_theta = [cos 2 theta, sin 2 theta; sin 2 theta, -cos 2 theta]
   const double cosine = (dx * dx - dy * dy) / r2, sine = 2.0 * dx * dy / r2, shear = B / r2;
   Eigen::Matrix3d stress;
   stress << A - shear * cosine, -shear * sine, 0.0, -shear * sine, A + shear * cosine, 0.0, 0.0, 0.0, 2.0 * poissons_ratio * A;

@@ -19,8 +19,8 @@
 namespace mortise {
 namespace {
 
-/// Forces over stiffness times motion below which nothing holds a motion, where all bodies are alike: what contact normals that turn with the loads
-/// give is of the size of strains, what contact holds is of the size of one.
+/// Forces over stiffness times motion below which nothing holds a motion, where all bodies are alike. Contact normals that turn with the loads give
+/// values of the size of strains; what contact holds gives values of the size of one.
 constexpr double hardly_resisted = 1e-4;
 
 /// Of the softest body over that of the stiffest one: contact is as stiff as the softer side.

@@ -9,9 +9,9 @@
 
 namespace mortise {
 
-/// Rigid motions of bodies that only contact holds, singly or together, that J of the last SemiSmoothSystem::jacobian() hardly resists: the vectors
-/// of A^T A with the smallest values, A = J R / (s |R|), with the rigid body modes R of these bodies and the stiffness scale s. A point in
-/// space that turns is taken to have turned by a small angle: free rotations of one that has turned far are not found. Collective.
+/// Rigid motions of bodies that only contact holds, singly or together, that J of the last SemiSmoothSystem::jacobian() hardly resists. They are the
+/// vectors of A^T A with the smallest values, A = J R / (s |R|), with the rigid body modes R of these bodies and the stiffness scale s. A reference
+/// point that turns in 3D is taken to have turned by a small angle: free rotations of one that has turned far are not found. Collective.
 /// @param record  what pairs did in accepted states
 /// @returns in words for people; empty if there is nothing to say
 std::string explain_failure(const Model& model, SemiSmoothSystem& system, const ContactRecord& record);

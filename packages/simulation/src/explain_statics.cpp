@@ -71,8 +71,8 @@ class BodyStatics {
   }
   const Eigen::VectorXd& load() const { return load_; }
 
-  /// -load inside of the cone of all forces, farther than round-off from its boundary: with any load on the corners of a cross around it, all between
-  /// are borne as well.
+  /// -load lies inside of the cone of all forces, farther than round-off from its boundary. To see that, loads on the corners of a cross around it
+  /// are tried: if these are borne, all between are borne as well.
   bool is_borne_with_room() const {
     for (Eigen::Index m = 0; m < load_.size(); ++m)
       for (const double sign : {-4.0, 4.0}) {
@@ -151,7 +151,7 @@ class BodyStatics {
                return motion_at(*modes_, all, wrench.body, modes_->centre(wrench.body), x).norm() <= tilts * all.norm();
              });
     };
-    // Along the axis in space, else in x.
+    // Along the axis in 3D, else in x.
     const Eigen::Vector3d direction = mesh_.dimension == 3 ? Eigen::Vector3d(axis.normalized()) : Eigen::Vector3d::UnitX();
     std::vector<double> from = end_of(-direction, is_at_rest), to = end_of(direction, is_at_rest);
     if (from.empty()) from = end_of(-direction, stays_closed), to = end_of(direction, stays_closed);

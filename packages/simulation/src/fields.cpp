@@ -30,7 +30,7 @@ Values on_slave_nodes(const FieldState& state, int components, const std::functi
   return values;
 }
 
-/// Components xx, yy, zz, xy, in space also yz, xz, of each owned element of all blocks.
+/// Components xx, yy, zz, xy, in 3D also yz, xz, of each owned element of all blocks.
 Values stresses(const FieldState& state) {
   Values values;
   for (LocalOrdinal block = 0; block < static_cast<LocalOrdinal>(state.bodies.mesh()->blocks.size()); ++block)

@@ -9,11 +9,11 @@
 
 namespace mortise {
 
-/// Whether a step failed because its load is more than the bodies can bear. u is the answer of the stiffness K at the failed try's last linearisation
-/// to the load that the step adds, K_e the stiffness at the last converged state, where points that have flowed answer elastically. Along a mechanism
-/// of plastic flow u^T K u is nothing beside u^T K_e u, beyond a limit point it is negative (Bergan et al. 1978: the current stiffness parameter).
-/// Asked only where Newton's method came to no end close to equilibrium, and where the step adds a load: prescribed displacements pass such a point.
-/// Collective.
+/// Whether a step failed because its load is more than the bodies can bear. The displacement u is the answer of the stiffness K at the failed try's
+/// last linearisation to the load that the step adds. K_e is the stiffness at the last converged state, where points that have flowed answer
+/// elastically. Along a mechanism of plastic flow u^T K u is nothing beside u^T K_e u. Beyond a limit point it is negative (Bergan et al. 1978: the
+/// current stiffness parameter). Asked only where Newton's method came to no end close to equilibrium, and where the step adds a load: prescribed
+/// displacements pass such a point. Collective.
 /// @param converged  x of the last converged state
 /// @returns in words for people, with the share of each body's volume that flows; empty if the failure has another cause
 std::string explain_limit_load(const StepFailure& failure, const Model& model, SemiSmoothSystem& system, const Vector& converged);

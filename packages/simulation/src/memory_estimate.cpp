@@ -15,9 +15,9 @@ double matrix_bytes(const SystemSize& size) {
 
 }  // namespace
 
-// The system matrix, that of multigrid, and at its peak, while it makes its first coarse matrix C_1 = P^T C P: the prolongator P, the product C P,
-// and the copy by which Tpetra gives back what it allocated too much for that. Together as much as 5 of the first, or 7 where rows travel between
-// ranks (measured: docs/scaling.md). The basis of GMRES is allocated later, in the place of C P, which is larger.
+// The system matrix, that of multigrid, and what multigrid takes at its peak, while it makes its first coarse matrix C_1 = P^T C P. These are the
+// prolongator P, the product C P, and the copy by which Tpetra gives back what it allocated too much for that. Together as much as 5 of the first, or
+// 7 where rows travel between ranks (measured: docs/scaling.md). The basis of GMRES is allocated later, in the place of C P, which is larger.
 double multigrid_bytes(const SystemSize& size) { return (size.parallel ? 7.0 : 5.0) * matrix_bytes(size); }
 
 // Nested dissection (George 1973) cuts a square of n^2 = N nodes by a cross of lines, a cube of n^3 = N by three planes, and goes on in the parts. A

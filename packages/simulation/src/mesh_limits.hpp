@@ -5,8 +5,8 @@
 
 namespace mortise {
 
-/// Collective. Throws InputError, on all ranks, at the largest body: more dofs than the ranks can number, or a model that takes more memory than the
-/// machines have, whatever solver it has.
+/// Collective. Throws InputError, on all ranks, at the largest body, for more dofs than the ranks can number. Throws it also for a model that takes
+/// more memory than the machines have, whatever solver it has.
 void refuse_too_large(const Communicator& comm, const Scene& scene);
 
 /// The same for a plan, made on the ranks of `comm`, of a run on `ranks` others: a plan takes the mesh alone.

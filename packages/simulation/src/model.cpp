@@ -11,6 +11,7 @@
 
 #include "contributions.hpp"
 #include "mesh_limits.hpp"
+#include "mortise/material/materials.hpp"
 #include "mortise/simulation/hold_check.hpp"
 #include "precision.hpp"
 #include "scene_bodies.hpp"

@@ -34,9 +34,9 @@ void Energy::prepare(const QuantityContext& context) {
 }
 
 // What a work is done by, on all owned dofs. From outside act loads, and supports on prescribed dofs. Reference points act on their followers, and
-// there their work is counted: a point that is carried round by an angle a with a moment M would do M a, while its followers do M sin a along the
-// chords of their ways, as do all other nodes of the body. With r = f_int - f_ext + f_c the internal forces are r + f_ext - f_c, and what supports
-// and points do is r. Friction takes what its forces on both sides do not give back: f_c of the shear tractions alone.
+// there their work is counted. A point that is carried round by an angle a with a moment M would do M a. Its followers do M sin a along the chords of
+// their ways, as do all other nodes of the body. With r = f_int - f_ext + f_c the internal forces are r + f_ext - f_c, and what supports and points
+// do is r. Friction takes what its forces on both sides do not give back: f_c of the shear tractions alone.
 RCP<Vector> Energy::force(const QuantityContext& context) const {
   const auto result = rcp(new Vector(context.bodies.dofs()));
   const auto add_contact_force = [&](const Vector& multipliers) { context.contact->add_contact_force(multipliers, *result); };

@@ -16,9 +16,9 @@ namespace mortise {
 
 namespace {
 
-/// This rank's part of the moment that holds a reference point of space. With x_i and x the positions of followers and point, now,
-///   sum_i (x_i - x) x r_i - m
-/// where r_i are the forces on the followers and m is that of loads, of which external forces hold T^T m / arm.
+/// This rank's part of the moment that holds a reference point in 3D. With x_i and x the current positions of followers and point it is
+///   sum_i (x_i - x) x r_i - m.
+/// The forces on the followers are r_i; m is the moment of loads, of which external forces hold T^T m / arm.
 Eigen::Vector3d holding_moment(const QuantityContext& context, const ReferencePoint& point) {
   const Mesh& mesh = context.mesh();
   const auto u = context.local_displacement->getLocalViewHost(Tpetra::Access::ReadOnly);

@@ -17,7 +17,7 @@ const std::vector<std::pair<std::string, Component>>& component_names();
 double sum_over_ranks(const Mesh& mesh, double mine);
 double largest_over_ranks(const Mesh& mesh, double mine);
 
-/// Throws InputError where `component` is z in the plane.
+/// Throws InputError where `component` is z in 2D.
 void require_component(const QuantityContext& context, Component component);
 
 /// Index of a body. Throws InputError at the name's place.
@@ -31,8 +31,8 @@ std::size_t find_pair(const QuantityContext& context, const Located<std::string>
 /// The parameter "measure".
 void describe_measure(Parameters& parameters, TractionMeasure& measure);
 
-/// A slave facet, or half of a quadratic one, where the geometry of its pair is (current or reference configuration), with the pressures of its ends,
-/// in the order of travel.
+/// A slave facet, or half of a quadratic one, with the pressures of its ends, in the order of travel. It stands where the geometry of its pair is
+/// (current or reference configuration).
 struct PressedFacet {
   std::array<std::array<double, 2>, 2> position{};
   std::array<double, 2> pressure{}, shear{}, shear_bound{};

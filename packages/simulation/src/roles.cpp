@@ -52,12 +52,11 @@ RoleChoice better_slave(const SurfaceTraits& first, const SurfaceTraits& second)
   return {true, "both are alike, and it was given as the slave"};
 }
 
-// On a facet of the master of length H, which is straight, slave nodes at distances h < H would have to lie on a straight line, but a stiff slave
-// keeps its own shape, which leaves that line by H^2/8 of its curvature against the master. Where the contact zone has the half width a and the
-// pressure p that is H^2/(8 a) p/E_m, and to bend the slave by as much takes pressures of E_s/H times that: p E_s/E_m H/(8 a), with both signs. Where
-// that exceeds p, nodes open until as many bear the force as the master has nodes to answer with: (H/h)^(d - 1) times p. Measured with discs on a
-// block (Hertz), E_s/E_m from 1 to 1000, H/h from 1 to 8, a/H of 2 and 4: an excess of 0.2 E_s/E_m H/a, up to H/h - 1. Taken for two facets in half
-// of the zone.
+// A facet of the master of length H is straight, so slave nodes at distances h < H would have to lie on a straight line. But a stiff slave keeps its
+// own shape, which leaves that line by H^2/8 of its curvature against the master. Where the contact zone has the half width a and the pressure p that
+// is H^2/(8 a) p/E_m. To bend the slave by as much takes pressures of E_s/H times that: p E_s/E_m H/(8 a), with both signs. Where that exceeds p,
+// nodes open until as many bear the force as the master has nodes to answer with: (H/h)^(d - 1) times p. Measured with discs on a block (Hertz),
+// E_s/E_m from 1 to 1000, H/h from 1 to 8, a/H of 2 and 4: an excess of 0.2 E_s/E_m H/a, up to H/h - 1. Taken for two facets in half of the zone.
 double excess_of_peak(const SurfaceTraits& slave, const SurfaceTraits& master, int dimension) {
   if (std::isinf(slave.modulus) || std::isinf(master.modulus)) return 0.0;
   const double stiffer = slave.modulus / master.modulus, finer = master.facet / slave.facet;

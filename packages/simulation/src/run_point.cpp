@@ -9,6 +9,7 @@
 #include "mortise/io/csv_writer.hpp"
 #include "mortise/io/files.hpp"
 #include "mortise/io/output_directory.hpp"
+#include "mortise/material/materials.hpp"
 #include "mortise/material/point_driver.hpp"
 #include "mortise/simulation/point.hpp"
 #include "mortise/simulation/run.hpp"

@@ -57,7 +57,7 @@ bool read_until(int pipe, double end, const Stopwatch& watch, std::string& outpu
   return false;
 }
 
-/// All that a process started, and what that started. Neither a process group nor a session would do: mpirun gives each rank a group of its own, and
+/// All that a process started, and what that started. A process group would not do: mpirun gives each rank a group of its own. Nor would a session:
 /// one rank without mpirun has a daemon with a session of its own.
 void add_descendants(pid_t process, std::vector<pid_t>& found) {
   std::error_code gone;

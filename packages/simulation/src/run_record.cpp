@@ -44,7 +44,7 @@ Json check_json(const CheckResult& check) {
 Json effects_json(const Effects& effects) {
   Json json = Json::object();
   for (const auto& [effect, members] : effects) json[effect] = members;
-  // What this program does not do is said, so that a reader of summaries need not know its version.
+  // Says what this program leaves out, so that a reader of summaries need not know its version.
   json["inertia"] = false;
   return json;
 }

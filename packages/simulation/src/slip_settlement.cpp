@@ -90,7 +90,7 @@ double SlipSettlement::sum(double mine) const {
 }
 
 // Of what contact and boundary conditions leave free, the motions that slipping nodes do work on. Stiffness along them is that of tractions that turn
-// with the slip,  rho c_t / |y| (I - e e^T), none in the plane, and of what hardly holds them.
+// with the slip,  rho c_t / |y| (I - e e^T), none in 2D, and of what hardly holds them.
 bool SlipSettlement::find_sliding(const Vector& x, const Vector& F, Sliding& found) const {
   const Mesh& mesh = *model_.mesh();
   const ContactSystem& contact = *model_.contact();

@@ -26,8 +26,8 @@ class SlipSettlement {
 
   /// A try of a step begins.
   void begin() { overload_.clear(); }
-  /// Of the last iterate of this try where friction alone held a body, in equilibrium across the surface, and did not bear its load: body, motion,
-  /// load and what friction bears. Empty if there was none, or a later one held.
+  /// Of the last iterate of this try, in equilibrium across the surface, where friction alone held a body and did not bear its load. Names the body,
+  /// the motion, the load and what friction bears. Empty if there was none, or a later one held.
   const std::string& overload() const { return overload_; }
 
  private:

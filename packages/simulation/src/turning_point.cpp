@@ -71,7 +71,7 @@ std::optional<PathPoint> state_on_plane(const Way& way, const PathPoint& p, doub
   return std::nullopt;
 }
 
-/// Near a maximum the path is mu - mu_p = s - s^2/(2 m): at most m/2, which is less than the 1 - mu_p that the step still asks for where the state on
+/// Near a maximum the path is mu - mu_p = s - s^2/(2 m): at most m/2. That is less than the 1 - mu_p that the step still asks for, if the state on
 /// the plane s = 2 (1 - mu_p) has mu < 1. Behind the maximum dx/dmu points back. Close to it dx/dmu is long, so nearer planes are tried too. In front
 /// of it, as where points begin to flow and dx/dmu grows, the path is followed on.
 bool path_turns_back(const Way& way, const Vector& converged) {

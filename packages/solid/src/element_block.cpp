@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "cell_block.hpp"
+#include "mortise/material/materials.hpp"
 #include "mortise/shape/hexahedron20.hpp"
 #include "mortise/shape/hexahedron8.hpp"
 #include "mortise/shape/quadrilateral4.hpp"

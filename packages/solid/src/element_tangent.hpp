@@ -24,8 +24,8 @@ void add_point_force(const typename Geometry::Point& at, const Matrix3& stress, 
   }
 }
 
-/// Sums K += G^T A G over the points of an element, and for F-bar  + G^T q (tr G0 - tr G),  q = (1/n) A:(I x I) + (1/n) (1 - n) tau x I. Here n is
-/// the number of directions that F-bar scales: 2 in plane strain, 3 (with the hoop) if axisymmetric and in 3D.
+/// Sums K += G^T A G over the points of an element. F-bar adds  G^T q (tr G0 - tr G),  q = (1/n) A:(I x I) + (1/n) (1 - n) tau x I. Here n is the
+/// number of directions that F-bar scales: 2 in plane strain, 3 (with the hoop) if axisymmetric and in 3D.
 template <class Geometry, class Components, bool f_bar>
 class ElementTangent {
  public:

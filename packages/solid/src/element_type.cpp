@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "mortise/material/materials.hpp"
+
 namespace mortise {
 namespace {
 

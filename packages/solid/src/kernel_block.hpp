@@ -7,6 +7,7 @@
 
 #include "cell_block.hpp"
 #include "element_kernel.hpp"
+#include "mortise/material/materials.hpp"
 
 namespace mortise {
 

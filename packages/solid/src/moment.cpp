@@ -28,7 +28,7 @@ class PlaneMoment final : public Load {
   Expression moment_;
 };
 
-/// In 3D a moment m works on the spin, m . d omega = T(theta)^T m . d theta, and the unknown is q = arm * theta:
+/// In 3D a moment m works on the spin, m . d omega = T(theta)^T m . d theta. The unknown is q = arm * theta:
 ///   r = -T^T m / arm,    dr/dq = -d(T^T m)/dtheta / arm^2.
 /// The work of a moment of fixed direction depends on the path, so that dr/dq is not symmetric.
 class SpaceMoment final : public Load {

@@ -52,7 +52,7 @@ std::array<Coefficient, 3> coefficients(double s) {
   return result;
 }
 
-/// x + p v + q w with v = theta x x and w = theta x (theta x x) = theta (theta . x) - s x, of which v is linear and w quadratic in theta.
+/// x + p v + q w with v = theta x x and w = theta x (theta x x) = theta (theta . x) - s x. In theta v is linear and w quadratic.
 OfRotation combine(const Vector3d& theta, const Vector3d& x, const Coefficient& p, const Coefficient& q) {
   const double s = theta.squaredNorm();
   const Vector3d v = theta.cross(x), w = theta * theta.dot(x) - s * x;

@@ -6,7 +6,7 @@ namespace mortise {
 /// Processors take up to 4 numbers at a time: rows are filled up to multiples of it.
 constexpr int filled_up(int count) { return (count + 3) / 4 * 4; }
 
-/// With width = filled_up(nodes) and rows of length 3 width that stand one after the other, for all nodes a, b and directions i, k:
+/// Rows of length 3 width, with width = filled_up(nodes), stand one after the other. For all nodes a, b and directions i, k
 ///   rows[3 a + i][k width + b] += sum_jl g[j][a] A[3 i + j][3 k + l] g[l][b].
 /// Where the volume change is taken from the centre, `q` [9] is not null and
 ///   s = sum_j g[j][a] q[3 i + j],   rows[3 a + i][k width + b] -= s g[k][b],   volumetric[3 a + i] += s.

@@ -11,7 +11,7 @@ namespace {
 using test::Fixture;
 using test::TwoSurfaces;
 
-/// Grids that do not match, in the plane z = 0, with friction whose bound is the same at all pressures.
+/// Grids that do not match, with all points at z = 0, with friction whose bound is the same at all pressures.
 TwoSurfaces flat(double largest_shear) {
   TwoSurfaces surfaces = test::dome_on_waves();
   for (auto* points : {&surfaces.slave, &surfaces.master})

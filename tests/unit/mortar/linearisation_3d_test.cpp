@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(Cases, MortarLinearisationInSpace, ::testing::Range(std
   return name;
 });
 
-// Matching surfaces whose nodes moved apart by t along some directions: edges cross at angles of the size of t, and the vertices between them move
+// Matching surfaces whose nodes moved apart by t along some directions. Edges cross at angles of the size of t, and the vertices between them move
 // 1/t times as far as the nodes. The integrals are smooth along the way for t > 0, so their derivatives tend to a limit, linearly with t. On the way
 // the derivatives at 1e-3 and below are those of the exact integrals. These differ from the rule's by its error over that angle.
 TEST(MortarLinearisationInSpaceNearTies, StaysThatOfTheWay) {

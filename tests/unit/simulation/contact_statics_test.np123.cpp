@@ -1,4 +1,4 @@
-// Which loads forces that push and rub can bear: blocks on a floor, whose answers are in every textbook.
+// Which loads can be borne by pressures and friction: blocks on a floor, whose answers are in every textbook.
 
 #include "mortise/simulation/contact_statics.hpp"
 
@@ -74,7 +74,7 @@ TEST(ContactStatics, TheMotionIsACertificate) {
   }
 }
 
-// In space the bound of friction is a circle: a block on three places, pulled in any direction through the middle of its foot.
+// In 3D the bound of friction is a circle: a block on three places, pulled in any direction through the middle of its foot.
 TEST(ContactStatics, FrictionIsRoundInSpace) {
   const auto comm = Teuchos::DefaultComm<int>::getComm();
   const double mu = 0.3;

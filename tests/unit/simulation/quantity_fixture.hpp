@@ -8,6 +8,7 @@
 #include <Tpetra_Vector.hpp>
 #include <functional>
 
+#include "mortise/material/materials.hpp"
 #include "mortise/mesh/build_mesh.hpp"
 #include "mortise/mesh/generators.hpp"
 #include "mortise/mesh/sets.hpp"

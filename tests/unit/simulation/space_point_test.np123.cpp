@@ -5,6 +5,7 @@
 #include <Tpetra_Core.hpp>
 #include <Tpetra_Vector.hpp>
 
+#include "mortise/material/materials.hpp"
 #include "mortise/mesh/build_mesh.hpp"
 #include "mortise/mesh/volume_generators.hpp"
 #include "mortise/simulation/quantity_kinds.hpp"

@@ -38,8 +38,8 @@ struct ContactPair {
   std::string name;
   Place place;
   /// As MortarInterface wants them: every slave facet on each rank that owns a node of it, every master facet on one rank. Oriented as
-  /// surface_facet.hpp says, with their normals out of the bodies: in the plane the body is on the left of the way along the nodes, in space a
-  /// facet's nodes go round anticlockwise as seen from outside. Facets turned inside out are not found out: they never touch.
+  /// surface_facet.hpp says, with their normals out of the bodies. In 2D the body is on the left of the way along the nodes. In 3D a facet's nodes go
+  /// round anticlockwise as seen from outside. Facets turned inside out are not found out: they never touch.
   SurfaceFacets slave, master;
   /// Above 0. Of the softer side: sets c_n, the start rule and the stiffness of regularised conditions.
   double youngs_modulus = 0.0;
@@ -63,7 +63,7 @@ struct ContactNorms {
 struct ContactNodeState {
   GlobalOrdinal node = 0;
   LocalOrdinal owned_node = 0;
-  std::array<double, 3> traction{};  ///< multiplier z (compression positive along the normal), force per area; third component 0 in the plane
+  std::array<double, 3> traction{};  ///< multiplier z (compression positive along the normal), force per area; third component 0 in 2D
   std::array<double, 3> normal{};
   double pressure = 0.0;  ///< z . n
   double gap = 0.0;       ///< weighted gap / A_j
@@ -71,9 +71,9 @@ struct ContactNodeState {
   bool closed = false;
   ContactState state = ContactState::open;
   double covered = 0.0;      ///< sum_k D_jk: the force on the slave side is -covered * traction
-  double shear = 0.0;        ///< z . tau, tau = n turned by +90 degrees; in space |z - (z . n) n|
+  double shear = 0.0;        ///< z . tau, tau = n turned by +90 degrees; in 3D |z - (z . n) n|
   double shear_bound = 0.0;  ///< rho, of closed nodes; friction only
-  double slip = 0.0;         ///< along tau, in space its size, since the start of the step [length]; friction only
+  double slip = 0.0;         ///< along tau, in 3D its size, since the start of the step [length]; friction only
   double slip_path = 0.0;    ///< |slip| summed over the accepted steps [length]; friction only
   std::array<double, 3>
       force{};  ///< the force of this node's multiplier on the slave side is -force: sum_k D_jk z_j, with variational mortar that of the gap
@@ -104,10 +104,10 @@ struct Augmentation {
   std::string pair;        ///< where
 };
 
-/// A direction in which a closed slave node holds bodies to one another, as what a traction along it does to each of them: rigid motions that do no
+/// A direction in which a closed slave node holds bodies to one another, as what a traction along it does to each of them. Rigid motions that do no
 /// work against any of these forces are not held by contact.
 struct HoldingRow {
-  /// On the nodes of one body, over the largest coefficient c_jm of the slave node: no unit. In the plane the moment has its third component alone.
+  /// On the nodes of one body, over the largest coefficient c_jm of the slave node: no unit. In 2D the moment has its third component alone.
   struct Wrench {
     int body = 0;
     std::array<double, 3> force{}, moment{};
@@ -139,8 +139,11 @@ class ContactSystem {
   /// @param dofs       owned dofs (dimension * node + component) of `owned_nodes`
   /// @param reference  [owned nodes x dim] reference positions
   /// @param fixed      [owned nodes x dim] 1 where prescribed, 2 where it follows a rigid body or a reference point, else 0
-  /// @throws InputError for a pair without Young's modulus, formulation or law of friction, a slave node in two pairs, a node that is slave in one
-  ///         pair and master in another where its multiplier is eliminated, and what MortarInterface refuses; at the pair's name if it has no place
+  /// @throws InputError (at the pair's name if it has no place) for
+  ///   - a pair without Young's modulus, formulation or law of friction;
+  ///   - a slave node in two pairs;
+  ///   - a node that is slave in one pair and master in another where its multiplier is eliminated;
+  ///   - what MortarInterface refuses.
   /// @throws std::invalid_argument for `dofs` that are not make_dof_map(*owned_nodes, dim), and vectors on other nodes
   ContactSystem(RCP<const Map> owned_nodes, RCP<const Map> dofs, RCP<const MultiVector> reference, RCP<const MultiVector> fixed,
                 const InterfaceMeasure& measure, std::vector<ContactPair> pairs, const Timers& timers);
@@ -161,9 +164,9 @@ class ContactSystem {
   const RCP<const Map>& multiplier_map() const;
 
   /// Integrals at displacement d (kept until the next call); searches where needed. Slips are those since the last start_step(): before the first
-  /// there are none. Local failures go to `failure`, which comes in empty (throw_if_any() tells all ranks): those of MortarInterface, and lost
-  /// contact: a node closed in the accepted state or when last marked, or open and in front of the master in the accepted state, that went through
-  /// the master surface so far that nothing is within reach any more. A node that opened or ran off the master's edge is not lost.
+  /// there are none. Local failures go to `failure`, which comes in empty (throw_if_any() tells all ranks). They are those of MortarInterface, and
+  /// lost contact: a node went through the master surface so far that nothing is within reach any more. Such a node was closed in the accepted state
+  /// or when last marked, or open and in front of the master in the accepted state. A node that opened or ran off the master's edge is not lost.
   void evaluate(const Vector& d, bool derivatives, std::optional<StepFailure>& failure);
 
   /// Graph of the condensed system: the bulk's and what the pairs couple. `changed` is set if it differs from the one of the last call: only then is
@@ -184,15 +187,15 @@ class ContactSystem {
 
   /// Takes the states at z, d of the last evaluate, as those that `changed` counts against, and what is covered: once for each Newton iterate.
   void mark_states(const Vector& z);
-  /// Multipliers of nodes that the last evaluate finds not covered become 0; those of nodes that came to be covered since the last mark_states(),
+  /// Multipliers of nodes that the last evaluate finds not covered become 0. Those of nodes that came to be covered since the last mark_states(),
   /// start_step() or accept_states() take the mean that they are tied to, if that keeps them closed. Only pairs with ties. True if any did.
   /// Collective.
   bool follow_cover(Vector& z) const;
   /// Takes the states at z, d of the last evaluate, as those of the accepted state that the next step starts from; slip paths grow.
   void accept_states(const Vector& z);
 
-  /// After a Newton solve that ended in d, z of the last evaluate: updates the multipliers of augmented Lagrange pairs if those of any of them are
-  /// not exact to its tolerance yet. `round` counts from 1 within a step. Collective.
+  /// Updates the multipliers of augmented Lagrange pairs if those of any of them are not exact to its tolerance yet. For use after a Newton solve
+  /// that ended in d, z of the last evaluate. `round` counts from 1 within a step. Collective.
   Augmentation augment(const Vector& z, int round);
 
   /// K += C~ = d(f_c)/dd at fixed z. `system` has system_graph() as asked for after the last evaluate(d, true), and is being filled.
@@ -206,9 +209,9 @@ class ContactSystem {
   /// z^{k+1} from the whole displacement increment, with that of prescribed dofs.
   void recover(const Vector& increment, Vector& z_new) const;
 
-  /// Whether, at the last condense(), hardly covered nodes that are in contact have multipliers that depend on one another's: condense() takes their
-  /// own alone and leaves the rest of the linearised conditions out, which are L(dd, dz) of apply_left_out(). The step of the condensed system then
-  /// is not Newton's; it is that of  J~ = J - L. The same on every rank.
+  /// Whether, at the last condense(), hardly covered nodes that are in contact have multipliers that depend on one another's. Of these condense()
+  /// takes each node's own alone. It leaves the rest of the linearised conditions out, L(dd, dz) of apply_left_out(). The step of the condensed
+  /// system then is not Newton's; it is that of  J~ = J - L. The same on every rank.
   bool leaves_out_couplings() const;
   /// y = L(dd, dz) at the last condense(): rows of C.
   void apply_left_out(const Vector& dd, const Vector& dz, Vector& y) const;
@@ -236,16 +239,16 @@ class ContactSystem {
   CornerReport corners(std::size_t pair) const;
   /// States of the owned slave nodes of a pair.
   std::vector<ContactNodeState> node_states(std::size_t pair, const Vector& z) const;
-  /// Of the owned slave nodes of all pairs, at z, d of the last evaluate(d, true): the normal of each closed node, and where it sticks the tangents
-  /// along which it may bear shear. Collective.
-  /// @param places  [owned nodes x 1 + dim] the body that a node counts for, below 0: none; its position, relative to the point of the body that
-  ///                moments are taken about, in any unit
+  /// Directions in which the owned slave nodes of all pairs hold, at z, d of the last evaluate(d, true). They are the normal of each closed node, and
+  /// where it sticks the tangents along which it may bear shear. Collective.
+  /// @param places  [owned nodes x 1 + dim] the body that a node counts for, below 0: none. The other columns are its position, in any unit, relative
+  ///                to the point of the body that moments are taken about
   std::vector<HoldingRow> holding_rows(const Vector& z, const MultiVector& places) const;
   /// Of the owned slave nodes of all pairs with friction that is not regularised, at z, d of the last evaluate(); those that bear shear freely,
   /// without a fixed component. `places` as above. Collective.
   std::vector<SlidingNode> sliding_nodes(const Vector& z, const MultiVector& places) const;
-  /// Of the owned slave nodes of all pairs, at z, d of the last evaluate(d, true): those that are closed, or covered and as near as the nodes are
-  /// that start_step() closes for an unheld body, 0.1 h. `places` as above. Collective.
+  /// Of the owned slave nodes of all pairs, at z, d of the last evaluate(d, true), those that are closed, or covered and near. Near are the nodes
+  /// that start_step() closes for a body that only contact holds: within 0.1 h. `places` as above. Collective.
   std::vector<BearingNode> bearing_nodes(const Vector& z, const MultiVector& places) const;
   /// Collective.
   IntegrationLoad integration_load(std::size_t pair) const;

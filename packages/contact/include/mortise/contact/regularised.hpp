@@ -13,14 +13,14 @@ struct RegularisedNode {
   SpatialVector multiplier;                                   ///< (lambda_n, lambda_tau) in the node's frame: held fixed
 };
 
-/// C of a node whose tractions follow from the averages g / w of the gap and u / w of the slip over its share w = sum_k D_jk of the surface,
-///   z_n = max(0, lambda_n - eps_n g / w),   z_tau = Pi_rho(lambda_tau + eps_t u / w),
-/// with Pi_rho the projection on the ball of radius rho, the bound at z_n (Simo, Laursen 1992). What stands in max and Pi_rho tells states apart;
-/// with z itself weighed in, it does so as the exact conditions do, and the solution is the same:
+/// C of a node whose tractions follow from averages over its share w = sum_k D_jk of the surface: g / w of the gap and u / w of the slip,
+///   z_n = max(0, lambda_n - eps_n g / w),   z_tau = Pi_rho(lambda_tau + eps_t u / w).
+/// Pi_rho is the projection on the ball of radius rho, the bound at z_n (Simo, Laursen 1992). What stands in max and Pi_rho tells states apart. With
+/// z itself weighed in, it does so as the exact conditions do, and the solution is the same:
 ///   p = (1 - theta_n) z_n + theta_n (lambda_n - eps_n g / w)         open (C = z) unless p > 0,  C_n = z_n - p
 ///   y = (1 - theta_t) z_tau + theta_t (lambda_tau + eps_t u / w)     C_tau = z_tau - Pi_rho(y),  rho at p
-/// with theta = c w / (c w + eps A) (docs/formulations.md says why not 1; Sitzmann, Willner, Wohlmuth 2015). A node that is covered in part moves by
-/// its force w z_n: theta eps / w = c eps / (c w + eps A) stays bounded with w -> 0, so that a tie's part of the gap throws no node from state to
+/// Here theta = c w / (c w + eps A) (docs/formulations.md says why not 1; Sitzmann, Willner, Wohlmuth 2015). A node that is covered in part moves by
+/// its force w z_n. So theta eps / w = c eps / (c w + eps A) stays bounded with w -> 0, and a tie's part of the gap throws no node from state to
 /// state.
 /// @param bound  of a pressure; null: without friction, C_tau = z_tau
 template <class Bound>

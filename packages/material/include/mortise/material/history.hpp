@@ -9,8 +9,8 @@ namespace mortise {
 struct NoState {};
 
 /// Law::State, the values that a point of the law keeps from the last converged step; NoState for laws without. The members stress, energy,
-/// stress_and_tangent of a law with a state take it as their last argument. updated(F, state) is what the next step starts from.
-/// equivalent_plastic_strain(F, state) is the value for output.
+/// stress_and_tangent of a law with a state take it as their last argument. The next step starts from updated(F, state). The value for output is
+/// equivalent_plastic_strain(F, state).
 template <class Law, class = void>
 struct StateOf {
   using type = NoState;

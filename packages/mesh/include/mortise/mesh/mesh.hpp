@@ -37,8 +37,9 @@ struct SideSet {
 };
 
 /// A node that belongs to no element and whose motion others follow:
-///   d_i = u + (R(theta) - I) (X_i - X),   R the rotation by theta about the point, identity for points that do not rotate.
-/// In 3D theta is the rotation vector: R turns by |theta| about its direction.
+///   d_i = u + (R(theta) - I) (X_i - X).
+/// R is the rotation by theta about the point, the identity for points that do not rotate. In 3D theta is the rotation vector: R turns by |theta|
+/// about its direction.
 struct ReferencePoint {
   std::string name;                               ///< of its node set
   bool is_placed = false;                         ///< its position was given

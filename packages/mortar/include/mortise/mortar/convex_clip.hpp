@@ -26,9 +26,9 @@ struct ClipVertex {
 
 using ClipPolygon = boost::container::static_vector<ClipVertex, 16>;
 
-/// Sutherland and Hodgman's algorithm. Each vertex keeps the two edges it lies on, from which its derivatives follow.
-/// Nodes of the first polygon nearer to an edge of the second than 1e-12 of the first's size lie on it: matching meshes cover one another once, and
-/// edges that coincide are not intersected.
+/// Sutherland and Hodgman's algorithm. Each vertex keeps the two edges it lies on, from which its derivatives follow. Nodes of the first polygon
+/// nearer to an edge of the second than 1e-12 of the first's size lie on it. So matching meshes cover one another once, and edges that coincide are
+/// not intersected.
 /// @param first   counterclockwise
 /// @param second  clockwise (a facet that faces the first)
 /// @return counterclockwise; fewer than 3 vertices: no common part

@@ -11,7 +11,7 @@ namespace mortise {
 
 /// A facet as the partition sees it.
 struct PartitionedFacet {
-  std::array<double, 3> centre{};  ///< third component 0 in the plane
+  std::array<double, 3> centre{};  ///< third component 0 in 2D
   double work = 0.0;               ///< >= 0
 };
 
@@ -22,8 +22,8 @@ int home_of(const SurfaceFacet& facet, const std::vector<int>& owners);
 /// Largest over mean of what the ranks have to do; 1 where there is nothing to do.
 double largest_over_mean(const std::vector<double>& work_of_rank);
 
-/// Whether facets should move, for a bound on largest_over_mean(): it is missed now, and then it would hold, or at least come nearer by a tenth, so
-/// that facets that are too few for the ranks do not move at every search.
+/// Whether facets should move, for a bound on largest_over_mean(). The bound is missed now, and then it would hold, or at least come nearer by a
+/// tenth. The latter keeps facets that are too few for the ranks from moving at every search.
 bool worth_moving(double now, double then, double bound);
 
 /// Bytes of the message in which the coupling of a facet travels, with derivatives.

@@ -33,8 +33,8 @@ struct Crossing {
   int tag = 0;
 };
 
-/// The centre of a facet, of a quadratic one of its part, and points just beside its corners, with its unit normal: a line from such a point passes
-/// beside the edges that the surfaces of conforming meshes share.
+/// The centre of a facet, of a quadratic one of its part, and points just beside its corners, with the facet's unit normal. A line from such a point
+/// passes beside the edges that the surfaces of conforming meshes share.
 struct SurfacePoint {
   Eigen::Vector3d x, normal;
   int node = 0;  ///< place of the nearest node among the facet's

@@ -21,17 +21,17 @@ class InterfaceImplementation;
 enum class Coupling {
   dual_mortar,         ///< integrals over both surfaces' overlap, phi_j dual to N_j: D is diagonal
   standard_mortar,     ///< the same integrals with phi_j = N_j, the gap weighted by N_j
-  variational_mortar,  ///< those of standard mortar, with second derivatives of the gap; in the plane
+  variational_mortar,  ///< those of standard mortar, with second derivatives of the gap; 2D only
   node_to_segment      ///< the master facet that the line along the nodal normal meets: phi_j is a point load of the node's share of the surface
 };
 
 /// Which functions weight the gap.
 enum class GapWeighting { dual, standard };
 
-/// Normals at kinks of a slave surface: convex nodes at which it turns, in space those on its edges and at their ends.
+/// Normals at kinks of a slave surface: convex nodes at which it turns, in 3D those on its edges and at their ends.
 enum class CornerRule {
   master_normal,  ///< facets have their own normals, the node has the master's, averaged over what the node's facets cover
-  nearest_facet,  ///< facets have their own normals, the node has that of the facet nearest to the master; in the plane
+  nearest_facet,  ///< facets have their own normals, the node has that of the facet nearest to the master; 2D only
   averaged        ///< the average of the facets' normals, as everywhere else
 };
 
@@ -41,7 +41,7 @@ enum class Linearisation {
   frozen_normals  ///< none: iterates converge to the same solution, linearly
 };
 
-/// The measure on the interface in the plane: thickness t, or 2 pi r of the current slave radius. In space it is not used.
+/// The measure on the interface in 2D: thickness t, or 2 pi r of the current slave radius. In 3D it is not used.
 struct InterfaceMeasure {
   bool axisymmetric = false;
   double thickness = 1.0;
@@ -53,13 +53,13 @@ struct MortarOptions {
   double share = 1.0;                         ///< of the surface that the slave side stands for: 1/2 where both sides are slaves in turn
   GapWeighting gap_weighting = GapWeighting::dual;
   std::optional<double> search_reach;  ///< distance up to which facets can touch; default: the longest facet of the pair
-  int gauss_points = 5;                ///< per overlap of two facets in the plane
+  int gauss_points = 5;                ///< per overlap of two facets in 2D
   Linearisation linearisation = Linearisation::exact;
   CornerRule corners = CornerRule::master_normal;  ///< asked for; corner_rule() tells which one acts
   double balance = 1.5;                            ///< largest over mean work of the ranks, in overlaps, above which slave facets change rank
   void describe(Parameters& parameters);
-  /// Which rule acts: averaged with node to segment, and in space in the place of the nearest facet; nearest facet in the place of the master's
-  /// normal with variational mortar, whose second derivatives do not know that.
+  /// Which rule acts. Node to segment takes the averaged normal, and so do 3D models in the place of the nearest facet. Variational mortar takes the
+  /// nearest facet in the place of the master's normal, which its second derivatives do not know.
   CornerRule corner_rule(int dimension) const;
 };
 
@@ -67,20 +67,24 @@ struct MortarOptions {
 using FacetMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most_side_nodes, most_side_nodes>;
 using FacetVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, most_side_nodes, 1>;
 
-/// Values of one slave facet and, if asked for, their first derivatives with respect to nodal positions, in a model of `dim` dimensions.
-/// Nodes are local indices of MortarInterface::local_nodes(). phi_j are the functions of the facet's multipliers: dual ones, formed on its covered
-/// part only, or N_j (the share of a node without multiplier is given to the facet's other nodes); rows of nodes without multiplier are zero. On
-/// quadratic facets they are dual to, or are, the functions Ñ_j of quadratic_facet.hpp, and so are w_j and the weight A_j.
-/// Node to segment: one slave node with the facet that it meets, phi_j a point load: D_jj is its share w of the surface, M_jl = w N_l, the gap w
-/// times the distance.
-/// At a kink that takes the master's normal rows of D, M and gap of the node's owner are weighed with the facet's projected length: see
+/// Values of one slave facet and, if asked for, their first derivatives with respect to nodal positions, in a model of `dim` dimensions. Nodes are
+/// local indices of MortarInterface::local_nodes().
+///
+/// The phi_j are the functions of the facet's multipliers: dual ones, formed on its covered part only, or N_j. The share of a node without multiplier
+/// is given to the facet's other nodes; rows of nodes without multiplier are zero. On quadratic facets the phi_j are dual to, or are, the functions
+/// Ñ_j of quadratic_facet.hpp, and so are w_j and the weight A_j.
+///
+/// Node to segment: one slave node with the facet that it meets. Its phi_j is a point load: D_jj is its share w of the surface, M_jl = w N_l, the gap
+/// w times the distance.
+///
+/// At a kink that takes the master's normal, rows of D, M and gap of the node's owner are weighed with the facet's projected length: see
 /// corner_normal.hpp.
 struct FacetCoupling {
   Facet<LocalOrdinal> slave;
   std::vector<LocalOrdinal> master;   ///< nodes of the master facets that the slave facet overlaps, without repeats
   std::vector<LocalOrdinal> columns;  ///< nodes on whose positions the values depend: slave, ring (neighbours that shape the normals), master, and
                                       ///< those of a kink's other facet
-  /// D(j,k) = int phi_j N_k; dual: off-diagonal only for nodes k without multiplier, and where j is the middle of an edge, for corners k
+  /// D(j,k) = int phi_j N_k; dual: off-diagonal only for nodes k without multiplier, and, where j is a mid-side node, for corners k
   FacetMatrix D;
   Eigen::MatrixXd M;  ///< [slave x master] M(j,l) = int phi_j N_l
   FacetVector gap;    ///< [slave] int w_j g, w the gap weighting
@@ -91,8 +95,8 @@ struct FacetCoupling {
   Eigen::MatrixXd dM;      ///< row j master.size() + l
   Eigen::MatrixXd dgap;    ///< row j
   Eigen::MatrixXd dcover;  ///< row j; empty too where the whole facet is covered
-  /// m_j = -int N_j <-n.n_m> n_m, with the normals n of the facet and n_m of the master: row j, of facets at a kink that takes the master's normal;
-  /// else empty. Derivatives: row dim j + i.
+  /// Of facets at a kink that takes the master's normal; else empty. Row j is m_j = -int N_j <-n.n_m> n_m, with the normals n of the facet and n_m of
+  /// the master. Derivatives: row dim j + i.
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most_side_nodes, 3> facing;
   Eigen::MatrixXd dfacing;
   /// Of such a facet 1 where it lies along the master, 0 where it stands off by 20 degrees or more, smooth in between; of others 1, no derivatives.
@@ -133,7 +137,7 @@ struct InterfaceLoad {
   int redistributions = 0;          ///< searches that gave facets to other ranks
 };
 
-/// One contact pair's coupling, in the plane or in space, by the number of columns of the positions. Collective in all members but the accessors.
+/// One contact pair's coupling, in 2D or 3D, by the number of columns of the positions. Collective in all members but the accessors.
 class MortarInterface {
  public:
   /// @param owned_nodes    one-to-one map of all nodes of the model
@@ -142,22 +146,24 @@ class MortarInterface {
   ///                       only messages tell 1 from 2
   /// @param slave          every slave facet with a node owned by this rank (so a facet may stand on two ranks)
   /// @param master         the master facets of this rank, each on exactly one rank
-  /// @throws InputError (at `place`, on every rank) for facets on other ranks than that or of nodes that nobody owns, a slave facet whose nodes, or
-  ///         middles of edges, all lack a multiplier ("make this side the master"), a facet of zero length, an empty surface, a node on both sides,
-  ///         quadratic facets with node to segment, variational mortar in space or without the normals' derivatives
+  /// @throws InputError (at `place`, on every rank) for
+  ///   - facets on other ranks than that or of nodes that nobody owns;
+  ///   - a slave facet whose nodes, or mid-side nodes, all lack a multiplier ("make this side the master");
+  ///   - a facet of zero length, an empty surface, or a node on both sides;
+  ///   - quadratic facets with node to segment; and variational mortar in 3D or without the normals' derivatives.
   MortarInterface(RCP<const Map> owned_nodes, RCP<const MultiVector> reference, RCP<const MultiVector> fixed, const SurfaceFacets& slave,
                   const SurfaceFacets& master, const InterfaceMeasure& measure, const MortarOptions& options, const Place& place);
   ~MortarInterface();
 
-  /// Finds, for the positions `x` [owned nodes x dim], the master facets each slave facet may touch, and which rank integrates it: one of the owners
-  /// of its nodes, or any where that would leave the ranks' work further apart than MortarOptions::balance. Cheap when no node moved further than a
-  /// tenth of the shortest facet since the last real search. Returns (the same on every rank) whether local_nodes() and the pattern were rebuilt.
-  /// Does nothing if a position is not finite; evaluate() then reports it.
+  /// Finds, for the positions `x` [owned nodes x dim], the master facets each slave facet may touch, and which rank integrates it. That is one of the
+  /// owners of its nodes, or any where that would leave the ranks' work further apart than MortarOptions::balance. Cheap when no node moved further
+  /// than a tenth of the shortest facet since the last real search. Returns (the same on every rank) whether local_nodes() and the pattern were
+  /// rebuilt. Does nothing if a position is not finite; evaluate() then reports it.
   bool search(const MultiVector& x);
 
-  /// Chooses the kinks from now on, convex nodes at which the slave surface turns by more than 30 degrees (5 if it is one already; in 3D those of the
-  /// first call alone). The facets that
-  /// meet there have their own normals, and the node what MortarOptions::corner_rule() says. Collective.
+  /// Chooses the kinks from now on: convex nodes at which the slave surface turns by more than 30 degrees, or by 5 if the node is a kink already. In
+  /// 3D they are those of the first call alone. The facets that meet there have their own normals, and the node what MortarOptions::corner_rule()
+  /// says. Collective.
   /// @param x        [owned nodes x dim] positions that tell
   /// @param nearest  [slave_nodes()] the facet nearest to the master, by its nodes; empty where none is covered: then the node's normal stays the
   ///                 average. No other rule needs it: empty
@@ -181,15 +187,18 @@ class MortarInterface {
   /// For owned slave node s: every local node that may appear in `master` or `columns` of its facets' couplings: the sparsity pattern.
   const std::vector<LocalOrdinal>& coupled_nodes(std::size_t s) const;
 
-  /// For owned slave node s: the nodes on which its multiplier may act, the rows of its column of D^T and M^T: itself, its facets' nodes
-  /// without multiplier (all of them with standard multipliers), corners where it is the middle of an edge, and master nodes. Variational mortar: all
-  /// whose positions its gap depends on. A part of coupled_nodes(s).
+  /// For owned slave node s: the nodes on which its multiplier may act, the rows of its column of D^T and M^T. They are
+  ///   - the node itself;
+  ///   - its facets' nodes without multiplier, all of them with standard multipliers;
+  ///   - corners where it is a mid-side node;
+  ///   - master nodes.
+  /// Variational mortar: all whose positions its gap depends on. A part of coupled_nodes(s).
   const std::vector<LocalOrdinal>& loaded_nodes(std::size_t s) const;
 
-  /// Facet couplings of all facets that touch an owned slave node and overlap a master facet, and the normals of the owned slave nodes
-  /// [slave nodes], at positions `x` [local nodes x dim]. Every facet is integrated once; its coupling travels to the other ranks that own nodes of
-  /// it. Values do not depend on who integrates. Failures (inverted facet, projection) go to `failure` of the rank that meets them; the couplings of
-  /// other ranks are then incomplete.
+  /// At positions `x` [local nodes x dim], couplings of all facets that touch an owned slave node and overlap a master facet. Normals are those of
+  /// the owned slave nodes [slave nodes]. Every facet is integrated once; its coupling travels to the other ranks that own nodes of it. Values do not
+  /// depend on who integrates. Failures (inverted facet, projection) go to `failure` of the rank that meets them; the couplings of other ranks are
+  /// then incomplete.
   void evaluate(const MultiVector& x, bool derivatives, std::vector<FacetCoupling>& couplings, std::vector<NodalNormal>& normals,
                 std::optional<StepFailure>& failure) const;
 
@@ -197,9 +206,9 @@ class MortarInterface {
   /// no failure. Each rank integrates the facets of its own nodes for them: nothing is sent.
   std::vector<GapCurvature> gap_curvatures(const MultiVector& x, const std::vector<double>& pressures) const;
 
-  /// Collective. For some owned slave nodes (indices into slave_nodes()) the distance along the given unit normals, at positions `x`
-  /// [owned nodes x dim, finite], of the nearest master facet that faces the normal; negative: it stands behind the node, which has gone through
-  /// it. However far, other than evaluate(). No value: no such facet.
+  /// Collective. For some owned slave nodes (indices into slave_nodes()) the distance of the nearest master facet that faces the given unit normal,
+  /// along that normal. Positions are `x` [owned nodes x dim, finite]. Negative: the facet stands behind the node, which has gone through it. However
+  /// far, other than evaluate(). No value: no such facet.
   std::vector<std::optional<double>> distances_to_master(const MultiVector& x, const std::vector<std::size_t>& nodes,
                                                          const std::vector<SpatialVector>& normals) const;
 

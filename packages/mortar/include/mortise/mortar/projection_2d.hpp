@@ -1,6 +1,5 @@
 #pragma once
-// Projections between a slave and a master facet in the plane, linear or quadratic, templated on the scalar (double, or a Sacado type for
-// derivatives).
+// Projections between a slave and a master facet in 2D, linear or quadratic, templated on the scalar (double, or a Sacado type for derivatives).
 
 #include <array>
 #include <boost/math/tools/toms748_solve.hpp>
@@ -73,8 +72,8 @@ struct ClippedProjection {
 };
 
 /// The xi of the slave facet whose n(xi) points at y:  F(xi) = (y - x(xi)) x n(xi) = 0, clipped to [-1, 1].
-/// F has the end values f_a = (y - x_a) x n_a and f_b, which are what the neighbouring facets find at the shared node too, so no point falls between
-/// two facets or counts twice. F grows with xi where the field has not crossed itself; then
+/// F has the end values f_a = (y - x_a) x n_a and f_b. The neighbouring facets find the same values at the shared node, so no point falls between two
+/// facets or counts twice. F grows with xi where the field has not crossed itself; then
 ///   f_a >= 0: before the first node,   f_b <= 0: behind the second,   f_a < 0 < f_b: a root inside.
 /// Linear facets:  F = A xi^2 + B xi + C,  B = (f_b - f_a) / 2 > 0,  xi = C / q,  q = -(B + sqrt(B^2 - 4 A C)) / 2   (q never cancels; F'(xi) > 0
 /// there). Of quadratic ones F is of degree 4.
@@ -100,9 +99,9 @@ std::optional<ClippedProjection> project_back(const SlaveLine<double, nodes>& sl
   }
 }
 
-/// The root of project_back with its derivatives: one Newton step in S from the root as a constant is exact to first order,
-///   xi - F(xi) / F'(xi),  dxi = -dF / F';
-/// a second one, from there, to third order.
+/// The root of project_back with its derivatives. One Newton step in S from the root as a constant is exact to first order:
+///   xi - F(xi) / F'(xi),  dxi = -dF / F'.
+/// A second one, from there, is exact to third order.
 template <class S, int nodes>
 S lift_root(const SlaveLine<S, nodes>& slave, const Point2<S>& y, const S& root) {
   const Point2<S> offset = difference(y, interpolate(slave.x, root)), normal = interpolate(slave.normal, root);

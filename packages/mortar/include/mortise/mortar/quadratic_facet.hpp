@@ -1,5 +1,5 @@
 #pragma once
-// What quadratic facets have beyond linear ones: middles of edges, linear parts, and the basis of their functions that is nowhere negative.
+// What quadratic facets have beyond linear ones: mid-side nodes, linear parts, and the basis of their functions that is nowhere negative.
 
 #include <array>
 #include <boost/container/static_vector.hpp>
@@ -10,14 +10,14 @@
 
 namespace mortise {
 
-/// Number of corners of a facet with so many nodes: the first ones. The others are the middles of its edges, in the order of the edges.
+/// Number of corners of a facet with so many nodes: the first ones. The others are the mid-side nodes, in the order of the edges.
 constexpr std::size_t facet_corners(int dimension, std::size_t nodes) { return dimension == 2 ? 2 : (nodes > 4 ? nodes / 2 : nodes); }
 
 /// A linear facet on some nodes of a facet, by their places.
 using FacetPart = boost::container::static_vector<int, 4>;
 
 /// The linear facets that a facet is cut into: a linear one is its own only part. Two lines of a line of 3 nodes; four triangles of a triangle of 6;
-/// of a quadrilateral of 8 four triangles at the corners, and the quadrilateral of the middles.
+/// of a quadrilateral of 8 four triangles at the corners, and the quadrilateral of the mid-side nodes.
 const std::vector<FacetPart>& linear_parts(int dimension, std::size_t nodes);
 
 /// What belongs to the nodes of a part.

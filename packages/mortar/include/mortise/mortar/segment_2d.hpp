@@ -40,8 +40,8 @@ bool faces(const LinePoints& master, const Point2<double>& normal);
 /// The overlap, or none. None also where the master facet does not face the nodal normals.
 std::optional<Overlap> find_overlap(const SlaveCurve& slave, const LinePoints& master);
 
-/// Functions L of a slave facet that are nodal at the ends of an interval of it, quadratic ones at its middle too: a basis of the facet's functions
-/// that stays well conditioned on however small a covered part.
+/// Functions L of a slave facet that are nodal at the ends of an interval of it; quadratic ones are nodal at its middle too. They are a basis of the
+/// facet's functions that stays well conditioned on however small a covered part.
 /// @param from_low, from_high  distances from the interval's ends over its length
 template <int nodes, class S>
 std::array<S, nodes> interval_functions(const S& from_low, const S& from_high) {

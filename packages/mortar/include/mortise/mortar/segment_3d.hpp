@@ -1,5 +1,5 @@
 #pragma once
-// The integrals over the overlap of one slave and one master facet in space, and their exact first derivatives.
+// The integrals over the overlap of one slave and one master facet in 3D, and their exact first derivatives.
 
 #include <Eigen/Core>
 #include <boost/container/static_vector.hpp>
@@ -18,8 +18,9 @@ struct OverlapPoint {
   double height = 0.0;      ///< of the master over the slave along the plane's normal
 };
 
-/// What a linear part of a slave facet and one of a master facet cover of one another on the auxiliary plane: a convex polygon, cut into triangles
-/// about the mean of its vertices (which is vertex polygon.size(); one triangle stays whole), with the points of triangle_points() on each.
+/// What a linear part of a slave facet and one of a master facet cover of one another on the auxiliary plane. It is a convex polygon, cut into
+/// triangles about the mean of its vertices (which is vertex polygon.size(); one triangle stays whole). Each triangle has the points of
+/// triangle_points().
 struct Overlap3d {
   FacetPart slave_part, master_part;
   ClipPolygon polygon;
@@ -30,7 +31,7 @@ struct Overlap3d {
 
 /// The overlaps of all parts. Those are missing where a part of the master does not face the plane (its normal at a corner is nearly along it, or it
 /// is folded there). Polygons are those of the linear parts; the points on them, xi and eta and heights, those of the facets themselves.
-/// @param slave, master  nodes in the plane's frame, the slave's seen from above, with normals away from the plane's origin
+/// @param slave, master  nodes in the frame of the plane, the slave's seen from above, with normals away from the plane's origin
 /// @param overlaps       added to
 /// @throws StepFailure (projection) where a facet is so distorted that a point cannot be projected on it
 void find_overlaps(const FacetVectors& slave, const FacetVectors& master, std::vector<Overlap3d>& overlaps);
@@ -44,7 +45,7 @@ struct SegmentIntegrals3d {
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 108, 72> derivative;
 };
 
-/// @param normals  nodal normals of the slave facet in the plane's frame
+/// @param normals  nodal normals of the slave facet in the frame of the plane
 /// @param basis    [n x n], held constant in the derivatives
 void integrate_segment(const FacetVectors& slave, const FacetVectors& normals, const FacetVectors& master, const Overlap3d& overlap,
                        const Eigen::MatrixXd& basis, bool derivatives, SegmentIntegrals3d& result);

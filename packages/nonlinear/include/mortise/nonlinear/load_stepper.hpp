@@ -52,9 +52,9 @@ struct StepperObserver {
   std::function<std::string(const StepFailure&)> explain;             ///< what lies behind a failure of Newton's method, to stand before its message
 };
 
-/// Runs from time 0 to the end. On return x is the last converged state. Returns true at the end time; false when the smallest step failed
-/// (the last failure is then in `last_failure`). `start_step(x)` prepares the initial guess of each try (the contact start rule);
-/// with a predictor it prepares the last state, where no prescribed displacement changes, and the predicted one unless the last is a solution.
+/// Runs from time 0 to the end. On return x is the last converged state. Returns true at the end time; false when the smallest step failed (the last
+/// failure is then in `last_failure`). `start_step(x)` prepares the initial guess of each try (the contact start rule). With a predictor it prepares
+/// the last state where no prescribed displacement changes. If that is not tried, or no solution, it prepares the predicted state.
 bool run_steps(SemiSmoothSystem& system, const SteppingOptions& stepping, const NewtonOptions& newton, Vector& x,
                const std::function<void(Vector& x)>& start_step, const StepperObserver& observer, std::optional<StepFailure>& last_failure);
 

@@ -30,8 +30,8 @@ Eigen::Vector3d motion_at(const RigidModes& modes, const Eigen::VectorXd& motion
 /// The rotation w alone.
 Eigen::Vector3d rotation_of(const RigidModes& modes, const Eigen::VectorXd& motion, int b);
 
-/// d += factor times a motion in the numbers of `modes`, at nodes and at what they follow: exact for a motion from one configuration to another with
-/// the positions half way. `d` is on the owned dofs.
+/// d += factor times a motion in the numbers of `modes`, at nodes and at what they follow. It is exact for a motion from one configuration to another
+/// if the positions are those half way between them. `d` is on the owned dofs.
 void move_bodies(const Mesh& mesh, const RigidModes& modes, const Eigen::VectorXd& motion, const std::vector<Eigen::Vector3d>& middle,
                  const NodePlaces& half_way, double factor, Vector& d);
 

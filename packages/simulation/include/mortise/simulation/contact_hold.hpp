@@ -28,8 +28,8 @@ RCP<MultiVector> contact_places(const Mesh& mesh, const RigidModes& modes, const
 ContactHold contact_hold(const Model& model, const RigidModes& modes, const NodePlaces& at, const Vector& z);
 
 /// Motions that a Gram matrix of what holds them leaves free: orthonormal columns [rows of gram x motions]. Bodies that hold one another are looked
-/// at together, others by themselves. A motion is free where what it costs is below hardly_held^2 of the most that another one costs: contact normals
-/// turn with the loads, by as much as bodies are strained, and that holds nothing.
+/// at together, others by themselves. A motion is free where what it costs is below hardly_held^2 of the most that another one costs. The bound is
+/// not 0 since contact normals turn with the loads, by as much as bodies are strained, and that holds nothing.
 /// @param reference  Gram matrix of what else could hold the bodies: where a body has a single motion, no other one tells what counts as little
 Eigen::MatrixXd free_motions(const Eigen::MatrixXd& gram, int per_body, double hardly_held = 1e-4, const Eigen::MatrixXd& reference = {});
 

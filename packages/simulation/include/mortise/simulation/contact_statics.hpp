@@ -1,5 +1,5 @@
 #pragma once
-// Statics of rigid bodies: which loads forces that push and rub at given places can bear.
+// Statics of rigid bodies: which loads can be borne by pressures and friction at given places.
 
 #include <Eigen/Core>
 #include <vector>
@@ -20,13 +20,13 @@ enum class Bearing { borne, not_borne, undecided };
 
 struct BorneLoad {
   Bearing bearing = Bearing::undecided;
-  /// load + forces of least size. Not borne: the motion v along which the load does work, load . v = |v|^2, while no force within its bounds works
-  /// against it, f . v >= 0: by Farkas' lemma there is such a motion if and only if the load is not borne.
+  /// load + forces of least size. Not borne: this is the motion v along which the load does work, load . v = |v|^2, while no force within its bounds
+  /// works against it, f . v >= 0. By Farkas' lemma there is such a motion if and only if the load is not borne.
   Eigen::VectorXd missing;
 };
 
-/// The largest work of forces of a cone against a motion, over their size and that of the motion: 0 where the place bears the load and the motion
-/// neither opens it nor slips more than friction pays for, below 0 where the motion opens it.
+/// The largest work of forces of a cone against a motion, over their size and that of the motion. It is 0 where the place bears the load and the
+/// motion neither opens it nor slips more than friction pays for. It is below 0 where the motion opens the place.
 double resistance(const BearingCone& cone, const Eigen::VectorXd& motion);
 
 /// Least |load + f| over the sum of all cones. Collective; cones are those of this rank.

@@ -20,7 +20,8 @@ struct Extrapolation {
 /// Richardson's limit h -> 0, from the last two values if the order is given, else from the last three. These may also
 ///   - agree to 1e-10 of their size, which is what Newton's method leaves: their differences have no order, the finest value is the limit;
 ///   - oscillate, or come to rest faster than h^20: the finest value is the limit, as uncertain as the last two values are apart.
-/// None if they are too few or not finite, if mesh sizes do not fall, or if the values go one way and their steps do not die out as h^order would.
+/// None if they are too few or not finite, or if mesh sizes do not fall. None also if the values go one way and their steps do not die out as h^order
+/// would.
 std::optional<Extrapolation> extrapolate(const std::vector<double>& h, const std::vector<double>& value, std::optional<double> order);
 
 /// A time to an accuracy.

@@ -19,10 +19,15 @@ struct HoldingPair {
   bool rubs = false;                      ///< there is friction
 };
 
-/// Collective. Each body may move by its rigid modes q (plane: two translations and the rotation about its centre, over its size;
-/// axisymmetric: the translation along the axis; space: three of each). Held is what costs: every prescribed dof adds (mode at the dof)^2, a set that
-/// follows a reference point what deviates from the motion that it may share, every slave facet in reach of its master adds (n . (mode_slave -
-/// mode_master))^2 to the Gram matrix of q, with friction |mode_slave - mode_master|^2; a null vector of it is a motion that nothing holds.
+/// Collective. Each body may move by its rigid modes q:
+///   - plane: two translations and the rotation about its centre, over its size;
+///   - axisymmetric: the translation along the axis;
+///   - 3D: three of each.
+/// The Gram matrix of q adds up what holds a motion:
+///   - every prescribed dof adds (mode at the dof)^2;
+///   - a set that follows a reference point adds what deviates from the motion that it may share;
+///   - every slave facet in reach of its master adds (n . (mode_slave - mode_master))^2, with friction |mode_slave - mode_master|^2.
+/// A null vector of the matrix is a motion that nothing holds.
 /// @param fixed        [owned nodes x dim] 1 where the displacement is prescribed
 /// @param body_places  where the scene gives each body (mesh.blocks order)
 /// @returns for each body (mesh.blocks order) whether only contact holds it

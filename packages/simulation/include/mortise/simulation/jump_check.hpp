@@ -10,9 +10,9 @@ namespace mortise {
 /// Compares steps by their rates, the largest change of a displacement over the change of pseudo-time.
 ///
 /// Along a path of equilibria a step of half the length has nearly the same rate. A jump is as far however short the step, so that its rate doubles.
-/// A step is looked at that goes more than 5 % of the model, or in which a body goes farther than it can be carried, 2.5 times as fast as the step
-/// before. It is tried with half the length, and stands if the rate then is at most 1.5 times as large. Of the first step nothing is known.
-/// Collective in all members.
+/// A step is suspect if it goes 2.5 times as fast as the step before, and far: more than 5 % of the model, or a body farther than it can be carried.
+/// It is tried with half the length, and stands if the rate then is at most 1.5 times as large. Of the first step nothing is known. Collective in all
+/// members.
 class JumpCheck {
  public:
   /// @param length  size of the model

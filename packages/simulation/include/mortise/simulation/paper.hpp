@@ -23,9 +23,12 @@ struct PaperOptions {
 /// Names of the runs, in the order of the paper.
 std::vector<std::string> paper_run_names();
 
-/// Runs the paper's scenes, which are part of the program, each as a process of its own of this same program, which therefore must not have started
-/// MPI; `comm` has one rank. Leaves in the directory: scenes/<scene>.xml, a directory with the results of each run, paper.json (what was run and how
-/// it ended) and paper.html, one page that needs no other file.
+/// Runs the paper's scenes, which are part of the program. Each is a process of its own of this same program, which therefore must not have started
+/// MPI; `comm` has one rank. Leaves in the directory:
+///   - scenes/<scene>.xml;
+///   - a directory with the results of each run;
+///   - paper.json: what was run and how it ended;
+///   - paper.html: one page that needs no other file.
 /// A run that fails is written down with its reason, and the next one is started. Returns done; not_converged if a run failed; check_missed if all
 /// came to their end but one of them missed a bound of its checks. Throws FileError: the directory cannot be written, no python3 with matplotlib and
 /// h5py, the page cannot be drawn.

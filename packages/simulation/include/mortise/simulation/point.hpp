@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mortise/core/types.hpp"
-#include "mortise/material/materials.hpp"
+#include "mortise/material/material_options.hpp"
 #include "mortise/material/point_path.hpp"
 
 namespace mortise {

@@ -11,11 +11,11 @@
 
 namespace mortise {
 
-/// A Cartesian component: x, y (axisymmetric: r, z), in space also z.
+/// A Cartesian component: x, y (axisymmetric: r, z), in 3D also z.
 enum class Component { x, y, z };
 
-/// Sum over the nodes of a set of the forces by which supports act on the bodies: f_int - f_ext + f_c. [force] On a reference point that turns
-/// also the moment, counterclockwise; in space about axes through it that do not turn, and without a value at full turns of a point that a load
+/// Sum over the nodes of a set of the forces by which supports act on the bodies: f_int - f_ext + f_c. [force] On a reference point that turns also
+/// the moment, counterclockwise. In 3D it is about axes through the point that do not turn, and has no value at full turns of a point that a load
 /// `moment` acts on. [force length]
 struct Reaction : Quantity {
   enum class Of { x, y, z, rotation, rotation_x, rotation_y, rotation_z };
@@ -50,8 +50,10 @@ struct ContactForce : Quantity {
 };
 
 /// How far forces are from balance. With f_c the contact forces on all nodes:
-///   contact: |sum f_c| / (1/2 sum |f_c|);   total: |sum of loads + sum of reactions on prescribed dofs| / the larger sum of absolute values;
-///   both: the larger of the two. Components in which bodies balance: both, axisymmetric the axial one (total).
+///   - contact: |sum f_c| / (1/2 sum |f_c|);
+///   - total: |sum of loads + sum of reactions on prescribed dofs| / the larger sum of absolute values;
+///   - both: the larger of the two.
+/// Components in which bodies balance: both, axisymmetric the axial one (total).
 struct MomentumImbalance : Quantity {
   enum class Of { contact, total, both };
   Of of = Of::both;
@@ -164,7 +166,7 @@ struct PairQuantity : Quantity {
   void prepare(const QuantityContext& context) override;
 
  protected:
-  /// Whether it has a meaning in the plane (axisymmetric scenes included), and in space.
+  /// Whether it has a meaning in 2D (axisymmetric scenes included), and in 3D.
   virtual bool in_plane() const { return true; }
   virtual bool in_space() const { return false; }
   std::size_t pair_ = 0;
@@ -184,16 +186,16 @@ struct HalfWidth : PairQuantity {
   double evaluate(const QuantityContext& context) override;
 };
 
-/// Half width of the part of the contact zone that sticks: 2 sqrt(int s (x - m)^2 ds / int s ds) with s = rho - |z_tau|, what is left of the friction
-/// bound, and m its middle. In Cattaneo's and Mindlin's solution s is a Hertzian distribution of just that half width. [length]
+/// Half width of the part of the contact zone that sticks: 2 sqrt(int s (x - m)^2 ds / int s ds). Here s = rho - |z_tau| is what is left of the
+/// friction bound, and m is its middle. In Cattaneo's and Mindlin's solution s is a Hertzian distribution of just that half width. [length]
 struct StickHalfWidth : PairQuantity {
   TractionMeasure measure = TractionMeasure::pair;
   void describe(Parameters& parameters) override;
   double evaluate(const QuantityContext& context) override;
 };
 
-/// Nodal pressure, shear traction or component of the traction z of a pair at a position x of its slave surface, linear between nodes; 0 where there
-/// is no such position, the mean where there are several. Without x: the one of largest size. [stress]
+/// Nodal pressure, shear traction or component of the traction z of a pair at a position x of its slave surface, linear between nodes. It is 0 where
+/// there is no such position, and the mean where there are several. Without x: the one of largest size. [stress]
 struct ContactTraction : PairQuantity {
   enum class Part { pressure, shear, x, y };
   std::optional<double> x;
@@ -214,15 +216,16 @@ struct ContactLength : PairQuantity {
   double evaluate(const QuantityContext& context) override;
 };
 
-/// Area that belongs to closed nodes: their halves of the facets times the thickness or 2 pi r; in space sum_k D_jk. [area]
+/// Area that belongs to closed nodes: their halves of the facets times the thickness or 2 pi r; in 3D sum_k D_jk. [area]
 struct ContactArea : PairQuantity {
   bool in_space() const override { return true; }
   double evaluate(const QuantityContext& context) override;
 };
 
-/// Radius of a Hertzian pressure of revolution about an axis through `center`: p = p_0 sqrt(1 - r^2 / a^2) has int p r^2 = 2/5 a^2 int p, so
+/// Radius of a Hertzian pressure of revolution about an axis through `center`,
 ///   a = sqrt(5/2 sum_j F_j r_j^2 / sum_j F_j),
-/// with the normal forces F_j and current positions of the slave nodes. Space only. [length]
+/// with the normal forces F_j and current positions of the slave nodes. It follows from int p r^2 = 2/5 a^2 int p for p = p_0 sqrt(1 - r^2 / a^2). 3D
+/// only. [length]
 struct ContactRadius : PairQuantity {
   std::vector<double> center{0.0, 0.0, 0.0};
   std::vector<double> axis{0.0, 0.0, 1.0};
@@ -232,8 +235,8 @@ struct ContactRadius : PairQuantity {
   double evaluate(const QuantityContext& context) override;
 };
 
-/// Total variation of the nodal pressures along the slave surface, sum over the facets of |p_2 - p_1|: twice the peak for a pressure that rises from
-/// nothing and falls to nothing, more if it oscillates. [stress]
+/// Total variation of the nodal pressures along the slave surface: the sum over the facets of |p_2 - p_1|. It is twice the peak for a pressure that
+/// rises from nothing and falls to nothing, and more if the pressure oscillates. [stress]
 struct PressureVariation : PairQuantity {
   double evaluate(const QuantityContext& context) override;
 };
@@ -268,7 +271,7 @@ struct OverTime : Quantity {
   std::optional<double> extreme_;
 };
 
-/// Energies and works since the start. Works are sums of 1/2 (f_old + f) . (d - d_old) over the steps, the trapezoidal rule, so that
+/// Energies and works since the start. Works are sums of 1/2 (f_old + f) . (d - d_old) over the steps, the trapezoidal rule. So
 ///   external work = internal work + friction - (work of contact pressures on both sides)
 /// holds to the tolerance of momentum, whatever the step. [work]
 struct Energy : Quantity {
@@ -292,9 +295,12 @@ struct Energy : Quantity {
   RCP<Vector> force_, displacement_;  ///< at the last step
 };
 
-/// (external work - internal work - friction) / the largest of them: what contact pressures have done, which is nothing where surfaces touch all
-/// over; or (external work - stored - plastic work - friction) / the largest of them, which counts beside that what F-bar, without a potential, and
-/// the steps of the flow rule make of internal work. NaN while nothing has been done.
+/// What is missing in the balance of works, over the largest of them:
+///   - internal_work: external work - internal work - friction. It is what contact pressures have done, which is nothing where surfaces touch all
+///     over.
+///   - stored_and_plastic: external work - stored - plastic work - friction. It counts besides what F-bar, without a potential, and the steps of the
+///     flow rule make of internal work.
+/// NaN while nothing has been done.
 struct EnergyError : Quantity {
   enum class Against { internal_work, stored_and_plastic };
   Against against = Against::internal_work;

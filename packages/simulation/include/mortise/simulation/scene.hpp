@@ -6,7 +6,7 @@
 
 #include "mortise/contact/contact_system.hpp"
 #include "mortise/core/parameters.hpp"
-#include "mortise/material/materials.hpp"
+#include "mortise/material/material_options.hpp"
 #include "mortise/mesh/mesh_options.hpp"
 #include "mortise/mesh/sets.hpp"
 #include "mortise/nonlinear/linear_solver.hpp"

@@ -15,8 +15,8 @@
 
 namespace mortise {
 
-/// Looks at each state that Newton's method found, for the bodies that contact alone holds: which of their rigid motions nothing holds there, and how
-/// far they went along these in the step. Collective in all members.
+/// Looks at each state that Newton's method found, for the bodies that contact alone holds. It finds which of their rigid motions nothing holds
+/// there, and how far they went along these in the step. Collective in all members.
 class StateCheck {
  public:
   /// @param resolution  what displacements are known to [length]
@@ -29,18 +29,18 @@ class StateCheck {
   /// From the accepted state `before` to `after`, where contact was evaluated last, with derivatives. Says which motions are free, each once.
   ///
   /// A motion that nothing holds costs nothing, so equilibrium does not say how far a body goes along it. What may have moved it within the step are
-  /// the bodies that it touches: by their own motion and by deformation. With m the largest motion of a node of bodies that boundary conditions hold,
-  /// of a prescribed dof and of another body that contact moved, and e the largest deformation, each over the step, a body that is carried goes no
-  /// farther than m + e, plus what Newton's method leaves undetermined. Twice that is allowed, as motions of different nodes add up: a body that
-  /// turns with what carries it goes farther at its rim. A body that leaves an equilibrium for another place goes as far however small the step is,
-  /// while m and e fall with it.
+  /// the bodies that it touches: by their own motion and by deformation. Let m be the largest motion over the step of a node of bodies that boundary
+  /// conditions hold, of a prescribed dof and of another body that contact moved. Let e be the largest deformation over the step. A body that is
+  /// carried goes no farther than m + e, plus what Newton's method leaves undetermined. Twice that is allowed, as motions of different nodes add up:
+  /// a body that turns with what carries it goes farther at its rim. A body that leaves an equilibrium for another place goes as far however small
+  /// the step is, while m and e fall with it.
   ///
-  /// The motions are those that nothing holds in `after`, or those that nothing held in `before`: a body that was thrown out of a gap may lie on an
-  /// edge that holds it.
+  /// The motions are those that nothing holds in `after`, or those that nothing held in `before`. The latter count too since a body that was thrown
+  /// out of a gap may lie on an edge that holds it.
   ///
   /// A body that went farther may have been thrown there by an iterate on the way. In the first round of a try it is put back along its free motions,
-  /// deformed as it is: what is in one another then is closed. One that nothing touches, neither before nor after, is put back from any distance
-  /// beyond its own deformation: if it has to go out of the way, it does so again.
+  /// deformed as it is: what is in one another then is closed. A body that nothing touches, neither before nor after, is put back from any distance
+  /// beyond its own deformation. If it has to go out of the way, it does so again.
   /// @returns whether `after` is accepted; if not it is another start
   /// @throws StepFailure(lost_contact), on every rank, for a body that went farther again, or, held or not, farther than the model is long
   bool verify(const SemiSmoothSystem& system, const Vector& before, Vector& after, int round);

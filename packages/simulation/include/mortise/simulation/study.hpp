@@ -20,9 +20,12 @@ struct StudyOptions {
   std::string version;  ///< of the program
 };
 
-/// Runs the points of a study, each as a process of its own of this same program, which therefore must not have started MPI; `comm` has one rank.
-/// Leaves in the directory: scene.xml, what was run; points/<point> and finest with the results of each; study.csv, study.json and report.html, one
-/// page that needs no other file. May be killed at any time: called again, it runs what is missing.
+/// Runs the points of a study. Each is a process of its own of this same program, which therefore must not have started MPI; `comm` has one rank.
+/// Leaves in the directory:
+///   - scene.xml: what was run;
+///   - points/<point> and finest, with the results of each;
+///   - study.csv, study.json and report.html, one page that needs no other file.
+/// May be killed at any time: called again, it runs what is missing.
 /// A point that fails is written down with its reason, and the next one is run. Returns done, or not_converged if a point or the finest run failed.
 /// Throws InputError: everything that is wrong with the study; FileError: the study cannot be read, the directory not written, the page not drawn.
 ExitCode run_study(const RCP<const Communicator>& comm, const StudyOptions& options);

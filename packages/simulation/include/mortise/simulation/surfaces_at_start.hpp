@@ -44,8 +44,11 @@ struct SurfacesAtStart {
 
 /// Collective. Lines along the normals of each surface are compared with the whole surface of the other body: facets of any size and any depth count.
 /// @param length  size of the model; overlaps below 1e-6 of it are round-off of what was meant to touch
-/// @throws InputError at the pair's place: an overlap where the scene allows none, one that a given search reach does not cover, one that reaches
-///         beyond the middle of the body that it goes into, a slave wholly within or behind its master, a master that turns its back
+/// @throws InputError at the pair's place:
+///   - an overlap where the scene allows none;
+///   - an overlap that a given search reach does not cover, or that reaches beyond the middle of the body that it goes into;
+///   - a slave wholly within or behind its master;
+///   - a master that turns its back.
 SurfacesAtStart examine_surfaces(const Mesh& mesh, const Scene& scene, double length);
 
 }  // namespace mortise

@@ -9,6 +9,7 @@
 
 #include "mortise/core/error.hpp"
 #include "mortise/core/types.hpp"
+#include "mortise/material/tensor_components.hpp"
 #include "mortise/mesh/mesh.hpp"
 #include "mortise/solid/element_type.hpp"
 #include "mortise/solid/nodal_sparsity.hpp"
@@ -66,8 +67,8 @@ class Bodies {
   /// See NodalSparsity::graph().
   RCP<const Graph> graph() const { return sparsity_->graph(); }
 
-  /// residual += f_int, f_int = integral of tau : grad eta dV0, on owned dofs.
-  /// det F <= 0 (or at the centre, det F0 <= 0) is put into `failure` if that is empty; the sum is then meaningless.
+  /// residual += f_int, f_int = integral of tau : grad eta dV0, on owned dofs. A det F <= 0 (or at the centre, det F0 <= 0) is put into `failure` if
+  /// that is empty; the sum is then meaningless.
   void add_internal_force(const Vector& local_displacement, Vector& residual, std::optional<StepFailure>& failure) const;
 
   /// matrix += d f_int / d displacement. `matrix` has graph(), or more entries and more columns after its own.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "mortise/core/error.hpp"
-#include "mortise/material/materials.hpp"
+#include "mortise/material/material_options.hpp"
 #include "mortise/shape/cell.hpp"
 
 namespace mortise {
@@ -43,8 +43,10 @@ struct BodyProperties {
   bool is_rigid() const { return material == nullptr; }
 };
 
-/// Reports what has no meaning: a 3D element with 2D kinematics and the other way round, F-bar with small strain or plane stress, a law without a
-/// plane stress form under plane stress. Empty if all is well. No communication.
+/// Reports what has no meaning. Empty if all is well. No communication.
+///   - a 3D element with 2D kinematics, and the other way round;
+///   - F-bar with small strain or plane stress;
+///   - a law without a plane stress form under plane stress.
 std::vector<Diagnostic> check_combination(const BodyProperties& body, Kinematics kinematics);
 
 }  // namespace mortise

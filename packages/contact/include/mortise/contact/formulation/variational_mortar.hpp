@@ -4,8 +4,8 @@
 
 namespace mortise {
 
-/// Standard mortar whose normal forces are the derivatives of the weighted gaps, f = -z_n dg_j/dd: they do no work as long as gaps stay closed. In
-/// the plane.
+/// Standard mortar whose normal forces are the derivatives of the weighted gaps, f = -z_n dg_j/dd: they do no work as long as gaps stay closed. 2D
+/// only.
 struct VariationalMortar : Formulation {
   void describe(Parameters&) override {}
   Coupling coupling() const override { return Coupling::variational_mortar; }
