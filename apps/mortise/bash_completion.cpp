@@ -15,12 +15,12 @@ _mortise() {
   if [ "$COMP_CWORD" -eq 1 ]; then
 )";
 
-constexpr const char* end = R"(  if [ -n "$files" ]; then compopt -o filenames 2>/dev/null; fi
-  case $files in
-    xml) COMPREPLY=($(compgen -d -- "$word") $(compgen -f -X '!*.xml' -- "$word")) ;;
-    directory) COMPREPLY=($(compgen -d -- "$word")) ;;
-    *) COMPREPLY=($(compgen -W "$choices" -- "$word")) ;;
+constexpr const char* end = R"(  case $files in
+    xml) mapfile -t COMPREPLY < <(compgen -d -- "$word"; compgen -f -X '!*.xml' -- "$word") ;;
+    directory) mapfile -t COMPREPLY < <(compgen -d -- "$word") ;;
+    *) mapfile -t COMPREPLY < <(compgen -W "$choices" -- "${word//\\/}" | while read -r one; do printf '%q\n' "$one"; done) ;;
   esac
+  if [ -n "$files" ]; then compopt -o filenames 2>/dev/null; fi
 }
 complete -F _mortise mortise
 )";
@@ -59,7 +59,7 @@ std::string bash_completion(CLI::App& app) {
   for (const CLI::Option* option : app.get_options([](CLI::Option*) { return true; }))
     for (const std::string& name : option->get_lnames()) first.push_back("--" + name);
   return fmt::format(
-      "{}    COMPREPLY=($(compgen -W $'{}' -- \"$word\"))\n    return\n  fi\n  case $command in\n{}  esac\n"
+      "{}    mapfile -t COMPREPLY < <(compgen -W $'{}' -- \"$word\")\n    return\n  fi\n  case $command in\n{}  esac\n"
       "  if [[ $word == -* ]]; then choices=$options files=''; fi\n{}",
       begin, fmt::join(first, "\\n"), branches, end);
 }
