@@ -24,10 +24,8 @@ void add_describe_command(CLI::App& app, Program& program) {
   command->add_option("--format", options->format, "text, md (Markdown), rng (RELAX NG schema) or json")
       ->transform(CLI::CheckedTransformer(formats))
       ->option_text("FORMAT");
-  command
-      ->add_option("-o,--output", options->directory,
-                   "write into this directory: with rng or json the one file, else the whole reference, a page for each list, and the schemas")
-      ->type_name("DIR");
+  add_directory(*command, options->directory,
+                "write into this directory: with rng or json the one file, else the whole reference, a page for each list, and the schemas");
   command->footer("Example: mortise describe contact");
   command->callback([&program, options] {
     program.uses_mpi = false;

@@ -2,6 +2,7 @@
 #include <memory>
 #include <regex>
 
+#include "declarations.hpp"
 #include "mortise/simulation/hard.hpp"
 #include "program.hpp"
 
@@ -24,9 +25,8 @@ void add_hard_command(CLI::App& app, Program& program) {
   const auto options = std::make_shared<HardOptions>();
   const auto list = std::make_shared<bool>(false);
   options->version = version();
-  command->add_option("LEDGER", options->ledger, "ledger file; default: inputs/hard/ledger.xml");
-  command->add_option("-o,--output", options->directory, "directory for the pages and the results of all runs; default: results/hard")
-      ->type_name("DIR");
+  command->add_option("LEDGER", options->ledger, "ledger file; default: inputs/hard/ledger.xml")->type_name(xml_value);
+  add_directory(*command, options->directory, "directory for the pages and the results of all runs; default: results/hard");
   command->add_flag("--list", *list, "say the cases, how many runs each has and what makes it hard; run nothing");
   command->add_option("--only", options->only, "run only the cases whose names match this regular expression somewhere, sweeps included")
       ->check(CLI::Validator(is_pattern, ""))

@@ -10,8 +10,7 @@ void add_paper_command(CLI::App& app, Program& program) {
   auto* command = app.add_subcommand("paper", "run every example of the paper and draw one page of figures and tables beside the paper's numbers");
   const auto options = std::make_shared<PaperOptions>();
   options->version = version();
-  command->add_option("-o,--output", options->directory, "directory for the page and for the results of each run; default: results/paper")
-      ->type_name("DIR");
+  add_directory(*command, options->directory, "directory for the page and for the results of each run; default: results/paper");
   command->add_option("--only", options->only, "run only these, separated by commas; the page shows no others")
       ->delimiter(',')
       ->check(CLI::IsMember(paper_run_names()))

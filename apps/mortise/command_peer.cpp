@@ -2,6 +2,7 @@
 #include <map>
 #include <memory>
 
+#include "declarations.hpp"
 #include "mortise/simulation/peer.hpp"
 #include "program.hpp"
 
@@ -12,10 +13,8 @@ void add_peer_command(CLI::App& app, Program& program) {
   const auto options = std::make_shared<PeerOptions>();
   options->version = version();
   options->peer = Peer::calculix_mortar;
-  command->add_option("SCENE", options->scene, "scene file")->required();
-  command->add_option("--set", options->settings, "replace a value of the file: path=value, e.g. variables/n=16; may be repeated")
-      ->type_name("PATH=VALUE")
-      ->allow_extra_args(false);
+  command->add_option("SCENE", options->scene, "scene file")->required()->type_name(xml_value);
+  add_settings(*command, options->settings);
   std::map<std::string, Peer> names(peer_names().begin(), peer_names().end());
   names.erase("none");
   command->add_option("--by", options->peer, "calculix mortar (the default), calculix surface to surface, calculix node to surface")
@@ -26,7 +25,7 @@ void add_peer_command(CLI::App& app, Program& program) {
                    "of contact, in multiples of E/h: a number or an expression of the scene's variables, e.g. 800/n; not of mortar.\n"
                    "Default: 1 in the plane, 50 in space")
       ->type_name("MULTIPLE");
-  command->add_option("-o,--output", options->directory, "directory for the results; default: results/<name of the file SCENE>")->type_name("DIR");
+  add_directory(*command, options->directory, "directory for the results; default: results/<name of the file SCENE>");
   command->add_flag_callback(
       "--quiet", [options] { options->verbosity = Verbosity::quiet; }, "say nothing but warnings and errors");
   command->footer(

@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "declarations.hpp"
 #include "mortise/simulation/read_scene.hpp"
 #include "mortise/simulation/run.hpp"
 #include "mortise/simulation/scene.hpp"
@@ -19,15 +20,12 @@ std::shared_ptr<Scene> read_before(Program& program, const std::shared_ptr<RunOp
 }  // namespace
 
 void add_input_arguments(CLI::App& command, const std::string& file, const std::string& meaning, RunOptions& options) {
-  command.add_option(file, options.scene, meaning)->required();
-  command.add_option("--set", options.settings, "replace a value of the file: path=value, e.g. variables/n=16; may be repeated")
-      ->type_name("PATH=VALUE")
-      ->allow_extra_args(false);
+  command.add_option(file, options.scene, meaning)->required()->type_name(xml_value);
+  add_settings(command, options.settings);
 }
 
 void add_output_arguments(CLI::App& command, const std::string& file, RunOptions& options) {
-  command.add_option("-o,--output", options.directory, "directory for the results; default: results/<name of the file " + file + ">")
-      ->type_name("DIR");
+  add_directory(command, options.directory, "directory for the results; default: results/<name of the file " + file + ">");
   command.add_flag("--keep", options.keep, "refuse a directory that holds results, instead of replacing them");
   auto* quiet = command.add_flag_callback(
       "--quiet", [&options] { options.verbosity = Verbosity::quiet; }, "say nothing but warnings and errors");

@@ -2,6 +2,7 @@
 #include <charconv>
 #include <memory>
 
+#include "declarations.hpp"
 #include "mortise/simulation/scale.hpp"
 #include "program.hpp"
 
@@ -25,12 +26,9 @@ void add_scale_command(CLI::App& app, Program& program) {
   const auto options = std::make_shared<ScaleOptions>();
   options->version = version();
   options->ranks = cores();
-  command->add_option("SCENE", options->scene, "scene file")->required();
-  command->add_option("--set", options->settings, "replace a value of the file: path=value, e.g. variables/n=16; may be repeated")
-      ->type_name("PATH=VALUE")
-      ->allow_extra_args(false);
-  command->add_option("-o,--output", options->directory, "directory for the report and all runs; default: results/<name of the file SCENE>-scale")
-      ->type_name("DIR");
+  command->add_option("SCENE", options->scene, "scene file")->required()->type_name(xml_value);
+  add_settings(*command, options->settings);
+  add_directory(*command, options->directory, "directory for the report and all runs; default: results/<name of the file SCENE>-scale");
   auto* ranks = command->add_option("--ranks", options->ranks, "most ranks; the series is 1, 2, 4 ... up to it; default: the cores of this machine")
                     ->check(CLI::Range(1, 4096));
   auto* repeats =

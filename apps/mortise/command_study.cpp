@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "declarations.hpp"
 #include "mortise/simulation/study.hpp"
 #include "program.hpp"
 
@@ -10,16 +11,10 @@ void add_study_command(CLI::App& app, Program& program) {
   auto* command = app.add_subcommand("study", "what accuracy costs: run a scene under many settings, draw errors against mesh size and time");
   const auto options = std::make_shared<StudyOptions>();
   options->version = version();
-  command->add_option("STUDY", options->study, "study file")->required();
-  command
-      ->add_option("-o,--output", options->directory,
-                   "directory for the report and the results of all runs; default: results/<name of the file STUDY>")
-      ->type_name("DIR");
-  command
-      ->add_option("--set", options->settings,
-                   "replace a value of the study: path=value, e.g. axes/n/values='4, 8', settings/variables/mu=0.2; may be repeated")
-      ->type_name("PATH=VALUE")
-      ->allow_extra_args(false);
+  command->add_option("STUDY", options->study, "study file")->required()->type_name(xml_value);
+  add_directory(*command, options->directory, "directory for the report and the results of all runs; default: results/<name of the file STUDY>");
+  add_settings(*command, options->settings,
+               "replace a value of the study: path=value, e.g. axes/n/values='4, 8', settings/variables/mu=0.2; may be repeated");
   command->add_flag("--fresh", options->fresh, "forget what DIR holds; otherwise runs that an earlier call finished are not repeated");
   command->add_flag_callback(
       "--quiet", [options] { options->verbosity = Verbosity::quiet; }, "say nothing but warnings and errors");

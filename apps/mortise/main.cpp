@@ -98,6 +98,8 @@ int main(int argc, char** argv) {
   mortise::add_describe_command(app, program);
   mortise::add_list_command(app, program);
   mortise::add_doctor_command(app, program);
+  mortise::add_completion_command(app, program);
+  mortise::add_man_command(app, program);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "mortise/core/error.hpp"
 #include "mortise/core/types.hpp"
@@ -27,7 +28,8 @@ struct Program {
   bool is_first_rank() const { return comm->getRank() == 0; }
 };
 
-/// "0.2.0 (1a2b3c4)": the number, and the git revision that was built.
+/// "0.2.0", and with the git revision that was built "0.2.0 (1a2b3c4)".
+std::string version_number();
 std::string version();
 
 /// Prints on the first rank only.
@@ -46,9 +48,18 @@ void add_study_command(CLI::App& app, Program& program);
 void add_hard_command(CLI::App& app, Program& program);
 void add_scale_command(CLI::App& app, Program& program);
 void add_peer_command(CLI::App& app, Program& program);
+void add_completion_command(CLI::App& app, Program& program);
+void add_man_command(CLI::App& app, Program& program);
 
 /// Cores that this process may use.
 int cores();
+
+/// -o, --output: a directory, which cannot be "". `directory` has to live as long as the command.
+void add_directory(CLI::App& command, std::string& directory, const std::string& meaning);
+
+/// --set, whose form is checked. `settings` has to live as long as the command.
+void add_settings(CLI::App& command, std::vector<std::string>& settings,
+                  const std::string& meaning = "replace a value of the file: path=value, e.g. variables/n=16; may be repeated");
 
 /// Arguments of the commands that run an input file: the file itself, called `file`, and --set; -o, --keep, --quiet, --verbose. The options have to
 /// live as long as the command.

@@ -15,7 +15,8 @@ run("${CMAKE_COMMAND}" -S "${CONSUMER}" -B "${SCRATCH}/build" -G "${GENERATOR}" 
 run("${CMAKE_COMMAND}" --build "${SCRATCH}/build")
 run("${SCRATCH}/build/consumer")
 run("${MPIEXEC}" -n 2 "${SCRATCH}/build/consumer")
-foreach(file share/mortise/schema/scene.rng share/mortise/inputs/paper/patch_test.xml share/doc/Mortise/LICENSE)
+foreach(file share/mortise/schema/scene.rng share/mortise/inputs/paper/patch_test.xml share/doc/Mortise/LICENSE
+    share/bash-completion/completions/mortise share/man/man1/mortise.1)
   if(NOT EXISTS "${SCRATCH}/prefix/${file}")
     message(FATAL_ERROR "not installed: ${file}")
   endif()

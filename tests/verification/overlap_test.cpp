@@ -111,7 +111,7 @@ double shrink_fit(double overlap, int cells, bool outer_is_slave) {
     return list(name,
                 parameter("material", "elastic") + parameter("element", "Q4") +
                     list("mesh", parameter("type", "ring sector") + parameter("inner radius", fmt::format("{}", inner)) +
-                                     parameter("outer radius", fmt::format("{}", outer)) + parameter("cells radial", fmt::format("{}", cells / 6)) +
+                                     parameter("outer radius", fmt::format("{}", outer)) + parameter("cells across", fmt::format("{}", cells / 6)) +
                                      parameter("cells around", std::to_string(around))));
   };
   const auto plane = [](const std::string& name, const std::string& set, const std::string& component) {

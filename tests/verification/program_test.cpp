@@ -76,6 +76,15 @@ TEST(Program, WrongUsageIsCode1) {
   EXPECT_EQ(mortise({"run"}).code, 1);
   EXPECT_EQ(mortise({"run", "scene.xml", "--colour"}, 2).code, 1);
   EXPECT_EQ(mortise({"list", "animals"}).code, 1);
+  const std::string scene = write_scene("usage", "");
+  for (const char* setting : {"", "a", "=3", "variables/=3"}) {
+    const Ending ending = mortise({"check", scene, "--set", setting});
+    EXPECT_EQ(ending.code, 1) << setting;
+    EXPECT_NE(ending.output.find("please write path=value"), std::string::npos) << ending.output;
+  }
+  const Ending ending = mortise({"run", scene, "-o", ""});
+  EXPECT_EQ(ending.code, 1);
+  EXPECT_NE(ending.output.find("the name of the directory is empty"), std::string::npos) << ending.output;
 }
 
 TEST(Program, OneOfAllRanksSaysWhatIsWrongWithTheCommandLine) {

@@ -1,5 +1,7 @@
 #include "pair_coupling.hpp"
 
+#include <fmt/format.h>
+
 #include <Tpetra_Import.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <algorithm>
@@ -19,6 +21,7 @@ PairCoupling::PairCoupling(RCP<const Map> owned_nodes, RCP<const MultiVector> re
                                                  pair_.place);
   ties_ = MultiplierTies(slave_nodes(), pair_.slave, owned_nodes_->getComm());
   size_ = interface_->shortest_facet();
+  refuse_constant_out_of_range();
   if (corner_rule() == CornerRule::master_normal) interface_->split_kinks(*reference_, {});
   rows_.resize(slave_nodes().size());
   if (variational()) openings_.resize(rows_.size());
@@ -35,6 +38,20 @@ PairCoupling::PairCoupling(RCP<const Map> owned_nodes, RCP<const MultiVector> re
   if (!pair_.options.friction.options->acts()) return;
   friction_ = pair_.options.friction.options.get();
   slip_.resize(rows_.size());
+}
+
+// Beyond c_n A_j = E / (eps h) the round-off of a gap, eps h and more, outweighs a pressure of E. Below eps E / h a gap of h weighs less than the
+// round-off of such a pressure. Either way round-off would choose the active set.
+void PairCoupling::refuse_constant_out_of_range() const {
+  const auto& constant = pair_.options.complementarity_constant;
+  if (!constant) return;
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  const double facet = pair_.youngs_modulus / size_, least = epsilon * facet, largest = facet / epsilon;
+  if (*constant >= least && *constant <= largest) return;
+  throw InputError(pair_.place,
+                   fmt::format("\"complementarity constant\" is {:g}; allowed: {:.2g} to {:.2g}, as round-off would choose the active set "
+                               "beyond; please take about Young's modulus over the side of a facet, here {:.2g}, or leave it out",
+                               *constant, least, largest, facet));
 }
 
 double PairCoupling::complementarity_constant(std::size_t s) const {

@@ -198,6 +198,7 @@ class PairCoupling {
   SpatialMatrix shift_factor(const Complementarity& law, std::size_t s) const;
 
  private:
+  void refuse_constant_out_of_range() const;
   bool uses_reference() const { return pair_.options.geometry == ContactGeometry::reference; }
   void find_nearest_facets();
   /// Of a regularised node that is covered.

@@ -8,6 +8,23 @@
 namespace mortise {
 namespace {
 
+/// Characters up to which a text is shown whole, and those that are shown of a longer one.
+constexpr std::size_t shown_whole = 120, shown_of_long = 60;
+
+bool begins_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }  // of UTF-8
+
+/// Whatever a message quotes may be a text of the scene, as long as its author pleases.
+std::string with_short_quotes(const std::string& message) {
+  std::string text;
+  for (std::size_t begin = 0; begin <= message.size();) {
+    const std::size_t open = message.find('"', begin), close = open == std::string::npos ? open : message.find('"', open + 1);
+    if (close == std::string::npos) return text + message.substr(begin);
+    text += message.substr(begin, open - begin) + '"' + shortened(message.substr(open + 1, close - open - 1)) + '"';
+    begin = close + 1;
+  }
+  return text;
+}
+
 std::string joined(const std::vector<Diagnostic>& diagnostics) {
   std::string text;
   for (const Diagnostic& diagnostic : diagnostics) text += (text.empty() ? "" : "\n") + to_string(diagnostic);
@@ -29,13 +46,21 @@ int broadcast(const Communicator& comm, int root, int value) {
 
 }  // namespace
 
+std::string shortened(const std::string& text) {
+  const auto characters = static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins_character));
+  if (characters <= shown_whole) return text;
+  std::size_t end = 0;
+  for (std::size_t shown = 0; shown < shown_of_long || !begins_character(text[end]); ++end) shown += begins_character(text[end]);
+  return fmt::format("{}... ({} characters)", text.substr(0, end), characters);
+}
+
 std::string to_string(const Diagnostic& diagnostic) {
   const Place& place = diagnostic.place;
   std::string text;
   if (!place.file.empty()) text = place.line > 0 ? fmt::format("{}:{}: ", place.file, place.line) : place.file + ": ";
   text += "error: ";
-  if (!place.path.empty()) text += place.path + ": ";
-  return text + diagnostic.message;
+  if (!place.path.empty()) text += shortened(place.path) + ": ";
+  return text + with_short_quotes(diagnostic.message);
 }
 
 InputError::InputError(std::vector<Diagnostic> diagnostics) : std::runtime_error(joined(diagnostics)), diagnostics_(std::move(diagnostics)) {}

@@ -22,12 +22,24 @@ bool assigns(const std::string& source) { return std::regex_search(source, std::
 // Without the sign that some operations give what is not a number.
 double shown(double value) { return std::isnan(value) ? std::abs(value) : value; }
 
+bool is_of_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
+
+/// Whether `name` stands in `source` as a word of its own.
+bool has_word(const std::string& source, const std::string& name) {
+  for (std::size_t at = source.find(name); at != std::string::npos; at = source.find(name, at + 1)) {
+    const std::size_t end = at + name.size();
+    if ((at == 0 || !is_of_name(source[at - 1])) && (end == source.size() || !is_of_name(source[end]))) return true;
+  }
+  return false;
+}
+
 std::string names_of(const std::vector<std::string>& arguments, const Symbols& symbols) {
   std::string names;
   for (const auto& name : arguments) names += name + ", ";
   names += "pi";
   for (const auto& [name, value] : symbols.variables) names += ", " + name;
   for (const auto& [name, table] : symbols.tables) names += ", " + name + "(t)";
+  if (arguments.empty()) names += "; t, x, y and z have no value here";
   return names;
 }
 
@@ -44,7 +56,7 @@ double Table::operator()(double time) const {
 struct Expression::Parsed {
   std::string source;
   Place place;
-  bool constant = true, positional = false;
+  bool constant = true;
   double value = 0.0;
   std::vector<double> arguments;  // never resized: the parser holds the addresses
   std::map<std::string, Table> tables;
@@ -52,6 +64,8 @@ struct Expression::Parsed {
 
   Parsed(const std::string& text, const std::vector<std::string>& names, const Symbols& symbols, const Place& where)
       : source(text), place(where), arguments(names.size(), 0.0), tables(symbols.tables) {
+    for (const std::string& name : symbols.refused)
+      if (has_word(source, name)) throw InputError(std::vector<Diagnostic>());
     if (assigns(source)) throw InputError(place, fmt::format("\"{}\" assigns with \"=\", which an expression cannot; \"==\" compares", source));
     try {
       for (std::size_t i = 0; i < names.size(); ++i)
@@ -67,10 +81,7 @@ struct Expression::Parsed {
       if (values > 1)
         throw InputError(
             place, fmt::format("\"{}\" holds {} values separated by commas, where one is asked for; the decimal sign is a point", source, values));
-      for (const auto& [name, address] : parser.GetUsedVar()) {
-        constant = false;
-        positional |= name != "t";
-      }
+      constant = parser.GetUsedVar().empty();
     } catch (const mu::Parser::exception_type& error) {
       throw InputError(place, fmt::format("cannot evaluate \"{}\": {}; known names: {}", source, error.GetMsg(), names_of(names, symbols)));
     }
@@ -91,7 +102,7 @@ Expression Expression::of(const std::vector<std::string>& arguments, const std::
 double Expression::at(const std::vector<double>& arguments) const {
   if (parsed_->constant) return parsed_->value;
   // The parser holds the addresses of these numbers.
-  std::copy(arguments.begin(), arguments.end(), parsed_->arguments.begin());
+  std::copy_n(arguments.begin(), parsed_->arguments.size(), parsed_->arguments.begin());
   return parsed_->parser.Eval();
 }
 
@@ -105,7 +116,6 @@ double Expression::operator()(double t, double x, double y, double z) const {
 }
 
 bool Expression::is_constant() const { return parsed_->constant; }
-bool Expression::depends_on_position() const { return parsed_->positional; }
 const std::string& Expression::source() const { return parsed_->source; }
 const Place& Expression::place() const { return parsed_->place; }
 

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "former_names.hpp"
 #include "split.hpp"
 
 namespace mortise {
@@ -59,12 +60,12 @@ Teuchos::ParameterList to_teuchos(const XmlList& list, const Symbols& symbols, s
           throw InputError(one.place, fmt::format("\"{}\" is \"{}\"; please write true or false", one.name, one.value));
         result.set(one.name, one.value == "true");
       } else if (one.type == "int" || one.type == "double") {
-        const Expression value(one.value, symbols, one.place);
+        const double value = Expression::of({}, one.value, symbols, one.place)();
         if (one.type == "double") {
-          result.set(one.name, value());
+          result.set(one.name, value);
         } else {
-          if (value() != std::round(value())) throw InputError(one.place, fmt::format("\"{}\" is {}; an int has to be whole", one.name, one.value));
-          result.set(one.name, static_cast<int>(value()));
+          if (value != std::round(value)) throw InputError(one.place, fmt::format("\"{}\" is \"{}\"; an int has to be whole", one.name, one.value));
+          result.set(one.name, static_cast<int>(value));
         }
       } else {
         result.set(one.name, one.value);
@@ -110,6 +111,11 @@ void ReadParameters::refuse(const std::string& name, const Place& where, const s
   say(where, message);
 }
 
+void ReadParameters::refuse(const std::string& name, const InputError& error) {
+  frame().refused.push_back({name});
+  for (const Diagnostic& one : error.diagnostics()) say(one.place, fmt::format("\"{}\": {}", name, one.message));
+}
+
 const XmlParameter* ReadParameters::find(const std::string& name, const Says& says, const std::vector<std::string>& types) {
   frame().known.push_back(name);
   const XmlParameter* parameter = frame().list ? frame().list->parameter(name) : nullptr;
@@ -131,21 +137,13 @@ const XmlParameter* ReadParameters::find(const std::string& name, const Says& sa
 
 std::optional<double> ReadParameters::number(const XmlParameter& parameter, const std::string& text, const Says& says) {
   try {
-    const Expression expression(text, symbols_, parameter.place);
-    if (!expression.is_constant()) {
-      refuse(parameter.name, parameter.place,
-             fmt::format("\"{}\" is \"{}\"; it may depend on variables, but not on t, x, y or z", parameter.name, text));
-      return std::nullopt;
-    }
-    if (!in_range(expression(), says)) {
-      refuse(parameter.name, parameter.place, fmt::format("\"{}\" is {}; allowed: {}", parameter.name, expression(), range_text(says)));
-      return std::nullopt;
-    }
-    return expression();
+    const double value = Expression::of({}, text, symbols_, parameter.place)();
+    if (in_range(value, says)) return value;
+    refuse(parameter.name, parameter.place, fmt::format("\"{}\" is {}; allowed: {}", parameter.name, value, range_text(says)));
   } catch (const InputError& error) {
-    for (const Diagnostic& one : error.diagnostics()) refuse(parameter.name, one.place, fmt::format("\"{}\": {}", parameter.name, one.message));
-    return std::nullopt;
+    refuse(parameter.name, error);
   }
+  return std::nullopt;
 }
 
 void ReadParameters::add(const std::string& name, double& value, const Says& says) {
@@ -197,7 +195,7 @@ void ReadParameters::add(const std::string& name, Expression& value, const Says&
     else
       value = std::move(read);
   } catch (const InputError& error) {
-    for (const Diagnostic& one : error.diagnostics()) refuse(name, one.place, fmt::format("\"{}\": {}", name, one.message));
+    refuse(name, error);
   }
 }
 
@@ -315,7 +313,8 @@ void ReadParameters::report_unknown(const Frame& frame) {
   if (!frame.list || !frame.check_unknown) return;
   const auto unknown = [&](const Place& place, const char* what, const std::string& name) {
     if (std::find(frame.known.begin(), frame.known.end(), name) != frame.known.end()) return;
-    std::string hint = did_you_mean(name, frame.known);
+    const std::string present = present_name(name, frame.known);
+    std::string hint = present.empty() ? did_you_mean(name, frame.known) : fmt::format("; it is called \"{}\" now", present);
     if (hint.empty()) hint = "; known here: " + quoted_list(frame.known);
     say(place, fmt::format("unknown {} \"{}\"{}", what, name, hint));
   };

@@ -21,23 +21,24 @@ const std::vector<std::string> reserved = {"t",    "x",    "y",    "z",    "pi",
                                            "atan", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "log2", "log10", "log",
                                            "ln",   "exp",  "sqrt", "sign", "rint",  "abs",   "min",   "max",  "sum",   "avg"};
 
+bool is_reserved(const std::string& name) { return std::find(reserved.begin(), reserved.end(), name) != reserved.end(); }
+
 std::string wrong_name(const std::string& name) {
   if (!valid_name(name)) return fmt::format("\"{}\" cannot be named in expressions; please use letters, digits and underscores", name);
-  if (std::find(reserved.begin(), reserved.end(), name) != reserved.end())
-    return fmt::format("\"{}\" already has a meaning in expressions; please choose another name", name);
+  if (is_reserved(name)) return fmt::format("\"{}\" already has a meaning in expressions; please choose another name", name);
   return "";
 }
 
 std::vector<double> numbers(const XmlParameter* parameter, const Symbols& symbols) try {
   std::vector<double> values;
   for (const std::string& one : split(parameter->value)) {
-    const Expression expression(one, symbols, parameter->place);
-    if (!expression.is_constant()) throw InputError(parameter->place, fmt::format("\"{}\" may depend on variables only", one));
-    values.push_back(expression());
+    values.push_back(Expression::of({}, one, symbols, parameter->place)());
   }
   return values;
 } catch (const InputError& error) {
-  throw InputError(parameter->place, fmt::format("\"{}\": {}", parameter->name, error.diagnostics().front().message));
+  std::vector<Diagnostic> diagnostics = error.diagnostics();
+  for (Diagnostic& diagnostic : diagnostics) diagnostic.message = fmt::format("\"{}\": {}", parameter->name, diagnostic.message);
+  throw InputError(diagnostics);
 }
 
 Table read_table(const XmlList& list, const Symbols& symbols) {
@@ -95,19 +96,21 @@ std::vector<std::string> split(const std::string& text) {
 
 Symbols read_symbols(const XmlList& root, std::vector<Diagnostic>& diagnostics) {
   Symbols symbols;
+  // A name with a meaning of its own keeps it in expressions.
+  const auto refuse = [&](const std::string& name, const std::vector<Diagnostic>& wrong) {
+    if (!is_reserved(name)) symbols.refused.push_back(name);
+    diagnostics.insert(diagnostics.end(), wrong.begin(), wrong.end());
+  };
   const auto attempt = [&](const Place& place, const std::string& name, const auto& read) {
-    if (const std::string wrong = wrong_name(name); !wrong.empty()) {
-      diagnostics.push_back({place, wrong});
-      return;
-    }
+    if (const std::string wrong = wrong_name(name); !wrong.empty()) return refuse(name, {{place, wrong}});
     try {
       read();
     } catch (const InputError& error) {
-      diagnostics.insert(diagnostics.end(), error.diagnostics().begin(), error.diagnostics().end());
+      refuse(name, error.diagnostics());
     }
   };
   if (const XmlList* variables = root.list("variables")) {
-    for (const XmlList& list : variables->lists) diagnostics.push_back({list.place, "a variable is a parameter, not a list"});
+    for (const XmlList& list : variables->lists) refuse(list.name, {{list.place, "a variable is a parameter, not a list"}});
     for (const XmlParameter& one : variables->parameters)
       attempt(one.place, one.name, [&] {
         const std::vector<double> value = numbers(&one, symbols);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <libxml/parser.h>
+#include <libxml/parserInternals.h>
 #include <libxml/tree.h>
 
 #include <Teuchos_CommHelpers.hpp>
@@ -10,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -17,6 +19,19 @@ namespace mortise {
 namespace {
 
 std::string text_of(const xmlChar* text) { return text ? reinterpret_cast<const char*>(text) : ""; }
+
+/// The first error is the one that matters: those after it are of what the parser makes of the rest.
+void keep_first(void* context, xmlError* error) {
+  auto* first = static_cast<std::optional<Diagnostic>*>(static_cast<xmlParserCtxt*>(context)->_private);
+  if (*first || error->level < XML_ERR_ERROR) return;
+  std::string message = error->message;
+  message.erase(message.find_last_not_of(" \n") + 1);
+  const bool is_limit = message.find("XML_PARSE_HUGE") != std::string::npos || message.find("too long") != std::string::npos;
+  *first = {{"", error->line, ""},
+            is_limit ? fmt::format("too much: lists may stand in one another {} deep, and an attribute may have {} characters", xmlParserMaxDepth,
+                                   XML_MAX_TEXT_LENGTH)
+                     : "not well-formed XML: " + message};
+}
 
 class Converter {
  public:
@@ -31,7 +46,7 @@ class Converter {
       const std::string tag = text_of(child->name);
       if (child->type == XML_COMMENT_NODE || child->type == XML_PI_NODE || xmlIsBlankNode(child)) continue;
       if (child->type != XML_ELEMENT_NODE) {
-        say(child, result.place.path, fmt::format("text outside of elements: \"{}\"", text_of(child->content).substr(0, 40)));
+        say(child, result.place.path, fmt::format("text outside of elements: \"{}\"", text_of(child->content)));
       } else if (tag == "ParameterList") {
         result.lists.push_back(list(child, result.place.path, false));
         unique(child, names, result.lists.back().name, result.place.path);
@@ -127,14 +142,16 @@ std::string read_text(const Communicator& comm, const std::string& path) {
 
 XmlList parse_xml(const std::string& text, const std::string& file) {
   const std::unique_ptr<xmlParserCtxt, void (*)(xmlParserCtxt*)> context(xmlNewParserCtxt(), xmlFreeParserCtxt);
+  std::optional<Diagnostic> first;
+  context->_private = &first;
+  context->sax->serror = keep_first;
   const int options = XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING | XML_PARSE_NOCDATA | XML_PARSE_BIG_LINES;
   const std::unique_ptr<xmlDoc, void (*)(xmlDoc*)> document(
       xmlCtxtReadMemory(context.get(), text.data(), static_cast<int>(text.size()), file.c_str(), nullptr, options), xmlFreeDoc);
   if (!document) {
-    const xmlError* error = xmlCtxtGetLastError(context.get());
-    std::string message = error && error->message ? error->message : "empty file";
-    message.erase(message.find_last_not_of(" \n") + 1);
-    throw InputError({file, error ? error->line : 0, ""}, "not well-formed XML: " + message);
+    if (!first) first = {{}, "not well-formed XML: empty file"};
+    first->place.file = file;
+    throw InputError({*first});
   }
   std::vector<Diagnostic> diagnostics;
   Converter converter(file, diagnostics);
@@ -148,10 +165,20 @@ XmlList parse_xml(const std::string& text, const std::string& file) {
   return result;
 }
 
-void apply_override(XmlList& root, const std::string& assignment) {
+std::string wrong_assignment(const std::string& assignment) {
+  const std::string advice = "; please write path=value, for example variables/n=8";
   const auto equals = assignment.find('=');
-  const Place place{"command line: --set " + assignment, 0, ""};
-  if (equals == std::string::npos || equals == 0) throw InputError(place, "please write --set path=value, for example --set variables/n=8");
+  if (equals == std::string::npos) return fmt::format("\"{}\" has no \"=\"{}", shortened(assignment), advice);
+  const std::string path = '/' + assignment.substr(0, equals) + '/';
+  if (path.find("//") != std::string::npos)
+    return fmt::format("\"{}\" names nothing before, after or between two \"/\" of its path{}", shortened(assignment), advice);
+  return "";
+}
+
+void apply_override(XmlList& root, const std::string& assignment) {
+  const Place place{"command line: --set " + shortened(assignment), 0, ""};
+  if (const std::string wrong = wrong_assignment(assignment); !wrong.empty()) throw InputError(place, wrong);
+  const auto equals = assignment.find('=');
   apply_override(root, assignment.substr(0, equals), assignment.substr(equals + 1), place);
 }
 

@@ -7,18 +7,10 @@
 namespace mortise {
 namespace {
 
-/// Reads an expression of time.
+/// Reads an expression of time: a point has no position.
 template <class Value>
-void add_of_time(Parameters& parameters, const std::string& name, Value& value, const Says& says) {
-  parameters.add(name, value, says);
-  const Expression* expression = nullptr;
-  if constexpr (std::is_same_v<Value, Expression>)
-    expression = &value;
-  else
-    expression = value ? &*value : nullptr;
-  if (expression != nullptr && expression->depends_on_position())
-    parameters.error(name,
-                     fmt::format("\"{}\" is \"{}\"; a point has no x, y, z: it may depend on t and variables only", name, expression->source()));
+void add_of_time(Parameters& parameters, const std::string& name, Value& value, Says says) {
+  parameters.add(name, value, says.arguments({"t"}));
 }
 
 }  // namespace

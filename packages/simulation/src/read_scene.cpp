@@ -3,6 +3,7 @@
 #include "mortise/core/read_parameters.hpp"
 #include "mortise/simulation/model.hpp"
 #include "roles.hpp"
+#include "scene_combinations.hpp"
 
 namespace mortise {
 
@@ -22,6 +23,7 @@ Scene make_scene(const XmlList& root) {
   read_parameters(scene, root, scene.symbols, {"variables", "tables"}, diagnostics);
   const auto wrong = check_scene(scene);
   diagnostics.insert(diagnostics.end(), wrong.begin(), wrong.end());
+  if (diagnostics.empty()) diagnostics = wrong_combinations(scene);
   if (!diagnostics.empty()) throw InputError(diagnostics);
   return scene;
 }

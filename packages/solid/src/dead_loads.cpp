@@ -115,12 +115,9 @@ void DeadTractionOptions::describe(Parameters& parameters) {
 
 void GravityOptions::describe(Parameters& parameters) {
   parameters.add("body", body, Says("the body that has weight; left out: every body"));
-  parameters.add("x", x, Says("acceleration in x (axisymmetric: r), of t").unit("length / time^2"));
-  parameters.add("y", y, Says("acceleration in y (axisymmetric: z), of t").unit("length / time^2"));
-  parameters.add("z", z, Says("acceleration in z, in three dimensions, of t; left out: none").unit("length / time^2"));
-  if (x.depends_on_position()) parameters.error("x", "gravity may depend on t, not on the position");
-  if (y.depends_on_position()) parameters.error("y", "gravity may depend on t, not on the position");
-  if (z && z->depends_on_position()) parameters.error("z", "gravity may depend on t, not on the position");
+  parameters.add("x", x, Says("acceleration in x (axisymmetric: r), of t").unit("length / time^2").arguments({"t"}));
+  parameters.add("y", y, Says("acceleration in y (axisymmetric: z), of t").unit("length / time^2").arguments({"t"}));
+  parameters.add("z", z, Says("acceleration in z, in three dimensions, of t; left out: none").unit("length / time^2").arguments({"t"}));
 }
 
 std::unique_ptr<Load> NodalForceOptions::make(const std::shared_ptr<const Bodies>& bodies) const {

@@ -81,11 +81,12 @@ constexpr const char* names[] = {"moment x", "moment y", "moment z"};
 
 void MomentOptions::describe(Parameters& parameters) {
   parameters.add("set", point, Says("the reference point: the name of a tied set, or \"body/reference\" of a rigid body").required());
-  parameters.add("moment", moment, Says("in the plane, counterclockwise, of t; per model thickness").unit("force length"));
+  parameters.add("moment", moment, Says("in the plane, counterclockwise, of t; per model thickness").unit("force length").arguments({"t"}));
   for (int i = 0; i < 3; ++i)
-    parameters.add(
-        names[i], moment_vector[i],
-        Says(fmt::format("in space, about an axis along {} that does not turn with the point, of t; left out: none", "xyz"[i])).unit("force length"));
+    parameters.add(names[i], moment_vector[i],
+                   Says(fmt::format("in space, about an axis along {} that does not turn with the point, of t; left out: none", "xyz"[i]))
+                       .unit("force length")
+                       .arguments({"t"}));
 }
 
 std::unique_ptr<Load> MomentOptions::make(const std::shared_ptr<const Bodies>& bodies) const {

@@ -48,14 +48,15 @@ void BoundaryConditionOptions::describe(Parameters& parameters) {
   parameters.add("y", y, Says("displacement in y (axisymmetric: z), an expression of t, x, y; left out: free").unit("length"));
   parameters.add("z", z, Says("displacement in z, in three dimensions, an expression of t, x, y, z; left out: free").unit("length"));
   parameters.add("rotation", rotation,
-                 Says("of a reference point of the plane, counterclockwise, an expression of t; left out: free").unit("degrees"));
+                 Says("of a reference point of the plane, counterclockwise, an expression of t; left out: free").unit("degrees").arguments({"t"}));
   for (int i = 0; i < 3; ++i)
     parameters.add(
         fmt::format("rotation {}", component_name(i)), rotation_vector[i],
         Says(fmt::format("{} component of the rotation vector of a reference point of space: the point turns by its length about its direction, "
                          "counterclockwise seen from its tip; an expression of t; left out: free",
                          component_name(i)))
-            .unit("degrees"));
+            .unit("degrees")
+            .arguments({"t"}));
 }
 
 PrescribedMotion::PrescribedMotion(const Bodies& bodies, const std::vector<Named<BoundaryConditionOptions>>& conditions) {

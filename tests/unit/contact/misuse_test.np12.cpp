@@ -70,6 +70,20 @@ TEST(Misuse, PairsThatAreNotComplete) {
   EXPECT_THAT(formless.refused<InputError>(), HasSubstr("contact/joint: the formulation is null"));
 }
 
+// The facet is 1 long and Young's modulus 1: round-off is 2.2e-16 of a constant of 1.
+TEST(Misuse, AComplementarityConstantThatLeavesTheChoiceToRoundOff) {
+  for (const double constant : {3e-16, 1.0, 4e15}) {
+    Host sound;
+    sound.pair.options.complementarity_constant = constant;
+    EXPECT_EQ(sound.refused<InputError>(), "") << constant;
+  }
+  for (const double constant : {std::nan(""), -1.0, 0.0, 1e-300, 2e-16, 5e15, 1e300}) {
+    Host unsound;
+    unsound.pair.options.complementarity_constant = constant;
+    EXPECT_THAT(unsound.refused<InputError>(), HasSubstr("contact/joint: \"complementarity constant\" is")) << constant;
+  }
+}
+
 TEST(Misuse, MapsThatDoNotFit) {
   Host by_component;
   std::vector<GlobalOrdinal> ids;

@@ -79,6 +79,7 @@ struct Options {
   Expression load{0.0};
   std::optional<double> reach;
   std::optional<Expression> motion;
+  Expression rate{0.0};
   std::vector<std::string> names{"a", "b"};
   Inner inner;
   std::vector<Named<Bounds>> bounds;
@@ -93,6 +94,7 @@ struct Options {
     parameters.add("load", load, Says("how strong").unit("N"));
     parameters.add("reach", reach, Says("how far").above(0.0));
     parameters.add("motion", motion, "where to");
+    parameters.add("rate", rate, Says("how fast").arguments({"t"}));
     parameters.add("names", names, "who");
     parameters.add("needed", needed, Says("what nobody can guess").required());
     parameters.list("inner", inner, "inside");
@@ -205,14 +207,76 @@ TEST(ReadParameters, SaysNothingMoreOfWhatItRefused) {
 
 TEST(ReadParameters, RefusesWhatIsNoNumber) {
   EXPECT_THAT(read(needed + parameter("tolerance", "double", "0/0")).errors, HasSubstr("not a finite number"));
-  EXPECT_THAT(read(needed + parameter("tolerance", "string", "t")).errors, HasSubstr("may depend on variables"));
+  EXPECT_THAT(read(needed + parameter("tolerance", "string", "t")).errors, HasSubstr("known names: pi; t, x, y and z have no value here"));
   EXPECT_THAT(read(needed + parameter("count", "int", "1.5")).errors, HasSubstr("whole number"));
-  EXPECT_THAT(read(needed + parameter("tolerance", "double", "unknown")).errors, HasSubstr("known names: t, x, y, z, pi"));
+  EXPECT_THAT(read(needed + parameter("tolerance", "double", "unknown")).errors, HasSubstr("known names: pi; t, x"));
   EXPECT_THAT(read(needed + list("tables", list("r", parameter("times", "string", "0, 0") + parameter("values", "string", "1, 2")))).errors,
               HasSubstr("ascend"));
   EXPECT_THAT(read(needed + list("tables", list("r", parameter("times", "string", "0, 1") + parameter("values", "string", "1, sqrt(-1)")))).errors,
               HasSubstr("not a finite number"));
   EXPECT_THAT(read(needed + list("variables", parameter("x", "int", "1"))).errors, HasSubstr("already has a meaning"));
+}
+
+// The names are those of the expression, not of any.
+TEST(ReadParameters, SaysWhichNamesAnExpressionKnows) {
+  const std::string variables = list("variables", parameter("n", "int", "4")), unknown = needed + variables;
+  const auto expect = [&](const std::string& wrong, const std::string& names) {
+    EXPECT_THAT(read(unknown + wrong).errors, HasSubstr("known names: " + names + "\n")) << wrong;
+  };
+  const std::string none = "pi, n; t, x, y and z have no value here";
+  expect(parameter("load", "string", "q"), "t, x, y, z, pi, n");
+  expect(parameter("motion", "string", "q"), "t, x, y, z, pi, n");
+  expect(parameter("rate", "string", "x"), "t, pi, n");
+  expect(parameter("reach", "string", "q"), none);
+  expect(list("inner", parameter("weights", "string", "1, x")), none);
+  expect(list("solver", parameter("bound", "double", "t")), none);
+  expect(list("tables", list("r", parameter("times", "string", "0, t") + parameter("values", "string", "1, 2"))), none);
+}
+
+// One thing is wrong, wherever it is used.
+TEST(ReadParameters, SaysOnceThatAVariableIsWrong) {
+  const std::string uses = parameter("tolerance", "string", "a/1e4") + parameter("load", "string", "a*t + r(t)") +
+                           parameter("reach", "string", "2*(a)") + list("inner", parameter("weights", "string", "1, a")) +
+                           list("solver", parameter("bound", "double", "-a")) + list("bounds", list("one", parameter("count", "string", "b"))) +
+                           needed;
+  const std::string b = parameter("b", "string", "2*a"),
+                    table = list("tables", list("r", parameter("times", "string", "0, a") + parameter("values", "string", "1, 2")));
+  const auto errors_of = [&](const std::string& a) { return read(list("variables", a + b) + table + uses).errors; };
+  EXPECT_EQ(errors_of(parameter("a", "string", "1 +")).find('\n'), errors_of(parameter("a", "string", "1 +")).size() - 1);
+  EXPECT_THAT(errors_of(parameter("a", "string", "1 +")), HasSubstr("scene.xml:3: error: variables: \"a\": cannot evaluate"));
+  EXPECT_EQ(errors_of(parameter("a", "string", "1, 2")), "scene.xml:3: error: variables: variable \"a\" is \"1, 2\"; please give one number\n");
+  EXPECT_EQ(errors_of(list("a", "")), "scene.xml:3: error: variables/a: a variable is a parameter, not a list\n");
+  // Names that only begin or end alike are others, and so is one that has a meaning of its own.
+  const std::string of_others = read(list("variables", parameter("a", "string", "1 +")) + needed + parameter("load", "string", "aa + b_a")).errors;
+  EXPECT_THAT(of_others, HasSubstr("scene.xml:6: error: \"load\": cannot evaluate \"aa + b_a\""));
+  const std::string reserved = read(list("variables", parameter("x", "int", "1")) + needed + parameter("load", "string", "2*x +")).errors;
+  EXPECT_THAT(reserved, HasSubstr("\"x\" already has a meaning"));
+  EXPECT_THAT(reserved, HasSubstr("cannot evaluate \"2*x +\""));
+}
+
+// What a message quotes may be as long as a scene's author pleases.
+TEST(ReadParameters, ShortensLongValues) {
+  std::string ones = "1";
+  while (ones.size() < 10000) ones += "+ 1";
+  const std::vector<std::string> wrong{parameter("load", "string", ones + " +"),
+                                       parameter("colour", "string", ones),
+                                       list("inner", parameter("on", "bool", ones)),
+                                       parameter("count", ones, "1"),
+                                       list("entries", list("e", parameter("type", "string", ones))),
+                                       list("tables", list(ones, "")),
+                                       parameter(ones, "int", "1"),
+                                       list("bounds", list(ones, parameter("count", "int", "-1")))};
+  for (const std::string& one : wrong) {
+    const std::string errors = read(needed + one).errors;
+    EXPECT_THAT(errors, HasSubstr(ones.substr(0, 60) + "... (1000")) << errors.substr(0, 300);
+    EXPECT_LT(errors.size(), 1000u);
+  }
+  EXPECT_LT(read(needed, {"count=" + ones + "x"}).errors.size(), 1000u);
+  EXPECT_EQ(shortened(std::string(120, 'a')), std::string(120, 'a'));
+  EXPECT_EQ(shortened(std::string(121, 'a')), std::string(60, 'a') + "... (121 characters)");
+  std::string umlauts;
+  for (int i = 0; i < 200; ++i) umlauts += "\u00fc";
+  EXPECT_EQ(shortened(umlauts), umlauts.substr(0, 120) + "... (200 characters)");
 }
 
 TEST(ReadParameters, RefusesBrokenXml) {
@@ -222,6 +286,16 @@ TEST(ReadParameters, RefusesBrokenXml) {
   EXPECT_THAT(read("<Parameter name=\"a\" typ=\"int\" value=\"1\"/>\n").errors, HasSubstr("unknown attribute \"typ\""));
   EXPECT_THAT(read(parameter("needed", "strng", "1")).errors, HasSubstr("unknown type \"strng\""));
   EXPECT_THAT(read("stray text\n").errors, HasSubstr("text outside of elements"));
+  EXPECT_THAT(read("<a></b>\n<c>\n").errors, HasSubstr("scene.xml:2: error: not well-formed XML: Opening and ending tag mismatch"));
+}
+
+// The parser's limits keep it from running out of stack and memory.
+TEST(ReadParameters, RefusesXmlBeyondAnyScene) {
+  std::string begin, end;
+  for (int i = 0; i < 100000; ++i) begin += "<ParameterList name=\"a\">", end += "</ParameterList>";
+  const std::string limits = "too much: lists may stand in one another 256 deep, and an attribute may have 10000000 characters\n";
+  EXPECT_EQ(read(begin + end).errors, "scene.xml:2: error: " + limits);
+  EXPECT_EQ(read("\n" + parameter("needed", "string", std::string(50000000, 'a'))).errors, "scene.xml:3: error: " + limits);
 }
 
 TEST(ReadParameters, TakesOverridesFromTheCommandLine) {
@@ -230,7 +304,9 @@ TEST(ReadParameters, TakesOverridesFromTheCommandLine) {
   EXPECT_EQ(read(scene, {"inner/weights=1,2,3"}).options.inner.weights.size(), 3u);
   EXPECT_THAT(read(scene, {"inner/wieghts=1"}).errors,
               HasSubstr("command line: --set inner/wieghts=1: error: inner: unknown parameter \"wieghts\"; did you mean \"weights\"?"));
-  EXPECT_THAT(read(scene, {"count"}).errors, HasSubstr("please write --set path=value"));
+  EXPECT_THAT(read(scene, {"count"}).errors, HasSubstr("\"count\" has no \"=\"; please write path=value"));
+  for (const char* nameless : {"=3", "/=3", "/count=3", "variables/=3", "inner//weights=3"})
+    EXPECT_THAT(read(scene, {nameless}).errors, HasSubstr("names nothing before, after or between two \"/\"")) << nameless;
 }
 
 TEST(ReadParameters, TypesOverridesOfWhatIsHandedOnByTheirLook) {

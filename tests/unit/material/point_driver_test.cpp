@@ -180,7 +180,7 @@ TEST(PointPath, RefusesWhatIsNoDeformation) {
   expect(parameter("type", "uniaxial") + parameter("stretch", "1") + parameter("final stretch", "2"), "point.xml:4: error: \"stretch\" is given too");
   expect(parameter("type", "plane strain") + parameter("stretch", "1 - 2*t"), "point.xml:3: error: the stretch \"1 - 2*t\" is 0 at t = 0.5");
   expect(parameter("type", "plane strain") + parameter("final stretch", "-1"), "allowed: > 0");
-  expect(parameter("type", "simple shear") + parameter("shear", "x"), "a point has no x, y, z");
+  expect(parameter("type", "simple shear") + parameter("shear", "x"), "known names: t, pi");
   expect(parameter("type", "simple shear"), "\"shear\" is missing");
   expect(parameter("type", "deformation gradient") + parameter("F22", "1 - t"), "det F is 0 at t = 1");
   expect(parameter("type", "simple shear") + parameter("shear", "t") + parameter("steps", "0"), "\"steps\" is 0; allowed: >= 1");

@@ -235,7 +235,9 @@ TEST(MeshOptions, EveryKindIsReadFromAScene) {
   const std::string cells = parameter("cells x", "int", "3") + parameter("cells y", "int", "2");
   EXPECT_EQ(errors_of(parameter("type", "string", "block") + cells), "");
   EXPECT_EQ(errors_of(parameter("type", "string", "wedge") + cells), "");
-  EXPECT_EQ(errors_of(parameter("type", "string", "ring sector") + parameter("cells radial", "int", "3") + parameter("cells around", "int", "4")),
+  EXPECT_THAT(errors_of(parameter("type", "string", "ring sector") + parameter("cells around", "int", "4") + parameter("cells radial", "int", "3")),
+              ::testing::HasSubstr("unknown parameter \"cells radial\"; it is called \"cells across\" now"));
+  EXPECT_EQ(errors_of(parameter("type", "string", "ring sector") + parameter("cells across", "int", "3") + parameter("cells around", "int", "4")),
             "");
   const std::string disk = parameter("cells along", "int", "3") + parameter("cells across", "int", "3");
   EXPECT_EQ(errors_of(parameter("type", "string", "quarter disk") + disk), "");
@@ -251,7 +253,7 @@ TEST(MeshOptions, MistakesAreNamedWithTheirLine) {
   EXPECT_THAT(errors_of(block + cells + "<ParameterList name=\"grading x\">\n" + parameter("smallest cell", "double", "0.1") + "</ParameterList>\n"),
               HasSubstr("either \"cells x\" or a \"smallest cell\""));
   EXPECT_THAT(errors_of(block + cells + parameter("width", "double", "-1")), HasSubstr("scene.xml:5: error"));
-  EXPECT_THAT(errors_of(parameter("type", "string", "ring sector") + parameter("cells radial", "int", "3") + parameter("cells around", "int", "4") +
+  EXPECT_THAT(errors_of(parameter("type", "string", "ring sector") + parameter("cells across", "int", "3") + parameter("cells around", "int", "4") +
                         parameter("inner radius", "double", "5")),
               HasSubstr("larger than \"inner radius\""));
   EXPECT_THAT(errors_of(parameter("type", "string", "half disc")), HasSubstr("half disk"));

@@ -26,7 +26,10 @@ struct Diagnostic {
   std::string message;
 };
 
-/// "scene.xml:14: error: contact/die: unknown parameter ..."
+/// A text of the scene as messages show it: whole, or if it is long its beginning and its length: `1 + 1 + ... (10000 characters)`.
+std::string shortened(const std::string& text);
+
+/// "scene.xml:14: error: contact/die: unknown parameter ...". What the message has between quotes is shortened.
 std::string to_string(const Diagnostic& diagnostic);
 
 /// Everything that is wrong with the input, found in one go; what() is all of it, one line each. Exit code 2.

@@ -20,6 +20,7 @@ struct Table {
 struct Symbols {
   std::map<std::string, double> variables;
   std::map<std::string, Table> tables;
+  std::vector<std::string> refused;  ///< variables and tables that the scene has and that are wrong, which has been said
 };
 
 /// A function f(t, x, y, z) parsed by muParser. Copies are cheap and share the parsed form.
@@ -28,20 +29,19 @@ class Expression {
   /// The constant `value`.
   Expression(double value = 0.0);
 
-  /// Parses `source`. Throws InputError at `place` with what is wrong and what may be named.
+  /// Parses `source`. Throws InputError at `place` with what is wrong and what may be named; without diagnostics if `source` names what was refused.
   Expression(const std::string& source, const Symbols& symbols, const Place& place = {});
 
   /// A function of `arguments` instead of t, x, y, z. Arguments whose names cannot stand in an expression are left out.
   static Expression of(const std::vector<std::string>& arguments, const std::string& source, const Symbols& symbols, const Place& place = {});
 
-  /// Value at the arguments given to of(), in their order; not finite where the expression is not.
+  /// Value at the arguments given to of(), in their order, beyond which there may be more; not finite where the expression is not.
   double at(const std::vector<double>& arguments) const;
 
-  /// Value at pseudo-time t and reference position (x, y, z). Throws InputError if it is not finite.
+  /// Value at pseudo-time t and reference position (x, y, z), of t, x, y, z or the first of them. Throws InputError if it is not finite.
   double operator()(double t = 0.0, double x = 0.0, double y = 0.0, double z = 0.0) const;
 
-  bool is_constant() const;          ///< depends on neither t nor position
-  bool depends_on_position() const;
+  bool is_constant() const;           ///< depends on none of its arguments
   const std::string& source() const;  ///< as given; of a constant its shortest exact text
   const Place& place() const;
 

@@ -53,6 +53,7 @@ class ReadParameters : public Parameters {
   const XmlParameter* find(const std::string& name, const Says& says, const std::vector<std::string>& types);
   void say(const Place& place, const std::string& message) { diagnostics_.push_back({place, message}); }
   void refuse(const std::string& name, const Place& where, const std::string& message);
+  void refuse(const std::string& name, const InputError& error);
   std::optional<double> number(const XmlParameter& parameter, const std::string& text, const Says& says);
   void report_unknown(const Frame& frame);
   Frame& frame() { return frames_.back(); }
