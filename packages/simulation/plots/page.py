@@ -28,7 +28,9 @@ table { border-collapse: collapse; font-size: .9rem }
 .caption { font-family: system-ui, sans-serif; font-size: .9rem; font-weight: 600; margin: 1.5rem 0 .3rem }
 th, td { padding: .2rem .6rem; text-align: right; border-bottom: 1px solid #ddd; vertical-align: top }
 th { text-align: right }
-tbody th { text-align: left; font-weight: 400 }
+tbody th { text-align: left; font-weight: 400; min-width: 8rem }
+td { white-space: nowrap }
+td.text { white-space: normal; min-width: 6rem }
 th:first-child, th.text, td.text { text-align: left }
 thead th { border-bottom: 2px solid #333; vertical-align: bottom }
 code, pre { font-size: .9rem }
