@@ -30,7 +30,7 @@ th, td { padding: .2rem .6rem; text-align: right; border-bottom: 1px solid #ddd;
 th { text-align: right }
 tbody th { text-align: left; font-weight: 400; min-width: 8rem }
 td { white-space: nowrap }
-td.text { white-space: normal; min-width: 6rem }
+td.text { white-space: normal; min-width: 7rem }
 th:first-child, th.text, td.text { text-align: left }
 thead th { border-bottom: 2px solid #333; vertical-align: bottom }
 code, pre { font-size: .9rem }
@@ -54,9 +54,11 @@ def panels(count, title):
 
 
 def one_panel(title, height=3.6):
+    title = textwrap.fill(title, 40)
+    above = 0.15 + 0.22 * (title.count("\n") + 1)
     figure, axes = plt.subplots(figsize=(WIDTH, height))
-    axes.set_title(plain(textwrap.fill(title, 40)))
-    figure.subplots_adjust(left=0.85 / WIDTH, right=1 - 0.15 / WIDTH, top=1 - 0.35 / height, bottom=0.6 / height)
+    axes.set_title(plain(title))
+    figure.subplots_adjust(left=0.85 / WIDTH, right=1 - 0.15 / WIDTH, top=1 - above / height, bottom=0.6 / height)
     return figure, axes
 
 
