@@ -8,6 +8,7 @@
 
 #include "fields.hpp"
 #include "mortise/core/parameter_tree.hpp"
+#include "mortise/material/hardening.hpp"
 #include "mortise/simulation/exact_solution.hpp"
 #include "mortise/simulation/hard_file.hpp"
 #include "mortise/simulation/point.hpp"
