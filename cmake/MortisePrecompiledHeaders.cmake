@@ -1,19 +1,27 @@
-# One set of precompiled headers for all packages and tests: what nearly every file includes and what is slow to parse. They are built once and reused.
+# Precompiled headers: what many files include and what is slow to parse. One set is for the program, one, with GoogleTest, for tests.
+# Headers with much static data are left out (CLI11, nlohmann json): each source that loads them would compile that data.
 # A source must still include what it uses: -DMORTISE_PRECOMPILED_HEADERS=OFF shows what is missing.
-option(MORTISE_PRECOMPILED_HEADERS "Precompile the headers of Tpetra, Eigen, fmt and the standard library" ON)
+option(MORTISE_PRECOMPILED_HEADERS "Precompile the headers of Tpetra, Eigen, fmt, GoogleTest and the standard library" ON)
 
-# Lets the sources of a target compile with them.
-function(mortise_use_precompiled_headers target)
+set(mortise_program_headers <algorithm> <array> <cmath> <filesystem> <fstream> <functional> <map> <memory> <optional> <set> <sstream> <string> <vector>
+  <fmt/format.h> <fmt/ranges.h> <Eigen/Dense> <Teuchos_CommHelpers.hpp> <Teuchos_ParameterList.hpp>
+  <Tpetra_Core.hpp> <Tpetra_CrsGraph.hpp> <Tpetra_CrsMatrix.hpp> <Tpetra_Import.hpp> <Tpetra_Map.hpp> <Tpetra_MultiVector.hpp> <Tpetra_Vector.hpp>)
+
+set(mortise_test_headers ${mortise_program_headers} <gmock/gmock.h> <gtest/gtest.h>)
+
+# Lets the sources of a target compile with a set, program or test, which is built once.
+function(mortise_use_precompiled_headers target set)
   if(NOT MORTISE_PRECOMPILED_HEADERS)
     return()
   endif()
-  if(NOT TARGET mortise_precompiled)
-    file(WRITE "${PROJECT_BINARY_DIR}/precompiled.cpp" "")
-    add_library(mortise_precompiled OBJECT "${PROJECT_BINARY_DIR}/precompiled.cpp")
-    target_link_libraries(mortise_precompiled PRIVATE Mortise::trilinos Eigen3::Eigen fmt::fmt)
-    target_precompile_headers(mortise_precompiled PRIVATE <algorithm> <array> <cmath> <functional> <map> <memory> <optional> <string> <vector>
-      <fmt/format.h> <Eigen/Core> <Teuchos_CommHelpers.hpp> <Tpetra_Core.hpp> <Tpetra_CrsGraph.hpp> <Tpetra_CrsMatrix.hpp> <Tpetra_Import.hpp>
-      <Tpetra_Map.hpp> <Tpetra_MultiVector.hpp> <Tpetra_Vector.hpp>)
+  set(owner mortise_precompiled_for_${set})
+  if(NOT TARGET ${owner})
+    find_package(Eigen3 REQUIRED)
+    find_package(fmt REQUIRED)
+    file(WRITE "${PROJECT_BINARY_DIR}/precompiled_for_${set}.cpp" "")
+    add_library(${owner} OBJECT "${PROJECT_BINARY_DIR}/precompiled_for_${set}.cpp")
+    target_link_libraries(${owner} PRIVATE Mortise::trilinos Eigen3::Eigen fmt::fmt)
+    target_precompile_headers(${owner} PRIVATE ${mortise_${set}_headers})
   endif()
-  target_precompile_headers(${target} REUSE_FROM mortise_precompiled)
+  target_precompile_headers(${target} REUSE_FROM ${owner})
 endfunction()

@@ -1,6 +1,6 @@
 # Mortise::trilinos: Debian's Trilinos has no namespaced targets and its plain ones carry no include directories, so they are wrapped once.
 find_package(MPI REQUIRED COMPONENTS CXX)
-set(MORTISE_TRILINOS_COMPONENTS Tpetra Amesos2 Belos MueLu NOX Stratimikos Sacado Zoltan2 Ifpack2 Teko)
+set(MORTISE_TRILINOS_COMPONENTS Tpetra Amesos2 Belos MueLu NOX Stratimikos Sacado Zoltan Ifpack2 Teko)
 find_package(Trilinos REQUIRED COMPONENTS ${MORTISE_TRILINOS_COMPONENTS})
 
 add_library(mortise_trilinos INTERFACE)

@@ -1,13 +1,16 @@
 #pragma once
 // What the commands of the program share.
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "mortise/core/error.hpp"
 #include "mortise/core/types.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace mortise {
 

@@ -61,7 +61,11 @@ TEST(Scale, RunsBothSeriesAndTellsEfficiencies) {
   EXPECT_EQ(json["points"][0]["dofs"], json["points"][1]["dofs"]);
   EXPECT_EQ(json["points"][3]["settings"].back(), "variables/n=4");  // 4 * 2^(1/3) to the nearest multiple of 4
   EXPECT_EQ(lines(results + "/scale.csv"), 5u);
-  EXPECT_NE(read_file(results + "/report.html").find("Weak scaling"), std::string::npos);
+  const std::string page = read_file(results + "/report.html");
+  EXPECT_LT(page.find("<b>Strong scaling:</b> 2 ranks take"), page.find("<b>Weak scaling:</b> 2 ranks take"));
+  EXPECT_LT(page.find("<b>Weak scaling:</b> 2 ranks take"), page.find("<img"));
+  EXPECT_LT(page.find("<img"), page.find("<table>"));
+  EXPECT_NE(page.find("mpirun -n 2 mortise run " + scene + " --set variables/n=4 -o again/strong_2</pre>"), std::string::npos);
   EXPECT_TRUE(std::filesystem::exists(results + "/scale.svg"));
 }
 

@@ -165,10 +165,18 @@ TEST(Study, MeasuresErrorsAndWritesDownWhatFails) {
   EXPECT_LT(std::abs(std::abs(limit) - 31.25), std::abs(std::abs(on_finest) - 31.25));
 
   const std::string page = read_file(results + "/report.html");
-  for (const char* expected :
-       {"<table>", "<img src=\"data:image/svg+xml;base64,", "<b>none, n = 6</b>: not converged", "not converged; the last converged state",
-        "finest (reference)", "Environment", "cheapest configuration within 1 % of force"})
+  for (const char* expected : {"<table>", "<img src=\"data:image/svg+xml;base64,", "<b>none, n = 6</b>: not converged",
+                               "not converged; the last converged state", "finest (reference)", "Environment", "<li>force: within 1 %",
+                               "A run counts as within a bound only if all finer runs", "mortise run scene.xml --set "})
     EXPECT_TRUE(contains(page, expected)) << expected;
+  EXPECT_LT(page.find("class=\"answer\""), page.find("<img"));
+  EXPECT_LT(page.find("<img"), page.find("<table>"));
+  // Settings with spaces are one word of the shell each.
+  EXPECT_TRUE(contains(page, "--set 'newton/gap tolerance=1e-9'"));
+  // Gradients converge; the one point of the other curve has no error.
+  const Json& gradient = json.at("errors").at(1);
+  EXPECT_EQ(gradient.at("no_order"), Json({"", "no errors"}));
+  EXPECT_TRUE(gradient.at("orders").at(0).is_number() && gradient.at("orders").at(1).is_null());
   for (const char* outside : {"src=\"http", "src=\"/", "href=", "<script", "<link"}) EXPECT_FALSE(contains(page, outside)) << outside;
   for (const char* image : {"error_force", "time_force", "cost", "newton"})
     EXPECT_TRUE(files::exists(fmt::format("{}/plots/{}.svg", results, image)));

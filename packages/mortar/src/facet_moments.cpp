@@ -17,18 +17,23 @@ constexpr double full_cover = 1.0 - 1e-7;
 // M_L is as well conditioned on a sliver as on the whole facet; the large entries of T^-T are the extrapolation that phi really is. Standard
 // multipliers: phi = N = T L, constant in this basis, D = T M_L T^T. Where a node has no multiplier, phi -> S phi.
 // Quadratic facets: the same with Ñ = B N = B T L in the place of N; then int phi_j N_k = sum_i (int phi_j Ñ_i) (B^-1)_ki.
-template <int n>
+// The number of nodes is known at compile time where it is small and facets are many; otherwise matrices only have a largest size.
+template <int size>
 class Combination {
-  static constexpr int masses = n * (n + 1) / 2;
-  using Small = Eigen::Matrix<double, n, n>;
-  using Row = Eigen::Matrix<double, 1, n>;
-  using Slopes = Eigen::Matrix<double, n, Eigen::Dynamic>;
+  static constexpr int most = size == Eigen::Dynamic ? most_side_nodes : size;
+  static constexpr int masses_at_compile_time = size == Eigen::Dynamic ? Eigen::Dynamic : size * (size + 1) / 2;
+  using Small = Eigen::Matrix<double, size, size, Eigen::ColMajor, most, most>;
+  using Row = Eigen::Matrix<double, 1, size, Eigen::RowMajor, 1, most>;
+  using Column = Eigen::Matrix<double, size, 1, Eigen::ColMajor, most, 1>;
+  using Slopes = Eigen::Matrix<double, size, Eigen::Dynamic, Eigen::ColMajor, most, Eigen::Dynamic>;
 
  public:
   Combination(const FacetMoments& moments, const FacetMultipliers& multipliers, const FacetFunctions& functions)
-      : moments_(moments),
+      : n(moments.T.rows()),
+        masses(n * (n + 1) / 2),
+        moments_(moments),
         functions_(functions),
-        basis_(non_negative_basis(functions.dimension, n)),
+        basis_(non_negative_basis(functions.dimension, static_cast<std::size_t>(n))),
         S_(multipliers.share),
         T_(moments.T),
         extrapolation_(moments.extrapolation) {
@@ -37,15 +42,16 @@ class Combination {
       extrapolation_ = basis_->to_shape.transpose() * moments.extrapolation;
     }
     const Row l = T_.colwise().sum();
-    mass_of_.setZero();
-    for (int i = 0, r = 0; i < n; ++i)
-      for (int j = i; j < n; ++j, ++r) {
+    M_L_.resize(n, n);
+    mass_of_.setZero(n, masses);
+    for (Eigen::Index i = 0, r = 0; i < n; ++i)
+      for (Eigen::Index j = i; j < n; ++j, ++r) {
         M_L_(i, j) = M_L_(j, i) = moments.value[r];
         mass_of_.col(r) += T_.col(i) * l[j];
         if (j > i) mass_of_.col(r) += T_.col(j) * l[i];
       }
     inverse_ = M_L_.inverse();
-    weight_ = mass_of_ * moments.value.head<masses>();
+    weight_ = mass_of_ * moments.value.head(masses);
     full_ = S_ * multipliers.weights;
   }
 
@@ -61,8 +67,8 @@ class Combination {
     const auto& value = moments_.value;
     const auto& slope = moments_.slope;
     // [masters x n] int L_i N_l, [n] int L_i g
-    const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, n>> coupled(value.data() + masses, masters, n);
-    const Eigen::Matrix<double, n, 1> gaps = value.template tail<n>();
+    const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, size>> coupled(value.data() + masses, masters, n);
+    const Column gaps = value.tail(n);
     const Small M_N = T_ * M_L_ * T_.transpose();
     Slopes weight_slope;
     if (derivatives) weight_slope.noalias() = mass_of_ * slope.topLeftCorner(masses, moving);
@@ -71,7 +77,7 @@ class Combination {
     if (derivatives && coupling.cover.minCoeff() < full_cover) differentiate_cover(weight_slope, columns, coupling);
 
     bool any = false;
-    for (int j = 0; j < n; ++j) {
+    for (Eigen::Index j = 0; j < n; ++j) {
       const Row share = S_.row(j);
       const double own = share.dot(weight_);
       if (!(own > negligible_cover * full_[j])) continue;
@@ -88,19 +94,19 @@ class Combination {
       if (!derivatives) continue;
 
       auto dM = coupling.dM.block(j * masters, 0, masters, moving);
-      for (int i = 0; i < n; ++i) dM += a[i] * slope.block(masses + i * masters, 0, masters, moving);
+      for (Eigen::Index i = 0; i < n; ++i) dM += a[i] * slope.block(masses + i * masters, 0, masters, moving);
       coupling.dgap.row(j).noalias() = w * slope.bottomRows(n);
       if (functions_.dual_multipliers) {
         const Slopes da = dual_slope(share, dual, weight_slope, moving);
         dM.noalias() += coupled.lazyProduct(da);
         if (functions_.dual_gap) coupling.dgap.row(j).head(moving).noalias() += gaps.transpose() * da;
-        for (int k = 0; k < n; ++k)
+        for (Eigen::Index k = 0; k < n; ++k)
           if (share[k] != 0.0) coupling.dD.row(n * j + k).head(moving) = share[k] * weight_slope.row(k);
       } else {
-        for (int k = 0; k < n; ++k) {
+        for (Eigen::Index k = 0; k < n; ++k) {
           const Row of_k = T_.row(k);
-          for (int i = 0, r = 0; i < n; ++i)
-            for (int m = i; m < n; ++m, ++r) {
+          for (Eigen::Index i = 0, r = 0; i < n; ++i)
+            for (Eigen::Index m = i; m < n; ++m, ++r) {
               const double coefficient = standard[i] * of_k[m] + (m > i ? standard[m] * of_k[i] : 0.0);
               coupling.dD.row(n * j + k).head(moving) += coefficient * slope.row(r).head(moving);
             }
@@ -124,9 +130,9 @@ class Combination {
   // From int phi_j Ñ_i to int phi_j N_k.
   void to_shape(FacetCoupling& coupling) const {
     coupling.D *= basis_->to_shape.transpose();
-    for (int j = 0; j < n && coupling.dD.size() > 0; ++j) {
-      const Slopes of_basis = coupling.dD.middleRows<n>(n * j);
-      coupling.dD.middleRows<n>(n * j).noalias() = basis_->to_shape * of_basis;
+    for (Eigen::Index j = 0; j < n && coupling.dD.size() > 0; ++j) {
+      const Slopes of_basis = coupling.dD.middleRows(n * j, n);
+      coupling.dD.middleRows(n * j, n).noalias() = basis_->to_shape * of_basis;
     }
   }
 
@@ -134,20 +140,21 @@ class Combination {
   Slopes dual_slope(const Row& share, const Row& a, const Slopes& weight_slope, Eigen::Index moving) const {
     Slopes right;
     right.noalias() = (share.transpose().asDiagonal() * extrapolation_).transpose().lazyProduct(weight_slope);
-    for (int i = 0, r = 0; i < n; ++i)
-      for (int m = i; m < n; ++m, ++r) {
+    for (Eigen::Index i = 0, r = 0; i < n; ++i)
+      for (Eigen::Index m = i; m < n; ++m, ++r) {
         right.row(m) -= a[i] * moments_.slope.row(r).head(moving);
         if (m > i) right.row(i) -= a[m] * moments_.slope.row(r).head(moving);
       }
     return inverse_ * right;
   }
 
+  const Eigen::Index n, masses;  ///< nodes, and masses int L_i L_j (i <= j)
   const FacetMoments& moments_;
   const FacetFunctions& functions_;
   const NonNegativeBasis* basis_;
   Small S_, T_, extrapolation_, M_L_, inverse_;
-  Eigen::Matrix<double, n, masses> mass_of_;  // int N as a function of the masses
-  Eigen::Matrix<double, n, 1> weight_, full_;
+  Eigen::Matrix<double, size, masses_at_compile_time, Eigen::ColMajor, most, most*(most + 1) / 2> mass_of_;  // int N as a function of the masses
+  Column weight_, full_;
 };
 
 }  // namespace
@@ -180,15 +187,13 @@ bool combine(const FacetMoments& moments, const FacetMultipliers& multipliers, c
              FacetCoupling& coupling) {
   switch (coupling.slave.size()) {
     case 2:
-      return Combination<2>(moments, multipliers, functions).fill(derivatives, coupling);
+      return Combination<Eigen::Dynamic>(moments, multipliers, functions).fill(derivatives, coupling);
     case 3:
-      return Combination<3>(moments, multipliers, functions).fill(derivatives, coupling);
+      return Combination<Eigen::Dynamic>(moments, multipliers, functions).fill(derivatives, coupling);
     case 4:
-      return Combination<4>(moments, multipliers, functions).fill(derivatives, coupling);
-    case 6:
-      return Combination<6>(moments, multipliers, functions).fill(derivatives, coupling);
+      return Combination<Eigen::Dynamic>(moments, multipliers, functions).fill(derivatives, coupling);
     default:
-      return Combination<8>(moments, multipliers, functions).fill(derivatives, coupling);
+      return Combination<Eigen::Dynamic>(moments, multipliers, functions).fill(derivatives, coupling);
   }
 }
 

@@ -1,11 +1,13 @@
 #include "mortise/mortar/facet_partition.hpp"
 
-#include <Teuchos_CommHelpers.hpp>
-#include <Teuchos_ParameterList.hpp>
-#include <Zoltan2_BasicVectorAdapter.hpp>
-#include <Zoltan2_PartitioningProblem.hpp>
+#include <zoltan_cpp.h>
+
+#include <Teuchos_DefaultMpiComm.hpp>
 #include <algorithm>
 #include <numeric>
+#include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace mortise {
 
@@ -21,31 +23,61 @@ double largest_over_mean(const std::vector<double>& work_of_rank) {
 
 bool worth_moving(double now, double then, double bound) { return now > bound && (then <= bound || then <= 0.9 * now); }
 
-std::vector<int> partition_facets(const RCP<const Communicator>& comm, const std::vector<PartitionedFacet>& facets, int parts) {
-  using Adapter = Zoltan2::BasicVectorAdapter<Zoltan2::BasicUserTypes<double, LocalOrdinal, GlobalOrdinal>>;
-  const auto count = static_cast<GlobalOrdinal>(facets.size());
-  GlobalOrdinal end = 0;
-  Teuchos::scan(*comm, Teuchos::REDUCE_SUM, count, Teuchos::outArg(end));
-  std::vector<GlobalOrdinal> ids(facets.size());
-  std::vector<double> x, y, z, work;
-  for (std::size_t f = 0; f < facets.size(); ++f) {
-    ids[f] = end - count + static_cast<GlobalOrdinal>(f);
-    x.push_back(facets[f].centre[0]);
-    y.push_back(facets[f].centre[1]);
-    z.push_back(facets[f].centre[2]);
-    work.push_back(facets[f].work);
+namespace {
+
+const std::vector<PartitionedFacet>& facets_of(void* data) { return *static_cast<const std::vector<PartitionedFacet>*>(data); }
+
+int count(void* data, int*) { return static_cast<int>(facets_of(data).size()); }
+
+int three_coordinates(void*, int*) { return 3; }
+
+// Facets are told apart by their places in the list of their rank. Their global ids only have to differ there.
+void list(void* data, int, int, ZOLTAN_ID_PTR global, ZOLTAN_ID_PTR local, int, float* weights, int*) {
+  const auto& facets = facets_of(data);
+  std::iota(global, global + facets.size(), ZOLTAN_ID_TYPE{0});
+  std::iota(local, local + facets.size(), ZOLTAN_ID_TYPE{0});
+  for (const auto& facet : facets) *weights++ = static_cast<float>(facet.work);
+}
+
+void centres(void* data, int, int, int objects, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR local, int, double* coordinates, int*) {
+  for (int k = 0; k < objects; ++k) {
+    const auto& centre = facets_of(data)[local[k]].centre;
+    coordinates = std::copy(centre.begin(), centre.end(), coordinates);
   }
-  std::vector<const double*> coordinates{x.data(), y.data(), z.data()}, weights{work.data()};
-  std::vector<int> strides{1, 1, 1}, weight_strides{1};
-  Adapter adapter(static_cast<LocalOrdinal>(count), ids.data(), coordinates, strides, weights, weight_strides);
-  Teuchos::ParameterList parameters;
-  parameters.set("algorithm", "multijagged");
-  parameters.set("num_global_parts", parts);
-  parameters.set("imbalance_tolerance", 1.01);
-  Zoltan2::PartitioningProblem<Adapter> problem(&adapter, &parameters, comm);
-  problem.solve();
-  const int* part = problem.getSolution().getPartListView();
-  return {part, part + facets.size()};
+}
+
+void check(int code) {
+  if (code != ZOLTAN_OK && code != ZOLTAN_WARN) throw std::runtime_error("Zoltan found no partition of the facets");
+}
+
+}  // namespace
+
+std::vector<int> partition_facets(const RCP<const Communicator>& comm, const std::vector<PartitionedFacet>& facets, int parts) {
+  float version = 0.0f;
+  check(Zoltan_Initialize(0, nullptr, &version));
+  const auto* mpi = dynamic_cast<const Teuchos::MpiComm<int>*>(comm.get());
+  Zoltan zoltan(mpi != nullptr ? (*mpi->getRawMpiComm())() : MPI_COMM_SELF);
+  const std::pair<const char*, std::string> parameters[] = {
+      {"DEBUG_LEVEL", "0"},      {"LB_METHOD", "RCB"},    {"NUM_GLOBAL_PARTS", std::to_string(parts)},
+      {"IMBALANCE_TOL", "1.01"}, {"OBJ_WEIGHT_DIM", "1"}, {"RETURN_LISTS", "PARTS"}};
+  for (const auto& [name, value] : parameters) check(zoltan.Set_Param(name, value));
+  auto* data = const_cast<std::vector<PartitionedFacet>*>(&facets);  // Zoltan only passes it on
+  zoltan.Set_Num_Obj_Fn(count, data);
+  zoltan.Set_Obj_List_Fn(list, data);
+  zoltan.Set_Num_Geom_Fn(three_coordinates, data);
+  zoltan.Set_Geom_Multi_Fn(centres, data);
+
+  // With RETURN_LISTS = PARTS the lists of exports have all facets of this rank.
+  int changes = 0, global_entries = 0, local_entries = 0, imports = 0, exports = 0;
+  ZOLTAN_ID_PTR import_global = nullptr, import_local = nullptr, export_global = nullptr, export_local = nullptr;
+  int *import_ranks = nullptr, *import_parts = nullptr, *export_ranks = nullptr, *export_parts = nullptr;
+  check(zoltan.LB_Partition(changes, global_entries, local_entries, imports, import_global, import_local, import_ranks, import_parts, exports,
+                            export_global, export_local, export_ranks, export_parts));
+  std::vector<int> result(facets.size());
+  for (int k = 0; k < exports; ++k) result[export_local[k]] = export_parts[k];
+  Zoltan::LB_Free_Part(&import_global, &import_local, &import_ranks, &import_parts);
+  Zoltan::LB_Free_Part(&export_global, &export_local, &export_ranks, &export_parts);
+  return result;
 }
 
 }  // namespace mortise

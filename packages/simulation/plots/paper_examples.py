@@ -26,25 +26,24 @@ def upset(compression):
     return -tau / volume, alpha, np.sqrt(volume / stretch)
 
 
+def with_rivals(*names):
+    """Runs that came to their end, each followed by the same with nodes on segments."""
+    return [run for name in names for run in complete(name) + rivals(name)]
+
+
 def patch_test():
     parts = [paragraph("Two steel blocks on each other with meshes that do not match, pressed from above, no friction. The paper shows a",
                        "constant stress with dual mortar (figure 4) and an uneven one with nodes on segments (figure 3). It states no other",
                        "numbers.")]
-    for run in complete("patch_test", "patch_test_plastic"):
-        form = "elastic" if run.name == "patch_test" else "plastic"
-        parts.append(html_figure(displacement_and_stress(run, f"Patch test, {form}"), "Figure 4",
-                                 f"patch test, {form} form: displacement and von Mises stress on the deformed mesh"))
-        rows = [["largest deviation of a stress from its mean, over the mean stress", run.quantity("stress_spread"), 0.0],
-                ["imbalance of momentum, relative", run.quantity("momentum_imbalance"), 0.0],
-                ["mean axial stress / MPa", run.quantity("axial_stress"), None],
-                ["mean equivalent plastic strain", run.quantity("equivalent_plastic_strain"), None]]
-        parts.append(comparison([row for row in rows if row[1] is not None], f"Patch test, {form}", "exact"))
-    for run in rivals("patch_test", "patch_test_plastic"):
-        form = "elastic" if run.name == "patch_test" + RIVAL else "plastic"
-        parts.append(html_figure(displacement_and_stress(run, f"Patch test, {form}, node to segment"), "Figure 3", f"the same with {LAGRANGE}"))
-        parts.append(comparison([["largest deviation of a stress from its mean, over the mean stress", run.quantity("stress_spread"), 0.0],
-                                 ["imbalance of momentum, relative", run.quantity("momentum_imbalance"), 0.0]],
-                                f"Patch test, {form}, node to segment", "exact"))
+    for name, form in (("patch_test", "elastic"), ("patch_test_plastic", "plastic")):
+        found = with_rivals(name)
+        for run in found:
+            figure = displacement_and_stress(run, f"Patch test, {form}, {method_of(run)}")
+            parts.append(html_figure(figure, "Figure 3" if run.name.endswith(RIVAL) else "Figure 4",
+                                     f"patch test, {form} form, {method_of(run)}: displacement and von Mises stress on the deformed mesh"))
+        parts.append(comparison(found, [("largest deviation of a stress from its mean, over the mean stress", "stress_spread", 0),
+                                        ("imbalance of momentum, relative", "momentum_imbalance", 0), ("mean axial stress / MPa", "axial_stress", None),
+                                        ("mean equivalent plastic strain", "equivalent_plastic_strain", None)], f"Patch test, {form}", "exact"))
     return parts
 
 
@@ -52,29 +51,21 @@ def block_pile():
     parts = [paragraph("Four steel blocks on each other, compressed by 15 mm, no friction. The paper: the blocks deform alike, “a smooth",
                        "deformation of the entire structure and a uniform uniaxial stress field” (figure 6); with nodes on segments corner",
                        "nodes slip off (figure 5). It states no other numbers.")]
-    for run in complete("block_pile", "block_pile_axisymmetric"):
-        round_bar = run.name.endswith("axisymmetric")
-        form, names = ("axisymmetric", ("r", "z")) if round_bar else ("plane strain", ("x", "y"))
-        stress, alpha, lateral = upset(0.15) if round_bar else (None, None, None)
-        parts.append(html_figure(displacement_and_stress(run, f"Block pile, {form}", names), "Figure 6",
-                                 f"block pile, {form}: displacement and von Mises stress on the deformed mesh"))
-        parts.append(comparison([["axial stress / MPa", run.quantity("axial_stress"), stress],
-                                 ["equivalent plastic strain", run.quantity("equivalent_plastic_strain"), alpha],
-                                 ["lateral stretch", run.quantity("lateral_stretch"), lateral],
-                                 ["largest deviation of a stress from its mean, relative", run.quantity("stress_spread"), 0.0],
-                                 ["difference of the blocks' corners / mm", run.quantity("lateral_spread"), 0.0],
-                                 ["smallest gap (negative: penetration) / mm", run.quantity("largest_penetration"), 0.0]],
-                                f"Block pile, {form}", "exact"))
-    for run in rivals("block_pile", "block_pile_axisymmetric"):
-        round_bar = "axisymmetric" in run.name
-        form, names = ("axisymmetric", ("r", "z")) if round_bar else ("plane strain", ("x", "y"))
-        parts.append(html_figure(displacement_and_stress(run, f"Block pile, {form}, node to segment", names), "Figure 5",
-                                 f"block pile, {form}, with {LAGRANGE}: the last state that was found"))
-        parts.append(comparison([["largest deviation of a stress from its mean, relative", run.quantity("stress_spread"), 0.0],
-                                 ["difference of the blocks' corners / mm", run.quantity("lateral_spread"), 0.0]],
-                                f"Block pile, {form}, node to segment", "exact"))
-        parts.append(paragraph(how_far(run), "Corner nodes of a slave side leave the master side, as the paper says of its own: then the master's",
-                               "corner goes into the slave, where nothing holds it."))
+    for name, form, names in (("block_pile", "plane strain", ("x", "y")), ("block_pile_axisymmetric", "axisymmetric", ("r", "z"))):
+        found = with_rivals(name)
+        stress, alpha, lateral = upset(0.15) if form == "axisymmetric" else (None, None, None)
+        for run in found:
+            figure = displacement_and_stress(run, f"Block pile, {form}, {method_of(run)}", names)
+            parts.append(html_figure(figure, "Figure 5" if run.name.endswith(RIVAL) else "Figure 6",
+                                     f"block pile, {form}, {method_of(run)}: displacement and von Mises stress on the deformed mesh"))
+        parts.append(comparison(found, [("axial stress / MPa", "axial_stress", stress), ("equivalent plastic strain", "equivalent_plastic_strain", alpha),
+                                        ("lateral stretch", "lateral_stretch", lateral),
+                                        ("largest deviation of a stress from its mean, relative", "stress_spread", 0),
+                                        ("difference of the blocks' corners / mm", "lateral_spread", 0),
+                                        ("smallest gap (negative: penetration) / mm", "largest_penetration", 0)], f"Block pile, {form}", "exact"))
+        for run in rivals(name):
+            parts.append(paragraph(f"Node to segment, {form}:", how_far(run), "Corner nodes of a slave side leave the master side, as the paper says of its",
+                                   "own: then the master's corner goes into the slave, where nothing holds it."))
     return parts
 
 
@@ -85,33 +76,26 @@ def hertz_elastic():
                        "paper's dual mortar took 3 iterations to a relative residual of 1e-10.")]
     sets = [("stated moduli", STATED, ["hertz_elastic", "hertz_elastic_frictionless"], "eq. (14)"),
             ("moduli that give the printed numbers", AS_PRINTED, ["hertz_elastic_as_printed", "hertz_elastic_as_printed_frictionless"], "printed")]
-    sets = [one for one in sets if complete(*one[2])]
-    if not sets:
-        return parts
-    figure, axes = panels(len(sets), "Contact stress, elastic, 5 kN/mm")
-    rows = []
-    for panel, (label, moduli, names, source) in zip(axes, sets):
+    named = lambda run: f"{method_of(run)}, {friction(run)}"
+    for label, moduli, names, source in sets:
+        found = with_rivals(*names)
+        if not found:
+            continue
         peak, half_width = (1577.32, 2.018) if source == "printed" else hertz(5000.0, moduli["cylinder"], moduli["block"])
-        hertz_profile(panel, peak, half_width, f"Hertz, {source}")
-        for run, colour, marker in zip(complete(*names), COLOURS, "os"):
-            contact_profile(panel, run, friction(run), colour, marker)
-            rows += [[f"P<sub>max</sub> / MPa, {label}, {friction(run)}; beside: {source}", run.quantity("peak_pressure"), peak],
-                     [f"a / mm, {label}, {friction(run)}; beside: {source}", run.quantity("half_width"), half_width]]
-        for run in rivals(*names):
-            contact_profile(panel, run, "node to segment, " + friction(run), COLOURS[2], "^")
-            rows += [[f"P<sub>max</sub> / MPa, {label}, node to segment; beside: {source}", run.quantity("peak_pressure"), peak],
-                     [f"a / mm, {label}, node to segment; beside: {source}", run.quantity("half_width"), half_width]]
-        finish_profile(panel, label, 1.5 * half_width)
-    parts.append(html_figure(figure, "Figure 8", "contact stress of the elastic Hertz problem over the current position; each mark is a node"))
-    parts.append(comparison(rows, "Hertz problem, elastic", "Hertz"))
-    both = complete("hertz_elastic", "hertz_elastic_as_printed") + rivals("hertz_elastic", "hertz_elastic_as_printed")
-    parts.append(beside([["total variation of the nodal pressures over their peak, − 1 (no oscillation: 0)", "oscillation"],
-                         ["relative L2 error of the pressure", "pressure_error_l2"]], both, [run.name for run in both],
-                        "Oscillation of the contact pressure"))
+        figure, axes = one_panel(f"Contact stress, 5 kN/mm, {label}")
+        hertz_profile(axes, peak, half_width, f"Hertz, {source}")
+        for run in found:
+            contact_profile(axes, run, named(run), filled=friction(run) == "with friction")
+        finish_profile(axes, 1.5 * half_width)
+        parts.append(html_figure(figure, "Figure 8", f"contact stress with {label} over the current position; each mark is a node"))
+        parts.append(comparison(found, [("P<sub>max</sub> / MPa", "peak_pressure", peak), ("a / mm", "half_width", half_width),
+                                        ("oscillation: total variation of the nodal pressures over their peak, − 1", "oscillation", 0),
+                                        ("relative L2 error of the pressure", "pressure_error_l2", 0)], f"Hertz problem, elastic, {label}",
+                                f"Hertz, {source}", named))
     for run in complete("hertz_elastic"):
-        parts.append(own_checks(run))
         parts.append(html_figure(mesh_near_contact(run, "Hertz, elastic", 5.0), "Figure 7, detail",
                                  f"von Mises stress near the contact, stated moduli, {friction(run)}"))
+        parts.append(own_checks([run]))
     return parts
 
 
@@ -137,31 +121,25 @@ def extrusion():
                        "that was counted; its curves of forces are lost. It calls the friction force of dual mortar smooth and that of nodes",
                        "on segments oscillating.")]
     for run in complete("conical_extrusion"):
-        figure, axes = panels(1, "Conical extrusion")
+        figure, axes = panels(1, "Conical extrusion, dual mortar")
         strain = run.fields.values["equivalent_plastic_strain"].ravel()
         on_mesh(figure, axes[0], run.fields, strain, "equivalent plastic strain", ("r", "z"), lying=True)
         parts.append(html_figure(figure, "Figure 11", "equivalent plastic strain of the billet at the end; means of elements"))
-        parts.append(comparison([["largest equivalent plastic strain", run.quantity("peak_equivalent_plastic_strain"), 1.39],
-                                 ["contact length / mm, whole billet", run.quantity("contact_length"), 257.33],
-                                 ["contact length / mm, on the cone", length_on_cone(run.fields), 257.33],
-                                 ["rear force at the end / N", run.quantity("rear_force"), None],
-                                 ["friction force at the end / N", run.quantity("friction_force"), None],
-                                 ["roughness (RMS of second differences over RMS) of the friction force", roughness(run.history, "friction_force"),
-                                  None],
-                                 ["roughness of the extrusion force", roughness(run.history, "rear_force"), None]], "Conical extrusion"))
-        parts.append(own_checks(run))
-        found = [run, *rivals(run.name)]
-        for figure_name, quantity, name in (("Figure 12", "rear_force", "extrusion force"), ("Figure 13", "friction_force", "friction force")):
-            if quantity in run.history:
-                figure = against_displacement(found, quantity, f"{name} / kN", name.capitalize(), 177.8)
-                parts.append(html_figure(figure, figure_name, f"{name} of the whole billet over the displacement of its rear face"))
-    for run in rivals("conical_extrusion"):
-        parts.append(comparison([["largest equivalent plastic strain", run.quantity("peak_equivalent_plastic_strain"), 1.39],
-                                 ["contact length / mm, whole billet", run.quantity("contact_length"), 257.33],
-                                 ["rear force at the end / N", run.quantity("rear_force"), None],
-                                 ["friction force at the end / N", run.quantity("friction_force"), None],
-                                 ["roughness of the friction force", roughness(run.history, "friction_force"), None],
-                                 ["roughness of the extrusion force", roughness(run.history, "rear_force"), None]],
-                                "Conical extrusion, node to segment"))
-        parts.append(paragraph(how_far(run)))
+    found = with_rivals("conical_extrusion")
+    for figure_name, quantity, name in (("Figure 12", "rear_force", "extrusion force"), ("Figure 13", "friction_force", "friction force")):
+        shown = [run for run in found if quantity in run.history]
+        if shown:
+            figure = against_displacement(shown, quantity, f"{name} / MN", name.capitalize(), 177.8)
+            parts.append(html_figure(figure, figure_name, f"{name} of the whole billet over the displacement of its rear face"))
+    meganewtons = lambda name: lambda run: 1e-6 * run.quantity(name) if known(run.quantity(name)) else None
+    parts.append(comparison(found, [("largest equivalent plastic strain", "peak_equivalent_plastic_strain", 1.39),
+                                    ("contact length / mm, whole billet", "contact_length", 257.33),
+                                    ("contact length / mm, on the cone", lambda run: length_on_cone(run.fields), 257.33),
+                                    ("rear force at the end / MN", meganewtons("rear_force"), None),
+                                    ("friction force at the end / MN", meganewtons("friction_force"), None),
+                                    ("roughness (RMS of second differences over RMS) of the friction force",
+                                     lambda run: roughness(run.history, "friction_force"), None),
+                                    ("roughness of the extrusion force", lambda run: roughness(run.history, "rear_force"), None)], "Conical extrusion"))
+    parts.append(own_checks(found))
+    parts += [paragraph("Node to segment:", how_far(run)) for run in rivals("conical_extrusion") if not run.complete]
     return parts

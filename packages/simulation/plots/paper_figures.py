@@ -73,30 +73,34 @@ def hertz_profile(axes, pressure, half_width, label):
     axes.plot(x, pressure * np.sqrt(1 - (x / half_width) ** 2), color="black", linestyle="-", linewidth=1.0, label=label)
 
 
-def contact_profile(axes, run, label, colour, marker, shear=False):
+def method_of(run):
+    return "node to segment" if run.name.endswith(RIVAL) else "dual mortar"
+
+
+def contact_profile(axes, run, label, shear=False, filled=True):
+    """In the colour of the formulation; shear dashed."""
     x, pressure, tangential = run.fields.contact()
-    axes.plot(x, tangential if shear else pressure, color=colour, marker=marker, markersize=3, linewidth=0.8, linestyle="--" if shear else "-",
-              label=label)
+    colour, marker = FORMULATIONS[method_of(run)]
+    axes.plot(x, tangential if shear else pressure, color=colour, marker=marker, markersize=4, linewidth=1.0, linestyle="--" if shear else "-",
+              fillstyle="full" if filled else "none", label=label)
 
 
-def finish_profile(axes, title, end):
-    axes.set_title(title)
+def finish_profile(axes, end):
     axes.set_xlim(0, end)
     axes.set_xlabel("x / mm")
     axes.set_ylabel("contact stress / MPa")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), ncol=1, fontsize=7)
+    legend_below(axes)
 
 
-def against_displacement(found, quantity, label, title, stroke, scale=1e-3):
+def against_displacement(found, quantity, label, title, stroke, scale=1e-6):
     """A quantity of every step over the way of the rear face, of a run and of its rivals."""
-    figure, axes = panels(1, title)
-    for run in found:
+    figure, axes = one_panel(title)
+    for run, dashes in zip(found, DASHES):
         history = run.history
-        axes[0].plot(np.append(0.0, stroke * history["time"]), scale * np.append(0.0, np.abs(history[quantity])),
-                     label="node to segment" if run.name.endswith(RIVAL) else "dual mortar")
-    axes[0].set_xlabel("displacement of the rear face / mm")
-    axes[0].set_ylabel(label)
-    axes[0].set_ylim(bottom=0)
-    if len(found) > 1:
-        axes[0].legend()
+        axes.plot(np.append(0.0, stroke * history["time"]), scale * np.append(0.0, np.abs(history[quantity])), color=FORMULATIONS[method_of(run)][0],
+                  linestyle=dashes, label=method_of(run))
+    axes.set_xlabel("displacement of the rear face / mm")
+    axes.set_ylabel(label)
+    axes.set_ylim(bottom=0)
+    legend_below(axes)
     return figure

@@ -37,21 +37,31 @@ Steps, tolerances and what the relative residual is relative to are given nowher
 
 
 def section(title, names, contents):
+    """What the paper says, how runs ended, figures, tables."""
     asked = [runs[name] for base in names for name in (base, base + RIVAL) if name in runs]
     if not asked:
         return []
-    return [f"<section><h2>{escaped(title)}</h2>", *map(missed, asked), *contents(), "</section>"]
+    said, *parts = contents()
+    images = [part for part in parts if part.startswith("<figure")]
+    return [f"<section><h2>{escaped(title)}</h2>", said, *map(missed, asked), figures(images), *[part for part in parts if part not in images], "</section>"]
 
 
 def page():
-    parts = [paragraph("T. Doca, F. M. Andrade Pires, J. M. A. César de Sá, <i>A dual mortar-based contact formulation applied to finite",
-                       f"plastic strains</i>, COMPLAS XI, 2011: every example, computed by Mortise {escaped(record['version'])} on",
-                       f"{record['ranks']} MPI rank(s). Units mm, N, MPa. “–” is a number that the paper does not state, or that a scene does",
-                       "not compute."), overview(runs.values())]
+    found = judged()
+    parts = answer_of(found)
+    picture = differences(found)
+    if picture:
+        parts.append(figures([html_figure(picture, "Ours against the paper", f"differences to its printed numbers; grey: met, within {100 * NEAR:.0f} %")]))
+    parts.append(paragraph("T. Doca, F. M. Andrade Pires, J. M. A. César de Sá, <i>A dual mortar-based contact formulation applied to finite",
+                           f"plastic strains</i>, COMPLAS XI, 2011: every example, computed by Mortise {escaped(record['version'])} on",
+                           f"{record['ranks']} MPI rank(s). Units mm, N, MPa. “–” is a number that the paper does not state, or that a scene does",
+                           "not compute. Its “Lagrange” is node to segment here."))
     for example in EXAMPLES:
         parts += section(*example)
-    items = [f"<li>{escaped(one)}</li>" for one in OPEN.strip().split("\n\n")]
-    parts += ["<section><h2>What the paper leaves open</h2><ul>", *items, "</ul></section>"]
+    if found:
+        parts.append(f"<section><h2>All results</h2>{table_of(found)}</section>")
+    parts += ["<section><h2>Runs</h2>", overview(runs.values()), commands(runs.values()), "</section>"]
+    parts += ["<section><h2>What the paper leaves open</h2>", items(map(escaped, OPEN.strip().split("\n\n"))), "</section>"]
     return html_page("The examples of the paper, by Mortise", parts)
 
 

@@ -33,6 +33,7 @@ class Run:
         self.name, self.scene, self.settings = identity["name"], identity["scene"], identity["settings"]
         self.exit, self.said = record["exit"], record["said"]
         self.seconds, self.reused = record["seconds"], record["reused"]
+        self.misses = record["misses"]  # why it is expected to miss checks
         self.path = os.path.join(directory, self.name)
         self.summary = {}
         if os.path.isfile(self.file("summary.json")):

@@ -27,19 +27,19 @@ def indentation(run):
     return [tip, surface, downward(fields, cylinder, 1) - tip, surface - downward(fields, block, -1), run.quantity("contact_length")]
 
 
-def headed(found, others, between=()):
+def headed(found, others):
     """Our runs, the paper's column, our runs with nodes on segments, the paper's column."""
-    ours = lambda runs, method: [one for run in runs for one in (f"ours, {method}{FORMS[run.name.replace(RIVAL, '')]}", *between)]
-    return [*ours(found, ""), "paper, dual mortar", *ours(others, "node to segment, "), "paper, Lagrange"]
+    ours = lambda runs: [f"ours, {method_of(run)}, {FORMS[run.name.replace(RIVAL, '')]}" for run in runs]
+    return [*ours(found), "paper, dual mortar", *ours(others), "paper, Lagrange"]
 
 
 def first_half_of_table_two(found, others):
     rows = []
     values, rival_values = [indentation(run) for run in found], [indentation(run) for run in others]
     for i, (name, (mortar, lagrange)) in enumerate(PAPER_TWO.items()):
-        cells = lambda all_values, paper: [cell for one in all_values for cell in (number(one[i]), difference(one[i], paper))]
-        rows.append([name, *cells(values, mortar), number(mortar), *cells(rival_values, lagrange), number(lagrange)])
-    return html_table(["quantity", *headed(found, others, ["difference"])], rows, "Table 2, first half: at 12.5 kN/mm")
+        cells = lambda all_values, paper: [f"{number(one[i], 4)} ({difference(one[i], paper)})" for one in all_values]
+        rows.append([name, *cells(values, mortar), given(mortar), *cells(rival_values, lagrange), given(lagrange)])
+    return html_table(["quantity", *headed(found, others)], rows, "Table 2, first half: at 12.5 kN/mm")
 
 
 def residual_table(found, others):
@@ -48,7 +48,7 @@ def residual_table(found, others):
         residuals = lambda runs: [[100 * one for one in run.residuals(run.history["time"][-1] * increment / INCREMENTS)] for run in runs]
         ours, rival = residuals(found), residuals(others)
         for i in range(max([len(mortar) + 1, len(lagrange) + 1] + [len(one) for one in ours + rival])):
-            cell = lambda values, i: f"{values[i]:.2e}" if 0 <= i < len(values) else ""
+            cell = lambda values, i: f"{values[i]:.1e}" if 0 <= i < len(values) else ""
             rows.append([f"{increment}, {i}", *[cell(one, i) for one in ours], cell(mortar, i - 1), *[cell(one, i) for one in rival],
                          cell(lagrange, i - 1)])
     return html_table(["increment, iteration", *headed(found, others)], rows, "Table 2, second half: relative residual norm in %")
@@ -61,21 +61,18 @@ def hertz_plastic():
     if not found:
         return parts
     others = [run for run in rivals(*FORMS) if run.complete]
-    figure, axes = panels(len(found), "Contact stress, 12.5 kN/mm")
-    for panel, run in zip(axes, found):
-        for rival in others:
-            if rival.name == run.name + RIVAL:
-                contact_profile(panel, rival, "normal, node to segment", COLOURS[2], "^")
-                contact_profile(panel, rival, "tangential, node to segment", COLOURS[3], "v", shear=True)
-        contact_profile(panel, run, "normal", COLOURS[0], "o")
-        contact_profile(panel, run, "tangential", COLOURS[1], "s", shear=True)
+    for run in found:
+        figure, axes = one_panel(f"Contact stress, 12.5 kN/mm, {FORMS[run.name]}")
+        for one in [rival for rival in others if rival.name == run.name + RIVAL] + [run]:
+            contact_profile(axes, one, f"normal, {method_of(one)}")
+            contact_profile(axes, one, f"tangential, {method_of(one)}", shear=True, filled=False)
         x, pressure, _ = run.fields.contact()
-        finish_profile(panel, FORMS[run.name], 1.5 * x[pressure > 0].max())
-    parts.append(html_figure(figure, "Figure 9", "contact stress over the current position; each mark is a node"))
+        finish_profile(axes, 1.5 * x[pressure > 0].max())
+        parts.append(html_figure(figure, "Figure 9", f"contact stress with {FORMS[run.name]} over the current position; each mark is a node"))
+    for run in complete("hertz_plastic"):
+        parts.append(html_figure(mesh_near_contact(run, "Hertz, plastic", 8.0), "Figure 7, detail",
+                                 "von Mises stress near the contact at 12.5 kN/mm, stated data"))
     parts += [first_half_of_table_two(found, others), residual_table(found, others)]
-    parts.append(beside([["total variation of the nodal pressures over their peak, − 1 (no oscillation: 0)", "oscillation"],
-                         ["P<sub>max</sub> / MPa", "peak_pressure"]], found + others, [run.name for run in found + others],
-                        "Oscillation of the contact pressure"))
     parts.append(paragraph("What the paper's displacements are is not said: taken is the displacement of the contact point; the block's",
                            "deformation is that against its fixed bottom, the cylinder's that of its diameter against the contact point.",
                            "Residuals: ours are those after each iteration, 0 being the start, over the largest of internal, external and",
@@ -83,17 +80,12 @@ def hertz_plastic():
     parts.append(paragraph("The paper's displacements and contact length belong to a practically rigid cylinder on a practically elastic block",
                            "(Hertz with such a cylinder: a = 3.191 mm) and cannot come from the stated materials, of which the block yields",
                            "from about 1.2 kN/mm on. The iteration counts and their quadratic decay can be compared."))
-    for run in found:
-        parts.append(f"<p>Newton iterations, {FORMS[run.name]} (steps × iterations): {stages(run)}.</p>")
-        for rival in others:
-            if rival.name == run.name + RIVAL:
-                parts.append(f"<p>With nodes on segments: {stages(rival)}.</p>")
-        if run.name == "hertz_plastic":
-            parts.append(comparison([["largest equivalent plastic strain", run.quantity("peak_equivalent_plastic_strain"), None],
-                                     ["that in the cylinder", run.quantity("peak_plastic_strain_cylinder"), None],
-                                     ["P<sub>max</sub> / MPa", run.quantity("peak_pressure"), None],
-                                     ["tangential contact force / (N/mm)", run.quantity("friction_force"), None]], "Hertz problem, plastic"))
-            parts.append(own_checks(run))
-            parts.append(html_figure(mesh_near_contact(run, "Hertz, plastic", 8.0), "Figure 7, detail",
-                                     "von Mises stress near the contact at 12.5 kN/mm, stated data"))
+    every = found + others
+    parts.append(comparison(every, [("P<sub>max</sub> / MPa", "peak_pressure", None),
+                                    ("largest equivalent plastic strain", "peak_equivalent_plastic_strain", None),
+                                    ("that in the cylinder", "peak_plastic_strain_cylinder", None),
+                                    ("tangential contact force / (N/mm)", "friction_force", None),
+                                    ("oscillation: total variation of the nodal pressures over their peak, − 1", "oscillation", None)],
+                            "Hertz problem, plastic", names=lambda run: f"{method_of(run)}, {FORMS[run.name.replace(RIVAL, '')]}"))
+    parts.append(own_checks(complete("hertz_plastic")) if complete("hertz_plastic") else "")
     return parts

@@ -1,4 +1,4 @@
-# The page of a study.
+# The page of a study: its answer, figures, tables.
 def drawn(figure, stem, title, caption):
     """As a file of its own, and as part of the page."""
     image = svg(figure)
@@ -11,72 +11,111 @@ def stem(name):
     return "".join(one if one.isalnum() or one in "-_" else "_" for one in name)
 
 
-def cell(value, digits=4):
-    return "–" if value is None or not np.isfinite(value) else f"{value:.{digits}g}"
+def cost_figure(error):
+    return drawn(error_against_time(error), "time_" + stem(error["name"]), "Cost", f"error of {error['name']} against wall time; rings: the cheapest runs")
+
+
+def answer():
+    lines = [f"{escaped(error['name'])}: {cheapest_of(error, points)}" for error in errors]
+    failed = [point for point in points if not point["finished"]]
+    parts = ['<section class="answer">', paragraph(summary_of(study)), items(lines)]
+    if failed:
+        parts.append(paragraph(f"{len(failed)} of {len(points)} runs did not come to their end and count nowhere: see <i>What failed</i>."))
+    return [*parts, paragraph(RULE), "</section>", figures([cost_figure(error) for error in errors if has_errors(error)][:1])]
+
+
+def sections():
+    """Figures of each error; the first one's cost stands with the answer."""
+    parts, first = [], True
+    for error in errors:
+        parts.append(f"<section><h2>Error of {escaped(error['name'])}</h2>")
+        if has_errors(error):
+            accuracy = drawn(error_against_h(error), "error_" + stem(error["name"]), "Accuracy", f"error of {error['name']} against mesh size, with fitted orders")
+            parts.append(figures([accuracy] if first else [accuracy, cost_figure(error)]))
+            first = False
+        elif any(map(known, error["error"])):
+            parts.append(paragraph("All errors are round-off: there is nothing to draw, and no order."))
+        parts += [items(map(escaped, error["notes"])), "</section>"]
+    return parts
+
+
+def cost():
+    if not finished:
+        return []
+    return ["<section><h2>Cost</h2>", figures([
+        drawn(cost_by_phase(), "cost", "Cost by phase", "share of the wall time of the finest run of each family"),
+        drawn(newton_iterations(), "newton", "Newton iterations", "mean over the steps")]), "</section>"]
+
+
+def axis_columns():
+    return [(escaped(axis["name"]), [escaped(point["labels"][i]) for point in points]) for i, axis in enumerate(study["axes"])] or \
+        [("run", [escaped(point["label"]) for point in points])]
 
 
 def all_points():
-    axes = [axis["name"] for axis in study["axes"]]
-    head = ["point", "status", *axes, "formulation", "element", "h", "unknowns", "steps", "Newton iterations", "wall / s", "CPU / s", "memory / MiB"]
-    rows = []
-    for point in points:
-        state = escaped(point["status"])
-        rows.append([escaped(point["label"]), state if point["finished"] else f"<b>{state}</b>", *map(escaped, point["labels"]),
-                     escaped(point["formulation"]), escaped(point["element"]), cell(point["h"]), cell(point["dofs"], 9), cell(point["steps"], 9),
-                     cell(point["newton_iterations"], 9), cell(point["wall_s"]), cell(point["cpu_s"]), cell(point["memory_mib"])])
+    of = lambda name, digits: [cell(point[name], digits) for point in points]
+    columns = [*axis_columns(), ("status", [escaped(point["status"]) for point in points]), ("formulation", [escaped(point["formulation"]) for point in points]),
+               ("element", [escaped(point["element"]) for point in points]), ("h", of("h", 3)), ("unknowns", of("dofs", 9)), ("steps", of("steps", 9)),
+               ("Newton iterations", of("newton_iterations", 9)), ("wall / s", of("wall_s", 3)), ("CPU / s", of("cpu_s", 3)),
+               ("memory / MiB", of("memory_mib", 3)),
+               *[(f"error of {escaped(error['name'])}", list(map(in_percent, error["error"]))) for error in errors]]
+    parts = [column_table(columns, f"All runs; times and memory are medians of {study['repeats']} run(s)",
+                          [head for head, _ in axis_columns()] + ["status", "formulation", "element"])]
     if study["finest"]:
-        point = study["finest"]
-        rows.append(["finest (reference)", escaped(point["status"]), *["–"] * len(axes), escaped(point["formulation"]), escaped(point["element"]), "–",
-                     cell(point["dofs"], 9), cell(point["steps"], 9), cell(point["newton_iterations"], 9), cell(point["wall_s"]), cell(point["cpu_s"]),
-                     cell(point["memory_mib"])])
-    return html_table(head, rows, f"All points; times and memory are medians of {study['repeats']} run(s)")
+        one = study["finest"]
+        parts.append(paragraph(f"<b>finest (reference)</b>: {escaped(one['status'])}, {cell(one['dofs'], 9)} unknowns, {cell(one['steps'], 9)} steps,",
+                               f"{cell(one['newton_iterations'], 9)} Newton iterations, {cell(one['wall_s'])} s, {cell(one['memory_mib'])} MiB."))
+    return parts
 
 
-def errors_of(error):
-    rows = [[escaped(point["label"]), cell(value, 9), cell(reference, 9), cell(size, 3)]
-            for point, value, reference, size in zip(points, error["value"], error["reference"], error["error"])]
-    return html_table(["point", "value", "reference", "error"], rows, f"Errors of {escaped(error['name'])}")
+def values():
+    """What errors are the differences of."""
+    of = [(error, name) for error in errors for name in ("value", "reference") if any(map(known, error[name]))]
+    if not of:
+        return []
+    columns = [("run", [escaped(point["label"]) for point in points])]
+    columns += [(f"{escaped(error['name'])}{', reference' if name == 'reference' else ''}", [cell(one, 8) for one in error[name]]) for error, name in of]
+    return [details("Values and references", column_table(columns, "Values of quantities and what they are compared with"))]
 
 
-def times_to(error):
+def times_to_targets():
     """When each curve reaches the errors that are aimed at, and how that compares with the first of the series."""
-    heads = ["curve"]
-    for target in error["targets"]:
-        heads += [f"s to {percent(target['error'])}", "ratio"]
-    rows = []
-    for index, curve in enumerate(curves):
-        row = [escaped(curve["name"])]
-        for target in error["targets"]:
-            one = target["curves"][index]
-            row += ["not reached" if one["seconds"] is None else ("≤ " if one["at_most"] else "") + cell(one["seconds"], 3), cell(one["ratio"], 3)]
-        rows.append(row)
-    series = study["axes"][study["series"]]
-    caption = (f"Wall time to an error of {escaped(error['name'])}, between points linear in the logarithms; ratio to "
-               f"{escaped(series['name'])} = {escaped(series['values'][0])}. ≤: the coarsest point is that good already")
-    return html_table(heads, rows, caption)
+    def of(target, index):
+        one = target["curves"][index]
+        if one["seconds"] is None:
+            return "not reached"
+        ratio = "" if one["ratio"] is None else f" ({one['ratio']:.2f})"
+        return ("≤ " if one["at_most"] else "") + cell(one["seconds"]) + ratio + ("" if one["confirmed"] else " *")
+
+    wanted = [(error, target) for error in errors if has_errors(error) for target in error["targets"]]
+    if not wanted:
+        return []
+    series = study["axes"][study["series"]] if study["axes"] else None
+    ratio = f"; in brackets the ratio to {escaped(series['name'])} = {escaped(series['values'][0])}" if series else ""
+    rows = [[escaped(curve["name"]), *[of(target, index) for _, target in wanted]] for index, curve in enumerate(curves)]
+    return [html_table(["family", *[f"{escaped(error['name'])}, {percent(target['error'])}" for error, target in wanted]], rows,
+                       f"Wall time in s from which on a family stays within an error{ratio}. Between runs linear in the logarithms; ≤: the coarsest run "
+                       "is that good already; *: not confirmed by a finer run")]
 
 
-def section_of(error):
-    parts = [f"<section><h2>Error of {escaped(error['name'])}</h2>"]
-    if np.isfinite(array(error["error"])).any():
-        name = stem(error["name"])
-        parts += [drawn(error_against_h(error), "error_" + name, "Accuracy", f"error of {error['name']} against mesh size, with the fitted order"),
-                  drawn(error_against_time(error), "time_" + name, "Cost", f"error of {error['name']} against wall time; grey: what no point beats")]
-    if error["notes"]:
-        parts.append("<ul>" + "".join(f"<li>{escaped(note)}</li>" for note in error["notes"]) + "</ul>")
-    return [*parts, times_to(error), "<details><summary>Values</summary>", errors_of(error), "</details></section>"]
+def phases():
+    shares = [split(points[i]) for i in finished]
+    if not shares:
+        return []
+    rows = [[escaped(points[i]["label"]), *[cell(seconds, 2) for seconds in share.values()]] for i, share in zip(finished, shares)]
+    return [details("Seconds of each phase", html_table(["run", *shares[0]], rows, "Wall time in s by phase"))]
 
 
 def failures():
     every = points + ([study["finest"]] if study["finest"] else [])
     failed = [point for point in every if not point["finished"]]
-    missed = [f"<li>{escaped(point['label'])}: {escaped(one)}</li>" for point in every if point["finished"] for one in point["missed"]]
-    parts = [] if failed else [paragraph("All points came to their end.")]
+    missed = [f"{escaped(point['label'])}: {escaped(one)}" for point in every if point["finished"] for one in point["missed"]]
+    parts = [] if failed else [paragraph("All runs came to their end.")]
     if missed:
-        parts += [paragraph("Checks of the scene that points missed:"), "<ul>", *missed, "</ul>"]
+        parts.append(details(f"{len(missed)} checks of the scene that runs missed, as coarse meshes may", items(missed)))
     said = lambda point: escaped(point["said"] or "It said nothing.")
-    return parts + [f'<div class="failed"><b>{escaped(point["label"])}</b>: {escaped(point["status"])}<pre>{said(point)}</pre></div>'
-            for point in failed]
+    return parts + [f'<div class="failed"><b>{escaped(point["label"])}</b>: {escaped(point["status"])}<pre class="said">{said(point)}</pre></div>'
+                    for point in failed]
 
 
 def environment():
@@ -84,22 +123,11 @@ def environment():
     rows = [["Mortise", escaped(here["version"])], ["processor", escaped("; ".join(here["processors"]))],
             ["first run", escaped(here["first_run"])], ["last run", escaped(here["last_run"])],
             ["scene", escaped(study["scene"])]]
-    words = lambda point: escaped(" ".join("--set " + json.dumps(one, ensure_ascii=False) for one in point["settings"]))
-    settings = [[escaped(point["label"]), str(point["ranks"]), f"<code>{words(point)}</code>"] for point in points]
-    return [html_table(["", ""], rows, "Environment"),
-            "<details><summary>Settings of each point</summary>", html_table(["point", "ranks", "settings"], settings, "Settings"), "</details>"]
+    of = lambda point: command("scene.xml", point["settings"], point["ranks"], os.path.join("again", point["name"]), point["peer"], point["peer_penalty"])
+    return [html_table(["what", "which"], rows, "Environment", [1]),
+            html_commands(study["program"], directory, [(point["label"], of(point)) for point in points])]
 
 
-def cost():
-    if not finished:
-        return []
-    return ["<section><h2>Cost</h2>", drawn(cost_by_effect(), "cost", "Cost by effect", "share of the wall time by what took it, for each point"),
-            drawn(newton_iterations(), "newton", "Newton iterations", "mean over the steps"), "</section>"]
-
-
-parts = [all_points()]
-for error in errors:
-    parts += section_of(error)
-parts += [*cost(), "<section><h2>What failed</h2>", *failures(), "</section>", "<section><h2>Environment</h2>", *environment(), "</section>",
-          "<section><h2>Conclusion</h2>", *[paragraph(escaped(one) + ".") for one in study["conclusions"]], "</section>"]
-write_page(os.path.join(directory, "report.html"), html_page(study["study"], parts))
+write_page(os.path.join(directory, "report.html"), html_page(study["study"], [
+    *answer(), *sections(), *cost(), "<section><h2>Tables</h2>", *all_points(), *times_to_targets(), *values(), *phases(), "</section>",
+    "<section><h2>What failed</h2>", *failures(), "</section>", "<section><h2>Environment</h2>", *environment(), "</section>"]))

@@ -4,12 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <numeric>
+
+#include "mortise/core/symmetric_spectrum.hpp"
 
 namespace mortise {
 namespace {
@@ -94,13 +95,13 @@ Eigen::MatrixXd free_motions(const Eigen::MatrixXd& gram, int per_body, double h
     // eigenvalue.
     const double bound = hardly_held * hardly_held * std::max(could_cost, part.cwiseAbs().rowwise().sum().maxCoeff());
     if (bound > 0.0 && (part - bound * Eigen::MatrixXd::Identity(size, size)).llt().info() == Eigen::Success) continue;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(part);
-    const double most = std::max(could_cost, solver.eigenvalues()[size - 1]);
-    const Eigen::Index found = most > 0.0 ? (solver.eigenvalues().array() < hardly_held * hardly_held * most).count() : size;
+    const SymmetricSpectrum spectrum = symmetric_spectrum(part);
+    const double most = std::max(could_cost, spectrum.values[size - 1]);
+    const Eigen::Index found = most > 0.0 ? (spectrum.values.array() < hardly_held * hardly_held * most).count() : size;
     const Eigen::Index first = motions.cols();
     motions.conservativeResize(Eigen::NoChange, first + found);
     motions.rightCols(found).setZero();
-    for (Eigen::Index i = 0; i < size; ++i) motions.row(rows[i]).tail(found) = solver.eigenvectors().row(i).head(found);
+    for (Eigen::Index i = 0; i < size; ++i) motions.row(rows[i]).tail(found) = spectrum.vectors.row(i).head(found);
   }
   return motions;
 }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Eigenvalues>
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
@@ -12,6 +11,7 @@
 #include <limits>
 #include <vector>
 
+#include "mortise/core/symmetric_spectrum.hpp"
 #include "mortise/simulation/state_check.hpp"
 #include "mortise/solid/bodies.hpp"
 #include "rigid_mode_names.hpp"
@@ -88,10 +88,10 @@ std::string describe_free_motions(const std::vector<int>& bodies, const Model& m
   const auto values = gram.getLocalViewHost(Tpetra::Access::ReadOnly);
   for (int column = 0; column < count; ++column)
     for (int row = 0; row < count; ++row) products(row, column) = values(row, column);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(products);
+  const SymmetricSpectrum spectrum = symmetric_spectrum(products);
   const double bound = hardly_resisted * ratio_of_moduli(*model.bodies());
-  const auto found = (solver.eigenvalues().array() < bound * bound).count();
-  auto motions = distinct_modes(solver.eigenvectors().leftCols(found), per_body);
+  const auto found = (spectrum.values.array() < bound * bound).count();
+  auto motions = distinct_modes(spectrum.vectors.leftCols(found), per_body);
   std::sort(motions.begin(), motions.end());
   if (motions.empty()) return {};
   const bool axisymmetric = model.bodies()->kinematics() == Kinematics::axisymmetric;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_MultiVector.hpp>

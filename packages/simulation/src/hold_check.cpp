@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Map.hpp>
@@ -12,6 +11,7 @@
 #include <limits>
 #include <numeric>
 
+#include "mortise/core/symmetric_spectrum.hpp"
 #include "mortise/simulation/rigid_modes.hpp"
 #include "prescribed_rows.hpp"
 #include "rigid_mode_names.hpp"
@@ -83,10 +83,10 @@ Eigen::MatrixXd sum_over_ranks(const Mesh& mesh, const Eigen::MatrixXd& gram) {
 
 /// Columns span the null space.
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& gram) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);
-  const double bound = std::max(rank_tolerance * solver.eigenvalues().cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
-  const auto count = (solver.eigenvalues().array() < bound).count();
-  return solver.eigenvectors().leftCols(count);
+  const SymmetricSpectrum spectrum = symmetric_spectrum(gram);
+  const double bound = std::max(rank_tolerance * spectrum.values.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
+  const auto count = (spectrum.values.array() < bound).count();
+  return spectrum.vectors.leftCols(count);
 }
 
 }  // namespace

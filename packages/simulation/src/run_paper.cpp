@@ -45,7 +45,7 @@ Json run_one(const RCP<const Communicator>& comm, const PaperRun& run, const Pap
   if (options.reuse)
     if (auto found = earlier(*comm, record, wanted)) return *found;
 
-  Json json{{"identity", wanted}, {"rival", run.is_rival}, {"exit", static_cast<int>(ExitCode::files)}, {"reused", false}, {"seconds", 0.0}, {"said", ""}};
+  Json json{{"identity", wanted}, {"exit", static_cast<int>(ExitCode::files)}, {"reused", false}, {"seconds", 0.0}, {"said", ""}};
   try {
     OutputDirectory(comm, results, false).begin_run();
     std::filesystem::remove(record);
@@ -63,8 +63,9 @@ Json run_one(const RCP<const Communicator>& comm, const PaperRun& run, const Pap
 
 std::string how_it_ended(const Json& run) {
   const int exit = run.at("exit");
+  const std::string misses = run.at("misses");
   std::string text = exit == static_cast<int>(ExitCode::done) ? "done" : fmt::format("exit code {}", exit);
-  if (exit == static_cast<int>(ExitCode::check_missed)) text += ", a check missed";
+  if (exit == static_cast<int>(ExitCode::check_missed)) text += ", a check missed" + (misses.empty() ? "" : " as expected: " + misses);
   return text + (run.at("reused").get<bool>() ? ", results of an earlier call" : fmt::format(", {:.1f} s", run.at("seconds").get<double>()));
 }
 
@@ -73,7 +74,7 @@ ExitCode exit_of(const Json& runs) {
   ExitCode worst = ExitCode::done;
   for (const auto& run : runs) {
     const int exit = run.at("exit");
-    if (exit == static_cast<int>(ExitCode::done) || run.value("rival", false)) continue;
+    if (exit == static_cast<int>(ExitCode::done) || run.at("rival").get<bool>()) continue;
     if (exit != static_cast<int>(ExitCode::check_missed)) return ExitCode::not_converged;
     worst = ExitCode::check_missed;
   }
@@ -95,12 +96,14 @@ ExitCode run_paper(const RCP<const Communicator>& comm, const PaperOptions& opti
   for (const auto& run : paper_runs())
     if (options.only.empty() || std::find(options.only.begin(), options.only.end(), run.name) != options.only.end()) wanted.push_back(run);
 
-  Json record{{"version", options.version}, {"ranks", options.ranks}, {"runs", Json::array()}};
+  Json record{{"version", options.version}, {"program", this_program()}, {"ranks", options.ranks}, {"runs", Json::array()}};
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const PaperRun& run = wanted[i];
     write_file(*comm, scenes.file(run.scene + ".xml"), [&] { return scene_of(run).text; });
     log.info(fmt::format("{}/{} {} ...", i + 1, wanted.size(), run.name));
     Json result = run_one(comm, run, options, directory.path());
+    result["rival"] = run.is_rival;
+    result["misses"] = run.misses;
     log.info(fmt::format("{}/{} {}: {}", i + 1, wanted.size(), run.name, how_it_ended(result)));
     const std::string said = result.at("said");
     if (result.at("exit") != 0 && !run.is_rival) log.warning(run.name + ": " + (said.empty() ? "the page says why" : said));

@@ -140,11 +140,14 @@ std::optional<double> penalty_multiple(const std::string& expression, const Symb
   return multiple;
 }
 
-std::string peer_title(Peer peer) {
+std::string peer_name(Peer peer) {
   const auto& names = peer_names();
-  const auto found = std::find_if(names.begin(), names.end(), [&](const auto& one) { return one.second == peer; });
-  const std::string first = "calculix";
-  return found->first.compare(0, first.size(), first) == 0 ? "CalculiX" + found->first.substr(first.size()) : found->first;
+  return std::find_if(names.begin(), names.end(), [&](const auto& one) { return one.second == peer; })->first;
+}
+
+std::string peer_title(Peer peer) {
+  const std::string name = peer_name(peer), first = "calculix";
+  return name.compare(0, first.size(), first) == 0 ? "CalculiX" + name.substr(first.size()) : name;
 }
 
 std::string missing_program(Peer peer) {

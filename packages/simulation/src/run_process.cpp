@@ -103,8 +103,6 @@ int stop(pid_t child, int pipe, const Stopwatch& watch, ProcessEnding& ending) {
   return child_status;
 }
 
-std::string this_program() { return std::filesystem::read_symlink("/proc/self/exe").string(); }
-
 void add_settings(std::vector<std::string>& command, const std::vector<std::string>& settings, const std::string& directory) {
   for (const auto& setting : settings) command.insert(command.end(), {"--set", setting});
   command.insert(command.end(), {"-o", directory, "--quiet"});
@@ -140,6 +138,8 @@ ProcessEnding run_process(const std::vector<std::string>& words, double limit) {
   if (WIFSIGNALED(status)) ending.code = 128 + WTERMSIG(status);
   return ending;
 }
+
+std::string this_program() { return std::filesystem::read_symlink("/proc/self/exe").string(); }
 
 std::vector<std::string> command_of_peer(const std::string& scene, const std::vector<std::string>& settings, const std::string& peer,
                                          const std::string& penalty, const std::string& directory) {

@@ -24,6 +24,9 @@ struct ProcessEnding {
 /// later
 ProcessEnding run_process(const std::vector<std::string>& words, double limit = std::numeric_limits<double>::infinity());
 
+/// The file of this same program.
+std::string this_program();
+
 /// The words that start `mortise peer` of this same program, quietly. `penalty`: empty for that of the peer.
 std::vector<std::string> command_of_peer(const std::string& scene, const std::vector<std::string>& settings, const std::string& peer,
                                          const std::string& penalty, const std::string& directory);

@@ -90,11 +90,8 @@ void run_scale_point(const ScaleOptions& options, ScalePoint& point) {
 }
 
 Json scale_json(const ScaleOptions& options, const std::vector<ScalePoint>& points) {
-  Json json{{"scene", options.scene},
-            {"settings", options.settings},
-            {"version", options.version},
-            {"repeats", options.repeats},
-            {"times", "mean over the ranks"}};
+  Json json{{"scene", options.scene},    {"settings", options.settings}, {"version", options.version},
+            {"program", this_program()}, {"repeats", options.repeats},   {"times", "mean over the ranks"}};
   json["phases"] = Json::array();
   for (const ScalePhase& phase : scale_phases()) json["phases"].push_back(phase.name);
   json["points"] = Json::array();

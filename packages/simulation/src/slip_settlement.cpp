@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Eigenvalues>
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
@@ -12,6 +11,7 @@
 #include <limits>
 #include <optional>
 
+#include "mortise/core/symmetric_spectrum.hpp"
 #include "mortise/simulation/body_motion.hpp"
 #include "mortise/simulation/contact_hold.hpp"
 #include "mortise/simulation/friction_balance.hpp"
@@ -134,10 +134,10 @@ bool SlipSettlement::find_sliding(const Vector& x, const Vector& F, Sliding& fou
   Eigen::Map<Eigen::MatrixXd> of_slips(seen.data(), free.cols(), free.cols());
   for (const SlidingRow& row : works(free)) of_slips += row.bound * row.bound * row.work.transpose() * row.work;
   sum(seen);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> on_free(of_slips);
-  const double most = on_free.eigenvalues().maxCoeff();
+  const SymmetricSpectrum on_free = symmetric_spectrum(of_slips);
+  const double most = on_free.values.maxCoeff();
   if (!(most > 0.0)) return false;
-  found.motions = free * on_free.eigenvectors().rightCols((on_free.eigenvalues().array() > hardly_slips * hardly_slips * most).count());
+  found.motions = free * on_free.vectors.rightCols((on_free.values.array() > hardly_slips * hardly_slips * most).count());
   found.rows = works(found.motions);
 
   const Eigen::Index n = found.motions.cols();
@@ -166,10 +166,10 @@ bool SlipSettlement::find_sliding(const Vector& x, const Vector& F, Sliding& fou
   const Eigen::VectorXd missing = found.load - by_law;
   if (missing.norm() <= round_off * forces) return false;  // singular, but consistent
   stiffness += if_stuck * found.motions.transpose() * held * found.motions / std::max(held.norm(), stuck.norm());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> tangent(stiffness);
-  found.is_singular = !(tangent.eigenvalues()[0] > hardly_slips * if_stuck);
+  const SymmetricSpectrum tangent = symmetric_spectrum(stiffness);
+  found.is_singular = !(tangent.values[0] > hardly_slips * if_stuck);
   if (found.is_singular) return true;
-  const Eigen::VectorXd step = tangent.eigenvectors() * (tangent.eigenvectors().transpose() * missing).cwiseQuotient(tangent.eigenvalues());
+  const Eigen::VectorXd step = tangent.vectors * (tangent.vectors.transpose() * missing).cwiseQuotient(tangent.values);
   double along = 0.0;
   for (const SlidingRow& row : found.rows) along += row.bound * (row.work * step).norm();
   return sum(along) > slipped;

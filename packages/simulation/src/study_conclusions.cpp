@@ -16,6 +16,8 @@ std::vector<double> picked(const std::vector<double>& values, const std::vector<
 StudyConclusions conclude(const StudyPlan& plan, const StudyResults& results, const std::vector<StudyCurve>& curves, const StudyErrors& errors) {
   std::vector<double> seconds;
   for (const StudyRecord& point : results.points) seconds.push_back(point.wall);
+  std::vector<std::vector<std::size_t>> families;
+  for (const StudyCurve& curve : curves) families.push_back(curve.points);
   StudyConclusions conclusions;
   conclusions.front = pareto_front(seconds, errors.error);
   for (const StudyCurve& curve : curves)
@@ -23,9 +25,7 @@ StudyConclusions conclude(const StudyPlan& plan, const StudyResults& results, co
   for (const double error : plan.file.targets) {
     StudyConclusions::Target target;
     target.error = error;
-    // On the front errors fall as times rise.
-    for (const std::size_t i : conclusions.front)
-      if (!target.cheapest && errors.error[i] <= error) target.cheapest = i;
+    target.cheapest = cheapest_run(error, seconds, errors.error, families);
     for (const StudyCurve& curve : curves)
       target.times.push_back(time_to_error(error, picked(seconds, curve.points), picked(errors.error, curve.points)));
     for (std::size_t c = 0; c < curves.size(); ++c) {
@@ -44,7 +44,9 @@ std::string sentence(const StudyPlan& plan, const StudyResults& results, const S
     const bool first = &target == &conclusions.targets.front();
     const std::string within = fmt::format("within {:g} %{}", 100.0 * target.error, first ? " of " + errors.name : "");
     text += first ? " " + within + ": " : "; " + within + ": ";
-    text += target.cheapest ? fmt::format("{} ({:.3g} s)", plan.points[*target.cheapest].label(), results.points[*target.cheapest].wall) : "none";
+    text += target.cheapest ? fmt::format("{} ({:.3g} s{})", plan.points[target.cheapest->run].label(), results.points[target.cheapest->run].wall,
+                                          target.cheapest->confirmed ? "" : ", not confirmed by a finer run")
+                            : "none";
   }
   return text;
 }

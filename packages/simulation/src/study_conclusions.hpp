@@ -15,18 +15,18 @@ struct StudyConclusions {
   /// For one error that is aimed at.
   struct Target {
     double error = 0.0;
-    std::optional<std::size_t> cheapest;            ///< of all points that are good enough the one that took least wall time
+    std::optional<CheapestRun> cheapest;
     std::vector<std::optional<TimeToError>> times;  ///< of each curve
     std::vector<std::optional<double>> ratios;      ///< of these to that of the curve's base
   };
-  std::vector<std::optional<double>> orders;  ///< of each curve, fitted to all of its points
-  std::vector<std::size_t> front;             ///< points that no other is better than, in wall time and error
+  std::vector<FittedOrder> orders;  ///< of each curve
+  std::vector<std::size_t> front;   ///< points that no other is better than, in wall time and error
   std::vector<Target> targets;
 };
 
 StudyConclusions conclude(const StudyPlan& plan, const StudyResults& results, const std::vector<StudyCurve>& curves, const StudyErrors& errors);
 
-/// "cheapest configuration within 1 % of peak_pressure: Q4, n = 8 (0.52 s); within 0.1 %: none"
+/// "cheapest configuration within 1 % of peak_pressure: Q4, n = 8 (0.52 s); within 0.1 %: Q4, n = 16 (0.94 s, not confirmed by a finer run)"
 std::string sentence(const StudyPlan& plan, const StudyResults& results, const StudyErrors& errors, const StudyConclusions& conclusions);
 
 }  // namespace mortise

@@ -78,9 +78,7 @@ std::string stopped_status(double limit) { return fmt::format("stopped after {:g
 
 std::vector<std::string> command_of(const StudyPoint& point, const StudyPointOptions& options) {
   if (point.peer == Peer::none) return command_of_run(options.scene, point.words(), point.ranks, options.directory);
-  const auto& names = peer_names();
-  const auto name = std::find_if(names.begin(), names.end(), [&](const auto& one) { return one.second == point.peer; });
-  return command_of_peer(options.scene, point.words(), name->first, point.penalty.value, options.directory);
+  return command_of_peer(options.scene, point.words(), peer_name(point.peer), point.penalty.value, options.directory);
 }
 
 /// Time and memory of a run: those of its process, or of the peer's, without what it took to write its deck and to read its results.

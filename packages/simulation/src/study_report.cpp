@@ -6,6 +6,7 @@
 #include <set>
 
 #include "mortise/io/csv_writer.hpp"
+#include "run_process.hpp"
 
 namespace mortise {
 namespace {
@@ -29,6 +30,8 @@ Json point_json(const StudyPoint& point, const StudyRecord& record) {
           {"labels", point.labels},
           {"settings", point.words()},
           {"ranks", point.ranks},
+          {"peer", peer_name(point.peer)},
+          {"peer_penalty", point.peer == Peer::none ? "" : point.penalty.value},
           {"formulation", point.formulation},
           {"element", point.element},
           {"dofs", number(record.dofs)},
@@ -47,16 +50,19 @@ Json point_json(const StudyPoint& point, const StudyRecord& record) {
 }
 
 Json errors_json(const StudyErrors& errors, const StudyConclusions& conclusions) {
-  Json json{{"name", errors.name},   {"error", numbers(errors.error)}, {"value", numbers(errors.value)}, {"reference", numbers(errors.reference)},
-            {"notes", errors.notes}, {"orders", Json::array()},        {"front", conclusions.front},     {"targets", Json::array()}};
-  for (const auto& order : conclusions.orders) json["orders"].push_back(number(order));
+  Json json{{"name", errors.name},     {"error", numbers(errors.error)}, {"value", numbers(errors.value)}, {"reference", numbers(errors.reference)},
+            {"notes", errors.notes},   {"orders", Json::array()},        {"no_order", Json::array()},      {"front", conclusions.front},
+            {"targets", Json::array()}};
+  for (const auto& fitted : conclusions.orders) json["orders"].push_back(number(fitted.order)), json["no_order"].push_back(fitted.reason);
   for (const auto& target : conclusions.targets) {
     Json one{{"error", target.error}, {"cheapest", nullptr}, {"curves", Json::array()}};
-    if (target.cheapest) one["cheapest"] = *target.cheapest;
+    if (target.cheapest) one["cheapest"] = {{"point", target.cheapest->run}, {"confirmed", target.cheapest->confirmed}};
     for (std::size_t c = 0; c < target.times.size(); ++c) {
       const auto& time = target.times[c];
-      one["curves"].push_back(
-          {{"seconds", time ? Json(time->seconds) : Json(nullptr)}, {"at_most", time && time->at_most}, {"ratio", number(target.ratios[c])}});
+      one["curves"].push_back({{"seconds", time ? Json(time->seconds) : Json(nullptr)},
+                               {"at_most", time && time->at_most},
+                               {"confirmed", time && time->confirmed},
+                               {"ratio", number(target.ratios[c])}});
     }
     json["targets"].push_back(std::move(one));
   }
@@ -105,7 +111,11 @@ void write_study_table(const RCP<const Communicator>& comm, const std::string& p
 
 Json study_json(const std::string& version, const StudyPlan& plan, const StudyResults& results, const std::vector<StudyCurve>& curves,
                 const std::vector<StudyErrors>& errors, const std::vector<StudyConclusions>& conclusions) {
-  Json json{{"study", plan.file.name}, {"scene", plan.file.scene.value}, {"environment", environment(version, results)}, {"axes", Json::array()}};
+  Json json{{"study", plan.file.name},
+            {"program", this_program()},
+            {"scene", plan.file.scene.value},
+            {"environment", environment(version, results)},
+            {"axes", Json::array()}};
   for (std::size_t a = 0; a < plan.file.axes.size(); ++a) json["axes"].push_back({{"name", plan.file.axes[a].name}, {"values", plan.labels[a]}});
   json["series"] = plan.series;
   json["along"] = plan.along;

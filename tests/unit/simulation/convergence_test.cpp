@@ -23,18 +23,37 @@ std::vector<double> sequence(const std::vector<double>& h, double limit, double 
 
 TEST(FittedOrder, IsThatOfAPower) {
   const std::vector<double> h{0.5, 0.25, 0.1, 0.03};
-  for (const double p : {0.5, 1.0, 2.0}) EXPECT_NEAR(*fitted_order(h, sequence(h, 0.0, 7.0, p)), p, 1e-12);
+  for (const double p : {0.5, 1.0, 2.0}) EXPECT_NEAR(*fitted_order(h, sequence(h, 0.0, 7.0, p)).order, p, 1e-12);
 }
 
 TEST(FittedOrder, IsTheSlopeOfLeastSquares) {
-  // log e = 0, 1, 1 at log h = 0, 1, 2: slope 1/2
-  EXPECT_NEAR(*fitted_order({1.0, std::exp(1.0), std::exp(2.0)}, {1.0, std::exp(1.0), std::exp(1.0)}), 0.5, 1e-12);
+  // log e = 0, -1, -4 at log h = 0, -1, -2: slope 2
+  EXPECT_NEAR(*fitted_order({1.0, std::exp(-1.0), std::exp(-2.0)}, {1.0, std::exp(-1.0), std::exp(-4.0)}).order, 2.0, 1e-12);
 }
 
-TEST(FittedOrder, LeavesOutWhatHasNoLogarithm) {
-  EXPECT_NEAR(*fitted_order({1.0, 0.5, 0.25, none, 0.1}, {3.0, 1.5, 0.75, 1.0, 0.0}), 1.0, 1e-12);
-  EXPECT_FALSE(fitted_order({1.0, 0.5}, {1.0, 0.0}));
-  EXPECT_FALSE(fitted_order({1.0, 1.0}, {1.0, 2.0}));
+TEST(FittedOrder, LeavesOutWhatIsNotThere) {
+  EXPECT_NEAR(*fitted_order({1.0, 0.5, 0.25, none, 0.1}, {3.0, none, 0.75, 1.0, 0.3}).order, 1.0, 1e-12);
+  EXPECT_EQ(fitted_order({1.0, 0.5}, {none, none}).reason, "no errors");
+}
+
+TEST(FittedOrder, IsNotFittedToRoundOff) {
+  // The first two fall by the order 2; the others are what Newton's method leaves.
+  const std::vector<double> h{1.0, 0.5, 0.25, 0.125, 0.0625};
+  EXPECT_NEAR(*fitted_order(h, {4e-9, 1e-9, 3e-11, 0.0, 5e-11}).order, 2.0, 1e-12);
+  for (const auto& errors : std::vector<std::vector<double>>{{1e-11, 1e-12, 1e-13}, {1.0, 1e-12, 0.0}, {1e-11, 1e-12, 9e-12}}) {
+    const FittedOrder fitted = fitted_order({1.0, 0.5, 0.25}, errors);
+    EXPECT_FALSE(fitted.order);
+    EXPECT_EQ(fitted.reason, "fewer than two errors above round-off");
+  }
+}
+
+TEST(FittedOrder, IsNoneOfErrorsThatDoNotFall) {
+  for (const auto& errors : std::vector<std::vector<double>>{{1.0, 0.1, 0.2}, {1.0, 1.0, 0.1}, {0.1, 1e-12, 0.1}, {1e-12, 1e-3, 1e-4}}) {
+    const FittedOrder fitted = fitted_order({1.0, 0.5, 0.25}, errors);
+    EXPECT_FALSE(fitted.order);
+    EXPECT_EQ(fitted.reason, "errors do not fall");
+  }
+  EXPECT_EQ(fitted_order({1.0, 1.0}, {2.0, 1.0}).reason, "mesh sizes do not fall");
 }
 
 TEST(Extrapolate, FindsLimitAndOrder) {
@@ -88,6 +107,13 @@ TEST(Extrapolate, SaysNothingOfSequencesWithoutALimit) {
   EXPECT_FALSE(extrapolate({4.0, 2.0, 1.0}, {1.0, none, 1.75}, {}));
 }
 
+TEST(WithinForGood, IsNoZeroCrossing) {
+  EXPECT_THAT(within_for_good(0.1, {0.5, 0.001, 0.4, 0.05, 0.02}), ElementsAre(3, 4));
+  EXPECT_THAT(within_for_good(0.1, {0.5, 0.001, 0.4}), ElementsAre());
+  EXPECT_THAT(within_for_good(0.1, {0.5, 0.1, none, 0.02, none}), ElementsAre(1, 3));
+  EXPECT_THAT(within_for_good(0.1, {}), ElementsAre());
+}
+
 TEST(TimeToError, IsLinearInTheLogarithms) {
   // error = 1 / t^2
   const auto time = time_to_error(0.01, {1.0, 4.0, 25.0}, {1.0, 1.0 / 16.0, 1.0 / 625.0});
@@ -102,6 +128,27 @@ TEST(TimeToError, CountsFromWhereTheErrorStaysSmall) {
   const auto first = time_to_error(0.1, {3.0, 9.0}, {0.1, 0.01});
   EXPECT_EQ(first->seconds, 3.0);
   EXPECT_TRUE(first->at_most);
+  EXPECT_TRUE(first->confirmed);
+  EXPECT_FALSE(time_to_error(0.1, {1.0, 2.0}, {0.5, 0.05})->confirmed);
+}
+
+TEST(CheapestRun, IsNoZeroCrossingAndPrefersWhatAFinerRunConfirms) {
+  const std::vector<std::vector<std::size_t>> families{{0, 1, 2, 3}, {4, 5, 6}};
+  const std::vector<double> seconds{1.0, 2.0, 4.0, 8.0, 0.5, 3.0, 5.0};
+  // Runs 0 and 4 pass through nothing, run 6 has no finer one: 2 is the cheapest that another one, 3, confirms.
+  const std::vector<double> errors{0.001, 0.3, 0.05, 0.02, 0.002, 0.2, 0.01};
+  const auto cheapest = cheapest_run(0.1, seconds, errors, families);
+  ASSERT_TRUE(cheapest);
+  EXPECT_EQ(cheapest->run, 2u);
+  EXPECT_TRUE(cheapest->confirmed);
+  // Within less only the finest runs are, and 6 is faster than 3.
+  const auto less = cheapest_run(0.03, seconds, errors, families);
+  ASSERT_TRUE(less);
+  EXPECT_EQ(less->run, 6u);
+  EXPECT_FALSE(less->confirmed);
+  EXPECT_FALSE(cheapest_run(0.005, seconds, errors, families));
+  // A finer run that failed says nothing.
+  EXPECT_FALSE(cheapest_run(0.1, {1.0, 2.0}, {0.05, none}, {{0, 1}})->confirmed);
 }
 
 TEST(ParetoFront, HoldsWhatNoOtherBeats) {

@@ -31,7 +31,7 @@ bool worth_moving(double now, double then, double bound);
 std::size_t coupling_bytes(std::size_t slaves, std::size_t masters, std::size_t columns, int dimension);
 
 /// Collective: the part of each facet of this rank, in 0 ... parts - 1, so that all parts have about the same work and facets that lie together stay
-/// together. Facets may stand on any ranks, each on one; no rank sees all of them. Cuts the surface by coordinates (MultiJagged of Zoltan2).
+/// together. Facets may stand on any ranks, each on one; no rank sees all of them. Cuts the surface by coordinates (recursive bisection of Zoltan).
 std::vector<int> partition_facets(const RCP<const Communicator>& comm, const std::vector<PartitionedFacet>& facets, int parts);
 
 }  // namespace mortise

@@ -26,6 +26,9 @@ bool has_penalty(Peer peer);
 /// @throws InputError if it is not a number above 0
 std::optional<double> penalty_multiple(const std::string& expression, const Symbols& variables, const Place& place);
 
+/// "calculix mortar", as `mortise peer --by` takes it.
+std::string peer_name(Peer peer);
+
 /// For tables: "CalculiX mortar".
 std::string peer_title(Peer peer);
 

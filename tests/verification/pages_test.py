@@ -1,0 +1,141 @@
+"""What the scripts of the pages decide and write, on data that are known. Arguments: the directory of the scripts. Exit code 69 without matplotlib."""
+import pathlib
+import shlex
+import sys
+import unittest
+
+scripts = pathlib.Path(sys.argv.pop(1))
+
+
+def load(*names):
+    """The scripts one after the other, as the program runs them."""
+    space = {}
+    for name in names:
+        exec(compile((scripts / f"{name}.py").read_text(encoding="utf-8"), f"{name}.py", "exec"), space)
+    return space
+
+
+style = load("style")
+page = load("style", "page")
+study = load("style", "page", "study_answer")
+scale = load("style", "page", "scale_answer")
+paper = load("style", "page", "paper_claims")
+
+
+class Page(unittest.TestCase):
+    def test_commands_are_what_a_shell_reads(self):
+        settings = ["contact/first/formulation/type=node to segment", "variables/a=$HOME `x` \"y\" 'z'", "stepping/step=1/200"]
+        words = shlex.split(page["command"]("scenes/my scene.xml", settings, 2, "again/x;y"))
+        given = [word for setting in settings for word in ("--set", setting)]
+        self.assertEqual(words, ["mpirun", "-n", "2", "mortise", "run", "scenes/my scene.xml", *given, "-o", "again/x;y"])
+        words = shlex.split(page["command"]("scene.xml", [], 1, "again", "calculix node to surface", "10"))
+        self.assertEqual(words, ["mortise", "peer", "scene.xml", "--by", "calculix node to surface", "--penalty", "10", "-o", "again"])
+
+    def test_no_column_says_the_same_twice(self):
+        columns = [("formulation", ["dual", "penalty"]), ("type", ["Dual", "penalty"]), ("steps", ["4", "4"]), ("wall / s", ["1", "2"]), ("CPU / s", ["1", "2"])]
+        shown, same = page["told_once"](columns)
+        self.assertEqual([head for head, _ in shown], ["formulation", "wall / s", "CPU / s"])
+        self.assertEqual(same, [("steps", "4")])
+        self.assertEqual(len(page["told_once"]([("run", ["a"]), ("steps", ["4"])])[0]), 2)
+
+    def test_names_from_scenes_break_neither_html_nor_figures(self):
+        name = "_a$b_{c}$ <script>&"
+        self.assertEqual(page["escaped"](name), "_a$b_{c}$ &lt;script&gt;&amp;")
+        figure, axes = page["one_panel"](name)
+        axes.plot([1, 2], label=page["plain"](name))
+        page["legend_below"](axes)
+        self.assertEqual(len(figure.legends[0].get_texts()), 1)  # _ at the beginning does not hide it
+        self.assertIn("&lt;script", page["html_figure"](figure, name, name))
+        self.assertFalse(page["plt"].get_fignums())
+
+    def test_numbers_have_the_digits_that_mean_something(self):
+        for value, text in ((3.1204735e-13, "3.1e-13"), (1403.572733, "1403.6"), (0.0, "0"), (None, "–"), (float("nan"), "–")):
+            self.assertEqual(page["number"](value), text)
+
+    def test_phases_and_formulations_are_told_apart(self):
+        for table, at in ((style["FORMULATIONS"], 0), (style["PHASES"], 1)):
+            colours = [entry[at] for entry in table.values()]
+            self.assertEqual(len(set(colours)), len(colours))
+        markers = [marker for _, marker in style["FORMULATIONS"].values()]
+        self.assertEqual(len(set(markers)), len(markers))
+
+
+class Study(unittest.TestCase):
+    points = [{"label": f"<{i}>", "wall_s": seconds} for i, seconds in enumerate((1.0, 2.0, 4.0))]
+
+    def error(self, errors, *cheapest):
+        targets = [{"error": bound, "cheapest": found} for bound, found in cheapest]
+        return {"name": "e", "error": errors, "targets": targets, "orders": [None], "no_order": ["errors do not fall"]}
+
+    def test_the_cheapest_is_told_with_what_confirms_it(self):
+        error = self.error([0.02, 0.004, 0.0008], (0.01, {"point": 1, "confirmed": True}), (0.001, {"point": 2, "confirmed": False}))
+        words = study["cheapest_of"](error, self.points)
+        self.assertEqual(words, "within 1 %: <b>&lt;1&gt;</b>, 2 s (error 0.4 %); "
+                                "within 0.1 %: <b>&lt;2&gt;</b>, 4 s (error 0.08 %), <i>not confirmed by a finer run</i>.")
+
+    def test_a_zero_crossing_is_called_one(self):
+        words = study["cheapest_of"](self.error([0.02, 0.0001, 0.03], (0.01, None), (1e-5, None)), self.points)
+        self.assertIn("within 1 % or 0.001 %: none; the smallest error is 0.01 % (&lt;1&gt;, 2 s, but finer runs of its family are not as good)", words)
+
+    def test_round_off_has_no_bound_to_meet(self):
+        error = self.error([1e-12, None, 0.0], (0.01, {"point": 0, "confirmed": True}))
+        self.assertIn("all runs are exact but for round-off; the fastest is <b>&lt;0&gt;</b>", study["cheapest_of"](error, self.points))
+        curves = [{"name": "one", "points": [0, 1, 2]}]
+        self.assertEqual(study["winners"]([error], self.points, curves), ([], 0, 0))
+        self.assertEqual(study["cheapest_of"](self.error([None] * 3, (0.01, None)), self.points), "no errors are known.")
+
+    def test_what_has_no_order_says_why(self):
+        self.assertEqual(study["order_words"](self.error([1.0]), 0), "no order: errors do not fall")
+
+    def test_only_confirmed_runs_win(self):
+        curves = [{"name": "one", "points": [0, 1]}, {"name": "two", "points": [2]}]
+        error = self.error([0.02, 0.004, 0.0008], (0.01, {"point": 1, "confirmed": True}), (0.001, {"point": 2, "confirmed": False}))
+        self.assertEqual(study["winners"]([error], self.points, curves), (["one"], 1, 1))
+
+
+class Scale(unittest.TestCase):
+    def point(self, ranks, seconds, phases, memory=0.5, linear=10, imbalance=1.0):
+        first = {"solution": 6.0, "integrals": 4.0}
+        of = {name: {"seconds": one, "efficiency": first[name] / (ranks * one)} for name, one in phases.items()}
+        return {"series": "strong", "ranks": ranks, "finished": True, "seconds": seconds, "efficiency": 10.0 / (ranks * seconds), "phases": of,
+                "bandwidth_efficiency": memory, "linear_iterations": linear, "contact_imbalance": imbalance, "dofs": 100}
+
+    def words(self, **more):
+        first = self.point(1, 10.0, {"solution": 6.0, "integrals": 4.0}, 1.0)
+        return " ".join(scale["series_words"]([first, self.point(2, 8.0, {"solution": 5.9, "integrals": 2.1}, **more)]))
+
+    def test_the_limit_is_the_phase_that_loses_most(self):
+        # Full efficiency would be 3 and 2 s: 2.9 and 0.1 s are lost.
+        name, seconds, share = scale["limit_of"](self.point(2, 8.0, {"solution": 5.9, "integrals": 2.1}))
+        self.assertEqual(name, "solution")
+        self.assertAlmostEqual(seconds, 2.9)
+        self.assertAlmostEqual(share, 2.9 / 3.0)
+        self.assertIsNone(scale["limit_of"](self.point(2, 5.0, {"solution": 3.0, "integrals": 2.0})))
+
+    def test_the_cause_is_what_was_measured(self):
+        self.assertIn("1.25 times as fast, an efficiency of 0.62", self.words())
+        self.assertIn("is what the memory serves so many ranks with (0.5)", self.words())
+        self.assertIn("is below that of the memory (0.9), which is not the cause", self.words(memory=0.9))
+        self.assertIn("takes 20 iterations instead of 10", self.words(linear=20))
+
+    def test_one_rank_is_compared_with_nothing(self):
+        first = self.point(1, 10.0, {"solution": 6.0, "integrals": 4.0})
+        self.assertIn("nothing to compare", scale["series_words"]([first])[0])
+        failed = dict(first, finished=False, efficiency=None)
+        self.assertIn("nothing to compare", scale["series_words"]([failed])[0])
+
+
+class Paper(unittest.TestCase):
+    def test_a_miss_is_expected_only_for_a_reason(self):
+        for ours, reason, verdict in ((103.0, "", "met"), (106.0, "", "missed"), (106.0, "because", "expected"), (96.0, "because", "met")):
+            self.assertEqual(paper["printed"]("run", "what", "name", 100.0, reason).verdict(ours), verdict)
+        self.assertEqual(paper["vanishes"]("run", "what", "name", "nothing").verdict(-1e-3), "missed")
+        self.assertEqual(paper["at_least"]("run", "what", "name", 0.1, "much").verdict(0.05), "missed")
+
+    def test_misses_are_counted(self):
+        words = paper["count_of"](["met", "met", "expected", "missed", "unknown"])
+        self.assertTrue(words.startswith("2 of 5 results of the paper are met, 1 are missed for a known reason, <b>1 without one</b>, <b>1 have no result"))
+        self.assertEqual(paper["count_of"](["met"]), "1 of 1 results of the paper are met, 0 are missed for a known reason.")
+
+
+unittest.main()
