@@ -48,7 +48,9 @@ DeclaredOption declared(CLI::Option& option) {
 std::vector<DeclaredCommand> declared_commands(CLI::App& app) {
   std::vector<DeclaredCommand> commands;
   for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
-    commands.push_back({command->get_name(), command->get_description(), command->get_footer(), {}});
+    // Without a footer of its own a command has that of the program.
+    const std::string footer = command->get_footer() == app.get_footer() ? "" : command->get_footer();
+    commands.push_back({command->get_name(), command->get_description(), footer, {}});
     for (CLI::Option* option : command->get_options([](CLI::Option*) { return true; })) commands.back().options.push_back(declared(*option));
   }
   return commands;

@@ -54,7 +54,7 @@ std::string paragraphs(const std::string& text) {
   std::string result;
   std::istringstream lines(text.substr(0, examples));
   for (std::string line; std::getline(lines, line);) result += escaped(line) + "\n";
-  if (examples != std::string::npos) result += ".PP\n" + literal(text.substr(examples));
+  if (examples != std::string::npos) result += (result.empty() ? "" : ".PP\n") + literal(text.substr(examples));
   return result;
 }
 

@@ -73,7 +73,7 @@ TEST(Shell, HasAManualPage) {
   EXPECT_EQ(warnings.output, "");
   const Ending shown = launch({"bash", "-c", "'" MORTISE "' man | groff -man -Tascii -P-cbou"}, 60);
   EXPECT_THAT(shown.output, AllOf(HasSubstr("MORTISE(1)"), HasSubstr("mortise run"), HasSubstr("-o, --output DIR"), HasSubstr("path=value"),
-                                  HasSubstr("(one of: text, md, rng, json)"), HasSubstr("70 internal")));
+                                  HasSubstr("json, md, rng, text)"), HasSubstr("70 internal")));
 }
 
 }  // namespace

@@ -268,7 +268,7 @@ TEST(ReadParameters, ShortensLongValues) {
                                        list("bounds", list(ones, parameter("count", "int", "-1")))};
   for (const std::string& one : wrong) {
     const std::string errors = read(needed + one).errors;
-    EXPECT_THAT(errors, HasSubstr(ones.substr(0, 60) + "... (1000")) << errors.substr(0, 300);
+    EXPECT_THAT(errors, ::testing::ContainsRegex("1[+ 1]*[.]{3} [(]1000[0-9] characters[)]")) << errors.substr(0, 300);
     EXPECT_LT(errors.size(), 1000u);
   }
   EXPECT_LT(read(needed, {"count=" + ones + "x"}).errors.size(), 1000u);

@@ -9,10 +9,10 @@ namespace mortise {
 
 /// A covered slave node whose gap is within reach of closing.
 struct BearingNode {
-  std::size_t pair = 0;
-  LocalOrdinal owned_node = 0;
-  bool closed = false;
-  double friction = 0.0;  ///< |z_tau| <= friction z_n whatever z_n; infinite: the law says no more
+  std::size_t pair = 0;         ///< its contact pair
+  LocalOrdinal owned_node = 0;  ///< local index in the map of owned nodes
+  bool closed = false;          ///< its state; open: it is about to close
+  double friction = 0.0;        ///< |z_tau| <= friction z_n whatever z_n; infinite: the law says no more
   /// What a unit pressure does to each body, as f_c: forces on bodies are its negative.
   std::vector<HoldingRow::Wrench> normal;
   /// [tangents that may bear shear] What a unit traction along tau_a does to each body; empty without friction.

@@ -12,13 +12,13 @@ enum class ContactState { open = 0, stick = 1, slip = 2 };
 /// C of one node in its frame (n, tau_a), rows in units of traction, and its linearisation
 ///   dC = C_z dz + gap_factor dg + weight_factor dw + normal_factor dn + [ 0 ; slip_factor du ],   w = sum_k D_jk.
 struct Complementarity {
-  ContactState state = ContactState::open;
-  SpatialVector C;
-  SpatialMatrix C_z;
-  SpatialVector gap_factor;
-  SpatialVector weight_factor;  ///< 0 but for regularised conditions
-  SpatialMatrix normal_factor;
-  TangentMatrix slip_factor;  ///< without size: slips do not matter
+  ContactState state = ContactState::open;  ///< what C takes the node to do
+  SpatialVector C;                          ///< rows n, tau_a; 0 where the conditions are met
+  SpatialMatrix C_z;                        ///< dC/dz
+  SpatialVector gap_factor;                 ///< dC/dg
+  SpatialVector weight_factor;              ///< 0 but for regularised conditions
+  SpatialMatrix normal_factor;              ///< dC/dn
+  TangentMatrix slip_factor;                ///< without size: slips do not matter
 };
 
 /// C of an open node:  C = z.
@@ -30,9 +30,10 @@ Complementarity closed_node(double c_n, double gap, const Frame& frame, const Sp
 
 /// The direction e = y / |y| of slip and how the bound's share of the traction turns with y:  d(rho e) = e drho + turning dy.
 struct SlipDirection {
-  TangentVector along;
+  TangentVector along;    ///< e
   double length = 0.0;    ///< of the projection of y on the ball of radius rho; NaN with rho
   TangentMatrix turning;  ///< rho / |y| (I - e e^T); 0 in 2D
+  /// Of the traction y that the node would bear if it stuck, at the bound rho.
   SlipDirection(const TangentVector& y, double bound);
 };
 

@@ -24,26 +24,27 @@ enum class ContactGeometry { current, reference };
 
 /// Options of one pair that do not depend on the mesh.
 struct ContactOptions {
-  MortarOptions mortar;
-  ContactGeometry geometry = ContactGeometry::current;
-  double full_cover = 1.0;                         ///< c_0: a slave node of which less is covered is tied to its neighbours; 0: none is
-  std::optional<double> complementarity_constant;  ///< c_n A_j, and c_t A_j; default E / h, of regularised conditions a tenth of that
-  Choice<Formulation> formulation{"dual mortar", std::make_shared<DualMortar>(), {}};
-  Choice<FrictionLaw> friction{"none", std::make_shared<NoFriction>(), {}};
-  void describe(Parameters& parameters);
+  MortarOptions mortar;                                 ///< of the integrals
+  ContactGeometry geometry = ContactGeometry::current;  ///< reference: for small displacements
+  double full_cover = 1.0;                              ///< c_0: a slave node of which less is covered is tied to its neighbours; 0: none is
+  std::optional<double> complementarity_constant;       ///< c_n A_j, and c_t A_j; default E / h, of regularised conditions a tenth of that
+  Choice<Formulation> formulation{"dual mortar", std::make_shared<DualMortar>(), {}};  ///< null is refused
+  Choice<FrictionLaw> friction{"none", std::make_shared<NoFriction>(), {}};            ///< null is refused
+  void describe(Parameters& parameters);                                               ///< the list of a pair
 };
 
 /// One pair as the host application gives it.
 struct ContactPair {
-  std::string name;
-  Place place;
+  std::string name;  ///< as messages say it
+  Place place;       ///< where the scene gives it; may be empty
   /// As MortarInterface wants them: every slave facet on each rank that owns a node of it, every master facet on one rank. Oriented as
   /// surface_facet.hpp says, with their normals out of the bodies. In 2D the body is on the left of the way along the nodes. In 3D a facet's nodes go
   /// round anticlockwise as seen from outside. Facets turned inside out are not found out: they never touch.
-  SurfaceFacets slave, master;
+  SurfaceFacets slave;
+  SurfaceFacets master;  ///< likewise
   /// Above 0. Of the softer side: sets c_n, the start rule and the stiffness of regularised conditions.
   double youngs_modulus = 0.0;
-  ContactOptions options;
+  ContactOptions options;                     ///< the rest of it
   std::optional<std::size_t> second_pass_of;  ///< an earlier pair of a two-pass formulation, with the sides exchanged
 };
 
@@ -61,27 +62,28 @@ struct ContactNorms {
 
 /// What can be known of an owned slave node after a solve.
 struct ContactNodeState {
-  GlobalOrdinal node = 0;
-  LocalOrdinal owned_node = 0;
-  std::array<double, 3> traction{};  ///< multiplier z (compression positive along the normal), force per area; third component 0 in 2D
-  std::array<double, 3> normal{};
-  double pressure = 0.0;  ///< z . n
-  double gap = 0.0;       ///< weighted gap / A_j
-  double weight = 0.0;    ///< A_j
-  bool closed = false;
-  ContactState state = ContactState::open;
-  double covered = 0.0;      ///< sum_k D_jk: the force on the slave side is -covered * traction
-  double shear = 0.0;        ///< z . tau, tau = n turned by +90 degrees; in 3D |z - (z . n) n|
-  double shear_bound = 0.0;  ///< rho, of closed nodes; friction only
-  double slip = 0.0;         ///< along tau, in 3D its size, since the start of the step [length]; friction only
-  double slip_path = 0.0;    ///< |slip| summed over the accepted steps [length]; friction only
+  GlobalOrdinal node = 0;                   ///< of the model
+  LocalOrdinal owned_node = 0;              ///< local index in the map of owned nodes
+  std::array<double, 3> traction{};         ///< multiplier z (compression positive along the normal), force per area; third component 0 in 2D
+  std::array<double, 3> normal{};           ///< unit normal n of the slave
+  double pressure = 0.0;                    ///< z . n
+  double gap = 0.0;                         ///< weighted gap / A_j
+  double weight = 0.0;                      ///< A_j
+  bool closed = false;                      ///< its state is not open
+  ContactState state = ContactState::open;  ///< what it does
+  double covered = 0.0;                     ///< sum_k D_jk: the force on the slave side is -covered * traction
+  double shear = 0.0;                       ///< z . tau, tau = n turned by +90 degrees; in 3D |z - (z . n) n|
+  double shear_bound = 0.0;                 ///< rho, of closed nodes; friction only
+  double slip = 0.0;                        ///< along tau, in 3D its size, since the start of the step [length]; friction only
+  double slip_path = 0.0;                   ///< |slip| summed over the accepted steps [length]; friction only
   std::array<double, 3>
       force{};  ///< the force of this node's multiplier on the slave side is -force: sum_k D_jk z_j, with variational mortar that of the gap
 };
 
 /// How the integrals of a pair, of both passes if there are two, are spread over the ranks, in the last evaluation.
 struct IntegrationLoad {
-  long facets = 0, segments = 0;    ///< slave facets that overlap a master facet, and their overlaps, over all ranks
+  long facets = 0;                  ///< slave facets that overlap a master facet, over all ranks
+  long segments = 0;                ///< their overlaps
   double imbalance = 1.0;           ///< largest over mean number of segments of a rank
   double imbalance_as_owned = 1.0;  ///< the same at the last search, had every facet stayed with an owner of its nodes
   int redistributions = 0;          ///< searches that gave facets to other ranks
@@ -89,9 +91,9 @@ struct IntegrationLoad {
 
 /// Kinks of a pair's slave surfaces, and what gives them their normals.
 struct CornerReport {
-  long kinks = 0;  ///< over all ranks
-  CornerRule rule = CornerRule::averaged;
-  bool as_asked = true;  ///< the rule is the pair's option; false: something else of the pair calls for this one
+  long kinks = 0;                          ///< over all ranks
+  CornerRule rule = CornerRule::averaged;  ///< the one that acts
+  bool as_asked = true;                    ///< the rule is the pair's option; false: something else of the pair calls for this one
 };
 
 /// How far an augmented Lagrange update was from being needed no more, over all ranks.
@@ -109,23 +111,24 @@ struct Augmentation {
 struct HoldingRow {
   /// On the nodes of one body, over the largest coefficient c_jm of the slave node: no unit. In 2D the moment has its third component alone.
   struct Wrench {
-    int body = 0;
-    std::array<double, 3> force{}, moment{};
+    int body = 0;                    ///< its number, as `places` of holding_rows() says it
+    std::array<double, 3> force{};   ///< sum of the forces
+    std::array<double, 3> moment{};  ///< about the point of the body that `places` refers to
   };
-  std::size_t pair = 0;
+  std::size_t pair = 0;        ///< its contact pair
   bool along_surface = false;  ///< a tangent of a node that sticks; else the normal
-  std::vector<Wrench> bodies;
+  std::vector<Wrench> bodies;  ///< all that the node touches
 };
 
 /// A closed slave node that slips against friction: the shear traction rho y / |y| at y = z_tau + c_t u.
 struct SlidingNode {
-  std::size_t pair = 0;
+  std::size_t pair = 0;         ///< its contact pair
   LocalOrdinal multiplier = 0;  ///< local index of the first component of its z
-  Frame frame;
-  double bound = 0.0;      ///< rho, above 0
-  double stiffness = 0.0;  ///< c_t
-  double weight = 0.0;     ///< sum_k D_jk: u / weight is a length
-  TangentVector slip;      ///< weighted slip u of the step
+  Frame frame;                  ///< its normal and tangents
+  double bound = 0.0;           ///< rho, above 0
+  double stiffness = 0.0;       ///< c_t
+  double weight = 0.0;          ///< sum_k D_jk: u / weight is a length
+  TangentVector slip;           ///< weighted slip u of the step
   /// [tangents] What a unit traction along tau_a does to each body: forces are areas. A rigid motion changes u_a by its work on them.
   std::vector<std::vector<HoldingRow::Wrench>> along;
 };
@@ -149,8 +152,8 @@ class ContactSystem {
                 const InterfaceMeasure& measure, std::vector<ContactPair> pairs, const Timers& timers);
   ~ContactSystem();
 
-  std::size_t pairs() const;
-  const std::string& pair_name(std::size_t pair) const;
+  std::size_t pairs() const;                             ///< how many there are, second passes included
+  const std::string& pair_name(std::size_t pair) const;  ///< of ContactPair::name
   /// The pair that is the second pass of this one.
   std::optional<std::size_t> second_pass(std::size_t pair) const;
   /// Which configuration carries the geometry of a pair: the one in which its multipliers are pressures.
@@ -181,6 +184,7 @@ class ContactSystem {
   void complementarity(const Vector& z, Vector& C) const;
   /// Puts what the law of friction says at a node of this rank where it has no bound into `failure`, if that is empty (kind input).
   void find_friction_failure(const Vector& z, std::optional<StepFailure>& failure) const;
+  /// Norms and counts at z, d of the last evaluate. Collective.
   ContactNorms norms(const Vector& z) const;
   /// A_j for every component of each multiplier.
   RCP<Vector> weights() const;
@@ -225,8 +229,11 @@ class ContactSystem {
   /// The blocks of the saddle point form at the last evaluate(d, true): f_c = B(d) z, C_d, C_z on the maps of d and z. B and C_d hold zeros, so that
   /// their patterns change only with the candidates.
   struct SaddlePointBlocks {
-    RCP<Matrix> B, C_d, C_z;
+    RCP<Matrix> B;    ///< [dofs x multipliers]
+    RCP<Matrix> C_d;  ///< [multipliers x dofs]
+    RCP<Matrix> C_z;  ///< [multipliers x multipliers]
   };
+  /// Rebuilt at each call. Collective.
   SaddlePointBlocks saddle_point_blocks(const Vector& z) const;
 
   /// Goes back to the accepted states, and start rule: multipliers of nodes that touch, and seeds for bodies that only contact holds, are set to a

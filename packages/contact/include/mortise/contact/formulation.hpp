@@ -18,15 +18,16 @@ enum class Elimination {
 
 /// Conditions with a stiffness instead of exact ones.
 struct Regularisation {
-  double normal = 0.0, tangential = 0.0;  ///< stiffness over E / h: traction per length is that times E / h
-  int augmentations = 0;                  ///< most times that the multipliers are updated within a step; 0: penalty
-  double tolerance = 0.0;                 ///< error of the multipliers over the largest of the pair that is let be
+  double normal = 0.0;      ///< stiffness over E / h: traction per length is that times E / h
+  double tangential = 0.0;  ///< the same along the surface
+  int augmentations = 0;    ///< most times that the multipliers are updated within a step; 0: penalty
+  double tolerance = 0.0;   ///< error of the multipliers over the largest of the pair that is let be
 };
 
 /// The formulation of a contact pair.
 struct Formulation : Described {
-  virtual Coupling coupling() const = 0;
-  virtual Elimination elimination() const = 0;
+  virtual Coupling coupling() const = 0;        ///< functions of the multipliers, and where they act
+  virtual Elimination elimination() const = 0;  ///< how they leave the linear system
   /// Whether both sides are slaves, one after the other: then the host gives a second ContactPair with the sides exchanged.
   virtual bool two_pass() const { return false; }
   /// No value: the conditions hold exactly.

@@ -10,15 +10,16 @@ namespace mortise {
 
 /// Components along the tangents of a node: one in 2D, two in 3D.
 using TangentVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 2, 1>;
+/// Maps one of them to another.
 using TangentMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 2, 2>;
 
 /// n and the tangents tau_a, which are functions of n alone:  d tau_a = turn[a] dn  for dn . n = 0.
 struct Frame {
-  SpatialVector normal;
+  SpatialVector normal;                                                                   ///< n, of length 1
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 2, 3> tangents;  ///< rows tau_a
   std::array<SpatialMatrix, 2> turn;                                                      ///< the first tangents.rows() count
 
-  Eigen::Index dimension() const { return normal.size(); }
+  Eigen::Index dimension() const { return normal.size(); }  ///< 2 or 3
 };
 
 /// In 2D: n turned by +90 degrees.

@@ -31,7 +31,7 @@ struct FrictionLaw : Described {
 
 /// Nodes slip freely.
 struct NoFriction : FrictionLaw {
-  void describe(Parameters&) override {}
+  void describe(Parameters&) override {}  ///< no parameters
   bool acts() const override { return false; }
   FrictionBound bound(double, double) const override { return {}; }
   double largest_ratio() const override { return 0.0; }

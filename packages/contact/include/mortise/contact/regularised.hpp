@@ -7,10 +7,11 @@ namespace mortise {
 
 /// What a regularised condition starts from and how stiff it is.
 struct RegularisedNode {
-  double normal_stiffness = 0.0, tangential_stiffness = 0.0;  ///< eps_n, eps_t [traction / length]
-  double body_stiffness = 0.0;                                ///< c, of what the node hangs on where it is covered wholly [traction / length]
-  double full_weight = 1.0;                                   ///< A, its share of the surface where it is covered wholly
-  SpatialVector multiplier;                                   ///< (lambda_n, lambda_tau) in the node's frame: held fixed
+  double normal_stiffness = 0.0;      ///< eps_n [traction / length]
+  double tangential_stiffness = 0.0;  ///< eps_t [traction / length]
+  double body_stiffness = 0.0;        ///< c, of what the node hangs on where it is covered wholly [traction / length]
+  double full_weight = 1.0;           ///< A, its share of the surface where it is covered wholly
+  SpatialVector multiplier;           ///< (lambda_n, lambda_tau) in the node's frame: held fixed
 };
 
 /// C of a node whose tractions follow from averages over its share w = sum_k D_jk of the surface: g / w of the gap and u / w of the slip,

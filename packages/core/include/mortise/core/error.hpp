@@ -15,15 +15,15 @@ enum class ExitCode { done = 0, usage = 1, invalid_input = 2, not_converged = 3,
 
 /// Where in a scene something was said: file, line (1-based; 0 if unknown) and path of list names, e.g. "contact/die".
 struct Place {
-  std::string file;
-  int line = 0;
-  std::string path;
+  std::string file;  ///< as the user wrote it; empty: unknown
+  int line = 0;      ///< from 1; 0: unknown
+  std::string path;  ///< names of lists, separated by "/"; empty: the outermost list
 };
 
 /// One thing that is wrong with the input.
 struct Diagnostic {
-  Place place;
-  std::string message;
+  Place place;          ///< where it stands
+  std::string message;  ///< what is wrong, what is allowed, what to do
 };
 
 /// A text of the scene as messages show it: whole, or if it is long its beginning and its length: `1 + 1 + ... (10000 characters)`.
@@ -35,8 +35,11 @@ std::string to_string(const Diagnostic& diagnostic);
 /// Everything that is wrong with the input, found in one go; what() is all of it, one line each. Exit code 2.
 class InputError : public std::runtime_error {
  public:
+  /// All of `diagnostics`; none where everything has been said elsewhere.
   explicit InputError(std::vector<Diagnostic> diagnostics);
+  /// One of them.
   InputError(Place place, std::string message);
+  /// One for each thing that is wrong.
   const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
 
  private:
@@ -70,7 +73,9 @@ std::string to_string(FailureKind kind);
 /// A step that cannot be finished; the load stepper undoes it and takes a smaller one. Thrown on every rank or on none.
 class StepFailure : public std::runtime_error {
  public:
+  /// `message` says where and how far off, for people.
   StepFailure(FailureKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+  /// Why, for programs.
   FailureKind kind() const { return kind_; }
 
  private:

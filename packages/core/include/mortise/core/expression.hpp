@@ -12,15 +12,17 @@ namespace mortise {
 
 /// Piecewise linear function of one argument, constant beyond its ends. `times` ascend strictly.
 struct Table {
-  std::vector<double> times, values;
+  std::vector<double> times;   ///< arguments, strictly ascending, one or more
+  std::vector<double> values;  ///< [times]
+  /// Value at `time`, between the nearest times by a straight line.
   double operator()(double time) const;
 };
 
 /// What expressions may name besides t, x, y, z and the usual functions: numbers by name, and tables called as `name(t)`.
 struct Symbols {
-  std::map<std::string, double> variables;
-  std::map<std::string, Table> tables;
-  std::vector<std::string> refused;  ///< variables and tables that the scene has and that are wrong, which has been said
+  std::map<std::string, double> variables;  ///< by name
+  std::map<std::string, Table> tables;      ///< by name
+  std::vector<std::string> refused;         ///< variables and tables that the scene has and that are wrong, which has been said
 };
 
 /// A function f(t, x, y, z) parsed by muParser. Copies are cheap and share the parsed form.
@@ -43,6 +45,7 @@ class Expression {
 
   bool is_constant() const;           ///< depends on none of its arguments
   const std::string& source() const;  ///< as given; of a constant its shortest exact text
+  /// Where the scene gives it.
   const Place& place() const;
 
  private:

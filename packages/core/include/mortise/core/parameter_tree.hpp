@@ -11,17 +11,19 @@ namespace mortise {
 
 /// A parameter and its value.
 struct ParameterRecord {
+  /// What values it may have.
   enum class Kind { number, integer, boolean, text, expression, optional_expression, optional_number, numbers, texts, enumeration };
-  std::string name;
-  Kind kind = Kind::text;
-  std::string value;  ///< as one would write it; empty for an optional one without a value
-  Says says{""};
-  std::vector<std::string> choices;
+  std::string name;                  ///< in its list
+  Kind kind = Kind::text;            ///< of its value
+  std::string value;                 ///< as one would write it; empty for an optional one without a value
+  Says says{""};                     ///< sentence, unit and bounds
+  std::vector<std::string> choices;  ///< of an enumeration
 
   /// Type attribute of the XML dialect.
   std::string type() const;
   /// "number", "expression of t, x, y", "one of ..." for people.
   std::string kind_text() const;
+  /// "> 0, <= 1"; empty if any value is allowed.
   std::string range_text() const;
   /// Whether it may be left without a value.
   bool optional() const { return kind == Kind::optional_number || kind == Kind::optional_expression; }
@@ -29,24 +31,27 @@ struct ParameterRecord {
 
 /// A list of parameters and lists.
 struct ListRecord {
+  /// list: of parameters. named: of lists whose names the user chooses. verbatim: of what another package knows.
   enum class Kind { list, named, verbatim };
-  std::string name;
-  Says says{""};
-  Kind kind = Kind::list;  ///< named: `lists` are the entries, or one prototype "<name>"
-  std::vector<ParameterRecord> parameters;
-  std::vector<ListRecord> lists;
+  std::string name;                         ///< in the list around it
+  Says says{""};                            ///< what it is
+  Kind kind = Kind::list;                   ///< named: `lists` are the entries, or one prototype "<name>"
+  std::vector<ParameterRecord> parameters;  ///< in the order of their declaration
+  std::vector<ListRecord> lists;            ///< in the order of their declaration
   /// Kinds behind a parameter "type": name, sentence and the parameters of each kind. With values: only the one chosen, already merged.
   std::vector<std::pair<std::string, ListRecord>> kinds;
-  Teuchos::ParameterList verbatim;
+  Teuchos::ParameterList verbatim;  ///< of that kind
 };
 
 /// Visitor that writes down what it visits.
 class CollectParameters : public Parameters {
  public:
+  /// What is written down.
   enum class What {
     declarations,  ///< all kinds of every choice, one prototype of every named list
     values         ///< what the options hold now
   };
+  /// `name` is that of the outermost list.
   CollectParameters(std::string name, What what);
 
   void add(const std::string& name, double& value, const Says& says) override;
@@ -64,6 +69,7 @@ class CollectParameters : public Parameters {
   Place place(const std::string&) const override { return {}; }
   void error(const std::string&, const std::string&) override {}
 
+  /// The outermost list, after the visit.
   const ListRecord& tree() const { return stack_.front(); }
 
  protected:

@@ -21,6 +21,7 @@ class Parameters;
 /// Options that are reached through a base class (see Choice).
 struct Described {
   virtual ~Described() = default;
+  /// Names each parameter to the visitor.
   virtual void describe(Parameters& parameters) = 0;
 };
 
@@ -28,26 +29,33 @@ struct Described {
 /// Says("relative bound on the momentum residual").unit("-").above(0.0)
 class Says {
  public:
+  /// What the parameter is, without its name, beginning with a small letter.
   Says(std::string sentence) : sentence_(std::move(sentence)) {}
+  /// The same.
   Says(const char* sentence) : sentence_(sentence) {}
+  /// In dimensions, as "length / time^2"; "-" has none.
   Says& unit(std::string unit) { return unit_ = std::move(unit), *this; }
+  /// Values have to be > `bound`.
   Says& above(double bound) { return lower_ = bound, lower_open_ = true, *this; }
+  /// Values have to be >= `bound`.
   Says& at_least(double bound) { return lower_ = bound, lower_open_ = false, *this; }
+  /// Values have to be < `bound`.
   Says& below(double bound) { return upper_ = bound, upper_open_ = true, *this; }
+  /// Values have to be <= `bound`.
   Says& at_most(double bound) { return upper_ = bound, upper_open_ = false, *this; }
   /// The scene has to give it; there is no default.
   Says& required() { return required_ = true, *this; }
   /// What an expression is of, instead of t, x, y, z.
   Says& arguments(std::vector<std::string> names) { return arguments_ = std::move(names), *this; }
 
-  const std::string& sentence() const { return sentence_; }
-  const std::string& unit() const { return unit_; }
-  const std::optional<double>& lower() const { return lower_; }
-  const std::optional<double>& upper() const { return upper_; }
-  bool lower_open() const { return lower_open_; }
-  bool upper_open() const { return upper_open_; }
-  bool is_required() const { return required_; }
-  const std::vector<std::string>& arguments() const { return arguments_; }
+  const std::string& sentence() const { return sentence_; }                 ///< what it is
+  const std::string& unit() const { return unit_; }                         ///< empty: none was said
+  const std::optional<double>& lower() const { return lower_; }             ///< none: no bound
+  const std::optional<double>& upper() const { return upper_; }             ///< none: no bound
+  bool lower_open() const { return lower_open_; }                           ///< whether the bound itself is refused
+  bool upper_open() const { return upper_open_; }                           ///< whether the bound itself is refused
+  bool is_required() const { return required_; }                            ///< whether there is no default
+  const std::vector<std::string>& arguments() const { return arguments_; }  ///< empty: t, x, y, z
 
  private:
   std::string sentence_, unit_;
@@ -59,37 +67,42 @@ class Says {
 /// A value that remembers where the scene gave it, for errors that are found later.
 template <class T>
 struct Located {
-  T value{};
-  Place place;
+  T value{};    ///< what was read, or the default
+  Place place;  ///< where; of the list around it if it was not given
 };
 
 /// A value for a parameter of another file, by the names of its lists and its own, separated by "/".
 struct Assignment {
-  std::string path, value;
-  Place place;
+  std::string path;   ///< "list/list/name"
+  std::string value;  ///< as written
+  Place place;        ///< of the file that gives the value
 };
 
 /// An entry of a list whose members the user names (materials, bodies, contact pairs, ...). `value` has a `describe`.
 template <class T>
 struct Named {
-  std::string name;
-  Place place;
-  T value{};
+  std::string name;  ///< the user's
+  Place place;       ///< of its list
+  T value{};         ///< its options
 };
 
 /// Named factories of everything that can stand behind a parameter "type". Adding a kind is one line where the registry is made.
 template <class Base>
 class Registry {
  public:
+  /// One of the kinds.
   struct Entry {
-    std::string name, sentence;
-    std::function<std::shared_ptr<Base>()> make;
+    std::string name;                             ///< as scenes write it
+    std::string sentence;                         ///< what it is
+    std::function<std::shared_ptr<Base>()> make;  ///< new options with their defaults
   };
+  /// Adds a kind, whose options have a default constructor.
   template <class Kind>
   Registry& add(std::string name, std::string sentence) {
     entries_.push_back({std::move(name), std::move(sentence), [] { return std::make_shared<Kind>(); }});
     return *this;
   }
+  /// In the order in which they were added.
   const std::vector<Entry>& entries() const { return entries_; }
 
  private:
@@ -101,7 +114,7 @@ template <class Base>
 struct Choice {
   std::string type;               ///< name in the registry; empty: not given. Set beforehand, with the options, it is the default
   std::shared_ptr<Base> options;  ///< null only if the scene gave no valid type
-  Place place;
+  Place place;                    ///< of the parameter "type"
 };
 
 /// The visitor that `describe` functions call. Names are lower case with spaces. A default is the value the member has when visited.
@@ -109,9 +122,13 @@ class Parameters {
  public:
   virtual ~Parameters() = default;
 
+  /// A number; a scene may give an expression of its variables.
   virtual void add(const std::string& name, double& value, const Says& says) = 0;
+  /// A whole number, likewise.
   virtual void add(const std::string& name, int& value, const Says& says) = 0;
+  /// "true" or "false".
   virtual void add(const std::string& name, bool& value, const Says& says) = 0;
+  /// A text.
   virtual void add(const std::string& name, std::string& value, const Says& says) = 0;
   virtual void add(const std::string& name, Expression& value, const Says& says) = 0;                 ///< of t, x, y, z and the scene's variables
   virtual void add(const std::string& name, std::optional<Expression>& value, const Says& says) = 0;  ///< no value: not given, as the sentence says
@@ -133,12 +150,14 @@ class Parameters {
     value = choices[index].second;
   }
 
+  /// Any of these, with its place.
   template <class T>
   void add(const std::string& name, Located<T>& value, const Says& says) {
     add(name, value.value, says);
     value.place = place(name);
   }
 
+  /// One of named values of an enumeration, with its place.
   template <class Enum>
   void add(const std::string& name, Located<Enum>& value, const std::vector<std::pair<std::string, Enum>>& choices, const Says& says) {
     add(name, value.value, choices, says);
@@ -183,6 +202,7 @@ class Parameters {
 
   /// A list handed on as it is to the package that owns its meaning (MueLu, Belos, NOX), which checks it.
   virtual void verbatim(const std::string& name, Teuchos::ParameterList& list, const Says& says) = 0;
+  /// The same, with its place.
   void verbatim(const std::string& name, Located<Teuchos::ParameterList>& list, const Says& says) {
     verbatim(name, list.value, says);
     list.place = place(name);
@@ -198,31 +218,37 @@ class Parameters {
   virtual void error(const std::string& name, const std::string& message) = 0;
 
  protected:
+  /// What a visitor may do with the entries of named(), whatever their type.
   struct NamedAccess {
-    std::function<std::size_t()> size;
-    std::function<std::string(std::size_t)> name;
-    std::function<void(std::string, Place)> append;
-    std::function<void(std::size_t, Parameters&)> describe;
-    std::function<void(Parameters&)> describe_prototype;
+    std::function<std::size_t()> size;                       ///< number of entries
+    std::function<std::string(std::size_t)> name;            ///< of an entry
+    std::function<void(std::string, Place)> append;          ///< an entry with that name and defaults
+    std::function<void(std::size_t, Parameters&)> describe;  ///< visits an entry
+    std::function<void(Parameters&)> describe_prototype;     ///< visits an entry as it is before it is read
   };
+  /// What a visitor may do with a choose(), whatever its base.
   struct ChoiceAccess {
-    std::vector<std::pair<std::string, std::string>> kinds;  ///< name and sentence
-    std::string type;                                        ///< the current one, or empty
-    std::function<void(std::size_t, Place)> select;
-    std::function<void(Parameters&)> describe;
-    std::function<void(std::size_t, Parameters&)> describe_prototype;
+    std::vector<std::pair<std::string, std::string>> kinds;            ///< name and sentence
+    std::string type;                                                  ///< the current one, or empty
+    std::function<void(std::size_t, Place)> select;                    ///< takes one of the kinds
+    std::function<void(Parameters&)> describe;                         ///< visits the options of the current kind
+    std::function<void(std::size_t, Parameters&)> describe_prototype;  ///< visits those of any kind, with their defaults
   };
+  /// One of `names`, by its index.
   virtual void add_enumeration(const std::string& name, std::size_t& index, const std::vector<std::string>& names, const Says& says) = 0;
   virtual bool begin_list(const std::string& name, const Says& says) = 0;  ///< false: skip it
+  /// After the parameters of a list for which begin_list() was true.
   virtual void end_list() = 0;
+  /// What named() asks for.
   virtual void named_lists(const std::string& name, const NamedAccess& access, const Says& says) = 0;
+  /// What choose() asks for, of the parameter `name`.
   virtual void choice_of(const std::string& name, const ChoiceAccess& access, const Says& says) = 0;
 };
 
 /// A list of values for another file.
 struct AssignmentList {
-  std::vector<Assignment> all;
-  void describe(Parameters& parameters) { parameters.assignments(all); }
+  std::vector<Assignment> all;                                            ///< in the order of the file
+  void describe(Parameters& parameters) { parameters.assignments(all); }  ///< takes whatever stands in the list
 };
 
 }  // namespace mortise

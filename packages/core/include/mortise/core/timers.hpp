@@ -17,6 +17,7 @@ class Timers {
   /// Stops its timer when it goes out of scope.
   class Scope {
    public:
+    /// Starts the timer `name` of `timer`.
     Scope(RCP<Teuchos::StackedTimer> timer, std::string name) : timer_(std::move(timer)), name_(std::move(name)) { timer_->start(name_, false); }
     ~Scope() { timer_->stop(name_, false); }
     Scope(const Scope&) = delete;
@@ -30,6 +31,7 @@ class Timers {
   /// Starts the timer `name` below the one that runs now.
   [[nodiscard]] Scope scope(const std::string& name) const { return Scope(timer_, name); }
 
+  /// The timers themselves, for reports.
   Teuchos::StackedTimer& stacked() const { return *timer_; }
 
  private:

@@ -10,20 +10,24 @@
 
 namespace mortise {
 
-/// <Parameter name= type= value=/>
+/// A parameter of a list: what the attributes of its element say.
 struct XmlParameter {
-  std::string name, type, value;
-  Place place;  ///< path: of the list it stands in
+  std::string name;   ///< unique in its list
+  std::string type;   ///< "double", "int", "bool", "string"; empty if the command line gives it
+  std::string value;  ///< as written
+  Place place;        ///< path: of the list it stands in
 };
 
-/// <ParameterList name=>
+/// A list of parameters and lists.
 struct XmlList {
-  std::string name;
-  Place place;  ///< path: of the list itself, below the outermost one
-  std::vector<XmlParameter> parameters;
-  std::vector<XmlList> lists;
+  std::string name;                      ///< unique in the list around it
+  Place place;                           ///< path: of the list itself, below the outermost one
+  std::vector<XmlParameter> parameters;  ///< in the order of the file
+  std::vector<XmlList> lists;            ///< in the order of the file
 
+  /// The parameter of that name in this list; null if there is none.
   const XmlParameter* parameter(const std::string& name) const;
+  /// The list of that name in this list; null if there is none.
   const XmlList* list(const std::string& name) const;
 };
 

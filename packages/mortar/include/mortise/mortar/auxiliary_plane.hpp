@@ -17,11 +17,12 @@ using FacetVectors = boost::container::static_vector<Eigen::Vector3d, 8>;
 /// It depends on the positions of the facet's corners only, and areas on it are those of a flat facet. Everything is projected along p. In its frame
 /// (e_1, e_2, p) the first two components of a position are its projection, the third its height.
 struct AuxiliaryPlane {
-  Eigen::Matrix3d frame;  ///< rows e_1, e_2, p
-  Eigen::Vector3d origin;
+  Eigen::Matrix3d frame;                              ///< rows e_1, e_2, p
+  Eigen::Vector3d origin;                             ///< a point of the plane: the centre of the slave facet
   FacetVectors slave;                                 ///< the facet's nodes in the frame: their projections run counterclockwise
   std::array<Eigen::Matrix<double, 2, 3>, 4> tilt{};  ///< of corners: d(e_1 . p, e_2 . p) / dx_a, x_a by its components in the frame
 
+  /// Components of a global position in the frame: the first two are its projection.
   Eigen::Vector3d to_frame(const Eigen::Vector3d& x) const { return frame * (x - origin); }
 
   /// Turns gradients of an integral I with respect to vectors of a fixed frame into total ones, in the global frame. I does not change when all

@@ -8,22 +8,24 @@
 
 namespace mortise {
 
+/// Vertices of a triangle or quadrilateral in a plane, in their order around it.
 using PlanePolygon = boost::container::static_vector<Eigen::Vector2d, 4>;
 
 /// How a vertex of the common part moves with a node of the polygons: dv = slope dx. Nodes: the first polygon's, then the second's.
 struct VertexPart {
-  int node = 0;
-  Eigen::Matrix2d slope;
+  int node = 0;           ///< of both polygons, counted on
+  Eigen::Matrix2d slope;  ///< dv/dx of that node
 };
 
 /// A vertex of the common part: where two edges meet. Edge e of a polygon runs from its node e to the next; the second's edges are counted on from
 /// the first's.
 struct ClipVertex {
-  Eigen::Vector2d position;
-  std::array<int, 2> edges{};
-  bool second_leaves = true;  ///< counterclockwise the polygon leaves the vertex along edges[1], else it arrives along it
+  Eigen::Vector2d position;    ///< on the plane
+  std::array<int, 2> edges{};  ///< the two that meet
+  bool second_leaves = true;   ///< counterclockwise the polygon leaves the vertex along edges[1], else it arrives along it
 };
 
+/// Vertices of the common part, counterclockwise.
 using ClipPolygon = boost::container::static_vector<ClipVertex, 16>;
 
 /// Sutherland and Hodgman's algorithm. Each vertex keeps the two edges it lies on, from which its derivatives follow. Nodes of the first polygon
@@ -36,9 +38,12 @@ ClipPolygon clip_convex(const PlanePolygon& first, const PlanePolygon& second);
 
 /// Two edges a b and l m that cross: at a + t (b - a) = l + u (m - l).
 struct EdgeCrossing {
-  std::array<int, 2> first_nodes, second_nodes;  ///< {a, b}, {l, m}
-  Eigen::Vector2d along, other;                  ///< b - a, m - l
-  double t = 0.0, u = 0.0;
+  std::array<int, 2> first_nodes;   ///< {a, b}
+  std::array<int, 2> second_nodes;  ///< {l, m}
+  Eigen::Vector2d along;            ///< b - a
+  Eigen::Vector2d other;            ///< m - l
+  double t = 0.0;                   ///< along the first edge
+  double u = 0.0;                   ///< along the second edge
 
   /// `other` turned by +90 degrees.
   Eigen::Vector2d across() const { return {-other.y(), other.x()}; }
@@ -48,6 +53,7 @@ struct EdgeCrossing {
 
 /// The node at which a vertex stands; none: its edges cross.
 std::optional<int> vertex_node(const ClipVertex& vertex, const PlanePolygon& first, const PlanePolygon& second);
+/// The edges at whose crossing a vertex stands that stands at no node.
 EdgeCrossing edge_crossing(const ClipVertex& vertex, const PlanePolygon& first, const PlanePolygon& second);
 
 /// What a crossing v depends on, with w = across():

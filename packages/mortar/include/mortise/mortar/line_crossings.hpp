@@ -17,27 +17,31 @@ using FacetPlaces = boost::container::static_vector<Eigen::Vector3d, most_side_n
 
 /// A facet of this rank, oriented as surface_facet.hpp says. `tag` says to the caller what it belongs to.
 struct TaggedFacet {
-  FacetPlaces points;
-  int tag = 0;
+  FacetPlaces points;  ///< of its nodes
+  int tag = 0;         ///< of the caller's choice
 };
 
 /// The points x + s d of a line with low <= s <= high, d a unit vector.
 struct LineSegment {
-  Eigen::Vector3d x, d;
-  double low = 0.0, high = 0.0;
+  Eigen::Vector3d x;  ///< s = 0
+  Eigen::Vector3d d;  ///< unit vector
+  double low = 0.0;   ///< least s
+  double high = 0.0;  ///< largest s
 };
 
+/// Where a line crosses a facet.
 struct Crossing {
-  double s = 0.0;
+  double s = 0.0;       ///< of the line [length]
   bool leaves = false;  ///< the line goes along the facet's outward normal, out of the body
-  int tag = 0;
+  int tag = 0;          ///< the facet's
 };
 
 /// The centre of a facet, of a quadratic one of its part, and points just beside its corners, with the facet's unit normal. A line from such a point
 /// passes beside the edges that the surfaces of conforming meshes share.
 struct SurfacePoint {
-  Eigen::Vector3d x, normal;
-  int node = 0;  ///< place of the nearest node among the facet's
+  Eigen::Vector3d x;       ///< on the facet or just beside a corner of it
+  Eigen::Vector3d normal;  ///< outward unit normal of the facet
+  int node = 0;            ///< place of the nearest node among the facet's
 };
 
 /// None of a facet without area.
@@ -50,14 +54,17 @@ std::vector<std::vector<Crossing>> crossings(const Communicator& comm, int dimen
 
 /// An axis-parallel box; empty as it is made.
 struct Box3 {
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::max());
-  Eigen::Vector3d high = Eigen::Vector3d::Constant(-std::numeric_limits<double>::max());
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::max());    ///< least coordinates
+  Eigen::Vector3d high = Eigen::Vector3d::Constant(-std::numeric_limits<double>::max());  ///< largest coordinates
 
+  /// Grows to hold x.
   void enclose(const Eigen::Vector3d& x) { low = low.cwiseMin(x), high = high.cwiseMax(x); }
-  bool empty() const { return low[0] > high[0]; }
-  double diagonal() const { return empty() ? 0.0 : (high - low).norm(); }
-  Box3 widened(double by) const;
+  bool empty() const { return low[0] > high[0]; }                          ///< whether it holds no point
+  double diagonal() const { return empty() ? 0.0 : (high - low).norm(); }  ///< its length; 0 if it is empty
+  Box3 widened(double by) const;                                           ///< a box that ends further out by that, on every side
+  /// Whether x is in it or on its boundary.
   bool holds(const Eigen::Vector3d& x) const { return (x.array() >= low.array()).all() && (x.array() <= high.array()).all(); }
+  /// Whether the two have a point in common.
   bool meets(const Box3& other) const { return (low.array() <= other.high.array()).all() && (high.array() >= other.low.array()).all(); }
   /// The part of a segment in the box: false if there is none.
   bool cut(LineSegment& segment) const;

@@ -43,20 +43,21 @@ enum class Linearisation {
 
 /// The measure on the interface in 2D: thickness t, or 2 pi r of the current slave radius. In 3D it is not used.
 struct InterfaceMeasure {
-  bool axisymmetric = false;
-  double thickness = 1.0;
+  bool axisymmetric = false;  ///< a ring: 2 pi r
+  double thickness = 1.0;     ///< t; of plane scenes
 };
 
 /// Options of the coupling of one pair.
 struct MortarOptions {
-  Coupling coupling = Coupling::dual_mortar;  ///< set by the pair's formulation
-  double share = 1.0;                         ///< of the surface that the slave side stands for: 1/2 where both sides are slaves in turn
-  GapWeighting gap_weighting = GapWeighting::dual;
-  std::optional<double> search_reach;  ///< distance up to which facets can touch; default: the longest facet of the pair
-  int gauss_points = 5;                ///< per overlap of two facets in 2D
-  Linearisation linearisation = Linearisation::exact;
-  CornerRule corners = CornerRule::master_normal;  ///< asked for; corner_rule() tells which one acts
-  double balance = 1.5;                            ///< largest over mean work of the ranks, in overlaps, above which slave facets change rank
+  Coupling coupling = Coupling::dual_mortar;           ///< set by the pair's formulation
+  double share = 1.0;                                  ///< of the surface that the slave side stands for: 1/2 where both sides are slaves in turn
+  GapWeighting gap_weighting = GapWeighting::dual;     ///< functions w_j of the weighted gaps
+  std::optional<double> search_reach;                  ///< distance up to which facets can touch; default: the longest facet of the pair
+  int gauss_points = 5;                                ///< per overlap of two facets in 2D
+  Linearisation linearisation = Linearisation::exact;  ///< of the nodal normals
+  CornerRule corners = CornerRule::master_normal;      ///< asked for; corner_rule() tells which one acts
+  double balance = 1.5;                                ///< largest over mean work of the ranks, in overlaps, above which slave facets change rank
+  /// The parameters of a pair's list that are those of the coupling.
   void describe(Parameters& parameters);
   /// Which rule acts. Node to segment takes the averaged normal, and so do 3D models in the place of the nearest facet. Variational mortar takes the
   /// nearest facet in the place of the master's normal, which its second derivatives do not know.
@@ -65,6 +66,7 @@ struct MortarOptions {
 
 /// Matrices over the nodes of one slave facet.
 using FacetMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most_side_nodes, most_side_nodes>;
+/// Values at the nodes of one slave facet.
 using FacetVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, most_side_nodes, 1>;
 
 /// Values of one slave facet and, if asked for, their first derivatives with respect to nodal positions, in a model of `dim` dimensions. Nodes are
@@ -80,7 +82,7 @@ using FacetVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, mo
 /// At a kink that takes the master's normal, rows of D, M and gap of the node's owner are weighed with the facet's projected length: see
 /// corner_normal.hpp.
 struct FacetCoupling {
-  Facet<LocalOrdinal> slave;
+  Facet<LocalOrdinal> slave;          ///< local nodes of the slave facet
   std::vector<LocalOrdinal> master;   ///< nodes of the master facets that the slave facet overlaps, without repeats
   std::vector<LocalOrdinal> columns;  ///< nodes on whose positions the values depend: slave, ring (neighbours that shape the normals), master, and
                                       ///< those of a kink's other facet
@@ -98,7 +100,7 @@ struct FacetCoupling {
   /// Of facets at a kink that takes the master's normal; else empty. Row j is m_j = -int N_j <-n.n_m> n_m, with the normals n of the facet and n_m of
   /// the master. Derivatives: row dim j + i.
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most_side_nodes, 3> facing;
-  Eigen::MatrixXd dfacing;
+  Eigen::MatrixXd dfacing;  ///< of `facing`
   /// Of such a facet 1 where it lies along the master, 0 where it stands off by 20 degrees or more, smooth in between; of others 1, no derivatives.
   double alignment = 1.0;
   Eigen::MatrixXd dalignment;  ///< one row
@@ -112,14 +114,14 @@ struct GapCurvature {
 
 /// Unit normal of an owned slave node and its derivative: averaged, but at kinks.
 struct NodalNormal {
-  SpatialVector normal;
-  std::vector<LocalOrdinal> columns;
+  SpatialVector normal;                                                                  ///< unit vector, out of the body
+  std::vector<LocalOrdinal> columns;                                                     ///< local nodes on whose positions it depends
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 3> derivative;  ///< [dim x dim columns.size()]
 };
 
 /// An owned slave node. Constant during the life of the interface.
 struct SlaveNode {
-  GlobalOrdinal id = 0;
+  GlobalOrdinal id = 0;            ///< of the node in the model
   LocalOrdinal owned_node = 0;     ///< local index in the map of owned nodes
   LocalOrdinal local_node = 0;     ///< local index in local_nodes(); the same number for ever
   std::array<bool, 3> fixed{};     ///< components with a prescribed displacement
@@ -127,12 +129,14 @@ struct SlaveNode {
   bool middle = false;             ///< of an edge of quadratic facets: its dual multiplier acts on corners too
   double weight = 0.0;             ///< A_j = int N_j (Ñ_j) over the whole reference slave surface (with t or 2 pi R), times the pair's share
 
+  /// Whether any component is prescribed.
   bool partly_fixed() const { return fixed[0] || fixed[1] || fixed[2]; }
 };
 
 /// What this rank integrates of an interface. With node to segment, which integrates nothing, as at first.
 struct InterfaceLoad {
-  long facets = 0, segments = 0;    ///< slave facets that overlap a master facet, and their overlaps, in the last evaluation
+  long facets = 0;                  ///< slave facets that overlap a master facet, in the last evaluation
+  long segments = 0;                ///< their overlaps
   double imbalance_as_owned = 1.0;  ///< at the last search, over all ranks: largest over mean work, if every facet stayed with an owner of its nodes
   int redistributions = 0;          ///< searches that gave facets to other ranks
 };
@@ -220,8 +224,9 @@ class MortarInterface {
   /// Distance up to which facets can touch.
   double reach() const;
 
-  /// Lengths over all ranks in the reference configuration, between corners: of the shortest slave facet, and of the longest facet of either side.
+  /// Length of the shortest slave facet between corners, over all ranks, in the reference configuration.
   double shortest_facet() const;
+  /// Of the longest facet of either side, likewise.
   double longest_facet() const;
 
  private:

@@ -24,21 +24,23 @@ using LineShape = std::conditional_t<nodes == 2, Line2, Line3>;
 /// Slave facet x(xi) = sum N_a x_a with the field n(xi) = sum N_a n_a of its (unit) nodal normals, which is not normalised.
 template <class S, int nodes = 2>
 struct SlaveLine {
-  std::array<Point2<S>, nodes> x;
-  std::array<Point2<S>, nodes> normal;
+  std::array<Point2<S>, nodes> x;       ///< nodes, ends first
+  std::array<Point2<S>, nodes> normal;  ///< unit normals at them
 };
 
 /// Master facet y(eta) = sum N_l y_l.
 template <class S, int nodes = 2>
 struct MasterLine {
-  std::array<Point2<S>, nodes> y;
+  std::array<Point2<S>, nodes> y;  ///< nodes, ends first
 };
 
+/// a x b, the third component.
 template <class S>
 S cross(const Point2<S>& a, const Point2<S>& b) {
   return a[0] * b[1] - a[1] * b[0];
 }
 
+/// a - b
 template <class S>
 Point2<S> difference(const Point2<S>& a, const Point2<S>& b) {
   return {S(a[0] - b[0]), S(a[1] - b[1])};
@@ -67,7 +69,7 @@ Point2<S> slope(const std::array<Point2<S>, nodes>& vectors, const S& xi) {
 
 /// Where the normal field of a slave facet meets a point, clipped to the facet.
 struct ClippedProjection {
-  double xi = 0.0;
+  double xi = 0.0;      ///< in [-1, 1]
   bool inside = false;  ///< strictly between the ends; only then xi moves with the nodes
 };
 
@@ -113,7 +115,8 @@ S lift_root(const SlaveLine<S, nodes>& slave, const Point2<S>& y, const S& root)
 /// Where a line through x along n (any length) meets the line of a master facet: x + distance n = y(eta).
 template <class S>
 struct MasterProjection {
-  S eta, distance;
+  S eta;       ///< coordinate of the master facet
+  S distance;  ///< along n, in multiples of its length
 };
 
 /// The master facet must not be parallel to n. A quadratic one: (y(eta) - x) x n = a eta^2 + b eta + c = 0, of whose roots the one that follows the

@@ -15,14 +15,16 @@ namespace mortise {
 
 /// An interval of a slave facet's xi.
 struct Interval {
-  double low = -1.0, high = 1.0;
+  double low = -1.0;  ///< where it begins
+  double high = 1.0;  ///< where it ends, above `low`
 };
 
 /// Part of a slave facet that one master facet covers. The two surfaces run against one another, so the master's second node bounds it
 /// from below and its first node from above, unless the slave facet ends before.
 struct Overlap {
-  Interval interval;
-  bool low_is_master = false, high_is_master = false;  ///< which ends move with the master's nodes
+  Interval interval;            ///< on the slave facet
+  bool low_is_master = false;   ///< whether the lower end moves with the master's second node
+  bool high_is_master = false;  ///< whether the upper end moves with the master's first node
 };
 
 /// Nodes of a line, linear (2) or quadratic (3).
@@ -30,7 +32,8 @@ using LinePoints = boost::container::static_vector<Point2<double>, 3>;
 
 /// A slave facet and the unit normals at its nodes.
 struct SlaveCurve {
-  LinePoints x, normal;
+  LinePoints x;       ///< nodes
+  LinePoints normal;  ///< unit normals at them
 };
 
 /// Whether the master facet's outward normal points, at both ends, against a slave normal, far enough from being perpendicular to be projected on
@@ -53,11 +56,12 @@ std::array<S, nodes> interval_functions(const S& from_low, const S& from_high) {
 
 /// int over an overlap, with n slave and m master nodes. Rows:  int L_i L_j (i <= j, i first),   int L_i N_l^m (row i m + l),   int L_i g.
 struct SegmentIntegrals {
-  Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 18, 1> value;
+  Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 18, 1> value;  ///< rows as above
   /// With respect to slave positions, nodal normals, master positions (two components each).
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 18, 18> derivative;
 };
 
+/// The integrals over an overlap and, if `derivatives`, their derivatives, into `result`.
 /// @param basis  interval of the functions L; held constant in the derivatives
 /// @param rule   quadrature on [-1, 1], mapped to the overlap
 /// @throws StepFailure as project_onto()
@@ -67,11 +71,12 @@ void integrate_segment(const SlaveCurve& slave, const LinePoints& master, const 
 /// int (sum_a weights_a N_a) g over an overlap, with its gradient and Hessian with respect to slave positions, nodal normals, master positions (two
 /// components each).
 struct WeightedGap {
-  double value = 0.0;
-  Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 18, 1> gradient;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 18, 18> hessian;
+  double value = 0.0;                                                                      ///< the integral
+  Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 18, 1> gradient;               ///< [components]
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 18, 18> hessian;  ///< [components x components]
 };
 
+/// The integral over an overlap, with gradient and Hessian.
 /// @param weights  [slave nodes]
 /// @throws StepFailure as project_onto()
 WeightedGap weighted_gap(const SlaveCurve& slave, const LinePoints& master, const Overlap& overlap, const FacetVector& weights,

@@ -13,20 +13,22 @@ namespace mortise {
 
 /// A point of integration: where the line across the plane meets both facets.
 struct OverlapPoint {
-  Eigen::Vector2d xi, eta;  ///< in the slave's and the master's reference facet
-  double weight = 0.0;      ///< area on the plane
-  double height = 0.0;      ///< of the master over the slave along the plane's normal
+  Eigen::Vector2d xi;   ///< in the slave's reference facet
+  Eigen::Vector2d eta;  ///< in the master's reference facet
+  double weight = 0.0;  ///< area on the plane
+  double height = 0.0;  ///< of the master over the slave along the plane's normal
 };
 
 /// What a linear part of a slave facet and one of a master facet cover of one another on the auxiliary plane. It is a convex polygon, cut into
 /// triangles about the mean of its vertices (which is vertex polygon.size(); one triangle stays whole). Each triangle has the points of
 /// triangle_points().
 struct Overlap3d {
-  FacetPart slave_part, master_part;
-  ClipPolygon polygon;
-  boost::container::static_vector<std::array<int, 3>, 16> triangles;
-  boost::container::static_vector<OverlapPoint, 12 * 16> points;  ///< triangle by triangle
-  double distance = 0.0;                                          ///< least |height|
+  FacetPart slave_part;                                               ///< of the slave facet
+  FacetPart master_part;                                              ///< of the master facet
+  ClipPolygon polygon;                                                ///< what the two have in common
+  boost::container::static_vector<std::array<int, 3>, 16> triangles;  ///< three vertices each
+  boost::container::static_vector<OverlapPoint, 12 * 16> points;      ///< triangle by triangle
+  double distance = 0.0;                                              ///< least |height|
 };
 
 /// The overlaps of all parts. Those are missing where a part of the master does not face the plane (its normal at a corner is nearly along it, or it
@@ -40,11 +42,12 @@ void find_overlaps(const FacetVectors& slave, const FacetVectors& master, std::v
 ///   int L_i L_j (i <= j, i first),   int L_i N_l^m (row i m + l),   int L_i g,
 ///   g = n . (xhat - x) = (n . p) height,   n = sum N_a n_a / |sum N_a n_a|.
 struct SegmentIntegrals3d {
-  Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 108, 1> value;
+  Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 108, 1> value;  ///< rows as above
   /// With respect to slave positions, nodal normals, master positions (three components each) in the frame of a fixed plane.
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 108, 72> derivative;
 };
 
+/// The integrals over an overlap and, if `derivatives`, their derivatives, into `result`.
 /// @param normals  nodal normals of the slave facet in the frame of the plane
 /// @param basis    [n x n], held constant in the derivatives
 void integrate_segment(const FacetVectors& slave, const FacetVectors& normals, const FacetVectors& master, const Overlap3d& overlap,

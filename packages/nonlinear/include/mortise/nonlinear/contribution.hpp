@@ -12,7 +12,7 @@ namespace mortise {
 
 /// Where a residual is evaluated.
 struct Configuration {
-  double time;
+  double time;                       ///< pseudo-time
   const Vector& displacement;        ///< on the owned dofs
   const Vector& local_displacement;  ///< on owned dofs followed by ghosts
 };
@@ -21,11 +21,12 @@ struct Configuration {
 /// Evaluation never changes committed state; failures are put into `failure` (first one kept), the caller agrees on them over the ranks.
 class Contribution {
  public:
+  /// Whether it is a part of f_int or of f_ext.
   enum class Kind { internal, external };
   virtual ~Contribution() = default;
 
-  virtual std::string name() const = 0;
-  virtual Kind kind() const = 0;
+  virtual std::string name() const = 0;  ///< by which its calls are counted and timed
+  virtual Kind kind() const = 0;         ///< for the norms of forces
 
   /// residual += this contribution with its sign in r (external forces enter with a minus). Owned dofs; no communication.
   virtual void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) = 0;

@@ -29,15 +29,15 @@ struct NearNullSpace {
 
 /// What an iterative solver may ask of a system, each only if it is needed; any may be empty.
 struct MultigridInput {
-  std::function<NearNullSpace()> near_null_space;
-  std::function<Decoupling()> decoupling;  ///< of a condensed system with contact
+  std::function<NearNullSpace()> near_null_space;  ///< rigid body modes and coordinates
+  std::function<Decoupling()> decoupling;          ///< of a condensed system with contact
 };
 
 /// A strategy. Collective in all its members.
 class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
-  virtual std::string name() const = 0;
+  virtual std::string name() const = 0;  ///< as scenes and logs say it
 
   /// How often the work that depends on the pattern alone was done (analysis of a direct solver, set-up of multigrid).
   virtual int symbolic_setups() const = 0;
@@ -48,8 +48,10 @@ class LinearSolver {
 
   /// Relative residuals among which solve() may be told to choose; none: it is as exact as it can be.
   struct Tolerances {
-    double least, largest;
+    double least;    ///< the most exact
+    double largest;  ///< the least exact
   };
+  /// No value: of a direct solver.
   virtual std::optional<Tolerances> tolerances() const { return std::nullopt; }
 
   /// Solves A x = b (the first solve after set_matrix() factorises) to a relative residual of `tolerance`, or of tolerances()->least if that is
@@ -64,24 +66,26 @@ class LinearSolver {
 
 /// What is known of the systems to be solved before there is one.
 struct LinearSystemTraits {
-  GlobalOrdinal unknowns = 0;
-  int dimension = 2;
-  std::string not_iterative;  ///< why the iterative solver cannot solve them, a sentence; empty: it can
+  GlobalOrdinal unknowns = 0;  ///< over all ranks
+  int dimension = 2;           ///< of the model: 2 or 3
+  std::string not_iterative;   ///< why the iterative solver cannot solve them, a sentence; empty: it can
 };
 
 /// Which solver, and its settings. `automatic` is the iterative solver in 3D from `fewest_for_multigrid` unknowns on if it can solve the systems.
 /// Else it is MUMPS.
 struct LinearSolverOptions {
+  /// Which solver.
   enum class Kind { automatic, mumps, klu2, iterative };
   /// From here on it takes less time than a factorisation, and much less memory (docs/results/space.md).
   static constexpr GlobalOrdinal fewest_for_multigrid = 10000;
-  Located<Kind> kind{Kind::automatic, {}};
-  double residual_bound = 1e-8;     ///< of the direct solvers' backward error |b - A x| / (|A| |x| + |b|)
-  double tolerance = 1e-10;         ///< of the iterative solver
-  double largest_tolerance = 1e-3;  ///< of the iterative solver, while Newton's iterate is far from the solution
-  int maximum_iterations = 500;
-  Located<Teuchos::ParameterList> muelu, belos;  ///< override what Mortise sets; checked by MueLu and Belos
-  void describe(Parameters& parameters);
+  Located<Kind> kind{Kind::automatic, {}};  ///< which one
+  double residual_bound = 1e-8;             ///< of the direct solvers' backward error |b - A x| / (|A| |x| + |b|)
+  double tolerance = 1e-10;                 ///< of the iterative solver
+  double largest_tolerance = 1e-3;          ///< of the iterative solver, while Newton's iterate is far from the solution
+  int maximum_iterations = 500;             ///< of the iterative solver
+  Located<Teuchos::ParameterList> muelu;    ///< overrides what Mortise sets; checked by MueLu
+  Located<Teuchos::ParameterList> belos;    ///< likewise, by Belos
+  void describe(Parameters& parameters);    ///< the list "linear solver"
 };
 
 /// Makes the solver that `options` ask for.

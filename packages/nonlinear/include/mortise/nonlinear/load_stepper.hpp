@@ -18,29 +18,30 @@ enum class Predictor {
 
 /// Pseudo-time and its steps.
 struct SteppingOptions {
-  double end_time = 1.0;
-  double step = 1.0;                   ///< first step, and the largest unless `maximum_step` says otherwise
-  std::optional<double> maximum_step;  ///< default: `step`
-  std::optional<double> minimum_step;  ///< default: step / 1024
-  int easy_iterations = 6;             ///< a step that took no more may be followed by one twice as long
-  std::vector<double> output_times;    ///< hit exactly
-  Predictor predictor = Predictor::linear;
-  void describe(Parameters& parameters);
+  double end_time = 1.0;                    ///< pseudo-time at which the run ends; it begins at 0
+  double step = 1.0;                        ///< first step, and the largest unless `maximum_step` says otherwise
+  std::optional<double> maximum_step;       ///< default: `step`
+  std::optional<double> minimum_step;       ///< default: step / 1024
+  int easy_iterations = 6;                  ///< a step that took no more may be followed by one twice as long
+  std::vector<double> output_times;         ///< hit exactly
+  Predictor predictor = Predictor::linear;  ///< where steps start
+  void describe(Parameters& parameters);    ///< the list "stepping"
 };
 
 /// A finished step.
 struct StepReport {
-  int step = 0;  ///< from 1
-  double time = 0.0, dt = 0.0;
+  int step = 0;                     ///< from 1
+  double time = 0.0;                ///< pseudo-time at its end
+  double dt = 0.0;                  ///< its length
   int cutbacks = 0;                 ///< tries undone before this one
   std::vector<std::string> undone;  ///< why, one for each cutback
-  NewtonReport newton;
+  NewtonReport newton;              ///< of the try that worked
 };
 
 /// What the stepper calls.
 struct StepperObserver {
   std::function<void(int step, double time, double dt)> begin;  ///< before each try
-  std::function<void(const NewtonIteration&)> iteration;
+  std::function<void(const NewtonIteration&)> iteration;        ///< after each Newton iteration
   /// A solution x of the step from the accepted state `from`, before it is committed; contact was evaluated at it last, with derivatives. `round`
   /// counts the solutions of a try from 1. Returns whether x stands; else it has made x another start, from which the step is solved once more. May
   /// throw StepFailure, on every rank: the try is undone.

@@ -21,31 +21,33 @@ enum class LineSearch {
 
 /// When a Newton solve is done, and when it is given up.
 struct NewtonOptions {
-  int maximum_iterations = 30;
-  double momentum_tolerance = 1e-9;         ///< |r| / max(|f_int|, |f_ext|, |f_c|)
-  double gap_tolerance = 1e-9;              ///< |g_j| / (A_j h) of closed nodes
-  double complementarity_tolerance = 1e-9;  ///< |C| / max |z|
-  double increment_tolerance = 1e-8;        ///< |du|_max / size of the model
-  double divergence = 1e8;                  ///< growth of |r| over max(|r_0|, |r_1|, s |du_1|) at which the solve is given up
-  int cycle_length = 6;                     ///< longest cycle of active sets that is looked for
-  LineSearch line_search = LineSearch::backtrack;
-  std::optional<double> largest_increment;  ///< [length] of any displacement in one iteration; longer corrections are shortened
-  void describe(Parameters& parameters);
+  int maximum_iterations = 30;                     ///< beyond them it goes on only while states of contact change and the residual falls
+  double momentum_tolerance = 1e-9;                ///< |r| / max(|f_int|, |f_ext|, |f_c|)
+  double gap_tolerance = 1e-9;                     ///< |g_j| / (A_j h) of closed nodes
+  double complementarity_tolerance = 1e-9;         ///< |C| / max |z|
+  double increment_tolerance = 1e-8;               ///< |du|_max / size of the model
+  double divergence = 1e8;                         ///< growth of |r| over max(|r_0|, |r_1|, s |du_1|) at which the solve is given up
+  int cycle_length = 6;                            ///< longest cycle of active sets that is looked for
+  LineSearch line_search = LineSearch::backtrack;  ///< what is done with directions
+  std::optional<double> largest_increment;         ///< [length] of any displacement in one iteration; longer corrections are shortened
+  void describe(Parameters& parameters);           ///< the list "newton"
 };
 
 /// One line of the Newton table and of newton.csv.
 struct NewtonIteration {
-  int iteration = 0;
-  ResidualNorms norms;
-  double increment = 0.0;    ///< max |du|; 0 in iteration 0
-  double step_length = 1.0;  ///< share of the Newton direction that was taken
-  int linear_iterations = 0;
-  double seconds = 0.0;
+  int iteration = 0;          ///< 0: the start
+  ResidualNorms norms;        ///< after it
+  double increment = 0.0;     ///< max |du|; 0 in iteration 0
+  double step_length = 1.0;   ///< share of the Newton direction that was taken
+  int linear_iterations = 0;  ///< of the iterative solver
+  double seconds = 0.0;       ///< wall-clock time
 };
 
+/// What Newton's method did in a step.
 struct NewtonReport {
   std::vector<NewtonIteration> iterations;  ///< of all solves of a step; iteration 0 begins one
   int solves = 1;                           ///< 1 + augmentations
+  /// Directions taken, over all solves.
   int newton_steps() const { return static_cast<int>(iterations.size()) - solves; }
 };
 

@@ -16,27 +16,31 @@ namespace mortise {
 
 /// Sizes of the residual's blocks at one iterate, over all ranks; what the status tests and newton.csv show.
 struct ResidualNorms {
-  double momentum = 0.0;  ///< |r| on free dofs relative to max(|f_int|, |f_ext|, |f_c|, 1e-6 s |d|), reactions included
-  double momentum_absolute = 0.0;
-  double round_off = 0.0;   ///< what round-off alone leaves of momentum_absolute
-  double prescribed = 0.0;  ///< max |d - prescribed| and |d - what it follows|, relative to the size of the model
-  double gap = 0.0, complementarity = 0.0;
-  double merit = 0.0;  ///< (|r|^2 + |s (d - prescribed)|^2 + sum_j |A_j C_j|^2)^1/2, a force; infinite if that is not finite
-  int active = 0, sticking = 0, changed = 0;
+  double momentum = 0.0;                  ///< |r| on free dofs relative to max(|f_int|, |f_ext|, |f_c|, 1e-6 s |d|), reactions included
+  double momentum_absolute = 0.0;         ///< |r| on free dofs [force]
+  double round_off = 0.0;                 ///< what round-off alone leaves of momentum_absolute
+  double prescribed = 0.0;                ///< max |d - prescribed| and |d - what it follows|, relative to the size of the model
+  double gap = 0.0;                       ///< ContactNorms::gap
+  double complementarity = 0.0;           ///< ContactNorms::complementarity
+  double merit = 0.0;                     ///< (|r|^2 + |s (d - prescribed)|^2 + sum_j |A_j C_j|^2)^1/2, a force; infinite if that is not finite
+  int active = 0;                         ///< closed nodes
+  int sticking = 0;                       ///< of them
+  int changed = 0;                        ///< ContactNorms::changed
   std::array<long long, 2> active_set{};  ///< two hashes of the closed nodes and what they do, independent of the partition
-  bool finite = true;
+  bool finite = true;                     ///< whether all of the residual is
 };
 
 /// What a nonlinear system is made of. Shared by all groups that NOX clones.
 struct SystemParts {
-  RCP<const Map> dofs, local_dofs;               ///< owned; owned then ghosts
-  std::function<RCP<const Graph>()> bulk_graph;  ///< makes it: rows `dofs`; what the contributions' Jacobians write into
-  std::vector<std::shared_ptr<Contribution>> contributions;
-  std::shared_ptr<PrescribedDisplacements> prescribed;
-  std::shared_ptr<DependentDisplacements> dependent;  ///< null: every displacement is an unknown or prescribed
-  std::shared_ptr<ContactSystem> contact;             ///< null: no contact in the scene
-  std::shared_ptr<LinearSolver> linear_solver;
-  std::function<NearNullSpace(const Vector& displacement)> near_null_space;
+  RCP<const Map> dofs;                                                       ///< owned
+  RCP<const Map> local_dofs;                                                 ///< owned then ghosts
+  std::function<RCP<const Graph>()> bulk_graph;                              ///< makes it: rows `dofs`; what the contributions' Jacobians write into
+  std::vector<std::shared_ptr<Contribution>> contributions;                  ///< f_int - f_ext, as their sum
+  std::shared_ptr<PrescribedDisplacements> prescribed;                       ///< never null; may have no dofs
+  std::shared_ptr<DependentDisplacements> dependent;                         ///< null: every displacement is an unknown or prescribed
+  std::shared_ptr<ContactSystem> contact;                                    ///< null: no contact in the scene
+  std::shared_ptr<LinearSolver> linear_solver;                               ///< of each Newton step
+  std::function<NearNullSpace(const Vector& displacement)> near_null_space;  ///< at a displacement; asked for by multigrid alone
   /// For an x at which the Jacobian is singular although the system has a solution: a better point to linearise at, or null where there is none. It
   /// is close to x as far as Newton's method is concerned. F is F(x), the contact is evaluated at x, with derivatives. Collective; empty: never.
   std::function<RCP<Vector>(const Vector& x, const Vector& F)> better_start;
@@ -51,19 +55,26 @@ enum class GeometricContactStiffness { included, left_out };
 /// Collective in all members but the accessors and views.
 class SemiSmoothSystem {
  public:
+  /// Makes the map of x; the rest is made as it is needed. Collective.
   SemiSmoothSystem(SystemParts parts, Timers timers);
   ~SemiSmoothSystem();
 
+  /// What it was made of.
   const SystemParts& parts() const;
   /// Map of x: owned dofs, then owned multipliers.
   const RCP<const Map>& map() const;
-  /// Views into the two parts of x (they share its memory).
+  /// A view into the displacements of x, which shares its memory.
   RCP<const Vector> displacement(const Vector& x) const;
+  /// The same, to write to.
   RCP<Vector> displacement(Vector& x) const;
+  /// A view into the multipliers of x, which shares its memory.
   RCP<const Vector> multipliers(const Vector& x) const;
+  /// The same, to write to.
   RCP<Vector> multipliers(Vector& x) const;
 
+  /// Pseudo-time at which everything is evaluated from now on.
   void set_time(double time);
+  /// The one that is set.
   double time() const;
   /// s, a stiffness; 0 before the first residual.
   double stiffness_scale() const;

@@ -10,11 +10,12 @@ namespace mortise {
 /// Sizes of steps, without any solver: proposes a time, learns whether it worked. Output times and the end are hit exactly.
 class StepSchedule {
  public:
+  /// Stands at time 0.
   explicit StepSchedule(const SteppingOptions& options);
 
-  double time() const { return time_; }  ///< of the last accepted step
-  bool finished() const { return time_ >= targets_.back(); }
-  double next_time() const;  ///< where the next try ends
+  double time() const { return time_; }                       ///< of the last accepted step
+  bool finished() const { return time_ >= targets_.back(); }  ///< whether the end was reached
+  double next_time() const;                                   ///< where the next try ends
   /// The try worked; an easy one may be followed by a step twice as long.
   void accept(bool easy);
   /// The try failed: the next one is half as long. False if that is shorter than the smallest step.

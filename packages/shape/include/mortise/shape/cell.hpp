@@ -12,8 +12,8 @@ enum class CellShape { line2, line3, triangle3, triangle6, quadrilateral4, quadr
 
 /// Topology of a reference cell.
 struct CellTopology {
-  int dimension;
-  int nodes;
+  int dimension;   ///< 1 for lines, 2 for plane cells, 3 for solids
+  int nodes;       ///< corners and mid-side nodes
   int corners;     ///< the first nodes
   CellShape side;  ///< shape of every side; of lines: the line itself
   /// sides[s]: the cell's nodes on side s, in the order of the side's shape. In 2D the outward normal is on the right of the direction of travel, n =
@@ -21,6 +21,7 @@ struct CellTopology {
   std::vector<std::vector<int>> sides;
 };
 
+/// Nodes and sides of a shape; one object for each, which lives for ever.
 const CellTopology& topology(CellShape shape);
 
 /// Highest number of nodes of a cell, and of a side.

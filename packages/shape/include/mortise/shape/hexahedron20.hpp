@@ -12,9 +12,9 @@ namespace mortise {
 ///   corners                           N_a = (1 + s_1)(1 + s_2)(1 + s_3)(s_1 + s_2 + s_3 - 2) / 8
 ///   mid-side nodes, where xi_ak = 0   N_a = (1 - xi_k^2)(1 + s_l)(1 + s_m) / 4
 struct Hexahedron20 {
-  static constexpr CellShape shape = CellShape::hexahedron20;
-  static constexpr int dimension = 3;
-  static constexpr int nodes = 20;
+  static constexpr CellShape shape = CellShape::hexahedron20;  ///< its name
+  static constexpr int dimension = 3;                          ///< number of reference coordinates
+  static constexpr int nodes = 20;                             ///< number of nodes
 
   /// Shape functions N_a at a reference point.
   template <class T>
@@ -63,7 +63,7 @@ struct Hexahedron20 {
        {0.0, -1.0, -1.0},  {1.0, 0.0, -1.0},  {0.0, 1.0, -1.0}, {-1.0, 0.0, -1.0},   // edges of the bottom
        {0.0, -1.0, 1.0},   {1.0, 0.0, 1.0},   {0.0, 1.0, 1.0},  {-1.0, 0.0, 1.0},    // of the top
        {-1.0, -1.0, 0.0},  {1.0, -1.0, 0.0},  {1.0, 1.0, 0.0},  {-1.0, 1.0, 0.0}}};  // upright
-  static constexpr std::array<double, 3> centroid{0.0, 0.0, 0.0};
+  static constexpr std::array<double, 3> centroid{0.0, 0.0, 0.0};                    ///< reference coordinates
 
  private:
   /// Of the edge that node a >= 8 is the middle of.

@@ -10,9 +10,9 @@ namespace mortise {
 /// Trilinear hexahedron on [-1, 1]^3: the bottom's corners (those of Quadrilateral4 at zeta = -1), then the top's;
 /// N_a = (1 + xi_a xi)(1 + eta_a eta)(1 + zeta_a zeta) / 8. Reference volume 8.
 struct Hexahedron8 {
-  static constexpr CellShape shape = CellShape::hexahedron8;
-  static constexpr int dimension = 3;
-  static constexpr int nodes = 8;
+  static constexpr CellShape shape = CellShape::hexahedron8;  ///< its name
+  static constexpr int dimension = 3;                         ///< number of reference coordinates
+  static constexpr int nodes = 8;                             ///< number of nodes
 
   /// Shape functions N_a at a reference point.
   template <class T>
@@ -46,7 +46,7 @@ struct Hexahedron8 {
                                                                         {1.0, -1.0, 1.0},
                                                                         {1.0, 1.0, 1.0},
                                                                         {-1.0, 1.0, 1.0}}};
-  static constexpr std::array<double, 3> centroid{0.0, 0.0, 0.0};
+  static constexpr std::array<double, 3> centroid{0.0, 0.0, 0.0};  ///< reference coordinates
 };
 
 }  // namespace mortise

@@ -7,8 +7,8 @@ namespace mortise {
 
 /// Linear line with reference nodes -1 and 1; N = ((1 - xi) / 2, (1 + xi) / 2). Reference length 2.
 struct Line2 {
-  static constexpr int dimension = 1;
-  static constexpr int nodes = 2;
+  static constexpr int dimension = 1;  ///< number of reference coordinates
+  static constexpr int nodes = 2;      ///< number of nodes
 
   /// Shape functions N_a at a reference point.
   template <class T>

@@ -9,9 +9,9 @@ namespace mortise {
 
 /// Quadratic line with reference nodes -1, 1 and 0; N = (xi (xi - 1) / 2, xi (xi + 1) / 2, 1 - xi^2). Reference length 2.
 struct Line3 {
-  static constexpr CellShape shape = CellShape::line3;
-  static constexpr int dimension = 1;
-  static constexpr int nodes = 3;
+  static constexpr CellShape shape = CellShape::line3;  ///< its name
+  static constexpr int dimension = 1;                   ///< number of reference coordinates
+  static constexpr int nodes = 3;                       ///< number of nodes
 
   /// Shape functions N_a at a reference point.
   template <class T>

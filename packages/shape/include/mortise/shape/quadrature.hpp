@@ -10,8 +10,8 @@ namespace mortise {
 
 /// A point of a rule on a reference line, [-1, 1].
 struct LinePoint {
-  double xi = 0.0;
-  double weight = 0.0;
+  double xi = 0.0;      ///< in [-1, 1]
+  double weight = 0.0;  ///< of [-1, 1], whose length is 2
 };
 
 /// Gauss-Legendre rule with `points` >= 1 points on [-1, 1], ascending; exact for polynomials of degree 2 points - 1.
@@ -21,7 +21,7 @@ std::vector<LinePoint> gauss_legendre(int points);
 /// A point of a rule on a 2D or 3D reference cell. The weights sum to the cell's reference area or volume.
 struct CellPoint {
   std::array<double, 3> xi{};  ///< 0 beyond the cell's dimension
-  double weight = 0.0;
+  double weight = 0.0;         ///< share of the reference area or volume
 
   /// The first coordinates, as the shape functions take them.
   template <int dimension>

@@ -9,9 +9,9 @@ namespace mortise {
 
 /// Bilinear quadrilateral with reference nodes (-1,-1), (1,-1), (1,1), (-1,1); N_a = (1 + xi_a xi)(1 + eta_a eta) / 4. Reference area 4.
 struct Quadrilateral4 {
-  static constexpr CellShape shape = CellShape::quadrilateral4;
-  static constexpr int dimension = 2;
-  static constexpr int nodes = 4;
+  static constexpr CellShape shape = CellShape::quadrilateral4;  ///< its name
+  static constexpr int dimension = 2;                            ///< number of reference coordinates
+  static constexpr int nodes = 4;                                ///< number of nodes
 
   /// Shape functions N_a at a reference point.
   template <class T>
@@ -31,7 +31,7 @@ struct Quadrilateral4 {
 
   /// Reference coordinates of the nodes.
   static constexpr std::array<std::array<double, 2>, 4> node_positions{{{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}};
-  static constexpr std::array<double, 2> centroid{0.0, 0.0};
+  static constexpr std::array<double, 2> centroid{0.0, 0.0};  ///< reference coordinates
 };
 
 }  // namespace mortise

@@ -11,9 +11,9 @@ namespace mortise {
 ///   corners         N_a = (1 + xi_a xi)(1 + eta_a eta)(xi_a xi + eta_a eta - 1) / 4
 ///   mid-side nodes  N_a = (1 - xi^2)(1 + eta_a eta) / 2  where xi_a = 0,  (1 + xi_a xi)(1 - eta^2) / 2  where eta_a = 0
 struct Quadrilateral8 {
-  static constexpr CellShape shape = CellShape::quadrilateral8;
-  static constexpr int dimension = 2;
-  static constexpr int nodes = 8;
+  static constexpr CellShape shape = CellShape::quadrilateral8;  ///< its name
+  static constexpr int dimension = 2;                            ///< number of reference coordinates
+  static constexpr int nodes = 8;                                ///< number of nodes
 
   /// Shape functions N_a at a reference point.
   template <class T>
@@ -53,7 +53,7 @@ struct Quadrilateral8 {
   /// Reference coordinates of the nodes.
   static constexpr std::array<std::array<double, 2>, 8> node_positions{
       {{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}, {0.0, -1.0}, {1.0, 0.0}, {0.0, 1.0}, {-1.0, 0.0}}};
-  static constexpr std::array<double, 2> centroid{0.0, 0.0};
+  static constexpr std::array<double, 2> centroid{0.0, 0.0};  ///< reference coordinates
 };
 
 }  // namespace mortise

@@ -10,10 +10,10 @@ namespace mortise {
 /// Quadratic tetrahedron: the corners of Tetrahedron4, then the mid-side nodes of the edges 01, 12, 20, 03, 13, 23. With L the functions of
 /// Tetrahedron4 the corners have N = L_a (2 L_a - 1), the mid-side nodes 4 L_a L_b. Reference volume 1/6.
 struct Tetrahedron10 {
-  static constexpr CellShape shape = CellShape::tetrahedron10;
-  static constexpr int dimension = 3;
-  static constexpr int nodes = 10;
-  static constexpr int edges[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
+  static constexpr CellShape shape = CellShape::tetrahedron10;                          ///< its name
+  static constexpr int dimension = 3;                                                   ///< number of reference coordinates
+  static constexpr int nodes = 10;                                                      ///< number of nodes
+  static constexpr int edges[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};  ///< corners at the ends of each edge
 
   /// Shape functions N_a at a reference point.
   template <class T>
@@ -49,7 +49,7 @@ struct Tetrahedron10 {
                                                                          {0.0, 0.0, 0.5},
                                                                          {0.5, 0.0, 0.5},
                                                                          {0.0, 0.5, 0.5}}};
-  static constexpr std::array<double, 3> centroid = Tetrahedron4::centroid;
+  static constexpr std::array<double, 3> centroid = Tetrahedron4::centroid;  ///< reference coordinates
 };
 
 }  // namespace mortise

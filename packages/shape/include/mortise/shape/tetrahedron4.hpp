@@ -9,9 +9,9 @@ namespace mortise {
 
 /// Linear tetrahedron with reference nodes (0,0,0), (1,0,0), (0,1,0), (0,0,1); N = (1 - xi - eta - zeta, xi, eta, zeta). Reference volume 1/6.
 struct Tetrahedron4 {
-  static constexpr CellShape shape = CellShape::tetrahedron4;
-  static constexpr int dimension = 3;
-  static constexpr int nodes = 4;
+  static constexpr CellShape shape = CellShape::tetrahedron4;  ///< its name
+  static constexpr int dimension = 3;                          ///< number of reference coordinates
+  static constexpr int nodes = 4;                              ///< number of nodes
 
   /// Shape functions N_a at a reference point.
   template <class T>
@@ -28,7 +28,7 @@ struct Tetrahedron4 {
 
   /// Reference coordinates of the nodes.
   static constexpr std::array<std::array<double, 3>, 4> node_positions{{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
-  static constexpr std::array<double, 3> centroid{0.25, 0.25, 0.25};
+  static constexpr std::array<double, 3> centroid{0.25, 0.25, 0.25};  ///< reference coordinates
 };
 
 }  // namespace mortise

@@ -9,9 +9,9 @@ namespace mortise {
 
 /// Linear triangle with reference nodes (0,0), (1,0), (0,1); N = (1 - xi - eta, xi, eta). Reference area 1/2.
 struct Triangle3 {
-  static constexpr CellShape shape = CellShape::triangle3;
-  static constexpr int dimension = 2;
-  static constexpr int nodes = 3;
+  static constexpr CellShape shape = CellShape::triangle3;  ///< its name
+  static constexpr int dimension = 2;                       ///< number of reference coordinates
+  static constexpr int nodes = 3;                           ///< number of nodes
 
   /// Shape functions N_a at a reference point.
   template <class T>
@@ -27,7 +27,7 @@ struct Triangle3 {
 
   /// Reference coordinates of the nodes.
   static constexpr std::array<std::array<double, 2>, 3> node_positions{{{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}}};
-  static constexpr std::array<double, 2> centroid{1.0 / 3.0, 1.0 / 3.0};
+  static constexpr std::array<double, 2> centroid{1.0 / 3.0, 1.0 / 3.0};  ///< reference coordinates
 };
 
 }  // namespace mortise

@@ -10,9 +10,9 @@ namespace mortise {
 /// Quadratic triangle: corners (0,0), (1,0), (0,1), then the mid-side nodes of 01, 12, 20. With L = (1 - xi - eta, xi, eta) the corners have N = L_a
 /// (2 L_a - 1), the mid-side nodes 4 L_a L_b. Reference area 1/2.
 struct Triangle6 {
-  static constexpr CellShape shape = CellShape::triangle6;
-  static constexpr int dimension = 2;
-  static constexpr int nodes = 6;
+  static constexpr CellShape shape = CellShape::triangle6;  ///< its name
+  static constexpr int dimension = 2;                       ///< number of reference coordinates
+  static constexpr int nodes = 6;                           ///< number of nodes
 
   /// Shape functions N_a at a reference point.
   template <class T>
@@ -37,7 +37,7 @@ struct Triangle6 {
 
   /// Reference coordinates of the nodes.
   static constexpr std::array<std::array<double, 2>, 6> node_positions{{{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {0.5, 0.0}, {0.5, 0.5}, {0.0, 0.5}}};
-  static constexpr std::array<double, 2> centroid{1.0 / 3.0, 1.0 / 3.0};
+  static constexpr std::array<double, 2> centroid{1.0 / 3.0, 1.0 / 3.0};  ///< reference coordinates
 };
 
 }  // namespace mortise

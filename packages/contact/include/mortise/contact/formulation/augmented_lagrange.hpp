@@ -7,7 +7,7 @@ namespace mortise {
 /// Penalty whose multipliers are updated after each Newton solve until nothing penetrates (Uzawa; Simo, Laursen 1992; on mortar Puso, Laursen 2004).
 struct AugmentedLagrange : Penalty {
   double tolerance = 1e-6;  ///< error of the multipliers over the largest one
-  int augmentations = 50;
+  int augmentations = 50;   ///< most times that the multipliers are updated within a step
   void describe(Parameters& parameters) override;
   std::optional<Regularisation> regularisation() const override {
     return Regularisation{normal, tangential.value_or(normal), augmentations, tolerance};
