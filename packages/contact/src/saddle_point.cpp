@@ -92,18 +92,21 @@ ContactSystem::SaddlePointBlocks ContactSystem::saddle_point_blocks(const Vector
                      row.coefficients[c] * through[i] - (pair.variational() ? pressure * row.dgap[dimension * c + i] : 0.0));
         }
       }
+      // Rows are handed over whole: Tpetra looks each of them up once.
+      const std::size_t count = dimension * coupled.size();
+      std::vector<GlobalOrdinal> dofs(count), columns(static_cast<std::size_t>(dimension));
+      std::vector<std::vector<double>> gradients(static_cast<std::size_t>(dimension), std::vector<double>(count));
+      for (std::size_t c = 0; c < count; ++c) {
+        dofs[c] = dimension * nodes.getGlobalElement(coupled[c / dimension]) + static_cast<int>(c % dimension);
+        const SpatialVector gradient = pair.constraint_gradient(law, s, c, multipliers[p][s]);
+        for (int i = 0; i < dimension; ++i) gradients[i][c] = gradient[i];
+      }
+      for (int k = 0; k < dimension; ++k) columns[k] = self.multipliers->getGlobalElement(first + k);
       for (int i = 0; i < dimension; ++i) {
-        const GlobalOrdinal multiplier = self.multipliers->getGlobalElement(first + i);
-        for (int k = 0; k < dimension; ++k) {
-          const GlobalOrdinal column = self.multipliers->getGlobalElement(first + k);
-          blocks.C_z->insertGlobalValues(multiplier, 1, &law.C_z(i, k), &column);
-        }
-        for (std::size_t c = 0; c < coupled.size(); ++c)
-          for (int k = 0; k < dimension; ++k) {
-            const double value = pair.constraint_gradient(law, s, dimension * c + k, multipliers[p][s])[i];
-            const GlobalOrdinal dof = dimension * nodes.getGlobalElement(coupled[c]) + k;
-            blocks.C_d->insertGlobalValues(multiplier, 1, &value, &dof);
-          }
+        std::vector<double> of_multipliers(static_cast<std::size_t>(dimension));
+        for (int k = 0; k < dimension; ++k) of_multipliers[k] = law.C_z(i, k);
+        blocks.C_z->insertGlobalValues(columns[i], dimension, of_multipliers.data(), columns.data());
+        blocks.C_d->insertGlobalValues(columns[i], static_cast<LocalOrdinal>(count), gradients[i].data(), dofs.data());
       }
     }
   }

@@ -8,8 +8,10 @@ std::vector<LocalOrdinal> Mesh::side_nodes(const Side& side) const {
   const auto& block = blocks[side.block];
   const LocalOrdinal* nodes = block.nodes(side.element);
   if (side.side == the_cell_itself) return {nodes, nodes + block.nodes_per_element};
+  const auto& places = topology(block.shape).sides[side.side];
   std::vector<LocalOrdinal> result;
-  for (const int a : topology(block.shape).sides[side.side]) result.push_back(nodes[a]);
+  result.reserve(places.size());
+  for (const int a : places) result.push_back(nodes[a]);
   return result;
 }
 

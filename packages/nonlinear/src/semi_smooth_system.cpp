@@ -143,6 +143,9 @@ void SemiSmoothSystem::commit(const Vector& x) {
   const RCP<const Vector> d = displacement(x);
   const Configuration at = implementation_->configuration(*d);
   for (const auto& contribution : implementation_->parts.contributions) contribution->commit(at);
+  // The forces of the committed state are those that it was found with; at any other displacement they depend on what has been committed.
+  RCP<Vector>& internal_at = implementation_->internal_at;
+  if (!internal_at.is_null() && !detail::same_values(*d, *internal_at)) internal_at = Teuchos::null;
   if (!implementation_->parts.contact) return;
   implementation_->evaluate_contact(*d, true);
   implementation_->parts.contact->accept_states(*multipliers(x));

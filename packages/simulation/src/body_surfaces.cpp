@@ -2,7 +2,6 @@
 
 #include <Teuchos_CommHelpers.hpp>
 #include <algorithm>
-#include <set>
 
 #include "mortise/mortar/quadratic_facet.hpp"
 
@@ -23,13 +22,16 @@ const SideSet& whole_surface(const Mesh& mesh, std::size_t body) { return mesh.s
 bool is_rigid(const Mesh& mesh, std::size_t body) { return topology(mesh.blocks[body].shape).dimension < mesh.dimension; }
 
 std::vector<TaggedFacet> tagged_surface(const Mesh& mesh, std::size_t body, const SideSet& set, int in_set, int elsewhere, const PlaceOfNode& at) {
-  std::set<std::pair<LocalOrdinal, int>> members;
-  for (LocalOrdinal s = 0; s < set.owned; ++s) members.insert({set.sides[s].element, set.sides[s].side});
+  std::vector<std::pair<LocalOrdinal, int>> members;
+  for (LocalOrdinal s = 0; s < set.owned; ++s) members.emplace_back(set.sides[s].element, set.sides[s].side);
+  std::sort(members.begin(), members.end());
   std::vector<TaggedFacet> facets;
   const SideSet& surface = whole_surface(mesh, body);
+  facets.reserve(static_cast<std::size_t>(surface.owned));
   for (LocalOrdinal s = 0; s < surface.owned; ++s) {
     const Side& side = surface.sides[s];
-    facets.push_back({places_of(mesh, side, at), members.count({side.element, side.side}) > 0 ? in_set : elsewhere});
+    const bool is_member = std::binary_search(members.begin(), members.end(), std::pair(side.element, side.side));
+    facets.push_back({places_of(mesh, side, at), is_member ? in_set : elsewhere});
   }
   return facets;
 }

@@ -28,6 +28,15 @@ bool is_rigid(const Mesh& mesh, std::size_t body);
 /// The box of each body's surface, over all ranks. Collective.
 std::vector<Box3> body_boxes(const Mesh& mesh, const PlaceOfNode& at);
 
+/// All bodies in one configuration, as those share it who ask about their surfaces.
+struct PlacedBodies {
+  const Mesh& mesh;
+  PlaceOfNode at;
+  std::vector<Box3> boxes;  ///< of the bodies' surfaces, over all ranks
+  double length;            ///< size of the model
+  double touching;          ///< shorter depths are none
+};
+
 /// The body whose sides a set holds. Collective; a set is not empty and belongs to one body.
 std::size_t body_of(const Mesh& mesh, const SideSet& set);
 

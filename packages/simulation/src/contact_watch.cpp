@@ -59,12 +59,9 @@ std::vector<char> ContactWatch::covered(const Pair& pair) const {
   return on_local_nodes(mesh, to_local_nodes_, owned);
 }
 
-void ContactWatch::examine(const Vector& displacement) const {
+void ContactWatch::examine(const PlacedBodies& bodies) const {
   if (pairs_.empty()) return;
-  const Mesh& mesh = *model_.mesh();
-  const double touching = touching_depth * model_.size().length;
-  const PlaceOfNode at = current_places(*model_.bodies(), displacement);
-  const std::vector<Box3> boxes = body_boxes(mesh, at);
+  const auto& [mesh, at, boxes, length, touching] = bodies;
 
   // Of each pair the probes beside nodes that are not covered and may be in the other body; how many there are, all, and those beside covered nodes.
   std::vector<std::vector<SurfaceProbe>> probes(pairs_.size());
@@ -89,7 +86,7 @@ void ContactWatch::examine(const Vector& displacement) const {
     const std::string &name = scene_.contact[pair.index].name, &master = mesh.blocks[pair.master_body].name;
     const bool rigid = is_rigid(mesh, pair.master_body);
     if (rigid && counts[3 * p + 2] == 0.0 &&
-        look_ahead({mesh, at, boxes, model_.size().length, touching}, {"", pair.slave, pair.slave_body}, {"", pair.master, pair.master_body},
+        look_ahead(bodies, {"", pair.slave, pair.slave_body}, {"", pair.master, pair.master_body},
                    model_.surfaces_at_start().pairs[pair.index].longest)
             .backs)
       throw StepFailure(

@@ -1,6 +1,7 @@
 #pragma once
 // Whether bodies have passed through one another where contact does not see it.
 
+#include "body_surfaces.hpp"
 #include "mortise/simulation/model.hpp"
 
 namespace mortise {
@@ -11,13 +12,13 @@ class ContactWatch {
  public:
   ContactWatch(const Model& model, const Scene& scene);
 
-  /// Collective. `displacement` is that of the last evaluation of the model's contact.
+  /// Collective. Bodies at the displacement of the last evaluation of the model's contact.
   /// @throws StepFailure (lost_contact) on every rank if
   ///   - a slave node that no master facet covers lies within the master's body, farther behind its surface than the reach;
   ///   - most of the slave lies within that body;
   ///   - a rigid master lies within the slave's body, entered through its back; or
   ///   - no facet of a rigid master faces the slave any more and most of the slave sees its back.
-  void examine(const Vector& displacement) const;
+  void examine(const PlacedBodies& bodies) const;
 
  private:
   struct Pair {

@@ -86,9 +86,9 @@ std::vector<CornerWatch::Candidate> CornerWatch::candidates(const SideSet& set, 
 }
 
 // Convex nodes at which the surface turns by more than the angle of an arc, with the mean of their facets' normals.
-std::vector<CornerWatch::Corner> CornerWatch::corners(const std::vector<Candidate>& candidates, const PlaceOfNode& at, const Box3& other_box,
-                                                      double touching) const {
-  const Mesh& mesh = *model_.mesh();
+std::vector<CornerWatch::Corner> CornerWatch::corners(const std::vector<Candidate>& candidates, const PlacedBodies& bodies,
+                                                      const Box3& other_box) const {
+  const auto& [mesh, at, boxes, model_length, touching] = bodies;
   std::vector<Corner> result;
   for (const Candidate& candidate : candidates) {
     const Eigen::Vector3d x = at(candidate.node);
@@ -118,9 +118,9 @@ std::vector<SurfaceProbe> CornerWatch::probes_of(const std::vector<Corner>& corn
 }
 
 // From the corner back through its own body: the first facet of the slave that the line leaves by is the one that it lies in.
-std::optional<CornerWatch::Found> CornerWatch::deepest_of_master(std::size_t p, const std::vector<Corner>& corners, const PlaceOfNode& at,
-                                                                 const std::vector<Box3>& boxes, double touching, const Vector& multipliers) const {
-  const Mesh& mesh = *model_.mesh();
+std::optional<CornerWatch::Found> CornerWatch::deepest_of_master(std::size_t p, const std::vector<Corner>& corners, const PlacedBodies& bodies,
+                                                                 const Vector& multipliers) const {
+  const auto& [mesh, at, boxes, model_length, touching] = bodies;
   const Pair& pair = pairs_[p];
   constexpr int own = -1;
   std::vector<TaggedFacet> facets = tagged_surface(mesh, pair.master_body, whole_surface(mesh, pair.master_body), own, own, at);
@@ -191,9 +191,9 @@ std::vector<char> CornerWatch::closed(const Pair& pair, const Vector& multiplier
 }
 
 // From the corner back through its own body, out of the master. Its facets' nodes are on this rank.
-std::optional<CornerWatch::Found> CornerWatch::deepest_of_slave(std::size_t p, const std::vector<Corner>& corners, const PlaceOfNode& at,
-                                                                const std::vector<Box3>& boxes, double touching, const Vector& multipliers) const {
-  const Mesh& mesh = *model_.mesh();
+std::optional<CornerWatch::Found> CornerWatch::deepest_of_slave(std::size_t p, const std::vector<Corner>& corners, const PlacedBodies& bodies,
+                                                                const Vector& multipliers) const {
+  const auto& [mesh, at, boxes, model_length, touching] = bodies;
   const Pair& pair = pairs_[p];
   std::vector<SurfaceProbe> probes = probes_of(corners);
   const auto own = tagged_surface(mesh, pair.slave_body, pair.slave, SurfaceTags::own, SurfaceTags::own, at);
@@ -227,27 +227,25 @@ std::optional<CornerWatch::Found> CornerWatch::deepest_of_slave(std::size_t p, c
   return std::nullopt;
 }
 
-void CornerWatch::examine(const Vector& displacement, const Vector& multipliers) {
+void CornerWatch::examine(const PlacedBodies& bodies, const Vector& multipliers) {
   found_.clear();
   if (pairs_.empty()) return;
-  const Mesh& mesh = *model_.mesh();
-  const double touching = touching_depth * model_.size().length;
-  const PlaceOfNode at = current_places(*model_.bodies(), displacement);
-  const std::vector<Box3> boxes = body_boxes(mesh, at);
+  const Mesh& mesh = bodies.mesh;
+  const std::vector<Box3>& boxes = bodies.boxes;
   std::vector<std::vector<Corner>> of_master, of_slave;
   std::vector<double> mine, all(2 * pairs_.size());
   for (const Pair& pair : pairs_) {
-    mine.push_back(static_cast<double>(of_master.emplace_back(corners(pair.of_master, at, boxes[pair.slave_body], touching)).size()));
+    mine.push_back(static_cast<double>(of_master.emplace_back(corners(pair.of_master, bodies, boxes[pair.slave_body])).size()));
     // A rigid surface may have no inside that its box holds.
     const Box3& master_box = boxes[is_rigid(mesh, pair.master_body) ? pair.slave_body : pair.master_body];
-    mine.push_back(static_cast<double>(of_slave.emplace_back(corners(pair.of_slave, at, master_box, touching)).size()));
+    mine.push_back(static_cast<double>(of_slave.emplace_back(corners(pair.of_slave, bodies, master_box)).size()));
   }
   Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, static_cast<int>(mine.size()), mine.data(), all.data());
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     if (all[2 * p] > 0.0)
-      if (auto found = deepest_of_master(p, of_master[p], at, boxes, touching, multipliers)) found_.push_back(std::move(*found));
+      if (auto found = deepest_of_master(p, of_master[p], bodies, multipliers)) found_.push_back(std::move(*found));
     if (all[2 * p + 1] > 0.0)
-      if (auto found = deepest_of_slave(p, of_slave[p], at, boxes, touching, multipliers)) found_.push_back(std::move(*found));
+      if (auto found = deepest_of_slave(p, of_slave[p], bodies, multipliers)) found_.push_back(std::move(*found));
   }
 }
 

@@ -17,6 +17,12 @@ PlaceOfNode current_places(const Bodies& bodies, const Vector& displacement) {
   };
 }
 
+PlacedBodies placed_bodies(const Model& model, const Vector& displacement) {
+  const Mesh& mesh = *model.mesh();
+  const PlaceOfNode at = current_places(*model.bodies(), displacement);
+  return {mesh, at, body_boxes(mesh, at), model.size().length, touching_depth * model.size().length};
+}
+
 std::vector<char> on_local_nodes(const Mesh& mesh, const Import& to_local, const std::vector<char>& owned) {
   Vector from(mesh.owned_nodes), to(mesh.local_nodes);
   {

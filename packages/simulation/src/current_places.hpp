@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "body_surfaces.hpp"
+#include "mortise/simulation/model.hpp"
 #include "mortise/solid/bodies.hpp"
 
 namespace mortise {
@@ -13,6 +14,9 @@ inline constexpr double touching_depth = 1e-6;
 
 /// Where the local nodes are at a displacement [owned dofs]. Collective.
 PlaceOfNode current_places(const Bodies& bodies, const Vector& displacement);
+
+/// All bodies at a displacement [owned dofs]. Collective.
+PlacedBodies placed_bodies(const Model& model, const Vector& displacement);
 
 /// Marks of owned nodes on all local ones. Collective.
 /// @param to_local  from the mesh's owned to its local nodes

@@ -88,19 +88,13 @@ double OverlapWatch::sagitta(const Surface& surface, const PlaceOfNode& at) cons
   return largest;
 }
 
-void OverlapWatch::examine(const Vector& displacement, const Vector& multipliers) {
+// The sagitta is asked for where something lies within the other body: mostly nothing does.
+void OverlapWatch::examine(const PlacedBodies& bodies, const Vector& multipliers) {
   found_.clear();
-  if (pairs_.empty()) return;
-  const Mesh& mesh = *model_.mesh();
-  std::vector<std::size_t> idle;
-  for (std::size_t p = 0; p < pairs_.size(); ++p)
-    if (!carries_force(pairs_[p], multipliers)) idle.push_back(p);
-  if (idle.empty()) return;
-  const double touching = touching_depth * model_.size().length;
-  const PlaceOfNode at = current_places(*model_.bodies(), displacement);
-  const std::vector<Box3> boxes = body_boxes(mesh, at);
-  for (const std::size_t p : idle) {
+  const auto& [mesh, at, boxes, length, touching] = bodies;
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
     const Pair& pair = pairs_[p];
+    if (carries_force(pair, multipliers)) continue;
     for (const bool of_slave : {true, false}) {
       const Surface &one = of_slave ? pair.slave : pair.master, &other = of_slave ? pair.master : pair.slave;
       const bool rigid = is_rigid(mesh, other.body);
@@ -111,15 +105,14 @@ void OverlapWatch::examine(const Vector& displacement, const Vector& multipliers
       int most = 0;
       Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, mine, Teuchos::outArg(most));
       if (most == 0) continue;
-      const double explained = std::max(touching, sagitta(other, at));
       const auto own = tagged_surface(mesh, one.body, one.set, SurfaceTags::own, SurfaceTags::own, at);
       const auto facing = tagged_surface(mesh, other.body, other.set, SurfaceTags::front, SurfaceTags::rest, at);
       std::vector<double> depths;
       for (const Penetration& found :
            penetrations({*mesh.comm, mesh.dimension, own, facing, boxes[one.body], boxes[other.body], rigid, touching}, nodes))
-        depths.push_back(found.kind == Penetration::Kind::overlap && found.depth > explained ? found.depth : 0.0);
+        depths.push_back(found.kind == Penetration::Kind::overlap && found.depth > touching ? found.depth : 0.0);
       const DeepestPoint point = deepest_point(mesh, at, nodes, depths);
-      if (!(point.depth > 0.0)) continue;
+      if (!(point.depth > 0.0) || point.depth <= sagitta(other, at)) continue;
       const auto& x = point.place;
       found_.push_back(
           {p, point.depth > arc_depth * longest_facet(mesh, pair.slave.set, at),

@@ -11,8 +11,6 @@
 
 #include "coarse_slave.hpp"
 #include "contact_at_start.hpp"
-#include "contact_watch.hpp"
-#include "corner_watch.hpp"
 #include "explain_failure.hpp"
 #include "explain_statics.hpp"
 #include "history_columns.hpp"
@@ -28,13 +26,13 @@
 #include "mortise/simulation/newton_table.hpp"
 #include "mortise/simulation/run.hpp"
 #include "mortise/simulation/state_check.hpp"
-#include "overlap_watch.hpp"
 #include "precision.hpp"
 #include "report_model.hpp"
 #include "run_log.hpp"
 #include "run_record.hpp"
 #include "slip_settlement.hpp"
 #include "step_evaluation.hpp"
+#include "surface_watch.hpp"
 #include "timer_sums.hpp"
 #include "turning_point.hpp"
 
@@ -273,20 +271,15 @@ ExitCode run_scene(const RCP<const Communicator>& comm, Scene scene, const RunOp
   {
     const auto timer = timers.scope("steps");
     StepperObserver functions = observers.functions();
-    const ContactWatch watch(model, scene);
     const auto warn = [&](const std::string& line) { log.warning(line); };
-    CornerWatch corners(model, scene, warn);
-    OverlapWatch overlaps(model, scene, warn);
+    std::optional<SurfaceWatch> surfaces;
+    if (model.contact()) surfaces.emplace(model, scene, warn);
     std::optional<StateCheck> check;
     if (StateCheck::is_needed(model)) check.emplace(model, scene.newton.increment_tolerance * model.parts().length, warn);
     JumpCheck jump(model.parts().length);
     const auto last_time = [&] { return record.steps.empty() ? 0.0 : record.steps.back().time; };
     functions.verify = [&](const Vector& from, Vector& to, int round) {
-      watch.examine(*system.displacement(to));
-      if (model.contact()) {
-        corners.examine(*system.displacement(to), *system.multipliers(to));
-        overlaps.examine(*system.displacement(to), *system.multipliers(to));
-      }
+      if (surfaces) surfaces->examine(*system.displacement(to), *system.multipliers(to));
       if (check) {
         const auto timer = timers.scope("state check");
         try {
@@ -326,8 +319,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, Scene scene, const RunOp
     };
     functions.accepted = [&, accepted = functions.accepted](const StepReport& report, const Vector& at) {
       known.clear();
-      corners.accept();
-      overlaps.accept([&](std::size_t pair) { return corners.has_warned(pair); });
+      if (surfaces) surfaces->accept();
       jump.accept();
       accepted(report, at);
     };
@@ -363,9 +355,8 @@ ExitCode run_scene(const RCP<const Communicator>& comm, Scene scene, const RunOp
     try {
       record.converged = run_steps(system, scene.stepping, scene.newton, x, start_step, functions, failure);
       // On its way in a corner passes through a part of a facet before contact begins; a run that ends there has not found its force.
-      const std::string& unfelt = corners.without_force().empty() ? overlaps.without_force() : corners.without_force();
-      if (record.converged && !unfelt.empty()) {
-        failure.emplace(FailureKind::lost_contact, unfelt + "; please make the slave finer there, or exchange slave and master");
+      if (record.converged && surfaces && !surfaces->without_force().empty()) {
+        failure.emplace(FailureKind::lost_contact, surfaces->without_force() + "; please make the slave finer there, or exchange slave and master");
         record.converged = false;
       }
       if (record.converged && model.contact())

@@ -22,7 +22,7 @@ double least(const Communicator& comm, double mine) {
 
 }  // namespace
 
-SurfaceView look(const BodiesAtStart& bodies, const NamedSurface& from, const NamedSurface& to) {
+SurfaceView look(const PlacedBodies& bodies, const NamedSurface& from, const NamedSurface& to) {
   const Mesh& mesh = bodies.mesh;
   const std::vector<SurfaceProbe> probes = probes_of(mesh, from.set, bodies.at);
   const auto own = tagged_surface(mesh, from.body, from.set, SurfaceTags::own, SurfaceTags::own, bodies.at);
@@ -43,7 +43,7 @@ SurfaceView look(const BodiesAtStart& bodies, const NamedSurface& from, const Na
   return view;
 }
 
-std::optional<double> distance_to_back(const BodiesAtStart& bodies, const DeepestPoint& deepest, const NamedSurface& to) {
+std::optional<double> distance_to_back(const PlacedBodies& bodies, const DeepestPoint& deepest, const NamedSurface& to) {
   const Mesh& mesh = bodies.mesh;
   std::vector<LineSegment> lines;
   if (mesh.comm->getRank() == 0) lines.push_back({deepest.place, deepest.normal, bodies.touching, bodies.length});
@@ -57,7 +57,7 @@ std::optional<double> distance_to_back(const BodiesAtStart& bodies, const Deepes
 }
 
 // Lines are as long as the next front needs: surfaces that touch cost next to nothing.
-Outlook look_ahead(const BodiesAtStart& bodies, const NamedSurface& slave, const NamedSurface& master, double longest) {
+Outlook look_ahead(const PlacedBodies& bodies, const NamedSurface& slave, const NamedSurface& master, double longest) {
   const Mesh& mesh = bodies.mesh;
   const std::vector<SurfaceProbe> probes = probes_of(mesh, slave.set, bodies.at);
   std::vector<TaggedFacet> fronts;

@@ -1,5 +1,5 @@
 #pragma once
-// What the points of one surface find of another body, before anything has moved.
+// What the points of one surface find of another body.
 
 #include <limits>
 #include <optional>
@@ -12,14 +12,6 @@ namespace mortise {
 
 /// Share of a slave surface that is within another body when the whole body is.
 inline constexpr double most_of_a_surface = 0.5;
-
-/// All bodies in the reference configuration.
-struct BodiesAtStart {
-  const Mesh& mesh;
-  PlaceOfNode at;
-  std::vector<Box3> boxes;
-  double length, touching;
-};
 
 /// One surface of a pair, or of two bodies that are compared.
 struct NamedSurface {
@@ -36,10 +28,10 @@ struct SurfaceView {
 };
 
 /// Collective, as all of these.
-SurfaceView look(const BodiesAtStart& bodies, const NamedSurface& from, const NamedSurface& to);
+SurfaceView look(const PlacedBodies& bodies, const NamedSurface& from, const NamedSurface& to);
 
 /// From the deepest point on through the other body: how far its back is. No value: it has none there.
-std::optional<double> distance_to_back(const BodiesAtStart& bodies, const DeepestPoint& deepest, const NamedSurface& to);
+std::optional<double> distance_to_back(const PlacedBodies& bodies, const DeepestPoint& deepest, const NamedSurface& to);
 
 /// What the slave sees along its normals.
 struct Outlook {
@@ -48,6 +40,6 @@ struct Outlook {
 };
 
 /// @param longest  facet of both surfaces
-Outlook look_ahead(const BodiesAtStart& bodies, const NamedSurface& slave, const NamedSurface& master, double longest);
+Outlook look_ahead(const PlacedBodies& bodies, const NamedSurface& slave, const NamedSurface& master, double longest);
 
 }  // namespace mortise

@@ -35,7 +35,7 @@ std::string where(const Mesh& mesh, const DeepestPoint& point, const std::string
   return to_string(mesh.dimension, place_of(point, surface));
 }
 
-Examined examine(const BodiesAtStart& bodies, const Named<ContactPairOptions>& options) {
+Examined examine(const PlacedBodies& bodies, const Named<ContactPairOptions>& options) {
   const Mesh& mesh = bodies.mesh;
   const auto surface = [&](const Located<std::string>& name) {
     const SideSet& set = require_side_set(mesh, name);
@@ -59,7 +59,7 @@ std::optional<double> needed_reach(const PairAtStart& pair) {
   return reach > pair.longest ? std::optional(reach) : std::nullopt;
 }
 
-void complain_of_overlap(const BodiesAtStart& bodies, Examined& pair, std::vector<Diagnostic>& diagnostics) {
+void complain_of_overlap(const PlacedBodies& bodies, Examined& pair, std::vector<Diagnostic>& diagnostics) {
   const auto& [name, place, options] = pair.options;
   const auto say = [&, &place = place](const std::string& text) { diagnostics.push_back({place, text}); };
   const OverlapPlace& overlap = pair.result.overlap;
@@ -88,7 +88,7 @@ void complain_of_overlap(const BodiesAtStart& bodies, Examined& pair, std::vecto
   if (!options.contact.mortar.search_reach) pair.result.reach = needed_reach(pair.result);
 }
 
-void complain_of_sides(const BodiesAtStart& bodies, Examined& pair, bool bodies_have_fronts, std::vector<Diagnostic>& diagnostics) {
+void complain_of_sides(const PlacedBodies& bodies, Examined& pair, bool bodies_have_fronts, std::vector<Diagnostic>& diagnostics) {
   const auto& [name, place, options] = pair.options;
   const SurfaceView& view = pair.from_slave;
   const std::string& master_body = bodies.mesh.blocks[pair.master.body].name;
@@ -114,7 +114,7 @@ void complain_of_sides(const BodiesAtStart& bodies, Examined& pair, bool bodies_
                      pair.master.name, pair.slave.name)});
 }
 
-std::vector<StrayOverlap> stray_overlaps(const BodiesAtStart& bodies, const std::set<std::pair<std::size_t, std::size_t>>& connected) {
+std::vector<StrayOverlap> stray_overlaps(const PlacedBodies& bodies, const std::set<std::pair<std::size_t, std::size_t>>& connected) {
   const Mesh& mesh = bodies.mesh;
   std::vector<StrayOverlap> strays;
   for (std::size_t a = 0; a < mesh.blocks.size(); ++a)
@@ -148,7 +148,7 @@ std::string to_string(int dimension, const OverlapPlace& overlap) {
 
 SurfacesAtStart examine_surfaces(const Mesh& mesh, const Scene& scene, double length) {
   const PlaceOfNode at = reference_places(mesh);
-  const BodiesAtStart bodies{mesh, at, body_boxes(mesh, at), length, round_off * length};
+  const PlacedBodies bodies{mesh, at, body_boxes(mesh, at), length, round_off * length};
   std::vector<Examined> pairs;
   std::set<std::pair<std::size_t, std::size_t>> connected, with_fronts;
   for (const auto& options : scene.contact) {

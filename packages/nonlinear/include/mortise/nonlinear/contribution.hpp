@@ -29,6 +29,7 @@ class Contribution {
   virtual Kind kind() const = 0;         ///< for the norms of forces
 
   /// residual += this contribution with its sign in r (external forces enter with a minus). Owned dofs; no communication.
+  /// Internal forces depend on displacement and committed state, not on time. commit(at) does not change those at `at`.
   virtual void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) = 0;
 
   /// jacobian += d(residual)/d(displacement). `jacobian` has the graph that the system was built with, or that and more (further columns come after
