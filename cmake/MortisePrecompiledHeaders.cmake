@@ -7,7 +7,10 @@ set(mortise_program_headers <algorithm> <array> <cmath> <filesystem> <fstream> <
   <fmt/format.h> <fmt/ranges.h> <Eigen/Dense> <Teuchos_CommHelpers.hpp> <Teuchos_ParameterList.hpp>
   <Tpetra_Core.hpp> <Tpetra_CrsGraph.hpp> <Tpetra_CrsMatrix.hpp> <Tpetra_Import.hpp> <Tpetra_Map.hpp> <Tpetra_MultiVector.hpp> <Tpetra_Vector.hpp>)
 
+set(mortise_program_libraries Mortise::trilinos Eigen3::Eigen fmt::fmt)
+
 set(mortise_test_headers ${mortise_program_headers} <gmock/gmock.h> <gtest/gtest.h>)
+set(mortise_test_libraries ${mortise_program_libraries} GTest::gmock GTest::gtest)
 
 # Lets the sources of a target compile with a set, program or test, which is built once.
 function(mortise_use_precompiled_headers target set)
@@ -20,7 +23,7 @@ function(mortise_use_precompiled_headers target set)
     find_package(fmt REQUIRED)
     file(WRITE "${PROJECT_BINARY_DIR}/precompiled_for_${set}.cpp" "")
     add_library(${owner} OBJECT "${PROJECT_BINARY_DIR}/precompiled_for_${set}.cpp")
-    target_link_libraries(${owner} PRIVATE Mortise::trilinos Eigen3::Eigen fmt::fmt)
+    target_link_libraries(${owner} PRIVATE ${mortise_${set}_libraries})
     target_precompile_headers(${owner} PRIVATE ${mortise_${set}_headers})
   endif()
   target_precompile_headers(${target} REUSE_FROM ${owner})

@@ -21,7 +21,7 @@ struct PaperRun {
   std::string scene;                  ///< name of a PaperScene
   std::vector<std::string> settings;  ///< "path=value"
   bool is_rival = false;              ///< computed with the method that the paper compares with: that it fails is a result
-  std::string misses;                 ///< why it is expected to miss checks of its scene; empty: it is not
+  std::string misses{};               ///< why it is expected to miss checks of its scene; empty: it is not
 };
 
 /// The runs in the order of the paper.
