@@ -23,7 +23,7 @@ Result run(const std::string& scene, const std::string& name, const std::vector<
   std::vector<std::string> command{MPIEXEC, "-n",     std::to_string(ranks), MORTISE, "run", std::string(INPUTS) + "/verification/" + scene,
                                    "-o",    directory};
   for (const auto& setting : settings) command.insert(command.end(), {"--set", setting});
-  Result result{launch(command, 300)};
+  Result result{launch(command, 300), {}};
   std::ifstream stream(directory + "/summary.json");
   const auto summary = nlohmann::json::parse(stream);
   result.quantities = summary.at("quantities");
@@ -54,7 +54,7 @@ TEST(GradedMesh, IsNoSingularMatrix) {
   const std::vector<std::string> elastic{"materials/metal/hardening/yield stress=1e6", "bodies/bar/element=Q4"};
   auto graded = elastic;
   for (const std::string axis : {"x", "y"})
-    for (const std::string setting : {"cells " + axis + "=0", "grading " + axis + "/smallest cell=1e-9", "grading " + axis + "/growth=1.5"})
+    for (const std::string& setting : {"cells " + axis + "=0", "grading " + axis + "/smallest cell=1e-9", "grading " + axis + "/growth=1.5"})
       graded.push_back("bodies/bar/mesh/" + setting);
   const Result even = run("limit_load.xml", "even", elastic), fine = run("limit_load.xml", "graded", graded);
   EXPECT_EQ(even.ending.code, 0);

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "lattice_mesh.hpp"
+#include "mortise/material/materials.hpp"
 #include "mortise/mesh/build_mesh.hpp"
 #include "mortise/mesh/generators.hpp"
 #include "mortise/solid/bodies.hpp"
