@@ -23,7 +23,7 @@ void add_peer_command(CLI::App& app, Program& program) {
   command
       ->add_option("--penalty", options->penalty,
                    "of contact, in multiples of E/h: a number or an expression of the scene's variables, e.g. 800/n; not of mortar.\n"
-                   "Default: 1 in the plane, 50 in space")
+                   "Default: 1 in 2D, 50 in 3D")
       ->type_name("MULTIPLE");
   add_directory(*command, options->directory, "directory for the results; default: results/<name of the file SCENE>");
   command->add_flag_callback(

@@ -17,7 +17,7 @@ namespace mortise::detail {
 void refuse_unfit_maps(const Map& owned_nodes, const Map& dofs, const MultiVector& reference, const MultiVector& fixed) {
   const std::size_t dimension = reference.getNumVectors();
   if (dimension != 2 && dimension != 3)
-    throw std::invalid_argument(fmt::format("contact: the reference positions have {} columns; give 2 in the plane, 3 in space", dimension));
+    throw std::invalid_argument(fmt::format("contact: the reference positions have {} columns; give 2 in 2D, 3 in 3D", dimension));
   if (fixed.getNumVectors() != dimension)
     throw std::invalid_argument(
         fmt::format("contact: the marks of prescribed components have {} columns, the reference positions {}", fixed.getNumVectors(), dimension));

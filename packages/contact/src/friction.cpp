@@ -24,7 +24,7 @@ namespace {
 bool is_coefficient(double value) { return value >= 0.0 && std::isfinite(value); }
 }  // namespace
 
-std::optional<Diagnostic> CoulombFriction::complaint(double pressure, double slip_path) const {
+std::optional<Diagnostic> CoulombFriction::missing_bound(double pressure, double slip_path) const {
   const double value = coefficient.at({pressure, slip_path});
   if (is_coefficient(value)) return {};
   const double shown = std::isnan(value) ? std::abs(value) : value;  // some operations give a sign to what is not a number

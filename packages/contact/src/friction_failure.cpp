@@ -17,13 +17,13 @@ void ContactSystem::find_friction_failure(const Vector& z, std::optional<StepFai
     const std::vector<detail::NodeMultiplier> multipliers = self.multipliers_of(values, p);
     for (std::size_t s = 0; s < self.multiplier_of[p].size() && !failure; ++s) {
       if (self.multiplier_of[p][s] < 0) continue;
-      std::optional<Diagnostic> complaint;
-      self.pairs[p]->complementarity(s, multipliers[s], &complaint);
-      if (!complaint) continue;
+      std::optional<Diagnostic> missing_bound;
+      self.pairs[p]->complementarity(s, multipliers[s], &missing_bound);
+      if (!missing_bound) continue;
       std::vector<double> position;
       for (int i = 0; i < self.dimension; ++i) position.push_back(reference(self.pairs[p]->slave_nodes()[s].owned_node, i));
-      complaint->message += fmt::format("; at the slave node of reference position ({:g})", fmt::join(position, ", "));
-      failure.emplace(FailureKind::input, to_string(*complaint));
+      missing_bound->message += fmt::format("; at the slave node of reference position ({:g})", fmt::join(position, ", "));
+      failure.emplace(FailureKind::input, to_string(*missing_bound));
     }
   }
 }

@@ -98,8 +98,8 @@ TangentVector PairCoupling::slip(std::size_t s, const NodeMultiplier& multiplier
 double PairCoupling::closing_pressure(std::size_t s) const { return complementarity_constant(s) * own_gap(s); }
 
 // A component that is prescribed takes one tangent: there the node bears no shear traction.
-Complementarity PairCoupling::complementarity(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* complaint) const {
-  Complementarity law = law_of(s, multiplier, complaint);
+Complementarity PairCoupling::complementarity(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* missing_bound) const {
+  Complementarity law = law_of(s, multiplier, missing_bound);
   if (multiplier.tie > 0.0) law.C_z += multiplier.tie * shift_factor(law, s);
   return law;
 }
@@ -115,7 +115,7 @@ RegularisedNode PairCoupling::regularised_node(std::size_t s) const {
   return {regularisation_->normal * scale, regularisation_->tangential * scale, complementarity_constant(s) * weight, weight, start_[s].multiplier};
 }
 
-Complementarity PairCoupling::law_of(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* complaint) const {
+Complementarity PairCoupling::law_of(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* missing_bound) const {
   const NodeRow& row = rows_[s];
   const SpatialVector& z = multiplier.z;
   const SlaveNode& node = slave_nodes()[s];
@@ -127,7 +127,7 @@ Complementarity PairCoupling::law_of(std::size_t s, const NodeMultiplier& multip
   };
   const auto bound = [&](double pressure) {
     const double path = slip_[s].start.path;
-    if (complaint != nullptr) *complaint = friction_->complaint(pressure, path);
+    if (missing_bound != nullptr) *missing_bound = friction_->missing_bound(pressure, path);
     return friction_->bound(pressure, path);
   };
   // What the law of friction sees of slip and traction.

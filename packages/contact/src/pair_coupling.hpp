@@ -190,8 +190,8 @@ class PairCoupling {
   /// The multipliers become those of z.
   void augment(std::size_t s, const SpatialVector& z) { start_[s] = start_from(s, z); }
   /// C and its linearisation, of the law that the node obeys. A node with a fixed component carries no shear traction.
-  /// @param complaint  gets what the law of friction says where it has no bound; C is NaN there
-  Complementarity complementarity(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* complaint = nullptr) const;
+  /// @param missing_bound  gets what the law of friction says where it has no bound; C is NaN there
+  Complementarity complementarity(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* missing_bound = nullptr) const;
   /// Derivative of C of node s, whose linearisation is `law`, in entry dim c + i of its coupled nodes, at fixed z and q.
   SpatialVector constraint_gradient(const Complementarity& law, std::size_t s, std::size_t entry, const NodeMultiplier& multiplier) const;
   /// Derivative of C of node s with respect to q_j: C sees g + n . q and u - (T q - T^old q^old).
@@ -208,7 +208,7 @@ class PairCoupling {
   /// How far z is from the return map from lambda; in all of |z - z'|.
   double distance_to_return_map(std::size_t s, const NodeMultiplier& multiplier, const RegularisedNode& node) const;
   /// C and its linearisation at fixed q.
-  Complementarity law_of(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* complaint) const;
+  Complementarity law_of(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* missing_bound) const;
   void follow_pattern();
   void sum_to_rows(bool derivatives);
   void freeze();

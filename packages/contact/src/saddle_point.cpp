@@ -92,7 +92,7 @@ ContactSystem::SaddlePointBlocks ContactSystem::saddle_point_blocks(const Vector
                      row.coefficients[c] * through[i] - (pair.variational() ? pressure * row.dgap[dimension * c + i] : 0.0));
         }
       }
-      // Rows are handed over whole: Tpetra looks each of them up once.
+      // Each row is inserted whole: Tpetra looks it up once.
       const std::size_t count = dimension * coupled.size();
       std::vector<GlobalOrdinal> dofs(count), columns(static_cast<std::size_t>(dimension));
       std::vector<std::vector<double>> gradients(static_cast<std::size_t>(dimension), std::vector<double>(count));

@@ -18,17 +18,17 @@ namespace {
 constexpr double touching = 1e-8;      // |g_j| / (A_j h) below which a node touches: then the sign of g is round-off
 constexpr double small_strain = 1e-6;  // the pressure it starts with, over Young's modulus
 
-bool slave_is_unheld(const detail::PairCoupling& pair, const std::vector<char>& unheld) {
+bool slave_is_unconstrained(const detail::PairCoupling& pair, const std::vector<char>& unconstrained) {
   for (const SlaveNode& slave : pair.slave_nodes())
-    if (unheld[slave.owned_node]) return true;
+    if (unconstrained[slave.owned_node]) return true;
   return false;
 }
 
-bool master_is_unheld(const detail::PairCoupling& pair, const Map& owned_nodes, const std::vector<char>& unheld) {
+bool master_is_unconstrained(const detail::PairCoupling& pair, const Map& owned_nodes, const std::vector<char>& unconstrained) {
   for (const auto& facet : pair.definition().master)
     for (const GlobalOrdinal node : facet) {
       const LocalOrdinal owned = owned_nodes.getLocalElement(node);
-      if (owned >= 0 && unheld[owned]) return true;
+      if (owned >= 0 && unconstrained[owned]) return true;
     }
   return false;
 }
@@ -87,12 +87,12 @@ bool ContactSystem::follow_cover(Vector& z) const {
 // A node whose gap is zero up to round-off would be open or closed at random: it starts closed, at a pressure that no result can see.
 // Where a body that only contact holds has no closed node, its system is singular: the nodes nearest to contact start closed,
 // z_n = c_n g + 1e-6 E.
-void ContactSystem::start_step(const Vector& d, const std::vector<char>& unheld, Vector& z) {
+void ContactSystem::start_step(const Vector& d, const std::vector<char>& unconstrained, Vector& z) {
   Implementation& self = *implementation_;
   const std::size_t nodes = self.owned_nodes->getNodeNumElements();
-  if (self.maximum(unheld.size() != nodes) > 0.0)
-    throw std::invalid_argument(
-        fmt::format("contact: start_step() needs one entry of `unheld` for each owned node; this rank gave {} for {}", unheld.size(), nodes));
+  if (self.maximum(unconstrained.size() != nodes) > 0.0)
+    throw std::invalid_argument(fmt::format("contact: start_step() needs one entry of `unconstrained` for each owned node; this rank gave {} for {}",
+                                            unconstrained.size(), nodes));
   self.marked = self.accepted;  // after a step that was undone
   const auto evaluate_or_throw = [&](const RCP<const MultiVector>& x) {
     std::optional<StepFailure> failure;
@@ -140,7 +140,8 @@ void ContactSystem::start_step(const Vector& d, const std::vector<char>& unheld,
       active += closed;
       nearest = std::min(nearest, gap);
     }
-    const bool needed = self.maximum(slave_is_unheld(pair, unheld) || master_is_unheld(pair, *self.owned_nodes, unheld)) > 0.0;
+    const bool needed =
+        self.maximum(slave_is_unconstrained(pair, unconstrained) || master_is_unconstrained(pair, *self.owned_nodes, unconstrained)) > 0.0;
     if (!needed || self.sum(active) > 0.0) continue;
     nearest = -self.maximum(-nearest);
     const double reach = std::max(detail::near * pair.size(), nearest + touching * pair.size());

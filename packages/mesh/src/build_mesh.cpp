@@ -23,15 +23,15 @@ void check_bodies(const std::vector<BodyDescription>& bodies) {
     if (!body.mesh) diagnostics.push_back({body.place, fmt::format("body \"{}\" has no mesh", body.name)});
   }
   if (!diagnostics.empty()) throw InputError(diagnostics);
-  const char* const where[] = {"", "of lines", "of the plane", "of space"};
+  const char* const where[] = {"", "line", "2D", "3D"};
   const int dimension = bodies.front().mesh->dimension();
   for (const auto& body : bodies) {
     const int own = body.mesh->dimension(), of_cells = topology(body.shape).dimension;
     if (own != dimension)
-      diagnostics.push_back({body.place, fmt::format("body \"{}\" has a mesh {}, but body \"{}\" one {}; all bodies of a scene need the same",
+      diagnostics.push_back({body.place, fmt::format("body \"{}\" has a {} mesh, but body \"{}\" a {} one; all bodies of a scene need the same",
                                                      body.name, where[own], bodies.front().name, where[dimension])});
     if (of_cells != own && body.shape != rigid_shape(own))
-      diagnostics.push_back({body.place, fmt::format("body \"{}\" has a mesh {}, but elements {}", body.name, where[own], where[of_cells])});
+      diagnostics.push_back({body.place, fmt::format("body \"{}\" has a {} mesh, but {} elements", body.name, where[own], where[of_cells])});
   }
   if (!diagnostics.empty()) throw InputError(diagnostics);
 }

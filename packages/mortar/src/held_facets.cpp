@@ -36,7 +36,7 @@ std::optional<Diagnostic> refusal_of(const HeldFacets& mine, const Communicator&
   return Diagnostic{place,
                     fmt::format("{} of {} slave facets can carry no contact, as the displacements of all {} {}; please make this side the "
                                 "master, or take these facets out of it; {} nodes {}",
-                                held, all, quadratic > 0 ? "middles of their edges" : "their nodes", how,
+                                held, all, quadratic > 0 ? "mid-side nodes" : "their nodes", how,
                                 held == 1 ? "it lies between" : "the first of them lie between", fmt::join(first_of_all(mine.nodes, comm), "; "))};
 }
 

@@ -54,10 +54,10 @@ MortarInterface::MortarInterface(RCP<const Map> owned_nodes, RCP<const MultiVect
   const auto dimension = static_cast<int>(reference->getNumVectors());
   const InterfaceInput input = {owned_nodes, reference, fixed, slave, master, measure, options, place};
   if (dimension == 3 && options.coupling == Coupling::node_to_segment)
-    throw InputError(place, "node to segment is not available in space; use dual mortar, standard mortar, penalty or augmented Lagrange");
+    throw InputError(place, "node to segment is not available in 3D; use dual mortar, standard mortar, penalty or augmented Lagrange");
   if (options.coupling == Coupling::variational_mortar) {
     if (dimension == 3)
-      throw InputError(place, "variational mortar is not available in space; use dual mortar, standard mortar, penalty or augmented Lagrange");
+      throw InputError(place, "variational mortar is not available in 3D; use dual mortar, standard mortar, penalty or augmented Lagrange");
     if (options.linearisation != Linearisation::exact)
       throw InputError(place,
                        "variational mortar takes its forces from the derivatives of the gap, those of the normals too; \"linearisation\" is "

@@ -28,11 +28,9 @@ void MortarOptions::describe(Parameters& parameters) {
            "changes no solution")
           .unit("-")
           .at_least(1.0));
-  parameters.add("gauss points", gauss_points,
-                 Says("quadrature points on each overlap of two facets in the plane; in space each triangle of an overlap has 7")
-                     .unit("-")
-                     .at_least(2.0)
-                     .at_most(20.0));
+  parameters.add(
+      "gauss points", gauss_points,
+      Says("quadrature points on each overlap of two facets in 2D; in 3D each triangle of an overlap has 7").unit("-").at_least(2.0).at_most(20.0));
 }
 
 CornerRule MortarOptions::corner_rule(int dimension) const {

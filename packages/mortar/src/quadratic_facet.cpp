@@ -37,7 +37,7 @@ const std::vector<FacetPart>& linear_parts(int dimension, std::size_t nodes) {
     case 8:
       return quadrilateral8;
     default:
-      throw std::invalid_argument("no facet in space has " + std::to_string(nodes) + " nodes");
+      throw std::invalid_argument("no facet in 3D has " + std::to_string(nodes) + " nodes");
   }
 }
 

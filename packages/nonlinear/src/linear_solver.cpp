@@ -7,7 +7,7 @@ namespace mortise {
 
 void LinearSolverOptions::describe(Parameters& parameters) {
   parameters.add("type", kind, {{"automatic", Kind::automatic}, {"mumps", Kind::mumps}, {"klu2", Kind::klu2}, {"iterative", Kind::iterative}},
-                 "automatic: iterative in space from 10000 unknowns on, otherwise mumps; mumps: direct, on any number of ranks; klu2: direct, on one "
+                 "automatic: iterative in 3D from 10000 unknowns on, otherwise mumps; mumps: direct, on any number of ranks; klu2: direct, on one "
                  "rank; iterative: GMRES with algebraic multigrid");
   parameters.add(
       "residual bound", residual_bound,

@@ -138,7 +138,7 @@ std::vector<CellPoint> cell_rule(CellShape shape, int points) {
     case CellShape::line3:
       break;
   }
-  throw std::invalid_argument("cell_rule() is for cells of the plane and of space; lines have gauss_legendre()");
+  throw std::invalid_argument("cell_rule() is for 2D and 3D cells; lines have gauss_legendre()");
 }
 
 }  // namespace mortise

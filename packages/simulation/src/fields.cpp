@@ -83,7 +83,7 @@ const std::vector<Kind>& kinds() {
        [](const FieldState& state) { return on_slave_nodes(state, 1, [](const ContactNodeState& node, double* v) { *v = node.pressure; }); }},
       {"gap", "weighted gap over weight of the slave nodes; 0 on all others", Center::node, FieldKind::scalar, 1, 1,
        [](const FieldState& state) { return on_slave_nodes(state, 1, [](const ContactNodeState& node, double* v) { *v = node.gap; }); }},
-      {"contact_shear", "tangential part of the contact traction, along the slave's normal turned by +90 degrees; in space its size", Center::node,
+      {"contact_shear", "tangential part of the contact traction, along the slave's normal turned by +90 degrees; in 3D its size", Center::node,
        FieldKind::scalar, 1, 1,
        [](const FieldState& state) { return on_slave_nodes(state, 1, [](const ContactNodeState& node, double* v) { *v = node.shear; }); }},
       {"slip", "slip of the slave nodes in the last step, the same way; 0 without friction", Center::node, FieldKind::scalar, 1, 1,

@@ -50,7 +50,7 @@ void Reaction::describe(Parameters& parameters) {
        {"rotation x", Of::rotation_x},
        {"rotation y", Of::rotation_y},
        {"rotation z", Of::rotation_z}},
-      "direction of the force; rotation, in space rotation x, y, z: the moment that holds a reference point that turns, about axes that do not");
+      "direction of the force; rotation, in 3D rotation x, y, z: the moment that holds a reference point that turns, about axes that do not");
 }
 
 void Reaction::prepare(const QuantityContext& context) {
@@ -60,12 +60,11 @@ void Reaction::prepare(const QuantityContext& context) {
   else
     require_node_set(context.mesh(), set);
   if (component == Of::z && !in_space)
-    throw InputError(set.place, "a component z exists in three-dimensional scenes only; in the plane please take \"x\" or \"y\"");
+    throw InputError(set.place, "a component z exists in three-dimensional scenes only; in 2D please take \"x\" or \"y\"");
   if (component == Of::rotation && in_space)
-    throw InputError(set.place,
-                     "a component rotation exists in the plane only; in space please take \"rotation x\", \"rotation y\" or \"rotation z\"");
+    throw InputError(set.place, "a component rotation exists in 2D only; in 3D please take \"rotation x\", \"rotation y\" or \"rotation z\"");
   if (component > Of::rotation && !in_space)
-    throw InputError(set.place, "components rotation x, y and z exist in three-dimensional scenes only; in the plane please take \"rotation\"");
+    throw InputError(set.place, "components rotation x, y and z exist in three-dimensional scenes only; in 2D please take \"rotation\"");
 }
 
 double Reaction::evaluate(const QuantityContext& context) {
@@ -88,7 +87,7 @@ double Reaction::evaluate(const QuantityContext& context) {
 
 void Rotation::describe(Parameters& parameters) {
   parameters.add("set", point, Says("a reference point that turns: the name of a tied set, or \"body/reference\" of a rigid body").required());
-  parameters.add("component", component, component_names(), "of the rotation vector, in scenes of space");
+  parameters.add("component", component, component_names(), "of the rotation vector, in 3D scenes");
 }
 
 void Rotation::prepare(const QuantityContext& context) { require_rotating_point(context.mesh(), point); }

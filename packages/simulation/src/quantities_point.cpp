@@ -108,8 +108,7 @@ void PointDisplacement::prepare(const QuantityContext& context) {
   const Mesh& mesh = context.mesh();
   require_component(context, component);
   if (z.has_value() != (mesh.dimension == 3))
-    throw InputError(x.place,
-                     mesh.dimension == 3 ? "a point of space needs \"z\"; please add it" : "a point of the plane has no \"z\"; please remove it");
+    throw InputError(x.place, mesh.dimension == 3 ? "a point in 3D needs \"z\"; please add it" : "a point in 2D has no \"z\"; please remove it");
   const auto wanted = find_optional_body(context, body);
   const std::array<double, 3> point{x.value, y.value, z.value_or(0.0)};
   // The body first, then the element of the lowest id: the same one on any number of ranks.

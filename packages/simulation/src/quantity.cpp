@@ -19,7 +19,7 @@ const Registry<Quantity>& quantity_registry() {
     kinds.add<HalfWidth>("half width", "half width of the contact zone from the second moment of the pressure: 2 sqrt(int p x^2 / int p)");
     kinds.add<StickHalfWidth>("stick half width", "half width of what sticks, from the second moment of what is left of the friction bound");
     kinds.add<ContactTraction>("contact traction", "pressure or shear of a pair: the largest, or at a position");
-    kinds.add<ContactRadius>("contact radius", "radius of a Hertzian pressure about an axis, from the pressures' second moment; in space");
+    kinds.add<ContactRadius>("contact radius", "radius of a Hertzian pressure about an axis, from the pressures' second moment; in 3D");
     kinds.add<PeakPressure>("peak pressure", "largest contact pressure of a pair");
     kinds.add<ContactLength>("contact length", "length of the slave surface, where the pair's geometry is, that belongs to closed nodes");
     kinds.add<ContactArea>("contact area", "area of the slave surface, where the pair's geometry is, that belongs to closed nodes");

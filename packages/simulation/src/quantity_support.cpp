@@ -33,7 +33,7 @@ double largest_over_ranks(const Mesh& mesh, double mine) {
 
 void require_component(const QuantityContext& context, Component component) {
   if (component == Component::z && context.mesh().dimension == 2)
-    throw InputError(Place{}, "\"component\" is \"z\", which exists in three-dimensional scenes only; in the plane please take \"x\" or \"y\"");
+    throw InputError(Place{}, "\"component\" is \"z\", which exists in three-dimensional scenes only; in 2D please take \"x\" or \"y\"");
 }
 
 LocalOrdinal find_body(const QuantityContext& context, const Located<std::string>& name) {

@@ -27,7 +27,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// The lines of its output that say what went wrong.
-std::string complaints(const std::string& output) {
+std::string first_messages(const std::string& output) {
   std::string found, line;
   std::istringstream stream(output);
   for (int lines = 0; lines < 6 && std::getline(stream, line);)
@@ -112,7 +112,7 @@ ExitCode run_peer(const RCP<const Communicator>& comm, const PeerOptions& option
     if (scene.output.contact_profiles) write_profiles(comm, directory.file("profiles.csv"), scene, end, evaluation);
   } else {
     log.warning(fmt::format("{} stopped at time {:g} of {:g}, exit code {}: {}", peer_title(options.peer), results.end_time(), end, ending.code,
-                            complaints(ending.output)));
+                            first_messages(ending.output)));
   }
   write_json(*comm, directory.file("summary.json"), summary);
   int iterations = 0;

@@ -25,7 +25,7 @@ namespace {
 /// "x, y", "x, y, z" or nothing; the scene's dimension is asked for later.
 void check_position(Parameters& parameters, const std::string& name, std::vector<double>& position) {
   if (position.empty() || position.size() == 2 || position.size() == 3) return;
-  parameters.error(name, fmt::format("is \"{}\"; it needs two numbers, \"x, y\", or in space three, \"x, y, z\"", fmt::join(position, ", ")));
+  parameters.error(name, fmt::format("is \"{}\"; it needs two numbers, \"x, y\", or in 3D three, \"x, y, z\"", fmt::join(position, ", ")));
   position.clear();
 }
 }  // namespace
@@ -91,7 +91,7 @@ void QuantityChoice::describe(Parameters& parameters) { parameters.choose(quanti
 
 void Scene::describe(Parameters& parameters) {
   parameters.add("kinematics", kinematics, kinematics_names(),
-                 "how the third direction behaves; axisymmetric: x is the radius, y the axis; three dimensional: bodies of space");
+                 "how the third direction behaves; axisymmetric: x is the radius, y the axis; three dimensional: bodies in 3D");
   parameters.add("thickness", thickness,
                  Says("thickness of the model out of the plane; axisymmetric scenes do not use it").unit("length").at_least(1e-30).at_most(1e30));
   parameters.named("materials", materials, "the materials, by names of your choice");

@@ -10,7 +10,7 @@
 
 namespace mortise {
 
-/// Looks at each converged state once and asks three questions of it: has a body passed through another, does a corner lie within a facet, do bodies
+/// Looks at each converged state once. It asks whether a body has passed through another, whether a corner lies within a facet, and whether bodies
 /// overlap although their pair carries no force.
 class SurfaceWatch {
  public:

@@ -60,7 +60,7 @@ const std::vector<SidePoint>& side_rule(CellShape side) {
     case CellShape::quadrilateral8:
       return quadrilateral8;
     default:
-      throw std::logic_error("a cell of space is no side");
+      throw std::logic_error("a 3D cell is no side");
   }
 }
 

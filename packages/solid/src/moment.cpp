@@ -81,10 +81,10 @@ constexpr const char* names[] = {"moment x", "moment y", "moment z"};
 
 void MomentOptions::describe(Parameters& parameters) {
   parameters.add("set", point, Says("the reference point: the name of a tied set, or \"body/reference\" of a rigid body").required());
-  parameters.add("moment", moment, Says("in the plane, counterclockwise, of t; per model thickness").unit("force length").arguments({"t"}));
+  parameters.add("moment", moment, Says("2D, counterclockwise, of t; per model thickness").unit("force length").arguments({"t"}));
   for (int i = 0; i < 3; ++i)
     parameters.add(names[i], moment_vector[i],
-                   Says(fmt::format("in space, about an axis along {} that does not turn with the point, of t; left out: none", "xyz"[i]))
+                   Says(fmt::format("3D, about an axis along {} that does not turn with the point, of t; left out: none", "xyz"[i]))
                        .unit("force length")
                        .arguments({"t"}));
 }
@@ -96,12 +96,10 @@ std::unique_ptr<Load> MomentOptions::make(const std::shared_ptr<const Bodies>& b
   look_up(mesh, [&] {
     rotating = &require_rotating_point(mesh, point);
     const char* wanted = in_space ? "\"moment x\", \"moment y\", \"moment z\"" : "\"moment\"";
-    if (in_space && moment)
-      throw InputError(moment->place(), fmt::format("\"moment\" is one of the plane, the scene is in space; please give {}", wanted));
+    if (in_space && moment) throw InputError(moment->place(), fmt::format("\"moment\" is for 2D scenes, the scene is in 3D; please give {}", wanted));
     for (int i = 0; i < 3 && !in_space; ++i)
       if (moment_vector[i])
-        throw InputError(moment_vector[i]->place(),
-                         fmt::format("\"{}\" is one of space, the scene is in the plane; please give {}", names[i], wanted));
+        throw InputError(moment_vector[i]->place(), fmt::format("\"{}\" is for 3D scenes, the scene is in 2D; please give {}", names[i], wanted));
     const bool given = moment || std::any_of(moment_vector.begin(), moment_vector.end(), [](const auto& one) { return one.has_value(); });
     if (!given) throw InputError(point.place, fmt::format("a moment on \"{}\" without a value; please give {}", point.value, wanted));
   });

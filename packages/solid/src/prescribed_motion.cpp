@@ -52,7 +52,7 @@ void BoundaryConditionOptions::describe(Parameters& parameters) {
   for (int i = 0; i < 3; ++i)
     parameters.add(
         fmt::format("rotation {}", component_name(i)), rotation_vector[i],
-        Says(fmt::format("{} component of the rotation vector of a reference point of space: the point turns by its length about its direction, "
+        Says(fmt::format("{} component of the rotation vector of a reference point in 3D: the point turns by its length about its direction, "
                          "counterclockwise seen from its tip; an expression of t; left out: free",
                          component_name(i)))
             .unit("degrees")
@@ -88,7 +88,7 @@ PrescribedMotion::PrescribedMotion(const Bodies& bodies, const std::vector<Named
                                                           condition.name)});
     if (mesh.dimension == 2 ? turns_in_space : condition.value.rotation.has_value())
       diagnostics.push_back({condition.place, fmt::format("boundary condition \"{}\" prescribes a rotation {}; please give {}", condition.name,
-                                                          mesh.dimension == 2 ? "of space in a plane scene" : "of the plane in a scene of space",
+                                                          mesh.dimension == 2 ? "for 3D scenes in a 2D scene" : "for 2D scenes in a 3D scene",
                                                           mesh.dimension == 2 ? "\"rotation\"" : "\"rotation x\", \"rotation y\", \"rotation z\"")});
     try {
       const auto& nodes = require_node_set(mesh, condition.value.set);

@@ -54,8 +54,8 @@ struct Solved {
 };
 
 Solved solve_step(const Blocks& blocks, ContactSystem& contact, const Matrix& K, LinearSolver& solver, const Vector& target, Vector& d, Vector& z) {
-  const std::vector<char> unheld(blocks.nodes->getNodeNumElements(), 0);  // no body is held by contact alone
-  contact.start_step(d, unheld, z);
+  const std::vector<char> unconstrained(blocks.nodes->getNodeNumElements(), 0);  // no body is held by contact alone
+  contact.start_step(d, unconstrained, z);
   RCP<Matrix> A;
   Solved solved{false, Vector(blocks.dofs)};
   Vector internal(blocks.dofs), rhs(blocks.dofs), increment(blocks.dofs), z_new(contact.multiplier_map());

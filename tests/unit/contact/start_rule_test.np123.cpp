@@ -22,7 +22,7 @@ TEST_P(StartRule, ClosesNodesThatTouchAndSeedsUnheldBodies) {
   for (int i = 0; i < 4; ++i) flat.master.push_back({4.0 * (3 - i) / 3.0, 0.0, 0.0});
   flat.fixed.assign(flat.size(), {});
   Fixture fixture(flat, Tpetra::getDefaultComm());
-  const std::vector<char> held(fixture.nodes->getNodeNumElements(), 0), unheld(held.size(), 1);
+  const std::vector<char> held(fixture.nodes->getNodeNumElements(), 0), unconstrained(held.size(), 1);
   Vector d(fixture.dofs), z(fixture.contact->multiplier_map());
   fixture.contact->start_step(d, held, z);
   EXPECT_EQ(fixture.contact->norms(z).active, 5);
@@ -33,13 +33,13 @@ TEST_P(StartRule, ClosesNodesThatTouchAndSeedsUnheldBodies) {
   z.putScalar(0.0);
   fixture.contact->start_step(*lifted, held, z);
   EXPECT_EQ(fixture.contact->norms(z).active, 0);
-  fixture.contact->start_step(*lifted, unheld, z);
+  fixture.contact->start_step(*lifted, unconstrained, z);
   EXPECT_EQ(fixture.contact->norms(z).active, 5);
 
   // Tilted and lifted beyond 0.1 h: at least the nearest node.
   const auto tilted = Fixture::vector(fixture.dofs, [&](GlobalOrdinal id) { return id < slave_dofs && id % 2 == 1 ? 0.2 + 0.02 * id : 0.0; });
   z.putScalar(0.0);
-  fixture.contact->start_step(*tilted, unheld, z);
+  fixture.contact->start_step(*tilted, unconstrained, z);
   EXPECT_GE(fixture.contact->norms(z).active, 1);
   EXPECT_LE(fixture.contact->norms(z).active, 2);
 }

@@ -153,20 +153,19 @@ TEST(VolumeMesh, RefusesWhatDoesNotFitOnEveryRank) {
   EXPECT_THAT(input_error_of([&] {
                 build_mesh(comm, {{"block", {}, block, CellShape::quadrilateral4}, {"die", place, brick, CellShape::hexahedron8}}, {});
               }),
-              ::testing::AllOf(HasSubstr("scene.xml:5: error: bodies/die"),
-                               HasSubstr("body \"die\" has a mesh of space, but body \"block\" one of the plane")));
+              ::testing::AllOf(HasSubstr("scene.xml:5: error: bodies/die"), HasSubstr("body \"die\" has a 3D mesh, but body \"block\" a 2D one")));
   EXPECT_THAT(input_error_of([&] {
                 build_mesh(comm, {{"die", place, brick, CellShape::triangle3}}, {});
               }),
-              HasSubstr("has a mesh of space, but elements of the plane"));
+              HasSubstr("has a 3D mesh, but 2D elements"));
   EXPECT_THAT(input_error_of([&] {
                 build_mesh(comm, {{"die", place, block, CellShape::tetrahedron4}}, {});
               }),
-              HasSubstr("has a mesh of the plane, but elements of space"));
+              HasSubstr("has a 2D mesh, but 3D elements"));
   EXPECT_THAT(input_error_of([&] {
                 build_mesh(comm, {{"die", place, brick, CellShape::line2}}, {});
               }),
-              HasSubstr("has a mesh of space, but elements of lines"));
+              HasSubstr("has a 3D mesh, but line elements"));
   // A profile that is turned inside out: its cells, and those over them, are inverted.
   auto crossed = std::make_shared<BlockMesh>();
   crossed->corners = {0.0, 0.0, 1.0, 0.0, 0.4, 0.4, 0.0, 1.0};

@@ -291,7 +291,7 @@ TEST(QuadraticFacets, AreRefusedWhereTheyCannotBe) {
   EXPECT_THAT(refusal(surfaces), ::testing::HasSubstr("contact/pair: node to segment needs linear facets"));
   Surfaces held = arch(2, 3, true, true);
   fix(held, 3, {0, 1});  // the middle of the first facet
-  EXPECT_THAT(refusal(held), ::testing::HasSubstr("as the displacements of all middles of their edges are prescribed"));
+  EXPECT_THAT(refusal(held), ::testing::HasSubstr("as the displacements of all mid-side nodes are prescribed"));
 }
 
 }  // namespace

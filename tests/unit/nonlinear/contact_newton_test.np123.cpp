@@ -236,9 +236,9 @@ TEST(ContactNewton, SlidesOverManyFacets) {
   StepperObserver observer;
   observer.iteration = [&](const NewtonIteration& iteration) { iterations += iteration.iteration > 0; };
   observer.accepted = [&](const StepReport& report, const Vector&) { cutbacks += report.cutbacks; };
-  const std::vector<char> unheld(problem.grid->owned_nodes().size(), 0);
+  const std::vector<char> unconstrained(problem.grid->owned_nodes().size(), 0);
   const auto start = [&](Vector& x) {
-    problem.system->parts().contact->start_step(*problem.system->displacement(x), unheld, *problem.system->multipliers(x));
+    problem.system->parts().contact->start_step(*problem.system->displacement(x), unconstrained, *problem.system->multipliers(x));
   };
   EXPECT_TRUE(run_steps(*problem.system, stepping, {}, *problem.x, start, observer, failure));
   EXPECT_EQ(cutbacks, 0);

@@ -274,7 +274,7 @@ TEST(MomentOfSpace, IsAskedForByTheNamesOfSpace) {
   };
   Bar bar;
   bar.grip = {{"rotation z", "t"}};
-  EXPECT_THAT(complaint(Result(bar), Reaction::Of::rotation), HasSubstr("in space please take \"rotation x\", \"rotation y\" or \"rotation z\""));
+  EXPECT_THAT(complaint(Result(bar), Reaction::Of::rotation), HasSubstr("in 3D please take \"rotation x\", \"rotation y\" or \"rotation z\""));
   Bar plane;
   plane.kinematics = "plane strain";
   plane.element = "Q4";
@@ -282,7 +282,7 @@ TEST(MomentOfSpace, IsAskedForByTheNamesOfSpace) {
   plane.grip_at = "0.5, 1";
   plane.foot = {{"x", "0"}, {"y", "0"}, {"rotation", "0"}};
   plane.grip = {{"rotation", "t"}};
-  EXPECT_THAT(complaint(Result(plane), Reaction::Of::rotation_x), HasSubstr("in the plane please take \"rotation\""));
+  EXPECT_THAT(complaint(Result(plane), Reaction::Of::rotation_x), HasSubstr("in 2D please take \"rotation\""));
 }
 
 }  // namespace

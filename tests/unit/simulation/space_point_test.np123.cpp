@@ -86,7 +86,7 @@ TEST(SpacePoint, OutsideOrWithoutZIsRefused) {
     return std::string();
   };
   EXPECT_THAT(error({1.0, 0.5, 1.6}, true), HasSubstr("the point (1, 0.5, 1.6) lies in no body"));
-  EXPECT_THAT(error({1.0, 0.5, 0.0}, false), HasSubstr("a point of space needs \"z\""));
+  EXPECT_THAT(error({1.0, 0.5, 0.0}, false), HasSubstr("a point in 3D needs \"z\""));
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ TEST(FullTurn, HasNoMomentAcrossTheAxis) {
 }
 
 /// What is said of a point turned by theta whose components in `prescribed` are prescribed.
-std::string complaint(const Eigen::Vector3d& theta, const std::vector<int>& prescribed) {
+std::string refusal(const Eigen::Vector3d& theta, const std::vector<int>& prescribed) {
   const auto bodies = rigid_brick();
   std::vector<LocalOrdinal> dofs;
   for (const int i : prescribed) dofs.push_back(3 * bodies->mesh()->reference_points[0].rotation_node + i);
@@ -110,17 +110,17 @@ std::string complaint(const Eigen::Vector3d& theta, const std::vector<int>& pres
 
 TEST(FullTurn, IsAFailureWhereComponentsAcrossItAreFree) {
   const Eigen::Vector3d z = Eigen::Vector3d::UnitZ(), axis(0.0, 0.6, 0.8);
-  EXPECT_THAT(complaint(full * z, {}), HasSubstr("the rotation vector of \"point\" has come to 360.0000 degrees"));
-  EXPECT_THAT(complaint(2.0 * full * axis, {}), HasSubstr("720.0000 degrees"));
-  EXPECT_THAT(complaint(full * z, {0, 2}), HasSubstr("full turn"));
-  EXPECT_THAT(complaint(full * axis, {0}), HasSubstr("full turn"));
-  EXPECT_EQ(complaint(full * z, {0, 1, 2}), "none");
-  EXPECT_EQ(complaint(full * z, {0, 1}), "none");
-  EXPECT_EQ(complaint(full * axis, {0, 1}), "none");
-  EXPECT_EQ(complaint(Eigen::Vector3d::Zero(), {}), "none");
+  EXPECT_THAT(refusal(full * z, {}), HasSubstr("the rotation vector of \"point\" has come to 360.0000 degrees"));
+  EXPECT_THAT(refusal(2.0 * full * axis, {}), HasSubstr("720.0000 degrees"));
+  EXPECT_THAT(refusal(full * z, {0, 2}), HasSubstr("full turn"));
+  EXPECT_THAT(refusal(full * axis, {0}), HasSubstr("full turn"));
+  EXPECT_EQ(refusal(full * z, {0, 1, 2}), "none");
+  EXPECT_EQ(refusal(full * z, {0, 1}), "none");
+  EXPECT_EQ(refusal(full * axis, {0, 1}), "none");
+  EXPECT_EQ(refusal(Eigen::Vector3d::Zero(), {}), "none");
   // 2 |sin(t/2)| / t = 1e-4 at 2 pi (1 - 1e-4), to first order
-  EXPECT_EQ(complaint((1.0 - 1.1e-4) * full * z, {}), "none");
-  EXPECT_THAT(complaint((1.0 - 0.9e-4) * full * z, {}), HasSubstr("full turn"));
+  EXPECT_EQ(refusal((1.0 - 1.1e-4) * full * z, {}), "none");
+  EXPECT_THAT(refusal((1.0 - 0.9e-4) * full * z, {}), HasSubstr("full turn"));
 }
 
 TEST(Moment, IsNamedByThePlaneOrBySpace) {
@@ -135,8 +135,7 @@ TEST(Moment, IsNamedByThePlaneOrBySpace) {
   MomentOptions options = oblique();
   options.moment = Expression("t", {}, {"scene.xml", 7, "loads/twist"});
   EXPECT_THAT(message(options), HasSubstr("scene.xml:7"));
-  EXPECT_THAT(message(options),
-              HasSubstr("\"moment\" is one of the plane, the scene is in space; please give \"moment x\", \"moment y\", \"moment z\""));
+  EXPECT_THAT(message(options), HasSubstr("\"moment\" is for 2D scenes, the scene is in 3D; please give \"moment x\", \"moment y\", \"moment z\""));
   options = {};
   options.point = {"point", {"scene.xml", 9, "loads/twist"}};
   EXPECT_THAT(message(options), HasSubstr("scene.xml:9: error: loads/twist: a moment on \"point\" without a value; please give \"moment x\""));

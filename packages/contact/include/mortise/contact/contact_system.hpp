@@ -239,8 +239,8 @@ class ContactSystem {
   /// Goes back to the accepted states, and start rule: multipliers of nodes that touch, and seeds for bodies that only contact holds, are set to a
   /// small pressure. Only the guess z is changed.
   /// Slips are measured from the accepted state on; before any is accepted, from d on.
-  /// @param unheld  for each owned node whether it belongs to a body that nothing but contact holds
-  void start_step(const Vector& d, const std::vector<char>& unheld, Vector& z);
+  /// @param unconstrained  for each owned node whether it belongs to a body that nothing but contact holds
+  void start_step(const Vector& d, const std::vector<char>& unconstrained, Vector& z);
 
   /// At the last evaluate(). Collective.
   CornerReport corners(std::size_t pair) const;

@@ -26,7 +26,7 @@ struct FrictionLaw : Described {
   virtual double largest_ratio() const { return std::numeric_limits<double>::infinity(); }
 
   /// Why there is no bound at a pressure and a slip path; nothing where there is one.
-  virtual std::optional<Diagnostic> complaint(double /*pressure*/, double /*slip_path*/) const { return {}; }
+  virtual std::optional<Diagnostic> missing_bound(double /*pressure*/, double /*slip_path*/) const { return {}; }
 };
 
 /// Nodes slip freely.
@@ -46,7 +46,7 @@ struct CoulombFriction : FrictionLaw {
   bool acts() const override { return !coefficient.is_constant() || coefficient.at({0.0, 0.0}) > 0.0; }
   FrictionBound bound(double pressure, double slip_path) const override;
   double largest_ratio() const override { return coefficient.is_constant() ? coefficient.at({0.0, 0.0}) : FrictionLaw::largest_ratio(); }
-  std::optional<Diagnostic> complaint(double pressure, double slip_path) const override;
+  std::optional<Diagnostic> missing_bound(double pressure, double slip_path) const override;
 };
 
 /// rho given, whatever the pressure.
