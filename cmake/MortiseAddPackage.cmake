@@ -1,3 +1,11 @@
+# Several sources of a target are compiled as one: what their headers bring is compiled once for all of them, and a first build takes fewer seconds.
+# So names in unnamed namespaces have to differ within a package. To work on one file: -DMORTISE_UNITY=OFF.
+option(MORTISE_UNITY "Compile several sources of a package as one, where that pays" ON)
+
+function(mortise_compile_together target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${MORTISE_UNITY} UNITY_BUILD_BATCH_SIZE 5)
+endfunction()
+
 # mortise_add_package(<name> USES <packages and libraries> [PRIVATE_USES <libraries>])
 # A library Mortise::<name> from packages/<name>/src/*.cpp with the public headers packages/<name>/include/mortise/<name>/*.hpp.
 function(mortise_add_package name)

@@ -35,7 +35,7 @@ double ratio_of_moduli(const Bodies& bodies) {
 }
 
 /// A vector is kept for each of their motions: where more bodies lie loose, nothing is said.
-constexpr std::size_t most_bodies = 10;
+constexpr std::size_t most_loose_bodies = 10;
 
 /// The rigid body modes, with what the rotations of reference points do.
 RCP<MultiVector> modes_with_points(const Model& model, const Vector& displacement) {
@@ -113,7 +113,7 @@ std::string describe_free_motions(const std::vector<int>& bodies, const Model& m
 
 std::string describe_held_bodies(const Model& model, SemiSmoothSystem& system, const ContactRecord& record) {
   const std::vector<int> bodies = bodies_held_by_contact_only(model);
-  if (bodies.empty() || bodies.size() > most_bodies || system.linearised_at().is_null()) return {};
+  if (bodies.empty() || bodies.size() > most_loose_bodies || system.linearised_at().is_null()) return {};
   std::vector<std::string> names;
   for (const int body : bodies) names.push_back(fmt::format("'{}'", model.mesh()->blocks[body].name));
   return fmt::format("nothing but contact holds {}; in the last iterate {}", fmt::join(names, ", "),
@@ -122,7 +122,7 @@ std::string describe_held_bodies(const Model& model, SemiSmoothSystem& system, c
 
 std::string explain_failure(const Model& model, SemiSmoothSystem& system, const ContactRecord& record) {
   const std::vector<int> bodies = bodies_held_by_contact_only(model);
-  if (bodies.empty() || bodies.size() > most_bodies || system.linearised_at().is_null()) return {};
+  if (bodies.empty() || bodies.size() > most_loose_bodies || system.linearised_at().is_null()) return {};
   return describe_free_motions(bodies, model, system, record);
 }
 

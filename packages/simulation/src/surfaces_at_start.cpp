@@ -11,7 +11,7 @@
 namespace mortise {
 namespace {
 
-constexpr double round_off = 1e-6;  ///< of depths, over the size of the model: less was meant to touch
+constexpr double meant_to_touch = 1e-6;  ///< of depths, over the size of the model: less was meant to touch
 
 OverlapPlace place_of(const DeepestPoint& deepest, const std::string& surface) {
   return {deepest.depth, deepest.node, surface, {deepest.place[0], deepest.place[1], deepest.place[2]}};
@@ -148,7 +148,7 @@ std::string to_string(int dimension, const OverlapPlace& overlap) {
 
 SurfacesAtStart examine_surfaces(const Mesh& mesh, const Scene& scene, double length) {
   const PlaceOfNode at = reference_places(mesh);
-  const PlacedBodies bodies{mesh, at, body_boxes(mesh, at), length, round_off * length};
+  const PlacedBodies bodies{mesh, at, body_boxes(mesh, at), length, meant_to_touch * length};
   std::vector<Examined> pairs;
   std::set<std::pair<std::size_t, std::size_t>> connected, with_fronts;
   for (const auto& options : scene.contact) {
