@@ -40,7 +40,7 @@ std::vector<HoldingRow::Wrench> wrenches(const std::vector<LocalOrdinal>& couple
     const int body = static_cast<int>(at(coupled[c], 0));
     if (body < 0 || force.isZero(0.0)) continue;
     SpatialVector arm(dimension);
-    for (int i = 0; i < dimension; ++i) arm[i] = at(coupled[c], static_cast<std::size_t>(1 + i));
+    for (int i = 0; i < dimension; ++i) arm[i] = at(coupled[c], 1 + static_cast<std::size_t>(i));
     add_force(force, arm, body, result);
   }
   return result;

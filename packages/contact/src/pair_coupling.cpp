@@ -40,18 +40,20 @@ PairCoupling::PairCoupling(RCP<const Map> owned_nodes, RCP<const MultiVector> re
   slip_.resize(rows_.size());
 }
 
-// Beyond c_n A_j = E / (eps h) the round-off of a gap, eps h and more, outweighs a pressure of E. Below eps E / h a gap of h weighs less than the
-// round-off of such a pressure. Either way round-off would choose the active set.
+// Newton's method finds gaps to about 1e-8 h and pressures to about 1e-8 E on its way, and pressures of 1e-4 E and gaps of 1e-4 h are to be told from
+// 0. With c_n A_j = a E / h an error of the gap weighs 1e-8 a E beside such a pressure: a <= 1e4. An error of the pressure weighs 1e-8 E beside
+// 1e-4 a E of such a gap: a >= 1e-4. Beyond, errors of the iteration would choose the active set.
 void PairCoupling::refuse_constant_out_of_range() const {
   const auto& constant = pair_.options.complementarity_constant;
   if (!constant) return;
-  constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  const double facet = pair_.youngs_modulus / size_, least = epsilon * facet, largest = facet / epsilon;
+  constexpr double most = 1e4;
+  const double facet = pair_.youngs_modulus / size_, least = facet / most, largest = most * facet;
   if (*constant >= least && *constant <= largest) return;
-  throw InputError(pair_.place,
-                   fmt::format("\"complementarity constant\" is {:g}; allowed: {:.2g} to {:.2g}, as round-off would choose the active set "
-                               "beyond; please take about Young's modulus over the side of a facet, here {:.2g}, or leave it out",
-                               *constant, least, largest, facet));
+  throw InputError(
+      pair_.place,
+      fmt::format("\"complementarity constant\" is {:g}; allowed: {:.2g} to {:.2g}, as errors of the iteration would choose the active set "
+                  "beyond; please take about Young's modulus over the side of a facet, here {:.2g}, or leave it out",
+                  *constant, least, largest, facet));
 }
 
 double PairCoupling::complementarity_constant(std::size_t s) const {

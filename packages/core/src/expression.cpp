@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <regex>
+
+#include "split.hpp"
 
 namespace mortise {
 namespace {
@@ -22,15 +25,11 @@ bool assigns(const std::string& source) { return std::regex_search(source, std::
 // Without the sign that some operations give what is not a number.
 double shown(double value) { return std::isnan(value) ? std::abs(value) : value; }
 
-bool is_of_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
-
-/// Whether `name` stands in `source` as a word of its own.
-bool has_word(const std::string& source, const std::string& name) {
-  for (std::size_t at = source.find(name); at != std::string::npos; at = source.find(name, at + 1)) {
-    const std::size_t end = at + name.size();
-    if ((at == 0 || !is_of_name(source[at - 1])) && (end == source.size() || !is_of_name(source[end]))) return true;
-  }
-  return false;
+/// What C takes for a number and an expression does not: "nan", "inf", "1e400", "0x10".
+bool is_number_of_c(const std::string& source) {
+  char* end = nullptr;
+  std::strtod(source.c_str(), &end);
+  return !source.empty() && end == source.c_str() + source.size();
 }
 
 std::string names_of(const std::vector<std::string>& arguments, const Symbols& symbols) {
@@ -83,6 +82,9 @@ struct Expression::Parsed {
             place, fmt::format("\"{}\" holds {} values separated by commas, where one is asked for; the decimal sign is a point", source, values));
       constant = parser.GetUsedVar().empty();
     } catch (const mu::Parser::exception_type& error) {
+      if (is_number_of_c(source)) throw InputError(place, fmt::format("\"{}\" is no finite decimal number; the largest is 1.797e308", source));
+      if (error.GetCode() == mu::ecEXPRESSION_TOO_LONG)
+        throw InputError(place, fmt::format("\"{}\" is an expression of {} characters; please write it in less than 20000", source, source.size()));
       throw InputError(place, fmt::format("cannot evaluate \"{}\": {}; known names: {}", source, error.GetMsg(), names_of(names, symbols)));
     }
     if (constant && !std::isfinite(value)) throw InputError(place, fmt::format("\"{}\" is {}, not a finite number", source, shown(value)));

@@ -1,5 +1,5 @@
 #pragma once
-// Lists in one text.
+// Lists and words in one text.
 
 #include <string>
 #include <vector>
@@ -8,5 +8,8 @@ namespace mortise {
 
 /// "a, f(b, c), d" -> {"a", "f(b, c)", "d"}; an empty text has no parts.
 std::vector<std::string> split(const std::string& text);
+
+/// Whether `name` stands in `text` as a word of its own.
+bool has_word(const std::string& text, const std::string& name);
 
 }  // namespace mortise

@@ -48,7 +48,7 @@ Table read_table(const XmlList& list, const Symbols& symbols) {
     if (parameter.name != "times" && parameter.name != "values")
       throw InputError(parameter.place, fmt::format("unknown parameter \"{}\"{}; a table has \"times\" and \"values\"", parameter.name,
                                                     did_you_mean(parameter.name, {"times", "values"})));
-  const Table table{numbers(list.parameter("times"), symbols), numbers(list.parameter("values"), symbols)};
+  Table table{numbers(list.parameter("times"), symbols), numbers(list.parameter("values"), symbols)};
   if (table.times.empty()) throw InputError(list.place, "the table is empty");
   if (table.times.size() != table.values.size())
     throw InputError(list.parameter("values")->place, fmt::format("{} times but {} values", table.times.size(), table.values.size()));
@@ -74,6 +74,15 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 }
 
 }  // namespace
+
+bool has_word(const std::string& text, const std::string& name) {
+  const auto is_of_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
+    const std::size_t end = at + name.size();
+    if ((at == 0 || !is_of_name(text[at - 1])) && (end == text.size() || !is_of_name(text[end]))) return true;
+  }
+  return false;
+}
 
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> parts;
@@ -109,17 +118,32 @@ Symbols read_symbols(const XmlList& root, std::vector<Diagnostic>& diagnostics) 
       refuse(name, error.diagnostics());
     }
   };
+  for (const char* name : {"variables", "tables"})
+    if (const XmlParameter* parameter = root.parameter(name))
+      diagnostics.push_back({parameter->place, fmt::format("\"{}\" is a list, not a parameter", name)});
   if (const XmlList* variables = root.list("variables")) {
     for (const XmlList& list : variables->lists) refuse(list.name, {{list.place, "a variable is a parameter, not a list"}});
     for (const XmlParameter& one : variables->parameters)
       attempt(one.place, one.name, [&] {
+        for (const XmlParameter* later = &one; later <= &variables->parameters.back(); ++later)
+          if (wrong_name(later->name).empty() && has_word(one.value, later->name))
+            throw InputError(one.place,
+                             fmt::format("variable \"{}\" is \"{}\", but it may use only variables that stand above it", one.name, one.value));
         const std::vector<double> value = numbers(&one, symbols);
         if (value.size() != 1) throw InputError(one.place, fmt::format("variable \"{}\" is \"{}\"; please give one number", one.name, one.value));
         symbols.variables[one.name] = value[0];
       });
   }
-  if (const XmlList* tables = root.list("tables"))
-    for (const XmlList& list : tables->lists) attempt(list.place, list.name, [&] { symbols.tables[list.name] = read_table(list, symbols); });
+  if (const XmlList* tables = root.list("tables")) {
+    for (const XmlParameter& one : tables->parameters)
+      refuse(one.name, {{one.place, fmt::format("table \"{}\" is a parameter; a table is a list with \"times\" and \"values\"", one.name)}});
+    for (const XmlList& list : tables->lists)
+      attempt(list.place, list.name, [&] {
+        if (symbols.variables.count(list.name) != 0)
+          throw InputError(list.place, fmt::format("there is a variable named \"{}\" already; please give the table another name", list.name));
+        symbols.tables[list.name] = read_table(list, symbols);
+      });
+  }
   return symbols;
 }
 

@@ -202,6 +202,13 @@ void apply_override(XmlList& root, const std::string& path, const std::string& v
   }
   const auto found =
       std::find_if(list->parameters.begin(), list->parameters.end(), [&](const XmlParameter& one) { return one.name == names.back(); });
+  if (found == list->parameters.end() && names.size() == 2 && names[0] == "variables") {
+    // Nothing could use it: a mistyped name would change nothing.
+    std::vector<std::string> known;
+    for (const XmlParameter& one : list->parameters) known.push_back(one.name);
+    throw InputError(place, fmt::format("there is no variable \"{}\"{}; {}", names[1], did_you_mean(names[1], known),
+                                        known.empty() ? "the file has none" : "the file has " + quoted_list(known)));
+  }
   XmlParameter parameter{names.back(), "", value, {place.file, place.line, list->place.path}};
   if (found == list->parameters.end())
     list->parameters.push_back(parameter);

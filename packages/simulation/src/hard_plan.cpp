@@ -7,6 +7,7 @@
 #include <map>
 #include <regex>
 
+#include "file_kind.hpp"
 #include "mortise/core/read_parameters.hpp"
 #include "mortise/core/xml.hpp"
 #include "mortise/simulation/read_scene.hpp"
@@ -141,6 +142,7 @@ double evaluate(const Located<std::string>& source, const Symbols& symbols, cons
 
 HardPlan read_hard(const Communicator& comm, const HardOptions& options) {
   const XmlList root = parse_xml(read_text(comm, options.ledger), options.ledger);
+  refuse_other_kinds(root, FileKind::ledger);
   std::vector<Diagnostic> diagnostics;
   HardFile ledger;
   read_parameters(ledger, root, {}, {}, diagnostics);

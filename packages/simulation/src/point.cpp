@@ -1,5 +1,6 @@
 #include "mortise/simulation/point.hpp"
 
+#include "file_kind.hpp"
 #include "mortise/core/read_parameters.hpp"
 #include "mortise/core/xml.hpp"
 
@@ -28,6 +29,7 @@ void PointFile::describe(Parameters& parameters) {
 
 PointFile read_point(const Communicator& comm, const std::string& file, const std::vector<std::string>& settings) {
   XmlList root = parse_xml(read_text(comm, file), file);
+  refuse_other_kinds(root, FileKind::point);
   for (const auto& setting : settings) apply_override(root, setting);
   std::vector<Diagnostic> diagnostics;
   PointFile point;

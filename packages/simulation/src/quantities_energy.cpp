@@ -12,15 +12,15 @@
 namespace mortise {
 
 void Energy::describe(Parameters& parameters) {
-  parameters.add(
-      "of", of,
-      {{"stored", Of::stored},
-       {"plastic work", Of::plastic_work},
-       {"friction", Of::friction},
-       {"external work", Of::external_work},
-       {"internal work", Of::internal_work}},
-      "stored in the bodies, spent on plastic flow, rubbed away by friction of all pairs, or the work since the start of loads and supports, "
-      "or of the internal forces");
+  parameters.add("of", of,
+                 {{"stored", Of::stored},
+                  {"plastic work", Of::plastic_work},
+                  {"friction", Of::friction},
+                  {"external work", Of::external_work},
+                  {"internal work", Of::internal_work}},
+                 "stored in the bodies, spent on plastic flow, dissipated by friction of all pairs (of first order in the step where slip begins or "
+                 "turns round), or the work since the start of loads and supports, "
+                 "or of the internal forces");
   parameters.add("body", body, "body whose stored energy or plastic work is meant; empty: all");
   if (of != Of::stored && of != Of::plastic_work && !body.value.empty())
     parameters.error("body", "only stored energy and plastic work are those of a body; please remove \"body\"");

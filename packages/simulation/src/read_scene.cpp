@@ -1,5 +1,6 @@
 #include "mortise/simulation/read_scene.hpp"
 
+#include "file_kind.hpp"
 #include "mortise/core/read_parameters.hpp"
 #include "mortise/simulation/model.hpp"
 #include "roles.hpp"
@@ -9,6 +10,7 @@ namespace mortise {
 
 Scene read_scene(const Communicator& comm, const std::string& file, const std::vector<std::string>& settings) {
   XmlList root = parse_xml(read_text(comm, file), file);
+  refuse_other_kinds(root, FileKind::scene);
   for (const auto& setting : settings) apply_override(root, setting);
   Scene scene = make_scene(root);
   assign_roles(comm, scene);

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "calculix_deck.hpp"
+#include "file_kind.hpp"
 #include "mortise/core/parameter_tree.hpp"
 #include "mortise/core/read_parameters.hpp"
 #include "mortise/simulation/read_scene.hpp"
@@ -118,6 +119,7 @@ StudyPlan read_study(const Communicator& comm, const std::string& path, const st
   StudyPlan plan;
   StudyFile& study = plan.file;
   XmlList root = parse_xml(read_text(comm, path), path);
+  refuse_other_kinds(root, FileKind::study);
   for (const auto& setting : settings) apply_override(root, setting);
   std::vector<Diagnostic> diagnostics;
   study.name = root.name;

@@ -309,6 +309,24 @@ TEST(ReadParameters, TakesOverridesFromTheCommandLine) {
     EXPECT_THAT(read(scene, {nameless}).errors, HasSubstr("names nothing before, after or between two \"/\"")) << nameless;
 }
 
+// What is not used is mistyped: it would change nothing.
+TEST(ReadParameters, RefusesSymbolsThatNothingCouldUse) {
+  const std::string n = list("variables", parameter("n", "int", "4"));
+  EXPECT_THAT(read(n + needed, {"variables/N=8"}).errors, HasSubstr("there is no variable \"N\"; did you mean \"n\"?; the file has \"n\""));
+  EXPECT_THAT(read(needed, {"variables/n=8"}).errors, HasSubstr("there is no variable \"n\"; the file has none"));
+  for (const char* name : {"variables", "tables"})
+    EXPECT_THAT(read(n + needed, {std::string(name) + "=3"}).errors, HasSubstr('"' + std::string(name) + "\" is a list, not a parameter"));
+  EXPECT_THAT(read(n + needed, {"tables/r=3"}).errors, HasSubstr("table \"r\" is a parameter; a table is a list with \"times\" and \"values\""));
+  EXPECT_THAT(read(n + needed, {"tables/n/times=0,1", "tables/n/values=0,1"}).errors, HasSubstr("there is a variable named \"n\" already"));
+}
+
+TEST(ReadParameters, SaysWhatIsNoNumber) {
+  for (const char* number : {"nan", "inf", "1e400", "0x10"})
+    EXPECT_THAT(read(needed + parameter("count", "string", number)).errors, HasSubstr('"' + std::string(number) + "\" is no finite decimal number"));
+  const std::string later = list("variables", parameter("a", "string", "2*b") + parameter("b", "int", "1"));
+  EXPECT_THAT(read(later + needed).errors, HasSubstr("variable \"a\" is \"2*b\", but it may use only variables that stand above it"));
+}
+
 TEST(ReadParameters, TypesOverridesOfWhatIsHandedOnByTheirLook) {
   const std::string scene = needed + list("solver", parameter("max levels", "int", "3"));
   const Read result =
