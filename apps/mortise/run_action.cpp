@@ -1,4 +1,5 @@
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 
@@ -16,10 +17,13 @@ Outcome run_action(const Program& program, const std::function<ExitCode()>& acti
   Outcome outcome;
   try {
     outcome.code = action();
+    if (program.is_first_rank() && !std::cout.flush()) throw FileError("cannot write to standard output; what goes to files is complete");
   } catch (const InputError& error) {
     outcome = {ExitCode::invalid_input, error.what()};
   } catch (const FileError& error) {
     outcome = {ExitCode::files, error.what()};
+  } catch (const std::filesystem::filesystem_error& error) {
+    outcome = {ExitCode::files, error.path1().string() + ": " + error.code().message()};
   } catch (const StepFailure& failure) {
     outcome = {failure.kind() == FailureKind::input ? ExitCode::invalid_input : ExitCode::not_converged, failure.what()};
   } catch (const std::bad_alloc&) {

@@ -75,7 +75,7 @@ const std::vector<Case> cases{
      "variables: <Parameter> without \"name\"", R"xml(<Parameter name="")xml"},
     {"variable_of_itself", R"xml(<ParameterList name="tables">)xml",
      R"xml(<ParameterList name="variables"><Parameter name="a" type="string" value="a + 1"/></ParameterList><ParameterList name="tables">)xml",
-     "variables: \"a\": cannot evaluate \"a + 1\"", "a + 1"},
+     "variables: variable \"a\" is \"a + 1\", but it may use only variables that stand above it", "a + 1"},
     {"component_z_in_the_plane", R"xml(<ParameterList name="contact">)xml", R"xml(<ParameterList name="quantities"><ParameterList name="force">
       <Parameter name="type" type="string" value="contact force"/>
       <Parameter name="component" type="string" value="z"/></ParameterList></ParameterList>

@@ -15,6 +15,8 @@
 #include <set>
 #include <sstream>
 
+#include "split.hpp"
+
 namespace mortise {
 namespace {
 
@@ -175,6 +177,14 @@ std::string wrong_assignment(const std::string& assignment) {
   return "";
 }
 
+namespace {
+/// Whether a value of the list, or of one within, holds `name` as a word.
+bool uses(const XmlList& list, const std::string& name) {
+  return std::any_of(list.parameters.begin(), list.parameters.end(), [&](const XmlParameter& one) { return has_word(one.value, name); }) ||
+         std::any_of(list.lists.begin(), list.lists.end(), [&](const XmlList& one) { return uses(one, name); });
+}
+}  // namespace
+
 void apply_override(XmlList& root, const std::string& assignment) {
   const Place place{"command line: --set " + shortened(assignment), 0, ""};
   if (const std::string wrong = wrong_assignment(assignment); !wrong.empty()) throw InputError(place, wrong);
@@ -202,11 +212,10 @@ void apply_override(XmlList& root, const std::string& path, const std::string& v
   }
   const auto found =
       std::find_if(list->parameters.begin(), list->parameters.end(), [&](const XmlParameter& one) { return one.name == names.back(); });
-  if (found == list->parameters.end() && names.size() == 2 && names[0] == "variables") {
-    // Nothing could use it: a mistyped name would change nothing.
+  if (found == list->parameters.end() && names.size() == 2 && names[0] == "variables" && !uses(root, names[1])) {
     std::vector<std::string> known;
     for (const XmlParameter& one : list->parameters) known.push_back(one.name);
-    throw InputError(place, fmt::format("there is no variable \"{}\"{}; {}", names[1], did_you_mean(names[1], known),
+    throw InputError(place, fmt::format("there is no variable \"{}\", and no value uses one{}; {}", names[1], did_you_mean(names[1], known),
                                         known.empty() ? "the file has none" : "the file has " + quoted_list(known)));
   }
   XmlParameter parameter{names.back(), "", value, {place.file, place.line, list->place.path}};

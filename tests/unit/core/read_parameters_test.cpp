@@ -312,8 +312,10 @@ TEST(ReadParameters, TakesOverridesFromTheCommandLine) {
 // What is not used is mistyped: it would change nothing.
 TEST(ReadParameters, RefusesSymbolsThatNothingCouldUse) {
   const std::string n = list("variables", parameter("n", "int", "4"));
-  EXPECT_THAT(read(n + needed, {"variables/N=8"}).errors, HasSubstr("there is no variable \"N\"; did you mean \"n\"?; the file has \"n\""));
-  EXPECT_THAT(read(needed, {"variables/n=8"}).errors, HasSubstr("there is no variable \"n\"; the file has none"));
+  EXPECT_THAT(read(n + needed, {"variables/N=8"}).errors,
+              HasSubstr("there is no variable \"N\", and no value uses one; did you mean \"n\"?; the file has \"n\""));
+  EXPECT_THAT(read(needed, {"variables/n=8"}).errors, HasSubstr("there is no variable \"n\", and no value uses one; the file has none"));
+  EXPECT_EQ(read(needed + parameter("count", "string", "2*m"), {"variables/m=8"}).options.count, 16);
   for (const char* name : {"variables", "tables"})
     EXPECT_THAT(read(n + needed, {std::string(name) + "=3"}).errors, HasSubstr('"' + std::string(name) + "\" is a list, not a parameter"));
   EXPECT_THAT(read(n + needed, {"tables/r=3"}).errors, HasSubstr("table \"r\" is a parameter; a table is a list with \"times\" and \"values\""));
