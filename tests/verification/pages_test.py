@@ -65,7 +65,7 @@ class Study(unittest.TestCase):
 
     def error(self, errors, *cheapest):
         targets = [{"error": bound, "cheapest": found} for bound, found in cheapest]
-        return {"name": "e", "error": errors, "targets": targets, "orders": [None], "no_order": ["errors do not fall"]}
+        return {"name": "e", "error": errors, "exact": None, "targets": targets, "orders": [None], "no_order": ["errors do not fall"]}
 
     def test_the_cheapest_is_told_with_what_confirms_it(self):
         error = self.error([0.02, 0.004, 0.0008], (0.01, {"point": 1, "confirmed": True}), (0.001, {"point": 2, "confirmed": False}))
@@ -77,11 +77,14 @@ class Study(unittest.TestCase):
         words = study["cheapest_of"](self.error([0.02, 0.0001, 0.03], (0.01, None), (1e-5, None)), self.points)
         self.assertIn("within 1 % or 0.001 %: none; the smallest error is 0.01 % (&lt;1&gt;, 2 s, but finer runs of its family are not as good)", words)
 
-    def test_round_off_has_no_bound_to_meet(self):
-        error = self.error([1e-12, None, 0.0], (0.01, {"point": 0, "confirmed": True}))
+    def test_the_fastest_of_exact_runs_meets_every_bound(self):
+        error = dict(self.error([1e-12, None, 0.0], (0.01, {"point": 0, "confirmed": True})), exact=0)
+        self.assertFalse(study["has_errors"](error))
         self.assertIn("all runs are exact but for round-off; the fastest is <b>&lt;0&gt;</b>", study["cheapest_of"](error, self.points))
         curves = [{"name": "one", "points": [0, 1, 2]}]
-        self.assertEqual(study["winners"]([error], self.points, curves), ([], 0, 0))
+        self.assertEqual(study["winners"]([error], self.points, curves), (["one"], 1, 1))
+        summary = study["summary_of"]({"errors": [error], "points": self.points, "curves": curves})
+        self.assertEqual(summary, "<b>one</b> is the cheapest within every bound that a run is confirmed to meet (1).")
         self.assertEqual(study["cheapest_of"](self.error([None] * 3, (0.01, None)), self.points), "no errors are known.")
 
     def test_what_has_no_order_says_why(self):
