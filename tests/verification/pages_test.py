@@ -65,7 +65,7 @@ class Study(unittest.TestCase):
 
     def error(self, errors, *cheapest):
         targets = [{"error": bound, "cheapest": found} for bound, found in cheapest]
-        return {"name": "e", "error": errors, "targets": targets, "orders": [None], "no_order": ["errors do not fall"]}
+        return {"name": "e", "error": errors, "exact": None, "targets": targets, "orders": [None], "no_order": ["errors do not fall"]}
 
     def test_the_cheapest_is_told_with_what_confirms_it(self):
         error = self.error([0.02, 0.004, 0.0008], (0.01, {"point": 1, "confirmed": True}), (0.001, {"point": 2, "confirmed": False}))
@@ -77,11 +77,14 @@ class Study(unittest.TestCase):
         words = study["cheapest_of"](self.error([0.02, 0.0001, 0.03], (0.01, None), (1e-5, None)), self.points)
         self.assertIn("within 1 % or 0.001 %: none; the smallest error is 0.01 % (&lt;1&gt;, 2 s, but finer runs of its family are not as good)", words)
 
-    def test_round_off_has_no_bound_to_meet(self):
-        error = self.error([1e-12, None, 0.0], (0.01, {"point": 0, "confirmed": True}))
+    def test_the_fastest_of_exact_runs_meets_every_bound(self):
+        error = dict(self.error([1e-12, None, 0.0], (0.01, {"point": 0, "confirmed": True})), exact=0)
+        self.assertFalse(study["has_errors"](error))
         self.assertIn("all runs are exact but for round-off; the fastest is <b>&lt;0&gt;</b>", study["cheapest_of"](error, self.points))
         curves = [{"name": "one", "points": [0, 1, 2]}]
-        self.assertEqual(study["winners"]([error], self.points, curves), ([], 0, 0))
+        self.assertEqual(study["winners"]([error], self.points, curves), (["one"], 1, 1))
+        summary = study["summary_of"]({"errors": [error], "points": self.points, "curves": curves})
+        self.assertEqual(summary, "<b>one</b> is the cheapest within every bound that a run is confirmed to meet (1).")
         self.assertEqual(study["cheapest_of"](self.error([None] * 3, (0.01, None)), self.points), "no errors are known.")
 
     def test_what_has_no_order_says_why(self):
@@ -94,11 +97,11 @@ class Study(unittest.TestCase):
 
 
 class Scale(unittest.TestCase):
-    def point(self, ranks, seconds, phases, memory=0.5, linear=10, imbalance=1.0):
+    def point(self, ranks, seconds, phases, memory=0.5, linear=10, imbalance=1.0, repeats=()):
         first = {"solution": 6.0, "integrals": 4.0}
         of = {name: {"seconds": one, "efficiency": first[name] / (ranks * one)} for name, one in phases.items()}
         return {"series": "strong", "ranks": ranks, "finished": True, "seconds": seconds, "efficiency": 10.0 / (ranks * seconds), "phases": of,
-                "bandwidth_efficiency": memory, "linear_iterations": linear, "contact_imbalance": imbalance, "dofs": 100}
+                "bandwidth_efficiency": memory, "linear_iterations": linear, "contact_imbalance": imbalance, "dofs": 100, "repeats": [seconds, *repeats]}
 
     def words(self, **more):
         first = self.point(1, 10.0, {"solution": 6.0, "integrals": 4.0}, 1.0)
@@ -106,17 +109,52 @@ class Scale(unittest.TestCase):
 
     def test_the_limit_is_the_phase_that_loses_most(self):
         # Full efficiency would be 3 and 2 s: 2.9 and 0.1 s are lost.
-        name, seconds, share = scale["limit_of"](self.point(2, 8.0, {"solution": 5.9, "integrals": 2.1}))
+        name, seconds, total = scale["limit_of"](self.point(2, 8.0, {"solution": 5.9, "integrals": 2.1}))
         self.assertEqual(name, "solution")
         self.assertAlmostEqual(seconds, 2.9)
-        self.assertAlmostEqual(share, 2.9 / 3.0)
+        self.assertAlmostEqual(total, 3.0)
         self.assertIsNone(scale["limit_of"](self.point(2, 5.0, {"solution": 3.0, "integrals": 2.0})))
 
     def test_the_cause_is_what_was_measured(self):
-        self.assertIn("1.25 times as fast, an efficiency of 0.62", self.words())
+        self.assertIn("an efficiency of 0.62", self.words())
+        self.assertIn("the solution, with 2.9 s of the 3 s that the run loses (97 %)", self.words())
         self.assertIn("is what the memory serves so many ranks with (0.5)", self.words())
         self.assertIn("is below that of the memory (0.9), which is not the cause", self.words(memory=0.9))
         self.assertIn("takes 20 iterations instead of 10", self.words(linear=20))
+
+    def test_what_other_phases_gain_is_told(self):
+        # Full efficiency would be 3 and 2 s: 4 s are lost and 1 s gained.
+        gaining = [self.point(1, 10.0, {"solution": 6.0, "integrals": 4.0}, 1.0), self.point(2, 8.0, {"solution": 7.0, "integrals": 1.0})]
+        self.assertIn("the solution, with 4 s; the run loses 3 s, as other phases gain: ", " ".join(scale["series_words"](gaining)))
+
+    def test_times_have_the_digits_that_repeats_agree_in(self):
+        def words(one, two):
+            points = [self.point(1, 10.0, {"solution": 6.0, "integrals": 4.0}, 1.0, repeats=[one]),
+                      self.point(2, 8.0, {"solution": 5.9, "integrals": 2.1}, repeats=[two])]
+            return " ".join(scale["series_words"](points))
+
+        self.assertIn("1.25 times as fast", words(10.01, 8.01))
+        self.assertIn("1.2 times as fast", words(10.01, 8.5))
+        self.assertIn("within the noise of the machine: the middle repeat takes up to 3.5 s more than the fastest", words(10.01, 11.5))
+        self.assertNotIn("What limits it", words(10.01, 11.5))
+        self.assertNotIn("noise", words(10.01, 8.5))
+
+    def test_short_runs_name_no_limit(self):
+        phases = {"solution": 6.0, "integrals": 4.0}
+        short = " ".join(scale["series_words"]([self.point(1, 0.1, phases), dict(self.point(2, 0.08, phases), efficiency=0.625)]))
+        self.assertIn("within the noise of the machine. Measure with a larger <code>--repeats</code>", short)
+        self.assertNotIn("What limits it", short)
+
+    def test_what_does_not_grow_is_no_weak_scaling(self):
+        first = dict(self.point(1, 10.0, {"solution": 6.0, "integrals": 4.0}), series="weak", efficiency=1.0)
+        flat = dict(first, ranks=2, efficiency=None)
+        self.assertEqual(scale["series_words"]([first, flat]), [
+            "<b>Weak scaling:</b> the number of unknowns did not grow with the ranks: it is 100 on 2 ranks, not more than on one. This is no weak scaling, "
+            "and no efficiency is given."])
+        grown = dict(first, ranks=4, dofs=400, efficiency=0.8)
+        words = scale["series_words"]([first, flat, grown])
+        self.assertIn("an efficiency of 0.8", words[0])
+        self.assertIn("did not grow with the ranks: it is 100 on 2 ranks, not", words[-1])
 
     def test_one_rank_is_compared_with_nothing(self):
         first = self.point(1, 10.0, {"solution": 6.0, "integrals": 4.0})

@@ -38,7 +38,7 @@ std::size_t lines(const std::string& path) {
 
 TEST(Scale, RunsBothSeriesAndTellsEfficiencies) {
   const std::string results = fresh("series");
-  const Ending ending = scale(results, {"--set", "variables/n=4", "--ranks", "2", "--weak", "n:4"});
+  const Ending ending = scale(results, {"--set", "variables/n=8", "--ranks", "2", "--weak", "n:4"});
   ASSERT_EQ(ending.code, 0) << ending.output;
   const Json json = Json::parse(read_file(results + "/scale.json"));
   ASSERT_EQ(json["points"].size(), 4u);
@@ -59,14 +59,27 @@ TEST(Scale, RunsBothSeriesAndTellsEfficiencies) {
     EXPECT_TRUE(std::filesystem::exists(results + "/runs/" + point["series"].get<std::string>() + "_" + std::to_string(p % 2 + 1) + "/summary.json"));
   }
   EXPECT_EQ(json["points"][0]["dofs"], json["points"][1]["dofs"]);
-  EXPECT_EQ(json["points"][3]["settings"].back(), "variables/n=4");  // 4 * 2^(1/3) to the nearest multiple of 4
+  EXPECT_EQ(json["points"][3]["settings"].back(), "variables/n=12");  // 8 * 2^(1/3) to the nearest multiple of 4
   EXPECT_EQ(lines(results + "/scale.csv"), 5u);
   const std::string page = read_file(results + "/report.html");
   EXPECT_LT(page.find("<b>Strong scaling:</b> 2 ranks take"), page.find("<b>Weak scaling:</b> 2 ranks take"));
   EXPECT_LT(page.find("<b>Weak scaling:</b> 2 ranks take"), page.find("<img"));
   EXPECT_LT(page.find("<img"), page.find("<table>"));
-  EXPECT_NE(page.find("mpirun -n 2 mortise run " + scene + " --set variables/n=4 -o again/strong_2</pre>"), std::string::npos);
+  EXPECT_NE(page.find("mpirun -n 2 mortise run " + scene + " --set variables/n=8 -o again/strong_2</pre>"), std::string::npos);
   EXPECT_TRUE(std::filesystem::exists(results + "/scale.svg"));
+}
+
+TEST(Scale, GivesNoWeakEfficiencyWhereTheUnknownsDoNotGrow) {
+  const std::string results = fresh("flat");
+  const Ending ending = scale(results, {"--set", "variables/n=4", "--ranks", "2", "--weak", "n:4"});  // 4 * 2^(1/3) is 4 again
+  ASSERT_EQ(ending.code, 0) << ending.output;
+  EXPECT_NE(ending.output.find("--weak n: the number of unknowns did not grow"), std::string::npos) << ending.output;
+  const Json points = Json::parse(read_file(results + "/scale.json"))["points"];
+  EXPECT_EQ(points[3]["dofs"], points[2]["dofs"]);
+  EXPECT_TRUE(points[3]["efficiency"].is_null());
+  const std::string page = read_file(results + "/report.html");
+  EXPECT_NE(page.find("<b>Weak scaling:</b> the number of unknowns did not grow"), std::string::npos);
+  EXPECT_EQ(page.find("The scene grows with the ranks"), std::string::npos);
 }
 
 TEST(Scale, WritesDownWhyARunFailed) {
@@ -80,7 +93,9 @@ TEST(Scale, WritesDownWhyARunFailed) {
 
 TEST(Scale, SaysWhatIsWrongBeforeItRuns) {
   const std::string results = fresh("wrong");
-  EXPECT_EQ(scale(results, {"--weak", "m"}).code, 2);
+  const Ending unknown = scale(results, {"--weak", "m"});
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_NE(unknown.output.find("--weak m: the scene has no variable \"m\""), std::string::npos) << unknown.output;
   EXPECT_EQ(scale(results, {"--weak", "n:0"}).code, 1);
   EXPECT_EQ(scale(results, {"--plan", "4", "--ranks", "2"}).code, 1);
   EXPECT_FALSE(std::filesystem::exists(results + "/scale.json"));

@@ -1,5 +1,6 @@
 # What a series of runs on growing numbers of ranks says, in words. A point is an entry of scale.json.
 MEMORY_BOUND = 0.85  # a phase whose efficiency is at least this share of the memory's uses what there is
+SHORT, ENOUGH = 1.0, 3  # seconds below which a run is within the noise of a machine, unless so many repeats tell how large that is
 
 
 def value(number, digits=3):
@@ -12,12 +13,76 @@ def lost_seconds(point):
 
 
 def limit_of(point):
-    """The phase that lost most, its lost seconds, and their share of all that were lost; None if none was."""
-    lost = {name: seconds for name, seconds in lost_seconds(point).items() if seconds > 0}
-    if not lost:
-        return None
-    name = max(lost, key=lost.get)
-    return name, lost[name], lost[name] / sum(lost.values())
+    """The phase that lost most, its lost seconds, and those of the whole run, to which other phases may add or from which they take; None if none was."""
+    lost, total = lost_seconds(point), point["seconds"] * (1 - point["efficiency"])
+    name = max(lost, key=lost.get, default=None)
+    return (name, lost[name], total) if lost and lost[name] > 0 and total > 0 else None
+
+
+def middle(point):
+    """Seconds of the middle one of the repeats; of an even number, the slower of the two."""
+    return sorted(point["repeats"])[len(point["repeats"]) // 2]
+
+
+def spread(points):
+    """How much longer the middle repeat of a point takes than the fastest, which counts; one slow repeat does not matter."""
+    return max(middle(point) - point["seconds"] for point in points)
+
+
+def digits_of(points):
+    """As many as repeats agree in; two if there are none."""
+    if any(len(point["repeats"]) < 2 for point in points):
+        return 2
+    relative = max(spread([point]) / point["seconds"] for point in points)
+    return 3 if relative < 0.01 else 2 if relative < 0.1 else 1
+
+
+def rounded(number, digits):
+    """Without an exponent, which few digits of a large number would have."""
+    return f"{float(f'{number:.{digits}g}'):.9g}"
+
+
+def why_noise(points, lost):
+    """Why so many seconds lost between these points mean nothing; empty if they do."""
+    if any(point["seconds"] < SHORT and len(point["repeats"]) < ENOUGH for point in points):
+        return f"Runs below {SHORT:g} s with fewer than {ENOUGH} repeats are within the noise of the machine."
+    if spread(points) >= lost:
+        return f"That is within the noise of the machine: the middle repeat takes up to {rounded(spread(points), 2)} s more than the fastest."
+    return ""
+
+
+def limit_words(first, last):
+    """What limits a series, as far as its times tell."""
+    limit = limit_of(last)
+    noise = why_noise([first, last], limit[1] if limit else np.inf)
+    advice = f" {noise} Measure with a larger <code>--repeats</code>, or a larger scene, before you trust these times." if noise else ""
+    if not limit:
+        return advice.strip()
+    phase, lost, total = limit
+    digits = 1 if noise else digits_of([first, last])
+    share = f"{rounded(lost, digits)} s of the {rounded(total, digits)} s that the run loses" if lost <= total else \
+        f"{rounded(lost, digits)} s; the run loses {rounded(total, digits)} s, as other phases gain"
+    if noise:
+        return f"Most seems to be lost in the {escaped(phase)}, {share}.{advice}"
+    if lost <= total:
+        share += f" ({rounded(100 * lost / total, min(digits, 2))} %)"
+    return f"What limits it is the {escaped(phase)}, with {share}: {cause(phase, last, first)}."
+
+
+def not_grown(series):
+    """Points of a weak series that have no more unknowns than the first, and so no efficiency."""
+    done = [point for point in series if point["finished"]]
+    return [point for point in done if point["series"] == "weak" and done[0]["ranks"] == 1 and point["efficiency"] is None]
+
+
+def growth_words(series):
+    """That these points are no weak scaling; empty if all have grown."""
+    flat = not_grown(series)
+    if not flat:
+        return ""
+    ranks = ", ".join(str(point["ranks"]) for point in flat)
+    return f"The number of unknowns did not grow with the ranks: it is {value(flat[-1]['dofs'], 9)} on {ranks} ranks, not more than on one. This is no weak scaling, " \
+           "and no efficiency is given."
 
 
 def cause(name, point, first):
@@ -42,26 +107,28 @@ def series_words(series):
     if not done or done[0]["ranks"] != 1:
         return ["The run on one rank did not come to its end: there is nothing to compare with."]
     first, last, name = done[0], done[-1], done[0]["series"]
+    growth = growth_words(series)
+    if first is last and growth:
+        return [f"<b>Weak scaling:</b> {growth[0].lower()}{growth[1:]}"]
     if first is last:
         return [f"Only one rank was measured, {value(first['seconds'])} s: there is nothing to compare."]
+    digits = digits_of([first, last])
+    seconds = lambda point: rounded(point["seconds"], digits)
+    efficiency = f"an efficiency of {rounded(last['efficiency'], min(digits, 2))}"
     well = [point["ranks"] for point in done if point["efficiency"] >= 0.5][-1]
     if name == "strong":
         best = min(done, key=lambda point: point["seconds"])
         speed = first["seconds"] / last["seconds"]
-        compared = f"{value(speed)} times as fast" if speed >= 1 else f"{value(1 / speed)} times as long"
-        words = [f"<b>Strong scaling:</b> {last['ranks']} ranks take {value(last['seconds'])} s, one takes {value(first['seconds'])} s: {compared}, "
-                 f"an efficiency of {value(last['efficiency'], 2)}."]
+        ratio = rounded(max(speed, 1 / speed), digits)
+        compared = "as long" if ratio == "1" else f"{ratio} times as {'fast' if speed >= 1 else 'long'}"
+        words = [f"<b>Strong scaling:</b> {last['ranks']} ranks take {seconds(last)} s, one takes {seconds(first)} s: {compared}, "
+                 f"{efficiency}."]
         if best is first:
             words.append("More than one rank does not pay.")
         elif best is not last:
-            words.append(f"The fastest run has {best['ranks']} ranks, {value(best['seconds'])} s.")
+            words.append(f"The fastest run has {best['ranks']} ranks, {seconds(best)} s.")
     else:
-        words = [f"<b>Weak scaling:</b> {last['ranks']} ranks take {value(last['seconds'])} s for {value(last['dofs'], 9)} unknowns, one takes "
-                 f"{value(first['seconds'])} s for {value(first['dofs'], 9)}: an efficiency of {value(last['efficiency'], 2)}."]
+        words = [f"<b>Weak scaling:</b> {last['ranks']} ranks take {seconds(last)} s for {value(last['dofs'], 9)} unknowns, one takes "
+                 f"{seconds(first)} s for {value(first['dofs'], 9)}: {efficiency}."]
     words.append(f"The efficiency is at least 0.5 up to {well} rank{'s' if well > 1 else ''}.")
-    limit = limit_of(last)
-    if limit:
-        phase, seconds, share = limit
-        words.append(f"What limits it is the {escaped(phase)}, with {value(seconds)} s or {100 * share:.0f} % of the time that is lost: "
-                     f"{cause(phase, last, first)}.")
-    return words
+    return words + [one for one in (limit_words(first, last), growth) if one]

@@ -67,6 +67,7 @@ def table(name):
     columns = [("ranks", [str(p["ranks"]) for p in of(name)]), ("ended", ["well" if p["finished"] else "<b>failed</b>" for p in of(name)]),
                ("unknowns", whole("dofs", 9)), ("Newton iterations", whole("newton_iterations", 9)), ("linear iterations", whole("linear_iterations", 9)),
                ("memory / MiB", whole("memory_mib", 3)), ("contact, largest over mean work", whole("contact_imbalance", 3)), ("wall / s", whole("seconds", 3)),
+               ("middle repeat / s", [value(middle(p)) if p["finished"] else "–" for p in of(name)]),
                ("efficiency", whole("efficiency", 2)), ("memory bandwidth / (GB/s)", whole("bandwidth_gb_s", 3)),
                ("its efficiency", whole("bandwidth_efficiency", 2))]
     return column_table(columns, f"{name.capitalize()} scaling: whole runs", ["ended"])
@@ -91,6 +92,17 @@ def written(figure, name):
 
 MEANING = {"strong": "The same scene on growing numbers of ranks: efficiency t<sub>1</sub> / (p t<sub>p</sub>).",
            "weak": "The scene grows with the ranks: efficiency t<sub>1</sub> / t<sub>p</sub>, for the same number of unknowns per rank."}
+
+
+def meaning(name):
+    return growth_words(of(name)) or MEANING[name]
+
+
+def scales(name):
+    """Whether there is an efficiency to draw, of more ranks than one or of the memory alone."""
+    return len(not_grown(of(name))) < len(finished(name)) - 1 or not not_grown(of(name))
+
+
 failed = [point for point in points if not point["finished"]]
 parts = ['<section class="answer">', *[paragraph(*series_words(of(name))) for name in series]]
 if failed:
@@ -99,11 +111,13 @@ parts.append("</section>")
 if finished(series[0]):
     parts.append(figures([html_figure(times(series[0]), f"{series[0].capitalize()} scaling", "wall time by phase; the line is what full efficiency would take")]))
 for name in series:
-    image = written(efficiencies(name), "scale.svg" if name == "strong" else "scale_weak.svg")
-    images = [html_image(image, f"{name.capitalize()} scaling", "efficiency of the run and its phases, beside that of the memory alone")]
+    images = []
+    if scales(name):
+        image = written(efficiencies(name), "scale.svg" if name == "strong" else "scale_weak.svg")
+        images.append(html_image(image, f"{name.capitalize()} scaling", "efficiency of the run and its phases, beside that of the memory alone"))
     if name != series[0] and finished(name):
         images.append(html_figure(times(name), f"{name.capitalize()} scaling", "wall time by phase; the line is what full efficiency would take"))
-    parts += [f"<section><h2>{name.capitalize()} scaling</h2>", paragraph(MEANING[name]), figures(images), "</section>"]
+    parts += [f"<section><h2>{name.capitalize()} scaling</h2>", paragraph(meaning(name)), figures(images), "</section>"]
 parts += ["<section><h2>Tables</h2>", *[part for name in series for part in (table(name), phases(name))], "</section>"]
 parts += ["<section><h2>What failed</h2>", *([] if failed else [paragraph("All runs came to their end.")]),
           *[f'<div class="failed"><b>{p["series"]}, {p["ranks"]} rank(s)</b><pre class="said">{escaped(p["said"])}</pre></div>' for p in failed], "</section>"]

@@ -16,7 +16,7 @@ def in_percent(error):
 
 def has_errors(error):
     """Whether there is anything to draw: errors that are more than round-off."""
-    return any(known(one) and one > ROUND_OFF for one in error["error"])
+    return error["exact"] is None and any(map(known, error["error"]))
 
 
 def cheapest_within(error, target, points):
@@ -35,8 +35,8 @@ def cheapest_of(error, points):
     reached = [(one, i) for i, one in enumerate(error["error"]) if known(one)]
     if not reached:
         return "no errors are known."
-    if not has_errors(error):
-        fastest = min((points[i]["wall_s"], i) for _, i in reached)[1]
+    fastest = error["exact"]
+    if fastest is not None:
         return f"all runs are exact but for round-off; the fastest is <b>{escaped(points[fastest]['label'])}</b>, {cell(points[fastest]['wall_s'])} s."
     found = [cheapest_within(error, target, points) for target in error["targets"]]
     text = "; ".join(one for one in found if one)
@@ -52,7 +52,7 @@ def cheapest_of(error, points):
 def winners(errors, points, curves):
     """Curves by how many of the bounds they are the cheapest for, those that are it most often; of how many bounds."""
     family = {i: curve["name"] for curve in curves for i in curve["points"]}
-    found = [family[target["cheapest"]["point"]] for error in errors if has_errors(error) for target in error["targets"]
+    found = [family[target["cheapest"]["point"]] for error in errors for target in error["targets"]
              if target["cheapest"] and target["cheapest"]["confirmed"]]
     most = max((found.count(name) for name in found), default=0)
     return [name for name in dict.fromkeys(found) if found.count(name) == most], most, len(found)
@@ -77,4 +77,5 @@ def order_words(error, index):
 
 
 RULE = ("A run counts as within a bound only if all finer runs of its family are within it too, as an error that changes its sign passes through nothing. "
-        "The finest run of a family has no finer one: it counts only where no confirmed run does, and is marked as not confirmed.")
+        "The finest run of a family has no finer one: it counts only where no confirmed run does, and is marked as not confirmed. "
+        "Where all runs are exact but for round-off, the fastest of them meets every bound.")

@@ -8,6 +8,7 @@
 
 #include "draw_plot.hpp"
 #include "memory_bandwidth.hpp"
+#include "mortise/core/xml.hpp"
 #include "mortise/io/files.hpp"
 #include "mortise/io/output_directory.hpp"
 #include "mortise/simulation/read_scene.hpp"
@@ -37,8 +38,14 @@ std::string grown(const WeakVariable& variable, double value, int dimension, int
 double value_of(const Scene& scene, const ScaleOptions& options) {
   const auto& variables = scene.symbols.variables;
   const auto found = variables.find(options.weak->name);
-  if (found == variables.end())
-    throw InputError(Place{options.scene, 0, "variables"}, fmt::format("there is no variable \"{}\" for the weak series", options.weak->name));
+  if (found == variables.end()) {
+    std::vector<std::string> known;
+    for (const auto& variable : variables) known.push_back(variable.first);
+    const std::string hint = did_you_mean(options.weak->name, known);
+    const std::string all = known.empty() ? "t has none" : "t has: " + quoted_list(known);
+    throw InputError(Place{},
+                     fmt::format("--weak {0}: the scene has no variable \"{0}\"{1}{2}", options.weak->name, hint.empty() ? "; i" : hint + " I", all));
+  }
   return found->second;
 }
 
@@ -69,7 +76,19 @@ std::string progress(std::size_t number, const std::vector<ScalePoint>& points) 
   line += fmt::format("{:.0f} dofs, {:.2f} s", point.dofs, point.seconds);
   if (const double efficiency = point.efficiency(first, point.seconds, first.seconds); std::isfinite(efficiency))
     line += fmt::format(", efficiency {:.2f}", efficiency);
+  else if (first.finished && !point.has_grown(first))
+    line += ", no efficiency: no more unknowns than on one rank";
   return line;
+}
+
+/// Ranks of the weak series whose points have no more unknowns than its first one.
+std::vector<int> ranks_without_growth(const std::vector<ScalePoint>& points) {
+  std::vector<int> ranks;
+  const auto first = std::find_if(points.begin(), points.end(), [](const ScalePoint& point) { return point.series == "weak"; });
+  if (first == points.end() || !first->finished) return ranks;
+  for (auto point = first; point != points.end(); ++point)
+    if (point->finished && !point->has_grown(*first)) ranks.push_back(point->ranks);
+  return ranks;
 }
 
 }  // namespace
@@ -81,7 +100,8 @@ ExitCode run_scale(const RCP<const Communicator>& comm, const ScaleOptions& opti
   const std::string page = directory.file("report.html");
   require_page_python(*comm, page);
   std::vector<ScalePoint> points = planned_points(scene, options, directory);
-  for (const char* old : {"scale.csv", "scale.json", "scale.svg", "report.html", "runs"}) std::filesystem::remove_all(directory.file(old));
+  for (const char* old : {"scale.csv", "scale.json", "scale.svg", "scale_weak.svg", "report.html", "runs"})
+    std::filesystem::remove_all(directory.file(old));
   OutputDirectory(comm, directory.file("runs"), false).make();
 
   std::map<int, double> bandwidth;
@@ -95,6 +115,10 @@ ExitCode run_scale(const RCP<const Communicator>& comm, const ScaleOptions& opti
     log.info(progress(i, points));
     if (!points[i].finished) log.warning(points[i].said.substr(points[i].said.find_last_of('\n') + 1));
   }
+  if (const std::vector<int> flat = ranks_without_growth(points); !flat.empty())
+    log.warning(
+        fmt::format("--weak {}: the number of unknowns did not grow with the ranks on {} ranks. This is no weak scaling; no efficiency is given",
+                    options.weak->name, fmt::join(flat, ", ")));
   write_scale_table(comm, directory.file("scale.csv"), points);
   write_json(*comm, directory.file("scale.json"), scale_json(options, points));
   draw_plot(*comm, std::string(page_needs) + scale_page, {directory.path()}, page);

@@ -210,10 +210,7 @@ void report_end(const RunRecord& record, const std::optional<StepFailure>& failu
   for (const auto& name : record.quantity_order)
     if (const auto found = record.quantities.find(name); found != record.quantities.end()) log.info(fmt::format("{} = {:.10g}", name, found->second));
   for (const auto& check : record.checks) {
-    const std::string low = check.low ? fmt::format("{:g} <= ", *check.low) : "", high = check.high ? fmt::format(" <= {:g}", *check.high) : "";
-    const std::string line =
-        fmt::format("check {}: {}{}{}: {:.10g}: {}", check.name, low, check.quantity, high, check.value, check.ok ? "ok" : "MISSED");
-    check.ok ? log.info(line) : log.warning(line);
+    check.ok ? log.info(check_line(check)) : log.warning(check_line(check));
   }
   for (const auto& [pair, load] : record.integration)
     if (load.segments > 0)

@@ -26,6 +26,7 @@ const ScalePoint& first_of(const std::vector<ScalePoint>& points, const ScalePoi
 void take(const Json& summary, ScalePoint& point) {
   const Json& time = summary.at("time");
   const double total = time.at("total");
+  point.repeats.push_back(total);
   if (point.finished && total >= point.seconds) return;
   point.finished = true;
   point.seconds = total;
@@ -63,10 +64,13 @@ const std::vector<ScalePhase>& scale_phases() {
   return phases;
 }
 
+bool ScalePoint::has_grown(const ScalePoint& first) const { return series != "weak" || ranks == first.ranks || dofs > first.dofs; }
+
 double ScalePoint::size_ratio(const ScalePoint& first) const { return series == "weak" ? dofs / (ranks * first.dofs) : 1.0; }
 
 double ScalePoint::efficiency(const ScalePoint& first, double seconds_here, double seconds_first) const {
   if (!finished || !first.finished || seconds_here <= 0.0 || seconds_first <= 0.0) return std::numeric_limits<double>::quiet_NaN();
+  if (!has_grown(first)) return std::numeric_limits<double>::quiet_NaN();
   return series == "weak" ? size_ratio(first) * seconds_first / seconds_here : seconds_first / (ranks * seconds_here);
 }
 
@@ -108,6 +112,7 @@ Json scale_json(const ScaleOptions& options, const std::vector<ScalePoint>& poin
       one["memory_mib"] = point.memory_mib;
       one["contact_imbalance"] = point.imbalance;
       one["seconds"] = point.seconds;
+      one["repeats"] = point.repeats;
       one["efficiency"] = number(point.efficiency(first, point.seconds, first.seconds));
       one["phases"] = Json::object();
       for (std::size_t p = 0; p < scale_phases().size(); ++p)

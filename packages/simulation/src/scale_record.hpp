@@ -32,9 +32,14 @@ struct ScalePoint {
   std::vector<double> phases;  ///< [scale_phases] seconds of the same
   double bandwidth = 0.0;      ///< of as many processes [bytes / s]; 0: unknown
 
+  std::vector<double> repeats;  ///< seconds of each
+
+  /// False for a later point of a weak series with no more unknowns than its first: it shows no weak scaling.
+  bool has_grown(const ScalePoint& first) const;
   /// 1, but for what this point has more or fewer unknowns than its share of the first point's.
   double size_ratio(const ScalePoint& first) const;
-  /// How well so many ranks are used: (t_1 / t_p) / p in the strong series; t_1 / t_p for as many unknowns per rank in the weak one. NaN if unknown.
+  /// How well so many ranks are used: (t_1 / t_p) / p in the strong series; t_1 / t_p for as many unknowns per rank in the weak one. NaN if unknown,
+  /// or if the unknowns of a weak series did not grow.
   double efficiency(const ScalePoint& first, double seconds_here, double seconds_first) const;
 };
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace mortise {
 namespace {
 
@@ -9,6 +11,17 @@ std::vector<double> picked(const std::vector<double>& values, const std::vector<
   std::vector<double> some;
   for (const std::size_t i : indices) some.push_back(values[i]);
   return some;
+}
+
+/// The fastest run if no error that is known is more than round-off.
+std::optional<std::size_t> fastest_of_exact(const std::vector<double>& seconds, const std::vector<double>& errors) {
+  std::optional<std::size_t> fastest;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    if (!std::isfinite(errors[i]) || !std::isfinite(seconds[i])) continue;
+    if (errors[i] > round_off) return {};
+    if (!fastest || seconds[i] < seconds[*fastest]) fastest = i;
+  }
+  return fastest;
 }
 
 }  // namespace
@@ -19,13 +32,14 @@ StudyConclusions conclude(const StudyPlan& plan, const StudyResults& results, co
   std::vector<std::vector<std::size_t>> families;
   for (const StudyCurve& curve : curves) families.push_back(curve.points);
   StudyConclusions conclusions;
+  conclusions.exact = fastest_of_exact(seconds, errors.error);
   conclusions.front = pareto_front(seconds, errors.error);
   for (const StudyCurve& curve : curves)
     conclusions.orders.push_back(fitted_order(picked(results.h, curve.points), picked(errors.error, curve.points)));
   for (const double error : plan.file.targets) {
     StudyConclusions::Target target;
     target.error = error;
-    target.cheapest = cheapest_run(error, seconds, errors.error, families);
+    target.cheapest = conclusions.exact ? CheapestRun{*conclusions.exact, true} : cheapest_run(error, seconds, errors.error, families);
     for (const StudyCurve& curve : curves)
       target.times.push_back(time_to_error(error, picked(seconds, curve.points), picked(errors.error, curve.points)));
     for (std::size_t c = 0; c < curves.size(); ++c) {
@@ -39,6 +53,9 @@ StudyConclusions conclude(const StudyPlan& plan, const StudyResults& results, co
 }
 
 std::string sentence(const StudyPlan& plan, const StudyResults& results, const StudyErrors& errors, const StudyConclusions& conclusions) {
+  if (conclusions.exact)
+    return fmt::format("{}: all runs are exact but for round-off; the fastest is {} ({:.3g} s)", errors.name, plan.points[*conclusions.exact].label(),
+                       results.points[*conclusions.exact].wall);
   std::string text = "cheapest configuration";
   for (const auto& target : conclusions.targets) {
     const bool first = &target == &conclusions.targets.front();

@@ -53,6 +53,7 @@ Json errors_json(const StudyErrors& errors, const StudyConclusions& conclusions)
   Json json{{"name", errors.name},     {"error", numbers(errors.error)}, {"value", numbers(errors.value)}, {"reference", numbers(errors.reference)},
             {"notes", errors.notes},   {"orders", Json::array()},        {"no_order", Json::array()},      {"front", conclusions.front},
             {"targets", Json::array()}};
+  json["exact"] = conclusions.exact ? Json(*conclusions.exact) : Json(nullptr);
   for (const auto& fitted : conclusions.orders) json["orders"].push_back(number(fitted.order)), json["no_order"].push_back(fitted.reason);
   for (const auto& target : conclusions.targets) {
     Json one{{"error", target.error}, {"cheapest", nullptr}, {"curves", Json::array()}};

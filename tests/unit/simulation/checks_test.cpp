@@ -33,6 +33,16 @@ TEST(Checks, WhatIsNotANumberMissesEveryBound) {
   EXPECT_FALSE(ok(nan, {}, 1.0));
 }
 
+TEST(Checks, LinesTellBoundsAndValueApart) {
+  const auto line = [](double value, std::optional<double> low, std::optional<double> high) {
+    return check_line(evaluate_checks({check("peak", low, high)}, {{"peak", value}}).at(0));
+  };
+  EXPECT_EQ(line(0.2, 0.2 * (1.0 - 1e-6), 0.2 * (1.0 + 1e-6)), "check check of peak: 0.1999998 <= peak <= 0.2000002: 0.2: ok");
+  EXPECT_EQ(line(2.5, 1.0, {}), "check check of peak: 1 <= peak: 2.5: ok");
+  EXPECT_EQ(line(1.0 + 1e-12, {}, 1.0), "check check of peak: peak <= 1: 1.000000000001: MISSED");
+  EXPECT_EQ(line(1.0, 1.0, 1.0), "check check of peak: 1 <= peak <= 1: 1: ok");
+}
+
 TEST(Checks, RowsSayWhatWasChecked) {
   const auto rows = evaluate_checks({check("a", 1.0, {}), check("b", {}, 2.0)}, {{"a", 5.0}, {"b", 6.0}});
   ASSERT_EQ(rows.size(), 2u);

@@ -28,4 +28,7 @@ struct CheckResult {
 /// One row for each check, in their order. Throws InputError for all quantities that are not among `values`, with the nearest names.
 std::vector<CheckResult> evaluate_checks(const std::vector<Named<CheckOptions>>& checks, const std::map<std::string, double>& values);
 
+/// "check on the cone: 0.1999998 <= force_ratio <= 0.2000002: 0.2: ok", with the digits that tell bounds and value apart.
+std::string check_line(const CheckResult& check);
+
 }  // namespace mortise
