@@ -38,4 +38,30 @@ TEST(Files, OutputThatCannotBeWrittenIsAFileError) {
   }
 }
 
+TEST(Files, ADeviceThatGivesNothingIsNamedForWhatItIs) {
+  const Ending ending = launch({MORTISE, "check", "/dev/null"}, 60);
+  EXPECT_EQ(ending.code, 5) << ending.output;
+  EXPECT_NE(ending.output.find("no regular file"), std::string::npos) << ending.output;
+}
+
+TEST(Files, ADescriptionThatCannotBeWrittenIsAFileError) {
+  const Ending ending = launch({MORTISE, "describe", "--format", "md", "-o", "/dev/full"}, 60);
+  EXPECT_EQ(ending.code, 5) << ending.output;
+  EXPECT_NE(ending.output.find("cannot write to the directory /dev/full"), std::string::npos) << ending.output;
+}
+
+TEST(Files, StandardOutputThatCannotBeWrittenIsAFileError) {
+  const files::path directory = files::path(SCRATCH) / "full";
+  files::remove_all(directory);
+  files::create_directories(directory);
+  const std::string scene = directory / "scene.xml", results = directory / "results";
+  std::ofstream(scene) << good_scene;
+  for (const std::string& words : {"check '" + scene + "'", "run '" + scene + "' -o '" + results + "'"}) {
+    const Ending ending = launch({"bash", "-c", "exec '" MORTISE "' " + words + " 2>&1 >/dev/full"}, 60);
+    EXPECT_EQ(ending.code, 5) << ending.output;
+    EXPECT_NE(ending.output.find("cannot write to standard output; the results in files are complete"), std::string::npos) << ending.output;
+  }
+  EXPECT_TRUE(files::exists(directory / "results/summary.json"));
+}
+
 }  // namespace
