@@ -16,8 +16,10 @@ void add_describe_command(CLI::App& app, Program& program) {
   };
   auto* command = app.add_subcommand("describe", "say every parameter with its default, unit, range and meaning");
   const auto options = std::make_shared<Options>();
-  command->add_option("PATH", options->path,
-                      "a list of the scene, e.g. contact or stepping, or point, study, hard: those files; default: the whole scene");
+  command
+      ->add_option("PATH", options->path,
+                   "a list of the scene, e.g. contact or stepping, or point, study, hard: those files; default: the whole scene")
+      ->type_name(list_value);
   const std::map<std::string, DescriptionFormat> formats{{"text", DescriptionFormat::text},
                                                          {"md", DescriptionFormat::markdown},
                                                          {"rng", DescriptionFormat::relax_ng},
