@@ -45,13 +45,19 @@ std::vector<ListRecord> free_lists() {
   ListRecord variables;
   variables.name = "variables";
   variables.says = Says("numbers with names of your choice, for expressions below them; --set variables/NAME=VALUE replaces one");
-  variables.parameters.push_back({"<name>", Kind::number, "", Says("a number, or an expression of the variables above it").required(), {}});
+  variables.parameters.push_back(
+      {"<name>",
+       Kind::number,
+       "",
+       Says("a number by a name of your choice, for use in expressions; it may itself be an expression of the variables above it").required(),
+       {}});
   ListRecord tables;
   tables.name = "tables";
   tables.says = Says("piecewise linear functions with names of your choice; an expression calls one as NAME(t)");
   tables.kind = ListRecord::Kind::named;
   ListRecord table;
   table.name = "<name>";
+  table.says = Says("a piecewise linear function by a name of your choice, for use in expressions: <name>(t)");
   table.parameters.push_back({"times", Kind::numbers, "", Says("where values are given, in growing order").required(), {}});
   table.parameters.push_back({"values", Kind::numbers, "", Says("values at these times").required(), {}});
   tables.lists.push_back(std::move(table));
