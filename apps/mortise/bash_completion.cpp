@@ -4,21 +4,29 @@
 #include <string>
 
 #include "declarations.hpp"
+#include "mortise/simulation/describe_scene.hpp"
 
 namespace mortise {
 namespace {
 
 constexpr const char* begin = R"(# Completions of mortise for bash; made by `mortise completion`.
 _mortise() {
-  local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]} options='' choices='' files='' IFS=$'\n'
+  local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]} options='' choices='' files='' many='' head='' form='%q\n' IFS=$'\n'
   COMPREPLY=()
+  # bash splits --option=value at the "="
+  if [ "$word" = = ]; then word=''; elif [ "$previous" = = ]; then previous=${COMP_WORDS[COMP_CWORD - 2]}; fi
   if [ "$COMP_CWORD" -eq 1 ]; then
 )";
 
 constexpr const char* end = R"(  case $files in
     xml) mapfile -t COMPREPLY < <(compgen -d -- "$word"; compgen -f -X '!*.xml' -- "$word") ;;
     directory) mapfile -t COMPREPLY < <(compgen -d -- "$word") ;;
-    *) mapfile -t COMPREPLY < <(compgen -W "$choices" -- "${word//\\/}" | while read -r one; do printf '%q\n' "$one"; done) ;;
+    *)
+      # behind an open quote nothing has to be escaped
+      if [[ $word == [\"\']* ]]; then word=${word:1} form='%s\n'; else word=${word//\\/}; fi
+      if [[ -n $many && $word == *,* ]]; then head=${word%,*},; word=${word##*,}; fi
+      mapfile -t COMPREPLY < <(compgen -W "$choices" -- "$word" | while read -r one; do printf "%s$form" "$head" "$one"; done)
+      ;;
   esac
   if [ -n "$files" ]; then compopt -o filenames 2>/dev/null; fi
 }
@@ -29,7 +37,9 @@ complete -F _mortise mortise
 std::string completing(const DeclaredOption& option) {
   if (option.value == xml_value) return "files=xml";
   if (option.value == directory_value) return "files=directory";
-  return fmt::format("choices=$'{}'", fmt::join(option.choices, "\\n"));
+  const std::vector<std::string> choices = option.value == list_value ? described_lists() : option.choices;
+  const bool many = option.value.find(",...") != std::string::npos;
+  return fmt::format("choices=$'{}'{}", fmt::join(choices, "\\n"), many ? " many=yes" : "");
 }
 
 std::string branch_of(const DeclaredCommand& command) {

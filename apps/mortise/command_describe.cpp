@@ -1,8 +1,9 @@
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <memory>
 
+#include "declarations.hpp"
 #include "mortise/io/files.hpp"
+#include "mortise/io/output_directory.hpp"
 #include "mortise/simulation/describe_scene.hpp"
 #include "program.hpp"
 
@@ -15,14 +16,19 @@ void add_describe_command(CLI::App& app, Program& program) {
   };
   auto* command = app.add_subcommand("describe", "say every parameter with its default, unit, range and meaning");
   const auto options = std::make_shared<Options>();
-  command->add_option("PATH", options->path,
-                      "a list of the scene, e.g. contact or stepping, or point, study, hard: those files; default: the whole scene");
+  command
+      ->add_option("PATH", options->path,
+                   "a list of the scene, e.g. contact or stepping, or point, study, hard: those files; default: the whole scene")
+      ->type_name(list_value);
   const std::map<std::string, DescriptionFormat> formats{{"text", DescriptionFormat::text},
                                                          {"md", DescriptionFormat::markdown},
                                                          {"rng", DescriptionFormat::relax_ng},
                                                          {"json", DescriptionFormat::json}};
-  command->add_option("--format", options->format, "text, md (Markdown), rng (RELAX NG schema) or json")
-      ->transform(CLI::CheckedTransformer(formats))
+  command
+      ->add_option_function<std::string>(
+          "--format", [options, formats](const std::string& name) { options->format = formats.at(name); },
+          "text, md (Markdown), rng (RELAX NG schema) or json")
+      ->check(one_of("format", {"text", "md", "rng", "json"}))
       ->option_text("FORMAT");
   add_directory(*command, options->directory,
                 "write into this directory: with rng or json the one file, else the whole reference, a page for each list, and the schemas");
@@ -34,7 +40,7 @@ void add_describe_command(CLI::App& app, Program& program) {
         print(program, describe_scene(options->path, options->format));
         return ExitCode::done;
       }
-      std::filesystem::create_directories(options->directory);
+      OutputDirectory(program.comm, options->directory, false).make();
       if (options->format == DescriptionFormat::relax_ng || options->format == DescriptionFormat::json) {
         const std::string kind = options->path.empty() ? "scene" : options->path.substr(0, options->path.find('/'));
         write_file(*program.comm, options->directory + "/" + kind + (options->format == DescriptionFormat::json ? ".json" : ".rng"),
@@ -50,7 +56,7 @@ void add_describe_command(CLI::App& app, Program& program) {
 void add_list_command(CLI::App& app, Program& program) {
   auto* command = app.add_subcommand("list", "say what can be chosen in a scene");
   const auto topic = std::make_shared<std::string>();
-  command->add_option("TOPIC", *topic, "what to list")->required()->check(CLI::IsMember(choice_topics()));
+  command->add_option("TOPIC", *topic, "what to list")->required()->check(one_of("topic", choice_topics()));
   command->callback([&program, topic] {
     program.uses_mpi = false;
     program.action = [&program, topic] { return print(program, list_choices(*topic)), ExitCode::done; };

@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "declarations.hpp"
 #include "mortise/simulation/paper.hpp"
 #include "program.hpp"
 
@@ -13,10 +14,10 @@ void add_paper_command(CLI::App& app, Program& program) {
   add_directory(*command, options->directory, "directory for the page and for the results of each run; default: results/paper");
   command->add_option("--only", options->only, "run only these, separated by commas; the page shows no others")
       ->delimiter(',')
-      ->check(CLI::IsMember(paper_run_names()))
+      ->check(one_of("example", paper_run_names()))
       ->type_name("NAME,...")
       ->allow_extra_args(false);
-  command->add_option("-n,--ranks", options->ranks, "MPI ranks of each run; default: 1")->check(CLI::PositiveNumber)->type_name("N");
+  command->add_option("-n,--ranks", options->ranks, "MPI ranks of each run; default: 1")->check(above_zero())->type_name("N");
   command->add_flag("--reuse", options->reuse, "take results that an earlier call left in DIR for the same scene, settings, ranks and version");
   command->add_flag_callback(
       "--quiet", [options] { options->verbosity = Verbosity::quiet; }, "say nothing but warnings and errors");

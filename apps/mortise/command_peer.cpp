@@ -15,10 +15,15 @@ void add_peer_command(CLI::App& app, Program& program) {
   options->peer = Peer::calculix_mortar;
   command->add_option("SCENE", options->scene, "scene file")->required()->type_name(xml_value);
   add_settings(*command, options->settings);
-  std::map<std::string, Peer> names(peer_names().begin(), peer_names().end());
-  names.erase("none");
-  command->add_option("--by", options->peer, "calculix mortar (the default), calculix surface to surface, calculix node to surface")
-      ->transform(CLI::CheckedTransformer(names))
+  std::map<std::string, Peer> peers(peer_names().begin(), peer_names().end());
+  peers.erase("none");
+  std::vector<std::string> names;
+  for (const auto& [name, peer] : peers) names.push_back(name);
+  command
+      ->add_option_function<std::string>(
+          "--by", [options, peers](const std::string& name) { options->peer = peers.at(name); },
+          "calculix mortar (the default), calculix surface to surface, calculix node to surface")
+      ->check(one_of("peer", names))
       ->option_text("PEER");
   command
       ->add_option("--penalty", options->penalty,

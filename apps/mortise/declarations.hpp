@@ -26,8 +26,15 @@ struct DeclaredCommand {
 /// All commands, in the order of their declaration.
 std::vector<DeclaredCommand> declared_commands(CLI::App& app);
 
-/// The value of arguments and options that are a scene or another file of XML, and of those that are a directory.
-inline constexpr const char *xml_value = "FILE", *directory_value = "DIR";
+/// The value of arguments and options that are a scene or another file of XML, of those that are a directory, and of those that are a list of a
+/// scene.
+inline constexpr const char *xml_value = "FILE", *directory_value = "DIR", *list_value = "LIST";
+
+/// Checks that a value is one of `names`; `kind` is what they name, for the message. The choices are declared in the order given.
+CLI::Validator one_of(const std::string& kind, const std::vector<std::string>& names);
+
+/// Checks that a value is a whole number above 0.
+CLI::Validator above_zero();
 
 /// A script for bash that completes commands, options, what may be chosen, files *.xml and directories.
 std::string bash_completion(CLI::App& app);

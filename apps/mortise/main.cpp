@@ -43,11 +43,29 @@ std::string unknown_command(const CLI::App& app, int argc, char** argv) {
   return fmt::format("\"{}\" is no command{}\nThe commands are {}.", argv[1], mortise::did_you_mean(argv[1], names), known);
 }
 
+/// What is to be said of a first word that is an option the program does not have; "" if it is none such.
+std::string unknown_option(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] != '-') return {};
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options([](const CLI::Option*) { return true; })) {
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  const std::string word = argv[1], name = word.substr(0, word.find('='));
+  if (std::find(names.begin(), names.end(), name) != names.end()) return {};
+  return fmt::format("\"{}\" is no option of mortise{}\nThe options before a command are {}.", name, mortise::did_you_mean(name, names),
+                     fmt::join(names, ", "));
+}
+
 /// What the program is to do: the input first, then the action.
 mortise::Outcome run_program(const mortise::Program& program) {
   return mortise::run_action(program, [&] {
     if (program.read) program.read();
-    return program.action();
+    const mortise::ExitCode code = program.action();
+    // A log on standard output does not stop a run, whose results are worth more: what it could not say is told here.
+    if (program.is_first_rank() && code == mortise::ExitCode::done && !std::cout.flush())
+      throw mortise::FileError("cannot write to standard output; the results in files are complete");
+    return code;
   });
 }
 
@@ -106,7 +124,7 @@ int main(int argc, char** argv) {
     // All ranks read the same command line; one of them answers.
     if (!mortise::is_first_process()) return others_code;
     const bool asked_for_help = error.get_exit_code() == 0;
-    if (const std::string unknown = unknown_command(app, argc, argv); !asked_for_help && !unknown.empty())
+    if (const std::string unknown = unknown_command(app, argc, argv) + unknown_option(app, argc, argv); !asked_for_help && !unknown.empty())
       std::cerr << unknown << std::endl;
     else
       app.exit(error);

@@ -17,7 +17,6 @@ Outcome run_action(const Program& program, const std::function<ExitCode()>& acti
   Outcome outcome;
   try {
     outcome.code = action();
-    if (program.is_first_rank() && !std::cout.flush()) throw FileError("cannot write to standard output; what goes to files is complete");
   } catch (const InputError& error) {
     outcome = {ExitCode::invalid_input, error.what()};
   } catch (const FileError& error) {

@@ -1,5 +1,10 @@
 // Options that several commands have.
 
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+
 #include "declarations.hpp"
 #include "mortise/core/xml.hpp"
 #include "program.hpp"
@@ -12,6 +17,24 @@ std::string wrong_directory(const std::string& directory) {
 }
 
 }  // namespace
+
+CLI::Validator one_of(const std::string& kind, const std::vector<std::string>& names) {
+  const auto wrong = [kind, names](const std::string& value) -> std::string {
+    if (std::find(names.begin(), names.end(), value) != names.end()) return {};
+    return fmt::format("there is no {} \"{}\"; known: {}", kind, value, fmt::join(names, ", "));
+  };
+  return {wrong, fmt::format("{{{}}}", fmt::join(names, ","))};
+}
+
+CLI::Validator above_zero() {
+  const auto wrong = [](const std::string& value) -> std::string {
+    int number = 0;
+    const auto [last, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+    if (error == std::errc() && last == value.data() + value.size() && number > 0) return {};
+    return "has to be a whole number above 0, not " + value;
+  };
+  return {wrong, ""};
+}
 
 void add_directory(CLI::App& command, std::string& directory, const std::string& meaning) {
   command.add_option("-o,--output", directory, meaning)->check(CLI::Validator(wrong_directory, ""))->type_name(directory_value);

@@ -38,23 +38,30 @@ TEST(Files, OutputThatCannotBeWrittenIsAFileError) {
   }
 }
 
-// /dev/full takes nothing, and so does a path below it.
-TEST(Files, StandardOutputThatTakesNothingIsAFileError) {
-  const files::path directory = files::path(SCRATCH) / "full_output";
+TEST(Files, ADeviceThatGivesNothingIsNamedForWhatItIs) {
+  const Ending ending = launch({MORTISE, "check", "/dev/null"}, 60);
+  EXPECT_EQ(ending.code, 5) << ending.output;
+  EXPECT_NE(ending.output.find("no regular file"), std::string::npos) << ending.output;
+}
+
+TEST(Files, ADescriptionThatCannotBeWrittenIsAFileError) {
+  const Ending ending = launch({MORTISE, "describe", "--format", "md", "-o", "/dev/full"}, 60);
+  EXPECT_EQ(ending.code, 5) << ending.output;
+  EXPECT_NE(ending.output.find("cannot write to the directory /dev/full"), std::string::npos) << ending.output;
+}
+
+TEST(Files, StandardOutputThatCannotBeWrittenIsAFileError) {
+  const files::path directory = files::path(SCRATCH) / "full";
   files::remove_all(directory);
   files::create_directories(directory);
-  std::ofstream(directory / "scene.xml") << good_scene;
-  const auto shell = [&](const std::string& arguments) { return launch({"/bin/sh", "-c", std::string(MORTISE) + " " + arguments}, 60); };
-  const std::string scene = (directory / "scene.xml").string();
-  for (const std::string& command : {"check " + scene, "run " + scene + " -o " + (directory / "results").string()}) {
-    const Ending ending = shell(command + " > /dev/full");
-    EXPECT_EQ(ending.code, 5) << command << ": " << ending.output;
-    EXPECT_NE(ending.output.find("cannot write to standard output"), std::string::npos) << ending.output;
+  const std::string scene = directory / "scene.xml", results = directory / "results";
+  std::ofstream(scene) << good_scene;
+  for (const std::string& words : {"check '" + scene + "'", "run '" + scene + "' -o '" + results + "'"}) {
+    const Ending ending = launch({"bash", "-c", "exec '" MORTISE "' " + words + " 2>&1 >/dev/full"}, 60);
+    EXPECT_EQ(ending.code, 5) << ending.output;
+    EXPECT_NE(ending.output.find("cannot write to standard output; the results in files are complete"), std::string::npos) << ending.output;
   }
-  EXPECT_TRUE(files::exists(directory / "results" / "summary.json"));
-  const Ending described = shell("describe --format md -o /dev/full");
-  EXPECT_EQ(described.code, 5) << described.output;
-  EXPECT_NE(described.output.find("/dev/full"), std::string::npos) << described.output;
+  EXPECT_TRUE(files::exists(directory / "results/summary.json"));
 }
 
 }  // namespace

@@ -87,6 +87,22 @@ TEST(Program, WrongUsageIsCode1) {
   EXPECT_NE(ending.output.find("the name of the directory is empty"), std::string::npos) << ending.output;
 }
 
+TEST(Program, SaysWhatIsWrongWithAnOption) {
+  struct Case {
+    std::vector<std::string> words;
+    std::string said;
+  };
+  for (const auto& [words, said] :
+       {Case{{"--verison"}, "did you mean \"--version\""}, Case{{"paper", "-n", "0"}, "has to be a whole number above 0, not 0"},
+        Case{{"describe", "contact", "--format", "xml"}, "there is no format \"xml\"; known: text, md, rng, json"},
+        Case{{"list", "animals"}, "there is no topic \"animals\"; known: materials"},
+        Case{{"peer", "a.xml", "--by", "abaqus"}, "there is no peer \"abaqus\"; known: calculix"}}) {
+    const Ending ending = mortise(words);
+    EXPECT_EQ(ending.code, 1) << ending.output;
+    EXPECT_NE(ending.output.find(said), std::string::npos) << ending.output;
+  }
+}
+
 TEST(Program, OneOfAllRanksSaysWhatIsWrongWithTheCommandLine) {
   const std::string scene = write_scene("ranks", ""), study = std::string(INPUTS) + "/studies/hertz_elastic.xml";
   struct Case {

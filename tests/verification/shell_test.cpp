@@ -53,7 +53,12 @@ TEST(Shell, CompletesWhatMayBeChosen) {
   EXPECT_THAT(completions({"list", "m"}), UnorderedElementsAre("materials", "meshes"));
   EXPECT_THAT(completions({"describe", "contact", "--format", ""}), UnorderedElementsAre("text", "md", "rng", "json"));
   EXPECT_THAT(completions({"peer", "--by", "calculix m"}), ElementsAre("calculix\\ mortar"));
+  EXPECT_THAT(completions({"peer", "--by", "\"calculix n"}), ElementsAre("calculix node to surface"));
   EXPECT_THAT(completions({"paper", "--only", "patch_test"}), Contains("patch_test"));
+  EXPECT_THAT(completions({"paper", "--only", "patch_test,bl"}), Contains("patch_test,block_pile"));
+  EXPECT_THAT(completions({"describe", "con"}), ElementsAre("contact"));
+  EXPECT_THAT(completions({"describe", "--format", "=", "m"}), ElementsAre("md"));
+  EXPECT_THAT(completions({"describe", "--format", "="}), UnorderedElementsAre("text", "md", "rng", "json"));
 }
 
 TEST(Shell, CompletesFiles) {
@@ -73,7 +78,7 @@ TEST(Shell, HasAManualPage) {
   EXPECT_EQ(warnings.output, "");
   const Ending shown = launch({"bash", "-c", "'" MORTISE "' man | groff -man -Tascii -P-cbou"}, 60);
   EXPECT_THAT(shown.output, AllOf(HasSubstr("MORTISE(1)"), HasSubstr("mortise run"), HasSubstr("-o, --output DIR"), HasSubstr("path=value"),
-                                  HasSubstr("json, md, rng, text)"), HasSubstr("70 internal")));
+                                  HasSubstr("text, md, rng, json)"), HasSubstr("70 internal")));
 }
 
 }  // namespace

@@ -124,19 +124,25 @@ const XmlList* XmlList::list(const std::string& wanted) const {
 
 std::string read_text(const Communicator& comm, const std::string& path) {
   std::string text;
+  std::string reason = "rank 0 failed";
   long long size = -1;
   if (comm.getRank() == 0) {
+    errno = 0;
     std::ifstream file(path, std::ios::binary);
     std::ostringstream content;
     std::error_code none;
     const bool empty = std::filesystem::is_regular_file(path, none) && std::filesystem::file_size(path, none) == 0;
-    if (file && (content << file.rdbuf() || empty)) {  // nothing to copy is a failure of <<
+    const bool read = file && (content << file.rdbuf() || empty);
+    const int failure = errno;
+    if (read) {  // nothing to copy is a failure of <<
       text = content.str();
       size = static_cast<long long>(text.size());
+    } else {  // a device or pipe may give nothing without an error
+      reason = failure != 0 ? std::strerror(failure) : "it is empty, and no regular file";
     }
   }
   Teuchos::broadcast(comm, 0, Teuchos::outArg(size));
-  if (size < 0) throw FileError(fmt::format("{}: cannot be read: {}", path, comm.getRank() == 0 ? std::strerror(errno) : "rank 0 failed"));
+  if (size < 0) throw FileError(fmt::format("{}: cannot be read: {}", path, reason));
   text.resize(size);
   Teuchos::broadcast(comm, 0, static_cast<int>(size), text.data());
   return text;

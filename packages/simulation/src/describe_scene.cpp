@@ -39,6 +39,31 @@ ListRecord hard_tree() {
   return collect_parameters("hard", ledger, CollectParameters::What::declarations);
 }
 
+/// What a user names to use it in expressions; read apart from the other lists, before them.
+std::vector<ListRecord> free_lists() {
+  using Kind = ParameterRecord::Kind;
+  ListRecord variables;
+  variables.name = "variables";
+  variables.says = Says("numbers with names of your choice, for expressions below them; --set variables/NAME=VALUE replaces one");
+  variables.parameters.push_back(
+      {"<name>",
+       Kind::number,
+       "",
+       Says("a number by a name of your choice, for use in expressions; it may itself be an expression of the variables above it").required(),
+       {}});
+  ListRecord tables;
+  tables.name = "tables";
+  tables.says = Says("piecewise linear functions with names of your choice; an expression calls one as NAME(t)");
+  tables.kind = ListRecord::Kind::named;
+  ListRecord table;
+  table.name = "<name>";
+  table.says = Says("a piecewise linear function by a name of your choice, for use in expressions: <name>(t)");
+  table.parameters.push_back({"times", Kind::numbers, "", Says("where values are given, in growing order").required(), {}});
+  table.parameters.push_back({"values", Kind::numbers, "", Says("values at these times").required(), {}});
+  tables.lists.push_back(std::move(table));
+  return {std::move(variables), std::move(tables)};
+}
+
 /// A kind of files besides scenes, by its name.
 struct FileKind {
   std::string name, sentence;
@@ -127,9 +152,11 @@ std::string describe_scene(const std::string& path, DescriptionFormat format) {
   const std::string first = path.substr(0, path.find('/'));
   const auto kind = std::find_if(file_kinds().begin(), file_kinds().end(), [&](const FileKind& one) { return one.name == first; });
   const bool of_scene = kind == file_kinds().end();
-  const ListRecord tree = of_scene ? scene_tree() : kind->tree();
+  ListRecord tree = of_scene ? scene_tree() : kind->tree();
   if (format == DescriptionFormat::relax_ng) return to_relax_ng(tree, of_scene || kind->symbols);
   const std::string below = of_scene ? path : path.substr(std::min(path.size(), first.size() + 1));
+  if (!below.empty() && (of_scene || kind->symbols))
+    for (ListRecord& list : free_lists()) tree.lists.push_back(std::move(list));
   const ListRecord* list = below.empty() ? &tree : find_list(tree, below);
   if (list == nullptr) {
     std::vector<std::string> names;
@@ -137,6 +164,14 @@ std::string describe_scene(const std::string& path, DescriptionFormat format) {
     throw InputError({{}, unknown_name(of_scene ? "list of a scene" : "list of a " + first + " file", below, names)});
   }
   return formatted(*list, format);
+}
+
+std::vector<std::string> described_lists() {
+  std::vector<std::string> names;
+  for (const ListRecord& list : free_lists()) names.push_back(list.name);
+  for (const ListRecord& list : scene_tree().lists) names.push_back(list.name);
+  for (const FileKind& kind : file_kinds()) names.push_back(kind.name);
+  return names;
 }
 
 std::vector<ReferencePage> reference_pages() {

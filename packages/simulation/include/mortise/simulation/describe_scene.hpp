@@ -13,6 +13,9 @@ enum class DescriptionFormat { text, markdown, relax_ng, json };
 /// The schema is that of the whole scene, point or study file, whatever the path.
 std::string describe_scene(const std::string& path, DescriptionFormat format);
 
+/// Names of what describe_scene describes: the lists of a scene and the other kinds of files.
+std::vector<std::string> described_lists();
+
 /// A page of the reference: file name and content. Together they hold every parameter.
 struct ReferencePage {
   std::string file, content;
