@@ -17,15 +17,10 @@ constexpr double full_cover = 1.0 - 1e-7;
 // M_L is as well conditioned on a sliver as on the whole facet; the large entries of T^-T are the extrapolation that phi really is. Standard
 // multipliers: phi = N = T L, constant in this basis, D = T M_L T^T. Where a node has no multiplier, phi -> S phi.
 // Quadratic facets: the same with Ñ = B N = B T L in the place of N; then int phi_j N_k = sum_i (int phi_j Ñ_i) (B^-1)_ki.
-// The number of nodes is known at compile time where it is small and facets are many; otherwise matrices only have a largest size.
-template <int size>
 class Combination {
-  static constexpr int most = size == Eigen::Dynamic ? most_side_nodes : size;
-  static constexpr int masses_at_compile_time = size == Eigen::Dynamic ? Eigen::Dynamic : size * (size + 1) / 2;
-  using Small = Eigen::Matrix<double, size, size, Eigen::ColMajor, most, most>;
-  using Row = Eigen::Matrix<double, 1, size, Eigen::RowMajor, 1, most>;
-  using Column = Eigen::Matrix<double, size, 1, Eigen::ColMajor, most, 1>;
-  using Slopes = Eigen::Matrix<double, size, Eigen::Dynamic, Eigen::ColMajor, most, Eigen::Dynamic>;
+  static constexpr int most = most_side_nodes;
+  using Row = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, most>;
+  using Slopes = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most, Eigen::Dynamic>;
 
  public:
   Combination(const FacetMoments& moments, const FacetMultipliers& multipliers, const FacetFunctions& functions)
@@ -67,9 +62,9 @@ class Combination {
     const auto& value = moments_.value;
     const auto& slope = moments_.slope;
     // [masters x n] int L_i N_l, [n] int L_i g
-    const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, size>> coupled(value.data() + masses, masters, n);
-    const Column gaps = value.tail(n);
-    const Small M_N = T_ * M_L_ * T_.transpose();
+    const Eigen::Map<const Eigen::MatrixXd> coupled(value.data() + masses, masters, n);
+    const FacetVector gaps = value.tail(n);
+    const FacetMatrix M_N = T_ * M_L_ * T_.transpose();
     Slopes weight_slope;
     if (derivatives) weight_slope.noalias() = mass_of_ * slope.topLeftCorner(masses, moving);
     coupling.cover = weight_.cwiseQuotient(moments_.whole);
@@ -152,9 +147,9 @@ class Combination {
   const FacetMoments& moments_;
   const FacetFunctions& functions_;
   const NonNegativeBasis* basis_;
-  Small S_, T_, extrapolation_, M_L_, inverse_;
-  Eigen::Matrix<double, size, masses_at_compile_time, Eigen::ColMajor, most, most*(most + 1) / 2> mass_of_;  // int N as a function of the masses
-  Column weight_, full_;
+  FacetMatrix S_, T_, extrapolation_, M_L_, inverse_;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most, most*(most + 1) / 2> mass_of_;  // int N as a function of the masses
+  FacetVector weight_, full_;
 };
 
 }  // namespace
@@ -185,16 +180,7 @@ FacetMatrix multiplier_shares(const std::vector<char>& carries, std::size_t corn
 
 bool combine(const FacetMoments& moments, const FacetMultipliers& multipliers, const FacetFunctions& functions, bool derivatives,
              FacetCoupling& coupling) {
-  switch (coupling.slave.size()) {
-    case 2:
-      return Combination<Eigen::Dynamic>(moments, multipliers, functions).fill(derivatives, coupling);
-    case 3:
-      return Combination<Eigen::Dynamic>(moments, multipliers, functions).fill(derivatives, coupling);
-    case 4:
-      return Combination<Eigen::Dynamic>(moments, multipliers, functions).fill(derivatives, coupling);
-    default:
-      return Combination<Eigen::Dynamic>(moments, multipliers, functions).fill(derivatives, coupling);
-  }
+  return Combination(moments, multipliers, functions).fill(derivatives, coupling);
 }
 
 }  // namespace mortise
