@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "mortise/contact/contact_system.hpp"
+#include "mortise/contact/contact_pair.hpp"
+#include "mortise/core/types.hpp"
 
 namespace mortise::detail {
 

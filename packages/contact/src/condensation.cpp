@@ -1,4 +1,4 @@
-// The linearised contact: C~, condensation of the multipliers, their recovery, and the start rule.
+// The linearised contact: C~, condensation of the multipliers, their recovery.
 
 #include <Eigen/LU>
 #include <Tpetra_CrsMatrix.hpp>
@@ -10,14 +10,15 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "implementation.hpp"
+#include "condensation.hpp"
 
 namespace mortise {
 namespace {
 
 using detail::NodePositions;
 using detail::NodeRow;
-using detail::PairCoupling;
+using detail::PairEvaluation;
+using detail::RecoveryRow;
 
 // A local row of a filled matrix, copied.
 void copy_row(const Matrix& matrix, LocalOrdinal row, std::vector<LocalOrdinal>& columns, std::vector<double>& values) {
@@ -38,21 +39,35 @@ void replace_row(Matrix& matrix, LocalOrdinal row, const std::vector<LocalOrdina
   matrix.replaceLocalValues(row, static_cast<LocalOrdinal>(columns.size()), values.data(), columns.data());
 }
 
+// The scatter into `system`, which has to be on its graph and open.
+std::shared_ptr<detail::SystemScatter> scatter_into(const detail::EvaluatedContact& contact, const Matrix& system) {
+  const auto& scatter = contact.model->scatter;
+  if (!scatter || !scatter->fits(contact.pairs) || system.getCrsGraph() != scatter->graph())  // entries are found by their positions in it
+    throw std::logic_error(
+        "contact: the matrix is not on the graph of this evaluation: ask ContactSystem::graph() for it, and rebuild the matrix where it is another "
+        "one than before");
+  if (!system.isFillActive())
+    throw std::logic_error(
+        "contact: the matrix is complete: call resumeFill() before, fillComplete() after condense() and the rows of prescribed dofs");
+  return scatter;
+}
+
 }  // namespace
 
 // C~ = d(f_c)/dd at fixed z: rows of slave k: z_j dD_jk, rows of master l: -z_j dM_jl. All slave nodes with z != 0, just opened ones too. z_j is the
 // part of it that acts through D and M.
-void ContactSystem::add_stiffness(const Vector& z, Matrix& system) {
-  Implementation& self = *implementation_;
-  self.require_system("add_stiffness", system);
+void ContactLinearisation::add_stiffness(Matrix& system) const {
+  const detail::EvaluatedLaws& laws = detail::evaluated(laws_);
+  const detail::ContactModel& self = *laws.contact->model;
+  const auto scatter = scatter_into(*laws.contact, system);
   const int dimension = self.dimension;
   const auto scope = self.timers.scope("condensation");
-  const auto z_values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
   std::vector<LocalOrdinal> columns;
   std::vector<double> values;
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
-    const NodePositions& positions = self.scatter->positions(p);
-    for (const FacetCoupling& facet : self.pairs[p]->couplings()) {
+    const PairEvaluation& pair = laws.contact->pairs[p];
+    const NodePositions& positions = scatter->positions(p);
+    for (const FacetCoupling& facet : pair.couplings()) {
       columns.clear();
       for (const LocalOrdinal node : facet.columns)
         for (int i = 0; i < dimension; ++i) columns.push_back(positions.column[dimension * node + i]);
@@ -61,12 +76,12 @@ void ContactSystem::add_stiffness(const Vector& z, Matrix& system) {
       for (Eigen::Index j = 0; j < nodes; ++j) {
         if (static_cast<std::size_t>(facet.slave[j]) >= self.multiplier_of[p].size()) continue;
         const auto s = static_cast<std::size_t>(facet.slave[j]);
-        const SpatialVector zj = self.pairs[p]->coupled_part(s, self.z_of(z_values, p, s));
+        const SpatialVector zj = pair.coupled_part(s, laws.multipliers[p][s].z);
         if (zj.isZero(0.0)) continue;
         const auto add = [&](LocalOrdinal node, const auto& gradient, double sign) {
           for (int i = 0; i < dimension; ++i) {
             for (std::size_t c = 0; c < columns.size(); ++c) values[c] = sign * zj[i] * gradient(static_cast<Eigen::Index>(c));
-            self.scatter->add(system, positions, node, i, columns, values);
+            scatter->add(system, positions, node, i, columns, values);
           }
         };
         for (Eigen::Index k = 0; k < nodes; ++k)
@@ -74,24 +89,25 @@ void ContactSystem::add_stiffness(const Vector& z, Matrix& system) {
         for (Eigen::Index l = 0; l < masters; ++l) add(facet.master[l], facet.dM.row(j * masters + l), -1.0);
       }
     }
-    if (self.pairs[p]->variational()) self.add_gap_stiffness(p, z, system);
+    if (pair.pair().variational()) detail::add_gap_stiffness(laws, p, *scatter, system);
   }
-  self.scatter->finish(system);
+  scatter->finish(system);
 }
 
 // Conditions that give z as a function of d, of a node j:  z^{k+1} = b + S dd,  b = z - C_z^-1 C,  S = -C_z^-1 C_d.
 // Its rows and those of the nodes m it is coupled to:  A_m += c_jm S,  rhs_m -= c_jm b.
-void ContactSystem::Implementation::eliminate_by_law(std::size_t p, std::size_t s, const detail::NodeMultiplier& multiplier, Matrix& system) {
-  const PairCoupling& pair = *pairs[p];
-  if (multiplier_of[p][s] < 0) return;
-  const Complementarity law = pair.complementarity(s, multiplier);
+void detail::Condensation::eliminate_by_law(std::size_t p, std::size_t s, Matrix& system) {
+  const PairEvaluation& pair = this->pair(p);
+  const int dimension = model().dimension;
+  const Complementarity& law = at().laws[p][s];
   if (law.state == ContactState::open) return;
+  const NodeMultiplier& multiplier = at().multipliers[p][s];
   const NodePositions& positions = scatter->positions(p);
-  const NodeRow& node = pair.rows()[s];
-  const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
+  const NodeRow& node = pair.row(s);
+  const std::vector<LocalOrdinal>& coupled = pair.coupled_nodes(s);
 
   RecoveryRow row;
-  row.multiplier = multiplier_of[p][s];
+  row.multiplier = model().multiplier_of[p][s];
   row.pair = p;
   row.node = s;
   row.by_law = true;
@@ -129,19 +145,21 @@ void ContactSystem::Implementation::eliminate_by_law(std::size_t p, std::size_t 
 // Open nodes: z^{k+1} = 0, their rows stay momentum rows.
 // The rows of a corner hold the multipliers of its mid-side nodes too,  D_cc z_c + sum_m D_mc z_m = rhs_c - K~_c dd. Those of a mid-side node hold
 // its own only. So mid-side nodes are condensed first, which adds their D_mc (b_m + S_m dd) to rows of corners. Then the corners' rows are as above.
-void ContactSystem::Implementation::condense_node(std::size_t p, std::size_t s, const detail::NodeMultiplier& multiplier, Matrix& system) {
-  const PairCoupling& pair = *pairs[p];
-  if (multiplier_of[p][s] < 0 || !pair.closed(s, multiplier)) return;
+void detail::Condensation::condense_node(std::size_t p, std::size_t s, Matrix& system) {
+  const PairEvaluation& pair = this->pair(p);
+  const int dimension = model().dimension;
+  const Complementarity& law = at().laws[p][s];
+  if (law.state == ContactState::open) return;
+  const NodeMultiplier& multiplier = at().multipliers[p][s];
   const NodePositions& positions = scatter->positions(p);
   std::array<std::vector<double>, 3> momentum, constraint, row_values;
   const SlaveNode& slave = pair.slave_nodes()[s];
-  const NodeRow& node = pair.rows()[s];
-  const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
+  const NodeRow& node = pair.row(s);
+  const std::vector<LocalOrdinal>& coupled = pair.coupled_nodes(s);
   const LocalOrdinal first_row = dimension * slave.owned_node;
-  const Complementarity law = pair.complementarity(s, multiplier);
 
   RecoveryRow kept;
-  kept.multiplier = multiplier_of[p][s];
+  kept.multiplier = model().multiplier_of[p][s];
   kept.pair = p;
   kept.node = s;
   for (int i = 0; i < dimension; ++i) copy_row(system, first_row + i, kept.columns, momentum[i]);  // the same columns: see SystemScatter
@@ -221,12 +239,13 @@ void ContactSystem::Implementation::condense_node(std::size_t p, std::size_t s, 
 }
 
 // What the two functions above do to the right-hand side, in the same order.
-void ContactSystem::Implementation::add_right_hand_side(RecoveryRow& kept, const SpatialVector& z, const SpatialVector& C, Vector& rhs) {
-  const PairCoupling& pair = *pairs[kept.pair];
+void detail::Condensation::add_right_hand_side(RecoveryRow& kept, const SpatialVector& z, const SpatialVector& C, Vector& rhs) {
+  const PairEvaluation& pair = this->pair(kept.pair);
+  const int dimension = model().dimension;
   const NodePositions& positions = scatter->positions(kept.pair);
   const SlaveNode& slave = pair.slave_nodes()[kept.node];
-  const NodeRow& node = pair.rows()[kept.node];
-  const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(kept.node);
+  const NodeRow& node = pair.row(kept.node);
+  const std::vector<LocalOrdinal>& coupled = pair.coupled_nodes(kept.node);
   const LocalOrdinal first_row = dimension * slave.owned_node;
   const auto add_to_coupled = [&] {
     for (std::size_t c = 0; c < coupled.size(); ++c)
@@ -258,60 +277,57 @@ void ContactSystem::Implementation::add_right_hand_side(RecoveryRow& kept, const
   }
 }
 
-void ContactSystem::Implementation::condense_right_hand_side(const Vector* C, Vector& rhs) {
-  const SpatialVector none = SpatialVector::Zero(dimension);
+void detail::Condensation::condense_right_hand_side(const Vector* C, Vector& rhs) {
+  const SpatialVector none = SpatialVector::Zero(model().dimension);
   const auto part = [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       RecoveryRow& row = recovery[k];
       if (C == nullptr)
         add_right_hand_side(row, row.z, row.C, rhs);
       else
-        add_right_hand_side(row, none, z_of(C->getLocalViewHost(Tpetra::Access::ReadOnly), row.pair, row.node), rhs);
+        add_right_hand_side(row, none, model().z_of(C->getLocalViewHost(Tpetra::Access::ReadOnly), row.pair, row.node), rhs);
     }
     scatter->finish(rhs);
   };
-  if (middles_first) part(0, middles_condensed);
-  part(middles_first ? middles_condensed : 0, recovery.size());
+  if (model().middles_first) part(0, middles_condensed);
+  part(model().middles_first ? middles_condensed : 0, recovery.size());
 }
 
-void ContactSystem::condense(const Vector& z, Matrix& system, Vector& rhs) {
-  Implementation& self = *implementation_;
-  if (keeps_multipliers())
+CondensedContact ContactLinearisation::condense(Matrix& system, Vector& rhs) const {
+  const detail::EvaluatedLaws& laws = detail::evaluated(laws_);
+  const detail::ContactModel& model = *laws.contact->model;
+  if (model.keeps_multipliers())
     throw std::logic_error("contact: condense() where a formulation keeps its multipliers as unknowns: solve with saddle_point_blocks()");
-  self.require_system("condense", system);
-  const auto scope = self.timers.scope("condensation");
-  self.recovery.clear();
-  std::vector<std::vector<detail::NodeMultiplier>> multipliers;
-  for (std::size_t p = 0; p < self.pairs.size(); ++p) multipliers.push_back(self.multipliers_of(z.getLocalViewHost(Tpetra::Access::ReadOnly), p));
+  const auto condensation = std::make_shared<detail::Condensation>(detail::Condensation{laws_, scatter_into(*laws.contact, system), {}, 0, {}});
+  const auto scope = model.timers.scope("condensation");
   for (const bool middles : {true, false}) {
-    if (middles && !self.middles_first) continue;
-    for (std::size_t p = 0; p < self.pairs.size(); ++p) {
-      const PairCoupling& pair = *self.pairs[p];
+    if (middles && !model.middles_first) continue;
+    for (std::size_t p = 0; p < model.pairs.size(); ++p) {
+      const PairEvaluation& pair = laws.contact->pairs[p];
       for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
-        if (pair.before_corners(s) != middles) continue;
+        if (pair.pair().before_corners(s) != middles) continue;
         if (pair.is_eliminated_by_law(s))
-          self.eliminate_by_law(p, s, multipliers[p][s], system);
+          condensation->eliminate_by_law(p, s, system);
         else
-          self.condense_node(p, s, multipliers[p][s], system);
+          condensation->condense_node(p, s, system);
       }
     }
-    self.scatter->finish(system);
-    if (middles) self.middles_condensed = self.recovery.size();
+    condensation->scatter->finish(system);
+    if (middles) condensation->middles_condensed = condensation->recovery.size();
   }
-  self.condense_right_hand_side(nullptr, rhs);
-  self.left_out = self.tied_conditions(z, multipliers);
+  condensation->condense_right_hand_side(nullptr, rhs);
+  condensation->left_out = detail::tied_conditions(laws);
+  return CondensedContact(condensation);
 }
 
-void ContactSystem::condense_right_hand_side(const Vector& C, Vector& rhs) {
-  const auto scope = implementation_->timers.scope("condensation");
-  implementation_->condense_right_hand_side(&C, rhs);
+void CondensedContact::condense_right_hand_side(const Vector& C, Vector& rhs) {
+  const auto scope = condensation_->model().timers.scope("condensation");
+  condensation_->condense_right_hand_side(&C, rhs);
 }
 
-void ContactSystem::recover(const Vector& increment, Vector& z_new) const {
-  const Implementation& self = *implementation_;
-  if (!self.scatter) throw std::logic_error("contact: recover() before any condense()");
-  const auto scope = self.timers.scope("condensation");
-  const Graph& graph = *self.scatter->graph();
+void CondensedContact::recover(const Vector& increment, Vector& z_new) const {
+  const auto scope = condensation_->model().timers.scope("condensation");
+  const Graph& graph = *condensation_->scatter->graph();
   Vector on_columns(graph.getColMap());
   if (graph.getImporter().is_null())
     Tpetra::deep_copy(on_columns, increment);
@@ -320,12 +336,31 @@ void ContactSystem::recover(const Vector& increment, Vector& z_new) const {
   const auto d = on_columns.getLocalViewHost(Tpetra::Access::ReadOnly);
   z_new.putScalar(0.0);
   const auto z = z_new.getLocalViewHost(Tpetra::Access::ReadWrite);
-  for (const RecoveryRow& row : self.recovery)
-    for (int i = 0; i < self.dimension; ++i) {
+  for (const RecoveryRow& row : condensation_->recovery)
+    for (int i = 0; i < condensation_->model().dimension; ++i) {
       double value = row.b[i];
       for (std::size_t k = 0; k < row.columns.size(); ++k) value += row.S[i][k] * d(row.columns[k], 0);
       z(row.multiplier + i, 0) = value;
     }
+}
+
+bool CondensedContact::leaves_out_couplings() const { return !condensation_->left_out.of_multipliers.is_null(); }
+
+void CondensedContact::apply_left_out(const Vector& dd, const Vector& dz, Vector& y) const {
+  const detail::TieBlocks& left_out = condensation_->left_out;
+  if (left_out.of_multipliers.is_null()) {
+    y.putScalar(0.0);
+    return;
+  }
+  const auto scope = condensation_->model().timers.scope("condensation");
+  left_out.of_multipliers->apply(dz, y);
+  left_out.of_positions->apply(dd, y, Teuchos::NO_TRANS, 1.0, 1.0);
+}
+
+ContactLinearisation DifferentiatedContact::linearise(const ContactLaws& laws) const {
+  if (detail::evaluated(laws).contact != evaluated_)
+    throw std::logic_error("contact: linearise() with laws of another evaluation: take laws(z) of this one");
+  return ContactLinearisation(laws);
 }
 
 }  // namespace mortise

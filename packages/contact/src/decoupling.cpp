@@ -11,8 +11,7 @@
 #include <functional>
 #include <utility>
 
-#include "implementation.hpp"
-#include "mortise/core/dof_map.hpp"
+#include "condensation.hpp"
 
 namespace mortise {
 
@@ -52,7 +51,7 @@ class SlaveRows {
 };
 
 /// The linearised momentum of a condensed node, as its own motion changes it, of the z = b + S dd that was kept.
-SpatialMatrix own_stiffness(const RecoveryRow& kept, const detail::NodePositions& positions, LocalOrdinal node, double D, int dimension) {
+SpatialMatrix own_stiffness(const detail::RecoveryRow& kept, const detail::NodePositions& positions, LocalOrdinal node, double D, int dimension) {
   SpatialMatrix K(dimension, dimension);
   for (int k = 0; k < dimension; ++k) {
     const auto column = std::lower_bound(kept.columns.begin(), kept.columns.end(), positions.column[dimension * node + k]) - kept.columns.begin();
@@ -94,49 +93,49 @@ Directions directions(const SpatialMatrix& free, const detail::NodeRow& row, con
 
 }  // namespace
 
-Decoupling ContactSystem::decoupling(const Vector& z) const {
-  const Implementation& self = *implementation_;
+Decoupling CondensedContact::decoupling() const {
+  const detail::EvaluatedLaws& laws = condensation_->at();
+  const detail::ContactModel& self = *laws.contact->model;
   const int dimension = self.dimension;
-  const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
   std::vector<std::size_t> sizes(self.dofs->getNodeNumElements(), 0), sizes_of_blocks(sizes);
-  for (const auto& pair : self.pairs)
-    for (std::size_t s = 0; s < pair->rows().size(); ++s) {
-      const LocalOrdinal first = dimension * pair->slave_nodes()[s].owned_node;
-      std::fill_n(sizes.begin() + first, dimension, dimension * (1 + pair->interface().coupled_nodes(s).size()));
+  for (const detail::PairEvaluation& pair : laws.contact->pairs)
+    for (std::size_t s = 0; s < pair.rows().size(); ++s) {
+      const LocalOrdinal first = dimension * pair.slave_nodes()[s].owned_node;
+      std::fill_n(sizes.begin() + first, dimension, dimension * (1 + pair.coupled_nodes(s).size()));
       std::fill_n(sizes_of_blocks.begin() + first, dimension, dimension);
     }
-  std::vector<std::size_t> kept_of(values.extent(0));
-  for (std::size_t k = 0; k < self.recovery.size(); ++k) kept_of[static_cast<std::size_t>(self.recovery[k].multiplier)] = k;
+  std::vector<std::size_t> kept_of(laws.z->getLocalLength());
+  for (std::size_t k = 0; k < condensation_->recovery.size(); ++k) kept_of[static_cast<std::size_t>(condensation_->recovery[k].multiplier)] = k;
   SlaveRows trial(self.dofs, sizes, self.middles_first), test(self.dofs, sizes, self.middles_first);
   Decoupling result;
   std::vector<std::pair<LocalOrdinal, SpatialMatrix>> eliminated;  // owned node, N_j
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
-    const detail::PairCoupling& pair = *self.pairs[p];
-    const std::vector<detail::NodeMultiplier> multipliers = self.multipliers_of(values, p);
-    if (pair.formulation().elimination() != Elimination::momentum) continue;
-    const Map& nodes = *pair.interface().local_nodes();
-    MultiVector fixed(pair.interface().local_nodes(), static_cast<std::size_t>(dimension));
-    fixed.doImport(*self.fixed, Import(self.owned_nodes, pair.interface().local_nodes()), Tpetra::REPLACE);
+    const detail::PairEvaluation& pair = laws.contact->pairs[p];
+    if (pair.pair().formulation().elimination() != Elimination::momentum) continue;
+    const Map& nodes = pair.local_nodes();
+    const InterfacePattern& pattern = *pair.geometry()->pattern;
+    MultiVector fixed(pattern.local_nodes, static_cast<std::size_t>(dimension));
+    fixed.doImport(*self.fixed, *pattern.import, Tpetra::REPLACE);
     const auto is_fixed = fixed.getLocalViewHost(Tpetra::Access::ReadOnly);
     for (std::size_t s = 0; s < pair.rows().size(); ++s) {
-      if (self.multiplier_of[p][s] < 0 || pair.is_eliminated_by_law(s) || !pair.closed(s, multipliers[s])) continue;
+      if (laws.state(p, s) == ContactState::open || pair.is_eliminated_by_law(s)) continue;
       const SlaveNode& slave = pair.slave_nodes()[s];
-      const detail::NodeRow& row = pair.rows()[s];
+      const detail::NodeRow& row = pair.row(s);
       SpatialMatrix free = SpatialMatrix::Zero(dimension, dimension);  // I - F
       for (int i = 0; i < dimension; ++i) free(i, i) = slave.fixed[i] ? 0.0 : 1.0;
       const auto stiffness_of_node = [&] {
-        const RecoveryRow& kept = self.recovery[kept_of[static_cast<std::size_t>(self.multiplier_of[p][s])]];
-        return own_stiffness(kept, self.scatter->positions(p), slave.local_node, row.D, dimension);
+        const detail::RecoveryRow& kept = condensation_->recovery[kept_of[static_cast<std::size_t>(self.multiplier_of[p][s])]];
+        return own_stiffness(kept, condensation_->scatter->positions(p), slave.local_node, row.D, dimension);
       };
-      const auto [N, P, Q] = directions(free, row, pair.frame(s), pair.complementarity(s, multipliers[s]), stiffness_of_node);
+      const auto [N, P, Q] = directions(free, row, pair.frame(s), laws.laws[p][s], stiffness_of_node);
       for (int i = 0; i < dimension; ++i) {
         const LocalOrdinal dof = dimension * slave.owned_node + i;
-        const bool middle = pair.before_corners(s);
+        const bool middle = pair.pair().before_corners(s);
         for (int k = 0; k < dimension; ++k) {
           trial.add(dof, middle, dimension * slave.id + k, -N(i, k));
           test.add(dof, middle, dimension * slave.id + k, Q(k, i) - P(k, i) - N(k, i));
         }
-        const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
+        const std::vector<LocalOrdinal>& coupled = pair.coupled_nodes(s);
         for (std::size_t c = 0; c < coupled.size(); ++c) {
           const double share = -row.coefficients[c] / row.D;
           if (share == 0.0) continue;

@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "implementation.hpp"
-#include "mortise/contact/bearing_node.hpp"
+#include "evaluated_contact.hpp"
+#include "mortise/contact/holding_nodes.hpp"
 
 namespace mortise {
 namespace {
@@ -49,22 +49,24 @@ std::vector<HoldingRow::Wrench> wrenches(const std::vector<LocalOrdinal>& couple
 }  // namespace
 
 // A multiplier acts at the nodes m with c_jm; with variational mortar its normal part acts with -dg_j/dx_m instead.
-std::vector<HoldingRow> ContactSystem::holding_rows(const Vector& z, const MultiVector& places) const {
-  const Implementation& self = *implementation_;
+std::vector<HoldingRow> holding_rows(const ContactLaws& laws, const MultiVector& places) {
+  const detail::EvaluatedLaws& evaluated = detail::evaluated(laws);
+  const detail::ContactModel& self = *evaluated.contact->model;
   const Eigen::Index dimension = self.dimension;
-  const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
   std::vector<HoldingRow> rows;
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
-    const detail::PairCoupling& pair = *self.pairs[p];
-    MultiVector local(pair.interface().local_nodes(), static_cast<std::size_t>(1 + dimension));
-    local.doImport(places, pair.import(), Tpetra::REPLACE);
+    const detail::PairEvaluation& pair = evaluated.contact->pairs[p];
+    const std::vector<detail::NodeMultiplier>& multipliers = evaluated.multipliers[p];
+    const InterfacePattern& pattern = *pair.geometry()->pattern;
+    MultiVector local(pattern.local_nodes, static_cast<std::size_t>(1 + dimension));
+    local.doImport(places, *pattern.import, Tpetra::REPLACE);
     const auto at = local.getLocalViewHost(Tpetra::Access::ReadOnly);
     for (std::size_t s = 0; s < pair.rows().size(); ++s) {
       if (self.multiplier_of[p][s] < 0) continue;
-      const ContactState state = pair.complementarity(s, self.z_of(values, p, s)).state;
+      const ContactState state = evaluated.state(p, s);
       if (state == ContactState::open) continue;
-      const detail::NodeRow& row = pair.rows()[s];
-      const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
+      const detail::NodeRow& row = pair.row(s);
+      const std::vector<LocalOrdinal>& coupled = pair.coupled_nodes(s);
       const LocalOrdinal own = pair.slave_nodes()[s].local_node;
       const auto add_row = [&](bool along_surface, const auto& force_at) {
         double largest = 0.0;
@@ -80,7 +82,7 @@ std::vector<HoldingRow> ContactSystem::holding_rows(const Vector& z, const Multi
       const auto along = [&](const SpatialVector& direction) {
         return [&](std::size_t c) { return SpatialVector((row.coefficients[c] + (coupled[c] == own ? row.D : 0.0)) * direction); };
       };
-      if (pair.variational())
+      if (pair.pair().variational())
         add_row(false, [&](std::size_t c) { return SpatialVector(-Eigen::Map<const Eigen::VectorXd>(&row.dgap[dimension * c], dimension)); });
       else
         add_row(false, along(row.normal));
@@ -97,34 +99,35 @@ std::vector<HoldingRow> ContactSystem::holding_rows(const Vector& z, const Multi
 }
 
 // w = sum_m c_jm x_m along tau_a is what a slip changes by: a unit traction along tau_a acts at the nodes m with c_jm tau_a.
-std::vector<SlidingNode> ContactSystem::sliding_nodes(const Vector& z, const MultiVector& places) const {
-  const Implementation& self = *implementation_;
-  const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
+std::vector<SlidingNode> sliding_nodes(const ContactLaws& laws, const MultiVector& places) {
+  const detail::EvaluatedLaws& evaluated = detail::evaluated(laws);
+  const detail::ContactModel& self = *evaluated.contact->model;
   std::vector<SlidingNode> nodes;
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
-    const detail::PairCoupling& pair = *self.pairs[p];
-    if (pair.friction() == nullptr || pair.regularisation()) continue;
-    const std::vector<detail::NodeMultiplier> multipliers = self.multipliers_of(values, p);
-    MultiVector local(pair.interface().local_nodes(), static_cast<std::size_t>(1 + self.dimension));
-    local.doImport(places, pair.import(), Tpetra::REPLACE);
+    const detail::PairEvaluation& pair = evaluated.contact->pairs[p];
+    const std::vector<detail::NodeMultiplier>& multipliers = evaluated.multipliers[p];
+    if (pair.pair().friction() == nullptr || pair.pair().regularisation()) continue;
+    const InterfacePattern& pattern = *pair.geometry()->pattern;
+    MultiVector local(pattern.local_nodes, static_cast<std::size_t>(1 + self.dimension));
+    local.doImport(places, *pattern.import, Tpetra::REPLACE);
     const auto at = local.getLocalViewHost(Tpetra::Access::ReadOnly);
     for (std::size_t s = 0; s < pair.rows().size(); ++s) {
       if (self.multiplier_of[p][s] < 0 || pair.slave_nodes()[s].partly_fixed()) continue;
-      const Complementarity law = pair.complementarity(s, multipliers[s]);
+      const Complementarity& law = evaluated.laws[p][s];
       if (law.state != ContactState::slip) continue;
-      SlidingNode node{p, self.multiplier_of[p][s], pair.frame(s), 0.0, pair.complementarity_constant(s), pair.rows()[s].covered, {}, {}};
+      SlidingNode node{p, self.multiplier_of[p][s], pair.frame(s), 0.0, pair.pair().complementarity_constant(s), pair.row(s).covered, {}, {}};
       for (Eigen::Index a = 0; a < node.frame.tangents.rows(); ++a)  // C_tau = z_tau - rho y / |y|
         node.bound = std::hypot(node.bound, node.frame.tangents.row(a).dot(multipliers[s].z) - law.C[1 + a]);
       if (!(node.bound > 0.0)) continue;
       node.slip = pair.slip(s, multipliers[s]);
-      const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
+      const std::vector<LocalOrdinal>& coupled = pair.coupled_nodes(s);
       const LocalOrdinal own = pair.slave_nodes()[s].local_node;
       for (Eigen::Index a = 0; a < node.frame.tangents.rows(); ++a) {
         const SpatialVector tangent = node.frame.tangents.row(a).transpose();
         double largest = 0.0;
         node.along.push_back(wrenches(
             coupled, at, self.dimension,
-            [&](std::size_t c) { return SpatialVector((pair.rows()[s].coefficients[c] + (coupled[c] == own ? pair.rows()[s].D : 0.0)) * tangent); },
+            [&](std::size_t c) { return SpatialVector((pair.row(s).coefficients[c] + (coupled[c] == own ? pair.row(s).D : 0.0)) * tangent); },
             largest));
       }
       nodes.push_back(std::move(node));
@@ -133,23 +136,24 @@ std::vector<SlidingNode> ContactSystem::sliding_nodes(const Vector& z, const Mul
   return nodes;
 }
 
-std::vector<BearingNode> ContactSystem::bearing_nodes(const Vector& z, const MultiVector& places) const {
-  const Implementation& self = *implementation_;
-  const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
+std::vector<BearingNode> bearing_nodes(const ContactLaws& laws, const MultiVector& places) {
+  const detail::EvaluatedLaws& evaluated = detail::evaluated(laws);
+  const detail::ContactModel& self = *evaluated.contact->model;
   std::vector<BearingNode> nodes;
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
-    const detail::PairCoupling& pair = *self.pairs[p];
-    const std::vector<detail::NodeMultiplier> multipliers = self.multipliers_of(values, p);
-    MultiVector local(pair.interface().local_nodes(), static_cast<std::size_t>(1 + self.dimension));
-    local.doImport(places, pair.import(), Tpetra::REPLACE);
+    const detail::PairEvaluation& pair = evaluated.contact->pairs[p];
+    const std::vector<detail::NodeMultiplier>& multipliers = evaluated.multipliers[p];
+    const InterfacePattern& pattern = *pair.geometry()->pattern;
+    MultiVector local(pattern.local_nodes, static_cast<std::size_t>(1 + self.dimension));
+    local.doImport(places, *pattern.import, Tpetra::REPLACE);
     const auto at = local.getLocalViewHost(Tpetra::Access::ReadOnly);
     for (std::size_t s = 0; s < pair.rows().size(); ++s) {
       if (self.multiplier_of[p][s] < 0 || !pair.covered(s)) continue;
       const SlaveNode& slave = pair.slave_nodes()[s];
-      const detail::NodeRow& row = pair.rows()[s];
-      BearingNode node{p, slave.owned_node, pair.closed(s, multipliers[s]), 0.0, {}, {}};
-      if (!node.closed && pair.own_gap(s) > detail::near * pair.size() * slave.weight) continue;
-      const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
+      const detail::NodeRow& row = pair.row(s);
+      BearingNode node{p, slave.owned_node, evaluated.state(p, s) != ContactState::open, 0.0, {}, {}};
+      if (!node.closed && pair.own_gap(s) > detail::near * pair.pair().size() * slave.weight) continue;
+      const std::vector<LocalOrdinal>& coupled = pair.coupled_nodes(s);
       double largest = 0.0;
       const auto along = [&](const SpatialVector& direction) {
         const auto force_at = [&](std::size_t c) {
@@ -160,9 +164,9 @@ std::vector<BearingNode> ContactSystem::bearing_nodes(const Vector& z, const Mul
       const auto against_gap = [&](std::size_t c) {
         return SpatialVector(-Eigen::Map<const Eigen::VectorXd>(&row.dgap[static_cast<std::size_t>(self.dimension) * c], self.dimension));
       };
-      node.normal = pair.variational() ? wrenches(coupled, at, self.dimension, against_gap, largest) : along(row.normal);
+      node.normal = pair.pair().variational() ? wrenches(coupled, at, self.dimension, against_gap, largest) : along(row.normal);
       if (node.normal.empty()) continue;
-      if (pair.friction() != nullptr) node.friction = pair.friction()->largest_ratio();
+      if (pair.pair().friction() != nullptr) node.friction = pair.pair().friction()->largest_ratio();
       const Frame in = pair.frame(s);
       for (Eigen::Index a = slave.partly_fixed() ? 1 : 0; node.friction > 0.0 && a < in.tangents.rows(); ++a)
         node.along.push_back(along(in.tangents.row(a).transpose()));

@@ -9,9 +9,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "implementation.hpp"
+#include "evaluated_contact.hpp"
 
-namespace mortise {
+namespace mortise::detail {
 namespace {
 
 double largest_motion(const MultiVector& from, const MultiVector& to, const std::vector<LocalOrdinal>& nodes) {
@@ -35,52 +35,59 @@ double largest_motion(const MultiVector& from, const MultiVector& to, const std:
 // A node that was open is lost with -s > reach as well if it was not yet in the accepted state. The surfaces have then moved by more than the reach
 // relative to one another since: it is looked for only where they have. Nodes that are covered are within reach, and a frozen geometry covers a node
 // for ever or never.
-void ContactSystem::Implementation::find_lost_contact(const MultiVector& x, std::optional<StepFailure>& failure) const {
+std::optional<StepFailure> find_lost_contact(const EvaluatedContact& contact, const ContactStates* last, bool failed) {
+  const ContactModel& model = *contact.model;
+  const std::vector<PairEvaluation>& pairs = contact.pairs;
+  const MultiVector& x = *contact.positions;
+  const AcceptedContact& accepted = *contact.history;
+  std::optional<StepFailure> failure;
   std::vector<std::vector<std::size_t>> closed(pairs.size()), open(pairs.size());
   // Of each pair: how many nodes were closed and are not covered, how far slave and master nodes have moved; whether there is a failure already.
   std::vector<double> mine(3 * pairs.size() + 1, 0.0), all(mine.size());
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     std::vector<LocalOrdinal> slaves;
-    for (std::size_t s = 0; s < marked[p].size(); ++s) {
-      slaves.push_back(pairs[p]->slave_nodes()[s].owned_node);
-      if (pairs[p]->covered(s)) continue;
-      (marked[p][s] != ContactState::open || accepted[p][s] != ContactState::open ? closed : open)[p].push_back(s);
+    for (std::size_t s = 0; s < pairs[p].slave_nodes().size(); ++s) {
+      slaves.push_back(pairs[p].slave_nodes()[s].owned_node);
+      if (pairs[p].covered(s)) continue;
+      const auto was_closed = [&](const ContactStates& states) { return states[p].states[s] != ContactState::open; };
+      ((last != nullptr && was_closed(*last)) || was_closed(accepted.states) ? closed : open)[p].push_back(s);
     }
     mine[3 * p] = static_cast<double>(closed[p].size());
-    if (accepted_at.is_null()) continue;
-    mine[3 * p + 1] = largest_motion(*accepted_at, x, slaves);
-    mine[3 * p + 2] = largest_motion(*accepted_at, x, master_nodes[p]);
+    mine[3 * p + 1] = largest_motion(*accepted.positions, x, slaves);
+    mine[3 * p + 2] = largest_motion(*accepted.positions, x, model.master_nodes[p]);
   }
-  mine.back() = failure ? 1.0 : 0.0;  // then rows and normals may have no meaning
-  Teuchos::reduceAll(*dofs->getComm(), Teuchos::REDUCE_MAX, static_cast<int>(mine.size()), mine.data(), all.data());
-  if (all.back() > 0.0) return;
+  mine.back() = failed ? 1.0 : 0.0;  // then rows and normals may have no meaning
+  Teuchos::reduceAll(model.comm(), Teuchos::REDUCE_MAX, static_cast<int>(mine.size()), mine.data(), all.data());
+  if (all.back() > 0.0) return failure;
 
   const auto positions = x.getLocalViewHost(Tpetra::Access::ReadOnly);
   for (std::size_t p = 0; p < pairs.size(); ++p) {
-    const detail::PairCoupling& pair = *pairs[p];
-    double deepest = pair.interface().reach();
+    const PairEvaluation& pair = pairs[p];
+    const MortarInterface& interface = pair.pair().interface();
+    double deepest = interface.reach();
     const auto look_for = [&](const std::vector<std::size_t>& nodes, const char* before, const MultiVector* start) {
       std::vector<SpatialVector> normals;
-      for (const std::size_t s : nodes) normals.push_back(pair.rows()[s].normal);
-      const auto distances = pair.interface().distances_to_master(x, nodes, normals);
-      const auto at_start = start == nullptr ? distances : pair.interface().distances_to_master(*start, nodes, normals);
+      for (const std::size_t s : nodes) normals.push_back(pair.row(s).normal);
+      const auto distances = interface.distances_to_master(x, nodes, normals);
+      const auto at_start = start == nullptr ? distances : interface.distances_to_master(*start, nodes, normals);
       for (std::size_t n = 0; n < nodes.size(); ++n) {
         if (!distances[n] || -*distances[n] <= deepest) continue;
-        if (start != nullptr && (!at_start[n] || -*at_start[n] > pair.interface().reach())) continue;
+        if (start != nullptr && (!at_start[n] || -*at_start[n] > interface.reach())) continue;
         deepest = -*distances[n];
         const SlaveNode& node = pair.slave_nodes()[nodes[n]];
         std::vector<double> place;
-        for (int i = 0; i < dimension; ++i) place.push_back(positions(node.owned_node, i));
+        for (int i = 0; i < model.dimension; ++i) place.push_back(positions(node.owned_node, i));
         failure = StepFailure(FailureKind::lost_contact,
                               fmt::format("contact \"{}\": node {} of the slave, which was {}, is at ({:.6g}), {:.3g} behind the master surface "
                                           "and out of its reach {:.3g}",
-                                          pair.definition().name, node.id, before, fmt::join(place, ", "), deepest, pair.interface().reach()));
+                                          pair.pair().definition().name, node.id, before, fmt::join(place, ", "), deepest, interface.reach()));
       }
     };
     if (all[3 * p] > 0.0) look_for(closed[p], "closed", nullptr);
-    if (all[3 * p + 1] + all[3 * p + 2] > pair.interface().reach())
-      look_for(open[p], "in front of the master when the step began", accepted_at.get());
+    if (all[3 * p + 1] + all[3 * p + 2] > interface.reach())
+      look_for(open[p], "in front of the master when the step began", accepted.positions.get());
   }
+  return failure;
 }
 
-}  // namespace mortise
+}  // namespace mortise::detail

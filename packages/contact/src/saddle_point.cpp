@@ -7,14 +7,13 @@
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 
-#include "implementation.hpp"
-#include "mortise/core/dof_map.hpp"
+#include "evaluated_contact.hpp"
 
 namespace mortise {
 
 namespace {
-bool loads(const MortarInterface& interface, std::size_t s, LocalOrdinal node) {
-  const std::vector<LocalOrdinal>& nodes = interface.loaded_nodes(s);
+bool loads(const detail::PairEvaluation& pair, std::size_t s, LocalOrdinal node) {
+  const std::vector<LocalOrdinal>& nodes = pair.loaded_nodes(s);
   return std::binary_search(nodes.begin(), nodes.end(), node);
 }
 
@@ -33,23 +32,20 @@ void add_rows(const RCP<const Matrix>& from, Matrix& to) {
 }
 }  // namespace
 
-ContactSystem::SaddlePointBlocks ContactSystem::saddle_point_blocks(const Vector& z) const {
-  const Implementation& self = *implementation_;
-  self.require_linearisation("saddle_point_blocks");
+SaddlePointBlocks ContactLinearisation::saddle_point_blocks() const {
+  const detail::EvaluatedLaws& laws = detail::evaluated(laws_);
+  const detail::EvaluatedContact& contact = *laws.contact;
+  const detail::ContactModel& self = *contact.model;
   const int dimension = self.dimension;
-  const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
-
-  std::vector<std::vector<detail::NodeMultiplier>> multipliers;
-  for (std::size_t p = 0; p < self.pairs.size(); ++p) multipliers.push_back(self.multipliers_of(values, p));
-  const Implementation::TieBlocks tied = self.tied_conditions(z, multipliers);
+  const detail::TieBlocks tied = detail::tied_conditions(laws);
 
   std::vector<GlobalOrdinal> rows;  // of B, also of other ranks' nodes
   std::size_t widest = 1;
-  for (const auto& pair : self.pairs) {
-    const auto nodes = pair->interface().local_nodes()->getNodeElementList();
+  for (const detail::PairEvaluation& pair : contact.pairs) {
+    const auto nodes = pair.local_nodes().getNodeElementList();
     for (const GlobalOrdinal node : nodes)
       for (int i = 0; i < dimension; ++i) rows.push_back(dimension * node + i);
-    for (std::size_t s = 0; s < pair->slave_nodes().size(); ++s) widest = std::max(widest, dimension * pair->interface().coupled_nodes(s).size());
+    for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) widest = std::max(widest, dimension * pair.coupled_nodes(s).size());
   }
   std::sort(rows.begin(), rows.end());
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
@@ -57,12 +53,12 @@ ContactSystem::SaddlePointBlocks ContactSystem::saddle_point_blocks(const Vector
   const auto row_map = rcp(new Map(invalid, rows.data(), static_cast<LocalOrdinal>(rows.size()), 0, self.dofs->getComm()));
 
   std::vector<std::size_t> sizes(rows.size(), 0);
-  for (const auto& pair : self.pairs)
-    for (std::size_t s = 0; s < pair->slave_nodes().size(); ++s)
-      for (const LocalOrdinal node : pair->interface().loaded_nodes(s))
+  for (const detail::PairEvaluation& pair : contact.pairs)
+    for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s)
+      for (const LocalOrdinal node : pair.loaded_nodes(s))
         for (int i = 0; i < dimension; ++i)
-          sizes[row_map->getLocalElement(dimension * pair->interface().local_nodes()->getGlobalElement(node) + i)] +=
-              static_cast<std::size_t>(pair->variational() ? dimension : 1);
+          sizes[row_map->getLocalElement(dimension * pair.local_nodes().getGlobalElement(node) + i)] +=
+              static_cast<std::size_t>(pair.pair().variational() ? dimension : 1);
   Matrix B(row_map, Teuchos::arrayViewFromVector(sizes));
   SaddlePointBlocks blocks;
   const std::size_t wider_d = tied.of_positions.is_null() ? 0 : tied.of_positions->getNodeMaxNumRowEntries(),
@@ -70,26 +66,26 @@ ContactSystem::SaddlePointBlocks ContactSystem::saddle_point_blocks(const Vector
   blocks.C_d = rcp(new Matrix(self.multipliers, widest + wider_d));
   blocks.C_z = rcp(new Matrix(self.multipliers, static_cast<std::size_t>(dimension) + wider_z));
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
-    const detail::PairCoupling& pair = *self.pairs[p];
-    const Map& nodes = *pair.interface().local_nodes();
+    const detail::PairEvaluation& pair = contact.pairs[p];
+    const Map& nodes = pair.local_nodes();
     for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
       const LocalOrdinal first = self.multiplier_of[p][s];
       if (first < 0) continue;
-      const detail::NodeRow& row = pair.rows()[s];
-      const Complementarity law = pair.complementarity(s, multipliers[p][s]);
-      const std::vector<LocalOrdinal>& coupled = pair.interface().coupled_nodes(s);
+      const detail::NodeRow& row = pair.row(s);
+      const Complementarity& law = laws.laws[p][s];
+      const std::vector<LocalOrdinal>& coupled = pair.coupled_nodes(s);
       for (int k = 0; k < dimension; ++k) {  // the force of the unit multiplier e_k
         const GlobalOrdinal multiplier = self.multipliers->getGlobalElement(first + k);
         const SpatialVector unit = SpatialVector::Unit(dimension, k), through = pair.coupled_part(s, unit);
         const double pressure = pair.gap_pressure(s, unit);
         const auto insert = [&](GlobalOrdinal dof, double value) { B.insertGlobalValues(dof, 1, &value, &multiplier); };
         for (int i = 0; i < dimension; ++i) {
-          if (i != k && !pair.variational()) continue;
+          if (i != k && !pair.pair().variational()) continue;
           insert(dimension * pair.slave_nodes()[s].id + i, row.D * through[i]);
           for (std::size_t c = 0; c < coupled.size(); ++c)
-            if (loads(pair.interface(), s, coupled[c]))
+            if (loads(pair, s, coupled[c]))
               insert(dimension * nodes.getGlobalElement(coupled[c]) + i,
-                     row.coefficients[c] * through[i] - (pair.variational() ? pressure * row.dgap[dimension * c + i] : 0.0));
+                     row.coefficients[c] * through[i] - (pair.pair().variational() ? pressure * row.dgap[dimension * c + i] : 0.0));
         }
       }
       // Each row is inserted whole: Tpetra looks it up once.
@@ -98,7 +94,7 @@ ContactSystem::SaddlePointBlocks ContactSystem::saddle_point_blocks(const Vector
       std::vector<std::vector<double>> gradients(static_cast<std::size_t>(dimension), std::vector<double>(count));
       for (std::size_t c = 0; c < count; ++c) {
         dofs[c] = dimension * nodes.getGlobalElement(coupled[c / dimension]) + static_cast<int>(c % dimension);
-        const SpatialVector gradient = pair.constraint_gradient(law, s, c, multipliers[p][s]);
+        const SpatialVector gradient = pair.constraint_gradient(law, s, c, laws.multipliers[p][s]);
         for (int i = 0; i < dimension; ++i) gradients[i][c] = gradient[i];
       }
       for (int k = 0; k < dimension; ++k) columns[k] = self.multipliers->getGlobalElement(first + k);

@@ -10,7 +10,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "implementation.hpp"
+#include "evaluated_contact.hpp"
 
 namespace mortise {
 namespace {
@@ -18,13 +18,13 @@ namespace {
 constexpr double touching = 1e-8;      // |g_j| / (A_j h) below which a node touches: then the sign of g is round-off
 constexpr double small_strain = 1e-6;  // the pressure it starts with, over Young's modulus
 
-bool slave_is_unconstrained(const detail::PairCoupling& pair, const std::vector<char>& unconstrained) {
+bool slave_is_unconstrained(const detail::Pair& pair, const std::vector<char>& unconstrained) {
   for (const SlaveNode& slave : pair.slave_nodes())
     if (unconstrained[slave.owned_node]) return true;
   return false;
 }
 
-bool master_is_unconstrained(const detail::PairCoupling& pair, const Map& owned_nodes, const std::vector<char>& unconstrained) {
+bool master_is_unconstrained(const detail::Pair& pair, const Map& owned_nodes, const std::vector<char>& unconstrained) {
   for (const auto& facet : pair.definition().master)
     for (const GlobalOrdinal node : facet) {
       const LocalOrdinal owned = owned_nodes.getLocalElement(node);
@@ -38,15 +38,15 @@ bool master_is_unconstrained(const detail::PairCoupling& pair, const Map& owned_
 // The solution is continuous where a facet begins to be covered: nothing acts there, so r_b = z_b - sum_k T_bk z_k = 0. But T, a quotient of covers,
 // is steep there, and with r_b != 0 as with z_b = 0 so would be the residual: its linearisation would be worth nothing. Nodes that begin to be
 // covered together are tied to one another: z = T z is solved by sweeps.
-bool ContactSystem::follow_cover(Vector& z) const {
+bool ContactEvaluation::follow_cover(const ContactStates& last, Vector& z) const {
   constexpr int most_sweeps = 100;
   constexpr double settled = 1e-8;  // change of a sweep over the largest multiplier
   bool tied = false, changed = false;
-  const Implementation& self = *implementation_;
+  const detail::ContactModel& self = *evaluated_->model;
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadWrite);
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
-    const detail::PairCoupling& pair = *self.pairs[p];
-    if (!pair.has_ties()) continue;
+    const detail::PairEvaluation& pair = evaluated_->pairs[p];
+    if (!pair.pair().has_ties()) continue;
     tied = true;
     const auto set = [&](std::size_t s, const SpatialVector& zs) {
       for (int i = 0; i < self.dimension; ++i) values(self.multiplier_of[p][s] + i, 0) = zs[i];
@@ -59,12 +59,12 @@ bool ContactSystem::follow_cover(Vector& z) const {
     if (!pair.ties().any()) continue;
     std::vector<const detail::MultiplierTie*> new_ones;
     for (const detail::MultiplierTie& tie : pair.ties().ties())
-      if (pair.is_newly_covered(tie.node)) new_ones.push_back(&tie);
+      if (pair.covered(tie.node) && !last[p].covered[tie.node]) new_ones.push_back(&tie);
     if (self.maximum(new_ones.empty() ? 0.0 : 1.0) == 0.0) continue;
     changed = true;
     double change = 1.0, largest = 0.0;
     for (int sweep = 0; sweep < most_sweeps && change > settled * largest; ++sweep) {
-      const RCP<MultiVector> on_nodes = pair.ties().on_nodes(*self.owned_multipliers(p, values));
+      const RCP<MultiVector> on_nodes = pair.ties().on_nodes(*self.owned_multipliers(p, values, pair.ties().owned_nodes()));
       change = largest = 0.0;
       for (const detail::MultiplierTie* tie : new_ones) {
         const SpatialVector deviation = detail::MultiplierTies::deviation(*tie, *on_nodes), zs = self.z_of(values, p, tie->node) - deviation;
@@ -87,44 +87,26 @@ bool ContactSystem::follow_cover(Vector& z) const {
 // A node whose gap is zero up to round-off would be open or closed at random: it starts closed, at a pressure that no result can see.
 // Where a body that only contact holds has no closed node, its system is singular: the nodes nearest to contact start closed,
 // z_n = c_n g + 1e-6 E.
-void ContactSystem::start_step(const Vector& d, const std::vector<char>& unconstrained, Vector& z) {
-  Implementation& self = *implementation_;
+ContactHistory ContactSystem::start_step(const ContactHistory& accepted, const Vector& d, const std::vector<char>& unconstrained, Vector& z) const {
+  const detail::ContactModel& self = *model_;
   const std::size_t nodes = self.owned_nodes->getNodeNumElements();
   if (self.maximum(unconstrained.size() != nodes) > 0.0)
     throw std::invalid_argument(fmt::format("contact: start_step() needs one entry of `unconstrained` for each owned node; this rank gave {} for {}",
                                             unconstrained.size(), nodes));
-  self.marked = self.accepted;  // after a step that was undone
-  const auto evaluate_or_throw = [&](const RCP<const MultiVector>& x) {
-    std::optional<StepFailure> failure;
-    self.evaluate(x, false, failure);
-    throw_if_any(*self.dofs->getComm(), failure);
-  };
-  const RCP<const MultiVector> x = self.positions(d);
-  const bool first = self.accepted_at.is_null();
-  if (first) {
-    evaluate_or_throw(x);
-    self.accept_cover();
-  }
-  bool adapted = false;
-  for (const auto& pair : self.pairs) adapted |= pair->adapt_surface(*self.accepted_at);
-  if (adapted) {
-    self.pattern_changed = true;
-    evaluate_or_throw(self.accepted_at);
-  }
-  if (first || adapted) self.take_slip_references();
-  for (const auto& pair : self.pairs) pair->start_step();
-  evaluate_or_throw(x);
-  follow_cover(z);
+  const ContactHistory history = detail::with_kinks_of_its_state(model_, accepted);
+  const ContactEvaluation evaluation = evaluate(d, history);
+  const detail::EvaluatedContact& contact = detail::evaluated(evaluation);
+  evaluation.follow_cover(history->states, z);
 
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadWrite);
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
-    const detail::PairCoupling& pair = *self.pairs[p];
-    const double pressure = small_strain * pair.definition().youngs_modulus;
+    const detail::PairEvaluation& pair = contact.pairs[p];
+    const double pressure = small_strain * pair.pair().definition().youngs_modulus;
     const auto set = [&](std::size_t s, double z_n) {
       const LocalOrdinal first = self.multiplier_of[p][s];
-      for (int i = 0; i < self.dimension; ++i) values(first + i, 0) = z_n * pair.rows()[s].normal[i];
+      for (int i = 0; i < self.dimension; ++i) values(first + i, 0) = z_n * pair.row(s).normal[i];
     };
-    const std::vector<detail::NodeMultiplier> multipliers = self.multipliers_of(values, p);
+    const std::vector<detail::NodeMultiplier> multipliers = contact.multipliers_of(z, p);
     double active = 0.0, nearest = std::numeric_limits<double>::max();
     for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
       if (!pair.covered(s)) {
@@ -133,7 +115,7 @@ void ContactSystem::start_step(const Vector& d, const std::vector<char>& unconst
       }
       const double gap = pair.own_gap(s) / pair.slave_nodes()[s].weight;
       bool closed = pair.closed(s, multipliers[s]);
-      if (!closed && std::abs(gap) < touching * pair.size()) {
+      if (!closed && std::abs(gap) < touching * pair.pair().size()) {
         set(s, pressure);
         closed = true;
       }
@@ -141,15 +123,16 @@ void ContactSystem::start_step(const Vector& d, const std::vector<char>& unconst
       nearest = std::min(nearest, gap);
     }
     const bool needed =
-        self.maximum(slave_is_unconstrained(pair, unconstrained) || master_is_unconstrained(pair, *self.owned_nodes, unconstrained)) > 0.0;
+        self.maximum(slave_is_unconstrained(pair.pair(), unconstrained) || master_is_unconstrained(pair.pair(), *self.owned_nodes, unconstrained)) > 0.0;
     if (!needed || self.sum(active) > 0.0) continue;
     nearest = -self.maximum(-nearest);
-    const double reach = std::max(detail::near * pair.size(), nearest + touching * pair.size());
+    const double reach = std::max(detail::near * pair.pair().size(), nearest + touching * pair.pair().size());
     for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
       if (!pair.covered(s) || pair.own_gap(s) > reach * pair.slave_nodes()[s].weight) continue;
       set(s, std::max(0.0, pair.closing_pressure(s)) + pressure);
     }
   }
+  return history;
 }
 
 }  // namespace mortise

@@ -37,20 +37,20 @@ Columns bulk_columns(const Graph& bulk, LocalOrdinal node, int dimension) {
 
 // Adds the columns that condensation brings to a node's rows, by node id: the same for all components of the node. The multipliers are those that
 // are condensed before corners, or the others, in whose rows the former's columns `of_middles` stand by then.
-void add_columns(const Graph& bulk, const std::vector<PairCoupling*>& pairs, int dimension, bool before_corners,
+void add_columns(const Graph& bulk, const std::vector<PairEvaluation>& pairs, int dimension, bool before_corners,
                  const std::map<GlobalOrdinal, Columns>& of_middles, std::map<GlobalOrdinal, Columns>& columns_of_node) {
-  for (const PairCoupling* pair : pairs) {
-    const Map& nodes = *pair->interface().local_nodes();
-    for (std::size_t s = 0; s < pair->slave_nodes().size(); ++s) {
-      const SlaveNode& slave = pair->slave_nodes()[s];
-      if (!slave.carries_multiplier || pair->before_corners(s) != before_corners) continue;
+  for (const PairEvaluation& pair : pairs) {
+    const Map& nodes = pair.local_nodes();
+    for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
+      const SlaveNode& slave = pair.slave_nodes()[s];
+      if (!slave.carries_multiplier || pair.pair().before_corners(s) != before_corners) continue;
       Columns columns = bulk_columns(bulk, slave.owned_node, dimension);
-      for (const LocalOrdinal node : pair->interface().coupled_nodes(s))
+      for (const LocalOrdinal node : pair.coupled_nodes(s))
         for (int i = 0; i < dimension; ++i) columns.push_back(dimension * nodes.getGlobalElement(node) + i);
       if (const auto found = of_middles.find(slave.id); found != of_middles.end())
         columns.insert(columns.end(), found->second.begin(), found->second.end());
       sort_unique(columns);
-      for (const LocalOrdinal node : pair->interface().loaded_nodes(s)) {
+      for (const LocalOrdinal node : pair.loaded_nodes(s)) {
         Columns& into = columns_of_node[nodes.getGlobalElement(node)];
         into.insert(into.end(), columns.begin(), columns.end());
       }
@@ -142,10 +142,10 @@ RCP<const Graph> widened(const Graph& bulk, const std::map<GlobalOrdinal, Column
 
 }  // namespace
 
-SystemScatter::SystemScatter(const RCP<const Map>& owned_nodes, const Graph& bulk, const std::vector<PairCoupling*>& pairs, bool middles_first) {
+SystemScatter::SystemScatter(const RCP<const Map>& owned_nodes, const Graph& bulk, const std::vector<PairEvaluation>& pairs, bool middles_first) {
   const RCP<const Map> dofs = bulk.getRowMap();
   parallel_ = dofs->getComm()->getSize() > 1;
-  const int dimension = pairs.empty() ? 1 : pairs.front()->dimension();
+  const int dimension = pairs.empty() ? 1 : pairs.front().dimension();
   std::map<GlobalOrdinal, Columns> of_middles;
   if (middles_first) {
     add_columns(bulk, pairs, dimension, true, {}, of_middles);
@@ -173,8 +173,8 @@ SystemScatter::SystemScatter(const RCP<const Map>& owned_nodes, const Graph& bul
     for (std::size_t c = 0; c < remote_column_of_.size(); ++c)
       remote_column_of_[c] = remote_matrix_->getColMap()->getLocalElement(columns->getGlobalElement(static_cast<LocalOrdinal>(c)));
   }
-  for (const PairCoupling* pair : pairs) {
-    const Map& nodes = *pair->interface().local_nodes();
+  for (const PairEvaluation& pair : pairs) {
+    const Map& nodes = pair.local_nodes();
     NodePositions positions;
     for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(nodes.getNodeNumElements()); ++node) {
       const GlobalOrdinal id = nodes.getGlobalElement(node);
@@ -187,7 +187,13 @@ SystemScatter::SystemScatter(const RCP<const Map>& owned_nodes, const Graph& bul
       }
     }
     positions_.push_back(std::move(positions));
+    patterns_.push_back(pair.geometry()->pattern);
   }
+}
+
+bool SystemScatter::fits(const std::vector<PairEvaluation>& pairs) const {
+  return std::equal(pairs.begin(), pairs.end(), patterns_.begin(), patterns_.end(),
+                    [](const PairEvaluation& pair, const auto& pattern) { return pair.geometry()->pattern == pattern; });
 }
 
 void SystemScatter::add(Matrix& system, const NodePositions& positions, LocalOrdinal node, int component, const std::vector<LocalOrdinal>& columns,
@@ -202,7 +208,7 @@ void SystemScatter::add(Matrix& system, const NodePositions& positions, LocalOrd
     summed = remote_matrix_->sumIntoLocalValues(positions.remote_row[node] + component, count, values.data(), column_buffer_.data());
   }
   if (summed != count)
-    throw std::logic_error("contact: an entry of the condensed system has no place in its matrix; make the matrix on the graph of system_graph()");
+    throw std::logic_error("contact: an entry of the condensed system has no place in its matrix; make the matrix on the graph of ContactSystem::graph()");
 }
 
 void SystemScatter::add(Vector& vector, const NodePositions& positions, LocalOrdinal node, int component, double value) {

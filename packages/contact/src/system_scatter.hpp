@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "mortise/core/types.hpp"
-#include "pair_coupling.hpp"
+#include "pair_evaluation.hpp"
 
 namespace mortise::detail {
 
@@ -23,7 +23,10 @@ class SystemScatter {
   /// all of them, and of the nodes it is coupled to. The same columns are in the rows of the nodes its multiplier loads, as they receive the slave's
   /// row by condensation. Its columns are the bulk's, followed by further ones.
   /// @param middles_first  whether there are multipliers that are condensed before those of corners, whose rows they widen, on any rank
-  SystemScatter(const RCP<const Map>& owned_nodes, const Graph& bulk, const std::vector<PairCoupling*>& pairs, bool middles_first);
+  SystemScatter(const RCP<const Map>& owned_nodes, const Graph& bulk, const std::vector<PairEvaluation>& pairs, bool middles_first);
+
+  /// Whether the candidates of these evaluations are those it was built for.
+  bool fits(const std::vector<PairEvaluation>& pairs) const;
 
   const RCP<const Graph>& graph() const { return graph_; }
   const NodePositions& positions(std::size_t pair) const { return positions_[pair]; }
@@ -40,6 +43,7 @@ class SystemScatter {
 
  private:
   RCP<const Graph> graph_;
+  std::vector<std::shared_ptr<const InterfacePattern>> patterns_;  ///< [pairs]
   std::vector<NodePositions> positions_;
   RCP<Matrix> remote_matrix_;
   RCP<Vector> remote_vector_;

@@ -13,14 +13,12 @@
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
+#include <map>
 
-#include "implementation.hpp"
+#include "condensation.hpp"
 
-namespace mortise {
+namespace mortise::detail {
 namespace {
-
-using detail::MultiplierTie;
-using detail::MultiplierTies;
 
 // s_j: 1 of the tied node, -T of its receivers.
 double sign_of(const MultiplierTie& tie, std::size_t member) { return member == 0 ? 1.0 : -tie.shares[member - 1]; }
@@ -28,23 +26,12 @@ LocalOrdinal node_of(const MultiplierTie& tie, std::size_t member) {
   return member == 0 ? static_cast<LocalOrdinal>(tie.node) : tie.receivers[member - 1];
 }
 
-}  // namespace
-
-void ContactSystem::Implementation::add_ties(std::size_t p, const MultiVector& z, std::vector<detail::NodeMultiplier>& multipliers) const {
-  const MultiplierTies& ties = pairs[p]->ties();
-  const RCP<MultiVector> q = ties.gradient(*ties.on_nodes(z), dimension);
-  const std::vector<double> diagonal = ties.diagonal();
-  const auto view = q->getLocalViewHost(Tpetra::Access::ReadOnly);
-  for (std::size_t s = 0; s < multipliers.size(); ++s) {
-    if (diagonal[s] == 0.0) continue;
-    multipliers[s].tie = ties.compliance(s);
-    multipliers[s].shift.resize(dimension);
-    for (int i = 0; i < dimension; ++i) multipliers[s].shift[i] = view(s, i);
-  }
-}
-
 // dq_j = sum over the ties of  s_j sigma sum_m s_m dz_m  +  (s_j dsigma + ds_j sigma) r + s_j sigma dr,   dr = -sum_k dT_k z_k,  ds_k = -dT_k.
-ContactSystem::Implementation::TieBlocks ContactSystem::Implementation::tie_blocks(const Vector& z) const {
+TieBlocks tie_blocks(const EvaluatedContact& contact, const Vector& z) {
+  const ContactModel& model = *contact.model;
+  const std::vector<PairEvaluation>& pairs = contact.pairs;
+  const RCP<const Map>&dofs = model.dofs, &multipliers = model.multipliers;
+  const int dimension = model.dimension;
   const GlobalOrdinal offset = dofs->getMaxAllGlobalIndex() + 1;
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
   std::vector<RCP<MultiVector>> z_on_nodes;
@@ -52,10 +39,10 @@ ContactSystem::Implementation::TieBlocks ContactSystem::Implementation::tie_bloc
   std::vector<std::size_t> entries_z, entries_d;
   std::map<GlobalOrdinal, std::array<std::size_t, 2>> sizes;  // by node
   for (std::size_t p = 0; p < pairs.size(); ++p) {
-    const MultiplierTies& ties = pairs[p]->ties();
+    const MultiplierTies& ties = pairs[p].ties();
     z_on_nodes.emplace_back();
     if (!ties.any()) continue;
-    z_on_nodes.back() = ties.on_nodes(*owned_multipliers(p, values));
+    z_on_nodes.back() = ties.on_nodes(*model.owned_multipliers(p, values, ties.owned_nodes()));
     for (const MultiplierTie& tie : ties.ties())
       for (std::size_t member = 0; member <= tie.receivers.size(); ++member) {
         auto& size = sizes[ties.nodes()->getGlobalElement(node_of(tie, member))];
@@ -74,7 +61,7 @@ ContactSystem::Implementation::TieBlocks ContactSystem::Implementation::tie_bloc
   Matrix of_multipliers(map, Teuchos::arrayViewFromVector(entries_z)), of_positions(map, Teuchos::arrayViewFromVector(entries_d));
   std::vector<GlobalOrdinal> columns;
   for (std::size_t p = 0; p < pairs.size(); ++p) {
-    const MultiplierTies& ties = pairs[p]->ties();
+    const MultiplierTies& ties = pairs[p].ties();
     if (!ties.any()) continue;
     const auto of_node = z_on_nodes[p]->getLocalViewHost(Tpetra::Access::ReadOnly);
     for (const MultiplierTie& tie : ties.ties()) {
@@ -82,7 +69,7 @@ ContactSystem::Implementation::TieBlocks ContactSystem::Implementation::tie_bloc
       columns.clear();
       for (const LocalOrdinal node : tie.columns)
         for (int k = 0; k < dimension && tie.dcompliance.size() > 0; ++k)
-          columns.push_back(dimension * pairs[p]->interface().local_nodes()->getGlobalElement(node) + k);
+          columns.push_back(dimension * pairs[p].local_nodes().getGlobalElement(node) + k);
       for (std::size_t j = 0; j <= tie.receivers.size(); ++j) {
         const double sign = sign_of(tie, j);
         const GlobalOrdinal first = offset + dimension * ties.nodes()->getGlobalElement(node_of(tie, j));
@@ -109,24 +96,30 @@ ContactSystem::Implementation::TieBlocks ContactSystem::Implementation::tie_bloc
           Tpetra::exportAndFillCompleteCrsMatrix<Matrix>(rcp(&of_positions, false), to_owners, dofs, multipliers)};
 }
 
+}  // namespace
+
 // Rows of closed nodes, multiplied by G_j, but for sigma_j dz_j.
-ContactSystem::Implementation::TieBlocks ContactSystem::Implementation::tied_conditions(
-    const Vector& z, const std::vector<std::vector<detail::NodeMultiplier>>& of_nodes) const {
-  if (!any_ties()) return {};
+TieBlocks tied_conditions(const EvaluatedLaws& laws) {
+  const EvaluatedContact& contact = *laws.contact;
+  const ContactModel& model = *contact.model;
+  const RCP<const Map>&dofs = model.dofs, &multipliers = model.multipliers;
+  const int dimension = model.dimension;
+  if (!contact.any_ties()) return {};
   struct Factor {
     LocalOrdinal first;  // multiplier
     double tie;
     SpatialMatrix G;
   };
   std::vector<Factor> factors;
-  for (std::size_t p = 0; p < pairs.size(); ++p)
-    for (std::size_t s = 0; s < of_nodes[p].size(); ++s) {
-      if (multiplier_of[p][s] < 0 || of_nodes[p][s].shift.size() == 0) continue;
-      const Complementarity law = pairs[p]->complementarity(s, of_nodes[p][s]);
-      if (law.state != ContactState::open) factors.push_back({multiplier_of[p][s], of_nodes[p][s].tie, pairs[p]->shift_factor(law, s)});
+  for (std::size_t p = 0; p < contact.pairs.size(); ++p)
+    for (std::size_t s = 0; s < laws.laws[p].size(); ++s) {
+      const LocalOrdinal first = model.multiplier_of[p][s];
+      const NodeMultiplier& of_node = laws.multipliers[p][s];
+      if (first < 0 || of_node.shift.size() == 0 || laws.state(p, s) == ContactState::open) continue;
+      factors.push_back({first, of_node.tie, contact.pairs[p].shift_factor(laws.laws[p][s], s)});
     }
-  if (maximum(factors.empty() ? 0.0 : 1.0) == 0.0) return {};
-  const TieBlocks blocks = tie_blocks(z);
+  if (model.maximum(factors.empty() ? 0.0 : 1.0) == 0.0) return {};
+  const TieBlocks blocks = tie_blocks(contact, *laws.z);
   const auto multiplied = [&](const Matrix& block, const RCP<const Map>& domain, bool of_multipliers) {
     std::vector<std::size_t> sizes(multipliers->getNodeNumElements(), 0);
     const auto each_row = [&](const auto& act) {
@@ -159,17 +152,4 @@ ContactSystem::Implementation::TieBlocks ContactSystem::Implementation::tied_con
   return {multiplied(*blocks.of_multipliers, multipliers, true), multiplied(*blocks.of_positions, dofs, false)};
 }
 
-bool ContactSystem::leaves_out_couplings() const { return !implementation_->left_out.of_multipliers.is_null(); }
-
-void ContactSystem::apply_left_out(const Vector& dd, const Vector& dz, Vector& y) const {
-  const Implementation& self = *implementation_;
-  if (self.left_out.of_multipliers.is_null()) {
-    y.putScalar(0.0);
-    return;
-  }
-  const auto scope = self.timers.scope("condensation");
-  self.left_out.of_multipliers->apply(dz, y);
-  self.left_out.of_positions->apply(dd, y, Teuchos::NO_TRANS, 1.0, 1.0);
-}
-
-}  // namespace mortise
+}  // namespace mortise::detail

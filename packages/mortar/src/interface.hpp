@@ -34,7 +34,9 @@ class Interface final : public InterfaceImplementation {
   void evaluate(const MultiVector& x, bool derivatives, std::vector<FacetCoupling>& couplings, std::vector<NodalNormal>& normals,
                 std::optional<StepFailure>& failure) override;
   std::vector<GapCurvature> gap_curvatures(const MultiVector& x, const std::vector<double>& pressures) override;
-  bool split_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest) override;
+  SurfaceKinks find_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest, const SurfaceKinks& before) override;
+  bool set_kinks(const SurfaceKinks& kinks) override;
+  bool retain(const std::shared_ptr<const RetainedNodes>& nodes) override;
   long kinks(const MultiVector& x) override;
   std::vector<std::optional<double>> distances_to_master(const MultiVector& x, const std::vector<std::size_t>& nodes,
                                                          const std::vector<SpatialVector>& normals) override;
@@ -79,7 +81,9 @@ class Interface final : public InterfaceImplementation {
   GuestFacets guests_;
   std::vector<FacetCoupling> guest_couplings_;                      ///< [guests]
   std::vector<std::size_t> segments_of_facet_, segments_of_guest_;  ///< [facets], [guests] of the last evaluation
-  std::vector<char> kinks_;                                         ///< [nodes of the facets] 1 where so; empty before the first choice
+  SurfaceKinks kinks_;                                              ///< those that are set; at first none
+  std::shared_ptr<const RetainedNodes> retained_;                   ///< null: none
+  bool retained_is_new_ = false;                                    ///< the next search numbers the nodes again
   bool counted_ = false;                                            ///< there has been one
 };
 

@@ -45,6 +45,8 @@ Interface<dim>::Interface(const InterfaceInput& input)
       integrator_(input.measure, input.options) {
   slave = make_slave_surface<dim>(owned_nodes_, input.reference, input.fixed, input.slave, measure_, input.place);
   for (SlaveNode& node : slave.owned) node.weight *= options_.share;
+  kinks_.is_kink.assign(slave.nodes_with_normal, 0);
+  kinks_.takes_normal_of.resize(slave.nodes_with_normal);
   slave_positions_ = std::make_unique<Gathered<dim>>(owned_nodes_, slave.node_ids);
   master_positions_ = std::make_unique<Gathered<dim>>(owned_nodes_, nodes_of(master_));
   measure_facets(*input.reference, input.place);
@@ -154,6 +156,22 @@ typename Interface<dim>::Candidates Interface<dim>::find(const Positions<dim>& x
 }
 
 template <int dim>
+bool Interface<dim>::retain(const std::shared_ptr<const RetainedNodes>& nodes) {
+  if (nodes == retained_) return retained_is_new_;
+  retained_ = nodes;
+  double missing = 0.0, any = 0.0;
+  for (std::size_t s = 0; nodes != nullptr && s < nodes->size() && missing == 0.0; ++s)
+    for (const GlobalOrdinal id : (*nodes)[s]) {
+      const LocalOrdinal node = local_nodes->getLocalElement(id);
+      if (node < 0 || !std::binary_search(pattern->coupled[s].begin(), pattern->coupled[s].end(), node)) missing = 1.0;
+    }
+  Teuchos::reduceAll(*owned_nodes_->getComm(), Teuchos::REDUCE_MAX, missing, Teuchos::outArg(any));
+  retained_is_new_ = any > 0.0;
+  return retained_is_new_;
+}
+
+// Sums over nodes go by their numbers: these must not depend on which candidates earlier searches found.
+template <int dim>
 void Interface<dim>::number_nodes() {
   std::vector<GlobalOrdinal> ids = slave.node_ids;
   std::map<GlobalOrdinal, LocalOrdinal> local_of;
@@ -163,6 +181,14 @@ void Interface<dim>::number_nodes() {
     if (is_new) ids.push_back(id);
     return found->second;
   };
+  std::set<GlobalOrdinal> others;
+  for (const SurfaceFacets& facets : candidate_ids_)
+    for (const SurfaceFacet& facet : facets) others.insert(facet.begin(), facet.end());
+  std::vector<std::vector<LocalOrdinal>> kept(slave.owned.size());
+  if (retained_ != nullptr)
+    for (const auto& nodes : *retained_) others.insert(nodes.begin(), nodes.end());
+  for (const GlobalOrdinal id : others) local(id);
+
   candidates_.assign(slave.facets.size(), {});
   for (std::size_t f = 0; f < slave.facets.size(); ++f)
     for (const SurfaceFacet& facet : candidate_ids_[f]) {
@@ -170,14 +196,16 @@ void Interface<dim>::number_nodes() {
       for (const GlobalOrdinal id : facet) candidates_[f].back().push_back(local(id));
     }
   if (options_.coupling == Coupling::node_to_segment) collect_met();
-  std::vector<std::vector<LocalOrdinal>> kept(slave.owned.size());
-  for (std::size_t s = 0; s < retained.size(); ++s)
-    for (const GlobalOrdinal id : retained[s]) kept[s].push_back(local(id));
+  for (std::size_t s = 0; retained_ != nullptr && s < retained_->size(); ++s)
+    for (const GlobalOrdinal id : (*retained_)[s]) kept[s].push_back(local(id));
   if (distribution_) guests_ = GuestFacets(distribution_->send_away(slave, candidate_ids_), slave, local);
-  local_nodes = map_of(ids, owned_nodes_->getComm());
+  const auto next = std::make_shared<InterfacePattern>();
+  next->local_nodes = local_nodes = map_of(ids, owned_nodes_->getComm());
+  next->import = rcp(new Import(owned_nodes_, local_nodes));
+  auto &coupled = next->coupled, &loaded = next->loaded;
   coupled.assign(slave.owned.size(), {});
   loaded.assign(slave.owned.size(), {});
-  const bool turn_with_both_sides = options_.corner_rule(dim) == CornerRule::master_normal && !kinks_.empty();
+  const bool turn_with_both_sides = options_.corner_rule(dim) == CornerRule::master_normal;
   for (std::size_t s = 0; s < slave.owned.size(); ++s) {
     loaded[s].push_back(slave.owned[s].local_node);
     for (const std::size_t f : slave.facets_of[s]) {
@@ -198,13 +226,15 @@ void Interface<dim>::number_nodes() {
       nodes->erase(std::unique(nodes->begin(), nodes->end()), nodes->end());
     }
   }
+  pattern = next;
+  retained_is_new_ = false;
 }
 
 // A corner's normal depends on both of its facets, and so do the couplings of either.
 template <int dim>
 void Interface<dim>::couple_beyond_corners(std::size_t facet, std::vector<LocalOrdinal>& nodes) const {
   for (const LocalOrdinal corner : slave.facets[facet]) {
-    if (static_cast<std::size_t>(corner) >= slave.owned.size() || kinks_[corner] == 0) continue;
+    if (static_cast<std::size_t>(corner) >= slave.owned.size() || kinks_.is_kink[corner] == 0) continue;
     for (const std::size_t f : slave.facets_of[corner]) {
       for (const LocalOrdinal node : slave.facets[f]) {
         const auto& columns = slave.stencils[node].columns;
@@ -229,7 +259,11 @@ void Interface<dim>::collect_met() {
 
 template <int dim>
 bool Interface<dim>::search(const MultiVector& x) {
-  if (!moved(x)) return false;
+  if (!moved(x)) {
+    if (!retained_is_new_) return false;
+    number_nodes();
+    return true;
+  }
   Teuchos::Array<double> sizes(dim);
   x.norm1(sizes());
   for (const double size : sizes)
@@ -248,7 +282,7 @@ bool Interface<dim>::search(const MultiVector& x) {
     if (!std::includes(candidate_ids_[f].begin(), candidate_ids_[f].end(), needed[f].begin(), needed[f].end())) missing = 1.0;
   Teuchos::reduceAll(*owned_nodes_->getComm(), Teuchos::REDUCE_MAX, missing, Teuchos::outArg(any));
   if (any > 0.0) candidate_ids_ = find(slave_x, placed, longer);
-  if (!balance(slave_x) && any == 0.0) return false;
+  if (!balance(slave_x) && any == 0.0 && !retained_is_new_) return false;
   number_nodes();
   return true;
 }

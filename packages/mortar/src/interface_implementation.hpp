@@ -31,7 +31,9 @@ class InterfaceImplementation {
   virtual void evaluate(const MultiVector& x, bool derivatives, std::vector<FacetCoupling>& couplings, std::vector<NodalNormal>& normals,
                         std::optional<StepFailure>& failure) = 0;
   virtual std::vector<GapCurvature> gap_curvatures(const MultiVector& x, const std::vector<double>& pressures) = 0;
-  virtual bool split_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest) = 0;
+  virtual SurfaceKinks find_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest, const SurfaceKinks& before) = 0;
+  virtual bool set_kinks(const SurfaceKinks& kinks) = 0;
+  virtual bool retain(const std::shared_ptr<const RetainedNodes>& nodes) = 0;
   virtual long kinks(const MultiVector& x) = 0;
   virtual std::vector<std::optional<double>> distances_to_master(const MultiVector& x, const std::vector<std::size_t>& nodes,
                                                                  const std::vector<SpatialVector>& normals) = 0;
@@ -40,9 +42,8 @@ class InterfaceImplementation {
   double shortest = 0.0, longest = 0.0, reach = 0.0;
   InterfaceLoad load;
   std::vector<std::size_t> segments;  ///< [couplings of the last evaluation]
-  RCP<const Map> local_nodes;
-  std::vector<std::vector<LocalOrdinal>> coupled, loaded;  ///< [owned slave nodes]
-  std::vector<std::vector<GlobalOrdinal>> retained;        ///< [owned slave nodes]; empty: none
+  std::shared_ptr<const InterfacePattern> pattern;
+  RCP<const Map> local_nodes;  ///< of the pattern
 };
 
 template <int dim>

@@ -87,15 +87,17 @@ std::vector<std::optional<double>> MortarInterface::distances_to_master(const Mu
   return implementation_->distances_to_master(x, nodes, normals);
 }
 
-bool MortarInterface::split_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest) {
-  return implementation_->split_kinks(x, nearest);
+SurfaceKinks MortarInterface::find_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest, const SurfaceKinks& before) const {
+  return implementation_->find_kinks(x, nearest, before);
 }
+bool MortarInterface::set_kinks(const SurfaceKinks& kinks) { return implementation_->set_kinks(kinks); }
 long MortarInterface::kinks(const MultiVector& x) const { return implementation_->kinks(x); }
-void MortarInterface::retain(std::vector<std::vector<GlobalOrdinal>> nodes) { implementation_->retained = std::move(nodes); }
+bool MortarInterface::retain(const std::shared_ptr<const RetainedNodes>& nodes) { return implementation_->retain(nodes); }
+const std::shared_ptr<const InterfacePattern>& MortarInterface::pattern() const { return implementation_->pattern; }
 const RCP<const Map>& MortarInterface::local_nodes() const { return implementation_->local_nodes; }
 const std::vector<SlaveNode>& MortarInterface::slave_nodes() const { return implementation_->slave.owned; }
-const std::vector<LocalOrdinal>& MortarInterface::coupled_nodes(std::size_t s) const { return implementation_->coupled[s]; }
-const std::vector<LocalOrdinal>& MortarInterface::loaded_nodes(std::size_t s) const { return implementation_->loaded[s]; }
+const std::vector<LocalOrdinal>& MortarInterface::coupled_nodes(std::size_t s) const { return implementation_->pattern->coupled[s]; }
+const std::vector<LocalOrdinal>& MortarInterface::loaded_nodes(std::size_t s) const { return implementation_->pattern->loaded[s]; }
 const InterfaceLoad& MortarInterface::load() const { return implementation_->load; }
 const std::vector<std::size_t>& MortarInterface::segments() const { return implementation_->segments; }
 double MortarInterface::reach() const { return implementation_->reach; }

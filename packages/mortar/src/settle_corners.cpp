@@ -151,8 +151,8 @@ template <int dim>
 void Interface<dim>::settle_corners(bool derivatives, std::vector<NodalNormal>& normals, std::vector<FacetCoupling>& couplings) const {
   std::vector<SettledCorner> settled;
   const bool moves = derivatives && options_.linearisation == Linearisation::exact;
-  for (std::size_t s = 0; s < slave.owned.size() && !kinks_.empty(); ++s) {
-    if (kinks_[s] == 0 || !slave.carries[s]) continue;
+  for (std::size_t s = 0; s < slave.owned.size(); ++s) {
+    if (kinks_.is_kink[s] == 0 || !slave.carries[s]) continue;
     SettledCorner corner;
     for (const std::size_t f : slave.facets_of[s]) {
       const Facet<LocalOrdinal>& facet = slave.facets[f];

@@ -41,38 +41,42 @@ double turn_of_corner(CornerRule, const NormalStencil& stencil, const Positions<
 }  // namespace
 
 template <int dim>
-bool Interface<dim>::split_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest) {
+SurfaceKinks Interface<dim>::find_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest, const SurfaceKinks& before) {
   const Positions<dim> positions = (*slave_positions_)(x);
   const CornerRule rule = options_.corner_rule(dim);
-  const bool is_first = kinks_.empty();
-  kinks_.resize(slave.nodes_with_normal, 0);
-  const std::vector<char> kinks_before = kinks_;
-  std::vector<std::optional<std::size_t>> before, now;
-  for (std::size_t n = 0; n < kinks_.size(); ++n) {
-    NormalStencil& stencil = slave.stencils[n];
-    kinks_[n] = (dim == 2 || is_first || kinks_[n]) && turn_of_corner(rule, stencil, positions) > (kinks_[n] ? flat : sharp);
-    before.push_back(stencil.only);
-    stencil.only.reset();
+  const bool is_first = before.is_kink.empty();
+  SurfaceKinks kinks = before;
+  kinks.is_kink.resize(slave.nodes_with_normal, 0);
+  kinks.takes_normal_of.assign(kinks.is_kink.size(), std::nullopt);
+  for (std::size_t n = 0; n < kinks.is_kink.size(); ++n) {
+    const NormalStencil& stencil = slave.stencils[n];
+    char& is_kink = kinks.is_kink[n];
+    is_kink = (dim == 2 || is_first || is_kink) && turn_of_corner(rule, stencil, positions) > (is_kink ? flat : sharp);
     for (std::size_t e = 0; e < stencil.facets.size(); ++e)
-      if (kinks_[n] && rule == CornerRule::nearest_facet && n < nearest.size() && stencil.facets[e].nodes == nearest[n]) stencil.only = e;
-    now.push_back(stencil.only);
+      if (is_kink && rule == CornerRule::nearest_facet && n < nearest.size() && stencil.facets[e].nodes == nearest[n]) kinks.takes_normal_of[n] = e;
   }
-  const std::vector<Facet<LocalOrdinal>> normals_before = slave.normals;
+  return kinks;
+}
+
+template <int dim>
+bool Interface<dim>::set_kinks(const SurfaceKinks& kinks) {
+  int any = 0;
+  Teuchos::reduceAll(*owned_nodes_->getComm(), Teuchos::REDUCE_MAX, static_cast<int>(!(kinks == kinks_)), Teuchos::outArg(any));
+  if (any == 0) return false;
+  kinks_ = kinks;
+  const auto is_kink = [&](LocalOrdinal node) { return kinks_.is_kink[node] != 0; };
+  for (std::size_t n = 0; n < slave.nodes_with_normal; ++n) slave.stencils[n].only = kinks_.takes_normal_of[n];
   slave.stencils.resize(slave.nodes_with_normal);
   for (std::size_t f = 0; f < slave.facets.size(); ++f) {
     const Facet<LocalOrdinal>& facet = slave.facets[f];
     slave.normals[f] = facet;
-    if (std::none_of(facet.begin(), facet.end(), [&](LocalOrdinal node) { return kinks_[node] != 0; })) continue;
+    if (std::none_of(facet.begin(), facet.end(), is_kink)) continue;
     for (std::size_t a = 0; a < facet.size(); ++a) {
-      if (is_projected(slave.stencils[facet[a]]) && kinks_[facet[a]] == 0) continue;
+      if (is_projected(slave.stencils[facet[a]]) && !is_kink(facet[a])) continue;
       slave.normals[f][a] = static_cast<LocalOrdinal>(slave.stencils.size());
       slave.stencils.push_back(own_side(facet[a], tangents_at<dim>(facet, a)));
     }
   }
-  int any = 0;
-  const bool changed = kinks_before != kinks_ || before != now || normals_before != slave.normals;
-  Teuchos::reduceAll(*owned_nodes_->getComm(), Teuchos::REDUCE_MAX, static_cast<int>(changed), Teuchos::outArg(any));
-  if (any == 0) return false;
   searched_at_ = Teuchos::null;  // other normals, other candidates
   return true;
 }
@@ -85,8 +89,10 @@ long Interface<dim>::kinks(const MultiVector& x) {
                        [&](const NormalStencil& stencil) { return turn_of_corner(rule, stencil, positions) > sharp; });
 }
 
-template bool Interface<2>::split_kinks(const MultiVector&, const std::vector<Facet<LocalOrdinal>>&);
-template bool Interface<3>::split_kinks(const MultiVector&, const std::vector<Facet<LocalOrdinal>>&);
+template SurfaceKinks Interface<2>::find_kinks(const MultiVector&, const std::vector<Facet<LocalOrdinal>>&, const SurfaceKinks&);
+template SurfaceKinks Interface<3>::find_kinks(const MultiVector&, const std::vector<Facet<LocalOrdinal>>&, const SurfaceKinks&);
+template bool Interface<2>::set_kinks(const SurfaceKinks&);
+template bool Interface<3>::set_kinks(const SurfaceKinks&);
 template long Interface<2>::kinks(const MultiVector&);
 template long Interface<3>::kinks(const MultiVector&);
 

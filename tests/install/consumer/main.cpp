@@ -50,48 +50,54 @@ std::array<double, 2> residuals(const Blocks& blocks, const Vector& r, const Vec
 /// What a Newton solve leaves beside d and z.
 struct Solved {
   bool converged = false;
-  Vector r;  ///< forces that are not balanced: the reactions of prescribed dofs
+  Vector r;                         ///< forces that are not balanced: the reactions of prescribed dofs
+  std::optional<ContactLaws> laws;  ///< contact at d and z; none unless `converged`
 };
 
-Solved solve_step(const Blocks& blocks, ContactSystem& contact, const Matrix& K, LinearSolver& solver, const Vector& target, Vector& d, Vector& z) {
+Solved solve_step(const Blocks& blocks, const ContactSystem& contact, const ContactHistory& accepted, const Matrix& K, LinearSolver& solver,
+                  const Vector& target, Vector& d, Vector& z) {
   const std::vector<char> unconstrained(blocks.nodes->getNodeNumElements(), 0);  // no body is held by contact alone
-  contact.start_step(d, unconstrained, z);
+  const ContactHistory history = contact.start_step(accepted, d, unconstrained, z);
+  ContactStates last = history->states;
   RCP<Matrix> A;
-  Solved solved{false, Vector(blocks.dofs)};
+  Solved solved{false, Vector(blocks.dofs), {}};
   Vector internal(blocks.dofs), rhs(blocks.dofs), increment(blocks.dofs), z_new(contact.multiplier_map());
   for (int iteration = 0; iteration < 30; ++iteration) {
-    std::optional<StepFailure> failure;
-    contact.evaluate(d, true, failure);
-    throw_if_any(*blocks.comm, failure);  // on every rank: undo the step, take a smaller one
+    // A StepFailure comes on every rank: undo the step, take a smaller one.
+    const DifferentiatedContact at = contact.differentiate(d, history, &last);
+    const ContactLaws laws = at.laws(z);
 
     K.apply(d, internal);
     Tpetra::deep_copy(solved.r, internal);
-    contact.add_contact_force(z, solved.r);
-    const ContactNorms norms = contact.norms(z);
+    laws.add_force(solved.r);
+    const ContactNorms norms = laws.norms(last);
     const auto [unbalanced, off] = residuals(blocks, solved.r, target, d);
     solved.converged = unbalanced <= tolerance * internal.norm2() && off <= tolerance && norms.gap <= tolerance &&
                        norms.complementarity <= tolerance && norms.changed == 0;
-    if (solved.converged && iteration > 0) return solved;
-    contact.mark_states(z);
+    if (solved.converged && iteration > 0) {
+      solved.laws = laws;
+      return solved;
+    }
+    last = laws.states();
 
-    bool changed = false;
-    const RCP<const Graph> graph = contact.system_graph([&] { return blocks.graph(); }, changed);
-    changed |= A.is_null();
+    const RCP<const Graph> graph = contact.graph(at, [&] { return blocks.graph(); });
+    const bool changed = A.is_null() || A->getCrsGraph() != graph;
     if (changed)
       A = rcp(new Matrix(graph));
     else
       A->resumeFill();
     A->setAllToScalar(0.0);
     blocks.assemble(*A);
-    contact.add_stiffness(z, *A);
+    const ContactLinearisation linearised = at.linearise(laws);
+    linearised.add_stiffness(*A);
     rhs.update(-1.0, internal, 0.0);  // without the forces of contact
-    contact.condense(z, *A, rhs);
+    const CondensedContact condensed = linearised.condense(*A, rhs);
     prescribe(blocks, target, d, *A, rhs);
     A->fillComplete(blocks.dofs, blocks.dofs);
 
     solver.set_matrix(A, changed, {});
     solver.solve(rhs, increment);
-    contact.recover(increment, z_new);
+    condensed.recover(increment, z_new);
     d.update(1.0, increment, 1.0);
     Tpetra::deep_copy(z, z_new);
   }
@@ -118,7 +124,7 @@ bool near(const char* what, double value, double expected, double scale) {
 int run() {
   constexpr double down = 0.02, right = 0.12, force = E * down * width / height;
   const Blocks blocks;
-  ContactSystem contact(blocks.nodes, blocks.dofs, blocks.reference, blocks.fixed, {}, {blocks.pair(friction)}, Timers());
+  const ContactSystem contact(blocks.nodes, blocks.dofs, blocks.reference, blocks.fixed, {}, {blocks.pair(friction)}, Timers());
   Matrix K(blocks.graph());
   blocks.assemble(K);
   K.fillComplete(blocks.dofs, blocks.dofs);
@@ -126,6 +132,8 @@ int run() {
   options.kind.value = LinearSolverOptions::Kind::mumps;
   const auto solver = make_linear_solver(options, blocks.comm, Timers());
   Vector d(blocks.dofs), z(contact.multiplier_map()), target(blocks.dofs);
+  ContactHistory history = contact.initial_history(d);
+  std::optional<ContactLaws> laws;  // at the end of the last step
 
   bool all_right = true;
   double time = 0.0, step = 0.25;
@@ -134,33 +142,34 @@ int run() {
       if (Blocks::held(id / 2) && Blocks::block_of(id / 2) == 1)
         target.replaceGlobalValue(id, id % 2 == 0 ? right * std::max(0.0, time + step - 1.0) : -down * std::min(1.0, time + step));
     const Vector d_start(d, Teuchos::Copy), z_start(z, Teuchos::Copy);
-    Solved solved{false, Vector(blocks.dofs)};
+    Solved solved{false, Vector(blocks.dofs), {}};
     try {
-      solved = solve_step(blocks, contact, K, *solver, target, d, z);
+      solved = solve_step(blocks, contact, history, K, *solver, target, d, z);
     } catch (const StepFailure&) {
     }
-    if (!solved.converged) {  // nothing was accepted: the next start_step() goes back by itself
+    if (!solved.converged) {  // the history is still that of the last step
       Tpetra::deep_copy(d, d_start);
       Tpetra::deep_copy(z, z_start);
       step /= 2.0;
       if (step < 1e-3) throw std::runtime_error("no step converges");
       continue;
     }
-    contact.accept_states(z);
+    laws = solved.laws;
+    history = contact.commit(*laws);
     time += step;
     const auto below = reaction(blocks, solved.r, 0), above = reaction(blocks, solved.r, 1);
     // Poisson's ratio 0: one column of height 2, whatever the meshes. Then: forces balance, and so does each body.
     if (time == 1.0) all_right &= near("the pressing force", -above[1], force, force) && near("the shear force", above[0], 0.0, force);
-    const auto on_slave = contact.resultant(0, z);
+    const auto on_slave = resultant(*laws, 0);
     for (int i = 0; i < 2; ++i)
       all_right &= near("the sum of both reactions", below[i] + above[i], 0.0, force) &&
                    near("the contact force", std::abs(on_slave[i]), std::abs(above[i]), force);
   }
   // The upper block slides as a whole: Coulomb's law at each node that is closed.
-  for (const ContactNodeState& node : contact.node_states(0, z))
+  for (const ContactNodeState& node : node_states(*laws, 0))
     if (node.closed)
       all_right &= node.state == ContactState::slip && near("the shear traction", std::abs(node.shear), friction * node.pressure, force);
-  return all_right && contact.norms(z).active > 0 ? 0 : 1;
+  return all_right && laws->norms(history->states).active > 0 ? 0 : 1;
 }
 
 }  // namespace host

@@ -51,13 +51,10 @@ struct Decoupled {
 /// @param shear  of a node, of its pressure, which differs from node to node; so does the direction
 Decoupled decoupled(const TwoSurfaces& surfaces, const std::function<double(double)>& shear) {
   Fixture fixture(surfaces, Tpetra::getDefaultComm());
-  ContactSystem& contact = *fixture.contact;
-  const std::vector<char> held(fixture.nodes->getNodeNumElements(), 0);
+  const ContactSystem& contact = *fixture.contact;
   Vector d(fixture.dofs), z(contact.multiplier_map()), rhs(fixture.dofs);
-  contact.start_step(d, held, z);
-  std::optional<StepFailure> failure;
-  contact.evaluate(d, true, failure);
-  EXPECT_FALSE(failure);
+  const ContactHistory history = fixture.first_step(d, z);
+  const DifferentiatedContact at = contact.differentiate(d, history);
   const GlobalOrdinal offset = fixture.dofs->getMaxAllGlobalIndex() + 1;
   Tpetra::deep_copy(z, *Fixture::vector(contact.multiplier_map(), [&](GlobalOrdinal id) {
                       const auto node = static_cast<double>((id - offset) / 3);
@@ -65,14 +62,14 @@ Decoupled decoupled(const TwoSurfaces& surfaces, const std::function<double(doub
                       const std::array<double, 3> traction = {shear(pressure) * std::cos(angle), shear(pressure) * std::sin(angle), -pressure};
                       return traction[(id - offset) % 3];
                     }));
-  const ContactNorms norms = contact.norms(z);
+  const ContactLaws laws = at.laws(z);
+  const ContactNorms norms = laws.norms(history->states);
 
-  bool changed = false;
-  const RCP<const Graph> graph = contact.system_graph([&] { return fixture.bulk; }, changed);
+  const RCP<const Graph> graph = contact.graph(at, [&] { return fixture.bulk; });
   const RCP<Matrix> A = symmetric_springs(surfaces, fixture.bulk, graph);
-  contact.condense(z, *A, rhs);
+  const CondensedContact condensed = at.linearise(laws).condense(*A, rhs);
   A->fillComplete(fixture.dofs, fixture.dofs);
-  const Decoupling decoupling = contact.decoupling(z);
+  const Decoupling decoupling = condensed.decoupling();
 
   const std::vector<GlobalOrdinal> ids = Fixture::all_ids(*fixture.dofs);
   const auto whole = [&](const Matrix& matrix) { return Fixture::dense(matrix, ids, ids); };

@@ -32,15 +32,11 @@ RCP<Vector> motion(const Fixture& fixture, const TwoSurfaces& surfaces, const st
 }
 
 /// Slips of the slave nodes at d of a step that started without displacement.
-std::vector<double> slips(Fixture& fixture, const Vector& d) {
-  const std::vector<char> held(fixture.nodes->getNodeNumElements(), 0);
+std::vector<double> slips(const Fixture& fixture, const Vector& d) {
   Vector none(fixture.dofs), z(fixture.contact->multiplier_map());
-  fixture.contact->start_step(none, held, z);
-  std::optional<StepFailure> failure;
-  fixture.contact->evaluate(d, false, failure);
-  EXPECT_FALSE(failure);
+  const ContactHistory history = fixture.first_step(none, z);
   std::vector<double> slips;
-  for (const auto& state : fixture.contact->node_states(0, z)) slips.push_back(state.slip);
+  for (const auto& state : node_states(fixture.contact->evaluate(d, history).laws(z), 0)) slips.push_back(state.slip);
   return slips;
 }
 
@@ -75,7 +71,7 @@ TEST(Slip, IsMeasuredOverManyFacets) {
 TEST(Slip, PathAndWorkGrowWithAcceptedSteps) {
   const TwoSurfaces surfaces = flat(ContactGeometry::current, 0.3);
   Fixture fixture(surfaces, Tpetra::getDefaultComm());
-  ContactSystem& contact = *fixture.contact;
+  const ContactSystem& contact = *fixture.contact;
   const std::vector<char> held(fixture.nodes->getNodeNumElements(), 0);
   const double pressure = 10.0;
   // z = (shear, -p): normal down. Forward by 0.5, back by 0.2: the shear traction follows the slip.
@@ -85,32 +81,34 @@ TEST(Slip, PathAndWorkGrowWithAcceptedSteps) {
   };
   Vector z(contact.multiplier_map());
   RCP<Vector> d = rcp(new Vector(fixture.dofs));
+  ContactHistory accepted = contact.initial_history(*d);
   double path = 0.0, position = 0.0;
   for (const double step : {0.5, -0.2}) {
-    for (int tries = 0; tries < 2; ++tries) contact.start_step(*d, held, z);  // undone and tried again
+    ContactHistory history = accepted;
+    for (int tries = 0; tries < 2; ++tries) history = contact.start_step(accepted, *d, held, z);  // undone and tried again
     position += step;
     const RCP<Vector> before = d;
     d = motion(fixture, surfaces, [&](bool slave, const test::Point&) { return test::Point{slave ? position : 0.0, 0.0}; });
-    std::optional<StepFailure> failure;
-    contact.evaluate(*d, false, failure);
+    const ContactEvaluation at = contact.evaluate(*d, history);
     Tpetra::deep_copy(z, *traction(step > 0.0 ? 0.3 * pressure : -0.3 * pressure));
-    const ContactNorms norms = contact.norms(z);
+    const ContactLaws laws = at.laws(z);
+    const ContactNorms norms = laws.norms(history->states);
     EXPECT_EQ(norms.active, 6);
     EXPECT_EQ(norms.sticking, 0);
     EXPECT_LE(norms.complementarity, 1e-13);  // the closed solution: on the cone, along the slip
-    contact.accept_states(z);
+    accepted = contact.commit(laws);
     path += std::abs(step);
-    for (const auto& state : contact.node_states(0, z)) {
+    for (const auto& state : node_states(laws, 0)) {
       EXPECT_NEAR(state.slip_path, path, 1e-12);
       EXPECT_EQ(state.state, ContactState::slip);
     }
     // The forces of the shear tractions alone: traction times slip over a length of 5.
     Vector force(fixture.dofs), change(*d, Teuchos::Copy);
-    contact.add_contact_force(*contact.shear_tractions(z), force);
+    at.add_force(*at.shear_tractions(z), force);
     change.update(-1.0, *before, 1.0);
     EXPECT_NEAR(force.dot(change), 0.3 * pressure * 5.0 * std::abs(step), 1e-10);
   }
-  EXPECT_GT(contact.friction_bytes(), 0);
+  EXPECT_GT(friction_bytes(accepted), 0);
   EXPECT_GT(contact.friction_evaluations(), 0);
 }
 
@@ -126,20 +124,19 @@ TEST(Slip, OfTiedNodesVanishesInADwell) {
     SCOPED_TRACE(dimension);
     surfaces.options.friction.options = coulomb;
     Fixture fixture(surfaces, Tpetra::getDefaultComm());
-    ContactSystem& contact = *fixture.contact;
+    const ContactSystem& contact = *fixture.contact;
     const std::vector<char> held(fixture.nodes->getNodeNumElements(), 0);
     const auto z = fixture.multipliers([](std::size_t node) { return 5.0 + std::sin(1.3 * static_cast<double>(node)); });
     Vector d(fixture.dofs), guess(contact.multiplier_map());
     const GlobalOrdinal offset = fixture.dofs->getMaxAllGlobalIndex() + 1;
+    ContactHistory history = fixture.first_step(d, guess);
     const auto largest_slip_condition = [&](const Vector& at, const Vector& multipliers) {
-      std::optional<StepFailure> failure;
-      contact.evaluate(at, false, failure);
-      EXPECT_FALSE(failure);
-      EXPECT_GT(contact.norms(multipliers).sticking, 0);
+      const ContactLaws laws = contact.evaluate(at, history).laws(multipliers);
+      EXPECT_GT(laws.norms(history->states).sticking, 0);
       Vector C(contact.multiplier_map());
-      contact.complementarity(multipliers, C);
+      laws.complementarity(C);
       double mine = 0.0, all = 0.0;
-      for (const auto& state : contact.node_states(0, multipliers)) {
+      for (const auto& state : node_states(laws, 0)) {
         if (state.state != ContactState::stick) continue;
         for (int i = 1; i < dimension; ++i) {
           const LocalOrdinal row = C.getMap()->getLocalElement(offset + dimension * state.node + i);
@@ -149,11 +146,10 @@ TEST(Slip, OfTiedNodesVanishesInADwell) {
       Teuchos::reduceAll(*Tpetra::getDefaultComm(), Teuchos::REDUCE_MAX, mine, Teuchos::outArg(all));
       return all;
     };
-    contact.start_step(d, held, guess);
     EXPECT_GT(largest_slip_condition(d, *z), 1e-2);  // the first shear of the ties counts
-    contact.accept_states(*z);
+    const ContactHistory accepted = contact.commit(contact.evaluate(d, history).laws(*z));
     for (int tries = 0; tries < 2; ++tries) {
-      contact.start_step(d, held, guess);
+      history = contact.start_step(accepted, d, held, guess);
       EXPECT_LE(largest_slip_condition(d, *z), 1e-12);
       Vector changed(*z, Teuchos::Copy);
       changed.scale(1.1);
@@ -179,14 +175,12 @@ TEST(Slip, APairWithoutFrictionRemembersNothing) {
   TwoSurfaces surfaces = flat(ContactGeometry::current, 0.3);
   surfaces.options.friction = ContactOptions().friction;
   Fixture fixture(surfaces, Tpetra::getDefaultComm());
-  const std::vector<char> held(fixture.nodes->getNodeNumElements(), 0);
   Vector d(fixture.dofs), z(fixture.contact->multiplier_map());
-  fixture.contact->start_step(d, held, z);
-  fixture.contact->accept_states(z);
-  EXPECT_EQ(fixture.contact->friction_bytes(), 0);
+  const ContactEvaluation at = fixture.contact->evaluate(d, fixture.first_step(d, z));
+  EXPECT_EQ(friction_bytes(fixture.contact->commit(at.laws(z))), 0);
   EXPECT_EQ(fixture.contact->friction_evaluations(), 0);
   z.putScalar(1.0);
-  EXPECT_EQ(fixture.contact->shear_tractions(z)->norm2(), 0.0);
+  EXPECT_EQ(at.shear_tractions(z)->norm2(), 0.0);
 }
 
 TEST(Coulomb, SticksInsideTheConeAndSlipsOnIt) {

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "formulations.hpp"
+#include "mortise/contact/holding_nodes.hpp"
 #include "two_surfaces.hpp"
 
 namespace mortise {
@@ -38,10 +39,10 @@ Wrenches of_row(const HoldingRow& row) {
 }
 
 /// Of the contact force of z, over all ranks.
-Wrenches of_force(const Fixture& fixture, const TwoSurfaces& surfaces, const Vector& z) {
+Wrenches of_force(const Fixture& fixture, const TwoSurfaces& surfaces, const ContactEvaluation& at, const Vector& z) {
   const int dim = surfaces.dimension;
   Vector force(fixture.dofs);
-  fixture.contact->add_contact_force(z, force);
+  at.add_force(z, force);
   const auto values = force.getLocalViewHost(Tpetra::Access::ReadOnly);
   Wrenches mine = Wrenches::Zero(), all = mine;
   for (std::size_t n = 0; n < fixture.nodes->getNodeNumElements(); ++n) {
@@ -73,21 +74,19 @@ MultiVector places_in(const Fixture& fixture, const TwoSurfaces& surfaces) {
 /// All nodes that are covered closed; nothing has slipped, so they stick.
 void compare(const TwoSurfaces& surfaces) {
   Fixture fixture(surfaces, Tpetra::getDefaultComm());
-  ContactSystem& contact = *fixture.contact;
+  const ContactSystem& contact = *fixture.contact;
   const int dim = surfaces.dimension;
   Vector d(fixture.dofs), none(contact.multiplier_map());
-  contact.start_step(d, std::vector<char>(fixture.nodes->getNodeNumElements(), 0), none);
-  std::optional<StepFailure> failure;
-  contact.evaluate(d, true, failure);
-  ASSERT_FALSE(failure);
+  const DifferentiatedContact at = contact.differentiate(d, fixture.first_step(d, none));
   const RCP<Vector> z = fixture.multipliers([](std::size_t) { return 1e6; });
+  const ContactLaws laws = at.laws(*z);
 
-  const std::vector<HoldingRow> rows = contact.holding_rows(*z, places_in(fixture, surfaces));
+  const std::vector<HoldingRow> rows = holding_rows(laws, places_in(fixture, surfaces));
 
   // Rows come node by node.
   std::vector<ContactNodeState> closed;
   int sticking = 0;
-  for (const auto& node : contact.node_states(0, *z)) {
+  for (const auto& node : node_states(laws, 0)) {
     if (node.closed) closed.push_back(node);
     sticking += node.state == ContactState::stick;
   }
@@ -112,7 +111,7 @@ void compare(const TwoSurfaces& surfaces) {
         if (rows[r].along_surface) EXPECT_NEAR(direction.dot(Eigen::Vector3d(node.normal.data())), 0.0, 1e-12);
         for (int i = 0; i < dim; ++i) one.replaceGlobalValue(offset + dim * node.node + i, direction[i]);
       }
-      const Wrenches expected = of_force(fixture, surfaces, one);
+      const Wrenches expected = of_force(fixture, surfaces, at, one);
       if (!mine) continue;
       const Wrenches found = of_row(rows[r]);
       const double scale = expected.col(0).head<3>().norm() / found.col(0).head<3>().norm();
@@ -146,40 +145,36 @@ TEST(HoldingRows, OpenNodesHoldNothingAndNodesWithoutABodyAreLeftOut) {
   const TwoSurfaces surfaces = with_friction(test::arch_on_ground(), nullptr);
   Fixture fixture(surfaces, Tpetra::getDefaultComm());
   Vector d(fixture.dofs), z(fixture.contact->multiplier_map());
-  fixture.contact->start_step(d, std::vector<char>(fixture.nodes->getNodeNumElements(), 0), z);
-  std::optional<StepFailure> failure;
-  fixture.contact->evaluate(d, true, failure);
+  const DifferentiatedContact at = fixture.contact->differentiate(d, fixture.first_step(d, z));
   MultiVector places(fixture.nodes, 3);
   const auto pulled = fixture.multipliers([](std::size_t) { return -1e6; }), pressed = fixture.multipliers([](std::size_t) { return 1e6; });
-  EXPECT_TRUE(fixture.contact->holding_rows(*pulled, places).empty());
+  EXPECT_TRUE(holding_rows(at.laws(*pulled), places).empty());
   for (std::size_t n = 0; n < fixture.nodes->getNodeNumElements(); ++n) places.replaceLocalValue(n, 0, -1.0);
-  EXPECT_TRUE(fixture.contact->holding_rows(*pressed, places).empty());
+  EXPECT_TRUE(holding_rows(at.laws(*pressed), places).empty());
 }
 
 /// The slave is moved as a whole, by so little that what is coupled stays the same; its shear is more than friction bears.
 void compare_sliding(const TwoSurfaces& surfaces) {
   Fixture fixture(surfaces, Tpetra::getDefaultComm());
-  ContactSystem& contact = *fixture.contact;
+  const ContactSystem& contact = *fixture.contact;
   const auto comm = fixture.nodes->getComm();
   const int dim = surfaces.dimension;
   const auto slaves = static_cast<GlobalOrdinal>(surfaces.slave.size());
   const double distance = 1e-7;
   const Eigen::Vector3d motion = distance * (dim == 2 ? Eigen::Vector3d(1.0, 0.0, 0.0) : Eigen::Vector3d(0.8, -0.6, 0.0));
   Vector d(fixture.dofs), none(contact.multiplier_map());
-  contact.start_step(d, std::vector<char>(fixture.nodes->getNodeNumElements(), 0), none);
-  std::optional<StepFailure> failure;
-  contact.evaluate(d, true, failure);
+  const ContactHistory history = fixture.first_step(d, none);
   for (std::size_t n = 0; n < fixture.nodes->getNodeNumElements(); ++n)
     for (int i = 0; i < dim; ++i)
       if (fixture.nodes->getGlobalElement(static_cast<LocalOrdinal>(n)) < slaves) d.replaceLocalValue(dim * n + i, motion[i]);
-  contact.evaluate(d, true, failure);
-  ASSERT_FALSE(failure);
+  const DifferentiatedContact at = contact.differentiate(d, history);
   const RCP<Vector> z = fixture.multipliers([](std::size_t) { return 1e6; });                                           // closes what is covered
   for (std::size_t n = 0; n < z->getLocalLength(); n += static_cast<std::size_t>(dim)) z->replaceLocalValue(n, 0.6e6);  // twice what friction bears
 
-  const std::vector<SlidingNode> nodes = contact.sliding_nodes(*z, places_in(fixture, surfaces));
+  const ContactLaws laws = at.laws(*z);
+  const std::vector<SlidingNode> nodes = sliding_nodes(laws, places_in(fixture, surfaces));
   int slipping = 0, most = 0;
-  for (const auto& node : contact.node_states(0, *z)) slipping += node.state == ContactState::slip;
+  for (const auto& node : node_states(laws, 0)) slipping += node.state == ContactState::slip;
   ASSERT_EQ(static_cast<int>(nodes.size()), slipping);
   for (int rank = 0; rank < comm->getSize(); ++rank) {
     int count = static_cast<int>(nodes.size()) * (dim - 1);
@@ -193,7 +188,7 @@ void compare_sliding(const TwoSurfaces& surfaces) {
         const SlidingNode& node = nodes[static_cast<std::size_t>(k / (dim - 1))];
         for (int i = 0; i < dim; ++i) one.replaceLocalValue(node.multiplier + i, node.frame.tangents(static_cast<Eigen::Index>(a), i));
       }
-      const Wrenches expected = of_force(fixture, surfaces, one);
+      const Wrenches expected = of_force(fixture, surfaces, at, one);
       if (!mine) continue;
       const SlidingNode& node = nodes[static_cast<std::size_t>(k / (dim - 1))];
       HoldingRow row;

@@ -12,28 +12,28 @@ TEST_P(Linearisation, AgreesWithCentralDifferences) {
   const Case one = cases()[GetParam()];
   SCOPED_TRACE(one.name);
   Fixture fixture(one.surfaces, Tpetra::getDefaultComm());
-  ContactSystem& contact = *fixture.contact;
-  std::optional<StepFailure> failure;
+  const ContactSystem& contact = *fixture.contact;
   const auto d = Fixture::vector(fixture.dofs, [](GlobalOrdinal id) { return 0.01 * wiggle(id); });
   const auto v = Fixture::vector(fixture.dofs, [](GlobalOrdinal id) { return wiggle(3 * id + 1); });
   const auto z = fixture.multipliers(pressure);
   const auto w = Fixture::vector(contact.multiplier_map(), [](GlobalOrdinal id) { return wiggle(5 * id + 2); });
 
-  start(fixture);
-  contact.evaluate(*d, true, failure);
-  ASSERT_FALSE(failure);
-  contact.augment(*z, 1);
-  bool changed = false;
-  const auto system = rcp(new Matrix(contact.system_graph([&] { return fixture.bulk; }, changed)));
-  contact.add_stiffness(*z, *system);
+  const ContactHistory started = start(fixture);
+  const DifferentiatedContact evaluated = contact.differentiate(*d, started);
+  const ContactHistory history = updated(contact, evaluated.laws(*z), started);
+  const DifferentiatedContact at = evaluated.with(history);
+  const ContactLaws laws = at.laws(*z);
+  const ContactLinearisation linearised = at.linearise(laws);
+  const auto system = rcp(new Matrix(contact.graph(at, [&] { return fixture.bulk; })));
+  linearised.add_stiffness(*system);
   system->fillComplete(fixture.dofs, fixture.dofs);
-  const auto blocks = contact.saddle_point_blocks(*z);
+  const auto blocks = linearised.saddle_point_blocks();
   Vector force(fixture.dofs), law(contact.multiplier_map());
   system->apply(*v, force);
   blocks.B->apply(*w, force, Teuchos::NO_TRANS, 1.0, 1.0);
   blocks.C_d->apply(*v, law);
   blocks.C_z->apply(*w, law, Teuchos::NO_TRANS, 1.0, 1.0);
-  const ContactNorms norms = contact.norms(*z);
+  const ContactNorms norms = laws.norms(history->states);
   EXPECT_GT(norms.active, 0);
   EXPECT_LE(norms.active, static_cast<int>(one.surfaces.slave.size()));
   if (one.name.find("mixed") != std::string::npos) {
@@ -53,13 +53,12 @@ TEST_P(Linearisation, AgreesWithCentralDifferences) {
     Vector d_h(*d, Teuchos::Copy), z_h(*z, Teuchos::Copy), f(fixture.dofs), C(contact.multiplier_map());
     d_h.update(sign * h, *v, 1.0);
     z_h.update(sign * h, *w, 1.0);
-    contact.evaluate(d_h, false, failure);
-    contact.add_contact_force(z_h, f);
-    contact.complementarity(z_h, C);
+    const ContactLaws moved = contact.evaluate(d_h, history).laws(z_h);
+    moved.add_force(f);
+    moved.complementarity(C);
     force_difference.update(sign / (2.0 * h), f, 1.0);
     law_difference.update(sign / (2.0 * h), C, 1.0);
   }
-  ASSERT_FALSE(failure);
   const double force_size = force.norm2(), law_size = law.norm2();
   force_difference.update(-1.0, force, 1.0);
   law_difference.update(-1.0, law, 1.0);
@@ -76,15 +75,11 @@ TEST(ReferenceGeometry, GapIsTheTransposeOfTheForce) {
   surfaces.options.geometry = ContactGeometry::reference;
   surfaces.options.mortar.search_reach = 1.0;
   Fixture fixture(surfaces, Tpetra::getDefaultComm());
-  ContactSystem& contact = *fixture.contact;
-  std::optional<StepFailure> failure;
-  Vector d(fixture.dofs);
-  start(fixture);
-  contact.evaluate(d, true, failure);
-  bool changed = false;
-  contact.system_graph([&] { return fixture.bulk; }, changed);
+  const ContactSystem& contact = *fixture.contact;
+  const Vector d(fixture.dofs);
+  const DifferentiatedContact at = contact.differentiate(d, start(fixture));
   const auto z = fixture.multipliers([](std::size_t) { return 1e3; });  // all closed
-  const auto blocks = contact.saddle_point_blocks(*z);
+  const auto blocks = at.linearise(at.laws(*z)).saddle_point_blocks();
   const auto dof_ids = Fixture::all_ids(*fixture.dofs), z_ids = Fixture::all_ids(*contact.multiplier_map());
   const Eigen::MatrixXd B = Fixture::dense(*blocks.B, dof_ids, z_ids), C_d = Fixture::dense(*blocks.C_d, z_ids, dof_ids);
   const Eigen::MatrixXd C_z = Fixture::dense(*blocks.C_z, z_ids, z_ids);

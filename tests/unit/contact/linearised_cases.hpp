@@ -223,13 +223,20 @@ inline std::string test_name(const ::testing::TestParamInfo<int>& info) {
   return name;
 }
 
+/// The history with multipliers that a first update sets to those of `laws`, or `history` itself where there is nothing to update.
+inline ContactHistory updated(const ContactSystem& contact, const ContactLaws& laws, const ContactHistory& history) {
+  const Augmentation augmentation = contact.augment(laws, 1);
+  return augmentation.history ? *augmentation.history : history;
+}
+
 /// Where the step started: slips are measured from here.
-inline void start(Fixture& fixture) {
+inline ContactHistory start(const Fixture& fixture) {
   const auto before = Fixture::vector(fixture.dofs, [](GlobalOrdinal id) { return 0.01 * std::sin(3.1 * static_cast<double>(id) + 0.2); });
-  const std::vector<char> held(fixture.nodes->getNodeNumElements(), 0);
-  Vector z(fixture.contact->multiplier_map());
-  fixture.contact->start_step(*before, held, z);
-  fixture.contact->augment(*fixture.multipliers([](std::size_t node) { return 0.3 * node; }), 1);
+  const auto pressed = fixture.multipliers([](std::size_t node) { return 0.3 * node; });
+  const ContactSystem& contact = *fixture.contact;
+  Vector z(contact.multiplier_map());
+  const ContactHistory history = fixture.first_step(*before, z);
+  return updated(contact, contact.evaluate(*before, history).laws(*pressed), history);
 }
 
 // Some nodes pressed, some open (in 3D those further on too); the tangential part is not zero, as it is before Newton has converged.

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include "two_surfaces.hpp"
 
 namespace mortise {
@@ -14,9 +16,10 @@ using ::testing::HasSubstr;
 constexpr int slaves = 6, masters = 9;
 constexpr double reach = 0.5;
 
-/// A flat slave over [0, 5] that touches a flat master over [-1.5, 6.5].
+/// A flat slave over [0, 5] that touches a flat master over [-1.5, 6.5]. The model starts with the slave moved by (x, y).
 struct Flat {
-  Flat() : fixture(surfaces(), Tpetra::getDefaultComm()), contact(*fixture.contact) {}
+  explicit Flat(double x = 0.0, double y = 0.0)
+      : fixture(surfaces(), Tpetra::getDefaultComm()), contact(*fixture.contact), history(contact.initial_history(*moved(x, y))) {}
 
   static test::TwoSurfaces surfaces() {
     test::TwoSurfaces flat;
@@ -37,25 +40,39 @@ struct Flat {
 
   /// Evaluates there; what was thrown on all ranks, empty if nothing was.
   std::string failure_at(double x, double y) {
-    std::optional<StepFailure> failure;
-    contact.evaluate(*moved(x, y), true, failure);
     try {
-      throw_if_any(*fixture.nodes->getComm(), failure);
+      at.emplace(contact.differentiate(*moved(x, y), history, marked ? &*marked : nullptr));
     } catch (const StepFailure& lost) {
       EXPECT_EQ(lost.kind(), FailureKind::lost_contact);
       return lost.what();
     }
     return {};
   }
+  /// Where the last evaluation was, an iterate ends with this pressure.
+  void mark(double pressure) { marked = at->laws(*pressed(pressure)).states(); }
+  /// Likewise a step.
+  void accept(double pressure) {
+    history = contact.commit(at->laws(*pressed(pressure)));
+    marked.reset();
+  }
+  /// A step from there, without pressure.
+  void start(double x, double y) {
+    const auto z = pressed(0.0);
+    history = contact.start_step(history, *moved(x, y), std::vector<char>(fixture.nodes->getNodeNumElements(), 0), *z);
+    marked.reset();
+  }
 
   Fixture fixture;
-  ContactSystem& contact;
+  const ContactSystem& contact;
+  ContactHistory history;
+  std::optional<ContactStates> marked;      // of the last iterate of the step
+  std::optional<DifferentiatedContact> at;  // the last evaluation that did not fail
 };
 
 TEST(LostContact, AClosedNodeBehindTheMasterBeyondReachFails) {
   Flat flat;
   ASSERT_EQ(flat.failure_at(0.0, 0.0), "");
-  flat.contact.mark_states(*flat.pressed(1.0));
+  flat.mark(1.0);
   EXPECT_EQ(flat.failure_at(0.0, -0.9 * reach), "") << "within reach contact pushes it back";
   for (const double depth : {0.75, 30.0}) {  // a facet's candidates lie nearer than its length plus the reach
     const std::string text = flat.failure_at(0.0, -depth);
@@ -68,14 +85,14 @@ TEST(LostContact, AClosedNodeBehindTheMasterBeyondReachFails) {
 TEST(LostContact, ANodeThatOpensIsNotLost) {
   Flat flat;
   ASSERT_EQ(flat.failure_at(0.0, 0.0), "");
-  flat.contact.mark_states(*flat.pressed(1.0));
+  flat.mark(1.0);
   for (const double height : {0.4, 0.75, 30.0}) EXPECT_EQ(flat.failure_at(0.0, height), "") << height;
 }
 
 TEST(LostContact, ANodeThatRunsOffTheEdgeIsNotLost) {
   Flat flat;
   ASSERT_EQ(flat.failure_at(0.0, 0.0), "");
-  flat.contact.mark_states(*flat.pressed(1.0));
+  flat.mark(1.0);
   for (const double height : {0.0, -0.75, -30.0}) EXPECT_EQ(flat.failure_at(6.6, height), "") << height;
   EXPECT_EQ(flat.failure_at(1.5, 0.0), "") << "the last node just at the edge";
   EXPECT_THAT(flat.failure_at(3.0, -0.75), HasSubstr("0.75 behind")) << "some have run off, the others have gone through";
@@ -85,18 +102,18 @@ TEST(LostContact, ANodeThatRunsOffTheEdgeIsNotLost) {
 // lie there from beside the master, has not gone through.
 TEST(LostContact, AnOpenNodeThatGoesThroughInOneStepIsLost) {
   for (const double height : {0.1, 2.0}) {
-    Flat flat;
+    Flat flat(0.0, height);
     ASSERT_EQ(flat.failure_at(0.0, height), "");
-    flat.contact.accept_states(*flat.pressed(0.0));
+    flat.accept(0.0);
     EXPECT_EQ(flat.failure_at(0.0, 0.5 * height), "");
     EXPECT_EQ(flat.failure_at(0.0, -0.9 * reach), "") << "within reach contact pushes it back";
     EXPECT_THAT(flat.failure_at(0.0, -0.75), HasSubstr("in front of the master when the step began, is at"));
     EXPECT_THAT(flat.failure_at(0.5, -30.0), HasSubstr("30 behind"));
   }
   for (const auto& start : {std::pair{0.0, -0.75}, std::pair{9.0, 0.1}}) {
-    Flat flat;
+    Flat flat(start.first, start.second);
     ASSERT_EQ(flat.failure_at(start.first, start.second), "");
-    flat.contact.accept_states(*flat.pressed(0.0));
+    flat.accept(0.0);
     EXPECT_EQ(flat.failure_at(0.0, -1.5), "");
   }
 }
@@ -105,19 +122,18 @@ TEST(LostContact, AnOpenNodeThatGoesThroughInOneStepIsLost) {
 TEST(LostContact, AcceptedStatesCountUntilTheNextOnes) {
   Flat flat;
   ASSERT_EQ(flat.failure_at(0.0, 0.0), "");
-  flat.contact.accept_states(*flat.pressed(1.0));
+  flat.accept(1.0);
   ASSERT_EQ(flat.failure_at(0.0, 0.1), "");
-  flat.contact.mark_states(*flat.pressed(0.0));
+  flat.mark(0.0);
   EXPECT_NE(flat.failure_at(0.0, -0.75), "");
 
   ASSERT_EQ(flat.failure_at(0.0, 0.1), "");
-  flat.contact.accept_states(*flat.pressed(0.0));
+  flat.accept(0.0);
   EXPECT_THAT(flat.failure_at(0.0, -0.75), HasSubstr("in front of"));
   ASSERT_EQ(flat.failure_at(0.0, 0.0), "");
-  flat.contact.mark_states(*flat.pressed(1.0));
+  flat.mark(1.0);
   EXPECT_THAT(flat.failure_at(0.0, -0.75), HasSubstr("which was closed"));
-  const auto z = flat.pressed(0.0);
-  flat.contact.start_step(*flat.moved(0.0, 0.1), std::vector<char>(flat.fixture.nodes->getNodeNumElements(), 0), *z);
+  flat.start(0.0, 0.1);
   EXPECT_THAT(flat.failure_at(0.0, -0.75), HasSubstr("in front of"));
 }
 

@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <type_traits>
+#include <utility>
+
 #include "mortise/contact/formulation/standard_mortar.hpp"
 #include "two_surfaces.hpp"
 
@@ -124,11 +128,27 @@ TEST(Misuse, FacetsOnTheWrongRanks) {
   }
 }
 
-/// The calls of one linearisation.
-struct Calls {
-  explicit Calls(const std::shared_ptr<Formulation>& formulation = std::make_shared<DualMortar>()) : fixture(surfaces(formulation)) {}
+// Calls out of order do not compile.
 
-  static Fixture surfaces(const std::shared_ptr<Formulation>& formulation) {
+template <class Evaluation, class = void>
+struct CanLinearise : std::false_type {};
+template <class Evaluation>
+struct CanLinearise<Evaluation, std::void_t<decltype(std::declval<const Evaluation&>().linearise(std::declval<const ContactLaws&>()))>>
+    : std::true_type {};
+
+static_assert(CanLinearise<DifferentiatedContact>::value);
+static_assert(!CanLinearise<ContactEvaluation>::value, "an evaluation without derivatives has no linearisation");
+static_assert(!std::is_constructible_v<DifferentiatedContact, ContactEvaluation>, "derivatives come from differentiate() alone");
+static_assert(!std::is_default_constructible_v<ContactHistory>, "there is no step without a history");
+static_assert(!std::is_default_constructible_v<ContactEvaluation> && !std::is_default_constructible_v<DifferentiatedContact>);
+static_assert(!std::is_default_constructible_v<ContactLaws>, "there are no conditions without an evaluation");
+static_assert(!std::is_default_constructible_v<CondensedContact>, "nothing is recovered before condense()");
+
+/// A model, and a step from where it starts.
+struct Started {
+  explicit Started(const std::shared_ptr<Formulation>& formulation = std::make_shared<DualMortar>()) : fixture(make_fixture(formulation)) {}
+
+  static Fixture make_fixture(const std::shared_ptr<Formulation>& formulation) {
     test::TwoSurfaces surfaces = test::arch_on_ground();
     surfaces.options.formulation.options = formulation;
     const auto coulomb = std::make_shared<CoulombFriction>();
@@ -136,80 +156,86 @@ struct Calls {
     surfaces.options.friction.options = coulomb;
     return {surfaces, Tpetra::getDefaultComm()};
   }
-  void start() { contact.start_step(d, std::vector<char>(fixture.nodes->getNodeNumElements(), 0), z); }
-  void evaluate(bool derivatives, double right = 0.0) {
+  DifferentiatedContact differentiate(double right = 0.0) const {
     const auto at = Fixture::vector(fixture.dofs, [&](GlobalOrdinal id) { return id < 12 && id % 2 == 0 ? right : 0.0; });
-    std::optional<StepFailure> failure;
-    contact.evaluate(*at, derivatives, failure);
+    return contact.differentiate(*at, history);
   }
-  void make_matrix() {
-    bool changed = false;
-    matrix = fixture.springs(contact.system_graph([&] { return fixture.bulk; }, changed));
+  RCP<Matrix> matrix_for(const ContactEvaluation& at) const {
+    return fixture.springs(contact.graph(at, [&] { return fixture.bulk; }));
   }
-  std::string add_stiffness() {
-    return thrown<std::logic_error>([&] { contact.add_stiffness(z, *matrix); });
+  std::string add_stiffness(const DifferentiatedContact& at, Matrix& matrix) const {
+    const ContactLinearisation linearised = at.linearise(at.laws(z));
+    return thrown<std::logic_error>([&] { linearised.add_stiffness(matrix); });
   }
-  std::string condense() {
+  std::string condense(const DifferentiatedContact& at, Matrix& matrix) const {
+    const ContactLinearisation linearised = at.linearise(at.laws(z));
     Vector rhs(fixture.dofs);
-    return thrown<std::logic_error>([&] { contact.condense(z, *matrix, rhs); });
+    return thrown<std::logic_error>([&] { linearised.condense(matrix, rhs); });
   }
 
   Fixture fixture;
-  ContactSystem& contact = *fixture.contact;
+  const ContactSystem& contact = *fixture.contact;
   Vector d{fixture.dofs}, z{contact.multiplier_map()};
-  RCP<Matrix> matrix = rcp(new Matrix(fixture.bulk));
+  ContactHistory history = fixture.first_step(d, z);
 };
 
-TEST(Misuse, CallsOutOfOrder) {
-  Calls unstarted;
-  unstarted.evaluate(true);
-  unstarted.make_matrix();
-  EXPECT_THAT(unstarted.add_stiffness(), HasSubstr("before any start_step()"));
-  EXPECT_THAT(unstarted.condense(), HasSubstr("before any start_step()"));
+TEST(Misuse, MatricesOnAnotherGraph) {
+  const Started model;
+  const DifferentiatedContact at = model.differentiate();
+  Matrix of_bulk(model.fixture.bulk);
+  EXPECT_THAT(model.add_stiffness(at, of_bulk), HasSubstr("not on the graph of this evaluation")) << "before any graph()";
+  EXPECT_THAT(model.condense(at, of_bulk), HasSubstr("not on the graph of this evaluation")) << "before any graph()";
+  const RCP<Matrix> matrix = model.matrix_for(at);
+  EXPECT_EQ(model.add_stiffness(at, *matrix), "");
+  EXPECT_EQ(model.condense(at, *matrix), "");
+  EXPECT_THAT(model.condense(at, of_bulk), HasSubstr("not on the graph of this evaluation"));
+}
 
-  Calls underived;
-  underived.start();
-  underived.evaluate(false);
-  underived.make_matrix();
-  EXPECT_THAT(underived.condense(), HasSubstr("evaluate(d, true, failure)"));
+TEST(Misuse, MatricesOfOtherCandidates) {
+  const Started model;
+  const RCP<Matrix> before = model.matrix_for(model.differentiate());
+  const DifferentiatedContact away = model.differentiate(2.3);
+  EXPECT_THAT(model.condense(away, *before), HasSubstr("not on the graph of this evaluation")) << "before its own graph()";
+  const RCP<Matrix> matrix = model.matrix_for(away);
+  EXPECT_NE(matrix->getCrsGraph().get(), before->getCrsGraph().get());
+  EXPECT_THAT(model.condense(away, *before), HasSubstr("not on the graph of this evaluation"));
+  EXPECT_EQ(model.condense(away, *matrix), "");
+}
 
-  Calls graphless;
-  graphless.start();
-  graphless.evaluate(true);
-  EXPECT_THAT(graphless.add_stiffness(), HasSubstr("before any system_graph()"));
+TEST(Misuse, MatricesThatAreComplete) {
+  const Started model;
+  const DifferentiatedContact at = model.differentiate();
+  const RCP<Matrix> matrix = model.matrix_for(at);
+  matrix->fillComplete(model.fixture.dofs, model.fixture.dofs);
+  EXPECT_THAT(model.add_stiffness(at, *matrix), HasSubstr("resumeFill()"));
+  EXPECT_THAT(model.condense(at, *matrix), HasSubstr("resumeFill()"));
+  matrix->resumeFill();
+  EXPECT_EQ(model.add_stiffness(at, *matrix), "");
+}
 
-  Calls stale;
-  stale.start();
-  stale.evaluate(true);
-  stale.make_matrix();
-  EXPECT_EQ(stale.condense(), "");
-  stale.evaluate(true, 2.3);
-  EXPECT_THAT(stale.condense(), HasSubstr("candidates of contact changed"));
-  stale.make_matrix();
-  EXPECT_EQ(stale.condense(), "");
-  stale.matrix = rcp(new Matrix(stale.fixture.bulk));
-  EXPECT_THAT(stale.condense(), HasSubstr("another graph"));
+TEST(Misuse, CondensationOfMultipliersThatAreKept) {
+  const Started model(std::make_shared<StandardMortar>());
+  const DifferentiatedContact at = model.differentiate();
+  EXPECT_TRUE(model.contact.keeps_multipliers());
+  EXPECT_THAT(model.condense(at, *model.matrix_for(at)), HasSubstr("saddle_point_blocks()"));
+}
 
-  Calls complete;
-  complete.start();
-  complete.evaluate(true);
-  complete.make_matrix();
-  complete.matrix->fillComplete(complete.fixture.dofs, complete.fixture.dofs);
-  EXPECT_THAT(complete.add_stiffness(), HasSubstr("resumeFill()"));
-  complete.matrix->resumeFill();
-  EXPECT_EQ(complete.add_stiffness(), "");
-
-  Calls kept(std::make_shared<StandardMortar>());
-  kept.start();
-  kept.evaluate(true);
-  kept.make_matrix();
-  EXPECT_THAT(kept.condense(), HasSubstr("saddle_point_blocks()"));
+// Of another evaluation are those at the same displacement too, and those seen with another history.
+TEST(Misuse, LawsOfAnotherEvaluation) {
+  const Started model;
+  const DifferentiatedContact at = model.differentiate(), again = model.differentiate(), other = at.with(model.history);
+  const auto refusal = [&](const ContactLaws& laws) { return thrown<std::logic_error>([&] { at.linearise(laws); }); };
+  EXPECT_EQ(refusal(at.laws(model.z)), "");
+  EXPECT_THAT(refusal(again.laws(model.z)), HasSubstr("laws of another evaluation"));
+  EXPECT_THAT(refusal(other.laws(model.z)), HasSubstr("laws of another evaluation"));
+  EXPECT_THAT(refusal(model.contact.evaluate(model.d, model.history).laws(model.z)), HasSubstr("laws of another evaluation"));
 }
 
 TEST(Misuse, TooFewNodesSaidToBeHeld) {
-  Calls calls;
+  Started model;
   const std::vector<char> none;
-  EXPECT_THAT(thrown<std::invalid_argument>([&] { calls.contact.start_step(calls.d, none, calls.z); }), HasSubstr("for each owned node"));
+  EXPECT_THAT(thrown<std::invalid_argument>([&] { model.contact.start_step(model.history, model.d, none, model.z); }),
+              HasSubstr("for each owned node"));
 }
 
 }  // namespace

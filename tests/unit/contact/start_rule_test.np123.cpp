@@ -24,24 +24,27 @@ TEST_P(StartRule, ClosesNodesThatTouchAndSeedsUnheldBodies) {
   Fixture fixture(flat, Tpetra::getDefaultComm());
   const std::vector<char> held(fixture.nodes->getNodeNumElements(), 0), unconstrained(held.size(), 1);
   Vector d(fixture.dofs), z(fixture.contact->multiplier_map());
-  fixture.contact->start_step(d, held, z);
-  EXPECT_EQ(fixture.contact->norms(z).active, 5);
+  // How many nodes are closed at the start of a first step from there.
+  const auto closed = [&](const Vector& from, const std::vector<char>& unheld) {
+    const ContactSystem& contact = *fixture.contact;
+    const ContactHistory history = contact.start_step(contact.initial_history(from), from, unheld, z);
+    return contact.evaluate(from, history).laws(z).norms(history->states).active;
+  };
+  EXPECT_EQ(closed(d, held), 5);
 
   // Lifted by 0.05 h: nothing touches; only a body that nothing else holds is seeded.
   const GlobalOrdinal slave_dofs = 10;
   const auto lifted = Fixture::vector(fixture.dofs, [&](GlobalOrdinal id) { return id < slave_dofs && id % 2 == 1 ? 0.05 : 0.0; });
   z.putScalar(0.0);
-  fixture.contact->start_step(*lifted, held, z);
-  EXPECT_EQ(fixture.contact->norms(z).active, 0);
-  fixture.contact->start_step(*lifted, unconstrained, z);
-  EXPECT_EQ(fixture.contact->norms(z).active, 5);
+  EXPECT_EQ(closed(*lifted, held), 0);
+  EXPECT_EQ(closed(*lifted, unconstrained), 5);
 
   // Tilted and lifted beyond 0.1 h: at least the nearest node.
   const auto tilted = Fixture::vector(fixture.dofs, [&](GlobalOrdinal id) { return id < slave_dofs && id % 2 == 1 ? 0.2 + 0.02 * id : 0.0; });
   z.putScalar(0.0);
-  fixture.contact->start_step(*tilted, unconstrained, z);
-  EXPECT_GE(fixture.contact->norms(z).active, 1);
-  EXPECT_LE(fixture.contact->norms(z).active, 2);
+  const int nearest = closed(*tilted, unconstrained);
+  EXPECT_GE(nearest, 1);
+  EXPECT_LE(nearest, 2);
 }
 
 /// A flat slave of squares, 4 x 4 nodes at unit distance; in 2D one row of 6 nodes. The master, at height 0, ends at x = `end`.
@@ -88,38 +91,36 @@ TEST(FollowCover, StartsWhatBeginsToBeCoveredWithTheMeanOfItsNeighbours) {
       difference.update(-1.0, *expected, 1.0);
       return difference.normInf();
     };
-    ContactSystem& contact = *fixture.contact;
-    const std::vector<char> held(fixture.nodes->getNodeNumElements(), 0);
-    std::optional<StepFailure> failure;
-    contact.start_step(*moved(0.0, 0.0), held, *z);
-    contact.mark_states(*z);
-    EXPECT_FALSE(contact.follow_cover(*z));
+    const ContactSystem& contact = *fixture.contact;
+    const ContactHistory history = fixture.first_step(*moved(0.0, 0.0), *z);
+    DifferentiatedContact at = contact.differentiate(*moved(0.0, 0.0), history);
+    ContactStates last = at.laws(*z).states();
+    EXPECT_FALSE(at.follow_cover(last, *z));
 
-    contact.evaluate(*moved(-0.2, 0.0), true, failure);
-    EXPECT_TRUE(contact.follow_cover(*z));
+    at = contact.differentiate(*moved(-0.2, 0.0), history, &last);
+    EXPECT_TRUE(at.follow_cover(last, *z));
     EXPECT_LE(off(), 1e-8 * p);
     Vector C(contact.multiplier_map());
-    contact.complementarity(*expected, C);
+    at.laws(*expected).complementarity(C);
     EXPECT_LE(C.normInf(), 1e-13 * 1000.0);
 
-    // Marked, it is Newton's to say.
-    contact.mark_states(*z);
+    // From the next iterate on it is Newton's to say.
+    last = at.laws(*z).states();
     z->scale(2.0);
-    EXPECT_FALSE(contact.follow_cover(*z));
+    EXPECT_FALSE(at.follow_cover(last, *z));
     EXPECT_NEAR(z->normInf(), 2.0 * p, 1e-3 * p);
 
     // What is not covered any more has none.
-    contact.evaluate(*moved(0.0, 0.0), true, failure);
-    EXPECT_TRUE(contact.follow_cover(*z));
+    at = contact.differentiate(*moved(0.0, 0.0), history, &last);
+    EXPECT_TRUE(at.follow_cover(last, *z));
     z->scale(0.5);
     z->update(1.0, *expected, -1.0);
     EXPECT_NEAR(z->normInf(), p, 1e-14 * p);  // at the nodes of the edge alone
 
     // A node that is to open does not start closed.
-    contact.mark_states(*z);
+    last = at.laws(*z).states();
     z->assign(*even(false));
-    contact.evaluate(*moved(-0.2, 100.0), true, failure);
-    contact.follow_cover(*z);
+    contact.differentiate(*moved(-0.2, 100.0), history, &last).follow_cover(last, *z);
     const auto view = z->getLocalViewHost(Tpetra::Access::ReadOnly);
     for (std::size_t k = 0; k < view.extent(0); ++k)
       if (is_new(contact.multiplier_map()->getGlobalElement(static_cast<LocalOrdinal>(k)))) EXPECT_EQ(view(k, 0), 0.0);
@@ -132,9 +133,9 @@ TEST(FollowCover, LeavesAlonePairsWithoutTies) {
   flat.options.full_cover = 0.0;
   Fixture fixture(flat, Tpetra::getDefaultComm());
   Vector d(fixture.dofs), z(fixture.contact->multiplier_map());
-  fixture.contact->start_step(d, std::vector<char>(fixture.nodes->getNodeNumElements(), 0), z);
+  const ContactHistory history = fixture.first_step(d, z);
   z.putScalar(1.0);
-  EXPECT_FALSE(fixture.contact->follow_cover(z));
+  EXPECT_FALSE(fixture.contact->evaluate(d, history).follow_cover(history->states, z));
   EXPECT_EQ(z.normInf(), 1.0);
 }
 

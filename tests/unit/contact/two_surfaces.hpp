@@ -13,6 +13,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <memory>
 #include <vector>
 
 #include "facets_with_middles.hpp"
@@ -194,6 +195,11 @@ class Fixture {
       const auto component = (id - offset) % dim;
       return component == 0 ? 0.07 * pressure(node) : component == dim - 1 ? -pressure(node) : 0.04 * pressure(node);
     });
+  }
+
+  /// The history of a first step from displacement d; no body is held by contact alone. The start rule changes z.
+  ContactHistory first_step(const Vector& d, Vector& z) const {
+    return contact->start_step(contact->initial_history(d), d, std::vector<char>(nodes->getNodeNumElements(), 0), z);
   }
 
   /// K of springs: symmetric part with a dominant diagonal, and an antisymmetric one, on the condensed system's graph.

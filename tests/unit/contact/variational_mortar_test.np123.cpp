@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include "formulations.hpp"
 #include "two_surfaces.hpp"
 
@@ -15,40 +17,37 @@ using test::TwoSurfaces;
 struct Pressed {
   std::unique_ptr<Fixture> fixture;
   RCP<Vector> d;
-  std::vector<GlobalOrdinal> ids;  // dofs
-  Eigen::VectorXd force;           // [dofs]
+  std::optional<ContactHistory> history;
+  std::optional<ContactEvaluation> contact;  // at d
+  std::vector<GlobalOrdinal> ids;            // dofs
+  Eigen::VectorXd force;                     // [dofs]
 
   explicit Pressed(TwoSurfaces surfaces) {
     surfaces.options.mortar.search_reach = 1.0;
     fixture = std::make_unique<Fixture>(surfaces, Tpetra::getDefaultComm());
     d = Fixture::vector(fixture->dofs, [](GlobalOrdinal id) { return 0.01 * std::sin(12.9898 * static_cast<double>(id) + 0.7); });
     ids = Fixture::all_ids(*fixture->dofs);
-    evaluate(*d);
-    const auto z = pressures();
+    history = fixture->contact->initial_history(*d);
+    contact = fixture->contact->evaluate(*d, *history);
     Vector f(fixture->dofs);
-    fixture->contact->add_contact_force(*z, f);
+    contact->add_force(*pressures(), f);
     force = Fixture::dense(f, ids);
   }
 
-  void evaluate(const Vector& at) const {
-    std::optional<StepFailure> failure;
-    fixture->contact->evaluate(at, false, failure);
-    ASSERT_FALSE(failure);
-  }
   static double pressure(GlobalOrdinal node) { return 2.0 + std::cos(1.7 * static_cast<double>(node)); }
   /// z = p n
   RCP<Vector> pressures() const {
     const auto z = rcp(new Vector(fixture->contact->multiplier_map()));
     const GlobalOrdinal offset = fixture->dofs->getMaxAllGlobalIndex() + 1;
-    for (const ContactNodeState& node : fixture->contact->node_states(0, *z))
+    for (const ContactNodeState& node : node_states(contact->laws(*z), 0))
       for (int i = 0; i < 2; ++i) z->replaceGlobalValue(offset + 2 * node.node + i, pressure(node.node) * node.normal[static_cast<std::size_t>(i)]);
     return z;
   }
   /// sum_j p_j g_j over all ranks.
   double potential(const Vector& at) const {
-    evaluate(at);
     double mine = 0.0, all = 0.0;
-    for (const ContactNodeState& node : fixture->contact->node_states(0, Vector(fixture->contact->multiplier_map())))
+    const Vector none(fixture->contact->multiplier_map());
+    for (const ContactNodeState& node : node_states(fixture->contact->evaluate(at, *history).laws(none), 0))
       mine += pressure(node.node) * node.gap * node.weight;
     Teuchos::reduceAll(*fixture->dofs->getComm(), Teuchos::REDUCE_SUM, mine, Teuchos::outArg(all));
     return all;
@@ -111,7 +110,7 @@ TEST(VariationalMortar, HasNoResultantAndNoMoment) {
 TEST(VariationalMortar, ResultantIsTheSumOverTheSlaveSide) {
   for (const TwoSurfaces& pair : surfaces()) {
     const Pressed pressed(with(pair, std::make_shared<VariationalMortar>()));
-    const auto resultant = pressed.fixture->contact->resultant(0, *pressed.pressures());
+    const auto resultant = mortise::resultant(pressed.contact->laws(*pressed.pressures()), 0);
     const auto slaves = static_cast<Eigen::Index>(pair.slave.size());
     for (int i = 0; i < 2; ++i)
       EXPECT_NEAR(resultant[static_cast<std::size_t>(i)], -pressed.force(Eigen::seqN(i, slaves, 2)).sum(),

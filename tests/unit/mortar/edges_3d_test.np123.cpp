@@ -80,7 +80,8 @@ Eigen::Matrix3d on_corner(double angle) { return about({1.0, -1.0, 0.0}, angle);
 // Searched, split and evaluated; whether the choice was a new one. Collective.
 bool split(SurfacePair& pair, const std::vector<SpatialVector>& points) {
   pair.search(points);
-  const bool changed = pair.interface->split_kinks(*pair.owned(points), {});
+  pair.kinks = pair.interface->find_kinks(*pair.owned(points), {}, pair.kinks);
+  const bool changed = pair.interface->set_kinks(pair.kinks);
   pair.search(points);
   pair.evaluate(points, true);
   EXPECT_FALSE(pair.failure);

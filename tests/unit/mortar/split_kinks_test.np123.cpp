@@ -46,7 +46,8 @@ bool split(SurfacePair& pair, const std::vector<SpatialVector>& points) {
   std::vector<Facet<LocalOrdinal>> nearest(pair.interface->slave_nodes().size());
   for (std::size_t s = 0; s < nearest.size(); ++s)
     if (pair.interface->slave_nodes()[s].id == corner) nearest[s] = {local.getLocalElement(corner - 1), local.getLocalElement(corner)};
-  const bool changed = pair.interface->split_kinks(*pair.owned(points), nearest);
+  pair.kinks = pair.interface->find_kinks(*pair.owned(points), nearest, pair.kinks);
+  const bool changed = pair.interface->set_kinks(pair.kinks);
   pair.search(points);
   pair.evaluate(points, true);
   EXPECT_FALSE(pair.failure);

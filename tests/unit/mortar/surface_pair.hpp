@@ -199,6 +199,7 @@ class SurfacePair {
 
   RCP<const Map> nodes;
   std::unique_ptr<MortarInterface> interface;
+  SurfaceKinks kinks;  ///< those that were set last
   std::vector<FacetCoupling> couplings;
   std::vector<NodalNormal> normals;
   std::optional<StepFailure> failure;

@@ -141,6 +141,33 @@ struct InterfaceLoad {
   int redistributions = 0;          ///< searches that gave facets to other ranks
 };
 
+/// Kinks of the slave surface, on each rank those of the nodes that its facets need normals of.
+struct SurfaceKinks {
+  std::vector<char> is_kink;                                ///< [nodes] 1 where so; empty: not chosen yet
+  std::vector<std::optional<std::size_t>> takes_normal_of;  ///< [nodes] which of its facets a kink has the normal of; none: the average
+  bool operator==(const SurfaceKinks& other) const { return is_kink == other.is_kink && takes_normal_of == other.takes_normal_of; }
+};
+
+/// [owned slave nodes] ids of nodes.
+using RetainedNodes = std::vector<std::vector<GlobalOrdinal>>;
+
+/// Which nodes a rank needs for an interface, and which of them are coupled. The order of nodes does not depend on earlier patterns.
+struct InterfacePattern {
+  /// Owned slave nodes first, the others of their facets and those that shape normals next, then master nodes and retained ones by id, then those of
+  /// facets that this rank integrates for others.
+  RCP<const Map> local_nodes;
+  RCP<const Import> import;  ///< from the map of owned nodes to local_nodes
+  /// [owned slave nodes] every local node that may appear in `master` or `columns` of the couplings of its facets, and retained ones, ascending.
+  std::vector<std::vector<LocalOrdinal>> coupled;
+  /// [owned slave nodes] the nodes on which the multiplier may act, the rows of its column of D^T and M^T, a part of `coupled`. They are
+  ///   - the node itself;
+  ///   - its facets' nodes without multiplier, all of them with standard multipliers;
+  ///   - corners where it is a mid-side node;
+  ///   - master nodes.
+  /// Variational mortar: all whose positions its gap depends on.
+  std::vector<std::vector<LocalOrdinal>> loaded;
+};
+
 /// One contact pair's coupling, in 2D or 3D, by the number of columns of the positions. Collective in all members but the accessors.
 class MortarInterface {
  public:
@@ -161,42 +188,40 @@ class MortarInterface {
 
   /// Finds, for the positions `x` [owned nodes x dim], the master facets each slave facet may touch, and which rank integrates it. That is one of the
   /// owners of its nodes, or any where that would leave the ranks' work further apart than MortarOptions::balance. Cheap when no node moved further
-  /// than a tenth of the shortest facet since the last real search. Returns (the same on every rank) whether local_nodes() and the pattern were
-  /// rebuilt. Does nothing if a position is not finite; evaluate() then reports it.
+  /// than a tenth of the shortest facet since the last real search. Returns (the same on every rank) whether the pattern was rebuilt. Does nothing if
+  /// a position is not finite; evaluate() then reports it.
   bool search(const MultiVector& x);
 
-  /// Chooses the kinks from now on: convex nodes at which the slave surface turns by more than 30 degrees, or by 5 if the node is a kink already. In
-  /// 3D they are those of the first call alone. The facets that meet there have their own normals, and the node what MortarOptions::corner_rule()
-  /// says. Collective.
+  /// The kinks of the slave surface at positions `x`, after a choice `before`: convex nodes at which it turns by more than 30 degrees, or by 5 if the
+  /// node is a kink already. In 3D they are those of the first choice alone. The facets that meet there have their own normals, and the node what
+  /// MortarOptions::corner_rule() says. Collective.
   /// @param x        [owned nodes x dim] positions that tell
   /// @param nearest  [slave_nodes()] the facet nearest to the master, by its nodes; empty where none is covered: then the node's normal stays the
   ///                 average. No other rule needs it: empty
-  /// @return whether anything changed on any rank: local_nodes() and the pattern will be rebuilt by the next search()
-  bool split_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest);
+  SurfaceKinks find_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest, const SurfaceKinks& before) const;
+
+  /// From now on the slave surface has these kinks. Returns, the same on every rank, whether they were others before: then the next search() rebuilds
+  /// local_nodes() and the pattern. Collective.
+  bool set_kinks(const SurfaceKinks& kinks);
 
   /// How many owned slave nodes are kinks at positions `x` [owned nodes x dim], whatever rule acts. Collective.
   long kinks(const MultiVector& x) const;
 
-  /// Further nodes that each owned slave node stays coupled to from the next rebuild of the pattern on, by id: those that a slip is measured
-  /// against. Until then they have to stand in coupled_nodes() already.
-  void retain(std::vector<std::vector<GlobalOrdinal>> nodes);
+  /// From now on each owned slave node is coupled to these nodes too: those that a slip is measured against. Null: to none. Returns, the same on every
+  /// rank, whether the next search() rebuilds local_nodes() and the pattern for that: not if all stand in coupled_nodes() already. Collective.
+  bool retain(const std::shared_ptr<const RetainedNodes>& nodes);
 
-  /// Nodes this rank needs: owned slave nodes first, then ring and master nodes, and those of facets that it integrates for other ranks. Rebuilt by
-  /// search().
+  /// Who is coupled to whom; another object after each rebuild by search().
+  const std::shared_ptr<const InterfacePattern>& pattern() const;
+  /// InterfacePattern::local_nodes of the present pattern.
   const RCP<const Map>& local_nodes() const;
 
   /// Owned slave nodes, ascending by owned_node. slave_nodes()[s].local_node == s.
   const std::vector<SlaveNode>& slave_nodes() const;
 
-  /// For owned slave node s: every local node that may appear in `master` or `columns` of its facets' couplings: the sparsity pattern.
+  /// InterfacePattern::coupled of the present pattern.
   const std::vector<LocalOrdinal>& coupled_nodes(std::size_t s) const;
-
-  /// For owned slave node s: the nodes on which its multiplier may act, the rows of its column of D^T and M^T. They are
-  ///   - the node itself;
-  ///   - its facets' nodes without multiplier, all of them with standard multipliers;
-  ///   - corners where it is a mid-side node;
-  ///   - master nodes.
-  /// Variational mortar: all whose positions its gap depends on. A part of coupled_nodes(s).
+  /// InterfacePattern::loaded of the present pattern.
   const std::vector<LocalOrdinal>& loaded_nodes(std::size_t s) const;
 
   /// At positions `x` [local nodes x dim], couplings of all facets that touch an owned slave node and overlap a master facet. Normals are those of

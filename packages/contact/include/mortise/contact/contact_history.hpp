@@ -1,0 +1,76 @@
+#pragma once
+// What contact remembers of the last accepted state: plain data of the owned slave nodes, in the order of MortarInterface::slave_nodes().
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "mortise/contact/complementarity.hpp"
+#include "mortise/core/types.hpp"
+#include "mortise/mortar/mortar_interface.hpp"
+
+namespace mortise {
+
+/// What the nodes of a pair do, [owned slave nodes].
+struct PairStates {
+  std::vector<ContactState> states;  ///< open, stick or slip
+  std::vector<char> covered;         ///< whether a multiplier has anything to act on
+};
+/// [pairs]
+using ContactStates = std::vector<PairStates>;
+
+/// What slips are measured against, [owned slave nodes]: the couplings of an accepted state.
+struct SlipReferences {
+  RetainedNodes nodes;                            ///< nodes it was coupled to, itself among them; none: it slips freely in this step
+  std::vector<std::vector<double>> coefficients;  ///< of these nodes: rows of D and -M
+  std::vector<TangentVector> positions;           ///< tau_a . sum_m c_jm x_m; empty unless the geometry is that of the reference configuration
+  std::vector<TangentVector> ties;                ///< tau_a . q, what its tie shifted the slip by; empty: open, or not tied
+  std::vector<double> paths;                      ///< slipped until then [length]
+};
+
+/// What the conditions of a regularised node start from: fixed while they are solved, renewed by an update of the multipliers and by a step.
+struct RegularisedStart {
+  SpatialVector multiplier;  ///< normal, along tau_a; nothing normal with penalty, no shear traction without friction
+  double stiffening = 1.0;   ///< factor of eps; of augmented Lagrange, so that a mean gap falls by as much in an update whatever is covered
+};
+
+/// What updates of the multipliers have shown of the bodies. Augmented Lagrange.
+struct Settling {
+  double hardening = 1.0;       ///< factor of eps of all nodes: how much stiffer than facets the bodies are
+  std::optional<double> ratio;  ///< their stiffness against the slowest of the changes, over eps; none: not known yet
+  double last_change = 0.0;     ///< of the multipliers in the round before, at the present stiffness [stress]
+};
+
+/// What a pair remembers.
+struct PairHistory {
+  std::vector<int> axes;                       ///< [owned slave nodes] reference axis of the tangents
+  SurfaceKinks kinks;                          ///< of the slave surface
+  std::vector<SurfaceFacet> nearest_facets;    ///< [owned slave nodes] the facet nearest to the master; empty but with the rule `nearest facet`
+  std::shared_ptr<const SlipReferences> slip;  ///< null without friction
+  std::vector<RegularisedStart> starts;        ///< [owned slave nodes]; empty unless regularised
+  Settling settling;                           ///< of the updates of the multipliers
+  double allowed_overlap = 0.0;                ///< by how much the surfaces may lie in one another [length]
+};
+
+/// An accepted state, as the next step needs it.
+struct AcceptedContact {
+  std::vector<PairHistory> pairs;    ///< [pairs]
+  ContactStates states;              ///< of their nodes
+  RCP<const MultiVector> positions;  ///< [owned nodes x dim]
+  RCP<const Vector> multipliers;     ///< z
+};
+
+/// The history of contact: an immutable value, cheap to copy. Only ContactSystem makes new ones, at the start, by commit(), and within a step by
+/// start_step(), augment() and allow_overlap(). Whoever keeps an old one can go back to it.
+class ContactHistory {
+ public:
+  /// @param accepted  as an earlier history had it, with nodes on the same ranks
+  explicit ContactHistory(AcceptedContact accepted) : accepted_(std::make_shared<const AcceptedContact>(std::move(accepted))) {}
+  const AcceptedContact& operator*() const { return *accepted_; }   ///< its data
+  const AcceptedContact* operator->() const { return &*accepted_; }  ///< its data
+
+ private:
+  std::shared_ptr<const AcceptedContact> accepted_;
+};
+
+}  // namespace mortise

@@ -1,0 +1,44 @@
+#pragma once
+// A contact pair as the host application describes it: surfaces, stiffness and options.
+
+#include <optional>
+#include <string>
+
+#include "mortise/contact/formulation/dual_mortar.hpp"
+#include "mortise/contact/friction.hpp"
+#include "mortise/core/error.hpp"
+#include "mortise/core/parameters.hpp"
+#include "mortise/mortar/mortar_interface.hpp"
+
+namespace mortise {
+
+/// Which configuration carries the contact geometry.
+enum class ContactGeometry { current, reference };
+
+/// Options of one pair that do not depend on the mesh.
+struct ContactOptions {
+  MortarOptions mortar;                                 ///< of the integrals
+  ContactGeometry geometry = ContactGeometry::current;  ///< reference: for small displacements
+  double full_cover = 1.0;                              ///< c_0: a slave node of which less is covered is tied to its neighbours; 0: none is
+  std::optional<double> complementarity_constant;       ///< c_n A_j, and c_t A_j; default E / h, of regularised conditions a tenth of that
+  Choice<Formulation> formulation{"dual mortar", std::make_shared<DualMortar>(), {}};  ///< null is refused
+  Choice<FrictionLaw> friction{"none", std::make_shared<NoFriction>(), {}};            ///< null is refused
+  void describe(Parameters& parameters);                                               ///< the list of a pair
+};
+
+/// One pair as the host application gives it.
+struct ContactPair {
+  std::string name;  ///< as messages say it
+  Place place;       ///< where the scene gives it; may be empty
+  /// As MortarInterface wants them: every slave facet on each rank that owns a node of it, every master facet on one rank. Oriented as
+  /// surface_facet.hpp says, with their normals out of the bodies. In 2D the body is on the left of the way along the nodes. In 3D a facet's nodes go
+  /// round anticlockwise as seen from outside. Facets turned inside out are not found out: they never touch.
+  SurfaceFacets slave;
+  SurfaceFacets master;  ///< likewise
+  /// Above 0. Of the softer side: sets c_n, the start rule and the stiffness of regularised conditions.
+  double youngs_modulus = 0.0;
+  ContactOptions options;                     ///< the rest of it
+  std::optional<std::size_t> second_pass_of;  ///< an earlier pair of a two-pass formulation, with the sides exchanged
+};
+
+}  // namespace mortise

@@ -1,0 +1,62 @@
+#pragma once
+// What contact holds bodies with at an iterate, what it could hold them with, and what friction bears where it slips.
+
+#include <array>
+#include <vector>
+
+#include "mortise/contact/contact_evaluation.hpp"
+
+namespace mortise {
+
+/// A direction in which a closed slave node holds bodies to one another, as what a traction along it does to each of them. Rigid motions that do no
+/// work against any of these forces are not held by contact.
+struct HoldingRow {
+  /// On the nodes of one body, over the largest coefficient c_jm of the slave node: no unit. In 2D the moment has its third component alone.
+  struct Wrench {
+    int body = 0;                    ///< its number, as `places` of holding_rows() says it
+    std::array<double, 3> force{};   ///< sum of the forces
+    std::array<double, 3> moment{};  ///< about the point of the body that `places` refers to
+  };
+  std::size_t pair = 0;        ///< its contact pair
+  bool along_surface = false;  ///< a tangent of a node that sticks; else the normal
+  std::vector<Wrench> bodies;  ///< all that the node touches
+};
+
+/// A closed slave node that slips against friction: the shear traction rho y / |y| at y = z_tau + c_t u.
+struct SlidingNode {
+  std::size_t pair = 0;         ///< its contact pair
+  LocalOrdinal multiplier = 0;  ///< local index of the first component of its z
+  Frame frame;                  ///< its normal and tangents
+  double bound = 0.0;           ///< rho, above 0
+  double stiffness = 0.0;       ///< c_t
+  double weight = 0.0;          ///< sum_k D_jk: u / weight is a length
+  TangentVector slip;           ///< weighted slip u of the step
+  /// [tangents] What a unit traction along tau_a does to each body: forces are areas. A rigid motion changes u_a by its work on them.
+  std::vector<std::vector<HoldingRow::Wrench>> along;
+};
+
+/// A covered slave node whose gap is within reach of closing.
+struct BearingNode {
+  std::size_t pair = 0;         ///< its contact pair
+  LocalOrdinal owned_node = 0;  ///< local index in the map of owned nodes
+  bool closed = false;          ///< its state; open: it is about to close
+  double friction = 0.0;        ///< |z_tau| <= friction z_n whatever z_n; infinite: the law says no more
+  /// What a unit pressure does to each body, as f_c: forces on bodies are its negative.
+  std::vector<HoldingRow::Wrench> normal;
+  /// [tangents that may bear shear] What a unit traction along tau_a does to each body; empty without friction.
+  std::vector<std::vector<HoldingRow::Wrench>> along;
+};
+
+/// Directions in which the owned slave nodes of all pairs hold. They are the normal of each closed node, and where it sticks the tangents along which it
+/// may bear shear. Collective.
+/// @param places  [owned nodes x 1 + dim] the body that a node counts for, below 0: none. The other columns are its position, in any unit, relative
+///                to the point of the body that moments are taken about
+std::vector<HoldingRow> holding_rows(const ContactLaws& laws, const MultiVector& places);
+/// Of the owned slave nodes of all pairs with friction that is not regularised; those that bear shear freely, without a fixed component. `places` as
+/// above. Collective.
+std::vector<SlidingNode> sliding_nodes(const ContactLaws& laws, const MultiVector& places);
+/// Of the owned slave nodes of all pairs those that are closed, or covered and near. Near are the nodes that ContactSystem::start_step() closes for a
+/// body that only contact holds: within 0.1 h. `places` as above. Collective.
+std::vector<BearingNode> bearing_nodes(const ContactLaws& laws, const MultiVector& places);
+
+}  // namespace mortise

@@ -1,0 +1,130 @@
+// Histories: of the start, of an accepted state, with the kinks that it calls for.
+
+#include "mortise/contact/contact_history.hpp"
+
+#include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
+#include <Tpetra_Vector.hpp>
+#include <utility>
+
+#include "evaluated_contact.hpp"
+
+namespace mortise {
+
+namespace detail {
+namespace {
+
+/// The slip references, starts and cover of a state, where `paths` are slipped and nodes do what `states` says.
+AcceptedContact accepted_state(const EvaluatedContact& contact, const RCP<const Vector>& z, const std::vector<std::vector<NodeMultiplier>>& multipliers,
+                               ContactStates states, std::vector<std::vector<double>> paths) {
+  AcceptedContact result{contact.history->pairs, std::move(states), contact.positions, z};
+  for (std::size_t p = 0; p < contact.pairs.size(); ++p) {
+    const PairEvaluation& pair = contact.pairs[p];
+    PairHistory& history = result.pairs[p];
+    if (pair.pair().friction() != nullptr) history.slip = pair.slip_references(multipliers[p], result.states[p].states, std::move(paths[p]));
+    if (pair.pair().corner_rule() == CornerRule::nearest_facet) history.nearest_facets = pair.nearest_facets();
+  }
+  return result;
+}
+
+}  // namespace
+
+ContactHistory with_kinks_of_its_state(const std::shared_ptr<const ContactModel>& model, const ContactHistory& accepted) {
+  std::vector<SurfaceKinks> kinks;
+  double mine = 0.0;
+  for (std::size_t p = 0; p < model->pairs.size(); ++p) {
+    kinks.push_back(model->pairs[p]->choose_kinks(*accepted->positions, accepted->pairs[p]));
+    if (!(kinks.back() == accepted->pairs[p].kinks)) mine = 1.0;
+  }
+  if (model->maximum(mine) == 0.0) return accepted;
+  AcceptedContact with_kinks = *accepted;
+  for (std::size_t p = 0; p < kinks.size(); ++p) with_kinks.pairs[p].kinks = kinks[p];
+  // Couplings at kinks are others: so is what slips are measured against.
+  const auto contact = model->evaluate(model, accepted->positions, ContactHistory(with_kinks), nullptr, false);
+  std::vector<std::vector<NodeMultiplier>> multipliers;
+  std::vector<std::vector<double>> paths;
+  for (std::size_t p = 0; p < kinks.size(); ++p) {
+    multipliers.push_back(contact->multipliers_of(*accepted->multipliers, p));
+    paths.push_back(accepted->pairs[p].slip == nullptr ? std::vector<double>() : accepted->pairs[p].slip->paths);
+  }
+  AcceptedContact result = accepted_state(*contact, accepted->multipliers, multipliers, accepted->states, std::move(paths));
+  for (std::size_t p = 0; p < kinks.size(); ++p) {
+    result.pairs[p].nearest_facets = accepted->pairs[p].nearest_facets;
+    if (model->pairs[p]->is_augmented())
+      for (std::size_t s = 0; s < result.pairs[p].starts.size(); ++s) contact->pairs[p].set_stiffness(s, result.pairs[p].starts[s]);
+  }
+  return ContactHistory(std::move(result));
+}
+
+}  // namespace detail
+
+ContactHistory ContactSystem::initial_history(const Vector& d) const {
+  const detail::ContactModel& model = *model_;
+  AcceptedContact blank;
+  for (const auto& pair : model.pairs) blank.pairs.push_back(pair->blank_history());
+  const auto x = model.positions(d);
+  const auto normals = model.evaluate(model_, x, ContactHistory(blank), nullptr, false);
+  for (std::size_t p = 0; p < model.pairs.size(); ++p) blank.pairs[p].axes = normals->pairs[p].choose_axes();
+  const auto contact = normals->with(ContactHistory(blank));
+  const RCP<const Vector> none = rcp(new Vector(model.multipliers));
+  ContactStates states;
+  std::vector<std::vector<detail::NodeMultiplier>> multipliers;
+  std::vector<std::vector<double>> paths;
+  for (std::size_t p = 0; p < model.pairs.size(); ++p) {
+    const std::size_t nodes = model.pairs[p]->slave_nodes().size();
+    states.push_back({std::vector<ContactState>(nodes, ContactState::open), {}});
+    for (std::size_t s = 0; s < nodes; ++s) states[p].covered.push_back(contact->pairs[p].covered(s));
+    multipliers.push_back(contact->multipliers_of(*none, p));
+    paths.emplace_back(nodes, 0.0);
+  }
+  AcceptedContact result = detail::accepted_state(*contact, none, multipliers, std::move(states), std::move(paths));
+  for (std::size_t p = 0; p < model.pairs.size(); ++p)
+    if (model.pairs[p]->is_augmented())
+      for (std::size_t s = 0; s < result.pairs[p].starts.size(); ++s) contact->pairs[p].set_stiffness(s, result.pairs[p].starts[s]);
+  return ContactHistory(std::move(result));
+}
+
+ContactHistory ContactSystem::commit(const ContactLaws& laws) const {
+  const detail::EvaluatedLaws& at = detail::evaluated(laws);
+  const ContactStates states = laws.states();
+  AcceptedContact turned = *at.contact->history;
+  std::vector<std::vector<double>> paths(at.contact->pairs.size());
+  for (std::size_t p = 0; p < at.contact->pairs.size(); ++p) {
+    const detail::PairEvaluation& pair = at.contact->pairs[p];
+    if (model_->dimension > 2) turned.pairs[p].axes = pair.choose_axes();
+    if (pair.pair().friction() == nullptr) continue;
+    for (std::size_t s = 0; s < states[p].states.size(); ++s) paths[p].push_back(pair.slip_path(s, states[p].states[s]));
+  }
+  const auto contact = at.contact->with(ContactHistory(std::move(turned)));
+  AcceptedContact result = detail::accepted_state(*contact, at.z, at.multipliers, states, std::move(paths));
+  for (std::size_t p = 0; p < contact->pairs.size(); ++p)
+    for (std::size_t s = 0; s < result.pairs[p].starts.size(); ++s)
+      result.pairs[p].starts[s] = contact->pairs[p].start_from(s, at.multipliers[p][s].z);
+  return ContactHistory(std::move(result));
+}
+
+ContactHistory ContactSystem::allow_overlap(const ContactHistory& history, std::size_t pair, double depth) const {
+  AcceptedContact changed = *history;
+  changed.pairs[pair].allowed_overlap = depth;
+  if (const auto other = second_pass(pair)) changed.pairs[*other].allowed_overlap = depth;
+  return ContactHistory(std::move(changed));
+}
+
+long friction_bytes(const ContactHistory& history) {
+  std::size_t bytes = 0;
+  for (const PairHistory& pair : history->pairs) {
+    if (pair.slip == nullptr) continue;
+    const SlipReferences& slip = *pair.slip;
+    const std::size_t per_node = sizeof(slip.nodes[0]) + sizeof(slip.coefficients[0]) + sizeof(slip.positions[0]) + sizeof(slip.ties[0]) + sizeof(double);
+    bytes += slip.nodes.capacity() * per_node;
+    for (std::size_t s = 0; s < slip.nodes.size(); ++s)
+      bytes += slip.nodes[s].capacity() * sizeof(GlobalOrdinal) + slip.coefficients[s].capacity() * sizeof(double);
+  }
+  const double mine = static_cast<double>(bytes);
+  double all = 0.0;
+  Teuchos::reduceAll(*history->positions->getMap()->getComm(), Teuchos::REDUCE_SUM, mine, Teuchos::outArg(all));
+  return static_cast<long>(all);
+}
+
+}  // namespace mortise
