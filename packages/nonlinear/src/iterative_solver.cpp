@@ -14,9 +14,9 @@
 #include <cmath>
 
 #include "decoupled_multigrid.hpp"
-#include "hierarchy_wear.hpp"
 #include "interface_correction.hpp"
 #include "linear_system_checks.hpp"
+#include "reuse_policy.hpp"
 #include "solver_parameters.hpp"
 #include "sparse_parts.hpp"
 
@@ -133,7 +133,7 @@ constexpr double accepted = 10.0;
 constexpr double vanishing = 1e-14;
 
 /// Moves the marked nodes, each of as many dofs as it has coordinates, away from all others, so that aggregates are made of them alone.
-void set_apart(MultiVector& coordinates, const Vector& marks, double distance) {
+void move_marked(MultiVector& coordinates, const Vector& marks, double distance) {
   const auto x = coordinates.getLocalViewHost(Tpetra::Access::ReadWrite);
   const auto mark = marks.getLocalViewHost(Tpetra::Access::ReadOnly);
   for (std::size_t node = 0; node < x.extent(0); ++node)
@@ -153,7 +153,7 @@ class IterativeSolver : public LinearSolver {
     multigrid_ = multigrid;
     preconditioner_ = start_ = Teuchos::null;
     is_fresh_ = false;
-    if (wear_.is_worn() || cycle_.is_null() || !cycle_->getDomainMap()->isSameAs(*matrix->getDomainMap())) forget();
+    if (reuse_.is_stale() || cycle_.is_null() || !cycle_->getDomainMap()->isSameAs(*matrix->getDomainMap())) forget();
   }
 
   std::optional<Tolerances> tolerances() const override {
@@ -206,7 +206,7 @@ class IterativeSolver : public LinearSolver {
 
   void forget() {
     cycle_ = preconditioner_ = start_ = Teuchos::null;
-    wear_ = {};
+    reuse_ = {};
   }
 
   // Contact is decoupled and corrected with the matrix and the states of its nodes as they are, whatever matrix the hierarchy was made for.
@@ -218,15 +218,14 @@ class IterativeSolver : public LinearSolver {
       return;
     }
     const auto decoupled = std::make_shared<const DecoupledSystem>(matrix_, multigrid_.decoupling());
-    const auto joined = rcp(new Vector(decoupled->joined()));
     if (cycle_.is_null()) {
-      joined_ = joined;
+      contact_dofs_ = decoupled->contact_dofs();
       set_up(decoupled.get());
     }
     preconditioner_ = cycle_;
-    // With what was joined when the hierarchy was made: but for the tangents of the bodies C has not changed elsewhere.
-    Vector now_or_then(*joined, Teuchos::Copy);
-    now_or_then.update(1.0, *joined_, 1.0);
+    // With the contact when the hierarchy was made: but for the tangents of the bodies C has not changed elsewhere.
+    Vector now_or_then(*decoupled->contact_dofs(), Teuchos::Copy);
+    now_or_then.update(1.0, *contact_dofs_, 1.0);
     const RCP<const Map> m = marked_ids(marked_and_neighbours(*matrix_, now_or_then, decoupled->dimension()));
     if (m->getGlobalNumElements() > 0) {
       const auto rows = rcp(new RowsOfDecoupled(decoupled->rows(m)));
@@ -255,7 +254,7 @@ class IterativeSolver : public LinearSolver {
       user_data.set("Coordinates", line);
     } else {
       const auto coordinates = rcp(new MultiVector(*near_null_space.coordinates, Teuchos::Copy));
-      if (decoupled != nullptr) set_apart(*coordinates, decoupled->followed(), near_null_space.apart);
+      if (decoupled != nullptr) move_marked(*coordinates, decoupled->master_dofs(), near_null_space.separation);
       user_data.set("Coordinates", coordinates);
     }
     if (!near_null_space.rigid_body_modes.is_null())
@@ -300,7 +299,7 @@ class IterativeSolver : public LinearSolver {
     const auto list = rcp(new Teuchos::ParameterList(belos_defaults(options_, tolerance_, basis_)));
     list->setParameters(options_.belos.value);
     double most = list->get<int>("Maximum Iterations");
-    if (!is_fresh_) most = std::min(most, std::ceil(wear_.most_iterations(digits)));
+    if (!is_fresh_) most = std::min(most, std::ceil(reuse_.most_iterations(digits)));
     if (has_other_smoother()) most = std::min<double>(most, most_with_chebyshev);
     list->set("Maximum Iterations", static_cast<int>(most));
     Belos::TpetraSolverFactory<Scalar, MultiVector, Operator> factory;
@@ -315,7 +314,7 @@ class IterativeSolver : public LinearSolver {
     }
     const int iterations = gmres->getNumIters();
     if (iterations > basis_) basis_ = large_basis;
-    wear_.record(iterations, digits);
+    reuse_.record(iterations, digits);
     return iterations;
   }
 
@@ -325,13 +324,13 @@ class IterativeSolver : public LinearSolver {
   std::string name_;
   RCP<const Matrix> matrix_;
   MultigridInput multigrid_;
-  RCP<const Vector> joined_;                    ///< 1 at what was joined when the hierarchy was made
+  RCP<const Vector> contact_dofs_;              ///< those when the hierarchy was made
   RCP<const Operator> cycle_, preconditioner_;  ///< of a hierarchy; with contact around it
   RCP<const Operator> start_;                   ///< of the nodes in contact alone: where a solve starts
   int setups_ = 0, basis_ = small_basis;
   Smoother smoother_ = Smoother::chebyshev;
   bool is_fresh_ = false, converged_ = false;  ///< the hierarchy: made for this matrix; the last solve
-  HierarchyWear wear_;                         ///< of the hierarchy
+  ReusePolicy reuse_;                          ///< of the hierarchy
 };
 
 // Names and types, with no matrix at hand. Names first: on a wrong one MueLu prints all that it has.

@@ -23,8 +23,8 @@ struct LinearSolveReport {
 /// What hierarchies are made of besides the matrix, on the current configuration.
 struct NearNullSpace {
   RCP<const MultiVector> rigid_body_modes;  ///< on the dofs of the matrix
-  RCP<const MultiVector> coordinates;  ///< on the nodes, `dimension` columns; bodies `apart` from one another, so that no aggregate crosses contact
-  double apart = 0.0;                  ///< a length beside which bodies are points
+  RCP<const MultiVector> coordinates;       ///< on the nodes, `dimension` columns, with bodies moved away from one another by `separation`
+  double separation = 0.0;                  ///< a length beside which bodies are points, so that no aggregate crosses contact
 };
 
 /// What an iterative solver may ask of a system, each only if it is needed; any may be empty.

@@ -1,10 +1,10 @@
-#include "hierarchy_wear.hpp"
+#include "reuse_policy.hpp"
 
 #include <algorithm>
 
 namespace mortise::detail {
 
-void HierarchyWear::record(int iterations, double digits) {
+void ReusePolicy::record(int iterations, double digits) {
   iterations_ += iterations;
   digits_ += digits;
   least_average_ = std::min(least_average_, iterations_ / digits_);

@@ -1,4 +1,5 @@
 #pragma once
+// When a hierarchy of multigrid is rebuilt.
 
 #include <limits>
 
@@ -12,7 +13,7 @@ constexpr double iterations_of_set_up = 10.0;
 /// residuals by d_k digits. The cost so far is c = (S + sum i_k) / sum d_k iterations a digit, with S those of the set-up. It is least where the next
 /// digit costs as much as all before it on average; from there on another hierarchy saves time, if it is like this one. The iterations of a fresh
 /// hierarchy are not used: the first solve may be easier than all that follow, and a new hierarchy no better.
-class HierarchyWear {
+class ReusePolicy {
  public:
   /// A solve with the hierarchy.
   /// @param iterations of GMRES.
@@ -20,7 +21,7 @@ class HierarchyWear {
   void record(int iterations, double digits);
 
   /// Whether solves have taken more than one iteration, in sum, beyond the least average: counts are whole numbers, and one more says nothing.
-  bool is_worn() const { return beyond_ > 1.0; }
+  bool is_stale() const { return beyond_ > 1.0; }
 
   /// Iterations of a solve of so many digits at which it had better have begun with a new hierarchy. Infinite before the first solve.
   double most_iterations(double digits) const { return digits * least_average_ + iterations_of_set_up; }
