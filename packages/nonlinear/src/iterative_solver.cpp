@@ -113,7 +113,7 @@ class IterativeSolver : public LinearSolver {
     const double digits = std::max(1.0, std::log10(true_residual(*matrix_, b, x, r) / (tolerance * b.norm2())));
     double most = most_iterations(smoother_);
     if (!is_fresh_) most = std::min(most, std::ceil(reuse_.most_iterations(digits)));
-    const GmresReport report = gmres_.solve(matrix_, preconditioner_->inverse, b, x, tolerance, most);
+    GmresReport report = gmres_.solve(matrix_, preconditioner_->inverse, b, x, tolerance, most);
     if (report.error && !next_smoother(smoother_)) std::rethrow_exception(report.error);
     reuse_.record(report.iterations, digits);
     return report;
