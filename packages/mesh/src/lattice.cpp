@@ -5,20 +5,9 @@
 namespace mortise {
 namespace {
 
-/// In how many directions at once a node of a cell may be a midpoint. Hexahedra and quadrilaterals have nodes on their edges; cells that are cut into
-/// triangles or tetrahedra have them also on the diagonals.
+/// In how many directions at once a node of a cell may be a midpoint.
 std::size_t most_middles(CellShape shape) {
-  switch (shape) {
-    case CellShape::triangle6:
-    case CellShape::tetrahedron10:
-      return 3;
-    case CellShape::line3:
-    case CellShape::quadrilateral8:
-    case CellShape::hexahedron20:
-      return 1;
-    default:
-      return 0;
-  }
+  return visit_cell(shape, [](auto cell) -> std::size_t { return decltype(cell)::most_middles; });
 }
 
 }  // namespace
