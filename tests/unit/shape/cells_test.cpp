@@ -324,7 +324,7 @@ TYPED_TEST(RegisteredCell, IsMadeBySweepsOfPlaneCells) {
 }
 
 TYPED_TEST(RegisteredCell, HasNodesBetweenThePointsOfALatticeIfItIsQuadratic) {
-  EXPECT_EQ(TypeParam::most_middles > 0, TypeParam::nodes > TypeParam::corners);
+  EXPECT_EQ(TypeParam::midpoint_directions > 0, TypeParam::nodes > TypeParam::corners);
 }
 
 TEST(Registry, NamesAndNumbersAreDifferent) {

@@ -27,27 +27,20 @@ namespace mortise {
 enum class CellShape { line2, line3, triangle3, triangle6, quadrilateral4, quadrilateral8, tetrahedron4, tetrahedron10, hexahedron8, hexahedron20 };
 
 /// A line of the registry: the name of a shape and the type that says all about it. That type has
-///   dimension, corners, measure, centroid, edges, rule, contains   most often those of one of the reference domains;
-///   nodes, values, gradients, node_positions                       shape functions; node corners + k is the middle of edges[k];
-///   sides                                                          an array of SideNodes, or a tuple if they differ in shape. In 2D the outward
-///   normal
-///                                                                  is on the right of the way along a side, n = (t_y, -t_x). In 3D the corners of a
-///                                                                  side run counterclockwise seen from outside;
-///   stiffness_points                                               2D and 3D: points of the rule that integrates the stiffness of an undistorted
-///   cell
-///                                                                  exactly;
-///   axisymmetric_stiffness_points                                  2D: likewise, with radii and hoop strains;
-///   side_points                                                    lines and 2D: points of the rule for loads on a side of this shape. It is exact
-///   to
-///                                                                  degree 5 or more on straight sides: for N_a x radius x expressions up to cubic;
-///   jacobian_points                                                points of the rule where, besides the nodes, det J is looked at for inverted
-///   cells;
-///                                                                  0: the nodes are enough. Cells with a constant Jacobian have none;
-///   most_middles                                                   in how many directions of a lattice at once a node may be a midpoint;
-///   Profile, MiddleProfile                                         3D: shape of the plane cells below those that a sweep makes, and of the plane
-///   cells
-///                                                                  whose nodes lie half way up; void: no nodes lie there;
-///   xdmf_number                                                    of the shape in a mixed topology of XDMF.
+///   - dimension, corners, measure, centroid, edges, rule, contains: most often those of a reference domain;
+///   - nodes, values, gradients, node_positions: the shape functions. Node corners + k lies in the middle of edges[k];
+///   - sides: an array of SideNodes, or a tuple if the sides differ in shape. In 2D the outward normal is on the right of the way along a side, n =
+///     (t_y, -t_x). In 3D the corners of a side run counterclockwise seen from outside;
+///   - stiffness_points (2D, 3D): of the rule that integrates the stiffness of an undistorted cell exactly;
+///   - axisymmetric_stiffness_points (2D): the same with radii and hoop strains;
+///   - side_points (lines, 2D): of the rule for loads on a side of this shape. It is exact to degree 5 or more on straight sides: for N_a x radius x
+///     expressions up to cubic;
+///   - jacobian_points: of the rule where det J is looked at for inverted cells, besides the nodes; 0: the nodes are enough. Simplices of corners
+///     alone have a constant det J and no such number;
+///   - midpoint_directions: in how many directions of a lattice at once a node may be a midpoint;
+///   - Profile, MiddleProfile (3D): the plane cells below those that a sweep makes, and the plane cells whose nodes lie half way up them; void: no
+///     nodes lie there;
+///   - xdmf_number: of the shape in a mixed topology of XDMF.
 template <CellShape name, class Type>
 struct CellEntry {
   static constexpr CellShape shape = name;  ///< for run time

@@ -22,12 +22,12 @@ struct Hexahedron20 : ReferenceCube {
                                                                    {{1, 2, 6, 5, 9, 18, 13, 17}},
                                                                    {{2, 3, 7, 6, 10, 19, 14, 18}},
                                                                    {{3, 0, 4, 7, 11, 16, 15, 19}}}};
-  static constexpr int stiffness_points = 27;  ///< of the rule for the stiffness
-  static constexpr int jacobian_points = 27;   ///< of the rule where det J is looked at
-  static constexpr int most_middles = 1;       ///< directions of a lattice in which a node is a midpoint
-  using Profile = Quadrilateral8;              ///< below cells that a sweep makes
-  using MiddleProfile = Quadrilateral4;        ///< whose nodes lie half way up
-  static constexpr int xdmf_number = 48;       ///< in a mixed topology
+  static constexpr int stiffness_points = 27;    ///< of the rule for the stiffness
+  static constexpr int jacobian_points = 27;     ///< of the rule where det J is looked at
+  static constexpr int midpoint_directions = 1;  ///< directions of a lattice in which a node is a midpoint
+  using Profile = Quadrilateral8;                ///< below cells that a sweep makes
+  using MiddleProfile = Quadrilateral4;          ///< whose nodes lie half way up
+  static constexpr int xdmf_number = 48;         ///< in a mixed topology
 
   /// Shape functions N_a at a reference point.
   template <class T>

@@ -10,11 +10,11 @@ namespace mortise {
 
 /// Linear line with reference nodes -1 and 1; N = ((1 - xi) / 2, (1 + xi) / 2). Reference length 2.
 struct Line2 : ReferenceLine {
-  static constexpr int nodes = 2;         ///< number of nodes
-  static constexpr std::tuple<> sides{};  ///< none
-  static constexpr int side_points = 3;   ///< of the rule for loads on a side of this shape
-  static constexpr int most_middles = 0;  ///< directions of a lattice in which a node is a midpoint
-  static constexpr int xdmf_number = 2;   ///< in a mixed topology
+  static constexpr int nodes = 2;                ///< number of nodes
+  static constexpr std::tuple<> sides{};         ///< none
+  static constexpr int side_points = 3;          ///< of the rule for loads on a side of this shape
+  static constexpr int midpoint_directions = 0;  ///< directions of a lattice in which a node is a midpoint
+  static constexpr int xdmf_number = 2;          ///< in a mixed topology
 
   /// Shape functions N_a at a reference point.
   template <class T>

@@ -10,12 +10,12 @@ namespace mortise {
 
 /// Quadratic line with reference nodes -1, 1 and 0; N = (xi (xi - 1) / 2, xi (xi + 1) / 2, 1 - xi^2). Reference length 2.
 struct Line3 : ReferenceLine {
-  static constexpr int nodes = 3;            ///< number of nodes
-  static constexpr std::tuple<> sides{};     ///< none
-  static constexpr int side_points = 4;      ///< of the rule for loads on a side of this shape
-  static constexpr int jacobian_points = 0;  ///< of the rule where det J is looked at
-  static constexpr int most_middles = 1;     ///< directions of a lattice in which a node is a midpoint
-  static constexpr int xdmf_number = 34;     ///< in a mixed topology
+  static constexpr int nodes = 3;                ///< number of nodes
+  static constexpr std::tuple<> sides{};         ///< none
+  static constexpr int side_points = 4;          ///< of the rule for loads on a side of this shape
+  static constexpr int jacobian_points = 0;      ///< of the rule where det J is looked at
+  static constexpr int midpoint_directions = 1;  ///< directions of a lattice in which a node is a midpoint
+  static constexpr int xdmf_number = 34;         ///< in a mixed topology
 
   /// Shape functions N_a at a reference point.
   template <class T>

@@ -14,10 +14,10 @@ struct Quadrilateral4 : ReferenceSquare {
   static constexpr std::array<SideNodes<Line2>, 4> sides{{{{0, 1}}, {{1, 2}}, {{2, 3}}, {{3, 0}}}};  ///< nodes of each side
   static constexpr int stiffness_points = 4;                                                         ///< of the rule for the stiffness
   static constexpr int axisymmetric_stiffness_points = 4;                                            ///< of the rule for the axisymmetric stiffness
-  static constexpr int side_points = 9;      ///< of the rule for loads on a side of this shape
-  static constexpr int jacobian_points = 0;  ///< of the rule where det J is looked at
-  static constexpr int most_middles = 0;     ///< directions of a lattice in which a node is a midpoint
-  static constexpr int xdmf_number = 5;      ///< in a mixed topology
+  static constexpr int side_points = 9;          ///< of the rule for loads on a side of this shape
+  static constexpr int jacobian_points = 0;      ///< of the rule where det J is looked at
+  static constexpr int midpoint_directions = 0;  ///< directions of a lattice in which a node is a midpoint
+  static constexpr int xdmf_number = 5;          ///< in a mixed topology
 
   /// Shape functions N_a at a reference point.
   template <class T>

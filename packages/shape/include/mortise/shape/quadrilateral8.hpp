@@ -18,7 +18,7 @@ struct Quadrilateral8 : ReferenceSquare {
   static constexpr int axisymmetric_stiffness_points = 9;  ///< of the rule for the axisymmetric stiffness
   static constexpr int side_points = 16;                   ///< of the rule for loads on a side of this shape
   static constexpr int jacobian_points = 9;                ///< of the rule where det J is looked at
-  static constexpr int most_middles = 1;                   ///< directions of a lattice in which a node is a midpoint
+  static constexpr int midpoint_directions = 1;            ///< directions of a lattice in which a node is a midpoint
   static constexpr int xdmf_number = 37;                   ///< in a mixed topology
 
   /// Shape functions N_a at a reference point.

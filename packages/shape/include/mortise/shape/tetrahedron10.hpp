@@ -17,10 +17,10 @@ struct Tetrahedron10 : ReferenceTetrahedron {
       {{{0, 2, 1, 6, 5, 4}}, {{0, 1, 3, 4, 8, 7}}, {{1, 2, 3, 5, 9, 8}}, {{2, 0, 3, 6, 7, 9}}}};  ///< nodes of each side
   static constexpr int stiffness_points = 4;                                                      ///< of the rule for the stiffness
   static constexpr int jacobian_points = 15;                                                      ///< of the rule where det J is looked at
-  static constexpr int most_middles = 3;  ///< directions of a lattice in which a node is a midpoint
-  using Profile = Triangle6;              ///< below cells that a sweep makes
-  using MiddleProfile = Triangle6;        ///< whose nodes lie half way up
-  static constexpr int xdmf_number = 38;  ///< in a mixed topology
+  static constexpr int midpoint_directions = 3;  ///< directions of a lattice in which a node is a midpoint
+  using Profile = Triangle6;                     ///< below cells that a sweep makes
+  using MiddleProfile = Triangle6;               ///< whose nodes lie half way up
+  static constexpr int xdmf_number = 38;         ///< in a mixed topology
 
   /// Shape functions N_a at a reference point.
   template <class T>

@@ -12,11 +12,11 @@ namespace mortise {
 struct Tetrahedron4 : ReferenceTetrahedron {
   static constexpr int nodes = 4;                                                                                    ///< number of nodes
   static constexpr std::array<SideNodes<Triangle3>, 4> sides{{{{0, 2, 1}}, {{0, 1, 3}}, {{1, 2, 3}}, {{2, 0, 3}}}};  ///< nodes of each side
-  static constexpr int stiffness_points = 1;  ///< of the rule for the stiffness
-  static constexpr int most_middles = 0;      ///< directions of a lattice in which a node is a midpoint
-  using Profile = Triangle3;                  ///< below cells that a sweep makes
-  using MiddleProfile = void;                 ///< whose nodes lie half way up
-  static constexpr int xdmf_number = 6;       ///< in a mixed topology
+  static constexpr int stiffness_points = 1;     ///< of the rule for the stiffness
+  static constexpr int midpoint_directions = 0;  ///< directions of a lattice in which a node is a midpoint
+  using Profile = Triangle3;                     ///< below cells that a sweep makes
+  using MiddleProfile = void;                    ///< whose nodes lie half way up
+  static constexpr int xdmf_number = 6;          ///< in a mixed topology
 
   /// Shape functions N_a at a reference point.
   template <class T>

@@ -15,7 +15,7 @@ struct Triangle3 : ReferenceTriangle {
   static constexpr int stiffness_points = 1;                                               ///< of the rule for the stiffness
   static constexpr int axisymmetric_stiffness_points = 3;                                  ///< of the rule for the axisymmetric stiffness
   static constexpr int side_points = 7;                                                    ///< of the rule for loads on a side of this shape
-  static constexpr int most_middles = 0;                                                   ///< directions of a lattice in which a node is a midpoint
+  static constexpr int midpoint_directions = 0;                                            ///< directions of a lattice in which a node is a midpoint
   static constexpr int xdmf_number = 4;                                                    ///< in a mixed topology
 
   /// Shape functions N_a at a reference point.

@@ -17,8 +17,8 @@ struct Triangle6 : ReferenceTriangle {
   static constexpr int axisymmetric_stiffness_points = 7;                                           ///< of the rule for the axisymmetric stiffness
   static constexpr int side_points = 7;                                                             ///< of the rule for loads on a side of this shape
   static constexpr int jacobian_points = 7;                                                         ///< of the rule where det J is looked at
-  static constexpr int most_middles = 3;  ///< directions of a lattice in which a node is a midpoint
-  static constexpr int xdmf_number = 36;  ///< in a mixed topology
+  static constexpr int midpoint_directions = 3;  ///< directions of a lattice in which a node is a midpoint
+  static constexpr int xdmf_number = 36;         ///< in a mixed topology
 
   /// Shape functions N_a at a reference point.
   template <class T>
