@@ -21,7 +21,7 @@ void write_surface(Text text, const std::string& name, const Mesh& mesh, const S
   fmt::format_to(text, "*SURFACE,NAME={},TYPE=ELEMENT\n", name);
   for (const Side& side : set.sides) {
     const Block& block = mesh.blocks[side.block];
-    const int face = mesh.dimension == 2 ? 3 + topology(block.shape).sides[side.side].front() : 1 + side.side;
+    const int face = mesh.dimension == 2 ? 3 + topology(block.shape).sides[side.side].nodes.front() : 1 + side.side;
     fmt::format_to(text, "{},S{}\n", block.element_ids[side.element] + 1, face);
   }
 }
@@ -31,7 +31,7 @@ double shortest(const Mesh& mesh, const SideSet& set) {
   double length = std::numeric_limits<double>::max();
   for (const Side& side : set.sides) {
     const auto nodes = mesh.side_nodes(side);
-    const int corners = topology(topology(mesh.blocks[side.block].shape).side).corners;
+    const int corners = topology(mesh.side_shape(side)).corners;
     for (int corner = 0; corner < corners; ++corner) {
       const auto &a = mesh.coordinates[nodes[corner]], &b = mesh.coordinates[nodes[(corner + 1) % corners]];
       length = std::min(length, std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]));

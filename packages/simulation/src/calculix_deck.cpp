@@ -1,26 +1,19 @@
 #include "calculix_deck.hpp"
 
 #include <fmt/format.h>
+
+#include <map>
+
 #include "mortise/material/materials.hpp"
 
 namespace mortise {
 
 std::string calculix_element(CellShape shape) {
-  switch (shape) {
-    case CellShape::triangle3:
-      return "C3D6";
-    case CellShape::quadrilateral4:
-    case CellShape::hexahedron8:
-      return "C3D8";
-    case CellShape::tetrahedron4:
-      return "C3D4";
-    case CellShape::tetrahedron10:
-      return "C3D10";
-    case CellShape::hexahedron20:
-      return "C3D20";
-    default:
-      return "";
-  }
+  static const std::map<CellShape, std::string> elements{{CellShape::triangle3, "C3D6"},      {CellShape::quadrilateral4, "C3D8"},
+                                                         {CellShape::hexahedron8, "C3D8"},    {CellShape::tetrahedron4, "C3D4"},
+                                                         {CellShape::tetrahedron10, "C3D10"}, {CellShape::hexahedron20, "C3D20"}};
+  const auto found = elements.find(shape);
+  return found == elements.end() ? "" : found->second;
 }
 
 std::string calculix_deck(const Scene& scene, const Model& model, Peer peer, std::optional<double> penalty) {

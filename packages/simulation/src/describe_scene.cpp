@@ -99,18 +99,9 @@ Choices choices_of(const Registry<Base>& registry) {
 }
 
 Choices elements() {
-  return {
-      {"Q4", "bilinear quadrilateral; every law, the kinematics of the plane"},
-      {"Q4 F-bar",
-       "bilinear quadrilateral with the volume change of its centre, for nearly incompressible states; finite strain, plane strain and axisymmetric"},
-      {"T3", "linear triangle; every law, the kinematics of the plane"},
-      {"Q8", "serendipity quadrilateral of 8 nodes"},
-      {"T6", "quadratic triangle"},
-      {"H8", "trilinear hexahedron; three dimensional"},
-      {"H8 F-bar", "trilinear hexahedron with the volume change of its centre, for nearly incompressible states; finite strain, three dimensional"},
-      {"Tet4", "linear tetrahedron; three dimensional"},
-      {"H20", "serendipity hexahedron of 20 nodes; three dimensional"},
-      {"Tet10", "quadratic tetrahedron; three dimensional"}};
+  Choices choices;
+  visit_each_element([&](const auto& entry) { choices.emplace_back(entry.name, entry.sentence); });
+  return choices;
 }
 
 Choices contact_choices() {

@@ -10,17 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <stdexcept>
 
-#include "mortise/shape/hexahedron20.hpp"
-#include "mortise/shape/hexahedron8.hpp"
-#include "mortise/shape/quadrilateral4.hpp"
-#include "mortise/shape/quadrilateral8.hpp"
-#include "mortise/shape/tetrahedron10.hpp"
-#include "mortise/shape/tetrahedron4.hpp"
-#include "mortise/shape/triangle3.hpp"
-#include "mortise/shape/triangle6.hpp"
 #include "quantity_support.hpp"
 
 namespace mortise {
@@ -32,15 +22,6 @@ constexpr double inside_tolerance = 1e-8;
 /// How far sides of quadratic cells may bulge beyond the box of their nodes, over its diagonal.
 constexpr double curved_margin = 0.25;
 
-template <std::size_t dimension>
-bool is_inside(CellShape shape, const std::array<double, dimension>& xi) {
-  if (topology(shape).corners == dimension + 1) {
-    const double last = 1.0 - std::accumulate(xi.begin(), xi.end(), 0.0);
-    return std::min(last, *std::min_element(xi.begin(), xi.end())) >= -inside_tolerance;
-  }
-  return std::all_of(xi.begin(), xi.end(), [](double one) { return std::abs(one) <= 1.0 + inside_tolerance; });
-}
-
 /// Shares N_a of an element's nodes at the point, or nothing if it lies outside. Newton's method for X(xi) = point.
 template <class Cell>
 std::vector<double> shares_at(const Mesh& mesh, const LocalOrdinal* nodes, const std::array<double, 3>& position) {
@@ -50,7 +31,7 @@ std::vector<double> shares_at(const Mesh& mesh, const LocalOrdinal* nodes, const
   Eigen::Matrix<double, dimension, Cell::nodes> corners;
   for (int a = 0; a < Cell::nodes; ++a) corners.col(a) = Position(mesh.coordinates[nodes[a]].data());
   const Position low = corners.rowwise().minCoeff(), high = corners.rowwise().maxCoeff();
-  const double margin = (Cell::nodes > topology(Cell::shape).corners ? curved_margin : inside_tolerance) * (high - low).norm();
+  const double margin = (Cell::nodes > Cell::corners ? curved_margin : inside_tolerance) * (high - low).norm();
   if (((low.array() - margin) > point.array()).any() || ((high.array() + margin) < point.array()).any()) return {};
   auto xi = Cell::centroid;
   for (int iteration = 0; iteration < 30; ++iteration) {
@@ -66,32 +47,13 @@ std::vector<double> shares_at(const Mesh& mesh, const LocalOrdinal* nodes, const
     for (int i = 0; i < dimension; ++i) xi[i] -= step[i];
     if (!(step.norm() > 1e-14)) break;
   }
-  if (!is_inside(Cell::shape, xi)) return {};
+  if (!Cell::contains(xi, inside_tolerance)) return {};
   const auto values = Cell::values(xi);
   return std::vector<double>(values.begin(), values.end());
 }
 
 std::vector<double> shares_at(CellShape shape, const Mesh& mesh, const LocalOrdinal* nodes, const std::array<double, 3>& position) {
-  switch (shape) {
-    case CellShape::triangle3:
-      return shares_at<Triangle3>(mesh, nodes, position);
-    case CellShape::triangle6:
-      return shares_at<Triangle6>(mesh, nodes, position);
-    case CellShape::quadrilateral4:
-      return shares_at<Quadrilateral4>(mesh, nodes, position);
-    case CellShape::quadrilateral8:
-      return shares_at<Quadrilateral8>(mesh, nodes, position);
-    case CellShape::tetrahedron4:
-      return shares_at<Tetrahedron4>(mesh, nodes, position);
-    case CellShape::tetrahedron10:
-      return shares_at<Tetrahedron10>(mesh, nodes, position);
-    case CellShape::hexahedron8:
-      return shares_at<Hexahedron8>(mesh, nodes, position);
-    case CellShape::hexahedron20:
-      return shares_at<Hexahedron20>(mesh, nodes, position);
-    default:
-      throw std::logic_error("no body is made of these cells");
-  }
+  return visit_cell(shape, [&](auto cell) { return shares_at<decltype(cell)>(mesh, nodes, position); });
 }
 
 }  // namespace
