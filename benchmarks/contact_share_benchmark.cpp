@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "mortise/simulation/run.hpp"
+#include "mortise/simulation/run/run.hpp"
 
 int main(int argc, char** argv) {
   using namespace mortise;

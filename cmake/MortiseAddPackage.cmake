@@ -7,10 +7,11 @@ function(mortise_compile_together target)
 endfunction()
 
 # mortise_add_package(<name> USES <packages and libraries> [PRIVATE_USES <libraries>])
-# A library Mortise::<name> from packages/<name>/src/*.cpp with the public headers packages/<name>/include/mortise/<name>/*.hpp.
+# A library Mortise::<name> from the sources below packages/<name>/src with the public headers below packages/<name>/include/mortise/<name>.
+# Large packages have rooms: folders of src and of include/mortise/<name>.
 function(mortise_add_package name)
   cmake_parse_arguments(PARSE_ARGV 1 package "" "" "USES;PRIVATE_USES")
-  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/src/*.cpp")
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/src/*.cpp")
   set(link_type PUBLIC)
   if(sources)
     add_library(mortise_${name} ${sources})

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "declarations.hpp"
-#include "mortise/simulation/describe_scene.hpp"
+#include "mortise/studies/describe_scene.hpp"
 
 namespace mortise {
 namespace {

@@ -4,7 +4,7 @@
 #include "declarations.hpp"
 #include "mortise/io/files.hpp"
 #include "mortise/io/output_directory.hpp"
-#include "mortise/simulation/describe_scene.hpp"
+#include "mortise/studies/describe_scene.hpp"
 #include "program.hpp"
 
 namespace mortise {

@@ -6,7 +6,7 @@
 #include <regex>
 
 #include "declarations.hpp"
-#include "mortise/simulation/hard.hpp"
+#include "mortise/studies/hard.hpp"
 #include "program.hpp"
 
 namespace mortise {

@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "declarations.hpp"
-#include "mortise/simulation/paper.hpp"
+#include "mortise/studies/paper.hpp"
 #include "program.hpp"
 
 namespace mortise {

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "declarations.hpp"
-#include "mortise/simulation/peer.hpp"
+#include "mortise/studies/peer.hpp"
 #include "program.hpp"
 
 namespace mortise {

@@ -1,7 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "mortise/simulation/run.hpp"
+#include "mortise/studies/point.hpp"
 #include "program.hpp"
 
 namespace mortise {

@@ -2,9 +2,9 @@
 #include <memory>
 
 #include "declarations.hpp"
-#include "mortise/simulation/read_scene.hpp"
-#include "mortise/simulation/run.hpp"
-#include "mortise/simulation/scene.hpp"
+#include "mortise/simulation/run/run.hpp"
+#include "mortise/simulation/scene/read_scene.hpp"
+#include "mortise/simulation/scene/scene.hpp"
 #include "program.hpp"
 
 namespace mortise {

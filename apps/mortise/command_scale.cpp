@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "declarations.hpp"
-#include "mortise/simulation/scale.hpp"
+#include "mortise/studies/scale.hpp"
 #include "program.hpp"
 
 namespace mortise {

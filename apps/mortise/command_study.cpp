@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "declarations.hpp"
-#include "mortise/simulation/study.hpp"
+#include "mortise/studies/study.hpp"
 #include "program.hpp"
 
 namespace mortise {

@@ -10,7 +10,7 @@ import subprocess
 import sys
 import tempfile
 
-sys.path.insert(0, "packages/simulation/plots")
+sys.path.insert(0, "packages/studies/plots")
 from style import panels, save
 
 ELEMENTS = ["Q4 F-bar", "Q4", "T3"]

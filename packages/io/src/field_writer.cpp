@@ -20,29 +20,7 @@ namespace {
 
 /// Numbers of cells in XDMF's mixed topology.
 long long xdmf_cell(CellShape shape) {
-  switch (shape) {
-    case CellShape::line2:
-      return 2;  // a polyline, whose number of nodes follows
-    case CellShape::line3:
-      return 34;
-    case CellShape::triangle3:
-      return 4;
-    case CellShape::triangle6:
-      return 36;
-    case CellShape::quadrilateral4:
-      return 5;
-    case CellShape::quadrilateral8:
-      return 37;
-    case CellShape::tetrahedron4:
-      return 6;
-    case CellShape::tetrahedron10:
-      return 38;
-    case CellShape::hexahedron8:
-      return 9;
-    case CellShape::hexahedron20:
-      return 48;
-  }
-  throw std::logic_error("a cell shape that XDMF's table does not have");
+  return visit_cell(shape, [](auto cell) -> long long { return decltype(cell)::xdmf_number; });
 }
 
 /// Columns that hold [xdmf cell, body, number of nodes, nodes ...] of each element of the mesh; nodes beyond those of an element are not used.
@@ -122,7 +100,7 @@ struct FieldWriter::Implementation {
     for (auto row = rows.begin(); row != rows.end(); row += columns) {
       topology.push_back(static_cast<long long>(row[0]));
       body.push_back(static_cast<long long>(row[1]));
-      if (row[0] == xdmf_cell(CellShape::line2)) topology.push_back(2);
+      if (row[0] == Line2::xdmf_number) topology.push_back(2);  // a polyline, whose number of nodes follows
       for (int a = 0; a < row[2]; ++a) topology.push_back(static_cast<long long>(row[3 + a]));
     }
     const auto mine = static_cast<GlobalOrdinal>(topology.size());

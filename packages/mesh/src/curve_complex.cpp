@@ -52,7 +52,9 @@ std::vector<GlobalOrdinal> CurveComplex::elements_of_node(GlobalOrdinal node) co
   return elements;
 }
 
-std::vector<SurfaceSide> CurveComplex::surface_sides(GlobalOrdinal element) const { return {{0, edge_sides_[interval(edge_cells_, element)]}}; }
+std::vector<SurfaceSide> CurveComplex::surface_sides(GlobalOrdinal element) const {
+  return {{the_cell_itself, edge_sides_[interval(edge_cells_, element)]}};
+}
 
 std::vector<int> CurveComplex::sides_of_node(GlobalOrdinal node) const {
   std::vector<int> names;

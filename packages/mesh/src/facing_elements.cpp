@@ -30,7 +30,7 @@ Middle middle_of(const BodySet& bodies, int body, GlobalOrdinal element, int sid
     count = static_cast<double>(ids.size());
     for (const GlobalOrdinal node : ids) add(node);
   } else {
-    const auto& places = bodies.cell(body).sides[side];
+    const auto& places = bodies.cell(body).sides[side].nodes;
     count = static_cast<double>(places.size());
     for (const int place : places) add(ids[place]);
   }

@@ -5,16 +5,6 @@
 #include <Eigen/LU>
 #include <limits>
 
-#include "mortise/shape/hexahedron20.hpp"
-#include "mortise/shape/hexahedron8.hpp"
-#include "mortise/shape/quadrature.hpp"
-#include "mortise/shape/quadrilateral4.hpp"
-#include "mortise/shape/quadrilateral8.hpp"
-#include "mortise/shape/tetrahedron10.hpp"
-#include "mortise/shape/tetrahedron4.hpp"
-#include "mortise/shape/triangle3.hpp"
-#include "mortise/shape/triangle6.hpp"
-
 namespace mortise {
 namespace {
 
@@ -28,18 +18,21 @@ struct Inverted {
 /// det J is evaluated at the nodes and at the points of a rule. On linear triangles and tetrahedra it is constant. On bilinear quadrilaterals it is
 /// linear in each reference coordinate without a mixed term: it is positive everywhere if it is so in the corners.
 template <class Cell>
-std::vector<std::array<double, Cell::dimension>> places_to_look_at(int rule_points) {
+std::vector<std::array<double, Cell::dimension>> places_to_look_at() {
   std::vector<std::array<double, Cell::dimension>> places;
-  if (rule_points == 1) return {Cell::centroid};
-  for (const auto& node : Cell::node_positions) places.push_back(node);
-  if (rule_points > 0)
-    for (const auto& point : cell_rule(Cell::shape, rule_points)) places.push_back(point.template position<Cell::dimension>());
+  if constexpr (Cell::nodes == Cell::dimension + 1) {
+    places.push_back(Cell::centroid);
+  } else {
+    for (const auto& node : Cell::node_positions) places.push_back(node);
+    if constexpr (Cell::jacobian_points > 0)
+      for (const auto& point : Cell::rule(Cell::jacobian_points)) places.push_back(point.template position<Cell::dimension>());
+  }
   return places;
 }
 
-/// The first inverted one of the owned elements; `rule_points`: of the rule, 1 if the middle is enough, 0 if the nodes are.
+/// The first inverted one of the owned elements.
 template <class Cell>
-Inverted first_inverted(const Mesh& mesh, const Block& block, int rule_points) {
+Inverted first_inverted(const Mesh& mesh, const Block& block) {
   constexpr int dimension = Cell::dimension, nodes = Cell::nodes;
   using Gradients = Eigen::Matrix<double, nodes, dimension>;
   struct Place {
@@ -47,7 +40,7 @@ Inverted first_inverted(const Mesh& mesh, const Block& block, int rule_points) {
     std::array<double, nodes> values;
   };
   std::vector<Place> places;
-  for (const auto& xi : places_to_look_at<Cell>(rule_points)) {
+  for (const auto& xi : places_to_look_at<Cell>()) {
     Place place;
     place.values = Cell::values(xi);
     const auto gradients = Cell::gradients(xi);
@@ -77,28 +70,7 @@ Inverted first_inverted(const Mesh& mesh, const Block& block, int rule_points) {
 
 Inverted first_inverted(const Mesh& mesh, const Block& block) {
   if (topology(block.shape).dimension < mesh.dimension) return {};  // the surface of a rigid body
-  switch (block.shape) {
-    case CellShape::triangle3:
-      return first_inverted<Triangle3>(mesh, block, 1);
-    case CellShape::triangle6:
-      return first_inverted<Triangle6>(mesh, block, 7);
-    case CellShape::quadrilateral4:
-      return first_inverted<Quadrilateral4>(mesh, block, 0);
-    case CellShape::quadrilateral8:
-      return first_inverted<Quadrilateral8>(mesh, block, 9);
-    case CellShape::tetrahedron4:
-      return first_inverted<Tetrahedron4>(mesh, block, 1);
-    case CellShape::tetrahedron10:
-      return first_inverted<Tetrahedron10>(mesh, block, 15);
-    case CellShape::hexahedron8:
-      return first_inverted<Hexahedron8>(mesh, block, 8);
-    case CellShape::hexahedron20:
-      return first_inverted<Hexahedron20>(mesh, block, 27);
-    case CellShape::line2:
-    case CellShape::line3:
-      break;
-  }
-  return {};
+  return visit_cell(block.shape, [&](auto cell) { return first_inverted<decltype(cell)>(mesh, block); });
 }
 
 }  // namespace

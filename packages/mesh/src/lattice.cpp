@@ -7,25 +7,15 @@ namespace {
 
 /// In how many directions at once a node of a cell may be a midpoint. Hexahedra and quadrilaterals have nodes on their edges; cells that are cut into
 /// triangles or tetrahedra have them also on the diagonals.
-std::size_t most_middles(CellShape shape) {
-  switch (shape) {
-    case CellShape::triangle6:
-    case CellShape::tetrahedron10:
-      return 3;
-    case CellShape::line3:
-    case CellShape::quadrilateral8:
-    case CellShape::hexahedron20:
-      return 1;
-    default:
-      return 0;
-  }
+std::size_t midpoint_directions(CellShape shape) {
+  return visit_cell(shape, [](auto cell) -> std::size_t { return decltype(cell)::midpoint_directions; });
 }
 
 }  // namespace
 
 Lattice::Lattice(CellShape shape, int dimension, const std::array<int, 3>& cells) : dimension_(dimension), cells_(cells) {
   for (unsigned kind = 0; kind < 8; ++kind) {
-    GlobalOrdinal count = kind < (1u << dimension) && std::bitset<3>(kind).count() <= most_middles(shape) ? 1 : 0;
+    GlobalOrdinal count = kind < (1u << dimension) && std::bitset<3>(kind).count() <= midpoint_directions(shape) ? 1 : 0;
     for (int d = 0; d < dimension; ++d) count *= points(d, (kind >> d) & 1u);
     first_[kind + 1] = first_[kind] + count;
   }

@@ -16,18 +16,6 @@ double squared_distance(const std::array<double, 3>& x, const std::array<double,
   return (x[0] - y[0]) * (x[0] - y[0]) + (x[1] - y[1]) * (x[1] - y[1]) + (x[2] - y[2]) * (x[2] - y[2]);
 }
 
-/// Corners of a cell between which its edges run.
-std::vector<std::array<int, 2>> edges(CellShape shape) {
-  const CellTopology& cell = topology(shape);
-  if (cell.dimension == 1) return {{0, 1}};
-  std::vector<std::array<int, 2>> all;
-  for (const auto& side : cell.sides) {
-    const int corners = topology(cell.side).corners;
-    for (int a = 0; a < (corners == 2 ? 1 : corners); ++a) all.push_back({side[a], side[(a + 1) % corners]});
-  }
-  return all;
-}
-
 }  // namespace
 
 MeshSize mesh_size(const Mesh& mesh) {
@@ -45,9 +33,9 @@ MeshSize mesh_size(const Mesh& mesh) {
     }
   for (const auto& block : mesh.blocks) {
     local.push_back(block.owned);
-    const auto edges_of_cell = edges(block.shape);
+    const auto& edges = topology(block.shape).edges;
     for (LocalOrdinal e = 0; e < block.owned; ++e)
-      for (const auto& [a, b] : edges_of_cell)
+      for (const auto& [a, b] : edges)
         low[6] = std::min(low[6], squared_distance(mesh.coordinates[block.nodes(e)[a]], mesh.coordinates[block.nodes(e)[b]]));
   }
   Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MIN, static_cast<int>(low.size()), low.data(), global_low.data());

@@ -6,7 +6,6 @@
 #include <map>
 #include <stdexcept>
 
-#include "edge_nodes.hpp"
 #include "interval.hpp"
 #include "mortise/mesh/curve_complex.hpp"
 
@@ -205,8 +204,11 @@ CellNodes PatchComplex::element_nodes(GlobalOrdinal element) const {
   const GridPoints corners = corners_of(element);
   CellNodes nodes;
   for (const GridPoint& corner : corners) nodes.push_back(node_at(corner));
-  for (const auto& [a, b] : edge_corners(shape_))
+  const CellTopology& cell = topology(shape_);
+  for (int k = 0; k < cell.mid_side_nodes(); ++k) {
+    const auto [a, b] = cell.edges[k];
     nodes.push_back(node_at({corners[a].patch, (corners[a].i + corners[b].i) / 2, (corners[a].j + corners[b].j) / 2}));
+  }
   return nodes;
 }
 

@@ -2,25 +2,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
-
-#include "edge_nodes.hpp"
+#include <type_traits>
 
 namespace mortise {
 
+namespace {
+
+/// Shape of the plane cells whose nodes lie half way up cells of a shape; none: no nodes lie there.
+std::optional<CellShape> middle_profile_shape(CellShape shape) {
+  return visit_cell(shape, [](auto cell) -> std::optional<CellShape> {
+    using Cell = decltype(cell);
+    if constexpr (Cell::dimension == 3)
+      if constexpr (!std::is_void_v<typename Cell::MiddleProfile>) return shape_of<typename Cell::MiddleProfile>;
+    return std::nullopt;
+  });
+}
+
+}  // namespace
+
 CellShape SweptComplex::profile_shape(CellShape shape) {
-  switch (shape) {
-    case CellShape::hexahedron8:
-      return CellShape::quadrilateral4;
-    case CellShape::hexahedron20:
-      return CellShape::quadrilateral8;
-    case CellShape::tetrahedron4:
-      return CellShape::triangle3;
-    case CellShape::tetrahedron10:
-      return CellShape::triangle6;
-    default:
-      throw std::logic_error("a swept body is made of hexahedra or tetrahedra");
-  }
+  return visit_cell(shape, [](auto cell) -> CellShape {
+    using Cell = decltype(cell);
+    if constexpr (Cell::dimension == 3) return shape_of<typename Cell::Profile>;
+    throw std::logic_error("a swept body is made of 3D cells");
+  });
 }
 
 SpatialPoint swept(const Sweep& sweep, const Point& point, double share) {
@@ -39,8 +46,7 @@ SweptComplex::SweptComplex(CellShape shape, PatchComplex profile, Spacing layers
       placement_(placement),
       side_names_(profile_.side_names()) {
   if (profile_.shape() != profile_shape(shape)) throw std::logic_error("the profile's elements do not fit below the cells of the swept body");
-  if (shape == CellShape::hexahedron20) middle_ = profile_.with_shape(CellShape::quadrilateral4);
-  if (shape == CellShape::tetrahedron10) middle_ = profile_;
+  if (const auto middle = middle_profile_shape(shape)) middle_ = profile_.with_shape(*middle);
   side_names_.insert(side_names_.end(), ends.begin(), ends.end());
 }
 
@@ -94,8 +100,10 @@ CellNodes SweptComplex::element_nodes(GlobalOrdinal element) const {
   for (const Corner& corner : corners) nodes.push_back(node_at({below[corner.below], corner.level}));
   if (!middle_) return nodes;
   const auto of_middle = middle_->element_nodes(cell.below);
-  const auto& edges_below = edge_corners(profile_.shape());
-  for (const auto& [a, b] : edge_corners(shape_)) {
+  const CellTopology &cell_below = topology(profile_.shape()), &own = topology(shape_);
+  const auto& edges_below = cell_below.edges;
+  for (int k = 0; k < own.mid_side_nodes(); ++k) {
+    const auto [a, b] = own.edges[k];
     const int level = (corners[a].level + corners[b].level) / 2, p = corners[a].below, q = corners[b].below;
     const CellNodes& there = level % 2 == 0 ? below : of_middle;
     if (p == q) {
@@ -104,7 +112,7 @@ CellNodes SweptComplex::element_nodes(GlobalOrdinal element) const {
     }
     const auto edge = std::find_if(edges_below.begin(), edges_below.end(),
                                    [&, p = p, q = q](const auto& ends) { return (ends[0] == p && ends[1] == q) || (ends[0] == q && ends[1] == p); });
-    nodes.push_back(node_at({there[topology(profile_.shape()).corners + (edge - edges_below.begin())], level}));
+    nodes.push_back(node_at({there[cell_below.corners + (edge - edges_below.begin())], level}));
   }
   return nodes;
 }
@@ -137,12 +145,12 @@ std::vector<SurfaceSide> SweptComplex::surface_sides(GlobalOrdinal element) cons
   const int start = static_cast<int>(side_names_.size()) - 2, end = start + 1;
   std::vector<SurfaceSide> sides;
   for (int s = 0; s < static_cast<int>(own.sides.size()); ++s) {
-    const auto first = own.sides[s].begin(), last = first + topology(own.side).corners;
+    const auto first = own.sides[s].nodes.begin(), last = first + own.sides[s].corners;
     const auto all = [&](const auto& holds) { return std::all_of(first, last, [&](int a) { return holds(corners[a]); }); };
     if (is_first && all([&](const Corner& corner) { return corner.level == 2 * cell.layer; })) sides.push_back({s, start});
     if (is_last && all([&](const Corner& corner) { return corner.level == 2 * cell.layer + 2; })) sides.push_back({s, end});
     for (const SurfaceSide& side : sides_below) {
-      const auto& line = lines[side.side];
+      const auto& line = lines[side.side].nodes;
       if (all([&](const Corner& corner) { return corner.below == line[0] || corner.below == line[1]; })) sides.push_back({s, side.name});
     }
   }

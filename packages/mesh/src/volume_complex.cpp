@@ -4,7 +4,6 @@
 #include <map>
 #include <stdexcept>
 
-#include "edge_nodes.hpp"
 #include "interval.hpp"
 
 namespace mortise {
@@ -142,7 +141,9 @@ CellNodes VolumeComplex::element_nodes(GlobalOrdinal element) const {
   const GridPoints corners = corners_of(element);
   CellNodes nodes;
   for (const GridPoint& corner : corners) nodes.push_back(node_at(corner));
-  for (const auto& [a, b] : edge_corners(shape_)) {
+  const CellTopology& cell = topology(shape_);
+  for (int k = 0; k < cell.mid_side_nodes(); ++k) {
+    const auto [a, b] = cell.edges[k];
     GridPoint middle = corners[a];
     for (int axis = 0; axis < 3; ++axis) middle.at[axis] = (corners[a].at[axis] + corners[b].at[axis]) / 2;
     nodes.push_back(node_at(middle));
@@ -181,7 +182,7 @@ std::vector<SurfaceSide> VolumeComplex::surface_sides(GlobalOrdinal element) con
   for (int side = 0; side < 6; ++side) {
     if (block_sides_[b][side] < 0) continue;
     for (int s = 0; s < static_cast<int>(cell.sides.size()); ++s) {
-      const auto begin = cell.sides[s].begin(), end = begin + topology(cell.side).corners;
+      const auto begin = cell.sides[s].nodes.begin(), end = begin + cell.sides[s].corners;
       if (std::all_of(begin, end, [&](int a) { return is_at(corners[a], side); })) sides.push_back({s, block_sides_[b][side]});
     }
   }

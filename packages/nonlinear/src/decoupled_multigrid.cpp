@@ -32,6 +32,26 @@ Block diagonal_block(const Matrix& matrix, LocalOrdinal first, int dimension) {
   return block;
 }
 
+/// 1 at the dofs of closed slave nodes, which have entries in `inverse`, and of the nodes of masters to which `trial` ties them. Collective.
+RCP<const Vector> find_contact_dofs(const Matrix& trial, const Matrix& inverse, int dimension) {
+  Vector column_marks(trial.getColMap());
+  const auto marks = rcp(new Vector(trial.getRowMap()));
+  {
+    const auto mark = column_marks.getLocalViewHost(Tpetra::Access::ReadWrite);
+    const auto local = trial.getLocalMatrixHost();
+    for (LocalOrdinal row = 0; row < local.numRows(); ++row)
+      for (LocalOrdinal k = 0; k < local.rowConst(row).length; ++k) mark(local.rowConst(row).colidx(k), 0) = 1.0;
+  }
+  marks->doExport(column_marks, Export(trial.getColMap(), trial.getRowMap()), Tpetra::ADD);
+  const auto mark = marks->getLocalViewHost(Tpetra::Access::ReadWrite);
+  for (LocalOrdinal first = 0; first < static_cast<LocalOrdinal>(marks->getLocalLength()); first += dimension) {
+    bool in_contact = inverse.getNumEntriesInLocalRow(first) > 0;
+    for (int i = 0; i < dimension; ++i) in_contact = in_contact || mark(first + i, 0) != 0.0;
+    for (int i = 0; i < dimension; ++i) mark(first + i, 0) = in_contact ? 1.0 : 0.0;
+  }
+  return marks;
+}
+
 }  // namespace
 
 DecoupledSystem::DecoupledSystem(RCP<const Matrix> A, const Decoupling& decoupling) : A_(std::move(A)), decoupling_(decoupling) {
@@ -65,6 +85,7 @@ DecoupledSystem::DecoupledSystem(RCP<const Matrix> A, const Decoupling& decoupli
     for (LocalOrdinal row = 0; row < inverse.numRows(); ++row) mark(row, 0) = inverse.rowConst(row).length > 0 ? 1.0 : 0.0;
   }
   relative_ = marked_columns(*A_, marks);
+  contact_dofs_ = find_contact_dofs(*decoupling.trial, *inverse_, dimension);
 }
 
 // L' A S' = A + A (S' - I) + (L' - I) A + (L' - I) A (S' - I): what is added has entries near the contact alone.
@@ -94,28 +115,8 @@ void RowsOfDecoupled::apply(const MultiVector& x, MultiVector& y, Teuchos::ETran
   relative_->apply(x, y, Teuchos::NO_TRANS, 1.0, 1.0);
 }
 
-Vector DecoupledSystem::joined() const {
-  const Matrix& trial = *decoupling_.trial;
-  const int dimension = decoupling_.dimension;
-  Vector column_marks(trial.getColMap()), marks(trial.getRowMap());
-  {
-    const auto mark = column_marks.getLocalViewHost(Tpetra::Access::ReadWrite);
-    const auto local = trial.getLocalMatrixHost();
-    for (LocalOrdinal row = 0; row < local.numRows(); ++row)
-      for (LocalOrdinal k = 0; k < local.rowConst(row).length; ++k) mark(local.rowConst(row).colidx(k), 0) = 1.0;
-  }
-  marks.doExport(column_marks, Export(trial.getColMap(), trial.getRowMap()), Tpetra::ADD);
-  const auto mark = marks.getLocalViewHost(Tpetra::Access::ReadWrite);
-  for (LocalOrdinal first = 0; first < static_cast<LocalOrdinal>(marks.getLocalLength()); first += dimension) {
-    bool is_joined = inverse_->getNumEntriesInLocalRow(first) > 0;
-    for (int i = 0; i < dimension; ++i) is_joined = is_joined || mark(first + i, 0) != 0.0;
-    for (int i = 0; i < dimension; ++i) mark(first + i, 0) = is_joined ? 1.0 : 0.0;
-  }
-  return marks;
-}
-
-Vector DecoupledSystem::followed() const {
-  Vector marks = joined();
+Vector DecoupledSystem::master_dofs() const {
+  Vector marks(*contact_dofs_, Teuchos::Copy);
   const auto mark = marks.getLocalViewHost(Tpetra::Access::ReadWrite);
   for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(marks.getLocalLength()); ++row)
     if (inverse_->getNumEntriesInLocalRow(row) > 0) mark(row, 0) = 0.0;

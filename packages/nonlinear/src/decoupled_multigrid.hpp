@@ -6,8 +6,8 @@
 
 namespace mortise::detail {
 
-/// The rows C_m = L'_mm A_m S' + (N A_D N)_m of the matrix C below, m with all that DecoupledSystem::joined() marks, from which alone
-/// L' hands on anything. As an operator: the product has several times the entries of its factors.
+/// The rows C_m = L'_mm A_m S' + (N A_D N)_m of the matrix C below, m with all that DecoupledSystem::contact_dofs() marks, from which
+/// alone L' hands on anything. As an operator: the product has several times the entries of its factors.
 class RowsOfDecoupled : public Operator {
  public:
   /// @param A         A_m
@@ -41,7 +41,7 @@ class DecoupledSystem {
 
   /// C. Collective.
   RCP<Matrix> matrix() const;
-  /// C_m, each row on the rank that owns it, for some m that holds all that is joined. Collective.
+  /// C_m, each row on the rank that owns it, for some m that holds contact_dofs(). Collective.
   RowsOfDecoupled rows(const RCP<const Map>& m) const;
   /// y += S' x, y = L' x.
   void add_trial(const MultiVector& x, MultiVector& y) const;
@@ -50,10 +50,10 @@ class DecoupledSystem {
   void relative_motion(const MultiVector& b, MultiVector& w) const;
   /// b -= A w
   void subtract_relative_motion(const MultiVector& w, MultiVector& b) const;
-  /// 1 at the dofs of closed slave nodes and of the nodes that they follow. Collective.
-  Vector joined() const;
-  /// 1 at those of them that are no closed slave nodes'. Collective.
-  Vector followed() const;
+  /// 1 at the dofs of closed slave nodes and of the nodes of masters to which they are tied.
+  const RCP<const Vector>& contact_dofs() const { return contact_dofs_; }
+  /// 1 at those of masters alone, which are no closed slave nodes'.
+  Vector master_dofs() const;
   /// The rows of a node.
   int dimension() const { return decoupling_.dimension; }
   /// modes -= N modes
@@ -64,6 +64,7 @@ class DecoupledSystem {
   Decoupling decoupling_;
   RCP<Matrix> inner_, inverse_;  ///< N A_D N; (N A_D N + I - N)^-1 N
   RCP<const Matrix> relative_;   ///< the columns of A in which w may differ from 0; the others are empty
+  RCP<const Vector> contact_dofs_;
 };
 
 /// The same with a preconditioner P of C in the place of its inverse.

@@ -115,7 +115,7 @@ NearNullSpace Reduction::reduced(const NearNullSpace& of_dofs) const {
     }
   }
   result.coordinates = coordinates;
-  result.apart = of_dofs.apart;
+  result.separation = of_dofs.separation;
   if (!of_dofs.rigid_body_modes.is_null()) result.rigid_body_modes = unknown_rows(*of_dofs.rigid_body_modes);
   return result;
 }

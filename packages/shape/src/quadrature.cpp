@@ -42,12 +42,6 @@ void add_orbit_of_six(std::vector<CellPoint>& rule, double a, double weight) {
   rule.push_back({{a, b, b}, weight});
 }
 
-/// The whole root of a tensor rule's number of points; 0 if there is none.
-int root(int points, int power) {
-  const int candidate = static_cast<int>(std::lround(std::pow(points, 1.0 / power)));
-  return (power == 2 ? candidate * candidate : candidate * candidate * candidate) == points ? candidate : 0;
-}
-
 }  // namespace
 
 std::vector<LinePoint> gauss_legendre(int points) {
@@ -118,27 +112,6 @@ std::vector<CellPoint> tetrahedron_rule(int points) {
     return rule;
   }
   throw std::invalid_argument("tetrahedra have rules of 1, 4 and 15 points, not " + std::to_string(points));
-}
-
-std::vector<CellPoint> cell_rule(CellShape shape, int points) {
-  switch (shape) {
-    case CellShape::triangle3:
-    case CellShape::triangle6:
-      return triangle_rule(points);
-    case CellShape::quadrilateral4:
-    case CellShape::quadrilateral8:
-      return quadrilateral_rule(root(points, 2));
-    case CellShape::tetrahedron4:
-    case CellShape::tetrahedron10:
-      return tetrahedron_rule(points);
-    case CellShape::hexahedron8:
-    case CellShape::hexahedron20:
-      return hexahedron_rule(root(points, 3));
-    case CellShape::line2:
-    case CellShape::line3:
-      break;
-  }
-  throw std::invalid_argument("cell_rule() is for 2D and 3D cells; lines have gauss_legendre()");
 }
 
 }  // namespace mortise

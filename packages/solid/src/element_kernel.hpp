@@ -14,30 +14,11 @@ namespace mortise {
 
 /// Points that integrate the stiffness of an undistorted cell exactly. Axisymmetric triangles need more for radii and hoop strains: with one point,
 /// the hoop strain of linear ones leaves a mode without stiffness.
-constexpr int quadrature_points(CellShape shape, Kinematics kinematics) {
-  const bool axisymmetric = kinematics == Kinematics::axisymmetric;
-  switch (shape) {
-    case CellShape::triangle3:
-      return axisymmetric ? 3 : 1;
-    case CellShape::triangle6:
-      return axisymmetric ? 7 : 3;
-    case CellShape::quadrilateral4:
-      return 4;
-    case CellShape::quadrilateral8:
-      return 9;
-    case CellShape::tetrahedron4:
-      return 1;
-    case CellShape::tetrahedron10:
-      return 4;
-    case CellShape::hexahedron8:
-      return 8;
-    case CellShape::hexahedron20:
-      return 27;
-    case CellShape::line2:
-    case CellShape::line3:
-      break;
-  }
-  return 0;
+template <class Cell>
+constexpr int quadrature_points(Kinematics kinematics) {
+  if constexpr (Cell::dimension == 2)
+    if (kinematics == Kinematics::axisymmetric) return Cell::axisymmetric_stiffness_points;
+  return Cell::stiffness_points;
 }
 
 /// The components of the tangent that the kinematics takes.
@@ -58,8 +39,7 @@ template <class Cell, Kinematics kinematics, ElementFormulation formulation, cla
 class ElementKernel {
  public:
   using Geometry = ElementGeometry<Cell, kinematics>;
-  static constexpr int nodes = Cell::nodes, dimension = Cell::dimension, dofs = dimension * nodes,
-                       points = quadrature_points(Cell::shape, kinematics);
+  static constexpr int nodes = Cell::nodes, dimension = Cell::dimension, dofs = dimension * nodes, points = quadrature_points<Cell>(kinematics);
   static constexpr bool f_bar = formulation == ElementFormulation::f_bar;
   using Components = ComponentsOf<kinematics>;
   using Tangent = ElementTangent<Geometry, Components, f_bar>;
@@ -74,7 +54,7 @@ class ElementKernel {
   using Stiffness = typename Tangent::Stiffness;  ///< columns Tangent::column(b, k)
 
   ElementKernel(const PlainLaw& law, double thickness) : law_{law}, thickness_(thickness) {
-    const auto rule = cell_rule(Cell::shape, points);
+    const auto rule = Cell::rule(points);
     for (int q = 0; q < points; ++q) rule_[q] = Geometry::shape_at(rule[q].template position<dimension>(), rule[q].weight);
     centre_ = Geometry::shape_at(Cell::centroid, 0.0);
   }

@@ -2,17 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <type_traits>
+
 #include "mortise/material/materials.hpp"
 
 namespace mortise {
 namespace {
-
-template <class Enum>
-std::string name_of(const std::vector<std::pair<std::string, Enum>>& names, Enum value) {
-  for (const auto& [name, candidate] : names)
-    if (candidate == value) return name;
-  throw std::logic_error("a value of an enumeration without a name");
-}
 
 /// The names of the elements that have as many directions as the kinematics.
 std::string elements_of(Kinematics kinematics) {
@@ -20,6 +15,15 @@ std::string elements_of(Kinematics kinematics) {
   for (const auto& [name, type] : element_names())
     if (topology(cell_shape(type)).dimension == dimension(kinematics)) names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", name);
   return names;
+}
+
+/// The name of the element with the same cell and no F-bar.
+std::string standard_element(ElementType type) {
+  std::string name;
+  visit_each_element([&](const auto& entry) {
+    if (entry.formulation == ElementFormulation::standard && cell_shape(entry.type) == cell_shape(type)) name = entry.name;
+  });
+  return name;
 }
 
 }  // namespace
@@ -33,49 +37,31 @@ const std::vector<std::pair<std::string, Kinematics>>& kinematics_names() {
 }
 
 const std::vector<std::pair<std::string, ElementType>>& element_names() {
-  static const std::vector<std::pair<std::string, ElementType>> names{{"Q4", ElementType::q4},
-                                                                      {"Q4 F-bar", ElementType::q4_f_bar},
-                                                                      {"T3", ElementType::t3},
-                                                                      {"Q8", ElementType::q8},
-                                                                      {"T6", ElementType::t6},
-                                                                      {"H8", ElementType::h8},
-                                                                      {"H8 F-bar", ElementType::h8_f_bar},
-                                                                      {"Tet4", ElementType::tet4},
-                                                                      {"H20", ElementType::h20},
-                                                                      {"Tet10", ElementType::tet10}};
+  static const std::vector<std::pair<std::string, ElementType>> names = [] {
+    std::vector<std::pair<std::string, ElementType>> all;
+    visit_each_element([&](const auto& entry) { all.emplace_back(entry.name, entry.type); });
+    return all;
+  }();
   return names;
 }
 
 CellShape cell_shape(ElementType type) {
-  switch (type) {
-    case ElementType::q4:
-    case ElementType::q4_f_bar:
-      return CellShape::quadrilateral4;
-    case ElementType::t3:
-      return CellShape::triangle3;
-    case ElementType::q8:
-      return CellShape::quadrilateral8;
-    case ElementType::t6:
-      return CellShape::triangle6;
-    case ElementType::h8:
-    case ElementType::h8_f_bar:
-      return CellShape::hexahedron8;
-    case ElementType::tet4:
-      return CellShape::tetrahedron4;
-    case ElementType::h20:
-      return CellShape::hexahedron20;
-    case ElementType::tet10:
-      return CellShape::tetrahedron10;
-  }
-  throw std::logic_error("an element type without a shape");
+  return visit_element(type, [](const auto& entry) { return shape_of<typename std::decay_t<decltype(entry)>::Cell>; });
 }
 
 ElementFormulation formulation(ElementType type) {
-  return type == ElementType::q4_f_bar || type == ElementType::h8_f_bar ? ElementFormulation::f_bar : ElementFormulation::standard;
+  return visit_element(type, [](const auto& entry) { return entry.formulation; });
 }
 
-std::string to_string(ElementType type) { return name_of(element_names(), type); }
-std::string to_string(Kinematics kinematics) { return name_of(kinematics_names(), kinematics); }
+std::string to_string(ElementType type) {
+  return visit_element(type, [](const auto& entry) { return std::string(entry.name); });
+}
+
+std::string to_string(Kinematics kinematics) {
+  for (const auto& [name, candidate] : kinematics_names())
+    if (candidate == kinematics) return name;
+  throw std::logic_error("kinematics without a name");
+}
 
 std::vector<Diagnostic> check_combination(const BodyProperties& body, Kinematics kinematics) {
   std::vector<Diagnostic> diagnostics;
@@ -89,7 +75,7 @@ std::vector<Diagnostic> check_combination(const BodyProperties& body, Kinematics
                              dimension(kinematics) == 3 ? "the plane" : "three dimensions", to_string(kinematics), elements_of(kinematics)));
         if (f_bar && law.small_strain)
           refuse(fmt::format("element \"{}\" has no meaning with the material \"{}\"; take \"{}\" or a finite strain law", to_string(body.element),
-                             law.name, body.element == ElementType::q4_f_bar ? "Q4" : "H8"));
+                             law.name, standard_element(body.element)));
         if (f_bar && kinematics == Kinematics::plane_stress)
           refuse(fmt::format("element \"{}\" has no meaning in plane stress, which does not lock; take \"Q4\"", to_string(body.element)));
         if (kinematics == Kinematics::plane_stress && !law.plane_stress)

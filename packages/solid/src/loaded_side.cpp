@@ -4,64 +4,34 @@
 #include <stdexcept>
 
 #include "load_support.hpp"
-#include "mortise/shape/line2.hpp"
-#include "mortise/shape/line3.hpp"
-#include "mortise/shape/quadrature.hpp"
-#include "mortise/shape/quadrilateral4.hpp"
-#include "mortise/shape/quadrilateral8.hpp"
-#include "mortise/shape/triangle3.hpp"
-#include "mortise/shape/triangle6.hpp"
 
 namespace mortise {
 namespace {
 
-template <class Line>
-std::vector<SidePoint> line_points(int points) {
-  std::vector<SidePoint> rule;
-  for (const LinePoint& at : gauss_legendre(points)) {
-    SidePoint& point = rule.emplace_back();
-    const auto N = Line::values(at.xi), gradient = Line::gradients(at.xi);
-    std::copy(N.begin(), N.end(), point.N.begin());
-    for (int a = 0; a < Line::nodes; ++a) point.gradient[a][0] = gradient[a];
-    point.weight = at.weight;
-  }
-  return rule;
-}
-
 template <class Cell>
-std::vector<SidePoint> cell_points(int points) {
+std::vector<SidePoint> make_side_rule() {
   std::vector<SidePoint> rule;
-  for (const CellPoint& at : cell_rule(Cell::shape, points)) {
+  for (const CellPoint& at : Cell::rule(Cell::side_points)) {
     SidePoint& point = rule.emplace_back();
-    const auto N = Cell::values(at.template position<2>());
-    const auto gradient = Cell::gradients(at.template position<2>());
+    const auto xi = at.template position<Cell::dimension>();
+    const auto N = Cell::values(xi);
+    const auto gradient = Cell::gradients(xi);
     std::copy(N.begin(), N.end(), point.N.begin());
-    std::copy(gradient.begin(), gradient.end(), point.gradient.begin());
+    for (int a = 0; a < Cell::nodes; ++a) std::copy(gradient[a].begin(), gradient[a].end(), point.gradient[a].begin());
     point.weight = at.weight;
   }
   return rule;
 }
 
 const std::vector<SidePoint>& side_rule(CellShape side) {
-  static const auto line2 = line_points<Line2>(3), line3 = line_points<Line3>(4);
-  static const auto triangle3 = cell_points<Triangle3>(7), triangle6 = cell_points<Triangle6>(7);
-  static const auto quadrilateral4 = cell_points<Quadrilateral4>(9), quadrilateral8 = cell_points<Quadrilateral8>(16);
-  switch (side) {
-    case CellShape::line2:
-      return line2;
-    case CellShape::line3:
-      return line3;
-    case CellShape::triangle3:
-      return triangle3;
-    case CellShape::triangle6:
-      return triangle6;
-    case CellShape::quadrilateral4:
-      return quadrilateral4;
-    case CellShape::quadrilateral8:
-      return quadrilateral8;
-    default:
-      throw std::logic_error("a 3D cell is no side");
-  }
+  return visit_cell(side, [](auto cell) -> const std::vector<SidePoint>& {
+    using Cell = decltype(cell);
+    if constexpr (Cell::dimension < 3) {
+      static const auto rule = make_side_rule<Cell>();
+      return rule;
+    }
+    throw std::logic_error("a 3D cell is no side");
+  });
 }
 
 }  // namespace
@@ -86,7 +56,7 @@ std::vector<LoadedSide> sides_at_owned_nodes(const Mesh& mesh, const Located<std
     for (const Side& side : require_side_set(mesh, set).sides) {
       const auto nodes = mesh.side_nodes(side);
       if (std::none_of(nodes.begin(), nodes.end(), [&](LocalOrdinal node) { return node < mesh.owned_count(); })) continue;
-      sides.push_back({{nodes.begin(), nodes.end()}, mesh.dimension, &side_rule(topology(mesh.blocks[side.block].shape).side)});
+      sides.push_back({{nodes.begin(), nodes.end()}, mesh.dimension, &side_rule(mesh.side_shape(side))});
     }
   });
   return sides;

@@ -30,7 +30,7 @@ struct SidePosition {
 struct LoadedSide {
   Facet<LocalOrdinal> nodes;
   int dimension;                       ///< of the mesh
-  const std::vector<SidePoint>* rule;  ///< exact to degree 5 or more on straight sides: for N_a x radius x expressions up to cubic
+  const std::vector<SidePoint>* rule;  ///< of side_points
 
   /// `displacement`: on the local dofs; null: none.
   SidePosition at(const SidePoint& point, const Mesh& mesh, const double* displacement) const;

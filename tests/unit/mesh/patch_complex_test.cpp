@@ -45,8 +45,11 @@ TEST(PatchComplex, NamedSidesAreExactlyTheSurface) {
     for (GlobalOrdinal e = 0; e < complex.element_count(); ++e) {
       const auto nodes = complex.element_nodes(e);
       corners.insert(nodes.begin(), nodes.begin() + cell.corners);
-      for (const auto& side : cell.sides) EXPECT_TRUE(directed.emplace(nodes[side[0]], nodes[side[1]]).second);
-      for (const auto& side : complex.surface_sides(e)) surface.emplace(nodes[cell.sides[side.side][0]], nodes[cell.sides[side.side][1]]);
+      for (const CellSide& side : cell.sides) EXPECT_TRUE(directed.emplace(nodes[side.nodes[0]], nodes[side.nodes[1]]).second);
+      for (const auto& side : complex.surface_sides(e)) {
+        const auto& ends = cell.sides[side.side].nodes;
+        surface.emplace(nodes[ends[0]], nodes[ends[1]]);
+      }
     }
     std::size_t undirected = 0;
     for (const auto& [a, b] : directed) {
@@ -88,7 +91,7 @@ TEST(PatchComplex, ElementsAndSidesOfNodesInvertTheConnectivity) {
       const auto nodes = complex.element_nodes(e);
       for (int a = 0; a < cell.nodes; ++a) elements[nodes[a]].push_back(e);
       for (const auto& side : complex.surface_sides(e))
-        for (const int a : cell.sides[side.side]) names[nodes[a]].insert(side.name);
+        for (const int a : cell.sides[side.side].nodes) names[nodes[a]].insert(side.name);
     }
     ASSERT_EQ(static_cast<GlobalOrdinal>(elements.size()), complex.node_count());
     for (GlobalOrdinal n = 0; n < complex.node_count(); ++n) {
@@ -106,8 +109,8 @@ TEST(PatchComplex, CellsThatShareASideShareItsMiddle) {
     std::map<std::pair<GlobalOrdinal, GlobalOrdinal>, GlobalOrdinal> middles;
     for (GlobalOrdinal e = 0; e < complex.element_count(); ++e) {
       const auto nodes = complex.element_nodes(e);
-      for (const auto& side : cell.sides) {
-        const GlobalOrdinal a = nodes[side[0]], b = nodes[side[1]], middle = nodes[side[2]];
+      for (const CellSide& side : cell.sides) {
+        const GlobalOrdinal a = nodes[side.nodes[0]], b = nodes[side.nodes[1]], middle = nodes[side.nodes[2]];
         EXPECT_EQ(middles.try_emplace({std::min(a, b), std::max(a, b)}, middle).first->second, middle);
       }
     }
@@ -123,10 +126,10 @@ TEST(PatchComplex, MiddlesOfARectangleWithGradedCellsHalveTheirSides) {
     const auto complex = block.build(shape, {});
     for (GlobalOrdinal e = 0; e < complex.element_count(); ++e) {
       const auto nodes = complex.element_nodes(e);
-      for (const auto& side : topology(shape).sides)
-        for (int i = 0; i < 2; ++i)
-          EXPECT_NEAR(complex.coordinate(nodes[side[2]])[i], 0.5 * (complex.coordinate(nodes[side[0]])[i] + complex.coordinate(nodes[side[1]])[i]),
-                      1e-15);
+      for (const CellSide& side : topology(shape).sides) {
+        const Point a = complex.coordinate(nodes[side.nodes[0]]), b = complex.coordinate(nodes[side.nodes[1]]);
+        for (int i = 0; i < 2; ++i) EXPECT_NEAR(complex.coordinate(nodes[side.nodes[2]])[i], 0.5 * (a[i] + b[i]), 1e-15);
+      }
     }
   }
 }

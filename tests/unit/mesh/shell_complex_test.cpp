@@ -40,7 +40,7 @@ TEST(ShellComplex, IsTheSurfaceOfEveryMesh) {
               const auto& names = shell.side_names();
               if (std::find(names.begin(), names.end(), name) == names.end()) continue;
               const auto nodes = complex.element_nodes(element);
-              const auto& corners = topology(CellShape::hexahedron8).sides[side.side];
+              const auto& corners = topology(CellShape::hexahedron8).sides[side.side].nodes;
               Quadrilateral facet;
               for (int a = 0; a < 4; ++a) {
                 const auto x = complex.coordinate(nodes[corners[a]]);

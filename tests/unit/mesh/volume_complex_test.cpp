@@ -34,7 +34,7 @@ using Cycle = std::vector<GlobalOrdinal>;
 /// The corners of a side of the cell in their order, from the lowest on.
 Cycle cycle_of(const CellTopology& cell, int side, const CellNodes& nodes) {
   Cycle cycle;
-  for (int a = 0; a < topology(cell.side).corners; ++a) cycle.push_back(nodes[cell.sides[side][a]]);
+  for (int a = 0; a < cell.sides[side].corners; ++a) cycle.push_back(nodes[cell.sides[side].nodes[a]]);
   std::rotate(cycle.begin(), std::min_element(cycle.begin(), cycle.end()), cycle.end());
   return cycle;
 }
@@ -59,8 +59,8 @@ TEST(VolumeComplex, NamedSidesAreExactlyTheSurface) {
       corners.insert(nodes.begin(), nodes.begin() + cell.corners);
       for (int s = 0; s < static_cast<int>(cell.sides.size()); ++s) {
         EXPECT_TRUE(sides.insert(cycle_of(cell, s, nodes)).second) << "a side that two cells run through in the same direction";
-        const auto& side = cell.sides[s];
-        const int ends = topology(cell.side).corners;
+        const auto& side = cell.sides[s].nodes;
+        const int ends = cell.sides[s].corners;
         for (int a = 0; a < ends; ++a) {
           const GlobalOrdinal p = nodes[side[a]], q = nodes[side[(a + 1) % ends]], middle = is_quadratic ? nodes[side[ends + a]] : -1;
           EXPECT_EQ(edges.try_emplace({std::min(p, q), std::max(p, q)}, middle).first->second, middle);
@@ -91,8 +91,8 @@ TEST(VolumeComplex, CellsArePositiveAndFillTheVolumeThatTheSurfaceEncloses) {
       volume += volume_of_cell(complex.shape(), positions(complex, nodes));
       for (const auto& side : complex.surface_sides(e)) {
         std::vector<GlobalOrdinal> facet;
-        for (const int a : cell.sides[side.side]) facet.push_back(nodes[a]);
-        enclosed += volume_below_facet(complex.shape(), positions(complex, facet));
+        for (const int a : cell.sides[side.side].nodes) facet.push_back(nodes[a]);
+        enclosed += volume_below_facet(cell.sides[side.side].shape, positions(complex, facet));
       }
     }
     const bool has_curved_cells = cell.nodes > cell.corners && example.name != "brick";
@@ -112,7 +112,7 @@ TEST(VolumeComplex, ElementsAndSidesOfNodesInvertTheConnectivity) {
       ASSERT_EQ(static_cast<int>(nodes.size()), cell.nodes);
       for (const GlobalOrdinal node : nodes) elements[node].push_back(e);
       for (const auto& side : complex.surface_sides(e))
-        for (const int a : cell.sides[side.side]) names[nodes[a]].insert(side.name);
+        for (const int a : cell.sides[side.side].nodes) names[nodes[a]].insert(side.name);
     }
     ASSERT_EQ(static_cast<GlobalOrdinal>(elements.size()), complex.node_count());
     for (GlobalOrdinal n = 0; n < complex.node_count(); ++n) {

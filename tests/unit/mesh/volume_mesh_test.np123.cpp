@@ -60,10 +60,12 @@ TEST(VolumeMesh, ElementsFillTheVolumeThatFacetsOfOwnedElementsEnclose) {
       double volume = 0.0, enclosed = 0.0;
       for (LocalOrdinal e = 0; e < block.owned; ++e)
         volume += volume_of_cell(block.shape, positions_of(*mesh, block.nodes(e), block.nodes_per_element));
-      for (const auto& facet : facets_of_owned_elements(*mesh, mesh->side_sets.at(block.name + "/surface"))) {
+      const SideSet& surface = mesh->side_sets.at(block.name + "/surface");
+      const SurfaceFacets facets = facets_of_owned_elements(*mesh, surface);
+      for (std::size_t s = 0; s < facets.size(); ++s) {
         std::vector<LocalOrdinal> nodes;
-        for (const GlobalOrdinal node : facet) nodes.push_back(mesh->local_nodes->getLocalElement(node));
-        enclosed += volume_below_facet(block.shape, positions_of(*mesh, nodes.data(), nodes.size()));
+        for (const GlobalOrdinal node : facets[s]) nodes.push_back(mesh->local_nodes->getLocalElement(node));
+        enclosed += volume_below_facet(mesh->side_shape(surface.sides[s]), positions_of(*mesh, nodes.data(), nodes.size()));
       }
       if (examples[b].volume > 0.0 && block.nodes_per_element <= 8) EXPECT_NEAR(total(*mesh, volume), examples[b].volume, 1e-12 * examples[b].volume);
       EXPECT_NEAR(total(*mesh, enclosed), total(*mesh, volume), 1e-12 * total(*mesh, volume));

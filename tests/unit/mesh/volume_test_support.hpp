@@ -13,15 +13,7 @@
 
 #include "mesh_test_support.hpp"
 #include "mortise/mesh/volume_generators.hpp"
-#include "mortise/shape/hexahedron20.hpp"
-#include "mortise/shape/hexahedron8.hpp"
-#include "mortise/shape/quadrature.hpp"
-#include "mortise/shape/quadrilateral4.hpp"
-#include "mortise/shape/quadrilateral8.hpp"
-#include "mortise/shape/tetrahedron10.hpp"
-#include "mortise/shape/tetrahedron4.hpp"
-#include "mortise/shape/triangle3.hpp"
-#include "mortise/shape/triangle6.hpp"
+#include "mortise/shape/cell.hpp"
 
 namespace mortise {
 
@@ -105,68 +97,47 @@ void with_volume(const VolumeMesh& options, CellShape cell, const Visit& visit) 
 
 using Positions = std::vector<Eigen::Vector3d>;
 
-template <class Cell>
-double integrate_cell(const Positions& x, int points) {
-  double volume = 0.0;
-  for (const auto& point : cell_rule(Cell::shape, points)) {
-    const auto gradients = Cell::gradients(point.template position<3>());
-    Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();
-    for (std::size_t a = 0; a < x.size(); ++a)
-      for (int i = 0; i < 3; ++i) jacobian.col(i) += gradients[a][i] * x[a];
-    EXPECT_GT(jacobian.determinant(), 0.0);
-    volume += point.weight * jacobian.determinant();
-  }
-  return volume;
-}
-
 /// The integral of det J, exactly, by a rule in whose points det J has to be positive.
 inline double volume_of_cell(CellShape shape, const Positions& x) {
-  switch (shape) {
-    case CellShape::tetrahedron4:
-      return integrate_cell<Tetrahedron4>(x, 1);
-    case CellShape::tetrahedron10:
-      return integrate_cell<Tetrahedron10>(x, 15);
-    case CellShape::hexahedron8:
-      return integrate_cell<Hexahedron8>(x, 8);
-    case CellShape::hexahedron20:
-      return integrate_cell<Hexahedron20>(x, 27);
-    default:
-      throw std::logic_error("no cell of space");
-  }
-}
-
-template <class Cell>
-double integrate_facet(const Positions& x, int points) {
   double volume = 0.0;
-  for (const auto& point : cell_rule(Cell::shape, points)) {
-    const auto values = Cell::values(point.template position<2>());
-    const auto gradients = Cell::gradients(point.template position<2>());
-    Eigen::Vector3d at = Eigen::Vector3d::Zero(), along_xi = at, along_eta = at;
-    for (std::size_t a = 0; a < x.size(); ++a) {
-      at += values[a] * x[a];
-      along_xi += gradients[a][0] * x[a];
-      along_eta += gradients[a][1] * x[a];
+  visit_cell(shape, [&](auto cell) {
+    using Cell = decltype(cell);
+    if constexpr (Cell::dimension == 3) {
+      int points = Cell::stiffness_points;
+      if constexpr (Cell::nodes > 4) points = Cell::jacobian_points;
+      for (const auto& point : Cell::rule(points)) {
+        const auto gradients = Cell::gradients(point.template position<3>());
+        Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();
+        for (std::size_t a = 0; a < x.size(); ++a)
+          for (int i = 0; i < 3; ++i) jacobian.col(i) += gradients[a][i] * x[a];
+        EXPECT_GT(jacobian.determinant(), 0.0);
+        volume += point.weight * jacobian.determinant();
+      }
     }
-    volume += point.weight * at.dot(along_xi.cross(along_eta)) / 3.0;
-  }
+  });
   return volume;
 }
 
 /// The facet's share of the volume by Gauss' theorem, (1/3) integral of x . n dA, exactly; n points outward if the corners run counterclockwise seen
 /// from outside.
-inline double volume_below_facet(CellShape cell, const Positions& x) {
-  switch (topology(cell).side) {
-    case CellShape::triangle3:
-      return integrate_facet<Triangle3>(x, 7);
-    case CellShape::triangle6:
-      return integrate_facet<Triangle6>(x, 7);
-    case CellShape::quadrilateral4:
-      return integrate_facet<Quadrilateral4>(x, 4);
-    case CellShape::quadrilateral8:
-      return integrate_facet<Quadrilateral8>(x, 9);
-    default:
-      throw std::logic_error("no side of a cell of space");
-  }
+inline double volume_below_facet(CellShape shape, const Positions& x) {
+  double volume = 0.0;
+  visit_cell(shape, [&](auto cell) {
+    using Cell = decltype(cell);
+    if constexpr (Cell::dimension == 2)
+      for (const auto& point : Cell::rule(Cell::side_points)) {
+        const auto values = Cell::values(point.template position<2>());
+        const auto gradients = Cell::gradients(point.template position<2>());
+        Eigen::Vector3d at = Eigen::Vector3d::Zero(), along_xi = at, along_eta = at;
+        for (std::size_t a = 0; a < x.size(); ++a) {
+          at += values[a] * x[a];
+          along_xi += gradients[a][0] * x[a];
+          along_eta += gradients[a][1] * x[a];
+        }
+        volume += point.weight * at.dot(along_xi.cross(along_eta)) / 3.0;
+      }
+  });
+  return volume;
 }
 
 }  // namespace mortise

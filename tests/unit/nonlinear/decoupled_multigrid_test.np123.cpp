@@ -79,7 +79,7 @@ class TwoBodies {
       if (node / grid_->nx() >= grid_->cut()) far_apart->sumIntoLocalValue(place, 1, 1e6);
     }
     result.coordinates = far_apart;
-    result.apart = 1e6;
+    result.separation = 1e6;
     return result;
   }
 
@@ -199,16 +199,16 @@ class Contact : public testing::Test {
   RCP<const Matrix> condensed = bodies.condensed();
   detail::DecoupledSystem system{condensed, bodies.decoupling()};
   RCP<const Matrix> C = system.matrix();
-  RCP<const Map> joined = detail::marked_ids(system.joined());
+  RCP<const Map> contact_dofs = detail::marked_ids(*system.contact_dofs());
 };
 
-TEST_F(Contact, JoinsSlavesAndTheirMasters) { EXPECT_EQ(joined->getGlobalNumElements(), 2 * 2 * nx); }
+TEST_F(Contact, HoldsSlavesAndTheirMasters) { EXPECT_EQ(contact_dofs->getGlobalNumElements(), 2 * 2 * nx); }
 
-TEST_F(Contact, SlavesFollowTheirMasters) {
-  const RCP<const Map> followed = detail::marked_ids(system.followed());
+TEST_F(Contact, MastersAreThoseBelowSlaves) {
+  const RCP<const Map> masters = detail::marked_ids(system.master_dofs());
   const SpringGrid& grid = bodies.grid();
   for (const int node : grid.owned_nodes())
-    for (int i = 0; i < 2; ++i) EXPECT_EQ(followed->isNodeGlobalElement(grid.dof(node, i)), node / nx == grid.cut() - 1) << node;
+    for (int i = 0; i < 2; ++i) EXPECT_EQ(masters->isNodeGlobalElement(grid.dof(node, i)), node / nx == grid.cut() - 1) << node;
 }
 
 TEST_F(Contact, NeighboursAreThoseOfTheMatrix) {
@@ -231,25 +231,25 @@ TEST_F(Contact, NeighboursAreThoseOfTheMatrix) {
 
 TEST_F(Contact, RowsAreThoseOfTheWholeMatrix) {
   const Vector x = wavy(C->getDomainMap());
-  Vector of_matrix(C->getRangeMap()), of_rows(joined);
+  Vector of_matrix(C->getRangeMap()), of_rows(contact_dofs);
   C->apply(x, of_matrix);
-  system.rows(joined).apply(x, of_rows, Teuchos::NO_TRANS, 1.0, 0.0);
-  const Vector expected = part(of_matrix, joined);
+  system.rows(contact_dofs).apply(x, of_rows, Teuchos::NO_TRANS, 1.0, 0.0);
+  const Vector expected = part(of_matrix, contact_dofs);
   of_rows.update(-1.0, expected, 1.0);
   EXPECT_GT(expected.normInf(), 1.0);
   EXPECT_LE(of_rows.normInf(), 1e-13 * expected.normInf());
 }
 
 TEST_F(Contact, SolutionAloneLeavesNoResidualThere) {
-  const detail::InterfaceSolution solution(system.rows(joined).block(), C->getRowMap());
+  const detail::InterfaceSolution solution(system.rows(contact_dofs).block(), C->getRowMap());
   const Vector x = wavy(C->getRangeMap());
   Vector y(C->getDomainMap()), residual(x, Teuchos::Copy);
   y.putScalar(1.0);
   solution.apply(x, y, Teuchos::NO_TRANS, 1.0, 0.0);
   C->apply(y, residual, Teuchos::NO_TRANS, -1.0, 1.0);
-  EXPECT_LE(part(residual, joined).normInf(), 1e-12 * x.normInf());
-  EXPECT_GT(part(y, joined).normInf(), 0.1);
-  for (const GlobalOrdinal id : joined->getNodeElementList()) y.replaceGlobalValue(id, 0.0);
+  EXPECT_LE(part(residual, contact_dofs).normInf(), 1e-12 * x.normInf());
+  EXPECT_GT(part(y, contact_dofs).normInf(), 0.1);
+  for (const GlobalOrdinal id : contact_dofs->getNodeElementList()) y.replaceGlobalValue(id, 0.0);
   EXPECT_EQ(y.normInf(), 0.0);
 }
 
@@ -258,17 +258,17 @@ TEST_F(Contact, CorrectionLeavesNoResidualThere) {
   const auto diagonal = rcp(new Matrix(C->getRowMap(), 1));
   for (const GlobalOrdinal id : C->getRowMap()->getNodeElementList()) add(*diagonal, id, id, 0.1 + 0.01 * static_cast<double>(id % 7));
   diagonal->fillComplete(C->getDomainMap(), C->getRangeMap());
-  const auto rows = rcp(new detail::RowsOfDecoupled(system.rows(joined)));
+  const auto rows = rcp(new detail::RowsOfDecoupled(system.rows(contact_dofs)));
   const detail::InterfaceCorrection correction(rows, rcp(new detail::InterfaceSolution(rows->block(), C->getRowMap())), diagonal);
   const Vector x = wavy(C->getRangeMap());
   Vector y(C->getDomainMap()), before(C->getDomainMap()), residual(x, Teuchos::Copy);
   correction.apply(x, y, Teuchos::NO_TRANS, 1.0, 0.0);
   diagonal->apply(x, before);
   C->apply(y, residual, Teuchos::NO_TRANS, -1.0, 1.0);
-  EXPECT_LE(part(residual, joined).normInf(), 1e-12 * x.normInf());
+  EXPECT_LE(part(residual, contact_dofs).normInf(), 1e-12 * x.normInf());
   y.update(-1.0, before, 1.0);
-  EXPECT_GT(part(y, joined).normInf(), 0.1);
-  for (const GlobalOrdinal id : joined->getNodeElementList()) y.replaceGlobalValue(id, 0.0);
+  EXPECT_GT(part(y, contact_dofs).normInf(), 0.1);
+  for (const GlobalOrdinal id : contact_dofs->getNodeElementList()) y.replaceGlobalValue(id, 0.0);
   EXPECT_EQ(y.normInf(), 0.0);
 }
 
@@ -276,7 +276,7 @@ TEST_F(Contact, CorrectionLeavesNoResidualThere) {
 double left_by_start(const TwoBodies& bodies, const Vector& b) {
   const RCP<const Matrix> A = bodies.condensed();
   const auto system = std::make_shared<const detail::DecoupledSystem>(A, bodies.decoupling());
-  const RCP<const Map> m = detail::marked_ids(detail::marked_and_neighbours(*A, system->joined(), 2));
+  const RCP<const Map> m = detail::marked_ids(detail::marked_and_neighbours(*A, *system->contact_dofs(), 2));
   const auto solution = rcp(new detail::InterfaceSolution(system->rows(m).block(), A->getRowMap()));
   Vector x(b.getMap()), r(b, Teuchos::Copy);
   detail::DecoupledPreconditioner(system, solution).apply(b, x, Teuchos::NO_TRANS, 1.0, 0.0);

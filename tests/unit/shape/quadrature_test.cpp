@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "mortise/shape/reference_domains.hpp"
+
 namespace mortise {
 namespace {
 
@@ -77,14 +79,13 @@ TEST(HexahedronRule, IsExactInEachDirection) {
 }
 
 TEST(Rules, OfSimplicesHavePositiveWeightsAndPointsInside) {
-  for (const auto& [shape, points] :
-       {std::pair(CellShape::triangle3, 1), std::pair(CellShape::triangle6, 3), std::pair(CellShape::triangle6, 7),
-        std::pair(CellShape::tetrahedron4, 1), std::pair(CellShape::tetrahedron10, 4), std::pair(CellShape::tetrahedron10, 15)}) {
-    const auto rule = cell_rule(shape, points);
+  for (const auto& [dimension, points] :
+       {std::pair(2, 1), std::pair(2, 3), std::pair(2, 7), std::pair(2, 12), std::pair(3, 1), std::pair(3, 4), std::pair(3, 15)}) {
+    const auto rule = dimension == 2 ? triangle_rule(points) : tetrahedron_rule(points);
     EXPECT_EQ(static_cast<int>(rule.size()), points);
     for (const auto& point : rule) {
       EXPECT_GT(point.weight, 0.0);
-      for (int i = 0; i < topology(shape).dimension; ++i) EXPECT_GT(point.xi[i], 0.0);
+      for (int i = 0; i < dimension; ++i) EXPECT_GT(point.xi[i], 0.0);
       EXPECT_LT(point.xi[0] + point.xi[1] + point.xi[2], 1.0);
     }
   }
@@ -96,9 +97,9 @@ TEST(Rules, RefuseWhatTheyDoNotHave) {
   EXPECT_THROW(hexahedron_rule(0), std::invalid_argument);
   EXPECT_THROW(triangle_rule(2), std::invalid_argument);
   EXPECT_THROW(tetrahedron_rule(5), std::invalid_argument);
-  EXPECT_THROW(cell_rule(CellShape::quadrilateral8, 8), std::invalid_argument);
-  EXPECT_THROW(cell_rule(CellShape::hexahedron8, 9), std::invalid_argument);
-  EXPECT_THROW(cell_rule(CellShape::line2, 2), std::invalid_argument);
+  EXPECT_THROW(ReferenceSquare::rule(8), std::invalid_argument);
+  EXPECT_THROW(ReferenceCube::rule(9), std::invalid_argument);
+  EXPECT_THROW(ReferenceLine::rule(0), std::invalid_argument);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // Bounds on quantities.
 
-#include "mortise/simulation/checks.hpp"
+#include "mortise/simulation/scene/checks.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 // Exact solutions against figures from the literature and against their own differential equations.
 
-#include "mortise/simulation/exact_solution.hpp"
+#include "mortise/simulation/quantities/exact_solution.hpp"
 
 #include <gtest/gtest.h>
 

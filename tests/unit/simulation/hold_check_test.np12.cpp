@@ -1,4 +1,4 @@
-#include "mortise/simulation/hold_check.hpp"
+#include "mortise/simulation/model/hold_check.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

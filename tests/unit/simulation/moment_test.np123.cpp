@@ -10,8 +10,8 @@
 
 #include "mortise/mesh/reference_point.hpp"
 #include "mortise/mesh/sets.hpp"
-#include "mortise/simulation/model.hpp"
-#include "mortise/simulation/quantity_kinds.hpp"
+#include "mortise/simulation/model/model.hpp"
+#include "mortise/simulation/quantities/quantity_kinds.hpp"
 #include "mortise/solid/rotation_vector.hpp"
 #include "scene_text.hpp"
 

@@ -12,7 +12,7 @@
 #include "mortise/mesh/build_mesh.hpp"
 #include "mortise/mesh/generators.hpp"
 #include "mortise/mesh/sets.hpp"
-#include "mortise/simulation/quantity_kinds.hpp"
+#include "mortise/simulation/quantities/quantity_kinds.hpp"
 
 namespace mortise::test {
 

@@ -1,4 +1,4 @@
-#include "mortise/simulation/read_scene.hpp"
+#include "mortise/simulation/scene/read_scene.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,8 +8,7 @@
 #include <fstream>
 
 #include "mortise/core/parameter_tree.hpp"
-#include "mortise/simulation/describe_scene.hpp"
-#include "mortise/simulation/model.hpp"
+#include "mortise/simulation/model/model.hpp"
 
 namespace mortise {
 namespace {
@@ -124,14 +123,6 @@ TEST_F(ReadScene, EverythingSpelledOutReadsBackAsTheSame) {
   const std::string once = spelled_out(scene);
   Scene again = read(once);
   EXPECT_EQ(spelled_out(again), once);
-}
-
-TEST(DescribeScene, EveryListHasItsPage) {
-  const auto pages = reference_pages();
-  ASSERT_GT(pages.size(), 10u);
-  for (const auto& page : pages) EXPECT_FALSE(page.content.empty()) << page.file;
-  for (const auto& topic : choice_topics()) EXPECT_FALSE(list_choices(topic).empty()) << topic;
-  EXPECT_THROW(list_choices("animals"), InputError);
 }
 
 }  // namespace

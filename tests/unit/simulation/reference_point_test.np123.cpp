@@ -8,7 +8,7 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 
-#include "mortise/simulation/model.hpp"
+#include "mortise/simulation/model/model.hpp"
 #include "scene_text.hpp"
 
 namespace mortise {

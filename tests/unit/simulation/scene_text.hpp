@@ -10,7 +10,7 @@
 #include <fstream>
 #include <string>
 
-#include "mortise/simulation/read_scene.hpp"
+#include "mortise/simulation/scene/read_scene.hpp"
 
 namespace mortise::test {
 

@@ -8,7 +8,7 @@
 #include "mortise/material/materials.hpp"
 #include "mortise/mesh/build_mesh.hpp"
 #include "mortise/mesh/volume_generators.hpp"
-#include "mortise/simulation/quantity_kinds.hpp"
+#include "mortise/simulation/quantities/quantity_kinds.hpp"
 
 namespace mortise {
 namespace {

@@ -1,6 +1,6 @@
 // Bodies that begin in one another: found whatever the depth, told where, refused where no side is the nearest.
 
-#include "mortise/simulation/surfaces_at_start.hpp"
+#include "mortise/simulation/model/surfaces_at_start.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -8,7 +8,7 @@
 
 #include <Tpetra_Core.hpp>
 
-#include "mortise/simulation/model.hpp"
+#include "mortise/simulation/model/model.hpp"
 #include "scene_text.hpp"
 
 namespace mortise {

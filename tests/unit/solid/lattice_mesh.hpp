@@ -38,23 +38,12 @@ inline std::vector<std::vector<LatticePoint>> cells_of_a_box(CellShape shape) {
   return tetrahedra;
 }
 
-/// The two corners that each node beyond the corners is the middle of.
-inline std::map<int, std::array<int, 2>> edges_of(CellShape shape) {
-  const CellTopology& cell = topology(shape);
-  const int corners = topology(cell.side).corners;
-  std::map<int, std::array<int, 2>> edges;
-  for (const auto& side : cell.sides)
-    for (int n = corners; n < static_cast<int>(side.size()); ++n) edges[side[n]] = {side[n - corners], side[(n - corners + 1) % corners]};
-  return edges;
-}
-
 /// The unit square or cube, each point s moved to position(s). Sides are "body/left", "body/right" (x) and "body/surface". In 2D there are also
 /// "body/bottom", "body/top" (y); in 3D "body/front", "body/back" (y) and "body/bottom", "body/top" (z). Mid-side nodes stay in the middle unless
 /// `curved`.
 inline RCP<Mesh> make_lattice_mesh(const RCP<const Communicator>& comm, CellShape shape, const std::array<int, 3>& cells,
                                    const std::function<std::array<double, 3>(const std::array<double, 3>&)>& position, bool curved) {
   const CellTopology& cell = topology(shape);
-  const auto edges = edges_of(shape);
   auto mesh = rcp(new Mesh);
   mesh->dimension = cell.dimension;
   mesh->comm = comm;
@@ -83,8 +72,8 @@ inline RCP<Mesh> make_lattice_mesh(const RCP<const Communicator>& comm, CellShap
     for (int s = 0; s < static_cast<int>(cell.sides.size()); ++s)
       for (int i = 0; i < cell.dimension; ++i)
         for (int end = 0; end < 2; ++end) {
-          const auto& side = cell.sides[s];
-          const bool outer = std::all_of(side.begin(), side.begin() + topology(cell.side).corners,
+          const CellSide& side = cell.sides[s];
+          const bool outer = std::all_of(side.nodes.begin(), side.nodes.begin() + side.corners,
                                          [&](int a) { return corners[a][i] == (end == 0 ? 0 : 2 * cells[i]); });
           if (!outer) continue;
           for (const std::string& name : {names[i][end], std::string("body/surface")}) {
@@ -103,7 +92,8 @@ inline RCP<Mesh> make_lattice_mesh(const RCP<const Communicator>& comm, CellShap
               block.connectivity.push_back(node_at(corners[a], map_point(corners[a])));
               continue;
             }
-            const auto &one = corners[edges.at(a)[0]], &other = corners[edges.at(a)[1]];
+            const auto& edge = cell.edges[a - cell.corners];
+            const auto &one = corners[edge[0]], &other = corners[edge[1]];
             LatticePoint middle;
             for (int d = 0; d < 3; ++d) middle[d] = (one[d] + other[d]) / 2;
             auto X = map_point(middle);

@@ -48,6 +48,15 @@ struct BodySetup {
   double poissons_ratio = 0.3, thickness = 0.7, distortion = 0.15;
 };
 
+/// All elements in the registry of 2D or 3D.
+inline std::vector<ElementType> elements_of(int dimension) {
+  std::vector<ElementType> found;
+  visit_each_element([&](const auto& entry) {
+    if (std::decay_t<decltype(entry)>::Cell::dimension == dimension) found.push_back(entry.type);
+  });
+  return found;
+}
+
 inline RCP<const Communicator> world() { return Tpetra::getDefaultComm(); }
 inline RCP<const Communicator> self() { return rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF)); }
 

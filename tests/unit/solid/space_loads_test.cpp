@@ -9,8 +9,6 @@
 namespace mortise {
 namespace {
 
-constexpr ElementType each_shape[] = {ElementType::h8, ElementType::tet4, ElementType::h20, ElementType::tet10};
-
 std::shared_ptr<Bodies> brick_of(ElementType element, double distortion) {
   BrickSetup setup;
   setup.element = element;
@@ -60,7 +58,7 @@ TEST(SpaceLoads, NodalForceIsTheValueAtEachNode) {
 }
 
 TEST(SpaceLoads, DeadTractionHasTheResultantOfItsIntegral) {
-  for (const ElementType element : each_shape) {
+  for (const ElementType element : elements_of(3)) {
     const auto bodies = brick_of(element, 0.0);
     DeadTractionOptions options;
     options.set.value = "body/top";
@@ -81,7 +79,7 @@ TEST(SpaceLoads, DeadTractionHoldsTheStressItStandsFor) {
   const std::vector<std::pair<std::string, Eigen::Vector3d>> sides{{"body/right", {1, 0, 0}}, {"body/left", {-1, 0, 0}},
                                                                    {"body/back", {0, 1, 0}},  {"body/front", {0, -1, 0}},
                                                                    {"body/top", {0, 0, 1}},   {"body/bottom", {0, 0, -1}}};
-  for (const ElementType element : each_shape) {
+  for (const ElementType element : elements_of(3)) {
     const auto bodies = brick_of(element, 0.0);
     const Eigen::VectorXd u = space_field(*bodies, [&](const Point3& X) -> Point3 {
       const Eigen::Vector3d moved = (F - Matrix3::Identity()) * Eigen::Map<const Eigen::Vector3d>(X.data());
@@ -103,7 +101,7 @@ TEST(SpaceLoads, DeadTractionHoldsTheStressItStandsFor) {
 }
 
 TEST(SpaceLoads, FollowerPressurePushesAgainstTheOutwardNormal) {
-  for (const ElementType element : each_shape) {
+  for (const ElementType element : elements_of(3)) {
     const auto bodies = brick_of(element, 0.0);
     FollowerPressureOptions options;
     options.set.value = "body/back";
@@ -150,15 +148,15 @@ void expect_follower_tangent(const std::shared_ptr<Bodies>& bodies, const std::s
 }
 
 TEST(SpaceLoads, FollowerPressureJacobianIsTheDerivativeOfItsForce) {
-  for (const ElementType element : each_shape)
+  for (const ElementType element : elements_of(3))
     for (const char* set : {"body/surface", "body/right"}) {
       const auto bodies = brick_of(element, 0.1);
       expect_follower_tangent(bodies, set, "t*(1+x*y*z)", bent(*bodies));
     }
 }
 
-TEST(QuadraticSidesInThePlane, CarryTractionAndFollowerPressure) {
-  for (const ElementType element : {ElementType::q8, ElementType::t6})
+TEST(SidesInThePlane, CarryTractionAndFollowerPressure) {
+  for (const ElementType element : elements_of(2))
     for (const Kinematics kinematics : {Kinematics::plane_strain, Kinematics::axisymmetric}) {
       BodySetup setup;
       setup.element = element;
@@ -181,7 +179,7 @@ TEST(QuadraticSidesInThePlane, CarryTractionAndFollowerPressure) {
 }
 
 TEST(SpaceLoads, GravityHasTheWeightOfTheBody) {
-  for (const ElementType element : each_shape) {
+  for (const ElementType element : elements_of(3)) {
     const auto bodies = brick_of(element, 0.0);
     GravityOptions options;
     options.z = Expression("-9.81*t", {});

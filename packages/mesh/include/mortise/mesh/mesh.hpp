@@ -75,6 +75,8 @@ struct Mesh {
 
   /// Local nodes of a side, in the order of the side's shape (see CellTopology::sides).
   std::vector<LocalOrdinal> side_nodes(const Side& side) const;
+  /// Shape of a side.
+  CellShape side_shape(const Side& side) const;
 };
 
 }  // namespace mortise

@@ -65,7 +65,7 @@ class VolumeComplex {
   };
   using GridPoints = boost::container::static_vector<GridPoint, most_cell_nodes>;
 
-  bool is_cut() const { return shape_ == CellShape::tetrahedron4 || shape_ == CellShape::tetrahedron10; }
+  bool is_cut() const { return topology(shape_).corners == 4; }
   int elements_per_cell() const { return is_cut() ? 6 : 1; }
   void add_entities(int dimension);
   GridPoint cell_of(GlobalOrdinal element) const;

@@ -20,11 +20,11 @@ struct LinearSolveReport {
   double relative_residual = 0.0;  ///< true one, |b - A x| / |b|
 };
 
-/// What hierarchies are made of besides the matrix, on the current configuration.
+/// What a multigrid hierarchy is made of besides the matrix, on the current configuration.
 struct NearNullSpace {
   RCP<const MultiVector> rigid_body_modes;  ///< on the dofs of the matrix
-  RCP<const MultiVector> coordinates;  ///< on the nodes, `dimension` columns; bodies `apart` from one another, so that no aggregate crosses contact
-  double apart = 0.0;                  ///< a length beside which bodies are points
+  RCP<const MultiVector> coordinates;       ///< on the nodes, `dimension` columns, with bodies moved away from one another by `separation`
+  double separation = 0.0;                  ///< a length beside which bodies are points, so that no aggregate crosses contact
 };
 
 /// What an iterative solver may ask of a system, each only if it is needed; any may be empty.
@@ -33,7 +33,7 @@ struct MultigridInput {
   std::function<Decoupling()> decoupling;          ///< of a condensed system with contact
 };
 
-/// A strategy. Collective in all its members.
+/// A way to solve linear systems of equations. Collective in all its members.
 class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
@@ -46,12 +46,12 @@ class LinearSolver {
   /// The matrix must live, unchanged, until the next call, and so must what `multigrid` looks at, which solve() asks.
   virtual void set_matrix(const RCP<const Matrix>& matrix, bool graph_changed, const MultigridInput& multigrid) = 0;
 
-  /// Relative residuals among which solve() may be told to choose; none: it is as exact as it can be.
+  /// Relative residuals that solve() may be asked for.
   struct Tolerances {
     double least;    ///< the most exact
     double largest;  ///< the least exact
   };
-  /// No value: of a direct solver.
+  /// Those of an iterative solver. A direct one has none: it is as exact as it can be.
   virtual std::optional<Tolerances> tolerances() const { return std::nullopt; }
 
   /// Solves A x = b (the first solve after set_matrix() factorises) to a relative residual of `tolerance`, or of tolerances()->least if that is

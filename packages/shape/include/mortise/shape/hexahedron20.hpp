@@ -3,7 +3,9 @@
 
 #include <array>
 
-#include "mortise/shape/cell.hpp"
+#include "mortise/shape/quadrilateral4.hpp"
+#include "mortise/shape/quadrilateral8.hpp"
+#include "mortise/shape/reference_domains.hpp"
 
 namespace mortise {
 
@@ -11,10 +13,21 @@ namespace mortise {
 /// Reference volume 8. With s_i = xi_ai xi_i:
 ///   corners                           N_a = (1 + s_1)(1 + s_2)(1 + s_3)(s_1 + s_2 + s_3 - 2) / 8
 ///   mid-side nodes, where xi_ak = 0   N_a = (1 - xi_k^2)(1 + s_l)(1 + s_m) / 4
-struct Hexahedron20 {
-  static constexpr CellShape shape = CellShape::hexahedron20;  ///< its name
-  static constexpr int dimension = 3;                          ///< number of reference coordinates
-  static constexpr int nodes = 20;                             ///< number of nodes
+struct Hexahedron20 : ReferenceCube {
+  static constexpr int nodes = 20;  ///< number of nodes
+  /// Bottom, top, front (y = -1), right (x = 1), back, left.
+  static constexpr std::array<SideNodes<Quadrilateral8>, 6> sides{{{{0, 3, 2, 1, 11, 10, 9, 8}},
+                                                                   {{4, 5, 6, 7, 12, 13, 14, 15}},
+                                                                   {{0, 1, 5, 4, 8, 17, 12, 16}},
+                                                                   {{1, 2, 6, 5, 9, 18, 13, 17}},
+                                                                   {{2, 3, 7, 6, 10, 19, 14, 18}},
+                                                                   {{3, 0, 4, 7, 11, 16, 15, 19}}}};
+  static constexpr int stiffness_points = 27;    ///< of the rule for the stiffness
+  static constexpr int jacobian_points = 27;     ///< of the rule where det J is looked at
+  static constexpr int midpoint_directions = 1;  ///< directions of a lattice in which a node is a midpoint
+  using Profile = Quadrilateral8;                ///< below cells that a sweep makes
+  using MiddleProfile = Quadrilateral4;          ///< whose nodes lie half way up
+  static constexpr int xdmf_number = 48;         ///< in a mixed topology
 
   /// Shape functions N_a at a reference point.
   template <class T>
@@ -63,7 +76,6 @@ struct Hexahedron20 {
        {0.0, -1.0, -1.0},  {1.0, 0.0, -1.0},  {0.0, 1.0, -1.0}, {-1.0, 0.0, -1.0},   // edges of the bottom
        {0.0, -1.0, 1.0},   {1.0, 0.0, 1.0},   {0.0, 1.0, 1.0},  {-1.0, 0.0, 1.0},    // of the top
        {-1.0, -1.0, 0.0},  {1.0, -1.0, 0.0},  {1.0, 1.0, 0.0},  {-1.0, 1.0, 0.0}}};  // upright
-  static constexpr std::array<double, 3> centroid{0.0, 0.0, 0.0};                    ///< reference coordinates
 
  private:
   /// Of the edge that node a >= 8 is the middle of.

@@ -3,16 +3,24 @@
 
 #include <array>
 
-#include "mortise/shape/cell.hpp"
+#include "mortise/shape/quadrilateral4.hpp"
+#include "mortise/shape/reference_domains.hpp"
 
 namespace mortise {
 
 /// Trilinear hexahedron on [-1, 1]^3: the bottom's corners (those of Quadrilateral4 at zeta = -1), then the top's;
 /// N_a = (1 + xi_a xi)(1 + eta_a eta)(1 + zeta_a zeta) / 8. Reference volume 8.
-struct Hexahedron8 {
-  static constexpr CellShape shape = CellShape::hexahedron8;  ///< its name
-  static constexpr int dimension = 3;                         ///< number of reference coordinates
-  static constexpr int nodes = 8;                             ///< number of nodes
+struct Hexahedron8 : ReferenceCube {
+  static constexpr int nodes = 8;  ///< number of nodes
+  /// Bottom, top, front (y = -1), right (x = 1), back, left.
+  static constexpr std::array<SideNodes<Quadrilateral4>, 6> sides{
+      {{{0, 3, 2, 1}}, {{4, 5, 6, 7}}, {{0, 1, 5, 4}}, {{1, 2, 6, 5}}, {{2, 3, 7, 6}}, {{3, 0, 4, 7}}}};
+  static constexpr int stiffness_points = 8;     ///< of the rule for the stiffness
+  static constexpr int jacobian_points = 8;      ///< of the rule where det J is looked at
+  static constexpr int midpoint_directions = 0;  ///< directions of a lattice in which a node is a midpoint
+  using Profile = Quadrilateral4;                ///< below cells that a sweep makes
+  using MiddleProfile = void;                    ///< whose nodes lie half way up
+  static constexpr int xdmf_number = 9;          ///< in a mixed topology
 
   /// Shape functions N_a at a reference point.
   template <class T>
@@ -46,7 +54,6 @@ struct Hexahedron8 {
                                                                         {1.0, -1.0, 1.0},
                                                                         {1.0, 1.0, 1.0},
                                                                         {-1.0, 1.0, 1.0}}};
-  static constexpr std::array<double, 3> centroid{0.0, 0.0, 0.0};  ///< reference coordinates
 };
 
 }  // namespace mortise

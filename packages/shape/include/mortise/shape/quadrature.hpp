@@ -4,8 +4,6 @@
 #include <array>
 #include <vector>
 
-#include "mortise/shape/cell.hpp"
-
 namespace mortise {
 
 /// A point of a rule on a reference line, [-1, 1].
@@ -18,10 +16,10 @@ struct LinePoint {
 /// Throws std::invalid_argument for points < 1.
 std::vector<LinePoint> gauss_legendre(int points);
 
-/// A point of a rule on a 2D or 3D reference cell. The weights sum to the cell's reference area or volume.
+/// A point of a rule on a reference cell. The weights sum to the cell's reference length, area or volume.
 struct CellPoint {
   std::array<double, 3> xi{};  ///< 0 beyond the cell's dimension
-  double weight = 0.0;         ///< share of the reference area or volume
+  double weight = 0.0;         ///< share of the reference length, area or volume
 
   /// The first coordinates, as the shape functions take them.
   template <int dimension>
@@ -45,8 +43,5 @@ std::vector<CellPoint> triangle_rule(int points);
 
 /// Rule on the tetrahedron (0,0,0), (1,0,0), (0,1,0), (0,0,1), likewise: 1 point (degree 1), 4 (degree 2), 15 (degree 5).
 std::vector<CellPoint> tetrahedron_rule(int points);
-
-/// The one of these rules on cells of that shape that has `points` points. Throws std::invalid_argument if there is none.
-std::vector<CellPoint> cell_rule(CellShape shape, int points);
 
 }  // namespace mortise

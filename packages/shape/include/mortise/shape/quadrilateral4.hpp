@@ -3,15 +3,21 @@
 
 #include <array>
 
-#include "mortise/shape/cell.hpp"
+#include "mortise/shape/line2.hpp"
+#include "mortise/shape/reference_domains.hpp"
 
 namespace mortise {
 
 /// Bilinear quadrilateral with reference nodes (-1,-1), (1,-1), (1,1), (-1,1); N_a = (1 + xi_a xi)(1 + eta_a eta) / 4. Reference area 4.
-struct Quadrilateral4 {
-  static constexpr CellShape shape = CellShape::quadrilateral4;  ///< its name
-  static constexpr int dimension = 2;                            ///< number of reference coordinates
-  static constexpr int nodes = 4;                                ///< number of nodes
+struct Quadrilateral4 : ReferenceSquare {
+  static constexpr int nodes = 4;                                                                    ///< number of nodes
+  static constexpr std::array<SideNodes<Line2>, 4> sides{{{{0, 1}}, {{1, 2}}, {{2, 3}}, {{3, 0}}}};  ///< nodes of each side
+  static constexpr int stiffness_points = 4;                                                         ///< of the rule for the stiffness
+  static constexpr int axisymmetric_stiffness_points = 4;                                            ///< of the rule for the axisymmetric stiffness
+  static constexpr int side_points = 9;          ///< of the rule for loads on a side of this shape
+  static constexpr int jacobian_points = 0;      ///< of the rule where det J is looked at
+  static constexpr int midpoint_directions = 0;  ///< directions of a lattice in which a node is a midpoint
+  static constexpr int xdmf_number = 5;          ///< in a mixed topology
 
   /// Shape functions N_a at a reference point.
   template <class T>
@@ -31,7 +37,6 @@ struct Quadrilateral4 {
 
   /// Reference coordinates of the nodes.
   static constexpr std::array<std::array<double, 2>, 4> node_positions{{{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}};
-  static constexpr std::array<double, 2> centroid{0.0, 0.0};  ///< reference coordinates
 };
 
 }  // namespace mortise

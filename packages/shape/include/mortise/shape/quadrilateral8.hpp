@@ -3,17 +3,23 @@
 
 #include <array>
 
-#include "mortise/shape/cell.hpp"
+#include "mortise/shape/line3.hpp"
+#include "mortise/shape/reference_domains.hpp"
 
 namespace mortise {
 
 /// Serendipity quadrilateral on [-1, 1]^2: the corners of Quadrilateral4, then the mid-side nodes of 01, 12, 23, 30. Reference area 4.
 ///   corners         N_a = (1 + xi_a xi)(1 + eta_a eta)(xi_a xi + eta_a eta - 1) / 4
 ///   mid-side nodes  N_a = (1 - xi^2)(1 + eta_a eta) / 2  where xi_a = 0,  (1 + xi_a xi)(1 - eta^2) / 2  where eta_a = 0
-struct Quadrilateral8 {
-  static constexpr CellShape shape = CellShape::quadrilateral8;  ///< its name
-  static constexpr int dimension = 2;                            ///< number of reference coordinates
-  static constexpr int nodes = 8;                                ///< number of nodes
+struct Quadrilateral8 : ReferenceSquare {
+  static constexpr int nodes = 8;                                                                                ///< number of nodes
+  static constexpr std::array<SideNodes<Line3>, 4> sides{{{{0, 1, 4}}, {{1, 2, 5}}, {{2, 3, 6}}, {{3, 0, 7}}}};  ///< nodes of each side
+  static constexpr int stiffness_points = 9;                                                                     ///< of the rule for the stiffness
+  static constexpr int axisymmetric_stiffness_points = 9;  ///< of the rule for the axisymmetric stiffness
+  static constexpr int side_points = 16;                   ///< of the rule for loads on a side of this shape
+  static constexpr int jacobian_points = 9;                ///< of the rule where det J is looked at
+  static constexpr int midpoint_directions = 1;            ///< directions of a lattice in which a node is a midpoint
+  static constexpr int xdmf_number = 37;                   ///< in a mixed topology
 
   /// Shape functions N_a at a reference point.
   template <class T>
@@ -53,7 +59,6 @@ struct Quadrilateral8 {
   /// Reference coordinates of the nodes.
   static constexpr std::array<std::array<double, 2>, 8> node_positions{
       {{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}, {0.0, -1.0}, {1.0, 0.0}, {0.0, 1.0}, {-1.0, 0.0}}};
-  static constexpr std::array<double, 2> centroid{0.0, 0.0};  ///< reference coordinates
 };
 
 }  // namespace mortise

@@ -5,9 +5,11 @@
 #include <vector>
 
 #include "mortise/core/types.hpp"
-#include "mortise/shape/cell.hpp"
 
 namespace mortise {
+
+/// Highest number of nodes of a side of a cell.
+inline constexpr int most_side_nodes = 8;
 
 /// Nodes of a facet, in the order of its shape. In 2D it is a line of 2 (or 3) nodes with the outward normal on the right of the direction of travel,
 /// n = (t_y, -t_x). In 3D it is a triangle of 3 (or 6) or a quadrilateral of 4 (or 8) nodes whose corners run counterclockwise seen from outside.

@@ -3,17 +3,24 @@
 
 #include <array>
 
+#include "mortise/shape/reference_domains.hpp"
 #include "mortise/shape/tetrahedron4.hpp"
+#include "mortise/shape/triangle6.hpp"
 
 namespace mortise {
 
 /// Quadratic tetrahedron: the corners of Tetrahedron4, then the mid-side nodes of the edges 01, 12, 20, 03, 13, 23. With L the functions of
 /// Tetrahedron4 the corners have N = L_a (2 L_a - 1), the mid-side nodes 4 L_a L_b. Reference volume 1/6.
-struct Tetrahedron10 {
-  static constexpr CellShape shape = CellShape::tetrahedron10;                          ///< its name
-  static constexpr int dimension = 3;                                                   ///< number of reference coordinates
-  static constexpr int nodes = 10;                                                      ///< number of nodes
-  static constexpr int edges[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};  ///< corners at the ends of each edge
+struct Tetrahedron10 : ReferenceTetrahedron {
+  static constexpr int nodes = 10;  ///< number of nodes
+  static constexpr std::array<SideNodes<Triangle6>, 4> sides{
+      {{{0, 2, 1, 6, 5, 4}}, {{0, 1, 3, 4, 8, 7}}, {{1, 2, 3, 5, 9, 8}}, {{2, 0, 3, 6, 7, 9}}}};  ///< nodes of each side
+  static constexpr int stiffness_points = 4;                                                      ///< of the rule for the stiffness
+  static constexpr int jacobian_points = 15;                                                      ///< of the rule where det J is looked at
+  static constexpr int midpoint_directions = 3;  ///< directions of a lattice in which a node is a midpoint
+  using Profile = Triangle6;                     ///< below cells that a sweep makes
+  using MiddleProfile = Triangle6;               ///< whose nodes lie half way up
+  static constexpr int xdmf_number = 38;         ///< in a mixed topology
 
   /// Shape functions N_a at a reference point.
   template <class T>
@@ -49,7 +56,6 @@ struct Tetrahedron10 {
                                                                          {0.0, 0.0, 0.5},
                                                                          {0.5, 0.0, 0.5},
                                                                          {0.0, 0.5, 0.5}}};
-  static constexpr std::array<double, 3> centroid = Tetrahedron4::centroid;  ///< reference coordinates
 };
 
 }  // namespace mortise

@@ -3,15 +3,20 @@
 
 #include <array>
 
-#include "mortise/shape/cell.hpp"
+#include "mortise/shape/reference_domains.hpp"
+#include "mortise/shape/triangle3.hpp"
 
 namespace mortise {
 
 /// Linear tetrahedron with reference nodes (0,0,0), (1,0,0), (0,1,0), (0,0,1); N = (1 - xi - eta - zeta, xi, eta, zeta). Reference volume 1/6.
-struct Tetrahedron4 {
-  static constexpr CellShape shape = CellShape::tetrahedron4;  ///< its name
-  static constexpr int dimension = 3;                          ///< number of reference coordinates
-  static constexpr int nodes = 4;                              ///< number of nodes
+struct Tetrahedron4 : ReferenceTetrahedron {
+  static constexpr int nodes = 4;                                                                                    ///< number of nodes
+  static constexpr std::array<SideNodes<Triangle3>, 4> sides{{{{0, 2, 1}}, {{0, 1, 3}}, {{1, 2, 3}}, {{2, 0, 3}}}};  ///< nodes of each side
+  static constexpr int stiffness_points = 1;     ///< of the rule for the stiffness
+  static constexpr int midpoint_directions = 0;  ///< directions of a lattice in which a node is a midpoint
+  using Profile = Triangle3;                     ///< below cells that a sweep makes
+  using MiddleProfile = void;                    ///< whose nodes lie half way up
+  static constexpr int xdmf_number = 6;          ///< in a mixed topology
 
   /// Shape functions N_a at a reference point.
   template <class T>
@@ -28,7 +33,6 @@ struct Tetrahedron4 {
 
   /// Reference coordinates of the nodes.
   static constexpr std::array<std::array<double, 3>, 4> node_positions{{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
-  static constexpr std::array<double, 3> centroid{0.25, 0.25, 0.25};  ///< reference coordinates
 };
 
 }  // namespace mortise

@@ -1,8 +1,10 @@
 #pragma once
-// What a body can be made of: kinematics, elements, and which of their combinations with a law have a meaning.
+// What a body can be made of: kinematics, elements, and which of their combinations with a law have a meaning. Holds the registry of elements.
 
 #include <memory>
+#include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -21,12 +23,55 @@ constexpr int dimension(Kinematics kinematics) { return kinematics == Kinematics
 /// F-bar takes the volume change of an element from its centre, which ends volumetric locking.
 enum class ElementFormulation { standard, f_bar };
 
+/// Elements, for run time. The order of the names means nothing.
 enum class ElementType { q4, q4_f_bar, t3, q8, t6, h8, h8_f_bar, tet4, h20, tet10 };
+
+/// A line of the registry: an element with its cell and formulation. Its loops are compiled in a source of the cell, src/cells_<cell>.cpp.
+template <class Type, ElementFormulation of_element = ElementFormulation::standard>
+struct ElementEntry {
+  using Cell = Type;                                             ///< its shape
+  static constexpr ElementFormulation formulation = of_element;  ///< how it takes the deformation
+  ElementType type;                                              ///< for run time
+  const char* name;                                              ///< in scenes
+  const char* sentence;                                          ///< what it is, for users
+};
+
+/// All elements, in the order in which users are told of them.
+inline constexpr std::tuple element_registry{
+    ElementEntry<Quadrilateral4>{ElementType::q4, "Q4", "bilinear quadrilateral; every law, the kinematics of the plane"},
+    ElementEntry<Quadrilateral4, ElementFormulation::f_bar>{ElementType::q4_f_bar, "Q4 F-bar",
+                                                            "bilinear quadrilateral with the volume change of its centre, for nearly incompressible "
+                                                            "states; finite strain, plane strain and axisymmetric"},
+    ElementEntry<Triangle3>{ElementType::t3, "T3", "linear triangle; every law, the kinematics of the plane"},
+    ElementEntry<Quadrilateral8>{ElementType::q8, "Q8", "serendipity quadrilateral of 8 nodes"},
+    ElementEntry<Triangle6>{ElementType::t6, "T6", "quadratic triangle"},
+    ElementEntry<Hexahedron8>{ElementType::h8, "H8", "trilinear hexahedron; three dimensional"},
+    ElementEntry<Hexahedron8, ElementFormulation::f_bar>{
+        ElementType::h8_f_bar, "H8 F-bar",
+        "trilinear hexahedron with the volume change of its centre, for nearly incompressible states; finite strain, three dimensional"},
+    ElementEntry<Tetrahedron4>{ElementType::tet4, "Tet4", "linear tetrahedron; three dimensional"},
+    ElementEntry<Hexahedron20>{ElementType::h20, "H20", "serendipity hexahedron of 20 nodes; three dimensional"},
+    ElementEntry<Tetrahedron10>{ElementType::tet10, "Tet10", "quadratic tetrahedron; three dimensional"}};
+
+/// visitor(entry) for each entry of the registry.
+template <class Visitor>
+void visit_each_element(Visitor&& visitor) {
+  std::apply([&](const auto&... entry) { (visitor(entry), ...); }, element_registry);
+}
+
+/// visitor(entry) for the element's entry; what it returns has one type for all elements. Call it once a block of elements.
+template <class Visitor, std::size_t place = 0>
+decltype(auto) visit_element(ElementType type, Visitor&& visitor) {
+  const auto& entry = std::get<place>(element_registry);
+  if (entry.type == type) return visitor(entry);
+  if constexpr (place + 1 < std::tuple_size_v<decltype(element_registry)>) return visit_element<Visitor&, place + 1>(type, visitor);
+  throw std::logic_error("an element that is not in the registry");
+}
 
 /// "plane strain", "plane stress", "axisymmetric", "three dimensional".
 const std::vector<std::pair<std::string, Kinematics>>& kinematics_names();
 
-/// "Q4", "Q4 F-bar", "T3", "Q8", "T6", "H8", "H8 F-bar", "Tet4", "H20", "Tet10".
+/// The names of all elements, in the order of the registry.
 const std::vector<std::pair<std::string, ElementType>>& element_names();
 
 CellShape cell_shape(ElementType type);

@@ -1,0 +1,25 @@
+#pragma once
+// Names that people choose: lists of them, file names made of them, and names that do not exist.
+
+#include <string>
+#include <vector>
+
+#include "mortise/core/parameters.hpp"
+
+namespace mortise {
+
+/// The names of the entries, in their order.
+template <class T>
+std::vector<std::string> names_of(const std::vector<Named<T>>& entries) {
+  std::vector<std::string> names;
+  for (const auto& entry : entries) names.push_back(entry.name);
+  return names;
+}
+
+/// A name that every file system takes: what may be no letter, digit or one of =,._-+ becomes an underscore.
+std::string name_for_files(std::string text);
+
+/// there is no material "stel"; did you mean "steel"? There are: "rubber", "steel"
+std::string unknown_name(const std::string& what, const std::string& name, const std::vector<std::string>& known);
+
+}  // namespace mortise

@@ -1,0 +1,73 @@
+#pragma once
+// A scene made into objects: mesh, bodies, loads, boundary conditions, contact. Only what the scene names is built.
+
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mortise/core/timers.hpp"
+#include "mortise/mesh/build_mesh.hpp"
+#include "mortise/nonlinear/semi_smooth_system.hpp"
+#include "mortise/simulation/model/surfaces_at_start.hpp"
+#include "mortise/simulation/scene/scene.hpp"
+#include "mortise/solid/bodies.hpp"
+
+namespace mortise {
+
+/// Which effect is on for what: ("finite strain", bodies), ("contact", pairs), ... in the order in which they are shown.
+using Effects = std::vector<std::pair<std::string, std::vector<std::string>>>;
+
+/// What a body remembers between the steps, over all ranks. Ranks remember their ghost elements as well.
+struct BodyHistory {
+  std::string body;
+  long bytes = 0;
+  long evaluations = 0;  ///< of forces, stiffness and history by code that knows of history
+};
+
+/// Everything that a run solves for and with.
+class Model {
+ public:
+  /// Collective. Throws InputError, on all ranks, with everything that is wrong with the scene.
+  Model(const RCP<const Communicator>& comm, const Scene& scene, const Timers& timers);
+  ~Model();
+
+  const RCP<const Mesh>& mesh() const { return mesh_; }
+  const MeshSize& size() const { return size_; }
+  const std::shared_ptr<const Bodies>& bodies() const { return bodies_; }
+  /// Null if the scene has no contact.
+  const std::shared_ptr<ContactSystem>& contact() const { return parts_.contact; }
+  /// For each owned node whether it belongs to a body that nothing but contact holds.
+  const std::vector<char>& held_by_contact_only() const { return held_by_contact_only_; }
+  /// mesh.blocks indices of the bodies on either side of each contact pair, second passes behind all pairs of the scene.
+  const std::vector<std::vector<int>>& bodies_of_pairs() const { return bodies_of_pairs_; }
+  const Effects& effects() const { return effects_; }
+  /// How the surfaces lie before anything moves.
+  const SurfacesAtStart& surfaces_at_start() const { return surfaces_at_start_; }
+
+  GlobalOrdinal dofs() const;
+  /// Slave nodes that carry a multiplier, over all ranks.
+  GlobalOrdinal slave_nodes() const;
+
+  /// What the nonlinear system is made of.
+  const SystemParts& parts() const { return parts_; }
+
+  /// How often each contribution has been evaluated on this rank, by its name.
+  std::map<std::string, long> calls() const;
+
+  /// Of all bodies, in the order of the scene. Collective.
+  std::vector<BodyHistory> histories() const;
+
+ private:
+  RCP<const Mesh> mesh_;
+  MeshSize size_;
+  std::shared_ptr<const Bodies> bodies_;
+  std::vector<char> held_by_contact_only_;
+  std::vector<std::vector<int>> bodies_of_pairs_;
+  Effects effects_;
+  SurfacesAtStart surfaces_at_start_;
+  SystemParts parts_;
+};
+
+}  // namespace mortise

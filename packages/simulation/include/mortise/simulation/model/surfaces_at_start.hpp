@@ -1,0 +1,54 @@
+#pragma once
+// Before anything has moved: which surfaces and bodies lie in one another, how deep and where, and what cannot be right.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mortise/mesh/mesh.hpp"
+#include "mortise/simulation/scene/scene.hpp"
+
+namespace mortise {
+
+/// A deepest overlap of two bodies.
+struct OverlapPlace {
+  double depth = 0.0;  ///< along the normal of the surface whose node it is: from there back to the other body's front; 0: none
+  GlobalOrdinal node = 0;
+  std::string surface;  ///< the set that the node is of
+  std::array<double, 3> place{};
+};
+
+/// "node 12 of "top/bottom" at (0, -0.24)".
+std::string to_string(int dimension, const OverlapPlace& overlap);
+
+/// What is known of a contact pair.
+struct PairAtStart {
+  OverlapPlace overlap;
+  std::optional<double> gap;    ///< without overlap: least distance along the slave's normals to the master; none: the slave sees no front of it
+  double longest = 0.0;         ///< facet of either surface
+  std::optional<double> reach;  ///< what the search reach has to be to cover the overlap, where that is more than the longest facet
+  bool is_swallowed = false;    ///< most of the slave begins within the master's body; another pair of these bodies pushes it out
+};
+
+/// Two bodies that overlap and may not touch.
+struct StrayOverlap {
+  std::string first, second;
+  OverlapPlace overlap;  ///< depth 0: one lies wholly within the other
+};
+
+struct SurfacesAtStart {
+  std::vector<PairAtStart> pairs;  ///< in the order of the scene
+  std::vector<StrayOverlap> strays;
+};
+
+/// Collective. Lines along the normals of each surface are compared with the whole surface of the other body: facets of any size and any depth count.
+/// @param length  size of the model; overlaps below 1e-6 of it are round-off of what was meant to touch
+/// @throws InputError at the pair's place:
+///   - an overlap where the scene allows none;
+///   - an overlap that a given search reach does not cover, or that reaches beyond the middle of the body that it goes into;
+///   - a slave wholly within or behind its master;
+///   - a master that turns its back.
+SurfacesAtStart examine_surfaces(const Mesh& mesh, const Scene& scene, double length);
+
+}  // namespace mortise

@@ -1,0 +1,48 @@
+#pragma once
+// What the kinds of quantities share: names of bodies and pairs, sums over ranks, the slave surface with its pressures.
+
+#include <array>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mortise/simulation/quantities/quantity_kinds.hpp"
+
+namespace mortise {
+
+const std::vector<std::pair<std::string, Component>>& component_names();
+
+/// Sum and largest over all ranks. Collective.
+double sum_over_ranks(const Mesh& mesh, double mine);
+double largest_over_ranks(const Mesh& mesh, double mine);
+
+/// Throws InputError where `component` is z in 2D.
+void require_component(const QuantityContext& context, Component component);
+
+/// Index of a body. Throws InputError at the name's place.
+LocalOrdinal find_body(const QuantityContext& context, const Located<std::string>& name);
+/// The same; an empty name is no body.
+std::optional<LocalOrdinal> find_optional_body(const QuantityContext& context, const Located<std::string>& name);
+
+/// Index of a pair; an empty name is the only pair. Throws InputError at the name's place.
+std::size_t find_pair(const QuantityContext& context, const Located<std::string>& name);
+
+/// The parameter "measure".
+void describe_measure(Parameters& parameters, TractionMeasure& measure);
+
+/// A slave facet, or half of a quadratic one, with the pressures of its ends, in the order of travel. It stands where the geometry of its pair is
+/// (current or reference configuration).
+struct PressedFacet {
+  std::array<std::array<double, 2>, 2> position{};
+  std::array<double, 2> pressure{}, shear{}, shear_bound{};
+  std::array<std::array<double, 2>, 2> traction{};  ///< [end] components of z
+  std::array<bool, 2> closed{};
+  double length() const;
+};
+
+/// The slave facets of a pair, quadratic ones in halves between their nodes, each on exactly one rank. Collective. Tractions per undeformed area are
+/// z_j D_j / A_j with D_j = int phi_j dgamma.
+std::vector<PressedFacet> pressed_facets(const QuantityContext& context, std::size_t pair, TractionMeasure measure = TractionMeasure::pair);
+
+}  // namespace mortise

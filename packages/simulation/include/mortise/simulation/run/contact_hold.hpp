@@ -1,0 +1,48 @@
+#pragma once
+// What contact holds at one state: of rigid motions, and pair by pair.
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "mortise/simulation/model/model.hpp"
+#include "mortise/simulation/model/rigid_modes.hpp"
+
+namespace mortise {
+
+/// Closed nodes of a pair, those of them that stick, over all ranks.
+struct PairHold {
+  int closed = 0, sticking = 0;
+};
+
+/// Of pairs that touch bodies of the modes.
+struct ContactHold {
+  Eigen::MatrixXd gram;         ///< [modes.count() squared] sum of the squared work of HoldingRow forces on the motions
+  std::vector<PairHold> pairs;  ///< [contact pairs]
+};
+
+/// [owned nodes x 1 + dim] body and arm for ContactSystem::holding_rows() and sliding_nodes(); arms over the sizes of the bodies.
+RCP<MultiVector> contact_places(const Mesh& mesh, const RigidModes& modes, const std::vector<Eigen::Vector3d>& x);
+
+/// At z and the displacement that contact was evaluated at last, with derivatives: `at`. Collective.
+ContactHold contact_hold(const Model& model, const RigidModes& modes, const NodePlaces& at, const Vector& z);
+
+/// Motions that a Gram matrix of what holds them leaves free: orthonormal columns [rows of gram x motions]. Bodies that hold one another are looked
+/// at together, others by themselves. A motion is free where what it costs is below hardly_held^2 of the most that another one costs. The bound is
+/// not 0 since contact normals turn with the loads, by as much as bodies are strained, and that holds nothing.
+/// @param reference  Gram matrix of what else could hold the bodies: where a body has a single motion, no other one tells what counts as little
+Eigen::MatrixXd free_motions(const Eigen::MatrixXd& gram, int per_body, double hardly_held = 1e-4, const Eigen::MatrixXd& reference = {});
+
+/// What pairs did in accepted states.
+class ContactRecord {
+ public:
+  void accept(const std::vector<PairHold>& pairs);
+  /// What pairs do now that touch any of some bodies (mesh.blocks indices), in words.
+  std::string describe(const Model& model, const std::vector<int>& bodies, const std::vector<PairHold>& now) const;
+
+ private:
+  std::vector<PairHold> last_;
+  std::vector<char> ever_closed_;
+};
+
+}  // namespace mortise

@@ -1,0 +1,37 @@
+#pragma once
+// A scene from its file to its results.
+
+#include <string>
+#include <vector>
+
+#include "mortise/core/error.hpp"
+#include "mortise/core/log.hpp"
+#include "mortise/core/types.hpp"
+
+namespace mortise {
+
+struct Scene;
+
+/// How a scene or a point file is run.
+struct RunOptions {
+  std::string scene;                  ///< file
+  std::vector<std::string> settings;  ///< "path=value", as `--set` takes them
+  std::string directory;              ///< where results go; empty: default_directory(scene)
+  bool keep = false;                  ///< refuse a directory that holds results instead of replacing them
+  Verbosity verbosity = Verbosity::normal;
+  std::string version;  ///< of the program, for the summary
+};
+
+/// results/<name of the file without its ending>.
+std::string default_directory(const std::string& file);
+
+/// Collective. Runs the scene that was read from options.scene. Leaves in the directory: summary.json, newton.csv, history.csv, effective.xml,
+/// log.txt and, if the scene names fields, fields.xdmf and fields.h5. A scene that cannot be run leaves the directory as it was. Returns done,
+/// not_converged or check_missed. Throws on all ranks: InputError, FileError, and StepFailure of kind input if an expression of the scene has no
+/// value at a later time; results until then are kept.
+ExitCode run_scene(const RCP<const Communicator>& comm, Scene scene, const RunOptions& options);
+
+/// Collective. Builds the scene's mesh and all else that a run needs, says on rank 0 what it found; solves nothing, writes nothing.
+void inspect_scene(const RCP<const Communicator>& comm, const Scene& scene, const RunOptions& options);
+
+}  // namespace mortise

@@ -1,0 +1,95 @@
+#pragma once
+// A state is accepted only if it is an equilibrium that holds.
+
+#include <functional>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mortise/nonlinear/semi_smooth_system.hpp"
+#include "mortise/simulation/model/model.hpp"
+#include "mortise/simulation/run/body_motion.hpp"
+#include "mortise/simulation/run/contact_hold.hpp"
+
+namespace mortise {
+
+/// Looks at each state that Newton's method found, for the bodies that contact alone holds. It finds which of their rigid motions nothing holds
+/// there, and how far they went along these in the step. Collective in all members.
+class StateCheck {
+ public:
+  /// @param resolution  what displacements are known to [length]
+  /// @param warn        gets what is said of motions that are free, on every rank
+  StateCheck(const Model& model, double resolution, std::function<void(const std::string&)> warn);
+
+  /// Whether a model has bodies that contact alone holds. Collective.
+  static bool is_needed(const Model& model);
+
+  /// From the accepted state `before` to `after`, where contact was evaluated last, with derivatives. Says which motions are free, each once.
+  ///
+  /// A motion that nothing holds costs nothing, so equilibrium does not say how far a body goes along it. What may have moved it within the step are
+  /// the bodies that it touches: by their own motion and by deformation. Let m be the largest motion over the step of a node of bodies that boundary
+  /// conditions hold, of a prescribed dof and of another body that contact moved. Let e be the largest deformation over the step. A body that is
+  /// carried goes no farther than m + e, plus what Newton's method leaves undetermined. Twice that is allowed, as motions of different nodes add up:
+  /// a body that turns with what carries it goes farther at its rim. A body that leaves an equilibrium for another place goes as far however small
+  /// the step is, while m and e fall with it.
+  ///
+  /// The motions are those that nothing holds in `after`, or those that nothing held in `before`. The latter count too since a body that was thrown
+  /// out of a gap may lie on an edge that holds it.
+  ///
+  /// A body that went farther may have been thrown there by an iterate on the way. In the first round of a try it is put back along its free motions,
+  /// deformed as it is: what is in one another then is closed. A body that nothing touches, neither before nor after, is put back from any distance
+  /// beyond its own deformation. If it has to go out of the way, it does so again.
+  /// @returns whether `after` is accepted; if not it is another start
+  /// @throws StepFailure(lost_contact), on every rank, for a body that went farther again, or, held or not, farther than the model is long
+  bool verify(const SemiSmoothSystem& system, const Vector& before, Vector& after, int round);
+
+  /// Whether a body, held or not, went farther than that in the state that verify() passed last. Contact that turns or levers it may take it there,
+  /// but so may a jump.
+  bool went_far() const { return went_far_; }
+
+  /// A try of a step begins.
+  void begin() { refused_.clear(); }
+  /// Why a solution of this try was refused, if one was.
+  const std::string& refused() const { return refused_; }
+
+  /// The state that verify() passed last is accepted.
+  void accept() {
+    record_.accept(pairs_);
+    free_before_ = free_;
+    touches_before_ = touches_;
+  }
+
+  /// Takes free motions of the accepted state out of the rate at which the last step of length dt, which ended at x, moved.
+  void without_free_motions(const SemiSmoothSystem& system, const Vector& x, double dt, Vector& rate) const;
+
+  const ContactRecord& record() const { return record_; }
+
+ private:
+  void say_new(const RigidModes& modes, const Eigen::MatrixXd& free, const BodyMotions& motions);
+
+  const Model& model_;
+  double resolution_;
+  std::function<void(const std::string&)> warn_;
+  std::vector<int> bodies_;
+  RCP<const MultiVector> fixed_;
+  ContactRecord record_;
+  std::vector<PairHold> pairs_;
+  std::unique_ptr<const RigidModes> modes_;     ///< of the state that verify() passed last
+  Eigen::MatrixXd free_, free_before_;          ///< free_motions() of that state, and of the one accepted last; no columns before the first
+  std::vector<char> touches_, touches_before_;  ///< [bodies] whether contact or a boundary condition held anything of them then
+  Eigen::VectorXd freely_;                      ///< its step's motion along what was free
+  std::vector<Eigen::Vector3d> middle_;
+  std::set<std::pair<int, int>> said_;
+  std::string refused_;
+  bool went_far_ = false;
+};
+
+/// mesh.blocks indices of the bodies that only contact holds. Collective.
+std::vector<int> bodies_held_by_contact_only(const Model& model);
+
+/// [owned nodes x dim] 1 where a displacement is prescribed, else 0.
+RCP<const MultiVector> prescribed_marks(const Model& model);
+
+}  // namespace mortise

@@ -1,0 +1,114 @@
+#pragma once
+// A scene: everything a run is made of, as the scene file says it. Each list of the file is one struct here.
+
+#include <string>
+#include <vector>
+
+#include "mortise/contact/contact_system.hpp"
+#include "mortise/core/parameters.hpp"
+#include "mortise/material/material_options.hpp"
+#include "mortise/mesh/mesh_options.hpp"
+#include "mortise/mesh/sets.hpp"
+#include "mortise/nonlinear/linear_solver.hpp"
+#include "mortise/nonlinear/load_stepper.hpp"
+#include "mortise/nonlinear/newton_solver.hpp"
+#include "mortise/simulation/quantities/quantity.hpp"
+#include "mortise/simulation/scene/checks.hpp"
+#include "mortise/solid/element_type.hpp"
+#include "mortise/solid/loads.hpp"
+#include "mortise/solid/prescribed_motion.hpp"
+
+namespace mortise {
+
+/// A body: what it is made of and its mesh.
+struct BodyOptions {
+  Located<bool> rigid;
+  std::vector<double> reference_point;  ///< of a rigid body: x, y(, z); empty: the middle of its box
+  Located<std::string> material;
+  ElementType element = ElementType::q4;
+  Choice<MeshOptions> mesh;
+  void describe(Parameters& parameters);
+};
+
+/// A set of nodes that follows a reference point.
+struct TieOptions {
+  Located<std::string> set;
+  std::vector<double> position;  ///< x, y(, z); empty: the middle of the set's box
+  bool rotates = true;
+  enum class Follows { all, x, y, z };
+  Follows follows = Follows::all;
+  void describe(Parameters& parameters);
+};
+
+/// A material by name; the kind of law stands behind "type".
+struct MaterialChoice {
+  Choice<MaterialOptions> law;
+  void describe(Parameters& parameters);
+};
+
+/// A load; its kind stands behind "type".
+struct LoadChoice {
+  Choice<LoadOptions> load;
+  void describe(Parameters& parameters);
+};
+
+/// What becomes of surfaces that begin in one another.
+enum class InitialOverlap {
+  interference,  ///< the overlap is the load that it is
+  error          ///< refused
+};
+
+/// Which of a pair's surfaces is the slave.
+enum class ContactRoles {
+  as_given,
+  automatic  ///< the better one
+};
+
+/// Two surfaces that may touch.
+struct ContactPairOptions {
+  Located<std::string> slave, master;
+  ContactRoles roles = ContactRoles::as_given;
+  InitialOverlap initial_overlap = InitialOverlap::interference;
+  ContactOptions contact;
+  void describe(Parameters& parameters);
+};
+
+/// What is written besides the summary.
+struct OutputOptions {
+  std::vector<std::string> fields{"displacement", "contact_pressure", "cauchy_stress"};
+  int every_step = 1;             ///< fields are written after every so many steps and at the end; 0: at the output times and the end only
+  bool contact_profiles = false;  ///< profiles.csv: contact along the arc length, at the output times and the end
+  void describe(Parameters& parameters);
+};
+
+/// A quantity; its kind stands behind "type".
+struct QuantityChoice {
+  Choice<Quantity> quantity;
+  void describe(Parameters& parameters);
+};
+
+/// A scene file's content. Variables and tables are read before all the rest and stand in `symbols`.
+struct Scene {
+  std::string name;  ///< of the scene file's outermost list
+  Symbols symbols;
+
+  Kinematics kinematics = Kinematics::plane_strain;
+  double thickness = 1.0;
+  std::vector<Named<MaterialChoice>> materials;
+  std::vector<Named<BodyOptions>> bodies;
+  std::vector<Named<SetOptions>> sets;
+  std::vector<Named<TieOptions>> reference_points;
+  std::vector<Named<BoundaryConditionOptions>> boundary_conditions;
+  std::vector<Named<LoadChoice>> loads;
+  std::vector<Named<ContactPairOptions>> contact;
+  SteppingOptions stepping;
+  NewtonOptions newton;
+  LinearSolverOptions linear_solver;
+  OutputOptions output;
+  std::vector<Named<QuantityChoice>> quantities;
+  std::vector<Named<CheckOptions>> checks;
+
+  void describe(Parameters& parameters);
+};
+
+}  // namespace mortise

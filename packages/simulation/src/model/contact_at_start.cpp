@@ -1,0 +1,77 @@
+#include "model/contact_at_start.hpp"
+
+#include <fmt/format.h>
+
+#include <Tpetra_Vector.hpp>
+
+#include "model/report_corners.hpp"
+#include "scene/roles.hpp"
+
+namespace mortise {
+namespace {
+
+/// Excess of the peak from which on a word is said.
+constexpr double noticeable = 0.2;
+
+/// Says which surface is the slave where that was left open, and warns of slaves that are stiffer and finer. Collective.
+void report_roles(const Mesh& mesh, const Scene& scene, RunLog& log) {
+  for (const auto& pair : scene.contact) {
+    const Located<std::string>&slave = pair.value.slave, &master = pair.value.master;
+    const SurfaceTraits of_slave = surface_traits(mesh, scene, slave), of_master = surface_traits(mesh, scene, master);
+    if (pair.value.roles == ContactRoles::automatic)
+      log.info(fmt::format("  contact {}: the slave is \"{}\": {}", pair.name, slave.value, better_slave(of_slave, of_master).reason));
+    if (pair.value.contact.formulation.options->two_pass()) continue;
+    const double excess = excess_of_peak(of_slave, of_master, mesh.dimension);
+    if (excess < noticeable) continue;
+    log.warning(
+        fmt::format("contact {}: the slave \"{}\" is {:.3g} times as stiff as \"{}\" and its facets are {:.3g} times as fine: few of its nodes "
+                    "bear the force, and peaks of pressure may be too high by about {:.0f} %; please exchange slave and master (\"roles\": "
+                    "\"automatic\" does), or make the master finer",
+                    pair.name, slave.value, of_slave.modulus / of_master.modulus, master.value, of_master.facet / of_slave.facet, 100.0 * excess));
+  }
+}
+
+void report_pair(const Named<ContactPairOptions>& options, const PairAtStart& pair, int dimension, RunLog& log) {
+  if (pair.overlap.depth > 0.0) {
+    const std::string text =
+        fmt::format("contact {}: the surfaces begin by up to {:.3g} in one another, deepest at {}; the first step pushes them apart{}", options.name,
+                    pair.overlap.depth, to_string(dimension, pair.overlap),
+                    pair.reach ? fmt::format("; the search reach is {:.3g} instead of {:.3g}", *pair.reach, pair.longest) : "");
+    if (pair.overlap.depth > pair.longest)
+      log.warning(fmt::format("{}. That is more than the longest facet, {:.3g}: please make sure that it is meant", text, pair.longest));
+    else
+      log.info("  " + text);
+  } else if (pair.gap) {
+    log.info(fmt::format("  contact {}: the surfaces {}", options.name, *pair.gap > 0.0 ? fmt::format("begin {:.3g} apart", *pair.gap) : "touch"));
+  }
+}
+
+// Collective.
+void report_corners_of(const Model& model, RunLog& log) {
+  std::optional<StepFailure> failure;
+  model.contact()->evaluate(Vector(model.bodies()->dofs()), false, failure);
+  try {
+    throw_if_any(*model.mesh()->comm, failure);
+  } catch (const StepFailure&) {
+    return;  // the first step says so
+  }
+  report_corners(*model.contact(), log);
+}
+
+}  // namespace
+
+void report_contact_at_start(const Model& model, const Scene& scene, RunLog& log) {
+  const SurfacesAtStart& start = model.surfaces_at_start();
+  const int dimension = model.mesh()->dimension;
+  report_roles(*model.mesh(), scene, log);
+  for (std::size_t pair = 0; pair < start.pairs.size(); ++pair) report_pair(scene.contact[pair], start.pairs[pair], dimension, log);
+  for (const StrayOverlap& stray : start.strays)
+    log.warning(fmt::format("bodies '{}' and '{}' {}, at {}, and no contact pair connects them: they pass through one another", stray.first,
+                            stray.second,
+                            stray.overlap.depth > 0.0 ? fmt::format("begin by up to {:.3g} in one another", stray.overlap.depth)
+                                                      : std::string("lie wholly in one another"),
+                            to_string(dimension, stray.overlap)));
+  if (model.contact()) report_corners_of(model, log);
+}
+
+}  // namespace mortise

@@ -1,0 +1,32 @@
+#include "model/contributions.hpp"
+
+namespace mortise {
+
+BulkContribution::BulkContribution(std::shared_ptr<Bodies> bodies, const Timers& timers)
+    : CountedContribution("bulk", timers), bodies_(std::move(bodies)) {}
+
+void BulkContribution::add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) {
+  const auto timer = count("bulk");
+  bodies_->add_internal_force(at.local_displacement, residual, failure);
+}
+
+void BulkContribution::add_jacobian(const Configuration& at, Matrix& jacobian, std::optional<StepFailure>& failure) {
+  const auto timer = count("bulk");
+  bodies_->add_stiffness(at.local_displacement, jacobian, failure);
+}
+
+LoadContribution::LoadContribution(std::string name, std::unique_ptr<Load> load, const Timers& timers)
+    : CountedContribution(std::move(name), timers), load_(std::move(load)) {}
+
+void LoadContribution::add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) {
+  const auto timer = count("loads");
+  load_->add_residual(at.time, at.local_displacement, residual, failure);
+}
+
+void LoadContribution::add_jacobian(const Configuration& at, Matrix& jacobian, std::optional<StepFailure>& failure) {
+  if (!load_->follows()) return;
+  const auto timer = count("loads");
+  load_->add_jacobian(at.time, at.local_displacement, jacobian, failure);
+}
+
+}  // namespace mortise

@@ -1,0 +1,120 @@
+#include "mortise/simulation/model/hold_check.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "model/prescribed_rows.hpp"
+#include "model/rigid_mode_names.hpp"
+#include "mortise/core/symmetric_spectrum.hpp"
+#include "mortise/simulation/model/rigid_modes.hpp"
+
+namespace mortise {
+namespace {
+
+using Position = Eigen::Vector3d;  // z = 0 in 2D
+
+/// A null vector has an eigenvalue below this, relative to the largest one.
+constexpr double rank_tolerance = 1e-12;
+
+Position position(const Mesh& mesh, LocalOrdinal node) { return Position(mesh.coordinates[node].data()); }
+
+/// Slave facets in the bounding box of the master surface, widened by the reach: what can touch at the start. Collective.
+Eigen::MatrixXd contact_gram(const Mesh& mesh, const RigidModes& modes, const HoldingPair& pair) {
+  const auto nodes_of = [&](const SurfaceFacet& facet) {
+    Facet<LocalOrdinal> nodes;
+    for (const GlobalOrdinal node : facet) nodes.push_back(mesh.local_nodes->getLocalElement(node));
+    return nodes;
+  };
+  // (x, y, z, -x, -y, -z) of the master nodes, largest facet, body of the master: largest over all ranks.
+  std::array<double, 8> mine, all;
+  mine.fill(-std::numeric_limits<double>::max());
+  for (const auto* facets : {pair.slave, pair.master})
+    for (const auto& facet : *facets) {
+      const auto nodes = nodes_of(facet);
+      for (const LocalOrdinal node : nodes) mine[6] = std::max(mine[6], (position(mesh, node) - position(mesh, nodes[0])).norm());
+    }
+  for (const auto& facet : *pair.master)
+    for (const LocalOrdinal node : nodes_of(facet)) {
+      const Position x = position(mesh, node);
+      for (int i = 0; i < 3; ++i) mine[i] = std::max(mine[i], x(i)), mine[3 + i] = std::max(mine[3 + i], -x(i));
+      mine[7] = std::max<double>(mine[7], mesh.body_of_node[node]);
+    }
+  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, 8, mine.data(), all.data());
+  const double reach = pair.reach > 0.0 ? pair.reach : all[6];
+  const int master_body = static_cast<int>(all[7]);
+
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(modes.count(), modes.count());
+  for (const auto& facet : *pair.slave) {
+    const auto nodes = nodes_of(facet);
+    const std::size_t corners = mesh.dimension == 2 ? 2 : nodes.size() % 4 == 0 ? 4 : 3;
+    Position middle = Position::Zero();
+    for (std::size_t corner = 0; corner < corners; ++corner) middle += position(mesh, nodes[corner]) / static_cast<double>(corners);
+    bool near = true;
+    for (int i = 0; i < 3; ++i) near = near && middle(i) <= all[i] + reach && -middle(i) <= all[3 + i] + reach;
+    if (!near) continue;
+    const auto x = [&](std::size_t corner) { return position(mesh, nodes[corner % corners]); };
+    const Position area = mesh.dimension == 2 ? (x(1) - x(0)).cross(Position::UnitZ()) : (x(2) - x(0)).cross(x(3) - x(1));
+    const Position normal = area.normalized();
+    std::vector<Position> held{normal};
+    if (pair.rubs) held = {Position::UnitX(), Position::UnitY(), Position::UnitZ()};
+    for (const Position& direction : held) {
+      Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(modes.count());
+      modes.add(mesh.body_of_node[nodes[0]], middle, direction, row);
+      modes.add(master_body, middle, -direction, row);
+      gram += row.transpose() * row;
+    }
+  }
+  return gram;
+}
+
+Eigen::MatrixXd sum_over_ranks(const Mesh& mesh, const Eigen::MatrixXd& gram) {
+  Eigen::MatrixXd sum(gram.rows(), gram.cols());
+  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, static_cast<int>(gram.size()), gram.data(), sum.data());
+  return sum;
+}
+
+/// Columns span the null space.
+Eigen::MatrixXd null_space(const Eigen::MatrixXd& gram) {
+  const SymmetricSpectrum spectrum = symmetric_spectrum(gram);
+  const double bound = std::max(rank_tolerance * spectrum.values.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
+  const auto count = (spectrum.values.array() < bound).count();
+  return spectrum.vectors.leftCols(count);
+}
+
+}  // namespace
+
+std::vector<char> check_held(const Mesh& mesh, bool axisymmetric, const MultiVector& fixed, const std::vector<HoldingPair>& pairs,
+                             const std::vector<Place>& body_places) {
+  std::vector<int> bodies(mesh.blocks.size());
+  std::iota(bodies.begin(), bodies.end(), 0);
+  const NodePlaces at = node_places(mesh, nullptr);
+  const RigidModes modes(mesh, axisymmetric, std::move(bodies), at.x);
+  const Eigen::MatrixXd prescribed = sum_over_ranks(mesh, prescribed_gram(mesh, modes, at, fixed));
+  Eigen::MatrixXd contact = Eigen::MatrixXd::Zero(modes.count(), modes.count());
+  for (const auto& pair : pairs) contact += contact_gram(mesh, modes, pair);
+
+  std::vector<Diagnostic> diagnostics;
+  for (const auto& [body, mode] : distinct_modes(null_space(prescribed + sum_over_ranks(mesh, contact)), modes.per_body()))
+    diagnostics.push_back(
+        {body_places[body], fmt::format("body '{}' can move: {}; neither boundary conditions nor contact hold it; contact holds where a slave "
+                                        "facet is within reach at the start, along its normal, and with friction along the surface",
+                                        mesh.blocks[body].name, modes.name(mode))});
+  if (!diagnostics.empty()) throw InputError(diagnostics);
+
+  std::vector<char> only_contact;
+  for (Eigen::Index body = 0; body < static_cast<Eigen::Index>(mesh.blocks.size()); ++body) {
+    const auto block = prescribed.block(modes.per_body() * body, modes.per_body() * body, modes.per_body(), modes.per_body());
+    only_contact.push_back(null_space(block).cols() > 0);
+  }
+  return only_contact;
+}
+
+}  // namespace mortise

@@ -1,0 +1,311 @@
+#include "mortise/simulation/model/model.hpp"
+
+#include <fmt/format.h>
+
+#include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_CrsGraph.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
+#include <Tpetra_Vector.hpp>
+#include <algorithm>
+
+#include "model/contributions.hpp"
+#include "model/precision.hpp"
+#include "mortise/material/materials.hpp"
+#include "mortise/simulation/model/hold_check.hpp"
+#include "mortise/simulation/model/mesh_limits.hpp"
+#include "mortise/simulation/scene/scene_bodies.hpp"
+
+namespace mortise {
+namespace {
+
+/// Runs the parts of the construction one after the other and keeps what each of them finds wrong.
+class Collector {
+ public:
+  template <class Function>
+  void operator()(const Function& function) {
+    try {
+      function();
+    } catch (const InputError& error) {
+      diagnostics_.insert(diagnostics_.end(), error.diagnostics().begin(), error.diagnostics().end());
+    }
+  }
+  /// Collective.
+  void throw_found(const Communicator& comm) const { throw_if_any(comm, diagnostics_); }
+
+ private:
+  std::vector<Diagnostic> diagnostics_;
+};
+
+const MaterialChoice& material_of(const Scene& scene, const BodyOptions& body) {
+  const auto found = std::find_if(scene.materials.begin(), scene.materials.end(), [&](const auto& m) { return m.name == body.material.value; });
+  return found->value;
+}
+
+/// Points of the rigid bodies, then those of the scene.
+std::vector<ReferencePointDescription> reference_points(const Scene& scene) {
+  const bool axisymmetric = scene.kinematics == Kinematics::axisymmetric;
+  const auto position = [](const std::vector<double>& given) {
+    return given.empty() ? std::nullopt : std::optional<std::array<double, 3>>({given[0], given[1], given.size() > 2 ? given[2] : 0.0});
+  };
+  std::vector<ReferencePointDescription> points;
+  for (const auto& body : scene.bodies)
+    if (body.value.rigid.value) points.push_back({body.name + "/reference", body.place, !axisymmetric, position(body.value.reference_point)});
+  for (const auto& tie : scene.reference_points)
+    points.push_back({tie.name, tie.place, tie.value.rotates && !axisymmetric, position(tie.value.position)});
+  return points;
+}
+
+void tie(Mesh& mesh, const Scene& scene) {
+  std::size_t point = 0;
+  Collector collect;
+  for (const auto& body : scene.bodies)
+    if (body.value.rigid.value) {
+      collect([&] { add_followers(mesh, point, {body.name, body.place}, {true, true, true}); });
+      ++point;
+    }
+  for (const auto& tie : scene.reference_points) {
+    using Follows = TieOptions::Follows;
+    const Follows follows = tie.value.follows;
+    // The nodes of a ring cannot share a radial displacement and stay a rigid ring.
+    const bool all = follows == Follows::all, x = follows == Follows::x || (all && scene.kinematics != Kinematics::axisymmetric);
+    collect([&] { add_followers(mesh, point, tie.value.set, {x, all || follows == Follows::y, all || follows == Follows::z}); });
+    ++point;
+  }
+  collect.throw_found(*mesh.comm);
+}
+
+RCP<Mesh> make_mesh(const RCP<const Communicator>& comm, const Scene& scene) {
+  const auto mesh = build_mesh(comm, body_descriptions(scene), contact_sides(scene), reference_points(scene));
+  Collector collect;
+  for (const auto& set : scene.sets) collect([&] { add_set(*mesh, set); });
+  collect.throw_found(*comm);
+  tie(*mesh, scene);
+  return mesh;
+}
+
+/// From `origin` on.
+RCP<MultiVector> reference_positions(const Mesh& mesh, const std::array<double, 3>& origin) {
+  const auto positions = rcp(new MultiVector(mesh.owned_nodes, static_cast<std::size_t>(mesh.dimension)));
+  const auto view = positions->getLocalViewHost(Tpetra::Access::OverwriteAll);
+  for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node)
+    for (int i = 0; i < mesh.dimension; ++i) view(node, i) = mesh.coordinates[node][i] - origin[i];
+  return positions;
+}
+
+/// `mark` in the components of owned nodes that are `dofs`, 0 elsewhere.
+RCP<MultiVector> marked_components(const Mesh& mesh, const std::vector<LocalOrdinal>& dofs, double mark) {
+  const auto marks = rcp(new MultiVector(mesh.owned_nodes, static_cast<std::size_t>(mesh.dimension)));
+  const auto view = marks->getLocalViewHost(Tpetra::Access::ReadWrite);
+  for (const LocalOrdinal dof : dofs) view(dof / mesh.dimension, dof % mesh.dimension) = mark;
+  return marks;
+}
+
+/// Young's modulus of the softest deformable body with a facet in `facets`, over all ranks; the largest number if all are rigid.
+double softest(const Mesh& mesh, const Bodies& bodies, const SurfaceFacets& facets) {
+  double mine = std::numeric_limits<double>::max(), least = mine;
+  for (const auto& facet : facets) {
+    const int body = mesh.body_of_node[mesh.local_nodes->getLocalElement(facet[0])];
+    if (!bodies.properties()[body].is_rigid()) mine = std::min(mine, bodies.properties()[body].material->youngs_modulus);
+  }
+  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MIN, mine, Teuchos::outArg(least));
+  return least;
+}
+
+/// Collective.
+ContactPair make_pair(const Mesh& mesh, const Bodies& bodies, const Named<ContactPairOptions>& options, const Located<std::string>& slave,
+                      const Located<std::string>& master) {
+  ContactPair pair;
+  pair.name = options.name;
+  pair.place = options.place;
+  pair.options = options.value.contact;
+  Collector collect;
+  collect([&] { pair.slave = facets_at_owned_nodes(mesh, require_side_set(mesh, slave)); });
+  collect([&] { pair.master = facets_of_owned_elements(mesh, require_side_set(mesh, master)); });
+  collect.throw_found(*mesh.comm);
+  pair.youngs_modulus = std::min(softest(mesh, bodies, pair.slave), softest(mesh, bodies, pair.master));
+  return pair;
+}
+
+/// mesh.blocks indices of the bodies of each pair. Collective.
+std::vector<std::vector<int>> bodies_of(const Mesh& mesh, const std::vector<ContactPair>& pairs) {
+  const std::size_t blocks = mesh.blocks.size();
+  std::vector<int> mine(pairs.size() * blocks, 0), all(mine.size());
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    for (const auto* facets : {&pairs[p].slave, &pairs[p].master})
+      for (const auto& facet : *facets) mine[blocks * p + mesh.body_of_node[mesh.local_nodes->getLocalElement(facet[0])]] = 1;
+  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, static_cast<int>(mine.size()), mine.data(), all.data());
+  std::vector<std::vector<int>> bodies(pairs.size());
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    for (std::size_t body = 0; body < blocks; ++body)
+      if (all[blocks * p + body]) bodies[p].push_back(static_cast<int>(body));
+  return bodies;
+}
+
+// The iteration that pushes surfaces apart that overlap by d leaves pressures of E d / L, L the size of the bodies, and gaps of second order, d^2 / 2
+// R. Nodes stay closed through it if c_n A < 2 E R / (L d); half of E / d is that for R = L / 4. Beside it E / h of short facets makes all nodes
+// open, and close again, for ever.
+void take_up(const PairAtStart& start, ContactPair& pair) {
+  if (!start.reach) return;
+  pair.options.mortar.search_reach = start.reach;
+  constexpr double share = 0.5;
+  auto& constant = pair.options.complementarity_constant;
+  if (!constant && !pair.options.formulation.options->regularisation()) constant = share * pair.youngs_modulus / start.overlap.depth;
+}
+
+Effects effects_of(const Scene& scene, const Bodies& bodies) {
+  std::vector<std::string> finite, small, f_bar, plastic, pairs, rubbing, loads, conditions;
+  std::vector<std::string> rigid, ties;
+  for (const auto& tie : scene.reference_points) ties.push_back(tie.name);
+  for (const auto& body : bodies.properties()) {
+    if (body.is_rigid()) {
+      rigid.push_back(body.name);
+      continue;
+    }
+    const bool small_strain = std::visit([](const auto& law) { return law.small_strain; }, body.material->law());
+    (small_strain ? small : finite).push_back(body.name);
+    if (formulation(body.element) == ElementFormulation::f_bar) f_bar.push_back(body.name);
+    if (std::visit([](const auto& law) { return has_history<std::decay_t<decltype(law)>>; }, body.material->law())) plastic.push_back(body.name);
+  }
+  for (const auto& pair : scene.contact) {
+    pairs.push_back(pair.name);
+    if (pair.value.contact.friction.options->acts()) rubbing.push_back(pair.name);
+  }
+  for (const auto& load : scene.loads) loads.push_back(load.name);
+  for (const auto& condition : scene.boundary_conditions) conditions.push_back(condition.name);
+  return {
+      {"finite strain", finite}, {"small strain", small}, {"F-bar", f_bar},           {"plasticity", plastic}, {"contact", pairs},
+      {"friction", rubbing},     {"rigid bodies", rigid}, {"reference points", ties}, {"loads", loads},        {"boundary conditions", conditions}};
+}
+
+LinearSystemTraits traits_of(const Scene& scene, const Map& dofs) {
+  LinearSystemTraits traits;
+  traits.unknowns = static_cast<GlobalOrdinal>(dofs.getGlobalNumElements());
+  traits.dimension = dimension(scene.kinematics);
+  for (const auto& tie : scene.reference_points)
+    if (tie.value.follows != TieOptions::Follows::all)
+      traits.not_iterative = fmt::format(
+          "the iterative solver needs all components of a node as unknowns, but nodes follow \"{}\" in one component; take \"mumps\"", tie.name);
+  for (const auto& pair : scene.contact)
+    if (pair.value.contact.formulation.options->elimination() == Elimination::none)
+      traits.not_iterative =
+          fmt::format("the iterative solver does not know the saddle point system of \"{}\"; take \"mumps\"", pair.value.contact.formulation.type);
+  return traits;
+}
+
+// Rings have no radius beyond the axis. Collective.
+void refuse_beyond_axis(const Mesh& mesh, double length, const std::vector<Place>& places) {
+  std::vector<double> mine(places.size(), 0.0), least(mine);
+  for (LocalOrdinal node = 0; node < mesh.owned_body_count(); ++node) {
+    const auto body = mesh.body_of_node[node];
+    const bool is_rigid = topology(mesh.blocks[body].shape).dimension < mesh.dimension;
+    if (!is_rigid) mine[body] = std::min(mine[body], mesh.coordinates[node][0]);
+  }
+  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MIN, static_cast<int>(mine.size()), mine.data(), least.data());
+  std::vector<Diagnostic> diagnostics;
+  for (std::size_t body = 0; body < places.size(); ++body)
+    if (least[body] < -1e-9 * length)
+      diagnostics.push_back({places[body], fmt::format("body '{}' reaches x = {:.6g}, beyond the axis of an axisymmetric scene; allowed: x >= 0",
+                                                       mesh.blocks[body].name, least[body])});
+  if (!diagnostics.empty()) throw InputError(diagnostics);
+}
+
+}  // namespace
+
+Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Timers& timers) {
+  {
+    const auto timer = timers.scope("mesh");
+    refuse_too_large(*comm, scene);
+    mesh_ = make_mesh(comm, scene);
+    size_ = mesh_size(*mesh_);
+  }
+  std::vector<BodyProperties> properties;
+  std::vector<Place> places;
+  for (const auto& body : scene.bodies) {
+    properties.push_back({body.name, body.place, body.value.rigid.value ? nullptr : material_of(scene, body.value).law.options, body.value.element});
+    places.push_back(body.place);
+  }
+  if (scene.kinematics == Kinematics::axisymmetric) refuse_beyond_axis(*mesh_, size_.length, places);
+  const auto bodies = std::make_shared<Bodies>(mesh_, scene.kinematics, scene.thickness, properties);
+  bodies_ = bodies;
+  effects_ = effects_of(scene, *bodies_);
+
+  parts_.dofs = bodies_->dofs();
+  parts_.local_dofs = bodies_->local_dofs();
+  parts_.bulk_graph = [bodies] { return bodies->graph(); };
+  parts_.length = size_.length;
+  parts_.near_null_space = [bodies = bodies_, apart = 1e6 * size_.length](const Vector& displacement) {
+    const RCP<MultiVector> coordinates = current_coordinates(*bodies, displacement);
+    const auto x = coordinates->getLocalViewHost(Tpetra::Access::ReadWrite);
+    for (std::size_t node = 0; node < x.extent(0); ++node) x(node, 0) += apart * bodies->mesh()->body_of_node[node];
+    return NearNullSpace{rigid_body_modes(*bodies, displacement), coordinates, apart};
+  };
+  parts_.contributions.push_back(std::make_shared<BulkContribution>(bodies, timers));
+
+  Collector collect;
+  for (const auto& load : scene.loads)
+    collect([&] { parts_.contributions.push_back(std::make_shared<LoadContribution>(load.name, load.value.load.options->make(bodies_), timers)); });
+  collect([&] { parts_.prescribed = std::make_shared<PrescribedBoundary>(PrescribedMotion(*bodies_, scene.boundary_conditions)); });
+  std::vector<ContactPair> pairs;
+  for (const auto& pair : scene.contact) collect([&] { pairs.push_back(make_pair(*mesh_, *bodies_, pair, pair.value.slave, pair.value.master)); });
+  for (std::size_t first = 0; first < scene.contact.size(); ++first) {  // second passes behind all pairs of the scene
+    const auto& pair = scene.contact[first];
+    if (!pair.value.contact.formulation.options->two_pass()) continue;
+    collect([&] {
+      pairs.push_back(make_pair(*mesh_, *bodies_, pair, pair.value.master, pair.value.slave));
+      pairs.back().second_pass_of = first;
+    });
+  }
+  collect([&] { parts_.linear_solver = make_linear_solver(scene.linear_solver, comm, timers, traits_of(scene, *parts_.dofs)); });
+  collect.throw_found(*comm);
+  if (!mesh_->reference_points.empty()) parts_.dependent = std::make_shared<TiedNodes>(*bodies_, parts_.prescribed->dofs());
+
+  // None of the dofs that follow is prescribed.
+  const auto fixed = marked_components(*mesh_, parts_.prescribed->dofs(), 1.0), kept = rcp(new MultiVector(*fixed, Teuchos::Copy));
+  if (parts_.dependent) kept->update(1.0, *marked_components(*mesh_, parts_.dependent->dofs(), 2.0), 1.0);
+  const bool axisymmetric = scene.kinematics == Kinematics::axisymmetric;
+  surfaces_at_start_ = examine_surfaces(*mesh_, scene, size_.length);
+  for (std::size_t p = 0; p < pairs.size(); ++p) take_up(surfaces_at_start_.pairs[pairs[p].second_pass_of.value_or(p)], pairs[p]);
+  std::vector<HoldingPair> holding;
+  for (const auto& pair : pairs)
+    holding.push_back({&pair.slave, &pair.master, pair.options.mortar.search_reach.value_or(0.0), pair.options.friction.options->acts()});
+  const auto only_contact = check_held(*mesh_, axisymmetric, *fixed, holding, places);
+  for (LocalOrdinal node = 0; node < mesh_->owned_count(); ++node) held_by_contact_only_.push_back(only_contact[mesh_->body_of_node[node]]);
+
+  if (pairs.empty()) return;
+  bodies_of_pairs_ = bodies_of(*mesh_, pairs);
+  const InterfaceMeasure measure{axisymmetric, scene.thickness};
+  parts_.contact = std::make_shared<ContactSystem>(mesh_->owned_nodes, bodies_->dofs(),
+                                                   reference_positions(*mesh_, contact_origin(*mesh_, size_.length, axisymmetric)), kept, measure,
+                                                   std::move(pairs), timers);
+}
+
+Model::~Model() = default;
+
+GlobalOrdinal Model::dofs() const { return static_cast<GlobalOrdinal>(parts_.dofs->getGlobalNumElements()); }
+
+GlobalOrdinal Model::slave_nodes() const {
+  return parts_.contact ? static_cast<GlobalOrdinal>(parts_.contact->multiplier_map()->getGlobalNumElements()) / mesh_->dimension : 0;
+}
+
+std::map<std::string, long> Model::calls() const {
+  std::map<std::string, long> calls;
+  for (const auto& contribution : parts_.contributions) calls[contribution->name()] += static_cast<const CountedContribution&>(*contribution).calls();
+  return calls;
+}
+
+std::vector<BodyHistory> Model::histories() const {
+  const auto blocks = static_cast<LocalOrdinal>(mesh_->blocks.size());
+  std::vector<double> mine(2 * blocks), all(2 * blocks);
+  for (LocalOrdinal block = 0; block < blocks; ++block) {
+    mine[2 * block] = static_cast<double>(bodies_->history_bytes(block));
+    mine[2 * block + 1] = static_cast<double>(bodies_->history_evaluations(block));
+  }
+  Teuchos::reduceAll(*mesh_->comm, Teuchos::REDUCE_SUM, 2 * blocks, mine.data(), all.data());
+  std::vector<BodyHistory> histories;
+  for (LocalOrdinal block = 0; block < blocks; ++block)
+    histories.push_back({mesh_->blocks[block].name, static_cast<long>(all[2 * block]), static_cast<long>(all[2 * block + 1])});
+  return histories;
+}
+
+}  // namespace mortise

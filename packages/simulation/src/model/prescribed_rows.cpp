@@ -1,0 +1,90 @@
+#include "model/prescribed_rows.hpp"
+
+#include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_MultiVector.hpp>
+
+#include "mortise/solid/rotation_vector.hpp"
+
+namespace mortise {
+namespace {
+
+using Eigen::Vector3d;
+
+void add_nodes(const Mesh& mesh, const RigidModes& modes, const NodePlaces& at, const MultiVector& fixed, Eigen::MatrixXd& gram) {
+  const auto values = fixed.getLocalViewHost(Tpetra::Access::ReadOnly);
+  const int size = modes.per_body();
+  for (LocalOrdinal node = 0; node < mesh.owned_body_count(); ++node) {
+    const int body = mesh.body_of_node[node], b = modes.number(body);
+    for (int i = 0; i < mesh.dimension && b >= 0; ++i) {
+      if (values(node, i) == 0.0) continue;
+      Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(modes.count());
+      modes.add(body, at.x[node], Vector3d::Unit(i), row);
+      const Eigen::RowVectorXd own = row.segment(size * b, size);
+      gram.block(size * b, size * b, size, size) += own.transpose() * own;
+    }
+  }
+}
+
+/// What a point that turns with its followers holds of their body: the motion at the point, where prescribed. In 3D the rates of the components of
+/// the rotation vector are T^-1 times the spin.
+void add_turning_point(const Mesh& mesh, const RigidModes& modes, const NodePlaces& at, const MultiVector& fixed, std::size_t p,
+                       Eigen::MatrixXd& gram) {
+  const ReferencePoint& point = mesh.reference_points[p];
+  if (point.node >= mesh.owned_count()) return;
+  const auto values = fixed.getLocalViewHost(Tpetra::Access::ReadOnly);
+  const int body = mesh.body_of_node[point.node];
+  const auto hold = [&](const auto& add) {
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(modes.count());
+    add(row);
+    gram += row.transpose() * row;
+  };
+  for (int i = 0; i < mesh.dimension; ++i)
+    if (values(point.node, i) != 0.0) hold([&](Eigen::RowVectorXd& row) { modes.add(body, at.x[point.node], Vector3d::Unit(i), row); });
+  for (int i = 0; point.rotation_node >= 0 && i < modes.rotations(); ++i) {
+    if (values(point.rotation_node, i) == 0.0) continue;
+    const Vector3d axis = mesh.dimension == 2 ? Vector3d(Vector3d::UnitZ()) : spatial_moment(at.turned[p], Vector3d::Unit(i));
+    if (axis.allFinite()) hold([&](Eigen::RowVectorXd& row) { modes.add_rotation(body, axis, row); });
+  }
+}
+
+/// What a shared translation holds: with m_i the motion of follower i in a component, sum (m_i - mean)(m_i - mean)^T, and mean mean^T where the
+/// point is prescribed. Collective; the result counts on the rank of the point.
+void add_shared_translation(const Mesh& mesh, const RigidModes& modes, const NodePlaces& at, const MultiVector& fixed, const ReferencePoint& point,
+                            Eigen::MatrixXd& gram) {
+  const auto values = fixed.getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (int i = 0; i < mesh.dimension; ++i) {
+    if (!point.follows[i]) continue;
+    // Products of (1, m): the count, the sum, the sum of products.
+    Eigen::MatrixXd mine = Eigen::MatrixXd::Zero(1 + modes.count(), 1 + modes.count()), all = mine;
+    for (const LocalOrdinal node : point.followers) {
+      if (node >= mesh.owned_count()) continue;
+      Eigen::RowVectorXd motion = Eigen::RowVectorXd::Zero(modes.count()), row(1 + modes.count());
+      modes.add(mesh.body_of_node[node], at.x[node], Vector3d::Unit(i), motion);
+      row << 1.0, motion;
+      mine += row.transpose() * row;
+    }
+    Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), all.data());
+    if (point.node >= mesh.owned_count()) continue;
+    const Eigen::RowVectorXd mean = all.row(0).tail(modes.count()) / all(0, 0);
+    gram += all.bottomRightCorner(modes.count(), modes.count()) - all(0, 0) * mean.transpose() * mean;
+    if (values(point.node, i) != 0.0) gram += mean.transpose() * mean;
+  }
+}
+
+}  // namespace
+
+Eigen::MatrixXd prescribed_gram(const Mesh& mesh, const RigidModes& modes, const NodePlaces& at, const MultiVector& fixed) {
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(modes.count(), modes.count());
+  add_nodes(mesh, modes, at, fixed, gram);
+  for (std::size_t p = 0; p < mesh.reference_points.size(); ++p) {
+    const ReferencePoint& point = mesh.reference_points[p];
+    const bool is_rigid = topology(mesh.blocks[mesh.body_of_node[point.node]].shape).dimension < mesh.dimension;
+    if (is_rigid || point.rotation_node >= 0)
+      add_turning_point(mesh, modes, at, fixed, p, gram);
+    else
+      add_shared_translation(mesh, modes, at, fixed, point, gram);
+  }
+  return gram;
+}
+
+}  // namespace mortise

@@ -1,0 +1,64 @@
+#include "model/report_model.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_CrsGraph.hpp>
+
+#include "model/memory.hpp"
+#include "mortise/simulation/model/memory_estimate.hpp"
+#include "mortise/simulation/model/mesh_limits.hpp"
+
+namespace mortise {
+namespace {
+
+/// MiB over all ranks.
+struct MemoryEstimate {
+  double so_far = 0.0;          ///< largest size until now, with the program and its libraries
+  double linear_systems = 0.0;  ///< what the linear systems will take at their largest, by the solver of the model: rough
+};
+
+/// Collective.
+MemoryEstimate estimated_memory(const Model& model) {
+  constexpr double mib = 1024.0 * 1024.0;
+  const Communicator& comm = *model.mesh()->comm;
+  MemoryEstimate estimate;
+  Teuchos::reduceAll(comm, Teuchos::REDUCE_SUM, peak_memory_mib(), Teuchos::outArg(estimate.so_far));
+  const int dimension = model.mesh()->dimension;
+  const double entries = static_cast<double>(model.parts().bulk_graph()->getGlobalNumEntries());
+  const SystemSize size{dimension, static_cast<double>(model.dofs()) / dimension, entries / (dimension * dimension), comm.getSize() > 1};
+  const bool iterative = model.parts().linear_solver->tolerances().has_value();
+  estimate.linear_systems = (iterative ? multigrid_bytes(size) : factorisation_bytes(size)) / mib;
+  return estimate;
+}
+
+}  // namespace
+
+void report_model(const std::string& file, const Scene& scene, const Model& model, RunLog& log) {
+  log.info(fmt::format("{}: {}, {}", file, scene.name, to_string(scene.kinematics)));
+  for (const auto& [effect, members] : model.effects())
+    if (!members.empty()) log.info(fmt::format("  {}: {}", effect, fmt::join(members, ", ")));
+  const auto& blocks = model.mesh()->blocks;
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    if (scene.bodies[b].value.rigid.value)
+      log.info(fmt::format("  body {}: rigid, {} facets", blocks[b].name, model.size().elements_of_block[b]));
+    else
+      log.info(fmt::format("  body {}: {} elements {}, {}", blocks[b].name, model.size().elements_of_block[b],
+                           to_string(scene.bodies[b].value.element), scene.bodies[b].value.material.value));
+  log.info(fmt::format("  {} dofs, {} slave nodes, {} on {} rank(s)", model.dofs(), model.slave_nodes(), model.parts().linear_solver->name(),
+                       model.mesh()->comm->getSize()));
+}
+
+void report_memory(const Model& model, RunLog& log) {
+  const Communicator& comm = *model.mesh()->comm;
+  const MemoryEstimate memory = estimated_memory(model);
+  const double all = memory.so_far + memory.linear_systems;
+  log.info(fmt::format("  about {:.0f} MiB: {:.0f} until here, {:.0f} for the linear systems", all, memory.so_far, memory.linear_systems));
+  if (const double there = memory_of_machines(comm); there > 0.0 && all > there)
+    log.warning(
+        fmt::format("that is more than the {:.0f} MiB here{}; please make the meshes coarser, take another solver, or run it on more machines", there,
+                    comm.getSize() > 1 ? ", of all machines together" : ""));
+}
+
+}  // namespace mortise

@@ -1,0 +1,174 @@
+#include "mortise/simulation/model/surfaces_at_start.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "mortise/mesh/sets.hpp"
+#include "surfaces/surface_view.hpp"
+
+namespace mortise {
+namespace {
+
+constexpr double meant_to_touch = 1e-6;  ///< of depths, over the size of the model: less was meant to touch
+
+OverlapPlace place_of(const DeepestPoint& deepest, const std::string& surface) {
+  return {deepest.depth, deepest.node, surface, {deepest.place[0], deepest.place[1], deepest.place[2]}};
+}
+
+/// A pair while it is examined.
+struct Examined {
+  const Named<ContactPairOptions>& options;
+  NamedSurface slave, master;
+  SurfaceView from_slave, from_master;
+  PairAtStart result;
+  bool deepest_is_slave = true;
+
+  const DeepestPoint& deepest() const { return deepest_is_slave ? from_slave.deepest : from_master.deepest; }
+  const NamedSurface& penetrating() const { return deepest_is_slave ? slave : master; }
+  const NamedSurface& penetrated() const { return deepest_is_slave ? master : slave; }
+  bool overlaps() const { return result.overlap.depth > 0.0; }
+};
+
+std::string where(const Mesh& mesh, const DeepestPoint& point, const std::string& surface) {
+  return to_string(mesh.dimension, place_of(point, surface));
+}
+
+Examined examine(const PlacedBodies& bodies, const Named<ContactPairOptions>& options) {
+  const Mesh& mesh = bodies.mesh;
+  const auto surface = [&](const Located<std::string>& name) {
+    const SideSet& set = require_side_set(mesh, name);
+    return NamedSurface{name.value, set, body_of(mesh, set)};
+  };
+  Examined pair{options, surface(options.value.slave), surface(options.value.master), {}, {}, {}};
+  PairAtStart& result = pair.result;
+  result.longest = std::max(longest_facet(mesh, pair.slave.set, bodies.at), longest_facet(mesh, pair.master.set, bodies.at));
+  if (pair.slave.body == pair.master.body) return pair;  // what lies within a body lies within itself
+  pair.from_slave = look(bodies, pair.slave, pair.master);
+  pair.from_master = look(bodies, pair.master, pair.slave);
+  pair.deepest_is_slave = pair.from_slave.deepest.depth >= pair.from_master.deepest.depth;
+  result.is_swallowed = pair.from_slave.swallowed >= most_of_a_surface * pair.from_slave.probes;
+  if (pair.deepest().depth > 0.0) result.overlap = place_of(pair.deepest(), pair.penetrating().name);
+  return pair;
+}
+
+// Half a facet beyond the overlap, so that the first iterations do not leave it; not more than the facet that is reached anyway.
+std::optional<double> needed_reach(const PairAtStart& pair) {
+  const double reach = pair.overlap.depth + 0.5 * pair.longest;
+  return reach > pair.longest ? std::optional(reach) : std::nullopt;
+}
+
+void complain_of_overlap(const PlacedBodies& bodies, Examined& pair, std::vector<Diagnostic>& diagnostics) {
+  const auto& [name, place, options] = pair.options;
+  const auto say = [&, &place = place](const std::string& text) { diagnostics.push_back({place, text}); };
+  const OverlapPlace& overlap = pair.result.overlap;
+  const std::string what =
+      fmt::format("the surfaces begin by {:.3g} in one another, deepest at {}", overlap.depth, to_string(bodies.mesh.dimension, overlap));
+  if (options.initial_overlap == InitialOverlap::error) {
+    say(what + "; \"initial overlap\" says that this is an error: please move the bodies apart, or take \"interference\"");
+    return;
+  }
+  const bool has_back = !is_rigid(bodies.mesh, pair.penetrated().body);
+  const std::optional<double> back = has_back ? distance_to_back(bodies, pair.deepest(), pair.penetrated()) : std::nullopt;
+  if (back && *back < overlap.depth) {
+    say(
+        fmt::format("{}: more than half of the {:.3g} that body '{}' is thick there, so that it is open to which side contact has to push; please "
+                    "start apart and move a body in by a boundary condition",
+                    what, overlap.depth + *back, bodies.mesh.blocks[pair.penetrated().body].name));
+    return;
+  }
+  if (const auto& reach = options.contact.mortar.search_reach; reach && *reach < overlap.depth) {
+    say(fmt::format(
+        "{}, beyond the search reach {:.3g}: nothing would push them apart; please give a \"search reach\" above {:.3g}, or none: then it "
+        "covers the overlap",
+        what, *reach, overlap.depth));
+    return;
+  }
+  if (!options.contact.mortar.search_reach) pair.result.reach = needed_reach(pair.result);
+}
+
+void complain_of_sides(const PlacedBodies& bodies, Examined& pair, bool bodies_have_fronts, std::vector<Diagnostic>& diagnostics) {
+  const auto& [name, place, options] = pair.options;
+  const SurfaceView& view = pair.from_slave;
+  const std::string& master_body = bodies.mesh.blocks[pair.master.body].name;
+  const bool rigid = is_rigid(bodies.mesh, pair.master.body);
+  if (!bodies_have_fronts && view.swallowed > 0.0 && (!rigid || pair.result.is_swallowed)) {
+    diagnostics.push_back(
+        {place,
+         fmt::format("the slave \"{}\" begins {} '{}': from {} no front of \"{}\" lies within the slave's own body, so that nothing says to which "
+                     "side it is to be pushed; the surface behind it is {:.3g} away; please move the bodies apart, or name the sides that face one "
+                     "another",
+                     pair.slave.name, rigid ? "behind the rigid body" : "within body", master_body,
+                     where(bodies.mesh, view.swallowed_at, pair.slave.name), pair.master.name, view.swallowed_at.depth)});
+    return;
+  }
+  const Outlook outlook = look_ahead(bodies, pair.slave, pair.master, pair.result.longest);
+  pair.result.gap = outlook.gap;
+  if (pair.result.gap && *pair.result.gap <= bodies.touching) pair.result.gap = 0.0;
+  if (outlook.backs)
+    diagnostics.push_back(
+        {place,
+         fmt::format("the master \"{}\" turns its back on the slave \"{}\": no facet of it faces the slave, so nothing will ever be pressed on "
+                     "it. A profile's body lies to the left of the way along its points: please give them in reverse, or take another side",
+                     pair.master.name, pair.slave.name)});
+}
+
+std::vector<StrayOverlap> stray_overlaps(const PlacedBodies& bodies, const std::set<std::pair<std::size_t, std::size_t>>& connected) {
+  const Mesh& mesh = bodies.mesh;
+  std::vector<StrayOverlap> strays;
+  for (std::size_t a = 0; a < mesh.blocks.size(); ++a)
+    for (std::size_t b = a + 1; b < mesh.blocks.size(); ++b) {
+      if (connected.count({a, b}) > 0 || (is_rigid(mesh, a) && is_rigid(mesh, b))) continue;
+      const bool open = is_rigid(mesh, a) || is_rigid(mesh, b);  // the solid side has no box
+      if (!open && !bodies.boxes[a].meets(bodies.boxes[b])) continue;
+      const NamedSurface first{mesh.blocks[a].name + "/surface", whole_surface(mesh, a), a},
+          second{mesh.blocks[b].name + "/surface", whole_surface(mesh, b), b};
+      const SurfaceView forward = look(bodies, first, second), backward = look(bodies, second, first);
+      const bool from_first = forward.deepest.depth >= backward.deepest.depth;
+      const DeepestPoint& deepest = from_first ? forward.deepest : backward.deepest;
+      if (deepest.depth > 0.0)
+        strays.push_back({mesh.blocks[a].name, mesh.blocks[b].name, place_of(deepest, from_first ? first.name : second.name)});
+      else if (const SurfaceView& within = forward.swallowed > 0.0 ? forward : backward; within.swallowed > 0.0 && !open) {
+        strays.push_back(
+            {mesh.blocks[a].name, mesh.blocks[b].name, place_of(within.swallowed_at, forward.swallowed > 0.0 ? first.name : second.name)});
+        strays.back().overlap.depth = 0.0;
+      }
+    }
+  return strays;
+}
+
+}  // namespace
+
+std::string to_string(int dimension, const OverlapPlace& overlap) {
+  const auto& x = overlap.place;
+  return fmt::format("node {} of \"{}\" at ({:.6g}, {:.6g}{})", overlap.node, overlap.surface, x[0], x[1],
+                     dimension == 3 ? fmt::format(", {:.6g}", x[2]) : "");
+}
+
+SurfacesAtStart examine_surfaces(const Mesh& mesh, const Scene& scene, double length) {
+  const PlaceOfNode at = reference_places(mesh);
+  const PlacedBodies bodies{mesh, at, body_boxes(mesh, at), length, meant_to_touch * length};
+  std::vector<Examined> pairs;
+  std::set<std::pair<std::size_t, std::size_t>> connected, with_fronts;
+  for (const auto& options : scene.contact) {
+    const Examined& pair = pairs.emplace_back(examine(bodies, options));
+    const auto both = std::minmax(pair.slave.body, pair.master.body);
+    connected.insert(both);
+    if (pair.overlaps()) with_fronts.insert(both);
+  }
+  std::vector<Diagnostic> diagnostics;
+  SurfacesAtStart result;
+  for (Examined& pair : pairs) {
+    if (pair.overlaps())
+      complain_of_overlap(bodies, pair, diagnostics);
+    else
+      complain_of_sides(bodies, pair, with_fronts.count(std::minmax(pair.slave.body, pair.master.body)) > 0, diagnostics);
+    result.pairs.push_back(pair.result);
+  }
+  if (!diagnostics.empty()) throw InputError(diagnostics);
+  result.strays = stray_overlaps(bodies, connected);
+  return result;
+}
+
+}  // namespace mortise

@@ -1,0 +1,120 @@
+#include "mortise/simulation/quantities/fields.hpp"
+
+#include <Tpetra_Vector.hpp>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+
+namespace mortise {
+namespace {
+
+using Values = std::vector<double>;
+
+Values displacement(const FieldState& state) {
+  const auto view = state.displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
+  Values values(view.data(), view.data() + view.extent(0));
+  const Mesh& mesh = *state.bodies.mesh();
+  for (const ReferencePoint& point : mesh.reference_points)  // a rotation is no displacement
+    if (point.rotation_node >= 0 && point.rotation_node < mesh.owned_count())
+      std::fill_n(values.begin() + mesh.dimension * point.rotation_node, mesh.dimension, 0.0);
+  return values;
+}
+
+/// `put(node, values of the node)` for every owned slave node of every pair.
+Values on_slave_nodes(const FieldState& state, int components, const std::function<void(const ContactNodeState&, double*)>& put) {
+  Values values(static_cast<std::size_t>(state.bodies.mesh()->owned_count()) * components, 0.0);
+  if (state.contact == nullptr) return values;
+  for (std::size_t pair = 0; pair < state.contact->pairs(); ++pair)
+    for (const auto& node : state.contact->node_states(pair, *state.multipliers)) put(node, &values[components * node.owned_node]);
+  return values;
+}
+
+/// Components xx, yy, zz, xy, in 3D also yz, xz, of each owned element of all blocks.
+Values stresses(const FieldState& state) {
+  Values values;
+  for (LocalOrdinal block = 0; block < static_cast<LocalOrdinal>(state.bodies.mesh()->blocks.size()); ++block)
+    for (const auto& stress : state.bodies.element_stresses(state.local_displacement, block))
+      values.insert(values.end(), stress.begin(), stress.begin() + state.bodies.stress_components());
+  return values;
+}
+
+/// q = sqrt(3/2 dev sigma : dev sigma) of the element's mean stress.
+Values von_mises(const FieldState& state) {
+  const Values s = stresses(state);
+  const std::size_t components = state.bodies.stress_components();
+  Values values(s.size() / components);
+  for (std::size_t e = 0; e < values.size(); ++e) {
+    const double *normal = &s[components * e], *shear = normal + 3;
+    const double xx = normal[0], yy = normal[1], zz = normal[2];
+    double shears = 0.0;
+    for (std::size_t c = 0; c < components - 3; ++c) shears += shear[c] * shear[c];
+    values[e] = std::sqrt(0.5 * ((xx - yy) * (xx - yy) + (yy - zz) * (yy - zz) + (zz - xx) * (zz - xx)) + 3.0 * shears);
+  }
+  return values;
+}
+
+Values plastic_strains(const FieldState& state) {
+  Values values;
+  for (LocalOrdinal block = 0; block < static_cast<LocalOrdinal>(state.bodies.mesh()->blocks.size()); ++block)
+    for (const double strain : state.bodies.element_plastic_strains(state.local_displacement, block)) values.push_back(strain);
+  return values;
+}
+
+struct Kind {
+  std::string name, sentence;
+  Field::Center center;
+  FieldKind kind;
+  int in_plane, in_space;  ///< components
+  std::function<Values(const FieldState&)> values;
+};
+
+const std::vector<Kind>& kinds() {
+  using Center = Field::Center;
+  static const std::vector<Kind> all{
+      {"displacement", "displacement of the nodes", Center::node, FieldKind::vector, 2, 3, displacement},
+      {"contact_traction", "multiplier of the slave nodes, force per area, compression positive along the slave's normal", Center::node,
+       FieldKind::vector, 2, 3,
+       [](const FieldState& state) {
+         const int dimension = state.bodies.mesh()->dimension;
+         return on_slave_nodes(state, dimension, [&](const ContactNodeState& node, double* v) { std::copy_n(node.traction.begin(), dimension, v); });
+       }},
+      {"contact_pressure", "normal part of the contact traction of the slave nodes", Center::node, FieldKind::scalar, 1, 1,
+       [](const FieldState& state) { return on_slave_nodes(state, 1, [](const ContactNodeState& node, double* v) { *v = node.pressure; }); }},
+      {"gap", "weighted gap over weight of the slave nodes; 0 on all others", Center::node, FieldKind::scalar, 1, 1,
+       [](const FieldState& state) { return on_slave_nodes(state, 1, [](const ContactNodeState& node, double* v) { *v = node.gap; }); }},
+      {"contact_shear", "tangential part of the contact traction, along the slave's normal turned by +90 degrees; in 3D its size", Center::node,
+       FieldKind::scalar, 1, 1,
+       [](const FieldState& state) { return on_slave_nodes(state, 1, [](const ContactNodeState& node, double* v) { *v = node.shear; }); }},
+      {"slip", "slip of the slave nodes in the last step, the same way; 0 without friction", Center::node, FieldKind::scalar, 1, 1,
+       [](const FieldState& state) { return on_slave_nodes(state, 1, [](const ContactNodeState& node, double* v) { *v = node.slip; }); }},
+      {"contact_state", "0 open, 1 stick, 2 slip; nodes without friction slip", Center::node, FieldKind::integer, 1, 1,
+       [](const FieldState& state) {
+         return on_slave_nodes(state, 1, [](const ContactNodeState& node, double* v) { *v = static_cast<double>(node.state); });
+       }},
+      {"cauchy_stress", "volume mean of the Cauchy stress of each element", Center::cell, FieldKind::symmetric_tensor, 4, 6, stresses},
+      {"von_mises", "von Mises stress of each element's mean Cauchy stress", Center::cell, FieldKind::scalar, 1, 1, von_mises},
+      {"equivalent_plastic_strain", "volume mean of the accumulated plastic strain of each element; 0 in elastic bodies", Center::cell,
+       FieldKind::scalar, 1, 1, plastic_strains}};
+  return all;
+}
+
+}  // namespace
+
+const std::vector<std::pair<std::string, std::string>>& field_names() {
+  static const std::vector<std::pair<std::string, std::string>> names = [] {
+    std::vector<std::pair<std::string, std::string>> list;
+    for (const auto& kind : kinds()) list.emplace_back(kind.name, kind.sentence);
+    return list;
+  }();
+  return names;
+}
+
+Field make_field(const std::string& name, const FieldState& state) {
+  for (const auto& kind : kinds())
+    if (kind.name == name)
+      return {kind.name, kind.center, kind.kind, state.bodies.mesh()->dimension == 3 ? kind.in_space : kind.in_plane, kind.values(state)};
+  throw std::invalid_argument("no field " + name);
+}
+
+}  // namespace mortise

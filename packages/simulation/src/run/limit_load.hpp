@@ -1,0 +1,25 @@
+#pragma once
+// Loads beyond which there is no equilibrium.
+
+#include <string>
+
+#include "mortise/core/error.hpp"
+#include "mortise/nonlinear/semi_smooth_system.hpp"
+#include "mortise/simulation/model/model.hpp"
+
+namespace mortise {
+
+/// Whether a step failed because its load is more than the bodies can bear. The displacement u is the answer of the stiffness K at the failed try's
+/// last linearisation to the load that the step adds. K_e is the stiffness at the last converged state, where points that have flowed answer
+/// elastically. Along a mechanism of plastic flow u^T K u is nothing beside u^T K_e u. Beyond a limit point it is negative (Bergan et al. 1978: the
+/// current stiffness parameter). Asked only where Newton's method came to no end close to equilibrium, and where the step adds a load: prescribed
+/// displacements pass such a point. Collective.
+/// @param converged  x of the last converged state
+/// @returns in words for people, with the share of each body's volume that flows; empty if the failure has another cause
+std::string explain_limit_load(const StepFailure& failure, const Model& model, SemiSmoothSystem& system, const Vector& converged);
+
+/// "plastic flow in 91 % of body 'bar'", the share of each body's volume that flows between two displacements; or that none does, and what it means
+/// beyond a limit. Collective.
+std::string describe_flow(const Model& model, const Vector& failed, const Vector& converged);
+
+}  // namespace mortise

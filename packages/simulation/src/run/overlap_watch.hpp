@@ -1,0 +1,62 @@
+#pragma once
+// Bodies that overlap although their pair carries no force.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "mortise/simulation/model/model.hpp"
+#include "surfaces/body_surfaces.hpp"
+
+namespace mortise {
+
+/// Looks at converged states: weighted gaps are means, and may all be open while nodes of one surface lie within the other body.
+class OverlapWatch {
+ public:
+  /// @param warn  called once for each pair, when the overlap is deeper than facets of an arc make contact begin late
+  OverlapWatch(const Model& model, const Scene& scene, std::function<void(const std::string&)> warn);
+
+  /// Collective. A solution, at which contact was evaluated last: its bodies and its multipliers.
+  void examine(const PlacedBodies& bodies, const Vector& multipliers);
+  /// The solution that was examined last is an accepted state.
+  /// @param is_told  of a pair of the scene: a warning that says more has been given
+  void accept(const std::function<bool(std::size_t)>& is_told);
+  /// Which pairs of the accepted state carry no force although their bodies overlap; empty: none.
+  const std::string& without_force() const { return accepted_; }
+
+ private:
+  /// An own node of a surface with the facets of that surface around it.
+  struct SurfaceNode {
+    LocalOrdinal node;
+    std::vector<Side> around;
+  };
+  struct Surface {
+    const SideSet& set;
+    std::size_t body;
+    std::vector<SurfaceNode> nodes;
+  };
+  struct Pair {
+    std::size_t index;  ///< of the scene and the contact system
+    Surface slave, master;
+    bool is_warned = false;
+  };
+  struct Found {
+    std::size_t pair;
+    bool is_deep;
+    std::string text;
+  };
+
+  Surface surface(const SideSet& set) const;
+  bool carries_force(const Pair& pair, const Vector& multipliers) const;
+  std::vector<SurfaceProbe> probes(const Surface& surface, const PlaceOfNode& at) const;
+  double sagitta(const Surface& surface, const PlaceOfNode& at) const;
+
+  const Model& model_;
+  const Scene& scene_;
+  std::function<void(const std::string&)> warn_;
+  std::vector<Pair> pairs_;
+  std::vector<Found> found_;
+  std::string accepted_;
+};
+
+}  // namespace mortise

@@ -1,0 +1,117 @@
+#include "mortise/simulation/run/step_evaluation.hpp"
+
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Vector.hpp>
+#include <limits>
+
+namespace mortise {
+
+StepEvaluation::StepEvaluation(const Scene& scene, const Model& model, SemiSmoothSystem& system) : scene_(scene), model_(model), system_(system) {
+  std::vector<Diagnostic> diagnostics;
+  QuantityContext at = context();
+  for (const auto& quantity : scene_.quantities) {
+    try {
+      quantity.value.quantity.options->prepare(at);
+    } catch (const InputError& error) {
+      for (Diagnostic one : error.diagnostics()) {
+        if (one.place.path.empty()) one.place = quantity.place;
+        diagnostics.push_back(std::move(one));
+      }
+    }
+    at.earlier.push_back(quantity.name);
+  }
+  throw_if_any(*model_.mesh()->comm, diagnostics);
+}
+
+std::vector<std::string> StepEvaluation::names() const {
+  std::vector<std::string> names;
+  for (const auto& quantity : scene_.quantities) names.push_back(quantity.name);
+  return names;
+}
+
+QuantityContext StepEvaluation::context() const {
+  QuantityContext context{*model_.bodies()};
+  context.contact = model_.contact().get();
+  for (const auto& pair : scene_.contact) context.pairs.push_back({pair.name, pair.value.slave.value, pair.value.master.value});
+  context.prescribed = &model_.parts().prescribed->dofs();
+  if (model_.parts().dependent) context.following = &model_.parts().dependent->dofs();
+  context.symbols = &scene_.symbols;
+  return context;
+}
+
+RCP<Vector> StepEvaluation::local(const Vector& displacement) const {
+  const auto values = rcp(new Vector(model_.bodies()->local_dofs()));
+  values->doImport(displacement, *model_.bodies()->ghost_import(), Tpetra::INSERT);
+  return values;
+}
+
+// A force is a stiffness times a position, and that is known to eps (L + |u|): summed over all dofs, of which the stiffness scale is the mean
+// diagonal.
+double StepEvaluation::force_round_off(const Vector& displacement) const {
+  const double sum_of_diagonal = system_.stiffness_scale() * static_cast<double>(model_.dofs());
+  return std::numeric_limits<double>::epsilon() * sum_of_diagonal * (model_.size().length + displacement.normInf());
+}
+
+std::vector<double> StepEvaluation::quantities(const Vector& x, double time) {
+  if (scene_.quantities.empty()) return {};
+  const auto displacement = system_.displacement(x);
+  const auto multipliers = model_.contact() ? system_.multipliers(x) : Teuchos::null;
+  const auto local_displacement = local(*displacement);
+  Vector reaction(model_.bodies()->dofs()), external(model_.bodies()->dofs());
+  system_.set_time(time);
+  system_.forces(x, reaction);  // leaves the contact evaluated at x
+  std::optional<StepFailure> failure;
+  const Configuration at{time, *displacement, *local_displacement};
+  for (const auto& contribution : model_.parts().contributions)
+    if (contribution->kind() == Contribution::Kind::external) contribution->add_residual(at, external, failure);
+  throw_if_any(*model_.mesh()->comm, failure);
+  external.scale(-1.0);
+
+  QuantityContext context = this->context();
+  context.time = time;
+  context.displacement = displacement.get();
+  context.local_displacement = local_displacement.get();
+  context.multipliers = multipliers.get();
+  context.reaction = &reaction;
+  context.external_force = &external;
+  context.force_round_off = force_round_off(*displacement);
+  for (const auto& quantity : scene_.quantities) {
+    const double value = quantity.value.quantity.options->evaluate(context);
+    context.earlier.push_back(quantity.name);
+    context.earlier_values.push_back(value);
+  }
+  return context.earlier_values;
+}
+
+std::vector<Field> StepEvaluation::fields(const Vector& x, const std::vector<std::string>& names) {
+  const auto displacement = system_.displacement(x);
+  const auto multipliers = model_.contact() ? system_.multipliers(x) : Teuchos::null;
+  const auto local_displacement = local(*displacement);
+  evaluate_contact(*displacement);
+  std::vector<Field> fields;
+  const FieldState state{*model_.bodies(), model_.contact().get(), *displacement, *local_displacement, multipliers.get()};
+  for (const auto& name : names) fields.push_back(make_field(name, state));
+  return fields;
+}
+
+std::vector<std::vector<ProfilePoint>> StepEvaluation::profiles(const Vector& x) {
+  std::vector<std::vector<ProfilePoint>> profiles;
+  if (!model_.contact()) return profiles;
+  const auto pairs = context().pairs;
+  for (std::size_t pair = profiles_.size(); pair < pairs.size(); ++pair) profiles_.emplace_back(*model_.mesh(), pairs[pair], pair);
+  const auto displacement = system_.displacement(x), multipliers = system_.multipliers(x);
+  const auto local_displacement = local(*displacement);
+  evaluate_contact(*displacement);
+  const FieldState state{*model_.bodies(), model_.contact().get(), *displacement, *local_displacement, multipliers.get()};
+  for (const ContactProfile& profile : profiles_) profiles.push_back(profile.points(state));
+  return profiles;
+}
+
+void StepEvaluation::evaluate_contact(const Vector& displacement) const {
+  if (!model_.contact()) return;
+  std::optional<StepFailure> failure;
+  model_.contact()->evaluate(displacement, false, failure);
+  throw_if_any(*model_.mesh()->comm, failure);
+}
+
+}  // namespace mortise

@@ -1,0 +1,37 @@
+#pragma once
+// Which of two surfaces is the slave, and what a slave that is stiffer and finer than its master costs.
+
+#include <limits>
+#include <string>
+
+#include "mortise/mesh/mesh.hpp"
+#include "mortise/simulation/scene/scene.hpp"
+
+namespace mortise {
+
+/// What the choice depends on.
+struct SurfaceTraits {
+  double modulus = std::numeric_limits<double>::infinity();  ///< Young's modulus of the stiffest body; of a rigid one infinite
+  double facet = 0.0;                                        ///< shortest side of a facet
+};
+
+/// Collective.
+SurfaceTraits surface_traits(const Mesh& mesh, const Scene& scene, const Located<std::string>& set);
+
+/// Of two surfaces the better slave.
+struct RoleChoice {
+  bool is_first = true;
+  std::string reason;
+};
+
+/// The deformable one; the softer one, if moduli differ by more than a factor of 2; the finer one; the first.
+RoleChoice better_slave(const SurfaceTraits& first, const SurfaceTraits& second);
+
+/// By how much of itself the peak pressure may come out too high with this slave: 0, unless it is stiffer and finer.
+double excess_of_peak(const SurfaceTraits& slave, const SurfaceTraits& master, int dimension);
+
+/// Exchanges slave and master of pairs with automatic roles where the master is the better slave. Collective; without such pairs it does nothing.
+/// @throws InputError for what a mesh cannot be made of, and for unknown sets
+void assign_roles(const Communicator& comm, Scene& scene);
+
+}  // namespace mortise

@@ -1,0 +1,118 @@
+#include "mortise/simulation/scene/scene.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "mortise/core/names.hpp"
+#include "mortise/simulation/quantities/fields.hpp"
+#include "scene/history_columns.hpp"
+
+namespace mortise {
+
+void MaterialChoice::describe(Parameters& parameters) { parameters.choose(law, material_registry(), "the law"); }
+
+namespace {
+/// The list "mesh" of a body.
+struct MeshList {
+  Choice<MeshOptions>& mesh;
+  void describe(Parameters& parameters) { parameters.choose(mesh, mesh_registry(), "the shape of the body"); }
+};
+}  // namespace
+
+namespace {
+/// "x, y", "x, y, z" or nothing; the scene's dimension is asked for later.
+void check_position(Parameters& parameters, const std::string& name, std::vector<double>& position) {
+  if (position.empty() || position.size() == 2 || position.size() == 3) return;
+  parameters.error(name, fmt::format("is \"{}\"; it needs two numbers, \"x, y\", or in 3D three, \"x, y, z\"", fmt::join(position, ", ")));
+  position.clear();
+}
+}  // namespace
+
+void BodyOptions::describe(Parameters& parameters) {
+  parameters.add("rigid", rigid, "whether the body keeps its shape: it then has no material and no elements, and moves with \"body/reference\"");
+  parameters.add(
+      "reference point", reference_point,
+      Says("of a rigid body, \"x, y\" or \"x, y, z\": what it turns about and where forces on it act; left out: the middle of the box around it")
+          .unit("length"));
+  check_position(parameters, "reference point", reference_point);
+  Says says("name of one of the scene's materials; a rigid body has none");
+  if (!rigid.value) says.required();
+  parameters.add("material", material, says);
+  if (rigid.value && !material.value.empty()) parameters.error("material", "a rigid body has no material; please remove one of the two");
+  parameters.add("element", element, element_names(), "what the body is discretised with");
+  MeshList list{mesh};
+  parameters.list("mesh", list, "the mesh of the body; its sides become the sets \"body/side\"");
+}
+
+void LoadChoice::describe(Parameters& parameters) { parameters.choose(load, load_registry(), "the kind of load"); }
+
+void TieOptions::describe(Parameters& parameters) {
+  parameters.add("set", set, Says("node or side set whose nodes follow the point").required());
+  parameters.add("position", position, Says("\"x, y\" or \"x, y, z\"; left out: the middle of the box around the set").unit("length"));
+  check_position(parameters, "position", position);
+  parameters.add("rotation", rotates, "whether the nodes turn with the point; if not, they share its translation alone");
+  parameters.add("follows", follows, {{"all", Follows::all}, {"x", Follows::x}, {"y", Follows::y}, {"z", Follows::z}},
+                 "components of the displacement that follow");
+  if (rotates && follows != Follows::all)
+    parameters.error("follows", "nodes that follow in one component cannot turn; please add \"rotation\" (bool, false)");
+}
+
+void ContactPairOptions::describe(Parameters& parameters) {
+  parameters.add("slave", slave, Says("side set that carries the multipliers: the finer, softer or shorter one").required());
+  parameters.add("master", master, Says("side set that it may touch").required());
+  parameters.add(
+      "roles", roles, {{"as given", ContactRoles::as_given}, {"automatic", ContactRoles::automatic}},
+      "automatic: slave and master are exchanged if the master is the better slave: the deformable one, else the softer one if moduli differ "
+      "by more than a factor of 2, else the finer one");
+  parameters.add("initial overlap", initial_overlap, {{"interference", InitialOverlap::interference}, {"error", InitialOverlap::error}},
+                 "surfaces that begin in one another: interference, the first step pushes them apart, whatever the depth, or its share if it is cut "
+                 "short; error, the scene is refused");
+  contact.describe(parameters);
+}
+
+void OutputOptions::describe(Parameters& parameters) {
+  std::vector<std::string> known;
+  for (const auto& [name, sentence] : field_names()) known.push_back(name);
+  parameters.add("fields", fields, "fields written to fields.xdmf and fields.h5: any of " + quoted_list(known) + "; an empty text: no such files");
+  for (const auto& field : fields)
+    if (std::find(known.begin(), known.end(), field) == known.end()) parameters.error("fields", unknown_name("field", field, known));
+  for (auto field = fields.begin(); field != fields.end(); ++field)
+    if (std::find(fields.begin(), field, *field) != field) parameters.error("fields", "names \"" + *field + "\" twice");
+  parameters.add("every step", every_step,
+                 Says("fields are written after every so many steps, and at the end; 0: at the output times and the end only").at_least(0));
+  parameters.add(
+      "contact profiles", contact_profiles,
+      "pressure, shear traction and gap along the arc length of each slave surface are written to profiles.csv at the output times and the end");
+}
+
+void QuantityChoice::describe(Parameters& parameters) { parameters.choose(quantity, quantity_registry(), "the kind of quantity"); }
+
+void Scene::describe(Parameters& parameters) {
+  parameters.add("kinematics", kinematics, kinematics_names(),
+                 "how the third direction behaves; axisymmetric: x is the radius, y the axis; three dimensional: bodies in 3D");
+  parameters.add("thickness", thickness,
+                 Says("thickness of the model out of the plane; axisymmetric scenes do not use it").unit("length").at_least(1e-30).at_most(1e30));
+  parameters.named("materials", materials, "the materials, by names of your choice");
+  parameters.named("bodies", bodies, "the bodies, by names of your choice; each is meshed by itself");
+  parameters.named("sets", sets, "parts of sides and bodies, by names of your choice");
+  parameters.named("reference points", reference_points, "sets of nodes that move like a rigid body or share a translation, by names of your choice");
+  parameters.named("boundary conditions", boundary_conditions, "prescribed displacements");
+  parameters.named("loads", loads, "loads, by names of your choice");
+  parameters.named("contact", contact, "contact pairs, by names of your choice");
+  parameters.list("stepping", stepping, "pseudo-time and its steps");
+  parameters.list("newton", newton, "when a Newton solve is done, and when it is given up");
+  parameters.list("linear solver", linear_solver, "how linear systems are solved");
+  parameters.list("output", output, "what is written besides the summary");
+  parameters.named("quantities", quantities, "numbers wanted of the run: every step's in history.csv, the last ones in summary.json");
+  for (const auto& quantity : quantities)
+    if (const auto& taken = history_columns(); std::find(taken.begin(), taken.end(), quantity.name) != taken.end())
+      parameters.error("quantities",
+                       fmt::format("a column of history.csv is called \"{}\" already; please give the quantity another name", quantity.name));
+  parameters.named("checks", checks, "bounds on quantities at the end; a run that misses one ends with exit code 4");
+  if (kinematics == Kinematics::three_dimensional && output.contact_profiles)
+    parameters.error("output", "contact profiles are written in plane and axisymmetric scenes only; please remove \"contact profiles\"");
+}
+
+}  // namespace mortise

@@ -1,0 +1,81 @@
+#include "surfaces/body_surfaces.hpp"
+
+#include <Teuchos_CommHelpers.hpp>
+#include <algorithm>
+
+#include "mortise/mortar/quadratic_facet.hpp"
+
+namespace mortise {
+
+PlaceOfNode reference_places(const Mesh& mesh) {
+  return [&mesh](LocalOrdinal node) { return Eigen::Vector3d(mesh.coordinates[static_cast<std::size_t>(node)].data()); };
+}
+
+FacetPlaces places_of(const Mesh& mesh, const Side& side, const PlaceOfNode& at) {
+  FacetPlaces places;
+  for (const LocalOrdinal node : mesh.side_nodes(side)) places.push_back(at(node));
+  return places;
+}
+
+const SideSet& whole_surface(const Mesh& mesh, std::size_t body) { return mesh.side_sets.at(mesh.blocks[body].name + "/surface"); }
+
+bool is_rigid(const Mesh& mesh, std::size_t body) { return topology(mesh.blocks[body].shape).dimension < mesh.dimension; }
+
+std::vector<TaggedFacet> tagged_surface(const Mesh& mesh, std::size_t body, const SideSet& set, int in_set, int elsewhere, const PlaceOfNode& at) {
+  std::vector<std::pair<LocalOrdinal, int>> members;
+  for (LocalOrdinal s = 0; s < set.owned; ++s) members.emplace_back(set.sides[s].element, set.sides[s].side);
+  std::sort(members.begin(), members.end());
+  std::vector<TaggedFacet> facets;
+  const SideSet& surface = whole_surface(mesh, body);
+  facets.reserve(static_cast<std::size_t>(surface.owned));
+  for (LocalOrdinal s = 0; s < surface.owned; ++s) {
+    const Side& side = surface.sides[s];
+    const bool is_member = std::binary_search(members.begin(), members.end(), std::pair(side.element, side.side));
+    facets.push_back({places_of(mesh, side, at), is_member ? in_set : elsewhere});
+  }
+  return facets;
+}
+
+std::vector<Box3> body_boxes(const Mesh& mesh, const PlaceOfNode& at) {
+  std::vector<Box3> boxes(mesh.blocks.size());
+  for (std::size_t body = 0; body < boxes.size(); ++body) {
+    const SideSet& surface = whole_surface(mesh, body);
+    for (LocalOrdinal s = 0; s < surface.owned; ++s)
+      for (const LocalOrdinal node : mesh.side_nodes(surface.sides[s])) boxes[body].enclose(at(node));
+  }
+  return boxes_over_ranks(*mesh.comm, boxes);
+}
+
+std::size_t body_of(const Mesh& mesh, const SideSet& set) {
+  const int mine = set.owned > 0 ? set.sides.front().block : -1;
+  int body = -1;
+  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, mine, Teuchos::outArg(body));
+  return static_cast<std::size_t>(body);
+}
+
+std::vector<SurfaceProbe> probes_of(const Mesh& mesh, const SideSet& set, const PlaceOfNode& at) {
+  std::vector<SurfaceProbe> probes;
+  for (LocalOrdinal s = 0; s < set.owned; ++s) {
+    const std::vector<LocalOrdinal> nodes = mesh.side_nodes(set.sides[s]);
+    for (const SurfacePoint& point : surface_points(mesh.dimension, places_of(mesh, set.sides[s], at))) probes.push_back({point, nodes[point.node]});
+  }
+  return probes;
+}
+
+std::vector<double> side_lengths(const Mesh& mesh, const Side& side, const PlaceOfNode& at) {
+  const std::vector<LocalOrdinal> nodes = mesh.side_nodes(side);
+  const std::size_t corners = facet_corners(mesh.dimension, nodes.size());
+  std::vector<double> lengths;
+  for (std::size_t a = 0; a < corners; ++a) lengths.push_back((at(nodes[(a + 1) % corners]) - at(nodes[a])).norm());
+  std::sort(lengths.begin(), lengths.end());
+  return lengths;
+}
+
+double longest_facet(const Mesh& mesh, const SideSet& set, const PlaceOfNode& at) {
+  double mine = 0.0, longest = 0.0;
+  for (LocalOrdinal s = 0; s < set.owned; ++s) mine = std::max(mine, side_lengths(mesh, set.sides[s], at).back());
+  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, mine, Teuchos::outArg(longest));
+  return longest;
+}
+
+}  // namespace mortise

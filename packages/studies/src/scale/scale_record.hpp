@@ -1,0 +1,55 @@
+#pragma once
+// One point of a series of runs on growing numbers of ranks.
+
+#include <array>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "mortise/studies/scale.hpp"
+
+namespace mortise {
+
+/// What the time of a run is split into: timers of summary.json that belong together. The rest of the total is the last one, without timers.
+struct ScalePhase {
+  std::string name;
+  std::vector<std::string> timers;
+};
+const std::vector<ScalePhase>& scale_phases();
+
+/// A number of ranks, and what was found there.
+struct ScalePoint {
+  std::string series;  ///< strong or weak
+  int ranks = 1;
+  std::vector<std::string> settings;
+  std::string directory;  ///< of the results
+
+  bool finished = false;
+  std::string said;                     ///< why it did not
+  double dofs = 0.0, memory_mib = 0.0;  ///< memory of all ranks
+  double newton_iterations = 0.0, linear_iterations = 0.0, imbalance = 1.0;
+  double seconds = 0.0;        ///< of the fastest repeat, mean over the ranks as summary.json has them
+  std::vector<double> phases;  ///< [scale_phases] seconds of the same
+  double bandwidth = 0.0;      ///< of as many processes [bytes / s]; 0: unknown
+
+  std::vector<double> repeats;  ///< seconds of each
+
+  /// False for a later point of a weak series with no more unknowns than its first: it shows no weak scaling.
+  bool has_grown(const ScalePoint& first) const;
+  /// 1, but for what this point has more or fewer unknowns than its share of the first point's.
+  double size_ratio(const ScalePoint& first) const;
+  /// How well so many ranks are used: (t_1 / t_p) / p in the strong series; t_1 / t_p for as many unknowns per rank in the weak one. NaN if unknown,
+  /// or if the unknowns of a weak series did not grow.
+  double efficiency(const ScalePoint& first, double seconds_here, double seconds_first) const;
+};
+
+/// Runs the point `repeats` times.
+void run_scale_point(const ScaleOptions& options, ScalePoint& point);
+
+/// scale.json.
+nlohmann::ordered_json scale_json(const ScaleOptions& options, const std::vector<ScalePoint>& points);
+
+/// scale.csv.
+void write_scale_table(const RCP<const Communicator>& comm, const std::string& path, const std::vector<ScalePoint>& points);
+
+}  // namespace mortise
