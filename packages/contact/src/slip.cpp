@@ -21,17 +21,18 @@ SpatialVector position_of(const View& x, LocalOrdinal node, int dimension) {
 const Pair::Places& Pair::places_of(const std::shared_ptr<const InterfacePattern>& pattern,
                                     const std::shared_ptr<const SlipReferences>& references) const {
   if (places_pattern_ == pattern && places_references_ == references) return places_;
-  places_.assign(references->nodes.size(), {});
-  for (std::size_t s = 0; s < places_.size(); ++s) {
+  Places places(references->nodes.size());
+  for (std::size_t s = 0; s < places.size(); ++s) {
     const std::vector<LocalOrdinal>& coupled = pattern->coupled[s];
     for (const GlobalOrdinal id : references->nodes[s]) {
       const LocalOrdinal node = pattern->local_nodes->getLocalElement(id);
       const auto found = std::lower_bound(coupled.begin(), coupled.end(), node);
       if (node < 0 || found == coupled.end() || *found != node)
         throw std::logic_error("contact: a node that a slip is measured against is not in the pattern");
-      places_[s].push_back(static_cast<LocalOrdinal>(found - coupled.begin()));
+      places[s].push_back(static_cast<LocalOrdinal>(found - coupled.begin()));
     }
   }
+  places_ = std::move(places);
   places_pattern_ = pattern;
   places_references_ = references;
   return places_;

@@ -267,7 +267,10 @@ bool Interface<dim>::search(const MultiVector& x) {
   Teuchos::Array<double> sizes(dim);
   x.norm1(sizes());
   for (const double size : sizes)
-    if (!std::isfinite(size)) return false;  // evaluate() says what is wrong
+    if (!std::isfinite(size)) {  // evaluate() says what is wrong, with the kinks and retained nodes that are set
+      number_nodes();
+      return true;
+    }
   const bool first = searched_at_.is_null();
   const Positions<dim> slave_x = (*slave_positions_)(x);
   const std::vector<PlacedFacet<dim>> placed = place_master(x);

@@ -16,15 +16,18 @@ std::uint64_t mix(std::uint64_t key) {
 
 }  // namespace
 
-std::array<long long, 2> active_set_hash(const ContactSystem& contact, const Vector& z, const Communicator& comm) {
+std::array<long long, 2> active_set_hash(const ContactSystem& contact, const ContactStates& states, const Communicator& comm) {
   std::array<long long, 2> mine{}, all{};
-  for (std::size_t pair = 0; pair < contact.pairs(); ++pair)
-    for (const ContactNodeState& state : contact.node_states(pair, z)) {
-      if (!state.closed) continue;
-      const std::uint64_t hash = mix(static_cast<std::uint64_t>(state.node) ^ mix(2 * pair + (state.state == ContactState::stick ? 1 : 0)));
+  for (std::size_t pair = 0; pair < states.size(); ++pair) {
+    const std::vector<GlobalOrdinal> nodes = contact.slave_ids(pair);
+    for (std::size_t s = 0; s < nodes.size(); ++s) {
+      const ContactState state = states[pair].states[s];
+      if (state == ContactState::open) continue;
+      const std::uint64_t hash = mix(static_cast<std::uint64_t>(nodes[s]) ^ mix(2 * pair + (state == ContactState::stick ? 1 : 0)));
       mine[0] += static_cast<long long>(hash >> 32);
       mine[1] += static_cast<long long>(hash & 0xffffffffull);
     }
+  }
   Teuchos::reduceAll(comm, Teuchos::REDUCE_SUM, 2, mine.data(), all.data());
   return all;
 }

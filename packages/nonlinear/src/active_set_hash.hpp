@@ -8,6 +8,6 @@
 namespace mortise::detail {
 
 /// Collective: two sums of 32-bit hashes of (pair, node) over all closed nodes. Equal sets have equal sums on any number of ranks.
-std::array<long long, 2> active_set_hash(const ContactSystem& contact, const Vector& z, const Communicator& comm);
+std::array<long long, 2> active_set_hash(const ContactSystem& contact, const ContactStates& states, const Communicator& comm);
 
 }  // namespace mortise::detail

@@ -56,13 +56,14 @@ LinearSolveReport SemiSmoothSystem::Implementation::solve_reduced(const RCP<Matr
 // Multipliers kept:
 //   ( K + C~  B ) dd   -r
 //   ( C_d   C_z ) dz = -C    with the rows of C as forces, A_j C.   With followers dd = T dq + d0 the first rows are multiplied by T^T.
-LinearSolveReport SemiSmoothSystem::Implementation::solve_saddle_point(const Vector& d, const Vector& z, const Vector& r, const Vector& C,
+LinearSolveReport SemiSmoothSystem::Implementation::solve_saddle_point(const Vector& d, const Vector& r, const Vector& C,
                                                                        const Vector& increment, GeometricContactStiffness geometric_stiffness,
                                                                        Vector& dd, Vector& dz) {
   open_matrix();
-  if (geometric_stiffness == GeometricContactStiffness::included) parts.contact->add_stiffness(z, *matrix);
+  const ContactLinearisation linearised = linearised_contact();
+  if (geometric_stiffness == GeometricContactStiffness::included) linearised.add_stiffness(*matrix);
   matrix->fillComplete(parts.dofs, parts.dofs);
-  const ContactSystem::SaddlePointBlocks blocks = parts.contact->saddle_point_blocks(z);
+  const SaddlePointBlocks blocks = linearised.saddle_point_blocks();
   const RCP<const Vector> weights = parts.contact->weights();
   Vector rhs_d(r, Teuchos::Copy), rhs_z(C, Teuchos::Copy), start(parts.dofs);
   rhs_d.scale(-1.0);
@@ -109,9 +110,10 @@ LinearSolveReport SemiSmoothSystem::Implementation::solve_saddle_point(const Vec
 
 // Solves J~ (dd, dz) = -(0, C) with the condensed system at hand and its prescribed rows eliminated. Displacements that are prescribed or follow
 // others do not change, and neither do multipliers of open nodes.
-void SemiSmoothSystem::Implementation::solve_again(const Vector& C, Vector& dd, Vector& dz, LinearSolveReport& report) {
+void SemiSmoothSystem::Implementation::solve_again(CondensedContact& condensed, const Vector& C, Vector& dd, Vector& dz,
+                                                   LinearSolveReport& report) {
   Vector rhs(parts.dofs);
-  parts.contact->condense_right_hand_side(C, rhs);
+  condensed.condense_right_hand_side(C, rhs);
   const RCP<Vector> q_rhs = reduction ? reduction->reduced(rhs) : rcp(&rhs, false);
   {
     const auto view = q_rhs->getLocalViewHost(Tpetra::Access::ReadWrite);
@@ -123,16 +125,16 @@ void SemiSmoothSystem::Implementation::solve_again(const Vector& C, Vector& dd, 
     Tpetra::deep_copy(dd, *reduction->expanded(dq));
   else
     Tpetra::deep_copy(dd, dq);
-  parts.contact->recover(dd, dz);
+  condensed.recover(dd, dz);
 }
 
 // From the step of J~ to that of J = J~ + L, see left_out_couplings.hpp.
-void SemiSmoothSystem::Implementation::correct(LinearSolveReport& report, Vector& dd, Vector& dz) {
+void SemiSmoothSystem::Implementation::correct(CondensedContact& condensed, LinearSolveReport& report, Vector& dd, Vector& dz) {
   const auto scope = timers.scope("tied multipliers");
   const RCP<const Vector> weights = parts.contact->weights();
   detail::correct_step(
-      *weights, std::max(tolerance, 1e-10), [&](const Vector& C, Vector& change_d, Vector& change_z) { solve_again(C, change_d, change_z, report); },
-      [&](const Vector& change_d, const Vector& change_z, Vector& y) { parts.contact->apply_left_out(change_d, change_z, y); }, dd, dz);
+      *weights, std::max(tolerance, 1e-10), [&](const Vector& C, Vector& change_d, Vector& change_z) { solve_again(condensed, C, change_d, change_z, report); },
+      [&](const Vector& change_d, const Vector& change_z, Vector& y) { condensed.apply_left_out(change_d, change_z, y); }, dd, dz);
 }
 
 // The free rows of J dx = -F condensed to (K~ condensed) dd = rhs, then reduced to the unknowns if some displacements follow others. The
@@ -158,33 +160,35 @@ LinearSolveReport SemiSmoothSystem::newton_direction(const Vector& F, Vector& di
     for (const LocalOrdinal row : self.fixed) step(row, 0) = -rows(row, 0) / self.stiffness_scale;
   }
   if (self.saddle_point)
-    return self.solve_saddle_point(*d, *z, r, *multipliers(F), prescribed_increment, geometric_stiffness, *dd, *multipliers(direction));
+    return self.solve_saddle_point(*d, r, *multipliers(F), prescribed_increment, geometric_stiffness, *dd, *multipliers(direction));
   Vector rhs(r, Teuchos::Copy);
   rhs.scale(-1.0);
 
   const RCP<Matrix>& matrix = self.matrix;
+  std::optional<CondensedContact> condensed;
   if (parts.contact) {  // -r without f_c
     self.contact_force.putScalar(0.0);
-    parts.contact->add_contact_force(*z, self.contact_force);
+    const ContactLinearisation linearised = self.linearised_contact();
+    self.contact->add_force(*z, self.contact_force);
     rhs.update(1.0, self.contact_force, 1.0);
     self.open_matrix();
-    if (geometric_stiffness == GeometricContactStiffness::included) parts.contact->add_stiffness(*z, *matrix);
-    parts.contact->condense(*z, *matrix, rhs);
+    if (geometric_stiffness == GeometricContactStiffness::included) linearised.add_stiffness(*matrix);
+    condensed = linearised.condense(*matrix, rhs);
   } else if (!self.reduction) {
     self.open_matrix();
   }
 
   MultigridInput multigrid;
   if (parts.near_null_space) multigrid.near_null_space = [&] { return parts.near_null_space(*d); };
-  if (parts.contact) multigrid.decoupling = [&] { return parts.contact->decoupling(*z); };
+  if (condensed) multigrid.decoupling = [&] { return condensed->decoupling(); };
   LinearSolveReport report = self.reduction ? self.solve_reduced(matrix, *d, r, prescribed_increment, rhs, multigrid, *dd)
                                             : self.solve(matrix, self.fixed, prescribed_increment, rhs, multigrid, *dd);
   if (!parts.contact) return report;
   const RCP<Vector> dz = multipliers(direction);
   Vector z_new(self.multipliers);
-  parts.contact->recover(*dd, z_new);
+  condensed->recover(*dd, z_new);
   dz->update(1.0, z_new, -1.0, *z, 0.0);
-  if (parts.contact->leaves_out_couplings()) self.correct(report, *dd, *dz);
+  if (condensed->leaves_out_couplings()) self.correct(*condensed, report, *dd, *dz);
   return report;
 }
 

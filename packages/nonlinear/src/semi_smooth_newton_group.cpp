@@ -144,7 +144,7 @@ NOX::Abstract::Group::ReturnType SemiSmoothNewtonGroup::computeNewton(Teuchos::P
                           F = tpetra_vector(static_cast<const NOX::Abstract::Vector&>(*F_));
   const RCP<Vector> direction = tpetra_vector(*newton_);
   const auto& better_start = system_->parts().better_start;
-  if (const RCP<Vector> start = better_start ? better_start(*x, *F) : Teuchos::null; !start.is_null()) {
+  if (const RCP<Vector> start = better_start ? better_start(*x, *F, system_->contact_laws(*x)) : Teuchos::null; !start.is_null()) {
     // x + direction is where Newton's method gets to from there.
     starts_elsewhere_ = true;
     Vector F_start(F->getMap());

@@ -41,11 +41,10 @@ double SemiSmoothSystem::time() const { return implementation_->time; }
 RCP<const Vector> SemiSmoothSystem::linearised_at() const { return implementation_->jacobian_at; }
 double SemiSmoothSystem::stiffness_scale() const { return implementation_->stiffness_scale; }
 
-// Whoever changes time may have used the contact for itself: nothing that it holds is relied upon any more. Jacobians belong to a time.
+// Jacobians belong to a time.
 void SemiSmoothSystem::set_time(double time) {
   implementation_->time = time;
   implementation_->jacobian_at = Teuchos::null;
-  implementation_->contact_at = Teuchos::null;
 }
 
 // r = f_int - f_ext + f_c; rows of prescribed dofs: s (d - prescribed); C.
@@ -55,7 +54,7 @@ void SemiSmoothSystem::residual(const Vector& x, Vector& F, ResidualNorms& norms
   self.evaluate_bulk(*d);
   norms = {};
   const RCP<Vector> r = displacement(F);
-  if (self.parts.contact) self.evaluate_contact(*d, true);
+  if (self.parts.contact) self.evaluate_contact(*d);
   if (self.stiffness_scale == 0.0) self.assemble_bulk(*d);
   self.sum_forces(*d, *z, *r);
   double force = std::max(self.internal.norm2(), self.external.norm2());
@@ -63,17 +62,18 @@ void SemiSmoothSystem::residual(const Vector& x, Vector& F, ResidualNorms& norms
   std::optional<StepFailure> failure;  // why something is not finite
   if (self.parts.contact) {
     const RCP<Vector> C = multipliers(F);
-    self.parts.contact->complementarity(*z, *C);
+    const ContactLaws& laws = self.laws_at(*d, *z);
+    laws.complementarity(*C);
     other = C->norm2();
-    if (!std::isfinite(other)) self.parts.contact->find_friction_failure(*z, failure);
-    const ContactNorms contact = self.parts.contact->norms(*z);
+    if (!std::isfinite(other)) failure = laws.friction_failure();
+    const ContactNorms contact = laws.norms(self.last_states);
     norms.gap = contact.gap;
     norms.complementarity = contact.complementarity;
     violation = contact.violation;
     norms.active = contact.active;
     norms.sticking = contact.sticking;
     norms.changed = contact.changed;
-    norms.active_set = detail::active_set_hash(*self.parts.contact, *z, self.comm());
+    norms.active_set = detail::active_set_hash(*self.parts.contact, laws.states(), self.comm());
     force = std::max(force, contact.force);
   }
 
@@ -126,15 +126,38 @@ double SemiSmoothSystem::prescribed_deviation(const Vector& x) const {
 bool SemiSmoothSystem::follow_cover(Vector& x) {
   Implementation& self = *implementation_;
   if (!self.parts.contact) return false;
-  self.evaluate_contact(*displacement(x), true);
-  return self.parts.contact->follow_cover(*multipliers(x));
+  self.evaluate_contact(*displacement(x));
+  return self.contact->follow_cover(self.last_states, *multipliers(x));
 }
+
+void SemiSmoothSystem::start_step(Vector& x, const std::vector<char>& unconstrained) {
+  Implementation& self = *implementation_;
+  if (!self.parts.contact) return;
+  const ContactSystem& contact = *self.parts.contact;
+  const RCP<Vector> d = displacement(x);
+  self.committed.reset();
+  self.have_history(*d);
+  for (const auto& [pair, depth] : self.allowed_overlaps)
+    if ((*self.accepted)->pairs[pair].allowed_overlap != depth) self.accepted = contact.allow_overlap(*self.accepted, pair, depth);
+  self.take_history(contact.start_step(*self.accepted, *d, unconstrained, *multipliers(x)));
+}
+
+void SemiSmoothSystem::allow_overlap(std::size_t pair, double depth) { implementation_->allowed_overlaps[pair] = depth; }
+
+ContactLaws SemiSmoothSystem::contact_laws(const Vector& x) {
+  Implementation& self = *implementation_;
+  const RCP<const Vector> d = displacement(x), z = multipliers(x);
+  if (self.committed && !self.committed_at.is_null() && detail::same_values(x, *self.committed_at)) return *self.committed;
+  return self.laws_at(*d, *z);
+}
+
+const std::optional<ContactHistory>& SemiSmoothSystem::contact_history() const { return implementation_->accepted; }
 
 void SemiSmoothSystem::forces(const Vector& x, Vector& r) {
   Implementation& self = *implementation_;
   const RCP<const Vector> d = displacement(x);
   self.evaluate_bulk(*d);
-  if (self.parts.contact) self.evaluate_contact(*d, false);
+  if (self.parts.contact) self.have_history(*d);
   self.sum_forces(*d, *multipliers(x), r);
   if (self.reduction) self.reduction->gather(r);
 }
@@ -146,16 +169,18 @@ void SemiSmoothSystem::commit(const Vector& x) {
   // The forces of the committed state are those that it was found with; at any other displacement they depend on what has been committed.
   RCP<Vector>& internal_at = implementation_->internal_at;
   if (!internal_at.is_null() && !detail::same_values(*d, *internal_at)) internal_at = Teuchos::null;
-  if (!implementation_->parts.contact) return;
-  implementation_->evaluate_contact(*d, true);
-  implementation_->parts.contact->accept_states(*multipliers(x));
+  Implementation& self = *implementation_;
+  if (!self.parts.contact) return;
+  self.committed = self.laws_at(*d, *multipliers(x));
+  self.committed_at = rcp(new Vector(x, Teuchos::Copy));
+  self.accepted = self.parts.contact->commit(*self.committed);
+  self.take_history(*self.accepted);
 }
 
 bool SemiSmoothSystem::augment(const Vector& x, int round) {
   Implementation& self = *implementation_;
   if (!self.parts.contact) return false;
-  self.evaluate_contact(*displacement(x), true);
-  const Augmentation result = self.parts.contact->augment(*multipliers(x), round);
+  const Augmentation result = self.parts.contact->augment(self.laws_at(*displacement(x), *multipliers(x)), round);
   if (result.exhausted)
     throw StepFailure(
         FailureKind::augmentation,
@@ -165,6 +190,11 @@ bool SemiSmoothSystem::augment(const Vector& x, int round) {
                     std::isfinite(result.error) ? fmt::format("and they are wrong by about {:.2e} of it", result.error)
                                                 : std::string("and they have not fallen once"),
                     result.tolerance));
+  if (result.history) {
+    self.history = result.history;
+    self.contact = self.contact->with(*result.history);
+    self.laws.reset();
+  }
   return result.more;
 }
 
@@ -173,8 +203,7 @@ void SemiSmoothSystem::jacobian(const Vector& x) {
   const RCP<const Vector> d = displacement(x);
   self.jacobian_at = Teuchos::null;
   if (self.parts.contact) {
-    self.evaluate_contact(*d, true);
-    self.parts.contact->mark_states(*multipliers(x));
+    self.last_states = self.laws_at(*d, *multipliers(x)).states();
   }
   self.assemble_bulk(*d);
   self.jacobian_at = rcp(new Vector(x, Teuchos::Copy));
@@ -187,11 +216,11 @@ void SemiSmoothSystem::apply(const Vector& v, Vector& y) const {
   const RCP<const Vector> v_d = displacement(v), v_z = multipliers(v);
   const RCP<Vector> y_d = displacement(y);
   if (self.parts.contact) {
-    const RCP<const Vector> z = multipliers(*self.jacobian_at);
+    const ContactLinearisation linearised = self.linearised_contact();
     self.open_matrix();
-    self.parts.contact->add_stiffness(*z, *self.matrix);
+    linearised.add_stiffness(*self.matrix);
     self.matrix->fillComplete(self.parts.dofs, self.parts.dofs);
-    const auto blocks = self.parts.contact->saddle_point_blocks(*z);
+    const SaddlePointBlocks blocks = linearised.saddle_point_blocks();
     const RCP<Vector> y_z = multipliers(y);
     self.matrix->apply(*v_d, *y_d);
     blocks.B->apply(*v_z, *y_d, Teuchos::NO_TRANS, 1.0, 1.0);

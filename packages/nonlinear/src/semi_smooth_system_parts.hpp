@@ -9,6 +9,8 @@
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <stdexcept>
 
 #include "matrix_values.hpp"
@@ -43,7 +45,14 @@ struct SemiSmoothSystem::Implementation {
   RCP<const Graph> merged_graph;                            // of the last matrix that was reduced or holds multipliers
 
   RCP<Vector> internal_at;  // displacement to which `internal` belongs; null: none
-  RCP<Vector> contact_at;   // displacement at which the contact holds integrals and their derivatives; null: unknown
+  std::optional<ContactHistory> accepted, history;  // of the accepted state, of the step; none: nothing has been evaluated yet
+  std::map<std::size_t, double> allowed_overlaps;   // by pair, from the next start_step() on
+  ContactStates last_states;                        // those that ResidualNorms::changed counts against
+  std::optional<DifferentiatedContact> contact;     // at contact_at, with `history`
+  std::optional<ContactLaws> laws;                  // of `contact`; none: of no z yet
+  std::optional<ContactLaws> committed;             // of the state that was committed last, until the next step starts
+  RCP<Vector> committed_at;                         // its x
+  RCP<Vector> contact_at;                           // displacement of `contact`
   RCP<Vector> jacobian_at;  // x of the last jacobian()
 
   Implementation(SystemParts given, Timers given_timers)
@@ -95,12 +104,15 @@ struct SemiSmoothSystem::Implementation {
     if (!is_at_hand) internal_at = rcp(new Vector(displacement, Teuchos::Copy));
   }
 
-  // r = f_int - f_ext + f_c on all dofs. The contact is evaluated at `displacement`; the reduction is made for it.
+  // r = f_int - f_ext + f_c on all dofs. The reduction is made for `displacement`.
   void sum_forces(const Vector& displacement, const Vector& z, Vector& r) {
     r.update(1.0, internal, 1.0, external, 0.0);
     if (parts.contact) {
       contact_force.putScalar(0.0);
-      parts.contact->add_contact_force(z, contact_force);
+      if (is_contact_at(displacement))
+        contact->add_force(z, contact_force);
+      else
+        parts.contact->evaluate(displacement, *history).add_force(z, contact_force);
       r.update(1.0, contact_force, 1.0);
     }
     if (!reduction) return;
@@ -108,26 +120,48 @@ struct SemiSmoothSystem::Implementation {
     reduction->update(local_displacement);
   }
 
-  void evaluate_contact(const Vector& displacement, bool derivatives) {
-    if (derivatives && !contact_at.is_null() && detail::same_values(displacement, *contact_at)) return;
-    contact_at = Teuchos::null;
-    std::optional<StepFailure> failure;
-    parts.contact->evaluate(displacement, derivatives, failure);
-    throw_if_any(comm(), failure);
-    if (derivatives) contact_at = rcp(new Vector(displacement, Teuchos::Copy));
+  bool is_contact_at(const Vector& displacement) const { return contact && detail::same_values(displacement, *contact_at); }
+
+  void have_history(const Vector& displacement) {
+    if (history) return;
+    accepted = history = parts.contact->initial_history(displacement);
+    last_states = (*history)->states;
+  }
+
+  void take_history(const ContactHistory& next) {
+    history = next;
+    last_states = next->states;
+    laws.reset();
+    contact.reset();
+  }
+
+  void evaluate_contact(const Vector& displacement) {
+    have_history(displacement);
+    if (is_contact_at(displacement)) return;
+    laws.reset();
+    contact.reset();  // before there is another one: only one is held
+    contact = parts.contact->differentiate(displacement, *history, &last_states);
+    contact_at = rcp(new Vector(displacement, Teuchos::Copy));
+  }
+
+  const ContactLaws& laws_at(const Vector& displacement, const Vector& z) {
+    evaluate_contact(displacement);
+    if (!laws || !detail::same_values(z, laws->multipliers())) laws = contact->laws(z);
+    return *laws;
+  }
+
+  // The linearised contact at the x of the last jacobian().
+  ContactLinearisation linearised_contact() {
+    const ContactLaws& at = laws_at(*d(*jacobian_at), *z(*jacobian_at));
+    return contact->linearise(at);
   }
 
   // A matrix with the bulk's graph, or with the larger one that the current candidates of contact ask for.
   void match_graph() {
-    bool changed = matrix.is_null();
-    RCP<const Graph> graph;
-    if (parts.contact) {
-      bool other_candidates = false;
-      graph = parts.contact->system_graph(parts.bulk_graph, other_candidates);
-      changed |= other_candidates;
-    } else if (changed) {
-      graph = parts.bulk_graph();
-    }
+    const RCP<const Graph> graph = parts.contact        ? parts.contact->graph(*contact, parts.bulk_graph)
+                                   : !matrix.is_null() ? matrix->getCrsGraph()
+                                                       : parts.bulk_graph();
+    const bool changed = matrix.is_null() || matrix->getCrsGraph() != graph;
     if (!changed) return;
     matrix = rcp(new Matrix(graph));
     matrix->fillComplete(parts.dofs, parts.dofs);
@@ -165,16 +199,16 @@ struct SemiSmoothSystem::Implementation {
                           const MultigridInput& multigrid, Vector& x);
   LinearSolveReport solve_reduced(const RCP<Matrix>& matrix, const Vector& d, const Vector& r, const Vector& increment, Vector& rhs,
                                   const MultigridInput& multigrid, Vector& dd);
-  LinearSolveReport solve_saddle_point(const Vector& d, const Vector& z, const Vector& r, const Vector& C, const Vector& increment,
+  LinearSolveReport solve_saddle_point(const Vector& d, const Vector& r, const Vector& C, const Vector& increment,
                                        GeometricContactStiffness geometric_stiffness, Vector& dd, Vector& dz);
-  void solve_again(const Vector& C, Vector& dd, Vector& dz, LinearSolveReport& report);
-  void correct(LinearSolveReport& report, Vector& dd, Vector& dz);
+  void solve_again(CondensedContact& condensed, const Vector& C, Vector& dd, Vector& dz, LinearSolveReport& report);
+  void correct(CondensedContact& condensed, LinearSolveReport& report, Vector& dd, Vector& dz);
   void match_elimination(const RCP<const Graph>& graph, const std::vector<LocalOrdinal>& prescribed);
 
   void evaluate_at_jacobian() {
     if (jacobian_at.is_null()) throw std::logic_error("SemiSmoothSystem: jacobian() comes first");
     const auto displacement = d(*jacobian_at);
-    if (parts.contact) evaluate_contact(*displacement, true);
+    if (parts.contact) evaluate_contact(*displacement);
     match_graph();
     if (!is_stiffness) assemble_bulk(*displacement);
   }

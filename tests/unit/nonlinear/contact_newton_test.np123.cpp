@@ -117,7 +117,7 @@ TEST_P(ContactFormulation, DirectionWithoutGeometricStiffnessLeavesThatAlone) {
   system.apply(direction, J_dx);
   J_dx.update(1.0, F, 1.0);
 
-  ContactSystem& contact = *system.parts().contact;
+  const ContactSystem& contact = *system.parts().contact;
   const RCP<const Vector> d = system.displacement(std::as_const(*problem.x)), z = system.multipliers(std::as_const(*problem.x)),
                           dd = system.displacement(std::as_const(direction));
   Vector change(d->getMap());
@@ -125,10 +125,7 @@ TEST_P(ContactFormulation, DirectionWithoutGeometricStiffnessLeavesThatAlone) {
   for (const double sign : {1.0, -1.0}) {
     Vector moved(*d, Teuchos::Copy), force(d->getMap());
     moved.update(sign * h, *dd, 1.0);
-    std::optional<StepFailure> failure;
-    contact.evaluate(moved, false, failure);
-    ASSERT_FALSE(failure);
-    contact.add_contact_force(*z, force);
+    contact.evaluate(moved, *system.contact_history()).add_force(*z, force);
     change.update(sign / (2.0 * h), force, 1.0);
   }
   const double size = change.norm2();
@@ -238,7 +235,7 @@ TEST(ContactNewton, SlidesOverManyFacets) {
   observer.accepted = [&](const StepReport& report, const Vector&) { cutbacks += report.cutbacks; };
   const std::vector<char> unconstrained(problem.grid->owned_nodes().size(), 0);
   const auto start = [&](Vector& x) {
-    problem.system->parts().contact->start_step(*problem.system->displacement(x), unconstrained, *problem.system->multipliers(x));
+    problem.system->start_step(x, unconstrained);
   };
   EXPECT_TRUE(run_steps(*problem.system, stepping, {}, *problem.x, start, observer, failure));
   EXPECT_EQ(cutbacks, 0);

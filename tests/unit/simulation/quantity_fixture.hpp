@@ -59,6 +59,7 @@ class TwoBlocks {
     displacement = nodal([](int, const Point&) { return Point{0.0, 0.0}; });
     reaction = nodal([](int, const Point&) { return Point{0.0, 0.0}; });
     external = nodal([](int, const Point&) { return Point{0.0, 0.0}; });
+    history = contact->initial_history(*displacement);
     move([](int, const Point&) { return Point{0.0, 0.0}; });
   }
 
@@ -77,9 +78,7 @@ class TwoBlocks {
     displacement = nodal(u);
     local_displacement = rcp(new Vector(bodies->local_dofs()));
     local_displacement->doImport(*displacement, *bodies->ghost_import(), Tpetra::INSERT);
-    std::optional<StepFailure> failure;
-    contact->evaluate(*displacement, false, failure);
-    throw_if_any(*mesh->comm, failure);
+    evaluation = contact->evaluate(*displacement, *history);
   }
 
   /// z = p n + (shear, 0) with n = (0, -1); p of x.
@@ -92,13 +91,14 @@ class TwoBlocks {
   }
 
   QuantityContext context(double time = 1.0) const {
+    laws = evaluation->laws(*multipliers);
     QuantityContext context{*bodies};
     context.contact = contact.get();
     context.pairs = {{"pair", "upper/bottom", "lower/top"}};
     context.time = time;
     context.displacement = displacement.get();
     context.local_displacement = local_displacement.get();
-    context.multipliers = multipliers.get();
+    context.laws = &*laws;
     context.reaction = reaction.get();
     context.external_force = external.get();
     context.force_round_off = force_round_off;
@@ -122,6 +122,9 @@ class TwoBlocks {
   RCP<Mesh> mesh;
   std::unique_ptr<Bodies> bodies;
   std::unique_ptr<ContactSystem> contact;
+  std::optional<ContactHistory> history;
+  std::optional<ContactEvaluation> evaluation;
+  mutable std::optional<ContactLaws> laws;  ///< of the last context()
   RCP<Vector> displacement, local_displacement, multipliers, reaction, external;
   std::vector<LocalOrdinal> prescribed;
   double force_round_off = 0.0;

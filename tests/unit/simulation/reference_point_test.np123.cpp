@@ -150,7 +150,7 @@ TEST_P(ReferencePoints, JacobianAgreesWithCentralDifferences) {
   Vector x(system.map());
   std::optional<StepFailure> failure;
   const auto start = [&](Vector& at) {
-    model.contact()->start_step(*system.displacement(at), model.held_by_contact_only(), *system.multipliers(at));
+    system.start_step(at, model.held_by_contact_only());
   };
   SteppingOptions stepping = scene.stepping;
   stepping.end_time = 0.5;

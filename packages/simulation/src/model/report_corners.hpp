@@ -7,6 +7,6 @@
 namespace mortise {
 
 /// Names the pairs whose slave surface has kinks, and the rule that gives these their normals. Collective.
-void report_corners(const ContactSystem& contact, RunLog& log);
+void report_corners(const ContactSystem& contact, const ContactEvaluation& at_start, RunLog& log);
 
 }  // namespace mortise

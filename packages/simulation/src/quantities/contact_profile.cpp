@@ -75,7 +75,7 @@ std::vector<ProfilePoint> ContactProfile::points(const FieldState& state) const 
     const auto values = owned.getLocalViewHost(Tpetra::Access::ReadWrite);
     const auto displacement = state.displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
     const double moves = state.contact->geometry(pair_) == ContactGeometry::current ? 1.0 : 0.0;
-    for (const auto& node : state.contact->node_states(pair_, *state.multipliers)) {
+    for (const auto& node : node_states(*state.laws, pair_)) {
       const LocalOrdinal row = node.owned_node;
       for (int i = 0; i < 2; ++i) values(row, i) = mesh.coordinates[row][i] + moves * displacement(2 * row + i, 0);
       values(row, 2) = node.pressure;

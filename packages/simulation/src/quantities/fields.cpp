@@ -26,7 +26,7 @@ Values on_slave_nodes(const FieldState& state, int components, const std::functi
   Values values(static_cast<std::size_t>(state.bodies.mesh()->owned_count()) * components, 0.0);
   if (state.contact == nullptr) return values;
   for (std::size_t pair = 0; pair < state.contact->pairs(); ++pair)
-    for (const auto& node : state.contact->node_states(pair, *state.multipliers)) put(node, &values[components * node.owned_node]);
+    for (const auto& node : node_states(*state.laws, pair)) put(node, &values[components * node.owned_node]);
   return values;
 }
 

@@ -48,7 +48,7 @@ double HalfWidth::evaluate(const QuantityContext& context) {
 
 double PeakPressure::evaluate(const QuantityContext& context) {
   double peak = 0.0;
-  for (const auto& state : context.contact->node_states(pair_, *context.multipliers)) peak = std::max(peak, state.pressure);
+  for (const auto& state : node_states(*context.laws, pair_)) peak = std::max(peak, state.pressure);
   return largest_over_ranks(context.mesh(), peak);
 }
 
@@ -62,7 +62,7 @@ double ContactLength::evaluate(const QuantityContext& context) {
 double ContactArea::evaluate(const QuantityContext& context) {
   double area = 0.0;
   if (context.mesh().dimension == 3) {
-    for (const auto& state : context.contact->node_states(pair_, *context.multipliers)) area += state.closed ? state.covered : 0.0;
+    for (const auto& state : node_states(*context.laws, pair_)) area += state.closed ? state.covered : 0.0;
     return sum_over_ranks(context.mesh(), area);
   }
   for (const PressedFacet& facet : pressed_facets(context, pair_))
@@ -89,7 +89,7 @@ double ContactRadius::evaluate(const QuantityContext& context) {
   const double moves = context.contact->geometry(pair_) == ContactGeometry::current ? 1.0 : 0.0;
   const Eigen::Vector3d origin(center.data()), direction = Eigen::Vector3d(axis.data()).normalized();
   double force = 0.0, moment = 0.0;
-  for (const auto& state : context.contact->node_states(pair_, *context.multipliers)) {
+  for (const auto& state : node_states(*context.laws, pair_)) {
     Eigen::Vector3d x(mesh.coordinates[state.owned_node].data());
     for (int i = 0; i < 3; ++i) x[i] += moves * displacement(3 * state.owned_node + i, 0);
     const double normal_force = state.covered * state.pressure;
@@ -109,7 +109,7 @@ double PressureVariation::evaluate(const QuantityContext& context) {
 
 double ActiveCount::evaluate(const QuantityContext& context) {
   double count = 0.0;
-  for (const auto& state : context.contact->node_states(pair_, *context.multipliers)) count += state.closed ? 1.0 : 0.0;
+  for (const auto& state : node_states(*context.laws, pair_)) count += state.closed ? 1.0 : 0.0;
   return sum_over_ranks(context.mesh(), count);
 }
 

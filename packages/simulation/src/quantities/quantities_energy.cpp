@@ -39,13 +39,13 @@ void Energy::prepare(const QuantityContext& context) {
 // do is r. Friction takes what its forces on both sides do not give back: f_c of the shear tractions alone.
 RCP<Vector> Energy::force(const QuantityContext& context) const {
   const auto result = rcp(new Vector(context.bodies.dofs()));
-  const auto add_contact_force = [&](const Vector& multipliers) { context.contact->add_contact_force(multipliers, *result); };
+  const auto add_contact_force = [&](const Vector& multipliers) { context.laws->evaluation().add_force(multipliers, *result); };
   if (of == Of::friction) {
-    add_contact_force(*context.contact->shear_tractions(*context.multipliers));
+    add_contact_force(*context.laws->evaluation().shear_tractions(context.laws->multipliers()));
     return result;
   }
   if (of == Of::internal_work) {
-    if (context.contact != nullptr) add_contact_force(*context.multipliers);
+    if (context.contact != nullptr) add_contact_force(context.laws->multipliers());
     result->update(1.0, *context.reaction, 1.0, *context.external_force, -1.0);
   } else {
     result->assign(*context.external_force);

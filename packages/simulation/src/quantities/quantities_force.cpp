@@ -113,10 +113,10 @@ void ContactForce::prepare(const QuantityContext& context) {
 
 double ContactForce::evaluate(const QuantityContext& context) {
   const int i = static_cast<int>(component);
-  if (part == Part::all) return context.contact->resultant(pair_, *context.multipliers)[i];
+  if (part == Part::all) return resultant(*context.laws, pair_)[i];
   double force = 0.0;
   const auto subtract = [&](std::size_t pair, double sign) {
-    for (const auto& state : context.contact->node_states(pair, *context.multipliers)) {
+    for (const auto& state : node_states(*context.laws, pair)) {
       const double normal = state.pressure * state.normal[i];
       force -= sign * state.covered * (part == Part::normal ? normal : state.traction[i] - normal);
     }
@@ -140,7 +140,7 @@ int first_balanced_component(const QuantityContext& context) { return context.bo
 double contact_imbalance(const QuantityContext& context) {
   if (context.contact == nullptr) return 0.0;
   Vector force(context.bodies.dofs());
-  context.contact->add_contact_force(*context.multipliers, force);
+  context.laws->add_force(force);
   const auto values = force.getLocalViewHost(Tpetra::Access::ReadOnly);
   Sums sum{}, absolute{};
   const int dimension = context.mesh().dimension;

@@ -75,7 +75,7 @@ std::vector<PressedFacet> pressed_facets(const QuantityContext& context, std::si
   MultiVector owned(mesh.owned_nodes, 6), local(mesh.local_nodes, 6);  // start as zero
   {
     const auto values = owned.getLocalViewHost(Tpetra::Access::ReadWrite);
-    for (const auto& state : context.contact->node_states(pair, *context.multipliers)) {
+    for (const auto& state : node_states(*context.laws, pair)) {
       const double factor = undeformed ? state.covered / state.weight : 1.0;
       values(state.owned_node, 0) = factor * state.pressure;
       values(state.owned_node, 1) = state.closed ? 1.0 : 0.0;

@@ -78,14 +78,14 @@ double softer_modulus(const Model& model, std::size_t one, std::size_t other) {
   return modulus;
 }
 
-std::optional<std::string> too_coarse(const Model& model, const Scene& scene, std::size_t p, const PlaceOfNode& at, const Vector& multipliers) {
+std::optional<std::string> too_coarse(const Model& model, const Scene& scene, std::size_t p, const PlaceOfNode& at, const ContactLaws& laws) {
   const Mesh& mesh = *model.mesh();
   const ContactPairOptions& options = scene.contact[p].value;
   const Formulation& formulation = *options.contact.formulation.options;
   if (formulation.coupling() == Coupling::node_to_segment || options.contact.geometry == ContactGeometry::reference) return std::nullopt;
   std::vector<char> closed(static_cast<std::size_t>(mesh.owned_count()), 0);
   double counted[2] = {0.0, 0.0}, all[2] = {};  // nodes that carry force, and the largest pressure
-  for (const ContactNodeState& node : model.contact()->node_states(p, multipliers)) {
+  for (const ContactNodeState& node : node_states(laws, p)) {
     if (!node.closed || !(node.pressure > 0.0)) continue;
     closed[node.owned_node] = 1;
     counted[0] += 1.0;
@@ -142,11 +142,11 @@ std::optional<std::string> too_coarse(const Model& model, const Scene& scene, st
 
 }  // namespace
 
-std::vector<std::string> slaves_too_coarse(const Model& model, const Scene& scene, const Vector& displacement, const Vector& multipliers) {
+std::vector<std::string> slaves_too_coarse(const Model& model, const Scene& scene, const Vector& displacement, const ContactLaws& laws) {
   const PlaceOfNode at = current_places(*model.bodies(), displacement);
   std::vector<std::string> lines;
   for (std::size_t p = 0; p < scene.contact.size(); ++p)
-    if (auto line = too_coarse(model, scene, p, at, multipliers)) lines.push_back(std::move(*line));
+    if (auto line = too_coarse(model, scene, p, at, laws)) lines.push_back(std::move(*line));
   return lines;
 }
 

@@ -9,6 +9,6 @@
 namespace mortise {
 
 /// One line for each pair of which that is so in a solution, at which contact was evaluated last. Collective.
-std::vector<std::string> slaves_too_coarse(const Model& model, const Scene& scene, const Vector& displacement, const Vector& multipliers);
+std::vector<std::string> slaves_too_coarse(const Model& model, const Scene& scene, const Vector& displacement, const ContactLaws& laws);
 
 }  // namespace mortise

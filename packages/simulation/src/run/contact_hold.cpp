@@ -1,5 +1,7 @@
 #include "mortise/simulation/run/contact_hold.hpp"
 
+#include "mortise/contact/holding_nodes.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -48,17 +50,16 @@ RCP<MultiVector> contact_places(const Mesh& mesh, const RigidModes& modes, const
   return result;
 }
 
-ContactHold contact_hold(const Model& model, const RigidModes& modes, const NodePlaces& at, const Vector& z) {
+ContactHold contact_hold(const Model& model, const RigidModes& modes, const NodePlaces& at, const ContactLaws& laws) {
   const Mesh& mesh = *model.mesh();
-  const ContactSystem& contact = *model.contact();
   const int size = modes.count();
-  const std::size_t pairs = contact.pairs();
+  const std::size_t pairs = model.contact()->pairs();
   // The Gram matrix, then closed nodes and sticking ones of each pair.
   std::vector<double> mine(static_cast<std::size_t>(size) * size + 2 * pairs, 0.0), all(mine.size());
   Eigen::Map<Eigen::MatrixXd> gram(mine.data(), size, size);
   double* counts = mine.data() + static_cast<std::size_t>(size) * size;
   bool after_normal = false;  // tangents of a node follow its normal
-  for (const HoldingRow& row : contact.holding_rows(z, *contact_places(mesh, modes, at.x))) {
+  for (const HoldingRow& row : holding_rows(laws, *contact_places(mesh, modes, at.x))) {
     if (!row.along_surface) ++counts[2 * row.pair];
     if (row.along_surface && after_normal) ++counts[2 * row.pair + 1];
     after_normal = !row.along_surface;

@@ -43,11 +43,10 @@ ContactWatch::ContactWatch(const Model& model, const Scene& scene)
 
 // A node that carries no multiplier counts as not covered although its neighbours act for it. Beyond the reach that makes no difference; where the
 // reach is nothing, nodes beside a covered one count as covered.
-std::vector<char> ContactWatch::covered(const Pair& pair) const {
+std::vector<char> ContactWatch::covered(const Pair& pair, const ContactLaws& laws) const {
   const Mesh& mesh = *model_.mesh();
-  const Vector no_pressure(model_.contact()->multiplier_map());
   std::vector<char> owned(static_cast<std::size_t>(mesh.owned_count()), 0);
-  for (const ContactNodeState& node : model_.contact()->node_states(pair.index, no_pressure)) owned[node.owned_node] = node.covered > 0.0;
+  for (const ContactNodeState& node : node_states(laws, pair.index)) owned[node.owned_node] = node.covered > 0.0;
   std::vector<char> local = on_local_nodes(mesh, to_local_nodes_, owned);
   if (!pair.is_frozen) return local;
   for (const Side& side : pair.slave.sides) {
@@ -59,7 +58,7 @@ std::vector<char> ContactWatch::covered(const Pair& pair) const {
   return on_local_nodes(mesh, to_local_nodes_, owned);
 }
 
-void ContactWatch::examine(const PlacedBodies& bodies) const {
+void ContactWatch::examine(const PlacedBodies& bodies, const ContactLaws& laws) const {
   if (pairs_.empty()) return;
   const auto& [mesh, at, boxes, length, touching] = bodies;
 
@@ -68,7 +67,7 @@ void ContactWatch::examine(const PlacedBodies& bodies) const {
   std::vector<double> mine, counts(3 * pairs_.size());
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     const Pair& pair = pairs_[p];
-    const std::vector<char> is_covered = covered(pair);
+    const std::vector<char> is_covered = covered(pair, laws);
     double all = 0.0, acted_on = 0.0;
     for (const SurfaceProbe& probe : probes_of(mesh, pair.slave, at)) {
       all += 1.0;

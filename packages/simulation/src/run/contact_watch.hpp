@@ -12,13 +12,13 @@ class ContactWatch {
  public:
   ContactWatch(const Model& model, const Scene& scene);
 
-  /// Collective. Bodies at the displacement of the last evaluation of the model's contact.
+  /// Collective. Bodies and contact at one state.
   /// @throws StepFailure (lost_contact) on every rank if
   ///   - a slave node that no master facet covers lies within the master's body, farther behind its surface than the reach;
   ///   - most of the slave lies within that body;
   ///   - a rigid master lies within the slave's body, entered through its back; or
   ///   - no facet of a rigid master faces the slave any more and most of the slave sees its back.
-  void examine(const PlacedBodies& bodies) const;
+  void examine(const PlacedBodies& bodies, const ContactLaws& laws) const;
 
  private:
   struct Pair {
@@ -29,7 +29,7 @@ class ContactWatch {
     bool is_frozen;  ///< its couplings are those of the reference configuration
   };
 
-  std::vector<char> covered(const Pair& pair) const;  ///< [local nodes]
+  std::vector<char> covered(const Pair& pair, const ContactLaws& laws) const;  ///< [local nodes]
 
   const Model& model_;
   const Scene& scene_;

@@ -119,7 +119,7 @@ std::vector<SurfaceProbe> CornerWatch::probes_of(const std::vector<Corner>& corn
 
 // From the corner back through its own body: the first facet of the slave that the line leaves by is the one that it lies in.
 std::optional<CornerWatch::Found> CornerWatch::deepest_of_master(std::size_t p, const std::vector<Corner>& corners, const PlacedBodies& bodies,
-                                                                 const Vector& multipliers) const {
+                                                                 const ContactLaws& laws) const {
   const auto& [mesh, at, boxes, model_length, touching] = bodies;
   const Pair& pair = pairs_[p];
   constexpr int own = -1;
@@ -144,7 +144,7 @@ std::optional<CornerWatch::Found> CornerWatch::deepest_of_master(std::size_t p, 
   if (any == 0.0) return std::nullopt;
 
   // Of the slave's facets: their lengths, and whether a node of them is closed.
-  const std::vector<char> is_closed = closed(pair, multipliers);
+  const std::vector<char> is_closed = closed(pair, laws);
   MultiVector of_facets(pair.facets, 2);
   {
     const auto values = of_facets.getLocalViewHost(Tpetra::Access::OverwriteAll);
@@ -182,17 +182,17 @@ std::optional<CornerWatch::Found> CornerWatch::deepest_of_master(std::size_t p, 
   return std::nullopt;
 }
 
-std::vector<char> CornerWatch::closed(const Pair& pair, const Vector& multipliers) const {
+std::vector<char> CornerWatch::closed(const Pair& pair, const ContactLaws& laws) const {
   const Mesh& mesh = *model_.mesh();
   std::vector<char> owned(static_cast<std::size_t>(mesh.owned_count()), 0);
-  for (const ContactNodeState& node : model_.contact()->node_states(pair.index, multipliers))
+  for (const ContactNodeState& node : node_states(laws, pair.index))
     owned[node.owned_node] = node.closed && node.pressure > 0.0;
   return on_local_nodes(mesh, Import(mesh.owned_nodes, mesh.local_nodes), owned);
 }
 
 // From the corner back through its own body, out of the master. Its facets' nodes are on this rank.
 std::optional<CornerWatch::Found> CornerWatch::deepest_of_slave(std::size_t p, const std::vector<Corner>& corners, const PlacedBodies& bodies,
-                                                                const Vector& multipliers) const {
+                                                                const ContactLaws& laws) const {
   const auto& [mesh, at, boxes, model_length, touching] = bodies;
   const Pair& pair = pairs_[p];
   std::vector<SurfaceProbe> probes = probes_of(corners);
@@ -200,7 +200,7 @@ std::optional<CornerWatch::Found> CornerWatch::deepest_of_slave(std::size_t p, c
   const auto other = tagged_surface(mesh, pair.master_body, pair.master, SurfaceTags::front, SurfaceTags::rest, at);
   const auto found = penetrations(
       {*mesh.comm, mesh.dimension, own, other, boxes[pair.slave_body], boxes[pair.master_body], is_rigid(mesh, pair.master_body), touching}, probes);
-  const std::vector<char> is_closed = closed(pair, multipliers);
+  const std::vector<char> is_closed = closed(pair, laws);
   std::vector<double> length(corners.size(), 0.0), share[2] = {length, length};  // [carries]
   for (std::size_t c = 0; c < corners.size(); ++c) {
     if (found[c].kind != Penetration::Kind::overlap) continue;
@@ -227,7 +227,7 @@ std::optional<CornerWatch::Found> CornerWatch::deepest_of_slave(std::size_t p, c
   return std::nullopt;
 }
 
-void CornerWatch::examine(const PlacedBodies& bodies, const Vector& multipliers) {
+void CornerWatch::examine(const PlacedBodies& bodies, const ContactLaws& laws) {
   found_.clear();
   if (pairs_.empty()) return;
   const Mesh& mesh = bodies.mesh;
@@ -243,9 +243,9 @@ void CornerWatch::examine(const PlacedBodies& bodies, const Vector& multipliers)
   Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, static_cast<int>(mine.size()), mine.data(), all.data());
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     if (all[2 * p] > 0.0)
-      if (auto found = deepest_of_master(p, of_master[p], bodies, multipliers)) found_.push_back(std::move(*found));
+      if (auto found = deepest_of_master(p, of_master[p], bodies, laws)) found_.push_back(std::move(*found));
     if (all[2 * p + 1] > 0.0)
-      if (auto found = deepest_of_slave(p, of_slave[p], bodies, multipliers)) found_.push_back(std::move(*found));
+      if (auto found = deepest_of_slave(p, of_slave[p], bodies, laws)) found_.push_back(std::move(*found));
   }
 }
 

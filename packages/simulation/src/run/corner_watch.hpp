@@ -18,8 +18,8 @@ class CornerWatch {
   /// @param warn  called once for each pair
   CornerWatch(const Model& model, const Scene& scene, std::function<void(const std::string&)> warn);
 
-  /// Collective. A solution, at which contact was evaluated last: its bodies and its multipliers.
-  void examine(const PlacedBodies& bodies, const Vector& multipliers);
+  /// Collective. A solution: its bodies and its contact.
+  void examine(const PlacedBodies& bodies, const ContactLaws& laws);
   /// The solution that was examined last is an accepted state.
   void accept();
   /// Whether a warning of this pair of the scene has been given.
@@ -55,11 +55,11 @@ class CornerWatch {
   std::vector<Candidate> candidates(const SideSet& set, std::size_t body) const;
   std::vector<Corner> corners(const std::vector<Candidate>& candidates, const PlacedBodies& bodies, const Box3& other_box) const;
   std::optional<Found> deepest_of_master(std::size_t p, const std::vector<Corner>& corners, const PlacedBodies& bodies,
-                                         const Vector& multipliers) const;
+                                         const ContactLaws& laws) const;
   std::optional<Found> deepest_of_slave(std::size_t p, const std::vector<Corner>& corners, const PlacedBodies& bodies,
-                                        const Vector& multipliers) const;
+                                        const ContactLaws& laws) const;
   static std::vector<SurfaceProbe> probes_of(const std::vector<Corner>& corners);
-  std::vector<char> closed(const Pair& pair, const Vector& multipliers) const;  ///< [local nodes]
+  std::vector<char> closed(const Pair& pair, const ContactLaws& laws) const;  ///< [local nodes]
 
   const Model& model_;
   const Scene& scene_;

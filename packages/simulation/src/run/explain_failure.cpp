@@ -56,7 +56,7 @@ std::vector<PairHold> pairs_now(const std::vector<int>& bodies, const Model& mod
   const Vector& x = *system.linearised_at();
   const NodePlaces at = node_places(*model.mesh(), system.displacement(x).get());
   const RigidModes modes(*model.mesh(), model.bodies()->kinematics() == Kinematics::axisymmetric, bodies, at.x);
-  return contact_hold(model, modes, at, *system.multipliers(x)).pairs;
+  return contact_hold(model, modes, at, system.contact_laws(x)).pairs;
 }
 
 std::string describe_free_motions(const std::vector<int>& bodies, const Model& model, SemiSmoothSystem& system, const ContactRecord& record) {

@@ -13,7 +13,7 @@
 #include <optional>
 
 #include "model/prescribed_rows.hpp"
-#include "mortise/contact/bearing_node.hpp"
+#include "mortise/contact/holding_nodes.hpp"
 #include "mortise/simulation/run/body_motion.hpp"
 #include "mortise/simulation/run/contact_hold.hpp"
 #include "mortise/simulation/run/contact_statics.hpp"
@@ -39,12 +39,12 @@ class BodyStatics {
     ResidualNorms norms;
     system.residual(x, F, norms);
     system.jacobian(x);
-    const RCP<const Vector> z = system.multipliers(x);
-    find_nodes(held, *z);
+    const ContactLaws laws = system.contact_laws(x);
+    find_nodes(held, laws);
     if (bodies_.empty()) return;
 
     Vector contact(model.parts().dofs);
-    model.contact()->add_contact_force(*z, contact);
+    laws.add_force(contact);
     Vector outer(*system.displacement(F), Teuchos::Copy);
     outer.update(-1.0, contact, 1.0);
     const Eigen::RowVectorXd mine = work_of_residual(mesh_, *modes_, at_, *fixed_, outer);
@@ -215,18 +215,18 @@ class BodyStatics {
   }
 
   /// The nodes that may bear something, and of the bodies those that have any.
-  void find_nodes(const std::vector<int>& held, const Vector& z) {
+  void find_nodes(const std::vector<int>& held, const ContactLaws& laws) {
     const bool axisymmetric = model_.bodies()->kinematics() == Kinematics::axisymmetric;
     const RigidModes all_modes(mesh_, axisymmetric, held, at_.x);
     std::vector<int> mine(held.size(), 0), reached(held.size());
-    for (const BearingNode& node : model_.contact()->bearing_nodes(z, *contact_places(mesh_, all_modes, at_.x)))
+    for (const BearingNode& node : bearing_nodes(laws, *contact_places(mesh_, all_modes, at_.x)))
       for (const auto& wrench : node.normal) mine[wrench.body] = 1;
     Teuchos::reduceAll(*mesh_.comm, Teuchos::REDUCE_MAX, static_cast<int>(mine.size()), mine.data(), reached.data());
     for (std::size_t b = 0; b < held.size(); ++b)
       if (reached[b]) bodies_.push_back(held[b]);
     is_whole_ = bodies_.size() == held.size();
     modes_.emplace(mesh_, axisymmetric, bodies_, at_.x);
-    nodes_ = model_.contact()->bearing_nodes(z, *contact_places(mesh_, *modes_, at_.x));
+    nodes_ = bearing_nodes(laws, *contact_places(mesh_, *modes_, at_.x));
   }
 
   Eigen::VectorXd works(const std::vector<HoldingRow::Wrench>& wrenches) const {

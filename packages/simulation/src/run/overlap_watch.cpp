@@ -40,9 +40,9 @@ OverlapWatch::Surface OverlapWatch::surface(const SideSet& set) const {
   return result;
 }
 
-bool OverlapWatch::carries_force(const Pair& pair, const Vector& multipliers) const {
+bool OverlapWatch::carries_force(const Pair& pair, const ContactLaws& laws) const {
   int mine = 0, any = 0;
-  for (const ContactNodeState& node : model_.contact()->node_states(pair.index, multipliers)) mine = mine || (node.closed && node.pressure > 0.0);
+  for (const ContactNodeState& node : node_states(laws, pair.index)) mine = mine || (node.closed && node.pressure > 0.0);
   Teuchos::reduceAll(*model_.mesh()->comm, Teuchos::REDUCE_MAX, mine, Teuchos::outArg(any));
   return any != 0;
 }
@@ -89,12 +89,12 @@ double OverlapWatch::sagitta(const Surface& surface, const PlaceOfNode& at) cons
 }
 
 // The sagitta is asked for where something lies within the other body: mostly nothing does.
-void OverlapWatch::examine(const PlacedBodies& bodies, const Vector& multipliers) {
+void OverlapWatch::examine(const PlacedBodies& bodies, const ContactLaws& laws) {
   found_.clear();
   const auto& [mesh, at, boxes, length, touching] = bodies;
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     const Pair& pair = pairs_[p];
-    if (carries_force(pair, multipliers)) continue;
+    if (carries_force(pair, laws)) continue;
     for (const bool of_slave : {true, false}) {
       const Surface &one = of_slave ? pair.slave : pair.master, &other = of_slave ? pair.master : pair.slave;
       const bool rigid = is_rigid(mesh, other.body);

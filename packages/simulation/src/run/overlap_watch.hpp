@@ -16,8 +16,8 @@ class OverlapWatch {
   /// @param warn  called once for each pair, when the overlap is deeper than facets of an arc make contact begin late
   OverlapWatch(const Model& model, const Scene& scene, std::function<void(const std::string&)> warn);
 
-  /// Collective. A solution, at which contact was evaluated last: its bodies and its multipliers.
-  void examine(const PlacedBodies& bodies, const Vector& multipliers);
+  /// Collective. A solution: its bodies and its contact.
+  void examine(const PlacedBodies& bodies, const ContactLaws& laws);
   /// The solution that was examined last is an accepted state.
   /// @param is_told  of a pair of the scene: a warning that says more has been given
   void accept(const std::function<bool(std::size_t)>& is_told);
@@ -47,7 +47,7 @@ class OverlapWatch {
   };
 
   Surface surface(const SideSet& set) const;
-  bool carries_force(const Pair& pair, const Vector& multipliers) const;
+  bool carries_force(const Pair& pair, const ContactLaws& laws) const;
   std::vector<SurfaceProbe> probes(const Surface& surface, const PlaceOfNode& at) const;
   double sagitta(const Surface& surface, const PlaceOfNode& at) const;
 

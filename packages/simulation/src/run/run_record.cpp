@@ -59,7 +59,7 @@ std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(
 
 }  // namespace
 
-Json summary(const RunRecord& record, const Model& model) {
+Json summary(const RunRecord& record, const Model& model, const std::optional<ContactHistory>& contact) {
   Json json;
   json["scene"] = record.scene;
   json["settings"] = record.settings;
@@ -105,7 +105,7 @@ Json summary(const RunRecord& record, const Model& model) {
   json["calls"]["plasticity"] = evaluations;
   json["bytes"]["plasticity"] = bytes;
   json["calls"]["friction"] = model.contact() ? model.contact()->friction_evaluations() : 0;
-  json["bytes"]["friction"] = model.contact() ? model.contact()->friction_bytes() : 0;
+  json["bytes"]["friction"] = contact ? friction_bytes(*contact) : 0;
   return json;
 }
 

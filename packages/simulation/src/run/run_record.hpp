@@ -29,6 +29,6 @@ struct RunRecord {
 };
 
 /// The summary with the names that docs/output.md lists. Collective.
-nlohmann::ordered_json summary(const RunRecord& record, const Model& model);
+nlohmann::ordered_json summary(const RunRecord& record, const Model& model, const std::optional<ContactHistory>& contact);
 
 }  // namespace mortise

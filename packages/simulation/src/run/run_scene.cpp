@@ -240,7 +240,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, Scene scene, const RunOp
   std::optional<SlipSettlement> settlement;
   if (SlipSettlement::is_needed(model)) {
     settlement.emplace(model);
-    parts.better_start = [&](const Vector& at, const Vector& F) { return settlement->better_start(at, F); };
+    parts.better_start = [&](const Vector& at, const Vector& F, const ContactLaws& contact) { return settlement->better_start(at, F, contact); };
   }
   SemiSmoothSystem system(std::move(parts), timers);
   StepEvaluation evaluation(scene, model, system);
@@ -263,7 +263,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, Scene scene, const RunOp
   Vector x(system.map());
   std::optional<StepFailure> failure;
   const auto start_step = [&](Vector& at) {
-    if (model.contact()) model.contact()->start_step(*system.displacement(at), model.held_by_contact_only(), *system.multipliers(at));
+    system.start_step(at, model.held_by_contact_only());
   };
   {
     const auto timer = timers.scope("steps");
@@ -276,7 +276,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, Scene scene, const RunOp
     JumpCheck jump(model.parts().length);
     const auto last_time = [&] { return record.steps.empty() ? 0.0 : record.steps.back().time; };
     functions.verify = [&](const Vector& from, Vector& to, int round) {
-      if (surfaces) surfaces->examine(*system.displacement(to), *system.multipliers(to));
+      if (surfaces) surfaces->examine(*system.displacement(to), system.contact_laws(to));
       if (check) {
         const auto timer = timers.scope("state check");
         try {
@@ -325,7 +325,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, Scene scene, const RunOp
     functions.begin = [&, begin = functions.begin](int step, double time, double dt) {
       for (std::size_t pair = 0; pair < scene.contact.size(); ++pair)
         if (const double depth = model.surfaces_at_start().pairs[pair].overlap.depth; depth > 0.0)
-          model.contact()->allow_overlap(pair, depth * std::max(0.0, 1.0 - time / taken_up));
+          system.allow_overlap(pair, depth * std::max(0.0, 1.0 - time / taken_up));
       begin(step, time, dt);
     };
     // What is pushed apart does not go on: predicted, it would let all nodes of a press fit slip.
@@ -357,7 +357,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, Scene scene, const RunOp
         record.converged = false;
       }
       if (record.converged && model.contact())
-        for (const std::string& line : slaves_too_coarse(model, scene, *system.displacement(x), *system.multipliers(x))) log.warning(line);
+        for (const std::string& line : slaves_too_coarse(model, scene, *system.displacement(x), system.contact_laws(x))) log.warning(line);
     } catch (const InputError& error) {  // on every rank: a quantity's expression without a value
       failure.emplace(FailureKind::input, error.what());
     }
@@ -377,7 +377,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, Scene scene, const RunOp
   log.detail(timer_report(timers, comm));
   report_end(record, failure, directory.path(), log);
   write_file(*comm, directory.file("summary.json"),
-             [&, json = summary(record, model)] { return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"; });
+             [&, json = summary(record, model, system.contact_history())] { return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"; });
   if (is_input(failure)) throw *failure;
   return record.exit;
 }

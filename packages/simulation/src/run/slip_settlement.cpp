@@ -91,16 +91,15 @@ double SlipSettlement::sum(double mine) const {
 
 // Of what contact and boundary conditions leave free, the motions that slipping nodes do work on. Stiffness along them is that of tractions that turn
 // with the slip,  rho c_t / |y| (I - e e^T), none in 2D, and of what hardly holds them.
-bool SlipSettlement::find_sliding(const Vector& x, const Vector& F, Sliding& found) const {
+bool SlipSettlement::find_sliding(const Vector& x, const Vector& F, const ContactLaws& laws, Sliding& found) const {
   const Mesh& mesh = *model_.mesh();
-  const ContactSystem& contact = *model_.contact();
   const RCP<const Map>& dofs = model_.parts().dofs;
-  const RCP<const Vector> d = x.offsetView(dofs, 0), z = x.offsetView(contact.multiplier_map(), dofs->getNodeNumElements());
+  const RCP<const Vector> d = x.offsetView(dofs, 0), z = x.offsetView(model_.contact()->multiplier_map(), dofs->getNodeNumElements());
   found.at = node_places(mesh, d.get());
   found.modes.emplace(mesh, model_.bodies()->kinematics() == Kinematics::axisymmetric, bodies_, found.at.x);
   const RigidModes& modes = *found.modes;
   const Eigen::Index count = modes.count();
-  const ContactHold hold = contact_hold(model_, modes, found.at, *z);
+  const ContactHold hold = contact_hold(model_, modes, found.at, laws);
   found.pairs = hold.pairs;
   const Eigen::MatrixXd prescribed = prescribed_gram(mesh, modes, found.at, *fixed_);
   std::vector<double> gram(prescribed.data(), prescribed.data() + prescribed.size());
@@ -108,7 +107,7 @@ bool SlipSettlement::find_sliding(const Vector& x, const Vector& F, Sliding& fou
   const Eigen::MatrixXd held = Eigen::Map<const Eigen::MatrixXd>(gram.data(), count, count) + hold.gram;
 
   // What the nodes that slip would hold if they were stuck, rows of unit forces as those of `held`.
-  found.nodes = contact.sliding_nodes(*z, *contact_places(mesh, modes, found.at.x));
+  found.nodes = sliding_nodes(laws, *contact_places(mesh, modes, found.at.x));
   std::vector<double> if_all_stuck(static_cast<std::size_t>(count * count), 0.0);
   Eigen::Map<Eigen::MatrixXd> stuck(if_all_stuck.data(), count, count);
   for (const SlidingRow& row :
@@ -203,9 +202,9 @@ std::string SlipSettlement::describe_overload(const Sliding& sliding, const Eige
                      fmt::join(bodies, ", "), load, capacity, fmt::join(slipping, ", "));
 }
 
-RCP<Vector> SlipSettlement::better_start(const Vector& x, const Vector& F) {
+RCP<Vector> SlipSettlement::better_start(const Vector& x, const Vector& F, const ContactLaws& laws) {
   Sliding sliding;
-  if (!find_sliding(x, F, sliding)) return Teuchos::null;
+  if (!find_sliding(x, F, laws, sliding)) return Teuchos::null;
   const Mesh& mesh = *model_.mesh();
   const std::vector<SlidingNode>& nodes = sliding.nodes;
   const FrictionBalance balance =

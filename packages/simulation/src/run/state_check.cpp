@@ -62,12 +62,12 @@ bool StateCheck::is_needed(const Model& model) { return model.contact() && !bodi
 StateCheck::StateCheck(const Model& model, double resolution, std::function<void(const std::string&)> warn)
     : model_(model), resolution_(resolution), warn_(std::move(warn)), bodies_(bodies_held_by_contact_only(model)), fixed_(prescribed_marks(model)) {}
 
-bool StateCheck::verify(const SemiSmoothSystem& system, const Vector& before, Vector& after, int round) {
+bool StateCheck::verify(SemiSmoothSystem& system, const Vector& before, Vector& after, int round) {
   const Mesh& mesh = *model_.mesh();
   const NodePlaces from = node_places(mesh, system.displacement(before).get()), to = node_places(mesh, system.displacement(after).get());
   const bool axisymmetric = model_.bodies()->kinematics() == Kinematics::axisymmetric;
   auto modes = std::make_unique<RigidModes>(mesh, axisymmetric, bodies_, to.x);
-  const ContactHold hold = contact_hold(model_, *modes, to, *system.multipliers(after));
+  const ContactHold hold = contact_hold(model_, *modes, to, system.contact_laws(after));
   const Eigen::MatrixXd mine = prescribed_gram(mesh, *modes, to, *fixed_);
   Eigen::MatrixXd gram(mine.rows(), mine.cols());
   Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), gram.data());

@@ -55,11 +55,11 @@ double StepEvaluation::force_round_off(const Vector& displacement) const {
 std::vector<double> StepEvaluation::quantities(const Vector& x, double time) {
   if (scene_.quantities.empty()) return {};
   const auto displacement = system_.displacement(x);
-  const auto multipliers = model_.contact() ? system_.multipliers(x) : Teuchos::null;
   const auto local_displacement = local(*displacement);
   Vector reaction(model_.bodies()->dofs()), external(model_.bodies()->dofs());
   system_.set_time(time);
-  system_.forces(x, reaction);  // leaves the contact evaluated at x
+  const std::optional<ContactLaws> laws = contact_laws(x);
+  system_.forces(x, reaction);
   std::optional<StepFailure> failure;
   const Configuration at{time, *displacement, *local_displacement};
   for (const auto& contribution : model_.parts().contributions)
@@ -71,7 +71,7 @@ std::vector<double> StepEvaluation::quantities(const Vector& x, double time) {
   context.time = time;
   context.displacement = displacement.get();
   context.local_displacement = local_displacement.get();
-  context.multipliers = multipliers.get();
+  context.laws = laws ? &*laws : nullptr;
   context.reaction = &reaction;
   context.external_force = &external;
   context.force_round_off = force_round_off(*displacement);
@@ -85,11 +85,10 @@ std::vector<double> StepEvaluation::quantities(const Vector& x, double time) {
 
 std::vector<Field> StepEvaluation::fields(const Vector& x, const std::vector<std::string>& names) {
   const auto displacement = system_.displacement(x);
-  const auto multipliers = model_.contact() ? system_.multipliers(x) : Teuchos::null;
   const auto local_displacement = local(*displacement);
-  evaluate_contact(*displacement);
+  const std::optional<ContactLaws> laws = contact_laws(x);
   std::vector<Field> fields;
-  const FieldState state{*model_.bodies(), model_.contact().get(), *displacement, *local_displacement, multipliers.get()};
+  const FieldState state{*model_.bodies(), model_.contact().get(), *displacement, *local_displacement, laws ? &*laws : nullptr};
   for (const auto& name : names) fields.push_back(make_field(name, state));
   return fields;
 }
@@ -99,19 +98,17 @@ std::vector<std::vector<ProfilePoint>> StepEvaluation::profiles(const Vector& x)
   if (!model_.contact()) return profiles;
   const auto pairs = context().pairs;
   for (std::size_t pair = profiles_.size(); pair < pairs.size(); ++pair) profiles_.emplace_back(*model_.mesh(), pairs[pair], pair);
-  const auto displacement = system_.displacement(x), multipliers = system_.multipliers(x);
+  const auto displacement = system_.displacement(x);
   const auto local_displacement = local(*displacement);
-  evaluate_contact(*displacement);
-  const FieldState state{*model_.bodies(), model_.contact().get(), *displacement, *local_displacement, multipliers.get()};
+  const std::optional<ContactLaws> laws = contact_laws(x);
+  const FieldState state{*model_.bodies(), model_.contact().get(), *displacement, *local_displacement, laws ? &*laws : nullptr};
   for (const ContactProfile& profile : profiles_) profiles.push_back(profile.points(state));
   return profiles;
 }
 
-void StepEvaluation::evaluate_contact(const Vector& displacement) const {
-  if (!model_.contact()) return;
-  std::optional<StepFailure> failure;
-  model_.contact()->evaluate(displacement, false, failure);
-  throw_if_any(*model_.mesh()->comm, failure);
+std::optional<ContactLaws> StepEvaluation::contact_laws(const Vector& x) const {
+  if (!model_.contact()) return std::nullopt;
+  return system_.contact_laws(x);
 }
 
 }  // namespace mortise

@@ -7,11 +7,11 @@ namespace mortise {
 SurfaceWatch::SurfaceWatch(const Model& model, const Scene& scene, const std::function<void(const std::string&)>& warn)
     : model_(model), passages_(model, scene), corners_(model, scene, warn), overlaps_(model, scene, warn) {}
 
-void SurfaceWatch::examine(const Vector& displacement, const Vector& multipliers) {
+void SurfaceWatch::examine(const Vector& displacement, const ContactLaws& laws) {
   const PlacedBodies bodies = placed_bodies(model_, displacement);
-  passages_.examine(bodies);
-  corners_.examine(bodies, multipliers);
-  overlaps_.examine(bodies, multipliers);
+  passages_.examine(bodies, laws);
+  corners_.examine(bodies, laws);
+  overlaps_.examine(bodies, laws);
 }
 
 void SurfaceWatch::accept() {

@@ -17,9 +17,9 @@ class SurfaceWatch {
   /// @param warn  called once for each pair and question
   SurfaceWatch(const Model& model, const Scene& scene, const std::function<void(const std::string&)>& warn);
 
-  /// Collective. A solution, at which contact was evaluated last.
+  /// Collective. A solution.
   /// @throws StepFailure on every rank, as ContactWatch says
-  void examine(const Vector& displacement, const Vector& multipliers);
+  void examine(const Vector& displacement, const ContactLaws& laws);
   /// The solution that was examined last is an accepted state.
   void accept();
   /// What of the accepted state lies in the other body where the pair carries no force; empty: nothing.

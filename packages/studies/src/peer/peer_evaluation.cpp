@@ -76,20 +76,19 @@ void PeerEvaluation::read_pressure(const CalculixResults& results) {
   if (!model_.contact()) return;
   const Mesh& mesh = *model_.mesh();
   const DeckNumbers numbers(mesh);
-  std::optional<StepFailure> failure;
-  model_.contact()->evaluate(*displacement_, false, failure);
-  throw_if_any(*mesh.comm, failure);
+  const ContactEvaluation evaluation = model_.contact()->evaluate(*displacement_, model_.contact()->initial_history(*displacement_));
   const auto& map = model_.contact()->multiplier_map();
-  multipliers_ = rcp(new Vector(map));
-  const Vector zero(map);
-  const auto values = multipliers_->getLocalViewHost(Tpetra::Access::ReadWrite);
+  Vector multipliers(map);
+  const ContactLaws without_pressure = evaluation.laws(multipliers);
+  const auto values = multipliers.getLocalViewHost(Tpetra::Access::ReadWrite);
   const GlobalOrdinal first = model_.dofs();  // ids of multipliers follow those of displacements
   for (std::size_t pair = 0; pair < scene_.contact.size(); ++pair)
-    for (const auto& state : model_.contact()->node_states(pair, zero)) {
+    for (const auto& state : node_states(without_pressure, pair)) {
       const double pressure = over_layers(results, "CONTACT", numbers, state.node)[3] / numbers.layers;
       for (int i = 0; i < numbers.dimension; ++i)
         values(map->getLocalElement(first + numbers.dimension * state.node + i), 0) = pressure * state.normal[i];
     }
+  laws_ = evaluation.laws(multipliers);
 }
 
 void PeerEvaluation::read_forces(const CalculixResults& results) {
@@ -119,7 +118,7 @@ QuantityContext PeerEvaluation::context() const {
   context.time = scene_.stepping.end_time;
   context.displacement = displacement_.get();
   context.local_displacement = local_displacement_.get();
-  context.multipliers = multipliers_.get();
+  context.laws = laws_ ? &*laws_ : nullptr;
   context.reaction = reaction_.get();
   context.external_force = external_.get();
   context.prescribed = &model_.parts().prescribed->dofs();
@@ -169,7 +168,7 @@ std::vector<double> PeerEvaluation::quantities() const {
 std::vector<std::vector<ProfilePoint>> PeerEvaluation::profiles() const {
   std::vector<std::vector<ProfilePoint>> profiles;
   const auto pairs = context().pairs;
-  const FieldState state{*model_.bodies(), model_.contact().get(), *displacement_, *local_displacement_, multipliers_.get()};
+  const FieldState state{*model_.bodies(), model_.contact().get(), *displacement_, *local_displacement_, laws_ ? &*laws_ : nullptr};
   for (std::size_t pair = 0; pair < pairs.size(); ++pair) profiles.push_back(ContactProfile(*model_.mesh(), pairs[pair], pair).points(state));
   return profiles;
 }

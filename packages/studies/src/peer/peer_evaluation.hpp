@@ -33,7 +33,8 @@ class PeerEvaluation {
 
   const Scene& scene_;
   const Model& model_;
-  RCP<Vector> displacement_, local_displacement_, multipliers_, nodal_force_, external_, reaction_;
+  RCP<Vector> displacement_, local_displacement_, nodal_force_, external_, reaction_;
+  std::optional<ContactLaws> laws_;  ///< none without contact
 };
 
 }  // namespace mortise

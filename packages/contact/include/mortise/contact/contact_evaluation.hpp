@@ -1,11 +1,9 @@
 #pragma once
 // Contact at one displacement, and its conditions at given multipliers: immutable values.
 
-#include <array>
 #include <memory>
 #include <optional>
-#include <string>
-#include <vector>
+#include <utility>
 
 #include "mortise/contact/contact_history.hpp"
 #include "mortise/core/error.hpp"

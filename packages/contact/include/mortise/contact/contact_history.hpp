@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "mortise/contact/complementarity.hpp"
@@ -60,7 +61,7 @@ struct AcceptedContact {
   RCP<const Vector> multipliers;     ///< z
 };
 
-/// The history of contact: an immutable value, cheap to copy. Only ContactSystem makes new ones, at the start, by commit(), and within a step by
+/// The history of contact: an immutable value, cheap to copy. ContactSystem makes new ones: at the start, by commit(), and within a step by
 /// start_step(), augment() and allow_overlap(). Whoever keeps an old one can go back to it.
 class ContactHistory {
  public:

@@ -2,7 +2,7 @@
 // The linearised contact at one iterate: condensed into the bodies' system, or as blocks of a saddle point system.
 
 #include <memory>
-#include <vector>
+#include <utility>
 
 #include "mortise/contact/contact_evaluation.hpp"
 #include "mortise/contact/decoupling.hpp"
@@ -51,7 +51,7 @@ class CondensedContact {
 /// The linearised contact at a displacement and multipliers. Collective in all members.
 class ContactLinearisation {
  public:
-  /// K += C~ = d(f_c)/dd at fixed z. `system` has the graph of ContactSystem::graph() for this evaluation, and is open for changes.
+  /// K += C~ = d(f_c)/dd at fixed z. `system` is on the graph of ContactSystem::graph() for this evaluation, asked for last, and open for changes.
   /// @throws std::logic_error for a matrix on another graph, or one that is complete
   void add_stiffness(Matrix& system) const;
 

@@ -1,6 +1,7 @@
 #pragma once
 // A contact pair as the host application describes it: surfaces, stiffness and options.
 
+#include <memory>
 #include <optional>
 #include <string>
 

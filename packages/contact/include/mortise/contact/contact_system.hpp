@@ -23,18 +23,18 @@ struct ContactModel;
 
 /// How far an augmented Lagrange update was from being needed no more, over all ranks.
 struct Augmentation {
-  bool more = false;       ///< the multipliers were updated: solve again
+  bool more = false;       ///< the multipliers have to be updated: solve again with `history`
   bool exhausted = false;  ///< more would be needed than the pair allows
   double error = 0.0;   ///< of the multipliers of the pair that is furthest from exact ones, over its largest; infinite where nothing is known of it
   double change = 0.0;  ///< what one more update would change of them, over the same
   double tolerance = 0.0;  ///< of `error`
   std::string pair;        ///< where
-  std::optional<ContactHistory> history;  ///< with the new multipliers; none unless `more`
+  std::optional<ContactHistory> history;  ///< with the new multipliers; none unless `more`, and none if `exhausted`
 };
 
 /// All pairs. z holds `dimension` components for each owned slave node that may carry a multiplier.
-/// Displacements are given on the owned dofs. What a call gives depends on its arguments alone, not on earlier calls. Collective in all members but the
-/// accessors.
+/// Displacements are given on the owned dofs. Histories and evaluations depend on the arguments of a call alone, not on earlier calls. Collective in all
+/// members but the accessors.
 class ContactSystem {
  public:
   /// @param dofs       owned dofs (dimension * node + component) of `owned_nodes`
@@ -69,7 +69,7 @@ class ContactSystem {
   ContactHistory initial_history(const Vector& d) const;
 
   /// The integrals at displacement d. Slips are those since the state of `history`.
-  /// @throws StepFailure on every rank for a facet without extent, a projection that has no solution, and lost_contact for a node that was closed, or
+  /// @throws StepFailure on every rank for a position that is not finite, a facet without extent, a projection that has no solution, and lost_contact for a node that was closed, or
   ///         stood in front of the master, in `history` and has now gone through it and out of its reach
   ContactEvaluation evaluate(const Vector& d, const ContactHistory& history) const;
   /// The same with derivatives.
@@ -85,6 +85,7 @@ class ContactSystem {
   /// @param unconstrained  for each owned node whether it belongs to a body that nothing but contact holds
   /// @return the history that holds within the step
   /// @throws StepFailure on every rank, as evaluate()
+  /// @throws std::invalid_argument on every rank for another number of entries than owned nodes
   ContactHistory start_step(const ContactHistory& accepted, const Vector& d, const std::vector<char>& unconstrained, Vector& z) const;
 
   /// By how much the surfaces of a pair may lie in one another, 0 unless said: what is left of an overlap that is taken up bit by bit. Conditions of

@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "mortise/contact/contact_system.hpp"
@@ -42,8 +43,8 @@ struct SystemParts {
   std::shared_ptr<LinearSolver> linear_solver;                               ///< of each Newton step
   std::function<NearNullSpace(const Vector& displacement)> near_null_space;  ///< at a displacement; asked for by multigrid alone
   /// For an x at which the Jacobian is singular although the system has a solution: a better point to linearise at, or null where there is none. It
-  /// is close to x as far as Newton's method is concerned. F is F(x), the contact is evaluated at x, with derivatives. Collective; empty: never.
-  std::function<RCP<Vector>(const Vector& x, const Vector& F)> better_start;
+  /// is close to x as far as Newton's method is concerned. F is F(x), `contact` the laws at x. Collective; empty: never.
+  std::function<RCP<Vector>(const Vector& x, const Vector& F, const ContactLaws& contact)> better_start;
   double length = 1.0;  ///< size of the model
 };
 
@@ -87,6 +88,17 @@ class SemiSmoothSystem {
   /// The multipliers of x follow what is covered at its displacement (ContactSystem::follow_cover()), from the last jacobian() on. True if any
   /// changed.
   bool follow_cover(Vector& x);
+  /// A step, or another try of it, starts at x from the accepted state: multipliers get their guesses (ContactSystem::start_step()). Nothing without
+  /// contact. Throws StepFailure on every rank.
+  /// @param unconstrained  for each owned node whether it belongs to a body that nothing but contact holds
+  void start_step(Vector& x, const std::vector<char>& unconstrained);
+  /// By how much the surfaces of a contact pair may lie in one another from the next start_step() on.
+  void allow_overlap(std::size_t pair, double depth);
+  /// The contact conditions at x: of a state that was committed, in the step that led there, until the next step starts. Else in the present step. With
+  /// contact only. Throws StepFailure on every rank.
+  ContactLaws contact_laws(const Vector& x);
+  /// The history of the accepted state; none without contact, and before anything was evaluated.
+  const std::optional<ContactHistory>& contact_history() const;
   /// Prepares J at x, and takes the states of the nodes at x as those that ResidualNorms::changed counts against.
   void jacobian(const Vector& x);
   /// x of the last jacobian(); null if there was none since set_time().

@@ -19,7 +19,7 @@ struct FieldState {
   const ContactSystem* contact;      ///< null: contact fields are zero, and the gap is too
   const Vector& displacement;        ///< owned dofs
   const Vector& local_displacement;  ///< owned dofs, then ghosts
-  const Vector* multipliers;         ///< null without contact
+  const ContactLaws* laws;           ///< of it at this state; null without contact
 };
 
 /// The values of the field `name`, one of field_names().

@@ -19,12 +19,12 @@ struct PairSurfaces {
 /// What a quantity may look at. The vectors are null while quantities are prepared.
 struct QuantityContext {
   const Bodies& bodies;
-  ContactSystem* contact = nullptr;   ///< evaluated at `displacement`; null: the scene has no contact
+  const ContactSystem* contact = nullptr;  ///< null: the scene has no contact
   std::vector<PairSurfaces> pairs{};  ///< in the order of `contact`
   double time = 0.0;
   const Vector* displacement = nullptr;        ///< owned dofs
   const Vector* local_displacement = nullptr;  ///< owned dofs, then ghosts
-  const Vector* multipliers = nullptr;         ///< z; null without contact
+  const ContactLaws* laws = nullptr;           ///< of contact at `displacement`; null without contact
   /// f_int - f_ext + f_c on owned dofs: on prescribed ones the force of the support on the body, on followers that of their reference point
   const Vector* reaction = nullptr;
   const Vector* external_force = nullptr;                 ///< f_ext on owned dofs

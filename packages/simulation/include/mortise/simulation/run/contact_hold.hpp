@@ -21,11 +21,11 @@ struct ContactHold {
   std::vector<PairHold> pairs;  ///< [contact pairs]
 };
 
-/// [owned nodes x 1 + dim] body and arm for ContactSystem::holding_rows() and sliding_nodes(); arms over the sizes of the bodies.
+/// [owned nodes x 1 + dim] body and arm for holding_rows() and sliding_nodes(); arms over the sizes of the bodies.
 RCP<MultiVector> contact_places(const Mesh& mesh, const RigidModes& modes, const std::vector<Eigen::Vector3d>& x);
 
-/// At z and the displacement that contact was evaluated at last, with derivatives: `at`. Collective.
-ContactHold contact_hold(const Model& model, const RigidModes& modes, const NodePlaces& at, const Vector& z);
+/// At the laws of contact at a state with derivatives, where nodes are `at`. Collective.
+ContactHold contact_hold(const Model& model, const RigidModes& modes, const NodePlaces& at, const ContactLaws& laws);
 
 /// Motions that a Gram matrix of what holds them leaves free: orthonormal columns [rows of gram x motions]. Bodies that hold one another are looked
 /// at together, others by themselves. A motion is free where what it costs is below hardly_held^2 of the most that another one costs. The bound is

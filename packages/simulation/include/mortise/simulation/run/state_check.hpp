@@ -26,7 +26,7 @@ class StateCheck {
   /// Whether a model has bodies that contact alone holds. Collective.
   static bool is_needed(const Model& model);
 
-  /// From the accepted state `before` to `after`, where contact was evaluated last, with derivatives. Says which motions are free, each once.
+  /// From the accepted state `before` to `after`. Says which motions are free, each once.
   ///
   /// A motion that nothing holds costs nothing, so equilibrium does not say how far a body goes along it. What may have moved it within the step are
   /// the bodies that it touches: by their own motion and by deformation. Let m be the largest motion over the step of a node of bodies that boundary
@@ -43,7 +43,7 @@ class StateCheck {
   /// beyond its own deformation. If it has to go out of the way, it does so again.
   /// @returns whether `after` is accepted; if not it is another start
   /// @throws StepFailure(lost_contact), on every rank, for a body that went farther again, or, held or not, farther than the model is long
-  bool verify(const SemiSmoothSystem& system, const Vector& before, Vector& after, int round);
+  bool verify(SemiSmoothSystem& system, const Vector& before, Vector& after, int round);
 
   /// Whether a body, held or not, went farther than that in the state that verify() passed last. Contact that turns or levers it may take it there,
   /// but so may a jump.

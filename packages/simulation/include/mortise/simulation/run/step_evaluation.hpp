@@ -2,6 +2,7 @@
 // Quantities and fields of an accepted step.
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,7 @@ class StepEvaluation {
   QuantityContext context() const;
   double force_round_off(const Vector& displacement) const;
   RCP<Vector> local(const Vector& displacement) const;
-  void evaluate_contact(const Vector& displacement) const;
+  std::optional<ContactLaws> contact_laws(const Vector& x) const;
 
   const Scene& scene_;
   const Model& model_;
