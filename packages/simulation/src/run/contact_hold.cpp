@@ -1,7 +1,5 @@
 #include "mortise/simulation/run/contact_hold.hpp"
 
-#include "mortise/contact/holding_nodes.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -12,6 +10,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "mortise/contact/holding_nodes.hpp"
 #include "mortise/core/symmetric_spectrum.hpp"
 
 namespace mortise {

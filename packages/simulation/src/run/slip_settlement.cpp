@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "model/prescribed_rows.hpp"
+#include "mortise/contact/holding_nodes.hpp"
 #include "mortise/core/symmetric_spectrum.hpp"
 #include "mortise/simulation/run/body_motion.hpp"
 #include "mortise/simulation/run/contact_hold.hpp"
