@@ -59,7 +59,10 @@ SurfaceKinks Interface<dim>::find_kinks(const MultiVector& x, const std::vector<
 }
 
 template <int dim>
-bool Interface<dim>::set_kinks(const SurfaceKinks& kinks) {
+bool Interface<dim>::set_kinks(const SurfaceKinks& chosen) {
+  SurfaceKinks kinks = chosen;  // none are chosen at first
+  kinks.is_kink.resize(slave.nodes_with_normal, 0);
+  kinks.takes_normal_of.resize(slave.nodes_with_normal);
   int any = 0;
   Teuchos::reduceAll(*owned_nodes_->getComm(), Teuchos::REDUCE_MAX, static_cast<int>(!(kinks == kinks_)), Teuchos::outArg(any));
   if (any == 0) return false;
