@@ -1,5 +1,7 @@
 // The linearised contact: C~, condensation of the multipliers, their recovery.
 
+#include "condensation.hpp"
+
 #include <Eigen/LU>
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Import.hpp>
@@ -9,8 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-
-#include "condensation.hpp"
 
 namespace mortise {
 namespace {

@@ -16,8 +16,9 @@ namespace detail {
 namespace {
 
 /// The slip references, starts and cover of a state, where `paths` are slipped and nodes do what `states` says.
-AcceptedContact accepted_state(const EvaluatedContact& contact, const RCP<const Vector>& z, const std::vector<std::vector<NodeMultiplier>>& multipliers,
-                               ContactStates states, std::vector<std::vector<double>> paths) {
+AcceptedContact accepted_state(const EvaluatedContact& contact, const RCP<const Vector>& z,
+                               const std::vector<std::vector<NodeMultiplier>>& multipliers, ContactStates states,
+                               std::vector<std::vector<double>> paths) {
   AcceptedContact result{contact.history->pairs, std::move(states), contact.positions, z};
   for (std::size_t p = 0; p < contact.pairs.size(); ++p) {
     const PairEvaluation& pair = contact.pairs[p];
@@ -116,7 +117,8 @@ long friction_bytes(const ContactHistory& history) {
   for (const PairHistory& pair : history->pairs) {
     if (pair.slip == nullptr) continue;
     const SlipReferences& slip = *pair.slip;
-    const std::size_t per_node = sizeof(slip.nodes[0]) + sizeof(slip.coefficients[0]) + sizeof(slip.positions[0]) + sizeof(slip.ties[0]) + sizeof(double);
+    const std::size_t per_node =
+        sizeof(slip.nodes[0]) + sizeof(slip.coefficients[0]) + sizeof(slip.positions[0]) + sizeof(slip.ties[0]) + sizeof(double);
     bytes += slip.nodes.capacity() * per_node;
     for (std::size_t s = 0; s < slip.nodes.size(); ++s)
       bytes += slip.nodes[s].capacity() * sizeof(GlobalOrdinal) + slip.coefficients[s].capacity() * sizeof(double);

@@ -239,8 +239,7 @@ std::vector<GapCurvature> Pair::gap_curvatures(const MultiVector& x, const PairG
   std::vector<GapCurvature> curvatures = interface_->gap_curvatures(local, pressures);
   if (pattern == geometry.pattern) return curvatures;
   for (GapCurvature& facet : curvatures)
-    for (LocalOrdinal& node : facet.columns)
-      node = geometry.pattern->local_nodes->getLocalElement(pattern->local_nodes->getGlobalElement(node));
+    for (LocalOrdinal& node : facet.columns) node = geometry.pattern->local_nodes->getLocalElement(pattern->local_nodes->getGlobalElement(node));
   return curvatures;
 }
 

@@ -48,7 +48,7 @@ class Pair {
   /// Whether slave node s has a multiplier and its function anything to act on: D_jj > 0, of standard multipliers sum_k D_jk. What is round-off of a
   /// facet that is not covered is no part of it: see FacetMoments.
   bool covered(std::size_t s, const NodeRow& row) const;
-  /// Which of the owned slave nodes of this rank have slips that were measured, over all calls.
+  /// How often slips were measured on this rank, over all calls.
   long slip_evaluations() const { return slip_evaluations_; }
 
   /// The history before anything was evaluated: no reference for slips, and axes of the tangents of partly fixed nodes only.

@@ -45,8 +45,10 @@ bool PairEvaluation::has_friction(std::size_t s) const {
 }
 
 RegularisedNode PairEvaluation::regularised_node(std::size_t s) const {
-  const double scale = pair_->definition().youngs_modulus / pair_->size() * history().starts[s].stiffening * history().settling.hardening, weight = slave_nodes()[s].weight;
-  return {pair_->regularisation()->normal * scale, pair_->regularisation()->tangential * scale, pair_->complementarity_constant(s) * weight, weight, history().starts[s].multiplier};
+  const double scale = pair_->definition().youngs_modulus / pair_->size() * history().starts[s].stiffening * history().settling.hardening,
+               weight = slave_nodes()[s].weight;
+  return {pair_->regularisation()->normal * scale, pair_->regularisation()->tangential * scale, pair_->complementarity_constant(s) * weight, weight,
+          history().starts[s].multiplier};
 }
 
 Complementarity PairEvaluation::law_of(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* missing_bound) const {
@@ -93,7 +95,7 @@ SpatialMatrix PairEvaluation::shift_factor(const Complementarity& law, std::size
 
 // At fixed q:   d(n . q) = q . dn,   d(T q)_a = (turn_a^T q) . dn.
 SpatialVector PairEvaluation::constraint_gradient(const Complementarity& law, std::size_t s, std::size_t entry,
-                                                const NodeMultiplier& multiplier) const {
+                                                  const NodeMultiplier& multiplier) const {
   const NodeRow& row = this->row(s);
   const auto column = static_cast<Eigen::Index>(entry);
   SpatialVector gradient = law.gap_factor * row.dgap[entry] + law.normal_factor * row.dnormal.col(column);

@@ -82,7 +82,8 @@ void Pair::measure_slip(const PairHistory& history, bool derivatives, PairGeomet
       const std::vector<LocalOrdinal>& coupled = pattern.coupled[s];
       for (std::size_t c = 0; c < facet.columns.size(); ++c) {
         const auto place = std::lower_bound(coupled.begin(), coupled.end(), facet.columns[c]) - coupled.begin();
-        geometry.slips[s].dslip.middleCols(dimension_ * place, dimension_) += gradient.middleCols(dimension_ * static_cast<Eigen::Index>(c), dimension_);
+        geometry.slips[s].dslip.middleCols(dimension_ * place, dimension_) +=
+            gradient.middleCols(dimension_ * static_cast<Eigen::Index>(c), dimension_);
       }
     }
   }

@@ -122,8 +122,8 @@ ContactHistory ContactSystem::start_step(const ContactHistory& accepted, const V
       active += closed;
       nearest = std::min(nearest, gap);
     }
-    const bool needed =
-        self.maximum(slave_is_unconstrained(pair.pair(), unconstrained) || master_is_unconstrained(pair.pair(), *self.owned_nodes, unconstrained)) > 0.0;
+    const bool needed = self.maximum(slave_is_unconstrained(pair.pair(), unconstrained) ||
+                                     master_is_unconstrained(pair.pair(), *self.owned_nodes, unconstrained)) > 0.0;
     if (!needed || self.sum(active) > 0.0) continue;
     nearest = -self.maximum(-nearest);
     const double reach = std::max(detail::near * pair.pair().size(), nearest + touching * pair.pair().size());

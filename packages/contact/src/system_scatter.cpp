@@ -208,7 +208,8 @@ void SystemScatter::add(Matrix& system, const NodePositions& positions, LocalOrd
     summed = remote_matrix_->sumIntoLocalValues(positions.remote_row[node] + component, count, values.data(), column_buffer_.data());
   }
   if (summed != count)
-    throw std::logic_error("contact: an entry of the condensed system has no place in its matrix; make the matrix on the graph of ContactSystem::graph()");
+    throw std::logic_error(
+        "contact: an entry of the condensed system has no place in its matrix; make the matrix on the graph of ContactSystem::graph()");
 }
 
 void SystemScatter::add(Vector& vector, const NodePositions& positions, LocalOrdinal node, int component, double value) {

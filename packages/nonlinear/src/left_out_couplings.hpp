@@ -7,8 +7,8 @@
 
 namespace mortise::detail {
 
-/// The Jacobian is J = J~ + L, where J~ is what is condensed and L has rows of C only (CondensedContact::leaves_out_couplings()). The step of J follows
-/// from that of J~, J~ dx_0 = -F. With s(w) = -J~^-1 (0, w) it is
+/// The Jacobian is J = J~ + L, where J~ is what is condensed and L has rows of C only (CondensedContact::leaves_out_couplings()). The step of J
+/// follows from that of J~, J~ dx_0 = -F. With s(w) = -J~^-1 (0, w) it is
 ///   dx = dx_0 + s(w),   w - L s(w) = L dx_0,
 /// since then J dx = -F + L dx_0 - (0, w) + L s(w) = -F. The equations in w, which has entries at few nodes, are solved by GMRES with rows that are
 /// forces. Where GMRES does not converge, the step is the best that it found: a direction of descent is judged by the residual it leads to.

@@ -56,9 +56,8 @@ LinearSolveReport SemiSmoothSystem::Implementation::solve_reduced(const RCP<Matr
 // Multipliers kept:
 //   ( K + C~  B ) dd   -r
 //   ( C_d   C_z ) dz = -C    with the rows of C as forces, A_j C.   With followers dd = T dq + d0 the first rows are multiplied by T^T.
-LinearSolveReport SemiSmoothSystem::Implementation::solve_saddle_point(const Vector& d, const Vector& r, const Vector& C,
-                                                                       const Vector& increment, GeometricContactStiffness geometric_stiffness,
-                                                                       Vector& dd, Vector& dz) {
+LinearSolveReport SemiSmoothSystem::Implementation::solve_saddle_point(const Vector& d, const Vector& r, const Vector& C, const Vector& increment,
+                                                                       GeometricContactStiffness geometric_stiffness, Vector& dd, Vector& dz) {
   open_matrix();
   const ContactLinearisation linearised = linearised_contact();
   if (geometric_stiffness == GeometricContactStiffness::included) linearised.add_stiffness(*matrix);
@@ -110,8 +109,7 @@ LinearSolveReport SemiSmoothSystem::Implementation::solve_saddle_point(const Vec
 
 // Solves J~ (dd, dz) = -(0, C) with the condensed system at hand and its prescribed rows eliminated. Displacements that are prescribed or follow
 // others do not change, and neither do multipliers of open nodes.
-void SemiSmoothSystem::Implementation::solve_again(CondensedContact& condensed, const Vector& C, Vector& dd, Vector& dz,
-                                                   LinearSolveReport& report) {
+void SemiSmoothSystem::Implementation::solve_again(CondensedContact& condensed, const Vector& C, Vector& dd, Vector& dz, LinearSolveReport& report) {
   Vector rhs(parts.dofs);
   condensed.condense_right_hand_side(C, rhs);
   const RCP<Vector> q_rhs = reduction ? reduction->reduced(rhs) : rcp(&rhs, false);
@@ -133,7 +131,8 @@ void SemiSmoothSystem::Implementation::correct(CondensedContact& condensed, Line
   const auto scope = timers.scope("tied multipliers");
   const RCP<const Vector> weights = parts.contact->weights();
   detail::correct_step(
-      *weights, std::max(tolerance, 1e-10), [&](const Vector& C, Vector& change_d, Vector& change_z) { solve_again(condensed, C, change_d, change_z, report); },
+      *weights, std::max(tolerance, 1e-10),
+      [&](const Vector& C, Vector& change_d, Vector& change_z) { solve_again(condensed, C, change_d, change_z, report); },
       [&](const Vector& change_d, const Vector& change_z, Vector& y) { condensed.apply_left_out(change_d, change_z, y); }, dd, dz);
 }
 

@@ -44,7 +44,7 @@ struct SemiSmoothSystem::Implementation {
   std::unique_ptr<detail::SaddlePointMatrix> saddle_point;  // null: multipliers are eliminated
   RCP<const Graph> merged_graph;                            // of the last matrix that was reduced or holds multipliers
 
-  RCP<Vector> internal_at;  // displacement to which `internal` belongs; null: none
+  RCP<Vector> internal_at;                          // displacement to which `internal` belongs; null: none
   std::optional<ContactHistory> accepted, history;  // of the accepted state, of the step; none: nothing has been evaluated yet
   std::map<std::size_t, double> allowed_overlaps;   // by pair, from the next start_step() on
   ContactStates last_states;                        // those that ResidualNorms::changed counts against
@@ -53,7 +53,7 @@ struct SemiSmoothSystem::Implementation {
   std::optional<ContactLaws> committed;             // of the state that was committed last, until the next step starts
   RCP<Vector> committed_at;                         // its x
   RCP<Vector> contact_at;                           // displacement of `contact`
-  RCP<Vector> jacobian_at;  // x of the last jacobian()
+  RCP<Vector> jacobian_at;                          // x of the last jacobian()
 
   Implementation(SystemParts given, Timers given_timers)
       : parts(std::move(given)),
@@ -158,7 +158,7 @@ struct SemiSmoothSystem::Implementation {
 
   // A matrix with the bulk's graph, or with the larger one that the current candidates of contact ask for.
   void match_graph() {
-    const RCP<const Graph> graph = parts.contact        ? parts.contact->graph(*contact, parts.bulk_graph)
+    const RCP<const Graph> graph = parts.contact       ? parts.contact->graph(*contact, parts.bulk_graph)
                                    : !matrix.is_null() ? matrix->getCrsGraph()
                                                        : parts.bulk_graph();
     const bool changed = matrix.is_null() || matrix->getCrsGraph() != graph;

@@ -234,9 +234,7 @@ TEST(ContactNewton, SlidesOverManyFacets) {
   observer.iteration = [&](const NewtonIteration& iteration) { iterations += iteration.iteration > 0; };
   observer.accepted = [&](const StepReport& report, const Vector&) { cutbacks += report.cutbacks; };
   const std::vector<char> unconstrained(problem.grid->owned_nodes().size(), 0);
-  const auto start = [&](Vector& x) {
-    problem.system->start_step(x, unconstrained);
-  };
+  const auto start = [&](Vector& x) { problem.system->start_step(x, unconstrained); };
   EXPECT_TRUE(run_steps(*problem.system, stepping, {}, *problem.x, start, observer, failure));
   EXPECT_EQ(cutbacks, 0);
   EXPECT_LT(problem.system->parts().linear_solver->symbolic_setups(), iterations);

@@ -149,9 +149,7 @@ TEST_P(ReferencePoints, JacobianAgreesWithCentralDifferences) {
   SemiSmoothSystem system(model.parts(), timers);
   Vector x(system.map());
   std::optional<StepFailure> failure;
-  const auto start = [&](Vector& at) {
-    system.start_step(at, model.held_by_contact_only());
-  };
+  const auto start = [&](Vector& at) { system.start_step(at, model.held_by_contact_only()); };
   SteppingOptions stepping = scene.stepping;
   stepping.end_time = 0.5;
   ASSERT_TRUE(run_steps(system, stepping, scene.newton, x, start, {}, failure)) << failure->what();

@@ -108,8 +108,7 @@ void FieldQuantity::visit(const QuantityContext& context, const std::function<vo
     case Carrier::slave_nodes:
       for (std::size_t pair = 0; pair < context.pairs.size(); ++pair)
         if (!pair_ || pair == *pair_)
-          for (const auto& state : node_states(*context.laws, pair))
-            visit(field == PointField::gap ? state.gap : state.pressure, state.weight);
+          for (const auto& state : node_states(*context.laws, pair)) visit(field == PointField::gap ? state.gap : state.pressure, state.weight);
       break;
   }
 }

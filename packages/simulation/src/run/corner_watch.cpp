@@ -185,8 +185,7 @@ std::optional<CornerWatch::Found> CornerWatch::deepest_of_master(std::size_t p, 
 std::vector<char> CornerWatch::closed(const Pair& pair, const ContactLaws& laws) const {
   const Mesh& mesh = *model_.mesh();
   std::vector<char> owned(static_cast<std::size_t>(mesh.owned_count()), 0);
-  for (const ContactNodeState& node : node_states(laws, pair.index))
-    owned[node.owned_node] = node.closed && node.pressure > 0.0;
+  for (const ContactNodeState& node : node_states(laws, pair.index)) owned[node.owned_node] = node.closed && node.pressure > 0.0;
   return on_local_nodes(mesh, Import(mesh.owned_nodes, mesh.local_nodes), owned);
 }
 

@@ -56,8 +56,7 @@ class CornerWatch {
   std::vector<Corner> corners(const std::vector<Candidate>& candidates, const PlacedBodies& bodies, const Box3& other_box) const;
   std::optional<Found> deepest_of_master(std::size_t p, const std::vector<Corner>& corners, const PlacedBodies& bodies,
                                          const ContactLaws& laws) const;
-  std::optional<Found> deepest_of_slave(std::size_t p, const std::vector<Corner>& corners, const PlacedBodies& bodies,
-                                        const ContactLaws& laws) const;
+  std::optional<Found> deepest_of_slave(std::size_t p, const std::vector<Corner>& corners, const PlacedBodies& bodies, const ContactLaws& laws) const;
   static std::vector<SurfaceProbe> probes_of(const std::vector<Corner>& corners);
   std::vector<char> closed(const Pair& pair, const ContactLaws& laws) const;  ///< [local nodes]
 

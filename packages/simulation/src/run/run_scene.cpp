@@ -262,9 +262,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, Scene scene, const RunOp
   Observers observers(comm, scene, directory, model.mesh(), evaluation, log, record, timers);
   Vector x(system.map());
   std::optional<StepFailure> failure;
-  const auto start_step = [&](Vector& at) {
-    system.start_step(at, model.held_by_contact_only());
-  };
+  const auto start_step = [&](Vector& at) { system.start_step(at, model.held_by_contact_only()); };
   {
     const auto timer = timers.scope("steps");
     StepperObserver functions = observers.functions();
@@ -376,8 +374,9 @@ ExitCode run_scene(const RCP<const Communicator>& comm, Scene scene, const RunOp
   Teuchos::reduceAll(*comm, Teuchos::REDUCE_SUM, mine, Teuchos::outArg(record.memory_total_mib));
   log.detail(timer_report(timers, comm));
   report_end(record, failure, directory.path(), log);
-  write_file(*comm, directory.file("summary.json"),
-             [&, json = summary(record, model, system.contact_history())] { return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"; });
+  write_file(*comm, directory.file("summary.json"), [&, json = summary(record, model, system.contact_history())] {
+    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  });
   if (is_input(failure)) throw *failure;
   return record.exit;
 }

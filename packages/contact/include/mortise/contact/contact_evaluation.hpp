@@ -34,8 +34,8 @@ struct ContactNorms {
   int changed = 0;         ///< nodes whose state is not the one they are compared with
 };
 
-/// The integrals of all pairs at a displacement: D, M, gaps, normals, slips. A function of the displacement and of the history alone. Collective in all
-/// members.
+/// The integrals of all pairs at a displacement: D, M, gaps, normals, slips. A function of the displacement and of the history alone. Collective in
+/// all members.
 class ContactEvaluation {
  public:
   /// States, bounds, residual rows and their partial derivatives of all nodes at multipliers z: once for each iterate.
@@ -46,8 +46,8 @@ class ContactEvaluation {
   RCP<Vector> shear_tractions(const Vector& z) const;
   /// The same integrals with a history that differs in what ContactSystem::augment() and allow_overlap() change.
   ContactEvaluation with(const ContactHistory& history) const;
-  /// Multipliers z follow what is covered. Those of nodes that are not covered become 0. Those of nodes that are covered, and were not when `last` was
-  /// taken, take the mean that they are tied to, if that keeps them closed. Only pairs with ties. True, on every rank, if any did.
+  /// Multipliers z follow what is covered. Those of nodes that are not covered become 0. Those of nodes that are covered, and were not when `last`
+  /// was taken, take the mean that they are tied to, if that keeps them closed. Only pairs with ties. True, on every rank, if any did.
   bool follow_cover(const ContactStates& last, Vector& z) const;
 
  protected:

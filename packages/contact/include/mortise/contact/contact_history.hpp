@@ -67,7 +67,7 @@ class ContactHistory {
  public:
   /// @param accepted  as an earlier history had it, with nodes on the same ranks
   explicit ContactHistory(AcceptedContact accepted) : accepted_(std::make_shared<const AcceptedContact>(std::move(accepted))) {}
-  const AcceptedContact& operator*() const { return *accepted_; }   ///< its data
+  const AcceptedContact& operator*() const { return *accepted_; }    ///< its data
   const AcceptedContact* operator->() const { return &*accepted_; }  ///< its data
 
  private:

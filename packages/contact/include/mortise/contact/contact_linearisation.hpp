@@ -29,9 +29,9 @@ class CondensedContact {
   /// z^{k+1} from the whole displacement increment, with that of prescribed dofs.
   void recover(const Vector& increment, Vector& z_new) const;
 
-  /// Whether hardly covered nodes that are in contact have multipliers that depend on one another's. Of these the condensed system has each node's own
-  /// alone. It leaves the rest of the linearised conditions out, L(dd, dz) of apply_left_out(). The step of the condensed system then is not Newton's;
-  /// it is that of  J~ = J - L. The same on every rank.
+  /// Whether hardly covered nodes that are in contact have multipliers that depend on one another's. Of these the condensed system has each node's
+  /// own alone. It leaves the rest of the linearised conditions out, L(dd, dz) of apply_left_out(). The step of the condensed system then is not
+  /// Newton's; it is that of  J~ = J - L. The same on every rank.
   bool leaves_out_couplings() const;
   /// y = L(dd, dz): rows of C.
   void apply_left_out(const Vector& dd, const Vector& dz, Vector& y) const;
@@ -55,8 +55,8 @@ class ContactLinearisation {
   /// @throws std::logic_error for a matrix on another graph, or one that is complete
   void add_stiffness(Matrix& system) const;
 
-  /// Turns `system` (K~, in rows of prescribed dofs too) and `rhs` (-r without f_c) into the condensed system. Rows of prescribed dofs may be replaced
-  /// afterwards, not before.
+  /// Turns `system` (K~, in rows of prescribed dofs too) and `rhs` (-r without f_c) into the condensed system. Rows of prescribed dofs may be
+  /// replaced afterwards, not before.
   /// @throws std::logic_error as add_stiffness(), and where the multipliers of a pair stay unknowns
   CondensedContact condense(Matrix& system, Vector& rhs) const;
 

@@ -27,14 +27,14 @@ struct Augmentation {
   bool exhausted = false;  ///< more would be needed than the pair allows
   double error = 0.0;   ///< of the multipliers of the pair that is furthest from exact ones, over its largest; infinite where nothing is known of it
   double change = 0.0;  ///< what one more update would change of them, over the same
-  double tolerance = 0.0;  ///< of `error`
-  std::string pair;        ///< where
+  double tolerance = 0.0;                 ///< of `error`
+  std::string pair;                       ///< where
   std::optional<ContactHistory> history;  ///< with the new multipliers; none unless `more`, and none if `exhausted`
 };
 
 /// All pairs. z holds `dimension` components for each owned slave node that may carry a multiplier.
-/// Displacements are given on the owned dofs. Histories and evaluations depend on the arguments of a call alone, not on earlier calls. Collective in all
-/// members but the accessors.
+/// Displacements are given on the owned dofs. Histories and evaluations depend on the arguments of a call alone, not on earlier calls. Collective in
+/// all members but the accessors.
 class ContactSystem {
  public:
   /// @param dofs       owned dofs (dimension * node + component) of `owned_nodes`
@@ -69,8 +69,10 @@ class ContactSystem {
   ContactHistory initial_history(const Vector& d) const;
 
   /// The integrals at displacement d. Slips are those since the state of `history`.
-  /// @throws StepFailure on every rank for a position that is not finite, a facet without extent, a projection that has no solution, and lost_contact for a node that was closed, or
-  ///         stood in front of the master, in `history` and has now gone through it and out of its reach
+  /// @throws StepFailure on every rank for
+  ///   - a position that is not finite, a facet without extent, a projection that has no solution;
+  ///   - a node that has gone through the master and out of its reach (lost_contact): one that was closed in `history`, or stood in front of the
+  ///   master.
   ContactEvaluation evaluate(const Vector& d, const ContactHistory& history) const;
   /// The same with derivatives.
   /// @param last  what the nodes did at the last Newton iterate: those that were closed there must not be lost either. Null: none.

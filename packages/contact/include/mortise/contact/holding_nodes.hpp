@@ -47,8 +47,8 @@ struct BearingNode {
   std::vector<std::vector<HoldingRow::Wrench>> along;
 };
 
-/// Directions in which the owned slave nodes of all pairs hold. They are the normal of each closed node, and where it sticks the tangents along which it
-/// may bear shear. Collective.
+/// Directions in which the owned slave nodes of all pairs hold. They are the normal of each closed node, and where it sticks the tangents along which
+/// it may bear shear. Collective.
 /// @param places  [owned nodes x 1 + dim] the body that a node counts for, below 0: none. The other columns are its position, in any unit, relative
 ///                to the point of the body that moments are taken about
 std::vector<HoldingRow> holding_rows(const ContactLaws& laws, const MultiVector& places);

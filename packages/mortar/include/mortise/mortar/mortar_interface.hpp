@@ -207,8 +207,8 @@ class MortarInterface {
   /// How many owned slave nodes are kinks at positions `x` [owned nodes x dim], whatever rule acts. Collective.
   long kinks(const MultiVector& x) const;
 
-  /// From now on each owned slave node is coupled to these nodes too: those that a slip is measured against. Null: to none. Returns, the same on every
-  /// rank, whether the next search() rebuilds local_nodes() and the pattern for that: not if all stand in coupled_nodes() already. Collective.
+  /// From now on each owned slave node is coupled to these nodes too: those that a slip is measured against. Null: to none. Returns, the same on
+  /// every rank, whether the next search() rebuilds local_nodes() and the pattern for that: not if all stand in coupled_nodes() already. Collective.
   bool retain(const std::shared_ptr<const RetainedNodes>& nodes);
 
   /// Who is coupled to whom; another object after each rebuild by search().

@@ -94,8 +94,8 @@ class SemiSmoothSystem {
   void start_step(Vector& x, const std::vector<char>& unconstrained);
   /// By how much the surfaces of a contact pair may lie in one another from the next start_step() on.
   void allow_overlap(std::size_t pair, double depth);
-  /// The contact conditions at x: of a state that was committed, in the step that led there, until the next step starts. Else in the present step. With
-  /// contact only. Throws StepFailure on every rank.
+  /// The contact conditions at x: of a state that was committed, in the step that led there, until the next step starts. Else in the present step.
+  /// With contact only. Throws StepFailure on every rank.
   ContactLaws contact_laws(const Vector& x);
   /// The history of the accepted state; none without contact, and before anything was evaluated.
   const std::optional<ContactHistory>& contact_history() const;

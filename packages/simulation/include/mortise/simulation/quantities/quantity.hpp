@@ -20,7 +20,7 @@ struct PairSurfaces {
 struct QuantityContext {
   const Bodies& bodies;
   const ContactSystem* contact = nullptr;  ///< null: the scene has no contact
-  std::vector<PairSurfaces> pairs{};  ///< in the order of `contact`
+  std::vector<PairSurfaces> pairs{};       ///< in the order of `contact`
   double time = 0.0;
   const Vector* displacement = nullptr;        ///< owned dofs
   const Vector* local_displacement = nullptr;  ///< owned dofs, then ghosts
