@@ -56,7 +56,6 @@ std::vector<HoldingRow> holding_rows(const ContactLaws& laws, const MultiVector&
   std::vector<HoldingRow> rows;
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
     const detail::PairEvaluation& pair = evaluated.contact->pairs[p];
-    const std::vector<detail::NodeMultiplier>& multipliers = evaluated.multipliers[p];
     const InterfacePattern& pattern = *pair.geometry()->pattern;
     MultiVector local(pattern.local_nodes, static_cast<std::size_t>(1 + dimension));
     local.doImport(places, *pattern.import, Tpetra::REPLACE);
@@ -142,7 +141,6 @@ std::vector<BearingNode> bearing_nodes(const ContactLaws& laws, const MultiVecto
   std::vector<BearingNode> nodes;
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
     const detail::PairEvaluation& pair = evaluated.contact->pairs[p];
-    const std::vector<detail::NodeMultiplier>& multipliers = evaluated.multipliers[p];
     const InterfacePattern& pattern = *pair.geometry()->pattern;
     MultiVector local(pattern.local_nodes, static_cast<std::size_t>(1 + self.dimension));
     local.doImport(places, *pattern.import, Tpetra::REPLACE);
