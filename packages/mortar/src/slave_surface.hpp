@@ -9,7 +9,7 @@
 
 namespace mortise {
 
-/// Constant during the life of an interface, but for what split_kinks() chooses. Nodes are numbered: owned slave nodes, other slave
+/// Constant during the life of an interface, but for what set_kinks() sets. Nodes are numbered: owned slave nodes, other slave
 /// nodes of the facets evaluated here, ring.
 struct SlaveSurface {
   std::vector<GlobalOrdinal> node_ids;
