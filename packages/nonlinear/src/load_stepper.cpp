@@ -39,78 +39,94 @@ namespace {
 /// Newton's method as often as a step needs it; `report` is that of all of them.
 class StepSolver {
  public:
-  StepSolver(SemiSmoothSystem& system, double time, const NewtonOptions& options, NewtonReport& report,
+  StepSolver(const SemiSmoothSystem& system, const NewtonOptions& options, NewtonReport& report, std::optional<LinearisedIterate>& linearised,
              const std::function<void(const NewtonIteration&)>& observer)
-      : system_(system), time_(time), options_(options), report_(report), observer_(observer) {
+      : system_(system), options_(options), report_(report), linearised_(linearised), observer_(observer) {
     report_ = {};
     report_.solves = 0;
   }
 
   /// And again as long as augmented Lagrange multipliers are updated. A solve that needed no Newton step found the conditions of the multipliers met
   /// as well as its tolerances tell: then further updates have no effect.
-  void solve(Vector& x) {
-    int round = 0;
+  SystemEvaluation solve(SystemEvaluation start) {
     NewtonReport next;
-    do {
-      solve_newton(system_, time_, options_, x, next, observer_);
+    for (int round = 0;; ++round) {
+      const SystemEvaluation solution = solve_newton(system_, std::move(start), options_, next, observer_, &linearised_);
       report_.iterations.insert(report_.iterations.end(), next.iterations.begin(), next.iterations.end());
       ++report_.solves;
-    } while ((round == 0 || next.newton_steps() > 0) && system_.augment(x, ++round));
+      std::optional<SystemEvaluation> updated;
+      if (round == 0 || next.newton_steps() > 0) updated = system_.augment(solution, round + 1);
+      if (!updated) return solution;
+      start = *std::move(updated);
+    }
   }
 
  private:
-  SemiSmoothSystem& system_;
-  double time_;
+  const SemiSmoothSystem& system_;
   const NewtonOptions& options_;
   NewtonReport& report_;
+  std::optional<LinearisedIterate>& linearised_;
   const std::function<void(const NewtonIteration&)>& observer_;
 };
 
-/// Whether F(x) = 0 at `time` to the tolerances: nothing that drives the bodies has changed. The Newton solve tests increments and states itself.
-bool is_solution(SemiSmoothSystem& system, const NewtonOptions& options, const Vector& x) {
-  Vector F(system.map());
-  ResidualNorms norms;
-  system.residual(x, F, norms);
+/// Whether F = 0 there to the tolerances: nothing that drives the bodies has changed. The Newton solve tests increments and states itself.
+bool is_solution(const SystemEvaluation& at, const NewtonOptions& options) {
+  const ResidualNorms& norms = at.norms();
   const bool balanced = norms.momentum <= options.momentum_tolerance || norms.momentum_absolute <= norms.round_off;
   return norms.finite && balanced && norms.prescribed <= options.increment_tolerance && norms.gap <= options.gap_tolerance &&
          norms.complementarity <= options.complementarity_tolerance;
 }
+
+/// Where the iterations of a try start: see run_steps().
+SystemEvaluation start_of_try(const SemiSmoothSystem& system, const NewtonOptions& newton, const AcceptedState& state, const RCP<const Vector>& rate,
+                              double time, const StepStart& start) {
+  const auto context_of = [&](const Vector& d, Vector& z) { return start ? start(state, time, d, z) : system.step_from(state, time); };
+  Vector x(*state.x, Teuchos::Copy);
+  // Motion does not go on where the last state is a solution of this step too. Carried on all the same, it may end in another equilibrium.
+  if (rate.is_null() || system.prescribed_deviation(*state.x, time) <= newton.increment_tolerance) {
+    const StepContext context = context_of(*system.displacement(std::as_const(x)), *system.multipliers(x));
+    SystemEvaluation at_rest = system.evaluate_at(state, *system.multipliers(std::as_const(x)), context);
+    if (rate.is_null() || is_solution(at_rest, newton)) return at_rest;
+  }
+  x.update(1.0, *state.x, time - state.context.time, *rate, 0.0);
+  const StepContext context = context_of(*system.displacement(std::as_const(x)), *system.multipliers(x));
+  return system.evaluate(x, context);
+}
 }  // namespace
 
-bool run_steps(SemiSmoothSystem& system, const SteppingOptions& stepping, const NewtonOptions& newton, Vector& x,
-               const std::function<void(Vector& x)>& start_step, const StepperObserver& observer, std::optional<StepFailure>& last_failure) {
+bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, const NewtonOptions& newton, AcceptedState& state,
+               const StepStart& start, const StepperObserver& observer, std::optional<StepFailure>& last_failure) {
   StepSchedule schedule(stepping);
-  Vector tried(x.getMap());
   RCP<Vector> rate;  // of the last accepted step
   for (int step = 1; !schedule.finished(); ++step) {
     StepReport report;
     report.step = step;
     detail::RepeatedCourse course;
-    for (;;) {
+    std::optional<SystemEvaluation> solution;
+    while (!solution) {
       report.time = schedule.next_time();
       report.dt = report.time - schedule.time();
-      Tpetra::deep_copy(tried, x);
+      StepContext context = system.step_from(state, report.time);
+      std::optional<LinearisedIterate> linearised;
       bool solved = false;
       try {
         if (observer.begin) observer.begin(step, report.time, report.dt);
-        system.set_time(report.time);
-        // Motion does not go on where the last state is a solution of this step too. Carried on all the same, it may end in another equilibrium.
-        const bool may_rest = rate.is_null() || system.prescribed_deviation(x) <= newton.increment_tolerance;
-        if (may_rest && start_step) start_step(tried);
-        if (!rate.is_null() && (!may_rest || !is_solution(system, newton, tried))) {
-          tried.update(1.0, x, report.dt, *rate, 0.0);
-          if (start_step) start_step(tried);
-        }
-        StepSolver solver(system, report.time, newton, report.newton, observer.iteration);
-        for (int round = 1;; ++round) {
-          solver.solve(tried);
+        StepSolver solver(system, newton, report.newton, linearised, observer.iteration);
+        SystemEvaluation begin = start_of_try(system, newton, state, rate, report.time, start);
+        context = begin.context();
+        solution = solver.solve(std::move(begin));
+        for (int round = 1; observer.verify; ++round) {
           solved = true;
-          if (!observer.verify || observer.verify(x, tried, round)) break;
+          const RCP<Vector> other_start = observer.verify(state, *solution, round);
+          if (other_start.is_null()) break;
           solved = false;
+          context = solution->context();
+          solution.reset();  // contact at an iterate takes memory
+          solution = solver.solve(system.evaluate(*other_start, context));
         }
-        break;
       } catch (const StepFailure& caught) {
-        const std::string explanation = observer.explain && !solved ? observer.explain(caught) : "";
+        solution.reset();
+        const std::string explanation = observer.explain && !solved ? observer.explain({caught, state, report.time, context, linearised}) : "";
         StepFailure failure = explanation.empty() ? caught : StepFailure(caught.kind(), fmt::format("{} ({})", explanation, caught.what()));
         const bool in_vain = course.add(caught, report.newton);
         if (in_vain)
@@ -126,15 +142,15 @@ bool run_steps(SemiSmoothSystem& system, const SteppingOptions& stepping, const 
       }
     }
     last_failure.reset();
-    system.commit(tried);
+    AcceptedState next = system.commit(*solution);
     if (stepping.predictor == Predictor::linear) {
-      if (rate.is_null()) rate = rcp(new Vector(x.getMap()));
-      rate->update(1.0 / report.dt, tried, -1.0 / report.dt, x, 0.0);
-      if (observer.predict) observer.predict(tried, report.dt, *rate);
+      if (rate.is_null()) rate = rcp(new Vector(system.map()));
+      rate->update(1.0 / report.dt, *next.x, -1.0 / report.dt, *state.x, 0.0);
+      if (observer.predict) observer.predict(*next.x, report.dt, *rate);
     }
-    Tpetra::deep_copy(x, tried);
+    state = std::move(next);
     schedule.accept(report.newton.newton_steps() <= stepping.easy_iterations);
-    if (observer.accepted) observer.accepted(report, x);
+    if (observer.accepted) observer.accepted(report, *solution);
   }
   return true;
 }

@@ -20,15 +20,6 @@ RCP<const Vector> on_columns(const Graph& graph, const RCP<const Vector>& on_row
 
 }  // namespace
 
-bool same_values(const Vector& a, const Vector& b) {
-  const auto u = a.getLocalViewHost(Tpetra::Access::ReadOnly), v = b.getLocalViewHost(Tpetra::Access::ReadOnly);
-  int same = 1, everywhere = 1;
-  for (std::size_t i = 0; i < u.extent(0); ++i)
-    if (u(i, 0) != v(i, 0)) same = 0;
-  Teuchos::reduceAll(*a.getMap()->getComm(), Teuchos::REDUCE_MIN, same, Teuchos::outArg(everywhere));
-  return everywhere == 1;
-}
-
 bool same_entries(const Graph& a, const Graph& b) {
   if (&a == &b) return true;
   const auto u = a.getLocalGraphHost(), v = b.getLocalGraphHost();

@@ -8,9 +8,6 @@
 
 namespace mortise::detail {
 
-/// Whether two vectors on one map have the same values, to the last bit, on every rank. Collective.
-bool same_values(const Vector& a, const Vector& b);
-
 /// Whether two graphs have the same entries in the same order, on every rank. Collective.
 bool same_entries(const Graph& a, const Graph& b);
 

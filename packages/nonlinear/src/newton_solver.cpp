@@ -55,14 +55,16 @@ void set_forcing_term(const LinearSolver::Tolerances& tolerances, Teuchos::Param
 
 }  // namespace
 
-void solve_newton(SemiSmoothSystem& system, double time, const NewtonOptions& options, Vector& x, NewtonReport& report,
-                  const std::function<void(const NewtonIteration&)>& observer) {
+SystemEvaluation solve_newton(const SemiSmoothSystem& system, SystemEvaluation start, const NewtonOptions& options, NewtonReport& report,
+                              const std::function<void(const NewtonIteration&)>& observer, std::optional<LinearisedIterate>* linearised) {
   using NOX::StatusTest::Combo;
-  system.set_time(time);
   detail::NewtonHistory history(report);
   const bool backtrack = options.line_search == LineSearch::backtrack;
   const detail::StepControl control{options.largest_increment, backtrack, options.momentum_tolerance};
-  const auto group = rcp(new detail::SemiSmoothNewtonGroup(system, detail::nox_vector(rcp(&x, false)), control));
+  const auto group = rcp(new detail::SemiSmoothNewtonGroup(system, std::move(start), control));
+  const auto keep_linearised = [&] {
+    if (linearised != nullptr && group->linearised()) *linearised = group->linearised();
+  };
 
   const auto criteria = detail::convergence_criteria(options, system.parts().length);
   const auto converged = rcp(new Combo(Combo::AND));
@@ -97,17 +99,23 @@ void solve_newton(SemiSmoothSystem& system, double time, const NewtonOptions& op
   };
   NOX::StatusTest::StatusType status = test->checkStatus(*solver, NOX::StatusTest::Minimal);
   observe();
-  while (status == NOX::StatusTest::Unconverged) {
-    status = solver->step();
-    observe();
+  try {
+    while (status == NOX::StatusTest::Unconverged) {
+      status = solver->step();
+      observe();
+    }
+  } catch (const StepFailure&) {  // on every rank
+    keep_linearised();
+    throw;
   }
+  keep_linearised();
   if (status != NOX::StatusTest::Converged) {
     if (give_up->reason()) throw *give_up->reason();
     throw StepFailure(FailureKind::line_search,
                       fmt::format("no step of {:g} or more along the Newton direction makes the residual fall in Newton iteration {}",
                                   detail::smallest_step_length, report.newton_steps() + 1));
   }
-  Tpetra::deep_copy(x, *detail::tpetra_vector(solver->getSolutionGroup().getX()));
+  return group->evaluation();
 }
 
 }  // namespace mortise

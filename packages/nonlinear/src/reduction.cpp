@@ -31,26 +31,26 @@ Reduction::Reduction(std::shared_ptr<const DependentDisplacements> followers, co
   }
   local_ids.doImport(ids, Import(dofs, local_dofs), Tpetra::INSERT);
   const Vector start(local_dofs);
-  dependences_ = followers_->evaluate(start);
+  const std::vector<Dependence> dependences = followers_->evaluate(start);
   {
     const auto view = local_ids.getLocalViewHost(Tpetra::Access::ReadOnly);
-    for (const Dependence& dependence : dependences_) {
+    for (const Dependence& dependence : dependences) {
       sources_.emplace_back();
       for (int k = 0; k < dependence.sources; ++k)
         sources_.back()[k] = static_cast<GlobalOrdinal>(view(local_dofs->getLocalElement(dependence.source[k]), 0));
     }
   }
 
-  T_ = rcp(new Matrix(dofs, Dependence::most));
+  const auto graph = rcp(new Graph(dofs, Dependence::most));
   for (LocalOrdinal dof = 0; dof < static_cast<LocalOrdinal>(place_of_.size()); ++dof) {
     if (place_of_[dof] < 0) continue;
     const GlobalOrdinal column = unknowns_->getGlobalElement(place_of_[dof]);
-    const double one = 1.0;
-    T_->insertGlobalValues(dofs->getGlobalElement(dof), 1, &one, &column);
+    graph->insertGlobalIndices(dofs->getGlobalElement(dof), 1, &column);
   }
   for (std::size_t n = 0; n < dependent.size(); ++n)
-    T_->insertGlobalValues(dofs->getGlobalElement(dependent[n]), dependences_[n].sources, dependences_[n].gradient.data(), sources_[n].data());
-  T_->fillComplete(unknowns_, dofs);
+    graph->insertGlobalIndices(dofs->getGlobalElement(dependent[n]), dependences[n].sources, sources_[n].data());
+  graph->fillComplete(unknowns_, dofs);
+  graph_ = graph;
 }
 
 std::vector<LocalOrdinal> Reduction::places(const std::vector<LocalOrdinal>& dofs) const {
@@ -59,21 +59,22 @@ std::vector<LocalOrdinal> Reduction::places(const std::vector<LocalOrdinal>& dof
   return places;
 }
 
-void Reduction::update(const Vector& local_displacement) {
-  dependences_ = followers_->evaluate(local_displacement);
-  T_->resumeFill();
+FollowedDisplacements::FollowedDisplacements(const Reduction& reduction, const Vector& local_displacement)
+    : reduction_(reduction), dependences_(reduction.followers_->evaluate(local_displacement)), T_(rcp(new Matrix(reduction.graph_))) {
+  const Map& dofs = *reduction.dofs_;
+  T_->setAllToScalar(1.0);
   for (std::size_t n = 0; n < dependences_.size(); ++n)
-    T_->replaceGlobalValues(dofs_->getGlobalElement(followers_->dofs()[n]), dependences_[n].sources, dependences_[n].gradient.data(),
-                            sources_[n].data());
-  T_->fillComplete(unknowns_, dofs_);
+    T_->replaceGlobalValues(dofs.getGlobalElement(reduction.followers_->dofs()[n]), dependences_[n].sources, dependences_[n].gradient.data(),
+                            reduction.sources_[n].data());
+  T_->fillComplete(reduction.unknowns_, reduction.dofs_);
 }
 
-double Reduction::deviation(const Vector& displacement, double factor, Vector& deviation) const {
+double FollowedDisplacements::deviation(const Vector& displacement, double factor, Vector& deviation) const {
   const auto d = displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto result = deviation.getLocalViewHost(Tpetra::Access::ReadWrite);
   double largest = 0.0;
   for (std::size_t n = 0; n < dependences_.size(); ++n) {
-    const LocalOrdinal dof = followers_->dofs()[n];
+    const LocalOrdinal dof = reduction_.followers_->dofs()[n];
     const double difference = d(dof, 0) - dependences_[n].value;
     largest = std::max(largest, std::abs(difference));
     result(dof, 0) = factor * difference;
@@ -139,72 +140,72 @@ Decoupling Reduction::reduced(const Decoupling& of_dofs) const {
   return {part(*of_dofs.trial), part(*of_dofs.test), part(*of_dofs.eliminated), of_dofs.dimension};
 }
 
-RCP<Vector> Reduction::reduced(const Vector& r) const {
-  const auto q = rcp(new Vector(unknowns_));
+RCP<Vector> FollowedDisplacements::reduced(const Vector& r) const {
+  const auto q = rcp(new Vector(reduction_.unknowns_));
   T_->apply(r, *q, Teuchos::TRANS);
   return q;
 }
 
-RCP<Vector> Reduction::expanded(const Vector& dq) const {
-  const auto d = rcp(new Vector(dofs_));
+RCP<Vector> FollowedDisplacements::expanded(const Vector& dq) const {
+  const auto d = rcp(new Vector(reduction_.dofs_));
   T_->apply(dq, *d);
   return d;
 }
 
-void Reduction::gather(Vector& r) const {
+void FollowedDisplacements::gather(Vector& r) const {
   const RCP<Vector> q = reduced(r);
   const auto from = q->getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto to = r.getLocalViewHost(Tpetra::Access::ReadWrite);
-  for (std::size_t dof = 0; dof < place_of_.size(); ++dof)
-    if (place_of_[dof] >= 0) to(dof, 0) = from(place_of_[dof], 0);
+  for (std::size_t dof = 0; dof < reduction_.place_of_.size(); ++dof)
+    if (reduction_.place_of_[dof] >= 0) to(dof, 0) = from(reduction_.place_of_[dof], 0);
 }
 
 // A matrix of the few rows that are followed; its diagonal is there even where nothing is curved.
-RCP<Matrix> Reduction::curvature(const Vector& r) const {
-  const auto matrix = rcp(new Matrix(unknowns_, Dependence::most));
+RCP<Matrix> FollowedDisplacements::curvature(const Vector& r) const {
+  const auto matrix = rcp(new Matrix(reduction_.unknowns_, Dependence::most));
   const auto force = r.getLocalViewHost(Tpetra::Access::ReadOnly);
   for (std::size_t n = 0; n < dependences_.size(); ++n) {
     const Dependence& dependence = dependences_[n];
     for (int k = 0; k < dependence.sources; ++k) {
       std::array<double, Dependence::most> row{};
-      for (int l = 0; l < dependence.sources; ++l) row[l] = force(followers_->dofs()[n], 0) * dependence.curvature[k][l];
-      matrix->insertGlobalValues(sources_[n][k], dependence.sources, row.data(), sources_[n].data());
+      for (int l = 0; l < dependence.sources; ++l) row[l] = force(reduction_.followers_->dofs()[n], 0) * dependence.curvature[k][l];
+      matrix->insertGlobalValues(reduction_.sources_[n][k], dependence.sources, row.data(), reduction_.sources_[n].data());
     }
   }
-  for (const LocalOrdinal dof : followers_->followed()) {
-    const GlobalOrdinal id = unknowns_->getGlobalElement(place_of_[dof]);
+  for (const LocalOrdinal dof : reduction_.followers_->followed()) {
+    const GlobalOrdinal id = reduction_.unknowns_->getGlobalElement(reduction_.place_of_[dof]);
     const double zero = 0.0;
     matrix->insertGlobalValues(id, 1, &zero, &id);
   }
-  matrix->fillComplete(unknowns_, unknowns_);
+  matrix->fillComplete(reduction_.unknowns_, reduction_.unknowns_);
   return matrix;
 }
 
-RCP<Matrix> Reduction::reduced(const Matrix& A, const Vector& r) const {
-  Matrix product(unknowns_, 0);
+RCP<Matrix> FollowedDisplacements::reduced(const Matrix& A, const Vector& r) const {
+  Matrix product(reduction_.unknowns_, 0);
   Tpetra::TripleMatrixMultiply::MultiplyRAP(*T_, true, A, false, *T_, false, product);
-  return Tpetra::MatrixMatrix::add(1.0, false, product, 1.0, false, *curvature(r), unknowns_, unknowns_);
+  return Tpetra::MatrixMatrix::add(1.0, false, product, 1.0, false, *curvature(r), reduction_.unknowns_, reduction_.unknowns_);
 }
 
-RCP<Matrix> Reduction::reduced_rows(const Matrix& B) const {
-  const auto product = rcp(new Matrix(unknowns_, 0));
+RCP<Matrix> FollowedDisplacements::reduced_rows(const Matrix& B) const {
+  const auto product = rcp(new Matrix(reduction_.unknowns_, 0));
   Tpetra::MatrixMatrix::Multiply(*T_, true, B, false, *product);
   return product;
 }
 
-RCP<Matrix> Reduction::reduced_columns(const Matrix& C) const {
+RCP<Matrix> FollowedDisplacements::reduced_columns(const Matrix& C) const {
   const auto product = rcp(new Matrix(C.getRowMap(), 0));
   Tpetra::MatrixMatrix::Multiply(C, false, *T_, false, *product);
   return product;
 }
 
-void Reduction::add_curvature(const Vector& r, const Vector& v, Vector& y) const {
-  Vector result(unknowns_);
-  curvature(r)->apply(*unknown_part(v), result);
+void FollowedDisplacements::add_curvature(const Vector& r, const Vector& v, Vector& y) const {
+  Vector result(reduction_.unknowns_);
+  curvature(r)->apply(*reduction_.unknown_part(v), result);
   const auto from = result.getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto to = y.getLocalViewHost(Tpetra::Access::ReadWrite);
-  for (std::size_t dof = 0; dof < place_of_.size(); ++dof)
-    if (place_of_[dof] >= 0) to(dof, 0) += from(place_of_[dof], 0);
+  for (std::size_t dof = 0; dof < reduction_.place_of_.size(); ++dof)
+    if (reduction_.place_of_[dof] >= 0) to(dof, 0) += from(reduction_.place_of_[dof], 0);
 }
 
 }  // namespace mortise::detail

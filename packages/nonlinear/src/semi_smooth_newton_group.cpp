@@ -33,13 +33,17 @@ NOX::Thyra::Vector nox_vector(const RCP<Vector>& vector) {
   return NOX::Thyra::Vector(::Thyra::createVector<Scalar, LocalOrdinal, GlobalOrdinal, NodeType>(vector, space));
 }
 
-SemiSmoothNewtonGroup::SemiSmoothNewtonGroup(SemiSmoothSystem& system, const NOX::Thyra::Vector& x, const StepControl& control)
+SemiSmoothNewtonGroup::SemiSmoothNewtonGroup(const SemiSmoothSystem& system, SystemEvaluation start, const StepControl& control)
     : system_(&system),
-      shared_(std::make_shared<Shared>(Shared{control})),
+      shared_(std::make_shared<Shared>()),
       number_(shared_->next++),
-      x_(cloned(x, NOX::DeepCopy)),
-      F_(cloned(x, NOX::ShapeCopy)),
-      newton_(cloned(x, NOX::ShapeCopy)) {}
+      x_(rcp(new NOX::Thyra::Vector(nox_vector(rcp(new Vector(start.x(), Teuchos::Copy)))))),
+      F_(cloned(*x_, NOX::ShapeCopy)),
+      newton_(cloned(*x_, NOX::ShapeCopy)),
+      evaluation_(std::move(start)) {
+  shared_->control = control;
+  shared_->context = evaluation_->context();
+}
 
 SemiSmoothNewtonGroup::SemiSmoothNewtonGroup(const SemiSmoothNewtonGroup& other, NOX::CopyType type)
     : system_(other.system_),
@@ -55,6 +59,7 @@ NOX::Abstract::Group& SemiSmoothNewtonGroup::operator=(const NOX::Abstract::Grou
   const auto& from = dynamic_cast<const SemiSmoothNewtonGroup&>(other);
   if (&from == this) return *this;
   number_ = from.number_;
+  evaluation_.reset();
   *x_ = *from.x_;
   has_F_ = from.has_F_;
   has_newton_ = from.has_newton_;
@@ -76,6 +81,7 @@ RCP<NOX::Abstract::Group> SemiSmoothNewtonGroup::clone(NOX::CopyType type) const
 void SemiSmoothNewtonGroup::become_new_iterate() {
   number_ = shared_->next++;
   has_F_ = has_newton_ = starts_elsewhere_ = false;
+  evaluation_.reset();
   increment_ = -1.0;
   step_length_ = shortened_ = 1.0;
   linear_solve_ = {};
@@ -101,9 +107,8 @@ void SemiSmoothNewtonGroup::computeX(const NOX::Abstract::Group& group, const NO
 NOX::Abstract::Group::ReturnType SemiSmoothNewtonGroup::computeF() {
   if (has_F_) return Ok;
   try {
-    const RCP<Vector> x = tpetra_vector(static_cast<NOX::Abstract::Vector&>(*x_));
-    system_->residual(*x, *tpetra_vector(*F_), norms_);
-    if (system_->follow_cover(*x)) system_->residual(*x, *tpetra_vector(*F_), norms_);
+    norms_ = evaluation().norms();
+    Tpetra::deep_copy(*tpetra_vector(*F_), evaluation_->residual());
   } catch (const StepFailure& failure) {  // on every rank
     if (!shared_->control.trial || increment_ < 0.0) throw;
     failure_ = failure;
@@ -115,11 +120,29 @@ NOX::Abstract::Group::ReturnType SemiSmoothNewtonGroup::computeF() {
   return Ok;
 }
 
+const SystemEvaluation& SemiSmoothNewtonGroup::evaluation() {
+  if (!evaluation_) evaluation_ = system_->evaluate(*tpetra_vector(static_cast<const NOX::Abstract::Vector&>(*x_)), shared_->context);
+  if (auto followed = has_F_ ? std::nullopt : system_->follow_cover(*evaluation_)) {
+    evaluation_ = std::move(followed);
+    Tpetra::deep_copy(*tpetra_vector(*x_), evaluation_->x());
+  }
+  return *evaluation_;
+}
+
+const SystemLinearisation& SemiSmoothNewtonGroup::linearise(const SystemEvaluation& at) {
+  shared_->jacobian_of = 0;
+  shared_->linearised.reset();
+  shared_->jacobian.reset();
+  if (system_->parts().contact) shared_->context.states = at.contact_laws().states();
+  shared_->jacobian = system_->linearise(at);
+  shared_->linearised = LinearisedIterate{rcp(new Vector(at.x(), Teuchos::Copy)), shared_->context};
+  return *shared_->jacobian;
+}
+
 NOX::Abstract::Group::ReturnType SemiSmoothNewtonGroup::computeJacobian() {
   if (isJacobian()) return Ok;
-  shared_->jacobian = 0;
-  system_->jacobian(*tpetra_vector(static_cast<const NOX::Abstract::Vector&>(*x_)));
-  shared_->jacobian = number_;
+  linearise(evaluation());
+  shared_->jacobian_of = number_;
   return Ok;
 }
 
@@ -140,23 +163,19 @@ NOX::Abstract::Group::ReturnType SemiSmoothNewtonGroup::computeNewton(Teuchos::P
   const double tolerance = linear_tolerance(list.get("Tolerance", 0.0));
   const auto geometric_stiffness =
       norms_.changed <= settled * norms_.active ? GeometricContactStiffness::included : GeometricContactStiffness::left_out;
-  const RCP<const Vector> x = tpetra_vector(static_cast<const NOX::Abstract::Vector&>(*x_)),
-                          F = tpetra_vector(static_cast<const NOX::Abstract::Vector&>(*F_));
   const RCP<Vector> direction = tpetra_vector(*newton_);
   const auto& better_start = system_->parts().better_start;
-  if (const RCP<Vector> start = better_start ? better_start(*x, *F, system_->contact_laws(*x)) : Teuchos::null; !start.is_null()) {
+  const SystemEvaluation here = shared_->jacobian->evaluation();
+  if (const RCP<Vector> start = better_start ? better_start(here) : Teuchos::null; !start.is_null()) {
     // x + direction is where Newton's method gets to from there.
     starts_elsewhere_ = true;
-    Vector F_start(F->getMap());
-    ResidualNorms norms;
-    shared_->jacobian = 0;
-    system_->residual(*start, F_start, norms);
-    system_->jacobian(*start);
-    newton_solve_ = system_->newton_direction(F_start, *direction, tolerance, geometric_stiffness);
-    direction->update(1.0, *start, -1.0, *x, 1.0);
+    const SystemEvaluation there = system_->evaluate(*start, shared_->context);
+    newton_solve_ = linearise(there).newton_direction(there.residual(), *direction, tolerance, geometric_stiffness);
+    direction->update(1.0, *start, -1.0, here.x(), 1.0);
   } else {
-    newton_solve_ = system_->newton_direction(*F, *direction, tolerance, geometric_stiffness);
+    newton_solve_ = shared_->jacobian->newton_direction(here.residual(), *direction, tolerance, geometric_stiffness);
   }
+  shared_->jacobian.reset();  // contact at an iterate takes memory
   shortened_ = 1.0;
   if (const auto& limit = shared_->control.largest_increment) {
     const double increment = system_->displacement(*tpetra_vector(static_cast<const NOX::Abstract::Vector&>(*newton_)))->normInf();
@@ -166,12 +185,6 @@ NOX::Abstract::Group::ReturnType SemiSmoothNewtonGroup::computeNewton(Teuchos::P
     }
   }
   has_newton_ = true;
-  return Ok;
-}
-
-NOX::Abstract::Group::ReturnType SemiSmoothNewtonGroup::applyJacobian(const NOX::Abstract::Vector& input, NOX::Abstract::Vector& result) const {
-  if (!isJacobian()) return BadDependency;
-  system_->apply(*tpetra_vector(input), *tpetra_vector(result));
   return Ok;
 }
 

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "mortise/core/error.hpp"
+#include "mortise/nonlinear/newton_solver.hpp"
 #include "mortise/nonlinear/semi_smooth_system.hpp"
 
 namespace mortise::detail {
@@ -26,11 +27,12 @@ struct StepControl {
   double momentum_tolerance = 0.0;          ///< of ResidualNorms::momentum: a linear solve does not go far below it
 };
 
-/// An iterate x = (d, z) with F(x) and, once computed, the Newton direction. All clones share one system and so one Jacobian; each iterate has
-/// a number, and the Jacobian remembers the number of the iterate it was built for. StepFailure passes through NOX.
+/// An iterate x = (d, z) with its evaluation and, once computed, the Newton direction. All clones share one system and the last linearisation; each
+/// iterate has a number, and the linearisation remembers the number of its iterate. StepFailure passes through NOX. A copy of a group has F(x), but
+/// not the evaluation: contact at an iterate takes memory, and NOX keeps old iterates.
 class SemiSmoothNewtonGroup : public NOX::Abstract::Group {
  public:
-  SemiSmoothNewtonGroup(SemiSmoothSystem& system, const NOX::Thyra::Vector& x, const StepControl& control);
+  SemiSmoothNewtonGroup(const SemiSmoothSystem& system, SystemEvaluation start, const StepControl& control);
   SemiSmoothNewtonGroup(const SemiSmoothNewtonGroup& other, NOX::CopyType type);
   NOX::Abstract::Group& operator=(const NOX::Abstract::Group& other) override;
   RCP<NOX::Abstract::Group> clone(NOX::CopyType type = NOX::DeepCopy) const override;
@@ -41,10 +43,9 @@ class SemiSmoothNewtonGroup : public NOX::Abstract::Group {
   ReturnType computeJacobian() override;
   /// By condensation, for -F(x) alone: the rows of C are formed by the contact, so there is no applyJacobianInverse for other vectors.
   ReturnType computeNewton(Teuchos::ParameterList& parameters) override;
-  ReturnType applyJacobian(const NOX::Abstract::Vector& input, NOX::Abstract::Vector& result) const override;
 
   bool isF() const override { return has_F_; }
-  bool isJacobian() const override { return shared_->jacobian == number_; }
+  bool isJacobian() const override { return shared_->jacobian_of == number_; }
   bool isGradient() const override { return false; }
   bool isNewton() const override { return has_newton_; }
   const NOX::Abstract::Vector& getX() const override { return *x_; }
@@ -69,16 +70,24 @@ class SemiSmoothNewtonGroup : public NOX::Abstract::Group {
   bool starts_elsewhere() const { return starts_elsewhere_; }
   /// Of the linear solve that led here.
   const LinearSolveReport& linear_solve() const { return linear_solve_; }
+  /// The iterate, evaluated; again if it is a copy's.
+  const SystemEvaluation& evaluation();
+  /// The iterate of any clone that was linearised last, and what it was evaluated with; nothing if none was.
+  const std::optional<LinearisedIterate>& linearised() const { return shared_->linearised; }
 
  private:
   struct Shared {
     StepControl control;
-    unsigned long next = 1, jacobian = 0;
+    StepContext context;  ///< of the next evaluation
+    std::optional<LinearisedIterate> linearised;
+    std::optional<SystemLinearisation> jacobian;
+    unsigned long next = 1, jacobian_of = 0;
   };
   void become_new_iterate();
+  const SystemLinearisation& linearise(const SystemEvaluation& at);
   double linear_tolerance(double forcing) const;
 
-  SemiSmoothSystem* system_;
+  const SemiSmoothSystem* system_;
   std::shared_ptr<Shared> shared_;
   unsigned long number_;
   RCP<NOX::Thyra::Vector> x_, F_, newton_;
@@ -88,6 +97,7 @@ class SemiSmoothNewtonGroup : public NOX::Abstract::Group {
   ResidualNorms norms_;
   LinearSolveReport linear_solve_, newton_solve_;
   std::optional<StepFailure> failure_;
+  std::optional<SystemEvaluation> evaluation_;  ///< of x; none: not yet, or not here
 };
 
 }  // namespace mortise::detail

@@ -35,13 +35,9 @@ void mix_states(Problem& problem) {
 }
 
 // F and J at such an iterate.
-void prepare_with_mixed_states(Problem& problem, Vector& F) {
-  SemiSmoothSystem& system = *problem.system;
-  system.set_time(1.0);
+SystemLinearisation with_mixed_states(Problem& problem) {
   mix_states(problem);
-  ResidualNorms norms;
-  system.residual(*problem.x, F, norms);
-  system.jacobian(*problem.x);
+  return problem.system->linearise(problem.evaluate(1.0));
 }
 
 std::vector<test::NamedFormulation> formulations() {
@@ -67,25 +63,23 @@ INSTANTIATE_TEST_SUITE_P(All, ContactFormulation, ::testing::Range(0, static_cas
 TEST_P(ContactFormulation, JacobianAgreesWithCentralDifferences) {
   Problem problem(Tpetra::getDefaultComm(), choose(pressed(0.2)));
   SemiSmoothSystem& system = *problem.system;
-  system.set_time(1.0);
+  StepContext context = problem.context(1.0);
   mix_states(problem);
-  Vector v(system.map()), J_v(system.map()), difference(system.map()), F(system.map());
+  Vector v(system.map()), J_v(system.map()), difference(system.map());
   for (const GlobalOrdinal id : system.map()->getNodeElementList()) v.replaceGlobalValue(id, std::sin(0.91 * id));
-  ResidualNorms norms;
-  system.residual(*problem.x, F, norms);
-  EXPECT_GT(norms.active, 0);
-  EXPECT_LT(norms.active, 8);
+  const SystemEvaluation at = system.evaluate(*problem.x, context);
+  EXPECT_GT(at.norms().active, 0);
+  EXPECT_LT(at.norms().active, 8);
   const double h = 1e-6;
   for (const double sign : {1.0, -1.0}) {
     Vector x(*problem.x, Teuchos::Copy);
     x.update(sign * h, v, 1.0);
-    system.residual(x, F, norms);
-    difference.update(sign / (2.0 * h), F, 1.0);
+    difference.update(sign / (2.0 * h), system.evaluate(x, context).residual(), 1.0);
   }
-  system.jacobian(*problem.x);
-  system.residual(*problem.x, F, norms);
-  EXPECT_EQ(norms.changed, 0);
-  system.apply(v, J_v);
+  context.states = at.contact_laws().states();
+  EXPECT_GT(at.norms().changed, 0);
+  EXPECT_EQ(system.evaluate(*problem.x, context).norms().changed, 0);
+  system.linearise(at).apply(v, J_v);
   const double size = system.displacement(J_v)->norm2(), law_size = system.multipliers(J_v)->norm2();
   difference.update(-1.0, J_v, 1.0);
   EXPECT_LE(system.displacement(difference)->norm2(), 1e-6 * size);
@@ -96,11 +90,12 @@ TEST_P(ContactFormulation, JacobianAgreesWithCentralDifferences) {
 TEST_P(ContactFormulation, DirectionSolvesTheSaddlePointSystem) {
   Problem problem(Tpetra::getDefaultComm(), choose(pressed(0.2, 0.1)));
   SemiSmoothSystem& system = *problem.system;
-  Vector F(system.map()), direction(system.map()), J_dx(system.map());
-  prepare_with_mixed_states(problem, F);
+  Vector direction(system.map()), J_dx(system.map());
+  const SystemLinearisation linearisation = with_mixed_states(problem);
+  const Vector& F = linearisation.evaluation().residual();
   for (int repetition = 0; repetition < 2; ++repetition) {
-    system.newton_direction(F, direction);
-    system.apply(direction, J_dx);
+    linearisation.newton_direction(F, direction);
+    linearisation.apply(direction, J_dx);
     const double size = F.norm2();
     J_dx.update(1.0, F, 1.0);
     EXPECT_LE(J_dx.norm2(), 1e-11 * size);
@@ -111,10 +106,11 @@ TEST_P(ContactFormulation, DirectionSolvesTheSaddlePointSystem) {
 TEST_P(ContactFormulation, DirectionWithoutGeometricStiffnessLeavesThatAlone) {
   Problem problem(Tpetra::getDefaultComm(), choose(pressed(0.2, 0.1)));
   SemiSmoothSystem& system = *problem.system;
-  Vector F(system.map()), direction(system.map()), J_dx(system.map());
-  prepare_with_mixed_states(problem, F);
-  system.newton_direction(F, direction, 0.0, GeometricContactStiffness::left_out);
-  system.apply(direction, J_dx);
+  Vector direction(system.map()), J_dx(system.map());
+  const SystemLinearisation linearisation = with_mixed_states(problem);
+  const Vector& F = linearisation.evaluation().residual();
+  linearisation.newton_direction(F, direction, 0.0, GeometricContactStiffness::left_out);
+  linearisation.apply(direction, J_dx);
   J_dx.update(1.0, F, 1.0);
 
   const ContactSystem& contact = *system.parts().contact;
@@ -125,7 +121,7 @@ TEST_P(ContactFormulation, DirectionWithoutGeometricStiffnessLeavesThatAlone) {
   for (const double sign : {1.0, -1.0}) {
     Vector moved(*d, Teuchos::Copy), force(d->getMap());
     moved.update(sign * h, *dd, 1.0);
-    contact.evaluate(moved, *system.contact_history()).add_force(*z, force);
+    contact.evaluate(moved, *linearisation.evaluation().context().contact).add_force(*z, force);
     change.update(sign / (2.0 * h), force, 1.0);
   }
   const double size = change.norm2();
@@ -138,25 +134,28 @@ TEST_P(ContactFormulation, DirectionWithoutGeometricStiffnessLeavesThatAlone) {
 }
 
 struct Solved {
+  SystemEvaluation at;
   NewtonReport report;
   double reaction[2][2] = {};  // of the lower and the upper edge
 };
 
-Solved solve(Problem& problem) {
-  Solved solved;
-  solve_newton(*problem.system, 1.0, {}, *problem.x, solved.report, {});
-  Vector r(problem.grid->dofs);
-  problem.system->forces(*problem.x, r);
+Solved solve(Problem& problem, SystemEvaluation start) {
+  NewtonReport report;
+  Solved solved{solve_newton(*problem.system, std::move(start), {}, report, {}), {}};
+  solved.report = report;
+  Tpetra::deep_copy(*problem.x, solved.at.x());
+  const RCP<const Vector> r = solved.at.forces();
   double mine[4] = {};
   for (const int node : problem.grid->owned_nodes())
     for (int i = 0; i < 2; ++i) {
-      const double value = r.getData()[problem.grid->dofs->getLocalElement(problem.grid->dof(node, i))];
+      const double value = r->getData()[problem.grid->dofs->getLocalElement(problem.grid->dof(node, i))];
       if (node < problem.grid->nx()) mine[i] += value;
       if (node / problem.grid->nx() == problem.grid->ny() - 1) mine[2 + i] += value;
     }
   Teuchos::reduceAll(*problem.grid->dofs->getComm(), Teuchos::REDUCE_SUM, 4, mine, &solved.reaction[0][0]);
   return solved;
 }
+Solved solve(Problem& problem) { return solve(problem, problem.evaluate(1.0)); }
 
 TEST_P(ContactFormulation, ConvergesQuadraticallyOnceTheSetHasSettled) {
   Problem problem(Tpetra::getDefaultComm(), choose(pressed(0.25)));
@@ -232,10 +231,13 @@ TEST(ContactNewton, SlidesOverManyFacets) {
   int iterations = 0, cutbacks = 0;
   StepperObserver observer;
   observer.iteration = [&](const NewtonIteration& iteration) { iterations += iteration.iteration > 0; };
-  observer.accepted = [&](const StepReport& report, const Vector&) { cutbacks += report.cutbacks; };
+  observer.accepted = [&](const StepReport& report, const SystemEvaluation&) { cutbacks += report.cutbacks; };
   const std::vector<char> unconstrained(problem.grid->owned_nodes().size(), 0);
-  const auto start = [&](Vector& x) { problem.system->start_step(x, unconstrained); };
-  EXPECT_TRUE(run_steps(*problem.system, stepping, {}, *problem.x, start, observer, failure));
+  const auto start = [&](const AcceptedState& from, double time, const Vector& d, Vector& z) {
+    return problem.system->start_step(from, time, unconstrained, d, z);
+  };
+  AcceptedState state = problem.system->initial_state(*problem.x);
+  EXPECT_TRUE(run_steps(*problem.system, stepping, {}, state, start, observer, failure));
   EXPECT_EQ(cutbacks, 0);
   EXPECT_LT(problem.system->parts().linear_solver->symbolic_setups(), iterations);
   RecordProperty("iterations", iterations);
@@ -268,18 +270,20 @@ TEST(ContactNewton, AStepEndsWhenUpdatesOfTheMultipliersAreExhausted) {
   Problem::Choices choices = pressed(0.25);
   choices.formulation = formulation;
   Problem problem(Tpetra::getDefaultComm(), choices);
+  SystemEvaluation start = problem.evaluate(1.0);
   for (int round = 1; round <= 2; ++round) {
-    solve(problem);
-    EXPECT_TRUE(problem.system->augment(*problem.x, round)) << round;
+    const auto updated = problem.system->augment(solve(problem, start).at, round);
+    ASSERT_TRUE(updated) << round;
+    start = *updated;
   }
-  solve(problem);
+  const Solved last = solve(problem, start);
   const auto expect_exhausted = [](const StepFailure& failure) {
     EXPECT_EQ(failure.kind(), FailureKind::augmentation);
     EXPECT_EQ(to_string(failure.kind()), "augmentation");
     EXPECT_THAT(failure.what(), ::testing::StartsWith("contact \"pair\": after 2 updates of the multipliers, one more would change them by "));
   };
   try {
-    problem.system->augment(*problem.x, 3);
+    problem.system->augment(last.at, 3);
     ADD_FAILURE() << "nothing was thrown";
   } catch (const StepFailure& failure) {
     expect_exhausted(failure);
@@ -289,7 +293,8 @@ TEST(ContactNewton, AStepEndsWhenUpdatesOfTheMultipliersAreExhausted) {
   SteppingOptions stepping;
   stepping.minimum_step = stepping.step;
   std::optional<StepFailure> failure;
-  EXPECT_FALSE(run_steps(*stepped.system, stepping, {}, *stepped.x, {}, {}, failure));
+  AcceptedState state = stepped.system->initial_state(*stepped.x);
+  EXPECT_FALSE(run_steps(*stepped.system, stepping, {}, state, {}, {}, failure));
   ASSERT_TRUE(failure);
   expect_exhausted(*failure);
 }
@@ -299,19 +304,21 @@ TEST(ContactNewton, AStepEndsWhenUpdatesOfTheMultipliersAreExhausted) {
 TEST(ContactSystem, ContactLostSinceTheAcceptedStateIsAFailureOnAllRanks) {
   Problem problem(Tpetra::getDefaultComm(), pressed(0.2));
   SemiSmoothSystem& system = *problem.system;
-  Vector F(system.map());
-  ResidualNorms norms;
-  const auto sink = [&](double depth) {
+  const auto place = [&](double depth) {
     const auto d = system.displacement(*problem.x);
     for (const GlobalOrdinal id : d->getMap()->getNodeElementList())
       d->replaceGlobalValue(id, id / 2 >= problem.grid->cut() * problem.grid->nx() && id % 2 == 1 ? -depth : 0.0);
-    system.residual(*problem.x, F, norms);
   };
-  sink(3.0);  // nothing was closed so far
-  EXPECT_EQ(norms.active, 0);
-  sink(0.06);  // a hundredth beyond the first gap
-  EXPECT_GT(norms.active, 0);
-  system.commit(*problem.x);
+  place(3.0);
+  AcceptedState state = system.initial_state(*problem.x);
+  const auto sink = [&](double depth) {
+    place(depth);
+    return system.evaluate(*problem.x, system.step_from(state, 0.0));
+  };
+  EXPECT_EQ(sink(3.0).norms().active, 0);        // nothing was closed so far
+  const SystemEvaluation touching = sink(0.06);  // a hundredth beyond the first gap
+  EXPECT_GT(touching.norms().active, 0);
+  state = system.commit(touching);
   sink(0.0);
   try {
     sink(3.0);

@@ -28,13 +28,30 @@ struct Walk {
   std::optional<StepFailure> last_failure;
 };
 
-Walk walk(Problem& problem, const SteppingOptions& stepping, const std::function<void(Vector&)>& start_step = {}) {
+/// The start of a try that looks at its displacement.
+StepStart start_with(const Problem& problem, const std::function<void(const Vector& d)>& look) {
+  return [&problem, look](const AcceptedState& state, double time, const Vector& d, Vector&) {
+    look(d);
+    return problem.system->step_from(state, time);
+  };
+}
+
+/// run_steps() from rest; leaves the last state in problem.x.
+bool run(Problem& problem, const SteppingOptions& stepping, const StepStart& start, const StepperObserver& observer,
+         std::optional<StepFailure>& last_failure) {
+  AcceptedState state = problem.system->initial_state(*problem.x);
+  const bool finished = run_steps(*problem.system, stepping, {}, state, start, observer, last_failure);
+  Tpetra::deep_copy(*problem.x, *state.x);
+  return finished;
+}
+
+Walk walk(Problem& problem, const SteppingOptions& stepping, const StepStart& start = {}) {
   Walk result;
   StepperObserver observer;
   observer.begin = [&](int, double, double) { ++result.begun; };
-  observer.accepted = [&](const StepReport& report, const Vector&) { result.accepted.push_back(report); };
+  observer.accepted = [&](const StepReport& report, const SystemEvaluation&) { result.accepted.push_back(report); };
   observer.undone = [&](const StepReport&, const StepFailure& failure) { result.undone.push_back(failure.what()); };
-  result.finished = run_steps(*problem.system, stepping, {}, *problem.x, start_step, observer, result.last_failure);
+  result.finished = run(problem, stepping, start, observer, result.last_failure);
   return result;
 }
 
@@ -103,18 +120,17 @@ TEST(Stepper, StopsAtTheSmallestStepWithTheLastGoodState) {
   EXPECT_EQ(committed.normInf(), 0.0);
 }
 
-TEST(Stepper, EachTryStartsFromTheLastGoodStateAndMayPrepareIt) {
+TEST(Stepper, EachTryStartsFromTheLastGoodState) {
   Problem problem(Tpetra::getDefaultComm(), moved(0.3));
   int calls = 0;
   SteppingOptions stepping;
   stepping.predictor = Predictor::none;
-  const Walk result = walk(problem, stepping, [&](Vector& x) {
-    ++calls;
-    Vector difference(x, Teuchos::Copy);
-    difference.update(-1.0, problem.brittle->committed, 1.0);
-    EXPECT_EQ(difference.normInf(), 0.0);
-    x.putScalar(0.0);  // a poor guess, which a failed try must not leave behind
-  });
+  const Walk result = walk(problem, stepping, start_with(problem, [&](const Vector& d) {
+                             ++calls;
+                             Vector difference(d, Teuchos::Copy);
+                             difference.update(-1.0, problem.brittle->committed, 1.0);
+                             EXPECT_EQ(difference.normInf(), 0.0);
+                           }));
   EXPECT_EQ(calls, result.begun);
 }
 
@@ -130,16 +146,17 @@ TEST(Stepper, ALinearPredictorContinuesTheLastStep) {
   // The states of the last two commits, seen when the step after them starts.
   std::vector<Vector> states{Vector(predicted.x->getMap())};
   const std::vector<double> times{0.0, 0.2, 0.4, 0.5, 0.7, 0.9, 1.0};
-  const Walk with = walk(predicted, stepping, [&](Vector& x) {
+  const auto look = [&](const Vector& d) {
     const std::size_t done = predicted.brittle->times.size();
     if (done == 0) return;
     states.emplace_back(predicted.brittle->committed, Teuchos::Copy);
     const double ratio = (times.at(done + 1) - times[done]) / (times[done] - times[done - 1]);
     Vector expected(states[done], Teuchos::Copy);
     expected.update(-ratio, states[done - 1], 1.0 + ratio);
-    expected.update(-1.0, x, 1.0);
+    expected.update(-1.0, d, 1.0);
     EXPECT_LE(expected.normInf(), 1e-14);
-  });
+  };
+  const Walk with = walk(predicted, stepping, start_with(predicted, look));
   int steps_without = 0, steps_with = 0;
   for (const auto& report : without.accepted) steps_without += report.newton.newton_steps();
   for (const auto& report : with.accepted) steps_with += report.newton.newton_steps();
@@ -152,9 +169,9 @@ TEST(Stepper, ALinearPredictorContinuesTheLastStep) {
 TEST(Stepper, AFailingStartIsAFailedTry) {
   Problem problem(Tpetra::getDefaultComm(), moved(1e30));
   int calls = 0;
-  const Walk result = walk(problem, {}, [&](Vector&) {
-    if (++calls == 1) throw StepFailure(FailureKind::projection, "no start");
-  });
+  const Walk result = walk(problem, {}, start_with(problem, [&](const Vector&) {
+                             if (++calls == 1) throw StepFailure(FailureKind::projection, "no start");
+                           }));
   EXPECT_TRUE(result.finished);
   EXPECT_EQ(result.undone, std::vector<std::string>{"no start"});
   EXPECT_EQ(result.accepted[0].time, 0.5);
@@ -166,21 +183,21 @@ TEST(Stepper, ASolutionThatIsRefusedIsAFailedTry) {
   StepperObserver observer;
   std::vector<double> verified;
   int explained = 0;
-  observer.verify = [&](const Vector& from, Vector& x, int round) {
+  observer.verify = [&](const AcceptedState& from, const SystemEvaluation& found, int round) -> RCP<Vector> {
     EXPECT_EQ(round, 1);
-    EXPECT_EQ(from.normInf(), verified.size() < 2 ? 0.0 : problem.x->normInf());
-    verified.push_back(x.normInf());
-    if (x.normInf() > 0.7 && verified.size() == 1) throw StepFailure(FailureKind::lost_contact, "went too far");
-    return true;
+    EXPECT_EQ(from.x->normInf(), verified.size() < 2 ? 0.0 : problem.brittle->committed.normInf());
+    verified.push_back(found.x().normInf());
+    if (found.x().normInf() > 0.7 && verified.size() == 1) throw StepFailure(FailureKind::lost_contact, "went too far");
+    return Teuchos::null;
   };
-  observer.explain = [&](const StepFailure&) {
+  observer.explain = [&](const FailedTry&) {
     ++explained;
     return std::string("never");
   };
   std::vector<StepReport> accepted;
-  observer.accepted = [&](const StepReport& report, const Vector&) { accepted.push_back(report); };
+  observer.accepted = [&](const StepReport& report, const SystemEvaluation&) { accepted.push_back(report); };
   std::optional<StepFailure> failure;
-  EXPECT_TRUE(run_steps(*problem.system, {}, {}, *problem.x, {}, observer, failure));
+  EXPECT_TRUE(run(problem, {}, {}, observer, failure));
   ASSERT_EQ(accepted.size(), 2u);
   EXPECT_EQ(accepted[0].undone, std::vector<std::string>{"lost contact: went too far"});
   EXPECT_EQ(problem.brittle->times, (std::vector<double>{0.5, 1.0}));
@@ -196,15 +213,14 @@ TEST(Stepper, ASolutionMayBeSentBackToAnotherStart) {
   const Walk without = walk(plain, {});
   StepperObserver observer;
   std::vector<int> rounds;
-  observer.verify = [&](const Vector& from, Vector& x, int round) {
+  observer.verify = [&](const AcceptedState& from, const SystemEvaluation&, int round) -> RCP<Vector> {
     rounds.push_back(round);
-    if (round == 1) Tpetra::deep_copy(x, from);
-    return round == 2;
+    return round == 1 ? rcp(new Vector(*from.x, Teuchos::Copy)) : Teuchos::null;
   };
   std::vector<StepReport> accepted;
-  observer.accepted = [&](const StepReport& report, const Vector&) { accepted.push_back(report); };
+  observer.accepted = [&](const StepReport& report, const SystemEvaluation&) { accepted.push_back(report); };
   std::optional<StepFailure> failure;
-  EXPECT_TRUE(run_steps(*problem.system, {}, {}, *problem.x, {}, observer, failure));
+  EXPECT_TRUE(run(problem, {}, {}, observer, failure));
   EXPECT_EQ(rounds, (std::vector<int>{1, 2}));
   ASSERT_EQ(accepted.size(), 1u);
   EXPECT_EQ(accepted[0].cutbacks, 0);
@@ -228,15 +244,13 @@ TEST(Stepper, TheLineOfThePredictorMayBeChanged) {
   };
   std::optional<StepFailure> failure;
   int starts = 0;
-  EXPECT_TRUE(run_steps(
-      *problem.system, stepping, {}, *problem.x,
-      [&](Vector& x) {
-        Vector difference(x, Teuchos::Copy);
-        difference.update(-1.0, problem.brittle->committed, 1.0);
-        EXPECT_EQ(difference.normInf(), 0.0);
-        ++starts;
-      },
-      observer, failure));
+  const auto look = [&](const Vector& d) {
+    Vector difference(d, Teuchos::Copy);
+    difference.update(-1.0, problem.brittle->committed, 1.0);
+    EXPECT_EQ(difference.normInf(), 0.0);
+    ++starts;
+  };
+  EXPECT_TRUE(run(problem, stepping, start_with(problem, look), observer, failure));
   EXPECT_EQ(starts, 4);
 }
 

@@ -28,13 +28,13 @@ Problem::Choices moved() {
 
 NewtonReport solve(Problem& problem, const NewtonOptions& options = {}) {
   NewtonReport report;
-  solve_newton(*problem.system, 1.0, options, *problem.x, report, {});
+  Tpetra::deep_copy(*problem.x, solve_newton(*problem.system, problem.evaluate(1.0), options, report, {}).x());
   return report;
 }
 
 FailureKind failure_of(Problem& problem, const NewtonOptions& options, NewtonReport& report) {
   try {
-    solve_newton(*problem.system, 1.0, options, *problem.x, report, {});
+    solve_newton(*problem.system, problem.evaluate(1.0), options, report, {});
   } catch (const StepFailure& failure) {
     EXPECT_NE(std::string(failure.what()), "");
     return failure.kind();
@@ -67,7 +67,7 @@ TEST(Newton, ObserverSeesEachIterateOnce) {
   Problem problem(Tpetra::getDefaultComm(), loaded());
   std::vector<int> seen;
   NewtonReport report;
-  solve_newton(*problem.system, 1.0, {}, *problem.x, report, [&](const NewtonIteration& iteration) { seen.push_back(iteration.iteration); });
+  solve_newton(*problem.system, problem.evaluate(1.0), {}, report, [&](const NewtonIteration& iteration) { seen.push_back(iteration.iteration); });
   ASSERT_EQ(seen.size(), report.iterations.size());
   for (std::size_t k = 0; k < seen.size(); ++k) EXPECT_EQ(seen[k], static_cast<int>(k));
   EXPECT_EQ(report.iterations[0].increment, 0.0);
@@ -78,12 +78,11 @@ TEST(Newton, ObserverSeesEachIterateOnce) {
 TEST(Newton, ReactionsBalanceTheLoad) {
   Problem problem(Tpetra::getDefaultComm(), loaded());
   solve(problem);
-  Vector r(problem.grid->dofs);
-  problem.system->forces(*problem.x, r);
+  const RCP<const Vector> r = problem.evaluate(1.0).forces();
   double mine[2] = {0.0, 0.0}, all[2];
   for (const int node : problem.grid->owned_nodes()) {
     if (node >= problem.grid->nx()) continue;
-    for (int i = 0; i < 2; ++i) mine[i] += r.getData()[problem.grid->dofs->getLocalElement(problem.grid->dof(node, i))];
+    for (int i = 0; i < 2; ++i) mine[i] += r->getData()[problem.grid->dofs->getLocalElement(problem.grid->dof(node, i))];
   }
   Teuchos::reduceAll(*problem.grid->dofs->getComm(), Teuchos::REDUCE_SUM, 2, mine, all);
   // What is out of balance is at most |r| of the free dofs: 60 of them, 1e-9 of a load of 0.13.
@@ -157,7 +156,7 @@ TEST(Newton, GivesUpAfterTheAllowedIterationsAndSaysWhatIsMissing) {
   options.maximum_iterations = 2;
   NewtonReport report;
   try {
-    solve_newton(*problem.system, 1.0, options, *problem.x, report, {});
+    solve_newton(*problem.system, problem.evaluate(1.0), options, report, {});
     FAIL() << "converged";
   } catch (const StepFailure& failure) {
     EXPECT_EQ(failure.kind(), FailureKind::too_many_iterations);

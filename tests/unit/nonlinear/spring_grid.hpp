@@ -233,6 +233,11 @@ struct Problem {
   std::unique_ptr<SemiSmoothSystem> system;
   RCP<Vector> x;
 
+  /// F at x from rest, at a time.
+  SystemEvaluation evaluate(double time) const { return system->evaluate(*x, context(time)); }
+  /// What holds in a step from rest.
+  StepContext context(double time) const { return system->step_from(system->initial_state(Vector(system->map())), time); }
+
   struct Choices {
     int nx = 6, ny = 5;
     std::optional<std::array<double, 2>> force, motion;

@@ -44,18 +44,18 @@ struct Bar {
 class Result {
  public:
   explicit Result(const Bar& bar)
-      : scene_(read_text(text(bar))), model_(Tpetra::getDefaultComm(), scene_, timers_), system_(model_.parts(), timers_), x_(system_.map()) {
+      : scene_(read_text(text(bar))), model_(Tpetra::getDefaultComm(), scene_, timers_), system_(model_.parts(), timers_) {
     EnergyError energy_error;
     energy_error.against = EnergyError::Against::stored_and_plastic;
     energy_error.prepare(QuantityContext{*model_.bodies()});
     StepperObserver observer;
-    observer.accepted = [&](const StepReport& report, const Vector& x) {
-      look_at(x, report.time);
+    observer.accepted = [&](const StepReport&, const SystemEvaluation& at) {
+      look_at(at);
       energy_error_ = energy_error.evaluate(context());
     };
     std::optional<StepFailure> failure;
-    const bool done = run_steps(
-        system_, scene_.stepping, scene_.newton, x_, [](Vector&) {}, observer, failure);
+    AcceptedState state = system_.initial_state(Vector(system_.map()));
+    const bool done = run_steps(system_, scene_.stepping, scene_.newton, state, {}, observer, failure);
     EXPECT_TRUE(done) << failure->what();
   }
 
@@ -105,13 +105,12 @@ class Result {
   Vector3d generalised(const std::string& name) const { return at(*reaction_, point(name).rotation_node) * point(name).arm; }
 
  private:
-  void look_at(const Vector& x, double time) {
-    displacement_ = rcp(new Vector(*system_.displacement(x), Teuchos::Copy));
+  void look_at(const SystemEvaluation& at) {
+    const double time = at.context().time;
+    displacement_ = rcp(new Vector(*system_.displacement(at.x()), Teuchos::Copy));
     local_ = rcp(new Vector(model_.bodies()->local_dofs()));
     local_->doImport(*displacement_, *model_.bodies()->ghost_import(), Tpetra::INSERT);
-    reaction_ = rcp(new Vector(model_.bodies()->dofs()));
-    system_.set_time(time);
-    system_.forces(x, *reaction_);
+    reaction_ = at.forces();
     external_ = rcp(new Vector(model_.bodies()->dofs()));
     std::optional<StepFailure> none;
     for (const auto& contribution : model_.parts().contributions)
@@ -151,7 +150,6 @@ class Result {
   Scene scene_;
   Model model_;
   SemiSmoothSystem system_;
-  Vector x_;
   RCP<const Vector> displacement_;
   RCP<Vector> local_, reaction_, external_;
   double energy_error_ = 0.0;

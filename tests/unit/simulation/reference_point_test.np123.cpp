@@ -147,37 +147,37 @@ TEST_P(ReferencePoints, JacobianAgreesWithCentralDifferences) {
   const Timers timers;
   const Model model(comm, scene, timers);
   SemiSmoothSystem system(model.parts(), timers);
-  Vector x(system.map());
+  AcceptedState state = system.initial_state(Vector(system.map()));
   std::optional<StepFailure> failure;
-  const auto start = [&](Vector& at) { system.start_step(at, model.held_by_contact_only()); };
+  const auto start = [&](const AcceptedState& from, double time, const Vector& d, Vector& z) {
+    return system.start_step(from, time, model.held_by_contact_only(), d, z);
+  };
   SteppingOptions stepping = scene.stepping;
   stepping.end_time = 0.5;
-  ASSERT_TRUE(run_steps(system, stepping, scene.newton, x, start, {}, failure)) << failure->what();
-  start(x);
-  system.set_time(0.75);
-  Vector v(system.map()), J_v(system.map()), difference(system.map()), F(system.map()), direction(system.map()), J_dx(system.map());
+  ASSERT_TRUE(run_steps(system, stepping, scene.newton, state, start, {}, failure)) << failure->what();
+  Vector x(*state.x, Teuchos::Copy);
+  const StepContext context = start(state, 0.75, *system.displacement(std::as_const(x)), *system.multipliers(x));
+  Vector v(system.map()), J_v(system.map()), difference(system.map()), direction(system.map()), J_dx(system.map());
   for (const GlobalOrdinal id : x.getMap()->getNodeElementList()) {
     x.sumIntoGlobalValue(id, 2e-3 * std::sin(0.37 * id + 0.4));
     v.replaceGlobalValue(id, std::sin(0.91 * id + 0.4));
   }
-  ResidualNorms norms;
   const double h = 1e-6;
   for (const double sign : {1.0, -1.0}) {
     Vector at(x, Teuchos::Copy);
     at.update(sign * h, v, 1.0);
-    system.residual(at, F, norms);
-    difference.update(sign / (2.0 * h), F, 1.0);
+    difference.update(sign / (2.0 * h), system.evaluate(at, context).residual(), 1.0);
   }
-  system.residual(x, F, norms);
-  EXPECT_GT(norms.active, 0);
-  system.jacobian(x);
-  system.apply(v, J_v);
+  const SystemLinearisation linearisation = system.linearise(system.evaluate(x, context));
+  const Vector& F = linearisation.evaluation().residual();
+  EXPECT_GT(linearisation.evaluation().norms().active, 0);
+  linearisation.apply(v, J_v);
   const double size = J_v.norm2();
   difference.update(-1.0, J_v, 1.0);
   EXPECT_LE(difference.norm2(), 1e-6 * size);
 
-  system.newton_direction(F, direction);
-  system.apply(direction, J_dx);
+  linearisation.newton_direction(F, direction);
+  linearisation.apply(direction, J_dx);
   J_dx.update(1.0, F, 1.0);
   EXPECT_LE(J_dx.norm2(), 1e-11 * F.norm2());
 }

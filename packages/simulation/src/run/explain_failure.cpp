@@ -52,21 +52,23 @@ RCP<MultiVector> modes_with_points(const Model& model, const Vector& displacemen
   return modes;
 }
 
-std::vector<PairHold> pairs_now(const std::vector<int>& bodies, const Model& model, SemiSmoothSystem& system) {
-  const Vector& x = *system.linearised_at();
-  const NodePlaces at = node_places(*model.mesh(), system.displacement(x).get());
+std::vector<PairHold> pairs_now(const std::vector<int>& bodies, const Model& model, const SemiSmoothSystem& system,
+                                const SystemEvaluation& evaluation) {
+  const NodePlaces at = node_places(*model.mesh(), system.displacement(evaluation.x()).get());
   const RigidModes modes(*model.mesh(), model.bodies()->kinematics() == Kinematics::axisymmetric, bodies, at.x);
-  return contact_hold(model, modes, at, system.contact_laws(x)).pairs;
+  return contact_hold(model, modes, at, evaluation.contact_laws()).pairs;
 }
 
-std::string describe_free_motions(const std::vector<int>& bodies, const Model& model, SemiSmoothSystem& system, const ContactRecord& record) {
+std::string describe_free_motions(const std::vector<int>& bodies, const Model& model, const SemiSmoothSystem& system,
+                                  const SystemEvaluation& evaluation, const ContactRecord& record) {
   const Mesh& mesh = *model.mesh();
-  const RCP<MultiVector> modes = modes_with_points(model, *system.displacement(*system.linearised_at()));
+  const RCP<MultiVector> modes = modes_with_points(model, *system.displacement(evaluation.x()));
   const int per_body = static_cast<int>(modes->getNumVectors()), count = per_body * static_cast<int>(bodies.size());
 
   // Columns of A; rows of C as forces.
   MultiVector A(system.map(), count);
   const RCP<const Vector> weights = model.contact()->weights();
+  const SystemLinearisation linearisation = system.linearise(evaluation);
   for (int column = 0; column < count; ++column) {
     Vector motion(system.map());
     {
@@ -76,7 +78,7 @@ std::string describe_free_motions(const std::vector<int>& bodies, const Model& m
         if (mesh.body_of_node[dof / mesh.dimension] == bodies[column / per_body]) to(dof, 0) = from(dof, 0);
     }
     const RCP<Vector> force = A.getVectorNonConst(column);
-    system.apply(motion, *force);
+    linearisation.apply(motion, *force);
     const RCP<Vector> conditions = system.multipliers(*force);
     conditions->elementWiseMultiply(1.0, *weights, *conditions, 0.0);
     force->scale(1.0 / (system.stiffness_scale() * motion.norm2()));
@@ -106,24 +108,25 @@ std::string describe_free_motions(const std::vector<int>& bodies, const Model& m
   }
   std::vector<std::string> free;
   for (std::size_t b = 0; b < which.size(); ++b) free.push_back(fmt::format("body '{}' ({})", mesh.blocks[which[b]].name, fmt::join(names[b], ", ")));
-  return fmt::format("free to move: {}; {}", fmt::join(free, ", "), record.describe(model, which, pairs_now(bodies, model, system)));
+  return fmt::format("free to move: {}; {}", fmt::join(free, ", "), record.describe(model, which, pairs_now(bodies, model, system, evaluation)));
 }
 
 }  // namespace
 
-std::string describe_held_bodies(const Model& model, SemiSmoothSystem& system, const ContactRecord& record) {
+std::string describe_held_bodies(const FailedTry& failed, const Model& model, const SemiSmoothSystem& system, const ContactRecord& record) {
   const std::vector<int> bodies = bodies_held_by_contact_only(model);
-  if (bodies.empty() || bodies.size() > most_loose_bodies || system.linearised_at().is_null()) return {};
+  if (bodies.empty() || bodies.size() > most_loose_bodies || !failed.linearised) return {};
+  const SystemEvaluation evaluation = system.evaluate(*failed.linearised->x, failed.linearised->context);
   std::vector<std::string> names;
   for (const int body : bodies) names.push_back(fmt::format("'{}'", model.mesh()->blocks[body].name));
   return fmt::format("nothing but contact holds {}; in the last iterate {}", fmt::join(names, ", "),
-                     record.describe(model, bodies, pairs_now(bodies, model, system)));
+                     record.describe(model, bodies, pairs_now(bodies, model, system, evaluation)));
 }
 
-std::string explain_failure(const Model& model, SemiSmoothSystem& system, const ContactRecord& record) {
+std::string explain_failure(const FailedTry& failed, const Model& model, const SemiSmoothSystem& system, const ContactRecord& record) {
   const std::vector<int> bodies = bodies_held_by_contact_only(model);
-  if (bodies.empty() || bodies.size() > most_loose_bodies || system.linearised_at().is_null()) return {};
-  return describe_free_motions(bodies, model, system, record);
+  if (bodies.empty() || bodies.size() > most_loose_bodies || !failed.linearised) return {};
+  return describe_free_motions(bodies, model, system, system.evaluate(*failed.linearised->x, failed.linearised->context), record);
 }
 
 }  // namespace mortise

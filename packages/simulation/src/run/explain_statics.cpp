@@ -33,25 +33,21 @@ constexpr std::size_t most_bodies = 10;  ///< that are looked at together: the r
 /// Loads and contact of the bodies at one state, in the works on motions that boundary conditions leave.
 class BodyStatics {
  public:
-  BodyStatics(const Model& model, SemiSmoothSystem& system, const Vector& x, const std::vector<int>& held)
-      : model_(model), mesh_(*model.mesh()), at_(node_places(mesh_, system.displacement(x).get())), fixed_(prescribed_marks(model)) {
-    Vector F(system.map());
-    ResidualNorms norms;
-    system.residual(x, F, norms);
-    system.jacobian(x);
-    const ContactLaws laws = system.contact_laws(x);
+  BodyStatics(const Model& model, const SemiSmoothSystem& system, const SystemEvaluation& evaluation, const std::vector<int>& held)
+      : model_(model), mesh_(*model.mesh()), at_(node_places(mesh_, system.displacement(evaluation.x()).get())), fixed_(prescribed_marks(model)) {
+    const ContactLaws& laws = evaluation.contact_laws();
     find_nodes(held, laws);
     if (bodies_.empty()) return;
 
     Vector contact(model.parts().dofs);
     laws.add_force(contact);
-    Vector outer(*system.displacement(F), Teuchos::Copy);
+    Vector outer(*system.displacement(evaluation.residual()), Teuchos::Copy);
     outer.update(-1.0, contact, 1.0);
     const Eigen::RowVectorXd mine = work_of_residual(mesh_, *modes_, at_, *fixed_, outer);
     const Eigen::MatrixXd prescribed = prescribed_gram(mesh_, *modes_, at_, *fixed_);
     motions_ = free_motions(sum(prescribed), modes_->per_body());
     load_ = -motions_.transpose() * sum(mine).transpose();
-    round_off_ = std::max(norms.round_off, 100.0 * epsilon * load_.norm());
+    round_off_ = std::max(evaluation.norms().round_off, 100.0 * epsilon * load_.norm());
     for (const BearingNode& node : nodes_) cones_.push_back(cone_of(node));
   }
 
@@ -307,25 +303,17 @@ StaticsReason judge(const BodyStatics& statics) {
 
 }  // namespace
 
-StaticsReason explain_statics(const Model& model, SemiSmoothSystem& system, const Vector& accepted) {
+StaticsReason explain_statics(const Model& model, const SemiSmoothSystem& system, const Vector& x, const StepContext& context) {
   std::vector<int> held = bodies_held_by_contact_only(model);
   const std::size_t all = held.size();
   for (const ReferencePoint& point : model.mesh()->reference_points)  // their rotation is a degree of freedom of its own
     if (point.rotation_node >= 0) held.erase(std::remove(held.begin(), held.end(), model.mesh()->body_of_node[point.node]), held.end());
   if (held.empty() || held.size() > most_bodies || held.size() < all) return {};
-  const RCP<const Vector> linearised = system.linearised_at();
-  const RCP<const Vector> failed = linearised.is_null() ? Teuchos::null : rcp(new Vector(*linearised, Teuchos::Copy));
-  StaticsReason reason;
   try {
-    reason = judge(BodyStatics(model, system, accepted, held));
+    return judge(BodyStatics(model, system, system.evaluate(x, context), held));
   } catch (const StepFailure&) {  // on every rank: no state to judge by
+    return {};
   }
-  if (failed.is_null()) return reason;
-  try {
-    system.jacobian(*failed);
-  } catch (const StepFailure&) {  // as it failed before
-  }
-  return reason;
 }
 
 }  // namespace mortise

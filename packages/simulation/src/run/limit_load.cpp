@@ -28,19 +28,17 @@ bool newton_came_to_no_end(FailureKind kind) {
          kind == FailureKind::cycling_active_set;
 }
 
-/// u: K u = the load that the step adds, at the last linearisation; `load` holds its negative, 0 on prescribed rows. The rows of a contact's
-/// conditions stand in each solve, so there u is the difference of two.
-RCP<Vector> answer_to_load(SemiSmoothSystem& system, const Vector& at, const Vector& load) {
+/// u: K u = the load that the step adds, at an evaluation; `load` holds its negative, 0 on prescribed rows. The rows of a contact's conditions stand in
+/// each solve, so there u is the difference of two.
+RCP<Vector> answer_to_load(const SemiSmoothSystem& system, const SystemEvaluation& at, const Vector& load) {
+  const SystemLinearisation linearisation = system.linearise(at);
   const auto direction = [&](const Vector& F) {
     const auto u = rcp(new Vector(system.map()));
-    system.jacobian(at);
-    system.newton_direction(F, *u);
+    linearisation.newton_direction(F, *u);
     return u;
   };
   if (!system.parts().contact) return direction(load);
-  Vector F(system.map());
-  ResidualNorms norms;
-  system.residual(at, F, norms);
+  Vector F(at.residual(), Teuchos::Copy);
   const RCP<Vector> without = direction(F);
   F.update(1.0, load, 1.0);
   const RCP<Vector> u = direction(F);
@@ -49,14 +47,13 @@ RCP<Vector> answer_to_load(SemiSmoothSystem& system, const Vector& at, const Vec
 }
 
 /// u^T K u over u^T K_e u; none where the step adds no load or the failed try is far from equilibrium.
-std::optional<double> remaining_stiffness(SemiSmoothSystem& system, const Vector& failed, const Vector& converged) {
-  Vector load(system.map());
-  ResidualNorms norms;
-  system.residual(failed, load, norms);
-  if (!(norms.momentum <= near_equilibrium)) return std::nullopt;
+std::optional<double> remaining_stiffness(const SemiSmoothSystem& system, const FailedTry& tried) {
+  const SystemEvaluation failed = system.evaluate(*tried.linearised->x, tried.linearised->context);
+  if (!(failed.norms().momentum <= near_equilibrium)) return std::nullopt;
   // The last state is in equilibrium with the last load: what it lacks now is what the step adds.
-  system.residual(converged, load, norms);
-  if (!(norms.momentum >= least_load)) return std::nullopt;
+  const SystemEvaluation converged = system.evaluate(*tried.from.x, tried.context);
+  if (!(converged.norms().momentum >= least_load)) return std::nullopt;
+  Vector load(converged.residual(), Teuchos::Copy);
   if (const auto& prescribed = system.parts().prescribed) {
     const auto rows = load.getLocalViewHost(Tpetra::Access::ReadWrite);
     for (const LocalOrdinal dof : prescribed->dofs()) rows(dof, 0) = 0.0;
@@ -66,8 +63,7 @@ std::optional<double> remaining_stiffness(SemiSmoothSystem& system, const Vector
   system.multipliers(*u)->putScalar(0.0);
   const double work = -u->dot(load);
   Vector force(system.map());
-  system.jacobian(converged);
-  system.apply(*u, force);
+  system.linearise(converged).apply(*u, force);
   const double elastic = system.displacement(*u)->dot(*system.displacement(force));
   if (!(elastic > 0.0)) return std::nullopt;
   return work / elastic;
@@ -105,18 +101,17 @@ std::string describe_flow(const Model& model, const Vector& failed, const Vector
   return shares.empty() ? "no point flows, so the structure buckles or snaps through" : fmt::format("plastic flow in {}", fmt::join(shares, ", "));
 }
 
-std::string explain_limit_load(const StepFailure& failure, const Model& model, SemiSmoothSystem& system, const Vector& converged) {
-  if (!newton_came_to_no_end(failure.kind()) || system.linearised_at().is_null()) return {};
-  const Vector failed(*system.linearised_at(), Teuchos::Copy);
+std::string explain_limit_load(const FailedTry& failed, const Model& model, const SemiSmoothSystem& system) {
+  if (!newton_came_to_no_end(failed.failure.kind()) || !failed.linearised) return {};
   std::optional<double> stiffness;
   try {
-    stiffness = remaining_stiffness(system, failed, converged);
+    stiffness = remaining_stiffness(system, failed);
   } catch (const StepFailure&) {  // on every rank: no state to judge by
     return {};
   }
   if (!stiffness || !(*stiffness < hardly_stiff)) return {};
   return fmt::format("no equilibrium beyond this load: against more of it the stiffness is {:.1e} of the elastic one; {}", *stiffness,
-                     describe_flow(model, *system.displacement(failed), *system.displacement(converged)));
+                     describe_flow(model, *system.displacement(*failed.linearised->x), *system.displacement(*failed.from.x)));
 }
 
 }  // namespace mortise

@@ -3,8 +3,7 @@
 
 #include <string>
 
-#include "mortise/core/error.hpp"
-#include "mortise/nonlinear/semi_smooth_system.hpp"
+#include "mortise/nonlinear/load_stepper.hpp"
 #include "mortise/simulation/model/model.hpp"
 
 namespace mortise {
@@ -14,9 +13,8 @@ namespace mortise {
 /// elastically. Along a mechanism of plastic flow u^T K u is nothing beside u^T K_e u. Beyond a limit point it is negative (Bergan et al. 1978: the
 /// current stiffness parameter). Asked only where Newton's method came to no end close to equilibrium, and where the step adds a load: prescribed
 /// displacements pass such a point. Collective.
-/// @param converged  x of the last converged state
 /// @returns in words for people, with the share of each body's volume that flows; empty if the failure has another cause
-std::string explain_limit_load(const StepFailure& failure, const Model& model, SemiSmoothSystem& system, const Vector& converged);
+std::string explain_limit_load(const FailedTry& failed, const Model& model, const SemiSmoothSystem& system);
 
 /// "plastic flow in 91 % of body 'bar'", the share of each body's volume that flows between two displacements; or that none does, and what it means
 /// beyond a limit. Collective.

@@ -69,7 +69,7 @@ class Observers {
     StepperObserver observer;
     observer.begin = [this](int step, double time, double dt) { begin(step, time, dt); };
     observer.iteration = [this](const NewtonIteration& iteration) { add(iteration); };
-    observer.accepted = [this](const StepReport& report, const Vector& x) { accept(report, x); };
+    observer.accepted = [this](const StepReport& report, const SystemEvaluation& at) { accept(report, at); };
     observer.undone = [this](const StepReport&, const StepFailure& failure) {
       const auto count = [](int value) { return static_cast<long long>(value); };
       if (last_iteration_.empty())  // it ended before the first residual
@@ -82,11 +82,14 @@ class Observers {
   }
 
   /// Writes fields and profiles of the last accepted state, if that has not been done.
-  void finish(const Vector& x) {
+  void finish(const std::function<SystemEvaluation()>& last_state) {
     if (record_.steps.empty()) return;
     const StepReport& last = record_.steps.back();
-    if (written_ != last.step) write_fields(last, x);
-    if (!is_output_time(last)) write_profiles(last, x);
+    const bool fields = fields_ && written_ != last.step, profiles = profiles_ && !is_output_time(last);
+    if (!fields && !profiles) return;
+    const SystemEvaluation at = last_state();
+    if (fields) write_fields(last, at);
+    if (profiles) write_profiles(last, at);
   }
 
  private:
@@ -138,12 +141,12 @@ class Observers {
     last_iteration_.clear();
   }
 
-  void accept(const StepReport& report, const Vector& x) {
+  void accept(const StepReport& report, const SystemEvaluation& at) {
     const auto timer = timers_.scope("output");
     write_last_iteration("");
     record_.steps.push_back(report);
     const auto names = evaluation_.names();
-    const auto values = evaluation_.quantities(x, report.time);
+    const auto values = evaluation_.quantities(at);
     std::vector<CsvValue> row{static_cast<long long>(report.step), report.time, static_cast<long long>(report.newton.newton_steps())};
     for (std::size_t i = 0; i < values.size(); ++i) {
       row.emplace_back(values[i]);
@@ -151,8 +154,8 @@ class Observers {
     }
     history_.row(row);
     log_.info(step_footer(report, seconds_left(report.time)));
-    if (is_output_time(report) || (scene_.output.every_step > 0 && report.step % scene_.output.every_step == 0)) write_fields(report, x);
-    if (is_output_time(report)) write_profiles(report, x);
+    if (is_output_time(report) || (scene_.output.every_step > 0 && report.step % scene_.output.every_step == 0)) write_fields(report, at);
+    if (is_output_time(report)) write_profiles(report, at);
   }
 
   /// As if the rest of the scene's time went on as fast as what is done of it.
@@ -167,14 +170,14 @@ class Observers {
     return false;
   }
 
-  void write_fields(const StepReport& report, const Vector& x) {
+  void write_fields(const StepReport& report, const SystemEvaluation& at) {
     written_ = report.step;
-    if (fields_) fields_->write(report.time, evaluation_.fields(x, scene_.output.fields));
+    if (fields_) fields_->write(report.time, evaluation_.fields(at, scene_.output.fields));
   }
 
-  void write_profiles(const StepReport& report, const Vector& x) {
+  void write_profiles(const StepReport& report, const SystemEvaluation& at) {
     if (!profiles_) return;
-    const auto profiles = evaluation_.profiles(x);
+    const auto profiles = evaluation_.profiles(at);
     std::vector<std::vector<CsvValue>> rows;
     for (std::size_t pair = 0; pair < profiles.size(); ++pair)
       for (const ProfilePoint& point : profiles[pair])
@@ -240,9 +243,9 @@ ExitCode run_scene(const RCP<const Communicator>& comm, Scene scene, const RunOp
   std::optional<SlipSettlement> settlement;
   if (SlipSettlement::is_needed(model)) {
     settlement.emplace(model);
-    parts.better_start = [&](const Vector& at, const Vector& F, const ContactLaws& contact) { return settlement->better_start(at, F, contact); };
+    parts.better_start = [&](const SystemEvaluation& at) { return settlement->better_start(at); };
   }
-  SemiSmoothSystem system(std::move(parts), timers);
+  const SemiSmoothSystem system(std::move(parts), timers);
   StepEvaluation evaluation(scene, model, system);
 
   // From here on the scene is one that can be run: only now is anything made, and what an earlier run left makes room.
@@ -260,9 +263,19 @@ ExitCode run_scene(const RCP<const Communicator>& comm, Scene scene, const RunOp
   record.settings = options.settings;
   record.quantity_order = evaluation.names();
   Observers observers(comm, scene, directory, model.mesh(), evaluation, log, record, timers);
-  Vector x(system.map());
+  AcceptedState state = system.initial_state(Vector(system.map()));
+  std::optional<SystemEvaluation> last;  // of `state`, in the step that led there; none while another step is tried
   std::optional<StepFailure> failure;
-  const auto start_step = [&](Vector& at) { system.start_step(at, model.held_by_contact_only()); };
+  // An overlap is taken up by the end of the first step. A try that is cut short takes up its share, as if the bodies were moved into one another.
+  const double taken_up = std::min(scene.stepping.step, scene.stepping.end_time);
+  const auto start_step = [&](const AcceptedState& from, double time, const Vector& d, Vector& z) {
+    AcceptedState allowed = from;
+    for (std::size_t pair = 0; pair < scene.contact.size(); ++pair)
+      if (const double depth = model.surfaces_at_start().pairs[pair].overlap.depth; depth > 0.0)
+        allowed.context.contact =
+            model.contact()->allow_overlap(*allowed.context.contact, pair, depth * std::max(0.0, 1.0 - time / taken_up));
+    return system.start_step(allowed, time, model.held_by_contact_only(), d, z);
+  };
   {
     const auto timer = timers.scope("steps");
     StepperObserver functions = observers.functions();
@@ -272,59 +285,53 @@ ExitCode run_scene(const RCP<const Communicator>& comm, Scene scene, const RunOp
     std::optional<StateCheck> check;
     if (StateCheck::is_needed(model)) check.emplace(model, scene.newton.increment_tolerance * model.parts().length, warn);
     JumpCheck jump(model.parts().length);
-    const auto last_time = [&] { return record.steps.empty() ? 0.0 : record.steps.back().time; };
-    functions.verify = [&](const Vector& from, Vector& to, int round) {
-      if (surfaces) surfaces->examine(*system.displacement(to), system.contact_laws(to));
+    functions.verify = [&](const AcceptedState& from, const SystemEvaluation& found, int round) -> RCP<Vector> {
+      if (surfaces) surfaces->examine(*system.displacement(found.x()), found.contact_laws());
       if (check) {
         const auto timer = timers.scope("state check");
         try {
-          if (!check->verify(system, from, to, round)) return false;
+          if (const RCP<Vector> other = check->verify(system, *from.x, found, round); !other.is_null()) return other;
         } catch (const StepFailure& far) {  // on every rank
-          const StaticsReason statics = explain_statics(model, system, from);
+          const StaticsReason statics = explain_statics(model, system, *from.x, found.context());
           if (statics.words.empty()) throw;
           throw StepFailure(far.kind(), fmt::format("{}; the state that was found is too far away: {}", statics.words, far.what()));
         }
       }
-      jump.verify(*system.displacement(from), *system.displacement(to), system.time() - last_time(), check && check->went_far());
-      return true;
+      jump.verify(*system.displacement(*from.x), *system.displacement(found.x()), found.context().time - from.context.time,
+                  check && check->went_far());
+      return Teuchos::null;
     };
     // Smaller tries of a step often end where less can be told: then what an earlier one showed is said again.
     std::string known;
     const double smallest = scene.stepping.minimum_step.value_or(scene.stepping.step / 1024.0);
-    functions.explain = [&](const StepFailure& caught) -> std::string {
-      if (caught.kind() == FailureKind::input) return {};
-      const StaticsReason statics = check ? explain_statics(model, system, x) : StaticsReason{};
+    functions.explain = [&](const FailedTry& failed) -> std::string {
+      if (failed.failure.kind() == FailureKind::input) return {};
+      const StaticsReason statics = check ? explain_statics(model, system, *failed.from.x, failed.context) : StaticsReason{};
       if (statics.verdict == StaticsVerdict::falls) return known = statics.words;
       const bool may_hold = statics.verdict != StaticsVerdict::unknown;
-      const double from = last_time(), to = system.time();
-      if (to - from < 2.0 * smallest && !system.linearised_at().is_null())
-        if (const std::string turns = explain_turning_point(model, system, x, Vector(*system.linearised_at(), Teuchos::Copy), from, to);
-            !turns.empty())
-          return known = turns;
+      if (failed.time - failed.from.context.time < 2.0 * smallest)
+        if (const std::string turns = explain_turning_point(failed, model, system); !turns.empty()) return known = turns;
       if (check && !check->refused().empty()) return known = check->refused() + "; put back, it found no equilibrium";
       // What Newton's last iterate says of motions is no reason where statics says that contact can hold the bodies.
       std::string explanation = settlement && !may_hold ? settlement->overload() : std::string();
-      if (explanation.empty() && check && !may_hold) explanation = explain_failure(model, system, check->record());
-      if (explanation.empty()) explanation = explain_limit_load(caught, model, system, x);
+      if (explanation.empty() && check && !may_hold) explanation = explain_failure(failed, model, system, check->record());
+      if (explanation.empty()) explanation = explain_limit_load(failed, model, system);
       if (!explanation.empty()) return known = explanation;
       if (known.empty() && may_hold)
-        return fmt::format("{}; Newton's method found no equilibrium; {}", statics.words, describe_held_bodies(model, system, check->record()));
-      if (known.empty()) return check ? describe_held_bodies(model, system, check->record()) : known;
+        return fmt::format("{}; Newton's method found no equilibrium; {}", statics.words, describe_held_bodies(failed, model, system, check->record()));
+      if (known.empty()) return check ? describe_held_bodies(failed, model, system, check->record()) : known;
       return known + "; so an earlier try of this step";
     };
-    functions.accepted = [&, accepted = functions.accepted](const StepReport& report, const Vector& at) {
+    functions.begin = [&, begin = functions.begin](int step, double time, double dt) {
+      last.reset();
+      begin(step, time, dt);
+    };
+    functions.accepted = [&, accepted = functions.accepted](const StepReport& report, const SystemEvaluation& at) {
+      last = at;
       known.clear();
       if (surfaces) surfaces->accept();
       jump.accept();
       accepted(report, at);
-    };
-    // An overlap is taken up by the end of the first step. A try that is cut short takes up its share, as if the bodies were moved into one another.
-    const double taken_up = std::min(scene.stepping.step, scene.stepping.end_time);
-    functions.begin = [&, begin = functions.begin](int step, double time, double dt) {
-      for (std::size_t pair = 0; pair < scene.contact.size(); ++pair)
-        if (const double depth = model.surfaces_at_start().pairs[pair].overlap.depth; depth > 0.0)
-          system.allow_overlap(pair, depth * std::max(0.0, 1.0 - time / taken_up));
-      begin(step, time, dt);
     };
     // What is pushed apart does not go on: predicted, it would let all nodes of a press fit slip.
     const auto& at_start = model.surfaces_at_start().pairs;
@@ -342,24 +349,24 @@ ExitCode run_scene(const RCP<const Communicator>& comm, Scene scene, const RunOp
         if (settlement) settlement->begin();
         begin(step, time, dt);
       };
-      functions.accepted = [&, accepted = functions.accepted](const StepReport& report, const Vector& at) {
+      functions.accepted = [&, accepted = functions.accepted](const StepReport& report, const SystemEvaluation& at) {
         check->accept();
         accepted(report, at);
       };
     }
     try {
-      record.converged = run_steps(system, scene.stepping, scene.newton, x, start_step, functions, failure);
+      record.converged = run_steps(system, scene.stepping, scene.newton, state, start_step, functions, failure);
       // On its way in a corner passes through a part of a facet before contact begins; a run that ends there has not found its force.
       if (record.converged && surfaces && !surfaces->without_force().empty()) {
         failure.emplace(FailureKind::lost_contact, surfaces->without_force() + "; please make the slave finer there, or exchange slave and master");
         record.converged = false;
       }
       if (record.converged && model.contact())
-        for (const std::string& line : slaves_too_coarse(model, scene, *system.displacement(x), system.contact_laws(x))) log.warning(line);
+        for (const std::string& line : slaves_too_coarse(model, scene, *system.displacement(*state.x), last->contact_laws())) log.warning(line);
     } catch (const InputError& error) {  // on every rank: a quantity's expression without a value
       failure.emplace(FailureKind::input, error.what());
     }
-    observers.finish(x);
+    observers.finish([&] { return last ? *last : system.evaluate_at(state, *system.multipliers(*state.x), state.context); });
   }
   if (!record.steps.empty()) record.checks = evaluate_checks(scene.checks, record.quantities);
   record.exit = exit_code(record, failure);
@@ -374,7 +381,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, Scene scene, const RunOp
   Teuchos::reduceAll(*comm, Teuchos::REDUCE_SUM, mine, Teuchos::outArg(record.memory_total_mib));
   log.detail(timer_report(timers, comm));
   report_end(record, failure, directory.path(), log);
-  write_file(*comm, directory.file("summary.json"), [&, json = summary(record, model, system.contact_history())] {
+  write_file(*comm, directory.file("summary.json"), [&, json = summary(record, model, state.context.contact)] {
     return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   });
   if (is_input(failure)) throw *failure;

@@ -203,9 +203,10 @@ std::string SlipSettlement::describe_overload(const Sliding& sliding, const Eige
                      fmt::join(bodies, ", "), load, capacity, fmt::join(slipping, ", "));
 }
 
-RCP<Vector> SlipSettlement::better_start(const Vector& x, const Vector& F, const ContactLaws& laws) {
+RCP<Vector> SlipSettlement::better_start(const SystemEvaluation& at) {
+  const Vector& x = at.x();
   Sliding sliding;
-  if (!find_sliding(x, F, laws, sliding)) return Teuchos::null;
+  if (!find_sliding(x, at.residual(), at.contact_laws(), sliding)) return Teuchos::null;
   const Mesh& mesh = *model_.mesh();
   const std::vector<SlidingNode>& nodes = sliding.nodes;
   const FrictionBalance balance =

@@ -22,7 +22,7 @@ class SlipSettlement {
   /// SystemParts::better_start: x with the bodies moved to where friction bears the load, each node with the traction that it has there, and those
   /// that rest sticking. Where friction does not bear the load at the pressures of x, the node that slipped least sticks: pressures are for the next
   /// iterate to find. Null where something else holds the bodies, or Newton's step along the free motions is no longer than the slips.
-  RCP<Vector> better_start(const Vector& x, const Vector& F, const ContactLaws& laws);
+  RCP<Vector> better_start(const SystemEvaluation& at);
 
   /// A try of a step begins.
   void begin() { overload_.clear(); }

@@ -62,12 +62,12 @@ bool StateCheck::is_needed(const Model& model) { return model.contact() && !bodi
 StateCheck::StateCheck(const Model& model, double resolution, std::function<void(const std::string&)> warn)
     : model_(model), resolution_(resolution), warn_(std::move(warn)), bodies_(bodies_held_by_contact_only(model)), fixed_(prescribed_marks(model)) {}
 
-bool StateCheck::verify(SemiSmoothSystem& system, const Vector& before, Vector& after, int round) {
+RCP<Vector> StateCheck::verify(const SemiSmoothSystem& system, const Vector& before, const SystemEvaluation& found, int round) {
   const Mesh& mesh = *model_.mesh();
-  const NodePlaces from = node_places(mesh, system.displacement(before).get()), to = node_places(mesh, system.displacement(after).get());
+  const NodePlaces from = node_places(mesh, system.displacement(before).get()), to = node_places(mesh, system.displacement(found.x()).get());
   const bool axisymmetric = model_.bodies()->kinematics() == Kinematics::axisymmetric;
   auto modes = std::make_unique<RigidModes>(mesh, axisymmetric, bodies_, to.x);
-  const ContactHold hold = contact_hold(model_, *modes, to, system.contact_laws(after));
+  const ContactHold hold = contact_hold(model_, *modes, to, found.contact_laws());
   const Eigen::MatrixXd mine = prescribed_gram(mesh, *modes, to, *fixed_);
   Eigen::MatrixXd gram(mine.rows(), mine.cols());
   Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), gram.data());
@@ -109,9 +109,10 @@ bool StateCheck::verify(SemiSmoothSystem& system, const Vector& before, Vector& 
                             "by a boundary condition or by friction, or end before");
     NodePlaces half_way = to;
     for (std::size_t node = 0; node < to.x.size(); ++node) half_way.x[node] = 0.5 * (from.x[node] + to.x[node]);
-    move_bodies(mesh, *modes, loosely, motions.middle, half_way, -1.0, *system.displacement(after));
+    const auto start = rcp(new Vector(found.x(), Teuchos::Copy));
+    move_bodies(mesh, *modes, loosely, motions.middle, half_way, -1.0, *system.displacement(*start));
     warn_(fmt::format("  {}. Put back, and solved again from there", refused_));
-    return false;
+    return start;
   }
 
   pairs_ = hold.pairs;
@@ -121,7 +122,7 @@ bool StateCheck::verify(SemiSmoothSystem& system, const Vector& before, Vector& 
   middle_ = motions.middle;
   modes_ = std::move(modes);
   say_new(*modes_, free, motions);
-  return true;
+  return Teuchos::null;
 }
 
 void StateCheck::say_new(const RigidModes& modes, const Eigen::MatrixXd& free, const BodyMotions& motions) {

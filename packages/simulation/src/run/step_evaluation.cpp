@@ -6,7 +6,7 @@
 
 namespace mortise {
 
-StepEvaluation::StepEvaluation(const Scene& scene, const Model& model, SemiSmoothSystem& system) : scene_(scene), model_(model), system_(system) {
+StepEvaluation::StepEvaluation(const Scene& scene, const Model& model, const SemiSmoothSystem& system) : scene_(scene), model_(model), system_(system) {
   std::vector<Diagnostic> diagnostics;
   QuantityContext at = context();
   for (const auto& quantity : scene_.quantities) {
@@ -52,18 +52,17 @@ double StepEvaluation::force_round_off(const Vector& displacement) const {
   return std::numeric_limits<double>::epsilon() * sum_of_diagonal * (model_.size().length + displacement.normInf());
 }
 
-std::vector<double> StepEvaluation::quantities(const Vector& x, double time) {
+std::vector<double> StepEvaluation::quantities(const SystemEvaluation& at) {
   if (scene_.quantities.empty()) return {};
-  const auto displacement = system_.displacement(x);
+  const auto displacement = system_.displacement(at.x());
   const auto local_displacement = local(*displacement);
-  Vector reaction(model_.bodies()->dofs()), external(model_.bodies()->dofs());
-  system_.set_time(time);
-  const std::optional<ContactLaws> laws = contact_laws(x);
-  system_.forces(x, reaction);
+  const double time = at.context().time;
+  const RCP<const Vector> reaction = at.forces();
+  Vector external(model_.bodies()->dofs());
   std::optional<StepFailure> failure;
-  const Configuration at{time, *displacement, *local_displacement};
+  const Configuration configuration{time, *displacement, *local_displacement};
   for (const auto& contribution : model_.parts().contributions)
-    if (contribution->kind() == Contribution::Kind::external) contribution->add_residual(at, external, failure);
+    if (contribution->kind() == Contribution::Kind::external) contribution->add_residual(configuration, external, failure);
   throw_if_any(*model_.mesh()->comm, failure);
   external.scale(-1.0);
 
@@ -71,8 +70,8 @@ std::vector<double> StepEvaluation::quantities(const Vector& x, double time) {
   context.time = time;
   context.displacement = displacement.get();
   context.local_displacement = local_displacement.get();
-  context.laws = laws ? &*laws : nullptr;
-  context.reaction = &reaction;
+  context.laws = contact_laws(at);
+  context.reaction = reaction.get();
   context.external_force = &external;
   context.force_round_off = force_round_off(*displacement);
   for (const auto& quantity : scene_.quantities) {
@@ -83,32 +82,27 @@ std::vector<double> StepEvaluation::quantities(const Vector& x, double time) {
   return context.earlier_values;
 }
 
-std::vector<Field> StepEvaluation::fields(const Vector& x, const std::vector<std::string>& names) {
-  const auto displacement = system_.displacement(x);
+std::vector<Field> StepEvaluation::fields(const SystemEvaluation& at, const std::vector<std::string>& names) {
+  const auto displacement = system_.displacement(at.x());
   const auto local_displacement = local(*displacement);
-  const std::optional<ContactLaws> laws = contact_laws(x);
   std::vector<Field> fields;
-  const FieldState state{*model_.bodies(), model_.contact().get(), *displacement, *local_displacement, laws ? &*laws : nullptr};
+  const FieldState state{*model_.bodies(), model_.contact().get(), *displacement, *local_displacement, contact_laws(at)};
   for (const auto& name : names) fields.push_back(make_field(name, state));
   return fields;
 }
 
-std::vector<std::vector<ProfilePoint>> StepEvaluation::profiles(const Vector& x) {
+std::vector<std::vector<ProfilePoint>> StepEvaluation::profiles(const SystemEvaluation& at) {
   std::vector<std::vector<ProfilePoint>> profiles;
   if (!model_.contact()) return profiles;
   const auto pairs = context().pairs;
   for (std::size_t pair = profiles_.size(); pair < pairs.size(); ++pair) profiles_.emplace_back(*model_.mesh(), pairs[pair], pair);
-  const auto displacement = system_.displacement(x);
+  const auto displacement = system_.displacement(at.x());
   const auto local_displacement = local(*displacement);
-  const std::optional<ContactLaws> laws = contact_laws(x);
-  const FieldState state{*model_.bodies(), model_.contact().get(), *displacement, *local_displacement, laws ? &*laws : nullptr};
+  const FieldState state{*model_.bodies(), model_.contact().get(), *displacement, *local_displacement, contact_laws(at)};
   for (const ContactProfile& profile : profiles_) profiles.push_back(profile.points(state));
   return profiles;
 }
 
-std::optional<ContactLaws> StepEvaluation::contact_laws(const Vector& x) const {
-  if (!model_.contact()) return std::nullopt;
-  return system_.contact_laws(x);
-}
+const ContactLaws* StepEvaluation::contact_laws(const SystemEvaluation& at) const { return model_.contact() ? &at.contact_laws() : nullptr; }
 
 }  // namespace mortise

@@ -21,16 +21,17 @@ constexpr int most_iterations = 10, most_points = 8;
 
 /// The step's way from one pseudo-time to the other, mu = 0 to 1, and Newton's directions there.
 struct Way {
-  SemiSmoothSystem& system;
+  const SemiSmoothSystem& system;
   double from, to;
+  StepContext context;  ///< of the step
 
   RCP<Vector> direction(const Vector& x, double mu, ResidualNorms& norms) const {
     const auto result = rcp(new Vector(system.map()));
-    Vector F(system.map());
-    system.set_time(from + mu * (to - from));
-    system.residual(x, F, norms);
-    system.jacobian(x);
-    system.newton_direction(F, *result);
+    StepContext between = context;
+    between.time = from + mu * (to - from);
+    const SystemEvaluation at = system.evaluate(x, between);
+    norms = at.norms();
+    system.linearise(at).newton_direction(at.residual(), *result);
     return result;
   }
 
@@ -89,25 +90,19 @@ bool path_turns_back(const Way& way, const Vector& converged) {
 
 }  // namespace
 
-std::string explain_turning_point(const Model& model, SemiSmoothSystem& system, const Vector& converged, const Vector& failed, double from,
-                                  double to) {
+std::string explain_turning_point(const FailedTry& failed, const Model& model, const SemiSmoothSystem& system) {
+  if (!failed.linearised) return {};
+  const Vector& converged = *failed.from.x;
   bool turns = false, loads = false;
   try {
-    Vector F(system.map());
-    ResidualNorms norms;
-    system.residual(converged, F, norms);
-    loads = norms.momentum >= least_load;
-    turns = path_turns_back({system, from, to}, converged);
+    loads = system.evaluate(converged, failed.context).norms().momentum >= least_load;
+    turns = path_turns_back({system, failed.from.context.time, failed.time, failed.context}, converged);
   } catch (const StepFailure&) {  // on every rank: no state to judge by
-  }
-  system.set_time(to);
-  try {
-    system.jacobian(failed);
-  } catch (const StepFailure&) {  // as it failed before
   }
   if (!turns) return {};
   return fmt::format("no equilibrium beyond this {0}: the {0} has a maximum here, and equilibrium goes on with less of it; {1}",
-                     loads ? "load" : "motion", describe_flow(model, *system.displacement(failed), *system.displacement(converged)));
+                     loads ? "load" : "motion",
+                     describe_flow(model, *system.displacement(*failed.linearised->x), *system.displacement(converged)));
 }
 
 }  // namespace mortise

@@ -38,25 +38,36 @@ struct StepReport {
   NewtonReport newton;              ///< of the try that worked
 };
 
+/// A try of a step that failed.
+struct FailedTry {
+  const StepFailure& failure;
+  const AcceptedState& from;                           ///< from where
+  double time;                                         ///< to which
+  const StepContext& context;                          ///< what held within it
+  const std::optional<LinearisedIterate>& linearised;  ///< where Newton's method was linearised last; none: it was not
+};
+
 /// What the stepper calls.
 struct StepperObserver {
   std::function<void(int step, double time, double dt)> begin;  ///< before each try
   std::function<void(const NewtonIteration&)> iteration;        ///< after each Newton iteration
-  /// A solution x of the step from the accepted state `from`, before it is committed; contact was evaluated at it last, with derivatives. `round`
-  /// counts the solutions of a try from 1. Returns whether x stands; else it has made x another start, from which the step is solved once more. May
-  /// throw StepFailure, on every rank: the try is undone.
-  std::function<bool(const Vector& from, Vector& x, int round)> verify;
+  /// A solution of the step from the accepted state `from`, before it is committed. `round` counts the solutions of a try from 1. Returns null if the
+  /// solution stands, else another start, from which the step is solved once more. May throw StepFailure, on every rank: the try is undone.
+  std::function<RCP<Vector>(const AcceptedState& from, const SystemEvaluation& solution, int round)> verify;
   /// May change the rate of the step of length dt that was accepted in x: the line that the next step starts at.
   std::function<void(const Vector& x, double dt, Vector& rate)> predict;
-  std::function<void(const StepReport&, const Vector& x)> accepted;   ///< after commit
-  std::function<void(const StepReport&, const StepFailure&)> undone;  ///< a try failed
-  std::function<std::string(const StepFailure&)> explain;             ///< what lies behind a failure of Newton's method, to stand before its message
+  std::function<void(const StepReport&, const SystemEvaluation&)> accepted;  ///< after commit
+  std::function<void(const StepReport&, const StepFailure&)> undone;         ///< a try failed
+  std::function<std::string(const FailedTry&)> explain;                      ///< what lies behind a failure of Newton's method, before its message
 };
 
-/// Runs from time 0 to the end. On return x is the last converged state. Returns true at the end time; false when the smallest step failed (the last
-/// failure is then in `last_failure`). `start_step(x)` prepares the initial guess of each try (the contact start rule). With a predictor it prepares
+/// Makes what holds within a try of a step from a state to a time, which starts at displacement d, and guesses multipliers z (the contact start rule).
+using StepStart = std::function<StepContext(const AcceptedState& state, double time, const Vector& d, Vector& z)>;
+
+/// Runs from the time of a state to the end. On return `state` is the last accepted one. Returns true at the end time; false when the smallest step
+/// failed (the last failure is then in `last_failure`). Each try is prepared by `start`; without one nothing is guessed. With a predictor it prepares
 /// the last state where no prescribed displacement changes. If that is not tried, or no solution, it prepares the predicted state.
-bool run_steps(SemiSmoothSystem& system, const SteppingOptions& stepping, const NewtonOptions& newton, Vector& x,
-               const std::function<void(Vector& x)>& start_step, const StepperObserver& observer, std::optional<StepFailure>& last_failure);
+bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, const NewtonOptions& newton, AcceptedState& state,
+               const StepStart& start, const StepperObserver& observer, std::optional<StepFailure>& last_failure);
 
 }  // namespace mortise

@@ -51,9 +51,15 @@ struct NewtonReport {
   int newton_steps() const { return static_cast<int>(iterations.size()) - solves; }
 };
 
-/// Solves F(x) = 0 from the given x at `time`, in place. Calls `observer` after each iteration.
-/// Throws StepFailure (on every rank) naming why; x is then undefined. `report` holds what was done in either case.
-void solve_newton(SemiSmoothSystem& system, double time, const NewtonOptions& options, Vector& x, NewtonReport& report,
-                  const std::function<void(const NewtonIteration&)>& observer);
+/// The iterate at which Newton's method was linearised last, and what it is evaluated with.
+struct LinearisedIterate {
+  RCP<const Vector> x;
+  StepContext context;
+};
+
+/// Solves F(x) = 0 from an evaluation. Calls `observer` after each iteration. Returns the solution; throws StepFailure (on every rank) naming why
+/// there is none. `report` holds what was done in either case, and so does `linearised`, unless it is null.
+SystemEvaluation solve_newton(const SemiSmoothSystem& system, SystemEvaluation start, const NewtonOptions& options, NewtonReport& report,
+                              const std::function<void(const NewtonIteration&)>& observer, std::optional<LinearisedIterate>* linearised = nullptr);
 
 }  // namespace mortise

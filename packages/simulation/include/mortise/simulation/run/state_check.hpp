@@ -26,7 +26,7 @@ class StateCheck {
   /// Whether a model has bodies that contact alone holds. Collective.
   static bool is_needed(const Model& model);
 
-  /// From the accepted state `before` to `after`. Says which motions are free, each once.
+  /// From the accepted state `before` to the solution `found`. Says which motions are free, each once.
   ///
   /// A motion that nothing holds costs nothing, so equilibrium does not say how far a body goes along it. What may have moved it within the step are
   /// the bodies that it touches: by their own motion and by deformation. Let m be the largest motion over the step of a node of bodies that boundary
@@ -35,15 +35,15 @@ class StateCheck {
   /// a body that turns with what carries it goes farther at its rim. A body that leaves an equilibrium for another place goes as far however small
   /// the step is, while m and e fall with it.
   ///
-  /// The motions are those that nothing holds in `after`, or those that nothing held in `before`. The latter count too since a body that was thrown
+  /// The motions are those that nothing holds in `found`, or those that nothing held in `before`. The latter count too since a body that was thrown
   /// out of a gap may lie on an edge that holds it.
   ///
   /// A body that went farther may have been thrown there by an iterate on the way. In the first round of a try it is put back along its free motions,
   /// deformed as it is: what is in one another then is closed. A body that nothing touches, neither before nor after, is put back from any distance
   /// beyond its own deformation. If it has to go out of the way, it does so again.
-  /// @returns whether `after` is accepted; if not it is another start
+  /// @returns null if `found` is accepted, else another start
   /// @throws StepFailure(lost_contact), on every rank, for a body that went farther again, or, held or not, farther than the model is long
-  bool verify(SemiSmoothSystem& system, const Vector& before, Vector& after, int round);
+  RCP<Vector> verify(const SemiSmoothSystem& system, const Vector& before, const SystemEvaluation& found, int round);
 
   /// Whether a body, held or not, went farther than that in the state that verify() passed last. Contact that turns or levers it may take it there,
   /// but so may a jump.

@@ -17,24 +17,24 @@ namespace mortise {
 class StepEvaluation {
  public:
   /// Prepares the quantities. Throws InputError on all ranks for sets, bodies and pairs that do not exist.
-  StepEvaluation(const Scene& scene, const Model& model, SemiSmoothSystem& system);
+  StepEvaluation(const Scene& scene, const Model& model, const SemiSmoothSystem& system);
 
   std::vector<std::string> names() const;
-  /// In the order of names(), at x and pseudo-time `time`.
-  std::vector<double> quantities(const Vector& x, double time);
-  std::vector<Field> fields(const Vector& x, const std::vector<std::string>& names);
+  /// In the order of names(), of an accepted step.
+  std::vector<double> quantities(const SystemEvaluation& at);
+  std::vector<Field> fields(const SystemEvaluation& at, const std::vector<std::string>& names);
   /// The points along the slave surface of each pair, on rank 0.
-  std::vector<std::vector<ProfilePoint>> profiles(const Vector& x);
+  std::vector<std::vector<ProfilePoint>> profiles(const SystemEvaluation& at);
 
  private:
   QuantityContext context() const;
   double force_round_off(const Vector& displacement) const;
+  const ContactLaws* contact_laws(const SystemEvaluation& at) const;
   RCP<Vector> local(const Vector& displacement) const;
-  std::optional<ContactLaws> contact_laws(const Vector& x) const;
 
   const Scene& scene_;
   const Model& model_;
-  SemiSmoothSystem& system_;
+  const SemiSmoothSystem& system_;
   std::vector<ContactProfile> profiles_;
 };
 

@@ -1,0 +1,72 @@
+#pragma once
+// F(x) = 0, x = (d, z), at one iterate: an immutable value, and what it is a function of.
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "mortise/contact/contact_evaluation.hpp"
+#include "mortise/core/types.hpp"
+
+namespace mortise {
+
+class SystemEvaluation;
+
+namespace detail {
+struct EvaluatedSystem;
+const EvaluatedSystem& evaluated(const SystemEvaluation& evaluation);
+}  // namespace detail
+
+/// Sizes of the residual's blocks at one iterate, over all ranks; what the status tests and newton.csv show.
+struct ResidualNorms {
+  double momentum = 0.0;                  ///< |r| on free dofs relative to max(|f_int|, |f_ext|, |f_c|, 1e-6 s |d|), reactions included
+  double momentum_absolute = 0.0;         ///< |r| on free dofs [force]
+  double round_off = 0.0;                 ///< what round-off alone leaves of momentum_absolute
+  double prescribed = 0.0;                ///< max |d - prescribed| and |d - what it follows|, relative to the size of the model
+  double gap = 0.0;                       ///< ContactNorms::gap
+  double complementarity = 0.0;           ///< ContactNorms::complementarity
+  double merit = 0.0;                     ///< (|r|^2 + |s (d - prescribed)|^2 + sum_j |A_j C_j|^2)^1/2, a force; infinite if that is not finite
+  int active = 0;                         ///< closed nodes
+  int sticking = 0;                       ///< of them
+  int changed = 0;                        ///< ContactNorms::changed
+  std::array<long long, 2> active_set{};  ///< two hashes of the closed nodes and what they do, independent of the partition
+  bool finite = true;                     ///< whether all of the residual is
+};
+
+/// What F depends on beside x within a step.
+struct StepContext {
+  double time = 0.0;                      ///< pseudo-time
+  std::optional<ContactHistory> contact;  ///< the history that holds within the step; none without contact
+  ContactStates states;                   ///< of the iterate that was linearised last: ResidualNorms::changed counts against them
+};
+
+/// A state that was accepted: what the next step starts from.
+struct AcceptedState {
+  RCP<const Vector> x;                ///< (d, z)
+  StepContext context;                ///< its time, and the history of contact after it
+  RCP<const Vector> internal_forces;  ///< f_int at d, which committing does not change; null: not known
+};
+
+/// F at one x: residual, norms and contact conditions. A value that is cheap to copy and does not change.
+class SystemEvaluation {
+ public:
+  const Vector& x() const;             ///< where
+  const StepContext& context() const;  ///< with what
+  const Vector& residual() const;      ///< F(x), see SemiSmoothSystem::evaluate()
+  const ResidualNorms& norms() const;  ///< its sizes
+  /// The contact conditions at x.
+  /// @throws std::logic_error without contact
+  const ContactLaws& contact_laws() const;
+  /// f_int - f_ext + f_c on all owned dofs, without Dirichlet rows. On prescribed dofs these are the reactions, those of followers gathered.
+  RCP<Vector> forces() const;
+
+ private:
+  friend class SemiSmoothSystem;
+  friend class SystemLinearisation;
+  friend const detail::EvaluatedSystem& detail::evaluated(const SystemEvaluation& evaluation);
+  explicit SystemEvaluation(std::shared_ptr<const detail::EvaluatedSystem> evaluated) : evaluated_(std::move(evaluated)) {}
+  std::shared_ptr<const detail::EvaluatedSystem> evaluated_;
+};
+
+}  // namespace mortise
