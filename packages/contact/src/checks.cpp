@@ -3,18 +3,20 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <Teuchos_CommHelpers.hpp>
 #include <Teuchos_RCPDecl.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
-#include "mortise/core/dof_map.hpp"
 #include "mortise/mortar/surface_nodes.hpp"
 
 namespace mortise::detail {
 
-void refuse_unfit_maps(const Map& owned_nodes, const Map& dofs, const MultiVector& reference, const MultiVector& fixed) {
+void refuse_unfit_fields(const NodalField& displacement, const Map& dofs, const MultiVector& reference, const MultiVector& fixed) {
+  const Map& owned_nodes = *displacement.nodes();
   const std::size_t dimension = reference.getNumVectors();
   if (dimension != 2 && dimension != 3)
     throw std::invalid_argument(fmt::format("contact: the reference positions have {} columns; give 2 in 2D, 3 in 3D", dimension));
@@ -25,11 +27,26 @@ void refuse_unfit_maps(const Map& owned_nodes, const Map& dofs, const MultiVecto
   if (!has_rows_of_nodes(reference) || !has_rows_of_nodes(fixed))
     throw std::invalid_argument(
         "contact: reference positions and marks of prescribed components need one row for each node of `owned_nodes`, in its order");
-  if (!make_dof_map(owned_nodes, static_cast<int>(dimension))->isSameAs(dofs))
-    throw std::invalid_argument(
-        "contact: the map of the dofs has to have the nodes in the order of `owned_nodes`, the components of a node together, with the ids dimension "
-        "* "
-        "node + component: take make_dof_map(*owned_nodes, dimension) of mortise/core/dof_map.hpp");
+  if (displacement.components() != static_cast<int>(dimension))
+    throw std::invalid_argument(fmt::format("contact: field '{}' has {} components, the reference positions {}", displacement.name(),
+                                            displacement.components(), dimension));
+  std::string mine;
+  const auto marks = fixed.getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(owned_nodes.getNodeNumElements()) && mine.empty(); ++node)
+    for (int i = 0; i < displacement.components(); ++i) {
+      const GlobalOrdinal id = displacement.id(node, i);
+      const auto say = [&](const std::string& what) {
+        mine = fmt::format("contact: field '{}': component {} at node {} {}", displacement.name(), i, owned_nodes.getGlobalElement(node), what);
+      };
+      if (id == NodalField::none && marks(node, i) == 0.0) say("is neither an unknown nor marked as prescribed");
+      if (id != NodalField::none && !dofs.isNodeGlobalElement(id))
+        say(fmt::format("has the id {}, which is no owned row of the system; give the map of the rows that the field was numbered with, as "
+                        "make_dof_map() of mortise/core/dof_map.hpp for numbered_by_nodes()",
+                        id));
+    }
+  int any_here = mine.empty() ? 0 : 1, any = 0;
+  Teuchos::reduceAll(*owned_nodes.getComm(), Teuchos::REDUCE_MAX, any_here, Teuchos::outArg(any));
+  if (any != 0) throw std::invalid_argument(mine.empty() ? "contact: the field of displacements does not fit the system on another rank" : mine);
 }
 
 void refuse_incomplete_pairs(const Communicator& comm, const std::vector<ContactPair>& pairs) {

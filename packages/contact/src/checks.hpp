@@ -4,13 +4,14 @@
 #include <vector>
 
 #include "mortise/contact/contact_pair.hpp"
+#include "mortise/core/nodal_field.hpp"
 #include "mortise/core/types.hpp"
 
 namespace mortise::detail {
 
-/// Collective. Throws std::invalid_argument for maps and vectors that do not fit together: dofs that are not those of make_dof_map(), positions and
-/// marks of prescribed components on other nodes.
-void refuse_unfit_maps(const Map& owned_nodes, const Map& dofs, const MultiVector& reference, const MultiVector& fixed);
+/// Collective. Throws std::invalid_argument for what does not fit together: a field with ids that are not among the dofs, components that are neither
+/// unknown nor prescribed, positions and marks of prescribed components on other nodes.
+void refuse_unfit_fields(const NodalField& displacement, const Map& dofs, const MultiVector& reference, const MultiVector& fixed);
 
 /// Collective. Throws InputError for a pair without Young's modulus, formulation or law of friction.
 void refuse_incomplete_pairs(const Communicator& comm, const std::vector<ContactPair>& pairs);

@@ -39,6 +39,15 @@ void replace_row(Matrix& matrix, LocalOrdinal row, const std::vector<LocalOrdina
   matrix.replaceLocalValues(row, static_cast<LocalOrdinal>(columns.size()), values.data(), columns.data());
 }
 
+// Local columns of the displacements of some nodes, in their order.
+std::vector<LocalOrdinal> columns_of(const NodePositions& positions, const std::vector<LocalOrdinal>& nodes, int dimension) {
+  std::vector<LocalOrdinal> columns;
+  for (const LocalOrdinal node : nodes)
+    for (int i = 0; i < dimension; ++i)
+      if (const LocalOrdinal column = positions.column[dimension * node + i]; column >= 0) columns.push_back(column);
+  return columns;
+}
+
 // The scatter into `system`, which has to be on its graph and open.
 std::shared_ptr<detail::SystemScatter> scatter_into(const detail::EvaluatedContact& contact, const Matrix& system) {
   const auto& scatter = contact.model->scatter;
@@ -111,15 +120,14 @@ void detail::Condensation::eliminate_by_law(std::size_t p, std::size_t s, Matrix
   row.pair = p;
   row.node = s;
   row.by_law = true;
-  for (const LocalOrdinal c : coupled)
-    for (int i = 0; i < dimension; ++i) row.columns.push_back(positions.column[dimension * c + i]);
+  row.columns = columns_of(positions, coupled, dimension);
   row.z = multiplier.z;
   row.C = law.C;
   row.inverse = law.C_z.inverse();
-  for (auto& values_of : row.S) values_of.resize(row.columns.size());
-  for (std::size_t c = 0; c < row.columns.size(); ++c) {
+  for (std::size_t c = 0; c < dimension * coupled.size(); ++c) {
+    if (positions.column[dimension * coupled[c / dimension] + c % dimension] < 0) continue;
     const SpatialVector slope = -row.inverse * pair.constraint_gradient(law, s, c, multiplier);
-    for (int i = 0; i < dimension; ++i) row.S[i][c] = slope[i];
+    for (int i = 0; i < dimension; ++i) row.S[i].push_back(slope[i]);
   }
   std::vector<double> values;
   const auto add = [&](LocalOrdinal m, double coefficient) {
@@ -156,20 +164,27 @@ void detail::Condensation::condense_node(std::size_t p, std::size_t s, Matrix& s
   const SlaveNode& slave = pair.slave_nodes()[s];
   const NodeRow& node = pair.row(s);
   const std::vector<LocalOrdinal>& coupled = pair.coupled_nodes(s);
-  const LocalOrdinal first_row = dimension * slave.owned_node;
+  const LocalOrdinal* own_rows = own_rows_of(slave);
 
   RecoveryRow kept;
   kept.multiplier = model().multiplier_of[p][s];
   kept.pair = p;
   kept.node = s;
-  for (int i = 0; i < dimension; ++i) copy_row(system, first_row + i, kept.columns, momentum[i]);  // the same columns: see SystemScatter
+  for (int i = 0; i < dimension; ++i)
+    if (own_rows[i] >= 0) copy_row(system, own_rows[i], kept.columns, momentum[i]);  // the same columns: see SystemScatter
+  if (kept.columns.empty()) {  // nothing of the node is an unknown
+    kept.columns = columns_of(positions, coupled, dimension);
+    std::sort(kept.columns.begin(), kept.columns.end());
+  }
   const std::vector<LocalOrdinal>& columns = kept.columns;
 
   // Linearised complementarity: constraint . dd + (C - C_z z) + C_z z^{k+1} = 0
   for (int a = 0; a < dimension; ++a) constraint[a].assign(columns.size(), 0.0);
   for (std::size_t c = 0; c < coupled.size(); ++c)
     for (int i = 0; i < dimension; ++i) {
-      const auto found = std::lower_bound(columns.begin(), columns.end(), positions.column[dimension * coupled[c] + i]);
+      const LocalOrdinal column = positions.column[dimension * coupled[c] + i];
+      if (column < 0) continue;
+      const auto found = std::lower_bound(columns.begin(), columns.end(), column);
       const SpatialVector gradient = pair.constraint_gradient(law, s, dimension * c + i, multiplier);
       for (int a = 0; a < dimension; ++a) constraint[a][found - columns.begin()] += gradient[a];
     }
@@ -233,7 +248,7 @@ void detail::Condensation::condense_node(std::size_t p, std::size_t s, Matrix& s
       if (!in_own_rows(kept, a)) continue;
       for (std::size_t k = 0; k < columns.size(); ++k) values[k] += kept.axes(a, i) * row_values[a][k];
     }
-    replace_row(system, first_row + i, columns, values);
+    replace_row(system, own_rows[i], columns, values);
   }
   recovery.push_back(std::move(kept));
 }
@@ -246,7 +261,7 @@ void detail::Condensation::add_right_hand_side(RecoveryRow& kept, const SpatialV
   const SlaveNode& slave = pair.slave_nodes()[kept.node];
   const NodeRow& node = pair.row(kept.node);
   const std::vector<LocalOrdinal>& coupled = pair.coupled_nodes(kept.node);
-  const LocalOrdinal first_row = dimension * slave.owned_node;
+  const LocalOrdinal* own_rows = own_rows_of(slave);
   const auto add_to_coupled = [&] {
     for (std::size_t c = 0; c < coupled.size(); ++c)
       for (int i = 0; i < dimension && node.coefficients[c] != 0.0; ++i)
@@ -262,7 +277,7 @@ void detail::Condensation::add_right_hand_side(RecoveryRow& kept, const SpatialV
   SpatialVector e(dimension), right(dimension);
   {
     const auto view = rhs.getLocalViewHost(Tpetra::Access::ReadOnly);
-    for (int i = 0; i < dimension; ++i) e[i] = kept.condition[i] < 0 ? view(first_row + i, 0) : -constant[kept.condition[i]];
+    for (int i = 0; i < dimension; ++i) e[i] = kept.condition[i] < 0 ? view(own_rows[i], 0) : -constant[kept.condition[i]];
   }
   kept.b = kept.inverse * e;
   add_to_coupled();
@@ -273,7 +288,7 @@ void detail::Condensation::add_right_hand_side(RecoveryRow& kept, const SpatialV
     double value = 0.0;
     for (int a = 0; a < dimension; ++a)
       if (in_own_rows(kept, a)) value += kept.axes(a, i) * right[a];
-    out(first_row + i, 0) = value;
+    out(own_rows[i], 0) = value;
   }
 }
 

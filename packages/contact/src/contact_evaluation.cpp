@@ -24,7 +24,7 @@ const EvaluatedContact& evaluated(const ContactEvaluation& evaluation) { return 
 const EvaluatedLaws& evaluated(const ContactLaws& laws) { return *laws.laws_; }
 
 std::shared_ptr<const EvaluatedContact> EvaluatedContact::with(const ContactHistory& other) const {
-  const auto result = std::make_shared<EvaluatedContact>(EvaluatedContact{model, other, positions, {}});
+  const auto result = std::make_shared<EvaluatedContact>(EvaluatedContact{model, other, positions, {}, dofs});
   for (std::size_t p = 0; p < pairs.size(); ++p) result->pairs.emplace_back(pairs[p].pair(), pairs[p].geometry(), other, p);
   return result;
 }
@@ -55,10 +55,13 @@ void EvaluatedContact::add_force(const Vector& z, Vector& r) const {
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const PairEvaluation& pair = pairs[p];
-    const RCP<const Map> force_map = make_dof_map(pair.local_nodes(), dimension);
-    Vector force(force_map);
+    const InterfaceDofs& places = *dofs[p];
+    Vector force(places.map);
     {
       const auto view = force.getLocalViewHost(Tpetra::Access::ReadWrite);
+      const auto add = [&](LocalOrdinal node, int i, double value) {
+        if (const LocalOrdinal place = places.places[static_cast<std::size_t>(dimension * node + i)]; place >= 0) view(place, 0) += value;
+      };
       for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
         const SpatialVector zs = model->z_of(values, p, s);
         if (zs.isZero(0.0)) continue;
@@ -67,16 +70,16 @@ void EvaluatedContact::add_force(const Vector& z, Vector& r) const {
         const NodeRow& row = pair.row(s);
         const std::vector<LocalOrdinal>& coupled = pair.coupled_nodes(s);
         for (int i = 0; i < dimension; ++i) {
-          view(dimension * pair.slave_nodes()[s].local_node + i, 0) += row.D * through[i];
-          for (std::size_t c = 0; c < coupled.size(); ++c) view(dimension * coupled[c] + i, 0) += row.coefficients[c] * through[i];
+          add(pair.slave_nodes()[s].local_node, i, row.D * through[i]);
+          for (std::size_t c = 0; c < coupled.size(); ++c) add(coupled[c], i, row.coefficients[c] * through[i]);
           if (pressure != 0.0)
-            for (std::size_t c = 0; c < coupled.size(); ++c) view(dimension * coupled[c] + i, 0) -= pressure * row.dgap[dimension * c + i];
+            for (std::size_t c = 0; c < coupled.size(); ++c) add(coupled[c], i, -pressure * row.dgap[dimension * c + i]);
         }
       }
     }
     // An export with ADD replaces what the rank itself sends to itself: hence a vector in between that starts at zero.
     Vector on_dofs(model->dofs);
-    on_dofs.doExport(force, Export(force_map, model->dofs), Tpetra::ADD);
+    on_dofs.doExport(force, *places.to_owners, Tpetra::ADD);
     r.update(1.0, on_dofs, 1.0);
   }
 }

@@ -60,7 +60,7 @@ ContactHistory with_kinks_of_its_state(const std::shared_ptr<const ContactModel>
 
 }  // namespace detail
 
-ContactHistory ContactSystem::initial_history(const Vector& d) const {
+ContactHistory ContactSystem::initial_history(const NodalDisplacement& d) const {
   const detail::ContactModel& model = *model_;
   AcceptedContact blank;
   for (const auto& pair : model.pairs) blank.pairs.push_back(pair->blank_history());

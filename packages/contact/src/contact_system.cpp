@@ -2,6 +2,7 @@
 
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_CrsGraph.hpp>
+#include <Tpetra_Export.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
@@ -25,13 +26,36 @@ bool ContactModel::keeps_multipliers() const {
   return std::any_of(pairs.begin(), pairs.end(), [](const auto& pair) { return pair->formulation().elimination() == Elimination::none; });
 }
 
-RCP<const MultiVector> ContactModel::positions(const Vector& d) const {
+RCP<const MultiVector> ContactModel::positions(const NodalDisplacement& d) const {
   const auto x = rcp(new MultiVector(*reference, Teuchos::Copy));
-  const auto u = d.getLocalViewHost(Tpetra::Access::ReadOnly);
+  const auto u = d.dofs.getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto view = x->getLocalViewHost(Tpetra::Access::ReadWrite);
   for (std::size_t node = 0; node < view.extent(0); ++node)
-    for (std::size_t i = 0; i < view.extent(1); ++i) view(node, i) += u(view.extent(1) * node + i, 0);
+    for (std::size_t i = 0; i < view.extent(1); ++i)
+      if (const LocalOrdinal row = rows[view.extent(1) * node + i]; row >= 0) view(node, i) += u(row, 0);
+  if (d.nodes == nullptr) return x;
+  const auto elsewhere = d.nodes->getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (std::size_t node = 0; node < view.extent(0); ++node)
+    for (std::size_t i = 0; i < view.extent(1); ++i)
+      if (rows[view.extent(1) * node + i] < 0) view(node, i) += elsewhere(node, i);
   return x;
+}
+
+std::shared_ptr<const InterfaceDofs> ContactModel::dofs_of(std::size_t pair, const std::shared_ptr<const InterfacePattern>& pattern) const {
+  std::shared_ptr<const InterfaceDofs>& kept = interface_dofs[pair];
+  if (kept && kept->pattern == pattern) return kept;
+  const auto result = std::make_shared<InterfaceDofs>();
+  result->pattern = pattern;
+  result->ids = displacement.ids_on(pattern->local_nodes);
+  std::vector<GlobalOrdinal> unknowns;
+  for (const GlobalOrdinal id : result->ids) {
+    result->places.push_back(id == NodalField::none ? -1 : static_cast<LocalOrdinal>(unknowns.size()));
+    if (id != NodalField::none) unknowns.push_back(id);
+  }
+  const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
+  result->map = rcp(new Map(invalid, unknowns.data(), static_cast<LocalOrdinal>(unknowns.size()), 0, dofs->getComm()));
+  result->to_owners = rcp(new Export(result->map, dofs));
+  return kept = result;
 }
 
 double ContactModel::sum(double value) const {
@@ -49,7 +73,7 @@ double ContactModel::maximum(double value) const {
 std::shared_ptr<const EvaluatedContact> ContactModel::evaluate(const std::shared_ptr<const ContactModel>& self, const RCP<const MultiVector>& x,
                                                                const ContactHistory& history, const ContactStates* last, bool derivatives) const {
   const auto scope = timers.scope("contact");
-  const auto result = std::make_shared<EvaluatedContact>(EvaluatedContact{self, history, x, {}});
+  const auto result = std::make_shared<EvaluatedContact>(EvaluatedContact{self, history, x, {}, {}});
   std::optional<StepFailure> failure;
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const PairHistory& of_pair = history->pairs[p];
@@ -59,6 +83,7 @@ std::shared_ptr<const EvaluatedContact> ContactModel::evaluate(const std::shared
     }
     const auto part = timers.scope("contact integrals");
     result->pairs.emplace_back(*pairs[p], pairs[p]->evaluate(*x, of_pair, derivatives, failure), history, p);
+    result->dofs.push_back(dofs_of(p, result->pairs.back().geometry()->pattern));
   }
   {
     const auto part = timers.scope("search");
@@ -73,15 +98,19 @@ std::shared_ptr<const EvaluatedContact> ContactModel::evaluate(const std::shared
 
 }  // namespace detail
 
-ContactSystem::ContactSystem(RCP<const Map> owned_nodes, RCP<const Map> dofs, RCP<const MultiVector> reference, RCP<const MultiVector> fixed,
+ContactSystem::ContactSystem(const RCP<const Map>& owned_nodes, RCP<const Map> dofs, RCP<const MultiVector> reference, RCP<const MultiVector> fixed,
+                             const InterfaceMeasure& measure, std::vector<ContactPair> pairs, const Timers& timers)
+    : ContactSystem(numbered_by_nodes("displacement", owned_nodes, static_cast<int>(reference->getNumVectors())), std::move(dofs), reference,
+                    std::move(fixed), measure, std::move(pairs), timers) {}
+
+ContactSystem::ContactSystem(const NodalField& displacement, RCP<const Map> dofs, RCP<const MultiVector> reference, RCP<const MultiVector> fixed,
                              const InterfaceMeasure& measure, std::vector<ContactPair> pairs, const Timers& timers) {
-  detail::refuse_unfit_maps(*owned_nodes, *dofs, *reference, *fixed);
+  detail::refuse_unfit_fields(displacement, *dofs, *reference, *fixed);
   for (ContactPair& pair : pairs)
     if (pair.place.path.empty()) pair.place.path = "contact/" + pair.name;
-  detail::refuse_incomplete_pairs(*owned_nodes->getComm(), pairs);
-  const auto model = std::make_shared<detail::ContactModel>();
+  detail::refuse_incomplete_pairs(*dofs->getComm(), pairs);
+  const auto model = std::make_shared<detail::ContactModel>(displacement);
   detail::ContactModel& self = *model;
-  self.owned_nodes = std::move(owned_nodes);
   self.dofs = std::move(dofs);
   self.reference = std::move(reference);
   self.fixed = fixed;
@@ -95,6 +124,12 @@ ContactSystem::ContactSystem(RCP<const Map> owned_nodes, RCP<const Map> dofs, RC
     pair.options.mortar.share = formulation.two_pass() ? 0.5 : 1.0;
     self.pairs.push_back(std::make_unique<detail::Pair>(self.owned_nodes, self.reference, fixed, measure, std::move(pair)));
   }
+  self.interface_dofs.resize(self.pairs.size());
+  for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(self.owned_nodes->getNodeNumElements()); ++node)
+    for (int i = 0; i < self.dimension; ++i) {
+      const GlobalOrdinal id = displacement.id(node, i);
+      self.rows.push_back(id == NodalField::none ? -1 : self.dofs->getLocalElement(id));
+    }
 
   // Ids of z: those of the nodes' dofs, beyond all dofs.
   const GlobalOrdinal offset = self.dofs->getMaxAllGlobalIndex() + 1;
@@ -144,20 +179,20 @@ RCP<Vector> ContactSystem::weights() const {
   return result;
 }
 
-ContactEvaluation ContactSystem::evaluate(const Vector& d, const ContactHistory& history) const {
+ContactEvaluation ContactSystem::evaluate(const NodalDisplacement& d, const ContactHistory& history) const {
   return ContactEvaluation(model_->evaluate(model_, model_->positions(d), history, nullptr, false));
 }
 
-DifferentiatedContact ContactSystem::differentiate(const Vector& d, const ContactHistory& history, const ContactStates* last) const {
+DifferentiatedContact ContactSystem::differentiate(const NodalDisplacement& d, const ContactHistory& history, const ContactStates* last) const {
   return DifferentiatedContact(model_->evaluate(model_, model_->positions(d), history, last, true));
 }
 
 RCP<const Graph> ContactSystem::graph(const ContactEvaluation& evaluation, const std::function<RCP<const Graph>()>& bulk) const {
-  const std::vector<detail::PairEvaluation>& pairs = detail::evaluated(evaluation).pairs;
-  if (!model_->scatter || !model_->scatter->fits(pairs)) {
+  const detail::EvaluatedContact& contact = detail::evaluated(evaluation);
+  if (!model_->scatter || !model_->scatter->fits(contact.pairs)) {
     const auto scope = model_->timers.scope("contact");
     const auto part = model_->timers.scope("contact graph");
-    model_->scatter = std::make_shared<detail::SystemScatter>(model_->owned_nodes, *bulk(), pairs, model_->middles_first);
+    model_->scatter = std::make_shared<detail::SystemScatter>(*bulk(), contact);
   }
   return model_->scatter->graph();
 }

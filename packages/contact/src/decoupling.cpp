@@ -54,7 +54,12 @@ class SlaveRows {
 SpatialMatrix own_stiffness(const detail::RecoveryRow& kept, const detail::NodePositions& positions, LocalOrdinal node, double D, int dimension) {
   SpatialMatrix K(dimension, dimension);
   for (int k = 0; k < dimension; ++k) {
-    const auto column = std::lower_bound(kept.columns.begin(), kept.columns.end(), positions.column[dimension * node + k]) - kept.columns.begin();
+    const LocalOrdinal own = positions.column[dimension * node + k];
+    if (own < 0) {  // it does not move
+      K.col(k).setZero();
+      continue;
+    }
+    const auto column = std::lower_bound(kept.columns.begin(), kept.columns.end(), own) - kept.columns.begin();
     for (int i = 0; i < dimension; ++i) K(i, k) = -D * kept.S[i][static_cast<std::size_t>(column)];
   }
   return K;
@@ -100,19 +105,22 @@ Decoupling CondensedContact::decoupling() const {
   std::vector<std::size_t> sizes(self.dofs->getNodeNumElements(), 0), sizes_of_blocks(sizes);
   for (const detail::PairEvaluation& pair : laws.contact->pairs)
     for (std::size_t s = 0; s < pair.rows().size(); ++s) {
-      const LocalOrdinal first = dimension * pair.slave_nodes()[s].owned_node;
-      std::fill_n(sizes.begin() + first, dimension, dimension * (1 + pair.coupled_nodes(s).size()));
-      std::fill_n(sizes_of_blocks.begin() + first, dimension, dimension);
+      for (int i = 0; i < dimension; ++i) {
+        const LocalOrdinal row = condensation_->own_rows_of(pair.slave_nodes()[s])[i];
+        if (row < 0) continue;
+        sizes[static_cast<std::size_t>(row)] = dimension * (1 + pair.coupled_nodes(s).size());
+        sizes_of_blocks[static_cast<std::size_t>(row)] = static_cast<std::size_t>(dimension);
+      }
     }
   std::vector<std::size_t> kept_of(laws.z->getLocalLength());
   for (std::size_t k = 0; k < condensation_->recovery.size(); ++k) kept_of[static_cast<std::size_t>(condensation_->recovery[k].multiplier)] = k;
   SlaveRows trial(self.dofs, sizes, self.middles_first), test(self.dofs, sizes, self.middles_first);
   Decoupling result;
-  std::vector<std::pair<LocalOrdinal, SpatialMatrix>> eliminated;  // owned node, N_j
+  std::vector<std::pair<const LocalOrdinal*, SpatialMatrix>> eliminated;  // own rows, N_j
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
     const detail::PairEvaluation& pair = laws.contact->pairs[p];
     if (pair.pair().formulation().elimination() != Elimination::momentum) continue;
-    const Map& nodes = pair.local_nodes();
+    const detail::EvaluatedContact& contact = *laws.contact;
     const InterfacePattern& pattern = *pair.geometry()->pattern;
     MultiVector fixed(pattern.local_nodes, static_cast<std::size_t>(dimension));
     fixed.doImport(*self.fixed, *pattern.import, Tpetra::REPLACE);
@@ -128,12 +136,16 @@ Decoupling CondensedContact::decoupling() const {
         return own_stiffness(kept, condensation_->scatter->positions(p), slave.local_node, row.D, dimension);
       };
       const auto [N, P, Q] = directions(free, row, pair.frame(s), laws.laws[p][s], stiffness_of_node);
+      const LocalOrdinal* own_rows = condensation_->own_rows_of(slave);
       for (int i = 0; i < dimension; ++i) {
-        const LocalOrdinal dof = dimension * slave.owned_node + i;
+        const LocalOrdinal dof = own_rows[i];
+        if (dof < 0) continue;
         const bool middle = pair.pair().before_corners(s);
         for (int k = 0; k < dimension; ++k) {
-          trial.add(dof, middle, dimension * slave.id + k, -N(i, k));
-          test.add(dof, middle, dimension * slave.id + k, Q(k, i) - P(k, i) - N(k, i));
+          if (own_rows[k] < 0) continue;
+          const GlobalOrdinal column = self.dofs->getGlobalElement(own_rows[k]);
+          trial.add(dof, middle, column, -N(i, k));
+          test.add(dof, middle, column, Q(k, i) - P(k, i) - N(k, i));
         }
         const std::vector<LocalOrdinal>& coupled = pair.coupled_nodes(s);
         for (std::size_t c = 0; c < coupled.size(); ++c) {
@@ -141,22 +153,23 @@ Decoupling CondensedContact::decoupling() const {
           if (share == 0.0) continue;
           for (int k = 0; k < dimension; ++k) {
             if (is_fixed(coupled[c], k) != 0.0) continue;
-            trial.add(dof, middle, dimension * nodes.getGlobalElement(coupled[c]) + k, share * N(i, k));
-            test.add(dof, middle, dimension * nodes.getGlobalElement(coupled[c]) + k, -share * Q(k, i));
+            trial.add(dof, middle, contact.id(p, coupled[c], k), share * N(i, k));
+            test.add(dof, middle, contact.id(p, coupled[c], k), -share * Q(k, i));
           }
         }
       }
-      eliminated.emplace_back(slave.owned_node, N);
+      eliminated.emplace_back(own_rows, N);
     }
   }
   result.trial = trial.finish();
   result.test = test.finish();
   const auto normal = rcp(new Matrix(self.dofs, Teuchos::arrayViewFromVector(sizes_of_blocks)));
-  for (const auto& [node, N] : eliminated)
+  for (const auto& [own_rows, N] : eliminated)
     for (int i = 0; i < dimension; ++i)
       for (int k = 0; k < dimension; ++k) {
-        const GlobalOrdinal column = self.dofs->getGlobalElement(dimension * node + k);
-        normal->insertGlobalValues(self.dofs->getGlobalElement(dimension * node + i), 1, &N(i, k), &column);
+        if (own_rows[i] < 0 || own_rows[k] < 0) continue;
+        const GlobalOrdinal column = self.dofs->getGlobalElement(own_rows[k]);
+        normal->insertGlobalValues(self.dofs->getGlobalElement(own_rows[i]), 1, &N(i, k), &column);
       }
   normal->fillComplete(self.dofs, self.dofs);
   result.eliminated = normal;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mortise/contact/contact_system.hpp"
+#include "mortise/core/nodal_field.hpp"
 #include "pair_evaluation.hpp"
 #include "system_scatter.hpp"
 
@@ -17,9 +18,22 @@ namespace mortise::detail {
 
 struct EvaluatedContact;
 
+/// The displacements of an interface's local nodes among the dofs of the host's system.
+struct InterfaceDofs {
+  std::shared_ptr<const InterfacePattern> pattern;
+  std::vector<GlobalOrdinal> ids;    ///< [dim nodes] NodalField::none: no unknown
+  RCP<const Map> map;                ///< of those that are unknowns
+  RCP<const Export> to_owners;       ///< from `map` to the dofs
+  std::vector<LocalOrdinal> places;  ///< [dim nodes] in `map`, -1: no unknown
+};
+
 /// All pairs, without anything that depends on a displacement; and the graph of the condensed system, kept as long as candidates stay.
 struct ContactModel {
+  explicit ContactModel(NodalField field) : displacement(std::move(field)), owned_nodes(displacement.nodes()) {}
+
+  NodalField displacement;
   RCP<const Map> owned_nodes, dofs, multipliers;
+  std::vector<LocalOrdinal> rows;  ///< [dim owned nodes] local indices in `dofs`, -1: no unknown
   RCP<const MultiVector> reference, fixed;
   Timers timers;
   int dimension = 2;
@@ -29,6 +43,7 @@ struct ContactModel {
   std::vector<std::vector<LocalOrdinal>> master_nodes;   ///< [pair] local indices in owned_nodes
   bool middles_first = false;                            ///< there are multipliers that are condensed before others, on any rank
   mutable std::shared_ptr<SystemScatter> scatter;        ///< of the last evaluation that was asked for a graph; null: none yet
+  mutable std::vector<std::shared_ptr<const InterfaceDofs>> interface_dofs;  ///< [pairs] the last of dofs_of()
 
   const Communicator& comm() const { return *dofs->getComm(); }
   /// To which gaps and slips are known.
@@ -37,7 +52,9 @@ struct ContactModel {
   std::optional<std::size_t> second_pass(std::size_t pair) const;
   bool keeps_multipliers() const;
   /// Positions X + d on the owned nodes.
-  RCP<const MultiVector> positions(const Vector& d) const;
+  RCP<const MultiVector> positions(const NodalDisplacement& d) const;
+  /// The displacements of a pair's local nodes among the dofs. Collective.
+  std::shared_ptr<const InterfaceDofs> dofs_of(std::size_t pair, const std::shared_ptr<const InterfacePattern>& pattern) const;
   /// z of slave node s of a pair (0 without multiplier), from a host view of z.
   template <class View>
   SpatialVector z_of(const View& z, std::size_t pair, std::size_t s) const {
@@ -75,7 +92,12 @@ struct EvaluatedContact {
   ContactHistory history;
   RCP<const MultiVector> positions;  ///< [owned nodes x dim]
   std::vector<PairEvaluation> pairs;
+  std::vector<std::shared_ptr<const InterfaceDofs>> dofs;  ///< [pairs]
 
+  /// Global id of a component of a local node's displacement, NodalField::none where it is no unknown.
+  GlobalOrdinal id(std::size_t pair, LocalOrdinal node, int component) const {
+    return dofs[pair]->ids[static_cast<std::size_t>(model->dimension * node + component)];
+  }
   bool any_ties() const {
     return std::any_of(pairs.begin(), pairs.end(), [](const PairEvaluation& pair) { return pair.ties().any(); });
   }

@@ -41,10 +41,10 @@ SaddlePointBlocks ContactLinearisation::saddle_point_blocks() const {
 
   std::vector<GlobalOrdinal> rows;  // of B, also of other ranks' nodes
   std::size_t widest = 1;
-  for (const detail::PairEvaluation& pair : contact.pairs) {
-    const auto nodes = pair.local_nodes().getNodeElementList();
-    for (const GlobalOrdinal node : nodes)
-      for (int i = 0; i < dimension; ++i) rows.push_back(dimension * node + i);
+  for (std::size_t p = 0; p < contact.pairs.size(); ++p) {
+    const detail::PairEvaluation& pair = contact.pairs[p];
+    for (const GlobalOrdinal id : contact.dofs[p]->ids)
+      if (id != NodalField::none) rows.push_back(id);
     for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) widest = std::max(widest, dimension * pair.coupled_nodes(s).size());
   }
   std::sort(rows.begin(), rows.end());
@@ -53,12 +53,14 @@ SaddlePointBlocks ContactLinearisation::saddle_point_blocks() const {
   const auto row_map = rcp(new Map(invalid, rows.data(), static_cast<LocalOrdinal>(rows.size()), 0, self.dofs->getComm()));
 
   std::vector<std::size_t> sizes(rows.size(), 0);
-  for (const detail::PairEvaluation& pair : contact.pairs)
+  for (std::size_t p = 0; p < contact.pairs.size(); ++p) {
+    const detail::PairEvaluation& pair = contact.pairs[p];
     for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s)
       for (const LocalOrdinal node : pair.loaded_nodes(s))
         for (int i = 0; i < dimension; ++i)
-          sizes[row_map->getLocalElement(dimension * pair.local_nodes().getGlobalElement(node) + i)] +=
-              static_cast<std::size_t>(pair.pair().variational() ? dimension : 1);
+          if (const GlobalOrdinal id = contact.id(p, node, i); id != NodalField::none)
+            sizes[row_map->getLocalElement(id)] += static_cast<std::size_t>(pair.pair().variational() ? dimension : 1);
+  }
   Matrix B(row_map, Teuchos::arrayViewFromVector(sizes));
   SaddlePointBlocks blocks;
   const std::size_t wider_d = tied.of_positions.is_null() ? 0 : tied.of_positions->getNodeMaxNumRowEntries(),
@@ -67,7 +69,6 @@ SaddlePointBlocks ContactLinearisation::saddle_point_blocks() const {
   blocks.C_z = rcp(new Matrix(self.multipliers, static_cast<std::size_t>(dimension) + wider_z));
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
     const detail::PairEvaluation& pair = contact.pairs[p];
-    const Map& nodes = pair.local_nodes();
     for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
       const LocalOrdinal first = self.multiplier_of[p][s];
       if (first < 0) continue;
@@ -78,31 +79,34 @@ SaddlePointBlocks ContactLinearisation::saddle_point_blocks() const {
         const GlobalOrdinal multiplier = self.multipliers->getGlobalElement(first + k);
         const SpatialVector unit = SpatialVector::Unit(dimension, k), through = pair.coupled_part(s, unit);
         const double pressure = pair.gap_pressure(s, unit);
-        const auto insert = [&](GlobalOrdinal dof, double value) { B.insertGlobalValues(dof, 1, &value, &multiplier); };
+        const auto insert = [&](LocalOrdinal node, int component, double value) {
+          if (const GlobalOrdinal id = contact.id(p, node, component); id != NodalField::none) B.insertGlobalValues(id, 1, &value, &multiplier);
+        };
         for (int i = 0; i < dimension; ++i) {
           if (i != k && !pair.pair().variational()) continue;
-          insert(dimension * pair.slave_nodes()[s].id + i, row.D * through[i]);
+          insert(pair.slave_nodes()[s].local_node, i, row.D * through[i]);
           for (std::size_t c = 0; c < coupled.size(); ++c)
             if (loads(pair, s, coupled[c]))
-              insert(dimension * nodes.getGlobalElement(coupled[c]) + i,
+              insert(coupled[c], i,
                      row.coefficients[c] * through[i] - (pair.pair().variational() ? pressure * row.dgap[dimension * c + i] : 0.0));
         }
       }
       // Each row is inserted whole: Tpetra looks it up once.
-      const std::size_t count = dimension * coupled.size();
-      std::vector<GlobalOrdinal> dofs(count), columns(static_cast<std::size_t>(dimension));
-      std::vector<std::vector<double>> gradients(static_cast<std::size_t>(dimension), std::vector<double>(count));
-      for (std::size_t c = 0; c < count; ++c) {
-        dofs[c] = dimension * nodes.getGlobalElement(coupled[c / dimension]) + static_cast<int>(c % dimension);
+      std::vector<GlobalOrdinal> dofs, columns(static_cast<std::size_t>(dimension));
+      std::vector<std::vector<double>> gradients(static_cast<std::size_t>(dimension));
+      for (std::size_t c = 0; c < dimension * coupled.size(); ++c) {
+        const GlobalOrdinal id = contact.id(p, coupled[c / dimension], static_cast<int>(c % dimension));
+        if (id == NodalField::none) continue;
+        dofs.push_back(id);
         const SpatialVector gradient = pair.constraint_gradient(law, s, c, laws.multipliers[p][s]);
-        for (int i = 0; i < dimension; ++i) gradients[i][c] = gradient[i];
+        for (int i = 0; i < dimension; ++i) gradients[i].push_back(gradient[i]);
       }
       for (int k = 0; k < dimension; ++k) columns[k] = self.multipliers->getGlobalElement(first + k);
       for (int i = 0; i < dimension; ++i) {
         std::vector<double> of_multipliers(static_cast<std::size_t>(dimension));
         for (int k = 0; k < dimension; ++k) of_multipliers[k] = law.C_z(i, k);
         blocks.C_z->insertGlobalValues(columns[i], dimension, of_multipliers.data(), columns.data());
-        blocks.C_d->insertGlobalValues(columns[i], static_cast<LocalOrdinal>(count), gradients[i].data(), dofs.data());
+        blocks.C_d->insertGlobalValues(columns[i], static_cast<LocalOrdinal>(dofs.size()), gradients[i].data(), dofs.data());
       }
     }
   }

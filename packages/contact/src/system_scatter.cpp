@@ -10,8 +10,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "evaluated_contact.hpp"
 #include "mortise/core/column_map.hpp"
-#include "mortise/core/dof_map.hpp"
 
 namespace mortise::detail {
 namespace {
@@ -23,10 +23,19 @@ void sort_unique(Columns& columns) {
   columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
 }
 
-// Of the rows of all components of a node together: hosts that leave out zeros give them different columns, and condensation combines the rows.
-Columns bulk_columns(const Graph& bulk, LocalOrdinal node, int dimension) {
+/// What contact adds to the rows of nodes: columns, by node id, and the rows themselves, as global ids.
+struct NodeRows {
+  std::vector<GlobalOrdinal> ids;
   Columns columns;
-  for (LocalOrdinal row = dimension * node; row < dimension * (node + 1); ++row) {
+};
+using NodeRowMap = std::map<GlobalOrdinal, NodeRows>;
+
+// Of the rows of all components of a node together: hosts that leave out zeros give them different columns, and condensation combines the rows.
+Columns bulk_columns(const Graph& bulk, const ContactModel& model, LocalOrdinal node) {
+  Columns columns;
+  for (int i = 0; i < model.dimension; ++i) {
+    const LocalOrdinal row = model.rows[static_cast<std::size_t>(model.dimension * node + i)];
+    if (row < 0) continue;
     Graph::local_inds_host_view_type local;
     bulk.getLocalRowView(row, local);
     for (std::size_t k = 0; k < local.extent(0); ++k) columns.push_back(bulk.getColMap()->getGlobalElement(local(k)));
@@ -35,90 +44,100 @@ Columns bulk_columns(const Graph& bulk, LocalOrdinal node, int dimension) {
   return columns;
 }
 
-// Adds the columns that condensation brings to a node's rows, by node id: the same for all components of the node. The multipliers are those that
-// are condensed before corners, or the others, in whose rows the former's columns `of_middles` stand by then.
-void add_columns(const Graph& bulk, const std::vector<PairEvaluation>& pairs, int dimension, bool before_corners,
-                 const std::map<GlobalOrdinal, Columns>& of_middles, std::map<GlobalOrdinal, Columns>& columns_of_node) {
-  for (const PairEvaluation& pair : pairs) {
+// Adds the columns that condensation brings to a node's rows: the same for all components of the node. The multipliers are those that are condensed
+// before corners, or the others, in whose rows the former's columns `of_middles` stand by then.
+void add_columns(const Graph& bulk, const EvaluatedContact& contact, bool before_corners, const NodeRowMap& of_middles, NodeRowMap& rows_of_node) {
+  const int dimension = contact.model->dimension;
+  for (std::size_t p = 0; p < contact.pairs.size(); ++p) {
+    const PairEvaluation& pair = contact.pairs[p];
     const Map& nodes = pair.local_nodes();
     for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
       const SlaveNode& slave = pair.slave_nodes()[s];
       if (!slave.carries_multiplier || pair.pair().before_corners(s) != before_corners) continue;
-      Columns columns = bulk_columns(bulk, slave.owned_node, dimension);
+      Columns columns = bulk_columns(bulk, *contact.model, slave.owned_node);
       for (const LocalOrdinal node : pair.coupled_nodes(s))
-        for (int i = 0; i < dimension; ++i) columns.push_back(dimension * nodes.getGlobalElement(node) + i);
+        for (int i = 0; i < dimension; ++i)
+          if (const GlobalOrdinal id = contact.id(p, node, i); id != NodalField::none) columns.push_back(id);
       if (const auto found = of_middles.find(slave.id); found != of_middles.end())
-        columns.insert(columns.end(), found->second.begin(), found->second.end());
+        columns.insert(columns.end(), found->second.columns.begin(), found->second.columns.end());
       sort_unique(columns);
       for (const LocalOrdinal node : pair.loaded_nodes(s)) {
-        Columns& into = columns_of_node[nodes.getGlobalElement(node)];
-        into.insert(into.end(), columns.begin(), columns.end());
+        NodeRows& into = rows_of_node[nodes.getGlobalElement(node)];
+        into.columns.insert(into.columns.end(), columns.begin(), columns.end());
+        if (into.ids.empty())
+          for (int i = 0; i < dimension; ++i)
+            if (const GlobalOrdinal id = contact.id(p, node, i); id != NodalField::none) into.ids.push_back(id);
       }
     }
   }
-  for (auto& [node, columns] : columns_of_node) sort_unique(columns);
+  for (auto& [node, rows] : rows_of_node) sort_unique(rows.columns);
 }
 
-RCP<Graph> remote_graph(const std::map<GlobalOrdinal, Columns>& columns_of_node, const Map& owned_nodes, const RCP<const Map>& dofs, int dimension) {
-  std::vector<GlobalOrdinal> rows;
+RCP<Graph> remote_graph(const NodeRowMap& rows_of_node, const Map& owned_nodes, const RCP<const Map>& dofs) {
+  std::vector<GlobalOrdinal> ids;
+  std::vector<const Columns*> columns;
   std::vector<std::size_t> sizes;
-  for (const auto& [node, columns] : columns_of_node) {
+  for (const auto& [node, rows] : rows_of_node) {
     if (owned_nodes.isNodeGlobalElement(node)) continue;
-    for (int i = 0; i < dimension; ++i) {
-      rows.push_back(dimension * node + i);
-      sizes.push_back(columns.size());
+    for (const GlobalOrdinal id : rows.ids) {
+      ids.push_back(id);
+      columns.push_back(&rows.columns);
+      sizes.push_back(rows.columns.size());
     }
   }
   const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
-  const auto map = rcp(new Map(invalid, rows.data(), static_cast<LocalOrdinal>(rows.size()), 0, dofs->getComm()));
+  const auto map = rcp(new Map(invalid, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, dofs->getComm()));
   const auto graph = rcp(new Graph(map, Teuchos::arrayViewFromVector(sizes)));
-  for (const GlobalOrdinal row : rows) {
-    const Columns& columns = columns_of_node.at(row / dimension);
-    graph->insertGlobalIndices(row, static_cast<LocalOrdinal>(columns.size()), columns.data());
-  }
+  for (std::size_t row = 0; row < ids.size(); ++row)
+    graph->insertGlobalIndices(ids[row], static_cast<LocalOrdinal>(columns[row]->size()), columns[row]->data());
   graph->fillComplete(dofs, dofs);
   return graph;
 }
 
-// Rows that other ranks ask of this one, merged into `columns_of_node`.
-void receive(const Graph& remote, const Export& exporter, const RCP<const Map>& dofs, int dimension,
-             std::map<GlobalOrdinal, Columns>& columns_of_node) {
+// Rows that other ranks ask of this one, merged into `rows_of_node`.
+void receive(const Graph& remote, const Export& exporter, const ContactModel& model, NodeRowMap& rows_of_node) {
+  const RCP<const Map>& dofs = model.dofs;
   Graph incoming(dofs, 0);
   incoming.doExport(remote, exporter, Tpetra::INSERT);
-  const LocalOrdinal rows = static_cast<LocalOrdinal>(dofs->getNodeNumElements());
-  for (LocalOrdinal row = 0; row < rows; row += dimension) {
-    const GlobalOrdinal id = dofs->getGlobalElement(row);
+  for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(model.owned_nodes->getNodeNumElements()); ++node) {
+    // all rows of a node got the same columns
+    const auto first = model.rows.begin() + static_cast<std::ptrdiff_t>(model.dimension) * node;
+    const auto row = std::find_if(first, first + model.dimension, [](LocalOrdinal local) { return local >= 0; });
+    if (row == first + model.dimension) continue;
+    const GlobalOrdinal id = dofs->getGlobalElement(*row);
     std::size_t count = incoming.getNumEntriesInGlobalRow(id);
     if (count == 0 || count == Teuchos::OrdinalTraits<std::size_t>::invalid()) continue;
     Graph::nonconst_global_inds_host_view_type columns("columns", count);
     incoming.getGlobalRowCopy(id, columns, count);
-    Columns& into = columns_of_node[id / dimension];
+    Columns& into = rows_of_node[model.owned_nodes->getGlobalElement(node)].columns;
     into.insert(into.end(), columns.data(), columns.data() + count);
     sort_unique(into);
   }
 }
 
-// The bulk's columns, and after them those of `columns_of_node` that are not among them, ascending.
-RCP<const Map> widened_columns(const Graph& bulk, const std::map<GlobalOrdinal, Columns>& columns_of_node, const Map& owned_nodes) {
+// The bulk's columns, and after them those of `rows_of_node` that are not among them, ascending.
+RCP<const Map> widened_columns(const Graph& bulk, const NodeRowMap& rows_of_node, const Map& owned_nodes) {
   Columns further;
-  for (const auto& [node, more] : columns_of_node)
-    if (owned_nodes.isNodeGlobalElement(node)) further.insert(further.end(), more.begin(), more.end());
+  for (const auto& [node, more] : rows_of_node)
+    if (owned_nodes.isNodeGlobalElement(node)) further.insert(further.end(), more.columns.begin(), more.columns.end());
   return with_further_columns(*bulk.getColMap(), std::move(further));
 }
 
-// The bulk's graph with `columns_of_node` in the rows of owned nodes. Rows are given whole and ascending, those of other nodes as they are.
-RCP<const Graph> widened(const Graph& bulk, const std::map<GlobalOrdinal, Columns>& columns_of_node, const Map& owned_nodes, int dimension) {
-  const RCP<const Map> dofs = bulk.getRowMap(), columns = widened_columns(bulk, columns_of_node, owned_nodes);
+// The bulk's graph with `rows_of_node` in the rows of owned nodes. Rows are given whole and ascending, those of other nodes as they are.
+RCP<const Graph> widened(const Graph& bulk, const NodeRowMap& rows_of_node, const ContactModel& model) {
+  const RCP<const Map> dofs = bulk.getRowMap(), columns = widened_columns(bulk, rows_of_node, *model.owned_nodes);
   const auto rows = static_cast<LocalOrdinal>(dofs->getNodeNumElements());
   const auto narrow = bulk.getLocalGraphHost();
   std::map<LocalOrdinal, std::vector<LocalOrdinal>> wide;  // by row
-  for (const auto& [node, more] : columns_of_node) {
-    const LocalOrdinal owned = owned_nodes.getLocalElement(node);
+  for (const auto& [node, more] : rows_of_node) {
+    const LocalOrdinal owned = model.owned_nodes->getLocalElement(node);
     if (owned < 0) continue;
-    for (LocalOrdinal row = dimension * owned; row < dimension * (owned + 1); ++row) {
+    for (int i = 0; i < model.dimension; ++i) {
+      const LocalOrdinal row = model.rows[static_cast<std::size_t>(model.dimension * owned + i)];
+      if (row < 0) continue;
       std::vector<LocalOrdinal>& all = wide[row];
       for (std::size_t k = narrow.row_map(row); k < narrow.row_map(row + 1); ++k) all.push_back(narrow.entries(k));
-      for (const GlobalOrdinal id : more) all.push_back(columns->getLocalElement(id));
+      for (const GlobalOrdinal id : more.columns) all.push_back(columns->getLocalElement(id));
       std::sort(all.begin(), all.end());
       all.erase(std::unique(all.begin(), all.end()), all.end());
     }
@@ -142,30 +161,29 @@ RCP<const Graph> widened(const Graph& bulk, const std::map<GlobalOrdinal, Column
 
 }  // namespace
 
-SystemScatter::SystemScatter(const RCP<const Map>& owned_nodes, const Graph& bulk, const std::vector<PairEvaluation>& pairs, bool middles_first) {
-  const RCP<const Map> dofs = bulk.getRowMap();
-  parallel_ = dofs->getComm()->getSize() > 1;
-  const int dimension = pairs.empty() ? 1 : pairs.front().dimension();
-  std::map<GlobalOrdinal, Columns> of_middles;
-  if (middles_first) {
-    add_columns(bulk, pairs, dimension, true, {}, of_middles);
+SystemScatter::SystemScatter(const Graph& bulk, const EvaluatedContact& contact)
+    : dimension_(contact.model->dimension), parallel_(contact.model->comm().getSize() > 1) {
+  const ContactModel& model = *contact.model;
+  NodeRowMap of_middles;
+  if (model.middles_first) {
+    add_columns(bulk, contact, true, {}, of_middles);
     if (parallel_) {
-      const RCP<Graph> remote = remote_graph(of_middles, *owned_nodes, dofs, dimension);
-      receive(*remote, Export(remote->getRowMap(), dofs), dofs, dimension, of_middles);
+      const RCP<Graph> remote = remote_graph(of_middles, *model.owned_nodes, model.dofs);
+      receive(*remote, Export(remote->getRowMap(), model.dofs), model, of_middles);
     }
   }
-  std::map<GlobalOrdinal, Columns> columns_of_node = of_middles;
-  add_columns(bulk, pairs, dimension, false, of_middles, columns_of_node);
+  NodeRowMap rows_of_node = of_middles;
+  add_columns(bulk, contact, false, of_middles, rows_of_node);
 
   if (parallel_) {
-    const RCP<Graph> remote = remote_graph(columns_of_node, *owned_nodes, dofs, dimension);
-    export_ = rcp(new Export(remote->getRowMap(), dofs));
-    receive(*remote, *export_, dofs, dimension, columns_of_node);
+    const RCP<Graph> remote = remote_graph(rows_of_node, *model.owned_nodes, model.dofs);
+    export_ = rcp(new Export(remote->getRowMap(), model.dofs));
+    receive(*remote, *export_, model, rows_of_node);
     remote_matrix_ = rcp(new Matrix(remote));
     remote_vector_ = rcp(new Vector(remote->getRowMap()));
   }
 
-  graph_ = widened(bulk, columns_of_node, *owned_nodes, dimension);
+  graph_ = widened(bulk, rows_of_node, model);
 
   const RCP<const Map> columns = graph_->getColMap();
   if (parallel_) {
@@ -173,21 +191,16 @@ SystemScatter::SystemScatter(const RCP<const Map>& owned_nodes, const Graph& bul
     for (std::size_t c = 0; c < remote_column_of_.size(); ++c)
       remote_column_of_[c] = remote_matrix_->getColMap()->getLocalElement(columns->getGlobalElement(static_cast<LocalOrdinal>(c)));
   }
-  for (const PairEvaluation& pair : pairs) {
-    const Map& nodes = pair.local_nodes();
+  for (std::size_t p = 0; p < contact.pairs.size(); ++p) {
     NodePositions positions;
-    for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(nodes.getNodeNumElements()); ++node) {
-      const GlobalOrdinal id = nodes.getGlobalElement(node);
-      const LocalOrdinal owned = owned_nodes->getLocalElement(id);
-      positions.row.push_back(owned < 0 ? -1 : dimension * owned);
-      positions.remote_row.push_back(owned < 0 && parallel_ ? remote_matrix_->getRowMap()->getLocalElement(dimension * id) : -1);
-      for (int i = 0; i < dimension; ++i) {
-        positions.column.push_back(columns->getLocalElement(dimension * id + i));
-        positions.remote_column.push_back(parallel_ ? remote_matrix_->getColMap()->getLocalElement(dimension * id + i) : -1);
-      }
+    for (const GlobalOrdinal id : contact.dofs[p]->ids) {
+      const bool is_unknown = id != NodalField::none;
+      positions.row.push_back(is_unknown ? model.dofs->getLocalElement(id) : -1);
+      positions.remote_row.push_back(is_unknown && parallel_ && positions.row.back() < 0 ? remote_matrix_->getRowMap()->getLocalElement(id) : -1);
+      positions.column.push_back(is_unknown ? columns->getLocalElement(id) : -1);
     }
     positions_.push_back(std::move(positions));
-    patterns_.push_back(pair.geometry()->pattern);
+    patterns_.push_back(contact.dofs[p]->pattern);
   }
 }
 
@@ -198,25 +211,38 @@ bool SystemScatter::fits(const std::vector<PairEvaluation>& pairs) const {
 
 void SystemScatter::add(Matrix& system, const NodePositions& positions, LocalOrdinal node, int component, const std::vector<LocalOrdinal>& columns,
                         const std::vector<double>& values) {
-  const auto count = static_cast<LocalOrdinal>(columns.size());
-  LocalOrdinal summed;
-  if (positions.row[node] >= 0) {
-    summed = system.sumIntoLocalValues(positions.row[node] + component, count, values.data(), columns.data());
-  } else {
-    column_buffer_.resize(columns.size());
-    std::transform(columns.begin(), columns.end(), column_buffer_.begin(), [this](LocalOrdinal c) { return remote_column_of_[c]; });
-    summed = remote_matrix_->sumIntoLocalValues(positions.remote_row[node] + component, count, values.data(), column_buffer_.data());
+  const auto place = static_cast<std::size_t>(dimension_ * node + component);
+  const LocalOrdinal row = positions.row[place], remote_row = positions.remote_row[place];
+  if (row < 0 && remote_row < 0) return;
+  const LocalOrdinal* at = columns.data();
+  const double* add = values.data();
+  auto count = static_cast<LocalOrdinal>(columns.size());
+  const bool has_gaps = std::find(columns.begin(), columns.end(), -1) != columns.end();
+  if (row < 0 || has_gaps) {
+    column_buffer_.clear();
+    value_buffer_.clear();
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      if (columns[k] < 0) continue;
+      column_buffer_.push_back(row < 0 ? remote_column_of_[static_cast<std::size_t>(columns[k])] : columns[k]);
+      value_buffer_.push_back(values[k]);
+    }
+    at = column_buffer_.data();
+    add = value_buffer_.data();
+    count = static_cast<LocalOrdinal>(column_buffer_.size());
   }
+  const LocalOrdinal summed =
+      row >= 0 ? system.sumIntoLocalValues(row, count, add, at) : remote_matrix_->sumIntoLocalValues(remote_row, count, add, at);
   if (summed != count)
     throw std::logic_error(
         "contact: an entry of the condensed system has no place in its matrix; make the matrix on the graph of ContactSystem::graph()");
 }
 
 void SystemScatter::add(Vector& vector, const NodePositions& positions, LocalOrdinal node, int component, double value) {
-  if (positions.row[node] >= 0)
-    vector.sumIntoLocalValue(positions.row[node] + component, value);
-  else
-    remote_vector_->sumIntoLocalValue(positions.remote_row[node] + component, value);
+  const auto place = static_cast<std::size_t>(dimension_ * node + component);
+  if (const LocalOrdinal row = positions.row[place]; row >= 0)
+    vector.sumIntoLocalValue(row, value);
+  else if (const LocalOrdinal remote = positions.remote_row[place]; remote >= 0)
+    remote_vector_->sumIntoLocalValue(remote, value);
 }
 
 void SystemScatter::finish(Matrix& system) {

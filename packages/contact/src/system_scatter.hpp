@@ -8,12 +8,13 @@
 
 namespace mortise::detail {
 
-/// Positions of one pair's local nodes. Entries of rows and columns are of the node's first component unless said otherwise.
+struct EvaluatedContact;
+
+/// Positions of the displacements of one pair's local nodes, [dim nodes]. -1 where a component is no unknown.
 struct NodePositions {
-  std::vector<LocalOrdinal> row;            ///< [nodes] local row of the system, -1 if another rank owns the node
-  std::vector<LocalOrdinal> remote_row;     ///< [nodes] local row of the remote matrix, -1 if owned here
-  std::vector<LocalOrdinal> column;         ///< [dim nodes] local columns of the system
-  std::vector<LocalOrdinal> remote_column;  ///< [dim nodes] local columns of the remote matrix
+  std::vector<LocalOrdinal> row;         ///< local row of the system, -1 if another rank owns the node
+  std::vector<LocalOrdinal> remote_row;  ///< local row of the remote matrix, -1 if owned here
+  std::vector<LocalOrdinal> column;      ///< local column of the system
 };
 
 /// The condensed system's graph, and the rows this rank adds to on behalf of other ranks.
@@ -22,8 +23,7 @@ class SystemScatter {
   /// Builds the graph of the condensed system from the bulk's rows. The rows of each slave node s get the columns of its own bulk rows, the same in
   /// all of them, and of the nodes it is coupled to. The same columns are in the rows of the nodes its multiplier loads, as they receive the slave's
   /// row by condensation. Its columns are the bulk's, followed by further ones.
-  /// @param middles_first  whether there are multipliers that are condensed before those of corners, whose rows they widen, on any rank
-  SystemScatter(const RCP<const Map>& owned_nodes, const Graph& bulk, const std::vector<PairEvaluation>& pairs, bool middles_first);
+  SystemScatter(const Graph& bulk, const EvaluatedContact& contact);
 
   /// Whether the candidates of these evaluations are those it was built for.
   bool fits(const std::vector<PairEvaluation>& pairs) const;
@@ -31,7 +31,8 @@ class SystemScatter {
   const RCP<const Graph>& graph() const { return graph_; }
   const NodePositions& positions(std::size_t pair) const { return positions_[pair]; }
 
-  /// row `component` of node `node` of a pair: += values at local columns of the system.
+  /// row `component` of node `node` of a pair: += values at local columns of the system. Nothing where that is no unknown; columns of -1 are left
+  /// out.
   void add(Matrix& system, const NodePositions& positions, LocalOrdinal node, int component, const std::vector<LocalOrdinal>& columns,
            const std::vector<double>& values);
   /// The same for a right-hand side (or any vector on the dofs).
@@ -50,6 +51,8 @@ class SystemScatter {
   RCP<const Export> export_;
   std::vector<LocalOrdinal> remote_column_of_;  ///< [columns of the system] in the remote matrix, -1: not there
   std::vector<LocalOrdinal> column_buffer_;
+  std::vector<double> value_buffer_;
+  int dimension_;
   bool parallel_ = false;
 };
 

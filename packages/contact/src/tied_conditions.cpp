@@ -59,7 +59,8 @@ TieBlocks tie_blocks(const EvaluatedContact& contact, const Vector& z) {
   const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
   const auto map = rcp(new Map(invalid, rows.data(), static_cast<LocalOrdinal>(rows.size()), 0, dofs->getComm()));
   Matrix of_multipliers(map, Teuchos::arrayViewFromVector(entries_z)), of_positions(map, Teuchos::arrayViewFromVector(entries_d));
-  std::vector<GlobalOrdinal> columns;
+  std::vector<GlobalOrdinal> columns;  // of a tie's positions that are unknowns
+  std::vector<Eigen::Index> entries;   // of these in its derivatives
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const MultiplierTies& ties = pairs[p].ties();
     if (!ties.any()) continue;
@@ -67,9 +68,13 @@ TieBlocks tie_blocks(const EvaluatedContact& contact, const Vector& z) {
     for (const MultiplierTie& tie : ties.ties()) {
       const SpatialVector r = MultiplierTies::deviation(tie, *z_on_nodes[p]);
       columns.clear();
-      for (const LocalOrdinal node : tie.columns)
-        for (int k = 0; k < dimension && tie.dcompliance.size() > 0; ++k)
-          columns.push_back(dimension * pairs[p].local_nodes().getGlobalElement(node) + k);
+      entries.clear();
+      for (std::size_t n = 0; n < tie.columns.size() && tie.dcompliance.size() > 0; ++n)
+        for (int k = 0; k < dimension; ++k)
+          if (const GlobalOrdinal id = contact.id(p, tie.columns[n], k); id != NodalField::none) {
+            columns.push_back(id);
+            entries.push_back(dimension * static_cast<Eigen::Index>(n) + k);
+          }
       for (std::size_t j = 0; j <= tie.receivers.size(); ++j) {
         const double sign = sign_of(tie, j);
         const GlobalOrdinal first = offset + dimension * ties.nodes()->getGlobalElement(node_of(tie, j));
@@ -84,7 +89,8 @@ TieBlocks tie_blocks(const EvaluatedContact& contact, const Vector& z) {
           if (j > 0) slope -= tie.compliance * r[i] * tie.dshares.row(static_cast<Eigen::Index>(j) - 1);
           for (std::size_t k = 0; k < tie.receivers.size(); ++k)
             slope -= sign * tie.compliance * of_node(tie.receivers[k], i) * tie.dshares.row(static_cast<Eigen::Index>(k));
-          of_positions.insertGlobalValues(first + i, static_cast<LocalOrdinal>(columns.size()), slope.data(), columns.data());
+          const Eigen::RowVectorXd kept = slope(entries);
+          of_positions.insertGlobalValues(first + i, static_cast<LocalOrdinal>(columns.size()), kept.data(), columns.data());
         }
       }
     }

@@ -89,12 +89,27 @@ TEST(Misuse, AComplementarityConstantThatLeavesTheChoiceToErrorsOfTheIteration) 
 }
 
 TEST(Misuse, MapsThatDoNotFit) {
-  Host by_component;
+  Host shifted;
   std::vector<GlobalOrdinal> ids;
-  for (int i = 0; i < 2; ++i)
-    for (const GlobalOrdinal node : by_component.nodes->getNodeElementList()) ids.push_back(2 * node + i);
-  by_component.dofs = rcp(new Map(8, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, by_component.comm));
-  EXPECT_THAT(by_component.refused<std::invalid_argument>(), HasSubstr("make_dof_map"));
+  for (const GlobalOrdinal node : shifted.nodes->getNodeElementList())
+    for (int i = 0; i < 2; ++i) ids.push_back(2 * node + i + 8);
+  shifted.dofs = rcp(new Map(8, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, shifted.comm));
+  EXPECT_THAT(shifted.refused<std::invalid_argument>(), HasSubstr("which is no owned row of the system"));
+  // A component that the host has eliminated has to be prescribed.
+  Host eliminated;
+  const auto contact_of = [&] {
+    std::vector<GlobalOrdinal> field;
+    for (const GlobalOrdinal node : eliminated.nodes->getNodeElementList())
+      for (int i = 0; i < 2; ++i) field.push_back(node == 1 && i == 0 ? NodalField::none : 2 * node + i);
+    ContactSystem(NodalField("displacement", eliminated.nodes, 2, field), eliminated.dofs, eliminated.reference, eliminated.fixed, {},
+                  {eliminated.pair}, Timers());
+  };
+  EXPECT_NE(thrown<std::invalid_argument>(contact_of), "");
+  if (eliminated.nodes->isNodeGlobalElement(1)) {
+    eliminated.fixed->replaceGlobalValue(1, 0, 1.0);
+    eliminated.fixed->replaceGlobalValue(1, 1, 1.0);
+  }
+  EXPECT_EQ(thrown<std::exception>(contact_of), "");
   Host one_column;
   one_column.fixed = rcp(new MultiVector(one_column.nodes, 1));
   EXPECT_THAT(one_column.refused<std::invalid_argument>(), HasSubstr("prescribed components have 1 columns"));

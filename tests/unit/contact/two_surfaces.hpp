@@ -143,16 +143,32 @@ inline TwoSurfaces quadratic(const TwoSurfaces& linear, bool slave, bool master)
   return result;
 }
 
+/// How a host numbers its dofs.
+enum class HostNumbering {
+  by_nodes,    ///< dim * node + component
+  interleaved  ///< backwards, a scalar field before each node's displacements, and without those that are prescribed
+};
+
 /// Everything that is made from TwoSurfaces on `comm`. Node n belongs to rank n mod size.
 class Fixture {
  public:
-  Fixture(const TwoSurfaces& surfaces, RCP<const Communicator> comm) : surfaces_(surfaces) {
+  Fixture(const TwoSurfaces& surfaces, RCP<const Communicator> comm, HostNumbering numbering = HostNumbering::by_nodes)
+      : surfaces_(surfaces), numbering_(numbering) {
     std::vector<GlobalOrdinal> ids;
     for (std::size_t n = 0; n < surfaces.size(); ++n)
       if (static_cast<int>(n) % comm->getSize() == comm->getRank()) ids.push_back(static_cast<GlobalOrdinal>(n));
     nodes = rcp(new Map(surfaces.size(), ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, comm));
     const int dim = surfaces.dimension;
-    dofs = make_dof_map(*nodes, dim);
+    std::vector<GlobalOrdinal> rows, displacements;
+    for (const GlobalOrdinal node : ids) {
+      if (numbering == HostNumbering::interleaved) rows.push_back(scalar(node));
+      for (int i = 0; i < dim; ++i) {
+        displacements.push_back(number(dim * node + i));
+        if (displacements.back() != NodalField::none) rows.push_back(displacements.back());
+      }
+    }
+    const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
+    dofs = rcp(new Map(invalid, rows.data(), static_cast<LocalOrdinal>(rows.size()), 0, comm));
     const auto reference = rcp(new MultiVector(nodes, static_cast<std::size_t>(dim)));
     const auto fixed = rcp(new MultiVector(nodes, static_cast<std::size_t>(dim)));
     for (std::size_t n = 0; n < ids.size(); ++n)
@@ -169,12 +185,11 @@ class Fixture {
       pairs.push_back(make_pair(lower, upper));
       pairs.back().second_pass_of = 0;
     }
-    contact = std::make_unique<ContactSystem>(nodes, dofs, reference, fixed, surfaces.measure, pairs, Timers());
+    contact = std::make_unique<ContactSystem>(NodalField("displacement", nodes, dim, displacements), dofs, reference, fixed, surfaces.measure, pairs,
+                                              Timers());
 
-    const auto graph = rcp(new Graph(dofs, 7 * dim));
-    for (const GlobalOrdinal row : dofs->getNodeElementList())
-      for (GlobalOrdinal column = first_column(row); column < end_column(row); ++column)
-        if (coupled(row, column)) graph->insertGlobalIndices(row, 1, &column);
+    const auto graph = rcp(new Graph(dofs, 7 * dim + 1));
+    visit_springs([&](GlobalOrdinal row, GlobalOrdinal column, double) { graph->insertGlobalIndices(row, 1, &column); });
     graph->fillComplete(dofs, dofs);
     bulk = graph;
   }
@@ -205,12 +220,7 @@ class Fixture {
   /// K of springs: symmetric part with a dominant diagonal, and an antisymmetric one, on the condensed system's graph.
   RCP<Matrix> springs(const RCP<const Graph>& graph) const {
     const auto K = rcp(new Matrix(graph));
-    for (const GlobalOrdinal row : dofs->getNodeElementList())
-      for (GlobalOrdinal column = first_column(row); column < end_column(row); ++column) {
-        if (!coupled(row, column)) continue;
-        const double value = row == column ? 900.0 + 7.0 * row : -60.0 * std::cos(0.3 * (row + column)) + 11.0 * std::sin(0.9 * (row - column));
-        K->sumIntoGlobalValues(row, 1, &value, &column);
-      }
+    visit_springs([&](GlobalOrdinal row, GlobalOrdinal column, double value) { K->sumIntoGlobalValues(row, 1, &value, &column); });
     return K;
   }
 
@@ -252,11 +262,50 @@ class Fixture {
     return ids;
   }
 
+  /// The host's id of a displacement, from dim * node + component; NodalField::none where the host has eliminated it.
+  GlobalOrdinal number(GlobalOrdinal by_nodes) const {
+    if (numbering_ == HostNumbering::by_nodes) return by_nodes;
+    const GlobalOrdinal dim = surfaces_.dimension;
+    const auto node = static_cast<std::size_t>(by_nodes / dim);
+    if (surfaces_.fixed[node][static_cast<std::size_t>(by_nodes % dim)]) return NodalField::none;
+    return scalar(by_nodes / dim) + 1 + by_nodes % dim;
+  }
+  /// The same for all displacements of this host, by the ids dim * node + component.
+  RCP<Vector> numbered(const Vector& by_nodes) const {
+    const auto result = rcp(new Vector(dofs));
+    const auto view = by_nodes.getLocalViewHost(Tpetra::Access::ReadOnly);
+    for (std::size_t k = 0; k < view.extent(0); ++k)
+      if (const GlobalOrdinal id = number(by_nodes.getMap()->getGlobalElement(static_cast<LocalOrdinal>(k))); id != NodalField::none)
+        result->replaceGlobalValue(id, view(k, 0));
+    return result;
+  }
+
   RCP<const Map> nodes, dofs;
   RCP<const Graph> bulk;
   std::unique_ptr<ContactSystem> contact;
 
  private:
+  GlobalOrdinal scalar(GlobalOrdinal node) const { return (surfaces_.dimension + 1) * (static_cast<GlobalOrdinal>(surfaces_.size()) - 1 - node); }
+  /// The bulk's entries of this rank. The scalar field is coupled with the displacements of its node.
+  template <class Visit>
+  void visit_springs(const Visit& visit) const {
+    const GlobalOrdinal dim = surfaces_.dimension;
+    for (const GlobalOrdinal node : nodes->getNodeElementList()) {
+      if (numbering_ == HostNumbering::interleaved) visit(scalar(node), scalar(node), 3.0);
+      for (GlobalOrdinal row = dim * node; row < dim * (node + 1); ++row) {
+        if (number(row) == NodalField::none) continue;
+        if (numbering_ == HostNumbering::interleaved) {
+          visit(number(row), scalar(node), 0.5);
+          visit(scalar(node), number(row), -0.25);
+        }
+        for (GlobalOrdinal column = first_column(row); column < end_column(row); ++column) {
+          if (!coupled(row, column) || number(column) == NodalField::none) continue;
+          visit(number(row), number(column),
+                row == column ? 900.0 + 7.0 * row : -60.0 * std::cos(0.3 * (row + column)) + 11.0 * std::sin(0.9 * (row - column)));
+        }
+      }
+    }
+  }
   static SurfaceFacets polyline(GlobalOrdinal first, GlobalOrdinal end) {
     SurfaceFacets facets;
     for (GlobalOrdinal node = first; node + 1 < end; ++node) facets.push_back({node, node + 1});
@@ -288,6 +337,7 @@ class Fixture {
     return !surfaces_.zeros_dropped || row / dim == column / dim || row % dim == column % dim;
   }
   TwoSurfaces surfaces_;
+  HostNumbering numbering_;
 };
 
 }  // namespace mortise::test

@@ -12,6 +12,7 @@
 #include "mortise/contact/contact_linearisation.hpp"
 #include "mortise/contact/contact_pair.hpp"
 #include "mortise/contact/contact_report.hpp"
+#include "mortise/core/nodal_field.hpp"
 #include "mortise/core/timers.hpp"
 #include "mortise/core/types.hpp"
 
@@ -32,21 +33,37 @@ struct Augmentation {
   std::optional<ContactHistory> history;  ///< with the new multipliers; none unless `more`, and none if `exhausted`
 };
 
+/// Displacements of the owned nodes: from a vector on the dofs, and from where a host keeps those that are no unknowns.
+struct NodalDisplacement {
+  /// Components that are no unknowns do not move.
+  NodalDisplacement(const Vector& of_dofs) : dofs(of_dofs) {}
+  /// @param of_nodes  [owned nodes x dim], read where a component is no unknown
+  NodalDisplacement(const Vector& of_dofs, const MultiVector& of_nodes) : dofs(of_dofs), nodes(&of_nodes) {}
+  const Vector& dofs;
+  const MultiVector* nodes = nullptr;
+};
+
 /// All pairs. z holds `dimension` components for each owned slave node that may carry a multiplier.
-/// Displacements are given on the owned dofs. Histories and evaluations depend on the arguments of a call alone, not on earlier calls. Collective in
+/// Displacements are given on the owned dofs. These may be any numbering that a host has, with other fields among them, and without the components
+/// that it prescribes. Histories and evaluations depend on the arguments of a call alone, not on earlier calls. Collective in
 /// all members but the accessors.
 class ContactSystem {
  public:
-  /// @param dofs       owned dofs (dimension * node + component) of `owned_nodes`
-  /// @param reference  [owned nodes x dim] reference positions
-  /// @param fixed      [owned nodes x dim] 1 where prescribed, 2 where it follows a rigid body or a reference point, else 0
+  /// @param displacement  which dofs the displacements of the owned nodes are
+  /// @param dofs          owned rows of the host's system
+  /// @param reference     [owned nodes x dim] reference positions
+  /// @param fixed         [owned nodes x dim] 1 where prescribed, 2 where it follows a rigid body or a reference point, else 0; components that are
+  ///                      no unknowns are prescribed
   /// @throws InputError (at the pair's name if it has no place) for
   ///   - a pair without Young's modulus, formulation or law of friction;
   ///   - a slave node in two pairs;
   ///   - a node that is slave in one pair and master in another where its multiplier is eliminated;
   ///   - what MortarInterface refuses.
-  /// @throws std::invalid_argument for `dofs` that are not make_dof_map(*owned_nodes, dim), and vectors on other nodes
-  ContactSystem(RCP<const Map> owned_nodes, RCP<const Map> dofs, RCP<const MultiVector> reference, RCP<const MultiVector> fixed,
+  /// @throws std::invalid_argument for ids that are not among `dofs`, components that are neither unknown nor prescribed, and vectors on other nodes
+  ContactSystem(const NodalField& displacement, RCP<const Map> dofs, RCP<const MultiVector> reference, RCP<const MultiVector> fixed,
+                const InterfaceMeasure& measure, std::vector<ContactPair> pairs, const Timers& timers);
+  /// The same with numbered_by_nodes(), whose map is make_dof_map(*owned_nodes, dim).
+  ContactSystem(const RCP<const Map>& owned_nodes, RCP<const Map> dofs, RCP<const MultiVector> reference, RCP<const MultiVector> fixed,
                 const InterfaceMeasure& measure, std::vector<ContactPair> pairs, const Timers& timers);
 
   std::size_t pairs() const;                             ///< how many there are, second passes included
@@ -66,17 +83,17 @@ class ContactSystem {
 
   /// The history of a model that starts at displacement d, before anything was accepted: no node is closed, slips are measured from d on.
   /// @throws StepFailure on every rank, as evaluate()
-  ContactHistory initial_history(const Vector& d) const;
+  ContactHistory initial_history(const NodalDisplacement& d) const;
 
   /// The integrals at displacement d. Slips are those since the state of `history`.
   /// @throws StepFailure on every rank for
   ///   - a position that is not finite, a facet without extent, a projection that has no solution;
   ///   - a node that has gone through the master and out of its reach (lost_contact): one that was closed in `history`, or stood in front of the
   ///   master.
-  ContactEvaluation evaluate(const Vector& d, const ContactHistory& history) const;
+  ContactEvaluation evaluate(const NodalDisplacement& d, const ContactHistory& history) const;
   /// The same with derivatives.
   /// @param last  what the nodes did at the last Newton iterate: those that were closed there must not be lost either. Null: none.
-  DifferentiatedContact differentiate(const Vector& d, const ContactHistory& history, const ContactStates* last = nullptr) const;
+  DifferentiatedContact differentiate(const NodalDisplacement& d, const ContactHistory& history, const ContactStates* last = nullptr) const;
 
   /// Graph of the condensed system at an evaluation: the bulk's, and what the pairs couple. The same graph as long as the candidates of contact stay;
   /// only for another one `bulk` is asked for the bulk's, which is not kept.
@@ -88,7 +105,7 @@ class ContactSystem {
   /// @return the history that holds within the step
   /// @throws StepFailure on every rank, as evaluate()
   /// @throws std::invalid_argument on every rank for another number of entries than owned nodes
-  ContactHistory start_step(const ContactHistory& accepted, const Vector& d, const std::vector<char>& unconstrained, Vector& z) const;
+  ContactHistory start_step(const ContactHistory& accepted, const NodalDisplacement& d, const std::vector<char>& unconstrained, Vector& z) const;
 
   /// By how much the surfaces of a pair may lie in one another, 0 unless said: what is left of an overlap that is taken up bit by bit. Conditions of
   /// the pair then see gaps g_j + depth A_j; node_states() tells those that there are.
