@@ -21,7 +21,7 @@ LinearSystem assembled(const SystemModel& model, const std::shared_ptr<const Eva
   {
     const auto step = system.increment->getLocalViewHost(Tpetra::Access::ReadWrite);
     const auto rows = residual->getLocalViewHost(Tpetra::Access::ReadOnly);
-    for (const LocalOrdinal row : system.prescribed) step(row, 0) = -rows(row, 0) / model.stiffness_scale();
+    for (const LocalOrdinal row : system.prescribed) step(row, 0) = -rows(row, 0) / model.stiffness_scale_of(row);
   }
   if (model.parts().near_null_space)
     system.multigrid.near_null_space = [&model, d = at->d] { return model.parts().near_null_space(*d); };

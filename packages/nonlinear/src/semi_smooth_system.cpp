@@ -19,6 +19,8 @@ RCP<const Vector> SemiSmoothSystem::multipliers(const Vector& x) const { return 
 RCP<Vector> SemiSmoothSystem::multipliers(Vector& x) const { return model_->z(x); }
 double SemiSmoothSystem::stiffness_scale() const { return model_->stiffness_scale(); }
 
+double SemiSmoothSystem::largest_displacement(const Vector& x) const { return model_->sizes().largest(*displacement(x)); }
+
 AcceptedState SemiSmoothSystem::initial_state(const Vector& x, double time) const {
   AcceptedState state{rcp(new Vector(x, Teuchos::Copy)), {time, std::nullopt, {}}, {}};
   if (!parts().contact) return state;
@@ -56,11 +58,12 @@ double SemiSmoothSystem::prescribed_deviation(const Vector& x, double time) cons
     std::optional<StepFailure> failure;  // evaluate() says it
     const std::vector<double> values = parts().prescribed->values(time, failure);
     const std::vector<LocalOrdinal>& rows = model_->prescribed();
+    const detail::FieldSizes& sizes = model_->sizes();
     const RCP<const Vector> d = displacement(x);
     const auto displacements = d->getLocalViewHost(Tpetra::Access::ReadOnly);
-    for (std::size_t i = 0; i < rows.size(); ++i) mine = std::max(mine, std::abs(displacements(rows[i], 0) - values[i]));
+    for (std::size_t i = 0; i < rows.size(); ++i) mine = std::max(mine, std::abs(displacements(rows[i], 0) - values[i]) / sizes.size(sizes.field(rows[i])));
   }
-  Teuchos::reduceAll(model_->comm(), Teuchos::REDUCE_MAX, mine / parts().length, Teuchos::outArg(largest));
+  Teuchos::reduceAll(model_->comm(), Teuchos::REDUCE_MAX, mine, Teuchos::outArg(largest));
   return largest;
 }
 

@@ -74,7 +74,7 @@ void SystemLinearisation::apply(const Vector& v, Vector& y) const {
   }
   const auto step = v_d->getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto rows = y_d->getLocalViewHost(Tpetra::Access::ReadWrite);
-  for (const LocalOrdinal row : model.prescribed()) rows(row, 0) = model.stiffness_scale() * step(row, 0);
+  for (const LocalOrdinal row : model.prescribed()) rows(row, 0) = model.stiffness_scale_of(row) * step(row, 0);
 }
 
 LinearSolveReport SystemLinearisation::newton_direction(const Vector& F, Vector& direction, double tolerance,

@@ -1,8 +1,13 @@
 #include "system_model.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 #include "active_set_hash.hpp"
 
@@ -25,7 +30,13 @@ RCP<const Map> map_of_both(const Map& first, const Map& second) {
 }  // namespace
 
 SystemModel::SystemModel(SystemParts parts, Timers timers)
-    : parts_(std::move(parts)), timers_(std::move(timers)), to_local_(parts_.dofs, parts_.local_dofs), local_displacement_(parts_.local_dofs) {
+    : parts_(std::move(parts)),
+      sizes_(parts_),
+      timers_(std::move(timers)),
+      to_local_(parts_.dofs, parts_.local_dofs),
+      local_displacement_(parts_.local_dofs),
+      stiffness_scales_(sizes_.fields(), 0.0) {
+  check_contributions();
   multipliers_ = rcp(new Map(0, 0, parts_.dofs->getComm()));
   map_ = parts_.dofs;
   if (parts_.contact) {
@@ -36,6 +47,23 @@ SystemModel::SystemModel(SystemParts parts, Timers timers)
   if (parts_.dependent) reduction_ = std::make_unique<const Reduction>(parts_.dependent, parts_.dofs, parts_.local_dofs);
   if (parts_.contact && parts_.contact->keeps_multipliers())
     saddle_point_ = std::make_unique<SaddlePointMatrix>(reduction_ ? reduction_->unknowns() : parts_.dofs, multipliers_);
+}
+
+void SystemModel::check_contributions() const {
+  std::vector<std::string> known;
+  for (const SystemField& field : parts_.fields) known.push_back(field.unknowns.name());
+  if (known.empty()) known.push_back("displacement");
+  for (const auto& contribution : parts_.contributions) {
+    const FieldUse uses = contribution->uses();
+    for (const auto* names : {&uses.reads, &uses.writes})
+      for (const std::string& name : *names)
+        if (std::find(known.begin(), known.end(), name) == known.end())
+          throw std::invalid_argument(fmt::format("contribution \"{}\" knows a field '{}'; the system's fields are: {}", contribution->name(), name,
+                                                  fmt::join(known, ", ")));
+    if (uses.time_derivatives > 0)
+      throw std::invalid_argument(
+          fmt::format("contribution \"{}\" reads time derivatives of order {}; this system has none", contribution->name(), uses.time_derivatives));
+  }
 }
 
 Configuration SystemModel::configuration(double time, const Vector& displacement) const {
@@ -83,7 +111,7 @@ std::shared_ptr<const EvaluatedSystem> SystemModel::evaluate(const Vector& x, co
     configuration(context.time, *at.d);
     at.follow = std::make_shared<const FollowedDisplacements>(*reduction_, local_displacement_);
   }
-  if (stiffness_scale_ == 0.0) stiffness(result);
+  if (stiffness_scale() == 0.0) stiffness(result);
   add_norms(at, external);
   return result;
 }
@@ -93,7 +121,9 @@ void SystemModel::add_norms(EvaluatedSystem& at, const Vector& external) const {
   const RCP<Vector> r = d(at.residual);
   Tpetra::deep_copy(*r, at.forces);
   ResidualNorms& norms = at.norms;
-  double force = std::max(at.internal->norm2(), external.norm2());
+  std::vector<double> force = sizes_.norms(*at.internal);  // [fields]
+  const std::vector<double> external_force = sizes_.norms(external), displacement = sizes_.norms(*at.d);
+  for (std::size_t field = 0; field < force.size(); ++field) force[field] = std::max(force[field], external_force[field]);
   double other = 0.0, violation = 0.0;
   std::optional<StepFailure> failure;  // why something is not finite
   if (parts_.contact) {
@@ -109,7 +139,7 @@ void SystemModel::add_norms(EvaluatedSystem& at, const Vector& external) const {
     norms.sticking = contact.sticking;
     norms.changed = contact.changed;
     norms.active_set = active_set_hash(*parts_.contact, at.laws->states(), comm());
-    force = std::max(force, contact.force);
+    force[0] = std::max(force[0], contact.force);
   }
 
   // Momentum on the free rows alone, then the prescribed ones and those of followers.
@@ -123,23 +153,38 @@ void SystemModel::add_norms(EvaluatedSystem& at, const Vector& external) const {
     const auto rows = r->getLocalViewHost(Tpetra::Access::ReadWrite);
     for (std::size_t i = 0; i < prescribed_.size(); ++i) {
       deviation[i] = displacements(prescribed_[i], 0) - deviation[i];
-      largest = std::max(largest, std::abs(deviation[i]));
+      largest = std::max(largest, std::abs(deviation[i]) * parts_.length / sizes_.size(sizes_.field(prescribed_[i])));
       rows(prescribed_[i], 0) = 0.0;
     }
   }
-  norms.momentum_absolute = r->norm2();
-  force = std::max(force, round_off_floor * stiffness_scale_ * at.d->norm2());
-  norms.momentum = norms.momentum_absolute == 0.0 ? 0.0 : norms.momentum_absolute / force;
+  // Residuals of other fields in units of the first: those that a change by the field's size brings about are alike.
+  const auto weight = [&](std::size_t field) {
+    return field == 0 ? 1.0 : stiffness_scale() * parts_.length / (stiffness_scale(field) * sizes_.size(field));
+  };
+  const auto total = [&](const std::vector<double>& of_fields) {
+    if (of_fields.size() == 1) return of_fields[0];
+    double squares = 0.0;
+    for (std::size_t field = 0; field < of_fields.size(); ++field) squares += std::pow(weight(field) * of_fields[field], 2);
+    return std::sqrt(squares);
+  };
+  const std::vector<double> out_of_balance = sizes_.norms(*r);
+  norms.momentum_absolute = total(out_of_balance);
+  bool finite = std::isfinite(other);
+  for (std::size_t field = 0; field < force.size(); ++field) {
+    force[field] = std::max(force[field], round_off_floor * stiffness_scale(field) * displacement[field]);
+    finite = finite && std::isfinite(force[field]);
+    if (out_of_balance[field] != 0.0) norms.momentum = std::max(norms.momentum, out_of_balance[field] / force[field]);
+  }
   // F = I + grad u is known to eps, and so are stresses, to eps E; contact forces come from positions, known to eps |x| at each closed node.
-  norms.round_off = 4.0 * std::numeric_limits<double>::epsilon() * stiffness_scale_ * parts_.length * std::sqrt(1.0 + norms.active);
+  norms.round_off = 4.0 * std::numeric_limits<double>::epsilon() * stiffness_scale() * parts_.length * std::sqrt(1.0 + norms.active);
   Teuchos::reduceAll(comm(), Teuchos::REDUCE_MAX, largest / parts_.length, Teuchos::outArg(norms.prescribed));
   {
     const auto rows = r->getLocalViewHost(Tpetra::Access::ReadWrite);
-    for (std::size_t i = 0; i < prescribed_.size(); ++i) rows(prescribed_[i], 0) = stiffness_scale_ * deviation[i];
+    for (std::size_t i = 0; i < prescribed_.size(); ++i) rows(prescribed_[i], 0) = stiffness_scale_of(prescribed_[i]) * deviation[i];
   }
-  if (at.follow) at.follow->deviation(*at.d, stiffness_scale_, *r);
-  const double rows = r->norm2();
-  norms.finite = std::isfinite(rows) && std::isfinite(force) && std::isfinite(other);
+  if (at.follow) at.follow->deviation(*at.d, stiffness_scale(), *r);
+  const double rows = total(sizes_.norms(*r));
+  norms.finite = finite && std::isfinite(rows);
   if (!norms.finite) throw_if_any(comm(), failure);  // all ranks have the same norms
   norms.merit = norms.finite ? std::hypot(rows, violation) : std::numeric_limits<double>::infinity();
 }
@@ -158,15 +203,16 @@ const RCP<Matrix>& SystemModel::stiffness(const std::shared_ptr<const EvaluatedS
   matrix_->setAllToScalar(0.0);
   const Configuration configuration = this->configuration(at->context.time, *at->d);
   std::optional<StepFailure> failure;
-  for (const auto& contribution : parts_.contributions) contribution->add_jacobian(configuration, *matrix_, failure);
+  for (const auto& contribution : parts_.contributions) contribution->add_jacobian(configuration, {}, *matrix_, failure);
   matrix_->fillComplete(parts_.dofs, parts_.dofs);
   throw_if_any(comm(), failure);
   matrix_of_ = at;
-  if (stiffness_scale_ > 0.0) return matrix_;
+  if (stiffness_scale() > 0.0) return matrix_;
   Vector diagonal(parts_.dofs);
   matrix_->getLocalDiagCopy(diagonal);
-  const double mean = diagonal.norm1() / std::max<double>(1.0, static_cast<double>(diagonal.getGlobalLength()));
-  stiffness_scale_ = mean > 0.0 && std::isfinite(mean) ? mean : 1.0;
+  stiffness_scales_ = sizes_.means(diagonal);
+  for (double& scale : stiffness_scales_)
+    if (!(scale > 0.0 && std::isfinite(scale))) scale = 1.0;
   return matrix_;
 }
 

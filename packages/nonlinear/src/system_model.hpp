@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "constraints.hpp"
+#include "field_sizes.hpp"
 #include "mortise/nonlinear/semi_smooth_system.hpp"
 #include "reduction.hpp"
 #include "saddle_point_matrix.hpp"
@@ -52,7 +53,11 @@ class SystemModel {
   const Communicator& comm() const { return *parts_.dofs->getComm(); }
   const std::vector<LocalOrdinal>& prescribed() const { return prescribed_; }  ///< owned dofs
   const Reduction* reduction() const { return reduction_.get(); }              ///< null: nothing follows
-  double stiffness_scale() const { return stiffness_scale_; }
+  const FieldSizes& sizes() const { return sizes_; }
+  /// s of a field; 0: not known yet.
+  double stiffness_scale(std::size_t field = 0) const { return stiffness_scales_[field]; }
+  /// s of the field of an owned dof.
+  double stiffness_scale_of(LocalOrdinal dof) const { return stiffness_scales_[sizes_.field(dof)]; }
   SaddlePointMatrix& saddle_point() const { return *saddle_point_; }  ///< with a contact that keeps multipliers
   Constraints& constraints() const { return constraints_; }
 
@@ -73,9 +78,12 @@ class SystemModel {
 
  private:
   RCP<const Vector> internal_forces(const Configuration& at) const;
+  /// Throws std::invalid_argument for contributions that know what the system has not.
+  void check_contributions() const;
   void add_norms(EvaluatedSystem& at, const Vector& external) const;
 
   SystemParts parts_;
+  FieldSizes sizes_;
   Timers timers_;
   RCP<const Map> map_, multipliers_;
   std::vector<LocalOrdinal> prescribed_;
@@ -84,7 +92,7 @@ class SystemModel {
   Import to_local_;
   mutable Constraints constraints_;
   mutable Vector local_displacement_;
-  mutable double stiffness_scale_ = 0.0;  ///< s; 0: not known yet
+  mutable std::vector<double> stiffness_scales_;  ///< [fields]
   mutable RCP<Matrix> matrix_;
   mutable std::weak_ptr<const EvaluatedSystem> matrix_of_;  ///< of which it is the stiffness
 };

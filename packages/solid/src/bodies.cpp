@@ -20,7 +20,7 @@ namespace {
 class RigidBlock final : public ElementBlock {
  public:
   void add_internal_force(const double*, double*, std::optional<StepFailure>&) const override {}
-  void add_stiffness(const double*, const NodalSparsity::Values&, std::optional<StepFailure>&) const override {}
+  void add_stiffness(const double*, const NodalSparsity::Values&, double, std::optional<StepFailure>&) const override {}
   void visit_points(const double*, LocalOrdinal, const std::function<void(const MaterialPoint&)>&) const override {}
   void commit(const double*) override {}
   std::size_t history_bytes() const override { return 0; }
@@ -76,10 +76,10 @@ void Bodies::add_internal_force(const Vector& local_displacement, Vector& residu
   for (const auto& block : blocks_) block->add_internal_force(displacement.data(), force.data(), failure);
 }
 
-void Bodies::add_stiffness(const Vector& local_displacement, Matrix& matrix, std::optional<StepFailure>& failure) const {
+void Bodies::add_stiffness(const Vector& local_displacement, Matrix& matrix, std::optional<StepFailure>& failure, double factor) const {
   const HostReadView displacement(local_displacement);
   const NodalSparsity::Values values = sparsity_->open(matrix);
-  for (const auto& block : blocks_) block->add_stiffness(displacement.data(), values, failure);
+  for (const auto& block : blocks_) block->add_stiffness(displacement.data(), values, factor, failure);
   values.close();
 }
 

@@ -27,7 +27,8 @@ class ElementBlock {
  public:
   virtual ~ElementBlock() = default;
   virtual void add_internal_force(const double* displacement, double* force, std::optional<StepFailure>& failure) const = 0;
-  virtual void add_stiffness(const double* displacement, const NodalSparsity::Values& matrix, std::optional<StepFailure>& failure) const = 0;
+  virtual void add_stiffness(const double* displacement, const NodalSparsity::Values& matrix, double factor,
+                             std::optional<StepFailure>& failure) const = 0;
   /// Points of the first `count` elements.
   virtual void visit_points(const double* displacement, LocalOrdinal count, const std::function<void(const MaterialPoint&)>& visit) const = 0;
   virtual void commit(const double* displacement) = 0;

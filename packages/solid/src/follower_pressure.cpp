@@ -34,7 +34,8 @@ class FollowerPressure final : public Load {
       }
   }
 
-  void add_jacobian(double time, const Vector& local_displacement, Matrix& matrix, std::optional<StepFailure>& failure) const override {
+  void add_jacobian(double time, const Vector& local_displacement, Matrix& matrix, std::optional<StepFailure>& failure,
+                    double factor) const override {
     const Mesh& mesh = *bodies_->mesh();
     const HostReadView u(local_displacement);
     const NodalSparsity::Values values = bodies_->sparsity().open(matrix);
@@ -43,7 +44,7 @@ class FollowerPressure final : public Load {
       const std::size_t nodes = side.nodes.size();
       for (const SidePoint& point : *side.rule) {
         const SidePosition current = side.at(point, mesh, u.data());
-        const double p = point.weight * pressure(time, side, point, failure);
+        const double p = factor * point.weight * pressure(time, side, point, failure);
         for (std::size_t b = 0; b < nodes; ++b) {
           const Eigen::Matrix3d change = change_of_area(point, current, b);
           for (std::size_t a = 0; a < nodes; ++a) {

@@ -43,7 +43,8 @@ class KernelBlock final : public ElementBlock {
     }
   }
 
-  void add_stiffness(const double* displacement, const NodalSparsity::Values& matrix, std::optional<StepFailure>& failure) const override {
+  void add_stiffness(const double* displacement, const NodalSparsity::Values& matrix, double factor,
+                     std::optional<StepFailure>& failure) const override {
     count_history_evaluation();
     for (LocalOrdinal element = 0; element < context_.block.size(); ++element) {
       const LocalOrdinal* node = context_.block.nodes(element);
@@ -58,7 +59,7 @@ class KernelBlock final : public ElementBlock {
         for (int i = 0; i < dimension; ++i) {
           double* row = matrix.row(dimension * node[a] + i);
           for (int b = 0; b < nodes; ++b)
-            for (int k = 0; k < dimension; ++k) row[position[a * nodes + b] + k] += stiffness[dimension * a + i][Kernel::Tangent::column(b, k)];
+            for (int k = 0; k < dimension; ++k) row[position[a * nodes + b] + k] += factor * stiffness[dimension * a + i][Kernel::Tangent::column(b, k)];
         }
       }
     }

@@ -48,12 +48,13 @@ class SpaceMoment final : public Load {
     for (int i = 0; i < 3; ++i) r.data()[first_dof() + i] -= force.value[i] / point_.arm;
   }
 
-  void add_jacobian(double time, const Vector& local_displacement, Matrix& matrix, std::optional<StepFailure>& failure) const override {
+  void add_jacobian(double time, const Vector& local_displacement, Matrix& matrix, std::optional<StepFailure>& failure,
+                    double factor) const override {
     if (!is_owned()) return;
     const OfRotation force = generalised(time, local_displacement, failure);
     const NodalSparsity::Values values = bodies_->sparsity().open(matrix);
     for (int i = 0; i < 3; ++i)
-      for (int k = 0; k < 3; ++k) values.row(first_dof() + i)[position_ + k] -= force.gradient[k][i] / (point_.arm * point_.arm);
+      for (int k = 0; k < 3; ++k) values.row(first_dof() + i)[position_ + k] -= factor * force.gradient[k][i] / (point_.arm * point_.arm);
     values.close();
   }
 

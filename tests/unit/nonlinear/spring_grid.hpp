@@ -122,11 +122,11 @@ class Springs : public Contribution {
     });
   }
 
-  void add_jacobian(const Configuration& at, Matrix& jacobian, std::optional<StepFailure>& failure) override {
+  void add_jacobian(const Configuration& at, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>& failure) override {
     for_each(at, failure, [&](int a, int b, const auto& D, double e, double L2) {
       for (int i = 0; i < 2; ++i)
         for (int j = 0; j < 2; ++j) {
-          const double value = stiffness_ * ((i == j ? e : 0.0) + D[i] * D[j] / L2), minus = -value;
+          const double value = weights.displacement * stiffness_ * ((i == j ? e : 0.0) + D[i] * D[j] / L2), minus = -value;
           const GlobalOrdinal own = grid_->dof(a, j), other = grid_->dof(b, j);
           jacobian.sumIntoGlobalValues(grid_->dof(a, i), 1, &value, &own);
           jacobian.sumIntoGlobalValues(grid_->dof(a, i), 1, &minus, &other);
@@ -168,7 +168,7 @@ class EdgeLoad : public Contribution {
       if (node / grid_->nx() == grid_->ny() - 1)
         for (int i = 0; i < 2; ++i) residual.sumIntoGlobalValue(grid_->dof(node, i), -at.time * force_[i]);
   }
-  void add_jacobian(const Configuration&, Matrix&, std::optional<StepFailure>&) override {}
+  void add_jacobian(const Configuration&, const JacobianWeights&, Matrix&, std::optional<StepFailure>&) override {}
 
  private:
   std::shared_ptr<const SpringGrid> grid_;
@@ -188,7 +188,7 @@ class Brittle : public Contribution {
       if ((std::abs(now(i, 0) - then(i, 0)) > reach_ || std::abs(now(i, 0)) > limit_) && !failure)
         failure = StepFailure(FailureKind::material, "too far at once");
   }
-  void add_jacobian(const Configuration&, Matrix&, std::optional<StepFailure>&) override {}
+  void add_jacobian(const Configuration&, const JacobianWeights&, Matrix&, std::optional<StepFailure>&) override {}
   void commit(const Configuration& at) override {
     Tpetra::deep_copy(committed, at.displacement);
     times.push_back(at.time);

@@ -10,9 +10,9 @@ void BulkContribution::add_residual(const Configuration& at, Vector& residual, s
   bodies_->add_internal_force(at.local_displacement, residual, failure);
 }
 
-void BulkContribution::add_jacobian(const Configuration& at, Matrix& jacobian, std::optional<StepFailure>& failure) {
+void BulkContribution::add_jacobian(const Configuration& at, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>& failure) {
   const auto timer = count("bulk");
-  bodies_->add_stiffness(at.local_displacement, jacobian, failure);
+  bodies_->add_stiffness(at.local_displacement, jacobian, failure, weights.displacement);
 }
 
 LoadContribution::LoadContribution(std::string name, std::unique_ptr<Load> load, const Timers& timers)
@@ -23,10 +23,10 @@ void LoadContribution::add_residual(const Configuration& at, Vector& residual, s
   load_->add_residual(at.time, at.local_displacement, residual, failure);
 }
 
-void LoadContribution::add_jacobian(const Configuration& at, Matrix& jacobian, std::optional<StepFailure>& failure) {
+void LoadContribution::add_jacobian(const Configuration& at, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>& failure) {
   if (!load_->follows()) return;
   const auto timer = count("loads");
-  load_->add_jacobian(at.time, at.local_displacement, jacobian, failure);
+  load_->add_jacobian(at.time, at.local_displacement, jacobian, failure, weights.displacement);
 }
 
 }  // namespace mortise

@@ -40,7 +40,7 @@ class BulkContribution final : public CountedContribution {
   BulkContribution(std::shared_ptr<Bodies> bodies, const Timers& timers);
   Kind kind() const override { return Kind::internal; }
   void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) override;
-  void add_jacobian(const Configuration& at, Matrix& jacobian, std::optional<StepFailure>& failure) override;
+  void add_jacobian(const Configuration& at, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>& failure) override;
   void commit(const Configuration& at) override { bodies_->commit(at.local_displacement); }
 
  private:
@@ -53,7 +53,7 @@ class LoadContribution final : public CountedContribution {
   LoadContribution(std::string name, std::unique_ptr<Load> load, const Timers& timers);
   Kind kind() const override { return Kind::external; }
   void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) override;
-  void add_jacobian(const Configuration& at, Matrix& jacobian, std::optional<StepFailure>& failure) override;
+  void add_jacobian(const Configuration& at, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>& failure) override;
 
  private:
   std::unique_ptr<Load> load_;

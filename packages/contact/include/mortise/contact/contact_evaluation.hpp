@@ -34,6 +34,13 @@ struct ContactNorms {
   int changed = 0;         ///< nodes whose state is not the one they are compared with
 };
 
+/// The mortar matrices of a pair. With the values u of a field at nodes, (D u - M u)_j is the weighted jump of the field from the master to slave node
+/// j; a flux q_j across the interface stands in the rows of the nodes as D^T q - M^T q. Rows of D and of M have the same sum.
+struct MortarMatrices {
+  RCP<const Matrix> D;  ///< [slave nodes with a multiplier x nodes]
+  RCP<const Matrix> M;  ///< likewise
+};
+
 /// The integrals of all pairs at a displacement: D, M, gaps, normals, slips. A function of the displacement and of the history alone. Collective in
 /// all members.
 class ContactEvaluation {
@@ -42,6 +49,8 @@ class ContactEvaluation {
   ContactLaws laws(const Vector& z) const;
   /// r += f_c(d, z) on the owned dofs.
   void add_force(const Vector& z, Vector& r) const;
+  /// D and M of a pair, which couple other fields than displacements too. Rows are on the rank that owns the node, columns by the ids of nodes.
+  MortarMatrices mortar_matrices(std::size_t pair) const;
   /// The parts of z across the normals, of pairs with friction; 0 elsewhere.
   RCP<Vector> shear_tractions(const Vector& z) const;
   /// The same integrals with a history that differs in what ContactSystem::augment() and allow_overlap() change.

@@ -1,8 +1,9 @@
 #pragma once
-// What may add to the residual of momentum and to its Jacobian.
+// What may add to the residual and to its Jacobian.
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "mortise/core/dependence.hpp"
 #include "mortise/core/error.hpp"
@@ -10,14 +11,30 @@
 
 namespace mortise {
 
-/// Where a residual is evaluated.
+/// Where a residual is evaluated. The dofs are the unknowns of all fields, of which displacement is the first.
 struct Configuration {
-  double time;                       ///< pseudo-time
-  const Vector& displacement;        ///< on the owned dofs
-  const Vector& local_displacement;  ///< on owned dofs followed by ghosts
+  double time;                                 ///< pseudo-time
+  const Vector& displacement;                  ///< on the owned dofs
+  const Vector& local_displacement;            ///< on owned dofs followed by ghosts
+  const Vector* local_velocity = nullptr;      ///< likewise; null where there are no first time derivatives
+  const Vector* local_acceleration = nullptr;  ///< likewise; null where there are no second ones
 };
 
-/// A summand of the residual r = f_int - f_ext (+ f_c). The scene builds only those it names.
+/// What a Jacobian is: alpha dr/d(acceleration) + beta dr/d(velocity) + omega dr/d(displacement), as Thyra's model evaluators have it.
+struct JacobianWeights {
+  double acceleration = 0.0;  ///< alpha
+  double velocity = 0.0;      ///< beta
+  double displacement = 1.0;  ///< omega
+};
+
+/// Fields and time derivatives that a contribution knows.
+struct FieldUse {
+  std::vector<std::string> reads = {"displacement"};   ///< names of the fields that it depends on
+  std::vector<std::string> writes = {"displacement"};  ///< of those in whose rows it stands
+  int time_derivatives = 0;                            ///< the highest that it reads: 0, 1 or 2
+};
+
+/// A summand of the residual r(u, du/dt, d2u/dt2, t) = f_int - f_ext (+ f_c). The scene builds only those it names.
 /// Evaluation never changes committed state; failures are put into `failure` (first one kept), the caller agrees on them over the ranks.
 class Contribution {
  public:
@@ -27,14 +44,16 @@ class Contribution {
 
   virtual std::string name() const = 0;  ///< by which its calls are counted and timed
   virtual Kind kind() const = 0;         ///< for the norms of forces
+  /// What it reads and writes. A system refuses what it does not have.
+  virtual FieldUse uses() const { return {}; }
 
   /// residual += this contribution with its sign in r (external forces enter with a minus). Owned dofs; no communication.
   /// Internal forces depend on displacement and committed state, not on time. commit(at) does not change those at `at`.
   virtual void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) = 0;
 
-  /// jacobian += d(residual)/d(displacement). `jacobian` has the graph that the system was built with, or that and more (further columns come after
-  /// its own), and is open for local sums.
-  virtual void add_jacobian(const Configuration& at, Matrix& jacobian, std::optional<StepFailure>& failure) = 0;
+  /// jacobian += the derivatives of the residual with their weights. `jacobian` has the graph that the system was built with, or that and more
+  /// (further columns come after its own), and is open for local sums.
+  virtual void add_jacobian(const Configuration& at, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>& failure) = 0;
 
   /// The step that ended at `at` is accepted.
   virtual void commit(const Configuration&) {}

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mortise/contact/contact_system.hpp"
+#include "mortise/core/nodal_field.hpp"
 #include "mortise/core/timers.hpp"
 #include "mortise/core/types.hpp"
 #include "mortise/nonlinear/contribution.hpp"
@@ -15,6 +16,12 @@
 #include "mortise/nonlinear/system_linearisation.hpp"
 
 namespace mortise {
+
+/// A field whose unknowns stand among the dofs of a system.
+struct SystemField {
+  NodalField unknowns;
+  double size = 1.0;  ///< what deviations and increments of it are compared with: of displacements the size of the model
+};
 
 /// What a nonlinear system is made of. Shared by all groups that NOX clones.
 struct SystemParts {
@@ -31,13 +38,16 @@ struct SystemParts {
   /// is close to x as far as Newton's method is concerned. Collective; empty: never.
   std::function<RCP<Vector>(const SystemEvaluation& at)> better_start;
   double length = 1.0;  ///< size of the model
+  /// All fields if there is more than one: then norms are taken of each. The first, in whose units norms are given, has the size `length`.
+  std::vector<SystemField> fields;
 };
 
-/// F, J and the Newton step of x = (d, z). What it makes are values: functions of x, time and history. The stiffness scale s of the Dirichlet rows is
-/// the mean |diagonal| of the first stiffness that is assembled, and stays. Collective in all members but the accessors and views.
+/// F, J and the Newton step of x = (d, z). What it makes are values: functions of x, time and history. The stiffness scale s of a
+/// field's Dirichlet rows is the mean |diagonal| of the first stiffness that is assembled, and stays. Collective in all members but the accessors and views.
 class SemiSmoothSystem {
  public:
   /// Makes the map of x; the rest is made as it is needed. Collective.
+  /// @throws std::invalid_argument for contributions that know fields or time derivatives which the system has not, and dofs of no field
   SemiSmoothSystem(SystemParts parts, Timers timers);
 
   /// What it was made of.
@@ -52,8 +62,10 @@ class SemiSmoothSystem {
   RCP<const Vector> multipliers(const Vector& x) const;
   /// The same, to write to.
   RCP<Vector> multipliers(Vector& x) const;
-  /// s, a stiffness; 0 before the first evaluation.
+  /// s of the first field, a stiffness; 0 before the first evaluation.
   double stiffness_scale() const;
+  /// The largest displacement of x, or value of another field as if its size were that of the first.
+  double largest_displacement(const Vector& x) const;
 
   /// A state in which nothing has happened yet: no node is closed, slips are measured from x on. Throws StepFailure on every rank.
   AcceptedState initial_state(const Vector& x, double time = 0.0) const;
@@ -69,7 +81,7 @@ class SemiSmoothSystem {
   SystemEvaluation evaluate(const Vector& x, const StepContext& context) const;
   /// The same at the displacement of an accepted state, with multipliers z: internal forces that are known are taken.
   SystemEvaluation evaluate_at(const AcceptedState& state, const Vector& z, const StepContext& context) const;
-  /// max |d - prescribed| of x at a time, relative to the size of the model; costs next to nothing.
+  /// max |d - prescribed| of x at a time, relative to the size of the field; costs next to nothing.
   double prescribed_deviation(const Vector& x, double time) const;
   /// Multipliers follow what is covered since the iterate that was linearised last (ContactEvaluation::follow_cover()). Nothing if none changes.
   std::optional<SystemEvaluation> follow_cover(const SystemEvaluation& evaluation) const;

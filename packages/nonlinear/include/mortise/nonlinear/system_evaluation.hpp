@@ -18,12 +18,13 @@ struct EvaluatedSystem;
 const EvaluatedSystem& evaluated(const SystemEvaluation& evaluation);
 }  // namespace detail
 
-/// Sizes of the residual's blocks at one iterate, over all ranks; what the status tests and newton.csv show.
+/// Sizes of the residual's blocks at one iterate, over all ranks; what the status tests and newton.csv show. With several fields relative norms are
+/// the largest of all; absolute ones are in the units of the first, as if r were s times the size of each.
 struct ResidualNorms {
   double momentum = 0.0;                  ///< |r| on free dofs relative to max(|f_int|, |f_ext|, |f_c|, 1e-6 s |d|), reactions included
   double momentum_absolute = 0.0;         ///< |r| on free dofs [force]
   double round_off = 0.0;                 ///< what round-off alone leaves of momentum_absolute
-  double prescribed = 0.0;                ///< max |d - prescribed| and |d - what it follows|, relative to the size of the model
+  double prescribed = 0.0;                ///< max |d - prescribed| and |d - what it follows|, relative to the size of the field
   double gap = 0.0;                       ///< ContactNorms::gap
   double complementarity = 0.0;           ///< ContactNorms::complementarity
   double merit = 0.0;                     ///< (|r|^2 + |s (d - prescribed)|^2 + sum_j |A_j C_j|^2)^1/2, a force; infinite if that is not finite

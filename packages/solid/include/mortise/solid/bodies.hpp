@@ -71,8 +71,8 @@ class Bodies {
   /// that is empty; the sum is then meaningless.
   void add_internal_force(const Vector& local_displacement, Vector& residual, std::optional<StepFailure>& failure) const;
 
-  /// matrix += d f_int / d displacement. `matrix` has graph(), or more entries and more columns after its own.
-  void add_stiffness(const Vector& local_displacement, Matrix& matrix, std::optional<StepFailure>& failure) const;
+  /// matrix += factor d f_int / d displacement. `matrix` has graph(), or more entries and more columns after its own.
+  void add_stiffness(const Vector& local_displacement, Matrix& matrix, std::optional<StepFailure>& failure, double factor = 1.0) const;
 
   /// The step that ended at this displacement is accepted: material points with a history move on to it. Everything else that is asked for at a
   /// displacement takes it as the end of a step from the last committed one.

@@ -20,8 +20,9 @@ class Load {
   /// residual -= f_ext on owned dofs, at pseudo-time `time`.
   virtual void add_residual(double time, const Vector& local_displacement, Vector& residual, std::optional<StepFailure>& failure) const = 0;
 
-  /// matrix -= d f_ext / d displacement; `matrix` has the graph of the bodies. Does nothing for loads that do not follow the deformation.
-  virtual void add_jacobian(double, const Vector& /*local_displacement*/, Matrix& /*matrix*/, std::optional<StepFailure>& /*failure*/) const {}
+  /// matrix -= factor d f_ext / d displacement; `matrix` has the graph of the bodies. Does nothing for loads that do not follow the deformation.
+  virtual void add_jacobian(double /*time*/, const Vector& /*local_displacement*/, Matrix& /*matrix*/, std::optional<StepFailure>& /*failure*/,
+                            double /*factor*/ = 1.0) const {}
 
   /// Whether add_jacobian does something.
   virtual bool follows() const { return false; }
