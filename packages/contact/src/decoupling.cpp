@@ -111,7 +111,7 @@ Decoupling CondensedContact::decoupling() const {
   std::vector<std::pair<LocalOrdinal, SpatialMatrix>> eliminated;  // owned node, N_j
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
     const detail::PairEvaluation& pair = laws.contact->pairs[p];
-    if (pair.pair().formulation().elimination() != Elimination::momentum) continue;
+    if (!pair.pair().enforcement().needs_diagonal_coupling()) continue;
     const Map& nodes = pair.local_nodes();
     const InterfacePattern& pattern = *pair.geometry()->pattern;
     MultiVector fixed(pattern.local_nodes, static_cast<std::size_t>(dimension));

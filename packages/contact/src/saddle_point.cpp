@@ -58,7 +58,7 @@ SaddlePointBlocks ContactLinearisation::saddle_point_blocks() const {
       for (const LocalOrdinal node : pair.loaded_nodes(s))
         for (int i = 0; i < dimension; ++i)
           sizes[row_map->getLocalElement(dimension * pair.local_nodes().getGlobalElement(node) + i)] +=
-              static_cast<std::size_t>(pair.pair().variational() ? dimension : 1);
+              static_cast<std::size_t>(pair.pair().has_forces_of_gaps() ? dimension : 1);
   Matrix B(row_map, Teuchos::arrayViewFromVector(sizes));
   SaddlePointBlocks blocks;
   const std::size_t wider_d = tied.of_positions.is_null() ? 0 : tied.of_positions->getNodeMaxNumRowEntries(),
@@ -80,12 +80,12 @@ SaddlePointBlocks ContactLinearisation::saddle_point_blocks() const {
         const double pressure = pair.gap_pressure(s, unit);
         const auto insert = [&](GlobalOrdinal dof, double value) { B.insertGlobalValues(dof, 1, &value, &multiplier); };
         for (int i = 0; i < dimension; ++i) {
-          if (i != k && !pair.pair().variational()) continue;
+          if (i != k && !pair.pair().has_forces_of_gaps()) continue;
           insert(dimension * pair.slave_nodes()[s].id + i, row.D * through[i]);
           for (std::size_t c = 0; c < coupled.size(); ++c)
             if (loads(pair, s, coupled[c]))
               insert(dimension * nodes.getGlobalElement(coupled[c]) + i,
-                     row.coefficients[c] * through[i] - (pair.pair().variational() ? pressure * row.dgap[dimension * c + i] : 0.0));
+                     row.coefficients[c] * through[i] - (pair.pair().has_forces_of_gaps() ? pressure * row.dgap[dimension * c + i] : 0.0));
         }
       }
       // Each row is inserted whole: Tpetra looks it up once.
