@@ -1,4 +1,4 @@
-// Updates of augmented Lagrange: what they start from, how far the multipliers still are from their limit, and how fast they settle.
+// Updates of multipliers: what they start from, how far the multipliers still are from their limit, and how fast they settle.
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
@@ -12,35 +12,24 @@ namespace mortise {
 
 namespace detail {
 
-// Augmented Lagrange: a node moves by its force, z_n w, over a stiffness of the body. So its mean gap g / w answers to its traction by w / A_j times
-// h/E, and where it is tied by sigma / w too. An update divides g / w by 1 + eps kappa h/E with kappa = w / A_j + sigma E / (h w): eps makes up for a
-// small kappa.
-RegularisedStart PairEvaluation::start_from(std::size_t s, const SpatialVector& z) const {
-  RegularisedStart start{SpatialVector::Zero(dimension())};
-  if (pair_->friction() != nullptr) start.multiplier.tail(dimension() - 1) = frame(s).tangents * z;
-  if (pair_->regularisation()->augmentations == 0) return start;
-  start.multiplier[0] = z.dot(row(s).normal);
+NodeStart PairEvaluation::start_from(std::size_t s, const SpatialVector& z) const {
+  SpatialVector traction = SpatialVector::Zero(dimension());
+  traction[0] = z.dot(row(s).normal);
+  if (pair_->friction() != nullptr) traction.tail(dimension() - 1) = frame(s).tangents * z;
+  NodeStart start{pair_->enforcement().start_from(traction)};
   set_stiffness(s, start);
   return start;
 }
 
-void PairEvaluation::set_stiffness(std::size_t s, RegularisedStart& start) const {
-  if (!covered(s)) return;
-  const double covered = row(s).covered, tie = ties().compliance(s) * pair_->definition().youngs_modulus / (pair_->size() * covered);
-  start.stiffening = 1.0 / std::min(1.0, covered / slave_nodes()[s].weight + tie);
+void PairEvaluation::set_stiffness(std::size_t s, NodeStart& start) const {
+  if (covered(s)) start.stiffening = pair_->enforcement().stiffening(unloaded_node(s));
 }
 
-double PairEvaluation::distance_to_return_map(std::size_t s, const NodeMultiplier& multiplier, const RegularisedNode& node) const {
-  const bool has_friction = this->has_friction(s);
-  const double path = has_friction ? history().slip->paths[s] : 0.0;
-  const auto bound = [&](double pressure) { return pair_->friction()->bound(pressure, path); };
-  TangentVector slip = has_friction ? this->slip(s, multiplier) : TangentVector(TangentVector::Zero(dimension() - 1));
-  if (has_friction && slave_nodes()[s].partly_fixed()) slip[0] = 0.0;
-  const Frame in = frame(s);
-  SpatialVector distance = return_map(node, gap(s, multiplier), slip, row(s).covered, has_friction ? &bound : nullptr);
-  distance[0] -= multiplier.z.dot(in.normal);
-  if (has_friction)
-    distance.tail(dimension() - 1) -= in.tangents * multiplier.z;
+double PairEvaluation::distance_to_return_map(const ContactNode& node) const {
+  SpatialVector distance = pair_->enforcement().return_map(node);
+  distance[0] -= node.z.dot(node.normal);
+  if (node.friction)
+    distance.tail(dimension() - 1) -= node.frame().tangents * node.z;
   else
     distance.tail(dimension() - 1).setZero();
   return distance.norm();
@@ -48,17 +37,18 @@ double PairEvaluation::distance_to_return_map(std::size_t s, const NodeMultiplie
 
 double PairEvaluation::mismatch(std::size_t s, const NodeMultiplier& multiplier) const {
   if (!covered(s)) return multiplier.z.norm();
-  return distance_to_return_map(s, multiplier, regularised_node(s)) * row(s).covered / slave_nodes()[s].weight;
+  return distance_to_return_map(node(s, multiplier)) * row(s).covered / slave_nodes()[s].weight;
 }
 
 double PairEvaluation::change_of_update(std::size_t s, const NodeMultiplier& multiplier, double resolution) const {
   if (!covered(s)) return 0.0;
-  RegularisedNode node = regularised_node(s);
-  const Frame in = frame(s);
-  node.multiplier[0] = multiplier.z.dot(in.normal);
-  node.multiplier.tail(dimension() - 1) = in.tangents * multiplier.z;
-  const double change = distance_to_return_map(s, multiplier, node);
-  if (change <= resolution * std::max(node.normal_stiffness, node.tangential_stiffness)) return 0.0;
+  ContactNode node = this->node(s, multiplier);
+  NodeStart start = history().starts[s];
+  start.multiplier[0] = node.z.dot(node.normal);
+  start.multiplier.tail(dimension() - 1) = node.frame().tangents * node.z;
+  node.start = &start;
+  const double change = distance_to_return_map(node);
+  if (change <= resolution * pair_->enforcement().stiffness(node)) return 0.0;
   return change * row(s).covered / slave_nodes()[s].weight;
 }
 
@@ -70,8 +60,8 @@ double PairEvaluation::mismatch_of(double resolution) const {
   double largest = 0.0;
   for (std::size_t s = 0; s < rows().size(); ++s) {
     if (!covered(s)) continue;
-    const RegularisedNode node = regularised_node(s);
-    largest = std::max(largest, std::max(node.normal_stiffness, node.tangential_stiffness) * row(s).covered / slave_nodes()[s].weight);
+    const ContactNode node = unloaded_node(s);
+    largest = std::max(largest, pair_->enforcement().stiffness(node) * node.weight / node.full_weight);
   }
   return largest * resolution;
 }
@@ -112,7 +102,7 @@ Augmentation ContactSystem::augment(const ContactLaws& laws, int round) const {
   const detail::EvaluatedLaws& at = detail::evaluated(laws);
   const double resolution = model_->position_round_off();
   constexpr double known_to = 1e-9;  // of the largest multiplier of all pairs: to what Newton's method by default finds those of any pair
-  std::vector<std::pair<std::size_t, double>> changes;  // of the augmented Lagrange pairs
+  std::vector<std::pair<std::size_t, double>> changes;  // of the pairs with updates
   Augmentation result;
   double largest = 0.0;
   for (const auto& of_pair : at.multipliers)
@@ -120,7 +110,8 @@ Augmentation ContactSystem::augment(const ContactLaws& laws, int round) const {
   largest = model_->maximum(largest);
   for (std::size_t p = 0; p < at.contact->pairs.size(); ++p) {
     const detail::PairEvaluation& pair = at.contact->pairs[p];
-    if (!pair.pair().is_augmented()) continue;
+    const std::optional<MultiplierUpdates> updates = pair.pair().enforcement().updates();
+    if (!updates) continue;
     double change = 0.0, traction = 0.0;
     for (std::size_t s = 0; s < pair.rows().size(); ++s) {
       change = std::max(change, pair.change_of_update(s, at.multipliers[p][s], resolution));
@@ -129,15 +120,14 @@ Augmentation ContactSystem::augment(const ContactLaws& laws, int round) const {
     change = model_->maximum(change);
     traction = model_->maximum(traction);
     changes.emplace_back(p, change);
-    const Regularisation& regularisation = *pair.pair().regularisation();
     const std::optional<double> error = detail::error_of_multipliers(pair.history().settling, change, round);
-    if (error && *error <= std::max(regularisation.tolerance * traction, known_to * largest)) continue;
+    if (error && *error <= std::max(updates->tolerance * traction, known_to * largest)) continue;
     const double relative = error ? *error / traction : std::numeric_limits<double>::infinity();
-    result.exhausted |= round > regularisation.augmentations;
+    result.exhausted |= round > updates->most;
     if (!result.more || relative > result.error) {
       result.error = relative;
       result.change = change / traction;
-      result.tolerance = regularisation.tolerance;
+      result.tolerance = updates->tolerance;
       result.pair = pair.pair().definition().name;
     }
     result.more = true;

@@ -49,6 +49,29 @@ void refuse_unfit_fields(const NodalField& displacement, const Map& dofs, const 
   if (any != 0) throw std::invalid_argument(mine.empty() ? "contact: the field of displacements does not fit the system on another rank" : mine);
 }
 
+namespace {
+
+// A coupling and an enforcement that do not go together.
+void refuse_misfit(const ContactPair& pair, std::vector<Diagnostic>& diagnostics) {
+  const SharedCoupling coupling = pair.options.formulation.options->coupling();
+  const SharedEnforcement enforcement = pair.options.formulation.options->enforcement();
+  if (!coupling || !enforcement) {
+    diagnostics.push_back(
+        {pair.place, "the formulation has no coupling or no enforcement; Formulation::coupling() and enforcement() may not be null"});
+    return;
+  }
+  if (enforcement->needs_diagonal_coupling() && !coupling->has_dual_multipliers())
+    diagnostics.push_back({pair.place, fmt::format("the multipliers of {} cannot be condensed by the momentum of slave nodes, as D is not diagonal; "
+                                                   "take an enforcement that keeps them, or dual mortar",
+                                                   coupling->name())});
+  if (coupling->has_forces_of_gaps() && !enforcement->keeps_multipliers())
+    diagnostics.push_back({pair.place, fmt::format("the multipliers of {} have to stay unknowns, as its forces are the derivatives of gaps; take an "
+                                                   "enforcement that keeps them, or another coupling",
+                                                   coupling->name())});
+}
+
+}  // namespace
+
 void refuse_incomplete_pairs(const Communicator& comm, const std::vector<ContactPair>& pairs) {
   std::vector<Diagnostic> diagnostics;
   for (const ContactPair& pair : pairs) {
@@ -57,7 +80,10 @@ void refuse_incomplete_pairs(const Communicator& comm, const std::vector<Contact
           {pair.place, fmt::format("Young's modulus is {}; set ContactPair::youngs_modulus to that of the softer side, above 0: no node "
                                    "closes without",
                                    pair.youngs_modulus)});
-    if (!pair.options.formulation.options) diagnostics.push_back({pair.place, "the formulation is null; give a Formulation, as DualMortar"});
+    if (pair.options.formulation.options)
+      refuse_misfit(pair, diagnostics);
+    else
+      diagnostics.push_back({pair.place, "the formulation is null; give a Formulation, as DualMortar"});
     if (!pair.options.friction.options) diagnostics.push_back({pair.place, "the law of friction is null; give NoFriction for none"});
   }
   throw_if_any(comm, diagnostics);
@@ -70,9 +96,9 @@ void refuse_shared_nodes(const Map& owned_nodes, const MultiVector& reference, c
     slave.push_back(nodes_on_surface(nodes, pair.slave));
     master.push_back(nodes_on_surface(nodes, pair.master));
   }
-  const auto eliminated = [&](std::size_t p) { return pairs[p].options.formulation.options->elimination() == Elimination::momentum; };
+  const auto eliminated = [&](std::size_t p) { return pairs[p].options.formulation.options->enforcement()->needs_diagonal_coupling(); };
   bool kept = false;
-  for (const ContactPair& pair : pairs) kept |= pair.options.formulation.options->elimination() == Elimination::none;
+  for (const ContactPair& pair : pairs) kept |= pair.options.formulation.options->enforcement()->keeps_multipliers();
   std::vector<Diagnostic> diagnostics;
   const auto first_common = [&](const std::vector<char>& one, const std::vector<char>& other) -> std::optional<LocalOrdinal> {
     for (std::size_t node = 0; node < one.size(); ++node)

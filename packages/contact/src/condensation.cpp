@@ -98,7 +98,7 @@ void ContactLinearisation::add_stiffness(Matrix& system) const {
         for (Eigen::Index l = 0; l < masters; ++l) add(facet.master[l], facet.dM.row(j * masters + l), -1.0);
       }
     }
-    if (pair.pair().variational()) detail::add_gap_stiffness(laws, p, *scatter, system);
+    if (pair.pair().has_forces_of_gaps()) detail::add_gap_stiffness(laws, p, *scatter, system);
   }
   scatter->finish(system);
 }

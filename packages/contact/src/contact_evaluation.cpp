@@ -161,8 +161,9 @@ ContactNorms ContactLaws::norms(const ContactStates& last) const {
     // What the round-off of positions leaves of c g and c u; penalty weighs them with less, c eps / (c + eps). Augmented Lagrange is judged by the
     // return map, not by its C, in which gaps count for 1 + eps/c times less. By C, multipliers would be updated from gaps that Newton's method let
     // be.
-    mine[round_off] = std::max(mine[round_off], pair.is_augmented() ? of_pair.mismatch_of(model.position_round_off())
-                                                                    : model.position_round_off() * pair.definition().youngs_modulus / pair.size());
+    const bool updated = pair.enforcement().updates().has_value();
+    mine[round_off] = std::max(mine[round_off], updated ? of_pair.mismatch_of(model.position_round_off())
+                                                        : model.position_round_off() * pair.definition().youngs_modulus / pair.size());
     for (std::size_t s = 0; s < laws_->laws[p].size(); ++s) {
       if (model.multiplier_of[p][s] < 0) continue;
       const detail::NodeMultiplier& multiplier = laws_->multipliers[p][s];
@@ -172,10 +173,10 @@ ContactNorms ContactLaws::norms(const ContactStates& last) const {
       const double weight = pair.slave_nodes()[s].weight;
       own[squares] += std::pow(weight, 2) * C.squaredNorm();
       mine[traction] = std::max(mine[traction], multiplier.z.norm());
-      const bool exactly_closed = closed && !pair.regularisation();  // then C_n is the gap
-      mine[violation] = std::max(mine[violation], pair.is_augmented() ? std::max(of_pair.mismatch(s, multiplier), C.norm())
-                                                  : exactly_closed    ? C.tail(model.dimension - 1).norm()
-                                                                      : C.norm());
+      const bool exactly_closed = closed && pair.enforcement().holds_exactly();  // then C_n is the gap
+      mine[violation] = std::max(mine[violation], updated          ? std::max(of_pair.mismatch(s, multiplier), C.norm())
+                                                  : exactly_closed ? C.tail(model.dimension - 1).norm()
+                                                                   : C.norm());
       if (exactly_closed) mine[gap] = std::max(mine[gap], std::abs(of_pair.gap(s, multiplier)) / (weight * pair.size()));
       own[active] += closed;
       own[sticking] += law.state == ContactState::stick;

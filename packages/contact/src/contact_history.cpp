@@ -52,8 +52,7 @@ ContactHistory with_kinks_of_its_state(const std::shared_ptr<const ContactModel>
   AcceptedContact result = accepted_state(*contact, accepted->multipliers, multipliers, accepted->states, std::move(paths));
   for (std::size_t p = 0; p < kinks.size(); ++p) {
     result.pairs[p].nearest_facets = accepted->pairs[p].nearest_facets;
-    if (model->pairs[p]->is_augmented())
-      for (std::size_t s = 0; s < result.pairs[p].starts.size(); ++s) contact->pairs[p].set_stiffness(s, result.pairs[p].starts[s]);
+    for (std::size_t s = 0; s < result.pairs[p].starts.size(); ++s) contact->pairs[p].set_stiffness(s, result.pairs[p].starts[s]);
   }
   return ContactHistory(std::move(result));
 }
@@ -81,8 +80,7 @@ ContactHistory ContactSystem::initial_history(const NodalDisplacement& d) const 
   }
   AcceptedContact result = detail::accepted_state(*contact, none, multipliers, std::move(states), std::move(paths));
   for (std::size_t p = 0; p < model.pairs.size(); ++p)
-    if (model.pairs[p]->is_augmented())
-      for (std::size_t s = 0; s < result.pairs[p].starts.size(); ++s) contact->pairs[p].set_stiffness(s, result.pairs[p].starts[s]);
+    for (std::size_t s = 0; s < result.pairs[p].starts.size(); ++s) contact->pairs[p].set_stiffness(s, result.pairs[p].starts[s]);
   return ContactHistory(std::move(result));
 }
 

@@ -23,7 +23,7 @@ std::optional<std::size_t> ContactModel::second_pass(std::size_t pair) const {
 }
 
 bool ContactModel::keeps_multipliers() const {
-  return std::any_of(pairs.begin(), pairs.end(), [](const auto& pair) { return pair->formulation().elimination() == Elimination::none; });
+  return std::any_of(pairs.begin(), pairs.end(), [](const auto& pair) { return pair->enforcement().keeps_multipliers(); });
 }
 
 RCP<const MultiVector> ContactModel::positions(const NodalDisplacement& d) const {

@@ -119,7 +119,7 @@ Decoupling CondensedContact::decoupling() const {
   std::vector<std::pair<const LocalOrdinal*, SpatialMatrix>> eliminated;  // own rows, N_j
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
     const detail::PairEvaluation& pair = laws.contact->pairs[p];
-    if (pair.pair().formulation().elimination() != Elimination::momentum) continue;
+    if (!pair.pair().enforcement().needs_diagonal_coupling()) continue;
     const detail::EvaluatedContact& contact = *laws.contact;
     const InterfacePattern& pattern = *pair.geometry()->pattern;
     MultiVector fixed(pattern.local_nodes, static_cast<std::size_t>(dimension));

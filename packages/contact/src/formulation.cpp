@@ -8,29 +8,6 @@
 #include "mortise/contact/formulation/variational_mortar.hpp"
 
 namespace mortise {
-void NodeToSegment::describe(Parameters& parameters) {
-  parameters.add("passes", passes, {{"single", Passes::single}, {"two", Passes::two}},
-                 "whether only slave nodes are kept from penetrating, or master nodes in a second pass as well");
-}
-
-void Penalty::describe(Parameters& parameters) {
-  parameters.add(
-      "discretisation", discretisation,
-      {{"dual mortar", Coupling::dual_mortar}, {"standard mortar", Coupling::standard_mortar}, {"node to segment", Coupling::node_to_segment}},
-      "what tractions act through");
-  parameters.add("stiffness", normal,
-                 Says("traction per penetration, over Young's modulus of the softer side over the shortest slave facet").unit("-").above(0.0));
-  parameters.add("tangential stiffness", tangential, Says("the same per slip before sliding; default: `stiffness`").unit("-").above(0.0));
-}
-
-void AugmentedLagrange::describe(Parameters& parameters) {
-  Penalty::describe(parameters);
-  parameters.add(
-      "tolerance", tolerance,
-      Says("error of the multipliers over the largest one of the pair at which a step is done, as told from how they settle").unit("-").above(0.0));
-  parameters.add("augmentations", augmentations, Says("updates of the multipliers after which the step is undone").at_least(1));
-}
-
 const Registry<Formulation>& formulation_registry() {
   static const Registry<Formulation> registry = [] {
     Registry<Formulation> formulations;

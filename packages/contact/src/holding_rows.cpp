@@ -48,7 +48,7 @@ std::vector<HoldingRow::Wrench> wrenches(const std::vector<LocalOrdinal>& couple
 
 }  // namespace
 
-// A multiplier acts at the nodes m with c_jm; with variational mortar its normal part acts with -dg_j/dx_m instead.
+// A multiplier acts at the nodes m with c_jm; where forces are the gaps' derivatives its normal part acts with -dg_j/dx_m instead.
 std::vector<HoldingRow> holding_rows(const ContactLaws& laws, const MultiVector& places) {
   const detail::EvaluatedLaws& evaluated = detail::evaluated(laws);
   const detail::ContactModel& self = *evaluated.contact->model;
@@ -81,7 +81,7 @@ std::vector<HoldingRow> holding_rows(const ContactLaws& laws, const MultiVector&
       const auto along = [&](const SpatialVector& direction) {
         return [&](std::size_t c) { return SpatialVector((row.coefficients[c] + (coupled[c] == own ? row.D : 0.0)) * direction); };
       };
-      if (pair.pair().variational())
+      if (pair.pair().has_forces_of_gaps())
         add_row(false, [&](std::size_t c) { return SpatialVector(-Eigen::Map<const Eigen::VectorXd>(&row.dgap[dimension * c], dimension)); });
       else
         add_row(false, along(row.normal));
@@ -105,7 +105,7 @@ std::vector<SlidingNode> sliding_nodes(const ContactLaws& laws, const MultiVecto
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
     const detail::PairEvaluation& pair = evaluated.contact->pairs[p];
     const std::vector<detail::NodeMultiplier>& multipliers = evaluated.multipliers[p];
-    if (pair.pair().friction() == nullptr || pair.pair().regularisation()) continue;
+    if (pair.pair().friction() == nullptr || !pair.pair().enforcement().holds_exactly()) continue;
     const InterfacePattern& pattern = *pair.geometry()->pattern;
     MultiVector local(pattern.local_nodes, static_cast<std::size_t>(1 + self.dimension));
     local.doImport(places, *pattern.import, Tpetra::REPLACE);
@@ -162,7 +162,7 @@ std::vector<BearingNode> bearing_nodes(const ContactLaws& laws, const MultiVecto
       const auto against_gap = [&](std::size_t c) {
         return SpatialVector(-Eigen::Map<const Eigen::VectorXd>(&row.dgap[static_cast<std::size_t>(self.dimension) * c], self.dimension));
       };
-      node.normal = pair.pair().variational() ? wrenches(coupled, at, self.dimension, against_gap, largest) : along(row.normal);
+      node.normal = pair.pair().has_forces_of_gaps() ? wrenches(coupled, at, self.dimension, against_gap, largest) : along(row.normal);
       if (node.normal.empty()) continue;
       if (pair.pair().friction() != nullptr) node.friction = pair.pair().friction()->largest_ratio();
       const Frame in = pair.frame(s);

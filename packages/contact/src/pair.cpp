@@ -25,7 +25,7 @@ Pair::Pair(RCP<const Map> owned_nodes, RCP<const MultiVector> reference, RCP<con
     const auto first_fixed = std::find(node.fixed.begin(), node.fixed.end(), true);
     fixed_axes_.push_back(node.partly_fixed() ? static_cast<int>(first_fixed - node.fixed.begin()) : -1);
   }
-  regularisation_ = formulation().regularisation();
+  enforcement_ = pair_.options.formulation.options->enforcement();
   if (pair_.options.friction.options->acts()) friction_ = pair_.options.friction.options.get();
 }
 
@@ -46,13 +46,12 @@ void Pair::refuse_constant_out_of_range() const {
 }
 
 double Pair::complementarity_constant(std::size_t s) const {
-  constexpr double zone = 0.1;  // a contact zone that gives way as a whole, or yields, is that much softer than a facet
   const double facet = pair_.youngs_modulus / size_;
-  return pair_.options.complementarity_constant.value_or(regularisation_ ? zone * facet : facet) / slave_nodes()[s].weight;
+  return pair_.options.complementarity_constant.value_or(enforcement_->relative_constant() * facet) / slave_nodes()[s].weight;
 }
 
 bool Pair::covered(std::size_t s, const NodeRow& row) const {
-  const bool dual = pair_.options.mortar.coupling == Coupling::dual_mortar;  // else int phi_j N_j may be negative on a part of a quadratic facet
+  const bool dual = pair_.options.mortar.coupling->has_dual_multipliers();  // else int phi_j N_j may be negative on a part of a quadratic facet
   return slave_nodes()[s].carries_multiplier && (dual ? row.D : row.covered) > 0.0;
 }
 
@@ -62,7 +61,7 @@ PairHistory Pair::blank_history() const {
   PairHistory history;
   history.axes = fixed_axes_;
   if (corner_rule() == CornerRule::master_normal) history.kinks = interface_->find_kinks(*reference_, {}, {});
-  if (regularisation_) history.starts.assign(slave_nodes().size(), {SpatialVector::Zero(dimension_)});
+  if (enforcement_->starts_from_multipliers()) history.starts.assign(slave_nodes().size(), {SpatialVector::Zero(dimension_)});
   return history;
 }
 
@@ -87,7 +86,7 @@ std::shared_ptr<const PairGeometry> Pair::evaluate(const MultiVector& x, const P
     if (!failure) failure = frozen_failure_;
     return moved(x, history);
   }
-  const bool reference = uses_reference(), slopes = derivatives || reference || variational();
+  const bool reference = uses_reference(), slopes = derivatives || reference || has_forces_of_gaps();
   const auto geometry = std::make_shared<PairGeometry>();
   geometry->pattern = interface_->pattern();
   const InterfacePattern& pattern = *geometry->pattern;
@@ -105,7 +104,7 @@ std::shared_ptr<const PairGeometry> Pair::evaluate(const MultiVector& x, const P
         geometry->couplings, slave_nodes(), [&](std::size_t s) { return covered(s, (*rows)[s]); }, *pattern.local_nodes, pair_.options.full_cover,
         size_ / pair_.youngs_modulus, dimension_, slopes && !reference);
   geometry->ties = ties;
-  if (regularisation_ && derivatives && !reference) measure_covered(pattern, geometry->couplings, *rows);
+  if (enforcement_->depends_on_weight() && derivatives && !reference) measure_covered(pattern, geometry->couplings, *rows);
   geometry->rows = rows;
   if (reference) {
     freeze(pattern, *rows);
@@ -132,7 +131,7 @@ std::vector<NodeRow> Pair::rows_of(const InterfacePattern& pattern, const std::v
   for (std::size_t s = 0; s < slaves; ++s) {
     const std::vector<LocalOrdinal>& coupled = pattern.coupled[s];
     NodeRow& row = rows[s];
-    if (variational()) row.opening = SpatialVector::Zero(dimension_);
+    if (has_forces_of_gaps()) row.opening = SpatialVector::Zero(dimension_);
     row.coefficients.assign(coupled.size(), 0.0);
     row.dgap.assign(derivatives ? dimension_ * coupled.size() : 0, 0.0);
     row.dnormal.setZero(dimension_, derivatives ? dimension_ * static_cast<Eigen::Index>(coupled.size()) : 0);
@@ -154,7 +153,7 @@ std::vector<NodeRow> Pair::rows_of(const InterfacePattern& pattern, const std::v
       for (std::size_t c = 0; c < facet->columns.size(); ++c)
         for (int i = 0; i < dimension_; ++i)
           row.dgap[dimension_ * place(facet->columns[c]) + i] += facet->dgap(j, dimension_ * static_cast<Eigen::Index>(c) + i);
-      if (variational())  // master nodes are the last columns
+      if (has_forces_of_gaps())  // master nodes are the last columns
         for (std::size_t c = facet->columns.size() - facet->master.size(); c < facet->columns.size(); ++c)
           row.opening += facet->dgap.block(j, dimension_ * static_cast<Eigen::Index>(c), 1, dimension_).transpose();
     }
@@ -190,14 +189,13 @@ void Pair::measure_covered(const InterfacePattern& pattern, const std::vector<Fa
 // the transpose of the contact force of z_n n_j, so that the condensed operator of a symmetric bulk is symmetric. With standard weights
 // it is the linearisation of the weighted gap.
 void Pair::freeze(const InterfacePattern& pattern, std::vector<NodeRow>& rows) const {
-  const MortarOptions& options = pair_.options.mortar;
-  const bool dual = options.coupling != Coupling::dual_mortar || options.gap_weighting == GapWeighting::dual;
+  const bool transpose = pair_.options.mortar.weighs_gaps_as_multipliers();
   for (std::size_t s = 0; s < rows.size(); ++s) {
     NodeRow& row = rows[s];
     row.dnormal.setZero();
-    if (variational()) row.opening = row.covered * row.normal;
-    if (regularisation_) row.dcovered.assign(row.dgap.size(), 0.0);
-    if (!dual) continue;
+    if (has_forces_of_gaps()) row.opening = row.covered * row.normal;
+    if (enforcement_->depends_on_weight()) row.dcovered.assign(row.dgap.size(), 0.0);
+    if (!transpose) continue;
     const std::vector<LocalOrdinal>& coupled = pattern.coupled[s];
     for (std::size_t c = 0; c < coupled.size(); ++c) {
       const double own = coupled[c] == slave_nodes()[s].local_node ? row.D : 0.0;

@@ -23,12 +23,9 @@ class Pair {
   /// 2 or 3.
   int dimension() const { return dimension_; }
   const ContactPair& definition() const { return pair_; }
-  const Formulation& formulation() const { return *pair_.options.formulation.options; }
-  const std::optional<Regularisation>& regularisation() const { return regularisation_; }
-  /// Whether multipliers are updated after a Newton solve.
-  bool is_augmented() const { return regularisation_ && regularisation_->augmentations > 0; }
+  const Enforcement& enforcement() const { return *enforcement_; }
   /// Whether normal forces are the gaps' derivatives; then rows hold these after each evaluation.
-  bool variational() const { return formulation().coupling() == Coupling::variational_mortar; }
+  bool has_forces_of_gaps() const { return pair_.options.mortar.coupling->has_forces_of_gaps(); }
   /// Null: the pair has no friction.
   const FrictionLaw* friction() const { return friction_; }
   const MortarInterface& interface() const { return *interface_; }
@@ -39,12 +36,12 @@ class Pair {
   bool uses_reference() const { return pair_.options.geometry == ContactGeometry::reference; }
   /// Element size h of the scaling and of the start rule.
   double size() const { return size_; }
-  /// c_n of slave node s: unless given E / (h A_j), of regularised conditions a tenth of that.
+  /// c_n of slave node s: unless given E / (h A_j) times Enforcement::relative_constant().
   double complementarity_constant(std::size_t s) const;
   /// Whether the multiplier of slave node s is condensed before those of corners, whose momentum rows it stands in: that of a mid-side node.
-  bool before_corners(std::size_t s) const { return slave_nodes()[s].middle && formulation().elimination() == Elimination::momentum; }
+  bool before_corners(std::size_t s) const { return slave_nodes()[s].middle && enforcement_->needs_diagonal_coupling(); }
   /// Whether hardly covered nodes are tied.
-  bool has_ties() const { return pair_.options.full_cover > 0.0 && (!regularisation_ || regularisation_->augmentations > 0); }
+  bool has_ties() const { return pair_.options.full_cover > 0.0 && enforcement_->takes_ties(); }
   /// Whether slave node s has a multiplier and its function anything to act on: D_jj > 0, of standard multipliers sum_k D_jk. What is round-off of a
   /// facet that is not covered is no part of it: see FacetMoments.
   bool covered(std::size_t s, const NodeRow& row) const;
@@ -60,7 +57,7 @@ class Pair {
   /// Evaluates at x, the positions of the last search(). Failures of this rank go to `failure`.
   std::shared_ptr<const PairGeometry> evaluate(const MultiVector& x, const PairHistory& history, bool derivatives,
                                                std::optional<StepFailure>& failure) const;
-  /// Variational mortar: second derivatives of sum_j z_n,j g_j. None of frozen geometry.
+  /// Where normal forces are the gaps' derivatives: second derivatives of sum_j z_n,j g_j. None of frozen geometry.
   /// @param x  [owned nodes x dim] where `geometry` was evaluated, with `history`
   std::vector<GapCurvature> gap_curvatures(const MultiVector& x, const PairGeometry& geometry, const PairHistory& history,
                                            const std::vector<double>& pressures) const;
@@ -85,7 +82,7 @@ class Pair {
   std::unique_ptr<MortarInterface> interface_;
   MultiplierTies untied_;
   const FrictionLaw* friction_ = nullptr;
-  std::optional<Regularisation> regularisation_;
+  SharedEnforcement enforcement_;
   std::vector<int> fixed_axes_;  ///< [slave nodes] first component that is prescribed; -1: none
   double size_ = 1.0;
   int dimension_ = 2;

@@ -9,12 +9,11 @@ namespace mortise::detail {
 
 SpatialVector PairEvaluation::resultant(std::size_t s, const SpatialVector& z) const {
   const SpatialVector coupled = row(s).covered * coupled_part(s, z);
-  return pair_->variational() ? SpatialVector(coupled + gap_pressure(s, z) * row(s).opening) : coupled;
+  return pair_->has_forces_of_gaps() ? SpatialVector(coupled + gap_pressure(s, z) * row(s).opening) : coupled;
 }
 
 bool PairEvaluation::closed(std::size_t s, const NodeMultiplier& multiplier) const {
-  if (pair_->regularisation()) return complementarity(s, multiplier).state != ContactState::open;
-  return covered(s) && multiplier.z.dot(row(s).normal) - pair_->complementarity_constant(s) * gap(s, multiplier) > 0.0;
+  return covered(s) && pair_->enforcement().is_closed(node(s, multiplier));
 }
 
 double PairEvaluation::gap(std::size_t s, const NodeMultiplier& multiplier) const {
@@ -44,47 +43,38 @@ bool PairEvaluation::has_friction(std::size_t s) const {
   return history().slip != nullptr && !history().slip->nodes[s].empty() && fixed < dimension() - 1;
 }
 
-RegularisedNode PairEvaluation::regularised_node(std::size_t s) const {
-  const double scale = pair_->definition().youngs_modulus / pair_->size() * history().starts[s].stiffening * history().settling.hardening,
-               weight = slave_nodes()[s].weight;
-  return {pair_->regularisation()->normal * scale, pair_->regularisation()->tangential * scale, pair_->complementarity_constant(s) * weight, weight,
-          history().starts[s].multiplier};
+ContactNode PairEvaluation::node(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* missing_bound) const {
+  const SlaveNode& slave = slave_nodes()[s];
+  ContactNode node;
+  node.z = multiplier.z;
+  node.normal = row(s).normal;
+  node.axis = history().axes[s];
+  node.gap = gap(s, multiplier);
+  node.weight = row(s).covered;
+  node.full_weight = slave.weight;
+  node.constant = pair_->complementarity_constant(s);
+  node.youngs_modulus = pair_->definition().youngs_modulus;
+  node.size = pair_->size();
+  node.tie = ties().compliance(s);
+  if (has_friction(s)) {
+    node.friction = NodeFriction{pair_->friction(), history().slip->paths[s], missing_bound};
+    node.holds_first_tangent = slave.partly_fixed();
+    node.slip = slip(s, multiplier);
+    if (node.holds_first_tangent) node.slip[0] = 0.0;
+  } else {
+    node.slip = TangentVector::Zero(dimension() - 1);
+  }
+  if (!history().starts.empty()) node.start = &history().starts[s];
+  node.hardening = history().settling.hardening;
+  return node;
 }
 
 Complementarity PairEvaluation::law_of(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* missing_bound) const {
-  const NodeRow& row = this->row(s);
-  const SpatialVector& z = multiplier.z;
-  const SlaveNode& node = slave_nodes()[s];
-  const auto fixed = std::count(node.fixed.begin(), node.fixed.end(), true);
-  const bool has_friction = this->has_friction(s);
-  const auto without_fixed = [&](Complementarity law, const Frame& in) {
-    if (has_friction && fixed > 0 && law.state != ContactState::open) hold_tangent(law, in, z, 0);
-    return law;
-  };
-  const auto bound = [&](double pressure) {
-    const double path = history().slip->paths[s];
-    if (missing_bound != nullptr) *missing_bound = pair_->friction()->missing_bound(pressure, path);
-    return pair_->friction()->bound(pressure, path);
-  };
-  // What the law of friction sees of slip and traction.
-  TangentVector slip = this->slip(s, multiplier);
-  const double gap = this->gap(s, multiplier);
-  SpatialVector borne = z;
-  if (pair_->regularisation()) {
-    if (!covered(s)) return open_node(z);
-    const Frame in = frame(s);
-    if (has_friction && fixed > 0) slip[0] = 0.0;
-    return without_fixed(regularised(regularised_node(s), gap, slip, row.covered, in, z, has_friction ? &bound : nullptr), in);
-  }
-  const double c = pair_->complementarity_constant(s);
-  if (!closed(s, multiplier)) return open_node(z);
-  const Frame in = frame(s);
-  if (!has_friction) return closed_node(c, gap, in, z);
-  if (fixed > 0) {
-    slip[0] = 0.0;
-    borne -= in.tangents.row(0).dot(z) * in.tangents.row(0).transpose();
-  }
-  return without_fixed(with_friction(c, c, gap, slip, in, borne, bound(z.dot(row.normal) - c * gap)), in);
+  if (!covered(s)) return open_node(multiplier.z);
+  const ContactNode node = this->node(s, multiplier, missing_bound);
+  Complementarity law = pair_->enforcement().law(node);
+  if (node.holds_first_tangent && law.state != ContactState::open) hold_tangent(law, node.frame(), node.z, 0);
+  return law;
 }
 
 SpatialMatrix PairEvaluation::shift_factor(const Complementarity& law, std::size_t s) const {
@@ -100,7 +90,7 @@ SpatialVector PairEvaluation::constraint_gradient(const Complementarity& law, st
   const auto column = static_cast<Eigen::Index>(entry);
   SpatialVector gradient = law.gap_factor * row.dgap[entry] + law.normal_factor * row.dnormal.col(column);
   if (law.slip_factor.size() > 0) gradient.tail(dimension() - 1) += law.slip_factor * geometry_->slips[s].dslip.col(column);
-  if (pair_->regularisation()) gradient += law.weight_factor * row.dcovered[entry];
+  if (!row.dcovered.empty()) gradient += law.weight_factor * row.dcovered[entry];
   if (multiplier.shift.size() == 0) return gradient;
   gradient += law.gap_factor * multiplier.shift.dot(row.dnormal.col(column));
   if (law.slip_factor.size() == 0) return gradient;

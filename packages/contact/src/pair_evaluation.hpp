@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "mortise/contact/complementarity.hpp"
-#include "mortise/contact/regularised.hpp"
 #include "pair.hpp"
 
 namespace mortise::detail {
@@ -45,12 +44,12 @@ class PairEvaluation {
     return row(s).coefficients[c] + (coupled_nodes(s)[c] == slave_nodes()[s].local_node ? row(s).D : 0.0);
   }
 
-  /// The force of a multiplier z of slave node s is  c_m z' - p dg/dx_m  at the node m. With variational mortar z' = z - (z . n) n and p = z . n.
-  /// Else z' = z and p = 0.
+  /// The force of a multiplier z of slave node s is  c_m z' - p dg/dx_m  at the node m. Where normal forces are the gaps' derivatives,
+  /// z' = z - (z . n) n and p = z . n. Else z' = z and p = 0.
   SpatialVector coupled_part(std::size_t s, const SpatialVector& z) const {
-    return pair_->variational() ? SpatialVector(z - z.dot(row(s).normal) * row(s).normal) : z;
+    return pair_->has_forces_of_gaps() ? SpatialVector(z - z.dot(row(s).normal) * row(s).normal) : z;
   }
-  double gap_pressure(std::size_t s, const SpatialVector& z) const { return pair_->variational() ? z.dot(row(s).normal) : 0.0; }
+  double gap_pressure(std::size_t s, const SpatialVector& z) const { return pair_->has_forces_of_gaps() ? z.dot(row(s).normal) : 0.0; }
   /// The sum of that force over the slave side.
   SpatialVector resultant(std::size_t s, const SpatialVector& z) const;
 
@@ -63,15 +62,14 @@ class PairEvaluation {
   /// The frame of slave node s. Tangents of partly fixed nodes are the fixed directions first.
   Frame frame(std::size_t s) const { return make_frame(row(s).normal, history().axes[s]); }
   bool covered(std::size_t s) const { return pair_->covered(s, row(s)); }
-  /// Closed: covered and z_n - c_n (g + n . q) > 0, or what a regularised condition has in its place.
+  /// Closed: covered, and the enforcement takes it to be closed.
   bool closed(std::size_t s, const NodeMultiplier& multiplier) const;
   /// z_n above which a covered node without history is closed: c_n g.
   double closing_pressure(std::size_t s) const { return pair_->complementarity_constant(s) * own_gap(s); }
-  /// Whether the multiplier of node s is eliminated by its conditions and not by its momentum. So are those of regularised conditions, and that of a
-  /// tied node of which so little is covered, D_jj < (1 - w) A_j, that its tie is the larger pivot.
+  /// Whether the multiplier of node s is eliminated by its conditions and not by its momentum. So it is where the enforcement has it so, and
+  /// that of a tied node of which so little is covered, D_jj < (1 - w) A_j, that its tie is the larger pivot.
   bool is_eliminated_by_law(std::size_t s) const {
-    return pair_->formulation().elimination() == Elimination::law ||
-           row(s).D * pair_->size() < ties().compliance(s) * pair_->definition().youngs_modulus;
+    return !pair_->enforcement().needs_diagonal_coupling() || row(s).D * pair_->size() < ties().compliance(s) * pair_->definition().youngs_modulus;
   }
   /// Slipped in all accepted steps and in this one [length]. Friction only.
   double slip_path(std::size_t s, ContactState state) const;
@@ -84,7 +82,7 @@ class PairEvaluation {
   /// Derivative of C of node s with respect to q_j: C sees g + n . q and u - (T q - T^old q^old).
   SpatialMatrix shift_factor(const Complementarity& law, std::size_t s) const;
 
-  /// Augmented Lagrange, as a force over A_j: how far z of node s is from what its conditions give.
+  /// Of pairs with updates, as a force over A_j: how far z of node s is from what its conditions give.
   double mismatch(std::size_t s, const NodeMultiplier& multiplier) const;
   /// The same with lambda = z, what an update and the next solve begin with: eps g / w of a closed node, eps u / w of one that sticks. Less than
   /// `resolution` in gap or slip [length] is none.
@@ -93,10 +91,10 @@ class PairEvaluation {
   double traction(std::size_t s, const NodeMultiplier& multiplier) const;
   /// The largest of mismatch() that a gap or slip of `resolution` [length] makes.
   double mismatch_of(double resolution) const;
-  /// What conditions start from that take over the multiplier z of node s. Regularised pairs only.
-  RegularisedStart start_from(std::size_t s, const SpatialVector& z) const;
-  /// What the cover says of stiffening. Augmented Lagrange.
-  void set_stiffness(std::size_t s, RegularisedStart& start) const;
+  /// What conditions start from that take over the multiplier z of node s. Where they start from multipliers.
+  NodeStart start_from(std::size_t s, const SpatialVector& z) const;
+  /// What the cover says of stiffening.
+  void set_stiffness(std::size_t s, NodeStart& start) const;
 
   /// What later slips are measured against from this state on. Friction only.
   /// @param multipliers  [slave nodes]
@@ -110,12 +108,13 @@ class PairEvaluation {
   std::vector<int> choose_axes() const;
 
  private:
-  /// Of a regularised node that is covered.
-  RegularisedNode regularised_node(std::size_t s) const;
+  /// Of a node that is covered.
+  ContactNode node(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* missing_bound = nullptr) const;
+  ContactNode unloaded_node(std::size_t s) const { return node(s, SpatialVector(SpatialVector::Zero(dimension()))); }
   /// Whether node s bears shear traction, if it is closed.
   bool has_friction(std::size_t s) const;
   /// How far z is from the return map from lambda; in all of |z - z'|.
-  double distance_to_return_map(std::size_t s, const NodeMultiplier& multiplier, const RegularisedNode& node) const;
+  double distance_to_return_map(const ContactNode& node) const;
   /// C and its linearisation at fixed q.
   Complementarity law_of(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* missing_bound) const;
 

@@ -23,8 +23,8 @@ struct NodeRow {
   std::vector<double> coefficients;                                                   ///< [coupled nodes] c_jm, 0 at j itself
   PositionGradient dgap;                                                              ///< empty without derivatives
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 3> dnormal;  ///< [dim x dim coupled nodes]; empty without derivatives
-  PositionGradient dcovered;                                                          ///< regularised pairs only
-  SpatialVector opening;  ///< derivative of the gap by a translation of the master; variational mortar only
+  PositionGradient dcovered;                                                          ///< where the law depends on it
+  SpatialVector opening;  ///< derivative of the gap by a translation of the master; where forces are the gaps' derivatives
 };
 
 /// Weighted slip u_j since the accepted state.

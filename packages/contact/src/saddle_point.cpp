@@ -59,7 +59,7 @@ SaddlePointBlocks ContactLinearisation::saddle_point_blocks() const {
       for (const LocalOrdinal node : pair.loaded_nodes(s))
         for (int i = 0; i < dimension; ++i)
           if (const GlobalOrdinal id = contact.id(p, node, i); id != NodalField::none)
-            sizes[row_map->getLocalElement(id)] += static_cast<std::size_t>(pair.pair().variational() ? dimension : 1);
+            sizes[row_map->getLocalElement(id)] += static_cast<std::size_t>(pair.pair().has_forces_of_gaps() ? dimension : 1);
   }
   Matrix B(row_map, Teuchos::arrayViewFromVector(sizes));
   SaddlePointBlocks blocks;
@@ -83,12 +83,12 @@ SaddlePointBlocks ContactLinearisation::saddle_point_blocks() const {
           if (const GlobalOrdinal id = contact.id(p, node, component); id != NodalField::none) B.insertGlobalValues(id, 1, &value, &multiplier);
         };
         for (int i = 0; i < dimension; ++i) {
-          if (i != k && !pair.pair().variational()) continue;
+          if (i != k && !pair.pair().has_forces_of_gaps()) continue;
           insert(pair.slave_nodes()[s].local_node, i, row.D * through[i]);
           for (std::size_t c = 0; c < coupled.size(); ++c)
             if (loads(pair, s, coupled[c]))
               insert(coupled[c], i,
-                     row.coefficients[c] * through[i] - (pair.pair().variational() ? pressure * row.dgap[dimension * c + i] : 0.0));
+                     row.coefficients[c] * through[i] - (pair.pair().has_forces_of_gaps() ? pressure * row.dgap[dimension * c + i] : 0.0));
         }
       }
       // Each row is inserted whole: Tpetra looks it up once.

@@ -51,8 +51,7 @@ Eigen::Index place_columns(const SlaveFacetData& slave, const std::vector<LocalO
 
 FacetIntegrator2d::FacetIntegrator2d(const InterfaceMeasure& measure, const MortarOptions& options)
     : measure_(measure),
-      functions_{options.coupling == Coupling::dual_mortar, options.coupling == Coupling::dual_mortar && options.gap_weighting == GapWeighting::dual,
-                 2},
+      functions_{options.coupling->has_dual_multipliers(), options.coupling->has_dual_gap(options.gap_weighting), 2},
       rule_(gauss_legendre(options.gauss_points)),
       rule_of_quadratic_(gauss_legendre(std::max(options.gauss_points, 3))) {}
 

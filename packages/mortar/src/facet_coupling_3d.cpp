@@ -11,8 +11,7 @@
 namespace mortise {
 
 FacetIntegrator3d::FacetIntegrator3d(const MortarOptions& options)
-    : functions_{options.coupling == Coupling::dual_mortar, options.coupling == Coupling::dual_mortar && options.gap_weighting == GapWeighting::dual,
-                 3} {}
+    : functions_{options.coupling->has_dual_multipliers(), options.coupling->has_dual_gap(options.gap_weighting), 3} {}
 
 bool FacetIntegrator3d::integrate(const SlaveFacetData& slave, const std::vector<Facet<LocalOrdinal>>& masters, const FacetReach& reach,
                                   const std::vector<Eigen::Vector3d>& x, bool derivatives, FacetCoupling& coupling) {

@@ -91,10 +91,11 @@ class Combination {
       auto dM = coupling.dM.block(j * masters, 0, masters, moving);
       for (Eigen::Index i = 0; i < n; ++i) dM += a[i] * slope.block(masses + i * masters, 0, masters, moving);
       coupling.dgap.row(j).noalias() = w * slope.bottomRows(n);
+      Slopes da;
+      if (functions_.dual_multipliers || functions_.dual_gap) da = dual_slope(share, dual, weight_slope, moving);
+      if (functions_.dual_gap) coupling.dgap.row(j).head(moving).noalias() += gaps.transpose() * da;
       if (functions_.dual_multipliers) {
-        const Slopes da = dual_slope(share, dual, weight_slope, moving);
         dM.noalias() += coupled.lazyProduct(da);
-        if (functions_.dual_gap) coupling.dgap.row(j).head(moving).noalias() += gaps.transpose() * da;
         for (Eigen::Index k = 0; k < n; ++k)
           if (share[k] != 0.0) coupling.dD.row(n * j + k).head(moving) = share[k] * weight_slope.row(k);
       } else {

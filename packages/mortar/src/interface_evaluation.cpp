@@ -7,7 +7,7 @@
 
 #include "coupling_message.hpp"
 #include "interface.hpp"
-#include "node_coupling_2d.hpp"
+#include "slave_node.hpp"
 
 namespace mortise {
 
@@ -116,8 +116,8 @@ std::size_t Interface<dim>::couple_nodes(const Positions<dim>& x, bool derivativ
     for (std::size_t s = 0; s < slave.owned.size(); ++s) {
       if (!slave.owned[s].carries_multiplier) continue;
       if (used == couplings.size()) couplings.emplace_back();
-      used += couple_node({slave.owned[s].local_node, &slave.stencils[s], &normals[s]}, met_[s], reach, x, measure_, options_.share, derivatives,
-                          couplings[used]);
+      used += options_.coupling->couple_node({slave.owned[s].local_node, &slave.stencils[s], &normals[s]}, met_[s], reach, x, measure_,
+                                             options_.share, derivatives, couplings[used]);
     }
   return used;
 }
@@ -145,10 +145,10 @@ void Interface<dim>::evaluate(const MultiVector& x, bool derivatives, std::vecto
     for (NodalNormal& normal : normals) normal.derivative.setZero();
   for (std::size_t n = 0; n < positions.size() && !failure; ++n)
     if (!positions[n].allFinite()) failure = StepFailure(FailureKind::not_finite, "a position on the contact surfaces is not a number");
-  if (options_.coupling == Coupling::node_to_segment)
-    couplings.resize(failure ? 0 : couple_nodes(positions, derivatives, normals, couplings));
-  else
+  if (options_.coupling->integrates_facets())
     couple_facets(positions, derivatives, normals, couplings, failure);
+  else
+    couplings.resize(failure ? 0 : couple_nodes(positions, derivatives, normals, couplings));
   normals.resize(slave.owned.size());
 }
 

@@ -52,7 +52,7 @@ Interface<dim>::Interface(const InterfaceInput& input)
   measure_facets(*input.reference, input.place);
   candidate_ids_.resize(slave.facets.size());
   segments_of_facet_.assign(slave.facets.size(), 0);
-  if (owned_nodes_->getComm()->getSize() > 1 && options_.coupling != Coupling::node_to_segment)
+  if (owned_nodes_->getComm()->getSize() > 1 && options_.coupling->integrates_facets())
     distribution_ = std::make_unique<FacetDistribution>(owned_nodes_, slave);
   number_nodes();
 }
@@ -195,7 +195,7 @@ void Interface<dim>::number_nodes() {
       candidates_[f].emplace_back();
       for (const GlobalOrdinal id : facet) candidates_[f].back().push_back(local(id));
     }
-  if (options_.coupling == Coupling::node_to_segment) collect_met();
+  if (!options_.coupling->integrates_facets()) collect_met();
   for (std::size_t s = 0; retained_ != nullptr && s < retained_->size(); ++s)
     for (const GlobalOrdinal id : (*retained_)[s]) kept[s].push_back(local(id));
   if (distribution_) guests_ = GuestFacets(distribution_->send_away(slave, candidate_ids_), slave, local);
@@ -205,6 +205,7 @@ void Interface<dim>::number_nodes() {
   auto &coupled = next->coupled, &loaded = next->loaded;
   coupled.assign(slave.owned.size(), {});
   loaded.assign(slave.owned.size(), {});
+  const bool on_whole_facets = options_.coupling->integrates_facets() && !options_.coupling->has_dual_multipliers();
   const bool turn_with_both_sides = options_.corner_rule(dim) == CornerRule::master_normal;
   for (std::size_t s = 0; s < slave.owned.size(); ++s) {
     loaded[s].push_back(slave.owned[s].local_node);
@@ -214,12 +215,12 @@ void Interface<dim>::number_nodes() {
       for (const LocalOrdinal node : slave.facets[f]) {
         const auto& columns = slave.stencils[node].columns;
         coupled[s].insert(coupled[s].end(), columns.begin(), columns.end());
-        if (options_.coupling == Coupling::standard_mortar || slave.may_load(dim, f, slave.owned[s].local_node, node)) loaded[s].push_back(node);
+        if (on_whole_facets || slave.may_load(dim, f, slave.owned[s].local_node, node)) loaded[s].push_back(node);
       }
       for (const auto& facet : candidates_[f]) loaded[s].insert(loaded[s].end(), facet.begin(), facet.end());
     }
     coupled[s].insert(coupled[s].end(), loaded[s].begin(), loaded[s].end());
-    if (options_.coupling == Coupling::variational_mortar) loaded[s] = coupled[s];
+    if (options_.coupling->has_forces_of_gaps()) loaded[s] = coupled[s];
     coupled[s].insert(coupled[s].end(), kept[s].begin(), kept[s].end());
     for (std::vector<LocalOrdinal>* nodes : {&coupled[s], &loaded[s]}) {
       std::sort(nodes->begin(), nodes->end());

@@ -20,12 +20,13 @@ void refuse_unknown_facets(const InterfaceInput& input, int dimension) {
     for (const SurfaceFacet& facet : *facets) {
       const std::size_t size = facet.size();
       const bool linear = dimension == 2 ? size == 2 : size == 3 || size == 4, quadratic = dimension == 2 ? size == 3 : size == 6 || size == 8;
-      if (linear || (quadratic && input.options.coupling != Coupling::node_to_segment)) continue;
+      if (linear || (quadratic && input.options.coupling->takes_quadratic_facets())) continue;
       if (!refused && quadratic)
-        diagnostics.push_back({input.place, fmt::format("node to segment needs linear facets, but a surface of the pair has facets of {} nodes (one "
-                                                        "starts at node {}); use dual mortar, standard mortar, penalty or augmented Lagrange "
-                                                        "with a mortar discretisation, or linear elements",
-                                                        size, facet.front())});
+        diagnostics.push_back(
+            {input.place, fmt::format("{} needs linear facets, but a surface of the pair has facets of {} nodes (one starts at node "
+                                      "{}); use dual mortar, standard mortar, penalty or augmented Lagrange with a mortar "
+                                      "discretisation, or linear elements",
+                                      input.options.coupling->name(), size, facet.front())});
       else if (!refused)
         diagnostics.push_back({input.place, fmt::format("a contact surface has facets of {} nodes (one starts at node {}); {} are available", size,
                                                         facet.empty() ? -1 : facet.front(),
@@ -53,16 +54,11 @@ MortarInterface::MortarInterface(RCP<const Map> owned_nodes, RCP<const MultiVect
                                  const MortarOptions& options, const Place& place) {
   const auto dimension = static_cast<int>(reference->getNumVectors());
   const InterfaceInput input = {owned_nodes, reference, fixed, slave, master, measure, options, place};
-  if (dimension == 3 && options.coupling == Coupling::node_to_segment)
-    throw InputError(place, "node to segment is not available in 3D; use dual mortar, standard mortar, penalty or augmented Lagrange");
-  if (options.coupling == Coupling::variational_mortar) {
-    if (dimension == 3)
-      throw InputError(place, "variational mortar is not available in 3D; use dual mortar, standard mortar, penalty or augmented Lagrange");
-    if (options.linearisation != Linearisation::exact)
-      throw InputError(place,
-                       "variational mortar takes its forces from the derivatives of the gap, those of the normals too; \"linearisation\" is "
-                       "\"frozen normals\", take \"exact\"");
-  }
+  if (!options.coupling) throw InputError(place, "the coupling is null; give a Coupling, as coupling_of<DualMortarCoupling>()");
+  if (!options.coupling->exists_in(dimension))
+    throw InputError(place, fmt::format("{} is not available in {}D; use dual mortar, standard mortar, penalty or augmented Lagrange",
+                                        options.coupling->name(), dimension));
+  if (const auto refusal = options.coupling->refusal(options)) throw InputError(place, *refusal);
   refuse_unknown_facets(input, dimension);
   refuse_misplaced_facets(*owned_nodes, slave, master, place);
   refuse_common_nodes(input);

@@ -33,10 +33,4 @@ void MortarOptions::describe(Parameters& parameters) {
       Says("quadrature points on each overlap of two facets in 2D; in 3D each triangle of an overlap has 7").unit("-").at_least(2.0).at_most(20.0));
 }
 
-CornerRule MortarOptions::corner_rule(int dimension) const {
-  if (coupling == Coupling::node_to_segment) return CornerRule::averaged;
-  if (dimension == 3) return corners == CornerRule::nearest_facet ? CornerRule::averaged : corners;
-  return coupling == Coupling::variational_mortar && corners == CornerRule::master_normal ? CornerRule::nearest_facet : corners;
-}
-
 }  // namespace mortise

@@ -94,7 +94,7 @@ TEST_P(Condensation, StepEqualsSaddlePointStep) {
   // quadratic facets of whose weight a tenth is covered: the facet's turn outdoes D_jj.
   const bool slips_in_space = one.surfaces.dimension == 3 && one.surfaces.options.friction.options->acts();
   const bool quadratic_in_space = one.surfaces.dimension == 3 && one.surfaces.slave_facets.front().size() > 4;
-  if (one.surfaces.options.formulation.options->elimination() == Elimination::momentum && !slips_in_space && !quadratic_in_space)
+  if (one.surfaces.options.formulation.options->enforcement()->needs_diagonal_coupling() && !slips_in_space && !quadratic_in_space)
     EXPECT_GT(matrix.diagonal().minCoeff(), 0.0);
 }
 

@@ -10,6 +10,9 @@
 #include "mortise/contact/formulation/penalty.hpp"
 #include "mortise/contact/formulation/standard_mortar.hpp"
 #include "mortise/contact/formulation/variational_mortar.hpp"
+#include "mortise/mortar/coupling/node_to_segment.hpp"
+#include "mortise/mortar/coupling/standard_mortar.hpp"
+#include "mortise/mortar/coupling/variational_mortar.hpp"
 
 namespace mortise::test {
 
@@ -19,13 +22,13 @@ struct NamedFormulation {
 };
 
 inline std::vector<NamedFormulation> other_formulations() {
-  const auto penalty = [](Coupling discretisation) {
+  const auto penalty = [](const SharedCoupling& discretisation) {
     const auto result = std::make_shared<Penalty>();
     result->discretisation = discretisation;
     result->tangential = 30.0;
     return result;
   };
-  const auto augmented = [](Coupling discretisation) {
+  const auto augmented = [](const SharedCoupling& discretisation) {
     const auto result = std::make_shared<AugmentedLagrange>();
     result->discretisation = discretisation;
     result->normal = 3.0;
@@ -34,17 +37,14 @@ inline std::vector<NamedFormulation> other_formulations() {
   return {{"standard mortar", std::make_shared<StandardMortar>()},
           {"variational mortar", std::make_shared<VariationalMortar>()},
           {"node to segment", std::make_shared<NodeToSegment>()},
-          {"penalty", penalty(Coupling::dual_mortar)},
-          {"penalty of standard mortar", penalty(Coupling::standard_mortar)},
-          {"penalty of node to segment", penalty(Coupling::node_to_segment)},
-          {"augmented lagrange", augmented(Coupling::dual_mortar)},
-          {"augmented lagrange of standard mortar", augmented(Coupling::standard_mortar)}};
+          {"penalty", penalty(coupling_of<DualMortarCoupling>())},
+          {"penalty of standard mortar", penalty(coupling_of<StandardMortarCoupling>())},
+          {"penalty of node to segment", penalty(coupling_of<NodeToSegmentCoupling>())},
+          {"augmented lagrange", augmented(coupling_of<DualMortarCoupling>())},
+          {"augmented lagrange of standard mortar", augmented(coupling_of<StandardMortarCoupling>())}};
 }
 
 /// Whether a formulation exists for 3D surfaces.
-inline bool in_space(const NamedFormulation& formulation) {
-  const Coupling coupling = formulation.options->coupling();
-  return coupling != Coupling::node_to_segment && coupling != Coupling::variational_mortar;
-}
+inline bool in_space(const NamedFormulation& formulation) { return formulation.options->coupling()->exists_in(3); }
 
 }  // namespace mortise::test

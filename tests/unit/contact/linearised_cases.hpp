@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "formulations.hpp"
+#include "mortise/mortar/coupling/node_to_segment.hpp"
 #include "two_surfaces.hpp"
 
 namespace mortise::test {
@@ -54,7 +55,7 @@ inline void add_quadratic(std::vector<Case>& all) {
   add("space, hardly covered, corner, coulomb", hardly_covered_at_a_corner(dome), false, 0.12);
   add("space, hardly covered, corner, triangles", hardly_covered_at_a_corner(faceted), false, 0.12);
   for (const NamedFormulation& formulation : other_formulations()) {
-    if (formulation.options->coupling() == Coupling::node_to_segment) continue;
+    if (!formulation.options->coupling()->takes_quadratic_facets()) continue;
     add("plane, " + formulation.name, arch, true, 0.12)->options.formulation.options = formulation.options;
     if (in_space(formulation)) add("space, " + formulation.name, dome, false, 0.12)->options.formulation.options = formulation.options;
   }
@@ -212,7 +213,7 @@ inline std::vector<int> indices(bool eliminated_only) {
   std::vector<int> result;
   const std::vector<Case> all = cases();
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (!eliminated_only || all[i].surfaces.options.formulation.options->elimination() != Elimination::none) result.push_back(static_cast<int>(i));
+    if (!eliminated_only || !all[i].surfaces.options.formulation.options->enforcement()->keeps_multipliers()) result.push_back(static_cast<int>(i));
   return result;
 }
 
@@ -242,6 +243,55 @@ inline ContactHistory start(const Fixture& fixture) {
 // Some nodes pressed, some open (in 3D those further on too); the tangential part is not zero, as it is before Newton has converged.
 inline double pressure(std::size_t node) {
   return node == 1 || node == 2 || node == 3 || node == 4 ? 3.0 + node : (node == 0 ? 2.0 : node > 5 && node % 3 != 0 ? 2.5 : 0.0);
+}
+
+/// Expects that the linearised contact, somewhere in a step, is what central differences of forces and conditions give. The norms there.
+inline ContactNorms expect_linearisation_of_differences(const TwoSurfaces& surfaces) {
+  Fixture fixture(surfaces, Tpetra::getDefaultComm());
+  const ContactSystem& contact = *fixture.contact;
+  const auto d = Fixture::vector(fixture.dofs, [](GlobalOrdinal id) { return 0.01 * wiggle(id); });
+  const auto v = Fixture::vector(fixture.dofs, [](GlobalOrdinal id) { return wiggle(3 * id + 1); });
+  const auto z = fixture.multipliers(pressure);
+  const auto w = Fixture::vector(contact.multiplier_map(), [](GlobalOrdinal id) { return wiggle(5 * id + 2); });
+
+  const ContactHistory started = start(fixture);
+  const DifferentiatedContact evaluated = contact.differentiate(*d, started);
+  const ContactHistory history = updated(contact, evaluated.laws(*z), started);
+  const DifferentiatedContact at = evaluated.with(history);
+  const ContactLaws laws = at.laws(*z);
+  const ContactLinearisation linearised = at.linearise(laws);
+  const auto system = rcp(new Matrix(contact.graph(at, [&] { return fixture.bulk; })));
+  linearised.add_stiffness(*system);
+  system->fillComplete(fixture.dofs, fixture.dofs);
+  const auto blocks = linearised.saddle_point_blocks();
+  Vector force(fixture.dofs), law(contact.multiplier_map());
+  system->apply(*v, force);
+  blocks.B->apply(*w, force, Teuchos::NO_TRANS, 1.0, 1.0);
+  blocks.C_d->apply(*v, law);
+  blocks.C_z->apply(*w, law, Teuchos::NO_TRANS, 1.0, 1.0);
+  const ContactNorms norms = laws.norms(history->states);
+  EXPECT_GT(norms.active, 0);
+  EXPECT_LE(norms.active, static_cast<int>(surfaces.slave.size()));
+  const double h = 1e-6;
+  Vector force_difference(fixture.dofs), law_difference(contact.multiplier_map());
+  for (const double sign : {1.0, -1.0}) {
+    Vector d_h(*d, Teuchos::Copy), z_h(*z, Teuchos::Copy), f(fixture.dofs), C(contact.multiplier_map());
+    d_h.update(sign * h, *v, 1.0);
+    z_h.update(sign * h, *w, 1.0);
+    const ContactLaws moved = contact.evaluate(d_h, history).laws(z_h);
+    moved.add_force(f);
+    moved.complementarity(C);
+    force_difference.update(sign / (2.0 * h), f, 1.0);
+    law_difference.update(sign / (2.0 * h), C, 1.0);
+  }
+  const double force_size = force.norm2(), law_size = law.norm2();
+  force_difference.update(-1.0, force, 1.0);
+  law_difference.update(-1.0, law, 1.0);
+  EXPECT_GT(force_size, 0.0);
+  EXPECT_GT(law_size, 0.0);
+  EXPECT_LE(force_difference.norm2(), 1e-6 * force_size);
+  EXPECT_LE(law_difference.norm2(), 1e-6 * law_size);
+  return norms;
 }
 
 }  // namespace mortise::test

@@ -5,6 +5,7 @@
 
 #include <Tpetra_Core.hpp>
 
+#include "mortise/mortar/coupling/node_to_segment.hpp"
 #include "mortise/mortar/facet_partition.hpp"
 #include "space_pair.hpp"
 
@@ -140,7 +141,7 @@ TEST(MortarBalance, LetsEveryRankKnowOfAFailure) {
 TEST(MortarBalance, IsNotForNodeToSegment) {
   const auto comm = Tpetra::getDefaultComm();
   Surfaces surfaces = curved_lines();
-  surfaces.options.coupling = Coupling::node_to_segment;
+  surfaces.options.coupling = coupling_of<NodeToSegmentCoupling>();
   SurfacePair pair(surfaces, comm, [](std::size_t) { return 0; });
   pair.search(surfaces.points);
   pair.evaluate(surfaces.points, true);

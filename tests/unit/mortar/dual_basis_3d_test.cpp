@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "mortise/mortar/coupling/node_to_segment.hpp"
+#include "mortise/mortar/coupling/standard_mortar.hpp"
 #include "space_pair.hpp"
 
 namespace mortise {
@@ -32,7 +34,7 @@ TEST(MortarSumsInSpace, RowsOfDAndMAgree) {
   for (const auto slave : {FacetKind::quadrilaterals, FacetKind::triangles})
     for (const auto master : {FacetKind::quadrilaterals, FacetKind::triangles})
       for (const bool runs_off : {false, true})
-        for (const auto coupling : {Coupling::dual_mortar, Coupling::standard_mortar}) {
+        for (const SharedCoupling& coupling : {coupling_of<DualMortarCoupling>(), coupling_of<StandardMortarCoupling>()}) {
           Surfaces surfaces = runs_off ? waves(4, 5, 0.0, slave, master, 0.9, 2.2) : waves(4, 5, 0.0, slave, master);
           surfaces.options.coupling = coupling;
           fix(surfaces, 6, {0, 1, 2});
@@ -95,7 +97,7 @@ TEST(MortarDualBasisInSpace, IsDualOnTheCoveredPart) {
   surfaces.slaves = surfaces.points.size();
   append_patch(flat(1, 1, 0.37, 2.0, -1.0, 0.81), true, 0.0, surfaces, surfaces.master);
   const DenseCoupling dual = evaluated(surfaces)->dense();
-  surfaces.options.coupling = Coupling::standard_mortar;
+  surfaces.options.coupling = coupling_of<StandardMortarCoupling>();
   const DenseCoupling standard = evaluated(surfaces)->dense();
   const Eigen::MatrixXd A = Eigen::MatrixXd(dual.D) * standard.D.inverse();
   EXPECT_LT((dual.M - A * standard.M).cwiseAbs().maxCoeff(), 1e-12 * dual.D.maxCoeff());
@@ -176,7 +178,7 @@ TEST(MortarPartlyFixedInSpace, TurnsTheNormalIntoTheFreeDirections) {
 // with kinks: the sum is off by about (1/300)^2 of the second derivatives.
 TEST(MortarIntegralsInSpace, MatchBruteForce) {
   Surfaces surfaces = waves(1, 3, 0.1, FacetKind::quadrilaterals, FacetKind::triangles);
-  surfaces.options.coupling = Coupling::standard_mortar;
+  surfaces.options.coupling = coupling_of<StandardMortarCoupling>();
   surfaces.points[2][2] += 0.3;
   const auto pair = evaluated(surfaces);
   const DenseCoupling dense = pair->dense();
@@ -256,7 +258,7 @@ TEST(MortarRefusalsInSpace, SayWhatToDo) {
     return "";
   };
   Surfaces surfaces = waves(2, 2, 0.0);
-  surfaces.options.coupling = Coupling::node_to_segment;
+  surfaces.options.coupling = coupling_of<NodeToSegmentCoupling>();
   EXPECT_THAT(refusal(surfaces), HasSubstr("not available in 3D; use dual mortar, standard mortar, penalty or augmented Lagrange"));
   Surfaces fixed = waves(2, 2, 0.0);
   for (const std::size_t n : {0, 1, 3, 4}) fix(fixed, n, {0, 1, 2});

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "exact_derivatives.hpp"
+#include "mortise/mortar/coupling/standard_mortar.hpp"
 #include "space_pair.hpp"
 
 namespace mortise {
@@ -141,7 +142,7 @@ TEST(EdgesInSpace, HaveExactDerivatives) {
   constexpr auto quads = FacetKind::quadrilaterals, triangles = FacetKind::triangles;
   for (const auto& [slave, master] : {std::pair(quads, quads), {triangles, quads}, {quads, triangles}, {triangles, triangles}})
     for (const Eigen::Matrix3d& turn : {on_edge(25.0), on_corner(35.0)})
-      for (const Coupling coupling : {Coupling::dual_mortar, Coupling::standard_mortar}) {
+      for (const SharedCoupling& coupling : {coupling_of<DualMortarCoupling>(), coupling_of<StandardMortarCoupling>()}) {
         Standing standing;
         standing.turn = turn;
         standing.kind = slave;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "exact_derivatives.hpp"
+#include "mortise/mortar/coupling/standard_mortar.hpp"
 #include "space_pair.hpp"
 
 namespace mortise {
@@ -53,7 +54,7 @@ std::vector<Case> cases() {
   for (const std::size_t i : {1, 3, 11}) {
     all.push_back(all[i]);
     all.back().name += ", standard multipliers";
-    all.back().surfaces.options.coupling = Coupling::standard_mortar;
+    all.back().surfaces.options.coupling = coupling_of<StandardMortarCoupling>();
   }
   return all;
 }

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "exact_derivatives.hpp"
+#include "mortise/mortar/coupling/standard_mortar.hpp"
+#include "mortise/mortar/coupling/variational_mortar.hpp"
 
 namespace mortise {
 namespace {
@@ -73,7 +75,7 @@ TEST_P(MortarLinearisation, AgreesWithCentralDifferences) {
 TEST_P(MortarLinearisation, SecondDerivativesAgreeWithDifferencesOfFirstOnes) {
   Surfaces surfaces = cases()[GetParam()];
   if (surfaces.options.gap_weighting == GapWeighting::standard) return;  // variational mortar knows no other
-  surfaces.options.coupling = Coupling::variational_mortar;
+  surfaces.options.coupling = coupling_of<VariationalMortarCoupling>();
   expect_exact_curvatures(surfaces, evaluated(surfaces, true).get());
 }
 
@@ -81,7 +83,7 @@ TEST_P(MortarLinearisation, SecondDerivativesAgreeWithDifferencesOfFirstOnes) {
 // other is where it was. First derivatives are continuous there: they change by no more than what moves, 1e-10 of a facet, times second ones, of size
 // 10.
 TEST(MortarLinearisation, IsContinuousWhereAMasterNodePassesASlaveNode) {
-  for (const auto coupling : {Coupling::dual_mortar, Coupling::standard_mortar}) {
+  for (const SharedCoupling& coupling : {coupling_of<DualMortarCoupling>(), coupling_of<StandardMortarCoupling>()}) {
     TwoLines lines;
     lines.slave = {{-1.0, 0.1}, {0.0, 0.0}, {1.0, 0.1}};
     lines.master = {{1.7, -0.2}, {0.9, -0.1}, {0.0, -0.3}, {-0.8, -0.1}, {-1.7, 0.0}};  // node 5 on the normal of node 1

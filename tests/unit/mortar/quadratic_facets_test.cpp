@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "exact_derivatives.hpp"
+#include "mortise/mortar/coupling/node_to_segment.hpp"
+#include "mortise/mortar/coupling/standard_mortar.hpp"
+#include "mortise/mortar/coupling/variational_mortar.hpp"
 #include "mortise/mortar/quadratic_facet.hpp"
 #include "mortise/shape/line3.hpp"
 #include "mortise/shape/quadrilateral8.hpp"
@@ -62,7 +65,7 @@ std::vector<Case> cases() {
   for (const std::size_t i : {std::size_t{0}, std::size_t{3}, std::size_t{8}, count - 2}) {
     all.push_back(all[i]);
     all.back().name += ", standard multipliers";
-    all.back().surfaces.options.coupling = Coupling::standard_mortar;
+    all.back().surfaces.options.coupling = coupling_of<StandardMortarCoupling>();
     all.push_back(all[i]);
     all.back().name += ", standard weighting";
     all.back().surfaces.options.gap_weighting = GapWeighting::standard;
@@ -76,8 +79,8 @@ TEST_P(QuadraticFacets, DerivativesAgreeWithCentralDifferences) { expect_exact_d
 
 TEST_P(QuadraticFacets, SecondDerivativesAgreeWithDifferencesOfFirstOnes) {
   Surfaces surfaces = cases()[GetParam()].surfaces;
-  if (surfaces.dim > 2 || surfaces.options.coupling != Coupling::dual_mortar) return;
-  surfaces.options.coupling = Coupling::variational_mortar;
+  if (surfaces.dim > 2 || !surfaces.options.coupling->has_dual_multipliers()) return;
+  surfaces.options.coupling = coupling_of<VariationalMortarCoupling>();
   expect_exact_curvatures(surfaces, evaluated(surfaces, true).get());
 }
 
@@ -88,7 +91,7 @@ TEST_P(QuadraticFacets, RowsOfDAndMAgree) {
   const DenseCoupling dense = pair->dense();
   const Eigen::VectorXd error = dense.D.rowwise().sum() - dense.M.rowwise().sum();
   EXPECT_LT(error.cwiseAbs().cwiseQuotient(pair->weights()).maxCoeff(), 1e-12);
-  if (surfaces.options.coupling == Coupling::standard_mortar) return;
+  if (surfaces.options.coupling == coupling_of<StandardMortarCoupling>()) return;
   const auto& nodes = pair->interface->slave_nodes();
   for (const SlaveNode& j : nodes)
     for (const SlaveNode& k : nodes)
@@ -287,7 +290,7 @@ std::string refusal(const Surfaces& surfaces) {
 
 TEST(QuadraticFacets, AreRefusedWhereTheyCannotBe) {
   Surfaces surfaces = arch(2, 3, true, true);
-  surfaces.options.coupling = Coupling::node_to_segment;
+  surfaces.options.coupling = coupling_of<NodeToSegmentCoupling>();
   EXPECT_THAT(refusal(surfaces), ::testing::HasSubstr("contact/pair: node to segment needs linear facets"));
   Surfaces held = arch(2, 3, true, true);
   fix(held, 3, {0, 1});  // the middle of the first facet

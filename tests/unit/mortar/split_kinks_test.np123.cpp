@@ -5,6 +5,8 @@
 #include <Tpetra_Core.hpp>
 
 #include "exact_derivatives.hpp"
+#include "mortise/mortar/coupling/standard_mortar.hpp"
+#include "mortise/mortar/coupling/variational_mortar.hpp"
 
 namespace mortise {
 namespace {
@@ -209,7 +211,7 @@ TEST(SplitKinks, HasExactDerivatives) {
 // Standard multipliers and curved masters are covered too.
 TEST(SplitKinks, HasExactDerivativesOfTheMastersNormal) {
   for (const double tilt : {30.0, 55.0, 66.0, 76.0, 4.0, -5.0, -14.0, -17.0, -25.0})
-    for (const Coupling coupling : {Coupling::dual_mortar, Coupling::standard_mortar}) {
+    for (const SharedCoupling& coupling : {coupling_of<DualMortarCoupling>(), coupling_of<StandardMortarCoupling>()}) {
       SCOPED_TRACE(tilt);
       TwoLines lines = uneven(60.0, tilt);
       lines.options.coupling = coupling;
@@ -234,7 +236,7 @@ TEST(SplitKinks, HasExactSecondDerivatives) {
   for (const double angle : {35.0, 70.0})
     for (const bool curved : {false, true}) {
       TwoLines lines = uneven(angle);
-      lines.options.coupling = Coupling::variational_mortar;
+      lines.options.coupling = coupling_of<VariationalMortarCoupling>();
       const Surfaces surfaces = curved ? quadratic(lines, true, false, 0.02) : Surfaces(lines);
       SurfacePair pair(surfaces, alone());
       ASSERT_TRUE(split(pair, surfaces.points));

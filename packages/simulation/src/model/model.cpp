@@ -150,7 +150,7 @@ void take_up(const PairAtStart& start, ContactPair& pair) {
   pair.options.mortar.search_reach = start.reach;
   constexpr double share = 0.5;
   auto& constant = pair.options.complementarity_constant;
-  if (!constant && !pair.options.formulation.options->regularisation()) constant = share * pair.youngs_modulus / start.overlap.depth;
+  if (!constant && pair.options.formulation.options->enforcement()->holds_exactly()) constant = share * pair.youngs_modulus / start.overlap.depth;
 }
 
 Effects effects_of(const Scene& scene, const Bodies& bodies) {
@@ -187,7 +187,7 @@ LinearSystemTraits traits_of(const Scene& scene, const Map& dofs) {
       traits.not_iterative = fmt::format(
           "the iterative solver needs all components of a node as unknowns, but nodes follow \"{}\" in one component; take \"mumps\"", tie.name);
   for (const auto& pair : scene.contact)
-    if (pair.value.contact.formulation.options->elimination() == Elimination::none)
+    if (pair.value.contact.formulation.options->enforcement()->keeps_multipliers())
       traits.not_iterative =
           fmt::format("the iterative solver does not know the saddle point system of \"{}\"; take \"mumps\"", pair.value.contact.formulation.type);
   return traits;

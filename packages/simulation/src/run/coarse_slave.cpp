@@ -82,7 +82,7 @@ std::optional<std::string> too_coarse(const Model& model, const Scene& scene, st
   const Mesh& mesh = *model.mesh();
   const ContactPairOptions& options = scene.contact[p].value;
   const Formulation& formulation = *options.contact.formulation.options;
-  if (formulation.coupling() == Coupling::node_to_segment || options.contact.geometry == ContactGeometry::reference) return std::nullopt;
+  if (!formulation.coupling()->integrates_facets() || options.contact.geometry == ContactGeometry::reference) return std::nullopt;
   std::vector<char> closed(static_cast<std::size_t>(mesh.owned_count()), 0);
   double counted[2] = {0.0, 0.0}, all[2] = {};  // nodes that carry force, and the largest pressure
   for (const ContactNodeState& node : node_states(laws, p)) {

@@ -36,9 +36,9 @@ namespace {
 double allowed_of_slave(int dimension) { return std::sin(0.5 * kink_angle) / 3.0 * (dimension == 3 ? std::sqrt(2.0) : 1.0); }
 
 /// Whether gaps are weighed with the slave's shape functions.
-bool has_standard_weights(const MortarOptions& options) {
-  if (options.coupling == Coupling::dual_mortar) return options.gap_weighting == GapWeighting::standard;
-  return options.coupling != Coupling::node_to_segment;
+bool has_standard_weights(const ContactOptions& options) {
+  const SharedCoupling coupling = options.formulation.options->coupling();
+  return coupling->integrates_facets() && !coupling->has_dual_gap(options.mortar.gap_weighting);
 }
 
 std::string corner_at(const Mesh& mesh, const DeepestPoint& point, const std::string& side) {
@@ -61,9 +61,7 @@ CornerWatch::CornerWatch(const Model& model, const Scene& scene, std::function<v
     const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
     pair.facets = rcp(new Map(invalid, static_cast<std::size_t>(slave.owned), 0, mesh.comm));
     pair.of_master = candidates(master, pair.master_body);
-    MortarOptions weighing = options.contact.mortar;
-    weighing.coupling = options.contact.formulation.options->coupling();
-    if (has_standard_weights(weighing)) pair.of_slave = candidates(slave, pair.slave_body);
+    if (has_standard_weights(options.contact)) pair.of_slave = candidates(slave, pair.slave_body);
     pairs_.push_back(std::move(pair));
   }
 }

@@ -29,13 +29,14 @@ struct SlipReferences {
   std::vector<double> paths;                      ///< slipped until then [length]
 };
 
-/// What the conditions of a regularised node start from: fixed while they are solved, renewed by an update of the multipliers and by a step.
-struct RegularisedStart {
-  SpatialVector multiplier;  ///< normal, along tau_a; nothing normal with penalty, no shear traction without friction
-  double stiffening = 1.0;   ///< factor of eps; of augmented Lagrange, so that a mean gap falls by as much in an update whatever is covered
+/// What the conditions of a node start from where Enforcement::starts_from_multipliers(): fixed while they are solved, renewed by an update of the
+/// multipliers and by a step.
+struct NodeStart {
+  SpatialVector multiplier;  ///< normal, along tau_a: Enforcement::start_from()
+  double stiffening = 1.0;   ///< factor of eps: Enforcement::stiffening()
 };
 
-/// What updates of the multipliers have shown of the bodies. Augmented Lagrange.
+/// What updates of the multipliers have shown of the bodies.
 struct Settling {
   double hardening = 1.0;       ///< factor of eps of all nodes: how much stiffer than facets the bodies are
   std::optional<double> ratio;  ///< their stiffness against the slowest of the changes, over eps; none: not known yet
@@ -48,7 +49,7 @@ struct PairHistory {
   SurfaceKinks kinks;                          ///< of the slave surface
   std::vector<SurfaceFacet> nearest_facets;    ///< [owned slave nodes] the facet nearest to the master; empty but with the rule `nearest facet`
   std::shared_ptr<const SlipReferences> slip;  ///< null without friction
-  std::vector<RegularisedStart> starts;        ///< [owned slave nodes]; empty unless regularised
+  std::vector<NodeStart> starts;               ///< [owned slave nodes]; empty unless Enforcement::starts_from_multipliers()
   Settling settling;                           ///< of the updates of the multipliers
   double allowed_overlap = 0.0;                ///< by how much the surfaces may lie in one another [length]
 };

@@ -21,7 +21,7 @@ struct ContactOptions {
   MortarOptions mortar;                                 ///< of the integrals
   ContactGeometry geometry = ContactGeometry::current;  ///< reference: for small displacements
   double full_cover = 1.0;                              ///< c_0: a slave node of which less is covered is tied to its neighbours; 0: none is
-  std::optional<double> complementarity_constant;       ///< c_n A_j, and c_t A_j; default E / h, of regularised conditions a tenth of that
+  std::optional<double> complementarity_constant;       ///< c_n A_j, and c_t A_j; default E / h times Enforcement::relative_constant()
   Choice<Formulation> formulation{"dual mortar", std::make_shared<DualMortar>(), {}};  ///< null is refused
   Choice<FrictionLaw> friction{"none", std::make_shared<NoFriction>(), {}};            ///< null is refused
   void describe(Parameters& parameters);                                               ///< the list of a pair
@@ -36,7 +36,7 @@ struct ContactPair {
   /// round anticlockwise as seen from outside. Facets turned inside out are not found out: they never touch.
   SurfaceFacets slave;
   SurfaceFacets master;  ///< likewise
-  /// Above 0. Of the softer side: sets c_n, the start rule and the stiffness of regularised conditions.
+  /// Above 0. Of the softer side: sets c_n, the start rule and the stiffness of conditions that give way.
   double youngs_modulus = 0.0;
   ContactOptions options;                     ///< the rest of it
   std::optional<std::size_t> second_pass_of;  ///< an earlier pair of a two-pass formulation, with the sides exchanged

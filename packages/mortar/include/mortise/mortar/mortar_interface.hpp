@@ -11,29 +11,13 @@
 #include "mortise/core/parameters.hpp"
 #include "mortise/core/spatial.hpp"
 #include "mortise/core/types.hpp"
+#include "mortise/mortar/coupling.hpp"
+#include "mortise/mortar/coupling/dual_mortar.hpp"
 #include "mortise/shape/surface_facet.hpp"
 
 namespace mortise {
 
 class InterfaceImplementation;
-
-/// What a slave node's multiplier acts through.
-enum class Coupling {
-  dual_mortar,         ///< integrals over both surfaces' overlap, phi_j dual to N_j: D is diagonal
-  standard_mortar,     ///< the same integrals with phi_j = N_j, the gap weighted by N_j
-  variational_mortar,  ///< those of standard mortar, with second derivatives of the gap; 2D only
-  node_to_segment      ///< the master facet that the line along the nodal normal meets: phi_j is a point load of the node's share of the surface
-};
-
-/// Which functions weight the gap.
-enum class GapWeighting { dual, standard };
-
-/// Normals at kinks of a slave surface: convex nodes at which it turns, in 3D those on its edges and at their ends.
-enum class CornerRule {
-  master_normal,  ///< facets have their own normals, the node has the master's, averaged over what the node's facets cover
-  nearest_facet,  ///< facets have their own normals, the node has that of the facet nearest to the master; 2D only
-  averaged        ///< the average of the facets' normals, as everywhere else
-};
 
 /// What Newton's method knows of the nodal normals' derivatives.
 enum class Linearisation {
@@ -49,7 +33,7 @@ struct InterfaceMeasure {
 
 /// Options of the coupling of one pair.
 struct MortarOptions {
-  Coupling coupling = Coupling::dual_mortar;           ///< set by the pair's formulation
+  SharedCoupling coupling = coupling_of<DualMortarCoupling>();  ///< set by the pair's formulation; null is refused
   double share = 1.0;                                  ///< of the surface that the slave side stands for: 1/2 where both sides are slaves in turn
   GapWeighting gap_weighting = GapWeighting::dual;     ///< functions w_j of the weighted gaps
   std::optional<double> search_reach;                  ///< distance up to which facets can touch; default: the longest facet of the pair
@@ -59,9 +43,10 @@ struct MortarOptions {
   double balance = 1.5;                                ///< largest over mean work of the ranks, in overlaps, above which slave facets change rank
   /// The parameters of a pair's list that are those of the coupling.
   void describe(Parameters& parameters);
-  /// Which rule acts. Node to segment takes the averaged normal, and so do 3D models in the place of the nearest facet. Variational mortar takes the
-  /// nearest facet in the place of the master's normal, which its second derivatives do not know.
-  CornerRule corner_rule(int dimension) const;
+  /// Which rule acts: Coupling::corner_rule().
+  CornerRule corner_rule(int dimension) const { return coupling->corner_rule(corners, dimension); }
+  /// Whether gaps are weighted by the functions of the multipliers.
+  bool weighs_gaps_as_multipliers() const { return coupling->has_dual_gap(gap_weighting) == coupling->has_dual_multipliers(); }
 };
 
 /// Matrices over the nodes of one slave facet.

@@ -9,9 +9,24 @@ struct AugmentedLagrange : Penalty {
   double tolerance = 1e-6;  ///< error of the multipliers over the largest one
   int augmentations = 50;   ///< most times that the multipliers are updated within a step
   void describe(Parameters& parameters) override;
-  std::optional<Regularisation> regularisation() const override {
-    return Regularisation{normal, tangential.value_or(normal), augmentations, tolerance};
-  }
+  SharedEnforcement enforcement() const override;
+};
+
+/// Penalty from the multipliers of the last update, with a stiffness that makes up for what is not covered.
+class AugmentedEnforcement final : public PenaltyEnforcement {
+ public:
+  /// As PenaltyEnforcement.
+  AugmentedEnforcement(double normal, double tangential, const MultiplierUpdates& updates)
+      : PenaltyEnforcement(normal, tangential), updates_(updates) {}
+  bool takes_ties() const override { return true; }
+  SpatialVector start_from(const SpatialVector& traction) const override { return traction; }
+  double stiffening(const ContactNode& node) const override;
+  std::optional<MultiplierUpdates> updates() const override { return updates_; }
+  SpatialVector return_map(const ContactNode& node) const override;
+  double stiffness(const ContactNode& node) const override;
+
+ private:
+  MultiplierUpdates updates_;
 };
 
 }  // namespace mortise

@@ -1,14 +1,16 @@
 #pragma once
 
+#include "mortise/contact/enforcement/exact.hpp"
 #include "mortise/contact/formulation.hpp"
+#include "mortise/mortar/coupling/dual_mortar.hpp"
 
 namespace mortise {
 
 /// Dual multipliers, condensed (Wohlmuth 2000; Hueber, Wohlmuth 2005; Popp, Gee, Wall 2009).
 struct DualMortar : Formulation {
   void describe(Parameters&) override {}  ///< no parameters
-  Coupling coupling() const override { return Coupling::dual_mortar; }
-  Elimination elimination() const override { return Elimination::momentum; }
+  SharedCoupling coupling() const override { return coupling_of<DualMortarCoupling>(); }
+  SharedEnforcement enforcement() const override { return std::make_shared<const CondensedMultipliers>(); }
 };
 
 }  // namespace mortise

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "mortise/contact/enforcement/exact.hpp"
 #include "mortise/contact/formulation.hpp"
+#include "mortise/mortar/coupling/node_to_segment.hpp"
 
 namespace mortise {
 
@@ -10,8 +12,8 @@ struct NodeToSegment : Formulation {
   enum class Passes { single, two };
   Passes passes = Passes::single;  ///< how many
   void describe(Parameters& parameters) override;
-  Coupling coupling() const override { return Coupling::node_to_segment; }
-  Elimination elimination() const override { return Elimination::none; }
+  SharedCoupling coupling() const override { return coupling_of<NodeToSegmentCoupling>(); }
+  SharedEnforcement enforcement() const override { return std::make_shared<const KeptMultipliers>(); }
   bool two_pass() const override { return passes == Passes::two; }
 };
 

@@ -1,18 +1,38 @@
 #pragma once
 
+#include <optional>
+
 #include "mortise/contact/formulation.hpp"
+#include "mortise/contact/regularised.hpp"
+#include "mortise/mortar/coupling/dual_mortar.hpp"
 
 namespace mortise {
 
 /// Tractions in proportion to penetration and to slip before sliding (Wriggers 2006, section 5.4).
 struct Penalty : Formulation {
-  Coupling discretisation = Coupling::dual_mortar;  ///< the integrals that it stands on
-  double normal = 10.0;                             ///< stiffness over E / h
-  std::optional<double> tangential;                 ///< the same along the surface; default: `normal`
+  SharedCoupling discretisation = coupling_of<DualMortarCoupling>();  ///< the integrals that it stands on
+  double normal = 10.0;                                               ///< stiffness over E / h
+  std::optional<double> tangential;                                   ///< the same along the surface; default: `normal`
   void describe(Parameters& parameters) override;
-  Coupling coupling() const override { return discretisation; }
-  Elimination elimination() const override { return Elimination::law; }
-  std::optional<Regularisation> regularisation() const override { return Regularisation{normal, tangential.value_or(normal), 0, 0.0}; }
+  SharedCoupling coupling() const override { return discretisation; }
+  SharedEnforcement enforcement() const override;
+};
+
+/// Penalty: the law regularised(), from no normal traction and from the shear traction of the last accepted state.
+class PenaltyEnforcement : public Enforcement {
+ public:
+  /// @param normal      stiffness over E / h: traction per mean gap is that times E / h
+  /// @param tangential  the same along the surface
+  PenaltyEnforcement(double normal, double tangential) : normal_(normal), tangential_(tangential) {}
+  Complementarity law(const ContactNode& node) const override;
+  bool starts_from_multipliers() const override { return true; }
+  SpatialVector start_from(const SpatialVector& traction) const override;
+
+ protected:
+  RegularisedNode regularised_node(const ContactNode& node) const;  ///< what stiffens it at this node
+
+ private:
+  double normal_, tangential_;
 };
 
 }  // namespace mortise

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "mortise/contact/enforcement/exact.hpp"
 #include "mortise/contact/formulation.hpp"
+#include "mortise/mortar/coupling/variational_mortar.hpp"
 
 namespace mortise {
 
@@ -8,8 +10,8 @@ namespace mortise {
 /// only.
 struct VariationalMortar : Formulation {
   void describe(Parameters&) override {}  ///< no parameters
-  Coupling coupling() const override { return Coupling::variational_mortar; }
-  Elimination elimination() const override { return Elimination::none; }
+  SharedCoupling coupling() const override { return coupling_of<VariationalMortarCoupling>(); }
+  SharedEnforcement enforcement() const override { return std::make_shared<const KeptMultipliers>(); }
 };
 
 }  // namespace mortise

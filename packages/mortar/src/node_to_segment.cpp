@@ -1,10 +1,12 @@
-#include "node_coupling_2d.hpp"
+#include "mortise/mortar/coupling/node_to_segment.hpp"
 
 #include <Sacado.hpp>
 #include <algorithm>
 #include <cmath>
 
+#include "mortise/mortar/mortar_interface.hpp"
 #include "mortise/mortar/segment_2d.hpp"
+#include "slave_node.hpp"
 
 namespace mortise {
 namespace {
@@ -76,8 +78,12 @@ double share_of_surface(const SlaveNodeData& slave, const Positions<2>& x, const
 
 }  // namespace
 
-bool couple_node(const SlaveNodeData& slave, const std::vector<Facet<LocalOrdinal>>& masters, double reach, const Positions<2>& x,
-                 const InterfaceMeasure& measure, double share, bool derivatives, FacetCoupling& coupling) {
+// The node meets the master facet that the line along its normal n hits nearest, at most `reach` away:
+//   x + s n = y(eta),   D_jj = w,   M_jl = w N_l(eta),   g_j = w s.
+// The node's share of the current surface is w = share sum_facets int N_j. The surface goes on straight for 1/200 of a facet beyond its ends.
+bool NodeToSegmentCoupling::couple_node(const SlaveNodeData& slave, const std::vector<Facet<LocalOrdinal>>& masters, double reach,
+                                        const Positions<2>& x, const InterfaceMeasure& measure, double share, bool derivatives,
+                                        FacetCoupling& coupling) const {
   std::size_t hit = facet_hit(slave, masters, reach, x, 1.0 + end_tolerance);
   if (hit == masters.size()) hit = facet_hit(slave, masters, reach, x, 1.0 + extension);
   if (hit == masters.size()) return false;

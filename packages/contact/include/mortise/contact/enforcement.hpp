@@ -1,0 +1,89 @@
+#pragma once
+// Enforcements: how contact conditions are held at the slave nodes of a pair. A new one stands beside the formulation that makes it, in formulation/.
+
+#include <optional>
+
+#include "mortise/contact/contact_history.hpp"
+#include "mortise/contact/friction.hpp"
+
+namespace mortise {
+
+/// The law of friction at one slave node.
+struct NodeFriction {
+  const FrictionLaw* law = nullptr;                    ///< of the pair
+  double slip_path = 0.0;                              ///< up to the start of the step [length]
+  std::optional<Diagnostic>* missing_bound = nullptr;  ///< gets what the law says where it has no bound; null: nobody asks
+  /// rho at a pressure.
+  FrictionBound operator()(double pressure) const;
+};
+
+/// A slave node that is covered, as its conditions see it.
+struct ContactNode {
+  SpatialVector z;                                          ///< its multiplier
+  SpatialVector normal;                                     ///< n
+  int axis = -1;                                            ///< reference axis of the tangents; not used in 2D
+  double gap = 0.0;                                         ///< weighted, beyond the overlap that is allowed; of a tied node with its tie's part
+  TangentVector slip;                                       ///< weighted, since the start of the step; 0 without friction
+  double weight = 0.0;                                      ///< w = sum_k D_jk, its share of the surface that is covered
+  double full_weight = 0.0;                                 ///< A_j, where it is covered wholly
+  double constant = 0.0;                                    ///< c_n and c_t [traction / weighted gap]
+  double youngs_modulus = 0.0;                              ///< E of the pair
+  double size = 0.0;                                        ///< h of the pair
+  double tie = 0.0;                                         ///< sigma_j, the compliance of its tie; 0: it is not tied
+  std::optional<NodeFriction> friction;                     ///< none: it bears no shear traction
+  bool holds_first_tangent = false;                         ///< with friction: nothing moves there and no shear traction is borne; its slip is 0
+  const NodeStart* start = nullptr;                         ///< null unless Enforcement::starts_from_multipliers()
+  double hardening = 1.0;                                   ///< Settling::hardening
+  Frame frame() const { return make_frame(normal, axis); }  ///< (n, tau_a)
+};
+
+/// When multipliers are updated after a Newton solve.
+struct MultiplierUpdates {
+  double tolerance = 0.0;  ///< error of the multipliers over the largest of the pair that is let be
+  int most = 0;            ///< updates within a step
+};
+
+/// How contact conditions are held: the law of a node, how its multiplier leaves the linear system, and what follows a Newton solve. Immutable, and
+/// free of what one pair or node has of its own. By default a law that gives z as a function of gap and slip, without a memory.
+class Enforcement {
+ public:
+  virtual ~Enforcement() = default;
+
+  /// C of a node and its linearisation. What a node does along a tangent that it holds is put in place afterwards, by hold_tangent().
+  virtual Complementarity law(const ContactNode& node) const = 0;
+  /// Whether that closes it.
+  virtual bool is_closed(const ContactNode& node) const { return law(node).state != ContactState::open; }
+
+  /// Whether multipliers stay unknowns of the linear system: a saddle point system.
+  virtual bool keeps_multipliers() const { return false; }
+  /// Whether multipliers leave it by the momentum rows of their slave nodes, which takes a diagonal D. Without this and the former they leave it by
+  /// their own laws, where C_z has to be regular.
+  virtual bool needs_diagonal_coupling() const { return false; }
+
+  /// Whether closed nodes have no gap and sticking ones no slip, whatever they bear.
+  virtual bool holds_exactly() const { return false; }
+  /// Whether the law depends on ContactNode::weight, so that the derivatives of this are needed.
+  virtual bool depends_on_weight() const { return true; }
+  /// Whether multipliers of hardly covered nodes are tied to those of their neighbours.
+  virtual bool takes_ties() const { return false; }
+  /// c_n A_j over E / h where the pair gives none: the stiffness of what a node hangs on. A contact zone that gives way as a whole, or yields, is ten
+  /// times softer than a facet.
+  virtual double relative_constant() const { return 0.1; }
+
+  /// Whether nodes remember multipliers of an accepted state or of an update: ContactNode::start.
+  virtual bool starts_from_multipliers() const { return false; }
+  /// What they remember of a multiplier.
+  /// @param traction  (z_n, z_tau) in the node's frame; no z_tau without friction
+  virtual SpatialVector start_from(const SpatialVector& traction) const { return traction; }
+  /// NodeStart::stiffening of a node: factor of eps, so that a mean gap falls by as much in an update whatever is covered.
+  virtual double stiffening(const ContactNode& /*node*/) const { return 1.0; }
+
+  /// When multipliers are updated after a Newton solve. None: what it ends with is the solution. Otherwise return_map() and stiffness() are there.
+  virtual std::optional<MultiplierUpdates> updates() const { return std::nullopt; }
+  /// (z_n, z_tau) that the conditions make of ContactNode::start.
+  virtual SpatialVector return_map(const ContactNode& node) const;
+  /// Largest change of that for a change of the mean gap or slip [traction / length].
+  virtual double stiffness(const ContactNode& node) const;
+};
+
+}  // namespace mortise

@@ -1,0 +1,16 @@
+#pragma once
+// A slave node as Coupling::couple_node() gets it.
+
+#include "mortise/mortar/mortar_interface.hpp"
+#include "nodal_normal.hpp"
+
+namespace mortise {
+
+/// A slave node, its facets and its normal.
+struct SlaveNodeData {
+  LocalOrdinal node = 0;
+  const NormalStencil* stencil = nullptr;  ///< its facets
+  const NodalNormal* normal = nullptr;
+};
+
+}  // namespace mortise
