@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "mortise/material/materials.hpp"
 #include "mortise/material/plane_stress.hpp"
 #include "mortise/mesh/build_mesh.hpp"
 #include "mortise/mesh/generators.hpp"

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "mortise/simulation/run/run.hpp"
+#include "mortise/simulation/scene/read_scene.hpp"
 
 int main(int argc, char** argv) {
   using namespace mortise;
@@ -29,9 +30,11 @@ int main(int argc, char** argv) {
     RunOptions options;
     options.scene = SCENE;
     options.directory = std::string(RESULTS) + "/n_" + n;
-    options.settings = {"variables/n=" + n, "variables/F=800", "variables/mu=0", "variables/steps=4", "output/fields=", "output/contact profiles=false"};
+    options.settings = {"variables/n=" + n,  "variables/F=800", "variables/mu=0",
+                        "variables/steps=4", "output/fields=",  "output/contact profiles=false"};
     options.verbosity = Verbosity::quiet;
-    if (const auto exit = run_scene(comm, options); exit != ExitCode::done) return static_cast<int>(exit);
+    if (const auto exit = run_scene(comm, read_scene(*comm, options.scene, options.settings), options); exit != ExitCode::done)
+      return static_cast<int>(exit);
     if (comm->getRank() != 0) continue;
     const auto summary = nlohmann::json::parse(std::ifstream(options.directory + "/summary.json"));
     std::size_t iterations = 0;

@@ -46,7 +46,7 @@ void add_run_command(CLI::App& app, Program& program) {
       "Example: mpirun -n 2 mortise run inputs/paper/hertz_elastic.xml --set variables/n=8 -o fine");
   command->callback([&program, options] {
     const auto scene = read_before(program, options);
-    program.action = [&program, options, scene] { return run_scene(program.comm, std::move(*scene), *options); };
+    program.action = [&program, options, scene] { return run_scene(program.comm, *scene, *options); };
   });
 }
 

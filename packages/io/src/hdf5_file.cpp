@@ -91,7 +91,9 @@ void Hdf5File::write(const std::string& name, GlobalOrdinal rows, GlobalOrdinal 
   const auto width = static_cast<hsize_t>(columns);
   const hsize_t size[2] = {static_cast<hsize_t>(rows), width}, start[2] = {static_cast<hsize_t>(first), 0}, part[2] = {count / width, width};
   const Handle space(H5Screate_simple(rank, size, nullptr), H5Sclose), memory(H5Screate_simple(rank, part, nullptr), H5Sclose);
-  const Handle dataset(H5Dcreate2(file_, name.c_str(), stored, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation, 0);  // the same values make the same file at any time
+  const Handle dataset(H5Dcreate2(file_, name.c_str(), stored, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
   agree(space.good() && memory.good() && dataset.good());
   if (count > 0) {
     H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, part, nullptr);

@@ -13,6 +13,7 @@
 #include "mortise/mesh/generators.hpp"
 #include "mortise/mesh/sets.hpp"
 #include "mortise/simulation/quantities/quantity_kinds.hpp"
+#include "quantity_text.hpp"
 
 namespace mortise::test {
 
@@ -106,10 +107,7 @@ class TwoBlocks {
     return context;
   }
 
-  double value(Quantity&& quantity, double time = 1.0) const {
-    quantity.prepare(context(time));
-    return quantity.evaluate(context(time));
-  }
+  double value(const Quantity& quantity, double time = 1.0) const { return quantity.make_evaluator(context(time))->evaluate(context(time)); }
 
   /// Owned dofs of a set.
   std::vector<LocalOrdinal> dofs(const std::string& set) const {

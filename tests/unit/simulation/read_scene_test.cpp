@@ -115,14 +115,14 @@ TEST_F(ReadScene, UnknownFieldsAreRefused) {
 }
 
 TEST_F(ReadScene, EverythingSpelledOutReadsBackAsTheSame) {
-  Scene scene = read(text);
-  const auto spelled_out = [](Scene& of) {
-    const std::string name = of.name;
-    return to_scene_xml(collect_parameters(name, of, CollectParameters::What::values), symbol_lists(of.symbols));
+  const Scene scene = read(text);
+  const auto spelled_out = [](const Scene& of) {
+    return to_scene_xml(collect_parameters(of.name, of, CollectParameters::What::values), symbol_lists(of.symbols));
   };
   const std::string once = spelled_out(scene);
-  Scene again = read(once);
+  const Scene again = read(once);
   EXPECT_EQ(spelled_out(again), once);
+  EXPECT_EQ(scene.bodies[0].value.material.place.line, 12) << "places stay";
 }
 
 }  // namespace

@@ -49,9 +49,9 @@ class Brick {
     if (with_z) point.z = X[2];
     point.component = static_cast<Component>(component);
     QuantityContext context{*bodies_};
-    point.prepare(context);
+    const auto evaluator = point.make_evaluator(context);
     context.local_displacement = displacement_.get();
-    return point.evaluate(context);
+    return evaluator->evaluate(context);
   }
 
  private:

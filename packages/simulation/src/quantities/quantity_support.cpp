@@ -62,6 +62,15 @@ std::size_t find_pair(const QuantityContext& context, const Located<std::string>
   return 0;
 }
 
+std::size_t find_pair_of_plane(const QuantityContext& context, const Located<std::string>& name) {
+  const std::size_t pair = find_pair(context, name);
+  if (context.mesh().dimension != 2)
+    throw InputError(name.place, "this quantity is one of lines and has a meaning in plane and axisymmetric scenes only");
+  return pair;
+}
+
+void PairQuantity::describe(Parameters& parameters) { parameters.add("pair", pair, "contact pair; may be left out if the scene has one only"); }
+
 void describe_measure(Parameters& parameters, TractionMeasure& measure) {
   parameters.add("measure", measure, {{"pair", TractionMeasure::pair}, {"reference", TractionMeasure::reference}},
                  "pair: lengths and tractions where the pair's geometry is; reference: per undeformed area at undeformed positions");

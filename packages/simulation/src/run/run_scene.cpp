@@ -39,9 +39,8 @@
 namespace mortise {
 namespace {
 
-std::string effective_xml(Scene& scene) {
-  const std::string name = scene.name;
-  return to_scene_xml(collect_parameters(name, scene, CollectParameters::What::values), symbol_lists(scene.symbols));
+std::string effective_xml(const Scene& scene) {
+  return to_scene_xml(collect_parameters(scene.name, scene, CollectParameters::What::values), symbol_lists(scene.symbols));
 }
 
 /// Everything that follows the steps: table, newton.csv, history.csv, profiles.csv, fields.
@@ -234,7 +233,7 @@ void report_end(const RunRecord& record, const std::optional<StepFailure>& failu
 
 std::string default_directory(const std::string& file) { return "results/" + std::filesystem::path(file).stem().string(); }
 
-ExitCode run_scene(const RCP<const Communicator>& comm, Scene scene, const RunOptions& options) {
+ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, const RunOptions& options) {
   RunLog log(comm, options.verbosity);
   const Timers timers;
   OutputDirectory directory(comm, options.directory.empty() ? default_directory(options.scene) : options.directory, options.keep);

@@ -6,37 +6,13 @@
 
 namespace mortise {
 
-StepEvaluation::StepEvaluation(const Scene& scene, const Model& model, const SemiSmoothSystem& system) : scene_(scene), model_(model), system_(system) {
-  std::vector<Diagnostic> diagnostics;
-  QuantityContext at = context();
-  for (const auto& quantity : scene_.quantities) {
-    try {
-      quantity.value.quantity.options->prepare(at);
-    } catch (const InputError& error) {
-      for (Diagnostic one : error.diagnostics()) {
-        if (one.place.path.empty()) one.place = quantity.place;
-        diagnostics.push_back(std::move(one));
-      }
-    }
-    at.earlier.push_back(quantity.name);
-  }
-  throw_if_any(*model_.mesh()->comm, diagnostics);
-}
+StepEvaluation::StepEvaluation(const Scene& scene, const Model& model, const SemiSmoothSystem& system)
+    : scene_(scene), model_(model), system_(system), evaluators_(make_evaluators(scene, model)) {}
 
 std::vector<std::string> StepEvaluation::names() const {
   std::vector<std::string> names;
   for (const auto& quantity : scene_.quantities) names.push_back(quantity.name);
   return names;
-}
-
-QuantityContext StepEvaluation::context() const {
-  QuantityContext context{*model_.bodies()};
-  context.contact = model_.contact().get();
-  for (const auto& pair : scene_.contact) context.pairs.push_back({pair.name, pair.value.slave.value, pair.value.master.value});
-  context.prescribed = &model_.parts().prescribed->dofs();
-  if (model_.parts().dependent) context.following = &model_.parts().dependent->dofs();
-  context.symbols = &scene_.symbols;
-  return context;
 }
 
 RCP<Vector> StepEvaluation::local(const Vector& displacement) const {
@@ -66,7 +42,7 @@ std::vector<double> StepEvaluation::quantities(const SystemEvaluation& at) {
   throw_if_any(*model_.mesh()->comm, failure);
   external.scale(-1.0);
 
-  QuantityContext context = this->context();
+  QuantityContext context = quantity_context(scene_, model_);
   context.time = time;
   context.displacement = displacement.get();
   context.local_displacement = local_displacement.get();
@@ -74,11 +50,7 @@ std::vector<double> StepEvaluation::quantities(const SystemEvaluation& at) {
   context.reaction = reaction.get();
   context.external_force = &external;
   context.force_round_off = force_round_off(*displacement);
-  for (const auto& quantity : scene_.quantities) {
-    const double value = quantity.value.quantity.options->evaluate(context);
-    context.earlier.push_back(quantity.name);
-    context.earlier_values.push_back(value);
-  }
+  for (const auto& evaluator : evaluators_) context.earlier_values.push_back(evaluator->evaluate(context));
   return context.earlier_values;
 }
 
@@ -94,7 +66,7 @@ std::vector<Field> StepEvaluation::fields(const SystemEvaluation& at, const std:
 std::vector<std::vector<ProfilePoint>> StepEvaluation::profiles(const SystemEvaluation& at) {
   std::vector<std::vector<ProfilePoint>> profiles;
   if (!model_.contact()) return profiles;
-  const auto pairs = context().pairs;
+  const auto pairs = quantity_context(scene_, model_).pairs;
   for (std::size_t pair = profiles_.size(); pair < pairs.size(); ++pair) profiles_.emplace_back(*model_.mesh(), pairs[pair], pair);
   const auto displacement = system_.displacement(at.x());
   const auto local_displacement = local(*displacement);

@@ -112,17 +112,13 @@ void PeerEvaluation::read_forces(const CalculixResults& results) {
 }
 
 QuantityContext PeerEvaluation::context() const {
-  QuantityContext context{*model_.bodies()};
-  context.contact = model_.contact().get();
-  for (const auto& pair : scene_.contact) context.pairs.push_back({pair.name, pair.value.slave.value, pair.value.master.value});
+  QuantityContext context = quantity_context(scene_, model_);
   context.time = scene_.stepping.end_time;
   context.displacement = displacement_.get();
   context.local_displacement = local_displacement_.get();
   context.laws = laws_ ? &*laws_ : nullptr;
   context.reaction = reaction_.get();
   context.external_force = external_.get();
-  context.prescribed = &model_.parts().prescribed->dofs();
-  context.symbols = &scene_.symbols;
   return context;
 }
 
@@ -150,18 +146,15 @@ double PeerEvaluation::contact_force(const ContactForce& quantity, const Quantit
   return body == master ? sum : -sum;
 }
 
-double PeerEvaluation::evaluate(Quantity& quantity, const QuantityContext& context) const {
+double PeerEvaluation::evaluate(const Quantity& quantity, QuantityEvaluator& evaluator, const QuantityContext& context) const {
   if (const auto* force = dynamic_cast<const ContactForce*>(&quantity)) return contact_force(*force, context);
-  return can_be_had(quantity) ? quantity.evaluate(context) : none;
+  return can_be_had(quantity) ? evaluator.evaluate(context) : none;
 }
 
-std::vector<double> PeerEvaluation::quantities() const {
+std::vector<double> PeerEvaluation::quantities(const QuantityEvaluators& evaluators) const {
   QuantityContext context = this->context();
-  for (const auto& quantity : scene_.quantities) {
-    const double value = evaluate(*quantity.value.quantity.options, context);
-    context.earlier.push_back(quantity.name);
-    context.earlier_values.push_back(value);
-  }
+  for (std::size_t i = 0; i < evaluators.size(); ++i)
+    context.earlier_values.push_back(evaluate(*scene_.quantities[i].value.quantity.options, *evaluators[i], context));
   return context.earlier_values;
 }
 

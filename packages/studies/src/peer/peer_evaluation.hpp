@@ -6,6 +6,7 @@
 #include "mortise/simulation/model/model.hpp"
 #include "mortise/simulation/quantities/contact_profile.hpp"
 #include "mortise/simulation/quantities/quantity_kinds.hpp"
+#include "mortise/simulation/run/quantity_evaluators.hpp"
 #include "peer/calculix_results.hpp"
 
 namespace mortise {
@@ -18,7 +19,8 @@ class PeerEvaluation {
   ~PeerEvaluation();
 
   /// In the order of the scene; not a number for what cannot be had: energies, stresses, shears, what has to be followed over the steps.
-  std::vector<double> quantities() const;
+  /// @param evaluators  new ones of the scene
+  std::vector<double> quantities(const QuantityEvaluators& evaluators) const;
 
   /// Slave surfaces with the pressures, of each pair.
   std::vector<std::vector<ProfilePoint>> profiles() const;
@@ -28,7 +30,7 @@ class PeerEvaluation {
   void read_displacement(const CalculixResults& results);
   void read_pressure(const CalculixResults& results);
   void read_forces(const CalculixResults& results);
-  double evaluate(Quantity& quantity, const QuantityContext& context) const;
+  double evaluate(const Quantity& quantity, QuantityEvaluator& evaluator, const QuantityContext& context) const;
   double contact_force(const ContactForce& quantity, const QuantityContext& context) const;
 
   const Scene& scene_;

@@ -13,7 +13,7 @@
 #include "mortise/io/output_directory.hpp"
 #include "mortise/simulation/model/run_log.hpp"
 #include "mortise/simulation/run/run.hpp"
-#include "mortise/simulation/run/step_evaluation.hpp"
+#include "mortise/simulation/run/quantity_evaluators.hpp"
 #include "mortise/simulation/scene/read_scene.hpp"
 #include "mortise/studies/peer.hpp"
 #include "peer/calculix_deck.hpp"
@@ -73,8 +73,7 @@ ExitCode run_peer(const RCP<const Communicator>& comm, const PeerOptions& option
   const Timers timers;
   const Scene scene = read_scene(*comm, options.scene, options.settings);
   const Model model(comm, scene, timers);
-  SemiSmoothSystem system(model.parts(), timers);
-  const StepEvaluation prepared(scene, model, system);  // the names that quantities hold
+  const QuantityEvaluators evaluators = make_evaluators(scene, model);  // says which names do not exist before anything is written
   std::vector<Diagnostic> obstacles = calculix_obstacles(scene, model);
   const Place place{"", 0, "--penalty"};
   if (!options.penalty.empty() && !has_penalty(options.peer))
@@ -104,7 +103,7 @@ ExitCode run_peer(const RCP<const Communicator>& comm, const PeerOptions& option
   summary["memory_total_mib"] = ending.memory_mib;
   if (finished) {
     const PeerEvaluation evaluation(scene, model, results);
-    const auto values = evaluation.quantities();
+    const auto values = evaluation.quantities(evaluators);
     for (std::size_t i = 0; i < values.size(); ++i) {
       summary["quantities"][scene.quantities[i].name] = std::isfinite(values[i]) ? Json(values[i]) : Json(nullptr);
       log.info(fmt::format("{} = {:.10g}", scene.quantities[i].name, values[i]));

@@ -45,9 +45,8 @@ std::vector<double> row_of(const PointRecord& record) {
   return row;
 }
 
-std::string effective_xml(PointFile& point) {
-  const std::string name = point.name;
-  return to_scene_xml(collect_parameters(name, point, CollectParameters::What::values), symbol_lists(point.symbols));
+std::string effective_xml(const PointFile& point) {
+  return to_scene_xml(collect_parameters(point.name, point, CollectParameters::What::values), symbol_lists(point.symbols));
 }
 
 }  // namespace
@@ -55,7 +54,7 @@ std::string effective_xml(PointFile& point) {
 ExitCode run_point(const RCP<const Communicator>& comm, const RunOptions& options) {
   // A point is nothing: every rank drives it, rank 0 writes.
   RunLog log(comm, options.verbosity);
-  PointFile point = read_point(*comm, options.scene, options.settings);
+  const PointFile point = read_point(*comm, options.scene, options.settings);
   const std::vector<PathPoint> path = points_of(*point.path.options);
   const Law law = point.material.options->law();
   OutputDirectory directory(comm, options.directory.empty() ? default_directory(options.scene) : options.directory, options.keep);

@@ -31,7 +31,7 @@ const ParameterRecord* find_parameter(const ListRecord& list, const std::string&
 }
 
 /// How contact is formulated: the parameter "formulation" of the pairs, or "type" in a list of that name.
-std::string formulation_of(Scene& scene) {
+std::string formulation_of(const Scene& scene) {
   const ListRecord tree = collect_parameters(scene.name, scene, CollectParameters::What::values);
   std::vector<std::string> found;
   if (const ListRecord* pairs = find_list(tree, "contact"))
@@ -47,7 +47,7 @@ std::string formulation_of(Scene& scene) {
 void complete(StudyPoint& point, const XmlList& root) {
   XmlList changed = root;
   for (const Assignment& one : point.settings) apply_override(changed, one.path, one.value, one.place);
-  Scene scene = make_scene(changed);
+  const Scene scene = make_scene(changed);
   point.formulation = formulation_of(scene);
   std::vector<std::string> elements;
   for (const auto& body : scene.bodies)

@@ -43,7 +43,7 @@ struct ListRecord {
   Teuchos::ParameterList verbatim;  ///< of that kind
 };
 
-/// Visitor that writes down what it visits.
+/// Visitor that writes down what it visits and leaves it as it is.
 class CollectParameters : public Parameters {
  public:
   /// What is written down.
@@ -66,7 +66,7 @@ class CollectParameters : public Parameters {
   using Parameters::add;
   void verbatim(const std::string& name, Teuchos::ParameterList& list, const Says& says) override;
   void assignments(std::vector<Assignment>& assignments) override;
-  Place place(const std::string&) const override { return {}; }
+  void locate(const std::string&, Place&) const override {}
   void error(const std::string&, const std::string&) override {}
 
   /// The outermost list, after the visit.
@@ -105,9 +105,9 @@ std::vector<ListRecord> symbol_lists(const Symbols& symbols);
 
 /// The tree of options that have a `describe`.
 template <class Options>
-ListRecord collect_parameters(const std::string& name, Options& options, CollectParameters::What what) {
+ListRecord collect_parameters(const std::string& name, const Options& options, CollectParameters::What what) {
   CollectParameters collector(name, what);
-  options.describe(collector);
+  const_cast<Options&>(options).describe(collector);  // not const for the visitors that fill options; this one does not write
   return collector.tree();
 }
 

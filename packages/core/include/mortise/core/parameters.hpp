@@ -147,21 +147,21 @@ class Parameters {
       if (choices[i].second == value) index = i;
     }
     add_enumeration(name, index, names, says);
-    value = choices[index].second;
+    if (value != choices[index].second) value = choices[index].second;
   }
 
   /// Any of these, with its place.
   template <class T>
   void add(const std::string& name, Located<T>& value, const Says& says) {
     add(name, value.value, says);
-    value.place = place(name);
+    locate(name, value.place);
   }
 
   /// One of named values of an enumeration, with its place.
   template <class Enum>
   void add(const std::string& name, Located<Enum>& value, const std::vector<std::pair<std::string, Enum>>& choices, const Says& says) {
     add(name, value.value, choices, says);
-    value.place = place(name);
+    locate(name, value.place);
   }
 
   /// A list of parameters: `options` has a `describe`.
@@ -205,14 +205,15 @@ class Parameters {
   /// The same, with its place.
   void verbatim(const std::string& name, Located<Teuchos::ParameterList>& list, const Says& says) {
     verbatim(name, list.value, says);
-    list.place = place(name);
+    locate(name, list.place);
   }
 
   /// All that stands in the current list: values for another file, whose reader checks them. Names and those of lists within make paths.
   virtual void assignments(std::vector<Assignment>& assignments) = 0;
 
-  /// Place of the parameter or list `name` of the current list: where the scene gives it, or the list's own if it does not. Empty when not reading.
-  virtual Place place(const std::string& name) const = 0;
+  /// Puts into `place` where the scene gives the parameter or list `name` of the current list, or the list's own place if it does not. Leaves it
+  /// alone when not reading.
+  virtual void locate(const std::string& name, Place& place) const = 0;
 
   /// Says that what was just read does not go together. Does nothing when not reading, or if a parameter that the message quotes was refused.
   virtual void error(const std::string& name, const std::string& message) = 0;

@@ -28,7 +28,7 @@ class ReadParameters : public Parameters {
   using Parameters::add;
   void verbatim(const std::string& name, Teuchos::ParameterList& list, const Says& says) override;
   void assignments(std::vector<Assignment>& assignments) override;
-  Place place(const std::string& name) const override;
+  void locate(const std::string& name, Place& place) const override { place = this->place(name); }
   void error(const std::string& name, const std::string& message) override;
 
   /// To call after the visit: reports what stands in the outermost list but was not asked for, and returns all diagnostics in the order of lines.
@@ -50,6 +50,7 @@ class ReadParameters : public Parameters {
     bool check_unknown = true;
     std::vector<std::vector<std::string>> refused{};  ///< parameters that keep their defaults, below the names of the lists within that hold them
   };
+  Place place(const std::string& name) const;
   const XmlParameter* find(const std::string& name, const Says& says, const std::vector<std::string>& types);
   void say(const Place& place, const std::string& message) { diagnostics_.push_back({place, message}); }
   void refuse(const std::string& name, const Place& where, const std::string& message);

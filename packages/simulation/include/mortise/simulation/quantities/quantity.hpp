@@ -1,6 +1,7 @@
 #pragma once
 // Numbers that a scene wants of its run.
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,7 @@ struct PairSurfaces {
   std::string slave, master;
 };
 
-/// What a quantity may look at. The vectors are null while quantities are prepared.
+/// What a quantity may look at. The vectors are null while evaluators are made.
 struct QuantityContext {
   const Bodies& bodies;
   const ContactSystem* contact = nullptr;  ///< null: the scene has no contact
@@ -32,19 +33,25 @@ struct QuantityContext {
   const std::vector<LocalOrdinal>* prescribed = nullptr;  ///< prescribed owned dofs
   const std::vector<LocalOrdinal>* following = nullptr;   ///< owned dofs that follow reference points; null: none does
   const Symbols* symbols = nullptr;                       ///< variables and tables of the scene
-  std::vector<std::string> earlier{};                     ///< quantities that the scene names before this one
-  std::vector<double> earlier_values{};                   ///< theirs at this time; empty while quantities are prepared
+  std::vector<std::string> earlier{};                     ///< while evaluators are made: quantities that the scene names before this one
+  std::vector<double> earlier_values{};                   ///< afterwards: theirs at this time
 
   const Mesh& mesh() const { return *bodies.mesh(); }
 };
 
-/// One number, by its name in the scene. Kinds are found in quantity_registry().
-struct Quantity : Described {
-  /// Resolves names of sets, bodies and pairs. Collective, once, before anything is solved. Throws InputError on all ranks.
-  virtual void prepare(const QuantityContext& context) = 0;
+/// The values of one quantity in one run. What has to be remembered from step to step is its own.
+class QuantityEvaluator {
+ public:
+  virtual ~QuantityEvaluator() = default;
 
   /// The value, the same on every rank. Collective, after each accepted step. NaN: it has no value at this time (a ratio to nothing).
   virtual double evaluate(const QuantityContext& context) = 0;
+};
+
+/// One number, by its name in the scene: its options. Kinds are found in quantity_registry().
+struct Quantity : Described {
+  /// Resolves names of sets, bodies and pairs, for one run. Collective, before anything is solved. Throws InputError on all ranks.
+  virtual std::unique_ptr<QuantityEvaluator> make_evaluator(const QuantityContext& context) const = 0;
 };
 
 /// All kinds by name.

@@ -2,7 +2,7 @@
 // What the kinds of quantities share: names of bodies and pairs, sums over ranks, the slave surface with its pressures.
 
 #include <array>
-#include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +12,20 @@
 namespace mortise {
 
 const std::vector<std::pair<std::string, Component>>& component_names();
+
+/// An evaluator without a memory: `function` of the context.
+template <class Function>
+std::unique_ptr<QuantityEvaluator> evaluator_of(Function function) {
+  class Evaluator final : public QuantityEvaluator {
+   public:
+    explicit Evaluator(Function function) : function_(std::move(function)) {}
+    double evaluate(const QuantityContext& context) override { return function_(context); }
+
+   private:
+    const Function function_;
+  };
+  return std::make_unique<Evaluator>(std::move(function));
+}
 
 /// Sum and largest over all ranks. Collective.
 double sum_over_ranks(const Mesh& mesh, double mine);
@@ -27,6 +41,8 @@ std::optional<LocalOrdinal> find_optional_body(const QuantityContext& context, c
 
 /// Index of a pair; an empty name is the only pair. Throws InputError at the name's place.
 std::size_t find_pair(const QuantityContext& context, const Located<std::string>& name);
+/// The same, for quantities of lines: also throws in 3D.
+std::size_t find_pair_of_plane(const QuantityContext& context, const Located<std::string>& name);
 
 /// The parameter "measure".
 void describe_measure(Parameters& parameters, TractionMeasure& measure);

@@ -1,7 +1,6 @@
 #pragma once
 // Quantities and fields of an accepted step.
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,24 +9,24 @@
 #include "mortise/simulation/model/model.hpp"
 #include "mortise/simulation/quantities/contact_profile.hpp"
 #include "mortise/simulation/quantities/fields.hpp"
+#include "mortise/simulation/run/quantity_evaluators.hpp"
 
 namespace mortise {
 
-/// Evaluates what a scene wants to know of a state. Collective in all members.
+/// Evaluates what a scene wants to know of the states of one run. Collective in all members.
 class StepEvaluation {
  public:
-  /// Prepares the quantities. Throws InputError on all ranks for sets, bodies and pairs that do not exist.
+  /// Throws InputError, on all ranks, for sets, bodies and pairs of quantities that do not exist.
   StepEvaluation(const Scene& scene, const Model& model, const SemiSmoothSystem& system);
 
   std::vector<std::string> names() const;
-  /// In the order of names(), of an accepted step.
+  /// In the order of names(). To be asked once for each accepted step: some quantities sum up over the steps.
   std::vector<double> quantities(const SystemEvaluation& at);
   std::vector<Field> fields(const SystemEvaluation& at, const std::vector<std::string>& names);
   /// The points along the slave surface of each pair, on rank 0.
   std::vector<std::vector<ProfilePoint>> profiles(const SystemEvaluation& at);
 
  private:
-  QuantityContext context() const;
   double force_round_off(const Vector& displacement) const;
   const ContactLaws* contact_laws(const SystemEvaluation& at) const;
   RCP<Vector> local(const Vector& displacement) const;
@@ -35,6 +34,7 @@ class StepEvaluation {
   const Scene& scene_;
   const Model& model_;
   const SemiSmoothSystem& system_;
+  QuantityEvaluators evaluators_;
   std::vector<ContactProfile> profiles_;
 };
 

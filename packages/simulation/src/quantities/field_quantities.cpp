@@ -1,0 +1,158 @@
+// Extrema and means of fields.
+
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "mortise/mesh/sets.hpp"
+#include "mortise/simulation/quantities/quantity_support.hpp"
+
+namespace mortise {
+namespace {
+
+enum class Carrier { nodes, points, slave_nodes };
+
+Carrier carrier(PointField field) {
+  if (field <= PointField::displacement_magnitude) return Carrier::nodes;
+  return field <= PointField::equivalent_plastic_strain ? Carrier::points : Carrier::slave_nodes;
+}
+
+/// sqrt(3/2 s : s), s the deviator.
+double equivalent_stress(const Matrix3& stress) {
+  const Matrix3 deviator = stress - stress.trace() / 3.0 * Matrix3::Identity();
+  return std::sqrt(1.5) * deviator.norm();
+}
+
+double value_at(PointField field, const MaterialPoint& point) {
+  const Matrix3& stress = point.cauchy_stress;
+  switch (field) {
+    case PointField::equivalent_plastic_strain:
+      return point.equivalent_plastic_strain;
+    case PointField::stress_xx:
+      return stress(0, 0);
+    case PointField::stress_yy:
+      return stress(1, 1);
+    case PointField::stress_zz:
+      return stress(2, 2);
+    case PointField::stress_xy:
+      return stress(0, 1);
+    case PointField::stress_yz:
+      return stress(1, 2);
+    case PointField::stress_xz:
+      return stress(0, 2);
+    default:
+      return equivalent_stress(stress);
+  }
+}
+
+/// The points that a quantity looks at.
+class FieldPoints {
+ public:
+  FieldPoints(const FieldQuantity& quantity, const QuantityContext& context) : field_(quantity.field), on_(quantity.on) {
+    const Carrier kind = carrier(field_);
+    if (kind == Carrier::slave_nodes && context.pairs.empty()) throw InputError(on_.place, "the scene has no contact");
+    if (on_.value.empty()) return;
+    if (kind == Carrier::nodes) require_node_set(context.mesh(), on_);
+    if (kind == Carrier::points) body_ = find_body(context, on_);
+    if (kind == Carrier::slave_nodes) pair_ = find_pair(context, on_);
+  }
+
+  /// Calls visit(value, weight) for the points of this rank. Weights: 1, current volume, or A_j.
+  void visit(const QuantityContext& context, const std::function<void(double, double)>& visit) const {
+    const Mesh& mesh = context.mesh();
+    switch (carrier(field_)) {
+      case Carrier::nodes: {
+        const auto displacement = context.displacement->getLocalViewHost(Tpetra::Access::ReadOnly);
+        const auto visit_node = [&](LocalOrdinal node) {
+          std::array<double, 3> u{};
+          for (int i = 0; i < mesh.dimension; ++i) u[i] = displacement(mesh.dimension * node + i, 0);
+          const auto component = static_cast<std::size_t>(field_) - static_cast<std::size_t>(PointField::displacement_x);
+          visit(field_ == PointField::displacement_magnitude ? std::hypot(u[0], u[1], u[2]) : u[component], 1.0);
+        };
+        if (on_.value.empty()) {
+          for (LocalOrdinal node = 0; node < mesh.owned_body_count(); ++node) visit_node(node);
+        } else {
+          for (const LocalOrdinal node : require_node_set(mesh, on_))
+            if (node < mesh.owned_count()) visit_node(node);
+        }
+        break;
+      }
+      case Carrier::points:
+        context.bodies.visit_points(*context.local_displacement, [&](const MaterialPoint& point) {
+          if (!body_ || point.block == *body_) visit(value_at(field_, point), point.weight * point.volume_ratio);
+        });
+        break;
+      case Carrier::slave_nodes:
+        for (std::size_t pair = 0; pair < context.pairs.size(); ++pair)
+          if (!pair_ || pair == *pair_)
+            for (const auto& state : node_states(*context.laws, pair)) visit(field_ == PointField::gap ? state.gap : state.pressure, state.weight);
+        break;
+    }
+  }
+
+ private:
+  PointField field_;
+  Located<std::string> on_;
+  std::optional<LocalOrdinal> body_;
+  std::optional<std::size_t> pair_;
+};
+
+}  // namespace
+
+void FieldQuantity::describe(Parameters& parameters) {
+  parameters.add("field", field,
+                 {{"displacement x", PointField::displacement_x},
+                  {"displacement y", PointField::displacement_y},
+                  {"displacement z", PointField::displacement_z},
+                  {"displacement magnitude", PointField::displacement_magnitude},
+                  {"stress xx", PointField::stress_xx},
+                  {"stress yy", PointField::stress_yy},
+                  {"stress zz", PointField::stress_zz},
+                  {"stress xy", PointField::stress_xy},
+                  {"stress yz", PointField::stress_yz},
+                  {"stress xz", PointField::stress_xz},
+                  {"von mises", PointField::von_mises},
+                  {"equivalent plastic strain", PointField::equivalent_plastic_strain},
+                  {"contact pressure", PointField::contact_pressure},
+                  {"gap", PointField::gap}},
+                 "displacement at nodes, Cauchy stress and accumulated plastic strain at quadrature points, pressure and gap at slave nodes");
+  parameters.add("on", on,
+                 "a set of nodes or a body (displacement), a body (stress, plastic strain), a contact pair (pressure, gap); empty: everywhere");
+}
+
+void Extremum::describe(Parameters& parameters) {
+  FieldQuantity::describe(parameters);
+  parameters.add("which", which, names(), "which extremum");
+}
+
+const std::vector<std::pair<std::string, Extremum::Which>>& Extremum::names() {
+  static const std::vector<std::pair<std::string, Which>> names{
+      {"maximum", Which::maximum}, {"minimum", Which::minimum}, {"maximum absolute", Which::maximum_absolute}};
+  return names;
+}
+
+std::unique_ptr<QuantityEvaluator> Extremum::make_evaluator(const QuantityContext& context) const {
+  return evaluator_of([which = which, points = FieldPoints(*this, context)](const QuantityContext& at) {
+    const double sign = which == Which::minimum ? -1.0 : 1.0;
+    double largest = -std::numeric_limits<double>::infinity();
+    points.visit(at, [&](double value, double) { largest = std::max(largest, which == Which::maximum_absolute ? std::abs(value) : sign * value); });
+    return sign * largest_over_ranks(at.mesh(), largest);
+  });
+}
+
+std::unique_ptr<QuantityEvaluator> Mean::make_evaluator(const QuantityContext& context) const {
+  return evaluator_of([points = FieldPoints(*this, context)](const QuantityContext& at) {
+    double sum = 0.0, weights = 0.0;
+    points.visit(at, [&](double value, double weight) { sum += weight * value, weights += weight; });
+    return sum_over_ranks(at.mesh(), sum) / sum_over_ranks(at.mesh(), weights);
+  });
+}
+
+void add_extremum(Registry<Quantity>& kinds) { kinds.add<Extremum>("extremum", "largest or smallest value of a field"); }
+
+void add_mean(Registry<Quantity>& kinds) { kinds.add<Mean>("mean", "mean of a field: over nodes, over volume, over the slave surface"); }
+
+}  // namespace mortise

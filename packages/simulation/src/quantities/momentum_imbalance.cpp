@@ -1,0 +1,102 @@
+// How far forces are from balance.
+
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "mortise/mesh/reference_point.hpp"
+#include "mortise/simulation/quantities/quantity_support.hpp"
+
+namespace mortise {
+namespace {
+
+using Sums = std::array<double, 3>;
+
+Sums over_ranks(const Mesh& mesh, const Sums& mine) {
+  return {sum_over_ranks(mesh, mine[0]), sum_over_ranks(mesh, mine[1]), sum_over_ranks(mesh, mine[2])};
+}
+
+/// Radial forces on a ring do not sum to zero: the hoop stress carries them, or the area that contact acts on.
+int first_balanced_component(const QuantityContext& context) { return context.bodies.kinematics() == Kinematics::axisymmetric ? 1 : 0; }
+
+double contact_imbalance(const QuantityContext& context) {
+  if (context.contact == nullptr) return 0.0;
+  Vector force(context.bodies.dofs());
+  context.laws->add_force(force);
+  const auto values = force.getLocalViewHost(Tpetra::Access::ReadOnly);
+  Sums sum{}, absolute{};
+  const int dimension = context.mesh().dimension;
+  for (std::size_t dof = 0; dof < values.extent(0); ++dof) {
+    sum[dof % dimension] += values(dof, 0);
+    absolute[dof % dimension] += std::abs(values(dof, 0));
+  }
+  sum = over_ranks(context.mesh(), sum);
+  absolute = over_ranks(context.mesh(), absolute);
+  const double scale = 0.5 * std::max({absolute[0], absolute[1], absolute[2]});
+  if (first_balanced_component(context) > 0) sum[0] = 0.0;
+  return scale > 0.0 ? std::hypot(sum[0], sum[1], sum[2]) / scale : 0.0;
+}
+
+/// Forces no larger than round-off are none, and none are in balance.
+double total_imbalance(const QuantityContext& context) {
+  const auto load = context.external_force->getLocalViewHost(Tpetra::Access::ReadOnly);
+  const auto reaction = context.reaction->getLocalViewHost(Tpetra::Access::ReadOnly);
+  Sums sum{}, loads{}, reactions{};
+  const int dimension = context.mesh().dimension;
+  const auto is_rotation = [&](LocalOrdinal dof) {  // moments are no forces
+    const auto& points = context.mesh().reference_points;
+    return std::any_of(points.begin(), points.end(), [&](const ReferencePoint& point) { return point.rotation_node == dof / dimension; });
+  };
+  for (std::size_t dof = 0; dof < load.extent(0); ++dof) {
+    if (is_rotation(static_cast<LocalOrdinal>(dof))) continue;
+    sum[dof % dimension] += load(dof, 0);
+    loads[dof % dimension] += std::abs(load(dof, 0));
+  }
+  for (const LocalOrdinal dof : *context.prescribed) {
+    if (is_rotation(dof)) continue;
+    sum[dof % dimension] += reaction(dof, 0);
+    reactions[dof % dimension] += std::abs(reaction(dof, 0));
+  }
+  const Mesh& mesh = context.mesh();
+  sum = over_ranks(mesh, sum), loads = over_ranks(mesh, loads), reactions = over_ranks(mesh, reactions);
+  double largest = 0.0, scale = 0.0;
+  for (int i = first_balanced_component(context); i < dimension; ++i) {
+    largest = std::max(largest, std::abs(sum[i]));
+    scale = std::max({scale, loads[i], reactions[i]});
+  }
+  return scale > context.force_round_off ? largest / scale : 0.0;
+}
+
+/// With f_c the contact forces on all nodes:
+///   - contact: |sum f_c| / (1/2 sum |f_c|);
+///   - total: |sum of loads + sum of reactions on prescribed dofs| / the larger sum of absolute values;
+///   - both: the larger of the two.
+/// Components in which bodies balance: both, axisymmetric the axial one (total).
+struct MomentumImbalance : Quantity {
+  enum class Of { contact, total, both };
+  Of of = Of::both;
+
+  void describe(Parameters& parameters) override {
+    parameters.add("of", of, {{"both", Of::both}, {"contact", Of::contact}, {"total", Of::total}},
+                   "contact: forces on slave against those on master; total: loads against reactions; both: the larger one");
+  }
+
+  std::unique_ptr<QuantityEvaluator> make_evaluator(const QuantityContext&) const override {
+    return evaluator_of([of = of](const QuantityContext& at) {
+      double imbalance = 0.0;
+      if (of != Of::total) imbalance = std::max(imbalance, contact_imbalance(at));
+      if (of != Of::contact) imbalance = std::max(imbalance, total_imbalance(at));
+      return imbalance;
+    });
+  }
+};
+
+}  // namespace
+
+void add_momentum_imbalance(Registry<Quantity>& kinds) {
+  kinds.add<MomentumImbalance>("momentum imbalance", "how far forces are from balance, relative");
+}
+
+}  // namespace mortise
