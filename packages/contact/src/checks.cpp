@@ -28,8 +28,8 @@ void refuse_unfit_fields(const NodalField& displacement, const Map& dofs, const 
     throw std::invalid_argument(
         "contact: reference positions and marks of prescribed components need one row for each node of `owned_nodes`, in its order");
   if (displacement.components() != static_cast<int>(dimension))
-    throw std::invalid_argument(fmt::format("contact: field '{}' has {} components, the reference positions {}", displacement.name(),
-                                            displacement.components(), dimension));
+    throw std::invalid_argument(
+        fmt::format("contact: field '{}' has {} components, the reference positions {}", displacement.name(), displacement.components(), dimension));
   std::string mine;
   const auto marks = fixed.getLocalViewHost(Tpetra::Access::ReadOnly);
   for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(owned_nodes.getNodeNumElements()) && mine.empty(); ++node)
@@ -40,7 +40,8 @@ void refuse_unfit_fields(const NodalField& displacement, const Map& dofs, const 
       };
       if (id == NodalField::none && marks(node, i) == 0.0) say("is neither an unknown nor marked as prescribed");
       if (id != NodalField::none && !dofs.isNodeGlobalElement(id))
-        say(fmt::format("has the id {}, which is no owned row of the system; give the map of the rows that the field was numbered with, as "
+        say(
+            fmt::format("has the id {}, which is no owned row of the system; give the map of the rows that the field was numbered with, as "
                         "make_dof_map() of mortise/core/dof_map.hpp for numbered_by_nodes()",
                         id));
     }

@@ -172,7 +172,7 @@ void detail::Condensation::condense_node(std::size_t p, std::size_t s, Matrix& s
   kept.node = s;
   for (int i = 0; i < dimension; ++i)
     if (own_rows[i] >= 0) copy_row(system, own_rows[i], kept.columns, momentum[i]);  // the same columns: see SystemScatter
-  if (kept.columns.empty()) {  // nothing of the node is an unknown
+  if (kept.columns.empty()) {                                                        // nothing of the node is an unknown
     kept.columns = columns_of(positions, coupled, dimension);
     std::sort(kept.columns.begin(), kept.columns.end());
   }

@@ -37,7 +37,9 @@ struct Condensation {
   const ContactModel& model() const { return *at().contact->model; }
   const PairEvaluation& pair(std::size_t p) const { return at().contact->pairs[p]; }
   /// Local rows of the components of an owned slave node, -1: no unknown.
-  const LocalOrdinal* own_rows_of(const SlaveNode& slave) const { return &model().rows[static_cast<std::size_t>(model().dimension * slave.owned_node)]; }
+  const LocalOrdinal* own_rows_of(const SlaveNode& slave) const {
+    return &model().rows[static_cast<std::size_t>(model().dimension * slave.owned_node)];
+  }
 
   void condense_node(std::size_t pair, std::size_t s, Matrix& system);
   void eliminate_by_law(std::size_t pair, std::size_t s, Matrix& system);

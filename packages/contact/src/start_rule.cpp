@@ -87,7 +87,8 @@ bool ContactEvaluation::follow_cover(const ContactStates& last, Vector& z) const
 // A node whose gap is zero up to round-off would be open or closed at random: it starts closed, at a pressure that no result can see.
 // Where a body that only contact holds has no closed node, its system is singular: the nodes nearest to contact start closed,
 // z_n = c_n g + 1e-6 E.
-ContactHistory ContactSystem::start_step(const ContactHistory& accepted, const NodalDisplacement& d, const std::vector<char>& unconstrained, Vector& z) const {
+ContactHistory ContactSystem::start_step(const ContactHistory& accepted, const NodalDisplacement& d, const std::vector<char>& unconstrained,
+                                         Vector& z) const {
   const detail::ContactModel& self = *model_;
   const std::size_t nodes = self.owned_nodes->getNodeNumElements();
   if (self.maximum(unconstrained.size() != nodes) > 0.0)

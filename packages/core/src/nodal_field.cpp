@@ -14,11 +14,12 @@ namespace mortise {
 NodalField::NodalField(std::string name, RCP<const Map> nodes, int components, std::vector<GlobalOrdinal> ids)
     : name_(std::move(name)), nodes_(std::move(nodes)), components_(components), ids_(std::move(ids)) {
   if (ids_.size() != nodes_->getNodeNumElements() * static_cast<std::size_t>(components_))
-    throw std::invalid_argument(fmt::format("field '{}': {} ids for {} nodes of {} components", name_, ids_.size(), nodes_->getNodeNumElements(),
-                                            components_));
+    throw std::invalid_argument(
+        fmt::format("field '{}': {} ids for {} nodes of {} components", name_, ids_.size(), nodes_->getNodeNumElements(), components_));
   const auto wrong = std::find_if(ids_.begin(), ids_.end(), [](GlobalOrdinal id) { return id < none; });
   if (wrong != ids_.end())
-    throw std::invalid_argument(fmt::format("field '{}': the id {}; an id is at least 0, or NodalField::none where there is no unknown", name_, *wrong));
+    throw std::invalid_argument(
+        fmt::format("field '{}': the id {}; an id is at least 0, or NodalField::none where there is no unknown", name_, *wrong));
 }
 
 // Ids are whole numbers below 2^53, which doubles hold exactly.

@@ -56,8 +56,7 @@ double FieldSizes::largest(const Vector& v) const {
   if (fields() == 1) return v.normInf();
   double mine = 0.0, all = 0.0;
   const auto view = v.getLocalViewHost(Tpetra::Access::ReadOnly);
-  for (std::size_t row = 0; row < field_of_row_.size(); ++row)
-    mine = std::max(mine, std::abs(view(row, 0)) * sizes_[0] / sizes_[field_of_row_[row]]);
+  for (std::size_t row = 0; row < field_of_row_.size(); ++row) mine = std::max(mine, std::abs(view(row, 0)) * sizes_[0] / sizes_[field_of_row_[row]]);
   Teuchos::reduceAll(*v.getMap()->getComm(), Teuchos::REDUCE_MAX, mine, Teuchos::outArg(all));
   return all;
 }

@@ -23,8 +23,7 @@ LinearSystem assembled(const SystemModel& model, const std::shared_ptr<const Eva
     const auto rows = residual->getLocalViewHost(Tpetra::Access::ReadOnly);
     for (const LocalOrdinal row : system.prescribed) step(row, 0) = -rows(row, 0) / model.stiffness_scale_of(row);
   }
-  if (model.parts().near_null_space)
-    system.multigrid.near_null_space = [&model, d = at->d] { return model.parts().near_null_space(*d); };
+  if (model.parts().near_null_space) system.multigrid.near_null_space = [&model, d = at->d] { return model.parts().near_null_space(*d); };
   system.recover = [](const Vector& u, Vector& dd, Vector&) { Tpetra::deep_copy(dd, u); };
   system.restricted = system.prolonged = [](const Vector& v) { return rcp(new Vector(v, Teuchos::Copy)); };
   return system;

@@ -61,7 +61,8 @@ double SemiSmoothSystem::prescribed_deviation(const Vector& x, double time) cons
     const detail::FieldSizes& sizes = model_->sizes();
     const RCP<const Vector> d = displacement(x);
     const auto displacements = d->getLocalViewHost(Tpetra::Access::ReadOnly);
-    for (std::size_t i = 0; i < rows.size(); ++i) mine = std::max(mine, std::abs(displacements(rows[i], 0) - values[i]) / sizes.size(sizes.field(rows[i])));
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      mine = std::max(mine, std::abs(displacements(rows[i], 0) - values[i]) / sizes.size(sizes.field(rows[i])));
   }
   Teuchos::reduceAll(model_->comm(), Teuchos::REDUCE_MAX, mine, Teuchos::outArg(largest));
   return largest;

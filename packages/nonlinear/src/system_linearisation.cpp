@@ -22,8 +22,8 @@ StepFailure explained(const SystemModel& model, const StepFailure& failure) {
                                          "more than a facet: take \"passes\" \"single\", or a mortar formulation");
 }
 
-// From the step of J~ to that of J = J~ + L, see left_out_couplings.hpp. With J~ (dd, dz) = -(0, C) displacements that are prescribed or follow others
-// do not change, and neither do multipliers of open nodes.
+// From the step of J~ to that of J = J~ + L, see left_out_couplings.hpp. With J~ (dd, dz) = -(0, C) displacements that are prescribed or follow
+// others do not change, and neither do multipliers of open nodes.
 void correct(const SystemModel& model, const detail::LinearSystem& system, double tolerance, LinearSolveReport& report, Vector& dd, Vector& dz) {
   const auto scope = model.timers().scope("tied multipliers");
   CondensedContact& condensed = *system.condensed;

@@ -58,8 +58,8 @@ void SystemModel::check_contributions() const {
     for (const auto* names : {&uses.reads, &uses.writes})
       for (const std::string& name : *names)
         if (std::find(known.begin(), known.end(), name) == known.end())
-          throw std::invalid_argument(fmt::format("contribution \"{}\" knows a field '{}'; the system's fields are: {}", contribution->name(), name,
-                                                  fmt::join(known, ", ")));
+          throw std::invalid_argument(
+              fmt::format("contribution \"{}\" knows a field '{}'; the system's fields are: {}", contribution->name(), name, fmt::join(known, ", ")));
     if (uses.time_derivatives > 0)
       throw std::invalid_argument(
           fmt::format("contribution \"{}\" reads time derivatives of order {}; this system has none", contribution->name(), uses.time_derivatives));

@@ -59,7 +59,8 @@ class KernelBlock final : public ElementBlock {
         for (int i = 0; i < dimension; ++i) {
           double* row = matrix.row(dimension * node[a] + i);
           for (int b = 0; b < nodes; ++b)
-            for (int k = 0; k < dimension; ++k) row[position[a * nodes + b] + k] += factor * stiffness[dimension * a + i][Kernel::Tangent::column(b, k)];
+            for (int k = 0; k < dimension; ++k)
+              row[position[a * nodes + b] + k] += factor * stiffness[dimension * a + i][Kernel::Tangent::column(b, k)];
         }
       }
     }

@@ -100,9 +100,8 @@ TEST_P(HostDofs, GetTheSystemOfTheUsualNumbering) {
   expect_equal(Fixture::dense(usual_rhs, usual_ids), Fixture::dense(host_rhs, host_ids), "condensed rhs");
 
   // What is prescribed does not move.
-  const auto increment = Fixture::vector(usual.fixture.dofs, [&](GlobalOrdinal id) {
-    return host.fixture.number(id) == NodalField::none ? 0.0 : 0.02 * wiggle(3 * id + 1);
-  });
+  const auto increment = Fixture::vector(
+      usual.fixture.dofs, [&](GlobalOrdinal id) { return host.fixture.number(id) == NodalField::none ? 0.0 : 0.02 * wiggle(3 * id + 1); });
   Vector usual_new(usual.fixture.contact->multiplier_map()), host_new(host.fixture.contact->multiplier_map());
   usual_condensed.recover(*increment, usual_new);
   host_condensed.recover(*host.fixture.numbered(*increment), host_new);

@@ -271,8 +271,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
     AcceptedState allowed = from;
     for (std::size_t pair = 0; pair < scene.contact.size(); ++pair)
       if (const double depth = model.surfaces_at_start().pairs[pair].overlap.depth; depth > 0.0)
-        allowed.context.contact =
-            model.contact()->allow_overlap(*allowed.context.contact, pair, depth * std::max(0.0, 1.0 - time / taken_up));
+        allowed.context.contact = model.contact()->allow_overlap(*allowed.context.contact, pair, depth * std::max(0.0, 1.0 - time / taken_up));
     return system.start_step(allowed, time, model.held_by_contact_only(), d, z);
   };
   {
@@ -317,7 +316,8 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
       if (explanation.empty()) explanation = explain_limit_load(failed, model, system);
       if (!explanation.empty()) return known = explanation;
       if (known.empty() && may_hold)
-        return fmt::format("{}; Newton's method found no equilibrium; {}", statics.words, describe_held_bodies(failed, model, system, check->record()));
+        return fmt::format("{}; Newton's method found no equilibrium; {}", statics.words,
+                           describe_held_bodies(failed, model, system, check->record()));
       if (known.empty()) return check ? describe_held_bodies(failed, model, system, check->record()) : known;
       return known + "; so an earlier try of this step";
     };

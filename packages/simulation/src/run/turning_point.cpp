@@ -101,8 +101,7 @@ std::string explain_turning_point(const FailedTry& failed, const Model& model, c
   }
   if (!turns) return {};
   return fmt::format("no equilibrium beyond this {0}: the {0} has a maximum here, and equilibrium goes on with less of it; {1}",
-                     loads ? "load" : "motion",
-                     describe_flow(model, *system.displacement(*failed.linearised->x), *system.displacement(converged)));
+                     loads ? "load" : "motion", describe_flow(model, *system.displacement(*failed.linearised->x), *system.displacement(converged)));
 }
 
 }  // namespace mortise

@@ -19,9 +19,9 @@ class NodalField {
   /// @throws std::invalid_argument for another number of ids, or negative ones that are not `none`
   NodalField(std::string name, RCP<const Map> nodes, int components, std::vector<GlobalOrdinal> ids);
 
-  const std::string& name() const { return name_; }        ///< as messages say it
-  const RCP<const Map>& nodes() const { return nodes_; }   ///< owned
-  int components() const { return components_; }           ///< at a node
+  const std::string& name() const { return name_; }       ///< as messages say it
+  const RCP<const Map>& nodes() const { return nodes_; }  ///< owned
+  int components() const { return components_; }          ///< at a node
   /// Of an owned node, by its local index.
   GlobalOrdinal id(LocalOrdinal node, int component) const { return ids_[static_cast<std::size_t>(components_ * node + component)]; }
   /// Ids at the nodes of another map, owned and ghosts, [nodes x components]. Collective.

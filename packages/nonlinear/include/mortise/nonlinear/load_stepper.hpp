@@ -61,7 +61,8 @@ struct StepperObserver {
   std::function<std::string(const FailedTry&)> explain;                      ///< what lies behind a failure of Newton's method, before its message
 };
 
-/// Makes what holds within a try of a step from a state to a time, which starts at displacement d, and guesses multipliers z (the contact start rule).
+/// Makes what holds within a try of a step from a state to a time, which starts at displacement d, and guesses multipliers z (the contact start
+/// rule).
 using StepStart = std::function<StepContext(const AcceptedState& state, double time, const Vector& d, Vector& z)>;
 
 /// Runs from the time of a state to the end. On return `state` is the last accepted one. Returns true at the end time; false when the smallest step

@@ -43,7 +43,8 @@ struct SystemParts {
 };
 
 /// F, J and the Newton step of x = (d, z). What it makes are values: functions of x, time and history. The stiffness scale s of a
-/// field's Dirichlet rows is the mean |diagonal| of the first stiffness that is assembled, and stays. Collective in all members but the accessors and views.
+/// field's Dirichlet rows is the mean |diagonal| of the first stiffness that is assembled, and stays. Collective in all members but the accessors and
+/// views.
 class SemiSmoothSystem {
  public:
   /// Makes the map of x; the rest is made as it is needed. Collective.

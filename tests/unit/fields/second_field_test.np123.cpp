@@ -13,11 +13,11 @@
 #include <Tpetra_Vector.hpp>
 #include <set>
 
+#include "../nonlinear/spring_grid.hpp"
 #include "mortise/mesh/build_mesh.hpp"
 #include "mortise/mesh/generators.hpp"
 #include "mortise/nonlinear/newton_solver.hpp"
 #include "mortise/shape/cell.hpp"
-#include "spring_grid.hpp"
 
 namespace mortise {
 namespace {
@@ -34,9 +34,10 @@ RCP<Mesh> two_blocks(CellShape shape) {
     result->translation = std::move(place);
     return result;
   };
-  return build_mesh(Tpetra::getDefaultComm(),
-                    {{"upper", {}, block(3.0, upper_height, 5, 3, {0.0, lower_height}), shape}, {"lower", {}, block(3.0, lower_height, 7, 4, {0.0, 0.0}), shape}},
-                    {"upper/bottom", "lower/top"});
+  return build_mesh(
+      Tpetra::getDefaultComm(),
+      {{"upper", {}, block(3.0, upper_height, 5, 3, {0.0, lower_height}), shape}, {"lower", {}, block(3.0, lower_height, 7, 4, {0.0, 0.0}), shape}},
+      {"upper/bottom", "lower/top"});
 }
 
 SurfaceFacets facets(const Mesh& mesh, const std::string& side_set, bool of_ghosts) {
@@ -135,7 +136,8 @@ class Conduction : public Contribution {
 class Conductance : public Contribution {
  public:
   Conductance(const MortarMatrices& mortar, double h) {
-    const RCP<const Matrix> jump = Tpetra::MatrixMatrix::add(1.0, false, *mortar.D, -1.0, false, *mortar.M, mortar.D->getDomainMap(), mortar.D->getRangeMap());
+    const RCP<const Matrix> jump =
+        Tpetra::MatrixMatrix::add(1.0, false, *mortar.D, -1.0, false, *mortar.M, mortar.D->getDomainMap(), mortar.D->getRangeMap());
     Vector diagonal(mortar.D->getRowMap()), share(mortar.D->getRowMap());
     mortar.D->getLocalDiagCopy(diagonal);
     share.reciprocal(diagonal);
@@ -413,8 +415,8 @@ struct HotGrid {
       if (mine(slave) || mine(slave + 1)) pair.slave.push_back({slave, slave + 1});
       if (mine(master)) pair.master.push_back({master + 1, master});
     }
-    parts.contact = std::make_shared<ContactSystem>(table.fields[0], table.dofs, reference, fixed, InterfaceMeasure{}, std::vector<ContactPair>{pair},
-                                                    Timers());
+    parts.contact =
+        std::make_shared<ContactSystem>(table.fields[0], table.dofs, reference, fixed, InterfaceMeasure{}, std::vector<ContactPair>{pair}, Timers());
     system = std::make_unique<SemiSmoothSystem>(std::move(parts), Timers());
   }
 
