@@ -25,7 +25,7 @@ void PairQuantity::prepare(const QuantityContext& context) {
 
 void HalfWidth::describe(Parameters& parameters) {
   PairQuantity::describe(parameters);
-  parameters.add("centre", center, Says("x of the middle of the contact zone").unit("length"));
+  parameters.add("centre", center, Says("x of the middle of the contact zone").unit("length").formerly("center"));
   describe_measure(parameters, measure);
 }
 
@@ -73,7 +73,7 @@ double ContactArea::evaluate(const QuantityContext& context) {
 
 void ContactRadius::describe(Parameters& parameters) {
   PairQuantity::describe(parameters);
-  parameters.add("centre", center, Says("a point of the axis: \"x, y, z\"").unit("length"));
+  parameters.add("centre", center, Says("a point of the axis: \"x, y, z\"").unit("length").formerly("center"));
   parameters.add("axis", axis, "direction of the axis: \"x, y, z\"");
   for (auto [name, values] : {std::pair{"centre", &center}, std::pair{"axis", &axis}})
     if (values->size() != 3) {

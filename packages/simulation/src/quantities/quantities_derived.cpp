@@ -16,7 +16,7 @@ void FormulaQuantity::describe(Parameters& parameters) {
 void FormulaQuantity::prepare(const QuantityContext& context) {
   std::vector<std::string> arguments{"t"};
   arguments.insert(arguments.end(), context.earlier.begin(), context.earlier.end());
-  formula_ = Expression::of(arguments, value.value, *context.symbols, value.place);
+  formula_ = parse_expression(arguments, value.value, *context.symbols, value.place);
 }
 
 double FormulaQuantity::evaluate(const QuantityContext& context) {

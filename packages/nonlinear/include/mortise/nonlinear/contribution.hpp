@@ -17,7 +17,7 @@ struct Configuration {
   const Vector& local_displacement;  ///< on owned dofs followed by ghosts
 };
 
-/// A summand of the residual r = f_int - f_ext (+ f_c). The scene builds only those it names.
+/// A summand of the residual r = f_int - f_ext (+ f_c). Only those that are wanted are made.
 /// Evaluation never changes committed state; failures are put into `failure` (first one kept), the caller agrees on them over the ranks.
 class Contribution {
  public:

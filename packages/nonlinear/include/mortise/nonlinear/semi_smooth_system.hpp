@@ -15,7 +15,7 @@
 
 namespace mortise {
 
-/// Sizes of the residual's blocks at one iterate, over all ranks; what the status tests and newton.csv show.
+/// Sizes of the residual's blocks at one iterate, over all ranks; what the status tests look at.
 struct ResidualNorms {
   double momentum = 0.0;                  ///< |r| on free dofs relative to max(|f_int|, |f_ext|, |f_c|, 1e-6 s |d|), reactions included
   double momentum_absolute = 0.0;         ///< |r| on free dofs [force]
@@ -39,7 +39,7 @@ struct SystemParts {
   std::vector<std::shared_ptr<Contribution>> contributions;                  ///< f_int - f_ext, as their sum
   std::shared_ptr<PrescribedDisplacements> prescribed;                       ///< never null; may have no dofs
   std::shared_ptr<DependentDisplacements> dependent;                         ///< null: every displacement is an unknown or prescribed
-  std::shared_ptr<ContactSystem> contact;                                    ///< null: no contact in the scene
+  std::shared_ptr<ContactSystem> contact;                                    ///< null: no contact
   std::shared_ptr<LinearSolver> linear_solver;                               ///< of each Newton step
   std::function<NearNullSpace(const Vector& displacement)> near_null_space;  ///< at a displacement; asked for by multigrid alone
   /// For an x at which the Jacobian is singular although the system has a solution: a better point to linearise at, or null where there is none. It

@@ -255,7 +255,7 @@ struct FormulaQuantity : Quantity {
   double evaluate(const QuantityContext& context) override;
 
  private:
-  std::optional<Expression> formula_;
+  std::optional<ScalarFunction> formula_;
 };
 
 /// The largest or smallest value that another quantity had at the end of any step so far; steps at which it was not a number are left out.
