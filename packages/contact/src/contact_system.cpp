@@ -12,6 +12,17 @@
 #include "evaluated_contact.hpp"
 
 namespace mortise {
+namespace {
+
+/// What to take instead of a formulation whose coupling is not made for the surfaces.
+InputError with_other_formulations(const UnfitCoupling& unfit) {
+  std::vector<Diagnostic> diagnostics = unfit.diagnostics();
+  for (Diagnostic& one : diagnostics)
+    one.message += "; use dual mortar, standard mortar, or penalty or augmented Lagrange with a mortar discretisation";
+  return InputError(std::move(diagnostics));
+}
+
+}  // namespace
 
 namespace detail {
 
@@ -93,7 +104,11 @@ ContactSystem::ContactSystem(RCP<const Map> owned_nodes, RCP<const Map> dofs, RC
     const Formulation& formulation = *pair.options.formulation.options;
     pair.options.mortar.coupling = formulation.coupling();
     pair.options.mortar.share = formulation.two_pass() ? 0.5 : 1.0;
-    self.pairs.push_back(std::make_unique<detail::Pair>(self.owned_nodes, self.reference, fixed, measure, std::move(pair)));
+    try {
+      self.pairs.push_back(std::make_unique<detail::Pair>(self.owned_nodes, self.reference, fixed, measure, std::move(pair)));
+    } catch (const UnfitCoupling& unfit) {
+      throw with_other_formulations(unfit);
+    }
   }
 
   // Ids of z: those of the nodes' dofs, beyond all dofs.

@@ -14,25 +14,28 @@ namespace {
 
 // Collective.
 void refuse_unknown_facets(const InterfaceInput& input, int dimension) {
-  std::vector<Diagnostic> diagnostics;
-  bool refused = false;
+  std::vector<Diagnostic> unknown, quadratic;
   for (const SurfaceFacets* facets : {&input.slave, &input.master})
     for (const SurfaceFacet& facet : *facets) {
       const std::size_t size = facet.size();
-      const bool linear = dimension == 2 ? size == 2 : size == 3 || size == 4, quadratic = dimension == 2 ? size == 3 : size == 6 || size == 8;
-      if (linear || (quadratic && input.options.coupling != Coupling::node_to_segment)) continue;
-      if (!refused && quadratic)
-        diagnostics.push_back({input.place, fmt::format("node to segment needs linear facets, but a surface of the pair has facets of {} nodes (one "
-                                                        "starts at node {}); use dual mortar, standard mortar, penalty or augmented Lagrange "
-                                                        "with a mortar discretisation, or linear elements",
-                                                        size, facet.front())});
-      else if (!refused)
-        diagnostics.push_back({input.place, fmt::format("a contact surface has facets of {} nodes (one starts at node {}); {} are available", size,
-                                                        facet.empty() ? -1 : facet.front(),
-                                                        dimension == 2 ? "lines of 2 or 3" : "triangles of 3 or 6, quadrilaterals of 4 or 8")});
-      refused = true;
+      const bool is_linear = dimension == 2 ? size == 2 : size == 3 || size == 4, is_quadratic = dimension == 2 ? size == 3 : size == 6 || size == 8;
+      if (!is_linear && !is_quadratic && unknown.empty())
+        unknown.push_back({input.place, fmt::format("a contact surface has facets of {} nodes (one starts at node {}); {} are available", size,
+                                                    facet.empty() ? -1 : facet.front(),
+                                                    dimension == 2 ? "lines of 2 or 3" : "triangles of 3 or 6, quadrilaterals of 4 or 8")});
+      if (is_quadratic && quadratic.empty())
+        quadratic.push_back({input.place, fmt::format("node to segment needs linear facets, as linear elements have, but a surface of the pair has "
+                                                      "facets of {} nodes (one starts at node {})",
+                                                      size, facet.front())});
     }
-  throw_if_any(*input.owned_nodes->getComm(), diagnostics);
+  const Communicator& comm = *input.owned_nodes->getComm();
+  throw_if_any(comm, unknown);
+  if (input.options.coupling != Coupling::node_to_segment) return;
+  try {
+    throw_if_any(comm, quadratic);
+  } catch (const InputError& error) {
+    throw UnfitCoupling(error.diagnostics());
+  }
 }
 
 // Collective.
@@ -53,11 +56,9 @@ MortarInterface::MortarInterface(RCP<const Map> owned_nodes, RCP<const MultiVect
                                  const MortarOptions& options, const Place& place) {
   const auto dimension = static_cast<int>(reference->getNumVectors());
   const InterfaceInput input = {owned_nodes, reference, fixed, slave, master, measure, options, place};
-  if (dimension == 3 && options.coupling == Coupling::node_to_segment)
-    throw InputError(place, "node to segment is not available in 3D; use dual mortar, standard mortar, penalty or augmented Lagrange");
+  if (dimension == 3 && options.coupling == Coupling::node_to_segment) throw UnfitCoupling(place, "node to segment is not available in 3D");
   if (options.coupling == Coupling::variational_mortar) {
-    if (dimension == 3)
-      throw InputError(place, "variational mortar is not available in 3D; use dual mortar, standard mortar, penalty or augmented Lagrange");
+    if (dimension == 3) throw UnfitCoupling(place, "variational mortar is not available in 3D");
     if (options.linearisation != Linearisation::exact)
       throw InputError(place,
                        "variational mortar takes its forces from the derivatives of the gap, those of the normals too; \"linearisation\" is "

@@ -25,6 +25,12 @@ enum class Coupling {
   node_to_segment      ///< the master facet that the line along the nodal normal meets: phi_j is a point load of the node's share of the surface
 };
 
+/// Surfaces that a coupling is not made for; another one may be.
+class UnfitCoupling : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 /// Which functions weight the gap.
 enum class GapWeighting { dual, standard };
 
@@ -44,7 +50,7 @@ enum class Linearisation {
 /// The measure on the interface in 2D: thickness t, or 2 pi r of the current slave radius. In 3D it is not used.
 struct InterfaceMeasure {
   bool axisymmetric = false;  ///< a ring: 2 pi r
-  double thickness = 1.0;     ///< t; of plane scenes
+  double thickness = 1.0;     ///< t; in the plane
 };
 
 /// Options of the coupling of one pair.
