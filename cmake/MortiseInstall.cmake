@@ -1,5 +1,11 @@
 # find_package(Mortise) for applications that use the libraries: the targets Mortise::<package>.
 include(CMakePackageConfigHelpers)
+get_property(mortise_packages GLOBAL PROPERTY MORTISE_PACKAGES)
+set(mortise_finds "")
+foreach(package IN LISTS mortise_packages)
+  get_property(finds GLOBAL PROPERTY MORTISE_FINDS_${package})
+  string(APPEND mortise_finds "set(mortise_finds_${package} ${finds})\n")
+endforeach()
 set(config_directory "${CMAKE_INSTALL_LIBDIR}/cmake/Mortise")
 configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/MortiseConfig.cmake.in" "${PROJECT_BINARY_DIR}/MortiseConfig.cmake"
   INSTALL_DESTINATION "${config_directory}")

@@ -11,7 +11,7 @@
 
 #include "allocator.hpp"
 #include "launch.hpp"
-#include "mortise/core/xml.hpp"
+#include "mortise/core/names.hpp"
 #include "program.hpp"
 
 namespace {

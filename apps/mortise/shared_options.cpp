@@ -6,7 +6,7 @@
 #include <charconv>
 
 #include "declarations.hpp"
-#include "mortise/core/xml.hpp"
+#include "mortise/input/xml.hpp"
 #include "program.hpp"
 
 namespace mortise {

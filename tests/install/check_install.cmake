@@ -1,5 +1,6 @@
 # Installs the build into a scratch prefix, builds a foreign application against it, runs it; the installed program needs no source tree.
-#   cmake -D BUILD=... -D CONSUMER=... -D SCRATCH=... -D GENERATOR=... -D MPIEXEC=... -P check_install.cmake
+# Neither that application nor any library below the readers of input has a symbol of them, or needs what they are made of.
+#   cmake -D BUILD=... -D CONSUMER=... -D SCRATCH=... -D GENERATOR=... -D MPIEXEC=... -D NM=... -D READELF=... -P check_install.cmake
 cmake_minimum_required(VERSION 3.25)
 
 function(run)
@@ -11,10 +12,44 @@ endfunction()
 
 file(REMOVE_RECURSE "${SCRATCH}")
 run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${SCRATCH}/prefix")
-run("${CMAKE_COMMAND}" -S "${CONSUMER}" -B "${SCRATCH}/build" -G "${GENERATOR}" "-DCMAKE_PREFIX_PATH=${SCRATCH}/prefix" -DCMAKE_BUILD_TYPE=Debug)
+# As on a machine without the libraries that read input.
+run("${CMAKE_COMMAND}" -S "${CONSUMER}" -B "${SCRATCH}/build" -G "${GENERATOR}" "-DCMAKE_PREFIX_PATH=${SCRATCH}/prefix" -DCMAKE_BUILD_TYPE=Debug
+  -DCMAKE_DISABLE_FIND_PACKAGE_LibXml2=ON -DCMAKE_DISABLE_FIND_PACKAGE_muparser=ON -DCMAKE_DISABLE_FIND_PACKAGE_nlohmann_json=ON
+  -DCMAKE_DISABLE_FIND_PACKAGE_PkgConfig=ON)
 run("${CMAKE_COMMAND}" --build "${SCRATCH}/build")
-run("${SCRATCH}/build/consumer")
-run("${MPIEXEC}" -n 2 "${SCRATCH}/build/consumer")
+foreach(program consumer contact_alone)
+  run("${SCRATCH}/build/${program}")
+  run("${MPIEXEC}" -n 2 "${SCRATCH}/build/${program}")
+endforeach()
+
+set(reader "mu::|mortise::(parse_expression|parse_xml|read_text|read_symbols|ReadParameters|CollectParameters)|nlohmann|(^|[^A-Za-z_])xml[A-Z]")
+function(refuse_reader file)
+  execute_process(COMMAND "${NM}" -C "${file}" OUTPUT_FILE "${SCRATCH}/symbols" ERROR_VARIABLE error RESULT_VARIABLE failed)
+  file(STRINGS "${SCRATCH}/symbols" own REGEX "mortise::" LIMIT_COUNT 1)
+  if(failed OR NOT own)
+    message(FATAL_ERROR "no symbols of Mortise are found in ${file}: ${error}")
+  endif()
+  file(STRINGS "${SCRATCH}/symbols" found REGEX "${reader}" LIMIT_COUNT 3)
+  if(found)
+    message(FATAL_ERROR "${file} has symbols of what reads input: ${found}")
+  endif()
+endfunction()
+foreach(package core shape mesh material mortar contact solid nonlinear)
+  file(GLOB library "${SCRATCH}/prefix/lib*/libmortise_${package}.a" "${SCRATCH}/prefix/lib/*/libmortise_${package}.a")
+  if(library)
+    refuse_reader("${library}")
+  elseif(NOT package STREQUAL "shape")
+    message(FATAL_ERROR "there is no library of ${package} below ${SCRATCH}/prefix")
+  endif()
+endforeach()
+foreach(program consumer contact_alone)
+  refuse_reader("${SCRATCH}/build/${program}")
+  execute_process(COMMAND "${READELF}" -d "${SCRATCH}/build/${program}" OUTPUT_VARIABLE needed)
+  if(NOT needed MATCHES "NEEDED" OR needed MATCHES "NEEDED[^\n]*(xml2|expat|muparser)")
+    message(FATAL_ERROR "${program} needs a library that reads input:\n${needed}")
+  endif()
+endforeach()
+
 foreach(file share/mortise/schema/scene.rng share/mortise/inputs/paper/patch_test.xml share/doc/Mortise/LICENSE
     share/bash-completion/completions/mortise share/man/man1/mortise.1)
   if(NOT EXISTS "${SCRATCH}/prefix/${file}")

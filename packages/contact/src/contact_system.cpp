@@ -13,6 +13,17 @@
 #include "evaluated_contact.hpp"
 
 namespace mortise {
+namespace {
+
+/// What to take instead of a formulation whose coupling is not made for the surfaces.
+InputError with_other_formulations(const UnfitCoupling& unfit) {
+  std::vector<Diagnostic> diagnostics = unfit.diagnostics();
+  for (Diagnostic& one : diagnostics)
+    one.message += "; use dual mortar, standard mortar, or penalty or augmented Lagrange with a mortar discretisation";
+  return InputError(std::move(diagnostics));
+}
+
+}  // namespace
 
 namespace detail {
 
@@ -122,7 +133,11 @@ ContactSystem::ContactSystem(const NodalField& displacement, RCP<const Map> dofs
     const Formulation& formulation = *pair.options.formulation.options;
     pair.options.mortar.coupling = formulation.coupling();
     pair.options.mortar.share = formulation.two_pass() ? 0.5 : 1.0;
-    self.pairs.push_back(std::make_unique<detail::Pair>(self.owned_nodes, self.reference, fixed, measure, std::move(pair)));
+    try {
+      self.pairs.push_back(std::make_unique<detail::Pair>(self.owned_nodes, self.reference, fixed, measure, std::move(pair)));
+    } catch (const UnfitCoupling& unfit) {
+      throw with_other_formulations(unfit);
+    }
   }
   self.interface_dofs.resize(self.pairs.size());
   for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(self.owned_nodes->getNodeNumElements()); ++node)

@@ -32,7 +32,7 @@ std::optional<Diagnostic> CoulombFriction::missing_bound(double pressure, double
                                                      shown, pressure, slip_path)};
 }
 
-// d(mu p)/dp of an expression by central differences: exact to 1e-10 of mu, which no Newton step notices.
+// d(mu p)/dp of a function by central differences: exact to 1e-10 of mu, which no Newton step notices.
 FrictionBound CoulombFriction::bound(double pressure, double slip_path) const {
   const auto at = [&](double p) { return coefficient.at({p, slip_path}) * p; };
   if (!is_coefficient(coefficient.at({pressure, slip_path}))) return {std::numeric_limits<double>::quiet_NaN(), 0.0};

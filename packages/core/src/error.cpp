@@ -13,7 +13,7 @@ constexpr std::size_t shown_whole = 120, shown_of_long = 60;
 
 bool begins_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }  // of UTF-8
 
-/// Whatever a message quotes may be a text of the scene, as long as its author pleases.
+/// Whatever a message quotes may be a given text, as long as its author pleases.
 std::string with_short_quotes(const std::string& message) {
   std::string text;
   for (std::size_t begin = 0; begin <= message.size();) {

@@ -7,7 +7,7 @@
 namespace mortise {
 namespace {
 
-/// Reads an expression of time: a point has no position.
+/// Reads a function of time: a point has no position.
 template <class Value>
 void add_of_time(Parameters& parameters, const std::string& name, Value& value, Says says) {
   parameters.add(name, value, says.arguments({"t"}));
@@ -52,7 +52,7 @@ PathPoint SimpleShearPath::at(double time) const {
 }
 
 DeformationGradientPath::DeformationGradientPath() {
-  for (const int diagonal : {0, 4, 8}) components[diagonal] = Expression(1.0);
+  for (const int diagonal : {0, 4, 8}) components[diagonal] = ScalarFunction(1.0);
 }
 
 void DeformationGradientPath::describe(Parameters& parameters) {

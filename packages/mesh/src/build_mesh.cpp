@@ -28,8 +28,8 @@ void check_bodies(const std::vector<BodyDescription>& bodies) {
   for (const auto& body : bodies) {
     const int own = body.mesh->dimension(), of_cells = topology(body.shape).dimension;
     if (own != dimension)
-      diagnostics.push_back({body.place, fmt::format("body \"{}\" has a {} mesh, but body \"{}\" a {} one; all bodies of a scene need the same",
-                                                     body.name, where[own], bodies.front().name, where[dimension])});
+      diagnostics.push_back({body.place, fmt::format("body \"{}\" has a {} mesh, but body \"{}\" a {} one; all bodies need the same", body.name,
+                                                     where[own], bodies.front().name, where[dimension])});
     if (of_cells != own && body.shape != rigid_shape(own))
       diagnostics.push_back({body.place, fmt::format("body \"{}\" has a {} mesh, but {} elements", body.name, where[own], where[of_cells])});
   }

@@ -58,7 +58,7 @@ void ProfileMesh::describe_shape(Parameters& parameters) {
 }
 
 PatchComplex ProfileMesh::build(CellShape, const Place& place) const {
-  throw InputError(place, "a profile has no inside that could deform; please add \"rigid\" (bool, true) to the body, or choose another mesh");
+  throw InputError(place, "a profile has no inside that could deform; please make the body \"rigid\", or choose another mesh");
 }
 
 CurveComplex ProfileMesh::build_surface(const Place& place) const {

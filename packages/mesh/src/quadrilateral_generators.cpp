@@ -80,7 +80,8 @@ void RingSectorMesh::describe_shape(Parameters& parameters) {
   if (end_angle <= start_angle || end_angle - start_angle >= 360.0)
     parameters.error("end angle",
                      fmt::format("is {:g}; it has to lie above \"start angle\", {:g}, by less than 360 degrees", end_angle, start_angle));
-  describe_cells(parameters, cells_radial, grading_radial, "cells across", "grading across", "from the inner to the outer radius");
+  describe_cells(parameters, cells_radial, grading_radial, "cells across", "grading across", "from the inner to the outer radius", "cells radial",
+                 "grading radial");
   describe_cells(parameters, cells_around, grading_around, "cells around", "grading around",
                  "from the start to the end angle (sizes on the inner arc)");
 }

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-#include "mortise/core/xml.hpp"
+#include "mortise/core/names.hpp"
 #include "mortise/mesh/sets.hpp"
 
 namespace mortise {
@@ -40,7 +40,7 @@ const ReferencePoint& require_rotating_point(const Mesh& mesh, const Located<std
     if (point.name == name.value) return point;
     names.push_back(point.name);
   }
-  if (names.empty()) throw InputError(name.place, fmt::format("\"{}\" cannot rotate: the scene has no reference point that rotates", name.value));
+  if (names.empty()) throw InputError(name.place, fmt::format("\"{}\" cannot rotate: there is no reference point that rotates", name.value));
   throw InputError(name.place, fmt::format("\"{}\" is no reference point that rotates{}; those are: {}", name.value, did_you_mean(name.value, names),
                                            fmt::join(names, ", ")));
 }

@@ -9,7 +9,7 @@
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 
-#include "mortise/core/xml.hpp"
+#include "mortise/core/names.hpp"
 
 namespace mortise {
 namespace {

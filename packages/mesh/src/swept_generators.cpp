@@ -93,7 +93,7 @@ SweptComplex SweptMesh::sweep_body(PatchComplex plane, CellShape cell, const Spa
 
 void ExtrudedMesh::describe_shape(Parameters& parameters) {
   describe_profile(parameters, "the mesh of the plane z = 0 that is moved along z; its sides keep their names");
-  parameters.add("height", length, Says("extent in z, from \"start\" at z = 0 to \"end\"").unit("length").above(0.0));
+  parameters.add("height", length, Says("extent in z, from \"start\" at z = 0 to \"end\"").unit("length").above(0.0).formerly("length"));
   describe_cells(parameters, cells_z, grading_z, "cells z", "grading z", "from start to end");
 }
 

@@ -14,26 +14,27 @@ namespace {
 
 // Collective.
 void refuse_unknown_facets(const InterfaceInput& input, int dimension) {
-  std::vector<Diagnostic> diagnostics;
-  bool refused = false;
+  std::vector<Diagnostic> unknown, quadratic;
   for (const SurfaceFacets* facets : {&input.slave, &input.master})
     for (const SurfaceFacet& facet : *facets) {
       const std::size_t size = facet.size();
-      const bool linear = dimension == 2 ? size == 2 : size == 3 || size == 4, quadratic = dimension == 2 ? size == 3 : size == 6 || size == 8;
-      if (linear || (quadratic && input.options.coupling->takes_quadratic_facets())) continue;
-      if (!refused && quadratic)
-        diagnostics.push_back(
-            {input.place, fmt::format("{} needs linear facets, but a surface of the pair has facets of {} nodes (one starts at node "
-                                      "{}); use dual mortar, standard mortar, penalty or augmented Lagrange with a mortar "
-                                      "discretisation, or linear elements",
-                                      input.options.coupling->name(), size, facet.front())});
-      else if (!refused)
-        diagnostics.push_back({input.place, fmt::format("a contact surface has facets of {} nodes (one starts at node {}); {} are available", size,
-                                                        facet.empty() ? -1 : facet.front(),
-                                                        dimension == 2 ? "lines of 2 or 3" : "triangles of 3 or 6, quadrilaterals of 4 or 8")});
-      refused = true;
+      const bool is_linear = dimension == 2 ? size == 2 : size == 3 || size == 4, is_quadratic = dimension == 2 ? size == 3 : size == 6 || size == 8;
+      if (!is_linear && !is_quadratic && unknown.empty())
+        unknown.push_back({input.place, fmt::format("a contact surface has facets of {} nodes (one starts at node {}); {} are available", size,
+                                                    facet.empty() ? -1 : facet.front(),
+                                                    dimension == 2 ? "lines of 2 or 3" : "triangles of 3 or 6, quadrilaterals of 4 or 8")});
+      if (is_quadratic && quadratic.empty())
+        quadratic.push_back({input.place, fmt::format("{} needs linear facets, as linear elements have, but a surface of the pair has facets of {} nodes (one starts at node {})",
+                                                      input.options.coupling->name(), size, facet.front())});
     }
-  throw_if_any(*input.owned_nodes->getComm(), diagnostics);
+  const Communicator& comm = *input.owned_nodes->getComm();
+  throw_if_any(comm, unknown);
+  if (input.options.coupling->takes_quadratic_facets()) return;
+  try {
+    throw_if_any(comm, quadratic);
+  } catch (const InputError& error) {
+    throw UnfitCoupling(error.diagnostics());
+  }
 }
 
 // Collective.
@@ -55,9 +56,7 @@ MortarInterface::MortarInterface(RCP<const Map> owned_nodes, RCP<const MultiVect
   const auto dimension = static_cast<int>(reference->getNumVectors());
   const InterfaceInput input = {owned_nodes, reference, fixed, slave, master, measure, options, place};
   if (!options.coupling) throw InputError(place, "the coupling is null; give a Coupling, as coupling_of<DualMortarCoupling>()");
-  if (!options.coupling->exists_in(dimension))
-    throw InputError(place, fmt::format("{} is not available in {}D; use dual mortar, standard mortar, penalty or augmented Lagrange",
-                                        options.coupling->name(), dimension));
+  if (!options.coupling->exists_in(dimension)) throw UnfitCoupling(place, fmt::format("{} is not available in {}D", options.coupling->name(), dimension));
   if (const auto refusal = options.coupling->refusal(options)) throw InputError(place, *refusal);
   refuse_unknown_facets(input, dimension);
   refuse_misplaced_facets(*owned_nodes, slave, master, place);

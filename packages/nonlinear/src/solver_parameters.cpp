@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "mortise/core/xml.hpp"
+#include "mortise/core/names.hpp"
 
 namespace mortise::detail {
 

@@ -30,7 +30,7 @@ class NodalForce final : public Load {
 
  private:
   std::shared_ptr<const Bodies> bodies_;
-  std::vector<Expression> components_;
+  std::vector<ScalarFunction> components_;
   std::vector<LocalOrdinal> nodes_;
 };
 
@@ -60,7 +60,7 @@ class DeadTraction final : public Load {
 
  private:
   std::shared_ptr<const Bodies> bodies_;
-  std::vector<Expression> components_;
+  std::vector<ScalarFunction> components_;
   std::vector<LoadedSide> sides_;
 };
 
@@ -93,7 +93,7 @@ class Gravity final : public Load {
   }
 
  private:
-  std::vector<Expression> components_;
+  std::vector<ScalarFunction> components_;
   std::vector<double> masses_;  ///< of the owned nodes
 };
 

@@ -4,6 +4,7 @@
 
 #include <type_traits>
 
+#include "mortise/core/names.hpp"
 #include "mortise/material/materials.hpp"
 
 namespace mortise {
@@ -24,6 +25,14 @@ std::string standard_element(ElementType type) {
     if (entry.formulation == ElementFormulation::standard && cell_shape(entry.type) == cell_shape(type)) name = entry.name;
   });
   return name;
+}
+
+/// The names of the laws that have a form for plane stress.
+template <class... Laws>
+std::string laws_of_plane_stress(const std::variant<Laws...>*) {
+  std::vector<std::string> names;
+  ((Laws::plane_stress ? names.push_back(Laws::name) : void()), ...);
+  return quoted_list(names);
 }
 
 }  // namespace
@@ -79,7 +88,8 @@ std::vector<Diagnostic> check_combination(const BodyProperties& body, Kinematics
         if (f_bar && kinematics == Kinematics::plane_stress)
           refuse(fmt::format("element \"{}\" has no meaning in plane stress, which does not lock; take \"Q4\"", to_string(body.element)));
         if (kinematics == Kinematics::plane_stress && !law.plane_stress)
-          refuse(fmt::format("the material \"{}\" has no plane stress form; take an elastic law, such as \"{}\"", law.name, Hencky::name));
+          refuse(fmt::format("the material \"{}\" has no plane stress form; take one of {}", law.name,
+                             laws_of_plane_stress(static_cast<Law*>(nullptr))));
       },
       body.material->law());
   return diagnostics;

@@ -79,7 +79,7 @@ class FollowerPressure final : public Load {
   }
 
   std::shared_ptr<const Bodies> bodies_;
-  Expression pressure_;
+  ScalarFunction pressure_;
   std::vector<LoadedSide> sides_;
   std::vector<LocalOrdinal> positions_;  ///< [sides x nodes x nodes] NodalSparsity::position
 };

@@ -11,10 +11,11 @@
 namespace mortise {
 
 /// The value, or NaN with `failure` set if there is none.
-double evaluate(const Expression& expression, double time, const std::array<double, 3>& position, std::optional<StepFailure>& failure);
+double evaluate(const ScalarFunction& function, double time, const std::array<double, 3>& position, std::optional<StepFailure>& failure);
 
 /// The components x, y and z of a load. Throws InputError if z is given with 2D bodies.
-std::vector<Expression> components(const Bodies& bodies, const Expression& x, const Expression& y, const std::optional<Expression>& z);
+std::vector<ScalarFunction> components(const Bodies& bodies, const ScalarFunction& x, const ScalarFunction& y,
+                                       const std::optional<ScalarFunction>& z);
 
 /// Collective: runs a look-up in the mesh and makes its InputError, if any, one of all ranks.
 template <class Function>

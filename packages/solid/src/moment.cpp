@@ -13,7 +13,7 @@ namespace {
 /// In 2D a moment works on the angle; the unknown is arm * theta.
 class PlaneMoment final : public Load {
  public:
-  PlaneMoment(std::shared_ptr<const Bodies> bodies, const ReferencePoint& point, Expression moment)
+  PlaneMoment(std::shared_ptr<const Bodies> bodies, const ReferencePoint& point, ScalarFunction moment)
       : bodies_(std::move(bodies)), point_(point), moment_(std::move(moment)) {}
 
   void add_residual(double time, const Vector&, Vector& residual, std::optional<StepFailure>& failure) const override {
@@ -25,7 +25,7 @@ class PlaneMoment final : public Load {
  private:
   std::shared_ptr<const Bodies> bodies_;
   const ReferencePoint& point_;
-  Expression moment_;
+  ScalarFunction moment_;
 };
 
 /// In 3D a moment m works on the spin, m . d omega = T(theta)^T m . d theta. The unknown is q = arm * theta:
@@ -33,7 +33,7 @@ class PlaneMoment final : public Load {
 /// The work of a moment of fixed direction depends on the path, so that dr/dq is not symmetric.
 class SpaceMoment final : public Load {
  public:
-  SpaceMoment(std::shared_ptr<const Bodies> bodies, const ReferencePoint& point, std::array<Expression, 3> moment)
+  SpaceMoment(std::shared_ptr<const Bodies> bodies, const ReferencePoint& point, std::array<ScalarFunction, 3> moment)
       : bodies_(std::move(bodies)),
         point_(point),
         moment_(std::move(moment)),
@@ -72,7 +72,7 @@ class SpaceMoment final : public Load {
 
   std::shared_ptr<const Bodies> bodies_;
   const ReferencePoint& point_;
-  std::array<Expression, 3> moment_;
+  std::array<ScalarFunction, 3> moment_;
   LocalOrdinal position_;  ///< of the rotation's own columns in its rows, where it is owned
 };
 
@@ -97,16 +97,16 @@ std::unique_ptr<Load> MomentOptions::make(const std::shared_ptr<const Bodies>& b
   look_up(mesh, [&] {
     rotating = &require_rotating_point(mesh, point);
     const char* wanted = in_space ? "\"moment x\", \"moment y\", \"moment z\"" : "\"moment\"";
-    if (in_space && moment) throw InputError(moment->place(), fmt::format("\"moment\" is for 2D scenes, the scene is in 3D; please give {}", wanted));
+    if (in_space && moment) throw InputError(moment->place(), fmt::format("\"moment\" is for 2D, the model is in 3D; please give {}", wanted));
     for (int i = 0; i < 3 && !in_space; ++i)
       if (moment_vector[i])
-        throw InputError(moment_vector[i]->place(), fmt::format("\"{}\" is for 3D scenes, the scene is in 2D; please give {}", names[i], wanted));
+        throw InputError(moment_vector[i]->place(), fmt::format("\"{}\" is for 3D, the model is in 2D; please give {}", names[i], wanted));
     const bool given = moment || std::any_of(moment_vector.begin(), moment_vector.end(), [](const auto& one) { return one.has_value(); });
     if (!given) throw InputError(point.place, fmt::format("a moment on \"{}\" without a value; please give {}", point.value, wanted));
   });
   if (!in_space) return std::make_unique<PlaneMoment>(bodies, *rotating, *moment);
-  std::array<Expression, 3> vector;
-  for (int i = 0; i < 3; ++i) vector[i] = moment_vector[i].value_or(Expression(0.0));
+  std::array<ScalarFunction, 3> vector;
+  for (int i = 0; i < 3; ++i) vector[i] = moment_vector[i].value_or(ScalarFunction(0.0));
   return std::make_unique<SpaceMoment>(bodies, *rotating, vector);
 }
 

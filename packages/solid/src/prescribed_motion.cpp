@@ -75,7 +75,7 @@ PrescribedMotion::PrescribedMotion(const Bodies& bodies, const std::vector<Named
   };
   for (std::size_t n = 0; n < conditions.size(); ++n) {
     const auto& condition = conditions[n];
-    const std::array<const std::optional<Expression>*, 3> components{&condition.value.x, &condition.value.y, &condition.value.z};
+    const std::array<const std::optional<ScalarFunction>*, 3> components{&condition.value.x, &condition.value.y, &condition.value.z};
     const auto& turns = condition.value.rotation_vector;
     const bool turns_in_space = std::any_of(turns.begin(), turns.end(), [](const auto& one) { return one.has_value(); });
     if (!condition.value.x && !condition.value.y && !condition.value.z && !condition.value.rotation && !turns_in_space)
@@ -84,36 +84,36 @@ PrescribedMotion::PrescribedMotion(const Bodies& bodies, const std::vector<Named
                                         mesh.dimension == 3 ? "\"x\", \"y\", \"z\"" : "\"x\", \"y\"")});
     if (condition.value.z && mesh.dimension == 2)
       diagnostics.push_back({condition.place, fmt::format("boundary condition \"{}\" prescribes z, which needs kinematics \"three dimensional\"; the "
-                                                          "scene is in the plane of x and y",
+                                                          "model is in the plane of x and y",
                                                           condition.name)});
     if (mesh.dimension == 2 ? turns_in_space : condition.value.rotation.has_value())
       diagnostics.push_back({condition.place, fmt::format("boundary condition \"{}\" prescribes a rotation {}; please give {}", condition.name,
-                                                          mesh.dimension == 2 ? "for 3D scenes in a 2D scene" : "for 2D scenes in a 3D scene",
+                                                          mesh.dimension == 2 ? "for 3D in a 2D model" : "for 2D in a 3D model",
                                                           mesh.dimension == 2 ? "\"rotation\"" : "\"rotation x\", \"rotation y\", \"rotation z\"")});
     try {
       const auto& nodes = require_node_set(mesh, condition.value.set);
       for (int k = 0; k < (mesh.dimension == 2 ? 1 : 3); ++k) {
-        const std::optional<Expression>& rotation = mesh.dimension == 2 ? condition.value.rotation : turns[k];
+        const std::optional<ScalarFunction>& rotation = mesh.dimension == 2 ? condition.value.rotation : turns[k];
         if (!rotation) continue;
         const ReferencePoint& point = require_rotating_point(mesh, condition.value.set);
-        expressions_.push_back(*rotation);
-        const Source source{static_cast<LocalOrdinal>(expressions_.size() - 1), mesh.coordinates[point.node],
+        functions_.push_back(*rotation);
+        const Source source{static_cast<LocalOrdinal>(functions_.size() - 1), mesh.coordinates[point.node],
                             point.arm * boost::math::constants::degree<double>()};
         if (point.rotation_node < mesh.owned_count()) prescribed.insert_or_assign(mesh.dimension * point.rotation_node + k, Prescribed{source, n});
       }
       for (int component = 0; component < mesh.dimension; ++component) {
-        const auto& expression = *components[component];
-        if (!expression) continue;
+        const auto& function = *components[component];
+        if (!function) continue;
         if (const auto found = follower(bodies, followers, nodes, component)) {
           diagnostics.push_back(
               {condition.place, fmt::format("boundary condition \"{}\" prescribes {} at nodes that follow \"{}\"; please prescribe \"{}\"",
                                             condition.name, component_name(component), *found, *found)});
           continue;
         }
-        expressions_.push_back(*expression);
+        functions_.push_back(*function);
         for (LocalOrdinal node : nodes) {
           if (node >= mesh.owned_count()) continue;
-          const Source source{static_cast<LocalOrdinal>(expressions_.size() - 1), mesh.coordinates[node]};
+          const Source source{static_cast<LocalOrdinal>(functions_.size() - 1), mesh.coordinates[node]};
           const auto [other, is_new] = prescribed.try_emplace(mesh.dimension * node + component, Prescribed{source, n});
           if (is_new) continue;
           const bool same = std::all_of(std::begin(compared_times), std::end(compared_times),
@@ -131,9 +131,9 @@ PrescribedMotion::PrescribedMotion(const Bodies& bodies, const std::vector<Named
       diagnostics.insert(diagnostics.end(), error.diagnostics().begin(), error.diagnostics().end());
     }
   }
-  expressions_.emplace_back(0.0);
+  functions_.emplace_back(0.0);
   for (const LocalOrdinal dof : Followers::idle_dofs(bodies)) {
-    const auto [entry, is_new] = prescribed.try_emplace(dof, Prescribed{{static_cast<LocalOrdinal>(expressions_.size() - 1), {}}, 0});
+    const auto [entry, is_new] = prescribed.try_emplace(dof, Prescribed{{static_cast<LocalOrdinal>(functions_.size() - 1), {}}, 0});
     if (is_new) continue;
     const auto& [source, condition] = entry->second;
     const bool zero = std::all_of(std::begin(compared_times), std::end(compared_times), [&, &s = source](double t) { return compared(s, t) == 0.0; });
@@ -150,7 +150,7 @@ PrescribedMotion::PrescribedMotion(const Bodies& bodies, const std::vector<Named
 }
 
 double PrescribedMotion::value(const Source& source, double time, std::optional<StepFailure>& failure) const {
-  return source.factor * evaluate(expressions_[source.expression], time, source.position, failure);
+  return source.factor * evaluate(functions_[source.function], time, source.position, failure);
 }
 
 std::vector<double> PrescribedMotion::values(double time, std::optional<StepFailure>& failure) const {

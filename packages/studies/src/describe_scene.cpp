@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "mortise/core/names.hpp"
-#include "mortise/core/parameter_tree.hpp"
+#include "mortise/input/parameter_tree.hpp"
 #include "mortise/material/hardening.hpp"
 #include "mortise/simulation/quantities/exact_solution.hpp"
 #include "mortise/simulation/quantities/fields.hpp"

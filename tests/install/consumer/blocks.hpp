@@ -67,7 +67,7 @@ struct Blocks {
     pair.name = "joint";
     pair.youngs_modulus = E;
     const auto coulomb = std::make_shared<CoulombFriction>();
-    coulomb->coefficient = Expression(coefficient);
+    coulomb->coefficient = ScalarFunction(coefficient);
     pair.options.friction = {"coulomb", coulomb, {}};
     for (int i = 0; i < cells[1]; ++i) {
       const SurfaceFacet facet = {node(1, i, 0), node(1, i + 1, 0)};

@@ -17,7 +17,7 @@ TwoSurfaces flat(ContactGeometry geometry, double coefficient) {
   for (int i = 0; i < 7; ++i) surfaces.master.push_back({1.5 * (6 - i), 0.0});
   surfaces.fixed.assign(surfaces.size(), {false, false});
   auto coulomb = std::make_shared<CoulombFriction>();
-  coulomb->coefficient = Expression(coefficient);
+  coulomb->coefficient = ScalarFunction(coefficient);
   surfaces.options.friction.options = coulomb;
   surfaces.options.geometry = geometry;
   return surfaces;
@@ -118,7 +118,7 @@ TEST(Slip, OfTiedNodesVanishesInADwell) {
   TwoSurfaces plane = test::arch_on_ground();
   for (test::Point& x : plane.master) x[0] *= 4.15 / 4.6;
   auto coulomb = std::make_shared<CoulombFriction>();
-  coulomb->coefficient = Expression(3.0);
+  coulomb->coefficient = ScalarFunction(3.0);
   for (TwoSurfaces surfaces : {plane, test::hardly_covered(test::dome_on_waves()), test::hardly_covered_at_a_corner(test::dome_on_waves(true))}) {
     const int dimension = surfaces.dimension;
     SCOPED_TRACE(dimension);

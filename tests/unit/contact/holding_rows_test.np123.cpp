@@ -18,7 +18,7 @@ const Eigen::Vector3d pole[2] = {{0.4, 0.7, -0.1}, {-0.3, 0.2, 0.5}};  // that m
 
 TwoSurfaces with_friction(TwoSurfaces surfaces, const std::shared_ptr<Formulation>& formulation) {
   auto coulomb = std::make_shared<CoulombFriction>();
-  coulomb->coefficient = Expression(0.3);
+  coulomb->coefficient = ScalarFunction(0.3);
   surfaces.options.friction.options = coulomb;
   if (formulation) surfaces.options.formulation.options = formulation;
   return surfaces;

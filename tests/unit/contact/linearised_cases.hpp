@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "formulations.hpp"
 #include "mortise/mortar/coupling/node_to_segment.hpp"
 #include "two_surfaces.hpp"
@@ -22,7 +24,7 @@ inline void add_quadratic(std::vector<Case>& all) {
     all.push_back({"quadratic, " + name, quadratic(linear, true, master)});
     if (coefficient) {
       auto coulomb = std::make_shared<CoulombFriction>();
-      coulomb->coefficient = Expression(*coefficient);
+      coulomb->coefficient = ScalarFunction(*coefficient);
       all.back().surfaces.options.friction.options = coulomb;
     }
     return &all.back().surfaces;
@@ -67,7 +69,7 @@ inline void add_corners(std::vector<Case>& all) {
     const TwoSurfaces corner = corner_on_ground();
     all.push_back({"corner, " + name, quadratic ? test::quadratic(corner, true, true) : corner});
     auto coulomb = std::make_shared<CoulombFriction>();
-    coulomb->coefficient = Expression(coefficient);
+    coulomb->coefficient = ScalarFunction(coefficient);
     if (coefficient > 0.0) all.back().surfaces.options.friction.options = coulomb;
     return &all.back().surfaces;
   };
@@ -100,7 +102,7 @@ inline std::vector<Case> cases() {
   const auto add_friction = [&](const std::string& name, double coefficient, const std::shared_ptr<FrictionLaw>& given = {}) {
     all.push_back({name, arch_on_ground()});
     auto coulomb = std::make_shared<CoulombFriction>();
-    coulomb->coefficient = Expression(coefficient);
+    coulomb->coefficient = ScalarFunction(coefficient);
     all.back().surfaces.options.friction.options = given ? given : coulomb;
     return &all.back().surfaces;
   };
@@ -116,7 +118,8 @@ inline std::vector<Case> cases() {
   tresca->traction = 0.8;
   add_friction("tresca", 0.0, tresca);
   auto of_pressure = std::make_shared<CoulombFriction>();
-  of_pressure->coefficient = Expression::of({"pressure", "slip"}, "0.05 + 0.2*exp(-pressure/5)", {});
+  of_pressure->coefficient =
+      ScalarFunction([](const std::vector<double>& of) { return 0.05 + 0.2 * std::exp(-of[0] / 5.0); }, "0.05 + 0.2*exp(-pressure/5)");
   of_pressure->largest_traction = 0.9;
   add_friction("coulomb of pressure, bounded", 0.0, of_pressure);
   // The master ends a little behind slave node 4: node 5 is tied to it, and 4 to 3 and 5.

@@ -167,7 +167,7 @@ struct Started {
     test::TwoSurfaces surfaces = test::arch_on_ground();
     surfaces.options.formulation.options = formulation;
     const auto coulomb = std::make_shared<CoulombFriction>();
-    coulomb->coefficient = Expression(0.3);
+    coulomb->coefficient = ScalarFunction(0.3);
     surfaces.options.friction.options = coulomb;
     return {surfaces, Tpetra::getDefaultComm()};
   }

@@ -91,7 +91,7 @@ TEST(OwnCoupling, IsLinearisedExactly) {
   const auto coupling = coupling_of<DualGapCoupling>();
   for (TwoSurfaces surfaces : {arch_on_ground(), dome_on_waves(), quadratic(arch_on_ground(), true, true)}) {
     const auto coulomb = std::make_shared<CoulombFriction>();
-    coulomb->coefficient = Expression(0.12);
+    coulomb->coefficient = ScalarFunction(0.12);
     surfaces.options.friction.options = coulomb;
     expect_linearisation_of_differences(with_own(surfaces, coupling, std::make_shared<const KeptMultipliers>()));
     const auto penalty = std::make_shared<Penalty>();

@@ -8,7 +8,7 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include "law_fixture.hpp"
-#include "mortise/core/read_parameters.hpp"
+#include "mortise/input/read_parameters.hpp"
 #include "plasticity_fixture.hpp"
 
 namespace mortise {

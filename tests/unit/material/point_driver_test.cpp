@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "law_fixture.hpp"
-#include "mortise/core/read_parameters.hpp"
+#include "mortise/input/read_parameters.hpp"
 #include "plasticity_fixture.hpp"
 
 namespace mortise {
@@ -20,7 +20,7 @@ std::vector<PointRecord> drive(const Law& law, const PointPath& path) {
 template <class Path>
 Path stretched_by(const std::string& stretch, int steps) {
   Path path;
-  path.stretch = Expression(stretch, Symbols());
+  path.stretch = parse_expression(stretch, Symbols());
   path.steps = steps;
   return path;
 }
@@ -103,8 +103,8 @@ TEST(PointDriver, LeavesNoStressWhereNoneIsWanted) {
 TEST(PointDriver, SimpleShearIsSymmetric) {
   // Stresses are symmetric; shearing the other way turns the sign of the shear stress and of nothing else.
   SimpleShearPath there, back;
-  there.shear = Expression("0.8*t", Symbols());
-  back.shear = Expression("-0.8*t", Symbols());
+  there.shear = parse_expression("0.8*t", Symbols());
+  back.shear = parse_expression("-0.8*t", Symbols());
   for (const auto& [name, law] : every_law()) {
     const auto one = drive(law, there), other = drive(law, back);
     for (std::size_t n = 0; n < one.size(); ++n) {
@@ -121,8 +121,8 @@ TEST(PointDriver, SimpleShearIsSymmetric) {
 TEST(PointDriver, TakesAnyDeformationGradient) {
   DeformationGradientPath path;
   path.steps = 8;
-  path.components[1] = Expression("0.5*t", Symbols());
-  path.components[8] = Expression("1 - 0.2*t", Symbols());
+  path.components[1] = parse_expression("0.5*t", Symbols());
+  path.components[8] = parse_expression("1 - 0.2*t", Symbols());
   const auto records = drive(NeoHooke(soft), path);
   const Matrix3 F = (Matrix3() << 1.0, 0.5, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.8).finished();
   EXPECT_LE((records.back().F - F).norm(), 1e-15);

@@ -10,8 +10,8 @@
 #include <cmath>
 
 #include "mesh_test_support.hpp"
-#include "mortise/core/read_parameters.hpp"
-#include "mortise/core/xml.hpp"
+#include "mortise/input/read_parameters.hpp"
+#include "mortise/input/xml.hpp"
 
 namespace mortise {
 namespace {

@@ -13,6 +13,7 @@
 #include <set>
 
 #include "mesh_test_support.hpp"
+#include "mortise/input/expression.hpp"
 #include "mortise/mesh/build_mesh.hpp"
 
 namespace mortise {
@@ -20,7 +21,7 @@ namespace {
 
 Named<SetOptions> set_of(const std::string& name, const std::string& of, const std::string& where, SetKind kind) {
   const Place place{"scene.xml", 12, "sets/" + name};
-  return {name, place, {{of, place}, Expression(where, {}, place), kind}};
+  return {name, place, {{of, place}, parse_expression(where, {}, place), kind}};
 }
 
 const std::vector<std::string> contact_sides{"quarter disk/arc", "block/top"};

@@ -7,8 +7,8 @@
 
 #include <Teuchos_DefaultSerialComm.hpp>
 
-#include "mortise/core/read_parameters.hpp"
-#include "mortise/core/xml.hpp"
+#include "mortise/input/read_parameters.hpp"
+#include "mortise/input/xml.hpp"
 #include "volume_test_support.hpp"
 
 namespace mortise {

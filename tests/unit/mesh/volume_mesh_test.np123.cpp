@@ -9,6 +9,7 @@
 #include <Tpetra_Map.hpp>
 #include <set>
 
+#include "mortise/input/expression.hpp"
 #include "mortise/mesh/build_mesh.hpp"
 #include "mortise/mesh/sets.hpp"
 #include "volume_test_support.hpp"
@@ -38,8 +39,8 @@ const std::vector<std::string> contact_sides{"brick/top", "cylinder/mantle"};
 RCP<Mesh> with_sets(const RCP<const Communicator>& comm, int first) {
   const auto mesh = build_mesh(comm, all_volumes(first), contact_sides);
   const Place place{"scene.xml", 12, "sets"};
-  add_set(*mesh, {"upper front", place, {{"brick/front", place}, Expression("z - 0.5", {}, place), SetKind::sides}});
-  add_set(*mesh, {"upper nodes", place, {{"brick", place}, Expression("z - 0.2*x", {}, place), SetKind::nodes}});
+  add_set(*mesh, {"upper front", place, {{"brick/front", place}, parse_expression("z - 0.5", {}, place), SetKind::sides}});
+  add_set(*mesh, {"upper nodes", place, {{"brick", place}, parse_expression("z - 0.2*x", {}, place), SetKind::nodes}});
   return mesh;
 }
 

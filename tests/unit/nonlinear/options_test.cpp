@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mortise/core/read_parameters.hpp"
+#include "mortise/input/read_parameters.hpp"
 #include "mortise/nonlinear/load_stepper.hpp"
 
 namespace mortise {

@@ -6,7 +6,7 @@
 
 #include <limits>
 
-#include "mortise/core/read_parameters.hpp"
+#include "mortise/input/read_parameters.hpp"
 
 namespace mortise {
 namespace {

@@ -6,12 +6,14 @@
 
 #include <cmath>
 
+#include "mortise/input/expression.hpp"
+
 namespace mortise {
 namespace {
 
 HertzLineContact steel_on_aluminium() {
   HertzLineContact hertz;
-  hertz.load = Expression("5000*t", {});
+  hertz.load = parse_expression("5000*t", {});
   hertz.radius = 50.0;
   hertz.first_youngs_modulus = 210000.0, hertz.first_poissons_ratio = 0.33;
   hertz.second_youngs_modulus = 71150.0, hertz.second_poissons_ratio = 0.30;
@@ -28,7 +30,7 @@ TEST(HertzLineContact, HalfWidthAndPeakOfSteelOnAluminium) {
 
 TEST(HertzLineContact, NafemsCylinderOnBlock) {
   HertzLineContact hertz;  // NAFEMS CB1: R 50, E 210000 on 70000, nu 0.3, 35 kN/mm: a = 6.2146, p = 3585.36
-  hertz.load = Expression(35000.0);
+  hertz.load = ScalarFunction(35000.0);
   hertz.radius = 50.0;
   hertz.first_youngs_modulus = 210000.0, hertz.second_youngs_modulus = 70000.0;
   EXPECT_NEAR(hertz.half_width(1.0), 6.2146, 5e-5);
@@ -37,7 +39,7 @@ TEST(HertzLineContact, NafemsCylinderOnBlock) {
 
 TEST(HertzLineContact, TwoCylindersOfGitterle) {
   HertzLineContact hertz;  // R 8 and 8, E 200, nu 0.3, p 0.625 on the diameter: b = 0.680778, p0 = 9.351351
-  hertz.load = Expression(0.625 * 16.0);
+  hertz.load = ScalarFunction(0.625 * 16.0);
   hertz.radius = 8.0, hertz.second_radius = 8.0;
   hertz.first_youngs_modulus = hertz.second_youngs_modulus = 200.0;
   EXPECT_NEAR(hertz.half_width(1.0), 0.680778, 5e-7);
@@ -65,7 +67,7 @@ TEST(HertzLineContact, PressureCarriesTheLoad) {
 LameRing ring() {
   LameRing ring;
   ring.inner_radius = 1.0, ring.outer_radius = 3.0, ring.youngs_modulus = 200.0, ring.poissons_ratio = 0.3;
-  ring.inner_pressure = Expression(5.0), ring.outer_pressure = Expression(2.0);
+  ring.inner_pressure = ScalarFunction(5.0), ring.outer_pressure = ScalarFunction(2.0);
   ring.center_x = 0.4, ring.center_y = -0.7;
   return ring;
 }
@@ -103,12 +105,12 @@ TEST(LameRing, IsInEquilibriumAndElastic) {
 
 TEST(ExactSolutions, UniformAndLinear) {
   UniformState uniform;
-  uniform.contact_pressure = Expression("3*t", {}), uniform.xx = Expression(1.0), uniform.xy = Expression(-2.0);
+  uniform.contact_pressure = parse_expression("3*t", {}), uniform.xx = ScalarFunction(1.0), uniform.xy = ScalarFunction(-2.0);
   EXPECT_EQ(uniform.pressure({9.0, 9.0}, 2.0), 6.0);
   EXPECT_EQ((*uniform.stress({0.0, 0.0}, 1.0))(1, 0), -2.0);
   EXPECT_EQ((*uniform.stress({0.0, 0.0}, 1.0))(0, 0), 1.0);
   LinearDisplacement linear;
-  linear.x = Expression(1.0), linear.xy = Expression("0.5*t", {}), linear.yx = Expression(-2.0);
+  linear.x = ScalarFunction(1.0), linear.xy = parse_expression("0.5*t", {}), linear.yx = ScalarFunction(-2.0);
   EXPECT_EQ((*linear.displacement({3.0, 4.0}, 2.0))[0], 5.0);
   EXPECT_EQ((*linear.displacement({3.0, 4.0}, 2.0))[1], -6.0);
 }

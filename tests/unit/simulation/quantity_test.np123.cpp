@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "mortise/core/read_parameters.hpp"
+#include "mortise/input/read_parameters.hpp"
 #include "quantity_fixture.hpp"
 
 namespace mortise {
@@ -219,9 +219,9 @@ TEST(ErrorNorm, OfDisplacementAndStress) {
   const auto linear = std::make_shared<LinearDisplacement>();
   const auto uniform = std::make_shared<UniformState>();
   const auto scaled = [&](double factor) {  // u_h = factor^-1 of the exact one: the error is 1 - 1/factor
-    linear->xx = Expression(0.01 * factor), linear->xy = Expression(0.006 * factor), linear->yy = Expression(-0.02 * factor);
-    uniform->xx = Expression(stress_xx * factor), uniform->yy = Expression(stress_yy * factor);
-    uniform->zz = Expression(stress_zz * factor), uniform->xy = Expression(stress_xy * factor);
+    linear->xx = ScalarFunction(0.01 * factor), linear->xy = ScalarFunction(0.006 * factor), linear->yy = ScalarFunction(-0.02 * factor);
+    uniform->xx = ScalarFunction(stress_xx * factor), uniform->yy = ScalarFunction(stress_yy * factor);
+    uniform->zz = ScalarFunction(stress_zz * factor), uniform->xy = ScalarFunction(stress_xy * factor);
   };
   ErrorNorm displacement, stress;
   displacement.of = ErrorNorm::Of::displacement, displacement.exact = {"linear displacement", linear, {}};
@@ -242,7 +242,7 @@ TEST(ErrorNorm, OfPressureOverARange) {
   TwoBlocks blocks;
   blocks.press([](double x) { return 2.0 * (1.0 - x / width); });
   const auto uniform = std::make_shared<UniformState>();
-  uniform->contact_pressure = Expression("2*t", {});
+  uniform->contact_pressure = parse_expression("2*t", {});
   ErrorNorm error;
   error.exact = {"uniform", uniform, {}};
   EXPECT_NEAR(blocks.value(error), std::sqrt(1.0 / 3.0), 1e-13);
@@ -262,7 +262,7 @@ TEST(ErrorNorm, SurfaceQuantitiesStandWhereTheGeometryOfThePairIs) {
     EXPECT_NEAR(blocks.value(HalfWidth()), stretch * 2.0 * std::sqrt(width * width / 6.0), 1e-12);
     EXPECT_NEAR(blocks.value(ContactLength()), stretch * (width - 0.5 * width / upper_cells), 1e-13);
     const auto uniform = std::make_shared<UniformState>();
-    uniform->contact_pressure = Expression(2.0);
+    uniform->contact_pressure = ScalarFunction(2.0);
     ErrorNorm error;
     error.exact = {"uniform", uniform, {}};
     error.from = 0.3, error.to = 2.9;
@@ -276,7 +276,7 @@ TEST(ErrorNorm, SurfaceQuantitiesStandWhereTheGeometryOfThePairIs) {
 TEST(ErrorNorm, OfPressureAgainstHertz) {
   TwoBlocks blocks;
   const auto hertz = std::make_shared<HertzLineContact>();
-  hertz->load = Expression(100.0), hertz->radius = 1.0;
+  hertz->load = ScalarFunction(100.0), hertz->radius = 1.0;
   hertz->first_youngs_modulus = hertz->second_youngs_modulus = youngs_modulus;
   const double a = hertz->half_width(1.0), p0 = hertz->peak(1.0), c = 0.4 * p0, pi = std::acos(-1.0);
   ASSERT_LT(1.5 * a, width) << "the range has to lie on the surface";

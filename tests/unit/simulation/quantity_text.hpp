@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "mortise/core/read_parameters.hpp"
+#include "mortise/input/read_parameters.hpp"
 #include "mortise/simulation/quantities/quantity.hpp"
 #include "scene_text.hpp"
 

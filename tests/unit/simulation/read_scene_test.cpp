@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "mortise/core/parameter_tree.hpp"
+#include "mortise/input/parameter_tree.hpp"
 #include "mortise/simulation/model/model.hpp"
 
 namespace mortise {

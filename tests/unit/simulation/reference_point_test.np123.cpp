@@ -240,19 +240,19 @@ TEST(ReferencePointErrors, NameWhatIsWrong) {
   EXPECT_THAT(complaints(one), HasSubstr("the position of its reference point has 2 numbers; a scene with kinematics \"three dimensional\" needs 3"));
   one = space_cases[0];
   one.conditions = in_space("upper/reference", {{"x", "0"}, {"y", "0"}, {"rotation", "10*t"}});
-  EXPECT_THAT(complaints(one), HasSubstr("prescribes a rotation for 2D scenes in a 3D scene"));
+  EXPECT_THAT(complaints(one), HasSubstr("prescribes a rotation for 2D in a 3D model"));
   one = space_cases[0];
   one.loads = load("twist", "moment", "upper/reference", "moment", "1");
-  EXPECT_THAT(complaints(one), HasSubstr("\"moment\" is for 2D scenes, the scene is in 3D; please give \"moment x\", \"moment y\", \"moment z\""));
+  EXPECT_THAT(complaints(one), HasSubstr("\"moment\" is for 2D, the model is in 3D; please give \"moment x\", \"moment y\", \"moment z\""));
   one = cases[0];
   one.loads = load("twist", "moment", "upper/reference", "moment x", "1");
-  EXPECT_THAT(complaints(one), HasSubstr("\"moment x\" is for 3D scenes, the scene is in 2D; please give \"moment\""));
+  EXPECT_THAT(complaints(one), HasSubstr("\"moment x\" is for 3D, the model is in 2D; please give \"moment\""));
   one = space_cases[0];
   one.loads = load("twist", "moment", "uper/reference", "moment x", "1");
   EXPECT_THAT(complaints(one), HasSubstr("no reference point that rotates; did you mean \"upper/reference\"?"));
   one = space_cases.back();
   one.loads = load("twist", "moment", "grip", "moment x", "1");
-  EXPECT_THAT(complaints(one), HasSubstr("\"grip\" cannot rotate: the scene has no reference point that rotates"));
+  EXPECT_THAT(complaints(one), HasSubstr("\"grip\" cannot rotate: there is no reference point that rotates"));
 }
 
 }  // namespace

@@ -17,7 +17,7 @@
 #include <set>
 #include <sstream>
 
-#include "mortise/core/parameter_tree.hpp"
+#include "mortise/input/parameter_tree.hpp"
 #include "mortise/simulation/run/run.hpp"
 #include "mortise/simulation/run/step_evaluation.hpp"
 #include "mortise/simulation/scene/read_scene.hpp"

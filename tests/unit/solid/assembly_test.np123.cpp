@@ -5,6 +5,7 @@
 #include <Tpetra_Core.hpp>
 #include <Tpetra_CrsGraph.hpp>
 
+#include "mortise/input/expression.hpp"
 #include "mortise/mesh/volume_generators.hpp"
 #include "mortise/solid/loads.hpp"
 #include "mortise/solid/prescribed_motion.hpp"
@@ -62,16 +63,16 @@ Assembled assemble(const RCP<const Communicator>& comm, const BodySetup& setup) 
 
   NodalForceOptions nodal;
   nodal.set.value = "body/top";
-  nodal.x = Expression("x*t", {});
+  nodal.x = parse_expression("x*t", {});
   DeadTractionOptions traction;
   traction.set.value = "body/right";
-  traction.y = Expression("1+y", {});
+  traction.y = parse_expression("1+y", {});
   FollowerPressureOptions pressure;
   pressure.set.value = "body/surface";
-  pressure.pressure = Expression("3+x*y", {});
+  pressure.pressure = parse_expression("3+x*y", {});
   GravityOptions gravity;
   gravity.y = -9.81;
-  if (dimension == 3) nodal.z = traction.z = gravity.z = Expression("t", {});
+  if (dimension == 3) nodal.z = traction.z = gravity.z = parse_expression("t", {});
   for (const LoadOptions* options : std::initializer_list<const LoadOptions*>{&nodal, &traction, &pressure, &gravity}) {
     const auto load = options->make(bodies);
     load->add_residual(0.5, local, residual, failure);
@@ -91,7 +92,7 @@ Assembled assemble(const RCP<const Communicator>& comm, const BodySetup& setup) 
       for (int i = 0; i < dimension; ++i) column(dimension * node + i) = view(node, c);
     result.columns.push_back(column);
   }
-  const Named<BoundaryConditionOptions> left{"left", {}, {{"body/left", {}}, Expression("t*y", {}), {}, {}, {}, {}}};
+  const Named<BoundaryConditionOptions> left{"left", {}, {{"body/left", {}}, parse_expression("t*y", {}), {}, {}, {}, {}}};
   const PrescribedMotion motion(*bodies, {left});
   const auto values = motion.values(0.3, failure);
   EXPECT_FALSE(failure);
@@ -193,7 +194,7 @@ TEST(Refusals, OfABodyAreThrownOnEveryRank) {
   const auto mesh = make_test_mesh(world(), {});
   EXPECT_THROW(Bodies(mesh, Kinematics::plane_stress, 1.0, {{"body", {}, make_material("j2 plasticity"), ElementType::q4}}), InputError);
   const auto bodies = make_test_bodies(world(), {});
-  const Named<BoundaryConditionOptions> missing{"left", {}, {{"body/lefd", {}}, Expression(0.0), {}, {}, {}, {}}};
+  const Named<BoundaryConditionOptions> missing{"left", {}, {{"body/lefd", {}}, ScalarFunction(0.0), {}, {}, {}, {}}};
   EXPECT_THROW(PrescribedMotion(*bodies, {missing}), InputError);
 }
 

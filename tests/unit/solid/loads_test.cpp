@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mortise/input/expression.hpp"
 #include "solid_test_support.hpp"
 
 namespace mortise {
@@ -42,7 +43,7 @@ TEST(NodalForce, IsTheValueAtEachNode) {
   const auto bodies = bodies_of(Kinematics::plane_strain);
   NodalForceOptions options;
   options.set.value = "body/top";
-  options.x = Expression("2*t*x", {});
+  options.x = parse_expression("2*t*x", {});
   options.y = -3.0;
   const auto load = options.make(bodies);
   const Eigen::VectorXd f = force(*bodies, *load, bent(*bodies), 0.5);
@@ -61,7 +62,7 @@ TEST(DeadTraction, HasTheResultantOfItsIntegral) {
     const auto bodies = bodies_of(kinematics);
     DeadTractionOptions options;
     options.set.value = "body/top";
-    options.x = Expression("t*x^2", {});
+    options.x = parse_expression("t*x^2", {});
     options.y = -5.0;
     const Eigen::VectorXd f = force(*bodies, *options.make(bodies), bent(*bodies), 2.0);
     // On y = 1 between x = 2 and 3: integrals of 2 x^2 and of -5, times the thickness 0.7 or with 2 pi x under the integral.
@@ -140,7 +141,7 @@ TEST(FollowerPressure, JacobianIsTheDerivativeOfItsForce) {
       const auto bodies = bodies_of(kinematics);
       FollowerPressureOptions options;
       options.set.value = set;
-      options.pressure = Expression("t*(1+x*y)", {});
+      options.pressure = parse_expression("t*(1+x*y)", {});
       const auto load = options.make(bodies);
       ASSERT_TRUE(load->follows());
       const Eigen::VectorXd u = bent(*bodies);
@@ -159,7 +160,7 @@ TEST(Gravity, HasTheWeightOfTheBody) {
     if (dimension(kinematics) == 3) continue;
     const auto bodies = bodies_of(kinematics);
     GravityOptions options;
-    options.y = Expression("-9.81*t", {});
+    options.y = parse_expression("-9.81*t", {});
     const Eigen::VectorXd f = force(*bodies, *options.make(bodies), bent(*bodies), 0.5);
     const double volume = kinematics == Kinematics::axisymmetric ? EIGEN_PI * (9.0 - 4.0) : 0.7;
     EXPECT_NEAR(sum(f, 1), -0.5 * 9.81 * 2.0 * volume, 1e-12 * volume * 10.0) << name;
@@ -191,7 +192,7 @@ TEST(Loads, ReportAnExpressionWithoutAValueAsFailure) {
   const auto bodies = bodies_of(Kinematics::plane_strain);
   NodalForceOptions options;
   options.set.value = "body/top";
-  options.x = Expression("1/(t-1)", {});
+  options.x = parse_expression("1/(t-1)", {});
   Vector residual(bodies->dofs());
   std::optional<StepFailure> failure;
   options.make(bodies)->add_residual(1.0, Vector(bodies->local_dofs()), residual, failure);

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "mortise/input/expression.hpp"
 #include "mortise/solid/full_turns.hpp"
 #include "mortise/solid/loads.hpp"
 #include "mortise/solid/rotation_vector.hpp"
@@ -20,7 +21,7 @@ constexpr double full = 2.0 * EIGEN_PI;
 MomentOptions oblique() {
   MomentOptions options;
   options.point.value = "point";
-  options.moment_vector = {Expression("3*t", {}), Expression(-2.0), Expression("1 + t", {})};
+  options.moment_vector = {parse_expression("3*t", {}), ScalarFunction(-2.0), parse_expression("1 + t", {})};
   return options;
 }
 
@@ -133,9 +134,9 @@ TEST(Moment, IsNamedByThePlaneOrBySpace) {
     return "";
   };
   MomentOptions options = oblique();
-  options.moment = Expression("t", {}, {"scene.xml", 7, "loads/twist"});
+  options.moment = parse_expression("t", {}, {"scene.xml", 7, "loads/twist"});
   EXPECT_THAT(message(options), HasSubstr("scene.xml:7"));
-  EXPECT_THAT(message(options), HasSubstr("\"moment\" is for 2D scenes, the scene is in 3D; please give \"moment x\", \"moment y\", \"moment z\""));
+  EXPECT_THAT(message(options), HasSubstr("\"moment\" is for 2D, the model is in 3D; please give \"moment x\", \"moment y\", \"moment z\""));
   options = {};
   options.point = {"point", {"scene.xml", 9, "loads/twist"}};
   EXPECT_THAT(message(options), HasSubstr("scene.xml:9: error: loads/twist: a moment on \"point\" without a value; please give \"moment x\""));

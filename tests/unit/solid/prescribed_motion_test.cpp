@@ -4,15 +4,16 @@
 
 #include <cmath>
 
+#include "mortise/input/expression.hpp"
 #include "solid_test_support.hpp"
 
 namespace mortise {
 namespace {
 
-std::optional<Expression> given(const std::string& text) {
+std::optional<ScalarFunction> given(const std::string& text) {
   Symbols symbols;
   symbols.variables["speed"] = 2.0;
-  return text.empty() ? std::nullopt : std::make_optional<Expression>(text, symbols);
+  return text.empty() ? std::nullopt : std::make_optional(parse_expression(text, symbols));
 }
 
 Named<BoundaryConditionOptions> condition(const std::string& name, int line, const std::string& set, const std::string& x, const std::string& y) {
@@ -56,7 +57,7 @@ TEST(PrescribedMotion, HoldsTheNamedComponentsAscending) {
 TEST(PrescribedMotion, SaysWhichExpressionHasNoValue) {
   const auto bodies = make_test_bodies(self(), {});
   auto top = condition("top", 7, "body/top", "", "");
-  top.value.x = Expression("sqrt(1 - t)", {}, top.place);
+  top.value.x = parse_expression("sqrt(1 - t)", {}, top.place);
   const PrescribedMotion motion(*bodies, {top});
   std::optional<StepFailure> failure;
   for (const double value : motion.values(0.75, failure)) EXPECT_DOUBLE_EQ(value, 0.5);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mortise/input/expression.hpp"
 #include "mortise/solid/loads.hpp"
 #include "mortise/solid/prescribed_motion.hpp"
 #include "solid_test_support.hpp"
@@ -45,8 +46,8 @@ TEST(SpaceLoads, NodalForceIsTheValueAtEachNode) {
   const auto bodies = brick_of(ElementType::h8, 0.0);
   NodalForceOptions options;
   options.set.value = "body/top";
-  options.x = Expression("2*t*x", {});
-  options.z = Expression("-3*z*y", {});
+  options.x = parse_expression("2*t*x", {});
+  options.z = parse_expression("-3*z*y", {});
   const Eigen::VectorXd f = force(*bodies, *options.make(bodies), bent(*bodies), 0.5);
   for (LocalOrdinal node = 0; node < bodies->mesh()->owned_count(); ++node) {
     const auto& X = bodies->mesh()->coordinates[node];
@@ -62,9 +63,9 @@ TEST(SpaceLoads, DeadTractionHasTheResultantOfItsIntegral) {
     const auto bodies = brick_of(element, 0.0);
     DeadTractionOptions options;
     options.set.value = "body/top";
-    options.x = Expression("t*x^2*y", {});
+    options.x = parse_expression("t*x^2*y", {});
     options.y = -5.0;
-    options.z = Expression("y^3", {});
+    options.z = parse_expression("y^3", {});
     // On z = 1, x in [2, 3], y in [0, 1]; x^2 y N is of degree 5 at most.
     const Eigen::Vector3d expected(2.0 * (27.0 - 8.0) / 3.0 * 0.5, -5.0, 0.25);
     EXPECT_LE((sum(force(*bodies, *options.make(bodies), bent(*bodies), 2.0)) - expected).norm(), 1e-13 * expected.norm()) << to_string(element);
@@ -93,7 +94,7 @@ TEST(SpaceLoads, DeadTractionHoldsTheStressItStandsFor) {
       options.set.value = set;
       options.x = T(0);
       options.y = T(1);
-      options.z = Expression(T(2));
+      options.z = ScalarFunction(T(2));
       out_of_balance -= force(*bodies, *options.make(bodies), u);
     }
     EXPECT_LE(out_of_balance.cwiseAbs().maxCoeff(), 1e-12 * scale) << to_string(element);
@@ -135,7 +136,7 @@ template <class Field>
 void expect_follower_tangent(const std::shared_ptr<Bodies>& bodies, const std::string& set, const std::string& pressure, const Field& u) {
   FollowerPressureOptions options;
   options.set.value = set;
-  options.pressure = Expression(pressure, {});
+  options.pressure = parse_expression(pressure, {});
   const auto load = options.make(bodies);
   ASSERT_TRUE(load->follows());
   Matrix matrix(bodies->graph());
@@ -168,7 +169,7 @@ TEST(SidesInThePlane, CarryTractionAndFollowerPressure) {
       expect_follower_tangent(bodies, "body/surface", "t*(1+x*y)", u);
       DeadTractionOptions options;
       options.set.value = "body/top";
-      options.y = Expression("x^2", {});
+      options.y = parse_expression("x^2", {});
       const Eigen::VectorXd f = force(*bodies, *options.make(bodies), u);
       double total = 0.0;
       for (Eigen::Index n = 1; n < f.size(); n += 2) total += f(n);
@@ -182,7 +183,7 @@ TEST(SpaceLoads, GravityHasTheWeightOfTheBody) {
   for (const ElementType element : elements_of(3)) {
     const auto bodies = brick_of(element, 0.0);
     GravityOptions options;
-    options.z = Expression("-9.81*t", {});
+    options.z = parse_expression("-9.81*t", {});
     const Eigen::Vector3d weight = sum(force(*bodies, *options.make(bodies), bent(*bodies), 0.5));
     EXPECT_LE((weight - Eigen::Vector3d(0.0, 0.0, -0.5 * 9.81 * 2.0)).norm(), 1e-12) << to_string(element);
   }
@@ -205,7 +206,7 @@ TEST(SpaceLoads, AndConditionsInZAreRefusedInThePlane) {
   DeadTractionOptions traction;
   traction.set.value = "body/top";
   GravityOptions gravity;
-  nodal.z = traction.z = gravity.z = Expression("1+t", {}, place);
+  nodal.z = traction.z = gravity.z = parse_expression("1+t", {}, place);
   for (const LoadOptions* options : std::initializer_list<const LoadOptions*>{&nodal, &traction, &gravity}) {
     const std::string error = refusal([&] { options->make(flat); });
     EXPECT_NE(error.find("scene.xml:8"), std::string::npos) << error;
@@ -214,7 +215,7 @@ TEST(SpaceLoads, AndConditionsInZAreRefusedInThePlane) {
   }
   Named<BoundaryConditionOptions> condition{"hold", place, {}};
   condition.value.set = {"body/left", place};
-  condition.value.z = Expression(0.0);
+  condition.value.z = ScalarFunction(0.0);
   const std::string error = refusal([&] { PrescribedMotion(*flat, {condition}); });
   EXPECT_NE(error.find("scene.xml:8"), std::string::npos) << error;
   EXPECT_NE(error.find("prescribes z"), std::string::npos) << error;
@@ -224,9 +225,9 @@ TEST(SpacePrescribedMotion, HoldsTheNamedComponentsAscending) {
   const auto bodies = brick_of(ElementType::tet4, 0.0);
   Named<BoundaryConditionOptions> right{"right", {}, {}}, bottom{"bottom", {}, {}};
   right.value.set.value = "body/right";
-  right.value.x = Expression("2*t*y*z", {});
+  right.value.x = parse_expression("2*t*y*z", {});
   bottom.value.set.value = "body/bottom";
-  bottom.value.z = Expression("0.5*x", {});
+  bottom.value.z = parse_expression("0.5*x", {});
   const PrescribedMotion motion(*bodies, {right, bottom});
   std::vector<LocalOrdinal> dofs;
   std::vector<double> values;
@@ -244,7 +245,7 @@ TEST(SpacePrescribedMotion, HoldsTheNamedComponentsAscending) {
   // Two values of z at one node are named with its place.
   Named<BoundaryConditionOptions> other{"other", {}, {}};
   other.value.set.value = "body/bottom";
-  other.value.z = Expression(1.0);
+  other.value.z = ScalarFunction(1.0);
   const std::string error = refusal([&] { PrescribedMotion(*bodies, {bottom, other}); });
   EXPECT_NE(error.find("prescribe z differently"), std::string::npos) << error;
 }

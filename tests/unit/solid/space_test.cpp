@@ -307,7 +307,7 @@ double tip_deflection(ElementType element, double poissons_ratio) {
   Eigen::MatrixXd K = stiffness(*bodies, u);
   DeadTractionOptions options;
   options.set.value = "body/right";
-  options.z = Expression(1.0);
+  options.z = ScalarFunction(1.0);
   Vector residual(bodies->dofs());
   std::optional<StepFailure> failure;
   options.make(bodies)->add_residual(1.0, to_local(*bodies, u), residual, failure);

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "mortise/core/read_parameters.hpp"
+#include "mortise/input/read_parameters.hpp"
 
 namespace mortise {
 namespace {

@@ -14,7 +14,7 @@ namespace mortise {
 
 void ContactRadius::describe(Parameters& parameters) {
   PairQuantity::describe(parameters);
-  parameters.add("centre", center, Says("a point of the axis: \"x, y, z\"").unit("length"));
+  parameters.add("centre", center, Says("a point of the axis: \"x, y, z\"").unit("length").formerly("center"));
   parameters.add("axis", axis, "direction of the axis: \"x, y, z\"");
   for (auto [name, values] : {std::pair{"centre", &center}, std::pair{"axis", &axis}})
     if (values->size() != 3) {

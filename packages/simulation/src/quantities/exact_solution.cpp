@@ -9,7 +9,7 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 
 /// A parameter that may change with t but not with position: solutions are functions of position already.
-void add_in_time(Parameters& parameters, const std::string& name, Expression& value, Says says) {
+void add_in_time(Parameters& parameters, const std::string& name, ScalarFunction& value, Says says) {
   parameters.add(name, value, says.arguments({"t"}));
 }
 }  // namespace
@@ -22,7 +22,7 @@ void HertzLineContact::describe(Parameters& parameters) {
   parameters.add("first poisson's ratio", first_poissons_ratio, Says("of one body").unit("-").above(-1.0).at_most(0.5));
   parameters.add("second young's modulus", second_youngs_modulus, Says("of the other body").unit("stress").above(0.0));
   parameters.add("second poisson's ratio", second_poissons_ratio, Says("of the other body").unit("-").above(-1.0).at_most(0.5));
-  parameters.add("centre", center, Says("x of the middle of the contact zone").unit("length"));
+  parameters.add("centre", center, Says("x of the middle of the contact zone").unit("length").formerly("center"));
   if (second_radius && !(1.0 / radius + 1.0 / *second_radius > 0.0))
     parameters.error("second radius",
                      fmt::format("is {:g}; a hollow body has to have a larger radius than the cylinder in it, {:g}", *second_radius, radius));
@@ -84,8 +84,8 @@ void LameRing::describe(Parameters& parameters) {
   parameters.add("poisson's ratio", poissons_ratio, Says("of the ring").unit("-").above(-1.0).at_most(0.5));
   add_in_time(parameters, "inner pressure", inner_pressure, Says("on the inner surface; an expression of t").unit("stress"));
   add_in_time(parameters, "outer pressure", outer_pressure, Says("on the outer surface; an expression of t").unit("stress"));
-  parameters.add("centre x", center_x, Says("x of the centre").unit("length"));
-  parameters.add("centre y", center_y, Says("y of the centre").unit("length"));
+  parameters.add("centre x", center_x, Says("x of the centre").unit("length").formerly("center x"));
+  parameters.add("centre y", center_y, Says("y of the centre").unit("length").formerly("center y"));
   if (outer_radius <= inner_radius)
     parameters.error("outer radius", fmt::format("is {:g}; it has to be larger than \"inner radius\", {:g}", outer_radius, inner_radius));
 }

@@ -14,7 +14,7 @@ void FormulaQuantity::describe(Parameters& parameters) {
 std::unique_ptr<QuantityEvaluator> FormulaQuantity::make_evaluator(const QuantityContext& context) const {
   std::vector<std::string> names{"t"};
   names.insert(names.end(), context.earlier.begin(), context.earlier.end());
-  return evaluator_of([formula = Expression::of(names, value.value, *context.symbols, value.place)](const QuantityContext& at) {
+  return evaluator_of([formula = parse_expression(names, value.value, *context.symbols, value.place)](const QuantityContext& at) {
     std::vector<double> arguments{at.time};
     arguments.insert(arguments.end(), at.earlier_values.begin(), at.earlier_values.end());
     const double result = formula.at(arguments);

@@ -10,7 +10,7 @@ namespace mortise {
 
 void HalfWidth::describe(Parameters& parameters) {
   PairQuantity::describe(parameters);
-  parameters.add("centre", center, Says("x of the middle of the contact zone").unit("length"));
+  parameters.add("centre", center, Says("x of the middle of the contact zone").unit("length").formerly("center"));
   describe_measure(parameters, measure);
 }
 

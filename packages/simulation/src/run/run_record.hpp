@@ -8,6 +8,7 @@
 
 #include "mortise/nonlinear/load_stepper.hpp"
 #include "mortise/simulation/model/model.hpp"
+#include "mortise/simulation/run/exit_code.hpp"
 #include "mortise/simulation/scene/checks.hpp"
 
 namespace mortise {

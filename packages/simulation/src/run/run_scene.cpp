@@ -13,7 +13,7 @@
 #include "model/memory.hpp"
 #include "model/precision.hpp"
 #include "model/report_model.hpp"
-#include "mortise/core/parameter_tree.hpp"
+#include "mortise/input/parameter_tree.hpp"
 #include "mortise/io/csv_writer.hpp"
 #include "mortise/io/field_writer.hpp"
 #include "mortise/io/files.hpp"

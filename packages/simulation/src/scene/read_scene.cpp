@@ -1,6 +1,6 @@
 #include "mortise/simulation/scene/read_scene.hpp"
 
-#include "mortise/core/read_parameters.hpp"
+#include "mortise/input/read_parameters.hpp"
 #include "mortise/simulation/scene/check_scene.hpp"
 #include "mortise/simulation/scene/file_kind.hpp"
 #include "scene/roles.hpp"

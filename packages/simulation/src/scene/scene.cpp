@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "mortise/core/names.hpp"
-#include "mortise/core/xml.hpp"
+#include "mortise/input/xml.hpp"
 #include "mortise/simulation/quantities/fields.hpp"
 #include "scene/history_columns.hpp"
 

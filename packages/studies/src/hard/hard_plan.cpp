@@ -8,8 +8,8 @@
 #include <regex>
 
 #include "mortise/core/names.hpp"
-#include "mortise/core/read_parameters.hpp"
-#include "mortise/core/xml.hpp"
+#include "mortise/input/read_parameters.hpp"
+#include "mortise/input/xml.hpp"
 #include "mortise/simulation/scene/file_kind.hpp"
 #include "mortise/simulation/scene/read_scene.hpp"
 #include "mortise/simulation/scene/scene.hpp"
@@ -137,7 +137,7 @@ double evaluate(const Located<std::string>& source, const Symbols& symbols, cons
     arguments.push_back(names.names[i]);
     values.push_back(names.values[i]);
   }
-  return Expression::of(arguments, source.value, symbols, source.place).at(values);
+  return parse_expression(arguments, source.value, symbols, source.place).at(values);
 }
 
 HardPlan read_hard(const Communicator& comm, const HardOptions& options) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "mortise/input/expression.hpp"
 #include "mortise/studies/hard.hpp"
 #include "mortise/studies/hard_file.hpp"
 #include "mortise/studies/study_points.hpp"

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "mortise/core/xml.hpp"
+#include "mortise/input/xml.hpp"
 #include "mortise/io/files.hpp"
 #include "mortise/io/output_directory.hpp"
 #include "mortise/simulation/model/run_log.hpp"

@@ -133,7 +133,7 @@ bool has_penalty(Peer peer) { return peer == Peer::calculix_surface_to_surface |
 
 std::optional<double> penalty_multiple(const std::string& expression, const Symbols& variables, const Place& place) {
   if (expression.empty()) return std::nullopt;
-  const double multiple = Expression::of({}, expression, variables, place).at({});
+  const double multiple = parse_expression({}, expression, variables, place).at({});
   if (!(multiple > 0.0 && std::isfinite(multiple)))
     throw InputError({{place, fmt::format("the penalty is \"{}\" = {:g} times E/h; it has to be above 0", expression, multiple)}});
   return multiple;

@@ -1,7 +1,7 @@
 #include "mortise/studies/point_file.hpp"
 
-#include "mortise/core/read_parameters.hpp"
-#include "mortise/core/xml.hpp"
+#include "mortise/input/read_parameters.hpp"
+#include "mortise/input/xml.hpp"
 #include "mortise/simulation/scene/file_kind.hpp"
 
 namespace mortise {

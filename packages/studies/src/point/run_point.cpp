@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "mortise/core/parameter_tree.hpp"
+#include "mortise/input/parameter_tree.hpp"
 #include "mortise/io/csv_writer.hpp"
 #include "mortise/io/files.hpp"
 #include "mortise/io/output_directory.hpp"

@@ -6,7 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "mortise/core/xml.hpp"
+#include "mortise/core/names.hpp"
 #include "mortise/io/files.hpp"
 #include "mortise/io/output_directory.hpp"
 #include "mortise/simulation/model/run_log.hpp"

@@ -5,8 +5,8 @@
 #include <set>
 
 #include "mortise/core/names.hpp"
-#include "mortise/core/parameter_tree.hpp"
-#include "mortise/core/read_parameters.hpp"
+#include "mortise/input/parameter_tree.hpp"
+#include "mortise/input/read_parameters.hpp"
 #include "mortise/simulation/scene/file_kind.hpp"
 #include "mortise/simulation/scene/read_scene.hpp"
 #include "mortise/studies/study_points.hpp"

@@ -2,7 +2,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "mortise/core/xml.hpp"
+#include "mortise/input/xml.hpp"
 #include "shared/draw_plot.hpp"
 #include "shared/plot_scripts.hpp"
 #include "study/study_errors.hpp"

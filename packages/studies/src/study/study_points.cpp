@@ -137,7 +137,7 @@ double evaluate(const Located<std::string>& source, const StudyPoint& point, con
     names.push_back(point.quantities[i]);
     arguments.push_back(values[i]);
   }
-  return Expression::of(names, source.value, point.symbols, source.place).at(arguments);
+  return parse_expression(names, source.value, point.symbols, source.place).at(arguments);
 }
 
 }  // namespace mortise

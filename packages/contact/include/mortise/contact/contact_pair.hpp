@@ -30,7 +30,7 @@ struct ContactOptions {
 /// One pair as the host application gives it.
 struct ContactPair {
   std::string name;  ///< as messages say it
-  Place place;       ///< where the scene gives it; may be empty
+  Place place;       ///< where it is given; may be empty
   /// As MortarInterface wants them: every slave facet on each rank that owns a node of it, every master facet on one rank. Oriented as
   /// surface_facet.hpp says, with their normals out of the bodies. In 2D the body is on the left of the way along the nodes. In 3D a facet's nodes go
   /// round anticlockwise as seen from outside. Facets turned inside out are not found out: they never touch.

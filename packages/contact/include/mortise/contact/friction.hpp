@@ -39,7 +39,7 @@ struct NoFriction : FrictionLaw {
 
 /// rho = min(mu p, largest traction).
 struct CoulombFriction : FrictionLaw {
-  Expression coefficient{0.0};             ///< mu of pressure and slip path
+  ScalarFunction coefficient{0.0};         ///< mu of pressure and slip path
   std::optional<double> largest_traction;  ///< [stress]
   void describe(Parameters& parameters) override;
   /// A coefficient of 0 is no friction.

@@ -1,5 +1,5 @@
 #pragma once
-// Errors with a place, and the exit codes of the program.
+// Errors with a place.
 
 #include <optional>
 #include <stdexcept>
@@ -10,12 +10,9 @@
 
 namespace mortise {
 
-/// Exit codes of `mortise` (documented in the README and in docs/program.md).
-enum class ExitCode { done = 0, usage = 1, invalid_input = 2, not_converged = 3, check_missed = 4, files = 5, internal = 70 };
-
-/// Where in a scene something was said: file, line (1-based; 0 if unknown) and path of list names, e.g. "contact/die".
+/// Where something was said: file, line (1-based; 0 if unknown) and path of list names, e.g. "contact/die".
 struct Place {
-  std::string file;  ///< as the user wrote it; empty: unknown
+  std::string file;  ///< as it was named; empty: unknown
   int line = 0;      ///< from 1; 0: unknown
   std::string path;  ///< names of lists, separated by "/"; empty: the outermost list
 };
@@ -26,13 +23,13 @@ struct Diagnostic {
   std::string message;  ///< what is wrong, what is allowed, what to do
 };
 
-/// A text of the scene as messages show it: whole, or if it is long its beginning and its length: `1 + 1 + ... (10000 characters)`.
+/// A given text as messages show it: whole, or if it is long its beginning and its length: `1 + 1 + ... (10000 characters)`.
 std::string shortened(const std::string& text);
 
-/// "scene.xml:14: error: contact/die: unknown parameter ...". What the message has between quotes is shortened.
+/// "block.in:14: error: contact/die: unknown parameter ...". What the message has between quotes is shortened.
 std::string to_string(const Diagnostic& diagnostic);
 
-/// Everything that is wrong with the input, found in one go; what() is all of it, one line each. Exit code 2.
+/// Everything that is wrong with the input, found in one go; what() is all of it, one line each.
 class InputError : public std::runtime_error {
  public:
   /// All of `diagnostics`; none where everything has been said elsewhere.
@@ -46,13 +43,13 @@ class InputError : public std::runtime_error {
   std::vector<Diagnostic> diagnostics_;
 };
 
-/// A file that cannot be read or written. Exit code 5.
+/// A file that cannot be read or written.
 class FileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Why a step (one Newton solve) has to be undone. Names stand in newton.csv.
+/// Why a step (one Newton solve) has to be undone.
 enum class FailureKind {
   inverted_element,  ///< det F <= 0 or det F0 <= 0
   material,          ///< a law that found no stress
@@ -61,7 +58,7 @@ enum class FailureKind {
   lost_contact,      ///< closed nodes that moved beyond the reach of their master surface
   linear_solver,     ///< true residual of a linear solve too large, or a singular matrix
   not_finite,        ///< NaN or Inf
-  input,             ///< an expression of the scene that has no value to go on with; the text has its place
+  input,             ///< a given function that has no value to go on with; the text has its place
   line_search,       ///< no step along the Newton direction makes the residual smaller
   diverged,
   too_many_iterations,

@@ -1,5 +1,5 @@
 #pragma once
-// Names that people choose: lists of them, file names made of them, and names that do not exist.
+// Names that are given: lists of them, file names made of them, and names that do not exist.
 
 #include <string>
 #include <vector>
@@ -18,6 +18,12 @@ std::vector<std::string> names_of(const std::vector<Named<T>>& entries) {
 
 /// A name that every file system takes: what may be no letter, digit or one of =,._-+ becomes an underscore.
 std::string name_for_files(std::string text);
+
+/// "; did you mean "..."?" if one of `candidates` is close to `name`, else "".
+std::string did_you_mean(const std::string& name, const std::vector<std::string>& candidates);
+
+/// "a", "b", "c"
+std::string quoted_list(const std::vector<std::string>& names);
 
 /// there is no material "stel"; did you mean "steel"? There are: "rubber", "steel"
 std::string unknown_name(const std::string& what, const std::string& name, const std::vector<std::string>& known);

@@ -1,6 +1,6 @@
 #pragma once
-// Parameters declared once: every options struct has one `describe(Parameters&)` that names each of its parameters. Reading and checking a
-// scene, the list of all errors, `mortise describe`, the reference documentation, the RELAX NG schema and effective.xml all come from it.
+// Parameters declared once: every options struct has one `describe(Parameters&)` that names each of its parameters. Whatever reads, checks, prints
+// or documents them is a visitor.
 
 #include <Teuchos_ParameterList.hpp>
 #include <cstddef>
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "mortise/core/error.hpp"
-#include "mortise/core/expression.hpp"
+#include "mortise/core/scalar_function.hpp"
 
 namespace mortise {
 
@@ -43,10 +43,12 @@ class Says {
   Says& below(double bound) { return upper_ = bound, upper_open_ = true, *this; }
   /// Values have to be <= `bound`.
   Says& at_most(double bound) { return upper_ = bound, upper_open_ = false, *this; }
-  /// The scene has to give it; there is no default.
+  /// It has to be given; there is no default.
   Says& required() { return required_ = true, *this; }
-  /// What an expression is of, instead of t, x, y, z.
+  /// What a function is of, instead of t, x, y, z.
   Says& arguments(std::vector<std::string> names) { return arguments_ = std::move(names), *this; }
+  /// What it was called in earlier versions; "": nothing else. Who still says so is told its name.
+  Says& formerly(std::string name) { return former_ = std::move(name), *this; }
 
   const std::string& sentence() const { return sentence_; }                 ///< what it is
   const std::string& unit() const { return unit_; }                         ///< empty: none was said
@@ -56,32 +58,33 @@ class Says {
   bool upper_open() const { return upper_open_; }                           ///< whether the bound itself is refused
   bool is_required() const { return required_; }                            ///< whether there is no default
   const std::vector<std::string>& arguments() const { return arguments_; }  ///< empty: t, x, y, z
+  const std::string& former() const { return former_; }                     ///< former name; empty: none
 
  private:
-  std::string sentence_, unit_;
+  std::string sentence_, unit_, former_;
   std::optional<double> lower_, upper_;
   bool lower_open_ = false, upper_open_ = false, required_ = false;
   std::vector<std::string> arguments_;
 };
 
-/// A value that remembers where the scene gave it, for errors that are found later.
+/// A value that remembers where it was given, for errors that are found later.
 template <class T>
 struct Located {
   T value{};    ///< what was read, or the default
   Place place;  ///< where; of the list around it if it was not given
 };
 
-/// A value for a parameter of another file, by the names of its lists and its own, separated by "/".
+/// A value for a parameter that somebody else reads, by the names of its lists and its own, separated by "/".
 struct Assignment {
   std::string path;   ///< "list/list/name"
   std::string value;  ///< as written
-  Place place;        ///< of the file that gives the value
+  Place place;        ///< where the value is given
 };
 
-/// An entry of a list whose members the user names (materials, bodies, contact pairs, ...). `value` has a `describe`.
+/// An entry of a list whose members have names of their own (materials, bodies, contact pairs, ...). `value` has a `describe`.
 template <class T>
 struct Named {
-  std::string name;  ///< the user's
+  std::string name;  ///< as it was given
   Place place;       ///< of its list
   T value{};         ///< its options
 };
@@ -92,7 +95,7 @@ class Registry {
  public:
   /// One of the kinds.
   struct Entry {
-    std::string name;                             ///< as scenes write it
+    std::string name;                             ///< which is given as "type"
     std::string sentence;                         ///< what it is
     std::function<std::shared_ptr<Base>()> make;  ///< new options with their defaults
   };
@@ -113,7 +116,7 @@ class Registry {
 template <class Base>
 struct Choice {
   std::string type;               ///< name in the registry; empty: not given. Set beforehand, with the options, it is the default
-  std::shared_ptr<Base> options;  ///< null only if the scene gave no valid type
+  std::shared_ptr<Base> options;  ///< null only if no valid type was given
   Place place;                    ///< of the parameter "type"
 };
 
@@ -122,7 +125,7 @@ class Parameters {
  public:
   virtual ~Parameters() = default;
 
-  /// A number; a scene may give an expression of its variables.
+  /// A number.
   virtual void add(const std::string& name, double& value, const Says& says) = 0;
   /// A whole number, likewise.
   virtual void add(const std::string& name, int& value, const Says& says) = 0;
@@ -130,12 +133,13 @@ class Parameters {
   virtual void add(const std::string& name, bool& value, const Says& says) = 0;
   /// A text.
   virtual void add(const std::string& name, std::string& value, const Says& says) = 0;
-  virtual void add(const std::string& name, Expression& value, const Says& says) = 0;                 ///< of t, x, y, z and the scene's variables
-  virtual void add(const std::string& name, std::optional<Expression>& value, const Says& says) = 0;  ///< no value: not given, as the sentence says
+  virtual void add(const std::string& name, ScalarFunction& value, const Says& says) = 0;  ///< of t, x, y, z unless it says others
+  virtual void add(const std::string& name, std::optional<ScalarFunction>& value,
+                   const Says& says) = 0;  ///< no value: not given, as the sentence says
   virtual void add(const std::string& name, std::optional<double>& value,
-                   const Says& says) = 0;  ///< no value: chosen by the program, as the sentence says
-  virtual void add(const std::string& name, std::vector<double>& value, const Says& says) = 0;       ///< "1, 2*a, 3" (expressions allowed)
-  virtual void add(const std::string& name, std::vector<std::string>& value, const Says& says) = 0;  ///< "a, b, c"
+                   const Says& says) = 0;                                                            ///< no value: chosen as the sentence says
+  virtual void add(const std::string& name, std::vector<double>& value, const Says& says) = 0;       ///< any number of them
+  virtual void add(const std::string& name, std::vector<std::string>& value, const Says& says) = 0;  ///< likewise
 
   /// One of named values of an enumeration.
   template <class Enum>
@@ -172,7 +176,7 @@ class Parameters {
     end_list();
   }
 
-  /// A list of lists whose names the user chooses.
+  /// A list of lists that have names of their own.
   template <class T>
   void named(const std::string& name, std::vector<Named<T>>& entries, const Says& says) {
     NamedAccess access;
@@ -208,10 +212,10 @@ class Parameters {
     locate(name, list.place);
   }
 
-  /// All that stands in the current list: values for another file, whose reader checks them. Names and those of lists within make paths.
+  /// All that stands in the current list: values that somebody else reads and checks. Names and those of lists within make paths.
   virtual void assignments(std::vector<Assignment>& assignments) = 0;
 
-  /// Puts into `place` where the scene gives the parameter or list `name` of the current list, or the list's own place if it does not. Leaves it
+  /// Puts into `place` where the parameter or list `name` of the current list is given, or the list's own place if it is not. Leaves it
   /// alone when not reading.
   virtual void locate(const std::string& name, Place& place) const = 0;
 
@@ -246,9 +250,9 @@ class Parameters {
   virtual void choice_of(const std::string& name, const ChoiceAccess& access, const Says& says) = 0;
 };
 
-/// A list of values for another file.
+/// A list of values that somebody else reads.
 struct AssignmentList {
-  std::vector<Assignment> all;                                            ///< in the order of the file
+  std::vector<Assignment> all;                                            ///< in the order given
   void describe(Parameters& parameters) { parameters.assignments(all); }  ///< takes whatever stands in the list
 };
 

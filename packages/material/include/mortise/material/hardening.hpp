@@ -39,7 +39,7 @@ struct PlasticIncrement {
 /// it.
 PlasticIncrement return_map(const Hardening& hardening, double trial_stress, double alpha, double stiffness);
 
-/// A hardening law of a scene.
+/// A hardening law by its parameters.
 struct HardeningOptions : Described {
   virtual Hardening hardening() const = 0;
 };

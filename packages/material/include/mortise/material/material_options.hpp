@@ -1,5 +1,5 @@
 #pragma once
-// Materials as a scene describes them. Who only passes a material on needs no law.
+// Materials by their parameters. Who only passes a material on needs no law.
 
 #include <variant>
 
@@ -18,7 +18,7 @@ struct FiniteJ2;
 /// Every law there is; materials.hpp defines them. Element loops are instantiated for each of them.
 using Law = std::variant<Hencky, NeoHooke, CiarletNeoHooke, StVenantKirchhoff, SmallStrainLinear, FiniteJ2>;
 
-/// A material of a scene.
+/// A material by its parameters.
 struct MaterialOptions : Described {
   double youngs_modulus = 1.0;  ///< [stress]
   double poissons_ratio = 0.3;

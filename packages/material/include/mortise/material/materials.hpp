@@ -1,5 +1,5 @@
 #pragma once
-// All laws, and how a scene's material becomes one. A new law: its own header, its line here, and its name in `Law`.
+// All laws, and how a material's parameters become one. A new law: its own header, its line here, and its name in `Law`.
 
 #include "mortise/material/ciarlet_neo_hooke.hpp"
 #include "mortise/material/finite_j2.hpp"

@@ -16,7 +16,7 @@ struct PathPoint {
   std::vector<int> free;            ///< a of the stretches F_aa that are free instead, with tau_aa = 0
 };
 
-/// A path of a point file.
+/// A path by its parameters.
 struct PointPath : Described {
   int steps = 100;
   double end_time = 1.0;
@@ -24,7 +24,7 @@ struct PointPath : Described {
   /// Declares "steps" and "end time".
   void describe(Parameters& parameters) override;
 
-  /// Throws InputError at the place of an expression that has no value, or none that is a deformation (a stretch <= 0, det F <= 0).
+  /// Throws InputError at the place of a function that has no value, or none that is a deformation (a stretch <= 0, det F <= 0).
   virtual PathPoint at(double time) const = 0;
 
   /// Row and column, from 0, of the component of stress and strain that the path is about.
@@ -33,8 +33,8 @@ struct PointPath : Described {
 
 /// A stretch along direction 1.
 struct StretchPath : PointPath {
-  std::optional<Expression> stretch;    ///< F_11(t)
-  std::optional<double> final_stretch;  ///< or F_11 at the end, reached linearly
+  std::optional<ScalarFunction> stretch;  ///< F_11(t)
+  std::optional<double> final_stretch;    ///< or F_11 at the end, reached linearly
 
   void describe(Parameters& parameters) override;
 
@@ -54,7 +54,7 @@ struct PlaneStrainPath : StretchPath {
 
 /// F = I + shear e_1 x e_2.
 struct SimpleShearPath : PointPath {
-  Expression shear;
+  ScalarFunction shear;
 
   void describe(Parameters& parameters) override;
   PathPoint at(double time) const override;
@@ -63,7 +63,7 @@ struct SimpleShearPath : PointPath {
 
 /// All nine components of F.
 struct DeformationGradientPath : PointPath {
-  std::array<Expression, 9> components;  ///< F_ij(t) at 3 i + j
+  std::array<ScalarFunction, 9> components;  ///< F_ij(t) at 3 i + j
   std::array<int, 2> shown{0, 0};
 
   DeformationGradientPath();

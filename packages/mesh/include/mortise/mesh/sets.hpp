@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "mortise/core/expression.hpp"
 #include "mortise/core/parameters.hpp"
+#include "mortise/core/scalar_function.hpp"
 #include "mortise/mesh/mesh.hpp"
 #include "mortise/shape/surface_facet.hpp"
 
@@ -15,8 +15,8 @@ enum class SetKind { nodes, sides };
 
 /// A set derived from another one.
 struct SetOptions {
-  Located<std::string> of;  ///< name of a side set ("body/side") or, for nodes, also of a node set ("body")
-  Expression where{1.0};    ///< of x, y and z (reference); kept where > 0, at a node or at the middle of a side
+  Located<std::string> of;    ///< name of a side set ("body/side") or, for nodes, also of a node set ("body")
+  ScalarFunction where{1.0};  ///< of x, y and z (reference); kept where > 0, at a node or at the middle of a side
   SetKind kind = SetKind::nodes;
   void describe(Parameters& parameters);
 };

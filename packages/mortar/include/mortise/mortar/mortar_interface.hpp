@@ -19,6 +19,12 @@ namespace mortise {
 
 class InterfaceImplementation;
 
+/// Surfaces that a coupling is not made for; another one may be.
+class UnfitCoupling : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 /// What Newton's method knows of the nodal normals' derivatives.
 enum class Linearisation {
   exact,
@@ -28,7 +34,7 @@ enum class Linearisation {
 /// The measure on the interface in 2D: thickness t, or 2 pi r of the current slave radius. In 3D it is not used.
 struct InterfaceMeasure {
   bool axisymmetric = false;  ///< a ring: 2 pi r
-  double thickness = 1.0;     ///< t; of plane scenes
+  double thickness = 1.0;     ///< t; in the plane
 };
 
 /// Options of the coupling of one pair.

@@ -34,7 +34,7 @@ struct FieldUse {
   int time_derivatives = 0;                            ///< the highest that it reads: 0, 1 or 2
 };
 
-/// A summand of the residual r(u, du/dt, d2u/dt2, t) = f_int - f_ext (+ f_c). The scene builds only those it names.
+/// A summand of the residual r(u, du/dt, d2u/dt2, t) = f_int - f_ext (+ f_c). Only those that are wanted are made.
 /// Evaluation never changes committed state; failures are put into `failure` (first one kept), the caller agrees on them over the ranks.
 class Contribution {
  public:

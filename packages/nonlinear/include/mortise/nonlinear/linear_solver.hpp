@@ -37,7 +37,7 @@ struct MultigridInput {
 class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
-  virtual std::string name() const = 0;  ///< as scenes and logs say it
+  virtual std::string name() const = 0;  ///< as messages say it
 
   /// How often the work that depends on the pattern alone was done (analysis of a direct solver, set-up of multigrid).
   virtual int symbolic_setups() const = 0;

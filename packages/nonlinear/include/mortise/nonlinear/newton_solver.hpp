@@ -33,7 +33,7 @@ struct NewtonOptions {
   void describe(Parameters& parameters);           ///< the list "newton"
 };
 
-/// One line of the Newton table and of newton.csv.
+/// One line of a table of Newton iterations.
 struct NewtonIteration {
   int iteration = 0;          ///< 0: the start
   ResidualNorms norms;        ///< after it

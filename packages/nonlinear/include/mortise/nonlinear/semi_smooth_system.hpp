@@ -31,7 +31,7 @@ struct SystemParts {
   std::vector<std::shared_ptr<Contribution>> contributions;                  ///< f_int - f_ext, as their sum
   std::shared_ptr<PrescribedDisplacements> prescribed;                       ///< never null; may have no dofs
   std::shared_ptr<DependentDisplacements> dependent;                         ///< null: every displacement is an unknown or prescribed
-  std::shared_ptr<ContactSystem> contact;                                    ///< null: no contact in the scene
+  std::shared_ptr<ContactSystem> contact;                                    ///< null: no contact
   std::shared_ptr<LinearSolver> linear_solver;                               ///< of each Newton step
   std::function<NearNullSpace(const Vector& displacement)> near_null_space;  ///< at a displacement; asked for by multigrid alone
   /// For an x at which the Jacobian is singular although the system has a solution: a better point to linearise at, or null where there is none. It

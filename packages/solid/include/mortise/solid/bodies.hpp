@@ -35,7 +35,7 @@ struct MaterialPoint {
 /// Cauchy stress xx, yy, zz, xy, then in three dimensions yz, xz, else 0. Axisymmetric: rr, zz, hoop, rz.
 using StressComponents = std::array<double, 6>;
 
-/// All bodies of a scene. dof id = dimension * node id + component.
+/// All bodies of a model. dof id = dimension * node id + component.
 ///
 /// Each rank computes every element that touches one of its nodes and writes only the rows it owns: assembly does not communicate.
 /// Displacement arguments live on local_dofs(): owned, then ghosts.

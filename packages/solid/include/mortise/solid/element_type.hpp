@@ -32,11 +32,11 @@ struct ElementEntry {
   using Cell = Type;                                             ///< its shape
   static constexpr ElementFormulation formulation = of_element;  ///< how it takes the deformation
   ElementType type;                                              ///< for run time
-  const char* name;                                              ///< in scenes
-  const char* sentence;                                          ///< what it is, for users
+  const char* name;                                              ///< what it is called
+  const char* sentence;                                          ///< what it is, for people
 };
 
-/// All elements, in the order in which users are told of them.
+/// All elements, in the order in which people are told of them.
 inline constexpr std::tuple element_registry{
     ElementEntry<Quadrilateral4>{ElementType::q4, "Q4", "bilinear quadrilateral; every law, the kinematics of the plane"},
     ElementEntry<Quadrilateral4, ElementFormulation::f_bar>{ElementType::q4_f_bar, "Q4 F-bar",

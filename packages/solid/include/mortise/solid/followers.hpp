@@ -10,7 +10,7 @@ namespace mortise {
 
 /// Displacements that follow those of reference points: d_i = u + (R(theta) - I)(X_i - X), theta an angle in 2D and the rotation vector in 3D. The
 /// dofs of a point are those of its node, u, and of its rotation node, arm * theta (in 2D its first one). A component that a rigid body in an
-/// axisymmetric scene cannot have follows from nothing: it is 0.
+/// axisymmetric model cannot have follows from nothing: it is 0.
 class Followers {
  public:
   explicit Followers(const Bodies& bodies);

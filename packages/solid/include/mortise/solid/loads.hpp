@@ -12,7 +12,7 @@
 namespace mortise {
 
 /// A load on bodies. Every rank computes the sides and elements that touch its nodes and writes only the rows it owns.
-/// An expression without a finite value is put into `failure` if that is empty (kind input); nothing throws on one rank only.
+/// A function without a finite value is put into `failure` if that is empty (kind input); nothing throws on one rank only.
 class Load {
  public:
   virtual ~Load() = default;
@@ -28,7 +28,7 @@ class Load {
   virtual bool follows() const { return false; }
 };
 
-/// A load of a scene; each kind declares its parameters.
+/// A load by its parameters; each kind declares its parameters.
 struct LoadOptions : Described {
   /// Makes the load. Collective. Throws InputError on all ranks for sets and bodies that do not exist, and for a z in 2D.
   virtual std::unique_ptr<Load> make(const std::shared_ptr<const Bodies>& bodies) const = 0;
@@ -37,8 +37,8 @@ struct LoadOptions : Described {
 /// The same force on each node of a set. Axisymmetric: the force on the whole circle. [force]
 struct NodalForceOptions : LoadOptions {
   Located<std::string> set;
-  Expression x, y;              ///< of t and the node's reference position
-  std::optional<Expression> z;  ///< only in three dimensions
+  ScalarFunction x, y;              ///< of t and the node's reference position
+  std::optional<ScalarFunction> z;  ///< only in three dimensions
   void describe(Parameters& parameters) override;
   std::unique_ptr<Load> make(const std::shared_ptr<const Bodies>& bodies) const override;
 };
@@ -46,8 +46,8 @@ struct NodalForceOptions : LoadOptions {
 /// A moment of fixed direction on a reference point that rotates. [force length]
 struct MomentOptions : LoadOptions {
   Located<std::string> point;
-  std::optional<Expression> moment;                        ///< of t; in 2D
-  std::array<std::optional<Expression>, 3> moment_vector;  ///< of t; in 3D, about axes that do not turn; no value: 0
+  std::optional<ScalarFunction> moment;                        ///< of t; in 2D
+  std::array<std::optional<ScalarFunction>, 3> moment_vector;  ///< of t; in 3D, about axes that do not turn; no value: 0
   void describe(Parameters& parameters) override;
   std::unique_ptr<Load> make(const std::shared_ptr<const Bodies>& bodies) const override;
 };
@@ -55,8 +55,8 @@ struct MomentOptions : LoadOptions {
 /// Force per reference area, of fixed direction. [stress]
 struct DeadTractionOptions : LoadOptions {
   Located<std::string> set;
-  Expression x, y;              ///< of t and the reference position
-  std::optional<Expression> z;  ///< only in three dimensions
+  ScalarFunction x, y;              ///< of t and the reference position
+  std::optional<ScalarFunction> z;  ///< only in three dimensions
   void describe(Parameters& parameters) override;
   std::unique_ptr<Load> make(const std::shared_ptr<const Bodies>& bodies) const override;
 };
@@ -65,16 +65,16 @@ struct DeadTractionOptions : LoadOptions {
 /// f_ext_a = - integral of N_a p n dgamma; in 2D the thickness is the reference one.
 struct FollowerPressureOptions : LoadOptions {
   Located<std::string> set;
-  Expression pressure;  ///< of t and the reference position
+  ScalarFunction pressure;  ///< of t and the reference position
   void describe(Parameters& parameters) override;
   std::unique_ptr<Load> make(const std::shared_ptr<const Bodies>& bodies) const override;
 };
 
 /// Weight: density times acceleration. [length / time^2]
 struct GravityOptions : LoadOptions {
-  Located<std::string> body;    ///< empty: every body
-  Expression x, y;              ///< acceleration, of t
-  std::optional<Expression> z;  ///< only in three dimensions
+  Located<std::string> body;        ///< empty: every body
+  ScalarFunction x, y;              ///< acceleration, of t
+  std::optional<ScalarFunction> z;  ///< only in three dimensions
   void describe(Parameters& parameters) override;
   std::unique_ptr<Load> make(const std::shared_ptr<const Bodies>& bodies) const override;
 };

@@ -10,12 +10,12 @@
 
 namespace mortise {
 
-/// One condition of a scene. A component without an expression is free. Axisymmetric: x is r, y is z.
+/// One condition. A component without a function is free. Axisymmetric: x is r, y is z.
 struct BoundaryConditionOptions {
-  Located<std::string> set;                                  ///< node or side set
-  std::optional<Expression> x, y, z;                         ///< displacement [length]; no value: free; z only in three dimensions
-  std::optional<Expression> rotation;                        ///< of a reference point of the plane [degrees], counterclockwise; no value: free
-  std::array<std::optional<Expression>, 3> rotation_vector;  ///< of a reference point in 3D [degrees]; no value: free
+  Located<std::string> set;                                      ///< node or side set
+  std::optional<ScalarFunction> x, y, z;                         ///< displacement [length]; no value: free; z only in three dimensions
+  std::optional<ScalarFunction> rotation;                        ///< of a reference point of the plane [degrees], counterclockwise; no value: free
+  std::array<std::optional<ScalarFunction>, 3> rotation_vector;  ///< of a reference point in 3D [degrees]; no value: free
   void describe(Parameters& parameters);
 };
 
@@ -32,19 +32,19 @@ class PrescribedMotion {
   /// Owned dofs (local indices in Bodies::dofs()), ascending.
   const std::vector<LocalOrdinal>& dofs() const { return dofs_; }
 
-  /// Their values at pseudo-time `time`, in the same order. An expression without a finite value is put into `failure` if that is empty (kind input),
+  /// Their values at pseudo-time `time`, in the same order. A function without a finite value is put into `failure` if that is empty (kind input),
   /// its value is NaN; nothing throws on one rank only.
   std::vector<double> values(double time, std::optional<StepFailure>& failure) const;
 
  private:
   struct Source {
-    LocalOrdinal expression;
+    LocalOrdinal function;
     std::array<double, 3> position;
     double factor = 1.0;
   };
   double value(const Source& source, double time, std::optional<StepFailure>& failure) const;
 
-  std::vector<Expression> expressions_;
+  std::vector<ScalarFunction> functions_;
   std::vector<LocalOrdinal> dofs_;
   std::vector<Source> sources_;  ///< one for each dof
 };

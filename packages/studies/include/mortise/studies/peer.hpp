@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "mortise/core/error.hpp"
-#include "mortise/core/expression.hpp"
 #include "mortise/core/log.hpp"
 #include "mortise/core/types.hpp"
+#include "mortise/input/expression.hpp"
+#include "mortise/simulation/run/exit_code.hpp"
 
 namespace mortise {
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mortise/core/types.hpp"
+#include "mortise/input/expression.hpp"
 #include "mortise/material/material_options.hpp"
 #include "mortise/material/point_path.hpp"
 

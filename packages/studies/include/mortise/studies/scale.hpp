@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "mortise/core/error.hpp"
 #include "mortise/core/log.hpp"
 #include "mortise/core/types.hpp"
+#include "mortise/simulation/run/exit_code.hpp"
 
 namespace mortise {
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mortise/core/types.hpp"
+#include "mortise/input/expression.hpp"
 #include "mortise/studies/peer.hpp"
 #include "mortise/studies/study_file.hpp"
 

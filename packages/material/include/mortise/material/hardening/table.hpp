@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "mortise/core/expression.hpp"
 #include "mortise/core/parameters.hpp"
+#include "mortise/core/table.hpp"
 
 namespace mortise {
 

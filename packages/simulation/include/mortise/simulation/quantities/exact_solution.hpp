@@ -30,7 +30,7 @@ struct ExactSolution : Described {
 /// Hertz's line contact of two cylinders, or of a cylinder and a plane, plane strain.
 ///   1/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2,  1/R = 1/R1 + 1/R2,  a = sqrt(4 F R / (pi E')),  p0 = 2 F / (pi a),  p = p0 sqrt(1 - (x/a)^2).
 struct HertzLineContact : ExactSolution {
-  Expression load{0.0};  ///< F, of t: force per thickness on the whole contact, both halves
+  ScalarFunction load{0.0};  ///< F, of t: force per thickness on the whole contact, both halves
   double radius = 1.0;
   std::optional<double> second_radius;  ///< negative: concave; default: a plane
   double first_youngs_modulus = 1.0, first_poissons_ratio = 0.3, second_youngs_modulus = 1.0, second_poissons_ratio = 0.3;
@@ -45,7 +45,7 @@ struct HertzLineContact : ExactSolution {
 
 /// The same stress and contact pressure everywhere.
 struct UniformState : ExactSolution {
-  Expression contact_pressure{0.0}, xx{0.0}, yy{0.0}, zz{0.0}, xy{0.0};  ///< of t
+  ScalarFunction contact_pressure{0.0}, xx{0.0}, yy{0.0}, zz{0.0}, xy{0.0};  ///< of t
   void describe(Parameters& parameters) override;
   std::optional<double> pressure(const Point& x, double time) const override;
   std::optional<Eigen::Matrix3d> stress(const Point& x, double time) const override;
@@ -53,7 +53,7 @@ struct UniformState : ExactSolution {
 
 /// u = u0 + G X.
 struct LinearDisplacement : ExactSolution {
-  Expression x{0.0}, y{0.0}, xx{0.0}, xy{0.0}, yx{0.0}, yy{0.0};  ///< of t: u0 and G = du_i/dX_j
+  ScalarFunction x{0.0}, y{0.0}, xx{0.0}, xy{0.0}, yx{0.0}, yy{0.0};  ///< of t: u0 and G = du_i/dX_j
   void describe(Parameters& parameters) override;
   std::optional<Point> displacement(const Point& x, double time) const override;
 };
@@ -64,7 +64,7 @@ struct LinearDisplacement : ExactSolution {
 /// The pressure between the rings at r is -sigma_r(r).
 struct LameRing : ExactSolution {
   double inner_radius = 1.0, outer_radius = 2.0, youngs_modulus = 1.0, poissons_ratio = 0.3, center_x = 0.0, center_y = 0.0;
-  Expression inner_pressure{0.0}, outer_pressure{0.0};  ///< of t
+  ScalarFunction inner_pressure{0.0}, outer_pressure{0.0};  ///< of t
   void describe(Parameters& parameters) override;
   std::optional<double> pressure(const Point& x, double time) const override;
   std::optional<Point> displacement(const Point& x, double time) const override;

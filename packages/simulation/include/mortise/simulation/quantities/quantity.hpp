@@ -7,6 +7,7 @@
 
 #include "mortise/contact/contact_system.hpp"
 #include "mortise/core/parameters.hpp"
+#include "mortise/input/expression.hpp"
 #include "mortise/solid/bodies.hpp"
 
 namespace mortise {

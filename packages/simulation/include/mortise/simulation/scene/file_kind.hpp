@@ -1,7 +1,7 @@
 #pragma once
 // Which kind of file was given.
 
-#include "mortise/core/xml.hpp"
+#include "mortise/input/xml.hpp"
 
 namespace mortise {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mortise/core/types.hpp"
-#include "mortise/core/xml.hpp"
+#include "mortise/input/xml.hpp"
 #include "mortise/simulation/scene/scene.hpp"
 
 namespace mortise {

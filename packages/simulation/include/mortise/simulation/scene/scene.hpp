@@ -6,6 +6,7 @@
 
 #include "mortise/contact/contact_system.hpp"
 #include "mortise/core/parameters.hpp"
+#include "mortise/input/expression.hpp"
 #include "mortise/material/material_options.hpp"
 #include "mortise/mesh/mesh_options.hpp"
 #include "mortise/mesh/sets.hpp"

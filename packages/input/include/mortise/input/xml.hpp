@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mortise/core/error.hpp"
-#include "mortise/core/expression.hpp"
+#include "mortise/input/expression.hpp"
 
 namespace mortise {
 
@@ -51,11 +51,5 @@ void apply_override(XmlList& root, const std::string& path, const std::string& v
 /// Takes the lists "variables" (numbers, each may use the ones before it) and "tables" ({times, values}) of a scene, and appends what is wrong
 /// with them to `diagnostics`.
 Symbols read_symbols(const XmlList& root, std::vector<Diagnostic>& diagnostics);
-
-/// "; did you mean "..."?" if one of `candidates` is close to `name`, else "".
-std::string did_you_mean(const std::string& name, const std::vector<std::string>& candidates);
-
-/// "a", "b", "c"
-std::string quoted_list(const std::vector<std::string>& names);
 
 }  // namespace mortise

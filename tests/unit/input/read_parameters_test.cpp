@@ -1,11 +1,11 @@
 // Scenes that say too much, too little or the wrong thing: every error with its line, all at once.
 
-#include "mortise/core/read_parameters.hpp"
+#include "mortise/input/read_parameters.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "mortise/core/parameter_tree.hpp"
+#include "mortise/input/parameter_tree.hpp"
 
 namespace mortise {
 namespace {
@@ -76,10 +76,10 @@ struct Options {
   double tolerance = 1e-9;
   int count = 3;
   Colour colour = Colour::red;
-  Expression load{0.0};
+  ScalarFunction load{0.0};
   std::optional<double> reach;
-  std::optional<Expression> motion;
-  Expression rate{0.0};
+  std::optional<ScalarFunction> motion;
+  ScalarFunction rate{0.0};
   std::vector<std::string> names{"a", "b"};
   Inner inner;
   std::vector<Named<Bounds>> bounds;
@@ -218,6 +218,26 @@ TEST(ReadParameters, RefusesWhatIsNoNumber) {
 }
 
 // The names are those of the expression, not of any.
+TEST(ReadParameters, SaysWhatFormerNamesAreNow) {
+  struct {
+    double height = 1.0;
+    Inner within;
+    void describe(Parameters& parameters) {
+      parameters.add("height", height, Says("how high").formerly("length"));
+      parameters.list("within", within, Says("inside").formerly("content"));
+    }
+  } options;
+  const Symbols symbols;
+  std::vector<Diagnostic> diagnostics;
+  read_parameters(options, parse_xml(list("scene", parameter("length", "double", "2") + list("content", "") + parameter("on", "bool", "true")), ""),
+                  symbols, {}, diagnostics);
+  std::vector<std::string> messages;
+  for (const Diagnostic& one : diagnostics) messages.push_back(one.message);
+  EXPECT_THAT(messages, ::testing::ElementsAre("unknown parameter \"length\"; it is called \"height\" now",
+                                               "unknown list \"content\"; it is called \"within\" now",
+                                               "unknown parameter \"on\"; known here: \"height\", \"within\""));
+}
+
 TEST(ReadParameters, SaysWhichNamesAnExpressionKnows) {
   const std::string variables = list("variables", parameter("n", "int", "4")), unknown = needed + variables;
   const auto expect = [&](const std::string& wrong, const std::string& names) {

@@ -1,12 +1,12 @@
 #pragma once
 // Fills options from a scene's XML and says everything that is wrong with it.
 
-#include <set>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "mortise/core/parameters.hpp"
-#include "mortise/core/xml.hpp"
+#include "mortise/input/xml.hpp"
 
 namespace mortise {
 
@@ -20,9 +20,9 @@ class ReadParameters : public Parameters {
   void add(const std::string& name, int& value, const Says& says) override;
   void add(const std::string& name, bool& value, const Says& says) override;
   void add(const std::string& name, std::string& value, const Says& says) override;
-  void add(const std::string& name, Expression& value, const Says& says) override;
+  void add(const std::string& name, ScalarFunction& value, const Says& says) override;
   void add(const std::string& name, std::optional<double>& value, const Says& says) override;
-  void add(const std::string& name, std::optional<Expression>& value, const Says& says) override;
+  void add(const std::string& name, std::optional<ScalarFunction>& value, const Says& says) override;
   void add(const std::string& name, std::vector<double>& value, const Says& says) override;
   void add(const std::string& name, std::vector<std::string>& value, const Says& says) override;
   using Parameters::add;
@@ -47,10 +47,12 @@ class ReadParameters : public Parameters {
     const XmlList* list;  ///< null: the scene does not have it
     Place place;
     std::vector<std::string> known{};
+    std::map<std::string, std::string> renamed{};  ///< former name, present name
     bool check_unknown = true;
     std::vector<std::vector<std::string>> refused{};  ///< parameters that keep their defaults, below the names of the lists within that hold them
   };
   Place place(const std::string& name) const;
+  void know(const std::string& name, const Says& says);
   const XmlParameter* find(const std::string& name, const Says& says, const std::vector<std::string>& types);
   void say(const Place& place, const std::string& message) { diagnostics_.push_back({place, message}); }
   void refuse(const std::string& name, const Place& where, const std::string& message);

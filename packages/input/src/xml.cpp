@@ -1,4 +1,4 @@
-#include "mortise/core/xml.hpp"
+#include "mortise/input/xml.hpp"
 
 #include <fmt/format.h>
 #include <libxml/parser.h>
@@ -15,6 +15,7 @@
 #include <set>
 #include <sstream>
 
+#include "mortise/core/names.hpp"
 #include "split.hpp"
 
 namespace mortise {

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <boost/algorithm/string/trim.hpp>
 #include <cctype>
-#include <numeric>
 
-#include "mortise/core/xml.hpp"
+#include "mortise/core/names.hpp"
+#include "mortise/input/expression.hpp"
+#include "mortise/input/xml.hpp"
 #include "split.hpp"
 
 namespace mortise {
@@ -32,7 +33,7 @@ std::string wrong_name(const std::string& name) {
 std::vector<double> numbers(const XmlParameter* parameter, const Symbols& symbols) try {
   std::vector<double> values;
   for (const std::string& one : split(parameter->value)) {
-    values.push_back(Expression::of({}, one, symbols, parameter->place)());
+    values.push_back(parse_expression({}, one, symbols, parameter->place)());
   }
   return values;
 } catch (const InputError& error) {
@@ -56,21 +57,6 @@ Table read_table(const XmlList& list, const Symbols& symbols) {
     if (table.times[i] <= table.times[i - 1])
       throw InputError(list.parameter("times")->place, fmt::format("times have to ascend, but {} follows {}", table.times[i], table.times[i - 1]));
   return table;
-}
-
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t substitute = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitute});
-    }
-  }
-  return row[b.size()];
 }
 
 }  // namespace
@@ -145,25 +131,6 @@ Symbols read_symbols(const XmlList& root, std::vector<Diagnostic>& diagnostics) 
       });
   }
   return symbols;
-}
-
-std::string did_you_mean(const std::string& name, const std::vector<std::string>& candidates) {
-  std::size_t best = name.size() / 3 + 2;
-  std::string closest;
-  for (const std::string& candidate : candidates) {
-    const std::size_t distance = edit_distance(name, candidate);
-    if (distance < best) {
-      best = distance;
-      closest = candidate;
-    }
-  }
-  return closest.empty() ? "" : fmt::format("; did you mean \"{}\"?", closest);
-}
-
-std::string quoted_list(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "\"" : ", \"") + name + "\"";
-  return text;
 }
 
 }  // namespace mortise

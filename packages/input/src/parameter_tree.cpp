@@ -1,11 +1,12 @@
-#include "mortise/core/parameter_tree.hpp"
+#include "mortise/input/parameter_tree.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <sstream>
 
-#include "mortise/core/xml.hpp"
+#include "mortise/core/names.hpp"
+#include "mortise/input/expression.hpp"
 
 namespace mortise {
 
@@ -14,26 +15,37 @@ using Kind = ParameterRecord::Kind;
 std::string ParameterRecord::type() const {
   switch (kind) {
     case Kind::number:
-    case Kind::optional_number: return "double";
-    case Kind::integer: return "int";
-    case Kind::boolean: return "bool";
-    default: return "string";
+    case Kind::optional_number:
+      return "double";
+    case Kind::integer:
+      return "int";
+    case Kind::boolean:
+      return "bool";
+    default:
+      return "string";
   }
 }
 
 std::string ParameterRecord::kind_text() const {
   switch (kind) {
     case Kind::number:
-    case Kind::optional_number: return "number";
-    case Kind::integer: return "whole number";
-    case Kind::boolean: return "true or false";
-    case Kind::text: return "text";
+    case Kind::optional_number:
+      return "number";
+    case Kind::integer:
+      return "whole number";
+    case Kind::boolean:
+      return "true or false";
+    case Kind::text:
+      return "text";
     case Kind::expression:
     case Kind::optional_expression:
       return says.arguments().empty() ? "expression of t, x, y, z" : fmt::format("expression of {}", fmt::join(says.arguments(), ", "));
-    case Kind::numbers: return "numbers, separated by commas";
-    case Kind::texts: return "names, separated by commas";
-    case Kind::enumeration: return "one of " + quoted_list(choices);
+    case Kind::numbers:
+      return "numbers, separated by commas";
+    case Kind::texts:
+      return "names, separated by commas";
+    case Kind::enumeration:
+      return "one of " + quoted_list(choices);
   }
   return "";
 }
@@ -58,11 +70,13 @@ void CollectParameters::add(const std::string& name, double& value, const Says& 
 void CollectParameters::add(const std::string& name, int& value, const Says& says) { record(name, Kind::integer, fmt::format("{}", value), says); }
 void CollectParameters::add(const std::string& name, bool& value, const Says& says) { record(name, Kind::boolean, value ? "true" : "false", says); }
 void CollectParameters::add(const std::string& name, std::string& value, const Says& says) { record(name, Kind::text, value, says); }
-void CollectParameters::add(const std::string& name, Expression& value, const Says& says) { record(name, Kind::expression, value.source(), says); }
+void CollectParameters::add(const std::string& name, ScalarFunction& value, const Says& says) {
+  record(name, Kind::expression, value.source(), says);
+}
 void CollectParameters::add(const std::string& name, std::optional<double>& value, const Says& says) {
   record(name, Kind::optional_number, value ? fmt::format("{}", *value) : "", says);
 }
-void CollectParameters::add(const std::string& name, std::optional<Expression>& value, const Says& says) {
+void CollectParameters::add(const std::string& name, std::optional<ScalarFunction>& value, const Says& says) {
   record(name, Kind::optional_expression, value ? value->source() : "", says);
 }
 void CollectParameters::add(const std::string& name, std::vector<double>& value, const Says& says) {

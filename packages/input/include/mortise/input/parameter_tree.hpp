@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mortise/core/parameters.hpp"
+#include "mortise/input/expression.hpp"
 
 namespace mortise {
 
@@ -58,9 +59,9 @@ class CollectParameters : public Parameters {
   void add(const std::string& name, int& value, const Says& says) override;
   void add(const std::string& name, bool& value, const Says& says) override;
   void add(const std::string& name, std::string& value, const Says& says) override;
-  void add(const std::string& name, Expression& value, const Says& says) override;
+  void add(const std::string& name, ScalarFunction& value, const Says& says) override;
   void add(const std::string& name, std::optional<double>& value, const Says& says) override;
-  void add(const std::string& name, std::optional<Expression>& value, const Says& says) override;
+  void add(const std::string& name, std::optional<ScalarFunction>& value, const Says& says) override;
   void add(const std::string& name, std::vector<double>& value, const Says& says) override;
   void add(const std::string& name, std::vector<std::string>& value, const Says& says) override;
   using Parameters::add;

@@ -1,4 +1,4 @@
-#include "mortise/core/read_parameters.hpp"
+#include "mortise/input/read_parameters.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "former_names.hpp"
+#include "mortise/core/names.hpp"
+#include "mortise/input/expression.hpp"
 #include "split.hpp"
 
 namespace mortise {
@@ -60,7 +61,7 @@ Teuchos::ParameterList to_teuchos(const XmlList& list, const Symbols& symbols, s
           throw InputError(one.place, fmt::format("\"{}\" is \"{}\"; please write true or false", one.name, one.value));
         result.set(one.name, one.value == "true");
       } else if (one.type == "int" || one.type == "double") {
-        const double value = Expression::of({}, one.value, symbols, one.place)();
+        const double value = parse_expression({}, one.value, symbols, one.place)();
         if (one.type == "double") {
           result.set(one.name, value);
         } else {
@@ -116,8 +117,13 @@ void ReadParameters::refuse(const std::string& name, const InputError& error) {
   for (const Diagnostic& one : error.diagnostics()) say(one.place, fmt::format("\"{}\": {}", name, one.message));
 }
 
-const XmlParameter* ReadParameters::find(const std::string& name, const Says& says, const std::vector<std::string>& types) {
+void ReadParameters::know(const std::string& name, const Says& says) {
   frame().known.push_back(name);
+  if (!says.former().empty()) frame().renamed[says.former()] = name;
+}
+
+const XmlParameter* ReadParameters::find(const std::string& name, const Says& says, const std::vector<std::string>& types) {
+  know(name, says);
   const XmlParameter* parameter = frame().list ? frame().list->parameter(name) : nullptr;
   if (!parameter) {
     if (frame().list && frame().list->list(name)) {
@@ -137,7 +143,7 @@ const XmlParameter* ReadParameters::find(const std::string& name, const Says& sa
 
 std::optional<double> ReadParameters::number(const XmlParameter& parameter, const std::string& text, const Says& says) {
   try {
-    const double value = Expression::of({}, text, symbols_, parameter.place)();
+    const double value = parse_expression({}, text, symbols_, parameter.place)();
     if (in_range(value, says)) return value;
     refuse(parameter.name, parameter.place, fmt::format("\"{}\" is {}; allowed: {}", parameter.name, value, range_text(says)));
   } catch (const InputError& error) {
@@ -183,13 +189,13 @@ void ReadParameters::add(const std::string& name, std::string& value, const Says
   value = parameter->value;
 }
 
-void ReadParameters::add(const std::string& name, Expression& value, const Says& says) {
+void ReadParameters::add(const std::string& name, ScalarFunction& value, const Says& says) {
   const XmlParameter* parameter = find(name, says, {"double", "int"});
   if (!parameter) return;
   try {
     const bool usual = says.arguments().empty();
-    Expression read = usual ? Expression(parameter->value, symbols_, parameter->place)
-                            : Expression::of(says.arguments(), parameter->value, symbols_, parameter->place);
+    ScalarFunction read = usual ? parse_expression(parameter->value, symbols_, parameter->place)
+                                : parse_expression(says.arguments(), parameter->value, symbols_, parameter->place);
     if (read.is_constant() && !in_range(read(), says))
       refuse(name, parameter->place, fmt::format("\"{}\" is {}; allowed: {}", name, read(), range_text(says)));
     else
@@ -199,12 +205,12 @@ void ReadParameters::add(const std::string& name, Expression& value, const Says&
   }
 }
 
-void ReadParameters::add(const std::string& name, std::optional<Expression>& value, const Says& says) {
+void ReadParameters::add(const std::string& name, std::optional<ScalarFunction>& value, const Says& says) {
   if (!frame().list || !frame().list->parameter(name)) {
-    frame().known.push_back(name);
+    know(name, says);
     return;
   }
-  Expression read;
+  ScalarFunction read;
   add(name, read, says);
   value = std::move(read);
 }
@@ -236,8 +242,8 @@ void ReadParameters::add_enumeration(const std::string& name, std::size_t& index
     index = static_cast<std::size_t>(found - names.begin());
 }
 
-void ReadParameters::verbatim(const std::string& name, Teuchos::ParameterList& list, const Says&) {
-  frame().known.push_back(name);
+void ReadParameters::verbatim(const std::string& name, Teuchos::ParameterList& list, const Says& says) {
+  know(name, says);
   if (const XmlList* given = frame().list ? frame().list->list(name) : nullptr) list.setParameters(to_teuchos(*given, symbols_, diagnostics_));
 }
 
@@ -247,7 +253,7 @@ void ReadParameters::assignments(std::vector<Assignment>& assignments) {
 }
 
 bool ReadParameters::begin_list(const std::string& name, const Says& says) {
-  frame().known.push_back(name);
+  know(name, says);
   if (frame().list && frame().list->parameter(name)) say(place(name), fmt::format("\"{}\" is a list, not a parameter: {}", name, says.sentence()));
   const XmlList* given = frame().list ? frame().list->list(name) : nullptr;
   Place where = given ? given->place : frame().place;
@@ -267,7 +273,7 @@ void ReadParameters::end_list() {
 }
 
 void ReadParameters::named_lists(const std::string& name, const NamedAccess& access, const Says& says) {
-  frame().known.push_back(name);
+  know(name, says);
   if (frame().list && frame().list->parameter(name)) say(place(name), fmt::format("\"{}\" is a list, not a parameter: {}", name, says.sentence()));
   const XmlList* given = frame().list ? frame().list->list(name) : nullptr;
   if (!given) {
@@ -287,7 +293,7 @@ void ReadParameters::named_lists(const std::string& name, const NamedAccess& acc
 void ReadParameters::choice_of(const std::string& name, const ChoiceAccess& access, const Says& says) {
   std::vector<std::string> kinds;
   for (const auto& kind : access.kinds) kinds.push_back(kind.first);
-  frame().known.push_back(name);
+  know(name, says);
   const XmlParameter* parameter = frame().list ? frame().list->parameter(name) : nullptr;
   if (!parameter && !access.type.empty()) {
     access.describe(*this);
@@ -313,8 +319,8 @@ void ReadParameters::report_unknown(const Frame& frame) {
   if (!frame.list || !frame.check_unknown) return;
   const auto unknown = [&](const Place& place, const char* what, const std::string& name) {
     if (std::find(frame.known.begin(), frame.known.end(), name) != frame.known.end()) return;
-    const std::string present = present_name(name, frame.known);
-    std::string hint = present.empty() ? did_you_mean(name, frame.known) : fmt::format("; it is called \"{}\" now", present);
+    const auto present = frame.renamed.find(name);
+    std::string hint = present == frame.renamed.end() ? did_you_mean(name, frame.known) : fmt::format("; it is called \"{}\" now", present->second);
     if (hint.empty()) hint = "; known here: " + quoted_list(frame.known);
     say(place, fmt::format("unknown {} \"{}\"{}", what, name, hint));
   };

@@ -1,0 +1,28 @@
+# Fails on words of upper layers in the packages below: their messages and comments know no scene, no XML, no command and no file of a run. Whoever
+# has these words adds them to what a package throws.
+#   cmake -D SOURCE=... -P check_words.cmake
+cmake_minimum_required(VERSION 3.25)
+set(words "[Ss]cene" "XML|[Xx]ml" "RELAX NG" "mortise (run|check|describe|list|point|study|paper|hard|scale|peer|doctor)" "--set"
+  "command line" "(newton|history|profiles|point)\\.csv" "(summary|effective)\\.(json|xml)" "fields\\.(xdmf|h5)")
+set(wrong "")
+set(seen 0)
+foreach(package core shape mesh material mortar contact solid nonlinear)
+  file(GLOB_RECURSE files "${SOURCE}/packages/${package}/*pp")
+  foreach(file IN LISTS files)
+    math(EXPR seen "${seen} + 1")
+    file(RELATIVE_PATH name "${SOURCE}" "${file}")
+    foreach(word IN LISTS words)
+      file(STRINGS "${file}" found REGEX "${word}")
+      if(found)
+        string(APPEND wrong "${name}: a word of an upper layer (${word}): ${found}\n")
+      endif()
+    endforeach()
+  endforeach()
+endforeach()
+if(seen LESS 200)
+  message(FATAL_ERROR "only ${seen} files were found below ${SOURCE}/packages")
+endif()
+if(wrong)
+  message(FATAL_ERROR "${wrong}")
+endif()
+message(STATUS "${seen} files hold no word of an upper layer")
