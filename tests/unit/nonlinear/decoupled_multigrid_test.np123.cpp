@@ -34,7 +34,7 @@ class TwoBodies {
     const auto matrix = rcp(new Matrix(grid_->graph));
     Vector zero(grid_->dofs), local_zero(grid_->local_dofs);
     std::optional<StepFailure> failure;
-    test::Springs(grid_, 1.0).add_jacobian({0.0, zero, local_zero}, *matrix, failure);
+    test::Springs(grid_, 1.0).add_jacobian({0.0, zero, local_zero}, {}, *matrix, failure);
     matrix->fillComplete(grid_->dofs, grid_->dofs);
     matrix->resumeFill();
     for (const int node : grid_->owned_nodes())
