@@ -90,7 +90,7 @@ TEST(Singular, IsAStepFailureAndTheSolverGoesOn) {
   const auto floating = rcp(new Matrix(grid->graph));
   std::optional<StepFailure> failure;
   Vector local_zero(grid->local_dofs);
-  test::Springs(grid, 1.0).add_jacobian({0.0, x, local_zero}, *floating, failure);
+  test::Springs(grid, 1.0).add_jacobian({0.0, x, local_zero}, {}, *floating, failure);
   floating->fillComplete(grid->dofs, grid->dofs);
 
   const auto solver = solver_of(Kind::mumps);
@@ -114,7 +114,7 @@ RCP<Matrix> weakly_held(const std::shared_ptr<SpringGrid>& grid, double foot) {
   const auto matrix = rcp(new Matrix(grid->graph));
   Vector zero(grid->dofs), local_zero(grid->local_dofs);
   std::optional<StepFailure> failure;
-  test::Springs(grid, 1.0).add_jacobian({0.0, zero, local_zero}, *matrix, failure);
+  test::Springs(grid, 1.0).add_jacobian({0.0, zero, local_zero}, {}, *matrix, failure);
   for (const int node : grid->owned_nodes())
     for (int i = 0; node < grid->nx() && i < 2; ++i) {
       const GlobalOrdinal id = grid->dof(node, i);

@@ -17,7 +17,7 @@ inline RCP<Matrix> stiffness(const std::shared_ptr<SpringGrid>& grid, bool held,
   const auto matrix = rcp(new Matrix(grid->graph));
   Vector zero(grid->dofs), local_zero(grid->local_dofs);
   std::optional<StepFailure> failure;
-  Springs(grid, scale).add_jacobian({0.0, zero, local_zero}, *matrix, failure);
+  Springs(grid, scale).add_jacobian({0.0, zero, local_zero}, {}, *matrix, failure);
   for (const int node : grid->owned_nodes())
     for (const int other : grid->neighbours(node)) {
       const double skew = skewness * scale * (node < other ? 1.0 : -1.0);

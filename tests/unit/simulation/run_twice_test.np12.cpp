@@ -165,14 +165,16 @@ std::string steps_of(const Scene& scene, const std::function<void()>& interrupti
   std::string steps = fmt::format("{}\n", fmt::join(evaluation.names(), ","));
   int count = 0;
   StepperObserver observer;
-  observer.accepted = [&](const StepReport& report, const Vector& x) {
-    steps += fmt::format("{}\n", fmt::join(evaluation.quantities(x, report.time), ","));
+  observer.accepted = [&](const StepReport&, const SystemEvaluation& at) {
+    steps += fmt::format("{}\n", fmt::join(evaluation.quantities(at), ","));
     if (++count == 2) interruption();
   };
-  Vector x(system.map());
+  AcceptedState state = system.initial_state(Vector(system.map()));
   std::optional<StepFailure> failure;
-  const auto start = [&](Vector& at) { system.start_step(at, model.held_by_contact_only()); };
-  EXPECT_TRUE(run_steps(system, scene.stepping, scene.newton, x, start, observer, failure)) << (failure ? failure->what() : "");
+  const auto start = [&](const AcceptedState& from, double time, const Vector& d, Vector& z) {
+    return system.start_step(from, time, model.held_by_contact_only(), d, z);
+  };
+  EXPECT_TRUE(run_steps(system, scene.stepping, scene.newton, state, start, observer, failure)) << (failure ? failure->what() : "");
   EXPECT_GT(count, 2);
   return steps;
 }
