@@ -7,6 +7,7 @@
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace mortise::detail {
@@ -56,7 +57,10 @@ double FieldSizes::largest(const Vector& v) const {
   if (fields() == 1) return v.normInf();
   double mine = 0.0, all = 0.0;
   const auto view = v.getLocalViewHost(Tpetra::Access::ReadOnly);
-  for (std::size_t row = 0; row < field_of_row_.size(); ++row) mine = std::max(mine, std::abs(view(row, 0)) * sizes_[0] / sizes_[field_of_row_[row]]);
+  for (std::size_t row = 0; row < field_of_row_.size(); ++row) {
+    const double value = std::abs(view(row, 0)) * sizes_[0] / sizes_[field_of_row_[row]];
+    mine = std::max(mine, std::isnan(value) ? std::numeric_limits<double>::infinity() : value);
+  }
   Teuchos::reduceAll(*v.getMap()->getComm(), Teuchos::REDUCE_MAX, mine, Teuchos::outArg(all));
   return all;
 }

@@ -175,6 +175,7 @@ void SystemModel::add_norms(EvaluatedSystem& at, const Vector& external) const {
     finite = finite && std::isfinite(force[field]);
     if (out_of_balance[field] != 0.0) norms.momentum = std::max(norms.momentum, out_of_balance[field] / force[field]);
   }
+  if (!std::isfinite(norms.momentum_absolute)) norms.momentum = norms.momentum_absolute;  // a maximum passes over what is no number
   // F = I + grad u is known to eps, and so are stresses, to eps E; contact forces come from positions, known to eps |x| at each closed node.
   norms.round_off = 4.0 * std::numeric_limits<double>::epsilon() * stiffness_scale() * parts_.length * std::sqrt(1.0 + norms.active);
   Teuchos::reduceAll(comm(), Teuchos::REDUCE_MAX, largest / parts_.length, Teuchos::outArg(norms.prescribed));
