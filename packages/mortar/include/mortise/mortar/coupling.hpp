@@ -32,7 +32,7 @@ enum class CornerRule {
 class Coupling {
  public:
   virtual ~Coupling() = default;
-  /// As scenes and messages say it.
+  /// As messages say it.
   virtual std::string name() const = 0;
 
   /// Whether the functions phi_j of the multipliers are dual to N_j, so that D is diagonal; else phi_j = N_j.

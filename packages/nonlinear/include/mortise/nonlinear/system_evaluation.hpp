@@ -18,7 +18,7 @@ struct EvaluatedSystem;
 const EvaluatedSystem& evaluated(const SystemEvaluation& evaluation);
 }  // namespace detail
 
-/// Sizes of the residual's blocks at one iterate, over all ranks; what the status tests and newton.csv show. With several fields relative norms are
+/// Sizes of the residual's blocks at one iterate, over all ranks; what the status tests look at. With several fields relative norms are
 /// the largest of all; absolute ones are in the units of the first, as if r were s times the size of each.
 struct ResidualNorms {
   double momentum = 0.0;                  ///< |r| on free dofs relative to max(|f_int|, |f_ext|, |f_c|, 1e-6 s |d|), reactions included
