@@ -9,11 +9,15 @@ import pathlib
 import re
 import sys
 
-# Kind: the file where its members are listed, what finds their types there, and what these end with besides the name.
+# Kind: the files where its members are listed, what finds their types there, and what these end with besides the name.
 KINDS = {
     "A material": ("packages/material/include/mortise/material/material_options.hpp", r"using Law = std::variant<(.*?)>;", ""),
     "An element": ("packages/solid/include/mortise/solid/element_type.hpp", r"ElementEntry<(\w+)[,>]", ""),
     "A load": ("packages/solid/src/dead_loads.cpp", r"\.add<(\w+)>", "Options"),
+    "A quantity": ("packages/simulation/src/quantities/*.cpp", r"Registry<Quantity>& kinds\) \{\s*kinds\.add<(\w+)>", "Quantity"),
+    "A contribution to the residual": ("packages/simulation/src/model/contributions.hpp", r"class (\w+Contribution) final", "Contribution"),
+    "How contact is enforced": ("packages/contact/src/formulation.cpp", r"\.add<(\w+)>", ""),
+    "What multipliers act through": ("packages/mortar/src/coupling.cpp", r"coupling_of<(\w+)>", "Coupling"),
     "A boundary condition": ("packages/solid/include/mortise/solid/prescribed_motion.hpp", r"struct (BoundaryConditionOptions)", "Options"),
 }
 
@@ -43,7 +47,8 @@ def main(source):
     known = recipes((source / "CONTRIBUTING.md").read_text())
     wrong = []
     for kind, (where, pattern, suffix) in KINDS.items():
-        members = sorted({one.strip() for found in re.findall(pattern, (source / where).read_text(), flags=re.S) for one in found.split(",")})
+        listed = "".join(path.read_text() for path in sorted(source.glob(where)))
+        members = sorted({one.strip() for found in re.findall(pattern, listed, flags=re.S) for one in found.split(",")})
         if not members or kind not in known:
             wrong.append(f"{kind}: {len(members)} members in {where}, and {'a' if kind in known else 'no'} recipe")
             continue
@@ -54,7 +59,9 @@ def main(source):
         for member in members:
             allowed = [path.replace("<name>", name_of(member, suffix)) for path, _ in known[kind]]
             for file, code in files.items():
-                if re.search(rf"\b{member}\b", code) and not any(fnmatch.fnmatch(file, path) for path in allowed):
+                if any(fnmatch.fnmatch(file, path) for path in allowed) or re.search(rf"^ *(struct|class) {member} {{", code, flags=re.M):
+                    continue  # in a recipe, or another type of this name, which the file has for itself
+                if re.search(rf"\b{member}\b", code):
                     wrong.append(f"{kind}: {member} stands in {file}, which the recipe does not name")
         print(f"{kind}: {', '.join(members)}")
     if wrong:

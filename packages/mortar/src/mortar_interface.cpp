@@ -24,7 +24,8 @@ void refuse_unknown_facets(const InterfaceInput& input, int dimension) {
                                                     facet.empty() ? -1 : facet.front(),
                                                     dimension == 2 ? "lines of 2 or 3" : "triangles of 3 or 6, quadrilaterals of 4 or 8")});
       if (is_quadratic && quadratic.empty())
-        quadratic.push_back({input.place, fmt::format("{} needs linear facets, as linear elements have, but a surface of the pair has facets of {} nodes (one starts at node {})",
+        quadratic.push_back({input.place, fmt::format("{} needs linear facets, as linear elements have, but a surface of the pair has "
+                                                      "facets of {} nodes (one starts at node {})",
                                                       input.options.coupling->name(), size, facet.front())});
     }
   const Communicator& comm = *input.owned_nodes->getComm();
@@ -56,7 +57,8 @@ MortarInterface::MortarInterface(RCP<const Map> owned_nodes, RCP<const MultiVect
   const auto dimension = static_cast<int>(reference->getNumVectors());
   const InterfaceInput input = {owned_nodes, reference, fixed, slave, master, measure, options, place};
   if (!options.coupling) throw InputError(place, "the coupling is null; give a Coupling, as coupling_of<DualMortarCoupling>()");
-  if (!options.coupling->exists_in(dimension)) throw UnfitCoupling(place, fmt::format("{} is not available in {}D", options.coupling->name(), dimension));
+  if (!options.coupling->exists_in(dimension))
+    throw UnfitCoupling(place, fmt::format("{} is not available in {}D", options.coupling->name(), dimension));
   if (const auto refusal = options.coupling->refusal(options)) throw InputError(place, *refusal);
   refuse_unknown_facets(input, dimension);
   refuse_misplaced_facets(*owned_nodes, slave, master, place);

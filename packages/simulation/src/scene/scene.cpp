@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "mortise/core/names.hpp"
-#include "mortise/input/xml.hpp"
 #include "mortise/simulation/quantities/fields.hpp"
 #include "scene/history_columns.hpp"
 
