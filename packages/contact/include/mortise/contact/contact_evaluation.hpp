@@ -24,7 +24,7 @@ const EvaluatedLaws& evaluated(const ContactLaws& laws);
 
 /// Norms and counts at one iterate, over all ranks.
 struct ContactNorms {
-  double gap = 0.0;  ///< max |g_j| / (A_j h) over closed nodes; 0 of regularised pairs
+  double gap = 0.0;  ///< max |g_j| / (A_j h) over closed nodes of pairs that hold exactly
   double complementarity =
       0.0;                 ///< max |C| relative to max |z| (with a floor), without C_n of closed nodes that are not regularised: that is the gap
   double force = 0.0;      ///< |f_c|
