@@ -62,8 +62,9 @@ class ContactEvaluation {
  protected:
   friend class ContactSystem;
   friend const detail::EvaluatedContact& detail::evaluated(const ContactEvaluation& evaluation);
+  /// ContactSystem makes them.
   explicit ContactEvaluation(std::shared_ptr<const detail::EvaluatedContact> evaluated) : evaluated_(std::move(evaluated)) {}
-  std::shared_ptr<const detail::EvaluatedContact> evaluated_;
+  std::shared_ptr<const detail::EvaluatedContact> evaluated_;  ///< what it holds
 };
 
 /// An evaluation that has the derivatives of its integrals with respect to the displacement.

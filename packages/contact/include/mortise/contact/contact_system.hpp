@@ -39,8 +39,8 @@ struct NodalDisplacement {
   NodalDisplacement(const Vector& of_dofs) : dofs(of_dofs) {}
   /// @param of_nodes  [owned nodes x dim], read where a component is no unknown
   NodalDisplacement(const Vector& of_dofs, const MultiVector& of_nodes) : dofs(of_dofs), nodes(&of_nodes) {}
-  const Vector& dofs;
-  const MultiVector* nodes = nullptr;
+  const Vector& dofs;                  ///< of the unknowns
+  const MultiVector* nodes = nullptr;  ///< of the rest; null: it does not move
 };
 
 /// All pairs. z holds `dimension` components for each owned slave node that may carry a multiplier.

@@ -39,8 +39,8 @@ NodalField numbered_by_nodes(std::string name, const RCP<const Map>& nodes, int 
 
 /// What a field of a table is.
 struct FieldDeclaration {
-  std::string name;
-  int components = 1;
+  std::string name;              ///< as messages say it
+  int components = 1;            ///< at a node
   std::vector<char> lives = {};  ///< [owned nodes] where it has unknowns, as on the nodes of some bodies only; empty: everywhere
 };
 

@@ -136,6 +136,7 @@ struct InterfaceLoad {
 struct SurfaceKinks {
   std::vector<char> is_kink;                                ///< [nodes] 1 where so; empty: not chosen yet
   std::vector<std::optional<std::size_t>> takes_normal_of;  ///< [nodes] which of its facets a kink has the normal of; none: the average
+  /// The same kinks with the same normals.
   bool operator==(const SurfaceKinks& other) const { return is_kink == other.is_kink && takes_normal_of == other.takes_normal_of; }
 };
 

@@ -40,7 +40,7 @@ struct StepReport {
 
 /// A try of a step that failed.
 struct FailedTry {
-  const StepFailure& failure;
+  const StepFailure& failure;                          ///< why
   const AcceptedState& from;                           ///< from where
   double time;                                         ///< to which
   const StepContext& context;                          ///< what held within it

@@ -53,8 +53,8 @@ struct NewtonReport {
 
 /// The iterate at which Newton's method was linearised last, and what it is evaluated with.
 struct LinearisedIterate {
-  RCP<const Vector> x;
-  StepContext context;
+  RCP<const Vector> x;  ///< (d, z)
+  StepContext context;  ///< of the step
 };
 
 /// Solves F(x) = 0 from an evaluation. Calls `observer` after each iteration. Returns the solution; throws StepFailure (on every rank) naming why

@@ -19,8 +19,8 @@ namespace mortise {
 
 /// A field whose unknowns stand among the dofs of a system.
 struct SystemField {
-  NodalField unknowns;
-  double size = 1.0;  ///< what deviations and increments of it are compared with: of displacements the size of the model
+  NodalField unknowns;  ///< its rows
+  double size = 1.0;    ///< what deviations and increments of it are compared with: of displacements the size of the model
 };
 
 /// What a nonlinear system is made of. Shared by all groups that NOX clones.
