@@ -8,6 +8,7 @@
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace mortise::detail {
 
@@ -59,14 +60,14 @@ std::vector<LocalOrdinal> Reduction::places(const std::vector<LocalOrdinal>& dof
   return places;
 }
 
-FollowedDisplacements::FollowedDisplacements(const Reduction& reduction, const Vector& local_displacement)
-    : reduction_(reduction), dependences_(reduction.followers_->evaluate(local_displacement)), T_(rcp(new Matrix(reduction.graph_))) {
-  const Map& dofs = *reduction.dofs_;
+FollowedDisplacements::FollowedDisplacements(std::shared_ptr<const Reduction> reduction, const Vector& local_displacement)
+    : reduction_(std::move(reduction)), dependences_(reduction_->followers_->evaluate(local_displacement)), T_(rcp(new Matrix(reduction_->graph_))) {
+  const Map& dofs = *reduction_->dofs_;
   T_->setAllToScalar(1.0);
   for (std::size_t n = 0; n < dependences_.size(); ++n)
-    T_->replaceGlobalValues(dofs.getGlobalElement(reduction.followers_->dofs()[n]), dependences_[n].sources, dependences_[n].gradient.data(),
-                            reduction.sources_[n].data());
-  T_->fillComplete(reduction.unknowns_, reduction.dofs_);
+    T_->replaceGlobalValues(dofs.getGlobalElement(reduction_->followers_->dofs()[n]), dependences_[n].sources, dependences_[n].gradient.data(),
+                            reduction_->sources_[n].data());
+  T_->fillComplete(reduction_->unknowns_, reduction_->dofs_);
 }
 
 double FollowedDisplacements::deviation(const Vector& displacement, double factor, Vector& deviation) const {
@@ -74,7 +75,7 @@ double FollowedDisplacements::deviation(const Vector& displacement, double facto
   const auto result = deviation.getLocalViewHost(Tpetra::Access::ReadWrite);
   double largest = 0.0;
   for (std::size_t n = 0; n < dependences_.size(); ++n) {
-    const LocalOrdinal dof = reduction_.followers_->dofs()[n];
+    const LocalOrdinal dof = reduction_->followers_->dofs()[n];
     const double difference = d(dof, 0) - dependences_[n].value;
     largest = std::max(largest, std::abs(difference));
     result(dof, 0) = factor * difference;
@@ -141,13 +142,13 @@ Decoupling Reduction::reduced(const Decoupling& of_dofs) const {
 }
 
 RCP<Vector> FollowedDisplacements::reduced(const Vector& r) const {
-  const auto q = rcp(new Vector(reduction_.unknowns_));
+  const auto q = rcp(new Vector(reduction_->unknowns_));
   T_->apply(r, *q, Teuchos::TRANS);
   return q;
 }
 
 RCP<Vector> FollowedDisplacements::expanded(const Vector& dq) const {
-  const auto d = rcp(new Vector(reduction_.dofs_));
+  const auto d = rcp(new Vector(reduction_->dofs_));
   T_->apply(dq, *d);
   return d;
 }
@@ -156,39 +157,39 @@ void FollowedDisplacements::gather(Vector& r) const {
   const RCP<Vector> q = reduced(r);
   const auto from = q->getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto to = r.getLocalViewHost(Tpetra::Access::ReadWrite);
-  for (std::size_t dof = 0; dof < reduction_.place_of_.size(); ++dof)
-    if (reduction_.place_of_[dof] >= 0) to(dof, 0) = from(reduction_.place_of_[dof], 0);
+  for (std::size_t dof = 0; dof < reduction_->place_of_.size(); ++dof)
+    if (reduction_->place_of_[dof] >= 0) to(dof, 0) = from(reduction_->place_of_[dof], 0);
 }
 
 // A matrix of the few rows that are followed; its diagonal is there even where nothing is curved.
 RCP<Matrix> FollowedDisplacements::curvature(const Vector& r) const {
-  const auto matrix = rcp(new Matrix(reduction_.unknowns_, Dependence::most));
+  const auto matrix = rcp(new Matrix(reduction_->unknowns_, Dependence::most));
   const auto force = r.getLocalViewHost(Tpetra::Access::ReadOnly);
   for (std::size_t n = 0; n < dependences_.size(); ++n) {
     const Dependence& dependence = dependences_[n];
     for (int k = 0; k < dependence.sources; ++k) {
       std::array<double, Dependence::most> row{};
-      for (int l = 0; l < dependence.sources; ++l) row[l] = force(reduction_.followers_->dofs()[n], 0) * dependence.curvature[k][l];
-      matrix->insertGlobalValues(reduction_.sources_[n][k], dependence.sources, row.data(), reduction_.sources_[n].data());
+      for (int l = 0; l < dependence.sources; ++l) row[l] = force(reduction_->followers_->dofs()[n], 0) * dependence.curvature[k][l];
+      matrix->insertGlobalValues(reduction_->sources_[n][k], dependence.sources, row.data(), reduction_->sources_[n].data());
     }
   }
-  for (const LocalOrdinal dof : reduction_.followers_->followed()) {
-    const GlobalOrdinal id = reduction_.unknowns_->getGlobalElement(reduction_.place_of_[dof]);
+  for (const LocalOrdinal dof : reduction_->followers_->followed()) {
+    const GlobalOrdinal id = reduction_->unknowns_->getGlobalElement(reduction_->place_of_[dof]);
     const double zero = 0.0;
     matrix->insertGlobalValues(id, 1, &zero, &id);
   }
-  matrix->fillComplete(reduction_.unknowns_, reduction_.unknowns_);
+  matrix->fillComplete(reduction_->unknowns_, reduction_->unknowns_);
   return matrix;
 }
 
 RCP<Matrix> FollowedDisplacements::reduced(const Matrix& A, const Vector& r) const {
-  Matrix product(reduction_.unknowns_, 0);
+  Matrix product(reduction_->unknowns_, 0);
   Tpetra::TripleMatrixMultiply::MultiplyRAP(*T_, true, A, false, *T_, false, product);
-  return Tpetra::MatrixMatrix::add(1.0, false, product, 1.0, false, *curvature(r), reduction_.unknowns_, reduction_.unknowns_);
+  return Tpetra::MatrixMatrix::add(1.0, false, product, 1.0, false, *curvature(r), reduction_->unknowns_, reduction_->unknowns_);
 }
 
 RCP<Matrix> FollowedDisplacements::reduced_rows(const Matrix& B) const {
-  const auto product = rcp(new Matrix(reduction_.unknowns_, 0));
+  const auto product = rcp(new Matrix(reduction_->unknowns_, 0));
   Tpetra::MatrixMatrix::Multiply(*T_, true, B, false, *product);
   return product;
 }
@@ -200,12 +201,12 @@ RCP<Matrix> FollowedDisplacements::reduced_columns(const Matrix& C) const {
 }
 
 void FollowedDisplacements::add_curvature(const Vector& r, const Vector& v, Vector& y) const {
-  Vector result(reduction_.unknowns_);
-  curvature(r)->apply(*reduction_.unknown_part(v), result);
+  Vector result(reduction_->unknowns_);
+  curvature(r)->apply(*reduction_->unknown_part(v), result);
   const auto from = result.getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto to = y.getLocalViewHost(Tpetra::Access::ReadWrite);
-  for (std::size_t dof = 0; dof < reduction_.place_of_.size(); ++dof)
-    if (reduction_.place_of_[dof] >= 0) to(dof, 0) += from(reduction_.place_of_[dof], 0);
+  for (std::size_t dof = 0; dof < reduction_->place_of_.size(); ++dof)
+    if (reduction_->place_of_[dof] >= 0) to(dof, 0) += from(reduction_->place_of_[dof], 0);
 }
 
 }  // namespace mortise::detail

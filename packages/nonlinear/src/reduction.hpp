@@ -45,8 +45,7 @@ class Reduction {
 /// Collective in all members but deviation().
 class FollowedDisplacements {
  public:
-  /// @param reduction  outlives this
-  FollowedDisplacements(const Reduction& reduction, const Vector& local_displacement);
+  FollowedDisplacements(std::shared_ptr<const Reduction> reduction, const Vector& local_displacement);
 
   /// Largest |d - g| over this rank, and `deviation`_i = factor (d_i - g_i) on followers. `deviation` keeps its other entries.
   double deviation(const Vector& displacement, double factor, Vector& deviation) const;
@@ -70,7 +69,7 @@ class FollowedDisplacements {
  private:
   RCP<Matrix> curvature(const Vector& r) const;
 
-  const Reduction& reduction_;
+  std::shared_ptr<const Reduction> reduction_;
   std::vector<Dependence> dependences_;
   RCP<Matrix> T_;
 };

@@ -44,7 +44,7 @@ SystemModel::SystemModel(SystemParts parts, Timers timers)
     map_ = map_of_both(*parts_.dofs, *multipliers_);
   }
   if (parts_.prescribed) prescribed_ = parts_.prescribed->dofs();
-  if (parts_.dependent) reduction_ = std::make_unique<const Reduction>(parts_.dependent, parts_.dofs, parts_.local_dofs);
+  if (parts_.dependent) reduction_ = std::make_shared<const Reduction>(parts_.dependent, parts_.dofs, parts_.local_dofs);
   if (parts_.contact && parts_.contact->keeps_multipliers())
     saddle_point_ = std::make_unique<SaddlePointMatrix>(reduction_ ? reduction_->unknowns() : parts_.dofs, multipliers_);
 }
@@ -72,6 +72,8 @@ Configuration SystemModel::configuration(double time, const Vector& displacement
 }
 
 std::shared_ptr<const EvaluatedSystem> SystemModel::evaluate(const Vector& x, const StepContext& context, AtHand at_hand) const {
+  if (parts_.contact && !context.contact)
+    throw std::invalid_argument("SemiSmoothSystem: a context without a history of contact; take step_from() or start_step() of an initial_state()");
   Vector values(x, Teuchos::Copy);
   const auto result = std::make_shared<EvaluatedSystem>(EvaluatedSystem{values,
                                                                         d(std::as_const(values)),
@@ -109,7 +111,7 @@ std::shared_ptr<const EvaluatedSystem> SystemModel::evaluate(const Vector& x, co
   }
   if (reduction_) {
     configuration(context.time, *at.d);
-    at.follow = std::make_shared<const FollowedDisplacements>(*reduction_, local_displacement_);
+    at.follow = std::make_shared<const FollowedDisplacements>(reduction_, local_displacement_);
   }
   if (stiffness_scale() == 0.0) stiffness(result);
   add_norms(at, external);

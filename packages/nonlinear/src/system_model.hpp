@@ -87,7 +87,7 @@ class SystemModel {
   Timers timers_;
   RCP<const Map> map_, multipliers_;
   std::vector<LocalOrdinal> prescribed_;
-  std::unique_ptr<const Reduction> reduction_;
+  std::shared_ptr<const Reduction> reduction_;
   std::unique_ptr<SaddlePointMatrix> saddle_point_;
   Import to_local_;
   mutable Constraints constraints_;

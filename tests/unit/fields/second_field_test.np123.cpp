@@ -73,31 +73,37 @@ MortarMatrices mortar_matrices(const Mesh& mesh) {
   return contact.evaluate(rest, contact.initial_history(rest)).mortar_matrices(0);
 }
 
+/// r = A theta, of entries that visit() tells.
+class LinearInTemperature : public Contribution {
+ public:
+  /// Gets an entry of an owned row.
+  using Entry = std::function<void(GlobalOrdinal row, GlobalOrdinal column, double value)>;
+  Kind kind() const override { return Kind::internal; }
+  FieldUse uses() const override { return {{"temperature"}, {"temperature"}, 0}; }
+  virtual void visit(const Entry& entry) const = 0;
+
+  void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>&) override {
+    const auto theta = at.local_displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
+    visit([&](GlobalOrdinal row, GlobalOrdinal column, double value) {
+      residual.sumIntoGlobalValue(row, value * theta(at.local_displacement.getMap()->getLocalElement(column), 0));
+    });
+  }
+  void add_jacobian(const Configuration&, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>&) override {
+    visit([&](GlobalOrdinal row, GlobalOrdinal column, double value) {
+      const double weighted = weights.displacement * value;
+      jacobian.sumIntoGlobalValues(row, 1, &weighted, &column);
+    });
+  }
+};
+
 /// r_a = integral of k grad N_a . grad theta.
-class Conduction : public Contribution {
+class Conduction : public LinearInTemperature {
  public:
   Conduction(RCP<const Mesh> mesh, NodalField field, std::vector<double> conductivity)
       : mesh_(std::move(mesh)), ids_(field.ids_on(mesh_->local_nodes)), conductivity_(std::move(conductivity)) {}
   std::string name() const override { return "conduction"; }
-  Kind kind() const override { return Kind::internal; }
-  FieldUse uses() const override { return {{"temperature"}, {"temperature"}, 0}; }
 
-  void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>&) override {
-    const auto theta = at.local_displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
-    visit([&](GlobalOrdinal a, GlobalOrdinal b, double k) {
-      residual.sumIntoGlobalValue(a, k * theta(at.local_displacement.getMap()->getLocalElement(b), 0));
-    });
-  }
-  void add_jacobian(const Configuration&, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>&) override {
-    visit([&](GlobalOrdinal a, GlobalOrdinal b, double k) {
-      const double value = weights.displacement * k;
-      jacobian.sumIntoGlobalValues(a, 1, &value, &b);
-    });
-  }
-
-  /// Calls visit(a, b, k_ab) for the owned rows of all elements.
-  template <class Visit>
-  void visit(const Visit& visit) const {
+  void visit(const Entry& visit) const override {
     for (std::size_t n = 0; n < mesh_->blocks.size(); ++n) {
       const Block& block = mesh_->blocks[n];
       visit_cell(block.shape, [&](auto cell) {
@@ -110,8 +116,8 @@ class Conduction : public Contribution {
   }
 
  private:
-  template <class Cell, class Visit>
-  void visit_point(const LocalOrdinal* nodes, const CellPoint& point, double k, const Visit& visit) const {
+  template <class Cell>
+  void visit_point(const LocalOrdinal* nodes, const CellPoint& point, double k, const Entry& visit) const {
     const auto gradients = Cell::gradients(point.position<2>());
     Eigen::Matrix2d J = Eigen::Matrix2d::Zero();
     Eigen::Matrix<double, Cell::nodes, 2> G;
@@ -133,7 +139,7 @@ class Conduction : public Contribution {
 };
 
 /// q_j = h [theta]_j,  [theta]_j = ((D - M) theta)_j / D_jj: flux out of the slave per area, r += (D - M)^T q.
-class Conductance : public Contribution {
+class Conductance : public LinearInTemperature {
  public:
   Conductance(const MortarMatrices& mortar, double h) {
     const RCP<const Matrix> jump =
@@ -148,19 +154,7 @@ class Conductance : public Contribution {
     Tpetra::MatrixMatrix::Multiply(*jump, true, flux, false, *operator_);
   }
   std::string name() const override { return "contact conductance"; }
-  Kind kind() const override { return Kind::internal; }
-  FieldUse uses() const override { return {{"temperature"}, {"temperature"}, 0}; }
-  void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>&) override {
-    operator_->apply(at.displacement, residual, Teuchos::NO_TRANS, 1.0, 1.0);
-  }
-  void add_jacobian(const Configuration&, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>&) override {
-    visit([&](GlobalOrdinal row, GlobalOrdinal column, double k) {
-      const double value = weights.displacement * k;
-      jacobian.sumIntoGlobalValues(row, 1, &value, &column);
-    });
-  }
-  template <class Visit>
-  void visit(const Visit& visit) const {
+  void visit(const Entry& visit) const override {
     for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(operator_->getNodeNumRows()); ++row) {
       Matrix::local_inds_host_view_type columns;
       Matrix::values_host_view_type values;

@@ -299,6 +299,11 @@ TEST(ContactNewton, AStepEndsWhenUpdatesOfTheMultipliersAreExhausted) {
   expect_exhausted(*failure);
 }
 
+TEST(ContactSystem, AContextWithoutAHistoryIsRefused) {
+  Problem problem(Tpetra::getDefaultComm(), pressed(0.2));
+  EXPECT_THROW(problem.system->evaluate(*problem.x, StepContext{}), std::invalid_argument);
+}
+
 // What was closed in the accepted state may not go through the other body. The upper body is put three rows deep into the lower one, beyond the reach
 // of one facet.
 TEST(ContactSystem, ContactLostSinceTheAcceptedStateIsAFailureOnAllRanks) {

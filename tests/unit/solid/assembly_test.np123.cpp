@@ -60,6 +60,8 @@ Assembled assemble(const RCP<const Communicator>& comm, const BodySetup& setup) 
   std::optional<StepFailure> failure;
   bodies->add_internal_force(local, residual, failure);
   bodies->add_stiffness(local, matrix, failure);
+  Matrix halved(bodies->graph());
+  bodies->add_stiffness(local, halved, failure, 0.5);
 
   NodalForceOptions nodal;
   nodal.set.value = "body/top";
@@ -77,10 +79,15 @@ Assembled assemble(const RCP<const Communicator>& comm, const BodySetup& setup) 
     const auto load = options->make(bodies);
     load->add_residual(0.5, local, residual, failure);
     load->add_jacobian(0.5, local, matrix, failure);
+    load->add_jacobian(0.5, local, halved, failure, 0.5);
   }
   EXPECT_FALSE(failure);
-  matrix.fillComplete(bodies->dofs(), bodies->dofs());
+  for (Matrix* one : {&halved, &matrix}) one->fillComplete(bodies->dofs(), bodies->dofs());
+  Vector half_product(bodies->dofs());
+  halved.apply(u, half_product);
   matrix.apply(u, product);
+  half_product.update(-0.5, product, 1.0);
+  EXPECT_EQ(half_product.normInf(), 0.0);  // a factor of 2 changes no bit
   result.columns = {to_eigen(residual), to_eigen(product)};
   const auto modes = rigid_body_modes(*bodies, u);
   for (std::size_t n = 0; n < modes->getNumVectors(); ++n) result.columns.push_back(to_eigen(*modes->getVector(n)));

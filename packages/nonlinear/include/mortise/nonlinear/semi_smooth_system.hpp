@@ -78,7 +78,7 @@ class SemiSmoothSystem {
   StepContext start_step(const AcceptedState& state, double time, const std::vector<char>& unconstrained, const Vector& d, Vector& z) const;
 
   /// F(x) = (r, C). Dirichlet rows hold s (d - prescribed), rows of followers s (d - what they follow), whose forces stand in the rows of what they
-  /// follow. Throws StepFailure on every rank.
+  /// follow. Throws StepFailure on every rank, and std::invalid_argument for a context without a history where there is contact.
   SystemEvaluation evaluate(const Vector& x, const StepContext& context) const;
   /// The same at the displacement of an accepted state, with multipliers z: internal forces that are known are taken.
   SystemEvaluation evaluate_at(const AcceptedState& state, const Vector& z, const StepContext& context) const;
