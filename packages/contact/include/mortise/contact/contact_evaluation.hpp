@@ -34,8 +34,8 @@ struct ContactNorms {
   int changed = 0;         ///< nodes whose state is not the one they are compared with
 };
 
-/// The mortar matrices of a pair. With the values u of a field at nodes, (D u - M u)_j is the weighted jump of the field from the master to slave
-/// node j; a flux q_j across the interface stands in the rows of the nodes as D^T q - M^T q. Rows of D and of M have the same sum.
+/// The mortar matrices of a pair. Let u be the values of a field at nodes. Then (D u - M u)_j is the weighted jump of the field from the master to
+/// slave node j. A flux q_j across the interface stands in the rows of the nodes as D^T q - M^T q. Rows of D and of M have the same sum.
 struct MortarMatrices {
   RCP<const Matrix> D;  ///< [slave nodes with a multiplier x nodes]
   RCP<const Matrix> M;  ///< likewise
