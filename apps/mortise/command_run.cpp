@@ -1,5 +1,8 @@
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "declarations.hpp"
 #include "mortise/simulation/run/run.hpp"
@@ -35,12 +38,57 @@ void add_output_arguments(CLI::App& command, const std::string& file, RunOptions
       ->excludes(quiet);
 }
 
+namespace {
+
+/// Seconds of "90", "90 s", "15 min", "2 h", "1:30:00"; none: it is no duration.
+std::optional<double> seconds_of(const std::string& text) {
+  double hours = 0.0, minutes = 0.0, seconds = 0.0;
+  char unit[4] = "", beyond = 0;
+  if (std::sscanf(text.c_str(), "%lf:%lf:%lf%c", &hours, &minutes, &seconds, &beyond) == 3) return 3600.0 * hours + 60.0 * minutes + seconds;
+  const int read = std::sscanf(text.c_str(), "%lf %3[a-z]%c", &seconds, unit, &beyond);
+  const std::string name = unit;
+  if (read < 1 || read > 2 || !(seconds > 0.0)) return std::nullopt;
+  if (name.empty() || name == "s") return read == 1 && text.find_first_not_of("0123456789.") != std::string::npos ? std::nullopt : std::optional(seconds);
+  if (name == "min") return 60.0 * seconds;
+  return name == "h" ? std::optional(3600.0 * seconds) : std::nullopt;
+}
+
+void add_restart_arguments(CLI::App& command, RunOptions& options) {
+  command
+      .add_option_function<std::string>(
+          "--restart",
+          [&options](const std::string& step) {
+            options.restart = RestartOptions();
+            if (!step.empty()) options.restart->step = std::stoi(step);
+          },
+          "go on with the run in the directory, from its newest checkpoint or from that of STEP")
+      ->expected(0, 1)
+      ->default_str("")
+      ->type_name("STEP")
+      ->check([](const std::string& step) {
+        const bool good = step.size() < 10 && step.find_first_not_of("0123456789") == std::string::npos;
+        return good ? std::string() : "\"" + step + "\" is no number of a step; the scene goes before --restart";
+      });
+  command
+      .add_option_function<std::string>(
+          "--time-limit", [&options](const std::string& text) { options.time_limit = seconds_of(text); },
+          "stop after the last step that ends in time, with a checkpoint: 90 s, 15 min, 2 h or 1:30:00")
+      ->type_name("TIME")
+      ->check([](const std::string& text) {
+        return seconds_of(text) ? std::string() : "\"" + text + "\" is no time; please say 90 s, 15 min, 2 h or 1:30:00";
+      });
+}
+
+}  // namespace
+
 void add_run_command(CLI::App& app, Program& program) {
   auto* command = app.add_subcommand("run", "run a scene");
   const auto options = std::make_shared<RunOptions>();
   options->version = version();
+  options->watch_signals = true;
   add_input_arguments(*command, "SCENE", "scene file", *options);
   add_output_arguments(*command, "SCENE", *options);
+  add_restart_arguments(*command, *options);
   command->footer(
       "Leaves summary.json, newton.csv, history.csv, fields.xdmf, fields.h5, effective.xml and log.txt.\n"
       "Example: mpirun -n 2 mortise run inputs/paper/hertz_elastic.xml --set variables/n=8 -o fine");

@@ -87,6 +87,11 @@ std::vector<std::optional<double>> MortarInterface::distances_to_master(const Mu
 SurfaceKinks MortarInterface::find_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest, const SurfaceKinks& before) const {
   return implementation_->find_kinks(x, nearest, before);
 }
+std::vector<GlobalOrdinal> MortarInterface::nodes_of_kinks() const {
+  const SlaveSurface& slave = implementation_->slave;
+  return {slave.node_ids.begin(), slave.node_ids.begin() + static_cast<std::ptrdiff_t>(slave.nodes_with_normal)};
+}
+
 bool MortarInterface::set_kinks(const SurfaceKinks& kinks) { return implementation_->set_kinks(kinks); }
 long MortarInterface::kinks(const MultiVector& x) const { return implementation_->kinks(x); }
 bool MortarInterface::retain(const std::shared_ptr<const RetainedNodes>& nodes) { return implementation_->retain(nodes); }

@@ -35,6 +35,32 @@ void SteppingOptions::describe(Parameters& parameters) {
     }
 }
 
+void store(StateArchive& archive, const SemiSmoothSystem& system, const SteppingState& state) {
+  system.store(archive, state.accepted);
+  int steps = state.steps;
+  std::optional<double> next_step = state.next_step;
+  serialize(archive, "steps", steps);
+  serialize(archive, "next_step", next_step);
+  int has_rate = state.rate.is_null() ? 0 : 1;
+  serialize(archive, "has_rate", has_rate);
+  if (has_rate == 0) return;
+  Vector rate(*state.rate, Teuchos::Copy);
+  serialize(archive, "rate", "unknowns", rate);
+}
+
+SteppingState restore_stepping(StateArchive& archive, const SemiSmoothSystem& system) {
+  SteppingState state(system.restore(archive));
+  serialize(archive, "steps", state.steps);
+  serialize(archive, "next_step", state.next_step);
+  int has_rate = 0;
+  serialize(archive, "has_rate", has_rate);
+  if (has_rate == 0) return state;
+  const auto rate = rcp(new Vector(system.map()));
+  serialize(archive, "rate", "unknowns", *rate);
+  state.rate = rate;
+  return state;
+}
+
 namespace {
 /// Newton's method as often as a step needs it; `report` is that of all of them.
 class StepSolver {
@@ -94,11 +120,12 @@ SystemEvaluation start_of_try(const SemiSmoothSystem& system, const NewtonOption
 }
 }  // namespace
 
-bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, const NewtonOptions& newton, AcceptedState& state,
+bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, const NewtonOptions& newton, SteppingState& at,
                const StepStart& start, const StepperObserver& observer, std::optional<StepFailure>& last_failure) {
-  StepSchedule schedule(stepping);
-  RCP<Vector> rate;  // of the last accepted step
-  for (int step = 1; !schedule.finished(); ++step) {
+  StepSchedule schedule(stepping, at.accepted.context.time, at.next_step);
+  while (!schedule.finished()) {
+    const AcceptedState& state = at.accepted;
+    const int step = at.steps + 1;
     StepReport report;
     report.step = step;
     detail::RepeatedCourse course;
@@ -112,7 +139,7 @@ bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, 
       try {
         if (observer.begin) observer.begin(step, report.time, report.dt);
         StepSolver solver(system, newton, report.newton, linearised, observer.iteration);
-        SystemEvaluation begin = start_of_try(system, newton, state, rate, report.time, start);
+        SystemEvaluation begin = start_of_try(system, newton, state, at.rate, report.time, start);
         context = begin.context();
         solution = solver.solve(std::move(begin));
         for (int round = 1; observer.verify; ++round) {
@@ -144,13 +171,18 @@ bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, 
     last_failure.reset();
     AcceptedState next = system.commit(*solution);
     if (stepping.predictor == Predictor::linear) {
-      if (rate.is_null()) rate = rcp(new Vector(system.map()));
+      const auto rate = rcp(new Vector(system.map()));
       rate->update(1.0 / report.dt, *next.x, -1.0 / report.dt, *state.x, 0.0);
       if (observer.predict) observer.predict(*next.x, report.dt, *rate);
+      at.rate = rate;
     }
-    state = std::move(next);
+    at.accepted = std::move(next);
     schedule.accept(report.newton.newton_steps() <= stepping.easy_iterations);
+    at.steps = step;
+    at.next_step = schedule.next_step();
     if (observer.accepted) observer.accepted(report, *solution);
+    solution.reset();  // a state that is stored takes memory
+    if (observer.rest && observer.rest(at) && !schedule.finished()) return false;
   }
   return true;
 }

@@ -113,4 +113,38 @@ AcceptedState SemiSmoothSystem::commit(const SystemEvaluation& evaluation) const
   return state;
 }
 
+namespace {
+
+/// What a state holds beside contact. `internal` is null where forces are not known.
+void serialize_state(StateArchive& archive, Vector& x, double& time, const RCP<Vector>& internal) {
+  serialize(archive, "time", time);
+  serialize(archive, "x", "unknowns", x);
+  if (!internal.is_null()) serialize(archive, "internal_forces", "dofs", *internal);
+}
+
+}  // namespace
+
+void SemiSmoothSystem::store(StateArchive& archive, const AcceptedState& state) const {
+  Vector x(*state.x, Teuchos::Copy);
+  double time = state.context.time, has_forces = state.internal_forces.is_null() ? 0.0 : 1.0;
+  serialize(archive, "has_internal_forces", has_forces);
+  serialize_state(archive, x, time, has_forces > 0.0 ? rcp(new Vector(*state.internal_forces, Teuchos::Copy)) : Teuchos::null);
+  model_->serialize(archive);
+  if (state.context.contact) parts().contact->store(archive, *state.context.contact);
+}
+
+AcceptedState SemiSmoothSystem::restore(StateArchive& archive) const {
+  const auto x = rcp(new Vector(map()));
+  double time = 0.0, has_forces = 0.0;
+  serialize(archive, "has_internal_forces", has_forces);
+  const RCP<Vector> internal = has_forces > 0.0 ? rcp(new Vector(parts().dofs)) : Teuchos::null;
+  serialize_state(archive, *x, time, internal);
+  model_->serialize(archive);
+  AcceptedState state{x, {time, std::nullopt, {}}, internal};
+  if (!parts().contact) return state;
+  state.context.contact = parts().contact->restore(archive, *displacement(std::as_const(*x)), *multipliers(std::as_const(*x)));
+  state.context.states = (*state.context.contact)->states;
+  return state;
+}
+
 }  // namespace mortise

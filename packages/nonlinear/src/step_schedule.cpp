@@ -9,9 +9,9 @@ constexpr double round_off = 1e-9;  // of a step: what is nearer to a target tha
 
 }  // namespace
 
-StepSchedule::StepSchedule(const SteppingOptions& options)
-    : maximum_(options.maximum_step.value_or(options.step)), minimum_(options.minimum_step.value_or(options.step / 1024.0)) {
-  step_ = std::min(options.step, maximum_);
+StepSchedule::StepSchedule(const SteppingOptions& options, double time, std::optional<double> next_step)
+    : time_(time), maximum_(options.maximum_step.value_or(options.step)), minimum_(options.minimum_step.value_or(options.step / 1024.0)) {
+  step_ = std::min(next_step.value_or(options.step), maximum_);
   for (const double time : options.output_times)
     if (time > 0.0 && time < options.end_time) targets_.push_back(time);
   targets_.push_back(options.end_time);

@@ -71,6 +71,13 @@ Configuration SystemModel::configuration(double time, const Vector& displacement
   return {time, displacement, local_displacement_};
 }
 
+void SystemModel::serialize(StateArchive& archive) const {
+  const std::size_t fields = stiffness_scales_.size();
+  archive.values("stiffness_scales", stiffness_scales_);
+  if (stiffness_scales_.size() != fields) throw FileError(fmt::format("a stored state has {} fields; expected are {}", stiffness_scales_.size(), fields));
+  for (const auto& contribution : parts_.contributions) contribution->serialize(archive);
+}
+
 std::shared_ptr<const EvaluatedSystem> SystemModel::evaluate(const Vector& x, const StepContext& context, AtHand at_hand) const {
   if (parts_.contact && !context.contact)
     throw std::invalid_argument("SemiSmoothSystem: a context without a history of contact; take step_from() or start_step() of an initial_state()");

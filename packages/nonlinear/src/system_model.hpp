@@ -66,6 +66,9 @@ class SystemModel {
   RCP<const Vector> z(const Vector& x) const { return x.offsetView(multipliers_, parts_.dofs->getNodeNumElements()); }
   RCP<Vector> z(Vector& x) const { return x.offsetViewNonConst(multipliers_, parts_.dofs->getNodeNumElements()); }
 
+  /// Stores or restores stiffness scales and the histories of the contributions.
+  void serialize(StateArchive& archive) const;
+
   /// A displacement with its ghosts. The buffer is that of the next call too.
   Configuration configuration(double time, const Vector& displacement) const;
 

@@ -23,6 +23,7 @@ class RigidBlock final : public ElementBlock {
   void add_stiffness(const double*, const NodalSparsity::Values&, double, std::optional<StepFailure>&) const override {}
   void visit_points(const double*, LocalOrdinal, const std::function<void(const MaterialPoint&)>&) const override {}
   void commit(const double*) override {}
+  void serialize(StateArchive&, const std::string&) override {}
   std::size_t history_bytes() const override { return 0; }
   long history_evaluations() const override { return 0; }
   void add_nodal_volumes(std::vector<double>&) const override {}
@@ -86,6 +87,10 @@ void Bodies::add_stiffness(const Vector& local_displacement, Matrix& matrix, std
 void Bodies::commit(const Vector& local_displacement) {
   const HostReadView displacement(local_displacement);
   for (const auto& block : blocks_) block->commit(displacement.data());
+}
+
+void Bodies::serialize(StateArchive& archive) {
+  for (std::size_t n = 0; n < blocks_.size(); ++n) blocks_[n]->serialize(archive, fmt::format("body.{}", n));
 }
 
 std::size_t Bodies::history_bytes(LocalOrdinal block) const { return blocks_.at(block)->history_bytes(); }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "mortise/core/state_archive.hpp"
 #include "mortise/solid/bodies.hpp"
 
 namespace mortise {
@@ -32,6 +33,8 @@ class ElementBlock {
   /// Points of the first `count` elements.
   virtual void visit_points(const double* displacement, LocalOrdinal count, const std::function<void(const MaterialPoint&)>& visit) const = 0;
   virtual void commit(const double* displacement) = 0;
+  /// The history of the last committed step, by the ids of the elements.
+  virtual void serialize(StateArchive& archive, const std::string& name) = 0;
   virtual std::size_t history_bytes() const = 0;
   virtual long history_evaluations() const = 0;
   /// volumes[owned node] += integral of N_a dV0.

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <cstring>
 #include <limits>
+#include <type_traits>
 
 #include "cell_block.hpp"
 #include "element_kernel.hpp"
@@ -86,6 +88,18 @@ class KernelBlock final : public ElementBlock {
         const LocalOrdinal* node = context_.block.nodes(element);
         kernel_.commit(reference(node), gather(node, displacement), history_[element]);
       }
+  }
+
+  void serialize([[maybe_unused]] StateArchive& archive, [[maybe_unused]] const std::string& name) override {
+    if constexpr (Kernel::history) {
+      using States = typename Kernel::States;
+      static_assert(std::is_trivially_copyable_v<States> && sizeof(States) % sizeof(double) == 0, "a history is stored as numbers");
+      constexpr std::size_t columns = sizeof(States) / sizeof(double);
+      std::vector<double> rows(columns * history_.size());
+      std::memcpy(rows.data(), history_.data(), rows.size() * sizeof(double));
+      archive.rows(name + ".history", {name + ".elements", context_.block.element_ids, static_cast<std::size_t>(context_.block.owned)}, columns, rows);
+      if (archive.restores()) std::memcpy(static_cast<void*>(history_.data()), rows.data(), rows.size() * sizeof(double));
+    }
   }
 
   std::size_t history_bytes() const override { return history_.capacity() * sizeof(typename Kernel::States); }

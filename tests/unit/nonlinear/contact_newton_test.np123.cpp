@@ -236,7 +236,7 @@ TEST(ContactNewton, SlidesOverManyFacets) {
   const auto start = [&](const AcceptedState& from, double time, const Vector& d, Vector& z) {
     return problem.system->start_step(from, time, unconstrained, d, z);
   };
-  AcceptedState state = problem.system->initial_state(*problem.x);
+  SteppingState state(problem.system->initial_state(*problem.x));
   EXPECT_TRUE(run_steps(*problem.system, stepping, {}, state, start, observer, failure));
   EXPECT_EQ(cutbacks, 0);
   EXPECT_LT(problem.system->parts().linear_solver->symbolic_setups(), iterations);
@@ -293,7 +293,7 @@ TEST(ContactNewton, AStepEndsWhenUpdatesOfTheMultipliersAreExhausted) {
   SteppingOptions stepping;
   stepping.minimum_step = stepping.step;
   std::optional<StepFailure> failure;
-  AcceptedState state = stepped.system->initial_state(*stepped.x);
+  SteppingState state(stepped.system->initial_state(*stepped.x));
   EXPECT_FALSE(run_steps(*stepped.system, stepping, {}, state, {}, {}, failure));
   ASSERT_TRUE(failure);
   expect_exhausted(*failure);

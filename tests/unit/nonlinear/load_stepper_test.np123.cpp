@@ -39,9 +39,9 @@ StepStart start_with(const Problem& problem, const std::function<void(const Vect
 /// run_steps() from rest; leaves the last state in problem.x.
 bool run(Problem& problem, const SteppingOptions& stepping, const StepStart& start, const StepperObserver& observer,
          std::optional<StepFailure>& last_failure) {
-  AcceptedState state = problem.system->initial_state(*problem.x);
+  SteppingState state(problem.system->initial_state(*problem.x));
   const bool finished = run_steps(*problem.system, stepping, {}, state, start, observer, last_failure);
-  Tpetra::deep_copy(*problem.x, *state.x);
+  Tpetra::deep_copy(*problem.x, *state.accepted.x);
   return finished;
 }
 

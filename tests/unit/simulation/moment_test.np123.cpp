@@ -52,7 +52,7 @@ class Result {
       energy_error_ = energy_error->evaluate(context());
     };
     std::optional<StepFailure> failure;
-    AcceptedState state = system_.initial_state(Vector(system_.map()));
+    SteppingState state(system_.initial_state(Vector(system_.map())));
     const bool done = run_steps(system_, scene_.stepping, scene_.newton, state, {}, observer, failure);
     EXPECT_TRUE(done) << failure->what();
   }

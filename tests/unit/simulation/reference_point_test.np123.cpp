@@ -147,7 +147,7 @@ TEST_P(ReferencePoints, JacobianAgreesWithCentralDifferences) {
   const Timers timers;
   const Model model(comm, scene, timers);
   SemiSmoothSystem system(model.parts(), timers);
-  AcceptedState state = system.initial_state(Vector(system.map()));
+  SteppingState state(system.initial_state(Vector(system.map())));
   std::optional<StepFailure> failure;
   const auto start = [&](const AcceptedState& from, double time, const Vector& d, Vector& z) {
     return system.start_step(from, time, model.held_by_contact_only(), d, z);
@@ -155,8 +155,8 @@ TEST_P(ReferencePoints, JacobianAgreesWithCentralDifferences) {
   SteppingOptions stepping = scene.stepping;
   stepping.end_time = 0.5;
   ASSERT_TRUE(run_steps(system, stepping, scene.newton, state, start, {}, failure)) << failure->what();
-  Vector x(*state.x, Teuchos::Copy);
-  const StepContext context = start(state, 0.75, *system.displacement(std::as_const(x)), *system.multipliers(x));
+  Vector x(*state.accepted.x, Teuchos::Copy);
+  const StepContext context = start(state.accepted, 0.75, *system.displacement(std::as_const(x)), *system.multipliers(x));
   Vector v(system.map()), J_v(system.map()), difference(system.map()), direction(system.map()), J_dx(system.map());
   for (const GlobalOrdinal id : x.getMap()->getNodeElementList()) {
     x.sumIntoGlobalValue(id, 2e-3 * std::sin(0.37 * id + 0.4));

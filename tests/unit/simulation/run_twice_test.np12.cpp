@@ -169,7 +169,7 @@ std::string steps_of(const Scene& scene, const std::function<void()>& interrupti
     steps += fmt::format("{}\n", fmt::join(evaluation.quantities(at), ","));
     if (++count == 2) interruption();
   };
-  AcceptedState state = system.initial_state(Vector(system.map()));
+  SteppingState state(system.initial_state(Vector(system.map())));
   std::optional<StepFailure> failure;
   const auto start = [&](const AcceptedState& from, double time, const Vector& d, Vector& z) {
     return system.start_step(from, time, model.held_by_contact_only(), d, z);

@@ -42,6 +42,7 @@ class BulkContribution final : public CountedContribution {
   void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) override;
   void add_jacobian(const Configuration& at, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>& failure) override;
   void commit(const Configuration& at) override { bodies_->commit(at.local_displacement); }
+  void serialize(StateArchive& archive) override { bodies_->serialize(archive); }
 
  private:
   std::shared_ptr<Bodies> bodies_;

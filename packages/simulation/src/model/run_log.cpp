@@ -12,10 +12,10 @@ RunLog::RunLog(const RCP<const Communicator>& comm, Verbosity verbosity) : comm_
   log_.add_sink(early_, Verbosity::verbose);
 }
 
-void RunLog::open(const std::string& path) {
+void RunLog::open(const std::string& path, bool append) {
   std::optional<std::string> reason;
   if (comm_->getRank() == 0) {
-    file_.open(path);
+    file_.open(path, append ? std::ios::app : std::ios::trunc);
     file_ << early_.str() << std::flush;
     if (!file_) reason = "it cannot be written";
     log_ = Log();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <string>
 #include <vector>
 
 #include "mortise/simulation/quantities/quantity_support.hpp"
@@ -93,6 +94,12 @@ class WorkEvaluator final : public QuantityEvaluator {
     return work_;
   }
 
+  void serialize(StateArchive& archive, const std::string& name) override {
+    mortise::serialize(archive, name + ".work", work_);
+    mortise::serialize(archive, name + ".force", "dofs", *force_);
+    mortise::serialize(archive, name + ".displacement", "dofs", *displacement_);
+  }
+
  private:
   Energy::Of of_;
   double work_ = 0.0;
@@ -143,6 +150,11 @@ class EnergyErrorEvaluator final : public QuantityEvaluator {
       largest = std::max(largest, std::abs(value));
     }
     return largest > 0.0 ? difference / largest : std::numeric_limits<double>::quiet_NaN();
+  }
+
+  void serialize(StateArchive& archive, const std::string& name) override {
+    external_->serialize(archive, name + ".external");
+    for (std::size_t n = 0; n < spent_.size(); ++n) spent_[n]->serialize(archive, name + ".spent." + std::to_string(n));
   }
 
  private:

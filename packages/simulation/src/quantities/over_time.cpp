@@ -25,6 +25,8 @@ class OverTimeEvaluator final : public QuantityEvaluator {
     return extreme_.value_or(std::numeric_limits<double>::quiet_NaN());
   }
 
+  void serialize(StateArchive& archive, const std::string& name) override { mortise::serialize(archive, name + ".extreme", extreme_); }
+
  private:
   std::size_t index_;
   Extremum::Which which_;

@@ -26,6 +26,8 @@ class CornerWatch {
   bool has_warned(std::size_t pair) const;
   /// Which corners of the accepted state lie in the other body where the slave carries no force; empty: none.
   const std::string& without_force() const { return accepted_; }
+  /// Stores or restores what it knows of the accepted state and has said.
+  void serialize(StateArchive& archive);
 
  private:
   /// A node that may be a corner, with the facets around it: those of its pair's surface, and of its body.

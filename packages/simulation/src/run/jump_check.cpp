@@ -36,4 +36,6 @@ void JumpCheck::accept() {
   refused_.reset();
 }
 
+void JumpCheck::serialize(StateArchive& archive) { mortise::serialize(archive, "jump_check.rate", accepted_); }
+
 }  // namespace mortise

@@ -23,6 +23,8 @@ class OverlapWatch {
   void accept(const std::function<bool(std::size_t)>& is_told);
   /// Which pairs of the accepted state carry no force although their bodies overlap; empty: none.
   const std::string& without_force() const { return accepted_; }
+  /// Stores or restores what it knows of the accepted state and has said.
+  void serialize(StateArchive& archive);
 
  private:
   /// An own node of a surface with the facets of that surface around it.

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <ctime>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 namespace mortise {
@@ -59,7 +60,30 @@ std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(
 
 }  // namespace
 
-Json summary(const RunRecord& record, const Model& model, const std::optional<ContactHistory>& contact) {
+void RunRecord::serialize(StateArchive& archive) {
+  mortise::serialize(archive, "record.steps", steps);
+  mortise::serialize(archive, "record.time", time);
+  mortise::serialize(archive, "record.newton_steps", newton_steps);
+  std::string json = Json(parts).dump();
+  archive.text("record.parts", json);
+  std::vector<double> values;
+  for (const auto& name : quantity_order) {
+    const auto found = quantities.find(name);
+    values.push_back(found == quantities.end() ? std::nan("") : found->second);
+  }
+  archive.values("record.quantities", values);
+  if (!archive.restores()) return;
+  parts = Json::parse(json, nullptr, false).get<std::vector<std::string>>();
+  for (std::size_t n = 0; n < std::min(values.size(), quantity_order.size()); ++n) quantities[quantity_order[n]] = values[n];
+}
+
+std::string step_line(const StepReport& step) { return step_json(step).dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+std::string part_text(int from_step, int ranks) {
+  return Json{{"from_step", from_step}, {"ranks", ranks}, {"host", host_name()}, {"date", utc_now()}}.dump();
+}
+
+Json summary(const RunRecord& record, const Model& model, const std::optional<ContactHistory>& contact, const std::string& steps) {
   Json json;
   json["scene"] = record.scene;
   json["settings"] = record.settings;
@@ -71,11 +95,17 @@ Json summary(const RunRecord& record, const Model& model, const std::optional<Co
   json["elements"] = model.size().elements;
   json["slave_nodes"] = model.slave_nodes();
   json["converged"] = record.converged;
+  json["stopped"] = record.stopped ? Json(*record.stopped) : Json(nullptr);
   json["exit"] = static_cast<int>(record.exit);
   json["linear_solver"] = model.parts().linear_solver->name();
   json["effects"] = effects_json(model.effects());
+  json["parts"] = Json::array();
+  for (const std::string& part : record.parts) json["parts"].push_back(Json::parse(part, nullptr, false));
   json["steps"] = Json::array();
-  for (const auto& step : record.steps) json["steps"].push_back(step_json(step));
+  if (model.mesh()->comm->getRank() == 0) {
+    std::ifstream lines(steps);
+    for (std::string line; std::getline(lines, line);) json["steps"].push_back(Json::parse(line, nullptr, false));
+  }
   json["quantities"] = Json::object();
   for (const auto& name : record.quantity_order)
     if (const auto found = record.quantities.find(name); found != record.quantities.end()) json["quantities"][name] = number(found->second);

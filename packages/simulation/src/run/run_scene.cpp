@@ -4,8 +4,6 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -14,27 +12,28 @@
 #include "model/precision.hpp"
 #include "model/report_model.hpp"
 #include "mortise/input/parameter_tree.hpp"
-#include "mortise/io/csv_writer.hpp"
-#include "mortise/io/field_writer.hpp"
 #include "mortise/io/files.hpp"
 #include "mortise/io/output_directory.hpp"
 #include "mortise/simulation/model/model.hpp"
 #include "mortise/simulation/model/run_log.hpp"
 #include "mortise/simulation/run/jump_check.hpp"
-#include "mortise/simulation/run/newton_table.hpp"
 #include "mortise/simulation/run/run.hpp"
 #include "mortise/simulation/run/state_check.hpp"
 #include "mortise/simulation/run/step_evaluation.hpp"
 #include "run/coarse_slave.hpp"
 #include "run/explain_failure.hpp"
 #include "run/explain_statics.hpp"
+#include "run/checkpoints.hpp"
 #include "run/limit_load.hpp"
+#include "run/restart.hpp"
+#include "run/run_output.hpp"
+#include "run/scene_changes.hpp"
+#include "run/stop_request.hpp"
 #include "run/run_record.hpp"
 #include "run/slip_settlement.hpp"
 #include "run/surface_watch.hpp"
 #include "run/timer_sums.hpp"
 #include "run/turning_point.hpp"
-#include "scene/history_columns.hpp"
 
 namespace mortise {
 namespace {
@@ -42,162 +41,6 @@ namespace {
 std::string effective_xml(const Scene& scene) {
   return to_scene_xml(collect_parameters(scene.name, scene, CollectParameters::What::values), symbol_lists(scene.symbols));
 }
-
-/// Everything that follows the steps: table, newton.csv, history.csv, profiles.csv, fields.
-class Observers {
- public:
-  Observers(const RCP<const Communicator>& comm, const Scene& scene, const OutputDirectory& directory, const RCP<const Mesh>& mesh,
-            StepEvaluation& evaluation, RunLog& log, RunRecord& record, const Timers& timers)
-      : scene_(scene),
-        evaluation_(evaluation),
-        log_(log),
-        record_(record),
-        timers_(timers),
-        newton_(comm, directory.file("newton.csv"),
-                {"step", "try", "time", "dt", "iteration", "momentum", "momentum_absolute", "gap", "complementarity", "increment", "step_length",
-                 "active", "stick", "slip", "changed", "linear_iterations", "seconds", "undone"}),
-        history_(comm, directory.file("history.csv"), columns_with(evaluation)) {
-    if (scene.output.contact_profiles)
-      profiles_ =
-          std::make_unique<CsvWriter>(comm, directory.file("profiles.csv"),
-                                      std::vector<std::string>{"time", "pair", "part", "arc_length", "x", "y", "pressure", "shear", "gap", "state"});
-    if (!scene.output.fields.empty()) fields_ = std::make_unique<FieldWriter>(mesh, directory.path());
-  }
-
-  StepperObserver functions() {
-    StepperObserver observer;
-    observer.begin = [this](int step, double time, double dt) { begin(step, time, dt); };
-    observer.iteration = [this](const NewtonIteration& iteration) { add(iteration); };
-    observer.accepted = [this](const StepReport& report, const SystemEvaluation& at) { accept(report, at); };
-    observer.undone = [this](const StepReport&, const StepFailure& failure) {
-      const auto count = [](int value) { return static_cast<long long>(value); };
-      if (last_iteration_.empty())  // it ended before the first residual
-        last_iteration_ = {count(step_), count(try_), time_, dt_, count(0), "", "", "", "", "", "", "", "", "", "", "", "", ""};
-      write_last_iteration(to_string(failure.kind()));
-      log_.info(fmt::format("  step {} undone: {}", step_, failure.what()));
-      ++try_;
-    };
-    return observer;
-  }
-
-  /// Writes fields and profiles of the last accepted state, if that has not been done.
-  void finish(const std::function<SystemEvaluation()>& last_state) {
-    if (record_.steps.empty()) return;
-    const StepReport& last = record_.steps.back();
-    const bool fields = fields_ && written_ != last.step, profiles = profiles_ && !is_output_time(last);
-    if (!fields && !profiles) return;
-    const SystemEvaluation at = last_state();
-    if (fields) write_fields(last, at);
-    if (profiles) write_profiles(last, at);
-  }
-
- private:
-  static std::vector<std::string> columns_with(const StepEvaluation& evaluation) {
-    std::vector<std::string> columns = history_columns();
-    for (const auto& name : evaluation.names()) columns.push_back(name);
-    return columns;
-  }
-
-  void begin(int step, double time, double dt) {
-    if (step != step_) try_ = 0;
-    last_iteration_.clear();
-    step_ = step, time_ = time, dt_ = dt;
-    log_.info(step_header(step, time, scene_.stepping.end_time, dt));
-    log_.info(newton_header());
-  }
-
-  void add(const NewtonIteration& iteration) {
-    const auto timer = timers_.scope("output");
-    const auto& norms = iteration.norms;
-    log_.info(newton_line(iteration));
-    const auto count = [](int value) { return static_cast<long long>(value); };
-    write_last_iteration("");
-    last_iteration_ = {count(step_),
-                       count(try_),
-                       time_,
-                       dt_,
-                       count(iteration.iteration),
-                       norms.momentum,
-                       norms.momentum_absolute,
-                       norms.gap,
-                       norms.complementarity,
-                       iteration.increment,
-                       iteration.step_length,
-                       count(norms.active),
-                       count(norms.sticking),
-                       count(norms.active - norms.sticking),
-                       count(norms.changed),
-                       count(iteration.linear_iterations),
-                       iteration.seconds,
-                       ""};
-  }
-
-  /// An iteration's row waits for what follows, as the last one of a try that is undone says why.
-  void write_last_iteration(const std::string& undone) {
-    if (last_iteration_.empty()) return;
-    last_iteration_.back() = undone;
-    newton_.row(last_iteration_);
-    last_iteration_.clear();
-  }
-
-  void accept(const StepReport& report, const SystemEvaluation& at) {
-    const auto timer = timers_.scope("output");
-    write_last_iteration("");
-    record_.steps.push_back(report);
-    const auto names = evaluation_.names();
-    const auto values = evaluation_.quantities(at);
-    std::vector<CsvValue> row{static_cast<long long>(report.step), report.time, static_cast<long long>(report.newton.newton_steps())};
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      row.emplace_back(values[i]);
-      record_.quantities[names[i]] = values[i];
-    }
-    history_.row(row);
-    log_.info(step_footer(report, seconds_left(report.time)));
-    if (is_output_time(report) || (scene_.output.every_step > 0 && report.step % scene_.output.every_step == 0)) write_fields(report, at);
-    if (is_output_time(report)) write_profiles(report, at);
-  }
-
-  /// As if the rest of the scene's time went on as fast as what is done of it.
-  double seconds_left(double time) const {
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin_;
-    return taken.count() * (scene_.stepping.end_time - time) / time;
-  }
-
-  bool is_output_time(const StepReport& report) const {
-    for (const double time : scene_.stepping.output_times)
-      if (std::abs(report.time - time) <= 1e-12 * scene_.stepping.end_time) return true;
-    return false;
-  }
-
-  void write_fields(const StepReport& report, const SystemEvaluation& at) {
-    written_ = report.step;
-    if (fields_) fields_->write(report.time, evaluation_.fields(at, scene_.output.fields));
-  }
-
-  void write_profiles(const StepReport& report, const SystemEvaluation& at) {
-    if (!profiles_) return;
-    const auto profiles = evaluation_.profiles(at);
-    std::vector<std::vector<CsvValue>> rows;
-    for (std::size_t pair = 0; pair < profiles.size(); ++pair)
-      for (const ProfilePoint& point : profiles[pair])
-        rows.push_back({report.time, scene_.contact[pair].name, static_cast<long long>(point.part), point.arc_length, point.x, point.y,
-                        point.pressure, point.shear, point.gap, static_cast<long long>(point.state)});
-    profiles_->rows(rows);
-  }
-
-  const Scene& scene_;
-  StepEvaluation& evaluation_;
-  RunLog& log_;
-  RunRecord& record_;
-  Timers timers_;
-  CsvWriter newton_, history_;
-  std::vector<CsvValue> last_iteration_;
-  std::unique_ptr<FieldWriter> fields_;
-  std::unique_ptr<CsvWriter> profiles_;
-  int step_ = 0, try_ = 0, written_ = 0;
-  double time_ = 0.0, dt_ = 0.0;
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-};
 
 bool is_input(const std::optional<StepFailure>& failure) { return failure && failure->kind() == FailureKind::input; }
 
@@ -220,12 +63,10 @@ void report_end(const RunRecord& record, const std::optional<StepFailure>& failu
                            load.imbalance, load.redistributions > 0 ? fmt::format(", as owned {:.2f}", load.imbalance_as_owned) : ""));
   if (!record.converged)
     log.warning(fmt::format(
-        "{}; the last converged state is that of time {:g}{}", is_input(failure) ? "stopped by an error of the input" : "not converged",
-        record.steps.empty() ? 0.0 : record.steps.back().time, failure && !is_input(failure) ? fmt::format(": {}", failure->what()) : ""));
-  int iterations = 0;
-  for (const auto& step : record.steps) iterations += step.newton.newton_steps();
+        "{}; the last converged state is that of time {:g}{}",
+        record.stopped ? "stopped by " + *record.stopped : is_input(failure) ? "stopped by an error of the input" : "not converged", record.time, failure && !is_input(failure) ? fmt::format(": {}", failure->what()) : ""));
   const auto total = record.seconds.find("total");
-  log.info(fmt::format("{} steps, {} Newton iterations, {:.2f} s, {:.0f} MiB; results in {}", record.steps.size(), iterations,
+  log.info(fmt::format("{} steps, {} Newton iterations, {:.2f} s, {:.0f} MiB; results in {}", record.steps, record.newton_steps,
                        total == record.seconds.end() ? 0.0 : total->second, record.memory_peak_mib, directory));
 }
 
@@ -247,24 +88,65 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
   const SemiSmoothSystem system(std::move(parts), timers);
   StepEvaluation evaluation(scene, model, system);
 
-  // From here on the scene is one that can be run: only now is anything made, and what an earlier run left makes room.
-  directory.begin_run();
-  log.open(directory.file("log.txt"));
-  report_model(options.scene, scene, model, log);
-  report_precision(model, scene, log);
-  report_contact_at_start(model, scene, log);
-  report_memory(model, log);
-  write_file(*comm, directory.file("effective.xml"), [&] { return effective_xml(scene); });
+  const auto warn = [&](const std::string& line) { log.warning(line); };
+  std::optional<SurfaceWatch> surfaces;
+  if (model.contact()) surfaces.emplace(model, scene, warn);
+  std::optional<StateCheck> check;
+  if (StateCheck::is_needed(model)) check.emplace(model, scene.newton.increment_tolerance * model.parts().length, warn);
+  JumpCheck jump(model.parts().length);
 
   RunRecord record;
   record.scene = options.scene;
   record.version = options.version;
   record.settings = options.settings;
   record.quantity_order = evaluation.names();
-  Observers observers(comm, scene, directory, model.mesh(), evaluation, log, record, timers);
-  AcceptedState state = system.initial_state(Vector(system.map()));
+  // What a run remembers beside the state of the system and how far its files go.
+  const auto serialize_memory = [&](StateArchive& archive) {
+    evaluation.serialize(archive);
+    if (surfaces) surfaces->serialize(archive);
+    if (check) check->serialize(archive);
+    jump.serialize(archive);
+    record.serialize(archive);
+  };
+  const std::optional<Restart> restart = options.restart ? std::optional(restart_from(comm, directory.path(), *options.restart)) : std::nullopt;
+  std::optional<SteppingState> restored;
+  if (restart) {
+    restored = restore_run(*restart, scene, options.scene, model, system, evaluation);
+    serialize_memory(*restart->file);
+  }
+
+  // From here on the scene is one that can be run: only now is anything made, and what an earlier run left makes room.
+  if (restart)
+    directory.continue_run();
+  else
+    directory.begin_run();
+  log.open(directory.file("log.txt"), restart.has_value());
+  if (restart) report_restart(*restart, log);
+  report_model(options.scene, scene, model, log);
+  report_precision(model, scene, log);
+  if (!restart) report_contact_at_start(model, scene, log);
+  report_memory(model, log);
+  write_file(*comm, directory.file("effective.xml"), [&] { return effective_xml(scene); });
+  record.parts.push_back(part_text(record.steps, comm->getSize()));
+  RunOutput output(comm, scene, directory, model.mesh(), evaluation, log, record, timers, restart ? restart->file.get() : nullptr);
+  if (restart) remove_checkpoints_after(*comm, directory.path(), restart->step);
+
+  SteppingState state = restored ? *std::move(restored) : SteppingState(system.initial_state(Vector(system.map())));
   std::optional<SystemEvaluation> last;  // of `state`, in the step that led there; none while another step is tried
   std::optional<StepFailure> failure;
+  StopRequest requests(options.watch_signals, options.time_limit);
+  Checkpoints checkpoints(comm, scene.output.checkpoints, checkpoint_directory(directory.path()));
+  const std::string fingerprint = scene_fingerprint(scene);
+  const auto write_checkpoint = [&] {
+    const auto timer = timers.scope("checkpoint");
+    const std::uintmax_t bytes = checkpoints.write(state.steps, [&](StateArchive& archive) {
+      store_run(archive, fingerprint, model, system, evaluation, state);
+      serialize_memory(archive);
+      output.store(archive);
+    });
+    requests.reserve(checkpoints.seconds());
+    log.info(fmt::format("  checkpoint of step {}: {:.3g} MiB, {:.2g} s", state.steps, static_cast<double>(bytes) / 1048576.0, checkpoints.seconds()));
+  };
   // An overlap is taken up by the end of the first step. A try that is cut short takes up its share, as if the bodies were moved into one another.
   const double taken_up = std::min(scene.stepping.step, scene.stepping.end_time);
   const auto start_step = [&](const AcceptedState& from, double time, const Vector& d, Vector& z) {
@@ -276,13 +158,13 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
   };
   {
     const auto timer = timers.scope("steps");
-    StepperObserver functions = observers.functions();
-    const auto warn = [&](const std::string& line) { log.warning(line); };
-    std::optional<SurfaceWatch> surfaces;
-    if (model.contact()) surfaces.emplace(model, scene, warn);
-    std::optional<StateCheck> check;
-    if (StateCheck::is_needed(model)) check.emplace(model, scene.newton.increment_tolerance * model.parts().length, warn);
-    JumpCheck jump(model.parts().length);
+    StepperObserver functions = output.functions();
+    functions.rest = [&](const SteppingState&) {
+      const Request request = requests.after_step(*comm);
+      record.stopped = request.stop;
+      if (request.stop || request.checkpoint || checkpoints.is_due(state.steps)) write_checkpoint();
+      return request.stop.has_value();
+    };
     functions.verify = [&](const AcceptedState& from, const SystemEvaluation& found, int round) -> RCP<Vector> {
       if (surfaces) surfaces->examine(*system.displacement(found.x()), found.contact_laws());
       if (check) {
@@ -336,7 +218,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
     const auto& at_start = model.surfaces_at_start().pairs;
     const bool begins_pressed = std::any_of(at_start.begin(), at_start.end(), [](const PairAtStart& pair) { return pair.overlap.depth > 0.0; });
     functions.predict = [&](const Vector& at, double dt, Vector& rate) {
-      if (begins_pressed && (record.steps.empty() || record.steps.back().time < taken_up)) {
+      if (begins_pressed && (record.time < taken_up)) {
         rate.putScalar(0.0);
         return;
       }
@@ -360,14 +242,18 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
         failure.emplace(FailureKind::lost_contact, surfaces->without_force() + "; please make the slave finer there, or exchange slave and master");
         record.converged = false;
       }
-      if (record.converged && model.contact())
-        for (const std::string& line : slaves_too_coarse(model, scene, *system.displacement(*state.x), last->contact_laws())) log.warning(line);
+      if (record.converged && model.contact() && last)
+        for (const std::string& line : slaves_too_coarse(model, scene, *system.displacement(*state.accepted.x), last->contact_laws())) log.warning(line);
     } catch (const InputError& error) {  // on every rank: a quantity's expression without a value
       failure.emplace(FailureKind::input, error.what());
     }
-    observers.finish([&] { return last ? *last : system.evaluate_at(state, *system.multipliers(*state.x), state.context); });
+    const bool wants_last = !record.converged || scene.output.checkpoints.every_step > 0 || checkpoints.last() > 0;
+    if (wants_last && state.steps > 0 && checkpoints.last() != state.steps && (!restart || restart->step != state.steps)) write_checkpoint();
+    output.finish([&] {
+      return last ? *last : system.evaluate_at(state.accepted, *system.multipliers(*state.accepted.x), state.accepted.context);
+    });
   }
-  if (!record.steps.empty()) record.checks = evaluate_checks(scene.checks, record.quantities);
+  if (record.steps > 0) record.checks = evaluate_checks(scene.checks, record.quantities);
   record.exit = exit_code(record, failure);
 
   for (std::size_t pair = 0; pair < scene.contact.size(); ++pair)
@@ -380,7 +266,8 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
   Teuchos::reduceAll(*comm, Teuchos::REDUCE_SUM, mine, Teuchos::outArg(record.memory_total_mib));
   log.detail(timer_report(timers, comm));
   report_end(record, failure, directory.path(), log);
-  write_file(*comm, directory.file("summary.json"), [&, json = summary(record, model, state.context.contact)] {
+  if (record.stopped) log.info(fmt::format("to go on: {}", command_to_continue(options, directory.path(), comm->getSize())));
+  write_file(*comm, directory.file("summary.json"), [&, json = summary(record, model, state.accepted.context.contact, directory.file("steps.jsonl"))] {
     return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   });
   if (is_input(failure)) throw *failure;

@@ -33,14 +33,7 @@ std::vector<double> StepEvaluation::quantities(const SystemEvaluation& at) {
   const auto displacement = system_.displacement(at.x());
   const auto local_displacement = local(*displacement);
   const double time = at.context().time;
-  const RCP<const Vector> reaction = at.forces();
-  Vector external(model_.bodies()->dofs());
-  std::optional<StepFailure> failure;
-  const Configuration configuration{time, *displacement, *local_displacement};
-  for (const auto& contribution : model_.parts().contributions)
-    if (contribution->kind() == Contribution::Kind::external) contribution->add_residual(configuration, external, failure);
-  throw_if_any(*model_.mesh()->comm, failure);
-  external.scale(-1.0);
+  const RCP<const Vector> reaction = at.forces(), external = external_force(at.x(), time);
 
   QuantityContext context = quantity_context(scene_, model_);
   context.time = time;
@@ -48,10 +41,27 @@ std::vector<double> StepEvaluation::quantities(const SystemEvaluation& at) {
   context.local_displacement = local_displacement.get();
   context.laws = contact_laws(at);
   context.reaction = reaction.get();
-  context.external_force = &external;
+  context.external_force = external.get();
   context.force_round_off = force_round_off(*displacement);
   for (const auto& evaluator : evaluators_) context.earlier_values.push_back(evaluator->evaluate(context));
   return context.earlier_values;
+}
+
+RCP<Vector> StepEvaluation::external_force(const Vector& x, double time) const {
+  const auto displacement = system_.displacement(x);
+  const auto local_displacement = local(*displacement);
+  const auto external = rcp(new Vector(model_.bodies()->dofs()));
+  std::optional<StepFailure> failure;
+  const Configuration configuration{time, *displacement, *local_displacement};
+  for (const auto& contribution : model_.parts().contributions)
+    if (contribution->kind() == Contribution::Kind::external) contribution->add_residual(configuration, *external, failure);
+  throw_if_any(*model_.mesh()->comm, failure);
+  external->scale(-1.0);
+  return external;
+}
+
+void StepEvaluation::serialize(StateArchive& archive) {
+  for (std::size_t n = 0; n < evaluators_.size(); ++n) evaluators_[n]->serialize(archive, "quantity." + scene_.quantities[n].name);
 }
 
 std::vector<Field> StepEvaluation::fields(const SystemEvaluation& at, const std::vector<std::string>& names) {

@@ -23,4 +23,9 @@ const std::string& SurfaceWatch::without_force() const {
   return corners_.without_force().empty() ? overlaps_.without_force() : corners_.without_force();
 }
 
+void SurfaceWatch::serialize(StateArchive& archive) {
+  corners_.serialize(archive);
+  overlaps_.serialize(archive);
+}
+
 }  // namespace mortise

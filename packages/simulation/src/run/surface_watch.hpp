@@ -24,6 +24,8 @@ class SurfaceWatch {
   void accept();
   /// What of the accepted state lies in the other body where the pair carries no force; empty: nothing.
   const std::string& without_force() const;
+  /// Stores or restores what it knows of the accepted state and has said.
+  void serialize(StateArchive& archive);
 
  private:
   const Model& model_;

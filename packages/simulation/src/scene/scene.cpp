@@ -72,6 +72,13 @@ void ContactPairOptions::describe(Parameters& parameters) {
   contact.describe(parameters);
 }
 
+void CheckpointOptions::describe(Parameters& parameters) {
+  parameters.add("every step", every_step, Says("a checkpoint is written after every so many steps, and at the end; 0: not by steps").at_least(0));
+  parameters.add("every minutes", every_minutes,
+                 Says("a checkpoint is written after the first step that ends so long after the last one; 0: not by time").unit("min").at_least(0.0));
+  parameters.add("keep", keep, Says("how many of the newest checkpoints stay").at_least(1));
+}
+
 void OutputOptions::describe(Parameters& parameters) {
   std::vector<std::string> known;
   for (const auto& [name, sentence] : field_names()) known.push_back(name);
@@ -82,6 +89,8 @@ void OutputOptions::describe(Parameters& parameters) {
     if (std::find(fields.begin(), field, *field) != field) parameters.error("fields", "names \"" + *field + "\" twice");
   parameters.add("every step", every_step,
                  Says("fields are written after every so many steps, and at the end; 0: at the output times and the end only").at_least(0));
+  parameters.list("checkpoints", checkpoints,
+                  "what a run can be restarted from; it also leaves one when it stops before its end, and at its end if it has left one before");
   parameters.add(
       "contact profiles", contact_profiles,
       "pressure, shear traction and gap along the arc length of each slave surface are written to profiles.csv at the output times and the end");

@@ -13,6 +13,7 @@
 #include "mortise/contact/contact_pair.hpp"
 #include "mortise/contact/contact_report.hpp"
 #include "mortise/core/nodal_field.hpp"
+#include "mortise/core/state_archive.hpp"
 #include "mortise/core/timers.hpp"
 #include "mortise/core/types.hpp"
 
@@ -117,6 +118,12 @@ class ContactSystem {
 
   /// The history after a step that ended in the state of `laws`: the next step starts from there; slip paths grow.
   ContactHistory commit(const ContactLaws& laws) const;
+
+  /// Stores a history, by the ids of the nodes.
+  void store(StateArchive& archive, const ContactHistory& history) const;
+  /// The history that was stored, by any number of ranks, in a state with displacement d and multipliers z.
+  /// @throws StepFailure on every rank, as evaluate()
+  ContactHistory restore(StateArchive& archive, const NodalDisplacement& d, const Vector& z) const;
 
   /// How the integrals of a pair are spread over the ranks, in the last evaluation.
   IntegrationLoad integration_load(std::size_t pair) const;

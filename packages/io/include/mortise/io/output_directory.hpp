@@ -22,6 +22,7 @@ class OutputDirectory {
   /// @throws FileError on all ranks
   void begin_run() const;
 
+  void continue_run() const { make(); }
   const std::string& path() const { return path_; }
   /// Path of a file in the directory.
   std::string file(const std::string& name) const { return path_ + "/" + name; }
@@ -31,10 +32,10 @@ class OutputDirectory {
   std::string path_;
 };
 
-/// Whether a run writes a file of this name:
+/// Whether a run writes a file of this name, relative to its directory:
 /// * summary.json, effective.xml, log.txt, checkpoint-*.h5,
 /// * newton.csv, history.csv, profiles.csv,
-/// * fields.xdmf, fields.h5,
+/// * fields.xdmf, fields/mesh.h5, fields/step-*.h5, and fields.h5 of earlier versions,
 /// * point.csv, point.svg, point.png.
 bool is_run_file(const std::string& name);
 

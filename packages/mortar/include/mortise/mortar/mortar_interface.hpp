@@ -192,6 +192,9 @@ class MortarInterface {
   ///                 average. No other rule needs it: empty
   SurfaceKinks find_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest, const SurfaceKinks& before) const;
 
+  /// Ids of the nodes that SurfaceKinks tells of, owned slave nodes first. Which facets meet at a node, and their order, does not depend on the rank.
+  std::vector<GlobalOrdinal> nodes_of_kinks() const;
+
   /// From now on the slave surface has these kinks. Returns, the same on every rank, whether they were others before: then the next search() rebuilds
   /// local_nodes() and the pattern. Collective.
   bool set_kinks(const SurfaceKinks& kinks);

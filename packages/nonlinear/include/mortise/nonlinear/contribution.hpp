@@ -7,6 +7,7 @@
 
 #include "mortise/core/dependence.hpp"
 #include "mortise/core/error.hpp"
+#include "mortise/core/state_archive.hpp"
 #include "mortise/core/types.hpp"
 
 namespace mortise {
@@ -57,6 +58,9 @@ class Contribution {
 
   /// The step that ended at `at` is accepted.
   virtual void commit(const Configuration&) {}
+
+  /// Stores or restores what it remembers of the last committed step. Collective.
+  virtual void serialize(StateArchive&) {}
 };
 
 /// Prescribed displacements of owned dofs.

@@ -38,6 +38,20 @@ struct StepReport {
   NewtonReport newton;              ///< of the try that worked
 };
 
+/// Where a run stands between two steps: all that the next one starts from.
+struct SteppingState {
+  explicit SteppingState(AcceptedState state) : accepted(std::move(state)) {}
+  AcceptedState accepted;            ///< of the last step, or the first state
+  int steps = 0;                     ///< finished ones
+  std::optional<double> next_step;   ///< length of the next step unless a target cuts it short; none: the first one of the options
+  RCP<const Vector> rate;            ///< of the last step, which a predictor follows; null: there is none
+};
+
+/// Stores where a run stands.
+void store(StateArchive& archive, const SemiSmoothSystem& system, const SteppingState& state);
+/// Where the run stood that was stored, by any number of ranks. Throws StepFailure on every rank.
+SteppingState restore_stepping(StateArchive& archive, const SemiSmoothSystem& system);
+
 /// A try of a step that failed.
 struct FailedTry {
   const StepFailure& failure;                          ///< why
@@ -57,6 +71,8 @@ struct StepperObserver {
   /// May change the rate of the step of length dt that was accepted in x: the line that the next step starts at.
   std::function<void(const Vector& x, double dt, Vector& rate)> predict;
   std::function<void(const StepReport&, const SystemEvaluation&)> accepted;  ///< after commit
+  /// Between two steps, the last of which has been accepted. True: the run ends here. The same on every rank.
+  std::function<bool(const SteppingState& state)> rest;
   std::function<void(const StepReport&, const StepFailure&)> undone;         ///< a try failed
   std::function<std::string(const FailedTry&)> explain;                      ///< what lies behind a failure of Newton's method, before its message
 };
@@ -65,10 +81,10 @@ struct StepperObserver {
 /// rule).
 using StepStart = std::function<StepContext(const AcceptedState& state, double time, const Vector& d, Vector& z)>;
 
-/// Runs from the time of a state to the end. On return `state` is the last accepted one. Returns true at the end time; false when the smallest step
-/// failed (the last failure is then in `last_failure`). Each try is prepared by `start`; without one nothing is guessed. With a predictor it prepares
+/// Runs from the time of a state to the end. On return `state` is that after the last accepted step. Returns true at the end time; false when the
+/// smallest step failed, with its failure in `last_failure`, and without one where the observer wanted rest. Each try is prepared by `start`; without one nothing is guessed. With a predictor it prepares
 /// the last state where no prescribed displacement changes. If that is not tried, or no solution, it prepares the predicted state.
-bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, const NewtonOptions& newton, AcceptedState& state,
+bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, const NewtonOptions& newton, SteppingState& state,
                const StepStart& start, const StepperObserver& observer, std::optional<StepFailure>& last_failure);
 
 }  // namespace mortise

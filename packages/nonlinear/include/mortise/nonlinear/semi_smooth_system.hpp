@@ -98,6 +98,11 @@ class SemiSmoothSystem {
   /// The step that ended there is accepted: hands it to the contributions. The evaluation stays what it was.
   AcceptedState commit(const SystemEvaluation& evaluation) const;
 
+  /// Stores an accepted state, with the histories of the contributions, which have to be those that it left.
+  void store(StateArchive& archive, const AcceptedState& state) const;
+  /// The state that was stored, by any number of ranks. Contributions take up their histories. Throws StepFailure on every rank.
+  AcceptedState restore(StateArchive& archive) const;
+
  private:
   std::shared_ptr<const detail::SystemModel> model_;
 };

@@ -10,10 +10,12 @@ namespace mortise {
 /// Sizes of steps, without any solver: proposes a time, learns whether it worked. Output times and the end are hit exactly.
 class StepSchedule {
  public:
-  /// Stands at time 0.
-  explicit StepSchedule(const SteppingOptions& options);
+  /// @param time       where it stands
+  /// @param next_step  length of the next step; none: the first one of the options
+  explicit StepSchedule(const SteppingOptions& options, double time = 0.0, std::optional<double> next_step = std::nullopt);
 
   double time() const { return time_; }                       ///< of the last accepted step
+  double next_step() const { return step_; }                  ///< length of the next step unless a target cuts it short
   bool finished() const { return time_ >= targets_.back(); }  ///< whether the end was reached
   double next_time() const;                                   ///< where the next try ends
   /// The try worked; an easy one may be followed by a step twice as long.
@@ -23,7 +25,7 @@ class StepSchedule {
 
  private:
   std::vector<double> targets_;  ///< output times and the end, ascending
-  double time_ = 0.0, step_, maximum_, minimum_;
+  double time_, step_, maximum_, minimum_;
 };
 
 }  // namespace mortise

@@ -17,6 +17,7 @@
 namespace mortise {
 
 class ElementBlock;
+class StateArchive;
 
 /// One quadrature point of an element at a given displacement.
 struct MaterialPoint {
@@ -77,6 +78,9 @@ class Bodies {
   /// The step that ended at this displacement is accepted: material points with a history move on to it. Everything else that is asked for at a
   /// displacement takes it as the end of a step from the last committed one.
   void commit(const Vector& local_displacement);
+
+  /// Stores or restores the histories of the last committed step. Collective.
+  void serialize(StateArchive& archive);
 
   /// Bytes that the history of a body takes on this rank; 0 for laws without.
   std::size_t history_bytes(LocalOrdinal block) const;

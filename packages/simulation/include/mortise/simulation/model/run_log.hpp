@@ -15,8 +15,8 @@ class RunLog {
  public:
   RunLog(const RCP<const Communicator>& comm, Verbosity verbosity);
 
-  /// Starts log.txt. Collective. Throws FileError on all ranks.
-  void open(const std::string& path);
+  /// Starts log.txt, or goes on with it. Collective. Throws FileError on all ranks.
+  void open(const std::string& path, bool append = false);
 
   void info(const std::string& line) { log_.info(line), flush(); }
   void detail(const std::string& line) { log_.detail(line), flush(); }

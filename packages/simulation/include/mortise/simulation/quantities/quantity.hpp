@@ -7,6 +7,7 @@
 
 #include "mortise/contact/contact_system.hpp"
 #include "mortise/core/parameters.hpp"
+#include "mortise/core/state_archive.hpp"
 #include "mortise/input/expression.hpp"
 #include "mortise/solid/bodies.hpp"
 
@@ -47,6 +48,10 @@ class QuantityEvaluator {
 
   /// The value, the same on every rank. Collective, after each accepted step. NaN: it has no value at this time (a ratio to nothing).
   virtual double evaluate(const QuantityContext& context) = 0;
+
+  /// Stores or restores what it remembers of the steps. Collective.
+  /// @param name  of the quantity
+  virtual void serialize(StateArchive&, const std::string& /*name*/) {}
 };
 
 /// One number, by its name in the scene: its options. Kinds are found in quantity_registry().

@@ -37,6 +37,8 @@ Eigen::MatrixXd free_motions(const Eigen::MatrixXd& gram, int per_body, double h
 class ContactRecord {
  public:
   void accept(const std::vector<PairHold>& pairs);
+  /// Stores or restores it.
+  void serialize(StateArchive& archive);
   /// What pairs do now that touch any of some bodies (mesh.blocks indices), in words.
   std::string describe(const Model& model, const std::vector<int>& bodies, const std::vector<PairHold>& now) const;
 

@@ -24,6 +24,8 @@ class JumpCheck {
   void verify(const Vector& from, const Vector& to, double dt, bool is_far = false);
   /// What verify() passed last is accepted.
   void accept();
+  /// Stores or restores the rate of the last step.
+  void serialize(StateArchive& archive);
 
  private:
   double length_;

@@ -1,6 +1,7 @@
 #pragma once
 // A scene from its file to its results.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,11 @@ namespace mortise {
 
 struct Scene;
 
+/// From where a run goes on.
+struct RestartOptions {
+  std::optional<int> step;  ///< that of its checkpoint; none: the newest that is whole
+};
+
 /// How a scene or a point file is run.
 struct RunOptions {
   std::string scene;                  ///< file
@@ -19,6 +25,9 @@ struct RunOptions {
   std::string directory;              ///< where results go; empty: default_directory(scene)
   bool keep = false;                  ///< refuse a directory that holds results instead of replacing them
   Verbosity verbosity = Verbosity::normal;
+  std::optional<RestartOptions> restart;  ///< go on with the run in the directory; none: a new run
+  std::optional<double> time_limit;       ///< stop in time before so many seconds have passed
+  bool watch_signals = false;             ///< SIGTERM, SIGINT and SIGUSR1 stop the run after its step; SIGUSR2 asks for a checkpoint
   std::string version;  ///< of the program, for the summary
 };
 
@@ -26,8 +35,8 @@ struct RunOptions {
 std::string default_directory(const std::string& file);
 
 /// Collective. Runs the scene that was read from options.scene, which holds nothing of a run: it may be run again. Leaves in the directory:
-/// summary.json, newton.csv, history.csv, effective.xml, log.txt and, if the scene names fields, fields.xdmf and fields.h5. A scene that cannot be
-/// run leaves the directory as it was. Returns done, not_converged or check_missed. Throws on all ranks: InputError, FileError, and StepFailure of
+/// summary.json, newton.csv, history.csv, steps.jsonl, effective.xml, log.txt, checkpoints and, if the scene names fields, fields.xdmf and fields/.
+/// A scene that cannot be run leaves the directory as it was. Returns done, not_converged (also if it was stopped) or check_missed. Throws on all ranks: InputError, FileError, and StepFailure of
 /// kind input if an expression of the scene has no value at a later time; results until then are kept.
 ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, const RunOptions& options);
 

@@ -64,6 +64,9 @@ class StateCheck {
   /// Takes free motions of the accepted state out of the rate at which the last step of length dt, which ended at x, moved.
   void without_free_motions(const SemiSmoothSystem& system, const Vector& x, double dt, Vector& rate) const;
 
+  /// Stores or restores what it knows of the accepted state and has said.
+  void serialize(StateArchive& archive);
+
   const ContactRecord& record() const { return record_; }
 
  private:

@@ -22,7 +22,11 @@ class StepEvaluation {
   std::vector<std::string> names() const;
   /// In the order of names(). To be asked once for each accepted step: some quantities sum up over the steps.
   std::vector<double> quantities(const SystemEvaluation& at);
+  /// f_ext of all loads on owned dofs. Throws StepFailure on every rank.
+  RCP<Vector> external_force(const Vector& x, double time) const;
   std::vector<Field> fields(const SystemEvaluation& at, const std::vector<std::string>& names);
+  /// Stores or restores what the quantities remember of the steps.
+  void serialize(StateArchive& archive);
   /// The points along the slave surface of each pair, on rank 0.
   std::vector<std::vector<ProfilePoint>> profiles(const SystemEvaluation& at);
 

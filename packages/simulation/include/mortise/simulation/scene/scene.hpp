@@ -75,9 +75,20 @@ struct ContactPairOptions {
 };
 
 /// What is written besides the summary.
+/// When a run leaves what it can be restarted from. It also does so when it stops before its end, and at the end if `every_step` is given or one
+/// has been written before.
+struct CheckpointOptions {
+  int every_step = 0;           ///< after every so many steps; 0: not by steps
+  double every_minutes = 10.0;  ///< after the first step that ends so long after the last one; 0: not by time
+  int keep = 2;                 ///< the newest that stay
+  void describe(Parameters& parameters);
+};
+
+/// What a run leaves.
 struct OutputOptions {
   std::vector<std::string> fields{"displacement", "contact_pressure", "cauchy_stress"};
   int every_step = 1;             ///< fields are written after every so many steps and at the end; 0: at the output times and the end only
+  CheckpointOptions checkpoints;  ///< the list "checkpoints"
   bool contact_profiles = false;  ///< profiles.csv: contact along the arc length, at the output times and the end
   void describe(Parameters& parameters);
 };

@@ -1,0 +1,67 @@
+#pragma once
+// What a run remembers, stored and restored by one function.
+
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "mortise/core/error.hpp"
+#include "mortise/core/types.hpp"
+
+namespace mortise {
+
+/// Ids of the rows of a table that this rank has. Rows are stored by the rank that owns them; any number of ranks restores them.
+struct RowIds {
+  std::string name;                ///< of these ids, e.g. "nodes": tables of the same rows share them
+  std::vector<GlobalOrdinal> ids;  ///< first those of owned rows, each on exactly one rank; then ghosts, which are restored and not stored
+  std::size_t owned = 0;           ///< number of owned rows
+};
+
+/// Stores values by name, or restores them. A class with a memory has one function that hands all of it over: it serves both directions, so that
+/// they cannot disagree. Collective in all members, which are called with the same names in the same order on every rank.
+/// @throws FileError on all ranks, where a file cannot be written, lacks a value or holds another number of them
+class StateArchive {
+ public:
+  virtual ~StateArchive() = default;
+  /// Whether values are restored, into what is handed over; else they are stored.
+  virtual bool restores() const = 0;
+  /// Numbers that are the same on every rank, as many as there were.
+  virtual void values(const std::string& name, std::vector<double>& values) = 0;
+  /// Any bytes that are the same on every rank.
+  virtual void text(const std::string& name, std::string& text) = 0;
+  /// A table of numbers.
+  /// @param rows  [ids.ids x columns]; what is restored gets this size
+  virtual void rows(const std::string& name, const RowIds& ids, std::size_t columns, std::vector<double>& rows) = 0;
+};
+
+/// One number, the same on every rank.
+template <class Number, std::enable_if_t<std::is_arithmetic_v<Number>, int> = 0>
+void serialize(StateArchive& archive, const std::string& name, Number& number) {
+  std::vector<double> one{static_cast<double>(number)};
+  archive.values(name, one);
+  if (one.size() != 1) throw FileError("a stored state has " + std::to_string(one.size()) + " numbers \"" + name + "\"; expected is 1");
+  number = static_cast<Number>(one.front());
+}
+
+/// A number that there may be.
+void serialize(StateArchive& archive, const std::string& name, std::optional<double>& number);
+
+/// The values of a vector, by the ids of its map.
+/// @param rows  name of these ids: vectors on the same map share it
+void serialize(StateArchive& archive, const std::string& name, const std::string& rows, Vector& vector);
+
+/// Whole numbers, [ids].
+template <class Whole>
+void serialize(StateArchive& archive, const std::string& name, const RowIds& ids, std::vector<Whole>& numbers) {
+  std::vector<double> rows(numbers.begin(), numbers.end());
+  archive.rows(name, ids, 1, rows);
+  if (!archive.restores()) return;
+  numbers.clear();
+  for (const double value : rows) numbers.push_back(static_cast<Whole>(value));
+}
+
+/// Rows of different lengths, [ids]. Collective.
+void serialize(StateArchive& archive, const Communicator& comm, const std::string& name, const RowIds& ids, std::vector<std::vector<double>>& rows);
+
+}  // namespace mortise

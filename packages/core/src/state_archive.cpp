@@ -1,0 +1,52 @@
+#include "mortise/core/state_archive.hpp"
+
+#include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+#include <algorithm>
+
+namespace mortise {
+
+void serialize(StateArchive& archive, const std::string& name, std::optional<double>& number) {
+  std::vector<double> values;
+  if (number) values.push_back(*number);
+  archive.values(name, values);
+  number = values.empty() ? std::nullopt : std::optional(values.front());
+}
+
+void serialize(StateArchive& archive, const std::string& name, const std::string& rows, Vector& vector) {
+  const auto ids = vector.getMap()->getNodeElementList();
+  std::vector<double> values(static_cast<std::size_t>(ids.size()));
+  if (!archive.restores()) {
+    const auto view = vector.getLocalViewHost(Tpetra::Access::ReadOnly);
+    for (std::size_t row = 0; row < values.size(); ++row) values[row] = view(row, 0);
+  }
+  archive.rows(name, {rows, {ids.begin(), ids.end()}, values.size()}, 1, values);
+  if (!archive.restores()) return;
+  const auto view = vector.getLocalViewHost(Tpetra::Access::OverwriteAll);
+  for (std::size_t row = 0; row < values.size(); ++row) view(row, 0) = values[row];
+}
+
+// As a table of the longest row, each row with its length before it.
+void serialize(StateArchive& archive, const Communicator& comm, const std::string& name, const RowIds& ids, std::vector<std::vector<double>>& rows) {
+  double mine = 0.0, longest = 0.0;
+  for (const auto& row : rows) mine = std::max(mine, static_cast<double>(row.size()));
+  Teuchos::reduceAll(comm, Teuchos::REDUCE_MAX, mine, Teuchos::outArg(longest));
+  serialize(archive, name + ".longest", longest);
+  const std::size_t columns = 1 + static_cast<std::size_t>(longest);
+  std::vector<double> table;
+  for (const auto& row : rows) {
+    table.push_back(static_cast<double>(row.size()));
+    table.insert(table.end(), row.begin(), row.end());
+    table.resize(table.size() + columns - 1 - row.size());
+  }
+  archive.rows(name, ids, columns, table);
+  if (!archive.restores()) return;
+  rows.clear();
+  for (auto row = table.begin(); row != table.end(); row += static_cast<std::ptrdiff_t>(columns)) {
+    const auto length = static_cast<std::ptrdiff_t>(std::clamp(*row, 0.0, longest));
+    rows.emplace_back(row + 1, row + 1 + length);
+  }
+}
+
+}  // namespace mortise

@@ -1,0 +1,23 @@
+#pragma once
+// What of a scene may change when a run is restarted.
+
+#include <string>
+#include <vector>
+
+#include "mortise/simulation/scene/scene.hpp"
+
+namespace mortise {
+
+/// A scene as lines "path = value", which tells whether another one is the same: every parameter, as it was given or by default. Expressions are
+/// followed by the variables and tables that they name.
+std::string scene_fingerprint(const Scene& scene);
+
+/// What may differ between the scene of a checkpoint and the one that goes on, in words.
+std::string what_may_change();
+
+/// The parameters that differ and may not, one sentence each. What may differ is
+/// * "stepping", "newton", "linear solver", "output", "checks";
+/// * "loads", and the values of "boundary conditions". Whether these are the same up to the checkpoint only the model can tell.
+std::vector<std::string> refused_changes(const std::string& fingerprint_before, const std::string& fingerprint_now);
+
+}  // namespace mortise

@@ -1,0 +1,46 @@
+#pragma once
+// Signals and the time limit: what asks a run to leave a checkpoint, or to end, between two steps.
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "mortise/core/types.hpp"
+
+namespace mortise {
+
+/// What is asked for since it was last looked at, the same on every rank.
+struct Request {
+  bool checkpoint = false;          ///< leave one and go on
+  std::optional<std::string> stop;  ///< leave one and end: the name of the signal, or "time limit"
+};
+
+/// While it lives, signals are requests:
+/// * SIGTERM, SIGINT, SIGUSR1: stop after this step; a second SIGINT ends the program at once;
+/// * SIGUSR2: checkpoint after this step.
+/// Afterwards signals do what they did before.
+class StopRequest {
+ public:
+  /// @param watch_signals  whether signals are looked at; one object at a time may do so
+  /// @param time_limit     seconds from now on, for all of the run; none: no limit
+  StopRequest(bool watch_signals, std::optional<double> time_limit);
+  ~StopRequest();
+  StopRequest(const StopRequest&) = delete;
+  StopRequest& operator=(const StopRequest&) = delete;
+
+  /// After a step: what any rank was asked for. With a time limit a run stops where another step like the longest of the last ones, and its
+  /// checkpoint, would not fit. Collective.
+  Request after_step(const Communicator& comm);
+
+  /// Seconds that a checkpoint took, to be kept free before the time limit.
+  void reserve(double seconds) { reserved_ = seconds; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool watches_;
+  std::optional<double> limit_;
+  double reserved_ = 0.0, longest_ = 0.0;
+  Clock::time_point begin_ = Clock::now(), last_ = begin_;
+};
+
+}  // namespace mortise
