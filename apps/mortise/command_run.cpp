@@ -42,7 +42,7 @@ void add_run_command(CLI::App& app, Program& program) {
   add_input_arguments(*command, "SCENE", "scene file", *options);
   add_output_arguments(*command, "SCENE", *options);
   command->footer(
-      "Leaves summary.json, newton.csv, history.csv, fields.xdmf, fields.h5, effective.xml and log.txt.\n"
+      "Leaves summary.json, newton.csv, history.csv, fields.xdmf, fields/, effective.xml and log.txt.\n"
       "Example: mpirun -n 2 mortise run inputs/paper/hertz_elastic.xml --set variables/n=8 -o fine");
   command->callback([&program, options] {
     const auto scene = read_before(program, options);

@@ -6,10 +6,11 @@
 #include <Tpetra_Map.hpp>
 #include <algorithm>
 #include <cstdint>
-#include <optional>
+#include <filesystem>
 #include <set>
 #include <stdexcept>
 
+#include "field_files.hpp"
 #include "hdf5_file.hpp"
 #include "id_order.hpp"
 #include "mortise/io/files.hpp"
@@ -82,15 +83,49 @@ std::vector<long long> whole(const std::vector<double>& values) {
 }  // namespace
 
 struct FieldWriter::Implementation {
-  Implementation(RCP<const Mesh> mesh_, const std::string& directory)
+  Implementation(RCP<const Mesh> mesh_, std::string directory_)
       : mesh(std::move(mesh_)),
         comm(mesh->comm),
-        hdf5_path(directory + "/fields.h5"),
-        xdmf_path(directory + "/fields.xdmf"),
+        directory(std::move(directory_)),
+        xdmf_path(path("fields.xdmf")),
         nodes(mesh->owned_nodes),
-        elements(element_map(*mesh)) {}
+        elements(element_map(*mesh)) {
+    for (const Block& block : mesh->blocks) topology_size += block.owned * (1 + block.nodes_per_element + (block.shape == CellShape::line2 ? 1 : 0));
+    GlobalOrdinal size = 0;
+    Teuchos::reduceAll(*comm, Teuchos::REDUCE_SUM, topology_size, Teuchos::outArg(size));
+    description = {nodes.size(), elements.size(), size, {}};
+    for (const Block& block : mesh->blocks) description.bodies.push_back(block.name);
+  }
 
-  void write_mesh() {
+  std::string path(const std::string& name) const { return directory + "/" + name; }
+
+  /// Collective: calls `work` on rank 0 and throws on all ranks what it returns.
+  template <class Work>
+  void on_rank_0(const std::string& what, const std::string& path, const Work& work) const {
+    std::optional<std::string> reason;
+    if (comm->getRank() == 0) reason = work();
+    throw_if_any_file_error(*comm, what, path, reason);
+  }
+
+  /// Makes the directory of fields. Of the files there, those of steps up to `last` stay, and the mesh if `keeps_mesh`.
+  void clear(int last, bool keeps_mesh) const {
+    on_rank_0("cannot make room in", path(fields_directory), [&]() -> std::optional<std::string> {
+      namespace fs = std::filesystem;
+      std::error_code error;
+      fs::create_directory(path(fields_directory), error);
+      if (error) return error.message();
+      std::vector<fs::path> old;
+      for (fs::directory_iterator entry(path(fields_directory), error); !error && entry != fs::directory_iterator(); entry.increment(error)) {
+        const std::string name = fields_directory + "/" + entry->path().filename().string();
+        const bool stays = name == mesh_file ? keeps_mesh : step_of_file(name).value_or(last + 1) <= last;
+        if (is_field_file(name) && !stays) old.push_back(entry->path());
+      }
+      for (auto file = old.begin(); !error && file != old.end(); ++file) fs::remove(*file, error);
+      return error ? std::optional(error.message()) : std::nullopt;
+    });
+  }
+
+  void write_mesh() const {
     std::vector<double> coordinates;
     for (LocalOrdinal node = 0; node < mesh->owned_count(); ++node)
       coordinates.insert(coordinates.end(), mesh->coordinates[node].begin(), mesh->coordinates[node].end());
@@ -104,37 +139,71 @@ struct FieldWriter::Implementation {
       for (int a = 0; a < row[2]; ++a) topology.push_back(static_cast<long long>(row[3 + a]));
     }
     const auto mine = static_cast<GlobalOrdinal>(topology.size());
-    GlobalOrdinal end = 0, size = 0;
+    GlobalOrdinal end = 0;
     Teuchos::scan(*comm, Teuchos::REDUCE_SUM, mine, Teuchos::outArg(end));
-    Teuchos::reduceAll(*comm, Teuchos::REDUCE_SUM, mine, Teuchos::outArg(size));
 
-    Hdf5File file(comm, hdf5_path, Hdf5File::Mode::create);
-    file.make_group("/mesh");
-    file.make_group("/steps");
-    file.write("/mesh/coordinates", nodes.size(), nodes.first(), 3, nodes.arrange(coordinates, 3));
-    file.write("/mesh/topology", size, end - mine, 1, topology);
-    file.write("/mesh/body", elements.size(), elements.first(), 1, body);
+    Hdf5File file(comm, path(mesh_file));
+    file.write("/coordinates", nodes.size(), nodes.first(), 3, nodes.arrange(coordinates, 3));
+    file.write("/topology", description.topology_size, end - mine, 1, topology);
+    file.write("/body", elements.size(), elements.first(), 1, body);
     file.close();
+  }
 
-    description = {"fields.h5", nodes.size(), elements.size(), size, {}};
-    for (const Block& block : mesh->blocks) description.bodies.push_back(block.name);
-    const std::string head = xdmf_head(description);
+  /// The mesh's file is written if it is not there; if it is, it has to be that of this mesh.
+  void write_or_check_mesh() const {
+    int is_there = 0;
+    std::error_code error;
+    if (comm->getRank() == 0) is_there = std::filesystem::exists(path(mesh_file), error) ? 1 : 0;
+    Teuchos::broadcast(*comm, 0, Teuchos::outArg(is_there));
+    if (is_there == 0) return write_mesh();
+    on_rank_0("cannot continue", path(mesh_file), [&]() -> std::optional<std::string> {
+      std::vector<long long> found;
+      if (auto reason = read_rows(path(mesh_file), {"coordinates", "body", "topology"}, found)) return reason;
+      const std::vector<long long> expected{description.nodes, description.elements, description.topology_size};
+      if (found == expected) return {};
+      return fmt::format(
+          "it holds {} nodes and {} elements ({} entries of topology), but the mesh has {} and {} ({}); please continue with the mesh "
+          "that the run began with",
+          found[0], found[1], found[2], expected[0], expected[1], expected[2]);
+    });
+  }
+
+  /// Writes the index of the steps that have files.
+  void rebuild_index() {
+    std::string head = xdmf_head(description);
+    on_rank_0("cannot continue", path(fields_directory), [&]() -> std::optional<std::string> {
+      std::error_code error;
+      std::vector<int> steps;
+      for (std::filesystem::directory_iterator entry(path(fields_directory), error); !error && entry != std::filesystem::directory_iterator();
+           entry.increment(error))
+        if (const auto step = step_of_file(fields_directory + "/" + entry->path().filename().string())) steps.push_back(*step);
+      if (error) return error.message();
+      std::sort(steps.begin(), steps.end());
+      for (const int step : steps) {
+        StoredStep stored;
+        if (const auto reason = read_step(path(step_file(step)), stored))
+          return fmt::format("{} cannot be read ({}); please remove it", step_file(step), *reason);
+        if (stored.step != step) return fmt::format("{} is of step {}; please remove it", step_file(step), stored.step);
+        head += xdmf_step(description, stored);
+      }
+      if (!steps.empty()) last_step = steps.back();
+      return {};
+    });
+    Teuchos::broadcast(*comm, 0, Teuchos::outArg(last_step));
     write_file(*comm, xdmf_path, [&] { return head + xdmf_tail(); });
     tail_of_xdmf = head.size();
   }
 
   /// The step takes the place of the tail, which follows it.
-  void write_xdmf(const XdmfStep& step) {
-    const std::string grid = xdmf_step(description, step, steps);
-    std::optional<std::string> reason;
-    if (comm->getRank() == 0) reason = replace_end_of_file(xdmf_path, tail_of_xdmf, grid + xdmf_tail());
-    throw_if_any_file_error(*comm, "cannot write", xdmf_path, reason);
+  void add_to_index(const StoredStep& step) {
+    const std::string grid = xdmf_step(description, step);
+    on_rank_0("cannot write", xdmf_path, [&] { return replace_end_of_file(xdmf_path, tail_of_xdmf, grid + xdmf_tail()); });
     tail_of_xdmf += grid.size();
-    ++steps;
   }
 
   /// Empty if the fields can be written.
-  std::string wrong(const std::vector<Field>& fields) const {
+  std::string wrong(int step, const std::vector<Field>& fields) const {
+    if (step <= last_step) return fmt::format("fields of step {} cannot follow those of step {}", step, last_step);
     std::set<std::string> names{"body"};
     std::size_t owned_elements = 0;
     for (const Block& block : mesh->blocks) owned_elements += static_cast<std::size_t>(block.owned);
@@ -150,45 +219,50 @@ struct FieldWriter::Implementation {
 
   RCP<const Mesh> mesh;
   RCP<const Communicator> comm;
-  std::string hdf5_path, xdmf_path;
+  std::string directory, xdmf_path;
   IdOrder nodes, elements;
+  GlobalOrdinal topology_size = 0;  ///< entries of this rank's elements
   XdmfMesh description;
-  std::uintmax_t tail_of_xdmf = 0;  ///< bytes before it
-  std::size_t steps = 0;            ///< written so far
+  std::uintmax_t tail_of_xdmf = 0;  ///< bytes before it, on rank 0
+  int last_step = -1;               ///< that has been written; -1: none
 };
 
-FieldWriter::FieldWriter(RCP<const Mesh> mesh, const std::string& directory)
+FieldWriter::FieldWriter(RCP<const Mesh> mesh, const std::string& directory, std::optional<int> continue_after)
     : implementation_(std::make_unique<Implementation>(std::move(mesh), directory)) {
-  implementation_->write_mesh();
+  implementation_->clear(continue_after.value_or(-1), continue_after.has_value());
+  implementation_->write_or_check_mesh();
+  implementation_->rebuild_index();
 }
 
 FieldWriter::~FieldWriter() = default;
 
-void FieldWriter::write(double time, const std::vector<Field>& fields) {
+void FieldWriter::write(int step, double time, const std::vector<Field>& fields) {
   Implementation& self = *implementation_;
-  const std::string wrong = self.wrong(fields);
+  const std::string wrong = self.wrong(step, fields);
   const int mine = wrong.empty() ? 0 : 1;
   int any = mine;
   Teuchos::reduceAll(*self.comm, Teuchos::REDUCE_MAX, mine, Teuchos::outArg(any));
   if (any != 0) throw std::invalid_argument(wrong.empty() ? "fields do not fit the mesh on another rank" : wrong);
 
-  XdmfStep step{time, {}};
-  Hdf5File file(self.comm, self.hdf5_path, Hdf5File::Mode::append);
-  const std::string group = step_group(self.steps);
-  file.make_group(group);
+  StoredStep stored{step, time, {}};
+  Hdf5File file(self.comm, self.path(step_file(step)));
+  file.attribute("/", "step", static_cast<long long>(step));
+  file.attribute("/", "time", time);
   for (const Field& field : fields) {
     const IdOrder& order = field.center == Field::Center::node ? self.nodes : self.elements;
     const int components = stored_components(field.kind);
     const auto values = order.arrange(as_stored(field), components);
-    const std::string path = group + "/" + field.name;
     if (field.kind == FieldKind::integer)
-      file.write(path, order.size(), order.first(), components, whole(values));
+      file.write(field.name, order.size(), order.first(), components, whole(values));
     else
-      file.write(path, order.size(), order.first(), components, values);
-    step.fields.push_back({field.name, field.center, field.kind});
+      file.write(field.name, order.size(), order.first(), components, values);
+    file.attribute(field.name, "kind", attribute_text(field.kind));
+    file.attribute(field.name, "center", attribute_text(field.center));
+    stored.fields.push_back({field.name, field.center, field.kind});
   }
   file.close();
-  self.write_xdmf(step);
+  self.last_step = step;
+  self.add_to_index(stored);
 }
 
 }  // namespace mortise

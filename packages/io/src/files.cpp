@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <Teuchos_CommHelpers.hpp>
 #include <cerrno>
@@ -12,9 +11,19 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "file_descriptor.hpp"
 #include "mortise/core/error.hpp"
 
 namespace mortise {
+namespace {
+
+std::optional<std::string> opened_and_synced(const std::string& path, int flags) {
+  FileDescriptor file;
+  if (auto reason = file.open(path, flags)) return reason;
+  return file.sync();
+}
+
+}  // namespace
 
 void throw_if_any_file_error(const Communicator& comm, const std::string& what, const std::string& path, const std::optional<std::string>& reason) {
   const int mine = reason ? comm.getRank() : comm.getSize();
@@ -52,28 +61,25 @@ std::optional<std::string> replace_file(const std::string& path, const std::stri
 }
 
 std::optional<std::string> replace_end_of_file(const std::string& path, std::uintmax_t offset, const std::string& content) {
-  const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
-  if (file < 0) return std::strerror(errno);
-  const auto begin = static_cast<off_t>(offset);
-  const auto write = [&](const std::string& end) -> std::optional<std::string> {
-    for (std::size_t done = 0; done < end.size();) {
-      const ssize_t written = ::pwrite(file, end.data() + done, end.size() - done, begin + static_cast<off_t>(done));
-      if (written < 0 && errno != EINTR) return std::strerror(errno);
-      if (written > 0) done += static_cast<std::size_t>(written);
-    }
-    if (::ftruncate(file, begin + static_cast<off_t>(end.size())) != 0) return std::strerror(errno);
-    return {};
-  };
-  std::error_code error;
-  std::string former(std::filesystem::file_size(path, error) - offset, '\0');
-  std::optional<std::string> reason;
-  if (error || ::pread(file, former.data(), former.size(), begin) != static_cast<ssize_t>(former.size()))
-    reason = error ? error.message() : std::strerror(errno);
-  else if ((reason = write(content)))
-    write(former);
-  ::close(file);
+  FileDescriptor file;
+  std::uintmax_t size = 0;
+  std::string former;
+  if (auto reason = file.open(path, O_RDWR)) return reason;
+  if (auto reason = file.size(size)) return reason;
+  if (size < offset) return fmt::format("it has {} bytes, {} are to be kept", size, offset);
+  if (auto reason = file.read(former, size - offset, offset)) return reason;
+  auto reason = file.write(content.data(), content.size(), offset);
+  if (!reason && offset + content.size() < size) reason = file.resize(offset + content.size());
+  if (reason) {
+    file.write(former.data(), former.size(), offset);
+    file.resize(size);
+  }
   return reason;
 }
+
+std::optional<std::string> sync_file(const std::string& path) { return opened_and_synced(path, O_RDONLY); }
+
+std::optional<std::string> sync_directory(const std::string& path) { return opened_and_synced(path, O_RDONLY | O_DIRECTORY); }
 
 void write_file(const Communicator& comm, const std::string& path, const std::function<std::string()>& content) {
   std::optional<std::string> reason;

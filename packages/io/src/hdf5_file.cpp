@@ -1,117 +1,102 @@
 #include "hdf5_file.hpp"
 
-#include <mpi.h>
+#include <fcntl.h>
 
-#include <Teuchos_DefaultMpiComm.hpp>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
+#include <Teuchos_CommHelpers.hpp>
+#include <filesystem>
 
 #include "mortise/io/files.hpp"
 
 namespace mortise {
 namespace {
 
-/// Closes an HDF5 object when it goes out of scope.
-class Handle {
- public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-  ~Handle() {
-    if (id_ >= 0) close_(id_);
-  }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  operator hid_t() const { return id_; }
-  bool good() const { return id_ >= 0; }
+constexpr std::size_t value_size = 8;  // of double and long long
+static_assert(sizeof(double) == value_size && sizeof(long long) == value_size);
 
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
-/// What the HDF5 library last complained of, its deepest cause.
-std::string last_error() {
-  std::string reason;
-  H5Ewalk(
-      H5E_DEFAULT, H5E_WALK_DOWNWARD,
-      [](unsigned, const H5E_error_t* error, void* data) -> herr_t {
-        auto& text = *static_cast<std::string*>(data);
-        if (error->desc != nullptr && *error->desc != '\0') text = error->desc;
-        return 0;
-      },
-      &reason);
-  return reason.empty() ? "HDF5 cannot write it" : reason;
-}
-
-/// Why the operating system does not let the file be written. MPI's own words are poor ("MPI_ERR_NO_SUCH_FILE").
-std::optional<std::string> why_not(const std::string& path, Hdf5File::Mode mode) {
-  errno = 0;
-  std::ofstream stream(path, mode == Hdf5File::Mode::create ? std::ios::binary | std::ios::trunc : std::ios::binary | std::ios::in | std::ios::out);
-  if (stream) return {};
-  return errno != 0 ? std::strerror(errno) : "it cannot be opened";
-}
+std::optional<std::string> hdf5_reason_unless(bool good) { return good ? std::nullopt : std::optional(hdf5_reason()); }
 
 }  // namespace
 
-Hdf5File::Hdf5File(RCP<const Communicator> comm, std::string path, Mode mode) : comm_(std::move(comm)), path_(std::move(path)) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+Hdf5File::Hdf5File(RCP<const Communicator> comm, std::string path) : comm_(std::move(comm)), path_(std::move(path)), part_(path_ + ".part") {
   std::optional<std::string> reason;
-  if (comm_->getRank() == 0) reason = why_not(path_, mode);
-  throw_if_any_file_error(*comm_, "cannot write", path_, reason);
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5Pset_fapl_mpio(access, *Teuchos::rcp_dynamic_cast<const Teuchos::MpiComm<int>>(comm_, true)->getRawMpiComm(), MPI_INFO_NULL);
-  file_ = mode == Mode::create ? H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access) : H5Fopen(path_.c_str(), H5F_ACC_RDWR, access);
-  agree(file_ >= 0);
+  if (comm_->getRank() == 0) reason = file_.open(part_, O_WRONLY | O_CREAT | O_TRUNC);
+  throw_if_any_file_error(*comm_, "cannot write", path_, reason);  // from here on there is a file
+  if (comm_->getRank() != 0) {
+    reason_ = file_.open(part_, O_WRONLY);
+  } else {
+    layout_.emplace();
+    reason_ = hdf5_reason_unless(layout_->file() >= 0);
+  }
 }
 
 Hdf5File::~Hdf5File() {
-  if (file_ >= 0) H5Fclose(file_);
+  std::error_code ignored;
+  if (comm_->getRank() == 0 && !complete_) std::filesystem::remove(part_, ignored);
 }
 
-void Hdf5File::agree(bool good) const {
-  throw_if_any_file_error(*comm_, "cannot write", path_, good ? std::nullopt : std::optional<std::string>(last_error()));
-}
+void Hdf5File::agree(const std::optional<std::string>& reason) { throw_if_any_file_error(*comm_, "cannot write", path_, reason_ ? reason_ : reason); }
 
-void Hdf5File::make_group(const std::string& name) {
-  const Handle group(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
-  agree(group.good());
+std::optional<std::string> Hdf5File::make_dataset(const std::string& name, GlobalOrdinal rows, int columns, hid_t type, long long& offset) const {
+  const hsize_t size[2] = {static_cast<hsize_t>(rows), static_cast<hsize_t>(columns)};
+  const Hdf5Handle space(H5Screate_simple(columns == 1 ? 1 : 2, size, nullptr), H5Sclose);
+  const Hdf5Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose), creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_create_intermediate_group(links, 1);
+  H5Pset_obj_track_times(creation, false);  // the same values make the same file at any time
+  H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY);
+  H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
+  const Hdf5Handle dataset(H5Dcreate2(layout_->file(), name.c_str(), type, space, links, creation, H5P_DEFAULT), H5Dclose);
+  if (!dataset.good()) return hdf5_reason();
+  const haddr_t place = H5Dget_offset(dataset);
+  if (place == HADDR_UNDEF && rows > 0) return "the HDF5 library gives its values no place";
+  offset = static_cast<long long>(place);
+  return {};
 }
 
 void Hdf5File::write(const std::string& name, GlobalOrdinal rows, GlobalOrdinal first, int columns, const std::vector<double>& values) {
-  write(name, rows, first, columns, values.size(), values.data(), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE);
+  write(name, rows, first, columns, values.size(), values.data(), H5T_NATIVE_DOUBLE);
 }
 
 void Hdf5File::write(const std::string& name, GlobalOrdinal rows, GlobalOrdinal first, int columns, const std::vector<long long>& values) {
-  write(name, rows, first, columns, values.size(), values.data(), H5T_STD_I64LE, H5T_NATIVE_LLONG);
+  write(name, rows, first, columns, values.size(), values.data(), H5T_NATIVE_LLONG);
 }
 
 void Hdf5File::write(const std::string& name, GlobalOrdinal rows, GlobalOrdinal first, int columns, std::size_t count, const void* values,
-                     hid_t stored, hid_t given) {
-  const int rank = columns == 1 ? 1 : 2;
-  const auto width = static_cast<hsize_t>(columns);
-  const hsize_t size[2] = {static_cast<hsize_t>(rows), width}, start[2] = {static_cast<hsize_t>(first), 0}, part[2] = {count / width, width};
-  const Handle space(H5Screate_simple(rank, size, nullptr), H5Sclose), memory(H5Screate_simple(rank, part, nullptr), H5Sclose);
-  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  H5Pset_obj_track_times(creation, 0);  // the same values make the same file at any time
-  const Handle dataset(H5Dcreate2(file_, name.c_str(), stored, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
-  agree(space.good() && memory.good() && dataset.good());
-  if (count > 0) {
-    H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, part, nullptr);
-  } else {
-    H5Sselect_none(space);
-    H5Sselect_none(memory);
+                     hid_t type) {
+  long long offset = 0;
+  agree(comm_->getRank() == 0 && !reason_ ? make_dataset(name, rows, columns, type, offset) : std::nullopt);
+  Teuchos::broadcast(*comm_, 0, Teuchos::outArg(offset));
+  agree(file_.write(values, count * value_size, static_cast<std::uintmax_t>(offset) + value_size * first * columns));
+}
+
+std::optional<std::string> Hdf5File::make_attribute(const std::string& object, const std::string& name, const Attribute& value) const {
+  const auto* text = std::get_if<std::string>(&value);
+  const Hdf5Handle type(H5Tcopy(text != nullptr ? H5T_C_S1 : std::holds_alternative<double>(value) ? H5T_NATIVE_DOUBLE : H5T_NATIVE_LLONG), H5Tclose);
+  if (text != nullptr) {
+    H5Tset_size(type, std::max<std::size_t>(text->size(), 1));
+    H5Tset_strpad(type, H5T_STR_NULLPAD);
+    H5Tset_cset(type, H5T_CSET_UTF8);
   }
-  const Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
-  H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE);
-  const double nothing = 0.0;
-  agree(H5Dwrite(dataset, given, memory, space, transfer, count > 0 ? values : &nothing) >= 0);
+  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Hdf5Handle attribute(H5Acreate_by_name(layout_->file(), object.c_str(), name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                             H5Aclose);
+  if (!attribute.good()) return hdf5_reason();
+  const void* bytes = text != nullptr ? text->c_str() : std::visit([](const auto& one) -> const void* { return &one; }, value);
+  return hdf5_reason_unless(H5Awrite(attribute, type, bytes) >= 0);
+}
+
+void Hdf5File::attribute(const std::string& object, const std::string& name, const Attribute& value) {
+  if (comm_->getRank() == 0 && !reason_) reason_ = make_attribute(object, name, value);
 }
 
 void Hdf5File::close() {
-  const hid_t file = file_;
-  file_ = -1;
-  const bool flushed = H5Fflush(file, H5F_SCOPE_GLOBAL) >= 0;
-  agree(H5Fclose(file) >= 0 && flushed);
+  std::optional<std::string> reason;
+  if (comm_->getRank() == 0 && !reason_) reason = layout_->close(file_);
+  if (auto late = file_.close(); !reason) reason = late;
+  agree(reason);
+  std::error_code error;
+  if (comm_->getRank() == 0) std::filesystem::rename(part_, path_, error);
+  agree(error ? std::optional(error.message()) : std::nullopt);
+  complete_ = true;
 }
 
 }  // namespace mortise

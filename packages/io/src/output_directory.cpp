@@ -11,16 +11,23 @@
 #include <optional>
 #include <vector>
 
+#include "field_files.hpp"
 #include "mortise/io/files.hpp"
 
 namespace mortise {
 namespace {
 
-std::vector<std::filesystem::path> run_files(const std::string& directory, std::error_code& error) {
-  std::vector<std::filesystem::path> files;
-  std::filesystem::directory_iterator entry(directory, error);
-  for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error))
-    if (is_run_file(entry->path().filename().string())) files.push_back(entry->path());
+/// Files of a run, relative to the directory.
+std::vector<std::string> run_files(const std::string& directory, std::error_code& error) {
+  namespace fs = std::filesystem;
+  std::vector<std::string> files;
+  for (const std::string& below : {std::string(), fields_directory + "/"}) {
+    const fs::path folder = fs::path(directory) / below;
+    if (!fs::is_directory(folder, error)) break;  // there are no fields
+    for (fs::directory_iterator entry(folder, error); !error && entry != fs::directory_iterator(); entry.increment(error))
+      if (const std::string name = below + entry->path().filename().string(); is_run_file(name)) files.push_back(name);
+  }
+  if (error == std::errc::no_such_file_or_directory) error.clear();
   return files;
 }
 
@@ -36,10 +43,9 @@ std::optional<std::string> obstacle(const std::string& directory, bool keep) {
   if (!fs::exists(directory, error)) return {};
   const auto earlier = run_files(directory, error);
   if (error) return error.message();
-  if (keep && !earlier.empty())
-    return fmt::format("it holds a run ({}), which is to be kept; please choose another directory", earlier.front().filename().string());
+  if (keep && !earlier.empty()) return fmt::format("it holds a run ({}), which is to be kept; please choose another directory", earlier.front());
   for (const auto& file : earlier)
-    if (fs::is_directory(file, error)) return fmt::format("{} in it is a directory", file.filename().string());
+    if (fs::is_directory(fs::path(directory) / file, error)) return fmt::format("{} in it is a directory", file);
   return {};
 }
 
@@ -54,15 +60,18 @@ std::optional<std::string> remove_run(const std::string& directory) {
   const auto files = run_files(directory, error);
   if (error) return error.message();
   for (const auto& file : files) {
-    std::filesystem::remove(file, error);
-    if (error) return fmt::format("{}: {}", file.filename().string(), error.message());
+    std::filesystem::remove(std::filesystem::path(directory) / file, error);
+    if (error) return fmt::format("{}: {}", file, error.message());
   }
+  std::filesystem::remove(std::filesystem::path(directory) / fields_directory, error);  // it stays if something else is in it
   return {};
 }
 
 }  // namespace
 
 bool is_run_file(const std::string& name) {
+  if (is_field_file(name)) return true;
+  // fields.h5 is what earlier versions wrote.
   static const std::array<const char*, 11> names{"summary.json",  "newton.csv", "history.csv", "profiles.csv", "fields.xdmf", "fields.h5",
                                                  "effective.xml", "log.txt",    "point.csv",   "point.svg",    "point.png"};
   for (const char* known : names)

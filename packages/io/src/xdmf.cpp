@@ -46,13 +46,14 @@ class Part {
   std::unique_ptr<xmlTextWriter, decltype(&xmlFreeTextWriter)> writer_;
 };
 
-void data_item(Part& part, const XdmfMesh& mesh, const std::string& path, const std::string& dimensions, bool whole) {
+/// `dataset` is the HDF5 file and the path in it.
+void data_item(Part& part, const std::string& dataset, const std::string& dimensions, bool whole) {
   auto item = part.element("DataItem");
   item.attribute("Dimensions", dimensions).attribute("NumberType", whole ? "Int" : "Float").attribute("Precision", "8").attribute("Format", "HDF");
-  item.content(mesh.hdf5_name + ":" + path);
+  item.content(dataset);
 }
 
-void attribute(Part& part, const XdmfMesh& mesh, const XdmfField& field, const std::string& path) {
+void attribute(Part& part, const XdmfMesh& mesh, const StoredField& field, const std::string& file) {
   static const char* const types[] = {"Scalar", "Vector", "Tensor6", "Scalar"};
   const int components = stored_components(field.kind);
   const long long rows = field.center == Field::Center::node ? mesh.nodes : mesh.elements;
@@ -60,25 +61,26 @@ void attribute(Part& part, const XdmfMesh& mesh, const XdmfField& field, const s
   attribute.attribute("Name", field.name)
       .attribute("AttributeType", types[static_cast<int>(field.kind)])
       .attribute("Center", field.center == Field::Center::node ? "Node" : "Cell");
-  data_item(part, mesh, path, components == 1 ? fmt::format("{}", rows) : fmt::format("{} {}", rows, components), field.kind == FieldKind::integer);
+  data_item(part, file + ":/" + field.name, components == 1 ? fmt::format("{}", rows) : fmt::format("{} {}", rows, components),
+            field.kind == FieldKind::integer);
 }
 
-void step_grid(Part& part, const XdmfMesh& mesh, const XdmfStep& step, std::size_t index) {
+void step_grid(Part& part, const XdmfMesh& mesh, const StoredStep& step) {
   auto grid = part.element("Grid");
-  grid.attribute("Name", fmt::format("step {}", index)).attribute("GridType", "Uniform");
+  grid.attribute("Name", fmt::format("step {}", step.step)).attribute("GridType", "Uniform");
   part.element("Time").attribute("Value", fmt::format("{}", step.time));
   {
     auto topology = part.element("Topology");
     topology.attribute("TopologyType", "Mixed").attribute("NumberOfElements", fmt::format("{}", mesh.elements));
-    data_item(part, mesh, "/mesh/topology", fmt::format("{}", mesh.topology_size), true);
+    data_item(part, mesh_file + ":/topology", fmt::format("{}", mesh.topology_size), true);
   }
   {
     auto geometry = part.element("Geometry");
     geometry.attribute("GeometryType", "XYZ");
-    data_item(part, mesh, "/mesh/coordinates", fmt::format("{} 3", mesh.nodes), false);
+    data_item(part, mesh_file + ":/coordinates", fmt::format("{} 3", mesh.nodes), false);
   }
-  attribute(part, mesh, {"body", Field::Center::cell, FieldKind::integer}, "/mesh/body");
-  for (const auto& field : step.fields) attribute(part, mesh, field, step_group(index) + "/" + field.name);
+  attribute(part, mesh, {"body", Field::Center::cell, FieldKind::integer}, mesh_file);
+  for (const auto& field : step.fields) attribute(part, mesh, field, step_file(step.step));
 }
 
 }  // namespace
@@ -87,8 +89,6 @@ int stored_components(FieldKind kind) {
   if (kind == FieldKind::vector) return 3;
   return kind == FieldKind::symmetric_tensor ? 6 : 1;
 }
-
-std::string step_group(std::size_t step) { return fmt::format("/steps/{}", step); }
 
 std::string xdmf_head(const XdmfMesh& mesh) {
   std::string head = R"(<?xml version="1.0" encoding="UTF-8"?>
@@ -104,9 +104,9 @@ std::string xdmf_head(const XdmfMesh& mesh) {
 )";
 }
 
-std::string xdmf_step(const XdmfMesh& mesh, const XdmfStep& step, std::size_t index) {
+std::string xdmf_step(const XdmfMesh& mesh, const StoredStep& step) {
   Part part;
-  step_grid(part, mesh, step, index);
+  step_grid(part, mesh, step);
   return part.finish();
 }
 

@@ -171,7 +171,7 @@ class Observers {
 
   void write_fields(const StepReport& report, const SystemEvaluation& at) {
     written_ = report.step;
-    if (fields_) fields_->write(report.time, evaluation_.fields(at, scene_.output.fields));
+    if (fields_) fields_->write(report.step, report.time, evaluation_.fields(at, scene_.output.fields));
   }
 
   void write_profiles(const StepReport& report, const SystemEvaluation& at) {

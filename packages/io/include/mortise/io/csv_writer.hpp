@@ -1,7 +1,9 @@
 #pragma once
 // Tables of comma separated values that grow row by row.
 
-#include <fstream>
+#include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -13,11 +15,22 @@ namespace mortise {
 /// One entry of a row. Numbers are written with as many digits as it takes to read the same number back.
 using CsvValue = std::variant<double, long long, std::string>;
 
-/// Writes a table on rank 0. Each row is on the disk when row() returns. Members are collective and throw FileError on all ranks.
+class FileDescriptor;
+
+/// Writes a table on rank 0. A row is with the operating system when row() returns: it outlives the program, however that ends. sync() brings rows to
+/// the disk, so that they outlive a loss of power. A row that cannot be written whole is not written at all. Members are collective and throw
+/// FileError on all ranks.
 class CsvWriter {
  public:
   /// Replaces the file and writes its header line.
   CsvWriter(RCP<const Communicator> comm, std::string path, const std::vector<std::string>& columns);
+
+  /// Adds rows to a table that is there, of which the first `continue_at` bytes are kept: a size() of the writer that began it. FileError if the file
+  /// is shorter, has other columns, or if a line goes on there.
+  CsvWriter(RCP<const Communicator> comm, std::string path, const std::vector<std::string>& columns, std::uintmax_t continue_at);
+  ~CsvWriter();
+  CsvWriter(const CsvWriter&) = delete;
+  CsvWriter& operator=(const CsvWriter&) = delete;
 
   /// Only rank 0's values count; a number of them that is not that of the columns is a FileError too.
   void row(const std::vector<CsvValue>& values);
@@ -25,15 +38,23 @@ class CsvWriter {
   /// The same for many rows, written at once; other ranks may pass any number.
   void rows(const std::vector<std::vector<CsvValue>>& rows);
 
+  /// Bytes of the file, the same on all ranks.
+  std::uintmax_t size() const;
+
+  /// Returns when all rows are on the disk.
+  void sync() const;
+
   const std::string& path() const { return path_; }
 
  private:
-  void write_line(const std::string& line);
+  std::optional<std::string> cut(const std::string& header);
+  void append(const std::string& lines);
 
   RCP<const Communicator> comm_;
   std::string path_;
   std::size_t columns_;
-  std::ofstream stream_;
+  std::unique_ptr<FileDescriptor> file_;
+  std::uintmax_t size_ = 0;  ///< of complete lines, on rank 0
 };
 
 }  // namespace mortise

@@ -1,7 +1,8 @@
 #pragma once
-// Fields over the mesh and over time, for ParaView: fields.xdmf (XDMF 3) and fields.h5 (parallel HDF5).
+// Fields over the mesh and over time, for ParaView: fields.xdmf (XDMF 3) and HDF5 files, one for each step.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,21 +30,28 @@ struct Field {
 
 /// Writes fields of one mesh step by step. All members are collective; what goes wrong with a file is a FileError on all ranks.
 ///
-/// fields.h5 holds
-///   /mesh/coordinates  [nodes x 3], reference
-///   /mesh/topology     mixed: each element its XDMF type and its nodes
-///   /mesh/body         [elements], index of the body
-///   /steps/<number>/<field>
-/// Tensors have XDMF's order xx, xy, xz, yy, yz, zz. Nodes and elements stand in the order of their ids, whatever the number of ranks. Both files are
-/// complete and closed after each call.
+/// fields/mesh.h5 holds
+///   /coordinates  [nodes x 3], reference
+///   /topology     mixed: each element its XDMF type and its nodes
+///   /body         [elements], index of the body
+/// fields/step-000012.h5 holds the fields of step 12, each a dataset in `/` with attributes `kind` and `center`. Attributes of the file: `step`,
+/// `time`. fields.xdmf is the index of these files.
+///
+/// Tensors have XDMF's order xx, xy, xz, yy, yz, zz. Nodes and elements stand in the order of their ids, whatever the number of ranks. A file gets
+/// its name when it is complete and does not change any more; the index alone grows, by a step at a time. So whatever ends the program leaves all
+/// earlier steps as they are. What is written is with the operating system, not yet on the disk: sync_file() brings it there.
 class FieldWriter {
  public:
-  /// Makes both files in `directory` and writes the mesh. Node ids and element ids have to be 0 ... number - 1: std::invalid_argument.
-  FieldWriter(RCP<const Mesh> mesh, const std::string& directory);
+  /// Writes the mesh and an index without steps in `directory`. Node ids and element ids have to be 0 ... number - 1: std::invalid_argument.
+  /// @param continue_after  a step of an earlier run in the directory, which is to be continued: its mesh and its steps up to this one stay, and the
+  ///                        index is made from their files. Those of later steps are removed. Without: all of them are removed.
+  /// @throws FileError also if the mesh of the earlier run has other numbers of nodes or elements
+  FieldWriter(RCP<const Mesh> mesh, const std::string& directory, std::optional<int> continue_after = {});
   ~FieldWriter();
 
-  /// Adds the fields at pseudo-time `time`. Throws std::invalid_argument on all ranks for values that do not fit the mesh.
-  void write(double time, const std::vector<Field>& fields);
+  /// Adds the fields of a step at pseudo-time `time`. Throws std::invalid_argument on all ranks for values that do not fit the mesh, and for a step
+  /// that does not come after those that were written.
+  void write(int step, double time, const std::vector<Field>& fields);
 
  private:
   struct Implementation;

@@ -22,6 +22,13 @@ std::optional<std::string> replace_file(const std::string& path, const std::stri
 /// communication. Returns why it could not.
 std::optional<std::string> replace_end_of_file(const std::string& path, std::uintmax_t offset, const std::string& content);
 
+/// Returns when what is in the file is on the disk: it then outlives a loss of power, and not only the program. No communication. Returns why it
+/// could not.
+std::optional<std::string> sync_file(const std::string& path);
+
+/// The same for the names in a directory: files that were made, renamed or removed there. No communication. Returns why it could not.
+std::optional<std::string> sync_directory(const std::string& path);
+
 /// `replace_file` for all ranks: rank 0 writes what `content` gives there. Collective. Throws FileError on all ranks.
 void write_file(const Communicator& comm, const std::string& path, const std::function<std::string()>& content);
 

@@ -31,10 +31,10 @@ class OutputDirectory {
   std::string path_;
 };
 
-/// Whether a run writes a file of this name:
+/// Whether a run writes a file of this name, relative to its directory:
 /// * summary.json, effective.xml, log.txt, checkpoint-*.h5,
 /// * newton.csv, history.csv, profiles.csv,
-/// * fields.xdmf, fields.h5,
+/// * fields.xdmf, fields/mesh.h5, fields/step-*.h5, and fields.h5 of earlier versions,
 /// * point.csv, point.svg, point.png.
 bool is_run_file(const std::string& name);
 

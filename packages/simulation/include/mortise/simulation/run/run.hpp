@@ -26,7 +26,7 @@ struct RunOptions {
 std::string default_directory(const std::string& file);
 
 /// Collective. Runs the scene that was read from options.scene, which holds nothing of a run: it may be run again. Leaves in the directory:
-/// summary.json, newton.csv, history.csv, effective.xml, log.txt and, if the scene names fields, fields.xdmf and fields.h5. A scene that cannot be
+/// summary.json, newton.csv, history.csv, effective.xml, log.txt and, if the scene names fields, fields.xdmf and fields/. A scene that cannot be
 /// run leaves the directory as it was. Returns done, not_converged or check_missed. Throws on all ranks: InputError, FileError, and StepFailure of
 /// kind input if an expression of the scene has no value at a later time; results until then are kept.
 ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, const RunOptions& options);

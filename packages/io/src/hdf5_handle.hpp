@@ -1,0 +1,35 @@
+#pragma once
+// Objects of the HDF5 library, as one rank has them.
+
+#include <hdf5.h>
+
+#include <string>
+
+namespace mortise {
+
+/// Closes an HDF5 object when it goes out of scope.
+class Hdf5Handle {
+ public:
+  Hdf5Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  ~Hdf5Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  Hdf5Handle(const Hdf5Handle&) = delete;
+  Hdf5Handle& operator=(const Hdf5Handle&) = delete;
+  operator hid_t() const { return id_; }
+  bool good() const { return id_ >= 0; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+/// How one rank opens a file by itself. The library's locks are off: files in the making have names that nobody reads, and finished ones do not
+/// change.
+Hdf5Handle hdf5_access();
+
+/// What the HDF5 library last complained of: the words of the operating system if it said some, or else the deepest cause. To be asked before any
+/// other call of the library.
+std::string hdf5_reason();
+
+}  // namespace mortise
