@@ -48,7 +48,8 @@ std::optional<double> seconds_of(const std::string& text) {
   const int read = std::sscanf(text.c_str(), "%lf %3[a-z]%c", &seconds, unit, &beyond);
   const std::string name = unit;
   if (read < 1 || read > 2 || !(seconds > 0.0)) return std::nullopt;
-  if (name.empty() || name == "s") return read == 1 && text.find_first_not_of("0123456789.") != std::string::npos ? std::nullopt : std::optional(seconds);
+  if (name.empty() || name == "s")
+    return read == 1 && text.find_first_not_of("0123456789.") != std::string::npos ? std::nullopt : std::optional(seconds);
   if (name == "min") return 60.0 * seconds;
   return name == "h" ? std::optional(3600.0 * seconds) : std::nullopt;
 }
@@ -85,12 +86,12 @@ void add_run_command(CLI::App& app, Program& program) {
   auto* command = app.add_subcommand("run", "run a scene");
   const auto options = std::make_shared<RunOptions>();
   options->version = version();
-  options->watch_signals = true;
+  options->supervised = true;
   add_input_arguments(*command, "SCENE", "scene file", *options);
   add_output_arguments(*command, "SCENE", *options);
   add_restart_arguments(*command, *options);
   command->footer(
-      "Leaves summary.json, newton.csv, history.csv, fields.xdmf, fields.h5, effective.xml and log.txt.\n"
+      "Leaves summary.json, newton.csv, history.csv, fields.xdmf, fields/, effective.xml and log.txt.\n"
       "Example: mpirun -n 2 mortise run inputs/paper/hertz_elastic.xml --set variables/n=8 -o fine");
   command->callback([&program, options] {
     const auto scene = read_before(program, options);

@@ -3,6 +3,7 @@
 
 usage: plot_fields.py RUN_DIRECTORY IMAGE.png [x_min x_max y_min y_max]      needs python3-h5py and python3-matplotlib
 """
+import glob
 import os
 import sys
 
@@ -18,10 +19,10 @@ NODES = {4: 3, 5: 4}  # XDMF's numbers of triangle and quadrilateral
 
 
 def main(directory, image, limits):
-    with h5py.File(os.path.join(directory, "fields.h5")) as fields:
-        step = fields["steps"][max(fields["steps"], key=int)]
-        position = fields["mesh/coordinates"][:, :2] + step["displacement"][:, :2]
-        topology = fields["mesh/topology"][:]
+    last_step = max(glob.glob(os.path.join(glob.escape(directory), "fields", "step-*.h5")))
+    with h5py.File(os.path.join(directory, "fields", "mesh.h5")) as mesh, h5py.File(last_step) as step:
+        position = mesh["coordinates"][:, :2] + step["displacement"][:, :2]
+        topology = mesh["topology"][:]
         xx, xy, xz, yy, yz, zz = step["cauchy_stress"][:].T
     von_mises = np.sqrt(0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) + 3 * (xy**2 + xz**2 + yz**2))
     cells, at = [], 0

@@ -6,6 +6,7 @@ usage: plot_tutorial.py RESULTS IMAGES      needs python3-h5py and python3-matpl
 RESULTS holds press_2_contact, press_3_friction and press_4_plasticity, as `mortise run` leaves them; IMAGES is docs/images.
 """
 import csv
+import glob
 import os
 import sys
 
@@ -22,11 +23,11 @@ plt.rcParams.update({"font.size": 13})
 
 
 def last_step(directory):
-    with h5py.File(os.path.join(directory, "fields.h5")) as fields:
-        step = fields["steps"][max(fields["steps"], key=int)]
-        topology = fields["mesh/topology"][:].reshape(-1, 5)
+    last = max(glob.glob(os.path.join(glob.escape(directory), "fields", "step-*.h5")))
+    with h5py.File(os.path.join(directory, "fields", "mesh.h5")) as mesh, h5py.File(last) as step:
+        topology = mesh["topology"][:].reshape(-1, 5)
         assert (topology[:, 0] == QUADRILATERAL).all()
-        position = fields["mesh/coordinates"][:, :2] + step["displacement"][:, :2]
+        position = mesh["coordinates"][:, :2] + step["displacement"][:, :2]
         return position, topology[:, 1:], {name: step[name][:] for name in ("von_mises", "contact_pressure")}
 
 

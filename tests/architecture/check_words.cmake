@@ -3,7 +3,7 @@
 #   cmake -D SOURCE=... -P check_words.cmake
 cmake_minimum_required(VERSION 3.25)
 set(words "[Ss]cene" "XML|[Xx]ml" "RELAX NG" "mortise (run|check|describe|list|point|study|paper|hard|scale|peer|doctor)" "--set"
-  "command line" "(newton|history|profiles|point)\\.csv" "(summary|effective)\\.(json|xml)" "fields\\.(xdmf|h5)")
+  "command line" "(newton|history|profiles|point)\\.csv" "(summary|effective)\\.(json|xml)" "fields\\.xdmf|step-[0-9*]+\\.h5")
 set(wrong "")
 set(seen 0)
 foreach(package core shape mesh material mortar contact solid nonlinear)

@@ -224,7 +224,8 @@ TEST(Program, RunLeavesItsFilesAndABalancedSupport) {
                                    "variables/force=2", "-o", directory},
                                   ranks);
     EXPECT_EQ(ending.code, 0) << ending.output;
-    for (const char* file : {"summary.json", "newton.csv", "history.csv", "effective.xml", "log.txt", "fields.xdmf", "fields.h5"})
+    for (const char* file :
+         {"summary.json", "newton.csv", "history.csv", "effective.xml", "log.txt", "fields.xdmf", "fields/mesh.h5", "fields/step-000001.h5"})
       EXPECT_TRUE(std::filesystem::exists(directory + "/" + file)) << file;
     const auto summary = summary_of(directory);
     EXPECT_EQ(summary.at("ranks"), ranks);

@@ -65,7 +65,8 @@ void serialize_kinks(StateArchive& archive, const std::string& name, const RowId
   if (!chosen) kinks = {};
 }
 
-void serialize_starts(StateArchive& archive, const Communicator& comm, const std::string& name, const RowIds& slaves, std::vector<NodeStart>& starts) {
+void serialize_starts(StateArchive& archive, const Communicator& comm, const std::string& name, const RowIds& slaves,
+                      std::vector<NodeStart>& starts) {
   std::vector<SpatialVector> multipliers;
   std::vector<double> stiffening;
   for (const NodeStart& start : starts) {
@@ -101,8 +102,7 @@ void serialize_accepted(StateArchive& archive, const ContactModel& model, Accept
     serialize(archive, name + ".axes", slaves, history.axes);
     if (pair.corner_rule() != CornerRule::averaged) {
       serialize_kinks(archive, name + ".kinks", {name + ".surface", pair.interface().nodes_of_kinks(), slaves.owned}, history.kinks);
-      if (pair.corner_rule() == CornerRule::nearest_facet)
-        serialize_lists(archive, comm, name + ".nearest", slaves, history.nearest_facets);
+      if (pair.corner_rule() == CornerRule::nearest_facet) serialize_lists(archive, comm, name + ".nearest", slaves, history.nearest_facets);
     }
     if (pair.friction() != nullptr) serialize_slip(archive, comm, name + ".slip", slaves, history.slip);
     if (pair.enforcement().starts_from_multipliers()) serialize_starts(archive, comm, name + ".start", slaves, history.starts);

@@ -97,10 +97,8 @@ LastLine read_last_line(const std::string& path) {
   long long its_bytes = 0;
   unsigned long crc = 0;
   const std::string form = fmt::format("\n{}%d bytes %lld crc32 %lx", beginning);
-  if (std::sscanf(text.c_str(), form.c_str(), &its_version, &its_bytes, &crc) < 1)
-    return {0, 0, "its last line is damaged"};
-  if (its_version != version)
-    return {0, 0, fmt::format("it is of version {}; this program reads version {}", its_version, version)};
+  if (std::sscanf(text.c_str(), form.c_str(), &its_version, &its_bytes, &crc) < 1) return {0, 0, "its last line is damaged"};
+  if (its_version != version) return {0, 0, fmt::format("it is of version {}; this program reads version {}", its_version, version)};
   if (text != last_line(bytes, crc) || its_bytes != bytes)
     return {0, 0, fmt::format("it has {} bytes before its last line, which tells of {}: it is damaged", bytes, its_bytes)};
   return {bytes, crc, ""};
@@ -145,7 +143,8 @@ void CheckpointWriter::rows(const std::string& name, const RowIds& ids, std::siz
   GlobalOrdinal all = 0;
   const GlobalOrdinal first = rows_before(*self.comm, static_cast<GlobalOrdinal>(ids.owned), all);
   if (self.ids.insert(ids.name).second)
-    self.file.write("/ids/" + ids.name, all, first, 1, std::vector<long long>(ids.ids.begin(), ids.ids.begin() + static_cast<std::ptrdiff_t>(ids.owned)));
+    self.file.write("/ids/" + ids.name, all, first, 1,
+                    std::vector<long long>(ids.ids.begin(), ids.ids.begin() + static_cast<std::ptrdiff_t>(ids.owned)));
   const std::vector<double> owned(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(ids.owned * columns));
   self.file.write("/rows/" + name, all, first, static_cast<int>(columns), owned);
 }
@@ -216,7 +215,8 @@ struct CheckpointReader::Implementation {
 
   /// A slab of a dataset, [rows x columns], and what is wrong with it.
   template <class Number>
-  std::optional<std::string> read(const std::string& name, hid_t type, std::size_t& all, std::size_t& columns, std::vector<Number>& values, bool whole) {
+  std::optional<std::string> read(const std::string& name, hid_t type, std::size_t& all, std::size_t& columns, std::vector<Number>& values,
+                                  bool whole) {
     const Hdf5Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
     if (!dataset.good()) return fmt::format("it has no \"{}\"", name);
     const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);

@@ -72,8 +72,8 @@ std::optional<std::string> remove_run(const std::string& directory) {
 bool is_run_file(const std::string& name) {
   if (is_field_file(name)) return true;
   // fields.h5 is what earlier versions wrote.
-  static const std::array<const char*, 11> names{"summary.json",  "newton.csv", "history.csv", "profiles.csv", "fields.xdmf", "fields.h5",
-                                                 "effective.xml", "log.txt",    "point.csv",   "point.svg",    "point.png"};
+  static const std::array<const char*, 12> names{"steps.jsonl", "summary.json",  "newton.csv", "history.csv", "profiles.csv", "fields.xdmf",
+                                                 "fields.h5",   "effective.xml", "log.txt",    "point.csv",   "point.svg",    "point.png"};
   for (const char* known : names)
     if (name == known || name == std::string(known) + ".part") return true;
   const std::string begin = "checkpoint-", end = ".h5";

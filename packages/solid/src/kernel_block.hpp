@@ -97,7 +97,8 @@ class KernelBlock final : public ElementBlock {
       constexpr std::size_t columns = sizeof(States) / sizeof(double);
       std::vector<double> rows(columns * history_.size());
       std::memcpy(rows.data(), history_.data(), rows.size() * sizeof(double));
-      archive.rows(name + ".history", {name + ".elements", context_.block.element_ids, static_cast<std::size_t>(context_.block.owned)}, columns, rows);
+      archive.rows(name + ".history", {name + ".elements", context_.block.element_ids, static_cast<std::size_t>(context_.block.owned)}, columns,
+                   rows);
       if (archive.restores()) std::memcpy(static_cast<void*>(history_.data()), rows.data(), rows.size() * sizeof(double));
     }
   }

@@ -1,20 +1,29 @@
 # The fields that a run leaves.
+import glob
+import os
+
 import numpy as np
 
 POLYLINE, NODES = 2, {4: 3, 5: 4}  # XDMF's numbers: a polyline, whose number of nodes follows; triangle and quadrilateral
 TENSOR = ("xx", "xy", "xz", "yy", "yz", "zz")
 
 
+def last_step_file(path):
+    """None if no step has been written."""
+    files = glob.glob(os.path.join(glob.escape(path), "fields", "step-*.h5"))
+    return max(files, key=lambda file: (len(file), file), default=None)  # numbers beyond six digits are longer
+
+
 class Fields:
-    """The last written step of fields.h5."""
+    """The last written step of a run's directory."""
 
     def __init__(self, path):
-        with h5py.File(path) as file:
-            last = max(file["steps"], key=int)
-            self.values = {name: data[:] for name, data in file["steps"][last].items()}
-            self.reference = file["mesh/coordinates"][:, :2]
-            self.body = file["mesh/body"][:]
-            topology = file["mesh/topology"][:]
+        with h5py.File(last_step_file(path)) as file:
+            self.values = {name: data[:] for name, data in file.items()}
+        with h5py.File(os.path.join(path, "fields", "mesh.h5")) as file:
+            self.reference = file["coordinates"][:, :2]
+            self.body = file["body"][:]
+            topology = file["topology"][:]
         self.cells, at = [], 0
         while at < len(topology):
             kind = int(topology[at])

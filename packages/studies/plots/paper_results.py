@@ -61,7 +61,7 @@ class Run:
 
     @property
     def fields(self):
-        return self.once("fields.h5", Fields)
+        return self.once("", Fields)
 
     def quantity(self, name):
         """The value at the end; None if the scene has no such quantity or it has no value."""
@@ -95,7 +95,7 @@ RIVAL = "_node_to_segment"
 
 def rivals(*names):
     """The same runs with nodes on segments, as far as they left results; they may have stopped on their way."""
-    return [runs[name + RIVAL] for name in names if name + RIVAL in runs and os.path.isfile(runs[name + RIVAL].file("fields.h5"))]
+    return [runs[name + RIVAL] for name in names if name + RIVAL in runs and last_step_file(runs[name + RIVAL].path)]
 
 
 def complete(*names):

@@ -1,7 +1,6 @@
 # Differences of displacements between runs on different meshes. arguments: the file to write, "axisymmetric" or "plane", directories of the finest
 # run and of the others.
 import json
-import os
 
 from matplotlib.tri import Triangulation
 
@@ -90,8 +89,8 @@ def errors(fields, locators, axisymmetric):
 
 
 target, kinematics, finest, *others = sys.argv[1:]
-reference = Fields(os.path.join(finest, "fields.h5"))
+reference = Fields(finest)
 locators = {body: Locator(reference, cells) for (body, _), cells in blocks(reference).items()}
-rows = [errors(Fields(os.path.join(one, "fields.h5")), locators, kinematics == "axisymmetric") for one in others]
+rows = [errors(Fields(one), locators, kinematics == "axisymmetric") for one in others]
 with open(target, "w", encoding="utf-8") as file:
     json.dump(rows, file)

@@ -8,11 +8,15 @@
 #include <libxml/xpath.h>
 
 #include <Eigen/Geometry>
+#include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Core.hpp>
 #include <Tpetra_Map.hpp>
+#include <functional>
 #include <map>
+#include <optional>
 #include <set>
 
+#include "file_size_limit.hpp"
 #include "mortise/core/error.hpp"
 #include "mortise/mesh/build_mesh.hpp"
 #include "mortise/mesh/volume_generators.hpp"
@@ -134,7 +138,7 @@ TEST(FieldWriter, ReadsBackThroughItsReferences) {
   const test::ScratchDirectory scratch(world());
   FieldWriter writer(mesh, scratch.path());
   const std::vector<double> times{0.0, 0.1, 1.0 / 3.0};
-  for (const double time : times) writer.write(time, fields_at(*mesh, time));
+  for (std::size_t step = 0; step < times.size(); ++step) writer.write(static_cast<int>(step), times[step], fields_at(*mesh, times[step]));
   world()->barrier();
   if (world()->getRank() != 0) return;
 
@@ -216,7 +220,7 @@ TEST(FieldWriter, WritesBodiesOfSpaceWithThreeAndSixComponents) {
                      })};
   const test::ScratchDirectory scratch(world());
   FieldWriter writer(mesh, scratch.path());
-  writer.write(0.0, {displacement, stress});
+  writer.write(0, 0.0, {displacement, stress});
   world()->barrier();
   if (world()->getRank() != 0) return;
 
@@ -257,7 +261,7 @@ TEST(FieldWriter, QuadraticCellsStandWithTheirNumbersAndAllNodes) {
     const auto mesh = build_mesh(world(), scenes[scene], {});
     const test::ScratchDirectory scratch(world());
     FieldWriter writer(mesh, scratch.path());
-    writer.write(0.0, {});
+    writer.write(0, 0.0, {});
     world()->barrier();
     if (world()->getRank() == 0) {
       const Xdmf xdmf(scratch.path());
@@ -279,21 +283,52 @@ TEST(FieldWriter, QuadraticCellsStandWithTheirNumbersAndAllNodes) {
   }
 }
 
-TEST(FieldWriter, FilesAreCompleteAfterEachStep) {
+/// What stands in the directory of fields, in order.
+std::vector<std::string> field_files(const std::string& directory) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(directory + "/fields")) names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// For one rank to change files while the others wait.
+void on_rank_0(const std::function<void()>& action) {
+  world()->barrier();
+  if (world()->getRank() == 0) action();
+  world()->barrier();
+}
+
+template <class Action>
+std::string file_error(const Action& action) {
+  try {
+    action();
+  } catch (const FileError& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "no FileError on rank " << world()->getRank();
+  return {};
+}
+
+TEST(FieldWriter, FilesAreCompleteAfterEachStepAndDoNotChange) {
   const auto mesh = two_blocks();
   const test::ScratchDirectory scratch(world());
   FieldWriter writer(mesh, scratch.path());
-  for (std::size_t step = 0; step < 3; ++step) {
-    writer.write(0.5 * step, fields_at(*mesh, 0.5 * step));
-    world()->barrier();
-    if (world()->getRank() == 0) {
+  std::string first, mesh_before;
+  for (const int step : {3, 7, 1000000}) {
+    writer.write(step, 0.5 * step, fields_at(*mesh, 0.5 * step));
+    on_rank_0([&] {
       const Xdmf xdmf(scratch.path());
       const std::string series = "/Xdmf/Domain/Grid/Grid";
-      EXPECT_EQ(xdmf.texts(series).size(), step + 1);
-      EXPECT_EQ(xdmf.data(series + "[" + std::to_string(step + 1) + "]/Attribute[@Name='von_mises']").values.size(), 24u);
-    }
-    world()->barrier();
+      const auto steps = xdmf.texts(series);
+      EXPECT_EQ(steps.size(), step == 3 ? 1u : step == 7 ? 2u : 3u);
+      EXPECT_EQ(xdmf.data(series + "[" + std::to_string(steps.size()) + "]/Attribute[@Name='von_mises']").values.size(), 24u);
+      if (step == 3) first = test::content(scratch.file("fields/step-000003.h5")), mesh_before = test::content(scratch.file("fields/mesh.h5"));
+    });
   }
+  if (world()->getRank() != 0) return;
+  EXPECT_EQ(field_files(scratch.path()), (std::vector<std::string>{"mesh.h5", "step-000003.h5", "step-000007.h5", "step-1000000.h5"}));
+  EXPECT_TRUE(test::content(scratch.file("fields/step-000003.h5")) == first);
+  EXPECT_TRUE(test::content(scratch.file("fields/mesh.h5")) == mesh_before);
 }
 
 TEST(FieldWriter, WhatDoesNotFitIsRefusedOnAllRanks) {
@@ -302,31 +337,130 @@ TEST(FieldWriter, WhatDoesNotFitIsRefusedOnAllRanks) {
   FieldWriter writer(mesh, scratch.path());
   const bool last = world()->getRank() == world()->getSize() - 1;
   Field field{"gap", Field::Center::node, FieldKind::scalar, 1, std::vector<double>(mesh->owned_count() + (last ? 1 : 0))};
-  EXPECT_THROW(writer.write(0.0, {field}), std::invalid_argument);
+  EXPECT_THROW(writer.write(0, 0.0, {field}), std::invalid_argument);
   field.values.resize(mesh->owned_count());
-  EXPECT_THROW(writer.write(0.0, {field, field}), std::invalid_argument);
-  EXPECT_NO_THROW(writer.write(0.0, {field}));
+  EXPECT_THROW(writer.write(0, 0.0, {field, field}), std::invalid_argument);
+  EXPECT_NO_THROW(writer.write(0, 0.0, {field}));
+  EXPECT_THROW(writer.write(0, 0.0, {field}), std::invalid_argument) << "a step's file does not change";
 }
 
 TEST(FieldWriter, UnwritableDirectoryIsAFileErrorOnAllRanks) {
   const test::ScratchDirectory scratch(world());
   const auto mesh = two_blocks();
-  try {
-    FieldWriter writer(mesh, scratch.file("missing"));
-    ADD_FAILURE() << "no FileError on rank " << world()->getRank();
-  } catch (const FileError& error) {
-    EXPECT_THAT(error.what(), ::testing::AllOf(::testing::HasSubstr(scratch.file("missing") + "/fields.h5"), ::testing::HasSubstr("No such file")));
-  }
+  EXPECT_THAT(file_error([&] { FieldWriter writer(mesh, scratch.file("missing")); }),
+              ::testing::AllOf(::testing::HasSubstr(scratch.file("missing") + "/fields"), ::testing::HasSubstr("No such file")));
 }
 
-TEST(FieldWriter, FileThatVanishesBetweenStepsIsAFileErrorOnAllRanks) {
+TEST(FieldWriter, IndexThatVanishesBetweenStepsIsAFileErrorOnAllRanks) {
   const test::ScratchDirectory scratch(world());
   const auto mesh = two_blocks();
   FieldWriter writer(mesh, scratch.path());
-  world()->barrier();
-  if (world()->getRank() == 0) std::filesystem::remove(scratch.file("fields.h5"));
-  world()->barrier();
-  EXPECT_THROW(writer.write(0.0, fields_at(*mesh, 0.0)), FileError);
+  on_rank_0([&] { std::filesystem::remove(scratch.file("fields.xdmf")); });
+  EXPECT_THAT(file_error([&] { writer.write(0, 0.0, fields_at(*mesh, 0.0)); }), ::testing::HasSubstr("fields.xdmf: No such file"));
+}
+
+/// Whatever a kill left of later steps and of the index, the run that goes on leaves what one in one piece does, byte by byte.
+TEST(FieldWriter, ContinuedRunLeavesTheSameFiles) {
+  const auto mesh = two_blocks();
+  const test::ScratchDirectory scratch(world());
+  const std::string whole = scratch.file("whole"), parts = scratch.file("parts");
+  on_rank_0([&] { std::filesystem::create_directory(whole), std::filesystem::create_directory(parts); });
+  const auto write = [&](FieldWriter& writer, int step) { writer.write(step, step / 7.0, fields_at(*mesh, step / 7.0)); };
+  {
+    FieldWriter writer(mesh, whole);
+    for (const int step : {1, 2, 4, 5}) write(writer, step);
+  }
+  enum class Left { index, torn_index, no_index, no_mesh };
+  for (const auto left : {Left::index, Left::torn_index, Left::no_index, Left::no_mesh}) {
+    {
+      FieldWriter writer(mesh, parts);
+      for (const int step : {1, 2, 3, 6}) write(writer, step);
+    }
+    on_rank_0([&] {
+      const std::string index = parts + "/fields.xdmf";
+      if (left == Left::torn_index) std::filesystem::resize_file(index, std::filesystem::file_size(index) - 100);
+      if (left == Left::no_index) std::filesystem::remove(index);
+      if (left == Left::no_mesh) std::filesystem::remove(parts + "/fields/mesh.h5");
+      std::ofstream(parts + "/fields/step-000007.h5.part") << "half";
+      std::ofstream(parts + "/fields/notes.txt") << "not of a run";
+    });
+    FieldWriter writer(mesh, parts, 2);
+    on_rank_0([&] {
+      EXPECT_EQ(field_files(parts), (std::vector<std::string>{"mesh.h5", "notes.txt", "step-000001.h5", "step-000002.h5"}));
+      EXPECT_EQ(Xdmf(parts).texts("/Xdmf/Domain/Grid/Grid").size(), 2u);
+    });
+    EXPECT_THROW(write(writer, 2), std::invalid_argument);
+    for (const int step : {4, 5}) write(writer, step);
+    on_rank_0([&] {
+      EXPECT_EQ(test::content(parts + "/fields.xdmf"), test::content(whole + "/fields.xdmf"));
+      for (const std::string& name : field_files(whole))
+        EXPECT_TRUE(test::content(parts + "/fields/" + name) == test::content(whole + "/fields/" + name)) << name;
+    });
+  }
+}
+
+TEST(FieldWriter, NewRunRemovesWhatAnEarlierOneLeft) {
+  const auto mesh = two_blocks();
+  const test::ScratchDirectory scratch(world());
+  FieldWriter(mesh, scratch.path()).write(12, 1.0, fields_at(*mesh, 1.0));
+  const FieldWriter again(mesh, scratch.path());
+  on_rank_0([&] {
+    EXPECT_EQ(field_files(scratch.path()), std::vector<std::string>{"mesh.h5"});
+    EXPECT_EQ(Xdmf(scratch.path()).texts("/Xdmf/Domain/Grid/Grid").size(), 0u);
+  });
+}
+
+TEST(FieldWriter, ContinuingWithAnotherMeshOrABrokenStepIsAFileErrorOnAllRanks) {
+  const auto mesh = two_blocks();
+  const test::ScratchDirectory scratch(world());
+  FieldWriter(mesh, scratch.path()).write(1, 1.0, fields_at(*mesh, 1.0));
+  const auto block = std::make_shared<BlockMesh>();
+  block->cells_x = block->cells_y = 2;
+  const auto other = build_mesh(world(), {{"other", {}, block, CellShape::quadrilateral4}}, {});
+  EXPECT_THAT(
+      file_error([&] { FieldWriter(other, scratch.path(), 1); }),
+      ::testing::AllOf(::testing::HasSubstr("fields/mesh.h5: it holds 32 nodes and 24 elements"), ::testing::HasSubstr("the mesh has 9 and 4")));
+  on_rank_0([&] { std::filesystem::resize_file(scratch.file("fields/step-000001.h5"), 1000); });
+  EXPECT_THAT(file_error([&] { FieldWriter(mesh, scratch.path(), 1); }),
+              ::testing::AllOf(::testing::HasSubstr("fields/step-000001.h5 cannot be read"), ::testing::HasSubstr("please remove it")));
+  EXPECT_NO_THROW(FieldWriter(mesh, scratch.path(), 0));
+}
+
+/// A rank that cannot write its rows: all ranks hear of it, none waits, nothing half stays, and earlier steps can be read.
+TEST(FieldWriter, RankThatCannotWriteIsAFileErrorOnAllRanks) {
+  const auto mesh = two_blocks();
+  for (int rank = 0; rank < world()->getSize(); ++rank) {
+    int failures = 0;
+    for (const rlim_t bytes : {0, 100, 1000, 2000, 3000, 4000, 5000, 6000, 1000000}) {
+      const test::ScratchDirectory scratch(world());
+      FieldWriter writer(mesh, scratch.path());
+      writer.write(1, 1.0, fields_at(*mesh, 1.0));
+      std::string said;
+      {
+        std::optional<test::FileSizeLimit> limit;
+        if (world()->getRank() == rank) limit.emplace(bytes);
+        try {
+          writer.write(2, 2.0, fields_at(*mesh, 2.0));
+        } catch (const FileError& error) {
+          said = error.what();
+        }
+      }
+      const int mine = said.empty() ? 0 : 1;
+      int all = 0;
+      Teuchos::reduceAll(*world(), Teuchos::REDUCE_SUM, mine, Teuchos::outArg(all));
+      EXPECT_EQ(all, mine * world()->getSize());
+      failures += mine;
+      if (mine == 1) EXPECT_THAT(said, ::testing::HasSubstr("File too large"));
+      on_rank_0([&] {
+        auto expected = std::vector<std::string>{"mesh.h5", "step-000001.h5"};
+        if (mine == 0) expected.emplace_back("step-000002.h5");
+        EXPECT_EQ(field_files(scratch.path()), expected) << bytes;
+        EXPECT_EQ(Xdmf(scratch.path()).data("/Xdmf/Domain/Grid/Grid[1]/Attribute[@Name='von_mises']").values.size(), 24u);
+      });
+    }
+    EXPECT_GT(failures, 2) << "of rank " << rank;
+    EXPECT_LT(failures, 9) << "of rank " << rank;
+  }
 }
 
 }  // namespace

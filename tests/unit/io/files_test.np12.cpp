@@ -3,14 +3,13 @@
 #include "mortise/io/files.hpp"
 
 #include <gmock/gmock.h>
-#include <sys/resource.h>
 
 #include <Tpetra_Core.hpp>
 #include <cmath>
-#include <csignal>
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "file_size_limit.hpp"
 #include "mortise/core/error.hpp"
 #include "mortise/io/csv_writer.hpp"
 #include "mortise/io/output_directory.hpp"
@@ -60,26 +59,6 @@ TEST(Files, JsonIsReplacedWholeAndReadsBackExactly) {
   EXPECT_FALSE(std::filesystem::exists(path + ".part"));
 }
 
-/// A limit of this process on the size of files, for one scope; what goes beyond it fails and sends no signal.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) : former_action_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &former_);
-    const rlimit limit{bytes, former_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() {
-    setrlimit(RLIMIT_FSIZE, &former_);
-    std::signal(SIGXFSZ, former_action_);
-  }
-  FileSizeLimit(const FileSizeLimit&) = delete;
-  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-
- private:
-  rlimit former_{};
-  void (*former_action_)(int);
-};
-
 TEST(Files, EndOfAFileIsReplacedOrKept) {
   const test::ScratchDirectory scratch(world());
   if (world()->getRank() != 0) return;
@@ -90,7 +69,7 @@ TEST(Files, EndOfAFileIsReplacedOrKept) {
   EXPECT_EQ(replace_end_of_file(path, 9, "."), std::nullopt);
   EXPECT_EQ(content(path), "head one .");
   {
-    const FileSizeLimit limit(20);
+    const test::FileSizeLimit limit(20);
     EXPECT_THAT(replace_end_of_file(path, 9, std::string(100, 'x')), ::testing::Optional(std::string("File too large")));
   }
   EXPECT_EQ(content(path), "head one .");
@@ -123,6 +102,72 @@ TEST(CsvWriter, NumbersReadBackExactlyAndTextIsQuoted) {
   EXPECT_THAT(file_error([&] { csv.row({1.0}); }), HasSubstr("1 values for 3 columns"));
 }
 
+TEST(CsvWriter, RowThatDoesNotFitOnTheDiskLeavesNoHalfLine) {
+  const test::ScratchDirectory scratch(world());
+  CsvWriter csv(world(), scratch.file("history.csv"), {"step", "note"});
+  csv.row({1LL, std::string("first")});
+  const std::string before = "step,note\n1,first\n";
+  {
+    const test::FileSizeLimit limit(40);
+    EXPECT_THAT(file_error([&] {
+                  csv.rows({{2LL, std::string("second")}, {3LL, std::string(100, 'x')}});
+                }),
+                AllOf(HasSubstr("history.csv"), HasSubstr("File too large")));
+    world()->barrier();
+    EXPECT_EQ(content(csv.path()), before);
+    EXPECT_EQ(csv.size(), before.size());
+  }
+  csv.row({2LL, std::string("second")});
+  world()->barrier();
+  EXPECT_EQ(content(csv.path()), before + "2,second\n");
+}
+
+TEST(CsvWriter, ContinuedTableIsThatOfOneRun) {
+  const test::ScratchDirectory scratch(world());
+  const std::string path = scratch.file("history.csv");
+  const std::vector<std::string> columns{"step", "note"};
+  std::uintmax_t kept = 0;
+  {
+    CsvWriter csv(world(), path, columns);
+    csv.row({1LL, std::string("two\nlines")});
+    kept = csv.size();
+    csv.row({2LL, std::string("is to go")});
+    EXPECT_NO_THROW(csv.sync());
+    EXPECT_EQ(csv.size(), kept + 11);
+  }
+  CsvWriter csv(world(), path, columns, kept);
+  csv.row({2LL, std::string("again")});
+  world()->barrier();
+  EXPECT_EQ(content(path), "step,note\n1,\"two\nlines\"\n2,again\n");
+  EXPECT_EQ(csv.size(), content(path).size());
+}
+
+TEST(CsvWriter, WhatCannotBeContinuedIsLeftAsItIs) {
+  const test::ScratchDirectory scratch(world());
+  const std::string path = scratch.file("history.csv");
+  { CsvWriter(world(), path, {"a", "b"}).row({1LL, 2LL}); }
+  world()->barrier();
+  const auto refusal = [&](const std::vector<std::string>& columns, std::uintmax_t at) {
+    return file_error([&] { CsvWriter(world(), path, columns, at); });
+  };
+  EXPECT_THAT(refusal({"a", "b"}, 9), AllOf(HasSubstr("cannot continue " + path), HasSubstr("it has 8 bytes"), HasSubstr("had written 9")));
+  EXPECT_THAT(refusal({"a", "b"}, 7), HasSubstr("a line goes on at byte 7"));
+  EXPECT_THAT(refusal({"a", "b"}, 3), HasSubstr("less than its header line, which takes 4"));
+  EXPECT_THAT(refusal({"a", "c"}, 8), AllOf(HasSubstr("\"a,b\""), HasSubstr("\"a,c\"")));
+  EXPECT_THAT(file_error([&] { CsvWriter(world(), scratch.file("none"), {"a"}, 2); }), HasSubstr("No such file"));
+  EXPECT_EQ(content(path), "a,b\n1,2\n");
+}
+
+TEST(Files, FilesAndDirectoriesAreBroughtToTheDisk) {
+  const test::ScratchDirectory scratch(world());
+  if (world()->getRank() != 0) return;
+  ASSERT_EQ(replace_file(scratch.file("a"), "text"), std::nullopt);
+  EXPECT_EQ(sync_file(scratch.file("a")), std::nullopt);
+  EXPECT_EQ(sync_directory(scratch.path()), std::nullopt);
+  EXPECT_THAT(sync_file(scratch.file("b")), ::testing::Optional(std::string("No such file or directory")));
+  EXPECT_THAT(sync_directory(scratch.file("a")), ::testing::Optional(std::string("Not a directory")));
+}
+
 TEST(OutputDirectory, IsMadeWithItsParentsWhenARunBegins) {
   const test::ScratchDirectory scratch(world());
   const OutputDirectory directory(world(), scratch.file("results/patch"), false);
@@ -136,16 +181,33 @@ TEST(OutputDirectory, IsMadeWithItsParentsWhenARunBegins) {
 
 TEST(OutputDirectory, ReplacesARunWholeAndLeavesTheRest) {
   const test::ScratchDirectory scratch(world());
-  if (world()->getRank() == 0)
-    for (const char* name : {"summary.json", "fields.h5", "checkpoint-12.h5", "notes.txt", "checkpoint-.h5"})
+  if (world()->getRank() == 0) {
+    std::filesystem::create_directory(scratch.file("fields"));
+    for (const char* name : {"summary.json", "fields/mesh.h5", "fields/step-000012.h5", "fields/step-000013.h5.part", "fields.h5", "checkpoint-12.h5",
+                             "notes.txt", "checkpoint-.h5", "fields/notes.txt", "fields/step-12.h5"})
       std::ofstream(scratch.file(name)) << "old";
+  }
   world()->barrier();
   OutputDirectory directory(world(), scratch.path(), false);
   EXPECT_EQ(content(scratch.file("summary.json")), "old") << "opening must not remove anything";
   world()->barrier();
   directory.begin_run();
-  for (const char* name : {"summary.json", "fields.h5", "checkpoint-12.h5"}) EXPECT_FALSE(std::filesystem::exists(scratch.file(name))) << name;
-  for (const char* name : {"notes.txt", "checkpoint-.h5"}) EXPECT_TRUE(std::filesystem::exists(scratch.file(name))) << name;
+  for (const char* name : {"summary.json", "fields/mesh.h5", "fields/step-000012.h5", "fields/step-000013.h5.part", "fields.h5", "checkpoint-12.h5"})
+    EXPECT_FALSE(std::filesystem::exists(scratch.file(name))) << name;
+  for (const char* name : {"notes.txt", "checkpoint-.h5", "fields/notes.txt", "fields/step-12.h5"})
+    EXPECT_TRUE(std::filesystem::exists(scratch.file(name))) << name;
+}
+
+TEST(OutputDirectory, RemovesTheDirectoryOfFieldsIfNothingElseIsInIt) {
+  const test::ScratchDirectory scratch(world());
+  if (world()->getRank() == 0) {
+    std::filesystem::create_directory(scratch.file("fields"));
+    std::ofstream(scratch.file("fields/mesh.h5")) << "old";
+  }
+  world()->barrier();
+  EXPECT_THAT(file_error([&] { OutputDirectory(world(), scratch.path(), true); }), HasSubstr("fields/mesh.h5"));
+  OutputDirectory(world(), scratch.path(), false).begin_run();
+  EXPECT_FALSE(std::filesystem::exists(scratch.file("fields")));
 }
 
 TEST(OutputDirectory, KeepRefusesARun) {

@@ -114,7 +114,9 @@ Outcome run(const Scene& scene, const Case& one, const std::string& directory) {
   Outcome outcome{{"exit code", std::to_string(static_cast<int>(run_scene(comm(), scene, options)))}};
   if (comm()->getRank() != 0) return outcome;
   const std::filesystem::path results = options.directory;
-  for (const char* file : {"history.csv", "fields.h5", "fields.xdmf", "profiles.csv", "effective.xml"}) outcome[file] = content(results / file);
+  for (const char* file : {"history.csv", "fields.xdmf", "profiles.csv", "effective.xml"}) outcome[file] = content(results / file);
+  for (const auto& entry : std::filesystem::directory_iterator(results / "fields"))
+    outcome["fields/" + entry.path().filename().string()] = content(entry.path());
   outcome["newton.csv"] = without_seconds(content(results / "newton.csv"));
   EXPECT_GT(outcome["history.csv"].size(), 50U) << "no steps were done";
   return outcome;

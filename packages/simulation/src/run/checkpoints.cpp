@@ -90,9 +90,10 @@ FoundCheckpoint find_checkpoint(const Communicator& comm, const std::string& run
   const std::vector<int> steps = checkpoint_steps(comm, directory);
   const std::string there = fmt::format("{}", fmt::join(steps, ", "));
   if (steps.empty())
-    throw FileError(fmt::format("{} holds no checkpoint: there is nothing to restart from. Please leave out --restart, or name the directory of the "
-                                "run with -o",
-                                directory));
+    throw FileError(
+        fmt::format("{} holds no checkpoint: there is nothing to restart from. Please leave out --restart, or name the directory of the "
+                    "run with -o",
+                    directory));
   if (step) {
     if (std::find(steps.begin(), steps.end(), *step) == steps.end())
       throw FileError(fmt::format("{} holds no checkpoint of step {}; there are those of the steps {}", directory, *step, there));

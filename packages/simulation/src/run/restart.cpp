@@ -25,10 +25,11 @@ std::string quoted_for_shell(const std::string& word) {
 [[noreturn]] void refuse(const Restart& restart, const std::string& file, std::vector<std::string> reasons) {
   std::vector<Diagnostic> diagnostics;
   for (std::string& reason : reasons) diagnostics.push_back({{file, 0, ""}, std::move(reason)});
-  diagnostics.push_back({{file, 0, ""},
-                         fmt::format("cannot go on from {}, which was written for another scene; what may change is {}. Please undo the other changes, "
-                                     "or run the scene without --restart",
-                                     restart.path, what_may_change())});
+  diagnostics.push_back(
+      {{file, 0, ""},
+       fmt::format("cannot go on from {}, which was written for another scene; what may change is {}. Please undo the other changes, "
+                   "or run the scene without --restart",
+                   restart.path, what_may_change())});
   throw InputError(std::move(diagnostics));
 }
 
@@ -54,16 +55,18 @@ SteppingState restore_run(const Restart& restart, const Scene& scene, const std:
   std::string before, mesh;
   archive.text("scene", before);
   archive.text("mesh", mesh);
-  if (std::vector<std::string> changes = refused_changes(before, scene_fingerprint(scene)); !changes.empty()) refuse(restart, file, std::move(changes));
+  if (std::vector<std::string> changes = refused_changes(before, scene_fingerprint(scene)); !changes.empty())
+    refuse(restart, file, std::move(changes));
   if (mesh != mesh_digest(*model.mesh())) refuse(restart, file, {"the mesh is another"});
 
   SteppingState state = restore_stepping(archive, system);
   const double time = state.accepted.context.time;
   if (time > scene.stepping.end_time)
-    throw InputError({file, 0, "stepping"}, fmt::format("\"end time\" is {}, before that of the checkpoint {}, {}", scene.stepping.end_time,
-                                                        restart.path, time));
+    throw InputError({file, 0, "stepping"},
+                     fmt::format("\"end time\" is {}, before that of the checkpoint {}, {}", scene.stepping.end_time, restart.path, time));
   if (const double deviation = system.prescribed_deviation(*state.accepted.x, time); deviation > scene.newton.increment_tolerance)
-    refuse(restart, file, {fmt::format("prescribed displacements at time {}, that of the checkpoint, differ by {:.2g} of the model's size", time, deviation)});
+    refuse(restart, file,
+           {fmt::format("prescribed displacements at time {}, that of the checkpoint, differ by {:.2g} of the model's size", time, deviation)});
   Vector force(*evaluation.external_force(*state.accepted.x, time), Teuchos::Copy), stored(force.getMap());
   serialize(archive, "external_force", "dofs", stored);
   const double largest = std::max(force.normInf(), stored.normInf());

@@ -10,8 +10,9 @@
 namespace mortise {
 namespace {
 
-const std::vector<std::string> newton_columns{"step", "try",    "time",  "dt",   "iteration", "momentum", "momentum_absolute", "gap",     "complementarity",
-                                              "increment", "step_length", "active", "stick", "slip", "changed", "linear_iterations", "seconds", "undone"};
+const std::vector<std::string> newton_columns{
+    "step",      "try",         "time",   "dt",    "iteration", "momentum", "momentum_absolute", "gap",     "complementarity",
+    "increment", "step_length", "active", "stick", "slip",      "changed",  "linear_iterations", "seconds", "undone"};
 const std::vector<std::string> profile_columns{"time", "pair", "part", "arc_length", "x", "y", "pressure", "shear", "gap", "state"};
 
 std::vector<std::string> columns_with(const StepEvaluation& evaluation) {

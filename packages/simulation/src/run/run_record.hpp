@@ -20,11 +20,11 @@ struct RunRecord {
   std::vector<std::string> settings;  ///< "path=value" of the command line
   bool converged = false;
   ExitCode exit = ExitCode::internal;
-  int steps = 0;                        ///< accepted
-  double time = 0.0;                    ///< of the last of them
-  long long newton_steps = 0;           ///< of all of them
-  std::optional<std::string> stopped;   ///< what made it stop before its end: a signal, the time limit
-  std::vector<std::string> parts;       ///< JSON of each process that this run was made by; the last of them is this one
+  int steps = 0;                             ///< accepted
+  double time = 0.0;                         ///< of the last of them
+  long long newton_steps = 0;                ///< of all of them
+  std::optional<std::string> stopped;        ///< what made it stop before its end: a signal, the time limit
+  std::vector<std::string> parts;            ///< JSON of each process that this run was made by; the last of them is this one
   std::map<std::string, double> quantities;  ///< at the end
   std::vector<std::string> quantity_order;
   std::vector<CheckResult> checks;

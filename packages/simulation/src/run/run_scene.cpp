@@ -4,6 +4,7 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -20,20 +21,21 @@
 #include "mortise/simulation/run/run.hpp"
 #include "mortise/simulation/run/state_check.hpp"
 #include "mortise/simulation/run/step_evaluation.hpp"
+#include "run/checkpoints.hpp"
 #include "run/coarse_slave.hpp"
 #include "run/explain_failure.hpp"
 #include "run/explain_statics.hpp"
-#include "run/checkpoints.hpp"
 #include "run/limit_load.hpp"
 #include "run/restart.hpp"
 #include "run/run_output.hpp"
-#include "run/scene_changes.hpp"
-#include "run/stop_request.hpp"
 #include "run/run_record.hpp"
+#include "run/scene_changes.hpp"
 #include "run/slip_settlement.hpp"
+#include "run/stop_request.hpp"
 #include "run/surface_watch.hpp"
 #include "run/timer_sums.hpp"
 #include "run/turning_point.hpp"
+#include "run/watchdog.hpp"
 
 namespace mortise {
 namespace {
@@ -62,9 +64,11 @@ void report_end(const RunRecord& record, const std::optional<StepFailure>& failu
       log.info(fmt::format("contact {}: {} slave facets, {} overlaps; largest over mean work of the ranks {:.2f}{}", pair, load.facets, load.segments,
                            load.imbalance, load.redistributions > 0 ? fmt::format(", as owned {:.2f}", load.imbalance_as_owned) : ""));
   if (!record.converged)
-    log.warning(fmt::format(
-        "{}; the last converged state is that of time {:g}{}",
-        record.stopped ? "stopped by " + *record.stopped : is_input(failure) ? "stopped by an error of the input" : "not converged", record.time, failure && !is_input(failure) ? fmt::format(": {}", failure->what()) : ""));
+    log.warning(fmt::format("{}; the last converged state is that of time {:g}{}",
+                            record.stopped      ? "stopped by " + *record.stopped
+                            : is_input(failure) ? "stopped by an error of the input"
+                                                : "not converged",
+                            record.time, failure && !is_input(failure) ? fmt::format(": {}", failure->what()) : ""));
   const auto total = record.seconds.find("total");
   log.info(fmt::format("{} steps, {} Newton iterations, {:.2f} s, {:.0f} MiB; results in {}", record.steps, record.newton_steps,
                        total == record.seconds.end() ? 0.0 : total->second, record.memory_peak_mib, directory));
@@ -75,8 +79,11 @@ void report_end(const RunRecord& record, const std::optional<StepFailure>& failu
 std::string default_directory(const std::string& file) { return "results/" + std::filesystem::path(file).stem().string(); }
 
 ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, const RunOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
   RunLog log(comm, options.verbosity);
   const Timers timers;
+  std::optional<Watchdog> watchdog;
+  if (options.supervised) watchdog.emplace(*comm);
   OutputDirectory directory(comm, options.directory.empty() ? default_directory(options.scene) : options.directory, options.keep);
   const Model model(comm, scene, timers);
   SystemParts parts = model.parts();
@@ -134,7 +141,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
   SteppingState state = restored ? *std::move(restored) : SteppingState(system.initial_state(Vector(system.map())));
   std::optional<SystemEvaluation> last;  // of `state`, in the step that led there; none while another step is tried
   std::optional<StepFailure> failure;
-  StopRequest requests(options.watch_signals, options.time_limit);
+  StopRequest requests(options.supervised, options.time_limit, begin);
   Checkpoints checkpoints(comm, scene.output.checkpoints, checkpoint_directory(directory.path()));
   const std::string fingerprint = scene_fingerprint(scene);
   const auto write_checkpoint = [&] {
@@ -145,7 +152,8 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
       output.store(archive);
     });
     requests.reserve(checkpoints.seconds());
-    log.info(fmt::format("  checkpoint of step {}: {:.3g} MiB, {:.2g} s", state.steps, static_cast<double>(bytes) / 1048576.0, checkpoints.seconds()));
+    log.info(
+        fmt::format("  checkpoint of step {}: {:.3g} MiB, {:.2g} s", state.steps, static_cast<double>(bytes) / 1048576.0, checkpoints.seconds()));
   };
   // An overlap is taken up by the end of the first step. A try that is cut short takes up its share, as if the bodies were moved into one another.
   const double taken_up = std::min(scene.stepping.step, scene.stepping.end_time);
@@ -243,15 +251,14 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
         record.converged = false;
       }
       if (record.converged && model.contact() && last)
-        for (const std::string& line : slaves_too_coarse(model, scene, *system.displacement(*state.accepted.x), last->contact_laws())) log.warning(line);
+        for (const std::string& line : slaves_too_coarse(model, scene, *system.displacement(*state.accepted.x), last->contact_laws()))
+          log.warning(line);
     } catch (const InputError& error) {  // on every rank: a quantity's expression without a value
       failure.emplace(FailureKind::input, error.what());
     }
     const bool wants_last = !record.converged || scene.output.checkpoints.every_step > 0 || checkpoints.last() > 0;
     if (wants_last && state.steps > 0 && checkpoints.last() != state.steps && (!restart || restart->step != state.steps)) write_checkpoint();
-    output.finish([&] {
-      return last ? *last : system.evaluate_at(state.accepted, *system.multipliers(*state.accepted.x), state.accepted.context);
-    });
+    output.finish([&] { return last ? *last : system.evaluate_at(state.accepted, *system.multipliers(*state.accepted.x), state.accepted.context); });
   }
   if (record.steps > 0) record.checks = evaluate_checks(scene.checks, record.quantities);
   record.exit = exit_code(record, failure);
@@ -267,9 +274,10 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
   log.detail(timer_report(timers, comm));
   report_end(record, failure, directory.path(), log);
   if (record.stopped) log.info(fmt::format("to go on: {}", command_to_continue(options, directory.path(), comm->getSize())));
-  write_file(*comm, directory.file("summary.json"), [&, json = summary(record, model, state.accepted.context.contact, directory.file("steps.jsonl"))] {
-    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-  });
+  write_file(*comm, directory.file("summary.json"),
+             [&, json = summary(record, model, state.accepted.context.contact, directory.file("steps.jsonl"))] {
+               return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+             });
   if (is_input(failure)) throw *failure;
   return record.exit;
 }

@@ -87,7 +87,8 @@ std::string scene_fingerprint(const Scene& scene) {
 }
 
 std::string what_may_change() {
-  return "\"stepping\", \"newton\", \"linear solver\", \"output\", \"checks\", and the \"loads\" and values of \"boundary conditions\" after the time "
+  return "\"stepping\", \"newton\", \"linear solver\", \"output\", \"checks\", and the \"loads\" and values of \"boundary conditions\" after the "
+         "time "
          "of the checkpoint";
 }
 
@@ -102,7 +103,8 @@ std::vector<std::string> refused_changes(const std::string& fingerprint_before, 
                                            : fmt::format("\"{}\" is {}; it was {}", path, shortened(other), shortened(value)));
   }
   for (const auto& [path, value] : now)
-    if (before.find(path) == before.end() && !may_differ(path, "", value)) refused.push_back(fmt::format("\"{}\" is new: {}", path, shortened(value)));
+    if (before.find(path) == before.end() && !may_differ(path, "", value))
+      refused.push_back(fmt::format("\"{}\" is new: {}", path, shortened(value)));
   return refused;
 }
 

@@ -36,7 +36,8 @@ constexpr double forgetting = 0.9;  ///< of the longest step, with each that is 
 
 }  // namespace
 
-StopRequest::StopRequest(bool watch_signals, std::optional<double> time_limit) : watches_(watch_signals), limit_(time_limit) {
+StopRequest::StopRequest(bool watch_signals, std::optional<double> time_limit, std::chrono::steady_clock::time_point begin)
+    : watches_(watch_signals), limit_(time_limit), begin_(begin) {
   if (!watches_) return;
   interrupts = wants_checkpoint = 0;
   for (auto& stop : stops) stop = 0;

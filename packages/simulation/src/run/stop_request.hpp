@@ -22,8 +22,8 @@ struct Request {
 class StopRequest {
  public:
   /// @param watch_signals  whether signals are looked at; one object at a time may do so
-  /// @param time_limit     seconds from now on, for all of the run; none: no limit
-  StopRequest(bool watch_signals, std::optional<double> time_limit);
+  /// @param time_limit     seconds since `begin` for all of the run; none: no limit
+  StopRequest(bool watch_signals, std::optional<double> time_limit, std::chrono::steady_clock::time_point begin);
   ~StopRequest();
   StopRequest(const StopRequest&) = delete;
   StopRequest& operator=(const StopRequest&) = delete;
@@ -40,7 +40,7 @@ class StopRequest {
   bool watches_;
   std::optional<double> limit_;
   double reserved_ = 0.0, longest_ = 0.0;
-  Clock::time_point begin_ = Clock::now(), last_ = begin_;
+  Clock::time_point begin_, last_ = Clock::now();
 };
 
 }  // namespace mortise

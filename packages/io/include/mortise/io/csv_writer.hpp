@@ -9,13 +9,12 @@
 #include <vector>
 
 #include "mortise/core/types.hpp"
+#include "mortise/io/line_file.hpp"
 
 namespace mortise {
 
 /// One entry of a row. Numbers are written with as many digits as it takes to read the same number back.
 using CsvValue = std::variant<double, long long, std::string>;
-
-class FileDescriptor;
 
 /// Writes a table on rank 0. A row is with the operating system when row() returns: it outlives the program, however that ends. sync() brings rows to
 /// the disk, so that they outlive a loss of power. A row that cannot be written whole is not written at all. Members are collective and throw
@@ -28,9 +27,6 @@ class CsvWriter {
   /// Adds rows to a table that is there, of which the first `continue_at` bytes are kept: a size() of the writer that began it. FileError if the file
   /// is shorter, has other columns, or if a line goes on there.
   CsvWriter(RCP<const Communicator> comm, std::string path, const std::vector<std::string>& columns, std::uintmax_t continue_at);
-  ~CsvWriter();
-  CsvWriter(const CsvWriter&) = delete;
-  CsvWriter& operator=(const CsvWriter&) = delete;
 
   /// Only rank 0's values count; a number of them that is not that of the columns is a FileError too.
   void row(const std::vector<CsvValue>& values);
@@ -39,22 +35,16 @@ class CsvWriter {
   void rows(const std::vector<std::vector<CsvValue>>& rows);
 
   /// Bytes of the file, the same on all ranks.
-  std::uintmax_t size() const;
+  std::uintmax_t size() const { return lines_.size(); }
 
   /// Returns when all rows are on the disk.
-  void sync() const;
+  void sync() const { lines_.sync(); }
 
-  const std::string& path() const { return path_; }
+  const std::string& path() const { return lines_.path(); }
 
  private:
-  std::optional<std::string> cut(const std::string& header);
-  void append(const std::string& lines);
-
-  RCP<const Communicator> comm_;
-  std::string path_;
+  LineFile lines_;
   std::size_t columns_;
-  std::unique_ptr<FileDescriptor> file_;
-  std::uintmax_t size_ = 0;  ///< of complete lines, on rank 0
 };
 
 }  // namespace mortise

@@ -41,10 +41,10 @@ struct StepReport {
 /// Where a run stands between two steps: all that the next one starts from.
 struct SteppingState {
   explicit SteppingState(AcceptedState state) : accepted(std::move(state)) {}
-  AcceptedState accepted;            ///< of the last step, or the first state
-  int steps = 0;                     ///< finished ones
-  std::optional<double> next_step;   ///< length of the next step unless a target cuts it short; none: the first one of the options
-  RCP<const Vector> rate;            ///< of the last step, which a predictor follows; null: there is none
+  AcceptedState accepted;           ///< of the last step, or the first state
+  int steps = 0;                    ///< finished ones
+  std::optional<double> next_step;  ///< length of the next step unless a target cuts it short; none: the first one of the options
+  RCP<const Vector> rate;           ///< of the last step, which a predictor follows; null: there is none
 };
 
 /// Stores where a run stands.
@@ -73,8 +73,8 @@ struct StepperObserver {
   std::function<void(const StepReport&, const SystemEvaluation&)> accepted;  ///< after commit
   /// Between two steps, the last of which has been accepted. True: the run ends here. The same on every rank.
   std::function<bool(const SteppingState& state)> rest;
-  std::function<void(const StepReport&, const StepFailure&)> undone;         ///< a try failed
-  std::function<std::string(const FailedTry&)> explain;                      ///< what lies behind a failure of Newton's method, before its message
+  std::function<void(const StepReport&, const StepFailure&)> undone;  ///< a try failed
+  std::function<std::string(const FailedTry&)> explain;               ///< what lies behind a failure of Newton's method, before its message
 };
 
 /// Makes what holds within a try of a step from a state to a time, which starts at displacement d, and guesses multipliers z (the contact start
@@ -82,8 +82,9 @@ struct StepperObserver {
 using StepStart = std::function<StepContext(const AcceptedState& state, double time, const Vector& d, Vector& z)>;
 
 /// Runs from the time of a state to the end. On return `state` is that after the last accepted step. Returns true at the end time; false when the
-/// smallest step failed, with its failure in `last_failure`, and without one where the observer wanted rest. Each try is prepared by `start`; without one nothing is guessed. With a predictor it prepares
-/// the last state where no prescribed displacement changes. If that is not tried, or no solution, it prepares the predicted state.
+/// smallest step failed, with its failure in `last_failure`, and without one where the observer wanted rest. Each try is prepared by `start`; without
+/// one nothing is guessed. With a predictor it prepares the last state where no prescribed displacement changes. If that is not tried, or no
+/// solution, it prepares the predicted state.
 bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, const NewtonOptions& newton, SteppingState& state,
                const StepStart& start, const StepperObserver& observer, std::optional<StepFailure>& last_failure);
 

@@ -27,8 +27,9 @@ struct RunOptions {
   Verbosity verbosity = Verbosity::normal;
   std::optional<RestartOptions> restart;  ///< go on with the run in the directory; none: a new run
   std::optional<double> time_limit;       ///< stop in time before so many seconds have passed
-  bool watch_signals = false;             ///< SIGTERM, SIGINT and SIGUSR1 stop the run after its step; SIGUSR2 asks for a checkpoint
-  std::string version;  ///< of the program, for the summary
+  /// SIGTERM, SIGINT and SIGUSR1 stop the run after its step, SIGUSR2 asks for a checkpoint; and ranks that give no sign of life are told of.
+  bool supervised = false;
+  std::string version;                    ///< of the program, for the summary
 };
 
 /// results/<name of the file without its ending>.
@@ -36,8 +37,9 @@ std::string default_directory(const std::string& file);
 
 /// Collective. Runs the scene that was read from options.scene, which holds nothing of a run: it may be run again. Leaves in the directory:
 /// summary.json, newton.csv, history.csv, steps.jsonl, effective.xml, log.txt, checkpoints and, if the scene names fields, fields.xdmf and fields/.
-/// A scene that cannot be run leaves the directory as it was. Returns done, not_converged (also if it was stopped) or check_missed. Throws on all ranks: InputError, FileError, and StepFailure of
-/// kind input if an expression of the scene has no value at a later time; results until then are kept.
+/// A scene that cannot be run leaves the directory as it was. Returns done, not_converged (also if it was stopped) or check_missed. Throws on all
+/// ranks: InputError, FileError, and StepFailure of kind input if an expression of the scene has no value at a later time; results until then are
+/// kept.
 ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, const RunOptions& options);
 
 /// Collective. Builds the scene's mesh and all else that a run needs, says on rank 0 what it found; solves nothing, writes nothing.

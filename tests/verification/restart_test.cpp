@@ -1,0 +1,288 @@
+// A run that was cut in two is the run in one piece: quantities, Newton counts, files. And what is refused.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "launch.hpp"
+#include "scene_support.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using Words = std::vector<std::string>;
+using Table = std::vector<Words>;
+
+Table read_table(const fs::path& path) {
+  Table table;
+  std::istringstream text(read_file(path));
+  for (std::string line; std::getline(text, line);) {
+    Words row;
+    std::istringstream cells(line);
+    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(cell);
+    table.push_back(row);
+  }
+  return table;
+}
+
+Words names_in(const fs::path& directory) {
+  Words names;
+  for (const auto& entry : fs::directory_iterator(directory)) names.push_back(entry.path().filename());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+nlohmann::json summary_of(const fs::path& directory) { return nlohmann::json::parse(read_file(directory / "summary.json")); }
+
+/// A scene that is run straight, and again from a checkpoint.
+struct Cut {
+  std::string name, scene;
+  Words settings;
+  int ranks = 1, ranks_after = 1;
+  double tolerance = 1e-12;  ///< of the scale of each quantity
+};
+
+Ending run(const std::string& scene, const Words& settings, int ranks, const fs::path& results, const Words& more = {}) {
+  Words command{MPIEXEC, "-n", std::to_string(ranks), MORTISE, "run", scene, "-o", results};
+  for (const std::string& setting : settings) command.insert(command.end(), {"--set", setting});
+  command.insert(command.end(), more.begin(), more.end());
+  return launch(command, 300);
+}
+
+Words with_checkpoints(Words settings, int every_step, int keep) {
+  settings.push_back("output/checkpoints/every step=" + std::to_string(every_step));
+  settings.push_back("output/checkpoints/keep=" + std::to_string(keep));
+  return settings;
+}
+
+fs::path scratch(const std::string& name) {
+  const fs::path path = fs::path(SCRATCH) / name;
+  fs::remove_all(path);
+  fs::create_directories(path.parent_path());
+  return path;
+}
+
+/// Rows, columns and Newton counts have to be the same, values to a tolerance of the largest of their column; those that are round-off of 1 at most
+/// of that.
+void expect_same_history(const fs::path& straight, const fs::path& cut, double tolerance) {
+  const Table one = read_table(straight / "history.csv"), other = read_table(cut / "history.csv");
+  ASSERT_EQ(one.size(), other.size());
+  EXPECT_EQ(one.front(), other.front());
+  for (std::size_t column = 0; column < one.front().size(); ++column) {
+    double scale = 0.0, worst = 0.0;
+    for (std::size_t row = 1; row < one.size(); ++row) {
+      const double value = std::stod(one[row][column]), again = std::stod(other[row][column]);
+      if (std::isnan(value) && std::isnan(again)) continue;
+      scale = std::max(scale, std::abs(value));
+      worst = std::max(worst, std::isnan(value) != std::isnan(again) ? INFINITY : std::abs(again - value));
+    }
+    if (scale < 1e-8) scale = 1.0;  // an error that is round-off of something of size 1
+    EXPECT_LE(worst, one.front()[column] == "newton_iterations" ? 0.0 : tolerance * scale) << one.front()[column];
+  }
+}
+
+void expect_seamless(const Cut& cut) {
+  SCOPED_TRACE(cut.name);
+  const fs::path straight = scratch(cut.name), again = scratch(cut.name + "_again");
+  const std::string scene = std::string(INPUTS) + "/" + cut.scene;
+  const Ending whole = run(scene, with_checkpoints(cut.settings, 1, 1000), cut.ranks, straight);
+  ASSERT_EQ(whole.code, 0) << whole.output;
+  const std::size_t steps = read_table(straight / "history.csv").size() - 1;
+  ASSERT_GE(steps, 3U);
+  for (const std::size_t step : {std::size_t{1}, steps / 2, steps - 1}) {
+    SCOPED_TRACE("step " + std::to_string(step));
+    fs::remove_all(again);
+    fs::copy(straight, again, fs::copy_options::recursive);
+    const Ending rest = run(scene, with_checkpoints(cut.settings, 1, 1000), cut.ranks_after, again, {"--restart", std::to_string(step)});
+    ASSERT_EQ(rest.code, 0) << rest.output;
+    expect_same_history(straight, again, cut.tolerance);
+    EXPECT_EQ(read_table(straight / "newton.csv").size(), read_table(again / "newton.csv").size());
+    EXPECT_EQ(names_in(straight / "fields"), names_in(again / "fields"));
+    EXPECT_EQ(names_in(straight / "checkpoints"), names_in(again / "checkpoints"));
+    const auto before = summary_of(straight), after = summary_of(again);
+    EXPECT_EQ(before["steps"].size(), after["steps"].size());
+    EXPECT_EQ(after["parts"].size(), 2U);
+    EXPECT_EQ(after["parts"][1]["from_step"], step);
+    for (std::size_t n = 0; n < before["steps"].size(); ++n) EXPECT_EQ(before["steps"][n]["newton"].size(), after["steps"][n]["newton"].size()) << n;
+  }
+}
+
+const Words short_hertz{"variables/n=2", "variables/F=800", "variables/mu=0.1", "variables/steps=4"};
+
+TEST(Restart, Friction) {
+  expect_seamless({"friction", "verification/sliding_block.xml", {}});
+  expect_seamless({"hertz_friction", "paper/hertz_elastic.xml", short_hertz});
+  Words strong = short_hertz;
+  strong[2] = "variables/mu=5";
+  expect_seamless({"strong_friction", "paper/hertz_elastic.xml", strong});
+}
+TEST(Restart, Plasticity) { expect_seamless({"plasticity", "paper/block_pile.xml", {}}); }
+TEST(Restart, AugmentedLagrange) {
+  expect_seamless({"augmented", "verification/sliding_block.xml", {"contact/joint/formulation/type=augmented lagrange"}});
+}
+TEST(Restart, RigidBodies) { expect_seamless({"rigid", "verification/rolling_disk.xml", {"variables/n=3"}}); }
+TEST(Restart, QuadraticFacets) {
+  expect_seamless({"quadratic",
+                   "verification/3d/punch.xml",
+                   {"bodies/base/element=H20", "variables/n=2", "boundary conditions/press/rotation x=0", "boundary conditions/press/rotation y=0",
+                    "boundary conditions/press/rotation z=0", "stepping/end time=0.75"}});
+}
+TEST(Restart, KinksOfTheNearestFacet) { expect_seamless({"kinks", "verification/dragged_corner.xml", {}}); }
+TEST(Restart, BodiesHeldByContact) { expect_seamless({"held", "verification/held_by_contact.xml", {}}); }
+// What the iterative solver keeps of earlier steps shows within its tolerance alone.
+TEST(Restart, IterativeSolver) {
+  expect_seamless({"iterative", "verification/3d/punch.xml", {"linear solver/type=iterative", "variables/n=2", "stepping/end time=0.75"}});
+}
+// Sums over other ranks go in another order.
+TEST(Restart, OnOtherNumbersOfRanks) {
+  expect_seamless({"one_to_three", "paper/block_pile.xml", {}, 1, 3, 1e-9});
+  expect_seamless({"three_to_two", "verification/sliding_block.xml", {}, 3, 2, 1e-9});
+}
+
+/// Signals a run whose history has some rows.
+Ending run_with_signal(const std::string& scene, const Words& settings, int ranks, const fs::path& results, const std::string& signal, int rows,
+                       const std::string& target) {
+  const std::string watch = "while [ \"$(wc -l < '" + (results / "history.csv").string() + "' 2>/dev/null || echo 0)\" -le " + std::to_string(rows) +
+                            " ]; do sleep 0.02; done; " + target + " -" + signal;
+  std::string command = ranks > 1 ? std::string(MPIEXEC) + " -n " + std::to_string(ranks) + " " : "";
+  command += std::string(MORTISE) + " run '" + scene + "' -o '" + results.string() + "'";
+  for (const std::string& setting : settings) command += " --set '" + setting + "'";
+  return launch({"bash", "-c", command + " & run=$!; " + watch + " $run; wait $run"}, 120);
+}
+
+TEST(Stop, ASignalEndsTheRunAfterItsStepAndARestartGoesOn) {
+  const std::string scene = std::string(INPUTS) + "/verification/sliding_block.xml";
+  const fs::path straight = scratch("stop_straight"), stopped = scratch("stopped");
+  ASSERT_EQ(run(scene, {}, 1, straight).code, 0);
+  for (const std::string signal : {"TERM", "INT", "USR1"}) {
+    SCOPED_TRACE(signal);
+    fs::remove_all(stopped);
+    const Ending first = run_with_signal(scene, {}, 1, stopped, signal, 3, "kill");
+    EXPECT_EQ(first.code, 3) << first.output;
+    EXPECT_THAT(first.output, HasSubstr("stopped by SIG" + signal));
+    EXPECT_THAT(first.output, HasSubstr("to go on: mortise run " + scene + " -o " + stopped.string() + " --restart"));
+    EXPECT_EQ(summary_of(stopped)["stopped"], "SIG" + signal);
+    const std::size_t done = read_table(stopped / "history.csv").size();
+    EXPECT_LT(done, read_table(straight / "history.csv").size());
+    const Ending rest = run(scene, {}, 1, stopped, {"--restart"});
+    EXPECT_EQ(rest.code, 0) << rest.output;
+    expect_same_history(straight, stopped, 1e-12);
+    EXPECT_EQ(names_in(straight / "fields"), names_in(stopped / "fields"));
+  }
+}
+
+TEST(Stop, ASignalToOneRankStopsAll) {
+  const std::string scene = std::string(INPUTS) + "/verification/sliding_block.xml";
+  const fs::path stopped = scratch("stopped_rank");
+  const Ending first = run_with_signal(scene, {}, 2, stopped, "USR1", 3, "pkill -P");  // one child of mpirun and the other
+  EXPECT_EQ(first.code, 3) << first.output;
+  EXPECT_THAT(first.output, HasSubstr("stopped by SIGUSR1"));
+  EXPECT_EQ(run(scene, {}, 2, stopped, {"--restart"}).code, 0);
+}
+
+TEST(Stop, ACheckpointOnDemandGoesOn) {
+  const std::string scene = std::string(INPUTS) + "/verification/sliding_block.xml";
+  const fs::path results = scratch("on_demand");
+  const Ending ending = run_with_signal(scene, {}, 1, results, "USR2", 3, "kill");
+  EXPECT_EQ(ending.code, 0) << ending.output;
+  EXPECT_GE(names_in(results / "checkpoints").size(), 1U);
+}
+
+TEST(Stop, ATimeLimitIsKept) {
+  const std::string scene = std::string(INPUTS) + "/hard/cyclic.xml";
+  const fs::path results = scratch("limited");
+  const auto begin = std::chrono::steady_clock::now();
+  const Ending ending = run(scene, {}, 1, results, {"--time-limit", "1"});
+  EXPECT_EQ(ending.code, 3) << ending.output;
+  EXPECT_THAT(ending.output, HasSubstr("stopped by time limit"));
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), 30.0);
+  EXPECT_EQ(names_in(results / "checkpoints").size(), 1U);
+}
+
+// The end may move, loads may change later on; nothing else may.
+TEST(Restart, RefusesAnotherScene) {
+  const fs::path folder = scratch("changes");
+  fs::create_directories(folder);
+  const std::string file = folder / "scene.xml";
+  const std::string stepping = R"xml(<ParameterList name="stepping">
+    <Parameter name="end time" type="double" value="1"/><Parameter name="step" type="double" value="0.25"/>
+  </ParameterList><ParameterList name="loads">)xml";
+  const std::string scene = scene_support::replaced(scene_support::good_scene, "<ParameterList name=\"loads\">", stepping);
+  const auto write = [&](const std::string& text) { std::ofstream(file) << text; };
+  write(scene);
+  const fs::path results = folder / "results";
+  ASSERT_EQ(run(file, with_checkpoints({}, 1, 10), 1, results).code, 0);
+  const auto restart = [&](const std::string& from, const std::string& to, const std::string& step = "2") {
+    write(scene_support::replaced(scene, from, to));
+    fs::remove_all(folder / "copy");
+    fs::copy(results, folder / "copy", fs::copy_options::recursive);
+    return run(file, with_checkpoints({}, 1, 10), 1, folder / "copy", {"--restart", step});
+  };
+  const std::string ramp = "name=\"values\" type=\"string\" value=\"0, 1\"";
+  Ending ending = restart("value=\"1000\"", "value=\"1001\"");
+  EXPECT_EQ(ending.code, 2);
+  EXPECT_THAT(ending.output, HasSubstr("\"materials/soft/young's modulus\" is 1001; it was 1000"));
+  EXPECT_THAT(ending.output, HasSubstr("what may change is"));
+  EXPECT_EQ(read_file(results / "history.csv"), read_file(folder / "copy" / "history.csv"));
+  ending = restart("name=\"cells x\" type=\"int\" value=\"2\"", "name=\"cells x\" type=\"int\" value=\"4\"");
+  EXPECT_EQ(ending.code, 2) << ending.output;
+  ending = restart(ramp, "name=\"values\" type=\"string\" value=\"0, 1.5\"");
+  EXPECT_EQ(ending.code, 2);
+  EXPECT_THAT(ending.output, HasSubstr("loads at time 0.5, that of the checkpoint, differ"));
+  ending = restart("<Parameter name=\"x\" type=\"double\" value=\"0\"/>", "<Parameter name=\"x\" type=\"double\" value=\"1\"/>");
+  EXPECT_EQ(ending.code, 2);
+  EXPECT_THAT(ending.output, HasSubstr("prescribed displacements at time 0.5"));
+  ending = restart("name=\"end time\" type=\"double\" value=\"1\"", "name=\"end time\" type=\"double\" value=\"0.4\"");
+  EXPECT_EQ(ending.code, 2);
+  EXPECT_THAT(ending.output, HasSubstr("\"end time\" is 0.4, before that of the checkpoint"));
+  ending = restart("value=\"0, 1\"", "value=\"0, 1\"", "9");
+  EXPECT_EQ(ending.code, 5);
+  EXPECT_THAT(ending.output, HasSubstr("holds no checkpoint of step 9; there are those of the steps 1, 2, 3, 4"));
+
+  // What may change.
+  const std::string later = scene_support::replaced(scene, "value=\"0, 1\"/>\n      " + std::string("<Parameter ") + ramp,
+                                                    "value=\"0, 0.5, 2\"/>\n      <Parameter name=\"values\" type=\"string\" value=\"0, 0.5, 8\"");
+  write(scene_support::replaced(later, "name=\"end time\" type=\"double\" value=\"1\"", "name=\"end time\" type=\"double\" value=\"1.5\""));
+  fs::remove_all(folder / "copy");
+  fs::copy(results, folder / "copy", fs::copy_options::recursive);
+  ending = run(file, with_checkpoints({"newton/momentum tolerance=1e-10"}, 1, 10), 1, folder / "copy", {"--restart", "2"});
+  EXPECT_EQ(ending.code, 0) << ending.output;
+  EXPECT_EQ(read_table(folder / "copy" / "history.csv").size(), 1U + 6U);
+}
+
+// A damaged checkpoint is named, and the one before it is taken.
+TEST(Restart, GoesBackToTheLastWholeCheckpoint) {
+  const std::string scene = std::string(INPUTS) + "/paper/hertz_elastic.xml";
+  const fs::path results = scratch("damaged");
+  ASSERT_EQ(run(scene, with_checkpoints(short_hertz, 1, 3), 1, results).code, 0);
+  EXPECT_EQ(names_in(results / "checkpoints"), (Words{"step-000002.h5", "step-000003.h5", "step-000004.h5"}));
+  const fs::path newest = results / "checkpoints" / "step-000004.h5";
+  std::string bytes = read_file(newest);
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+  std::ofstream(newest, std::ios::binary) << bytes;
+  Ending ending = run(scene, with_checkpoints(short_hertz, 1, 3), 1, results, {"--restart", "4"});
+  EXPECT_EQ(ending.code, 5);
+  EXPECT_THAT(ending.output, HasSubstr("it is damaged"));
+  ending = run(scene, with_checkpoints(short_hertz, 1, 3), 1, results, {"--restart"});
+  EXPECT_EQ(ending.code, 0) << ending.output;
+  EXPECT_THAT(ending.output, HasSubstr("not whole, and left out: " + newest.string()));
+  EXPECT_THAT(ending.output, HasSubstr("goes on from " + (results / "checkpoints" / "step-000003.h5").string()));
+}
+
+TEST(Restart, WithoutACheckpointSaysSo) {
+  const std::string scene = std::string(INPUTS) + "/paper/patch_test.xml";
+  const Ending ending = run(scene, {}, 1, scratch("nothing"), {"--restart"});
+  EXPECT_EQ(ending.code, 5);
+  EXPECT_THAT(ending.output, HasSubstr("holds no checkpoint: there is nothing to restart from"));
+  EXPECT_FALSE(fs::exists(fs::path(SCRATCH) / "nothing"));
+}
+
+}  // namespace
