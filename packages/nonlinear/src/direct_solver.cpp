@@ -43,6 +43,11 @@ class DirectSolver : public LinearSolver {
     if (graph_changed) amesos2_ = Teuchos::null;
   }
 
+  void forget() override {
+    amesos2_ = Teuchos::null;
+    factored_ = false;
+  }
+
   LinearSolveReport solve(const Vector& b, Vector& x, double) override {
     const double size = check_finite(*matrix_, b, name_);
     if (size == 0.0) {
@@ -116,8 +121,7 @@ class DirectSolver : public LinearSolver {
   }
 
   [[noreturn]] void fail(const std::string& why) {
-    amesos2_ = Teuchos::null;
-    factored_ = false;
+    forget();
     throw StepFailure(FailureKind::linear_solver, name_ + ": " + why);
   }
 

@@ -28,11 +28,16 @@ class IterativeSolver : public LinearSolver {
     multigrid_ = multigrid;
     preconditioner_.reset();
     is_fresh_ = false;
-    if (reuse_.is_stale() || !hierarchy_ || !hierarchy_->cycle->getDomainMap()->isSameAs(*matrix->getDomainMap())) forget();
+    if (reuse_.is_stale() || !hierarchy_ || !hierarchy_->cycle->getDomainMap()->isSameAs(*matrix->getDomainMap())) drop_hierarchy();
   }
 
   std::optional<Tolerances> tolerances() const override {
     return Tolerances{options_.tolerance, std::max(options_.tolerance, options_.largest_tolerance)};
+  }
+
+  void forget() override {
+    drop_hierarchy();
+    smoother_ = first_smoother(options_.muelu.value);
   }
 
   LinearSolveReport solve(const Vector& b, Vector& x, double tolerance) override {
@@ -47,7 +52,7 @@ class IterativeSolver : public LinearSolver {
       start(b, x);
       report.iterations = iterate_until_converged(b, x, tolerance);
     } catch (const std::exception& error) {
-      forget();
+      drop_hierarchy();
       failure = StepFailure(FailureKind::linear_solver, name() + ": " + error.what());
     }
     throw_if_any(*matrix_->getComm(), failure);
@@ -55,13 +60,13 @@ class IterativeSolver : public LinearSolver {
     Vector r(b.getMap());
     report.relative_residual = true_residual(*matrix_, b, x, r) / size;
     if (report.relative_residual <= accepted_residual * tolerance) return report;
-    forget();
+    drop_hierarchy();
     throw StepFailure(FailureKind::linear_solver, fmt::format("{}: the true relative residual is {:.1e} after {} iterations (tolerance {:.1e})",
                                                               name(), report.relative_residual, report.iterations, tolerance));
   }
 
  private:
-  void forget() {
+  void drop_hierarchy() {
     hierarchy_.reset();
     preconditioner_.reset();
     reuse_ = {};
@@ -92,7 +97,7 @@ class IterativeSolver : public LinearSolver {
     GmresReport report = iterate(b, x, tolerance);
     int iterations = report.iterations;
     const auto try_again = [&] {
-      forget();
+      drop_hierarchy();
       prepare();
       report = iterate(b, x, tolerance);
       iterations += report.iterations;

@@ -151,6 +151,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
       serialize_memory(archive);
       output.store(archive);
     });
+    system.parts().linear_solver->forget();
     requests.reserve(checkpoints.seconds());
     log.info(
         fmt::format("  checkpoint of step {}: {:.3g} MiB, {:.2g} s", state.steps, static_cast<double>(bytes) / 1048576.0, checkpoints.seconds()));

@@ -62,6 +62,10 @@ class LinearSolver {
   /// * the backward error of a direct solver exceeds the bound of the options,
   /// * the true relative residual of the iterative solver exceeds ten times the tolerance.
   virtual LinearSolveReport solve(const Vector& b, Vector& x, double tolerance = 0.0) = 0;
+
+  /// Forgets what it kept of earlier matrices: from the next one on it solves as a new solver would. So a run that goes on from a checkpoint takes the
+  /// way of the run that wrote it.
+  virtual void forget() {}
 };
 
 /// What is known of the systems to be solved before there is one.
