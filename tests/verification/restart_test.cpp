@@ -85,7 +85,7 @@ void expect_same_history(const fs::path& straight, const fs::path& cut, double t
       worst = std::max(worst, std::isnan(value) != std::isnan(again) ? INFINITY : std::abs(again - value));
     }
     const std::string& name = one.front()[column];
-    for (const std::string relative : {"error", "imbalance", "spread", "oscillation"})
+    for (const std::string relative : {"error", "imbalance", "spread", "oscillation", "penetration"})
       if (name.find(relative) != std::string::npos) scale = std::max(scale, 1.0);
     EXPECT_LE(worst, name == "newton_iterations" ? 0.0 : tolerance * scale) << name;
   }
