@@ -10,8 +10,11 @@
 #include <stdexcept>
 
 #include "element_block.hpp"
+#include "extrapolation.hpp"
 #include "host_view.hpp"
 #include "mortise/core/dof_map.hpp"
+#include "mortise/material/logarithmic.hpp"
+#include "mortise/material/materials.hpp"
 
 namespace mortise {
 namespace {
@@ -128,32 +131,79 @@ std::vector<double> Bodies::plastic_works(const Vector& local_displacement) cons
 
 namespace {
 
-/// Adds the current volume and the stress times it.
-void add_weighted_stress(const MaterialPoint& point, double& volume, StressComponents& stress) {
-  const double weight = point.weight * point.volume_ratio;
-  volume += weight;
-  stress[0] += weight * point.cauchy_stress(0, 0);
-  stress[1] += weight * point.cauchy_stress(1, 1);
-  stress[2] += weight * point.cauchy_stress(2, 2);
-  stress[3] += weight * point.cauchy_stress(0, 1);
-  stress[4] += weight * point.cauchy_stress(1, 2);
-  stress[5] += weight * point.cauchy_stress(0, 2);
-}
+StressComponents components_of(const Matrix3& tensor) { return {tensor(0, 0), tensor(1, 1), tensor(2, 2), tensor(0, 1), tensor(1, 2), tensor(0, 2)}; }
+
+const Matrix3& stress_of(const MaterialPoint& point) { return point.cauchy_stress; }
 
 }  // namespace
 
-std::vector<StressComponents> Bodies::element_stresses(const Vector& local_displacement, LocalOrdinal block) const {
+std::vector<StressComponents> Bodies::element_means(const Vector& local_displacement, LocalOrdinal block, const PointTensor& tensor) const {
   const LocalOrdinal owned = mesh_->blocks.at(block).owned;
-  std::vector<StressComponents> stresses(owned, StressComponents{});
+  std::vector<StressComponents> means(owned, StressComponents{});
   std::vector<double> volumes(owned, 0.0);
   const HostReadView displacement(local_displacement);
-  blocks_.at(block)->visit_points(displacement.data(), owned,
-                                  [&](const MaterialPoint& point) { add_weighted_stress(point, volumes[point.element], stresses[point.element]); });
+  blocks_.at(block)->visit_points(displacement.data(), owned, [&](const MaterialPoint& point) {
+    const double weight = point.weight * point.volume_ratio;
+    const StressComponents components = components_of(tensor(point));
+    volumes[point.element] += weight;
+    for (std::size_t c = 0; c < components.size(); ++c) means[point.element][c] += weight * components[c];
+  });
   for (LocalOrdinal element = 0; element < owned; ++element)
-    if (volumes[element] > 0.0)  // a rigid body has no stress
-      for (double& component : stresses[element]) component /= volumes[element];
-  return stresses;
+    if (volumes[element] > 0.0)  // a rigid body has no points
+      for (double& component : means[element]) component /= volumes[element];
+  return means;
 }
+
+RCP<MultiVector> Bodies::nodal_means(const Vector& local_displacement, const PointTensor& tensor) const {
+  const LocalOrdinal owned = mesh_->owned_count();
+  std::vector<StressComponents> sums(owned, StressComponents{});
+  std::vector<int> elements(owned, 0);
+  const HostReadView displacement(local_displacement);
+  for (std::size_t n = 0; n < blocks_.size(); ++n) {
+    if (properties_[n].is_rigid()) continue;
+    const Block& block = mesh_->blocks[n];
+    const Eigen::MatrixXd extrapolation = extrapolation_to_nodes(properties_[n].element, kinematics_);
+    // Ghost elements too: every element around an owned node counts.
+    blocks_[n]->visit_points(displacement.data(), block.size(), [&](const MaterialPoint& point) {
+      const LocalOrdinal* nodes = block.nodes(point.element);
+      const StressComponents components = components_of(tensor(point));
+      for (int a = 0; a < block.nodes_per_element; ++a) {
+        if (nodes[a] >= owned) continue;
+        if (point.point == 0) ++elements[nodes[a]];
+        for (std::size_t c = 0; c < components.size(); ++c) sums[nodes[a]][c] += extrapolation(a, point.point) * components[c];
+      }
+    });
+  }
+  auto result = rcp(new MultiVector(mesh_->owned_nodes, stress_components()));
+  auto view = result->getLocalViewHost(Tpetra::Access::OverwriteAll);
+  for (LocalOrdinal node = 0; node < owned; ++node)
+    for (int c = 0; c < stress_components(); ++c) view(node, c) = elements[node] > 0 ? sums[node][c] / elements[node] : 0.0;
+  return result;
+}
+
+Bodies::PointTensor Bodies::strain_of_points() const {
+  std::vector<char> is_small;
+  for (const BodyProperties& body : properties_)
+    is_small.push_back(!body.is_rigid() && std::visit([](const auto& law) { return law.small_strain; }, body.material->law()) ? 1 : 0);
+  return [is_small](const MaterialPoint& point) -> Matrix3 {
+    const Matrix3& F = point.deformation_gradient;
+    if (is_small[point.block] != 0) return 0.5 * (F + F.transpose()) - Matrix3::Identity();
+    const Spectrum b = spectral_decomposition(F * F.transpose());
+    return in_axes_of(b, logarithmic_strain(b));
+  };
+}
+
+std::vector<StressComponents> Bodies::element_stresses(const Vector& local_displacement, LocalOrdinal block) const {
+  return element_means(local_displacement, block, stress_of);
+}
+
+std::vector<StressComponents> Bodies::element_strains(const Vector& local_displacement, LocalOrdinal block) const {
+  return element_means(local_displacement, block, strain_of_points());
+}
+
+RCP<MultiVector> Bodies::nodal_stresses(const Vector& local_displacement) const { return nodal_means(local_displacement, stress_of); }
+
+RCP<MultiVector> Bodies::nodal_strains(const Vector& local_displacement) const { return nodal_means(local_displacement, strain_of_points()); }
 
 std::vector<double> Bodies::element_plastic_strains(const Vector& local_displacement, LocalOrdinal block) const {
   const LocalOrdinal owned = mesh_->blocks.at(block).owned;
@@ -166,27 +216,6 @@ std::vector<double> Bodies::element_plastic_strains(const Vector& local_displace
   });
   for (LocalOrdinal element = 0; element < owned; ++element) strains[element] /= volumes[element];
   return strains;
-}
-
-RCP<MultiVector> Bodies::nodal_stresses(const Vector& local_displacement) const {
-  const LocalOrdinal owned = mesh_->owned_count();
-  std::vector<StressComponents> sums(owned, StressComponents{});
-  std::vector<double> volumes(owned, 0.0);
-  const HostReadView displacement(local_displacement);
-  for (std::size_t n = 0; n < blocks_.size(); ++n) {
-    const Block& block = mesh_->blocks[n];
-    // Ghost elements too: every element around an owned node counts.
-    blocks_[n]->visit_points(displacement.data(), block.size(), [&](const MaterialPoint& point) {
-      const LocalOrdinal* nodes = block.nodes(point.element);
-      for (int a = 0; a < block.nodes_per_element; ++a)
-        if (nodes[a] < owned) add_weighted_stress(point, volumes[nodes[a]], sums[nodes[a]]);
-    });
-  }
-  auto result = rcp(new MultiVector(mesh_->owned_nodes, stress_components()));
-  auto view = result->getLocalViewHost(Tpetra::Access::OverwriteAll);
-  for (LocalOrdinal node = 0; node < owned; ++node)
-    for (int c = 0; c < stress_components(); ++c) view(node, c) = volumes[node] > 0.0 ? sums[node][c] / volumes[node] : 0.0;
-  return result;
 }
 
 }  // namespace mortise

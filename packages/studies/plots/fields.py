@@ -1,6 +1,7 @@
 # The fields that a run leaves.
 import glob
 import os
+import sys
 
 import numpy as np
 
@@ -18,7 +19,10 @@ class Fields:
     """The last written step of a run's directory."""
 
     def __init__(self, path):
-        with h5py.File(last_step_file(path)) as file:
+        last = last_step_file(path)
+        if last is None:
+            sys.exit(f"{path} holds no fields of any step; please run its scene again")
+        with h5py.File(last) as file:
             self.values = {name: data[:] for name, data in file.items()}
         with h5py.File(os.path.join(path, "fields", "mesh.h5")) as file:
             self.reference = file["coordinates"][:, :2]

@@ -144,6 +144,13 @@ inline Eigen::VectorXd space_field(const Bodies& bodies, const SpaceField& field
   return u;
 }
 
+/// 1/2 ln(F F^T) from Eigen's decomposition, or the symmetric part of F - 1.
+inline Matrix3 expected_strain(const Matrix3& F, bool small_strain) {
+  if (small_strain) return 0.5 * (F + F.transpose()) - Matrix3::Identity();
+  const Eigen::SelfAdjointEigenSolver<Matrix3> b(F * F.transpose());
+  return b.eigenvectors() * (0.5 * b.eigenvalues().array().log()).matrix().asDiagonal() * b.eigenvectors().transpose();
+}
+
 inline Eigen::VectorXd to_eigen(const Vector& vector) {
   const auto view = vector.getLocalViewHost(Tpetra::Access::ReadOnly);
   return Eigen::Map<const Eigen::VectorXd>(view.data(), view.extent(0));

@@ -206,9 +206,18 @@ TEST_P(EverySpaceSetup, HomogeneousDeformationOfADistortedMeshIsExact) {
         const auto view = nodal->getLocalViewHost(Tpetra::Access::ReadOnly);
         const auto elements = bodies->element_stresses(to_local(*bodies, u), 0);
         const std::array<double, 6> expected{cauchy(0, 0), cauchy(1, 1), cauchy(2, 2), cauchy(0, 1), cauchy(1, 2), cauchy(0, 2)};
+        const Matrix3 strain = expected_strain(F, law.small_strain);
+        const std::array<double, 6> strains{strain(0, 0), strain(1, 1), strain(2, 2), strain(0, 1), strain(1, 2), strain(0, 2)};
+        const auto nodal_strains = bodies->nodal_strains(to_local(*bodies, u));
+        const auto strain_view = nodal_strains->getLocalViewHost(Tpetra::Access::ReadOnly);
+        const auto element_strains = bodies->element_strains(to_local(*bodies, u), 0);
         for (int c = 0; c < 6; ++c) {
-          for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node) EXPECT_NEAR(view(node, c), expected[c], 1e-12 * 1000.0);
+          for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node) {
+            EXPECT_NEAR(view(node, c), expected[c], 1e-12 * 1000.0);
+            EXPECT_NEAR(strain_view(node, c), strains[c], 1e-12);
+          }
           for (const auto& stress : elements) EXPECT_NEAR(stress[c], expected[c], 1e-12 * 1000.0);
+          for (const auto& strain_of_element : element_strains) EXPECT_NEAR(strain_of_element[c], strains[c], 1e-12);
         }
       },
       make_material(setup.law)->law());

@@ -230,10 +230,18 @@ TEST_P(EverySetup, HomogeneousDeformationOfADistortedMeshIsExact) {
         const auto nodal = bodies->nodal_stresses(u);
         const auto view = nodal->getLocalViewHost(Tpetra::Access::ReadOnly);
         const auto elements = bodies->element_stresses(u, 0);
+        const Matrix3 strain = expected_strain(F, law.small_strain);
+        const auto nodal_strains = bodies->nodal_strains(u);
+        const auto strain_view = nodal_strains->getLocalViewHost(Tpetra::Access::ReadOnly);
+        const auto element_strains = bodies->element_strains(u, 0);
         for (int c = 0; c < 4; ++c) {
-          const double expected = c < 3 ? cauchy(c, c) : cauchy(0, 1);
-          for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node) EXPECT_NEAR(view(node, c), expected, 1e-12 * 1000.0);
+          const double expected = c < 3 ? cauchy(c, c) : cauchy(0, 1), expected_strain = c < 3 ? strain(c, c) : strain(0, 1);
+          for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node) {
+            EXPECT_NEAR(view(node, c), expected, 1e-12 * 1000.0);
+            EXPECT_NEAR(strain_view(node, c), expected_strain, 1e-12);
+          }
           for (const auto& stress : elements) EXPECT_NEAR(stress[c], expected, 1e-12 * 1000.0);
+          for (const auto& strain_of_element : element_strains) EXPECT_NEAR(strain_of_element[c], expected_strain, 1e-12);
         }
       },
       make_material(setup.law)->law());

@@ -1,5 +1,6 @@
 #include "mortise/simulation/quantities/fields.hpp"
 
+#include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <cmath>
@@ -11,14 +12,21 @@ namespace {
 
 using Values = std::vector<double>;
 
-Values displacement(const FieldState& state) {
-  const auto view = state.displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
+/// A vector on the dofs as one on the nodes. What stands at a node for the rotation of a reference point is none: 0.
+Values on_nodes(const Mesh& mesh, const Vector& vector) {
+  const auto view = vector.getLocalViewHost(Tpetra::Access::ReadOnly);
   Values values(view.data(), view.data() + view.extent(0));
-  const Mesh& mesh = *state.bodies.mesh();
-  for (const ReferencePoint& point : mesh.reference_points)  // a rotation is no displacement
+  for (const ReferencePoint& point : mesh.reference_points)
     if (point.rotation_node >= 0 && point.rotation_node < mesh.owned_count())
       std::fill_n(values.begin() + mesh.dimension * point.rotation_node, mesh.dimension, 0.0);
   return values;
+}
+
+Values displacement(const FieldState& state) { return on_nodes(*state.bodies.mesh(), state.displacement); }
+
+Values reaction_force(const FieldState& state) {
+  const Mesh& mesh = *state.bodies.mesh();
+  return state.reaction != nullptr ? on_nodes(mesh, *state.reaction) : Values(static_cast<std::size_t>(mesh.dimension) * mesh.owned_count(), 0.0);
 }
 
 /// `put(node, values of the node)` for every owned slave node of every pair.
@@ -31,13 +39,30 @@ Values on_slave_nodes(const FieldState& state, int components, const std::functi
 }
 
 /// Components xx, yy, zz, xy, in 3D also yz, xz, of each owned element of all blocks.
-Values stresses(const FieldState& state) {
+Values on_elements(const FieldState& state, std::vector<StressComponents> (Bodies::*tensors)(const Vector&, LocalOrdinal) const) {
   Values values;
   for (LocalOrdinal block = 0; block < static_cast<LocalOrdinal>(state.bodies.mesh()->blocks.size()); ++block)
-    for (const auto& stress : state.bodies.element_stresses(state.local_displacement, block))
-      values.insert(values.end(), stress.begin(), stress.begin() + state.bodies.stress_components());
+    for (const auto& tensor : (state.bodies.*tensors)(state.local_displacement, block))
+      values.insert(values.end(), tensor.begin(), tensor.begin() + state.bodies.stress_components());
   return values;
 }
+
+Values stresses(const FieldState& state) { return on_elements(state, &Bodies::element_stresses); }
+
+Values strains(const FieldState& state) { return on_elements(state, &Bodies::element_strains); }
+
+/// The same components of each owned node.
+Values rows_of(const MultiVector& columns) {
+  const auto view = columns.getLocalViewHost(Tpetra::Access::ReadOnly);
+  Values values;
+  for (std::size_t node = 0; node < view.extent(0); ++node)
+    for (std::size_t c = 0; c < view.extent(1); ++c) values.push_back(view(node, c));
+  return values;
+}
+
+Values nodal_stresses(const FieldState& state) { return rows_of(*state.bodies.nodal_stresses(state.local_displacement)); }
+
+Values nodal_strains(const FieldState& state) { return rows_of(*state.bodies.nodal_strains(state.local_displacement)); }
 
 /// q = sqrt(3/2 dev sigma : dev sigma) of the element's mean stress.
 Values von_mises(const FieldState& state) {
@@ -95,7 +120,15 @@ const std::vector<Kind>& kinds() {
       {"cauchy_stress", "volume mean of the Cauchy stress of each element", Center::cell, FieldKind::symmetric_tensor, 4, 6, stresses},
       {"von_mises", "von Mises stress of each element's mean Cauchy stress", Center::cell, FieldKind::scalar, 1, 1, von_mises},
       {"equivalent_plastic_strain", "volume mean of the accumulated plastic strain of each element; 0 in elastic bodies", Center::cell,
-       FieldKind::scalar, 1, 1, plastic_strains}};
+       FieldKind::scalar, 1, 1, plastic_strains},
+      {"logarithmic_strain", "volume mean of the logarithmic strain of each element, 1/2 ln(F F^T); laws of small strain: symmetric part of F - 1",
+       Center::cell, FieldKind::symmetric_tensor, 4, 6, strains},
+      {"nodal_cauchy_stress", "Cauchy stress at the nodes: extrapolated from the points of each element, mean over a body's elements there",
+       Center::node, FieldKind::symmetric_tensor, 4, 6, nodal_stresses},
+      {"nodal_logarithmic_strain", "logarithmic strain at the nodes, in the same way", Center::node, FieldKind::symmetric_tensor, 4, 6,
+       nodal_strains},
+      {"reaction_force", "force of the supports on each node, in prescribed directions; 0 in all others", Center::node, FieldKind::vector, 2, 3,
+       reaction_force}};
   return all;
 }
 

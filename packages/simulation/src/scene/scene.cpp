@@ -83,7 +83,7 @@ void OutputOptions::describe(Parameters& parameters) {
   std::vector<std::string> known;
   for (const auto& [name, sentence] : field_names()) known.push_back(name);
   parameters.add("fields", fields,
-                 "fields written below fields, with the index fields.xdmf: any of " + quoted_list(known) + "; an empty text: no such files");
+                 "fields written to fields.xdmf and the files in fields/: any of " + quoted_list(known) + "; an empty text: no such files");
   for (const auto& field : fields)
     if (std::find(known.begin(), known.end(), field) == known.end()) parameters.error("fields", unknown_name("field", field, known));
   for (auto field = fields.begin(); field != fields.end(); ++field)

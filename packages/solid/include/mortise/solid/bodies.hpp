@@ -33,7 +33,7 @@ struct MaterialPoint {
   double energy = 0.0;                     ///< stored energy per reference volume, of deformation_gradient
 };
 
-/// Cauchy stress xx, yy, zz, xy, then in three dimensions yz, xz, else 0. Axisymmetric: rr, zz, hoop, rz.
+/// Stress or strain xx, yy, zz, xy, then in three dimensions yz, xz, else 0; shear strains are tensor components. Axisymmetric: rr, zz, hoop, rz.
 using StressComponents = std::array<double, 6>;
 
 /// All bodies of a model. dof id = dimension * node id + component.
@@ -97,8 +97,16 @@ class Bodies {
   /// Volume-weighted mean accumulated plastic strain of each owned element of a block; 0 for laws without plasticity.
   std::vector<double> element_plastic_strains(const Vector& local_displacement, LocalOrdinal block) const;
 
-  /// Volume-weighted mean Cauchy stress around each owned node: stress_components() columns on mesh()->owned_nodes.
+  /// The same of the strain: 1/2 ln(F F^T) of the deformation gradient that the law sees; for laws of small strain the symmetric part of F - 1.
+  std::vector<StressComponents> element_strains(const Vector& local_displacement, LocalOrdinal block) const;
+
+  /// Cauchy stress at each owned node: stress_components() columns on mesh()->owned_nodes. It is the mean over the elements around the node of what
+  /// their points, extrapolated, give there: a polynomial fitted to them, linear in each direction. A node has elements of one body only, so bodies
+  /// do not mix. 0 at nodes without elements.
   RCP<MultiVector> nodal_stresses(const Vector& local_displacement) const;
+
+  /// The same of the strain of element_strains().
+  RCP<MultiVector> nodal_strains(const Vector& local_displacement) const;
 
   /// Stored energy of each body, summed over all ranks. Collective.
   std::vector<double> stored_energies(const Vector& local_displacement) const;
@@ -110,6 +118,11 @@ class Bodies {
   std::vector<double> nodal_volumes(LocalOrdinal block) const;
 
  private:
+  using PointTensor = std::function<Matrix3(const MaterialPoint&)>;
+  std::vector<StressComponents> element_means(const Vector& local_displacement, LocalOrdinal block, const PointTensor& tensor) const;
+  RCP<MultiVector> nodal_means(const Vector& local_displacement, const PointTensor& tensor) const;
+  PointTensor strain_of_points() const;
+
   RCP<const Mesh> mesh_;
   Kinematics kinematics_;
   double thickness_;

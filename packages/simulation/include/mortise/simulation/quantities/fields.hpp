@@ -20,6 +20,7 @@ struct FieldState {
   const Vector& displacement;        ///< owned dofs
   const Vector& local_displacement;  ///< owned dofs, then ghosts
   const ContactLaws* laws;           ///< of it at this state; null without contact
+  const Vector* reaction = nullptr;  ///< owned dofs: forces of the supports, 0 where nothing is prescribed; null: all are 0
 };
 
 /// The values of the field `name`, one of field_names().
