@@ -13,7 +13,6 @@
 
 #include "mortise/core/error.hpp"
 #include "mortise/io/csv_writer.hpp"
-#include "mortise/io/output_directory.hpp"
 #include "scratch_directory.hpp"
 
 namespace mortise {
@@ -80,6 +79,16 @@ class FileSizeLimit {
   void (*former_action_)(int);
 };
 
+TEST(Files, AReplacementGoesThroughNoLink) {
+  const test::ScratchDirectory scratch(world());
+  if (world()->getRank() != 0) return;
+  std::ofstream(scratch.file("theirs")) << "theirs";
+  std::filesystem::create_symlink("theirs", scratch.file("ours.part"));
+  EXPECT_EQ(replace_file(scratch.file("ours"), "ours"), std::nullopt);
+  EXPECT_EQ(content(scratch.file("theirs")), "theirs");
+  EXPECT_EQ(content(scratch.file("ours")), "ours");
+}
+
 TEST(Files, EndOfAFileIsReplacedOrKept) {
   const test::ScratchDirectory scratch(world());
   if (world()->getRank() != 0) return;
@@ -121,47 +130,6 @@ TEST(CsvWriter, NumbersReadBackExactlyAndTextIsQuoted) {
   world()->barrier();
   EXPECT_THAT(content(csv.path()), ::testing::EndsWith("\n-1e-300,nan,0\n"));
   EXPECT_THAT(file_error([&] { csv.row({1.0}); }), HasSubstr("1 values for 3 columns"));
-}
-
-TEST(OutputDirectory, IsMadeWithItsParentsWhenARunBegins) {
-  const test::ScratchDirectory scratch(world());
-  const OutputDirectory directory(world(), scratch.file("results/patch"), false);
-  EXPECT_TRUE(std::filesystem::is_empty(scratch.path())) << "nothing may be made before";
-  world()->barrier();
-  directory.begin_run();
-  EXPECT_TRUE(std::filesystem::is_directory(directory.path()));
-  EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
-  EXPECT_EQ(directory.file("log.txt"), scratch.file("results/patch") + "/log.txt");
-}
-
-TEST(OutputDirectory, ReplacesARunWholeAndLeavesTheRest) {
-  const test::ScratchDirectory scratch(world());
-  if (world()->getRank() == 0)
-    for (const char* name : {"summary.json", "fields.h5", "checkpoint-12.h5", "notes.txt", "checkpoint-.h5"})
-      std::ofstream(scratch.file(name)) << "old";
-  world()->barrier();
-  OutputDirectory directory(world(), scratch.path(), false);
-  EXPECT_EQ(content(scratch.file("summary.json")), "old") << "opening must not remove anything";
-  world()->barrier();
-  directory.begin_run();
-  for (const char* name : {"summary.json", "fields.h5", "checkpoint-12.h5"}) EXPECT_FALSE(std::filesystem::exists(scratch.file(name))) << name;
-  for (const char* name : {"notes.txt", "checkpoint-.h5"}) EXPECT_TRUE(std::filesystem::exists(scratch.file(name))) << name;
-}
-
-TEST(OutputDirectory, KeepRefusesARun) {
-  const test::ScratchDirectory scratch(world());
-  EXPECT_NO_THROW(OutputDirectory(world(), scratch.path(), true));
-  if (world()->getRank() == 0) std::ofstream(scratch.file("newton.csv")) << "old";
-  world()->barrier();
-  EXPECT_THAT(file_error([&] { OutputDirectory(world(), scratch.path(), true); }), AllOf(HasSubstr(scratch.path()), HasSubstr("newton.csv")));
-}
-
-TEST(OutputDirectory, WhatIsNoDirectoryIsRefused) {
-  const test::ScratchDirectory scratch(world());
-  if (world()->getRank() == 0) std::ofstream(scratch.file("taken")) << "a file";
-  world()->barrier();
-  EXPECT_THAT(file_error([&] { OutputDirectory(world(), scratch.file("taken"), false); }), HasSubstr("not a directory"));
-  EXPECT_THAT(file_error([&] { OutputDirectory(world(), scratch.file("taken/below"), false); }), HasSubstr(scratch.file("taken/below")));
 }
 
 }  // namespace

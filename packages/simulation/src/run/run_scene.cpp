@@ -46,22 +46,25 @@ std::string effective_xml(const Scene& scene) {
 /// Everything that follows the steps: table, newton.csv, history.csv, profiles.csv, fields.
 class Observers {
  public:
-  Observers(const RCP<const Communicator>& comm, const Scene& scene, const OutputDirectory& directory, const RCP<const Mesh>& mesh,
+  Observers(const RCP<const Communicator>& comm, const Scene& scene, OutputDirectory& directory, const RCP<const Mesh>& mesh,
             StepEvaluation& evaluation, RunLog& log, RunRecord& record, const Timers& timers)
       : scene_(scene),
         evaluation_(evaluation),
         log_(log),
         record_(record),
         timers_(timers),
-        newton_(comm, directory.file("newton.csv"),
+        newton_(comm, directory.claim("newton.csv"),
                 {"step", "try", "time", "dt", "iteration", "momentum", "momentum_absolute", "gap", "complementarity", "increment", "step_length",
                  "active", "stick", "slip", "changed", "linear_iterations", "seconds", "undone"}),
-        history_(comm, directory.file("history.csv"), columns_with(evaluation)) {
+        history_(comm, directory.claim("history.csv"), columns_with(evaluation)) {
     if (scene.output.contact_profiles)
       profiles_ =
-          std::make_unique<CsvWriter>(comm, directory.file("profiles.csv"),
+          std::make_unique<CsvWriter>(comm, directory.claim("profiles.csv"),
                                       std::vector<std::string>{"time", "pair", "part", "arc_length", "x", "y", "pressure", "shear", "gap", "state"});
-    if (!scene.output.fields.empty()) fields_ = std::make_unique<FieldWriter>(mesh, directory.path());
+    if (!scene.output.fields.empty()) {
+      for (const char* name : {"fields.h5", "fields.xdmf"}) directory.claim(name);
+      fields_ = std::make_unique<FieldWriter>(mesh, directory.path());
+    }
   }
 
   StepperObserver functions() {
@@ -236,7 +239,8 @@ std::string default_directory(const std::string& file) { return "results/" + std
 ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, const RunOptions& options) {
   RunLog log(comm, options.verbosity);
   const Timers timers;
-  OutputDirectory directory(comm, options.directory.empty() ? default_directory(options.scene) : options.directory, options.keep);
+  OutputDirectory directory(comm, options.directory.empty() ? default_directory(options.scene) : options.directory,
+                            {"run", options.scene, options.directory.empty()}, options.keep);
   const Model model(comm, scene, timers);
   SystemParts parts = model.parts();
   std::optional<SlipSettlement> settlement;
@@ -249,12 +253,12 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
 
   // From here on the scene is one that can be run: only now is anything made, and what an earlier run left makes room.
   directory.begin_run();
-  log.open(directory.file("log.txt"));
+  log.open(directory.claim("log.txt"));
   report_model(options.scene, scene, model, log);
   report_precision(model, scene, log);
   report_contact_at_start(model, scene, log);
   report_memory(model, log);
-  write_file(*comm, directory.file("effective.xml"), [&] { return effective_xml(scene); });
+  write_file(*comm, directory.claim("effective.xml"), [&] { return effective_xml(scene); });
 
   RunRecord record;
   record.scene = options.scene;
@@ -380,7 +384,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
   Teuchos::reduceAll(*comm, Teuchos::REDUCE_SUM, mine, Teuchos::outArg(record.memory_total_mib));
   log.detail(timer_report(timers, comm));
   report_end(record, failure, directory.path(), log);
-  write_file(*comm, directory.file("summary.json"), [&, json = summary(record, model, state.context.contact)] {
+  write_file(*comm, directory.claim("summary.json"), [&, json = summary(record, model, state.context.contact)] {
     return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   });
   if (is_input(failure)) throw *failure;
