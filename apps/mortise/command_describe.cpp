@@ -40,14 +40,20 @@ void add_describe_command(CLI::App& app, Program& program) {
         print(program, describe_scene(options->path, options->format));
         return ExitCode::done;
       }
-      OutputDirectory(program.comm, options->directory, false).make();
+      OutputDirectory directory(program.comm, options->directory, {"reference"});
       if (options->format == DescriptionFormat::relax_ng || options->format == DescriptionFormat::json) {
         const std::string kind = options->path.empty() ? "scene" : options->path.substr(0, options->path.find('/'));
-        write_file(*program.comm, options->directory + "/" + kind + (options->format == DescriptionFormat::json ? ".json" : ".rng"),
-                   [&] { return describe_scene(options->path, options->format); });
+        const std::string name = kind + (options->format == DescriptionFormat::json ? ".json" : ".rng"),
+                          text = describe_scene(options->path, options->format);
+        directory.open({name});
+        write_file(*program.comm, directory.claim(name), [&] { return text; });
         return ExitCode::done;
       }
-      for (const auto& page : reference_pages()) write_file(*program.comm, options->directory + "/" + page.file, [&] { return page.content; });
+      const std::vector<ReferencePage> pages = reference_pages();
+      std::vector<std::string> names;
+      for (const auto& page : pages) names.push_back(page.file);
+      directory.open(names);
+      for (const auto& page : pages) write_file(*program.comm, directory.claim(page.file), [&] { return page.content; });
       return ExitCode::done;
     };
   });

@@ -3,6 +3,7 @@
 import json
 import os
 import resource
+import shutil
 import signal
 import subprocess
 from xml.sax.saxutils import quoteattr
@@ -58,6 +59,7 @@ def run(program, scene, directory, ranks=1, limit=60.0):
     """Writes the scene into the directory and runs it there. The limit is of processor time, for each rank, as other programs may keep the machine busy; of
     wall time it is twenty times that. Code -1: it did not end within the limit."""
     os.makedirs(directory, exist_ok=True)
+    shutil.rmtree(os.path.join(directory, "run"), ignore_errors=True)
     path = os.path.join(directory, "scene.xml")
     with open(path, "w") as file:
         file.write(to_xml("random", scene) + "\n")

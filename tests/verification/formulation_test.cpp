@@ -22,6 +22,7 @@ struct Outcome {
 
 Outcome run(const std::string& scene, const std::string& name, std::vector<std::string> settings) {
   const std::string results = std::string(SCRATCH) + "/formulation/" + name;
+  std::filesystem::remove_all(results);
   std::vector<std::string> words{MORTISE, "run", std::string(INPUTS) + "/" + scene, "-o", results, "--set", "output/fields="};
   for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
   const Ending ending = launch(words, 120);

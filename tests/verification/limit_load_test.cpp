@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -21,6 +22,7 @@ struct Stop {
 
 Stop run(const std::string& scene, const std::string& name, const Settings& settings, int ranks = 1) {
   const std::string directory = std::string(SCRATCH) + "/" + name;
+  std::filesystem::remove_all(directory);
   std::vector<std::string> command{MPIEXEC, "-n",     std::to_string(ranks), MORTISE, "run", std::string(INPUTS) + "/verification/" + scene,
                                    "-o",    directory};
   for (const auto& setting : settings) command.insert(command.end(), {"--set", setting});

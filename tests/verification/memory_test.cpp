@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "launch.hpp"
@@ -36,6 +37,7 @@ Beyond beyond_the_model(const Scene& scene) {
   EXPECT_NEAR(all, so_far + result.estimated, 1.6);  // three rounded numbers
   words[1] = "run";
   const std::string results = std::string(SCRATCH) + "/memory";
+  std::filesystem::remove_all(results);
   words.insert(words.end(), {"-o", results});
   const Ending run = launch(words);
   EXPECT_EQ(run.code, 0) << run.output;

@@ -23,6 +23,7 @@ const std::vector<std::pair<std::string, std::string>> elements{{"H8", "C3D8"}, 
 /// `mortise command scene` with settings.
 Ending call(const std::string& command, const std::string& scene, const std::string& results, const std::vector<std::string>& settings,
             std::vector<std::string> words = {}) {
+  files::remove_all(results);
   words.insert(words.end(), {MORTISE, command, scene, "-o", results});
   for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
   return launch(words, 120);
@@ -243,6 +244,7 @@ const std::string pressing_card = "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=LINEAR
 // E = 1000, and the edge of a slave facet is h = 0.6 / (3 n / 4): E/h = 1250 n. Sticking is ten times softer.
 TEST(PeerInSpace, ThePenaltyIsTheMultipleThatIsSaid) {
   const std::string path = path_with("space_penalty", "exit 201");
+  files::remove_all(space + "/penalty");
   struct Case {
     std::string by, penalty;
     const char *n, *pressing, *friction;

@@ -19,6 +19,7 @@ using Json = nlohmann::json;
 
 /// The patch test with seven slave facets to a master facet, of linear elasticity, held sideways at two nodes that touch nothing.
 std::vector<std::string> patch(const std::string& command, const std::string& results) {
+  files::remove_all(results);
   std::vector<std::string> words{MORTISE, command, std::string(INPUTS) + "/verification/patch_ratio_1_7.xml", "-o", results};
   for (const char* setting :
        {"materials/steel/type=small strain linear", "bodies/upper/element=Q4", "bodies/lower/element=Q4", "sets/low/of=lower/left",
@@ -93,6 +94,7 @@ TEST(Peer, YieldsAlikeUnderAPrescribedMotion) {
   if (!installed()) GTEST_SKIP() << "ccx is not installed";
   const std::string ours = peers + "/our_yield", theirs = peers + "/their_yield", scene = std::string(INPUTS) + "/verification/upsetting_plane.xml";
   const auto command = [&](const char* name, const std::string& results) {
+    files::remove_all(results);
     return std::vector<std::string>{
         MORTISE, name, scene, "-o", results, "--set", "variables/mu=0", "--set", "variables/nx=10", "--set", "contact/interface/slave=billet/top"};
   };

@@ -50,6 +50,7 @@ double number(const std::map<std::string, std::string>& row, const std::string& 
 
 Results run(const std::string& scene, const std::string& name, const std::vector<std::string>& settings = {}, int ranks = 1) {
   const std::string directory = std::string(SCRATCH) + "/" + name;
+  std::filesystem::remove_all(directory);
   std::vector<std::string> command{MPIEXEC, "-n", std::to_string(ranks), MORTISE, "run", scene, "-o", directory};
   for (const auto& setting : settings) command.insert(command.end(), {"--set", setting});
   const Ending ending = launch(command, 300);

@@ -82,6 +82,7 @@ TEST(Point, LeavesTheCurveItsEndAndItsPlot) {
 
 TEST(Point, EffectiveFileGivesTheSameCurve) {
   const std::string file = write_point("again", "neo hooke", uniaxial("1 + x_"));
+  for (const char* name : {"/once", "/twice"}) files::remove_all(directory + name);
   EXPECT_EQ(mortise({"point", file, "--set", "variables/x_=0.25", "-o", directory + "/once"}).code, 0);
   EXPECT_EQ(mortise({"point", directory + "/once/effective.xml", "-o", directory + "/twice"}).code, 0);
   EXPECT_EQ(read_file(directory + "/once/point.csv"), read_file(directory + "/twice/point.csv"));
@@ -93,6 +94,7 @@ TEST(Point, EveryTutorialFileRuns) {
   for (const auto& entry : files::directory_iterator(TUTORIALS)) {
     if (entry.path().filename().string().rfind("point_", 0) != 0) continue;
     const std::string results = directory + "/" + entry.path().stem().string();
+    files::remove_all(results);
     const Ending ending = mortise({"point", entry.path(), "-o", results}, 1, any_python);
     EXPECT_EQ(ending.code, 0) << ending.output;
     EXPECT_EQ(nlohmann::json::parse(read_file(results + "/summary.json")).at("converged"), true);
@@ -103,6 +105,7 @@ TEST(Point, EveryTutorialFileRuns) {
 
 TEST(Point, NoLateralStretchIsCode3AndKeepsWhatCameBefore) {
   const std::string file = write_point("failing", "st venant kirchhoff", uniaxial("6")), results = directory + "/failing";
+  files::remove_all(results);
   for (const int ranks : {1, 2}) {
     const Ending ending = mortise({"point", file, "-o", results}, ranks);
     EXPECT_EQ(ending.code, 3) << ending.output;
@@ -116,6 +119,7 @@ TEST(Point, NoLateralStretchIsCode3AndKeepsWhatCameBefore) {
 
 TEST(Point, BadInputIsCode2WithEveryLineAndLeavesEarlierResultsAlone) {
   const std::string results = directory + "/kept";
+  files::remove_all(results);
   ASSERT_EQ(mortise({"point", write_point("good", "hencky", uniaxial("1.1")), "-o", results}).code, 0);
   const std::string before = read_file(results + "/point.csv"),
                     file = write_point("bad", "henky", parameter("type", "uniaxial") + parameter("final stretch", "0"));
@@ -156,6 +160,7 @@ TEST(Point, WithoutPythonTheTableIsThereAndOneLineSaysWhatToInstall) {
 }
 
 TEST(Point, APlotThatFailsIsCode5) {
+  files::remove_all(directory + "/no_plot");
   const Ending ending = mortise({"point", write_point("no_plot", "hencky", uniaxial("1.1")), "-o", directory + "/no_plot"}, 2, "/bin/false");
   EXPECT_EQ(ending.code, 5) << ending.output;
   EXPECT_NE(ending.output.find("cannot draw"), std::string::npos) << ending.output;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -20,6 +21,7 @@ struct Result {
 
 Result run(const std::string& scene, const std::string& name, const std::vector<std::string>& settings, int ranks = 1) {
   const std::string directory = std::string(SCRATCH) + "/" + name;
+  std::filesystem::remove_all(directory);
   std::vector<std::string> command{MPIEXEC, "-n",     std::to_string(ranks), MORTISE, "run", std::string(INPUTS) + "/verification/" + scene,
                                    "-o",    directory};
   for (const auto& setting : settings) command.insert(command.end(), {"--set", setting});

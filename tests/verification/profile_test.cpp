@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -14,6 +15,7 @@ using Table = std::vector<std::vector<double>>;
 
 /// The rows of a run of Hertz on `ranks` ranks: time, part, arc_length, x, y, pressure, shear, gap, state.
 Table profile(const std::string& directory, int ranks) {
+  std::filesystem::remove_all(directory);
   const Ending ending = launch({MPIEXEC, "-n", std::to_string(ranks), MORTISE, "run", std::string(INPUTS) + "/paper/hertz_elastic.xml", "--set",
                                 "variables/steps=4", "--set", "variables/mu=0", "--set", "stepping/output times=0.5", "-o", directory});
   EXPECT_EQ(ending.code, 0) << ending.output;

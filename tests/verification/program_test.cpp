@@ -127,6 +127,7 @@ TEST(Program, SaysTheSameWithAndWithoutMpirun) {
   const std::string scene = write_scene("alone", "");
   for (const auto& [setting, code] : {std::pair{"variables/force=2", 0}, {"variables/force=two", 2}, {"bodies/block/material=hard", 2}}) {
     const std::string results = std::filesystem::path(SCRATCH) / "commands/alone";
+    std::filesystem::remove_all(results);
     const std::vector<std::string> words{"run", scene, "--set", setting, "--quiet", "-o", results};
     std::vector<std::string> alone{MORTISE};
     alone.insert(alone.end(), words.begin(), words.end());
@@ -170,6 +171,7 @@ TEST(Program, TheDocumentedSceneRuns) {
     scene += page.substr(at, page.find(end, at) - at);
   }
   const std::filesystem::path directory = std::filesystem::path(SCRATCH) / "documented";
+  std::filesystem::remove_all(directory);
   std::filesystem::create_directories(directory);
   std::ofstream(directory / "stamp.xml") << scene;
   for (const int ranks : {1, 2}) {
@@ -207,10 +209,13 @@ TEST(Program, RunAndCheckWarnOfFactorsThatDoNotFitIntoMemory) {
                                  "--set", "stepping/minimum step=1"};
   for (const char* direction : {"x", "y", "z"})
     words.insert(words.end(), {"--set", std::string("bodies/block/mesh/cells ") + direction + "=" + cells});
+  const std::string directory = std::string(SCRATCH) + "/commands/too_large";
+  std::filesystem::remove_all(directory);
   const std::string about = "until here, ", warning = "that is more than the ",
                     advice = " MiB here; please make the meshes coarser, take another solver";
   for (const auto& [command, code] : {std::pair<std::string, int>{"check", 0}, {"run", 2}}) {
     words.front() = command;
+    if (command == "run") words.insert(words.end(), {"-o", directory});
     const Ending ending = mortise(words);
     EXPECT_EQ(ending.code, code) << ending.output;
     for (const std::string& said : {about, warning, advice}) EXPECT_NE(ending.output.find(said), std::string::npos) << ending.output;
@@ -219,6 +224,7 @@ TEST(Program, RunAndCheckWarnOfFactorsThatDoNotFitIntoMemory) {
 
 TEST(Program, RunLeavesItsFilesAndABalancedSupport) {
   const std::string directory = std::string(SCRATCH) + "/commands/balanced";
+  std::filesystem::remove_all(directory);
   for (const int ranks : {1, 2}) {
     const Ending ending = mortise({"run", write_scene("balanced", check_list(R"(<Parameter name="low" type="double" value="1.999"/>)")), "--set",
                                    "variables/force=2", "-o", directory},
@@ -244,6 +250,7 @@ TEST(Program, RunLeavesItsFilesAndABalancedSupport) {
 /// No force acts on a block that its support carries along: what round-off leaves of forces is in balance.
 TEST(Program, ABodyThatOnlyMovesIsInBalance) {
   const std::string directory = std::string(SCRATCH) + "/commands/moved";
+  std::filesystem::remove_all(directory);
   const std::string checks = R"(<ParameterList name="checks"><ParameterList name="balance"><Parameter name="quantity" type="string" value="largest"/>
     <Parameter name="high" type="double" value="1e-12"/></ParameterList></ParameterList>)";
   const Ending ending =
@@ -257,6 +264,7 @@ TEST(Program, ABodyThatOnlyMovesIsInBalance) {
 
 TEST(Program, EffectiveSceneGivesTheSameRun) {
   const std::string directory = std::string(SCRATCH) + "/commands/";
+  for (const char* name : {"first", "again"}) std::filesystem::remove_all(directory + name);
   ASSERT_EQ(mortise({"run", write_scene("first", ""), "-o", directory + "first"}).code, 0);
   const Ending again = mortise({"run", directory + "first/effective.xml", "-o", directory + "again"});
   ASSERT_EQ(again.code, 0) << again.output;
@@ -266,6 +274,7 @@ TEST(Program, EffectiveSceneGivesTheSameRun) {
 
 TEST(Program, AMissedCheckIsCode4) {
   const std::string directory = std::string(SCRATCH) + "/commands/missed";
+  std::filesystem::remove_all(directory);
   for (const int ranks : {1, 2}) {
     const Ending ending =
         mortise({"run", write_scene("missed", check_list(R"(<Parameter name="low" type="double" value="3"/>)")), "-o", directory}, ranks);
@@ -279,6 +288,7 @@ TEST(Program, AMissedCheckIsCode4) {
 TEST(Program, ARunThatDoesNotConvergeIsCode3AndKeepsTheLastGoodState) {
   // Pulling with a dead load of ten times the modulus turns elements over long before the end.
   const std::string directory = std::string(SCRATCH) + "/commands/diverging";
+  std::filesystem::remove_all(directory);
   for (const int ranks : {1, 2}) {
     const Ending ending =
         mortise({"run", write_scene("diverging", R"(<ParameterList name="stepping"><Parameter name="step" type="double" value="0.01"/>
@@ -305,9 +315,11 @@ TEST(Program, SurfacesThatBeginInOneAnotherAreTold) {
 
 // The block is pulled off the wall from t = 0.5 on; nothing but the wall holds it in x.
 TEST(Program, ABodyThatComesFreeIsNamed) {
+  const std::string directory = std::string(SCRATCH) + "/commands/freed";
+  std::filesystem::remove_all(directory);
   for (const int ranks : {1, 2}) {
     const Ending ending = mortise({"run", std::string(INPUTS) + "/verification/held_by_contact.xml", "--set", "loads/left/x=p*(2*t-1)", "--set",
-                                   "stepping/step=0.1", "-o", std::string(SCRATCH) + "/commands/freed"},
+                                   "stepping/step=0.1", "-o", directory},
                                   ranks);
     EXPECT_EQ(ending.code, 3) << ending.output;
     const std::string last = ending.output.substr(ending.output.find("not converged; the last converged state is that of time 0.5"));
@@ -322,6 +334,7 @@ TEST(Program, FrictionThatCanBearNoMoreIsNamed) {
   const double limit = 1.0 / 1.7;
   for (const int ranks : {1, 2}) {
     const std::string directory = std::string(SCRATCH) + "/commands/slipped", pair = "contact/on floor/friction/";
+    std::filesystem::remove_all(directory);
     const Ending ending = mortise({"run", std::string(INPUTS) + "/verification/held_by_contact.xml", "--set", "loads/left/x=p*(2*t-1)", "--set",
                                    pair + "type=coulomb", "--set", pair + "coefficient=0.3", "--set", "stepping/step=0.1", "-o", directory},
                                   ranks);
@@ -345,6 +358,7 @@ TEST(Program, KeepRefusesADirectoryWithResults) {
 
 TEST(Program, BadInputLeavesEarlierResultsAlone) {
   const std::string directory = std::string(SCRATCH) + "/commands/earlier";
+  std::filesystem::remove_all(directory);
   ASSERT_EQ(mortise({"run", write_scene("earlier", ""), "-o", directory}).code, 0);
   const std::string before = read_file(directory + "/summary.json");
   EXPECT_EQ(mortise({"run", write_scene("earlier_bad", "<Parameter name=\"colour\" type=\"int\" value=\"1\"/>"), "-o", directory}).code, 2);

@@ -35,7 +35,8 @@ Table read_table(const fs::path& path) {
 
 Words names_in(const fs::path& directory) {
   Words names;
-  for (const auto& entry : fs::directory_iterator(directory)) names.push_back(entry.path().filename());
+  for (const auto& entry : fs::directory_iterator(directory))
+    if (const std::string name = entry.path().filename(); name.front() != '.') names.push_back(name);
   std::sort(names.begin(), names.end());
   return names;
 }

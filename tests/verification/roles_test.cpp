@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "launch.hpp"
@@ -18,6 +19,7 @@ struct Outcome {
 
 Outcome run(const std::string& scene, const std::string& name, const std::vector<std::string>& settings, int ranks = 1) {
   const std::string results = std::string(SCRATCH) + "/roles/" + name;
+  std::filesystem::remove_all(results);
   std::vector<std::string> words{MPIEXEC, "-n", std::to_string(ranks), MORTISE, "run", std::string(INPUTS) + "/hard/" + scene, "-o", results};
   for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
   Outcome outcome{launch(words, 120), {}};

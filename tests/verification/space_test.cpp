@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "launch.hpp"
@@ -14,6 +15,7 @@ using Json = nlohmann::json;
 
 Json summary(const std::string& scene, const std::string& name, const std::vector<std::string>& settings) {
   const std::string results = std::string(SCRATCH) + "/space_" + name;
+  std::filesystem::remove_all(results);
   std::vector<std::string> words{MORTISE, "run", std::string(INPUTS) + "/" + scene, "-o", results, "--set", "output/fields="};
   for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
   const Ending ending = launch(words, 240);

@@ -68,6 +68,7 @@ Outcome run(const std::string& name, const std::string& content, int ranks, Word
   const std::filesystem::path directory = std::filesystem::path(SCRATCH);
   std::filesystem::create_directories(directory);
   const std::string scene = directory / (name + ".xml"), results = directory / name;
+  std::filesystem::remove_all(results);
   const std::string soft = list("materials", list("soft", parameter("type", "neo hooke") + of_type("young's modulus", "double", "1000") +
                                                               of_type("poisson's ratio", "double", "0.3")));
   std::ofstream(scene) << list(name, soft + content);
@@ -99,6 +100,7 @@ std::string between_blocks(const std::string& x, const std::string& y, double en
 /// Runs a scene of inputs/hard.
 Outcome run_hard(const std::string& scene, int ranks, const Words& settings) {
   const std::string results = std::string(SCRATCH) + "/" + scene;
+  std::filesystem::remove_all(results);
   Words command{MPIEXEC, "-n", std::to_string(ranks), MORTISE, "run", std::string(INPUTS) + "/hard/" + scene + ".xml", "-o", results};
   for (const std::string& setting : settings) command.insert(command.end(), {"--set", setting});
   const Ending ending = launch(command, 120);
@@ -142,9 +144,11 @@ TEST(States, APressFitBearsItsLoad) {
     for (const double share : {0.6, 0.8}) {
       const double pull = share * 2.0 * 0.2 * pressure;
       const std::string scene =
-          parameter("kinematics", "axisymmetric") + list("bodies", block("shaft", 1.0, 1.0, 4, 6, "0, 0") + block("hub", 1.01, 1.4, 4, 7, "0.99, -0.2")) +
+          parameter("kinematics", "axisymmetric") +
+          list("bodies", block("shaft", 1.0, 1.0, 4, 6, "0, 0") + block("hub", 1.01, 1.4, 4, 7, "0.99, -0.2")) +
           list("boundary conditions", condition("hub", "hub/right", {{"y", "0"}}) + condition("axis", "shaft/left", {{"x", "0"}})) +
-          list("loads", list("pull", parameter("type", "dead traction") + parameter("set", "shaft/top") + parameter("y", std::to_string(pull) + "*t"))) +
+          list("loads",
+               list("pull", parameter("type", "dead traction") + parameter("set", "shaft/top") + parameter("y", std::to_string(pull) + "*t"))) +
           list("contact", pair("fit", "shaft/right", "hub/left", 0.2)) + stepping(1.0, 0.25) +
           list("quantities", list("held", parameter("type", "reaction") + parameter("set", "hub/right") + parameter("component", "y")) +
                                  list("out", parameter("type", "mean") + parameter("field", "displacement y") + parameter("on", "shaft")));

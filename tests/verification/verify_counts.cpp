@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -28,6 +29,7 @@ int main(int argc, char** argv) {
   int failures = 0;
   for (std::size_t i = 3; i < words.size(); ++i) {
     const std::string directory = fmt::format("{}/{}", words.at(2), i);
+    std::filesystem::remove_all(directory);
     std::vector<std::string> command{words[0], "run", words[1], "-o", directory};
     std::istringstream settings(words[i]);
     for (std::string setting; std::getline(settings, setting, ',');) command.insert(command.end(), {"--set", setting});

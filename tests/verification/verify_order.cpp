@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "launch.hpp"
@@ -19,6 +20,7 @@ int main(int argc, char** argv) {
   for (const int factor : {1, 2, 4}) {
     const int n = factor * std::stoi(words.at(3));
     const std::string output = fmt::format("{}/n{}", directory, n);
+    std::filesystem::remove_all(output);
     std::vector<std::string> command{mortise, "run", scene, "--set", fmt::format("variables/n={}", n), "-o", output};
     command.insert(command.end(), settings.begin(), settings.end());
     const Ending ending = launch(command);

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -98,6 +99,7 @@ int main(int argc, char** argv) {
     const auto colon = ranks.find(':');
     const std::string solver = colon == std::string::npos ? "" : ranks.substr(colon + 1);
     const std::string directory = arguments.directory + "/np" + ranks.substr(0, colon) + solver;
+    std::filesystem::remove_all(directory);
     std::vector<std::string> command{arguments.mpiexec, "-n", ranks.substr(0, colon), arguments.mortise, "run", arguments.scene, "-o", directory};
     for (const auto& setting : arguments.settings) command.insert(command.end(), {"--set", setting});
     if (!solver.empty()) command.insert(command.end(), {"--set", "linear solver/type=" + solver});

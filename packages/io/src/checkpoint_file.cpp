@@ -114,7 +114,7 @@ GlobalOrdinal rows_before(const Communicator& comm, GlobalOrdinal mine, GlobalOr
 }  // namespace
 
 struct CheckpointWriter::Implementation {
-  Implementation(RCP<const Communicator> comm_, std::string path_) : comm(std::move(comm_)), path(std::move(path_)), file(comm, path + ".part") {}
+  Implementation(RCP<const Communicator> comm_, std::string path_) : comm(std::move(comm_)), path(std::move(path_)), file(comm, path) {}
 
   RCP<const Communicator> comm;
   std::string path;
@@ -149,35 +149,32 @@ void CheckpointWriter::rows(const std::string& name, const RowIds& ids, std::siz
   self.file.write("/rows/" + name, all, first, static_cast<int>(columns), owned);
 }
 
+// Rank 0 adds the last line when all ranks have read their parts.
 std::uintmax_t CheckpointWriter::finish() {
   Implementation& self = *implementation_;
   const Communicator& comm = *self.comm;
-  const std::string part = self.path + ".part";
-  self.file.close();
   long long bytes = 0;
-  std::optional<std::string> reason;
-  if (comm.getRank() == 0) {
-    std::error_code error;
-    bytes = static_cast<long long>(std::filesystem::file_size(part, error));
-    if (error) reason = error.message();
-  }
-  throw_if_any_file_error(comm, "cannot write", self.path, reason);
-  Teuchos::broadcast(comm, 0, Teuchos::outArg(bytes));
-  const auto crc = crc_of(comm, part, bytes);
-  if (!crc) reason = "it cannot be read again";
-  if (comm.getRank() == 0 && crc) {
+  self.file.close([&](const std::string& part) -> std::optional<std::string> {
+    std::optional<std::string> reason;
+    if (comm.getRank() == 0) {
+      std::error_code error;
+      bytes = static_cast<long long>(std::filesystem::file_size(part, error));
+      if (error) reason = error.message();
+    }
+    Teuchos::broadcast(comm, 0, Teuchos::outArg(bytes));
+    const auto crc = crc_of(comm, part, bytes);
+    if (!crc) return reason ? reason : "it cannot be read again";
+    if (comm.getRank() != 0) return reason;
     FileDescriptor file;
     const std::string line = last_line(bytes, *crc);
-    reason = file.open(part, O_WRONLY);
+    if (!reason) reason = file.open(part, O_WRONLY);
     if (!reason) reason = file.write(line.data(), line.size(), static_cast<std::uintmax_t>(bytes));
+    if (!reason) reason = file.sync();
     if (!reason) reason = file.close();
-    if (!reason) reason = sync_file(part);
-    std::error_code error;
-    if (!reason) std::filesystem::rename(part, self.path, error);
-    if (error) reason = error.message();
-    if (!reason) reason = sync_directory(std::filesystem::path(self.path).parent_path().string());
-    if (reason) std::filesystem::remove(part, error);
-  }
+    return reason;
+  });
+  std::optional<std::string> reason;
+  if (comm.getRank() == 0) reason = sync_directory(std::filesystem::path(self.path).parent_path().string());
   throw_if_any_file_error(comm, "cannot write", self.path, reason);
   return static_cast<std::uintmax_t>(bytes) + line_length;
 }

@@ -40,6 +40,8 @@ void throw_if_any_file_error(const Communicator& comm, const std::string& what, 
 
 std::optional<std::string> replace_file(const std::string& path, const std::string& content) {
   const std::string temporary = path + ".part";
+  std::error_code none;
+  std::filesystem::remove(temporary, none);  // it might be a link to a file elsewhere
   errno = 0;
   {
     std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);

@@ -88,11 +88,12 @@ void Hdf5File::attribute(const std::string& object, const std::string& name, con
   if (comm_->getRank() == 0 && !reason_) reason_ = make_attribute(object, name, value);
 }
 
-void Hdf5File::close() {
+void Hdf5File::close(const std::function<std::optional<std::string>(const std::string& part)>& before_naming) {
   std::optional<std::string> reason;
   if (comm_->getRank() == 0 && !reason_) reason = layout_->close(file_);
   if (auto late = file_.close(); !reason) reason = late;
   agree(reason);
+  if (before_naming) agree(before_naming(part_));
   std::error_code error;
   if (comm_->getRank() == 0) std::filesystem::rename(part_, path_, error);
   agree(error ? std::optional(error.message()) : std::nullopt);

@@ -1,6 +1,7 @@
 #pragma once
 // An HDF5 file that all ranks write together and that no reader sees before it is complete.
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <variant>
@@ -37,7 +38,8 @@ class Hdf5File {
   void attribute(const std::string& object, const std::string& name, const Attribute& value);
 
   /// The file is complete and has its name afterwards. It is with the operating system; sync_file() brings it to the disk.
-  void close();
+  /// @param before_naming  called on every rank once the file is complete and has the name `path`.part; a reason that it returns is thrown
+  void close(const std::function<std::optional<std::string>(const std::string& part)>& before_naming = {});
 
  private:
   void write(const std::string& name, GlobalOrdinal rows, GlobalOrdinal first, int columns, std::size_t count, const void* values, hid_t type);

@@ -95,7 +95,8 @@ RIVAL = "_node_to_segment"
 
 def rivals(*names):
     """The same runs with nodes on segments, as far as they left results; they may have stopped on their way."""
-    return [runs[name + RIVAL] for name in names if name + RIVAL in runs and last_step_file(runs[name + RIVAL].path)]
+    asked = [runs[name + RIVAL] for name in names if name + RIVAL in runs]
+    return [run for run in asked if run.exit != FILES and last_step_file(run.path)]
 
 
 def complete(*names):

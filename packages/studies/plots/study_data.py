@@ -2,7 +2,6 @@
 import json
 
 directory = sys.argv[1]
-os.makedirs(os.path.join(directory, "plots"), exist_ok=True)
 with open(os.path.join(directory, "study.json"), encoding="utf-8") as file:
     study = json.load(file)
 points, curves, errors = study["points"], study["curves"], study["errors"]

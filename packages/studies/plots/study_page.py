@@ -7,12 +7,8 @@ def drawn(figure, stem, title, caption):
     return html_image(image, title, caption)
 
 
-def stem(name):
-    return "".join(one if one.isalnum() or one in "-_" else "_" for one in name)
-
-
 def cost_figure(error):
-    return drawn(error_against_time(error), "time_" + stem(error["name"]), "Cost", f"error of {error['name']} against wall time; rings: the cheapest runs")
+    return drawn(error_against_time(error), "time_" + error["file"], "Cost", f"error of {error['name']} against wall time; rings: the cheapest runs")
 
 
 def answer():
@@ -30,7 +26,7 @@ def sections():
     for error in errors:
         parts.append(f"<section><h2>Error of {escaped(error['name'])}</h2>")
         if has_errors(error):
-            accuracy = drawn(error_against_h(error), "error_" + stem(error["name"]), "Accuracy", f"error of {error['name']} against mesh size, with fitted orders")
+            accuracy = drawn(error_against_h(error), "error_" + error["file"], "Accuracy", f"error of {error['name']} against mesh size, with fitted orders")
             parts.append(figures([accuracy] if first else [accuracy, cost_figure(error)]))
             first = False
         elif any(map(known, error["error"])):

@@ -12,7 +12,6 @@
 #include "file_size_limit.hpp"
 #include "mortise/core/error.hpp"
 #include "mortise/io/csv_writer.hpp"
-#include "mortise/io/output_directory.hpp"
 #include "scratch_directory.hpp"
 
 namespace mortise {
@@ -57,6 +56,16 @@ TEST(Files, JsonIsReplacedWholeAndReadsBackExactly) {
   EXPECT_TRUE(json["nothing"].is_null());
   EXPECT_FALSE(json.contains("old"));
   EXPECT_FALSE(std::filesystem::exists(path + ".part"));
+}
+
+TEST(Files, AReplacementGoesThroughNoLink) {
+  const test::ScratchDirectory scratch(world());
+  if (world()->getRank() != 0) return;
+  std::ofstream(scratch.file("theirs")) << "theirs";
+  std::filesystem::create_symlink("theirs", scratch.file("ours.part"));
+  EXPECT_EQ(replace_file(scratch.file("ours"), "ours"), std::nullopt);
+  EXPECT_EQ(content(scratch.file("theirs")), "theirs");
+  EXPECT_EQ(content(scratch.file("ours")), "ours");
 }
 
 TEST(Files, EndOfAFileIsReplacedOrKept) {
@@ -166,64 +175,6 @@ TEST(Files, FilesAndDirectoriesAreBroughtToTheDisk) {
   EXPECT_EQ(sync_directory(scratch.path()), std::nullopt);
   EXPECT_THAT(sync_file(scratch.file("b")), ::testing::Optional(std::string("No such file or directory")));
   EXPECT_THAT(sync_directory(scratch.file("a")), ::testing::Optional(std::string("Not a directory")));
-}
-
-TEST(OutputDirectory, IsMadeWithItsParentsWhenARunBegins) {
-  const test::ScratchDirectory scratch(world());
-  const OutputDirectory directory(world(), scratch.file("results/patch"), false);
-  EXPECT_TRUE(std::filesystem::is_empty(scratch.path())) << "nothing may be made before";
-  world()->barrier();
-  directory.begin_run();
-  EXPECT_TRUE(std::filesystem::is_directory(directory.path()));
-  EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
-  EXPECT_EQ(directory.file("log.txt"), scratch.file("results/patch") + "/log.txt");
-}
-
-TEST(OutputDirectory, ReplacesARunWholeAndLeavesTheRest) {
-  const test::ScratchDirectory scratch(world());
-  if (world()->getRank() == 0) {
-    std::filesystem::create_directory(scratch.file("fields"));
-    for (const char* name : {"summary.json", "fields/mesh.h5", "fields/step-000012.h5", "fields/step-000013.h5.part", "fields.h5", "checkpoint-12.h5",
-                             "notes.txt", "checkpoint-.h5", "fields/notes.txt", "fields/step-12.h5"})
-      std::ofstream(scratch.file(name)) << "old";
-  }
-  world()->barrier();
-  OutputDirectory directory(world(), scratch.path(), false);
-  EXPECT_EQ(content(scratch.file("summary.json")), "old") << "opening must not remove anything";
-  world()->barrier();
-  directory.begin_run();
-  for (const char* name : {"summary.json", "fields/mesh.h5", "fields/step-000012.h5", "fields/step-000013.h5.part", "fields.h5", "checkpoint-12.h5"})
-    EXPECT_FALSE(std::filesystem::exists(scratch.file(name))) << name;
-  for (const char* name : {"notes.txt", "checkpoint-.h5", "fields/notes.txt", "fields/step-12.h5"})
-    EXPECT_TRUE(std::filesystem::exists(scratch.file(name))) << name;
-}
-
-TEST(OutputDirectory, RemovesTheDirectoryOfFieldsIfNothingElseIsInIt) {
-  const test::ScratchDirectory scratch(world());
-  if (world()->getRank() == 0) {
-    std::filesystem::create_directory(scratch.file("fields"));
-    std::ofstream(scratch.file("fields/mesh.h5")) << "old";
-  }
-  world()->barrier();
-  EXPECT_THAT(file_error([&] { OutputDirectory(world(), scratch.path(), true); }), HasSubstr("fields/mesh.h5"));
-  OutputDirectory(world(), scratch.path(), false).begin_run();
-  EXPECT_FALSE(std::filesystem::exists(scratch.file("fields")));
-}
-
-TEST(OutputDirectory, KeepRefusesARun) {
-  const test::ScratchDirectory scratch(world());
-  EXPECT_NO_THROW(OutputDirectory(world(), scratch.path(), true));
-  if (world()->getRank() == 0) std::ofstream(scratch.file("newton.csv")) << "old";
-  world()->barrier();
-  EXPECT_THAT(file_error([&] { OutputDirectory(world(), scratch.path(), true); }), AllOf(HasSubstr(scratch.path()), HasSubstr("newton.csv")));
-}
-
-TEST(OutputDirectory, WhatIsNoDirectoryIsRefused) {
-  const test::ScratchDirectory scratch(world());
-  if (world()->getRank() == 0) std::ofstream(scratch.file("taken")) << "a file";
-  world()->barrier();
-  EXPECT_THAT(file_error([&] { OutputDirectory(world(), scratch.file("taken"), false); }), HasSubstr("not a directory"));
-  EXPECT_THAT(file_error([&] { OutputDirectory(world(), scratch.file("taken/below"), false); }), HasSubstr(scratch.file("taken/below")));
 }
 
 }  // namespace

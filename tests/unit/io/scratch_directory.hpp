@@ -17,10 +17,10 @@ namespace mortise::test {
 /// The same path on all ranks; made on rank 0. Collective.
 class ScratchDirectory {
  public:
-  explicit ScratchDirectory(RCP<const Communicator> comm) : comm_(std::move(comm)) {
+  explicit ScratchDirectory(RCP<const Communicator> comm, const std::string& name = "test") : comm_(std::move(comm)) {
     long process = getpid();
     Teuchos::broadcast(*comm_, 0, Teuchos::outArg(process));
-    path_ = (std::filesystem::temp_directory_path() / ("mortise-io-test-" + std::to_string(process))).string();
+    path_ = (std::filesystem::temp_directory_path() / ("mortise-io-" + name + "-" + std::to_string(process))).string();
     if (comm_->getRank() == 0) {
       std::filesystem::remove_all(path_);
       std::filesystem::create_directories(path_);

@@ -50,8 +50,8 @@ void remove_files(const Communicator& comm, const std::string& directory, const 
 
 std::string checkpoint_directory(const std::string& run_directory) { return run_directory + "/checkpoints"; }
 
-Checkpoints::Checkpoints(RCP<const Communicator> comm, const CheckpointOptions& options, std::string directory)
-    : comm_(std::move(comm)), options_(options), directory_(std::move(directory)) {}
+Checkpoints::Checkpoints(RCP<const Communicator> comm, const CheckpointOptions& options, OutputDirectory run)
+    : comm_(std::move(comm)), options_(options), run_(std::move(run)) {}
 
 bool Checkpoints::is_due(int step) const {
   const double minutes = std::chrono::duration<double, std::ratio<60>>(Clock::now() - since_).count();
@@ -63,23 +63,18 @@ bool Checkpoints::is_due(int step) const {
 
 std::uintmax_t Checkpoints::write(int step, const std::function<void(StateArchive&)>& store) {
   const auto begin = Clock::now();
-  std::optional<std::string> reason;
-  if (comm_->getRank() == 0) {
-    std::error_code error;
-    std::filesystem::create_directories(directory_, error);
-    if (error) reason = error.message();
-  }
-  throw_if_any_file_error(*comm_, "cannot make the directory", directory_, reason);
-  CheckpointWriter file(comm_, directory_ + "/" + checkpoint_name(step));
+  OutputDirectory files = run_.subdirectory("checkpoints");
+  files.claim("step-*.h5");
+  CheckpointWriter file(comm_, files.file(checkpoint_name(step)));
   store(file);
   const std::uintmax_t bytes = file.finish();
   last_ = step;
 
-  std::vector<int> steps = checkpoint_steps(*comm_, directory_);
+  std::vector<int> steps = checkpoint_steps(*comm_, files.path());
   std::vector<std::string> old;
   for (std::size_t n = 0; n + static_cast<std::size_t>(options_.keep) < steps.size(); ++n)
     if (steps[n] != step) old.push_back(checkpoint_name(steps[n]));
-  remove_files(*comm_, directory_, old);
+  remove_files(*comm_, files.path(), old);
   since_ = Clock::now();
   seconds_ = std::chrono::duration<double>(since_ - begin).count();
   return bytes;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mortise/core/state_archive.hpp"
+#include "mortise/io/output_directory.hpp"
 #include "mortise/simulation/scene/scene.hpp"
 
 namespace mortise {
@@ -15,8 +16,8 @@ namespace mortise {
 /// Files checkpoints/step-000012.h5 in the directory of a run. Collective in all members.
 class Checkpoints {
  public:
-  /// Makes the directory when it writes first.
-  Checkpoints(RCP<const Communicator> comm, const CheckpointOptions& options, std::string directory);
+  /// @param run  where its directory is made when it writes first
+  Checkpoints(RCP<const Communicator> comm, const CheckpointOptions& options, OutputDirectory run);
 
   /// Whether the scene wants one after a step.
   bool is_due(int step) const;
@@ -32,7 +33,7 @@ class Checkpoints {
   using Clock = std::chrono::steady_clock;
   RCP<const Communicator> comm_;
   CheckpointOptions options_;
-  std::string directory_;
+  OutputDirectory run_;
   int last_ = 0;
   double seconds_ = 0.0;
   Clock::time_point since_ = Clock::now();

@@ -25,19 +25,23 @@ long long whole(int value) { return value; }
 
 }  // namespace
 
-RunOutput::RunOutput(const RCP<const Communicator>& comm, const Scene& scene, const OutputDirectory& directory, const RCP<const Mesh>& mesh,
+RunOutput::RunOutput(const RCP<const Communicator>& comm, const Scene& scene, OutputDirectory& directory, const RCP<const Mesh>& mesh,
                      StepEvaluation& evaluation, RunLog& log, RunRecord& record, const Timers& timers, StateArchive* checkpoint)
     : scene_(scene), directory_(directory), evaluation_(evaluation), log_(log), record_(record), timers_(timers) {
   if (checkpoint != nullptr) {
     restore(comm, *checkpoint);
   } else {
-    newton_ = std::make_unique<CsvWriter>(comm, directory.file("newton.csv"), newton_columns);
-    history_ = std::make_unique<CsvWriter>(comm, directory.file("history.csv"), columns_with(evaluation));
-    steps_ = std::make_unique<LineFile>(comm, directory.file("steps.jsonl"));
+    newton_ = std::make_unique<CsvWriter>(comm, directory.claim("newton.csv"), newton_columns);
+    history_ = std::make_unique<CsvWriter>(comm, directory.claim("history.csv"), columns_with(evaluation));
+    steps_ = std::make_unique<LineFile>(comm, directory.claim("steps.jsonl"));
   }
-  if (scene.output.contact_profiles && !profiles_) profiles_ = std::make_unique<CsvWriter>(comm, directory.file("profiles.csv"), profile_columns);
-  if (!scene.output.fields.empty())
+  if (scene.output.contact_profiles && !profiles_) profiles_ = std::make_unique<CsvWriter>(comm, directory.claim("profiles.csv"), profile_columns);
+  if (!scene.output.fields.empty()) {
+    directory.claim("fields.xdmf");
+    OutputDirectory files = directory.subdirectory("fields");
+    for (const char* name : {"mesh.h5", "step-*.h5"}) files.claim(name);
     fields_ = std::make_unique<FieldWriter>(mesh, directory.path(), checkpoint != nullptr ? std::optional(written_) : std::nullopt);
+  }
 }
 
 void RunOutput::restore(const RCP<const Communicator>& comm, StateArchive& archive) {
@@ -47,11 +51,11 @@ void RunOutput::restore(const RCP<const Communicator>& comm, StateArchive& archi
   serialize(archive, "files.steps", steps);
   serialize(archive, "files.profiles", profiles);
   serialize(archive, "files.fields", written_);
-  newton_ = std::make_unique<CsvWriter>(comm, directory_.file("newton.csv"), newton_columns, newton);
-  history_ = std::make_unique<CsvWriter>(comm, directory_.file("history.csv"), columns_with(evaluation_), history);
-  steps_ = std::make_unique<LineFile>(comm, directory_.file("steps.jsonl"), "", steps);
+  newton_ = std::make_unique<CsvWriter>(comm, directory_.claim("newton.csv"), newton_columns, newton);
+  history_ = std::make_unique<CsvWriter>(comm, directory_.claim("history.csv"), columns_with(evaluation_), history);
+  steps_ = std::make_unique<LineFile>(comm, directory_.claim("steps.jsonl"), "", steps);
   if (scene_.output.contact_profiles && profiles > 0)
-    profiles_ = std::make_unique<CsvWriter>(comm, directory_.file("profiles.csv"), profile_columns, profiles);
+    profiles_ = std::make_unique<CsvWriter>(comm, directory_.claim("profiles.csv"), profile_columns, profiles);
   begin_time_ = record_.time;
 }
 

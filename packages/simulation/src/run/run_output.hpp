@@ -22,7 +22,7 @@ class RunOutput {
  public:
   /// Begins the files; or goes on with those of a run from the step of a checkpoint.
   /// @param checkpoint  null: a new run
-  RunOutput(const RCP<const Communicator>& comm, const Scene& scene, const OutputDirectory& directory, const RCP<const Mesh>& mesh,
+  RunOutput(const RCP<const Communicator>& comm, const Scene& scene, OutputDirectory& directory, const RCP<const Mesh>& mesh,
             StepEvaluation& evaluation, RunLog& log, RunRecord& record, const Timers& timers, StateArchive* checkpoint);
 
   /// What the stepper calls.
@@ -47,7 +47,7 @@ class RunOutput {
   void restore(const RCP<const Communicator>& comm, StateArchive& archive);
 
   const Scene& scene_;
-  const OutputDirectory& directory_;
+  OutputDirectory& directory_;
   StepEvaluation& evaluation_;
   RunLog& log_;
   RunRecord& record_;

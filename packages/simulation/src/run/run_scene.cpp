@@ -84,7 +84,8 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
   const Timers timers;
   std::optional<Watchdog> watchdog;
   if (options.supervised) watchdog.emplace(*comm);
-  OutputDirectory directory(comm, options.directory.empty() ? default_directory(options.scene) : options.directory, options.keep);
+  OutputDirectory directory(comm, options.directory.empty() ? default_directory(options.scene) : options.directory,
+                            {"run", options.scene, options.directory.empty()}, options.keep && !options.restart);
   const Model model(comm, scene, timers);
   SystemParts parts = model.parts();
   std::optional<SlipSettlement> settlement;
@@ -127,13 +128,13 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
     directory.continue_run();
   else
     directory.begin_run();
-  log.open(directory.file("log.txt"), restart.has_value());
+  log.open(directory.claim("log.txt"), restart.has_value());
   if (restart) report_restart(*restart, log);
   report_model(options.scene, scene, model, log);
   report_precision(model, scene, log);
   if (!restart) report_contact_at_start(model, scene, log);
   report_memory(model, log);
-  write_file(*comm, directory.file("effective.xml"), [&] { return effective_xml(scene); });
+  write_file(*comm, directory.claim("effective.xml"), [&] { return effective_xml(scene); });
   record.parts.push_back(part_text(record.steps, comm->getSize()));
   RunOutput output(comm, scene, directory, model.mesh(), evaluation, log, record, timers, restart ? restart->file.get() : nullptr);
   if (restart) remove_checkpoints_after(*comm, directory.path(), restart->step);
@@ -142,7 +143,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
   std::optional<SystemEvaluation> last;  // of `state`, in the step that led there; none while another step is tried
   std::optional<StepFailure> failure;
   StopRequest requests(options.supervised, options.time_limit, begin);
-  Checkpoints checkpoints(comm, scene.output.checkpoints, checkpoint_directory(directory.path()));
+  Checkpoints checkpoints(comm, scene.output.checkpoints, directory);
   const std::string fingerprint = scene_fingerprint(scene);
   const auto write_checkpoint = [&] {
     const auto timer = timers.scope("checkpoint");
@@ -275,7 +276,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
   log.detail(timer_report(timers, comm));
   report_end(record, failure, directory.path(), log);
   if (record.stopped) log.info(fmt::format("to go on: {}", command_to_continue(options, directory.path(), comm->getSize())));
-  write_file(*comm, directory.file("summary.json"),
+  write_file(*comm, directory.claim("summary.json"),
              [&, json = summary(record, model, state.accepted.context.contact, directory.file("steps.jsonl"))] {
                return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
              });

@@ -25,32 +25,34 @@ std::string build_of(const std::string& version) {
 /// Runs lines, and each companion once however many lines it stands beside.
 class Runner {
  public:
-  Runner(const RCP<const Communicator>& comm, const HardPlan& plan, const HardOptions& options)
-      : comm_(comm), plan_(plan), options_(options), build_(build_of(options.version)) {}
+  Runner(const RCP<const Communicator>& comm, const HardPlan& plan, const HardOptions& options, const OutputDirectory& directory)
+      : comm_(comm), plan_(plan), options_(options), directory_(directory), build_(build_of(options.version)) {}
 
   HardRow run(const HardLine& line, int ranks) {
     const auto& one = plan_.case_of(line);
-    const std::string folder = options_.directory + "/" + name_for_files(one.name) + (line.label.empty() ? "" : "/" + name_for_files(line.label));
-    HardRow row{&line, ranks, outcome_of(line.run, ranks, folder + fmt::format("/np{}", ranks)), {}};
+    OutputDirectory folder = directory_.subdirectory(name_for_files(one.name));
+    if (!line.label.empty()) folder = folder.subdirectory(name_for_files(line.label));
+    HardRow row{&line, ranks, outcome_of(line.run, ranks, folder, fmt::format("np{}", ranks)), {}};
     std::vector<HardOutcome> companions;
     for (std::size_t c = 0; c < line.companions.size(); ++c)
-      companions.push_back(outcome_of(line.companions[c], options_.ranks.front(), folder + "/" + name_for_files(one.value.companions[c].name)));
+      companions.push_back(outcome_of(line.companions[c], options_.ranks.front(), folder, name_for_files(one.value.companions[c].name)));
     row.verdict = judge(one, line, row.outcome, companions);
     return row;
   }
 
  private:
-  const HardOutcome& outcome_of(const HardRun& run, int ranks, const std::string& directory) {
+  const HardOutcome& outcome_of(const HardRun& run, int ranks, OutputDirectory& folder, const std::string& name) {
     std::string key = fmt::format("{} on {}", run.scene, ranks);
     for (const auto& word : run.point.words()) key += "\n" + word;
     const auto known = outcomes_.find(key);
     if (known != outcomes_.end()) return known->second;
-    return outcomes_[key] = run_hard_line(*comm_, run, ranks, directory, build_);
+    return outcomes_[key] = run_hard_line(*comm_, run, ranks, folder.subdirectory(name).path(), build_);
   }
 
   RCP<const Communicator> comm_;
   const HardPlan& plan_;
   const HardOptions& options_;
+  OutputDirectory directory_;
   std::string build_;
   std::map<std::string, HardOutcome> outcomes_;
 };
@@ -76,12 +78,16 @@ std::string list_hard(const RCP<const Communicator>& comm, const HardOptions& op
 ExitCode run_hard(const RCP<const Communicator>& comm, const HardOptions& options) {
   RunLog log(comm, options.verbosity);
   const HardPlan plan = read_hard(*comm, options);
-  OutputDirectory directory(comm, options.directory, false);
+  OutputDirectory directory(comm, options.directory.empty() ? "results/hard" : options.directory,
+                            {"hard cases", options.ledger, options.directory.empty()});
+  std::vector<std::string> cases, names{"ledger.csv", "hard-cases.md", "hard-cases.html"};
+  for (const auto& one : plan.cases) cases.push_back(name_for_files(one.name));
+  names.insert(names.end(), cases.begin(), cases.end());
+  directory.open(names);
   if (options.fresh)
-    for (const auto& one : plan.cases) std::filesystem::remove_all(directory.file(name_for_files(one.name)));
-  directory.make();
+    for (const auto& one : cases) directory.remove(one);
 
-  Runner runner(comm, plan, options);
+  Runner runner(comm, plan, options, directory);
   std::vector<HardRow> rows;
   const auto ranks_of = [&](const HardLine& line) {
     return plan.case_of(line).value.every_ranks ? options.ranks : std::vector<int>{options.ranks.front()};
@@ -104,9 +110,9 @@ ExitCode run_hard(const RCP<const Communicator>& comm, const HardOptions& option
       if (!row.verdict.why.empty()) log.info("  " + row.verdict.why);
     }
   }
-  write_hard_table(comm, directory.file("ledger.csv"), plan, rows);
-  write_file(*comm, directory.file("hard-cases.md"), [&] { return hard_markdown(plan, rows, options.version); });
-  write_file(*comm, directory.file("hard-cases.html"), [&] { return hard_html(plan, rows, options.version); });
+  write_hard_table(comm, directory.claim("ledger.csv"), plan, rows);
+  write_file(*comm, directory.claim("hard-cases.md"), [&] { return hard_markdown(plan, rows, options.version); });
+  write_file(*comm, directory.claim("hard-cases.html"), [&] { return hard_html(plan, rows, options.version); });
   log.info(count_verdicts(rows) + "; the page: " + directory.file("hard-cases.html"));
   const bool wrong = std::any_of(rows.begin(), rows.end(), [](const HardRow& row) { return row.verdict.verdict == Verdict::wrong; });
   return wrong ? ExitCode::check_missed : ExitCode::done;

@@ -20,6 +20,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr const char* record_name = "paper-run.json";
+
 /// What decides on the results of a run, and so whether those of an earlier one can be taken.
 Json identity(const PaperRun& run, const PaperOptions& options) {
   return {{"name", run.name},       {"scene", run.scene},       {"text", scene_of(run).text},
@@ -41,15 +43,15 @@ std::optional<Json> earlier(const Communicator& comm, const std::string& record,
 Json run_one(const RCP<const Communicator>& comm, const PaperRun& run, const PaperOptions& options, const std::string& directory) {
   const std::string results = directory + "/" + run.name, scene = directory + "/scenes/" + run.scene + ".xml";
   const Json wanted = identity(run, options);
-  const std::string record = results + "/paper-run.json";
+  const std::string record = results + "/" + record_name;
   if (options.reuse)
     if (auto found = earlier(*comm, record, wanted)) return *found;
 
   Json json{{"identity", wanted}, {"exit", static_cast<int>(ExitCode::files)}, {"reused", false}, {"seconds", 0.0}, {"said", ""}};
+  const Origin origin{"run"};
   try {
-    OutputDirectory(comm, results, false).begin_run();
-    std::filesystem::remove(record);
-  } catch (const std::exception& error) {
+    OutputDirectory(comm, results, origin).begin_run();
+  } catch (const FileError& error) {
     json["said"] = error.what();
     return json;
   }
@@ -57,7 +59,9 @@ Json run_one(const RCP<const Communicator>& comm, const PaperRun& run, const Pap
   json["exit"] = ending.code;
   json["seconds"] = ending.wall_seconds;
   json["said"] = ending.output;
-  write_json(*comm, record, json);
+  OutputDirectory left(comm, results, origin);
+  left.continue_run();
+  write_json(*comm, left.claim(record_name), json);
   return json;
 }
 
@@ -85,21 +89,23 @@ ExitCode exit_of(const Json& runs) {
 
 ExitCode run_paper(const RCP<const Communicator>& comm, const PaperOptions& options) {
   RunLog log(comm, options.verbosity);
-  OutputDirectory directory(comm, options.directory, false);
+  OutputDirectory directory(comm, options.directory, {"paper"});
   const std::string page = directory.file("paper.html");
   require_page_python(*comm, page);
-  for (const char* old : {"paper.html", "paper.json"}) std::filesystem::remove(directory.file(old));
-  const OutputDirectory scenes(comm, directory.file("scenes"), false);
-  scenes.make();
-
   std::vector<PaperRun> wanted;
   for (const auto& run : paper_runs())
     if (options.only.empty() || std::find(options.only.begin(), options.only.end(), run.name) != options.only.end()) wanted.push_back(run);
+  std::vector<std::string> names{"paper.html", "paper.json", "scenes"};
+  for (const auto& run : wanted) names.push_back(run.name);
+  directory.open(names);
+  for (const char* old : {"paper.html", "paper.json"}) directory.remove(old);
+  OutputDirectory scenes = directory.subdirectory("scenes");
+  for (const auto& run : wanted) directory.subdirectory(run.name);
 
   Json record{{"version", options.version}, {"program", this_program()}, {"ranks", options.ranks}, {"runs", Json::array()}};
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const PaperRun& run = wanted[i];
-    write_file(*comm, scenes.file(run.scene + ".xml"), [&] { return scene_of(run).text; });
+    write_file(*comm, scenes.claim(run.scene + ".xml"), [&] { return scene_of(run).text; });
     log.info(fmt::format("{}/{} {} ...", i + 1, wanted.size(), run.name));
     Json result = run_one(comm, run, options, directory.path());
     result["rival"] = run.is_rival;
@@ -109,7 +115,8 @@ ExitCode run_paper(const RCP<const Communicator>& comm, const PaperOptions& opti
     if (result.at("exit") != 0 && !run.is_rival) log.warning(run.name + ": " + (said.empty() ? "the page says why" : said));
     record["runs"].push_back(std::move(result));
   }
-  write_json(*comm, directory.file("paper.json"), record);
+  write_json(*comm, directory.claim("paper.json"), record);
+  directory.claim("paper.html");
   draw_plot(*comm, std::string(page_needs) + paper_page, {directory.path()}, page);
   log.info("the page: " + page);
   return exit_of(record["runs"]);

@@ -60,11 +60,18 @@ void write_profiles(const RCP<const Communicator>& comm, const std::string& path
       file.row({time, scene.contact[pair].name, static_cast<long long>(point.part), point.arc_length, point.x, point.y, point.pressure, point.gap});
 }
 
-/// Nothing of an earlier run may pass for results of this one.
-void remove_earlier(OutputDirectory& directory) {
-  directory.begin_run();
-  for (const char* ending : {"inp", "sta", "cvg", "dat", "frd", "12d", "log"}) std::filesystem::remove(directory.file(std::string("peer.") + ending));
-}
+/// What CalculiX may leave where it is run.
+const std::vector<std::string> files_of_calculix{"peer.sta",
+                                                 "peer.cvg",
+                                                 "peer.dat",
+                                                 "peer.frd",
+                                                 "peer.12d",
+                                                 "peer.cel",
+                                                 "spooles.out",
+                                                 "ResultsForLastIterations.frd",
+                                                 "WarnNodeMissTiedContact.nam",
+                                                 "WarnSlaveNodeUnallowedMpc.nam",
+                                                 "WarnNodeNotProjected.nam"};
 
 }  // namespace
 
@@ -81,14 +88,18 @@ ExitCode run_peer(const RCP<const Communicator>& comm, const PeerOptions& option
   if (!obstacles.empty()) throw InputError(obstacles);
   const std::optional<double> penalty = penalty_multiple(options.penalty, scene.symbols, place);
   if (const std::string missing = missing_program(options.peer); !missing.empty()) throw FileError("not installed: " + missing);
-  OutputDirectory directory(comm, options.directory.empty() ? default_directory(options.scene) : options.directory, false);
-  remove_earlier(directory);
-  write_file(*comm, directory.file("peer.inp"), [&] { return calculix_deck(scene, model, options.peer, penalty); });
+  OutputDirectory directory(comm, options.directory.empty() ? default_directory(options.scene) : options.directory,
+                            {"run", options.scene, options.directory.empty()});
+  std::vector<std::string> names = files_of_calculix;
+  names.insert(names.end(), {"peer.inp", "peer.log"});
+  directory.begin_run(names);
+  for (const auto& name : names) directory.claim(name);
+  write_file(*comm, directory.claim("peer.inp"), [&] { return calculix_deck(scene, model, options.peer, penalty); });
 
   setenv("OMP_NUM_THREADS", "1", 1);  // one process on one core, as this program's ranks
   // It leaves files of its own where it is run.
   const ProcessEnding ending = run_process({"env", "-C", directory.path(), "ccx", "-i", "peer"});
-  write_file(*comm, directory.file("peer.log"), [&] { return ending.output + "\n"; });
+  write_file(*comm, directory.claim("peer.log"), [&] { return ending.output + "\n"; });
   const CalculixResults results = read_calculix_results(directory.path());
   const double end = scene.stepping.end_time;
   const bool finished = ending.code == 0 && results.end_time() > end * (1.0 - 1e-6) && results.time > end * (1.0 - 1e-6);
@@ -108,12 +119,12 @@ ExitCode run_peer(const RCP<const Communicator>& comm, const PeerOptions& option
       summary["quantities"][scene.quantities[i].name] = std::isfinite(values[i]) ? Json(values[i]) : Json(nullptr);
       log.info(fmt::format("{} = {:.10g}", scene.quantities[i].name, values[i]));
     }
-    if (scene.output.contact_profiles) write_profiles(comm, directory.file("profiles.csv"), scene, end, evaluation);
+    if (scene.output.contact_profiles) write_profiles(comm, directory.claim("profiles.csv"), scene, end, evaluation);
   } else {
     log.warning(fmt::format("{} stopped at time {:g} of {:g}, exit code {}: {}", peer_title(options.peer), results.end_time(), end, ending.code,
                             first_messages(ending.output)));
   }
-  write_json(*comm, directory.file("summary.json"), summary);
+  write_json(*comm, directory.claim("summary.json"), summary);
   int iterations = 0;
   for (const auto& increment : results.increments) iterations += increment.iterations;
   log.info(fmt::format("{}: {} steps, {} iterations, {:.2f} s, {:.0f} MiB; results in {}", peer_title(options.peer), results.increments.size(),

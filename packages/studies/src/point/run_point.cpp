@@ -57,9 +57,10 @@ ExitCode run_point(const RCP<const Communicator>& comm, const RunOptions& option
   const PointFile point = read_point(*comm, options.scene, options.settings);
   const std::vector<PathPoint> path = points_of(*point.path.options);
   const Law law = point.material.options->law();
-  OutputDirectory directory(comm, options.directory.empty() ? default_directory(options.scene) : options.directory, options.keep);
+  OutputDirectory directory(comm, options.directory.empty() ? default_directory(options.scene) : options.directory,
+                            {"run", options.scene, options.directory.empty()}, options.keep);
   directory.begin_run();
-  write_file(*comm, directory.file("effective.xml"), [&] { return effective_xml(point); });
+  write_file(*comm, directory.claim("effective.xml"), [&] { return effective_xml(point); });
   log.info(fmt::format("{}: {}, {}, {} steps", options.scene, point.material.type, point.path.type, path.size() - 1));
 
   const std::vector<std::string> names = columns();
@@ -67,7 +68,7 @@ ExitCode run_point(const RCP<const Communicator>& comm, const RunOptions& option
   int steps = 0;
   std::optional<StepFailure> failure;
   {
-    CsvWriter table(comm, directory.file("point.csv"), names);
+    CsvWriter table(comm, directory.claim("point.csv"), names);
     try {
       drive_point(law, path, [&](const PointRecord& record) {
         last = row_of(record);
@@ -92,8 +93,9 @@ ExitCode run_point(const RCP<const Communicator>& comm, const RunOptions& option
   json["steps"] = steps;
   json["quantities"] = nlohmann::ordered_json::object();
   for (std::size_t c = 0; c < last.size(); ++c) json["quantities"][names[c]] = last[c];
-  write_json(*comm, directory.file("summary.json"), json);
+  write_json(*comm, directory.claim("summary.json"), json);
 
+  for (const char* name : {"point.svg", "point.png"}) directory.claim(name);
   const bool small_strain = std::visit([](const auto& kind) { return kind.small_strain; }, law);
   const bool drawn =
       draw_plot(*comm, point_plot,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -49,14 +48,14 @@ double value_of(const Scene& scene, const ScaleOptions& options) {
   return found->second;
 }
 
-std::vector<ScalePoint> planned_points(const Scene& scene, const ScaleOptions& options, const OutputDirectory& directory) {
+/// Points of both series, without their directories.
+std::vector<ScalePoint> planned_points(const Scene& scene, const ScaleOptions& options) {
   std::vector<ScalePoint> points;
   const auto add = [&](const std::string& series, int ranks) {
     ScalePoint& point = points.emplace_back();
     point.series = series;
     point.ranks = ranks;
     point.settings = options.settings;
-    point.directory = directory.file(fmt::format("runs/{}_{}", series, ranks));
   };
   for (const int ranks : rank_counts(options.ranks)) add("strong", ranks);
   if (!options.weak) return points;
@@ -96,13 +95,16 @@ std::vector<int> ranks_without_growth(const std::vector<ScalePoint>& points) {
 ExitCode run_scale(const RCP<const Communicator>& comm, const ScaleOptions& options) {
   RunLog log(comm, options.verbosity);
   const Scene scene = read_scene(*comm, options.scene, options.settings);
-  OutputDirectory directory(comm, options.directory.empty() ? default_directory(options.scene) + "-scale" : options.directory, false);
+  OutputDirectory directory(comm, options.directory.empty() ? default_directory(options.scene) + "-scale" : options.directory,
+                            {"scale", options.scene, options.directory.empty()});
   const std::string page = directory.file("report.html");
   require_page_python(*comm, page);
-  std::vector<ScalePoint> points = planned_points(scene, options, directory);
-  for (const char* old : {"scale.csv", "scale.json", "scale.svg", "scale_weak.svg", "report.html", "runs"})
-    std::filesystem::remove_all(directory.file(old));
-  OutputDirectory(comm, directory.file("runs"), false).make();
+  std::vector<ScalePoint> points = planned_points(scene, options);
+  const std::vector<std::string> names{"scale.csv", "scale.json", "scale.svg", "scale_weak.svg", "report.html", "runs"};
+  directory.open(names);
+  for (const auto& old : names) directory.remove(old);
+  OutputDirectory runs = directory.subdirectory("runs");
+  for (ScalePoint& point : points) point.directory = runs.subdirectory(fmt::format("{}_{}", point.series, point.ranks)).path();
 
   std::map<int, double> bandwidth;
   for (const int ranks : rank_counts(options.ranks)) {
@@ -111,7 +113,7 @@ ExitCode run_scale(const RCP<const Communicator>& comm, const ScaleOptions& opti
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     points[i].bandwidth = bandwidth[points[i].ranks];
-    run_scale_point(options, points[i]);
+    run_scale_point(comm, options, points[i]);
     log.info(progress(i, points));
     if (!points[i].finished) log.warning(points[i].said.substr(points[i].said.find_last_of('\n') + 1));
   }
@@ -119,8 +121,9 @@ ExitCode run_scale(const RCP<const Communicator>& comm, const ScaleOptions& opti
     log.warning(
         fmt::format("--weak {}: the number of unknowns did not grow with the ranks on {} ranks. This is no weak scaling; no efficiency is given",
                     options.weak->name, fmt::join(flat, ", ")));
-  write_scale_table(comm, directory.file("scale.csv"), points);
-  write_json(*comm, directory.file("scale.json"), scale_json(options, points));
+  write_scale_table(comm, directory.claim("scale.csv"), points);
+  write_json(*comm, directory.claim("scale.json"), scale_json(options, points));
+  for (const char* name : {"scale.svg", "scale_weak.svg", "report.html"}) directory.claim(name);
   draw_plot(*comm, std::string(page_needs) + scale_page, {directory.path()}, page);
   log.info("the page: " + page);
   return std::all_of(points.begin(), points.end(), [](const ScalePoint& point) { return point.finished; }) ? ExitCode::done : ExitCode::not_converged;

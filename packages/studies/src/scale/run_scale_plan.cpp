@@ -115,8 +115,11 @@ ExitCode plan_scale(const RCP<const Communicator>& comm, const ScaleOptions& opt
   RunLog log(comm, options.verbosity);
   const Scene scene = read_scene(*comm, options.scene, options.settings);
   const ScalePlan plan = make_scale_plan(comm, scene, options.plan);
-  const OutputDirectory directory(comm, options.directory.empty() ? default_directory(options.scene) + "-scale" : options.directory, false);
-  directory.make();
+  OutputDirectory directory(comm, options.directory.empty() ? default_directory(options.scene) + "-scale" : options.directory,
+                            {"scale", options.scene, options.directory.empty()});
+  const std::vector<std::string> names_of_plan{"plan.csv", "plan.json", "plan.svg", "plan.png"};
+  directory.open(names_of_plan);
+  for (const auto& name : names_of_plan) directory.remove(name), directory.claim(name);
   {
     std::vector<std::string> names{"rank"};
     for (const Column& column : columns()) names.push_back(column.name);

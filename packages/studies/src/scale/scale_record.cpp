@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "mortise/io/csv_writer.hpp"
+#include "mortise/io/output_directory.hpp"
 #include "shared/run_process.hpp"
 
 namespace mortise {
@@ -74,10 +74,9 @@ double ScalePoint::efficiency(const ScalePoint& first, double seconds_here, doub
   return series == "weak" ? size_ratio(first) * seconds_first / seconds_here : seconds_first / (ranks * seconds_here);
 }
 
-void run_scale_point(const ScaleOptions& options, ScalePoint& point) {
+void run_scale_point(const RCP<const Communicator>& comm, const ScaleOptions& options, ScalePoint& point) {
   for (int repeat = 0; repeat < options.repeats; ++repeat) {
-    std::error_code error;
-    std::filesystem::remove_all(point.directory, error);
+    OutputDirectory(comm, point.directory, {"run"}).begin_run();  // nothing of an earlier repeat may pass for results of one that fails
     const ProcessEnding ending = run_process(command_of_run(options.scene, point.settings, point.ranks, point.directory));
     // A check that is missed is the scene's affair: the times count.
     const bool well = ending.code == static_cast<int>(ExitCode::done) || ending.code == static_cast<int>(ExitCode::check_missed);

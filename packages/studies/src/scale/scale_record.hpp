@@ -43,8 +43,8 @@ struct ScalePoint {
   double efficiency(const ScalePoint& first, double seconds_here, double seconds_first) const;
 };
 
-/// Runs the point `repeats` times.
-void run_scale_point(const ScaleOptions& options, ScalePoint& point);
+/// Runs the point `repeats` times in its directory. Throws FileError if that cannot be had.
+void run_scale_point(const RCP<const Communicator>& comm, const ScaleOptions& options, ScalePoint& point);
 
 /// scale.json.
 nlohmann::ordered_json scale_json(const ScaleOptions& options, const std::vector<ScalePoint>& points);

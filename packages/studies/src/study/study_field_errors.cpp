@@ -1,4 +1,3 @@
-#include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -25,7 +24,6 @@ FieldErrors field_errors(const StudyMeasuring& measuring) {
     }
   draw_plot(measuring.comm, std::string(page_needs) + study_fields, arguments, result);
   const auto rows = nlohmann::json::parse(read_text(measuring.comm, result));
-  std::filesystem::remove(result);
   for (std::size_t row = 0; row < measured.size(); ++row) {
     if (rows[row]["displacement"].is_number()) errors.displacement[measured[row]] = rows[row]["displacement"];
     if (rows[row]["gradient"].is_number()) errors.gradient[measured[row]] = rows[row]["gradient"];

@@ -30,7 +30,9 @@ constexpr int done = static_cast<int>(ExitCode::done), missed = static_cast<int>
 
 double number(const Json& json) { return json.is_number() ? json.get<double>() : none; }
 
-std::string record_of(const StudyPointOptions& options) { return options.directory + "/study-point.json"; }
+constexpr const char* study_record_name = "study-point.json";
+
+std::string record_of(const StudyPointOptions& options) { return options.directory + "/" + study_record_name; }
 
 /// What decides on the results and times of a point.
 Json identity(const StudyPoint& point, const StudyPointOptions& options) {
@@ -93,27 +95,29 @@ Json measured(const StudyPoint& point, const ProcessEnding& ending, const Json& 
   return {{"wall_s", ending.wall_seconds}, {"cpu_s", ending.cpu_seconds}, {"memory_mib", memory}, {"time", time}};
 }
 
-Json run_all(const Communicator& comm, const StudyPoint& point, const StudyPointOptions& options) {
-  Json record{{"identity", identity(point, options)},
-              {"exit", static_cast<int>(ExitCode::files)},
-              {"said", ""},
-              {"date", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))},
-              {"processor", processor()},
-              {"repeats", Json::array()},
-              {"summary", Json::object()}};
+OutputDirectory directory_of_run(const Communicator& comm, const StudyPointOptions& options) {
+  return OutputDirectory(Teuchos::rcpFromRef(comm), options.directory, {"run"});
+}
+
+Json empty_record(const StudyPoint& point, const StudyPointOptions& options) {
+  return {{"identity", identity(point, options)},
+          {"exit", static_cast<int>(ExitCode::files)},
+          {"said", ""},
+          {"date", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))},
+          {"processor", processor()},
+          {"repeats", Json::array()},
+          {"summary", Json::object()}};
+}
+
+/// Runs the point in its directory, which is empty, and writes down what came of it.
+void run_all(const Communicator& comm, const StudyPoint& point, const StudyPointOptions& options, Json& record) {
   record["absent"] = missing_program(point.peer);
   if (record["absent"] != "") {
     record["said"] = "not installed: " + record["absent"].get<std::string>();
-    return record;
+    return;
   }
   for (int repeat = 0; repeat < options.repeats; ++repeat) {
-    try {
-      // Nothing of an earlier run may pass for results of one that fails.
-      OutputDirectory(Teuchos::rcpFromRef(comm), options.directory, false).begin_run();
-    } catch (const FileError& error) {
-      record["said"] = error.what();
-      return record;
-    }
+    if (repeat > 0) directory_of_run(comm, options).begin_run();
     const ProcessEnding ending = run_process(command_of(point, options), point.time_limit);
     record["exit"] = ending.code;
     record["said"] = ending.output;
@@ -126,7 +130,6 @@ Json run_all(const Communicator& comm, const StudyPoint& point, const StudyPoint
     record["repeats"].push_back(measured(point, ending, record["summary"]));
     if (ending.stopped || (ending.code != done && ending.code != missed)) break;
   }
-  return record;
 }
 
 StudyRecord to_record(const Json& json, const StudyPoint& point) {
@@ -182,9 +185,18 @@ std::optional<StudyRecord> earlier_record(const Communicator& comm, const StudyP
 }
 
 StudyRecord run_point(const Communicator& comm, const StudyPoint& point, const StudyPointOptions& options) {
-  if (std::filesystem::is_regular_file(record_of(options))) std::filesystem::remove(record_of(options));
-  const Json record = run_all(comm, point, options);
-  if (std::filesystem::is_directory(options.directory)) write_json(comm, record_of(options), record);
+  Json record = empty_record(point, options);
+  try {
+    // Nothing of an earlier run may pass for results of one that fails.
+    directory_of_run(comm, options).begin_run();
+  } catch (const FileError& error) {
+    record["said"] = error.what();
+    return to_record(record, point);
+  }
+  run_all(comm, point, options, record);
+  OutputDirectory directory = directory_of_run(comm, options);
+  directory.continue_run();
+  write_json(comm, directory.claim(study_record_name), record);
   return to_record(record, point);
 }
 

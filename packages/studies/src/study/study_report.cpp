@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "mortise/core/names.hpp"
 #include "mortise/io/csv_writer.hpp"
 #include "shared/run_process.hpp"
 
@@ -50,8 +51,15 @@ Json point_json(const StudyPoint& point, const StudyRecord& record) {
 }
 
 Json errors_json(const StudyErrors& errors, const StudyConclusions& conclusions) {
-  Json json{{"name", errors.name},     {"error", numbers(errors.error)}, {"value", numbers(errors.value)}, {"reference", numbers(errors.reference)},
-            {"notes", errors.notes},   {"orders", Json::array()},        {"no_order", Json::array()},      {"front", conclusions.front},
+  Json json{{"name", errors.name},
+            {"file", name_for_files(errors.name)},
+            {"error", numbers(errors.error)},
+            {"value", numbers(errors.value)},
+            {"reference", numbers(errors.reference)},
+            {"notes", errors.notes},
+            {"orders", Json::array()},
+            {"no_order", Json::array()},
+            {"front", conclusions.front},
             {"targets", Json::array()}};
   json["exact"] = conclusions.exact ? Json(*conclusions.exact) : Json(nullptr);
   for (const auto& fitted : conclusions.orders) json["orders"].push_back(number(fitted.order)), json["no_order"].push_back(fitted.reason);

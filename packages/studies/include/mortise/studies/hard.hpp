@@ -13,7 +13,7 @@ namespace mortise {
 /// How the ledger is run.
 struct HardOptions {
   std::string ledger = "inputs/hard/ledger.xml";  ///< what it says of each case; see HardFile
-  std::string directory = "results/hard";         ///< where results go
+  std::string directory;                          ///< where results go; empty: results/hard
   std::string only;                               ///< regular expression that names of cases have to match somewhere; empty: no choice
   std::vector<int> ranks{1};                      ///< MPI ranks; each case is run on each number of them
   bool sweeps = false;                            ///< run cases with axes as well; those that `only` chooses are always run

@@ -1,0 +1,44 @@
+#pragma once
+// What the program made in a directory, as a file there tells it.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mortise {
+
+constexpr const char* marker_name = ".mortise";
+constexpr const char* lock_name = ".mortise.lock";
+
+/// The file `.mortise` of a directory: names of files and directories that the program made there. One `*` in a name stands for any digits: a series
+/// of files is listed once.
+struct DirectoryMarker {
+  std::string holds;   ///< kind of results; empty: any
+  std::string source;  ///< file that they are of, relative to the directory; empty: none
+  std::vector<std::string> names;
+
+  /// Whether `name` is listed, or is the unfinished form ("x.part") of a name that is.
+  bool lists(const std::string& name) const;
+};
+
+/// Reads the marker of a directory; none if there is none. `reason` says why one that is there is no good: it is no regular file, it is not of this
+/// program, it lists what cannot be a name.
+std::optional<DirectoryMarker> read_marker(const std::string& directory, std::optional<std::string>& reason);
+
+/// Replaces the marker at once. Returns why it could not.
+std::optional<std::string> write_marker(const std::string& directory, const DirectoryMarker& marker);
+
+/// Whether `name` is there and nothing says that the program made it. A directory that is listed has to have a marker of its own, or to be empty.
+bool is_foreign(const std::string& directory, const DirectoryMarker& marker, const std::string& name);
+
+/// Why what is listed cannot be removed as a whole: someone writes below. Touches nothing.
+std::optional<std::string> busy_below(const std::string& directory, const std::vector<std::string>& names);
+
+/// Removes what is listed, and in directories what their markers list, and no more. Follows no symbolic link. Leaves in `names` those of directories
+/// that stay, as they hold what is not listed. Returns why something could not be removed.
+std::optional<std::string> remove_listed(const std::string& directory, std::vector<std::string>& names);
+
+/// Whether this can be the name of a file in a directory, and a line of a marker.
+bool is_plain_name(const std::string& name);
+
+}  // namespace mortise
