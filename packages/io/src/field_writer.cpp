@@ -223,8 +223,9 @@ struct FieldWriter::Implementation {
   IdOrder nodes, elements;
   GlobalOrdinal topology_size = 0;  ///< entries of this rank's elements
   XdmfMesh description;
-  std::uintmax_t tail_of_xdmf = 0;  ///< bytes before it, on rank 0
-  int last_step = -1;               ///< that has been written; -1: none
+  std::uintmax_t tail_of_xdmf = 0;    ///< bytes before it, on rank 0
+  int last_step = -1;                 ///< that has been written; -1: none
+  std::vector<std::string> unsynced;  ///< files that may not be on the disk yet
 };
 
 FieldWriter::FieldWriter(RCP<const Mesh> mesh, const std::string& directory, std::optional<int> continue_after)
@@ -232,6 +233,7 @@ FieldWriter::FieldWriter(RCP<const Mesh> mesh, const std::string& directory, std
   implementation_->clear(continue_after.value_or(-1), continue_after.has_value());
   implementation_->write_or_check_mesh();
   implementation_->rebuild_index();
+  implementation_->unsynced.push_back(implementation_->path(mesh_file));
 }
 
 FieldWriter::~FieldWriter() = default;
@@ -261,8 +263,20 @@ void FieldWriter::write(int step, double time, const std::vector<Field>& fields)
     stored.fields.push_back({field.name, field.center, field.kind});
   }
   file.close();
+  self.unsynced.push_back(self.path(step_file(step)));
   self.last_step = step;
   self.add_to_index(stored);
+}
+
+void FieldWriter::sync() {
+  Implementation& self = *implementation_;
+  self.on_rank_0("cannot write to the disk", self.path(fields_directory), [&]() -> std::optional<std::string> {
+    for (const std::string& file : self.unsynced)
+      if (auto reason = sync_file(file)) return reason;
+    if (auto reason = sync_file(self.xdmf_path)) return reason;
+    return sync_directory(self.path(fields_directory));
+  });
+  self.unsynced.clear();
 }
 
 }  // namespace mortise

@@ -65,6 +65,7 @@ void RunOutput::store(StateArchive& archive) {
     file->sync();
     return file->size();
   };
+  if (fields_) fields_->sync();
   std::uintmax_t newton = size_on_disk(newton_), history = size_on_disk(history_), steps = size_on_disk(steps_), profiles = size_on_disk(profiles_);
   serialize(archive, "files.newton", newton);
   serialize(archive, "files.history", history);

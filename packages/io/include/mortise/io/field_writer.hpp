@@ -53,6 +53,9 @@ class FieldWriter {
   /// that does not come after those that were written.
   void write(int step, double time, const std::vector<Field>& fields);
 
+  /// Returns when all that was written is on the disk: it outlives a loss of power.
+  void sync();
+
  private:
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
