@@ -216,6 +216,19 @@ void OutputDirectory::remove(const std::string& name) {
   });
 }
 
+void OutputDirectory::strike_missing() {
+  State& self = *state_;
+  self.on_first_rank("cannot write to the directory", [&] {
+    std::vector<std::string>& all = self.marker.names;
+    const auto is_missing = [&](const std::string& name) {
+      std::error_code error;
+      return std::filesystem::symlink_status(file(name), error).type() == std::filesystem::file_type::not_found;
+    };
+    all.erase(std::remove_if(all.begin(), all.end(), is_missing), all.end());
+    return write_marker(self.path, self.marker);
+  });
+}
+
 const std::string& OutputDirectory::path() const { return state_->path; }
 
 }  // namespace mortise

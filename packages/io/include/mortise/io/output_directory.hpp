@@ -57,6 +57,9 @@ class OutputDirectory {
   /// Removes a file or directory that is registered; nothing if it is not there. What is not registered in a directory stays, with the directory.
   void remove(const std::string& name);
 
+  /// Strikes from the list what was registered and has not been made: it may become another's.
+  void strike_missing();
+
   const std::string& path() const;
   /// Path of a file in the directory.
   std::string file(const std::string& name) const { return path() + "/" + name; }
