@@ -103,6 +103,7 @@ struct OutputDirectory::State {
   bool is_open = false;
   DirectoryMarker marker;
   DirectoryLock lock;
+  std::shared_ptr<State> above;  ///< of a subdirectory, whose lock it is
 
   /// Collective: every rank throws FileError if `action` gives rank 0 a reason.
   template <class Action>
@@ -188,7 +189,7 @@ std::string OutputDirectory::claim(const std::string& name) {
 OutputDirectory OutputDirectory::subdirectory(const std::string& name) {
   claim(name);
   const auto below = std::make_shared<State>();
-  below->comm = state_->comm, below->path = file(name), below->is_open = true;
+  below->comm = state_->comm, below->path = file(name), below->is_open = true, below->above = state_;
   below->on_first_rank("cannot make the directory", [&]() -> std::optional<std::string> {
     if (auto reason = make_directory(below->path)) return reason;
     std::optional<std::string> reason;

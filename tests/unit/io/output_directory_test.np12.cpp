@@ -228,7 +228,8 @@ TEST(OutputDirectory, IsWrittenByOneAtATime) {
   {
     OutputDirectory first(world(), scratch.path(), {"run"});
     first.begin_run();
-    const OutputDirectory copy = first;
+    const OutputDirectory below = first.subdirectory("fields");
+    first = OutputDirectory(world(), scratch.file("elsewhere"));  // the one below holds the lock still
     const auto named = AllOf(HasSubstr("is being written by process "), HasSubstr(" on host "), HasSubstr("choose another directory"));
     EXPECT_THAT(file_error([&] { OutputDirectory(world(), scratch.path(), {"run"}); }), named);
   }

@@ -51,7 +51,7 @@ class OutputDirectory {
   /// Registers a file that is about to be made or replaced. Returns its path. A registered name may be claimed again.
   std::string claim(const std::string& name);
 
-  /// Registers a directory and makes it where it does not exist. It has a list of its own, which is kept, and no lock of its own.
+  /// Registers a directory and makes it where it does not exist. It has a list of its own, which is kept, and the same lock.
   OutputDirectory subdirectory(const std::string& name);
 
   /// Removes a file or directory that is registered; nothing if it is not there. What is not registered in a directory stays, with the directory.
