@@ -56,15 +56,17 @@ const std::string point_file = R"xml(<ParameterList name="point">
 </ParameterList>
 )xml";
 
-const std::vector<Command>& commands() {
-  static const std::vector<Command> all{{"run", {"run", "input.xml"}, {"history.csv", "summary.json", "log.txt", "effective.xml", "fields.h5"}},
-                                        {"point", {"point", "point.xml"}, {"point.csv", "summary.json"}},
-                                        {"study", {"study", "study.xml"}, {"points", "scene.xml", "study.csv", "report.html", "plots"}},
-                                        {"scale", {"scale", "input.xml", "--ranks", "1"}, {"runs", "scale.csv", "report.html"}},
-                                        {"plan", {"scale", "input.xml", "--plan", "2"}, {"plan.csv", "plan.svg"}},
-                                        {"paper", {"paper", "--only", "patch_test"}, {"paper.html", "scenes", "patch_test"}},
-                                        {"hard", {"hard", "ledger.xml"}, {"ledger.csv", "hard-cases.html", "a_case"}},
-                                        {"describe", {"describe", "--format", "rng"}, {"scene.rng"}}};
+std::vector<Command> commands() {
+  std::vector<Command> all{{"run", {"run", "input.xml"}, {"history.csv", "summary.json", "log.txt", "effective.xml", "fields.h5"}},
+                           {"point", {"point", "point.xml"}, {"point.csv", "summary.json"}},
+                           {"study", {"study", "study.xml"}, {"points", "scene.xml", "study.csv", "report.html", "plots"}},
+                           {"scale", {"scale", "input.xml", "--ranks", "1"}, {"runs", "scale.csv", "report.html"}},
+                           {"plan", {"scale", "input.xml", "--plan", "2"}, {"plan.csv", "plan.svg"}},
+                           {"paper", {"paper", "--only", "patch_test"}, {"paper.html", "scenes", "patch_test"}},
+                           {"hard", {"hard", "ledger.xml"}, {"ledger.csv", "hard-cases.html", "a_case"}},
+                           {"describe", {"describe", "--format", "rng"}, {"scene.rng"}}};
+  if (launch({"ccx", "-v"}).code != 127)
+    all.push_back({"peer", {"peer", std::string(INPUTS) + "/verification/patch_ratio_1_7.xml"}, {"peer.inp", "peer.frd", "summary.json"}});
   return all;
 }
 

@@ -5,6 +5,8 @@
 #include <Teuchos_CommHelpers.hpp>
 #include <algorithm>
 
+#include "mortise/core/names.hpp"
+
 namespace mortise {
 namespace {
 
@@ -21,6 +23,16 @@ std::string with_short_quotes(const std::string& message) {
     if (close == std::string::npos) return text + message.substr(begin);
     text += message.substr(begin, open - begin) + '"' + shortened(message.substr(open + 1, close - open - 1)) + '"';
     begin = close + 1;
+  }
+  return text;
+}
+
+/// Line breaks are ours, other control characters of a given text.
+std::string for_terminals(const std::string& message) {
+  std::string text;
+  for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
+    end = message.find('\n', begin);
+    text += without_control_characters(message.substr(begin, end - begin)) + (end == std::string::npos ? "" : "\n");
   }
   return text;
 }
@@ -60,7 +72,7 @@ std::string to_string(const Diagnostic& diagnostic) {
   if (!place.file.empty()) text = place.line > 0 ? fmt::format("{}:{}: ", place.file, place.line) : place.file + ": ";
   text += "error: ";
   if (!place.path.empty()) text += shortened(place.path) + ": ";
-  return text + with_short_quotes(diagnostic.message);
+  return for_terminals(text + with_short_quotes(diagnostic.message));
 }
 
 InputError::InputError(std::vector<Diagnostic> diagnostics) : std::runtime_error(joined(diagnostics)), diagnostics_(std::move(diagnostics)) {}

@@ -70,7 +70,8 @@ ScalarFunction parse_expression(const std::vector<std::string>& arguments, const
   bool constant = true;
   try {
     for (std::size_t i = 0; i < arguments.size(); ++i)
-      if (!arguments[i].empty() && !std::isdigit(static_cast<unsigned char>(arguments[i].front())) &&
+      if (!arguments[i].empty() && arguments[i].size() <= longest_name_in_expressions &&
+          !std::isdigit(static_cast<unsigned char>(arguments[i].front())) &&
           arguments[i].find_first_not_of(parser.ValidNameChars()) == std::string::npos)
         parser.DefineVar(arguments[i], &parsed->arguments[i]);
     parser.DefineConst("pi", std::acos(-1.0));

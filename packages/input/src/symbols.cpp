@@ -13,7 +13,7 @@ namespace mortise {
 namespace {
 
 bool valid_name(const std::string& name) {
-  return !name.empty() && (std::isalpha(static_cast<unsigned char>(name[0])) || name[0] == '_') &&
+  return !name.empty() && name.size() <= longest_name_in_expressions && (std::isalpha(static_cast<unsigned char>(name[0])) || name[0] == '_') &&
          std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) || c == '_'; });
 }
 
@@ -25,7 +25,9 @@ const std::vector<std::string> reserved = {"t",    "x",    "y",    "z",    "pi",
 bool is_reserved(const std::string& name) { return std::find(reserved.begin(), reserved.end(), name) != reserved.end(); }
 
 std::string wrong_name(const std::string& name) {
-  if (!valid_name(name)) return fmt::format("\"{}\" cannot be named in expressions; please use letters, digits and underscores", name);
+  if (!valid_name(name))
+    return fmt::format("\"{}\" cannot be named in expressions; please use letters, digits and underscores, {} of them at most", name,
+                       longest_name_in_expressions);
   if (is_reserved(name)) return fmt::format("\"{}\" already has a meaning in expressions; please choose another name", name);
   return "";
 }

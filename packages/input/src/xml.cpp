@@ -84,6 +84,10 @@ class Converter {
         found = true;
       }
     }
+    if (without_control_characters(value) != value)
+      say(node, path,
+          fmt::format("\"{}\" of <{}> has a control character, such as a line break or a tab, where \"{}\" has a \"?\"; please remove it", wanted,
+                      text_of(node->name), without_control_characters(value)));
     if (required && (!found || (wanted == "name" && value.empty()))) say(node, path, fmt::format("<{}> without \"{}\"", text_of(node->name), wanted));
     return value;
   }
@@ -176,6 +180,8 @@ XmlList parse_xml(const std::string& text, const std::string& file) {
 
 std::string wrong_assignment(const std::string& assignment) {
   const std::string advice = "; please write path=value, for example variables/n=8";
+  if (const std::string shown = without_control_characters(assignment); shown != assignment)
+    return fmt::format("\"{}\" has a control character, such as a line break or a tab, in the place of a \"?\"; please remove it", shortened(shown));
   const auto equals = assignment.find('=');
   if (equals == std::string::npos) return fmt::format("\"{}\" has no \"=\"{}", shortened(assignment), advice);
   const std::string path = '/' + assignment.substr(0, equals) + '/';

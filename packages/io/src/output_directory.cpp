@@ -104,6 +104,7 @@ struct OutputDirectory::State {
   bool is_open = false;
   DirectoryMarker marker;
   DirectoryLock lock;
+  std::shared_ptr<State> above;  ///< of a subdirectory, whose lock it is
 
   /// Collective: every rank throws FileError if `action` gives rank 0 a reason.
   template <class Action>
@@ -189,7 +190,7 @@ std::string OutputDirectory::claim(const std::string& name) {
 OutputDirectory OutputDirectory::subdirectory(const std::string& name) {
   claim(name);
   const auto below = std::make_shared<State>();
-  below->comm = state_->comm, below->path = file(name), below->is_open = true;
+  below->comm = state_->comm, below->path = file(name), below->is_open = true, below->above = state_;
   below->on_first_rank("cannot make the directory", [&]() -> std::optional<std::string> {
     if (auto reason = make_directory(below->path)) return reason;
     std::optional<std::string> reason;
@@ -213,6 +214,19 @@ void OutputDirectory::remove(const std::string& name) {
     if (auto reason = busy_below(self.path, one)) return reason;
     if (auto reason = remove_listed(self.path, one)) return reason;
     if (one.empty()) all.erase(listed);
+    return write_marker(self.path, self.marker);
+  });
+}
+
+void OutputDirectory::strike_missing() {
+  State& self = *state_;
+  self.on_first_rank("cannot write to the directory", [&] {
+    std::vector<std::string>& all = self.marker.names;
+    const auto is_missing = [&](const std::string& name) {
+      std::error_code error;
+      return std::filesystem::symlink_status(file(name), error).type() == std::filesystem::file_type::not_found;
+    };
+    all.erase(std::remove_if(all.begin(), all.end(), is_missing), all.end());
     return write_marker(self.path, self.marker);
   });
 }

@@ -17,7 +17,7 @@ if any(abs(one - abs(other)) > 1e-6 * max(von_mises) for one, other in zip(von_m
     axes[0].plot(strain, von_mises, label="von Mises stress")
     axes[0].legend()
     name = "stress"
-axes[0].set_ylabel(name + (f" / {unit}" if unit else ""))
+axes[0].set_ylabel(plain(name + (f" / {unit}" if unit else "")))
 if any(alpha):
     axes[1].plot(strain, alpha)
     axes[1].set_ylabel("equivalent plastic strain α")

@@ -7,7 +7,7 @@ with open(table, newline="") as file:
 
 SHOWN = [("elements", "elements"), ("slave_work", "overlaps integrated"), ("memory_mib", "memory / MiB")]
 figure, axes = plt.subplots(1, len(SHOWN), figsize=(6.3, 2.5), layout="constrained")
-figure.suptitle(title, fontsize=10)
+figure.suptitle(plain(title), fontsize=10)
 for axis, (name, label), colour in zip(axes, SHOWN, COLOURS):
     values = sorted(float(row[name]) for row in rows)
     mean = sum(values) / len(values)

@@ -28,6 +28,7 @@ PHASES = {
     "solver set-up": (["linear_setup"], "#D55E00", "..."), "solution": (["linear_solve"], "#009E73", "xxx"), "output": (["output"], "#F0E442", ""),
     "rest": ([], "#BBBBBB", "---")}
 
+plt.style.use("default")  # a file matplotlibrc in the working directory sets nothing
 plt.rcParams.update({
     "axes.prop_cycle": matplotlib.cycler(color=COLOURS, linestyle=DASHES),
     "axes.grid": True, "axes.axisbelow": True, "grid.color": "#DDDDDD", "grid.linewidth": 0.6,

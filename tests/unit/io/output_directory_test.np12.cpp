@@ -119,6 +119,20 @@ TEST(OutputDirectory, ANameThatIsTakenCannotBeClaimed) {
   EXPECT_EQ(content(scratch.file("table.csv")), "theirs");
 }
 
+TEST(OutputDirectory, WhatWasNotMadeMayBecomeAnothers) {
+  const test::ScratchDirectory scratch(world());
+  make_run(scratch.path(), {"summary.json"});
+  {
+    OutputDirectory directory(world(), scratch.path(), {"run"});
+    directory.continue_run();
+    directory.claim("point.svg");
+    directory.strike_missing();
+  }
+  on_first_rank([&] { write(scratch.file("point.svg")); });
+  EXPECT_THAT(file_error([&] { OutputDirectory(world(), scratch.path(), {"run"}).begin_run(); }), HasSubstr("point.svg"));
+  EXPECT_EQ(content(scratch.file("summary.json")), "ours");
+}
+
 TEST(OutputDirectory, RemovesOnlyWhatListsBelowItHave) {
   const test::ScratchDirectory scratch(world());
   {
@@ -214,10 +228,12 @@ TEST(OutputDirectory, IsWrittenByOneAtATime) {
   {
     OutputDirectory first(world(), scratch.path(), {"run"});
     first.begin_run();
-    const OutputDirectory copy = first;
+    const OutputDirectory below = first.subdirectory("fields");
+    first = OutputDirectory(world(), scratch.file("elsewhere"));  // the one below holds the lock still
     const auto named = AllOf(HasSubstr("is being written by process "), HasSubstr(" on host "), HasSubstr("choose another directory"));
     EXPECT_THAT(file_error([&] { OutputDirectory(world(), scratch.path(), {"run"}); }), named);
   }
+  world()->barrier();  // rank 0 has given it up
   EXPECT_FALSE(files::exists(scratch.file(".mortise.lock")));
   world()->barrier();
   EXPECT_NO_THROW(OutputDirectory(world(), scratch.path(), {"run"}).begin_run());

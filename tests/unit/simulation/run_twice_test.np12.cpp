@@ -111,6 +111,8 @@ Outcome run(const Scene& scene, const Case& one, const std::string& directory) {
   options.scene = one.file;
   options.directory = "run_twice_np" + std::to_string(comm()->getSize()) + "/" + one.name + "/" + directory;
   options.verbosity = Verbosity::quiet;
+  if (comm()->getRank() == 0) std::filesystem::remove_all(options.directory);
+  comm()->barrier();
   Outcome outcome{{"exit code", std::to_string(static_cast<int>(run_scene(comm(), scene, options)))}};
   if (comm()->getRank() != 0) return outcome;
   const std::filesystem::path results = options.directory;

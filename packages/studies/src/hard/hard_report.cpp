@@ -43,8 +43,15 @@ std::string wrong_lines(const HardPlan& plan, std::size_t number, const std::vec
   return fmt::format("{} of {} lines of {} wrong", wrong, all.size(), plan.cases[number].name);
 }
 
+/// A given text in Markdown, whose readers take HTML too.
+std::string markdown(std::string text) {
+  for (const auto& [from, to] : {std::pair{"&", "&amp;"}, {"<", "&lt;"}}) boost::replace_all(text, from, to);
+  return text;
+}
+
 /// A cell of a Markdown table.
 std::string cell(std::string text) {
+  text = markdown(text);
   boost::replace_all(text, "|", "\\|");
   boost::replace_all(text, "\n", " ");
   return text;
@@ -115,8 +122,8 @@ std::string hard_markdown(const HardPlan& plan, const std::vector<HardRow>& rows
   for (std::size_t number = 0; number < plan.cases.size(); ++number) {
     const auto& one = plan.cases[number];
     if (one.value.axes.empty()) continue;
-    page += fmt::format("\n## Sweep: {}\n\n{}. Expected: {} ({}). {}.\n\n", one.name, one.value.hard, one.value.expectation, one.value.source,
-                        wrong_lines(plan, number, rows));
+    page += markdown(fmt::format("\n## Sweep: {}\n\n{}. Expected: {} ({}). {}.\n\n", one.name, one.value.hard, one.value.expectation,
+                                 one.value.source, wrong_lines(plan, number, rows)));
     page += row_of({"of it", "ranks", "steps / cutbacks / iterations", "figure", "allowed", "verdict"}) + "|---|---|---|---|---|---|\n";
     for (const HardRow* row : rows_of(rows, number))
       page +=

@@ -80,12 +80,12 @@ ExitCode run_hard(const RCP<const Communicator>& comm, const HardOptions& option
   const HardPlan plan = read_hard(*comm, options);
   OutputDirectory directory(comm, options.directory.empty() ? "results/hard" : options.directory,
                             {"hard cases", options.ledger, options.directory.empty()});
-  std::vector<std::string> cases, names{"ledger.csv", "hard-cases.md", "hard-cases.html"};
+  const std::vector<std::string> pages{"ledger.csv", "hard-cases.md", "hard-cases.html"};
+  std::vector<std::string> cases, names = pages;
   for (const auto& one : plan.cases) cases.push_back(name_for_files(one.name));
   names.insert(names.end(), cases.begin(), cases.end());
   directory.open(names);
-  if (options.fresh)
-    for (const auto& one : cases) directory.remove(one);
+  for (const auto& old : options.fresh ? names : pages) directory.remove(old);
 
   Runner runner(comm, plan, options, directory);
   std::vector<HardRow> rows;

@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "mortise/core/names.hpp"
 #include "mortise/material/materials.hpp"
 
 namespace mortise {
@@ -16,12 +17,17 @@ std::string calculix_element(CellShape shape) {
   return found == elements.end() ? "" : found->second;
 }
 
+std::string deck_comment(const std::string& text) {
+  constexpr std::size_t longest = 200;  // of 1320 that a line of a deck may have
+  return "** " + without_control_characters(text).substr(0, longest) + "\n";
+}
+
 std::string calculix_deck(const Scene& scene, const Model& model, Peer peer, std::optional<double> penalty) {
   const auto& first = *model.bodies()->properties().front().material;
   const bool small_strain = std::visit([](const auto& law) { return law.small_strain; }, first.law());
   const DeckConditions conditions = deck_conditions(scene, model);
   const std::size_t increments = deck_times(scene.stepping).size() - 1;
-  std::string deck = fmt::format("*HEADING\n{}\n", scene.name);
+  std::string deck = deck_comment(scene.name);
   deck += deck_bodies(model) + deck_contact(scene, model, peer, penalty) + conditions.before;
   // DIRECT: the steps of the scene and no others. Results are written at the end of the step only.
   deck += fmt::format("*STEP{},INC={}\n*STATIC,DIRECT\n{:.10g},{:.10g}\n", small_strain ? "" : ",NLGEOM", 2 * increments + 10,

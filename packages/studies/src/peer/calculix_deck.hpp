@@ -25,6 +25,9 @@ struct DeckNumbers {
 /// The element of CalculiX that a cell of the mesh becomes: "C3D8"; empty if there is none.
 std::string calculix_element(CellShape shape);
 
+/// A given name as a line of a deck, which says nothing to CalculiX whatever the name is.
+std::string deck_comment(const std::string& text);
+
 /// Everything in the scene that a deck cannot hold, each at its place.
 std::vector<Diagnostic> calculix_obstacles(const Scene& scene, const Model& model);
 

@@ -67,11 +67,15 @@ const std::vector<std::string> files_of_calculix{"peer.sta",
                                                  "peer.frd",
                                                  "peer.12d",
                                                  "peer.cel",
+                                                 "contact.fbd",
+                                                 "slavtan.fbd",
+                                                 "intpoints.out",
+                                                 "slavintmortar.out",
                                                  "spooles.out",
                                                  "ResultsForLastIterations.frd",
-                                                 "WarnNodeMissTiedContact.nam",
-                                                 "WarnSlaveNodeUnallowedMpc.nam",
-                                                 "WarnNodeNotProjected.nam"};
+                                                 "peer_WarnNodeMissTiedContact.nam",
+                                                 "peer_WarnSlaveNodeUnallowedMpc.nam",
+                                                 "peer_WarnNodeNotProjected.nam"};
 
 }  // namespace
 
@@ -99,6 +103,7 @@ ExitCode run_peer(const RCP<const Communicator>& comm, const PeerOptions& option
   setenv("OMP_NUM_THREADS", "1", 1);  // one process on one core, as this program's ranks
   // It leaves files of its own where it is run.
   const ProcessEnding ending = run_process({"env", "-C", directory.path(), "ccx", "-i", "peer"});
+  directory.strike_missing();
   write_file(*comm, directory.claim("peer.log"), [&] { return ending.output + "\n"; });
   const CalculixResults results = read_calculix_results(directory.path());
   const double end = scene.stepping.end_time;

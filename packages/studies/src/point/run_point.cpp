@@ -102,6 +102,7 @@ ExitCode run_point(const RCP<const Communicator>& comm, const RunOptions& option
                 {directory.file("point.csv"), directory.file("point"), component, fmt::format("{} ({})", point.name, point.material.type),
                  small_strain ? "strain" : "logarithmic strain", point.stress_unit},
                 directory.file("point.svg"));
+  directory.strike_missing();
   if (!drawn) log.warning("nothing is drawn without matplotlib; please install python3-matplotlib (Debian)");
   if (!last.empty())
     log.info(fmt::format("t = {:g}: strain_{} = {:.6g}, cauchy_{} = {:.6g}, von_mises = {:.6g}, equivalent_plastic_strain = {:.6g}", last[0],

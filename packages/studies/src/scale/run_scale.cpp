@@ -125,6 +125,7 @@ ExitCode run_scale(const RCP<const Communicator>& comm, const ScaleOptions& opti
   write_json(*comm, directory.claim("scale.json"), scale_json(options, points));
   for (const char* name : {"scale.svg", "scale_weak.svg", "report.html"}) directory.claim(name);
   draw_plot(*comm, std::string(page_needs) + scale_page, {directory.path()}, page);
+  directory.strike_missing();
   log.info("the page: " + page);
   return std::all_of(points.begin(), points.end(), [](const ScalePoint& point) { return point.finished; }) ? ExitCode::done : ExitCode::not_converged;
 }

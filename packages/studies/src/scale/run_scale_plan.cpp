@@ -136,6 +136,7 @@ ExitCode plan_scale(const RCP<const Communicator>& comm, const ScaleOptions& opt
   const std::string title = fmt::format("{} on {} ranks", scene.name, options.plan);
   if (!draw_plot(*comm, scale_plan_plot, {directory.file("plan.csv"), directory.file("plan"), title}, directory.file("plan.svg")))
     log.warning("nothing is drawn without matplotlib; please install python3-matplotlib (Debian)");
+  directory.strike_missing();
   log.info("results in " + directory.path());
   return ExitCode::done;
 }

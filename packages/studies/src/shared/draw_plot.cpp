@@ -25,7 +25,8 @@ bool draw_plot(const Communicator& comm, const std::string& script, const std::v
     std::vector<std::string> pythons{"python3", "/usr/bin/python3"};
     if (const char* chosen = std::getenv("MORTISE_PYTHON")) pythons = {chosen};
     for (const auto& python : pythons) {
-      std::vector<std::string> command{python, "-c", std::string(plot_style) + script};
+      // -I: modules come from the python's own directories, and from no other, the working directory for one.
+      std::vector<std::string> command{python, "-I", "-c", std::string(plot_style) + script};
       command.insert(command.end(), arguments.begin(), arguments.end());
       const ProcessEnding ending = run_process(command);
       if (ending.code == missing || ending.code == 126 || ending.code == 127) continue;  // no matplotlib, or no python

@@ -20,7 +20,7 @@ namespace {
 const std::vector<std::string> reports{"study.csv", "study.json", "report.html", "field-errors.json", "plots"};
 
 /// Registers what study_page draws.
-void claim_plots(OutputDirectory plots, const StudyFile& study) {
+void claim_plots(OutputDirectory& plots, const StudyFile& study) {
   for (const char* name : {"cost.svg", "newton.svg"}) plots.claim(name);
   for (const auto& quantity : study.quantities)
     for (const char* what : {"error_", "time_"}) plots.claim(what + name_for_files(quantity.name) + ".svg");
@@ -61,7 +61,8 @@ ExitCode run_study(const RCP<const Communicator>& comm, const StudyOptions& opti
   for (std::size_t i = plan.finest ? 1 : 0; i < runs.size(); ++i) results.points.push_back(*records[i]);
   results.h = mesh_sizes(plan, results.points);
 
-  claim_plots(directory.subdirectory("plots"), plan.file);
+  OutputDirectory plots = directory.subdirectory("plots");
+  claim_plots(plots, plan.file);
   for (const char* name : {"field-errors.json", "report.html"}) directory.claim(name);
   const std::vector<StudyErrors> errors = study_errors(measuring);
   directory.remove("field-errors.json");
@@ -70,6 +71,7 @@ ExitCode run_study(const RCP<const Communicator>& comm, const StudyOptions& opti
   write_study_table(comm, directory.claim("study.csv"), plan, results, errors);
   write_json(*comm, directory.claim("study.json"), study_json(options.version, plan, results, curves, errors, conclusions));
   draw_plot(*comm, std::string(page_needs) + study_page, {directory.path()}, page);
+  plots.strike_missing();
   for (std::size_t q = 0; q < errors.size(); ++q) log.info(sentence(plan, results, errors[q], conclusions[q]));
   log.info("the page: " + page);
   const auto well = [](const StudyRecord& one) { return one.finished() || one.excused(); };

@@ -122,6 +122,7 @@ std::vector<StudyPoint> study_points(const StudyFile& study, std::vector<Diagnos
       return true;
     });
     if (left_out) continue;
+    point.name = name_for_files(point.name);
     while (std::any_of(points.begin(), points.end(), [&](const StudyPoint& other) { return other.name == point.name; })) point.name += "+";
     take_reserved(point, diagnostics);
     points.push_back(std::move(point));

@@ -16,8 +16,12 @@ std::vector<std::string> names_of(const std::vector<Named<T>>& entries) {
   return names;
 }
 
-/// A name that every file system takes: what may be no letter, digit or one of =,._-+ becomes an underscore.
+/// A name that every file system takes, of one file in a directory: what is no letter, digit or one of =,._-+ becomes an underscore, as does a point
+/// that begins it. Of a long name the end is replaced by a number that is made of all of it.
 std::string name_for_files(std::string text);
+
+/// The text with "?" for each control character of ASCII and Unicode, line breaks and tabs included: a terminal would obey them.
+std::string without_control_characters(const std::string& text);
 
 /// "; did you mean "..."?" if one of `candidates` is close to `name`, else "".
 std::string did_you_mean(const std::string& name, const std::vector<std::string>& candidates);

@@ -52,11 +52,14 @@ class OutputDirectory {
   /// any digits: a series of files is registered once.
   std::string claim(const std::string& name);
 
-  /// Registers a directory and makes it where it does not exist. It has a list of its own, which is kept, and no lock of its own.
+  /// Registers a directory and makes it where it does not exist. It has a list of its own, which is kept, and the same lock.
   OutputDirectory subdirectory(const std::string& name);
 
   /// Removes a file or directory that is registered; nothing if it is not there. What is not registered in a directory stays, with the directory.
   void remove(const std::string& name);
+
+  /// Strikes from the list what was registered and has not been made: it may become another's.
+  void strike_missing();
 
   const std::string& path() const;
   /// Path of a file in the directory.
