@@ -6,6 +6,7 @@
 #include <Teuchos_DefaultSerialComm.hpp>
 #include <Tpetra_Core.hpp>
 #include <algorithm>
+#include <csignal>
 #include <iostream>
 #include <optional>
 
@@ -29,7 +30,7 @@ constexpr const char* examples = R"(Examples:
   mortise describe contact                                   every parameter with default, unit and meaning
   mortise list materials
 
-Exit codes: 0 done, 1 usage, 2 invalid input, 3 not converged, 4 a check of the scene missed, 5 files, 70 internal)";
+Exit codes: 0 done, 1 usage, 2 invalid input, 3 not converged, 4 a check of the scene missed, 5 files, 6 memory, 70 internal)";
 
 /// Of ranks that leave the answer to the first: an error would make mpirun end all ranks, perhaps before the first has answered.
 constexpr int others_code = 0;
@@ -100,6 +101,8 @@ std::optional<int> read_alone(mortise::Program& program) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // What a limit on file sizes or a closed pipe stops is an error of the write, which is told, and no end without a word.
+  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
   mortise::Program program;
   CLI::App app("Mortise: contact between bodies that deform, slide and yield", "mortise");
   app.set_version_flag("--version", "mortise " + mortise::version());

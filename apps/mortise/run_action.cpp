@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <string>
 
 #include "program.hpp"
 
@@ -26,14 +27,18 @@ Outcome run_action(const Program& program, const std::function<ExitCode()>& acti
   } catch (const StepFailure& failure) {
     outcome = {failure.kind() == FailureKind::input ? ExitCode::invalid_input : ExitCode::not_converged, failure.what()};
   } catch (const std::bad_alloc&) {
-    outcome = {ExitCode::internal, "out of memory"};
+    outcome = {ExitCode::memory, "out of memory"};
   } catch (const std::exception& error) {
-    outcome = {ExitCode::internal, error.what()};
+    // Kokkos has no type for it.
+    const bool is_memory = std::string(error.what()).find("failed to allocate memory") != std::string::npos;
+    outcome = {is_memory ? ExitCode::memory : ExitCode::internal, error.what()};
   } catch (...) {
     outcome = {ExitCode::internal, "unknown exception"};
   }
   // Errors of input, files and steps are thrown on every rank with the same text; anything else may be one rank's alone.
-  if (outcome.code == ExitCode::internal)
+  if (outcome.code == ExitCode::memory && !outcome.message.empty())
+    std::cerr << "mortise: rank " << program.comm->getRank() << " got no more memory" << std::endl;
+  else if (outcome.code == ExitCode::internal)
     std::cerr << "mortise: internal error on rank " << program.comm->getRank() << ": " << outcome.message << std::endl;
   else if (!outcome.message.empty() && program.is_first_rank())
     std::cerr << outcome.message << std::endl;

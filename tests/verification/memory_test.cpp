@@ -62,4 +62,19 @@ TEST(Memory, IsEstimatedToAFactorOfTwo) {
   }
 }
 
+// Libraries that get no memory spin for ever or end the program: what would not fit is not begun.
+TEST(Memory, ALimitEndsTheRunInTime) {
+  const std::string results = std::string(SCRATCH) + "/memory_limit";
+  for (const int mib : {150, 250, 350, 450, 550, 650, 750, 900, 1100, 1300}) {
+    SCOPED_TRACE(std::to_string(mib) + " MiB");
+    const Ending ending = launch({"bash", "-c",
+                                  "ulimit -v " + std::to_string(1024 * mib) + "; exec '" + MORTISE + "' run '" + INPUTS +
+                                      "/scaling/pressed_blocks.xml' --set variables/n=12 --set 'linear solver/type=mumps' -o '" + results + "'"},
+                                 60);
+    EXPECT_TRUE(ending.code == 0 || ending.code == 6) << ending.code << ending.output;
+    if (mib >= 1100) EXPECT_EQ(ending.code, 0) << ending.output;
+    if (mib <= 250) EXPECT_EQ(ending.code, 6) << ending.output;
+  }
+}
+
 }  // namespace

@@ -97,6 +97,8 @@ std::string to_string(FailureKind kind) {
       return "linear solver";
     case FailureKind::not_finite:
       return "not finite";
+    case FailureKind::out_of_memory:
+      return "out of memory";
     case FailureKind::input:
       return "input";
     case FailureKind::line_search:

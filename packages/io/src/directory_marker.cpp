@@ -47,7 +47,7 @@ bool is_vacant(const fs::path& directory) {
 /// Whether a listed name is that of a file: it is the same, or has digits where the listed one has `*`.
 bool is_of(const std::string& listed, const std::string& name) {
   const std::size_t star = listed.find('*');
-  if (star == std::string::npos) return listed == name;
+  if (star == std::string::npos || listed == name) return listed == name;
   const std::size_t behind = listed.size() - star - 1;
   return name.size() > star + behind && name.compare(0, star, listed, 0, star) == 0 &&
          name.compare(name.size() - behind, behind, listed, star + 1, behind) == 0 &&

@@ -1,5 +1,6 @@
 #include "direct_solver.hpp"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <Amesos2.hpp>
@@ -7,8 +8,11 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
+#include <new>
+#include <optional>
 
 #include "linear_system_checks.hpp"
+#include "mortise/core/memory.hpp"
 
 namespace mortise::detail {
 namespace {
@@ -28,6 +32,14 @@ struct Refined {
   double backward_error = 0.0;
   double largest_correction = 0.0;  ///< over the solution it led to, of all steps
 };
+
+/// Buffers that OpenBLAS takes for each thread at its first product of matrices: 128 MiB of addresses, most of which it never touches. If it does not
+/// get one it asks for ever.
+double blas_buffers_mib() {
+  constexpr double buffer = 129.0;
+  const auto threads = reinterpret_cast<int (*)()>(dlsym(RTLD_DEFAULT, "openblas_get_num_threads"));
+  return buffer * (threads != nullptr ? threads() : 1);
+}
 
 /// Analysis, factorisation, solve, iterative refinement if the true residual asks for it.
 class DirectSolver : public LinearSolver {
@@ -67,6 +79,15 @@ class DirectSolver : public LinearSolver {
       report.relative_residual = true_residual(*matrix_, b, x, r) / size;
       if (report.relative_residual <= bound_) return report;  // and so is the backward error, which is never larger by more than norms differ
       refined = refine(b, x, r, report.relative_residual, size);
+    } catch (const StepFailure&) {
+      forget();
+      throw;
+    } catch (const MumpsError& error) {
+      if (error.is_out_of_memory()) fail_without_memory(error.what());
+      fail(error.what());
+    } catch (const std::bad_alloc& error) {
+      if (matrix_->getComm()->getSize() > 1) throw;  // of this rank alone: the others wait in the solver
+      fail_without_memory(error.what());
     } catch (const std::exception& error) {
       fail(error.what());
     }
@@ -84,6 +105,23 @@ class DirectSolver : public LinearSolver {
   }
 
  protected:
+  /// Refuses what would not fit, before it is begun: libraries that get no memory spin for ever or end the program. Collective.
+  /// @param mine  what this rank will take [MiB]
+  void check_memory(const char* what, double mine) const {
+    const Communicator& comm = *matrix_->getComm();
+    const double ranks = ranks_on_this_machine(comm);
+    const double left = std::min(own_memory_left_mib() - (has_factored_ ? 0.0 : blas_buffers_mib()), machine_memory_left_mib() / ranks);
+    std::optional<StepFailure> failure;
+    if (mine > left)
+      failure.emplace(FailureKind::out_of_memory,
+                      fmt::format("{}: {} would take about {:.0f} MiB on rank {}, and {:.0f} MiB are left; please run it on more machines, take the "
+                                  "iterative solver or a coarser mesh, or raise the limit (ulimit -v)",
+                                  name_, what, mine, comm.getRank(), std::max(0.0, left)));
+    throw_if_any(comm, failure);
+  }
+  /// What ordering the matrix takes on this rank [MiB].
+  virtual double memory_of_analysis() const { return 0.0; }
+  const RCP<const Matrix>& matrix() const { return matrix_; }
   virtual RCP<Amesos2Solver> make(const RCP<const Matrix>& matrix) = 0;
   virtual void factor_numerically(Amesos2Solver& amesos2) { amesos2.numericFactorization(); }
 
@@ -110,6 +148,7 @@ class DirectSolver : public LinearSolver {
   // factorisation here is followed by a solve, and a solver that failed is dropped.
   void factor() {
     if (amesos2_.is_null()) {
+      check_memory("the analysis", memory_of_analysis());
       amesos2_ = make(matrix_);
       amesos2_->symbolicFactorization();
       ++symbolic_setups_;
@@ -117,7 +156,13 @@ class DirectSolver : public LinearSolver {
       amesos2_->setA(matrix_, Amesos2::SYMBFACT);
     }
     factor_numerically(*amesos2_);
-    factored_ = true;
+    factored_ = has_factored_ = true;
+  }
+
+  [[noreturn]] void fail_without_memory(const std::string& why) {
+    forget();
+    throw StepFailure(FailureKind::out_of_memory, fmt::format("{}: not enough memory ({}); {:.0f} MiB are left", name_, why,
+                                                              std::min(own_memory_left_mib(), machine_memory_left_mib())));
   }
 
   [[noreturn]] void fail(const std::string& why) {
@@ -131,6 +176,7 @@ class DirectSolver : public LinearSolver {
   RCP<const Matrix> matrix_;
   RCP<Amesos2Solver> amesos2_;
   bool factored_ = false;
+  bool has_factored_ = false;  ///< some matrix: the BLAS has its buffers
   int symbolic_setups_ = 0;
 };
 
@@ -142,11 +188,21 @@ class MumpsSolver : public DirectSolver {
  protected:
   RCP<Amesos2Solver> make(const RCP<const Matrix>& matrix) override { return make_mumps_adapter(matrix); }
 
+  // MUMPS orders the whole matrix on one rank. Its graph is there twice in both directions, 4 integers an entry, and once more in PORD. The levels of
+  // PORD's multisection take as much again. Entries with their rows and columns are on each rank.
+  double memory_of_analysis() const override {
+    constexpr double mib = 1024.0 * 1024.0, integers = 8.0;
+    const double own = static_cast<double>(matrix()->getNodeNumEntries()) * (sizeof(double) + 2 * sizeof(int));
+    const double graph = matrix()->getComm()->getRank() == 0 ? static_cast<double>(matrix()->getGlobalNumEntries()) * integers * sizeof(int) : 0.0;
+    return (own + graph) / mib;
+  }
+
   // Pivoting may need more work space than the analysis foresaw: ICNTL(14) is raised and the factorisation repeated. What was needed once is
   // given from then on.
   void factor_numerically(Amesos2Solver& mumps) override {
     for (;; work_space_ = std::max(50, 4 * work_space_)) {
       set_mumps_work_space(mumps, work_space_);
+      check_memory("the factorisation", mumps_memory_foreseen());
       try {
         mumps.numericFactorization();
         return;

@@ -22,6 +22,8 @@ class MumpsError : public std::runtime_error {
   MumpsError(int code, int detail);
   /// INFOG(1)
   int code() const { return code_; }
+  /// Whether memory could not be had.
+  bool is_out_of_memory() const { return code_ == -5 || code_ == -7 || code_ == -13 || code_ == -19; }
   /// Whether more work space (ICNTL(14)) may help.
   bool needs_work_space() const { return code_ == -8 || code_ == -9 || code_ == -14 || code_ == -15 || code_ == -20; }
 
@@ -31,6 +33,8 @@ class MumpsError : public std::runtime_error {
 
 /// Amesos2's adapter of MUMPS, and its extra work space in percent of the estimate. In one source file, see there.
 RCP<Amesos2Solver> make_mumps_adapter(const RCP<const Matrix>& matrix);
+/// What the last analysis foresaw for the factorisation on this rank, extra work space included [MiB].
+double mumps_memory_foreseen();
 void set_mumps_work_space(Amesos2Solver& mumps, int percent);
 
 /// @param work_space  extra work space of the first factorisation, in percent; more is taken where that is not enough

@@ -165,7 +165,7 @@ bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, 
         ++report.cutbacks;
         report.undone.push_back(to_string(failure.kind()) + ": " + failure.what());
         if (observer.undone) observer.undone(report, failure);
-        if (in_vain || !schedule.cut()) return false;
+        if (in_vain || caught.kind() == FailureKind::out_of_memory || !schedule.cut()) return false;
       }
     }
     last_failure.reset();

@@ -8,9 +8,17 @@
 
 #include "direct_solver.hpp"
 
+namespace mortise::detail {
+namespace {
+double foreseen = 0.0;  // the adapter shows nothing of what an analysis tells
+}
+}  // namespace mortise::detail
+
 // The adapter's own version prints to the terminal and takes warnings (positive codes) for errors.
 template <>
 void Amesos2::MUMPS<mortise::Matrix, mortise::MultiVector>::MUMPS_ERROR() const {
+  constexpr int analysis = 1;
+  if (mumps_par.job == analysis) mortise::detail::foreseen = mumps_par.info[14];
   if (mumps_par.infog[0] < 0) throw mortise::detail::MumpsError(mumps_par.infog[0], mumps_par.infog[1]);
 }
 
@@ -37,6 +45,8 @@ RCP<Amesos2Solver> make_mumps_adapter(const RCP<const Matrix>& matrix) {
   if (!ids_have_no_gaps(*matrix->getRowMap())) set(*mumps, "IsContiguous", false);
   return mumps;
 }
+
+double mumps_memory_foreseen() { return foreseen; }
 
 void set_mumps_work_space(Amesos2Solver& mumps, int percent) { set(mumps, "ICNTL(14)", percent); }
 

@@ -74,6 +74,29 @@ TEST(OutputDirectory, ANameIsListedBeforeItsFileIsMade) {
   EXPECT_FALSE(files::exists(scratch.file("log.txt")));
 }
 
+TEST(OutputDirectory, ASeriesIsListedOnceAndRemovedWhole) {
+  const test::ScratchDirectory scratch(world());
+  {
+    OutputDirectory directory(world(), scratch.path(), {"run"});
+    directory.begin_run();
+    OutputDirectory steps = directory.subdirectory("fields");
+    for (int step = 8; step < 12; ++step) {
+      steps.claim("step-*.h5");
+      on_first_rank([&] { write(steps.file("step-" + std::to_string(step) + ".h5"), "ours"); });
+    }
+    on_first_rank([&] {
+      const std::string list = content(steps.file(".mortise"));
+      EXPECT_EQ(list.find("step-"), list.rfind("step-"));
+      for (const char* name : {"step-.h5", "step-x.h5", "step-1.h5.old"}) write(steps.file(name));
+      write(steps.file("step-12.h5.part"), "ours");
+    });
+  }
+  OutputDirectory(world(), scratch.path(), {"run"}).begin_run();
+  for (const char* name : {"step-8.h5", "step-11.h5", "step-12.h5.part"})
+    EXPECT_FALSE(files::exists(scratch.file(std::string("fields/") + name))) << name;
+  for (const char* name : {"step-.h5", "step-x.h5", "step-1.h5.old"}) EXPECT_TRUE(files::exists(scratch.file(std::string("fields/") + name))) << name;
+}
+
 TEST(OutputDirectory, ReplacesARunWholeAndLeavesTheRest) {
   const test::ScratchDirectory scratch(world());
   make_run(scratch.path(), {"summary.json", "fields.h5"});

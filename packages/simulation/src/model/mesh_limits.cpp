@@ -8,23 +8,12 @@
 #include <algorithm>
 #include <limits>
 
-#include "model/memory.hpp"
+#include "mortise/core/memory.hpp"
 #include "mortise/mesh/mesh_counts.hpp"
 #include "mortise/simulation/scene/scene_bodies.hpp"
 
 namespace mortise {
 namespace {
-
-int ranks_on_this_machine(const Communicator& comm) {
-  const auto* mpi = dynamic_cast<const Teuchos::MpiComm<int>*>(&comm);
-  if (mpi == nullptr) return 1;
-  MPI_Comm here;
-  MPI_Comm_split_type((*mpi->getRawMpiComm())(), MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &here);
-  int ranks = 1;
-  MPI_Comm_size(here, &ranks);
-  MPI_Comm_free(&here);
-  return ranks;
-}
 
 /// Of a mesh, at least: position, body and id of each node; nodes and id of each element.
 double least_mesh_bytes(const MeshCounts& mesh, int nodes_of_element) {

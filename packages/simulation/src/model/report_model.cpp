@@ -6,7 +6,7 @@
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_CrsGraph.hpp>
 
-#include "model/memory.hpp"
+#include "mortise/core/memory.hpp"
 #include "mortise/simulation/model/memory_estimate.hpp"
 #include "mortise/simulation/model/mesh_limits.hpp"
 

@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "model/contact_at_start.hpp"
-#include "model/memory.hpp"
 #include "model/precision.hpp"
 #include "model/report_model.hpp"
+#include "mortise/core/memory.hpp"
 #include "mortise/input/parameter_tree.hpp"
 #include "mortise/io/files.hpp"
 #include "mortise/io/output_directory.hpp"
@@ -47,6 +47,7 @@ std::string effective_xml(const Scene& scene) {
 bool is_input(const std::optional<StepFailure>& failure) { return failure && failure->kind() == FailureKind::input; }
 
 ExitCode exit_code(const RunRecord& record, const std::optional<StepFailure>& failure) {
+  if (failure && failure->kind() == FailureKind::out_of_memory) return ExitCode::memory;
   if (!record.converged) return is_input(failure) ? ExitCode::invalid_input : ExitCode::not_converged;
   for (const auto& check : record.checks)
     if (!check.ok) return ExitCode::check_missed;
@@ -195,7 +196,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
     std::string known;
     const double smallest = scene.stepping.minimum_step.value_or(scene.stepping.step / 1024.0);
     functions.explain = [&](const FailedTry& failed) -> std::string {
-      if (failed.failure.kind() == FailureKind::input) return {};
+      if (failed.failure.kind() == FailureKind::input || failed.failure.kind() == FailureKind::out_of_memory) return {};
       const StaticsReason statics = check ? explain_statics(model, system, *failed.from.x, failed.context) : StaticsReason{};
       if (statics.verdict == StaticsVerdict::falls) return known = statics.words;
       const bool may_hold = statics.verdict != StaticsVerdict::unknown;

@@ -64,6 +64,7 @@ Json excerpt(const std::string& path) {
   Json kept;
   for (const char* name : {"dofs", "quantities", "time", "memory_total_mib"}) kept[name] = summary.at(name);
   if (summary.contains("peer")) kept["peer"] = summary.at("peer");
+  if (const Json stopped = summary.value("stopped", Json()); stopped.is_string()) kept["interrupted"] = stopped;
   kept["missed"] = Json::array();
   for (const auto& check : summary.at("checks"))
     if (!check.at("ok").get<bool>())
@@ -154,6 +155,7 @@ StudyRecord to_record(const Json& json, const StudyPoint& point) {
   const auto value = [&](const char* name) { return summary.contains(name) ? number(summary.at(name)) : none; };
   record.dofs = value("dofs"), record.steps = value("steps"), record.newton_iterations = value("newton_iterations");
   record.cutbacks = value("cutbacks");
+  record.interrupted = summary.value("interrupted", "");
   record.missed_checks = summary.value("missed", std::vector<std::string>());
   const Json quantities = summary.value("quantities", Json::object());
   for (const auto& name : point.quantities) record.quantities.push_back(quantities.contains(name) ? number(quantities.at(name)) : none);
@@ -170,7 +172,7 @@ std::string StudyRecord::status() const {
   if (by_peer && exit == static_cast<int>(ExitCode::invalid_input)) return impossible;
   if (exit == done) return "done";
   if (exit == missed) return "check missed";
-  if (exit == not_converged) return "not converged";
+  if (exit == not_converged) return interrupted.empty() ? "not converged" : "stopped by " + interrupted;
   return exit > 128 ? fmt::format("killed by signal {}", exit - 128) : fmt::format("exit code {}", exit);
 }
 
@@ -181,7 +183,8 @@ std::optional<StudyRecord> earlier_record(const Communicator& comm, const StudyP
   StudyRecord record = to_record(found, point);
   record.reused = true;
   if (record.stopped_after) return *record.stopped_after >= point.time_limit ? std::optional<StudyRecord>(record) : std::nullopt;
-  return record.finished() || record.exit == not_converged || record.status() == impossible ? std::optional<StudyRecord>(record) : std::nullopt;
+  const bool may_be_had_again = record.finished() || (record.exit == not_converged && record.interrupted.empty());
+  return may_be_had_again || record.status() == impossible ? std::optional<StudyRecord>(record) : std::nullopt;
 }
 
 StudyRecord run_point(const Communicator& comm, const StudyPoint& point, const StudyPointOptions& options) {

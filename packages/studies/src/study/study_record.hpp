@@ -20,6 +20,7 @@ struct StudyRecord {
   bool by_peer = false;                        ///< a peer was to run it
   std::string absent;                          ///< the peer's program, which is not installed: nothing was run
   std::optional<double> stopped_after;         ///< the time limit that it ran into [s]
+  std::string interrupted;                     ///< the signal by which somebody stopped it; empty: nobody did
   double wall = 0.0, cpu = 0.0, memory = 0.0;  ///< seconds and MiB over all ranks; medians of the repeats
   std::map<std::string, double> time;          ///< seconds by timer of the summary, likewise
   double dofs = 0.0, steps = 0.0, newton_iterations = 0.0, cutbacks = 0.0;

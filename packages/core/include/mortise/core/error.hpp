@@ -63,7 +63,8 @@ enum class FailureKind {
   diverged,
   too_many_iterations,
   cycling_active_set,
-  augmentation  ///< augmented Lagrange multipliers that did not settle
+  out_of_memory,  ///< what is to come would not fit; no smaller step helps
+  augmentation    ///< augmented Lagrange multipliers that did not settle
 };
 std::string to_string(FailureKind kind);
 
