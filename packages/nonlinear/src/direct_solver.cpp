@@ -1,15 +1,16 @@
 #include "direct_solver.hpp"
 
-#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <Amesos2.hpp>
+#include <Teuchos_BLAS.hpp>
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <new>
 #include <optional>
+#include <vector>
 
 #include "linear_system_checks.hpp"
 #include "mortise/core/memory.hpp"
@@ -33,12 +34,17 @@ struct Refined {
   double largest_correction = 0.0;  ///< over the solution it led to, of all steps
 };
 
-/// Buffers that OpenBLAS takes for each thread at its first product of matrices: 128 MiB of addresses, most of which it never touches. If it does not
-/// get one it asks for ever.
-double blas_buffers_mib() {
-  constexpr double buffer = 129.0;
-  const auto threads = reinterpret_cast<int (*)()>(dlsym(RTLD_DEFAULT, "openblas_get_num_threads"));
-  return buffer * (threads != nullptr ? threads() : 1);
+/// What OpenBLAS takes at its first product of matrices: 128 MiB of addresses, most of which it never touches. If it does not get them it asks for
+/// ever.
+constexpr double blas_buffer_mib = 129.0;
+
+/// Lets the BLAS take its buffer.
+void warm_blas() {
+  constexpr int size = 64;
+  const std::vector<double> ones(size * size, 1.0);
+  std::vector<double> product(size * size);
+  Teuchos::BLAS<int, double>().GEMM(Teuchos::NO_TRANS, Teuchos::NO_TRANS, size, size, size, 1.0, ones.data(), size, ones.data(), size, 0.0,
+                                    product.data(), size);
 }
 
 /// Analysis, factorisation, solve, iterative refinement if the true residual asks for it.
@@ -107,10 +113,10 @@ class DirectSolver : public LinearSolver {
  protected:
   /// Refuses what would not fit, before it is begun: libraries that get no memory spin for ever or end the program. Collective.
   /// @param mine  what this rank will take [MiB]
-  void check_memory(const char* what, double mine) const {
+  void check_memory(const char* what, double mine) {
     const Communicator& comm = *matrix_->getComm();
     const double ranks = ranks_on_this_machine(comm);
-    const double left = std::min(own_memory_left_mib() - (has_factored_ ? 0.0 : blas_buffers_mib()), machine_memory_left_mib() / ranks);
+    const double left = std::min(own_memory_left_mib() - (is_warm_ ? 0.0 : blas_buffer_mib), machine_memory_left_mib() / ranks);
     std::optional<StepFailure> failure;
     if (mine > left)
       failure.emplace(FailureKind::out_of_memory,
@@ -118,6 +124,8 @@ class DirectSolver : public LinearSolver {
                                   "iterative solver or a coarser mesh, or raise the limit (ulimit -v)",
                                   name_, what, mine, comm.getRank(), std::max(0.0, left)));
     throw_if_any(comm, failure);
+    if (!is_warm_) warm_blas();
+    is_warm_ = true;
   }
   /// What ordering the matrix takes on this rank [MiB].
   virtual double memory_of_analysis() const { return 0.0; }
@@ -156,7 +164,7 @@ class DirectSolver : public LinearSolver {
       amesos2_->setA(matrix_, Amesos2::SYMBFACT);
     }
     factor_numerically(*amesos2_);
-    factored_ = has_factored_ = true;
+    factored_ = true;
   }
 
   [[noreturn]] void fail_without_memory(const std::string& why) {
@@ -176,7 +184,7 @@ class DirectSolver : public LinearSolver {
   RCP<const Matrix> matrix_;
   RCP<Amesos2Solver> amesos2_;
   bool factored_ = false;
-  bool has_factored_ = false;  ///< some matrix: the BLAS has its buffers
+  bool is_warm_ = false;  ///< the BLAS has its buffer
   int symbolic_setups_ = 0;
 };
 
@@ -202,9 +210,12 @@ class MumpsSolver : public DirectSolver {
   void factor_numerically(Amesos2Solver& mumps) override {
     for (;; work_space_ = std::max(50, 4 * work_space_)) {
       set_mumps_work_space(mumps, work_space_);
-      check_memory("the factorisation", mumps_memory_foreseen());
+      const double needed = mumps_memory_foreseen() * (100.0 + work_space_) / (100.0 + default_work_space);
+      check_memory("the factorisation", needed - (held_since_ == symbolic_setups() ? held_ : 0.0));
       try {
         mumps.numericFactorization();
+        held_ = needed;
+        held_since_ = symbolic_setups();
         return;
       } catch (const MumpsError& error) {
         if (!error.needs_work_space() || work_space_ > 1000) throw;
@@ -213,7 +224,10 @@ class MumpsSolver : public DirectSolver {
   }
 
  private:
+  static constexpr double default_work_space = 20.0;  ///< of MUMPS, with which analyses look ahead [percent]
   int work_space_;
+  double held_ = 0.0;    ///< what the last factors take, whose place the next ones of the same analysis get [MiB]
+  int held_since_ = -1;  ///< analyses until then
 };
 
 class Klu2Solver : public DirectSolver {

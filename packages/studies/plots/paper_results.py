@@ -25,6 +25,9 @@ def table(path):
     return columns
 
 
+FILES = 5  # exit code: nothing could be written, and what is there is of another run
+
+
 class Run:
     """One run: how it ended, and what it left if it left anything."""
 
@@ -36,7 +39,7 @@ class Run:
         self.misses = record["misses"]  # why it is expected to miss checks
         self.path = os.path.join(directory, self.name)
         self.summary = {}
-        if os.path.isfile(self.file("summary.json")):
+        if self.exit != FILES and os.path.isfile(self.file("summary.json")):
             with open(self.file("summary.json"), encoding="utf-8") as file:
                 self.summary = json.load(file)
         # A run that stopped on its way has results of another state than the paper's.
