@@ -15,3 +15,5 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/inputs" DESTINATION "${CMAKE_INSTALL_DA
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs/reference/" DESTINATION "${CMAKE_INSTALL_DATADIR}/mortise/schema" FILES_MATCHING PATTERN "*.rng")
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/CHANGELOG.md" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 install(EXPORT MortiseTargets NAMESPACE Mortise:: DESTINATION "${config_directory}")
+# The build itself can be found as well as what is installed from it.
+export(EXPORT MortiseTargets NAMESPACE Mortise:: FILE "${PROJECT_BINARY_DIR}/MortiseTargets.cmake")

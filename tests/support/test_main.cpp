@@ -5,11 +5,7 @@
 
 #include <Tpetra_Core.hpp>
 
-#ifdef __SANITIZE_ADDRESS__
-// Open MPI unloads its components in MPI_Finalize, before leaks are looked for: then the leak checker neither finds what their static data points
-// to nor can it name them. So nothing is unloaded.
-extern "C" int dlclose(void*) { return 0; }
-#endif
+#include "keep_libraries.hpp"
 
 int main(int argc, char** argv) {
   Tpetra::ScopeGuard scope(&argc, &argv);

@@ -44,6 +44,12 @@ TEST(Files, ADeviceThatGivesNothingIsNamedForWhatItIs) {
   EXPECT_NE(ending.output.find("no regular file"), std::string::npos) << ending.output;
 }
 
+TEST(Files, AFileWithoutEndIsNotReadForEver) {
+  const Ending ending = launch({MORTISE, "check", "/dev/zero"}, 60);
+  EXPECT_EQ(ending.code, 5) << ending.output;
+  EXPECT_NE(ending.output.find("/dev/zero: cannot be read: it has more than 268435456 bytes"), std::string::npos) << ending.output;
+}
+
 TEST(Files, ADescriptionThatCannotBeWrittenIsAFileError) {
   const Ending ending = launch({MORTISE, "describe", "--format", "md", "-o", "/dev/full"}, 60);
   EXPECT_EQ(ending.code, 5) << ending.output;

@@ -1,11 +1,17 @@
 #include "mortise/core/state_archive.hpp"
 
+#include <fmt/format.h>
+
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 
 namespace mortise {
+
+std::string not_whole(const std::string& name, double value) {
+  return fmt::format("\"{}\" holds {}, which is no whole number of the kind that stands there", name, value);
+}
 
 void serialize(StateArchive& archive, const std::string& name, std::optional<double>& number) {
   std::vector<double> values;
@@ -29,24 +35,30 @@ void serialize(StateArchive& archive, const std::string& name, const std::string
 
 // As a table of the longest row, each row with its length before it.
 void serialize(StateArchive& archive, const Communicator& comm, const std::string& name, const RowIds& ids, std::vector<std::vector<double>>& rows) {
-  double mine = 0.0, longest = 0.0;
-  for (const auto& row : rows) mine = std::max(mine, static_cast<double>(row.size()));
+  std::size_t mine = 0, longest = 0;
+  for (const auto& row : rows) mine = std::max(mine, row.size());
   Teuchos::reduceAll(comm, Teuchos::REDUCE_MAX, mine, Teuchos::outArg(longest));
   serialize(archive, name + ".longest", longest);
-  const std::size_t columns = 1 + static_cast<std::size_t>(longest);
+  const std::size_t columns = 1 + longest;
   std::vector<double> table;
-  for (const auto& row : rows) {
-    table.push_back(static_cast<double>(row.size()));
-    table.insert(table.end(), row.begin(), row.end());
-    table.resize(table.size() + columns - 1 - row.size());
-  }
+  if (!archive.restores())
+    for (const auto& row : rows) {
+      table.push_back(static_cast<double>(row.size()));
+      table.insert(table.end(), row.begin(), row.end());
+      table.resize(table.size() + longest - row.size());
+    }
   archive.rows(name, ids, columns, table);
   if (!archive.restores()) return;
   rows.clear();
+  std::optional<std::string> wrong;
   for (auto row = table.begin(); row != table.end(); row += static_cast<std::ptrdiff_t>(columns)) {
-    const auto length = static_cast<std::ptrdiff_t>(std::clamp(*row, 0.0, longest));
-    rows.emplace_back(row + 1, row + 1 + length);
+    const auto length = whole_number<std::ptrdiff_t>(*row);
+    if (!length || *length < 0 || *length > static_cast<std::ptrdiff_t>(longest))
+      wrong = fmt::format("a row of \"{}\" is {} long; the longest one has {}", name, *row, longest);
+    else
+      rows.emplace_back(row + 1, row + 1 + *length);
   }
+  archive.refuse_if(wrong);
 }
 
 }  // namespace mortise

@@ -21,7 +21,10 @@ double evaluate_table(void* table, double time) { return (*static_cast<const Tab
 const std::vector<std::string> time_and_position{"t", "x", "y", "z"};
 
 // muParser takes "=" for an assignment to an argument.
-bool assigns(const std::string& source) { return std::regex_search(source, std::regex("(^|[^=!<>])=([^=]|$)")); }
+bool assigns(const std::string& source) {
+  static const std::regex single_equals("(^|[^=!<>])=([^=]|$)");
+  return std::regex_search(source, single_equals);
+}
 
 /// What C takes for a number and an expression does not: "nan", "inf", "1e400", "0x10".
 bool is_number_of_c(const std::string& source) {

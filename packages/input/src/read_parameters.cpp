@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "mortise/core/names.hpp"
+#include "mortise/core/whole_number.hpp"
 #include "mortise/input/expression.hpp"
 #include "split.hpp"
 
@@ -65,8 +66,9 @@ Teuchos::ParameterList to_teuchos(const XmlList& list, const Symbols& symbols, s
         if (one.type == "double") {
           result.set(one.name, value);
         } else {
-          if (value != std::round(value)) throw InputError(one.place, fmt::format("\"{}\" is \"{}\"; an int has to be whole", one.name, one.value));
-          result.set(one.name, static_cast<int>(value));
+          const auto whole = whole_number<int>(value);
+          if (!whole) throw InputError(one.place, fmt::format("\"{}\" is \"{}\"; an int has to be whole, from -2147483648 to 2147483647", one.name, one.value));
+          result.set(one.name, *whole);
         }
       } else {
         result.set(one.name, one.value);
@@ -167,10 +169,10 @@ void ReadParameters::add(const std::string& name, int& value, const Says& says) 
   if (!parameter) return;
   const auto read = number(*parameter, parameter->value, says);
   if (!read) return;
-  if (*read != std::round(*read) || std::abs(*read) > 2147483647.0)
-    refuse(name, parameter->place, fmt::format("\"{}\" is {}; it has to be a whole number", name, *read));
+  if (const auto whole = whole_number<int>(*read))
+    value = *whole;
   else
-    value = static_cast<int>(*read);
+    refuse(name, parameter->place, fmt::format("\"{}\" is {}; it has to be a whole number", name, *read));
 }
 
 void ReadParameters::add(const std::string& name, bool& value, const Says& says) {

@@ -21,6 +21,9 @@
 namespace mortise {
 namespace {
 
+/// Of a file that is read as text: a device without end does not take all memory.
+constexpr std::size_t most_bytes = std::size_t{1} << 28;
+
 std::string text_of(const xmlChar* text) { return text ? reinterpret_cast<const char*>(text) : ""; }
 
 /// The first error is the one that matters: those after it are of what the parser makes of the rest.
@@ -134,17 +137,22 @@ std::string read_text(const Communicator& comm, const std::string& path) {
   if (comm.getRank() == 0) {
     errno = 0;
     std::ifstream file(path, std::ios::binary);
-    std::ostringstream content;
-    std::error_code none;
-    const bool empty = std::filesystem::is_regular_file(path, none) && std::filesystem::file_size(path, none) == 0;
-    const bool read = file && (content << file.rdbuf() || empty);
-    const int failure = errno;
-    if (read) {  // nothing to copy is a failure of <<
-      text = content.str();
-      size = static_cast<long long>(text.size());
-    } else {  // a device or pipe may give nothing without an error
-      reason = failure != 0 ? std::strerror(failure) : "it is empty, and no regular file";
+    const bool opened = file.is_open();
+    std::vector<char> part(std::size_t{1} << 16);
+    while (file && text.size() <= most_bytes) {
+      file.read(part.data(), static_cast<std::streamsize>(part.size()));
+      text.append(part.data(), static_cast<std::size_t>(file.gcount()));
     }
+    const int failure = errno;
+    std::error_code none;
+    if (text.size() > most_bytes)
+      reason = fmt::format("it has more than {} bytes, the most that is read", most_bytes);
+    else if (!opened || file.bad())
+      reason = failure != 0 ? std::strerror(failure) : "its reading ended with an error";
+    else if (text.empty() && !std::filesystem::is_regular_file(path, none))  // a device or pipe may give nothing without an error
+      reason = "it is empty, and no regular file";
+    else
+      size = static_cast<long long>(text.size());
   }
   Teuchos::broadcast(comm, 0, Teuchos::outArg(size));
   if (size < 0) throw FileError(fmt::format("{}: cannot be read: {}", path, reason));

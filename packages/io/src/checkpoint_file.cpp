@@ -149,6 +149,10 @@ void CheckpointWriter::rows(const std::string& name, const RowIds& ids, std::siz
   self.file.write("/rows/" + name, all, first, static_cast<int>(columns), owned);
 }
 
+void CheckpointWriter::refuse_if(const std::optional<std::string>& wrong) {
+  throw_if_any_file_error(*implementation_->comm, "cannot write", implementation_->path, wrong);
+}
+
 // Rank 0 adds the last line when all ranks have read their parts.
 std::uintmax_t CheckpointWriter::finish() {
   Implementation& self = *implementation_;
@@ -201,6 +205,9 @@ struct CheckpointReader::Implementation {
     agree(checkpoint_damage(*comm, path));
     file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
     agree(file >= 0 ? std::nullopt : std::optional(hdf5_reason()));
+    std::error_code error;
+    bytes = static_cast<hsize_t>(std::filesystem::file_size(path, error));
+    agree(error ? std::optional(error.message()) : std::nullopt);
   }
   ~Implementation() {
     if (file >= 0) H5Fclose(file);
@@ -209,6 +216,16 @@ struct CheckpointReader::Implementation {
   Implementation& operator=(const Implementation&) = delete;
 
   void agree(const std::optional<std::string>& reason) const { throw_if_any_file_error(*comm, "cannot read the checkpoint", path, reason); }
+
+  /// Whether a dataset has all its values in one piece of this file, as those do that are written. No size that a file claims for more than it has
+  /// is believed, nothing is taken from another file.
+  bool lies_in_file(hid_t dataset, hsize_t rows, hsize_t columns, std::size_t value_size) const {
+    const hsize_t room = bytes / value_size;
+    if (rows > room || columns > room || (rows > 0 && columns > room / rows)) return false;
+    if (rows * columns == 0) return true;
+    const haddr_t place = H5Dget_offset(dataset);
+    return place != HADDR_UNDEF && place < bytes && rows * columns * value_size <= std::min<hsize_t>(H5Dget_storage_size(dataset), bytes - place);
+  }
 
   /// A slab of a dataset, [rows x columns], and what is wrong with it.
   template <class Number>
@@ -221,11 +238,11 @@ struct CheckpointReader::Implementation {
     const int dimensions = space.good() ? H5Sget_simple_extent_ndims(space) : -1;
     if (dimensions < 1 || dimensions > 2 || H5Sget_simple_extent_dims(space, size.data(), nullptr) < 0)
       return fmt::format("\"{}\" has {} dimensions", name, dimensions);
+    if (!lies_in_file(dataset, size[0], size[1], sizeof(Number))) return fmt::format("\"{}\" lacks values", name);
     const auto ranks = static_cast<hsize_t>(comm->getSize()), rank = static_cast<hsize_t>(comm->getRank());
     const hsize_t first = whole ? 0 : size[0] * rank / ranks, end = whole ? size[0] : size[0] * (rank + 1) / ranks;
     all = size[0];
     columns = size[1];
-    if (H5Dget_storage_size(dataset) / sizeof(Number) < all * columns) return fmt::format("\"{}\" lacks values", name);
     values.resize((end - first) * columns);
     if (values.empty()) return std::nullopt;
     const std::array<hsize_t, 2> start{first, 0}, part{end - first, size[1]};
@@ -246,9 +263,15 @@ struct CheckpointReader::Implementation {
     std::vector<long long> slab;
     std::size_t all = 0, columns = 0;
     agree(read("/ids/" + ids.name, H5T_NATIVE_LLONG, all, columns, slab, false));
+    agree(columns == 1 ? std::nullopt : std::optional(fmt::format("\"{}\" has {} ids in a row; expected is 1", ids.name, columns)));
     const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
-    const auto bad = std::find_if(slab.begin(), slab.end(), [](long long id) { return id < 0; });
-    agree(bad == slab.end() ? std::nullopt : std::optional(fmt::format("\"{}\" holds the id {}", ids.name, *bad)));
+    GlobalOrdinal mine = -1, last = -1;
+    for (const GlobalOrdinal id : ids.ids) mine = std::max(mine, id);
+    Teuchos::reduceAll(*comm, Teuchos::REDUCE_MAX, mine, Teuchos::outArg(last));
+    const auto bad = std::find_if(slab.begin(), slab.end(), [&](long long id) { return id < 0 || id > last; });
+    agree(bad == slab.end()
+              ? std::nullopt
+              : std::optional(fmt::format("\"{}\" holds the id {}; the last one here is {}: it is of another mesh", ids.name, *bad, last)));
     Plan plan;
     plan.rows = all;
     const std::vector<GlobalOrdinal> stored(slab.begin(), slab.end());
@@ -268,6 +291,7 @@ struct CheckpointReader::Implementation {
   std::string path;
   Hdf5Handle access;
   hid_t file = -1;
+  hsize_t bytes = 0;  ///< of the file
   std::map<std::string, Plan> plans;
 };
 
@@ -284,8 +308,12 @@ void CheckpointReader::text(const std::string& name, std::string& text) {
   std::vector<double> bytes;
   values("text." + name, bytes);
   text.clear();
-  for (const double byte : bytes) text += static_cast<char>(static_cast<unsigned char>(byte));
+  const auto wrong = std::find_if(bytes.begin(), bytes.end(), [](double byte) { return !whole_number<unsigned char>(byte); });
+  refuse_if(wrong == bytes.end() ? std::nullopt : std::optional(not_whole("text." + name, *wrong)));
+  for (const double byte : bytes) text += static_cast<char>(*whole_number<unsigned char>(byte));
 }
+
+void CheckpointReader::refuse_if(const std::optional<std::string>& wrong) { implementation_->agree(wrong); }
 
 void CheckpointReader::rows(const std::string& name, const RowIds& ids, std::size_t columns, std::vector<double>& rows) {
   Implementation& self = *implementation_;

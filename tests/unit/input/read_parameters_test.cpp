@@ -209,6 +209,9 @@ TEST(ReadParameters, RefusesWhatIsNoNumber) {
   EXPECT_THAT(read(needed + parameter("tolerance", "double", "0/0")).errors, HasSubstr("not a finite number"));
   EXPECT_THAT(read(needed + parameter("tolerance", "string", "t")).errors, HasSubstr("known names: pi; t, x, y and z have no value here"));
   EXPECT_THAT(read(needed + parameter("count", "int", "1.5")).errors, HasSubstr("whole number"));
+  EXPECT_THAT(read(needed + parameter("count", "int", "2147483648")).errors, HasSubstr("whole number"));
+  for (const char* wrong : {"1.5", "2147483648", "-1e300"})
+    EXPECT_THAT(read(needed + list("solver", parameter("max levels", "int", wrong))).errors, HasSubstr("an int has to be whole, from")) << wrong;
   EXPECT_THAT(read(needed + parameter("tolerance", "double", "unknown")).errors, HasSubstr("known names: pi; t, x"));
   EXPECT_THAT(read(needed + list("tables", list("r", parameter("times", "string", "0, 0") + parameter("values", "string", "1, 2")))).errors,
               HasSubstr("ascend"));

@@ -170,6 +170,59 @@ TEST(CheckpointFile, NamesWhatItLacks) {
   EXPECT_THAT(file_error_of([&] { serialize(again, "awkward", one); }), HasSubstr("4 numbers \"awkward\""));
 }
 
+// A checksum can be right and what it is of still nonsense: no count and no size is believed.
+TEST(CheckpointFile, RefusesNumbersThatNothingCanBe) {
+  const test::ScratchDirectory scratch(world());
+  const std::string path = scratch.file("nonsense.h5");
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const RowIds ids = some_ids(*world());
+  {
+    CheckpointWriter file(world(), path);
+    std::vector<double> huge{1e300}, letters{65.0, 256.0}, negative{-1.0}, many{1e12}, two{2.0}, rows(ids.ids.size(), 1.0),
+        ragged(3 * ids.ids.size(), 1.0);
+    file.values("huge", huge);
+    file.values("negative", negative);
+    file.values("text.letters", letters);
+    if (world()->getRank() == world()->getSize() - 1) rows[ids.owned - 1] = nan, ragged[3 * (ids.owned - 1)] = 3.0;
+    file.rows("states", ids, 1, rows);
+    file.values("wide.longest", many);
+    file.rows("wide", ids, 3, ragged);
+    file.values("ragged.longest", two);
+    file.rows("ragged", ids, 3, ragged);
+    file.finish();
+  }
+  CheckpointReader file(world(), path);
+  int whole = 0;
+  std::size_t size = 0;
+  std::string text;
+  EXPECT_THAT(file_error_of([&] { serialize(file, "huge", whole); }), HasSubstr("\"huge\" holds 1e+300"));
+  EXPECT_THAT(file_error_of([&] { serialize(file, "negative", size); }), HasSubstr("\"negative\" holds -1"));
+  EXPECT_THAT(file_error_of([&] { file.text("letters", text); }), HasSubstr("\"text.letters\" holds 256"));
+  std::vector<int> states;
+  EXPECT_THAT(file_error_of([&] { serialize(file, "states", ids, states); }), HasSubstr("\"states\" holds nan"));
+  std::vector<std::vector<double>> ragged;
+  EXPECT_THAT(file_error_of([&] { serialize(file, *world(), "wide", ids, ragged); }), HasSubstr("expected are 37 x 1000000000001"));
+  EXPECT_THAT(file_error_of([&] { serialize(file, *world(), "ragged", ids, ragged); }),
+              HasSubstr("a row of \"ragged\" is 3 long; the longest one has 2"));
+}
+
+TEST(CheckpointFile, RefusesIdsThatAreNotThere) {
+  const test::ScratchDirectory scratch(world());
+  const std::string path = scratch.file("ids.h5");
+  RowIds ids = some_ids(*world());
+  ids.ids.resize(ids.owned);
+  RowIds stored = ids;
+  if (world()->getRank() == 0) stored.ids.front() = std::numeric_limits<GlobalOrdinal>::max();
+  std::vector<double> rows(ids.owned, 1.0);
+  {
+    CheckpointWriter file(world(), path);
+    file.rows("table", stored, 1, rows);
+    file.finish();
+  }
+  CheckpointReader file(world(), path);
+  EXPECT_THAT(file_error_of([&] { file.rows("table", ids, 1, rows); }), HasSubstr("holds the id 9223372036854775807; the last one here is 113"));
+}
+
 // A CRC finds every single flip.
 TEST(CheckpointFile, EveryFlippedBitAndEveryCutIsFound) {
   const test::ScratchDirectory scratch(world());

@@ -101,5 +101,19 @@ TEST(StudyPoints, EvaluateExpressionsOfVariablesQuantitiesAndUnknowns) {
   EXPECT_THROW(value("1/m"), InputError);
 }
 
+// 9 axes of 9 values would be 387 million runs.
+TEST(StudyPoints, AreNotMoreThanAnybodyRuns) {
+  std::vector<Diagnostic> diagnostics;
+  StudyFile many = study("", diagnostics);
+  many.axes.resize(1);
+  many.axes.front().value.choices.clear();
+  many.axes.front().value.setting.value = "variables/n";
+  many.axes.front().value.values.value = {"1", "2", "3", "4", "5", "6", "7", "8", "9"};
+  many.axes.resize(9, many.axes.front());
+  EXPECT_THAT(study_points(many, diagnostics), IsEmpty());
+  ASSERT_THAT(diagnostics, SizeIs(1));
+  EXPECT_THAT(diagnostics.front().message, HasSubstr("more than 10000 combinations"));
+}
+
 }  // namespace
 }  // namespace mortise

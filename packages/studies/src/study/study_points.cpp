@@ -14,6 +14,9 @@ namespace {
 
 using Labels = std::vector<std::string>;
 
+/// More runs than these are a slip of the pen; to count them up takes long and much memory.
+constexpr std::size_t most_combinations = 10000;
+
 /// What an entry of "exclude" says of each axis: labels that it is about; none: all of them.
 std::vector<Labels> excluded(const Named<AssignmentList>& entry, const StudyFile& study, const std::vector<Labels>& labels,
                              std::vector<Diagnostic>& diagnostics) {
@@ -97,7 +100,13 @@ std::vector<StudyPoint> study_points(const StudyFile& study, std::vector<Diagnos
     for (std::size_t i = 0; i < labels.back().size(); ++i)
       if (std::find(labels.back().begin(), labels.back().begin() + i, labels.back()[i]) != labels.back().begin() + i)
         diagnostics.push_back({values.back()[i].place, fmt::format("the value \"{}\" is given twice", labels.back()[i])});
-    combinations *= values.back().size();
+    combinations = std::min(most_combinations + 1, combinations * std::min(most_combinations + 1, values.back().size()));
+  }
+  if (combinations > most_combinations) {
+    diagnostics.push_back({study.axes.back().place, fmt::format("the axes make more than {} combinations, which is the most that a study may have; "
+                                                                "please give fewer values, or make several studies of it",
+                                                                most_combinations)});
+    return {};
   }
   std::vector<std::vector<Labels>> excludes;
   for (const auto& entry : study.exclude) excludes.push_back(excluded(entry, study, labels, diagnostics));

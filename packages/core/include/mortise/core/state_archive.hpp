@@ -1,6 +1,7 @@
 #pragma once
 // What a run remembers, stored and restored by one function.
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -8,6 +9,7 @@
 
 #include "mortise/core/error.hpp"
 #include "mortise/core/types.hpp"
+#include "mortise/core/whole_number.hpp"
 
 namespace mortise {
 
@@ -33,15 +35,27 @@ class StateArchive {
   /// A table of numbers.
   /// @param rows  [ids.ids x columns]; what is restored gets this size
   virtual void rows(const std::string& name, const RowIds& ids, std::size_t columns, std::vector<double>& rows) = 0;
+  /// Throws FileError on all ranks if any of them has found something wrong with what it restored.
+  virtual void refuse_if(const std::optional<std::string>& wrong) = 0;
 };
+
+/// What is wrong with a number that was stored as a whole one.
+std::string not_whole(const std::string& name, double value);
 
 /// One number, the same on every rank.
 template <class Number, std::enable_if_t<std::is_arithmetic_v<Number>, int> = 0>
 void serialize(StateArchive& archive, const std::string& name, Number& number) {
   std::vector<double> one{static_cast<double>(number)};
   archive.values(name, one);
+  if (!archive.restores()) return;
   if (one.size() != 1) throw FileError("a stored state has " + std::to_string(one.size()) + " numbers \"" + name + "\"; expected is 1");
-  number = static_cast<Number>(one.front());
+  if constexpr (std::is_integral_v<Number>) {
+    const std::optional<Number> whole = whole_number<Number>(one.front());
+    archive.refuse_if(whole ? std::nullopt : std::optional(not_whole(name, one.front())));
+    number = *whole;
+  } else {
+    number = static_cast<Number>(one.front());
+  }
 }
 
 /// A number that there may be.
@@ -51,14 +65,20 @@ void serialize(StateArchive& archive, const std::string& name, std::optional<dou
 /// @param rows  name of these ids: vectors on the same map share it
 void serialize(StateArchive& archive, const std::string& name, const std::string& rows, Vector& vector);
 
-/// Whole numbers, [ids].
-template <class Whole>
-void serialize(StateArchive& archive, const std::string& name, const RowIds& ids, std::vector<Whole>& numbers) {
+/// One number for each row, [ids].
+template <class Number>
+void serialize(StateArchive& archive, const std::string& name, const RowIds& ids, std::vector<Number>& numbers) {
   std::vector<double> rows(numbers.begin(), numbers.end());
   archive.rows(name, ids, 1, rows);
   if (!archive.restores()) return;
   numbers.clear();
-  for (const double value : rows) numbers.push_back(static_cast<Whole>(value));
+  if constexpr (std::is_integral_v<Number>) {
+    const auto wrong = std::find_if(rows.begin(), rows.end(), [](double value) { return !whole_number<Number>(value); });
+    archive.refuse_if(wrong == rows.end() ? std::nullopt : std::optional(not_whole(name, *wrong)));
+    for (const double value : rows) numbers.push_back(*whole_number<Number>(value));
+  } else {
+    numbers.assign(rows.begin(), rows.end());
+  }
 }
 
 /// Rows of different lengths, [ids]. Collective.

@@ -29,6 +29,7 @@ class CheckpointWriter final : public StateArchive {
   void values(const std::string& name, std::vector<double>& values) override;
   void text(const std::string& name, std::string& text) override;
   void rows(const std::string& name, const RowIds& ids, std::size_t columns, std::vector<double>& rows) override;
+  void refuse_if(const std::optional<std::string>& wrong) override;
 
   /// Puts the checksum behind, waits until the disk has it all, and gives the file its name.
   /// @return its size in bytes
@@ -50,6 +51,7 @@ class CheckpointReader final : public StateArchive {
   void values(const std::string& name, std::vector<double>& values) override;
   void text(const std::string& name, std::string& text) override;
   void rows(const std::string& name, const RowIds& ids, std::size_t columns, std::vector<double>& rows) override;
+  void refuse_if(const std::optional<std::string>& wrong) override;
 
  private:
   struct Implementation;

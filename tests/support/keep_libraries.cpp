@@ -1,0 +1,1 @@
+#include "keep_libraries.hpp"
