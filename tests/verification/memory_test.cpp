@@ -65,7 +65,7 @@ TEST(Memory, IsEstimatedToAFactorOfTwo) {
 // Libraries that get no memory spin for ever or end the program: what would not fit is not begun.
 TEST(Memory, ALimitEndsTheRunInTime) {
   const std::string results = std::string(SCRATCH) + "/memory_limit";
-  for (const int mib : {150, 250, 350, 450, 550, 650, 750, 900, 1100, 1300}) {
+  for (const int mib : {250, 350, 450, 550, 650, 750, 900, 1100, 1300}) {
     SCOPED_TRACE(std::to_string(mib) + " MiB");
     const Ending ending = launch({"bash", "-c",
                                   "ulimit -v " + std::to_string(1024 * mib) + "; exec '" + MORTISE + "' run '" + INPUTS +

@@ -160,7 +160,7 @@ Ending run_with_signal(const std::string& scene, const Words& settings, int rank
   std::string command = ranks > 1 ? std::string(MPIEXEC) + " -n " + std::to_string(ranks) + " " : "";
   command += std::string(MORTISE) + " run '" + scene + "' -o '" + results.string() + "'";
   for (const std::string& setting : settings) command += " --set '" + setting + "'";
-  return launch({"bash", "-c", command + " & run=$!; " + watch + " $run; wait $run"}, 120);
+  return launch({"bash", "-c", "set -m; " + command + " & run=$!; " + watch + " $run; wait $run"}, 120);
 }
 
 TEST(Stop, ASignalEndsTheRunAfterItsStepAndARestartGoesOn) {

@@ -31,6 +31,12 @@ void note_signal(int number) {
     if (stopping[n].number == number) stops[n] = 1;
 }
 
+// What whoever started the program wants to be ignored stays so: SIGINT of jobs in the background.
+void listen(int number, const struct sigaction& action, struct sigaction& former) {
+  sigaction(number, nullptr, &former);
+  if (former.sa_handler != SIG_IGN) sigaction(number, &action, nullptr);
+}
+
 constexpr double margin = 1.2;      ///< steps may take longer than those before
 constexpr double forgetting = 0.9;  ///< of the longest step, with each that is shorter
 
@@ -45,8 +51,8 @@ StopRequest::StopRequest(bool watch_signals, std::optional<double> time_limit, s
   action.sa_handler = note_signal;
   action.sa_flags = SA_RESTART;
   sigemptyset(&action.sa_mask);
-  for (std::size_t n = 0; n < stopping.size(); ++n) sigaction(stopping[n].number, &action, &before[n]);
-  sigaction(checkpointing, &action, &before.back());
+  for (std::size_t n = 0; n < stopping.size(); ++n) listen(stopping[n].number, action, before[n]);
+  listen(checkpointing, action, before.back());
 }
 
 StopRequest::~StopRequest() {

@@ -18,7 +18,7 @@ struct Request {
 /// While it lives, signals are requests:
 /// * SIGTERM, SIGINT, SIGUSR1: stop after this step; a second SIGINT ends the program at once;
 /// * SIGUSR2: checkpoint after this step.
-/// Afterwards signals do what they did before.
+/// Signals that were ignored before stay so. Afterwards signals do what they did before.
 class StopRequest {
  public:
   /// @param watch_signals  whether signals are looked at; one object at a time may do so
