@@ -8,6 +8,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -210,6 +211,10 @@ TEST(Stop, ATimeLimitIsKept) {
   EXPECT_THAT(ending.output, HasSubstr("stopped by time limit"));
   EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), 30.0);
   EXPECT_EQ(names_in(results / "checkpoints").size(), 1U);
+  const fs::path enough = scratch("within_the_limit");  // its last step ends later than another one would have been begun
+  const Ending whole = run(std::string(INPUTS) + "/paper/patch_test.xml", {}, 1, enough, {"--time-limit", "0.001"});
+  EXPECT_EQ(whole.code, 0) << whole.output;
+  EXPECT_TRUE(summary_of(enough)["stopped"].is_null());
 }
 
 // The end may move, loads may change later on; nothing else may.
@@ -280,6 +285,58 @@ TEST(Restart, GoesBackToTheLastWholeCheckpoint) {
   EXPECT_EQ(ending.code, 0) << ending.output;
   EXPECT_THAT(ending.output, HasSubstr("not whole, and left out: " + newest.string()));
   EXPECT_THAT(ending.output, HasSubstr("goes on from " + (results / "checkpoints" / "step-000003.h5").string()));
+}
+
+// What later steps left is of another way, whether or not this part writes fields and profiles.
+TEST(Restart, CutsFieldsAndProfilesOfARunThatGoesOnWithoutThem) {
+  const std::string scene = std::string(INPUTS) + "/paper/hertz_elastic.xml";
+  const fs::path straight = scratch("cut_straight"), results = scratch("cut");
+  Words settings = with_checkpoints(short_hertz, 1, 10);
+  settings.insert(settings.end(), {"output/contact profiles=true", "stepping/output times=0.25, 0.5, 0.75, 1"});
+  ASSERT_EQ(run(scene, settings, 1, straight).code, 0);
+  fs::copy(straight, results, fs::copy_options::recursive);
+  Words without = settings;
+  without.insert(without.end(), {"output/fields=", "output/contact profiles=false"});
+  ASSERT_EQ(run(scene, without, 1, results, {"--restart", "2"}).code, 0);
+  EXPECT_EQ(names_in(results / "fields"), (Words{"mesh.h5", "step-000001.h5", "step-000002.h5"}));
+  EXPECT_EQ(read_file(results / "fields.xdmf").find("step-000003"), std::string::npos);
+  EXPECT_LT(read_table(results / "profiles.csv").size(), read_table(straight / "profiles.csv").size());
+  ASSERT_EQ(run(scene, settings, 1, results, {"--restart", "2"}).code, 0);
+  EXPECT_EQ(names_in(results / "fields"), names_in(straight / "fields"));
+  EXPECT_EQ(read_file(results / "profiles.csv"), read_file(straight / "profiles.csv"));
+}
+
+// All files are looked at before one is cut.
+TEST(Restart, ThatIsRefusedLeavesAllFiles) {
+  const std::string scene = std::string(INPUTS) + "/paper/hertz_elastic.xml";
+  const fs::path straight = scratch("refused_straight"), results = scratch("refused");
+  const Words settings = with_checkpoints(short_hertz, 1, 10);
+  ASSERT_EQ(run(scene, settings, 1, straight).code, 0);
+  const auto refused = [&](const std::string& what, const std::function<void()>& harm) {
+    SCOPED_TRACE(what);
+    fs::remove_all(results);
+    fs::copy(straight, results, fs::copy_options::recursive);
+    harm();
+    const Words fields = names_in(results / "fields"), checkpoints = names_in(results / "checkpoints");
+    const std::string history = read_file(results / "history.csv"), newton = read_file(results / "newton.csv");
+    const Ending ending = run(scene, settings, 1, results, {"--restart", "2"});
+    EXPECT_EQ(ending.code, 5) << ending.output;
+    EXPECT_EQ(names_in(results / "fields"), fields);
+    EXPECT_EQ(names_in(results / "checkpoints"), checkpoints);
+    EXPECT_EQ(read_file(results / "history.csv"), history);
+    EXPECT_EQ(read_file(results / "newton.csv"), newton);
+  };
+  refused("steps.jsonl is missing", [&] { fs::remove(results / "steps.jsonl"); });
+  refused("steps.jsonl is short", [&] { fs::resize_file(results / "steps.jsonl", 10); });
+  refused("fields of an earlier step cannot be read", [&] { fs::resize_file(results / "fields" / "step-000001.h5", 100); });
+  refused("the mesh cannot be read", [&] { fs::resize_file(results / "fields" / "mesh.h5", 100); });
+  refused("a checkpoint has another's name", [&] {
+    fs::copy_file(results / "checkpoints" / "step-000003.h5", results / "checkpoints" / "step-000002.h5", fs::copy_options::overwrite_existing);
+  });
+  refused("a table is a link", [&] {
+    fs::rename(results / "history.csv", fs::path(SCRATCH) / "theirs.csv");
+    fs::create_symlink(fs::path(SCRATCH) / "theirs.csv", results / "history.csv");
+  });
 }
 
 TEST(Restart, WithoutACheckpointSaysSo) {

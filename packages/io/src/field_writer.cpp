@@ -149,13 +149,13 @@ struct FieldWriter::Implementation {
     file.close();
   }
 
-  /// The mesh's file is written if it is not there; if it is, it has to be that of this mesh.
-  void write_or_check_mesh() const {
+  /// Whether the mesh's file is there. If it is, it has to be that of this mesh.
+  bool has_mesh() const {
     int is_there = 0;
     std::error_code error;
     if (comm->getRank() == 0) is_there = std::filesystem::exists(path(mesh_file), error) ? 1 : 0;
     Teuchos::broadcast(*comm, 0, Teuchos::outArg(is_there));
-    if (is_there == 0) return write_mesh();
+    if (is_there == 0) return false;
     on_rank_0("cannot continue", path(mesh_file), [&]() -> std::optional<std::string> {
       std::vector<long long> found;
       if (auto reason = read_rows(path(mesh_file), {"coordinates", "body", "topology"}, found)) return reason;
@@ -166,18 +166,19 @@ struct FieldWriter::Implementation {
           "that the run began with",
           found[0], found[1], found[2], expected[0], expected[1], expected[2]);
     });
+    return true;
   }
 
-  /// Writes the index of the steps that have files.
-  void rebuild_index() {
+  /// The index of the steps up to `last` that have files, on rank 0. Changes no file.
+  std::string read_index(int last) {
     std::string head = xdmf_head(description);
     on_rank_0("cannot continue", path(fields_directory), [&]() -> std::optional<std::string> {
       std::error_code error;
       std::vector<int> steps;
       for (std::filesystem::directory_iterator entry(path(fields_directory), error); !error && entry != std::filesystem::directory_iterator();
            entry.increment(error))
-        if (const auto step = step_of_file(fields_directory + "/" + entry->path().filename().string())) steps.push_back(*step);
-      if (error) return error.message();
+        if (const auto step = step_of_file(fields_directory + "/" + entry->path().filename().string()); step && *step <= last) steps.push_back(*step);
+      if (error && error != std::errc::no_such_file_or_directory) return error.message();
       std::sort(steps.begin(), steps.end());
       for (const int step : steps) {
         StoredStep stored;
@@ -190,6 +191,10 @@ struct FieldWriter::Implementation {
       return {};
     });
     Teuchos::broadcast(*comm, 0, Teuchos::outArg(last_step));
+    return head;
+  }
+
+  void write_index(const std::string& head) {
     write_file(*comm, xdmf_path, [&] { return head + xdmf_tail(); });
     tail_of_xdmf = head.size();
   }
@@ -230,9 +235,13 @@ struct FieldWriter::Implementation {
 
 FieldWriter::FieldWriter(RCP<const Mesh> mesh, const std::string& directory, std::optional<int> continue_after)
     : implementation_(std::make_unique<Implementation>(std::move(mesh), directory)) {
-  implementation_->clear(continue_after.value_or(-1), continue_after.has_value());
-  implementation_->write_or_check_mesh();
-  implementation_->rebuild_index();
+  // All that may be refused comes before anything is removed.
+  const int last = continue_after.value_or(-1);
+  const bool keeps_mesh = continue_after && implementation_->has_mesh();
+  const std::string index = implementation_->read_index(last);
+  implementation_->clear(last, keeps_mesh);
+  if (!keeps_mesh) implementation_->write_mesh();
+  implementation_->write_index(index);
   implementation_->unsynced.push_back(implementation_->path(mesh_file));
 }
 

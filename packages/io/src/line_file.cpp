@@ -24,30 +24,39 @@ LineFile::LineFile(RCP<const Communicator> comm, std::string path, const std::st
 }
 
 LineFile::LineFile(RCP<const Communicator> comm, std::string path, const std::string& header, std::uintmax_t continue_at)
-    : comm_(std::move(comm)), path_(std::move(path)), file_(std::make_unique<FileDescriptor>()), size_(continue_at) {
+    : comm_(std::move(comm)), path_(std::move(path)), file_(std::make_unique<FileDescriptor>()), size_(continue_at), is_cut_(false) {
   std::optional<std::string> reason;
-  if (comm_->getRank() == 0) reason = cut(header);
+  if (comm_->getRank() == 0) reason = check(header);
   throw_if_any_file_error(*comm_, "cannot continue", path_, reason);
 }
 
 LineFile::~LineFile() = default;
 
-std::optional<std::string> LineFile::cut(const std::string& header) {
+std::optional<std::string> LineFile::check(const std::string& header) {
   std::uintmax_t size = 0;
   std::string begin, before;
-  if (auto reason = file_->open(path_, O_RDWR)) return reason;
+  if (auto reason = file_->open(path_, O_RDWR | O_NOFOLLOW)) return reason;
   if (auto reason = file_->size(size)) return reason;
-  if (size < size_) return fmt::format("it has {} bytes, but the run that is continued had written {}", size, size_);
+  if (size < size_)
+    return fmt::format("it has {} bytes, but the run that is continued had written {}; an earlier checkpoint may fit (--restart STEP)", size, size_);
   if (size_ < header.size()) return fmt::format("its first {} bytes are less than its header line, which takes {}", size_, header.size());
   if (auto reason = file_->read(begin, header.size(), 0)) return reason;
   if (begin != header) return fmt::format("its columns are \"{}\", but this run writes \"{}\"", without_line_end(begin), without_line_end(header));
   if (size_ > 0)
     if (auto reason = file_->read(before, 1, size_ - 1)) return reason;
   if (size_ > 0 && before != "\n") return fmt::format("a line goes on at byte {}, where rows are to be added", size_);
-  return file_->resize(size_);
+  return {};
+}
+
+void LineFile::cut() {
+  std::optional<std::string> reason;
+  if (comm_->getRank() == 0 && !is_cut_) reason = file_->resize(size_);
+  is_cut_ = true;
+  throw_if_any_file_error(*comm_, "cannot continue", path_, reason);
 }
 
 void LineFile::append(const std::string& lines) {
+  if (!is_cut_) cut();
   std::optional<std::string> reason;
   if (comm_->getRank() == 0) {
     reason = file_->write(lines.data(), lines.size(), size_);

@@ -56,6 +56,16 @@ std::string source_below(const std::string& directory, const std::string& source
   return text;
 }
 
+/// The first of the names that has become a symbolic link: what it leads to is another's.
+std::optional<std::string> link_among(const std::string& directory, const std::vector<std::string>& names) {
+  for (const auto& name : names) {
+    std::error_code error;
+    if (std::filesystem::is_symlink(std::filesystem::symlink_status(directory + "/" + name, error)))
+      return fmt::format("{} in it is a symbolic link, which this program did not make; please put the file in its place", name);
+  }
+  return {};
+}
+
 std::optional<std::string> make_directory(const std::string& directory) {
   std::error_code error;
   std::filesystem::create_directories(directory, error);
@@ -163,6 +173,8 @@ void OutputDirectory::start(const std::vector<std::string>& names, bool has_to_e
     if (auto reason = self.lock.take(self.path)) return reason;
     // Another process may have come and gone since.
     if (auto reason = self.examine(names, false)) return reason;
+    if (has_to_exist)
+      if (auto reason = link_among(self.path, self.marker.names)) return reason;
     if (clears) {
       if (auto reason = busy_below(self.path, self.marker.names)) return reason;
       if (auto reason = remove_listed(self.path, self.marker.names)) return reason;

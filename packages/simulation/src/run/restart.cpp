@@ -37,7 +37,12 @@ std::string quoted_for_shell(const std::string& word) {
 
 Restart restart_from(const RCP<const Communicator>& comm, const std::string& directory, const RestartOptions& options) {
   FoundCheckpoint found = find_checkpoint(*comm, directory, options.step);
-  return {found.step, found.path, std::move(found.damaged), std::make_shared<CheckpointReader>(comm, found.path)};
+  Restart restart{found.step, found.path, std::move(found.damaged), std::make_shared<CheckpointReader>(comm, found.path)};
+  int step = 0;
+  serialize(*restart.file, "steps", step);
+  if (step != restart.step)
+    throw FileError(fmt::format("{} is the checkpoint of step {}; please give it its name, or move it away", restart.path, step));
+  return restart;
 }
 
 void store_run(StateArchive& archive, const std::string& fingerprint, const Model& model, const SemiSmoothSystem& system,

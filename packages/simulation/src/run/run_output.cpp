@@ -35,13 +35,21 @@ RunOutput::RunOutput(const RCP<const Communicator>& comm, const Scene& scene, Ou
     history_ = std::make_unique<CsvWriter>(comm, directory.claim("history.csv"), columns_with(evaluation));
     steps_ = std::make_unique<LineFile>(comm, directory.claim("steps.jsonl"));
   }
-  if (scene.output.contact_profiles && !profiles_) profiles_ = std::make_unique<CsvWriter>(comm, directory.claim("profiles.csv"), profile_columns);
-  if (!scene.output.fields.empty()) {
+  writes_profiles_ = scene.output.contact_profiles;
+  writes_fields_ = !scene.output.fields.empty();
+  if (writes_profiles_ && !profiles_) profiles_ = std::make_unique<CsvWriter>(comm, directory.claim("profiles.csv"), profile_columns);
+  // Fields of a run that goes on without them are cut as well.
+  if (writes_fields_ || has_fields_) {
+    has_fields_ = true;
     directory.claim("fields.xdmf");
     OutputDirectory files = directory.subdirectory("fields");
     for (const char* name : {"mesh.h5", "step-*.h5"}) files.claim(name);
     fields_ = std::make_unique<FieldWriter>(mesh, directory.path(), checkpoint != nullptr ? std::optional(written_) : std::nullopt);
   }
+  if (checkpoint == nullptr) return;
+  for (CsvWriter* table : {newton_.get(), history_.get(), profiles_.get()})
+    if (table != nullptr) table->cut();
+  steps_->cut();
 }
 
 void RunOutput::restore(const RCP<const Communicator>& comm, StateArchive& archive) {
@@ -51,11 +59,11 @@ void RunOutput::restore(const RCP<const Communicator>& comm, StateArchive& archi
   serialize(archive, "files.steps", steps);
   serialize(archive, "files.profiles", profiles);
   serialize(archive, "files.fields", written_);
+  serialize(archive, "files.has_fields", has_fields_);
   newton_ = std::make_unique<CsvWriter>(comm, directory_.claim("newton.csv"), newton_columns, newton);
   history_ = std::make_unique<CsvWriter>(comm, directory_.claim("history.csv"), columns_with(evaluation_), history);
   steps_ = std::make_unique<LineFile>(comm, directory_.claim("steps.jsonl"), "", steps);
-  if (scene_.output.contact_profiles && profiles > 0)
-    profiles_ = std::make_unique<CsvWriter>(comm, directory_.claim("profiles.csv"), profile_columns, profiles);
+  if (profiles > 0) profiles_ = std::make_unique<CsvWriter>(comm, directory_.claim("profiles.csv"), profile_columns, profiles);
   begin_time_ = record_.time;
 }
 
@@ -72,6 +80,7 @@ void RunOutput::store(StateArchive& archive) {
   serialize(archive, "files.steps", steps);
   serialize(archive, "files.profiles", profiles);
   serialize(archive, "files.fields", written_);
+  serialize(archive, "files.has_fields", has_fields_);
 }
 
 StepperObserver RunOutput::functions() {
@@ -93,7 +102,7 @@ void RunOutput::undo(const StepFailure& failure) {
 
 void RunOutput::finish(const std::function<SystemEvaluation()>& last_state) {
   if (record_.steps == 0) return;
-  const bool fields = fields_ && written_ != record_.steps, profiles = profiles_ && !is_output_time(record_.time);
+  const bool fields = writes_fields_ && written_ != record_.steps, profiles = writes_profiles_ && !is_output_time(record_.time);
   if (!fields && !profiles) return;
   const SystemEvaluation at = last_state();
   if (fields) write_fields(at);
@@ -174,12 +183,13 @@ bool RunOutput::is_output_time(double time) const {
 }
 
 void RunOutput::write_fields(const SystemEvaluation& at) {
+  if (!writes_fields_) return;
   written_ = record_.steps;
-  if (fields_) fields_->write(record_.steps, record_.time, evaluation_.fields(at, scene_.output.fields));
+  fields_->write(record_.steps, record_.time, evaluation_.fields(at, scene_.output.fields));
 }
 
 void RunOutput::write_profiles(const SystemEvaluation& at) {
-  if (!profiles_) return;
+  if (!writes_profiles_) return;
   const auto profiles = evaluation_.profiles(at);
   std::vector<std::vector<CsvValue>> rows;
   for (std::size_t pair = 0; pair < profiles.size(); ++pair)

@@ -56,6 +56,8 @@ class RunOutput {
   std::unique_ptr<LineFile> steps_;
   std::vector<CsvValue> last_iteration_;
   std::unique_ptr<FieldWriter> fields_;
+  bool writes_fields_ = false, writes_profiles_ = false;
+  bool has_fields_ = false;  ///< this run, or an earlier part of it, has written some
   int step_ = 0, try_ = 0, written_ = 0;
   double time_ = 0.0, dt_ = 0.0, begin_time_ = 0.0;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();

@@ -248,6 +248,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
     }
     try {
       record.converged = run_steps(system, scene.stepping, scene.newton, state, start_step, functions, failure);
+      if (record.converged) record.stopped.reset();
       // On its way in a corner passes through a part of a facet before contact begins; a run that ends there has not found its force.
       if (record.converged && surfaces && !surfaces->without_force().empty()) {
         failure.emplace(FailureKind::lost_contact, surfaces->without_force() + "; please make the slave finer there, or exchange slave and master");
@@ -259,7 +260,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
     } catch (const InputError& error) {  // on every rank: a quantity's expression without a value
       failure.emplace(FailureKind::input, error.what());
     }
-    const bool wants_last = !record.converged || scene.output.checkpoints.every_step > 0 || checkpoints.last() > 0;
+    const bool wants_last = !record.converged || scene.output.checkpoints.every_step > 0 || checkpoints.last() > 0 || restart;
     if (wants_last && state.steps > 0 && checkpoints.last() != state.steps && (!restart || restart->step != state.steps)) write_checkpoint();
     output.finish([&] { return last ? *last : system.evaluate_at(state.accepted, *system.multipliers(*state.accepted.x), state.accepted.context); });
   }

@@ -15,7 +15,7 @@ struct NamedSignal {
   const char* name;
 };
 // In the order of their weight: of several the first is told.
-constexpr std::array<NamedSignal, 3> stopping{{{SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}, {SIGUSR1, "SIGUSR1"}}};
+constexpr std::array<NamedSignal, 4> stopping{{{SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}, {SIGHUP, "SIGHUP"}, {SIGUSR1, "SIGUSR1"}}};
 constexpr int checkpointing = SIGUSR2;
 
 // Written by handlers, which may do nothing else.

@@ -16,7 +16,7 @@ struct Request {
 };
 
 /// While it lives, signals are requests:
-/// * SIGTERM, SIGINT, SIGUSR1: stop after this step; a second SIGINT ends the program at once;
+/// * SIGTERM, SIGINT, SIGHUP, SIGUSR1: stop after this step; a second SIGINT ends the program at once;
 /// * SIGUSR2: checkpoint after this step.
 /// Signals that were ignored before stay so. Afterwards signals do what they did before.
 class StopRequest {

@@ -25,8 +25,11 @@ class CsvWriter {
   CsvWriter(RCP<const Communicator> comm, std::string path, const std::vector<std::string>& columns);
 
   /// Adds rows to a table that is there, of which the first `continue_at` bytes are kept: a size() of the writer that began it. FileError if the file
-  /// is shorter, has other columns, or if a line goes on there.
+  /// is shorter, has other columns, is a symbolic link, or if a line goes on there.
   CsvWriter(RCP<const Communicator> comm, std::string path, const std::vector<std::string>& columns, std::uintmax_t continue_at);
+
+  /// Cuts off what is not kept; the first row does so too.
+  void cut() { lines_.cut(); }
 
   /// Only rank 0's values count; a number of them that is not that of the columns is a FileError too.
   void row(const std::vector<CsvValue>& values);
