@@ -14,30 +14,43 @@ namespace {
 
 using Rows = std::vector<std::vector<double>>;
 
-/// [nodes] of lists of numbers, as rows of different lengths, in both directions.
+/// [nodes] of lists of ids of nodes, as rows of different lengths, in both directions.
 template <class List>
-void serialize_lists(StateArchive& archive, const Communicator& comm, const std::string& name, const RowIds& ids, std::vector<List>& lists) {
+void serialize_nodes(StateArchive& archive, const Map& nodes, const std::string& name, const RowIds& ids, std::vector<List>& lists) {
   Rows rows;
   for (const List& list : lists) rows.emplace_back(list.begin(), list.end());
-  serialize(archive, comm, name, ids, rows);
+  serialize(archive, *nodes.getComm(), name, ids, rows);
   if (!archive.restores()) return;
-  lists.resize(rows.size());
+  const GlobalOrdinal last = nodes.getMaxAllGlobalIndex();
+  std::optional<std::string> wrong;
+  lists.assign(rows.size(), {});
   for (std::size_t s = 0; s < rows.size(); ++s) {
-    lists[s].resize(static_cast<typename List::size_type>(rows[s].size()));
-    std::transform(rows[s].begin(), rows[s].end(), lists[s].begin(), [](double value) { return static_cast<typename List::value_type>(value); });
+    if (rows[s].size() > lists[s].max_size())
+      wrong = fmt::format("a row of \"{}\" has {} nodes; the most are {}", name, rows[s].size(), lists[s].max_size());
+    for (std::size_t n = 0; n < rows[s].size() && !wrong; ++n) {
+      const auto node = whole_number<GlobalOrdinal>(rows[s][n]);
+      if (node && *node >= 0 && *node <= last)
+        lists[s].push_back(*node);
+      else
+        wrong = fmt::format("\"{}\" holds the node {}; nodes are from 0 to {}", name, rows[s][n], last);
+    }
   }
+  archive.refuse_if(wrong);
 }
 
-/// The same of vectors of Eigen, empty ones among them.
+/// The same of vectors of `size` numbers, empty ones among them.
 template <class List>
-void serialize_vectors(StateArchive& archive, const Communicator& comm, const std::string& name, const RowIds& ids, std::vector<List>& vectors) {
+void serialize_vectors(StateArchive& archive, const Communicator& comm, const std::string& name, const RowIds& ids, std::size_t size,
+                       std::vector<List>& vectors) {
   Rows rows;
   for (const List& vector : vectors) rows.emplace_back(vector.data(), vector.data() + vector.size());
   serialize(archive, comm, name, ids, rows);
   if (!archive.restores()) return;
+  const auto wrong = std::find_if(rows.begin(), rows.end(), [&](const auto& row) { return !row.empty() && row.size() != size; });
+  archive.refuse_if(wrong == rows.end() ? std::nullopt
+                                        : std::optional(fmt::format("a row of \"{}\" has {} numbers; expected are {}", name, wrong->size(), size)));
   vectors.resize(rows.size());
   for (std::size_t s = 0; s < rows.size(); ++s) {
-    rows[s].resize(std::min<std::size_t>(rows[s].size(), List::MaxSizeAtCompileTime));
     vectors[s].resize(static_cast<Eigen::Index>(rows[s].size()));
     std::copy(rows[s].begin(), rows[s].end(), vectors[s].data());
   }
@@ -65,7 +78,7 @@ void serialize_kinks(StateArchive& archive, const std::string& name, const RowId
   if (!chosen) kinks = {};
 }
 
-void serialize_starts(StateArchive& archive, const Communicator& comm, const std::string& name, const RowIds& slaves,
+void serialize_starts(StateArchive& archive, const Communicator& comm, const std::string& name, const RowIds& slaves, std::size_t dimension,
                       std::vector<NodeStart>& starts) {
   std::vector<SpatialVector> multipliers;
   std::vector<double> stiffening;
@@ -73,18 +86,24 @@ void serialize_starts(StateArchive& archive, const Communicator& comm, const std
     multipliers.push_back(start.multiplier);
     stiffening.push_back(start.stiffening);
   }
-  serialize_vectors(archive, comm, name + ".multiplier", slaves, multipliers);
+  serialize_vectors(archive, comm, name + ".multiplier", slaves, dimension, multipliers);
   serialize(archive, name + ".stiffening", slaves, stiffening);
   for (std::size_t s = 0; s < starts.size(); ++s) starts[s] = {multipliers[s], stiffening[s]};
 }
 
-void serialize_slip(StateArchive& archive, const Communicator& comm, const std::string& name, const RowIds& slaves,
+void serialize_slip(StateArchive& archive, const Map& nodes, const std::string& name, const RowIds& slaves, std::size_t dimension,
                     std::shared_ptr<const SlipReferences>& slip) {
   auto references = slip ? *slip : SlipReferences();
-  serialize_lists(archive, comm, name + ".nodes", slaves, references.nodes);
-  serialize_lists(archive, comm, name + ".coefficients", slaves, references.coefficients);
-  serialize_vectors(archive, comm, name + ".positions", slaves, references.positions);
-  serialize_vectors(archive, comm, name + ".ties", slaves, references.ties);
+  const Communicator& comm = *nodes.getComm();
+  serialize_nodes(archive, nodes, name + ".nodes", slaves, references.nodes);
+  serialize(archive, comm, name + ".coefficients", slaves, references.coefficients);
+  bool match = true;
+  for (std::size_t s = 0; s < references.nodes.size() && s < references.coefficients.size(); ++s)
+    match = match && references.nodes[s].size() == references.coefficients[s].size();
+  if (archive.restores())
+    archive.refuse_if(match ? std::nullopt : std::optional(fmt::format("\"{0}.nodes\" and \"{0}.coefficients\" differ in their numbers", name)));
+  serialize_vectors(archive, comm, name + ".positions", slaves, dimension - 1, references.positions);
+  serialize_vectors(archive, comm, name + ".ties", slaves, dimension - 1, references.ties);
   serialize(archive, name + ".paths", slaves, references.paths);
   if (archive.restores()) slip = std::make_shared<const SlipReferences>(std::move(references));
 }
@@ -92,6 +111,8 @@ void serialize_slip(StateArchive& archive, const Communicator& comm, const std::
 /// All but positions and multipliers, which are those of the state.
 void serialize_accepted(StateArchive& archive, const ContactModel& model, AcceptedContact& accepted) {
   const Communicator& comm = model.comm();
+  const Map& nodes = *accepted.positions->getMap();
+  const std::size_t dimension = accepted.positions->getNumVectors();
   for (std::size_t p = 0; p < model.pairs.size(); ++p) {
     const Pair& pair = *model.pairs[p];
     PairHistory& history = accepted.pairs[p];
@@ -102,10 +123,10 @@ void serialize_accepted(StateArchive& archive, const ContactModel& model, Accept
     serialize(archive, name + ".axes", slaves, history.axes);
     if (pair.corner_rule() != CornerRule::averaged) {
       serialize_kinks(archive, name + ".kinks", {name + ".surface", pair.interface().nodes_of_kinks(), slaves.owned}, history.kinks);
-      if (pair.corner_rule() == CornerRule::nearest_facet) serialize_lists(archive, comm, name + ".nearest", slaves, history.nearest_facets);
+      if (pair.corner_rule() == CornerRule::nearest_facet) serialize_nodes(archive, nodes, name + ".nearest", slaves, history.nearest_facets);
     }
-    if (pair.friction() != nullptr) serialize_slip(archive, comm, name + ".slip", slaves, history.slip);
-    if (pair.enforcement().starts_from_multipliers()) serialize_starts(archive, comm, name + ".start", slaves, history.starts);
+    if (pair.friction() != nullptr) serialize_slip(archive, nodes, name + ".slip", slaves, dimension, history.slip);
+    if (pair.enforcement().starts_from_multipliers()) serialize_starts(archive, comm, name + ".start", slaves, dimension, history.starts);
     serialize(archive, name + ".hardening", history.settling.hardening);
     serialize(archive, name + ".ratio", history.settling.ratio);
     serialize(archive, name + ".last_change", history.settling.last_change);
@@ -113,6 +134,8 @@ void serialize_accepted(StateArchive& archive, const ContactModel& model, Accept
     std::vector<int> states;
     for (const ContactState state : accepted.states[p].states) states.push_back(static_cast<int>(state));
     serialize(archive, name + ".states", slaves, states);
+    const auto wrong = std::find_if(states.begin(), states.end(), [](int one) { return one < 0 || one > static_cast<int>(ContactState::slip); });
+    archive.refuse_if(wrong == states.end() ? std::nullopt : std::optional(fmt::format("\"{}.states\" holds {}, which is no state", name, *wrong)));
     serialize(archive, name + ".covered", slaves, accepted.states[p].covered);
     for (std::size_t s = 0; s < states.size(); ++s) accepted.states[p].states[s] = static_cast<ContactState>(states[s]);
   }

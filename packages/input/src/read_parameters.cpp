@@ -67,7 +67,8 @@ Teuchos::ParameterList to_teuchos(const XmlList& list, const Symbols& symbols, s
           result.set(one.name, value);
         } else {
           const auto whole = whole_number<int>(value);
-          if (!whole) throw InputError(one.place, fmt::format("\"{}\" is \"{}\"; an int has to be whole, from -2147483648 to 2147483647", one.name, one.value));
+          if (!whole)
+            throw InputError(one.place, fmt::format("\"{}\" is \"{}\"; an int has to be whole, from -2147483648 to 2147483647", one.name, one.value));
           result.set(one.name, *whole);
         }
       } else {
