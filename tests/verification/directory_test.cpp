@@ -57,7 +57,7 @@ const std::string point_file = R"xml(<ParameterList name="point">
 )xml";
 
 std::vector<Command> commands() {
-  std::vector<Command> all{{"run", {"run", "input.xml"}, {"history.csv", "summary.json", "log.txt", "effective.xml", "fields.h5"}},
+  std::vector<Command> all{{"run", {"run", "input.xml"}, {"history.csv", "summary.json", "log.txt", "effective.xml", "fields.xdmf"}},
                            {"point", {"point", "point.xml"}, {"point.csv", "summary.json"}},
                            {"study", {"study", "study.xml"}, {"points", "scene.xml", "study.csv", "report.html", "plots"}},
                            {"scale", {"scale", "input.xml", "--ranks", "1"}, {"runs", "scale.csv", "report.html"}},

@@ -212,7 +212,7 @@ TEST(Stop, ATimeLimitIsKept) {
   EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), 30.0);
   EXPECT_EQ(names_in(results / "checkpoints").size(), 1U);
   const fs::path enough = scratch("within_the_limit");  // its last step ends later than another one would have been begun
-  const Ending whole = run(std::string(INPUTS) + "/paper/patch_test.xml", {}, 1, enough, {"--time-limit", "0.001"});
+  const Ending whole = run(std::string(INPUTS) + "/paper/patch_test.xml", {"stepping/step=1"}, 1, enough, {"--time-limit", "0.001"});
   EXPECT_EQ(whole.code, 0) << whole.output;
   EXPECT_TRUE(summary_of(enough)["stopped"].is_null());
 }
@@ -310,7 +310,8 @@ TEST(Restart, CutsFieldsAndProfilesOfARunThatGoesOnWithoutThem) {
 TEST(Restart, ThatIsRefusedLeavesAllFiles) {
   const std::string scene = std::string(INPUTS) + "/paper/hertz_elastic.xml";
   const fs::path straight = scratch("refused_straight"), results = scratch("refused");
-  const Words settings = with_checkpoints(short_hertz, 1, 10);
+  Words settings = with_checkpoints(short_hertz, 1, 10);
+  settings.push_back("output/every step=1");
   ASSERT_EQ(run(scene, settings, 1, straight).code, 0);
   const auto refused = [&](const std::string& what, const std::function<void()>& harm) {
     SCOPED_TRACE(what);

@@ -53,17 +53,12 @@ RunOutput::RunOutput(const RCP<const Communicator>& comm, const Scene& scene, Ou
 }
 
 void RunOutput::restore(const RCP<const Communicator>& comm, StateArchive& archive) {
-  std::uintmax_t newton = 0, history = 0, steps = 0, profiles = 0;
-  serialize(archive, "files.newton", newton);
-  serialize(archive, "files.history", history);
-  serialize(archive, "files.steps", steps);
-  serialize(archive, "files.profiles", profiles);
-  serialize(archive, "files.fields", written_);
-  serialize(archive, "files.has_fields", has_fields_);
-  newton_ = std::make_unique<CsvWriter>(comm, directory_.claim("newton.csv"), newton_columns, newton);
-  history_ = std::make_unique<CsvWriter>(comm, directory_.claim("history.csv"), columns_with(evaluation_), history);
-  steps_ = std::make_unique<LineFile>(comm, directory_.claim("steps.jsonl"), "", steps);
-  if (profiles > 0) profiles_ = std::make_unique<CsvWriter>(comm, directory_.claim("profiles.csv"), profile_columns, profiles);
+  FileSizes sizes;
+  serialize_sizes(archive, sizes);
+  newton_ = std::make_unique<CsvWriter>(comm, directory_.claim("newton.csv"), newton_columns, sizes.newton);
+  history_ = std::make_unique<CsvWriter>(comm, directory_.claim("history.csv"), columns_with(evaluation_), sizes.history);
+  steps_ = std::make_unique<LineFile>(comm, directory_.claim("steps.jsonl"), "", sizes.steps);
+  if (sizes.profiles > 0) profiles_ = std::make_unique<CsvWriter>(comm, directory_.claim("profiles.csv"), profile_columns, sizes.profiles);
   begin_time_ = record_.time;
 }
 
@@ -74,11 +69,15 @@ void RunOutput::store(StateArchive& archive) {
     return file->size();
   };
   if (fields_) fields_->sync();
-  std::uintmax_t newton = size_on_disk(newton_), history = size_on_disk(history_), steps = size_on_disk(steps_), profiles = size_on_disk(profiles_);
-  serialize(archive, "files.newton", newton);
-  serialize(archive, "files.history", history);
-  serialize(archive, "files.steps", steps);
-  serialize(archive, "files.profiles", profiles);
+  FileSizes sizes{size_on_disk(newton_), size_on_disk(history_), size_on_disk(steps_), size_on_disk(profiles_)};
+  serialize_sizes(archive, sizes);
+}
+
+void RunOutput::serialize_sizes(StateArchive& archive, FileSizes& sizes) {
+  serialize(archive, "files.newton", sizes.newton);
+  serialize(archive, "files.history", sizes.history);
+  serialize(archive, "files.steps", sizes.steps);
+  serialize(archive, "files.profiles", sizes.profiles);
   serialize(archive, "files.fields", written_);
   serialize(archive, "files.has_fields", has_fields_);
 }

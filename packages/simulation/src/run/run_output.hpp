@@ -2,6 +2,7 @@
 // Everything that follows the steps of a run: the table of iterations, newton.csv, history.csv, steps.jsonl, profiles.csv, fields.
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -35,6 +36,11 @@ class RunOutput {
   void store(StateArchive& archive);
 
  private:
+  /// Bytes that files have; 0: there is no such file.
+  struct FileSizes {
+    std::uintmax_t newton = 0, history = 0, steps = 0, profiles = 0;
+  };
+
   void begin(int step, double time, double dt);
   void add(const NewtonIteration& iteration);
   void write_last_iteration(const std::string& undone);
@@ -45,6 +51,7 @@ class RunOutput {
   void write_fields(const SystemEvaluation& at);
   void write_profiles(const SystemEvaluation& at);
   void restore(const RCP<const Communicator>& comm, StateArchive& archive);
+  void serialize_sizes(StateArchive& archive, FileSizes& sizes);
 
   const Scene& scene_;
   OutputDirectory& directory_;
