@@ -124,7 +124,8 @@ def wait_for(results, count):
 def with_signal(fault, ranks, to_rank, number):
     results = os.path.join(scratch, "signal")
     shutil.rmtree(results, ignore_errors=True)
-    process = subprocess.Popen(command(results, ranks), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    process = subprocess.Popen(command(results, ranks), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                               preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))  # jobs in the background ignore it
     wait_for(results, 5)
     target = process.pid
     if ranks > 1:

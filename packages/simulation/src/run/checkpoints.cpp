@@ -58,7 +58,7 @@ bool Checkpoints::is_due(int step) const {
   const int mine = options_.every_minutes > 0.0 && minutes >= options_.every_minutes ? 1 : 0;
   int due = mine;
   Teuchos::broadcast(*comm_, 0, Teuchos::outArg(due));  // the first rank has the clock
-  return due != 0 || (options_.every_step > 0 && step % options_.every_step == 0);
+  return due != 0 || is_due_by_step(step);
 }
 
 std::uintmax_t Checkpoints::write(int step, const std::function<void(StateArchive&)>& store) {

@@ -37,11 +37,11 @@ struct Watchdog::Implementation {
   };
   static_assert(std::atomic<long long>::is_always_lock_free, "signs stand in memory that processes share");
 
-  Implementation(MPI_Comm machine_, int size, long long rank) : machine(machine_), signs(static_cast<std::size_t>(size)), missing(signs.size(), 0) {
+  Implementation(MPI_Comm machine_, MPI_Win window_, int size, long long rank)
+      : machine(machine_), window(window_), signs(static_cast<std::size_t>(size)), missing(signs.size(), 0) {
     MPI_Comm_rank(machine, &mine);
-    void* base = nullptr;
-    MPI_Win_allocate_shared(sizeof(Sign), 1, MPI_INFO_NULL, machine, &base, &window);
     for (int other = 0; other < size; ++other) {
+      void* base = nullptr;
       MPI_Aint bytes = 0;
       int unit = 0;
       MPI_Win_shared_query(window, other, &bytes, &unit, &base);
@@ -103,7 +103,7 @@ struct Watchdog::Implementation {
   }
 
   MPI_Comm machine;
-  MPI_Win window = MPI_WIN_NULL;
+  MPI_Win window;
   int mine = 0;
   int exceptions = std::uncaught_exceptions();
   std::vector<Sign*> signs;        ///< [ranks of this machine]
@@ -121,8 +121,14 @@ Watchdog::Watchdog(const Communicator& comm) {
   MPI_Comm_split_type(*mpi->getRawMpiComm(), MPI_COMM_TYPE_SHARED, mpi->getRank(), MPI_INFO_NULL, &machine);
   int size = 1;
   MPI_Comm_size(machine, &size);
-  if (size > 1)
-    implementation_ = std::make_unique<Implementation>(machine, size, mpi->getRank());
+  // Shared memory is a file, for which there may be no room: then there is no watchdog, and the run goes on.
+  MPI_Comm_set_errhandler(machine, MPI_ERRORS_RETURN);
+  MPI_Win window = MPI_WIN_NULL;
+  void* base = nullptr;
+  int bad = size > 1 && MPI_Win_allocate_shared(sizeof(Implementation::Sign), 1, MPI_INFO_NULL, machine, &base, &window) != MPI_SUCCESS ? 1 : 0;
+  MPI_Allreduce(MPI_IN_PLACE, &bad, 1, MPI_INT, MPI_MAX, machine);
+  if (size > 1 && bad == 0)
+    implementation_ = std::make_unique<Implementation>(machine, window, size, mpi->getRank());
   else
     MPI_Comm_free(&machine);
 }
