@@ -15,7 +15,7 @@ namespace mortise {
 ///
 /// The file is HDF5, with what each rank owns written in parallel:
 ///   /values/<name>  [count], the same on every rank
-///   /texts/<name>   [bytes]
+///   /values/text.<name>  [bytes], likewise
 ///   /rows/<name>    [rows x columns], and /ids/<name of the rows>, the id of each row
 /// Behind the end of HDF5's own data stands one line with version, length and checksum of what comes before.
 class CheckpointWriter final : public StateArchive {

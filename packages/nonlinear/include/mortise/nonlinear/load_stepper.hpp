@@ -40,6 +40,7 @@ struct StepReport {
 
 /// Where a run stands between two steps: all that the next one starts from.
 struct SteppingState {
+  /// At the start of a run.
   explicit SteppingState(AcceptedState state) : accepted(std::move(state)) {}
   AcceptedState accepted;           ///< of the last step, or the first state
   int steps = 0;                    ///< finished ones
