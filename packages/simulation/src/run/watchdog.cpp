@@ -1,7 +1,9 @@
 #include "run/watchdog.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <mpi.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <Teuchos_DefaultMpiComm.hpp>
@@ -9,6 +11,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstdio>
 #include <exception>
 #include <iostream>
 #include <mutex>
@@ -27,6 +30,28 @@ long long now() { return std::chrono::duration_cast<std::chrono::nanoseconds>(st
 
 double seconds(long long nanoseconds) { return 1e-9 * static_cast<double>(nanoseconds); }
 
+/// Memory that the ranks of a machine share, filled with zeros; null on all of them if any could not get it. A window of MPI would leave ranks
+/// waiting where there is no room for its file.
+void* shared_memory(MPI_Comm machine, std::size_t bytes) {
+  int rank = 0;
+  MPI_Comm_rank(machine, &rank);
+  std::array<char, 64> name{};
+  if (rank == 0) std::snprintf(name.data(), name.size(), "/mortise-%ld", static_cast<long>(getpid()));
+  MPI_Bcast(name.data(), static_cast<int>(name.size()), MPI_CHAR, 0, machine);
+  int file = rank == 0 ? shm_open(name.data(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600) : -1;
+  int good = rank != 0 || (file >= 0 && ftruncate(file, static_cast<off_t>(bytes)) == 0) ? 1 : 0;
+  MPI_Bcast(&good, 1, MPI_INT, 0, machine);
+  if (good != 0 && rank != 0) file = shm_open(name.data(), O_RDWR | O_CLOEXEC, 0600);
+  void* memory = good != 0 && file >= 0 ? mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0) : MAP_FAILED;
+  if (file >= 0) close(file);
+  good = memory != MAP_FAILED ? 1 : 0;
+  MPI_Allreduce(MPI_IN_PLACE, &good, 1, MPI_INT, MPI_MIN, machine);
+  if (rank == 0) shm_unlink(name.data());  // it goes with the last rank
+  if (good != 0) return memory;
+  if (memory != MAP_FAILED) munmap(memory, bytes);
+  return nullptr;
+}
+
 }  // namespace
 
 struct Watchdog::Implementation {
@@ -37,16 +62,10 @@ struct Watchdog::Implementation {
   };
   static_assert(std::atomic<long long>::is_always_lock_free, "signs stand in memory that processes share");
 
-  Implementation(MPI_Comm machine_, MPI_Win window_, int size, long long rank)
-      : machine(machine_), window(window_), signs(static_cast<std::size_t>(size)), missing(signs.size(), 0) {
+  Implementation(MPI_Comm machine_, Sign* memory_, int size, long long rank)
+      : machine(machine_), memory(memory_), signs(static_cast<std::size_t>(size)), missing(signs.size(), 0) {
     MPI_Comm_rank(machine, &mine);
-    for (int other = 0; other < size; ++other) {
-      void* base = nullptr;
-      MPI_Aint bytes = 0;
-      int unit = 0;
-      MPI_Win_shared_query(window, other, &bytes, &unit, &base);
-      signs[static_cast<std::size_t>(other)] = static_cast<Sign*>(base);
-    }
+    for (std::size_t other = 0; other < signs.size(); ++other) signs[other] = memory + other;
     Sign& own = *signs[static_cast<std::size_t>(mine)];
     own.process = getpid();
     own.rank = rank;
@@ -62,10 +81,9 @@ struct Watchdog::Implementation {
     }
     wake.notify_all();
     thread.join();
+    munmap(memory, signs.size() * sizeof(Sign));
     // Where an exception ends the run, the other ranks may never come here.
-    if (std::uncaught_exceptions() > exceptions) return;
-    MPI_Win_free(&window);
-    MPI_Comm_free(&machine);
+    if (std::uncaught_exceptions() == exceptions) MPI_Comm_free(&machine);
   }
   Implementation(const Implementation&) = delete;
   Implementation& operator=(const Implementation&) = delete;
@@ -103,7 +121,7 @@ struct Watchdog::Implementation {
   }
 
   MPI_Comm machine;
-  MPI_Win window;
+  Sign* memory;  ///< [ranks of this machine]
   int mine = 0;
   int exceptions = std::uncaught_exceptions();
   std::vector<Sign*> signs;        ///< [ranks of this machine]
@@ -121,14 +139,9 @@ Watchdog::Watchdog(const Communicator& comm) {
   MPI_Comm_split_type(*mpi->getRawMpiComm(), MPI_COMM_TYPE_SHARED, mpi->getRank(), MPI_INFO_NULL, &machine);
   int size = 1;
   MPI_Comm_size(machine, &size);
-  // Shared memory is a file, for which there may be no room: then there is no watchdog, and the run goes on.
-  MPI_Comm_set_errhandler(machine, MPI_ERRORS_RETURN);
-  MPI_Win window = MPI_WIN_NULL;
-  void* base = nullptr;
-  int bad = size > 1 && MPI_Win_allocate_shared(sizeof(Implementation::Sign), 1, MPI_INFO_NULL, machine, &base, &window) != MPI_SUCCESS ? 1 : 0;
-  MPI_Allreduce(MPI_IN_PLACE, &bad, 1, MPI_INT, MPI_MAX, machine);
-  if (size > 1 && bad == 0)
-    implementation_ = std::make_unique<Implementation>(machine, window, size, mpi->getRank());
+  auto* memory = size > 1 ? static_cast<Implementation::Sign*>(shared_memory(machine, size * sizeof(Implementation::Sign))) : nullptr;
+  if (memory != nullptr)
+    implementation_ = std::make_unique<Implementation>(machine, memory, size, mpi->getRank());
   else
     MPI_Comm_free(&machine);
 }
