@@ -5,8 +5,6 @@ python3 fault_table.py MPIRUN PROGRAM SCENE SCRATCH   (as root: full disks are s
 Each fault is injected into a run with a checkpoint after each step. Then its cause is taken away and the run goes on. It has survived if the end is
 that of a run in one piece. Lost are steps that were in history.csv when the run ended and had to be computed again.
 """
-import csv
-import glob
 import os
 import re
 import resource
@@ -15,6 +13,8 @@ import signal
 import subprocess
 import sys
 import time
+
+from run_files import checkpoints, rows, same
 
 mpirun, program, scene, scratch = sys.argv[1:5]
 shutil.rmtree(scratch, ignore_errors=True)
@@ -25,25 +25,6 @@ def command(results, ranks=1, *more):
     return [*([mpirun, "-n", str(ranks)] if ranks > 1 else []), program, "run", scene, "-o", results, "--set", "output/checkpoints/every step=1", *more]
 
 
-def rows(results):
-    try:
-        with open(os.path.join(results, "history.csv"), encoding="utf-8", newline="") as file:
-            return list(csv.reader(file))[1:]
-    except OSError:
-        return []
-
-
-def same(one, other):
-    if len(one) != len(other):
-        return False
-    for left, right in zip(zip(*one), zip(*other)):
-        left, right = [float(value) for value in left], [float(value) for value in right]
-        scale = max(1.0, *(abs(value) for value in left if value == value))
-        if any(abs(a - b) > 1e-9 * scale for a, b in zip(left, right) if a == a or b == b):
-            return False
-    return True
-
-
 def message(output):
     lines = [line for line in output.splitlines() if re.search(r"cannot|no space|memory|too large|written by|signal|stopped|sign|failed|denied|Read-only", line, re.I)]
     return (lines[0] if lines else (output.strip().splitlines() or [""])[-1]).replace("|", "/").replace(scratch, "DIR")[:160]
@@ -51,17 +32,16 @@ def message(output):
 
 straight = os.path.join(scratch, "straight")
 subprocess.run(command(straight), check=True, stdout=subprocess.DEVNULL, timeout=300)
-expected = rows(straight)
-table, failed = [], 0
+lines, failed = [], 0
 
 
 def go_on(results, ranks):
     """Whether the run comes to its end, and how many steps were computed again."""
     done = len(rows(results))
-    left = sorted(glob.glob(os.path.join(results, "checkpoints", "step-*.h5")))
-    step = int(re.search(r"step-(\d+)\.h5", left[-1]).group(1)) if left else 0
+    left = checkpoints(results)
+    step = left[-1] if left else 0
     ending = subprocess.run(command(results, ranks, *(["--restart"] if left else [])), capture_output=True, text=True, timeout=300, check=False)
-    good = ending.returncode == 0 and same(expected, rows(results))
+    good = ending.returncode == 0 and same(straight, results)
     return good, max(0, done - step), ending.stdout + ending.stderr
 
 
@@ -71,8 +51,8 @@ def add(fault, results, seconds, code, output, ranks=1, again=None):
     if not good:
         failed += 1
         print(fault, said[-400:], sep="\n")
-    table.append(f"| {fault} | {'yes' if good else 'NO'} | {lost} | {seconds:.1f} | {code} | {message(output)} |")
-    print(table[-1], flush=True)
+    lines.append(f"| {fault} | {'yes' if good else 'NO'} | {lost} | {seconds:.1f} | {code} | {message(output)} |")
+    print(lines[-1], flush=True)
 
 
 def limited(what, value):
@@ -153,8 +133,8 @@ first = subprocess.Popen(command(results), stdout=subprocess.DEVNULL)
 wait_for(results, 3)
 seconds, code, output = timed(command(results))
 first.wait()
-table.append(f"| a second run into the same directory | {'yes' if same(expected, rows(results)) and code == 5 else 'NO'} | 0 | {seconds:.1f} | {code} | {message(output)} |")
-failed += not same(expected, rows(results)) or code != 5
+lines.append(f"| a second run into the same directory | {'yes' if same(straight, results) and code == 5 else 'NO'} | 0 | {seconds:.1f} | {code} | {message(output)} |")
+failed += not same(straight, results) or code != 5
 
 for name, make in (("a file instead of the directory", lambda path: open(path, "w", encoding="utf-8").close()),
                    ("a directory that is read only (mounted)", None)):
@@ -169,11 +149,11 @@ for name, make in (("a file instead of the directory", lambda path: open(path, "
     seconds, code, output = timed(command(results))
     if not make:
         subprocess.run(["umount", results], check=True)
-    table.append(f"| {name} | {'yes' if code == 5 else 'NO'} | 0 | {seconds:.1f} | {code} | {message(output)} |")
+    lines.append(f"| {name} | {'yes' if code == 5 else 'NO'} | 0 | {seconds:.1f} | {code} | {message(output)} |")
     failed += code != 5
     if make:
         os.remove(results)
 
 with open(os.path.join(scratch, "table.md"), "w", encoding="utf-8") as file:
-    file.write("| fault | survived | steps lost | seconds | exit code | message |\n|---|---|---|---|---|---|\n" + "\n".join(table) + "\n")
+    file.write("| fault | survived | steps lost | seconds | exit code | message |\n|---|---|---|---|---|---|\n" + "\n".join(lines) + "\n")
 sys.exit(1 if failed else 0)

@@ -4,16 +4,16 @@ Arguments: mpirun, the program, a scene, a directory for results; then, for more
 Exit code 69 without strace, which kills at single writes.
 """
 import argparse
-import csv
 import glob
 import os
 import random
-import re
 import shutil
 import signal
 import subprocess
 import sys
 import time
+
+from run_files import checkpoints, rows, same
 
 parser = argparse.ArgumentParser()
 for name in ("mpirun", "program", "scene", "scratch"):
@@ -31,37 +31,12 @@ def command(results, ranks=1, *more):
     return [*first, arguments.program, "run", arguments.scene, "-o", results, "--set", "output/checkpoints/every step=1", *more]
 
 
-def rows(results):
-    try:
-        with open(os.path.join(results, "history.csv"), encoding="utf-8", newline="") as file:
-            return list(csv.reader(file))[1:]
-    except FileNotFoundError:
-        return []
-
-
-def checkpoints(results):
-    return sorted(glob.glob(os.path.join(results, "checkpoints", "step-*.h5")))
-
-
-def same(one, other):
-    """Numbers to 1e-9 of the largest of their column."""
-    if len(one) != len(other):
-        return False
-    for left, right in zip(zip(*one), zip(*other)):
-        left, right = [float(value) for value in left], [float(value) for value in right]
-        scale = max(1.0, *(abs(value) for value in left if value == value))
-        if any(abs(a - b) > 1e-9 * scale for a, b in zip(left, right) if a == a or b == b):
-            return False
-    return True
-
-
 straight = os.path.join(arguments.scratch, "straight")
 shutil.rmtree(arguments.scratch, ignore_errors=True)
 os.makedirs(arguments.scratch)
 begin = time.monotonic()
 subprocess.run(command(straight), check=True, stdout=subprocess.DEVNULL, timeout=300)
 duration = time.monotonic() - begin
-expected = rows(straight)
 wrong, lost_most, without_checkpoint, inside = [], 0, 0, 0
 
 
@@ -71,7 +46,7 @@ def recover(name, results, ranks):
     done, left = rows(results), checkpoints(results)
     inside += bool(glob.glob(os.path.join(results, "checkpoints", "*.part")))
     if left:
-        step = int(re.search(r"step-(\d+)\.h5", left[-1]).group(1))
+        step = left[-1]
         lost_most = max(lost_most, len(done) - step)
         if len(done) - step > 1 or step > len(done):
             wrong.append(f"{name}: {len(done)} steps were done, the checkpoint is of step {step}")
@@ -82,7 +57,7 @@ def recover(name, results, ranks):
     ending = subprocess.run(command(results, ranks, *(["--restart"] if left else [])), capture_output=True, text=True, timeout=300, check=False)
     if ending.returncode != 0:
         wrong.append(f"{name}: the restart ended with {ending.returncode}: {ending.stdout[-300:]}{ending.stderr[-300:]}")
-    elif not same(expected, rows(results)):
+    elif not same(straight, results):
         wrong.append(f"{name}: the end is another")
     elif len(glob.glob(os.path.join(results, "fields", "step-*.h5"))) != len(glob.glob(os.path.join(straight, "fields", "step-*.h5"))):
         wrong.append(f"{name}: fields are missing")

@@ -14,6 +14,7 @@
 #include <limits>
 #include <random>
 
+#include "file_error.hpp"
 #include "mortise/core/error.hpp"
 #include "scratch_directory.hpp"
 
@@ -21,6 +22,7 @@ namespace mortise {
 namespace {
 
 using test::content;
+using test::file_error;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -140,34 +142,23 @@ TEST(CheckpointFile, WhatIsNotFinishedLeavesTheFormerFile) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(std::filesystem::path(path).parent_path()), {}), 1);
 }
 
-template <class Action>
-std::string file_error_of(const Action& action) {
-  try {
-    action();
-  } catch (const FileError& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "no FileError";
-  return {};
-}
-
 TEST(CheckpointFile, NamesWhatItLacks) {
   const test::ScratchDirectory scratch(world());
   const std::string path = scratch.file("some.h5");
   write_all(world(), path);
   CheckpointReader file(world(), path);
   std::vector<double> values;
-  EXPECT_THAT(file_error_of([&] { file.values("other", values); }), HasSubstr("it has no \"/values/other\""));
+  EXPECT_THAT(file_error([&] { file.values("other", values); }), HasSubstr("it has no \"/values/other\""));
   RowIds ids = some_ids(*world());
-  EXPECT_THAT(file_error_of([&] { file.rows("table", ids, 2, values); }), HasSubstr("\"table\" has 37 x 3 numbers; expected are 37 x 2"));
+  EXPECT_THAT(file_error([&] { file.rows("table", ids, 2, values); }), HasSubstr("\"table\" has 37 x 3 numbers; expected are 37 x 2"));
   ids.name = "other cards";
-  EXPECT_THAT(file_error_of([&] { file.rows("table", ids, 3, values); }), HasSubstr("it has no \"/ids/other cards\""));
+  EXPECT_THAT(file_error([&] { file.rows("table", ids, 3, values); }), HasSubstr("it has no \"/ids/other cards\""));
   RowIds more = some_ids(*world());
   if (world()->getRank() == world()->getSize() - 1) more.ids.push_back(6);
   CheckpointReader again(world(), path);
-  EXPECT_THAT(file_error_of([&] { again.rows("table", more, 3, values); }), HasSubstr("lack the id 6: it is of another mesh"));
+  EXPECT_THAT(file_error([&] { again.rows("table", more, 3, values); }), HasSubstr("lack the id 6: it is of another mesh"));
   double one = 0.0;
-  EXPECT_THAT(file_error_of([&] { serialize(again, "awkward", one); }), HasSubstr("4 numbers \"awkward\""));
+  EXPECT_THAT(file_error([&] { serialize(again, "awkward", one); }), HasSubstr("4 numbers \"awkward\""));
 }
 
 // A checksum can be right and what it is of still nonsense: no count and no size is believed.
@@ -195,14 +186,14 @@ TEST(CheckpointFile, RefusesNumbersThatNothingCanBe) {
   int whole = 0;
   std::size_t size = 0;
   std::string text;
-  EXPECT_THAT(file_error_of([&] { serialize(file, "huge", whole); }), HasSubstr("\"huge\" holds 1e+300"));
-  EXPECT_THAT(file_error_of([&] { serialize(file, "negative", size); }), HasSubstr("\"negative\" holds -1"));
-  EXPECT_THAT(file_error_of([&] { file.text("letters", text); }), HasSubstr("\"text.letters\" holds 256"));
+  EXPECT_THAT(file_error([&] { serialize(file, "huge", whole); }), HasSubstr("\"huge\" holds 1e+300"));
+  EXPECT_THAT(file_error([&] { serialize(file, "negative", size); }), HasSubstr("\"negative\" holds -1"));
+  EXPECT_THAT(file_error([&] { file.text("letters", text); }), HasSubstr("\"text.letters\" holds 256"));
   std::vector<int> states;
-  EXPECT_THAT(file_error_of([&] { serialize(file, "states", ids, states); }), HasSubstr("\"states\" holds nan"));
+  EXPECT_THAT(file_error([&] { serialize(file, "states", ids, states); }), HasSubstr("\"states\" holds nan"));
   std::vector<std::vector<double>> ragged;
-  EXPECT_THAT(file_error_of([&] { serialize(file, *world(), "wide", ids, ragged); }), HasSubstr("expected are 37 x 1000000000001"));
-  EXPECT_THAT(file_error_of([&] { serialize(file, *world(), "ragged", ids, ragged); }),
+  EXPECT_THAT(file_error([&] { serialize(file, *world(), "wide", ids, ragged); }), HasSubstr("expected are 37 x 1000000000001"));
+  EXPECT_THAT(file_error([&] { serialize(file, *world(), "ragged", ids, ragged); }),
               HasSubstr("a row of \"ragged\" is 3 long; the longest one has 2"));
 }
 
@@ -220,7 +211,7 @@ TEST(CheckpointFile, RefusesIdsThatAreNotThere) {
     file.finish();
   }
   CheckpointReader file(world(), path);
-  EXPECT_THAT(file_error_of([&] { file.rows("table", ids, 1, rows); }), HasSubstr("holds the id 9223372036854775807; the last one here is 113"));
+  EXPECT_THAT(file_error([&] { file.rows("table", ids, 1, rows); }), HasSubstr("holds the id 9223372036854775807; the last one here is 113"));
 }
 
 // A CRC finds every single flip.
@@ -249,8 +240,8 @@ TEST(CheckpointFile, EveryFlippedBitAndEveryCutIsFound) {
        {std::size_t{0}, std::size_t{1}, std::size_t{63}, std::size_t{64}, whole.size() / 2, whole.size() - 64, whole.size() - 1})
     EXPECT_TRUE(damage_of(whole.substr(0, length))) << length;
   EXPECT_TRUE(damage_of(whole + "x"));
-  EXPECT_THAT(file_error_of([&] { CheckpointReader file(world(), damaged); }), HasSubstr("damaged.h5"));
-  EXPECT_THAT(file_error_of([&] { CheckpointReader file(world(), scratch.file("none.h5")); }), HasSubstr("No such file"));
+  EXPECT_THAT(file_error([&] { CheckpointReader file(world(), damaged); }), HasSubstr("damaged.h5"));
+  EXPECT_THAT(file_error([&] { CheckpointReader file(world(), scratch.file("none.h5")); }), HasSubstr("No such file"));
 }
 
 }  // namespace

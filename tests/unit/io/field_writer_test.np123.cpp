@@ -16,6 +16,7 @@
 #include <optional>
 #include <set>
 
+#include "file_error.hpp"
 #include "file_size_limit.hpp"
 #include "mortise/core/error.hpp"
 #include "mortise/mesh/build_mesh.hpp"
@@ -24,6 +25,8 @@
 
 namespace mortise {
 namespace {
+
+using test::file_error;
 
 RCP<const Communicator> world() { return Tpetra::getDefaultComm(); }
 
@@ -296,17 +299,6 @@ void on_rank_0(const std::function<void()>& action) {
   world()->barrier();
   if (world()->getRank() == 0) action();
   world()->barrier();
-}
-
-template <class Action>
-std::string file_error(const Action& action) {
-  try {
-    action();
-  } catch (const FileError& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "no FileError on rank " << world()->getRank();
-  return {};
 }
 
 TEST(FieldWriter, FilesAreCompleteAfterEachStepAndDoNotChange) {

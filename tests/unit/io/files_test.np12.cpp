@@ -9,6 +9,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "file_error.hpp"
 #include "file_size_limit.hpp"
 #include "mortise/core/error.hpp"
 #include "mortise/io/csv_writer.hpp"
@@ -18,22 +19,11 @@ namespace mortise {
 namespace {
 
 using test::content;
+using test::file_error;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 RCP<const Communicator> world() { return Tpetra::getDefaultComm(); }
-
-/// what() of the FileError that `action` throws; a failure if it throws none. Every rank calls it.
-template <class Action>
-std::string file_error(const Action& action) {
-  try {
-    action();
-  } catch (const FileError& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "no FileError on rank " << world()->getRank();
-  return {};
-}
 
 TEST(Files, ErrorOfOneRankReachesAll) {
   const auto comm = world();

@@ -6,6 +6,7 @@
 
 #include <Tpetra_Core.hpp>
 
+#include "file_error.hpp"
 #include "mortise/core/error.hpp"
 #include "scratch_directory.hpp"
 
@@ -14,22 +15,11 @@ namespace {
 
 namespace files = std::filesystem;
 using test::content;
+using test::file_error;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 RCP<const Communicator> world() { return Tpetra::getDefaultComm(); }
-
-/// what() of the FileError that `action` throws; a failure if it throws none. Every rank calls it.
-template <class Action>
-std::string file_error(const Action& action) {
-  try {
-    action();
-  } catch (const FileError& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "no FileError on rank " << world()->getRank();
-  return {};
-}
 
 /// Rank 0 acts, the others wait.
 template <class Action>

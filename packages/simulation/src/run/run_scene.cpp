@@ -230,7 +230,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
     const auto& at_start = model.surfaces_at_start().pairs;
     const bool begins_pressed = std::any_of(at_start.begin(), at_start.end(), [](const PairAtStart& pair) { return pair.overlap.depth > 0.0; });
     functions.predict = [&](const Vector& at, double dt, Vector& rate) {
-      if (begins_pressed && (record.time < taken_up)) {
+      if (begins_pressed && record.time < taken_up) {
         rate.putScalar(0.0);
         return;
       }

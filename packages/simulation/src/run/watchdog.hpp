@@ -8,7 +8,7 @@
 namespace mortise {
 
 /// While it lives, a thread of each rank gives a sign each second, in memory that the ranks of a machine share. The lowest rank that is awake says on
-/// standard error which others of its machine have given none for a while, and when they are back: others wait for them without a word. A machine
+/// standard error which others of its machine have given none for a while, and when they are back. Others wait for them without a word. A machine
 /// that is gone as a whole is seen by mpirun. Nothing is made for a single rank. Collective in constructor and destructor.
 class Watchdog {
  public:

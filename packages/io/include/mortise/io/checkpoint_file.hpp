@@ -13,10 +13,11 @@ namespace mortise {
 
 /// Writes one file, which appears whole or not at all. Members are collective and throw FileError on all ranks.
 ///
-/// The file is HDF5, with what each rank owns written in parallel:
+/// The file is HDF5, with what each rank owns written in parallel.
 ///   /values/<name>  [count], the same on every rank
 ///   /values/text.<name>  [bytes], likewise
 ///   /rows/<name>    [rows x columns], and /ids/<name of the rows>, the id of each row
+///
 /// Behind the end of HDF5's own data stands one line with version, length and checksum of what comes before.
 class CheckpointWriter final : public StateArchive {
  public:

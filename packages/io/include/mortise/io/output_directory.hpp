@@ -19,7 +19,7 @@ struct Origin {
 /// A directory for results. Its file `.mortise` lists the files and directories that the program made there. Only these are ever replaced or removed:
 /// what is not listed is another's, and a name that is taken by it is a FileError before anything is made or removed.
 ///
-/// One of begin_run(), continue_run(), open() comes first. It takes the directory's lock, which is held until the last copy of this object is gone: a
+/// One of begin_run(), continue_run(), open() comes first. It takes the directory's lock, which is held until the last copy of this object is gone. A
 /// second process that wants to write there gets a FileError that names the first. Then claim() and subdirectory() register names, each before the
 /// file is made:
 ///

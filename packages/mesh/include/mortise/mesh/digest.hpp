@@ -7,8 +7,8 @@
 
 namespace mortise {
 
-/// Sixteen hexadecimal digits that depend on the nodes with their places and on the elements with their nodes, by their ids, and not on how they are
-/// shared out over ranks. Collective.
+/// Sixteen hexadecimal digits. They depend on the places of the nodes and on the nodes of the elements, by their ids. They do not depend on how these
+/// are shared out over ranks. Collective.
 std::string mesh_digest(const Mesh& mesh);
 
 }  // namespace mortise

@@ -27,8 +27,7 @@ struct RunOptions {
   Verbosity verbosity = Verbosity::normal;
   std::optional<RestartOptions> restart;  ///< go on with the run in the directory; none: a new run
   std::optional<double> time_limit;       ///< stop in time before so many seconds have passed
-  /// SIGTERM, SIGINT, SIGHUP and SIGUSR1 stop the run after its step, SIGUSR2 asks for a checkpoint; and ranks that give no sign of life are told of.
-  bool supervised = false;
+  bool supervised = false;                ///< signals stop the run or ask for a checkpoint (StopRequest); a Watchdog looks at the ranks
   std::string version;                    ///< of the program, for the summary
 };
 
