@@ -4,14 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <Teuchos_CommHelpers.hpp>
-#include <Teuchos_RCPDecl.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-#include "mortise/mortar/surface_nodes.hpp"
 
 namespace mortise::detail {
 
@@ -88,46 +85,6 @@ void refuse_incomplete_pairs(const Communicator& comm, const std::vector<Contact
     if (!pair.options.friction.options) diagnostics.push_back({pair.place, "the law of friction is null; give NoFriction for none"});
   }
   throw_if_any(comm, diagnostics);
-}
-
-void refuse_shared_nodes(const Map& owned_nodes, const MultiVector& reference, const std::vector<ContactPair>& pairs) {
-  const auto nodes = Teuchos::rcpFromRef(owned_nodes);
-  std::vector<std::vector<char>> slave, master;
-  for (const ContactPair& pair : pairs) {
-    slave.push_back(nodes_on_surface(nodes, pair.slave));
-    master.push_back(nodes_on_surface(nodes, pair.master));
-  }
-  const auto eliminated = [&](std::size_t p) { return pairs[p].options.formulation.options->enforcement()->needs_diagonal_coupling(); };
-  bool kept = false;
-  for (const ContactPair& pair : pairs) kept |= pair.options.formulation.options->enforcement()->keeps_multipliers();
-  std::vector<Diagnostic> diagnostics;
-  const auto first_common = [&](const std::vector<char>& one, const std::vector<char>& other) -> std::optional<LocalOrdinal> {
-    for (std::size_t node = 0; node < one.size(); ++node)
-      if (one[node] && other[node]) return static_cast<LocalOrdinal>(node);
-    return std::nullopt;
-  };
-  const auto place = [&](LocalOrdinal node) {
-    std::vector<double> x;
-    for (std::size_t i = 0; i < reference.getNumVectors(); ++i) x.push_back(reference.getVector(i)->getData()[node]);
-    return fmt::format("at ({:.6g}) of the reference configuration", fmt::join(x, ", "));
-  };
-  for (std::size_t p = 0; p < pairs.size(); ++p)
-    for (std::size_t q = 0; q < pairs.size(); ++q) {
-      if (p == q) continue;
-      if (p < q)
-        if (const auto node = first_common(slave[p], slave[q]))
-          diagnostics.push_back(
-              {pairs[q].place, fmt::format("node {} is a slave here and in pair \"{}\", {}; a node can be slave in one pair only: make this side "
-                                           "the master of one of them, or split the surface into sets without common nodes",
-                                           owned_nodes.getGlobalElement(*node), pairs[p].name, place(*node))});
-      if (kept || (!eliminated(p) && !eliminated(q))) continue;
-      if (const auto node = first_common(slave[p], master[q]))
-        diagnostics.push_back(
-            {pairs[p].place, fmt::format("node {} is a slave here and a master in pair \"{}\", {}; its multiplier could not be eliminated: split the "
-                                         "surface into sets without common nodes, or exchange slave and master",
-                                         owned_nodes.getGlobalElement(*node), pairs[q].name, place(*node))});
-    }
-  throw_if_any(*owned_nodes.getComm(), diagnostics);
 }
 
 }  // namespace mortise::detail

@@ -16,8 +16,4 @@ void refuse_unfit_fields(const NodalField& displacement, const Map& dofs, const 
 /// Collective. Throws InputError for a pair without Young's modulus, formulation or law of friction.
 void refuse_incomplete_pairs(const Communicator& comm, const std::vector<ContactPair>& pairs);
 
-/// Collective. Throws InputError for a node that is slave in two pairs, or slave in one pair and master in another: its multiplier could
-/// not be eliminated from its own rows.
-void refuse_shared_nodes(const Map& owned_nodes, const MultiVector& reference, const std::vector<ContactPair>& pairs);
-
 }  // namespace mortise::detail

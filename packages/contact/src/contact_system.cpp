@@ -10,6 +10,7 @@
 #include <set>
 
 #include "checks.hpp"
+#include "crosspoints.hpp"
 #include "evaluated_contact.hpp"
 
 namespace mortise {
@@ -128,13 +129,14 @@ ContactSystem::ContactSystem(const NodalField& displacement, RCP<const Map> dofs
   self.timers = timers;
   self.dimension = static_cast<int>(self.reference->getNumVectors());
   for (std::size_t i = 0; i < self.reference->getNumVectors(); ++i) self.extent = std::max(self.extent, self.reference->getVector(i)->normInf());
-  detail::refuse_shared_nodes(*self.owned_nodes, *self.reference, pairs);
+  const auto fixed_of_pairs = detail::with_crosspoints(self.owned_nodes, fixed, pairs);
   for (ContactPair& pair : pairs) {
     const Formulation& formulation = *pair.options.formulation.options;
     pair.options.mortar.coupling = formulation.coupling();
     pair.options.mortar.share = formulation.two_pass() ? 0.5 : 1.0;
     try {
-      self.pairs.push_back(std::make_unique<detail::Pair>(self.owned_nodes, self.reference, fixed, measure, std::move(pair)));
+      self.pairs.push_back(
+          std::make_unique<detail::Pair>(self.owned_nodes, self.reference, fixed_of_pairs[self.pairs.size()], measure, std::move(pair)));
     } catch (const UnfitCoupling& unfit) {
       throw with_other_formulations(unfit);
     }

@@ -40,11 +40,10 @@ RCP<const Map> element_map(const Mesh& mesh) {
 std::vector<double> element_rows(const Mesh& mesh) {
   const auto columns = static_cast<std::size_t>(element_columns(mesh));
   std::vector<double> rows;
-  for (std::size_t body = 0; body < mesh.blocks.size(); ++body) {
-    const Block& block = mesh.blocks[body];
+  for (const Block& block : mesh.blocks) {
     for (LocalOrdinal element = 0; element < block.owned; ++element) {
       const std::size_t end = rows.size() + columns;
-      for (const auto entry : {xdmf_cell(block.shape), static_cast<long long>(body), static_cast<long long>(block.nodes_per_element)})
+      for (const auto entry : {xdmf_cell(block.shape), static_cast<long long>(block.body), static_cast<long long>(block.nodes_per_element)})
         rows.push_back(static_cast<double>(entry));
       for (int a = 0; a < block.nodes_per_element; ++a)
         rows.push_back(static_cast<double>(mesh.local_nodes->getGlobalElement(block.nodes(element)[a])));
@@ -94,7 +93,7 @@ struct FieldWriter::Implementation {
     GlobalOrdinal size = 0;
     Teuchos::reduceAll(*comm, Teuchos::REDUCE_SUM, topology_size, Teuchos::outArg(size));
     description = {nodes.size(), elements.size(), size, {}};
-    for (const Block& block : mesh->blocks) description.bodies.push_back(block.name);
+    for (const MeshBody& body : mesh->bodies) description.bodies.push_back(body.name);
   }
 
   std::string path(const std::string& name) const { return directory + "/" + name; }

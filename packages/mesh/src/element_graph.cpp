@@ -26,7 +26,7 @@ DualGraph dual_graph(const BodySet& bodies) {
   std::vector<idx_t> element_offsets{0}, element_nodes;
   for (idx_t e = 0; e < elements; ++e) {
     const auto ids = bodies.element_nodes(e);
-    element_nodes.insert(element_nodes.end(), ids.begin(), ids.begin() + bodies.cell(bodies.body_of_element(e)).corners);
+    element_nodes.insert(element_nodes.end(), ids.begin(), ids.begin() + bodies.cell_of(e).corners);
     element_offsets.push_back(static_cast<idx_t>(element_nodes.size()));
   }
   idx_t shared = bodies.dimension(), numbering = 0, *rows = nullptr, *columns = nullptr;

@@ -16,9 +16,10 @@ struct ContactSide {
   Middle middle;
   int body = 0;
   GlobalOrdinal element = 0;
+  int side = 0;
 };
 
-Middle middle_of(const BodySet& bodies, int body, GlobalOrdinal element, int side) {
+Middle middle_of(const BodySet& bodies, GlobalOrdinal element, int side) {
   const auto ids = bodies.element_nodes(element);
   SpatialPoint sum{};
   const auto add = [&](GlobalOrdinal node) {
@@ -30,7 +31,7 @@ Middle middle_of(const BodySet& bodies, int body, GlobalOrdinal element, int sid
     count = static_cast<double>(ids.size());
     for (const GlobalOrdinal node : ids) add(node);
   } else {
-    const auto& places = bodies.cell(body).sides[side].nodes;
+    const auto& places = bodies.cell_of(element).sides[side].nodes;
     count = static_cast<double>(places.size());
     for (const int place : places) add(ids[place]);
   }
@@ -41,9 +42,11 @@ std::vector<ContactSide> contact_sides_of(const BodySet& bodies, const std::vect
   std::vector<ContactSide> found;
   for (GlobalOrdinal element = 0; element < bodies.element_count(); ++element) {
     const int body = bodies.body_of_element(element);
-    for (const SurfaceSide& side :
-         bodies.with_complex(body, [&](const auto& complex) { return complex.surface_sides(element - bodies.first_element(body)); }))
-      if (is_contact[body][side.name]) found.push_back({middle_of(bodies, body, element, side.side), body, element});
+    for (const SurfaceSide& side : bodies.surface_sides(element))
+      if (is_contact[body][side.name + 1]) {
+        const bool is_known = !found.empty() && found.back().element == element && found.back().side == side.side;  // by another name
+        if (!is_known) found.push_back({middle_of(bodies, element, side.side), body, element, side.side});
+      }
   }
   return found;
 }

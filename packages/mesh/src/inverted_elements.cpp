@@ -85,9 +85,11 @@ std::vector<Diagnostic> inverted_elements(const Mesh& mesh, const BodySet& set, 
     const bool plane = mesh.dimension == 2;
     const std::string at = plane ? fmt::format("({:.6g}, {:.6g})", x[0], x[1]) : fmt::format("({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[2]);
     const char* const rule = plane ? "corners have to go round counterclockwise and edges must not cross" : "its sides must not cross";
-    const GlobalOrdinal inside = block.element_ids[inverted.element] - set.first_element(static_cast<int>(b));
-    diagnostics.push_back({bodies[b].place, fmt::format("body \"{}\": element {} is inverted: det J = {:.6g} at {}; {}", block.name, inside,
-                                                        inverted.determinant, at, rule)});
+    const BodyDescription& body = bodies[block.body];
+    const GlobalOrdinal inside = block.element_ids[inverted.element] - set.first_element(block.body);
+    const GlobalOrdinal label = body.listed ? static_cast<GlobalOrdinal>(*body.listed->labels.row(inside).first) : inside;
+    diagnostics.push_back(
+        {body.place, fmt::format("body \"{}\": element {} is inverted: det J = {:.6g} at {}; {}", body.name, label, inverted.determinant, at, rule)});
   }
   return diagnostics;
 }

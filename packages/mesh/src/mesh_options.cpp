@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "mortise/mesh/file_mesh.hpp"
 #include "mortise/mesh/generators.hpp"
 #include "mortise/mesh/volume_generators.hpp"
 
@@ -36,7 +37,9 @@ BodyComplex VolumeMesh::complex(CellShape cell, const Place& place) const {
   return build(cell, place);
 }
 
-void VolumeMesh::describe_rotation(Parameters& parameters) {
+void VolumeMesh::describe_rotation(Parameters& parameters) { describe_spatial_rotation(parameters, rotation_axis); }
+
+void MeshOptions::describe_spatial_rotation(Parameters& parameters, std::vector<double>& rotation_axis) {
   parameters.add("rotation", rotation, Says("turns the mesh about an axis through the origin, counterclockwise seen from its tip").unit("degrees"));
   parameters.add(
       "rotation axis", rotation_axis,
@@ -82,6 +85,7 @@ const Registry<MeshOptions>& mesh_registry() {
     kinds.add<ExtrudedMesh>("extruded", "a mesh of the plane moved along z, from z = 0; sides of the plane mesh, start, end");
     kinds.add<RevolvedMesh>("revolved", "a mesh of the plane x > 0 turned about the y axis; sides of the plane mesh, start, end");
     kinds.add<SphereOctantMesh>("sphere octant", "the octant x, y >= 0, z <= 0 of a ball about the origin; sides x plane, y plane, equator, sphere");
+    kinds.add<FileMesh>("file", "a mesh of a file: Exodus II, Gmsh, Abaqus or CalculiX; sides and node sets as the file names them");
     return kinds;
   }();
   return registry;

@@ -15,15 +15,6 @@ void make_unique(Ids& ids) {
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
-Ids elements_of_node(const BodySet& bodies, GlobalOrdinal node) {
-  const int body = bodies.body_of_node(node);
-  Ids elements;
-  for (const GlobalOrdinal inside :
-       bodies.with_complex(body, [&](const auto& complex) { return complex.elements_of_node(node - bodies.first_node(body)); }))
-    elements.push_back(bodies.first_element(body) + inside);
-  return elements;
-}
-
 /// One rank's share from the elements and nodes that it owns.
 MeshShare share_of(const BodySet& bodies, const MeshPlan& plan, int rank, const Ids& elements, const Ids& nodes) {
   MeshShare share;
@@ -37,7 +28,7 @@ MeshShare share_of(const BodySet& bodies, const MeshPlan& plan, int rank, const 
   for (const GlobalOrdinal element : elements) add_foreign(element);
   for (const GlobalOrdinal node : nodes) {
     around.clear();
-    for (const GlobalOrdinal element : elements_of_node(bodies, node)) {
+    for (const GlobalOrdinal element : bodies.elements_of_node(node)) {
       const auto of_element = bodies.element_nodes(element);
       around.insert(around.end(), of_element.begin(), of_element.end());
       if (plan.rank_of_element[element] != rank) ghosts.push_back(element);
@@ -66,7 +57,7 @@ MeshPlan plan_mesh(const std::vector<BodyDescription>& bodies, const std::vector
   plan.owner_of_node.resize(static_cast<std::size_t>(set.node_count()));
   for (GlobalOrdinal node = 0; node < set.node_count(); ++node) {
     std::vector<int> holders;
-    for (const GlobalOrdinal element : elements_of_node(set, node)) holders.push_back(plan.rank_of_element[element]);
+    for (const GlobalOrdinal element : set.elements_of_node(node)) holders.push_back(plan.rank_of_element[element]);
     plan.owner_of_node[node] = owner_among(holders);
     nodes[plan.owner_of_node[node]].push_back(node);
   }

@@ -16,8 +16,8 @@ namespace {
 
 bool on_contact(const BodySet& bodies, const std::vector<std::vector<bool>>& is_contact, GlobalOrdinal element) {
   const int body = bodies.body_of_element(element);
-  for (const auto& side : bodies.with_complex(body, [&](const auto& complex) { return complex.surface_sides(element - bodies.first_element(body)); }))
-    if (is_contact[body][side.name]) return true;
+  for (const auto& side : bodies.surface_sides(element))
+    if (is_contact[body][side.name + 1]) return true;
   return false;
 }
 
@@ -43,9 +43,9 @@ std::vector<std::vector<bool>> contact_flags(const BodySet& bodies, const std::v
   const auto is_named = [&](const std::string& side) { return std::find(contact_sides.begin(), contact_sides.end(), side) != contact_sides.end(); };
   std::vector<std::vector<bool>> flags;
   for (int b = 0; b < bodies.size(); ++b) {
-    flags.emplace_back();
-    for (const auto& side : bodies.with_complex(b, [](const auto& complex) { return complex.side_names(); }))
-      flags.back().push_back(is_named(descriptions[b].name + "/surface") || is_named(descriptions[b].name + "/" + side));
+    const bool whole = is_named(descriptions[b].name + "/surface");
+    flags.push_back({whole});
+    for (const auto& side : bodies.side_names(b)) flags.back().push_back(whole || is_named(descriptions[b].name + "/" + side));
   }
   return flags;
 }

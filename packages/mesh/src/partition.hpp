@@ -9,7 +9,7 @@
 
 namespace mortise {
 
-/// [body][side name index] whether a side stands in `contact_sides` ("body/side").
+/// [body][1 + side name index] whether a side stands in `contact_sides` ("body/side"). [body][0]: sides without a name.
 std::vector<std::vector<bool>> contact_flags(const BodySet& bodies, const std::vector<BodyDescription>& descriptions,
                                              const std::vector<std::string>& contact_sides);
 

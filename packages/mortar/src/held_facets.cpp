@@ -25,14 +25,21 @@ std::vector<std::string> first_of_all(const std::vector<std::string>& texts, con
 }  // namespace
 
 std::optional<Diagnostic> refusal_of(const HeldFacets& mine, const Communicator& comm, const Place& place) {
-  const std::array<long, 5> counts{mine.held, mine.all, mine.prescribed, mine.follow, mine.quadratic};
-  std::array<long, 5> sums{};
-  Teuchos::reduceAll(comm, Teuchos::REDUCE_SUM, 5, counts.data(), sums.data());
-  const auto [held, all, prescribed, follow, quadratic] = sums;
+  const std::array<long, 6> counts{mine.held, mine.all, mine.prescribed, mine.follow, mine.quadratic, mine.shared};
+  std::array<long, 6> sums{};
+  Teuchos::reduceAll(comm, Teuchos::REDUCE_SUM, 6, counts.data(), sums.data());
+  const auto [held, all, prescribed, follow, quadratic, shared] = sums;
   if (held == 0) return {};
   const char* const how = follow == 0       ? "are prescribed"
                           : prescribed == 0 ? "follow a rigid body or a reference point"
                                             : "are prescribed or follow a rigid body or a reference point";
+  if (shared > 0)
+    return Diagnostic{
+        place,
+        fmt::format("{} of {} slave facets can carry no contact, as all {} belong to other pairs too{}; please make the mesh finer there, leave "
+                    "these facets out, or give one pair all of its masters in one set; {} nodes {}",
+                    held, all, quadratic > 0 ? "mid-side nodes" : "their nodes", prescribed + follow > 0 ? " or are held" : "",
+                    held == 1 ? "it lies between" : "the first of them lie between", fmt::join(first_of_all(mine.nodes, comm), "; "))};
   return Diagnostic{place,
                     fmt::format("{} of {} slave facets can carry no contact, as the displacements of all {} {}; please make this side the "
                                 "master, or take these facets out of it; {} nodes {}",

@@ -12,9 +12,9 @@ namespace mortise {
 /// Those that this rank counts: none is counted on two ranks.
 struct HeldFacets {
   long held = 0, all = 0;
-  bool prescribed = false, follow = false;  ///< what holds their nodes
-  bool quadratic = false;                   ///< the mid-side nodes are what is held
-  std::vector<std::string> nodes;           ///< of the first few, as text
+  bool prescribed = false, follow = false, shared = false;  ///< what holds their nodes, or other pairs that have them
+  bool quadratic = false;                                   ///< the mid-side nodes are what is held
+  std::vector<std::string> nodes;                           ///< of the first few, as text
 };
 
 /// Collective. One message for all of them, the same on every rank; none if no rank has one.

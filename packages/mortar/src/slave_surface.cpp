@@ -15,6 +15,7 @@
 #include "facet_placement.hpp"
 #include "held_facets.hpp"
 #include "mortise/mortar/auxiliary_plane.hpp"
+#include "mortise/mortar/mortar_interface.hpp"
 
 namespace mortise {
 namespace {
@@ -174,7 +175,10 @@ SlaveSurface make_slave_surface(const RCP<const Map>& owned_nodes, const RCP<con
         ++held.held;
         held.quadratic |= quadratic;
         for (const LocalOrdinal node : facet)
-          for (int i = 0; i < dim; ++i) (F_view(node, i) == follows_another ? held.follow : held.prescribed) |= F_view(node, i) != 0.0;
+          for (int i = 0; i < dim; ++i) {
+            const double mark = F_view(node, i);
+            (mark == follows_another ? held.follow : mark == crosspoint_mark ? held.shared : held.prescribed) |= mark != 0.0;
+          }
         if (held.nodes.size() < named_facets) held.nodes.push_back(written<dim>(ids, points));
       }
     }

@@ -37,7 +37,7 @@ class RigidBlock final : public ElementBlock {
 
 Bodies::Bodies(RCP<const Mesh> mesh, Kinematics kinematics, double thickness, std::vector<BodyProperties> bodies)
     : mesh_(std::move(mesh)), kinematics_(kinematics), thickness_(thickness), properties_(std::move(bodies)) {
-  if (properties_.size() != mesh_->blocks.size()) throw std::logic_error("bodies and blocks of the mesh do not match");
+  if (properties_.size() != mesh_->blocks.size()) throw std::logic_error("properties and blocks of the mesh do not match");
   std::vector<Diagnostic> diagnostics;
   for (std::size_t n = 0; n < properties_.size(); ++n) {
     for (Diagnostic& diagnostic : check_combination(properties_[n], kinematics_)) diagnostics.push_back(std::move(diagnostic));
@@ -112,19 +112,19 @@ std::vector<double> Bodies::nodal_volumes(LocalOrdinal block) const {
 }
 
 std::vector<double> Bodies::stored_energies(const Vector& local_displacement) const {
-  std::vector<double> mine(blocks_.size(), 0.0), all(blocks_.size(), 0.0);
-  visit_points(local_displacement, [&](const MaterialPoint& point) { mine[point.block] += point.weight * point.energy; });
+  std::vector<double> mine(mesh_->bodies.size(), 0.0), all(mine.size(), 0.0);
+  visit_points(local_displacement, [&](const MaterialPoint& point) { mine[mesh_->blocks[point.block].body] += point.weight * point.energy; });
   Teuchos::reduceAll(*mesh_->comm, Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), all.data());
   return all;
 }
 
 std::vector<double> Bodies::plastic_works(const Vector& local_displacement) const {
-  std::vector<double> mine(blocks_.size(), 0.0), all(blocks_.size(), 0.0);
+  std::vector<double> mine(mesh_->bodies.size(), 0.0), all(mine.size(), 0.0);
   const HostReadView displacement(local_displacement);
   for (std::size_t n = 0; n < blocks_.size(); ++n)
     if (blocks_[n]->history_bytes() > 0)
       blocks_[n]->visit_points(displacement.data(), mesh_->blocks[n].owned,
-                               [&](const MaterialPoint& point) { mine[n] += point.weight * point.plastic_work; });
+                               [&](const MaterialPoint& point) { mine[mesh_->blocks[n].body] += point.weight * point.plastic_work; });
   Teuchos::reduceAll(*mesh_->comm, Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), all.data());
   return all;
 }

@@ -17,7 +17,7 @@ bool is_followed(const Bodies& bodies, const ReferencePoint& point, int componen
 /// Whether a follower's component is its own unknown.
 bool is_free(const Bodies& bodies, const ReferencePoint& point, LocalOrdinal node, int component) {
   if (point.follows[component]) return false;
-  return !bodies.properties()[bodies.mesh()->body_of_node[node]].is_rigid();
+  return !bodies.mesh()->bodies[bodies.mesh()->body_of_node[node]].is_surface;
 }
 
 }  // namespace

@@ -161,12 +161,14 @@ class KernelBlock final : public ElementBlock {
     if (failure) return;
     const GlobalOrdinal id = context_.block.element_ids[element];
     if (trouble.kind == ElementTrouble::Kind::inverted)
-      failure.emplace(FailureKind::inverted_element, fmt::format("body \"{}\": element {} {} is turned inside out, det F = {:.3g}",
-                                                                 context_.block.name, id, element_place(context_, element), trouble.determinant));
+      failure.emplace(FailureKind::inverted_element,
+                      fmt::format("body \"{}\": element {} {} is turned inside out, det F = {:.3g}", context_.mesh.body_of(context_.block).name, id,
+                                  element_place(context_, element), trouble.determinant));
     else
       failure.emplace(FailureKind::material,
                       fmt::format("body \"{}\": the law \"{}\" finds no stress at point {} of element {} {}, where det F = {:.3g}",
-                                  context_.block.name, PlainLaw::name, trouble.point, id, element_place(context_, element), trouble.determinant));
+                                  context_.mesh.body_of(context_.block).name, PlainLaw::name, trouble.point, id, element_place(context_, element),
+                                  trouble.determinant));
   }
 
   BlockContext context_;

@@ -21,7 +21,11 @@ namespace {
 
 Named<SetOptions> set_of(const std::string& name, const std::string& of, const std::string& where, SetKind kind) {
   const Place place{"scene.xml", 12, "sets/" + name};
-  return {name, place, {{of, place}, parse_expression(where, {}, place), kind}};
+  SetOptions options;
+  options.of = {{of}, place};
+  options.where = parse_expression(where, {}, place);
+  options.kind = kind;
+  return {name, place, options};
 }
 
 const std::vector<std::string> contact_sides{"quarter disk/arc", "block/top"};

@@ -39,8 +39,15 @@ const std::vector<std::string> contact_sides{"brick/top", "cylinder/mantle"};
 RCP<Mesh> with_sets(const RCP<const Communicator>& comm, int first) {
   const auto mesh = build_mesh(comm, all_volumes(first), contact_sides);
   const Place place{"scene.xml", 12, "sets"};
-  add_set(*mesh, {"upper front", place, {{"brick/front", place}, parse_expression("z - 0.5", {}, place), SetKind::sides}});
-  add_set(*mesh, {"upper nodes", place, {{"brick", place}, parse_expression("z - 0.2*x", {}, place), SetKind::nodes}});
+  const auto add = [&](const std::string& name, const std::string& of, const std::string& where, SetKind kind) {
+    SetOptions options;
+    options.of = {{of}, place};
+    options.where = parse_expression(where, {}, place);
+    options.kind = kind;
+    add_set(*mesh, {name, place, options});
+  };
+  add("upper front", "brick/front", "z - 0.5", SetKind::sides);
+  add("upper nodes", "brick", "z - 0.2*x", SetKind::nodes);
   return mesh;
 }
 
@@ -57,11 +64,11 @@ TEST(VolumeMesh, ElementsFillTheVolumeThatFacetsOfOwnedElementsEnclose) {
     const auto examples = example_volumes();
     for (std::size_t b = 0; b < mesh->blocks.size(); ++b) {
       const Block& block = mesh->blocks[b];
-      SCOPED_TRACE(block.name);
+      SCOPED_TRACE(mesh->body_of(block).name);
       double volume = 0.0, enclosed = 0.0;
       for (LocalOrdinal e = 0; e < block.owned; ++e)
         volume += volume_of_cell(block.shape, positions_of(*mesh, block.nodes(e), block.nodes_per_element));
-      const SideSet& surface = mesh->side_sets.at(block.name + "/surface");
+      const SideSet& surface = mesh->side_sets.at(mesh->body_of(block).name + "/surface");
       const SurfaceFacets facets = facets_of_owned_elements(*mesh, surface);
       for (std::size_t s = 0; s < facets.size(); ++s) {
         std::vector<LocalOrdinal> nodes;

@@ -48,7 +48,6 @@ inline RCP<Mesh> make_lattice_mesh(const RCP<const Communicator>& comm, CellShap
   mesh->dimension = cell.dimension;
   mesh->comm = comm;
   Block block;
-  block.name = "body";
   block.shape = shape;
   block.nodes_per_element = cell.nodes;
 
@@ -105,6 +104,7 @@ inline RCP<Mesh> make_lattice_mesh(const RCP<const Communicator>& comm, CellShap
           add_sides(corners);
         }
   block.owned = block.size();
+  mesh->bodies = {{"body", false}};
   mesh->blocks = {block};
   mesh->owned_nodes = mesh->local_nodes = rcp(new Map(nodes.size(), 0, comm));
   mesh->body_of_node.assign(nodes.size(), 0);

@@ -93,7 +93,7 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd& gram) {
 
 std::vector<char> check_held(const Mesh& mesh, bool axisymmetric, const MultiVector& fixed, const std::vector<HoldingPair>& pairs,
                              const std::vector<Place>& body_places) {
-  std::vector<int> bodies(mesh.blocks.size());
+  std::vector<int> bodies(mesh.bodies.size());
   std::iota(bodies.begin(), bodies.end(), 0);
   const NodePlaces at = node_places(mesh, nullptr);
   const RigidModes modes(mesh, axisymmetric, std::move(bodies), at.x);
@@ -106,11 +106,11 @@ std::vector<char> check_held(const Mesh& mesh, bool axisymmetric, const MultiVec
     diagnostics.push_back(
         {body_places[body], fmt::format("body '{}' can move: {}; neither boundary conditions nor contact hold it; contact holds where a slave "
                                         "facet is within reach at the start, along its normal, and with friction along the surface",
-                                        mesh.blocks[body].name, modes.name(mode))});
+                                        mesh.bodies[body].name, modes.name(mode))});
   if (!diagnostics.empty()) throw InputError(diagnostics);
 
   std::vector<char> only_contact;
-  for (Eigen::Index body = 0; body < static_cast<Eigen::Index>(mesh.blocks.size()); ++body) {
+  for (Eigen::Index body = 0; body < static_cast<Eigen::Index>(mesh.bodies.size()); ++body) {
     const auto block = prescribed.block(modes.per_body() * body, modes.per_body() * body, modes.per_body(), modes.per_body());
     only_contact.push_back(null_space(block).cols() > 0);
   }

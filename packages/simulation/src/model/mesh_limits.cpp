@@ -10,20 +10,19 @@
 
 #include "mortise/core/memory.hpp"
 #include "mortise/mesh/mesh_counts.hpp"
-#include "mortise/simulation/scene/scene_bodies.hpp"
 
 namespace mortise {
 namespace {
 
 /// Of a mesh, at least: position, body and id of each node; nodes and id of each element.
-double least_mesh_bytes(const MeshCounts& mesh, int nodes_of_element) {
+double least_mesh_bytes(const MeshCounts& mesh) {
   return static_cast<double>(mesh.nodes) * (3 * sizeof(double) + sizeof(int) + sizeof(GlobalOrdinal)) +
-         static_cast<double>(mesh.elements) * (sizeof(LocalOrdinal) * nodes_of_element + sizeof(GlobalOrdinal));
+         static_cast<double>(mesh.elements) * (sizeof(LocalOrdinal) * mesh.least_nodes_of_element + sizeof(GlobalOrdinal));
 }
 
 /// Of a stiffness, at least: value and column of each entry, if a node meets the nodes of one of its elements alone.
-double least_stiffness_bytes(const MeshCounts& mesh, int dimension, int nodes_of_element) {
-  return static_cast<double>(mesh.nodes) * nodes_of_element * dimension * dimension * (sizeof(double) + sizeof(LocalOrdinal));
+double least_stiffness_bytes(const MeshCounts& mesh, int dimension) {
+  return static_cast<double>(mesh.nodes) * mesh.least_nodes_of_element * dimension * dimension * (sizeof(double) + sizeof(LocalOrdinal));
 }
 
 /// Of all bodies.
@@ -33,18 +32,16 @@ struct ModelSize {
   std::string mesh;  ///< words for its mesh
 };
 
-ModelSize model_size(const Scene& scene) {
-  const auto bodies = body_descriptions(scene);
+ModelSize model_size(const std::vector<BodyDescription>& bodies) {
   const auto counts = mesh_counts(bodies);
   ModelSize size;
   std::size_t largest = 0;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const int dimension = bodies[b].mesh->dimension();
-    const CellTopology& cell = topology(bodies[b].shape);
+    const int dimension = bodies[b].dimension();
     size.nodes += static_cast<double>(counts[b].nodes);
     size.dofs += static_cast<double>(counts[b].nodes) * dimension;
-    size.mesh_bytes += least_mesh_bytes(counts[b], cell.nodes);
-    if (cell.dimension == dimension) size.stiffness_bytes += least_stiffness_bytes(counts[b], dimension, cell.nodes);
+    size.mesh_bytes += least_mesh_bytes(counts[b]);
+    if (counts[b].is_solid) size.stiffness_bytes += least_stiffness_bytes(counts[b], dimension);
     if (counts[b].nodes > counts[largest].nodes) largest = b;
   }
   size.place = bodies[largest].place;
@@ -80,14 +77,14 @@ double memory_of_machines(const Communicator& comm) {
   return least > 0.0 ? sum : 0.0;
 }
 
-void refuse_too_large(const Communicator& comm, const Scene& scene) {
-  const ModelSize size = model_size(scene);
+void refuse_too_large(const Communicator& comm, const std::vector<BodyDescription>& bodies) {
+  const ModelSize size = model_size(bodies);
   refuse_more_than_ids(size, size.dofs, "dofs", comm.getSize());
   refuse_more_than_memory(comm, size, size.mesh_bytes + size.stiffness_bytes, "the model", "run it on more machines");
 }
 
-void refuse_too_large_to_plan(const Communicator& comm, const Scene& scene, int ranks) {
-  const ModelSize size = model_size(scene);
+void refuse_too_large_to_plan(const Communicator& comm, const std::vector<BodyDescription>& bodies, int ranks) {
+  const ModelSize size = model_size(bodies);
   refuse_more_than_ids(size, size.dofs, "dofs", ranks);
   refuse_more_than_ids(size, size.nodes, "nodes", comm.getSize());
   refuse_more_than_memory(comm, size, size.mesh_bytes, "the mesh alone", "plan it on a machine that has more");

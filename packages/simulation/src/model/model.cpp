@@ -37,11 +37,6 @@ class Collector {
   std::vector<Diagnostic> diagnostics_;
 };
 
-const MaterialChoice& material_of(const Scene& scene, const BodyOptions& body) {
-  const auto found = std::find_if(scene.materials.begin(), scene.materials.end(), [&](const auto& m) { return m.name == body.material.value; });
-  return found->value;
-}
-
 /// Points of the rigid bodies, then those of the scene.
 std::vector<ReferencePointDescription> reference_points(const Scene& scene) {
   const bool axisymmetric = scene.kinematics == Kinematics::axisymmetric;
@@ -76,7 +71,9 @@ void tie(Mesh& mesh, const Scene& scene) {
 }
 
 RCP<Mesh> make_mesh(const RCP<const Communicator>& comm, const Scene& scene) {
-  const auto mesh = build_mesh(comm, body_descriptions(scene), contact_sides(scene), reference_points(scene));
+  const std::vector<BodyDescription> bodies = body_descriptions(*comm, scene);
+  refuse_too_large(*comm, bodies);
+  const auto mesh = build_mesh(comm, bodies, contact_sides(scene), reference_points(scene));
   Collector collect;
   for (const auto& set : scene.sets) collect([&] { add_set(*mesh, set); });
   collect.throw_found(*comm);
@@ -104,9 +101,12 @@ RCP<MultiVector> marked_components(const Mesh& mesh, const std::vector<LocalOrdi
 /// Young's modulus of the softest deformable body with a facet in `facets`, over all ranks; the largest number if all are rigid.
 double softest(const Mesh& mesh, const Bodies& bodies, const SurfaceFacets& facets) {
   double mine = std::numeric_limits<double>::max(), least = mine;
+  std::vector<double> of_body(mesh.bodies.size(), mine);
+  for (std::size_t block = 0; block < mesh.blocks.size(); ++block)
+    if (const BodyProperties& of_block = bodies.properties()[block]; !of_block.is_rigid())
+      of_body[mesh.blocks[block].body] = std::min(of_body[mesh.blocks[block].body], of_block.material->youngs_modulus);
   for (const auto& facet : facets) {
-    const int body = mesh.body_of_node[mesh.local_nodes->getLocalElement(facet[0])];
-    if (!bodies.properties()[body].is_rigid()) mine = std::min(mine, bodies.properties()[body].material->youngs_modulus);
+    mine = std::min(mine, of_body[mesh.body_of_node[mesh.local_nodes->getLocalElement(facet[0])]]);
   }
   Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MIN, mine, Teuchos::outArg(least));
   return least;
@@ -127,18 +127,18 @@ ContactPair make_pair(const Mesh& mesh, const Bodies& bodies, const Named<Contac
   return pair;
 }
 
-/// mesh.blocks indices of the bodies of each pair. Collective.
+/// mesh.bodies indices of the bodies of each pair. Collective.
 std::vector<std::vector<int>> bodies_of(const Mesh& mesh, const std::vector<ContactPair>& pairs) {
-  const std::size_t blocks = mesh.blocks.size();
-  std::vector<int> mine(pairs.size() * blocks, 0), all(mine.size());
+  const std::size_t count = mesh.bodies.size();
+  std::vector<int> mine(pairs.size() * count, 0), all(mine.size());
   for (std::size_t p = 0; p < pairs.size(); ++p)
     for (const auto* facets : {&pairs[p].slave, &pairs[p].master})
-      for (const auto& facet : *facets) mine[blocks * p + mesh.body_of_node[mesh.local_nodes->getLocalElement(facet[0])]] = 1;
+      for (const auto& facet : *facets) mine[count * p + mesh.body_of_node[mesh.local_nodes->getLocalElement(facet[0])]] = 1;
   Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, static_cast<int>(mine.size()), mine.data(), all.data());
   std::vector<std::vector<int>> bodies(pairs.size());
   for (std::size_t p = 0; p < pairs.size(); ++p)
-    for (std::size_t body = 0; body < blocks; ++body)
-      if (all[blocks * p + body]) bodies[p].push_back(static_cast<int>(body));
+    for (std::size_t body = 0; body < count; ++body)
+      if (all[count * p + body]) bodies[p].push_back(static_cast<int>(body));
   return bodies;
 }
 
@@ -157,15 +157,18 @@ Effects effects_of(const Scene& scene, const Bodies& bodies) {
   std::vector<std::string> finite, small, f_bar, plastic, pairs, rubbing, loads, conditions;
   std::vector<std::string> rigid, ties;
   for (const auto& tie : scene.reference_points) ties.push_back(tie.name);
-  for (const auto& body : bodies.properties()) {
-    if (body.is_rigid()) {
-      rigid.push_back(body.name);
+  const auto add = [](std::vector<std::string>& names, const std::string& name) {  // a body may have several blocks
+    if (names.empty() || names.back() != name) names.push_back(name);
+  };
+  for (const auto& block : bodies.properties()) {
+    if (block.is_rigid()) {
+      add(rigid, block.name);
       continue;
     }
-    const bool small_strain = std::visit([](const auto& law) { return law.small_strain; }, body.material->law());
-    (small_strain ? small : finite).push_back(body.name);
-    if (formulation(body.element) == ElementFormulation::f_bar) f_bar.push_back(body.name);
-    if (std::visit([](const auto& law) { return has_history<std::decay_t<decltype(law)>>; }, body.material->law())) plastic.push_back(body.name);
+    const bool small_strain = std::visit([](const auto& law) { return law.small_strain; }, block.material->law());
+    add(small_strain ? small : finite, block.name);
+    if (formulation(block.element) == ElementFormulation::f_bar) add(f_bar, block.name);
+    if (std::visit([](const auto& law) { return has_history<std::decay_t<decltype(law)>>; }, block.material->law())) add(plastic, block.name);
   }
   for (const auto& pair : scene.contact) {
     pairs.push_back(pair.name);
@@ -198,7 +201,7 @@ void refuse_beyond_axis(const Mesh& mesh, double length, const std::vector<Place
   std::vector<double> mine(places.size(), 0.0), least(mine);
   for (LocalOrdinal node = 0; node < mesh.owned_body_count(); ++node) {
     const auto body = mesh.body_of_node[node];
-    const bool is_rigid = topology(mesh.blocks[body].shape).dimension < mesh.dimension;
+    const bool is_rigid = mesh.bodies[body].is_surface;
     if (!is_rigid) mine[body] = std::min(mine[body], mesh.coordinates[node][0]);
   }
   Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MIN, static_cast<int>(mine.size()), mine.data(), least.data());
@@ -206,7 +209,7 @@ void refuse_beyond_axis(const Mesh& mesh, double length, const std::vector<Place
   for (std::size_t body = 0; body < places.size(); ++body)
     if (least[body] < -1e-9 * length)
       diagnostics.push_back({places[body], fmt::format("body '{}' reaches x = {:.6g}, beyond the axis of an axisymmetric scene; allowed: x >= 0",
-                                                       mesh.blocks[body].name, least[body])});
+                                                       mesh.bodies[body].name, least[body])});
   if (!diagnostics.empty()) throw InputError(diagnostics);
 }
 
@@ -215,18 +218,13 @@ void refuse_beyond_axis(const Mesh& mesh, double length, const std::vector<Place
 Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Timers& timers) {
   {
     const auto timer = timers.scope("mesh");
-    refuse_too_large(*comm, scene);
     mesh_ = make_mesh(comm, scene);
     size_ = mesh_size(*mesh_);
   }
-  std::vector<BodyProperties> properties;
   std::vector<Place> places;
-  for (const auto& body : scene.bodies) {
-    properties.push_back({body.name, body.place, body.value.rigid.value ? nullptr : material_of(scene, body.value).law.options, body.value.element});
-    places.push_back(body.place);
-  }
+  for (const auto& body : scene.bodies) places.push_back(body.place);
   if (scene.kinematics == Kinematics::axisymmetric) refuse_beyond_axis(*mesh_, size_.length, places);
-  const auto bodies = std::make_shared<Bodies>(mesh_, scene.kinematics, scene.thickness, properties);
+  const auto bodies = std::make_shared<Bodies>(mesh_, scene.kinematics, scene.thickness, block_properties(scene, *mesh_));
   bodies_ = bodies;
   effects_ = effects_of(scene, *bodies_);
 
@@ -295,16 +293,17 @@ std::map<std::string, long> Model::calls() const {
 }
 
 std::vector<BodyHistory> Model::histories() const {
-  const auto blocks = static_cast<LocalOrdinal>(mesh_->blocks.size());
-  std::vector<double> mine(2 * blocks), all(2 * blocks);
-  for (LocalOrdinal block = 0; block < blocks; ++block) {
-    mine[2 * block] = static_cast<double>(bodies_->history_bytes(block));
-    mine[2 * block + 1] = static_cast<double>(bodies_->history_evaluations(block));
+  const std::size_t count = mesh_->bodies.size();
+  std::vector<double> mine(2 * count, 0.0), all(2 * count);
+  for (std::size_t block = 0; block < mesh_->blocks.size(); ++block) {
+    const auto body = static_cast<std::size_t>(mesh_->blocks[block].body);
+    mine[2 * body] += static_cast<double>(bodies_->history_bytes(static_cast<LocalOrdinal>(block)));
+    mine[2 * body + 1] += static_cast<double>(bodies_->history_evaluations(static_cast<LocalOrdinal>(block)));
   }
-  Teuchos::reduceAll(*mesh_->comm, Teuchos::REDUCE_SUM, 2 * blocks, mine.data(), all.data());
+  Teuchos::reduceAll(*mesh_->comm, Teuchos::REDUCE_SUM, static_cast<int>(2 * count), mine.data(), all.data());
   std::vector<BodyHistory> histories;
-  for (LocalOrdinal block = 0; block < blocks; ++block)
-    histories.push_back({mesh_->blocks[block].name, static_cast<long>(all[2 * block]), static_cast<long>(all[2 * block + 1])});
+  for (std::size_t body = 0; body < count; ++body)
+    histories.push_back({mesh_->bodies[body].name, static_cast<long>(all[2 * body]), static_cast<long>(all[2 * body + 1])});
   return histories;
 }
 

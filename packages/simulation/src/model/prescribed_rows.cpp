@@ -78,7 +78,7 @@ Eigen::MatrixXd prescribed_gram(const Mesh& mesh, const RigidModes& modes, const
   add_nodes(mesh, modes, at, fixed, gram);
   for (std::size_t p = 0; p < mesh.reference_points.size(); ++p) {
     const ReferencePoint& point = mesh.reference_points[p];
-    const bool is_rigid = topology(mesh.blocks[mesh.body_of_node[point.node]].shape).dimension < mesh.dimension;
+    const bool is_rigid = mesh.bodies[mesh.body_of_node[point.node]].is_surface;
     if (is_rigid || point.rotation_node >= 0)
       add_turning_point(mesh, modes, at, fixed, p, gram);
     else

@@ -9,6 +9,7 @@
 #include "mortise/core/memory.hpp"
 #include "mortise/simulation/model/memory_estimate.hpp"
 #include "mortise/simulation/model/mesh_limits.hpp"
+#include "mortise/simulation/scene/scene_bodies.hpp"
 
 namespace mortise {
 namespace {
@@ -39,13 +40,17 @@ void report_model(const std::string& file, const Scene& scene, const Model& mode
   log.info(fmt::format("{}: {}, {}", file, scene.name, to_string(scene.kinematics)));
   for (const auto& [effect, members] : model.effects())
     if (!members.empty()) log.info(fmt::format("  {}: {}", effect, fmt::join(members, ", ")));
-  const auto& blocks = model.mesh()->blocks;
-  for (std::size_t b = 0; b < blocks.size(); ++b)
-    if (scene.bodies[b].value.rigid.value)
-      log.info(fmt::format("  body {}: rigid, {} facets", blocks[b].name, model.size().elements_of_block[b]));
+  const Mesh& mesh = *model.mesh();
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    const Block& block = mesh.blocks[b];
+    const BodyOptions& body = scene.bodies[static_cast<std::size_t>(block.body)].value;
+    const std::string name = mesh.body_of(block).name + (block.part.empty() ? "" : ", " + block.part);
+    if (mesh.body_of(block).is_surface)
+      log.info(fmt::format("  body {}: rigid, {} facets", name, model.size().elements_of_block[b]));
     else
-      log.info(fmt::format("  body {}: {} elements {}, {}", blocks[b].name, model.size().elements_of_block[b],
-                           to_string(scene.bodies[b].value.element), scene.bodies[b].value.material.value));
+      log.info(fmt::format("  body {}: {} elements {}, {}", name, model.size().elements_of_block[b], to_string(element_of(body, block.shape)),
+                           material_name(body, block.part)));
+  }
   log.info(fmt::format("  {} dofs, {} slave nodes, {} on {} rank(s)", model.dofs(), model.slave_nodes(), model.parts().linear_solver->name(),
                        model.mesh()->comm->getSize()));
 }

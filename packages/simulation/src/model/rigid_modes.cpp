@@ -32,7 +32,7 @@ NodePlaces node_places(const Mesh& mesh, const Vector* displacement) {
 }
 
 RigidModes::RigidModes(const Mesh& mesh, bool axisymmetric, std::vector<int> bodies, const std::vector<Eigen::Vector3d>& x)
-    : axisymmetric_(axisymmetric), dimension_(mesh.dimension), bodies_(std::move(bodies)), number_(mesh.blocks.size(), -1) {
+    : axisymmetric_(axisymmetric), dimension_(mesh.dimension), bodies_(std::move(bodies)), number_(mesh.bodies.size(), -1) {
   for (std::size_t b = 0; b < bodies_.size(); ++b) number_[bodies_[b]] = static_cast<int>(b);
   // Bounding boxes over all ranks: the largest of (x, y, z, -x, -y, -z).
   std::vector<double> mine(6 * bodies_.size(), -std::numeric_limits<double>::max()), all(mine.size());

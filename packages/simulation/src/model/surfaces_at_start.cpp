@@ -75,7 +75,7 @@ void complain_of_overlap(const PlacedBodies& bodies, Examined& pair, std::vector
     say(
         fmt::format("{}: more than half of the {:.3g} that body '{}' is thick there, so that it is open to which side contact has to push; please "
                     "start apart and move a body in by a boundary condition",
-                    what, overlap.depth + *back, bodies.mesh.blocks[pair.penetrated().body].name));
+                    what, overlap.depth + *back, bodies.mesh.bodies[pair.penetrated().body].name));
     return;
   }
   if (const auto& reach = options.contact.mortar.search_reach; reach && *reach < overlap.depth) {
@@ -91,7 +91,7 @@ void complain_of_overlap(const PlacedBodies& bodies, Examined& pair, std::vector
 void complain_of_sides(const PlacedBodies& bodies, Examined& pair, bool bodies_have_fronts, std::vector<Diagnostic>& diagnostics) {
   const auto& [name, place, options] = pair.options;
   const SurfaceView& view = pair.from_slave;
-  const std::string& master_body = bodies.mesh.blocks[pair.master.body].name;
+  const std::string& master_body = bodies.mesh.bodies[pair.master.body].name;
   const bool rigid = is_rigid(bodies.mesh, pair.master.body);
   if (!bodies_have_fronts && view.swallowed > 0.0 && (!rigid || pair.result.is_swallowed)) {
     diagnostics.push_back(
@@ -117,21 +117,21 @@ void complain_of_sides(const PlacedBodies& bodies, Examined& pair, bool bodies_h
 std::vector<StrayOverlap> stray_overlaps(const PlacedBodies& bodies, const std::set<std::pair<std::size_t, std::size_t>>& connected) {
   const Mesh& mesh = bodies.mesh;
   std::vector<StrayOverlap> strays;
-  for (std::size_t a = 0; a < mesh.blocks.size(); ++a)
-    for (std::size_t b = a + 1; b < mesh.blocks.size(); ++b) {
+  for (std::size_t a = 0; a < mesh.bodies.size(); ++a)
+    for (std::size_t b = a + 1; b < mesh.bodies.size(); ++b) {
       if (connected.count({a, b}) > 0 || (is_rigid(mesh, a) && is_rigid(mesh, b))) continue;
       const bool open = is_rigid(mesh, a) || is_rigid(mesh, b);  // the solid side has no box
       if (!open && !bodies.boxes[a].meets(bodies.boxes[b])) continue;
-      const NamedSurface first{mesh.blocks[a].name + "/surface", whole_surface(mesh, a), a},
-          second{mesh.blocks[b].name + "/surface", whole_surface(mesh, b), b};
+      const NamedSurface first{mesh.bodies[a].name + "/surface", whole_surface(mesh, a), a},
+          second{mesh.bodies[b].name + "/surface", whole_surface(mesh, b), b};
       const SurfaceView forward = look(bodies, first, second), backward = look(bodies, second, first);
       const bool from_first = forward.deepest.depth >= backward.deepest.depth;
       const DeepestPoint& deepest = from_first ? forward.deepest : backward.deepest;
       if (deepest.depth > 0.0)
-        strays.push_back({mesh.blocks[a].name, mesh.blocks[b].name, place_of(deepest, from_first ? first.name : second.name)});
+        strays.push_back({mesh.bodies[a].name, mesh.bodies[b].name, place_of(deepest, from_first ? first.name : second.name)});
       else if (const SurfaceView& within = forward.swallowed > 0.0 ? forward : backward; within.swallowed > 0.0 && !open) {
         strays.push_back(
-            {mesh.blocks[a].name, mesh.blocks[b].name, place_of(within.swallowed_at, forward.swallowed > 0.0 ? first.name : second.name)});
+            {mesh.bodies[a].name, mesh.bodies[b].name, place_of(within.swallowed_at, forward.swallowed > 0.0 ? first.name : second.name)});
         strays.back().overlap.depth = 0.0;
       }
     }

@@ -78,7 +78,7 @@ double body_error(const ErrorNorm& quantity, const QuantityContext& context, con
   const ExactSolution& solution = *quantity.exact.options;
   Squares squares;
   context.bodies.visit_points(*context.local_displacement, [&](const MaterialPoint& point) {
-    if (body && point.block != *body) return;
+    if (body && context.mesh().blocks[point.block].body != *body) return;
     const ExactSolution::Point X{point.reference_position[0], point.reference_position[1]};
     if (quantity.of == ErrorNorm::Of::stress) {
       const Eigen::Matrix3d expected = *solution.stress(X, context.time);

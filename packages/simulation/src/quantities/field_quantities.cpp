@@ -82,7 +82,7 @@ class FieldPoints {
       }
       case Carrier::points:
         context.bodies.visit_points(*context.local_displacement, [&](const MaterialPoint& point) {
-          if (!body_ || point.block == *body_) visit(value_at(field_, point), point.weight * point.volume_ratio);
+          if (!body_ || context.mesh().blocks[point.block].body == *body_) visit(value_at(field_, point), point.weight * point.volume_ratio);
         });
         break;
       case Carrier::slave_nodes:

@@ -72,7 +72,7 @@ class PointEvaluator final : public QuantityEvaluator {
     GlobalOrdinal mine = none;
     for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
       const Block& block = mesh.blocks[b];
-      if (topology(block.shape).dimension < mesh.dimension || (wanted && static_cast<LocalOrdinal>(b) != *wanted)) continue;
+      if (topology(block.shape).dimension < mesh.dimension || (wanted && block.body != *wanted)) continue;
       for (LocalOrdinal element = 0; element < block.owned; ++element) {
         if (block.element_ids[element] >= mine) continue;
         const LocalOrdinal* nodes = block.nodes(element);

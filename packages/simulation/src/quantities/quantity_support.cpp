@@ -38,9 +38,9 @@ void require_component(const QuantityContext& context, Component component) {
 
 LocalOrdinal find_body(const QuantityContext& context, const Located<std::string>& name) {
   std::vector<std::string> known;
-  for (const Block& block : context.mesh().blocks) {
-    if (block.name == name.value) return static_cast<LocalOrdinal>(known.size());
-    known.push_back(block.name);
+  for (const MeshBody& body : context.mesh().bodies) {
+    if (body.name == name.value) return static_cast<LocalOrdinal>(known.size());
+    known.push_back(body.name);
   }
   throw InputError(name.place, unknown_name("body", name.value, known));
 }

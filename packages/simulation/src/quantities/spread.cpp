@@ -10,14 +10,14 @@
 namespace mortise {
 namespace {
 
-/// @param chosen  [blocks] whose points are compared
+/// @param chosen  [bodies] whose points are compared
 double stress_spread(const QuantityContext& at, const std::vector<char>& chosen) {
   const Mesh& mesh = at.mesh();
   Matrix3 mean = Matrix3::Zero();
   double volume = 0.0;
   const auto visit = [&](const std::function<void(const MaterialPoint&)>& visitor) {
     at.bodies.visit_points(*at.local_displacement, [&](const MaterialPoint& point) {
-      if (chosen[point.block]) visitor(point);
+      if (chosen[mesh.blocks[point.block].body]) visitor(point);
     });
   };
   visit([&](const MaterialPoint& point) {
@@ -42,7 +42,7 @@ struct Spread : Quantity {
   void describe(Parameters& parameters) override { parameters.add("bodies", bodies, "bodies whose stresses are compared; empty: all"); }
 
   std::unique_ptr<QuantityEvaluator> make_evaluator(const QuantityContext& context) const override {
-    std::vector<char> chosen(context.mesh().blocks.size(), bodies.value.empty() ? 1 : 0);
+    std::vector<char> chosen(context.mesh().bodies.size(), bodies.value.empty() ? 1 : 0);
     for (const auto& body : bodies.value) chosen[find_body(context, {body, bodies.place})] = 1;
     return evaluator_of([chosen](const QuantityContext& at) { return stress_spread(at, chosen); });
   }

@@ -82,7 +82,7 @@ void ContactWatch::examine(const PlacedBodies& bodies, const ContactLaws& laws) 
 
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     const Pair& pair = pairs_[p];
-    const std::string &name = scene_.contact[pair.index].name, &master = mesh.blocks[pair.master_body].name;
+    const std::string &name = scene_.contact[pair.index].name, &master = mesh.bodies[pair.master_body].name;
     const bool rigid = is_rigid(mesh, pair.master_body);
     if (rigid && counts[3 * p + 2] == 0.0 &&
         look_ahead(bodies, {"", pair.slave, pair.slave_body}, {"", pair.master, pair.master_body},

@@ -107,7 +107,7 @@ std::string describe_free_motions(const std::vector<int>& bodies, const Model& m
     names.back().emplace_back(rigid_mode_name(mesh.dimension, axisymmetric, mode));
   }
   std::vector<std::string> free;
-  for (std::size_t b = 0; b < which.size(); ++b) free.push_back(fmt::format("body '{}' ({})", mesh.blocks[which[b]].name, fmt::join(names[b], ", ")));
+  for (std::size_t b = 0; b < which.size(); ++b) free.push_back(fmt::format("body '{}' ({})", mesh.bodies[which[b]].name, fmt::join(names[b], ", ")));
   return fmt::format("free to move: {}; {}", fmt::join(free, ", "), record.describe(model, which, pairs_now(bodies, model, system, evaluation)));
 }
 
@@ -118,7 +118,7 @@ std::string describe_held_bodies(const FailedTry& failed, const Model& model, co
   if (bodies.empty() || bodies.size() > most_loose_bodies || !failed.linearised) return {};
   const SystemEvaluation evaluation = system.evaluate(*failed.linearised->x, failed.linearised->context);
   std::vector<std::string> names;
-  for (const int body : bodies) names.push_back(fmt::format("'{}'", model.mesh()->blocks[body].name));
+  for (const int body : bodies) names.push_back(fmt::format("'{}'", model.mesh()->bodies[body].name));
   return fmt::format("nothing but contact holds {}; in the last iterate {}", fmt::join(names, ", "),
                      record.describe(model, bodies, pairs_now(bodies, model, system, evaluation)));
 }

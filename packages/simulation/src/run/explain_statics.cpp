@@ -99,7 +99,7 @@ class BodyStatics {
       std::vector<std::string> modes;
       for (int m = 0; m < modes_->per_body(); ++m)
         if (std::abs(all[modes_->per_body() * static_cast<int>(b) + m]) >= 0.5 * largest) modes.emplace_back(modes_->name(m));
-      if (!modes.empty()) bodies.push_back(fmt::format("'{}' ({})", mesh_.blocks[bodies_[b]].name, fmt::join(modes, ", ")));
+      if (!modes.empty()) bodies.push_back(fmt::format("'{}' ({})", mesh_.bodies[bodies_[b]].name, fmt::join(modes, ", ")));
     }
     return fmt::format("{}", fmt::join(bodies, ", "));
   }
@@ -193,7 +193,7 @@ class BodyStatics {
 
   std::string bodies() const {
     std::vector<std::string> names;
-    for (const int body : bodies_) names.push_back(fmt::format("'{}'", mesh_.blocks[body].name));
+    for (const int body : bodies_) names.push_back(fmt::format("'{}'", mesh_.bodies[body].name));
     return fmt::format("{}", fmt::join(names, ", "));
   }
 

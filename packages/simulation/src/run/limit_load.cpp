@@ -79,7 +79,9 @@ std::vector<PlasticPoint> plastic_points(const Bodies& bodies, const Vector& dis
   Vector local(bodies.local_dofs());
   local.doImport(displacement, *bodies.ghost_import(), Tpetra::INSERT);
   std::vector<PlasticPoint> points;
-  bodies.visit_points(local, [&](const MaterialPoint& point) { points.push_back({point.block, point.weight, point.equivalent_plastic_strain}); });
+  bodies.visit_points(local, [&](const MaterialPoint& point) {
+    points.push_back({bodies.mesh()->blocks[point.block].body, point.weight, point.equivalent_plastic_strain});
+  });
   return points;
 }
 
@@ -88,16 +90,16 @@ std::vector<PlasticPoint> plastic_points(const Bodies& bodies, const Vector& dis
 std::string describe_flow(const Model& model, const Vector& failed, const Vector& converged) {
   const Mesh& mesh = *model.mesh();
   const auto before = plastic_points(*model.bodies(), converged), after = plastic_points(*model.bodies(), failed);
-  std::vector<double> mine(2 * mesh.blocks.size(), 0.0), all(mine.size());
+  std::vector<double> mine(2 * mesh.bodies.size(), 0.0), all(mine.size());
   for (std::size_t point = 0; point < after.size(); ++point) {
     mine[2 * after[point].block] += after[point].volume;
     if (after[point].strain > before[point].strain) mine[2 * after[point].block + 1] += after[point].volume;
   }
   Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), all.data());
   std::vector<std::string> shares;
-  for (std::size_t block = 0; block < mesh.blocks.size(); ++block)
+  for (std::size_t block = 0; block < mesh.bodies.size(); ++block)
     if (all[2 * block + 1] > 0.0)
-      shares.push_back(fmt::format("{:.3g} % of body '{}'", 100.0 * all[2 * block + 1] / all[2 * block], mesh.blocks[block].name));
+      shares.push_back(fmt::format("{:.3g} % of body '{}'", 100.0 * all[2 * block + 1] / all[2 * block], mesh.bodies[block].name));
   return shares.empty() ? "no point flows, so the structure buckles or snaps through" : fmt::format("plastic flow in {}", fmt::join(shares, ", "));
 }
 

@@ -190,7 +190,7 @@ std::string SlipSettlement::describe_overload(const Sliding& sliding, const Eige
     for (int m = 0; m < modes.per_body(); ++m)
       if (std::abs(motion[modes.per_body() * static_cast<int>(b) + m]) >= 0.5 * largest) names.emplace_back(modes.name(m));
     if (names.empty()) continue;
-    bodies.push_back(fmt::format("'{}' ({})", model_.mesh()->blocks[bodies_[b]].name, fmt::join(names, ", ")));
+    bodies.push_back(fmt::format("'{}' ({})", model_.mesh()->bodies[bodies_[b]].name, fmt::join(names, ", ")));
     for (std::size_t p = 0; p < sliding.pairs.size(); ++p) {
       const auto& touched = model_.bodies_of_pairs()[p];
       const std::string pair = fmt::format("{} of {} closed nodes of contact \"{}\"", sliding.pairs[p].closed - sliding.pairs[p].sticking,

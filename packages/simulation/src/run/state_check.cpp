@@ -39,7 +39,7 @@ std::string describe_motion(const RigidModes& modes, const Eigen::VectorXd& moti
 
 std::vector<int> bodies_held_by_contact_only(const Model& model) {
   const Mesh& mesh = *model.mesh();
-  std::vector<int> mine(mesh.blocks.size(), 0), all(mine.size());
+  std::vector<int> mine(mesh.bodies.size(), 0), all(mine.size());
   for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node)
     if (model.held_by_contact_only()[node]) mine[mesh.body_of_node[node]] = 1;
   Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, static_cast<int>(mine.size()), mine.data(), all.data());
@@ -96,7 +96,7 @@ RCP<Vector> StateCheck::verify(const SemiSmoothSystem& system, const Vector& bef
     went_far_ = went_far_ || size_of(*modes, motions.rigid, b) > allowed;
     const bool is_flight = size_of(*modes, motions.rigid, b) > std::max(allowed, length);
     if (size_of(*modes, loosely, b) <= allowed && !is_flight) continue;
-    gone.push_back(fmt::format("body '{}' ({}; allowed: {:.3g}, twice what moves and deforms around it)", mesh.blocks[bodies_[b]].name,
+    gone.push_back(fmt::format("body '{}' ({}; allowed: {:.3g}, twice what moves and deforms around it)", mesh.bodies[bodies_[b]].name,
                                describe_motion(*modes, is_flight ? motions.rigid : loosely, b), allowed));
     which.push_back(bodies_[b]);
   }
@@ -136,7 +136,7 @@ void StateCheck::say_new(const RigidModes& modes, const Eigen::MatrixXd& free, c
     const bool turns = size_of(modes, freely_, b) > 2.0 * motion_at(modes, freely_, b, motions.middle[b], motions.middle[b]).norm();
     const std::string does =
         far <= allowance * resolution_ ? "is at rest" : fmt::format("{} ({})", turns ? "spins" : "is carried", describe_motion(modes, freely_, b));
-    warn_(fmt::format("  body '{}' is free to move ({}) and {}; {}", model_.mesh()->blocks[bodies_[b]].name, fmt::join(names[b], ", "), does,
+    warn_(fmt::format("  body '{}' is free to move ({}) and {}; {}", model_.mesh()->bodies[bodies_[b]].name, fmt::join(names[b], ", "), does,
                       record_.describe(model_, {bodies_[b]}, pairs_)));
   }
 }

@@ -42,6 +42,9 @@ std::vector<Diagnostic> check_scene(const Scene& scene) {
     const auto& wanted = body.value.material;
     if (!wanted.value.empty() && find(scene.materials, wanted.value) == nullptr)
       diagnostics.push_back({wanted.place, unknown_name("material", wanted.value, names_of(scene.materials))});
+    for (const Assignment& part : body.value.materials.all)
+      if (find(scene.materials, part.value) == nullptr)
+        diagnostics.push_back({part.place, unknown_name("material", part.value, names_of(scene.materials))});
   }
   const auto moduli = moduli_out_of_range(scene);
   diagnostics.insert(diagnostics.end(), moduli.begin(), moduli.end());

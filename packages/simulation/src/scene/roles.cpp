@@ -18,12 +18,6 @@ namespace {
 constexpr double same_modulus = 2.0;  ///< ratio below which the finer side is the better slave
 constexpr double same_facet = 1.01;
 
-double modulus_of(const Scene& scene, const BodyOptions& body) {
-  if (body.rigid.value) return std::numeric_limits<double>::infinity();
-  const auto found = std::find_if(scene.materials.begin(), scene.materials.end(), [&](const auto& one) { return one.name == body.material.value; });
-  return found->value.law.options->youngs_modulus;
-}
-
 }  // namespace
 
 SurfaceTraits surface_traits(const Mesh& mesh, const Scene& scene, const Located<std::string>& name) {
@@ -31,7 +25,7 @@ SurfaceTraits surface_traits(const Mesh& mesh, const Scene& scene, const Located
   const PlaceOfNode at = reference_places(mesh);
   double mine[2] = {0.0, -std::numeric_limits<double>::max()}, all[2];  // largest modulus, minus the shortest side
   for (LocalOrdinal s = 0; s < set.owned; ++s) {
-    mine[0] = std::max(mine[0], modulus_of(scene, scene.bodies[set.sides[s].block].value));
+    mine[0] = std::max(mine[0], youngs_modulus(scene, mesh, mesh.blocks[set.sides[s].block]));
     mine[1] = std::max(mine[1], -side_lengths(mesh, set.sides[s], at).front());
   }
   Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, 2, mine, all);
@@ -64,7 +58,7 @@ double excess_of_peak(const SurfaceTraits& slave, const SurfaceTraits& master, i
 void assign_roles(const Communicator& comm, Scene& scene) {
   const auto open = [](const auto& pair) { return pair.value.roles == ContactRoles::automatic; };
   if (std::none_of(scene.contact.begin(), scene.contact.end(), open)) return;
-  const RCP<Mesh> mesh = build_mesh(Teuchos::rcpFromRef(comm), body_descriptions(scene), contact_sides(scene), {});
+  const RCP<Mesh> mesh = build_mesh(Teuchos::rcpFromRef(comm), body_descriptions(comm, scene), contact_sides(scene), {});
   for (const auto& set : scene.sets) add_set(*mesh, set);
   for (auto& pair : scene.contact) {
     if (!open(pair)) continue;

@@ -38,12 +38,24 @@ void BodyOptions::describe(Parameters& parameters) {
           .unit("length"));
   check_position(parameters, "reference point", reference_point);
   Says says("name of one of the scene's materials; a rigid body has none");
-  if (!rigid.value) says.required();
+  parameters.list("materials", materials, "materials of blocks of a mesh file: the name of a block, and as its value the name of a material");
+  if (!rigid.value && materials.all.empty()) says.required();
   parameters.add("material", material, says);
   if (rigid.value && !material.value.empty()) parameters.error("material", "a rigid body has no material; please remove one of the two");
-  parameters.add("element", element, element_names(), "what the body is discretised with");
+  if (rigid.value && !materials.all.empty()) parameters.error("materials", "a rigid body has no materials; please remove one of the two");
+  std::vector<std::pair<std::string, std::optional<ElementType>>> elements{{"automatic", std::nullopt}};
+  for (const auto& [name, type] : element_names()) elements.emplace_back(name, type);
+  parameters.add(
+      "element", element, elements,
+      "what the body is discretised with; automatic: Q4 in 2D, H8 in 3D, and for a mesh file what its cells are. Cells of a mesh file that have "
+      "another shape than the named element get the standard one of their shape");
   MeshList list{mesh};
   parameters.list("mesh", list, "the mesh of the body; its sides become the sets \"body/side\"");
+  parameters.add("mirror", mirror, {{"none", Mirror::none}, {"x", Mirror::x}, {"y", Mirror::y}, {"z", Mirror::z}},
+                 "reflects the placed mesh at the plane x = 0, y = 0 or z = 0");
+  parameters.list("pattern", pattern, "copies of the body in a row or a ring, each a body of its own");
+  if (!materials.all.empty() && mesh.options && mesh.type != "file")
+    parameters.error("materials", "only a mesh of a file has blocks; please give \"material\" alone");
 }
 
 void LoadChoice::describe(Parameters& parameters) { parameters.choose(load, load_registry(), "the kind of load"); }

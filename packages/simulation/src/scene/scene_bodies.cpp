@@ -1,23 +1,109 @@
 #include "mortise/simulation/scene/scene_bodies.hpp"
 
-namespace mortise {
+#include <fmt/format.h>
 
-std::vector<BodyDescription> body_descriptions(const Scene& scene) {
-  std::vector<BodyDescription> descriptions;
+#include <algorithm>
+#include <limits>
+
+#include "mortise/core/names.hpp"
+#include "mortise/material/materials.hpp"
+#include "mortise/mesh/file_mesh.hpp"
+
+namespace mortise {
+namespace {
+
+ElementType standard_element_of(CellShape shape) {
+  for (const auto& [name, type] : element_names())
+    if (cell_shape(type) == shape && formulation(type) == ElementFormulation::standard) return type;
+  throw std::logic_error("a cell shape without an element");
+}
+
+std::shared_ptr<const MaterialOptions> find_material(const Scene& scene, const std::string& name) {
+  const auto found = std::find_if(scene.materials.begin(), scene.materials.end(), [&](const auto& one) { return one.name == name; });
+  return found == scene.materials.end() ? nullptr : found->value.law.options;
+}
+
+}  // namespace
+
+std::string material_name(const BodyOptions& body, const std::string& part) {
+  for (const Assignment& one : body.materials.all)
+    if (one.path == part) return one.value;
+  return body.material.value;
+}
+
+ElementType element_of(const BodyOptions& body, CellShape shape) {
+  return body.element.value && cell_shape(*body.element.value) == shape ? *body.element.value : standard_element_of(shape);
+}
+
+ElementType element_of(const BodyOptions& body) {
+  return body.element.value.value_or(body.mesh.options->dimension() == 2 ? ElementType::q4 : ElementType::h8);
+}
+
+std::vector<BodyDescription> body_descriptions(const Communicator& comm, const Scene& scene) {
+  std::vector<FileBodyRequest> requests;
   for (const auto& body : scene.bodies)
-    descriptions.push_back({body.name, body.place, body.value.mesh.options,
-                            body.value.rigid.value ? rigid_shape(body.value.mesh.options->dimension()) : cell_shape(body.value.element)});
+    if (const auto* mesh = dynamic_cast<const FileMesh*>(body.value.mesh.options.get())) {
+      requests.push_back(mesh->request(body.name, body.place, dimension(scene.kinematics), body.value.rigid.value));
+      for (const Assignment& part : body.value.materials.all) requests.back().parts.push_back({part.path, part.place});
+    }
+  const auto listed = make_file_bodies(comm, requests);
+  std::vector<BodyDescription> descriptions;
+  auto next = listed.begin();
+  for (const auto& body : scene.bodies) {
+    const MeshOptions& mesh = *body.value.mesh.options;
+    const auto copy = placement(body.value.mirror, body.value.pattern);
+    if (dynamic_cast<const FileMesh*>(&mesh) != nullptr)
+      descriptions.push_back({body.name, body.place, body.value.mesh.options, {}, *next++, copy});
+    else
+      descriptions.push_back({body.name,
+                              body.place,
+                              body.value.mesh.options,
+                              body.value.rigid.value ? rigid_shape(mesh.dimension()) : cell_shape(element_of(body.value)),
+                              {},
+                              copy});
+  }
   return descriptions;
+}
+
+std::vector<BodyProperties> block_properties(const Scene& scene, const Mesh& mesh) {
+  std::vector<Diagnostic> diagnostics;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const auto& [element, place] = scene.bodies[b].value.element;
+    if (!element || mesh.bodies[b].is_surface) continue;
+    const bool is_there = std::any_of(mesh.blocks.begin(), mesh.blocks.end(), [&, &element = element](const Block& block) {
+      return block.body == static_cast<int>(b) && block.shape == cell_shape(*element);
+    });
+    if (!is_there)
+      diagnostics.push_back({place, fmt::format("the mesh of body \"{}\" has no cells for elements \"{}\"; please leave out \"element\"",
+                                                scene.bodies[b].name, to_string(*element))});
+  }
+  std::vector<BodyProperties> properties;
+  for (const Block& block : mesh.blocks) {
+    const auto& body = scene.bodies[static_cast<std::size_t>(block.body)];
+    const bool is_rigid = mesh.bodies[block.body].is_surface;
+    const auto material = is_rigid ? nullptr : find_material(scene, material_name(body.value, block.part));
+    if (!is_rigid && material == nullptr)
+      diagnostics.push_back(
+          {body.place, fmt::format("body \"{}\" has elements that are in no block of \"materials\"; please add \"material\" for them", body.name)});
+    properties.push_back({body.name, body.place, material, is_rigid ? ElementType{} : element_of(body.value, block.shape)});
+  }
+  if (!diagnostics.empty()) throw InputError(diagnostics);
+  return properties;
+}
+
+double youngs_modulus(const Scene& scene, const Mesh& mesh, const Block& block) {
+  if (mesh.body_of(block).is_surface) return std::numeric_limits<double>::infinity();
+  return find_material(scene, material_name(scene.bodies[static_cast<std::size_t>(block.body)].value, block.part))->youngs_modulus;
 }
 
 std::vector<std::string> contact_sides(const Scene& scene) {
   std::vector<std::string> sides;
-  const auto add = [&](std::string name) {
-    for (auto set = scene.sets.rbegin(); set != scene.sets.rend(); ++set)
-      if (set->name == name) name = set->value.of.value;
-    sides.push_back(name);
-  };
-  for (const auto& pair : scene.contact) add(pair.value.slave.value), add(pair.value.master.value);
+  for (const auto& pair : scene.contact)
+    for (const auto* name : {&pair.value.slave.value, &pair.value.master.value}) sides.push_back(*name);
+  // A set may be part of sets that stand before it.
+  for (auto set = scene.sets.rbegin(); set != scene.sets.rend(); ++set)
+    if (std::find(sides.begin(), sides.end(), set->name) != sides.end())
+      sides.insert(sides.end(), set->value.of.value.begin(), set->value.of.value.end());
   return sides;
 }
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "mortise/mesh/file_mesh.hpp"
+#include "mortise/simulation/scene/scene_bodies.hpp"
 #include "mortise/solid/element_type.hpp"
 
 namespace mortise {
@@ -17,6 +19,20 @@ void check_position(const Scene& scene, const std::vector<double>& position, con
                                               position.size(), to_string(scene.kinematics), numbers)});
 }
 
+/// Copies of a plane body stay in the plane.
+void refuse_out_of_plane(const Scene& scene, const Named<BodyOptions>& body, std::vector<Diagnostic>& diagnostics) {
+  if (scene.kinematics == Kinematics::three_dimensional) return;
+  const PatternOptions& pattern = body.value.pattern;
+  const bool moves = !pattern.translation.empty() && pattern.translation[2] != 0.0;
+  const bool turns = pattern.rotation != 0.0 && (pattern.axis[0] != 0.0 || pattern.axis[1] != 0.0);
+  if (body.value.mirror == Mirror::z || moves || turns)
+    diagnostics.push_back(
+        {body.place,
+         fmt::format("\"mirror\" or \"pattern\" of body \"{}\" leaves the plane; in a 2D scene a body is reflected at x or y, turns about z "
+                     "and moves in x and y",
+                     body.name)});
+}
+
 }  // namespace
 
 std::vector<Diagnostic> wrong_combinations(const Scene& scene) {
@@ -26,10 +42,14 @@ std::vector<Diagnostic> wrong_combinations(const Scene& scene) {
     if (body.value.rigid.value && !body.value.reference_point.empty() && scene.kinematics == Kinematics::axisymmetric &&
         body.value.reference_point[0] != 0.0)
       diagnostics.push_back({body.place, "a rigid body in an axisymmetric scene moves along the axis only; please put its reference point on r = 0"});
+    refuse_out_of_plane(scene, body, diagnostics);
     const auto material =
         std::find_if(scene.materials.begin(), scene.materials.end(), [&](const auto& one) { return one.name == body.value.material.value; });
-    if (material == scene.materials.end()) continue;  // a rigid body, or a name that is reported as unknown
-    const auto wrong = check_combination({body.name, body.place, material->value.law.options, body.value.element}, scene.kinematics);
+    if (material == scene.materials.end() || !body.value.mesh.options) continue;  // a rigid body, or a name that is reported as unknown
+    const bool is_generated = dynamic_cast<const FileMesh*>(body.value.mesh.options.get()) == nullptr;
+    if (!is_generated && !body.value.element.value) continue;  // the file says which
+    const auto wrong = check_combination(
+        {body.name, body.place, material->value.law.options, is_generated ? element_of(body.value) : *body.value.element.value}, scene.kinematics);
     diagnostics.insert(diagnostics.end(), wrong.begin(), wrong.end());
   }
   for (const auto& tie : scene.reference_points) check_position(scene, tie.value.position, tie.place, diagnostics);

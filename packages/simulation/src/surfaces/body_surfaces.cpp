@@ -2,6 +2,7 @@
 
 #include <Teuchos_CommHelpers.hpp>
 #include <algorithm>
+#include <tuple>
 
 #include "mortise/mortar/quadratic_facet.hpp"
 
@@ -17,27 +18,28 @@ FacetPlaces places_of(const Mesh& mesh, const Side& side, const PlaceOfNode& at)
   return places;
 }
 
-const SideSet& whole_surface(const Mesh& mesh, std::size_t body) { return mesh.side_sets.at(mesh.blocks[body].name + "/surface"); }
+const SideSet& whole_surface(const Mesh& mesh, std::size_t body) { return mesh.side_sets.at(mesh.bodies[body].name + "/surface"); }
 
-bool is_rigid(const Mesh& mesh, std::size_t body) { return topology(mesh.blocks[body].shape).dimension < mesh.dimension; }
+bool is_rigid(const Mesh& mesh, std::size_t body) { return mesh.bodies[body].is_surface; }
 
 std::vector<TaggedFacet> tagged_surface(const Mesh& mesh, std::size_t body, const SideSet& set, int in_set, int elsewhere, const PlaceOfNode& at) {
-  std::vector<std::pair<LocalOrdinal, int>> members;
-  for (LocalOrdinal s = 0; s < set.owned; ++s) members.emplace_back(set.sides[s].element, set.sides[s].side);
+  const auto key = [](const Side& side) { return std::tuple(side.block, side.element, side.side); };
+  std::vector<std::tuple<LocalOrdinal, LocalOrdinal, int>> members;
+  for (LocalOrdinal s = 0; s < set.owned; ++s) members.push_back(key(set.sides[s]));
   std::sort(members.begin(), members.end());
   std::vector<TaggedFacet> facets;
   const SideSet& surface = whole_surface(mesh, body);
   facets.reserve(static_cast<std::size_t>(surface.owned));
   for (LocalOrdinal s = 0; s < surface.owned; ++s) {
     const Side& side = surface.sides[s];
-    const bool is_member = std::binary_search(members.begin(), members.end(), std::pair(side.element, side.side));
+    const bool is_member = std::binary_search(members.begin(), members.end(), key(side));
     facets.push_back({places_of(mesh, side, at), is_member ? in_set : elsewhere});
   }
   return facets;
 }
 
 std::vector<Box3> body_boxes(const Mesh& mesh, const PlaceOfNode& at) {
-  std::vector<Box3> boxes(mesh.blocks.size());
+  std::vector<Box3> boxes(mesh.bodies.size());
   for (std::size_t body = 0; body < boxes.size(); ++body) {
     const SideSet& surface = whole_surface(mesh, body);
     for (LocalOrdinal s = 0; s < surface.owned; ++s)
@@ -47,7 +49,7 @@ std::vector<Box3> body_boxes(const Mesh& mesh, const PlaceOfNode& at) {
 }
 
 std::size_t body_of(const Mesh& mesh, const SideSet& set) {
-  const int mine = set.owned > 0 ? set.sides.front().block : -1;
+  const int mine = set.owned > 0 ? mesh.blocks[set.sides.front().block].body : -1;
   int body = -1;
   Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, mine, Teuchos::outArg(body));
   return static_cast<std::size_t>(body);

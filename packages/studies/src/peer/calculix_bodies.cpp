@@ -53,7 +53,7 @@ std::string deck_bodies(const Model& model) {
                      layer == 0 ? mesh.coordinates[node][2] : model.bodies()->thickness());
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     const Block& block = mesh.blocks[b];
-    fmt::format_to(text, "{}*ELEMENT,TYPE={},ELSET=BODY{}\n", deck_comment(block.name), calculix_element(block.shape), b);
+    fmt::format_to(text, "{}*ELEMENT,TYPE={},ELSET=BODY{}\n", deck_comment(mesh.body_of(block).name), calculix_element(block.shape), b);
     for (LocalOrdinal element = 0; element < block.size(); ++element) {
       std::vector<GlobalOrdinal> line{block.element_ids[element] + 1};
       for (int layer = 0; layer < numbers.layers; ++layer)

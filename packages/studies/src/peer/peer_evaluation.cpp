@@ -127,13 +127,13 @@ double PeerEvaluation::contact_force(const ContactForce& quantity, const Quantit
   if (quantity.part != ContactForce::Part::all) return none;
   const Mesh& mesh = *model_.mesh();
   const std::size_t pair = find_pair(context, quantity.pair);
-  const auto body_of = [&](const std::string& set) { return mesh.side_sets.at(set).sides.front().block; };
+  const auto body_of = [&](const std::string& set) { return mesh.blocks[mesh.side_sets.at(set).sides.front().block].body; };
   const auto touched = [&](LocalOrdinal body) {
     int pairs = 0;
     for (const auto& one : context.pairs)
       for (const auto& set : {one.slave, one.master})
-        pairs +=
-            std::any_of(mesh.side_sets.at(set).sides.begin(), mesh.side_sets.at(set).sides.end(), [&](const Side& s) { return s.block == body; });
+        pairs += std::any_of(mesh.side_sets.at(set).sides.begin(), mesh.side_sets.at(set).sides.end(),
+                             [&](const Side& s) { return mesh.blocks[s.block].body == body; });
     return pairs;
   };
   const auto force = nodal_force_->getLocalViewHost(Tpetra::Access::ReadOnly);

@@ -134,8 +134,8 @@ double PairPlan::least_imbalance(int ranks) const {
 }
 
 ScalePlan make_scale_plan(const RCP<const Communicator>& comm, const Scene& scene, int ranks) {
-  refuse_too_large_to_plan(*comm, scene, ranks);
-  const std::vector<BodyDescription> bodies = body_descriptions(scene);
+  const std::vector<BodyDescription> bodies = body_descriptions(*comm, scene);
+  refuse_too_large_to_plan(*comm, bodies, ranks);
   const std::vector<std::string> sides = contact_sides(scene);
   ScalePlan plan;
   const MeshPlan meshes = plan_mesh(bodies, sides, ranks);

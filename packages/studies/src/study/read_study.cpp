@@ -9,6 +9,7 @@
 #include "mortise/input/read_parameters.hpp"
 #include "mortise/simulation/scene/file_kind.hpp"
 #include "mortise/simulation/scene/read_scene.hpp"
+#include "mortise/simulation/scene/scene_bodies.hpp"
 #include "mortise/studies/study_points.hpp"
 #include "peer/calculix_deck.hpp"
 #include "shared/throw_all.hpp"
@@ -43,6 +44,12 @@ std::string formulation_of(const Scene& scene) {
   return found.empty() ? "dual mortar" : joined(found);
 }
 
+/// "mesh file" where the scene leaves it to the file.
+std::string element_text(const BodyOptions& body) {
+  if (body.mesh.type == "file" && !body.element.value) return "mesh file";
+  return to_string(body.mesh.type == "file" ? *body.element.value : element_of(body));
+}
+
 /// Reads the scene as the run will, and keeps of it what the report needs.
 void complete(StudyPoint& point, const XmlList& root) {
   XmlList changed = root;
@@ -51,7 +58,7 @@ void complete(StudyPoint& point, const XmlList& root) {
   point.formulation = formulation_of(scene);
   std::vector<std::string> elements;
   for (const auto& body : scene.bodies)
-    if (!body.value.rigid.value) elements.push_back(to_string(body.value.element));
+    if (!body.value.rigid.value) elements.push_back(element_text(body.value));
   point.element = joined(elements);
   penalty_multiple(point.penalty.value, scene.symbols, point.penalty.place);
   if (!has_penalty(point.peer)) point.penalty = {};
@@ -59,7 +66,9 @@ void complete(StudyPoint& point, const XmlList& root) {
     point.formulation = peer_title(point.peer);
     std::vector<std::string> theirs;
     for (const auto& body : scene.bodies)
-      if (const auto name = calculix_element(cell_shape(body.value.element)); !body.value.rigid.value && !name.empty()) theirs.push_back(name);
+      if (const auto name = body.value.mesh.type == "file" ? "" : calculix_element(cell_shape(element_of(body.value)));
+          !body.value.rigid.value && !name.empty())
+        theirs.push_back(name);
     if (!theirs.empty()) point.element += " (CalculiX " + joined(theirs) + ")";
   }
   point.axisymmetric = scene.kinematics == Kinematics::axisymmetric;

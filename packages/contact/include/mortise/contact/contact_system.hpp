@@ -57,8 +57,6 @@ class ContactSystem {
   ///                      no unknowns are prescribed
   /// @throws InputError (at the pair's name if it has no place) for
   ///   - a pair without Young's modulus, formulation or law of friction;
-  ///   - a slave node in two pairs;
-  ///   - a node that is slave in one pair and master in another where its multiplier is eliminated;
   ///   - what MortarInterface refuses.
   /// @throws std::invalid_argument for ids that are not among `dofs`, components that are neither unknown nor prescribed, and vectors on other nodes
   ContactSystem(const NodalField& displacement, RCP<const Map> dofs, RCP<const MultiVector> reference, RCP<const MultiVector> fixed,

@@ -2,9 +2,11 @@
 // From descriptions of bodies to a distributed mesh.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "mortise/mesh/isometry.hpp"
 #include "mortise/mesh/mesh.hpp"
 #include "mortise/mesh/mesh_options.hpp"
 #include "mortise/mesh/reference_point.hpp"
@@ -20,12 +22,18 @@ struct BodyDescription {
   Place place;
   std::shared_ptr<const MeshOptions> mesh;
   CellShape shape = CellShape::quadrilateral4;  ///< rigid_shape(): a rigid body, of which the surface alone is meshed
+  std::shared_ptr<ListedBody> listed{};         ///< of a mesh file: then `mesh` and `shape` say nothing
+  std::optional<Isometry> copy{};               ///< moves or reflects the mesh; none: it stays
+
+  /// Of its mesh: 2 or 3.
+  int dimension() const { return listed ? listed->dimension : mesh->dimension(); }
 };
 
 /// Builds the mesh of all bodies. Collective. Node and element ids are contiguous per body, in the order of `bodies`, and do not depend on the number
 /// of ranks. On more than one rank METIS distributes the elements. It balances both their number and that of the elements on `contact_sides`
 /// ("body/side"). Names that are no sides of the bodies are passed over (see require_side_set). Besides its named sides each body gets a side set
-/// "body/surface" (all of them) and a node set "body" (all its nodes). Reference points get the ids beyond those of all bodies, and a node set each;
+/// "body/surface" (all of them) and a node set "body" (all its nodes). Bodies of mesh files have a block for each shape and each part with a material
+/// of its own, other bodies have one block. Reference points get the ids beyond those of all bodies, and a node set each;
 /// followers come with add_followers(). All bodies are 2D, or all are 3D.
 /// @throws InputError on all ranks: no body, repeated names, bodies of different dimension, elements that do not fit the mesh, shapes without
 /// meaning, an inverted element (with its det J).

@@ -11,9 +11,17 @@
 
 namespace mortise {
 
-/// Elements of one body on this rank. First the owned ones, then ghosts: every element that touches a node owned by this rank is here.
+/// A body. Its elements stand in one or more blocks.
+struct MeshBody {
+  std::string name;
+  bool is_surface = false;  ///< a rigid body, whose elements are the facets of its surface
+};
+
+/// Elements of one shape and one part of a body on this rank. First the owned ones, then ghosts: every element that touches a node owned by this rank
+/// is here.
 struct Block {
-  std::string name;  ///< the body's name
+  int body = 0;      ///< index into Mesh::bodies
+  std::string part;  ///< the name of the part of the body that has a material of its own; empty: the rest
   CellShape shape = CellShape::quadrilateral4;
   int nodes_per_element = 4;
   std::vector<LocalOrdinal> connectivity;  ///< [elements x nodes_per_element] local nodes
@@ -57,11 +65,12 @@ struct Mesh {
   RCP<const Map> owned_nodes;                                  ///< one to one
   RCP<const Map> local_nodes;                                  ///< owned, then ghosts
   std::vector<std::array<double, 3>> coordinates;              ///< [local nodes] reference positions; z = 0 in 2D
-  std::vector<Block> blocks;                                   ///< the same, in the same order, on every rank (possibly empty)
+  std::vector<MeshBody> bodies;                                ///< the same, in the same order, on every rank
+  std::vector<Block> blocks;                                   ///< in the order of their bodies; the same on every rank (possibly empty)
   std::map<std::string, SideSet> side_sets;                    ///< "body/side"; the same names on every rank
   std::map<std::string, std::vector<LocalOrdinal>> node_sets;  ///< local nodes (owned and ghosts), ascending; every side set is one too
-  std::vector<int> body_of_node;                 ///< [local nodes] index of the block that the node belongs to, or whose nodes follow it
-  std::vector<ReferencePoint> reference_points;  ///< the same, in the same order, on every rank
+  std::vector<int> body_of_node;                               ///< [local nodes] index of the body that the node belongs to, or whose nodes follow it
+  std::vector<ReferencePoint> reference_points;                ///< the same, in the same order, on every rank
 
   LocalOrdinal owned_count() const { return static_cast<LocalOrdinal>(owned_nodes->getNodeNumElements()); }
   /// Owned nodes of bodies; those of reference points come after them.
@@ -73,6 +82,8 @@ struct Mesh {
   }
   LocalOrdinal local_count() const { return static_cast<LocalOrdinal>(local_nodes->getNodeNumElements()); }
 
+  /// The body that a block is part of.
+  const MeshBody& body_of(const Block& block) const { return bodies[block.body]; }
   /// Local nodes of a side, in the order of the side's shape (see CellTopology::sides).
   std::vector<LocalOrdinal> side_nodes(const Side& side) const;
   /// Shape of a side.

@@ -10,6 +10,8 @@ namespace mortise {
 /// Of one body.
 struct MeshCounts {
   GlobalOrdinal elements = 0, nodes = 0;
+  int least_nodes_of_element = 0;
+  bool is_solid = true;  ///< no surface of a rigid body
 };
 
 /// Of each body, from its description alone, in no time and memory. Throws InputError for what build_mesh() refuses of descriptions.

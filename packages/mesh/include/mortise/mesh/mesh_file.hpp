@@ -39,14 +39,14 @@ struct FileSet {
 /// A mesh as a file gives it, whole. Cells of lower dimension (the surface of a solid in a Gmsh file, shells) are cells like all others: what
 /// uses the file finds the sides that they lie on.
 struct MeshFile {
-  std::string path;                                 ///< as it was named
-  std::vector<std::array<double, 3>> coordinates;   ///< [nodes] as they stand in the file; 0 where it gives fewer than three
-  std::vector<std::int64_t> node_labels;            ///< [nodes] their numbers in the file
-  std::vector<FileCells> cells;                     ///< no two with the same shape
-  std::vector<FileSet<FileCellRange>> cell_sets;    ///< element blocks, physical groups, ELSETs; ranges ascend
-  std::vector<FileSet<FileSide>> side_sets;         ///< given by sides of cells
-  std::vector<FileSet<std::int32_t>> node_sets;     ///< given by nodes
-  std::vector<std::string> notes;                   ///< what the reader took for something else, in words for users
+  std::string path;                                ///< as it was named
+  std::vector<std::array<double, 3>> coordinates;  ///< [nodes] as they stand in the file; 0 where it gives fewer than three
+  std::vector<std::int64_t> node_labels;           ///< [nodes] their numbers in the file
+  std::vector<FileCells> cells;                    ///< no two with the same shape
+  std::vector<FileSet<FileCellRange>> cell_sets;   ///< element blocks, physical groups, ELSETs; ranges ascend
+  std::vector<FileSet<FileSide>> side_sets;        ///< given by sides of cells
+  std::vector<FileSet<std::int32_t>> node_sets;    ///< given by nodes
+  std::vector<std::string> notes;                  ///< what the reader took for something else, in words for users
 };
 
 /// The formats that can be read.

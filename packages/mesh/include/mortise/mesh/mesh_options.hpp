@@ -5,6 +5,7 @@
 
 #include "mortise/core/parameters.hpp"
 #include "mortise/mesh/curve_complex.hpp"
+#include "mortise/mesh/listed_complex.hpp"
 #include "mortise/mesh/patch_complex.hpp"
 #include "mortise/mesh/shell_complex.hpp"
 #include "mortise/mesh/swept_complex.hpp"
@@ -13,7 +14,7 @@
 namespace mortise {
 
 /// The pure description of a body; all kinds have the same members.
-using BodyComplex = std::variant<PatchComplex, CurveComplex, SweptComplex, VolumeComplex, ShellComplex>;
+using BodyComplex = std::variant<PatchComplex, CurveComplex, SweptComplex, VolumeComplex, ShellComplex, ListedComplex>;
 
 /// Options of one body's mesh. A new kind derives from PlaneMesh or VolumeMesh, declares its parameters and is added to mesh_registry().
 struct MeshOptions : Described {
@@ -32,6 +33,8 @@ struct MeshOptions : Described {
  protected:
   explicit MeshOptions(int dimension) : translation(dimension, 0.0), dimension_(dimension) {}
   virtual void describe_rotation(Parameters& parameters) = 0;
+  /// "rotation" and "rotation axis".
+  void describe_spatial_rotation(Parameters& parameters, std::vector<double>& axis);
 
  private:
   int dimension_;
@@ -77,7 +80,7 @@ struct VolumeMesh : MeshOptions {
 /// The built-in 2D kinds: block, wedge, ring sector, disk, quarter disk, half disk and, for rigid bodies, profile.
 const Registry<PlaneMesh>& plane_mesh_registry();
 
-/// All built-in kinds: the 2D ones, and the 3D ones: brick, cylinder, extruded, revolved, sphere octant.
+/// All kinds: the built-in 2D ones, the 3D ones (brick, cylinder, extruded, revolved, sphere octant), and meshes of files.
 const Registry<MeshOptions>& mesh_registry();
 
 }  // namespace mortise

@@ -160,13 +160,16 @@ struct InterfacePattern {
   std::vector<std::vector<LocalOrdinal>> loaded;
 };
 
+/// The mark of all components of a node that carries no multiplier of an interface, as other interfaces meet there.
+inline constexpr double crosspoint_mark = 3.0;
+
 /// One contact pair's coupling, in 2D or 3D, by the number of columns of the positions. Collective in all members but the accessors.
 class MortarInterface {
  public:
   /// @param owned_nodes    one-to-one map of all nodes of the model
   /// @param reference      [owned nodes x dim] reference positions
   /// @param fixed          [owned nodes x dim] 1 where the displacement is prescribed, 2 where it follows a rigid body or a reference point, else 0;
-  ///                       only messages tell 1 from 2
+  ///                       only messages tell 1 from 2. crosspoint_mark: the node carries no multiplier here, though nothing holds it
   /// @param slave          every slave facet with a node owned by this rank (so a facet may stand on two ranks)
   /// @param master         the master facets of this rank, each on exactly one rank
   /// @throws InputError (at `place`, on every rank) for

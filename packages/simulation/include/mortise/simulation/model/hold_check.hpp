@@ -29,8 +29,8 @@ struct HoldingPair {
 ///   - every slave facet in reach of its master adds (n . (mode_slave - mode_master))^2, with friction |mode_slave - mode_master|^2.
 /// A null vector of the matrix is a motion that nothing holds.
 /// @param fixed        [owned nodes x dim] 1 where the displacement is prescribed
-/// @param body_places  where the scene gives each body (mesh.blocks order)
-/// @returns for each body (mesh.blocks order) whether only contact holds it
+/// @param body_places  where the scene gives each body (mesh.bodies order)
+/// @returns for each body (mesh.bodies order) whether only contact holds it
 /// @throws InputError naming body and mode for each motion that nothing holds
 std::vector<char> check_held(const Mesh& mesh, bool axisymmetric, const MultiVector& fixed, const std::vector<HoldingPair>& pairs,
                              const std::vector<Place>& body_places);

@@ -40,7 +40,7 @@ class Model {
   const std::shared_ptr<ContactSystem>& contact() const { return parts_.contact; }
   /// For each owned node whether it belongs to a body that nothing but contact holds.
   const std::vector<char>& held_by_contact_only() const { return held_by_contact_only_; }
-  /// mesh.blocks indices of the bodies on either side of each contact pair, second passes behind all pairs of the scene.
+  /// mesh.bodies indices of the bodies on either side of each contact pair, second passes behind all pairs of the scene.
   const std::vector<std::vector<int>>& bodies_of_pairs() const { return bodies_of_pairs_; }
   const Effects& effects() const { return effects_; }
   /// How the surfaces lie before anything moves.

@@ -22,7 +22,7 @@ NodePlaces node_places(const Mesh& mesh, const Vector* displacement);
 /// along the axis; 2D: two translations and the rotation about centre(b), times size(b); 3D: three of each. So all are lengths.
 class RigidModes {
  public:
-  /// Collective. `bodies` are mesh.blocks indices.
+  /// Collective. `bodies` are mesh.bodies indices.
   RigidModes(const Mesh& mesh, bool axisymmetric, std::vector<int> bodies, const std::vector<Eigen::Vector3d>& x);
 
   int dimension() const { return dimension_; }

@@ -39,7 +39,7 @@ class ContactRecord {
   void accept(const std::vector<PairHold>& pairs);
   /// Stores or restores it.
   void serialize(StateArchive& archive);
-  /// What pairs do now that touch any of some bodies (mesh.blocks indices), in words.
+  /// What pairs do now that touch any of some bodies (mesh.bodies indices), in words.
   std::string describe(const Model& model, const std::vector<int>& bodies, const std::vector<PairHold>& now) const;
 
  private:

@@ -89,7 +89,7 @@ class StateCheck {
   bool went_far_ = false;
 };
 
-/// mesh.blocks indices of the bodies that only contact holds. Collective.
+/// mesh.bodies indices of the bodies that only contact holds. Collective.
 std::vector<int> bodies_held_by_contact_only(const Model& model);
 
 /// [owned nodes x dim] 1 where a displacement is prescribed, else 0.

@@ -1,6 +1,7 @@
 #pragma once
 // A scene: everything a run is made of, as the scene file says it. Each list of the file is one struct here.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "mortise/nonlinear/newton_solver.hpp"
 #include "mortise/simulation/quantities/quantity.hpp"
 #include "mortise/simulation/scene/checks.hpp"
+#include "mortise/simulation/scene/pattern.hpp"
 #include "mortise/solid/element_type.hpp"
 #include "mortise/solid/loads.hpp"
 #include "mortise/solid/prescribed_motion.hpp"
@@ -26,8 +28,11 @@ struct BodyOptions {
   Located<bool> rigid;
   std::vector<double> reference_point;  ///< of a rigid body: x, y(, z); empty: the middle of its box
   Located<std::string> material;
-  ElementType element = ElementType::q4;
+  AssignmentList materials;                     ///< of blocks of a mesh file: name of the block, name of the material
+  Located<std::optional<ElementType>> element;  ///< none: what the mesh has; see element_of()
   Choice<MeshOptions> mesh;
+  Mirror mirror = Mirror::none;
+  PatternOptions pattern;  ///< of a scene that was read each copy is a body of its own
   void describe(Parameters& parameters);
 };
 

@@ -1,0 +1,42 @@
+#include "mortise/mesh/file_mesh.hpp"
+
+#include <filesystem>
+#include <stdexcept>
+
+namespace mortise {
+
+void FileMesh::describe_shape(Parameters& parameters) {
+  parameters.add("file", file, Says("path of the mesh file; a relative one begins at the folder of the scene").required());
+  parameters.add("format", format,
+                 {{"by name", MeshFormat::by_name}, {"exodus", MeshFormat::exodus}, {"gmsh", MeshFormat::gmsh}, {"abaqus", MeshFormat::abaqus}},
+                 "format of the file; by name: .exo, .e, .g and the like are Exodus II, .msh is Gmsh, .inp is Abaqus or CalculiX");
+  parameters.add("blocks", blocks, "element blocks, physical groups or element sets of the file that make the body; empty: all of its cells");
+  parameters.add("scale", scale,
+                 Says("factor on the coordinates of the file, for its unit of length: 0.001 takes mm to m").at_least(1e-30).at_most(1e30));
+  parameters.add("shared nodes", shared_nodes, {{"refused", SharedNodes::refused}, {"doubled", SharedNodes::doubled}},
+                 "nodes that another body of the same file has too: refused, an error; doubled, each body gets its own, so that they can move apart");
+}
+
+void FileMesh::describe_rotation(Parameters& parameters) { describe_spatial_rotation(parameters, rotation_axis); }
+
+BodyComplex FileMesh::complex(CellShape, const Place&) const { throw std::logic_error("the mesh of a file is made by make_file_bodies()"); }
+
+FileBodyRequest FileMesh::request(const std::string& body, const Place& place, int dimension, bool is_surface) const {
+  FileBodyRequest request;
+  request.name = body;
+  request.place = place;
+  namespace fs = std::filesystem;
+  const fs::path path(file.value), folder = fs::path(file.place.file).parent_path();
+  request.file = path.is_absolute() ? path.string() : (folder / path).string();
+  request.format = format;
+  request.dimension = dimension;
+  request.is_surface = is_surface;
+  request.shares_nodes = shared_nodes == SharedNodes::doubled;
+  request.blocks = blocks;
+  request.scale = scale;
+  request.placement = {
+      {rotation_axis.at(0), rotation_axis.at(1), rotation_axis.at(2)}, rotation, {translation.at(0), translation.at(1), translation.at(2)}};
+  return request;
+}
+
+}  // namespace mortise

@@ -1,0 +1,19 @@
+#pragma once
+// What a body of a mesh file has to fulfil before anything is computed with it.
+
+#include "chosen_cells.hpp"
+#include "side_table.hpp"
+
+namespace mortise {
+
+/// In 2D all nodes have one z. @throws InputError
+void require_flat(const MeshFile& file, const FileBodyRequest& request, const ChosenCells& chosen);
+
+/// No side belongs to more than two elements, and no triangle of the surface lies on half of a quadrilateral of it: those would be cracks.
+/// @throws InputError
+void require_conforming(const MeshFile& file, const FileBodyRequest& request, const ChosenCells& chosen, const SideTable& sides);
+
+/// Every element can be reached from every other one through common nodes. @throws InputError
+void require_one_piece(const MeshFile& file, const FileBodyRequest& request, const ChosenCells& chosen);
+
+}  // namespace mortise

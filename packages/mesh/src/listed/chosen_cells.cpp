@@ -1,0 +1,147 @@
+#include "chosen_cells.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "mortise/core/names.hpp"
+
+namespace mortise {
+namespace {
+
+constexpr std::int8_t not_chosen = -1;
+
+/// [groups][cells] numbers of parts; not_chosen.
+using Membership = std::vector<std::vector<std::int8_t>>;
+
+const FileSet<FileCellRange>& require_cells(const MeshFile& file, const std::string& name, const Place& place) {
+  std::vector<std::string> known;
+  for (const auto& set : file.cell_sets) {
+    if (set.name == name) return set;
+    known.push_back(set.name);
+  }
+  if (known.empty()) throw InputError(place, fmt::format("{} names no blocks of elements; please leave out \"{}\"", file.path, name));
+  throw InputError(place, fmt::format("in {} {}", file.path, unknown_name("block", name, known)));
+}
+
+/// visit(group, cell) for each cell of a set that has so many dimensions.
+template <class Visit>
+void for_each_cell(const MeshFile& file, const FileSet<FileCellRange>& set, int dimension, const Visit& visit) {
+  for (const FileCellRange& range : set.members) {
+    if (topology(file.cells[static_cast<std::size_t>(range.group)].shape).dimension != dimension) continue;
+    for (std::int32_t cell = range.first; cell < range.first + range.count; ++cell) visit(range.group, cell);
+  }
+}
+
+Membership choose(const MeshFile& file, const FileBodyRequest& request, int dimension) {
+  Membership part;
+  for (const FileCells& cells : file.cells) {
+    const bool all = request.blocks.empty() && topology(cells.shape).dimension == dimension;
+    part.emplace_back(cells.labels.size(), static_cast<std::int8_t>(all ? 0 : not_chosen));
+  }
+  for (const std::string& block : request.blocks) {
+    bool any = false;
+    for_each_cell(file, require_cells(file, block, request.place), dimension, [&](std::int32_t group, std::int32_t cell) {
+      part[static_cast<std::size_t>(group)][static_cast<std::size_t>(cell)] = 0;
+      any = true;
+    });
+    if (!any)
+      throw InputError(request.place, fmt::format("block \"{}\" of {} has no cells of {} dimension(s), which body \"{}\" needs", block, file.path,
+                                                  dimension, request.name));
+  }
+  // Part 0 is what no name takes.
+  if (request.parts.size() > 100)
+    throw InputError(request.place, fmt::format("body \"{}\" names {} parts; allowed: 100", request.name, request.parts.size()));
+  for (std::size_t p = 0; p < request.parts.size(); ++p) {
+    const auto& [name, place] = request.parts[p];
+    bool any = false;
+    for_each_cell(file, require_cells(file, name, place), dimension, [&](std::int32_t group, std::int32_t cell) {
+      std::int8_t& of_cell = part[static_cast<std::size_t>(group)][static_cast<std::size_t>(cell)];
+      if (of_cell == not_chosen) return;
+      if (of_cell > 0)
+        throw InputError(place, fmt::format("element {} of {} is in \"{}\" and in \"{}\"; a part with a material of its own must not overlap another",
+                                            file.cells[static_cast<std::size_t>(group)].labels[static_cast<std::size_t>(cell)], file.path,
+                                            request.parts[static_cast<std::size_t>(of_cell) - 1].value, name));
+      of_cell = static_cast<std::int8_t>(p + 1);
+      any = true;
+    });
+    if (!any) throw InputError(place, fmt::format("no element of body \"{}\" is in \"{}\" of {}", request.name, name, file.path));
+  }
+  return part;
+}
+
+std::vector<std::int32_t> used_nodes(const MeshFile& file, const Membership& part) {
+  std::vector<char> is_used(file.coordinates.size(), 0);
+  for (std::size_t group = 0; group < part.size(); ++group) {
+    const auto per_cell = static_cast<std::size_t>(topology(file.cells[group].shape).nodes);
+    for (std::size_t cell = 0; cell < part[group].size(); ++cell)
+      if (part[group][cell] != not_chosen)
+        for (std::size_t a = 0; a < per_cell; ++a) is_used[static_cast<std::size_t>(file.cells[group].nodes[per_cell * cell + a])] = 1;
+  }
+  std::vector<std::int32_t> nodes;
+  for (std::size_t node = 0; node < is_used.size(); ++node)
+    if (is_used[node]) nodes.push_back(static_cast<std::int32_t>(node));
+  return nodes;
+}
+
+/// The area of the polygon of the corners, positive if they run counterclockwise: sum of x_a y_b - x_b y_a over its edges, halved.
+double plane_area(const MeshFile& file, const std::int32_t* nodes, int corners) {
+  double twice = 0.0;
+  for (int a = 0; a < corners; ++a) {
+    const auto &x = file.coordinates[static_cast<std::size_t>(nodes[a])], &y = file.coordinates[static_cast<std::size_t>(nodes[(a + 1) % corners])];
+    twice += x[0] * y[1] - y[0] * x[1];
+  }
+  return 0.5 * twice;
+}
+
+/// Corner 0 stays the first. Mid-side node corners + k lies between corners k and k + 1.
+std::vector<std::int32_t> reversed(const std::int32_t* nodes, const CellTopology& cell) {
+  std::vector<std::int32_t> result;
+  for (int a = 0; a < cell.corners; ++a) result.push_back(nodes[(cell.corners - a) % cell.corners]);
+  for (int k = 0; k < cell.mid_side_nodes(); ++k) result.push_back(nodes[cell.corners + cell.corners - 1 - k]);
+  return result;
+}
+
+}  // namespace
+
+ChosenCells choose_cells(const MeshFile& file, const FileBodyRequest& request, int cell_dimension) {
+  const Membership part = choose(file, request, cell_dimension);
+  ChosenCells chosen;
+  chosen.file_nodes = used_nodes(file, part);
+  std::vector<std::int32_t> number(file.coordinates.size(), -1);
+  for (std::size_t node = 0; node < chosen.file_nodes.size(); ++node)
+    number[static_cast<std::size_t>(chosen.file_nodes[node])] = static_cast<std::int32_t>(node);
+  for (const auto& cells : part) chosen.elements_of_cells.emplace_back(cells.size(), -1);
+  chosen.turned.resize(part.size());
+  BodyElements& elements = chosen.elements;
+  const bool mends = cell_dimension == 2 && request.dimension == 2;
+  for (std::size_t p = 0; p <= request.parts.size(); ++p)
+    for (std::size_t group = 0; group < part.size(); ++group) {
+      const FileCells& cells = file.cells[group];
+      const CellTopology& cell = topology(cells.shape);
+      BodyPart added{p == 0 ? "" : request.parts[p - 1].value, cells.shape, 0};
+      for (std::size_t c = 0; c < part[group].size(); ++c) {
+        if (part[group][c] != static_cast<std::int8_t>(p)) continue;
+        const std::int32_t* nodes = cells.nodes.data() + static_cast<std::size_t>(cell.nodes) * c;
+        std::vector<std::int32_t> in_order(nodes, nodes + cell.nodes);
+        if (mends && plane_area(file, nodes, cell.corners) < 0.0) {
+          in_order = reversed(nodes, cell);
+          chosen.turned[group].resize(part[group].size(), 0);
+          chosen.turned[group][c] = 1;
+          ++chosen.turned_count;
+        }
+        for (const std::int32_t node : in_order) elements.nodes.push_back(number[static_cast<std::size_t>(node)]);
+        elements.offsets.push_back(static_cast<std::int64_t>(elements.nodes.size()));
+        chosen.elements_of_cells[group][c] = elements.size();
+        elements.labels.push_back(cells.labels[c]);
+        ++added.elements;
+      }
+      if (added.elements > 0) elements.parts.push_back(added);
+    }
+  return chosen;
+}
+
+}  // namespace mortise

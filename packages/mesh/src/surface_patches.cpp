@@ -1,0 +1,126 @@
+#include "mortise/mesh/surface_patches.hpp"
+
+#include <Teuchos_CommHelpers.hpp>
+#include <Teuchos_OrdinalTraits.hpp>
+#include <Tpetra_Export.hpp>
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace mortise {
+namespace {
+
+using Position = std::array<double, 3>;
+
+/// Numbers up to 2^52 are exact as the difference to it, so that the largest difference is that of the least number.
+constexpr double beyond_numbers = 4503599627370496.0;
+
+RCP<const Map> map_of_sides(const Mesh& mesh, const std::vector<GlobalOrdinal>& numbers) {
+  return rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(), Teuchos::arrayViewFromVector(numbers), 0, mesh.comm));
+}
+
+double cosine(const Position& a, const Position& b) {
+  const double lengths = std::hypot(a[0], a[1], a[2]) * std::hypot(b[0], b[1], b[2]);
+  return lengths > 0.0 ? (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) / lengths : -1.0;
+}
+
+/// Pairs of sides on this rank that share an edge with an owned node: every pair is found on a rank that owns a node of its edge.
+std::vector<std::array<std::size_t, 2>> neighbours(const Mesh& mesh, const SideSet& set) {
+  std::map<std::array<LocalOrdinal, 2>, std::vector<std::size_t>> sides_of_edge;
+  for (std::size_t s = 0; s < set.sides.size(); ++s) {
+    const auto nodes = mesh.side_nodes(set.sides[s]);
+    const int corners = topology(mesh.side_shape(set.sides[s])).corners;
+    for (int a = 0; a < corners; ++a) {
+      const LocalOrdinal first = nodes[static_cast<std::size_t>(a)];
+      const LocalOrdinal second = mesh.dimension == 2 ? first : nodes[static_cast<std::size_t>((a + 1) % corners)];
+      if (std::min(first, second) < mesh.owned_count()) sides_of_edge[{std::min(first, second), std::max(first, second)}].push_back(s);
+    }
+  }
+  std::vector<std::array<std::size_t, 2>> pairs;
+  for (const auto& [edge, sides] : sides_of_edge)
+    for (std::size_t a = 0; a < sides.size(); ++a)
+      for (std::size_t b = a + 1; b < sides.size(); ++b) pairs.push_back({sides[a], sides[b]});
+  return pairs;
+}
+
+}  // namespace
+
+GlobalOrdinal side_number(const Mesh& mesh, const Side& side) {
+  return 8 * mesh.blocks[side.block].element_ids[static_cast<std::size_t>(side.element)] + 1 + side.side;
+}
+
+Position middle_of(const Mesh& mesh, const Side& side) {
+  const auto nodes = mesh.side_nodes(side);
+  Position middle{};
+  for (const LocalOrdinal node : nodes)
+    for (int i = 0; i < 3; ++i) middle[i] += mesh.coordinates[static_cast<std::size_t>(node)][i] / static_cast<double>(nodes.size());
+  return middle;
+}
+
+// In 2D (t_y, -t_x) of the way along it. In 3D half the sum of p_a x p_b over the edges of the polygon, with positions from its first corner on.
+Position normal_of(const Mesh& mesh, const Side& side) {
+  const auto nodes = mesh.side_nodes(side);
+  const int corners = topology(mesh.side_shape(side)).corners;
+  const auto x = [&](int a) { return mesh.coordinates[static_cast<std::size_t>(nodes[static_cast<std::size_t>(a % corners)])]; };
+  if (mesh.dimension == 2) return {x(1)[1] - x(0)[1], x(0)[0] - x(1)[0], 0.0};
+  Position normal{};
+  const Position origin = x(0);
+  for (int a = 0; a < corners; ++a) {
+    Position p = x(a), q = x(a + 1);
+    for (int i = 0; i < 3; ++i) p[i] -= origin[i], q[i] -= origin[i];
+    for (int i = 0; i < 3; ++i) normal[i] += 0.5 * (p[(i + 1) % 3] * q[(i + 2) % 3] - p[(i + 2) % 3] * q[(i + 1) % 3]);
+  }
+  return normal;
+}
+
+// Each side begins with its own number. The least number of neighbours is taken over until nothing changes: on this rank at once, from rank to rank
+// by rounds, of which there are as many as a patch crosses ranks.
+std::vector<GlobalOrdinal> patches_of(const Mesh& mesh, const SideSet& set, double angle) {
+  std::vector<GlobalOrdinal> patch;
+  for (const Side& side : set.sides) patch.push_back(side_number(mesh, side));
+  const auto local_map = map_of_sides(mesh, patch),
+             owned_map = map_of_sides(mesh, {patch.begin(), patch.begin() + static_cast<std::ptrdiff_t>(set.owned)});
+  const double least_cosine = std::cos(angle * M_PI / 180.0) - 1e-12;
+  std::vector<std::array<std::size_t, 2>> smooth;
+  for (const auto& [a, b] : neighbours(mesh, set))
+    if (cosine(normal_of(mesh, set.sides[a]), normal_of(mesh, set.sides[b])) >= least_cosine) smooth.push_back({a, b});
+  // Sides of this rank that hang together, by the first of them.
+  std::vector<std::size_t> first(set.sides.size());
+  std::iota(first.begin(), first.end(), std::size_t{0});
+  const auto root = [&](std::size_t s) {
+    while (first[s] != s) s = first[s] = first[first[s]];
+    return s;
+  };
+  for (const auto& [a, b] : smooth) {
+    const std::size_t one = root(a), other = root(b);
+    first[std::max(one, other)] = std::min(one, other);
+  }
+  const Export to_owners(local_map, owned_map);
+  const Import to_copies(owned_map, local_map);
+  for (int changed_anywhere = 1; changed_anywhere != 0;) {
+    std::vector<GlobalOrdinal> least(patch);
+    for (std::size_t s = 0; s < patch.size(); ++s) least[root(s)] = std::min(least[root(s)], patch[s]);
+    Vector local(local_map), owned(owned_map);
+    {
+      const auto view = local.getLocalViewHost(Tpetra::Access::OverwriteAll);
+      for (std::size_t s = 0; s < patch.size(); ++s) view(s, 0) = beyond_numbers - static_cast<double>(least[root(s)]);
+    }
+    owned.doExport(local, to_owners, Tpetra::ABSMAX);
+    local.doImport(owned, to_copies, Tpetra::REPLACE);
+    const auto view = local.getLocalViewHost(Tpetra::Access::ReadOnly);
+    int changed = 0;
+    for (std::size_t s = 0; s < patch.size(); ++s) {
+      const auto now = static_cast<GlobalOrdinal>(beyond_numbers - view(s, 0));
+      if (now != patch[s]) changed = 1;
+      patch[s] = now;
+    }
+    Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, changed, Teuchos::outArg(changed_anywhere));
+  }
+  return patch;
+}
+
+}  // namespace mortise
