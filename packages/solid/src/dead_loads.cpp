@@ -70,17 +70,18 @@ class Gravity final : public Load {
   Gravity(const std::shared_ptr<const Bodies>& bodies, const GravityOptions& options)
       : components_(components(*bodies, options.x, options.y, options.z)), masses_(bodies->mesh()->owned_count(), 0.0) {
     bool found = false;
-    std::string names;
     for (std::size_t n = 0; n < bodies->properties().size(); ++n) {
       const BodyProperties& body = bodies->properties()[n];
-      names += (n ? ", " : "") + body.name;
       if (!options.body.value.empty() && options.body.value != body.name) continue;
       found = true;
       if (body.is_rigid()) continue;  // it has no mass; a force on its reference point will do
       const std::vector<double> volumes = bodies->nodal_volumes(static_cast<LocalOrdinal>(n));
       for (std::size_t node = 0; node < masses_.size(); ++node) masses_[node] += body.material->density * volumes[node];
     }
-    if (!found) throw InputError(options.body.place, fmt::format("there is no body \"{}\"; the bodies are: {}", options.body.value, names));
+    if (found) return;
+    std::string names;
+    for (const MeshBody& body : bodies->mesh()->bodies) names += (names.empty() ? "" : ", ") + body.name;
+    throw InputError(options.body.place, fmt::format("there is no body \"{}\"; the bodies are: {}", options.body.value, names));
   }
 
   void add_residual(double time, const Vector&, Vector& residual, std::optional<StepFailure>& failure) const override {

@@ -18,7 +18,9 @@ void for_all(const Check& check) {
   for (const auto& example : example_volumes())
     for (const auto cell : {CellShape::hexahedron8, CellShape::tetrahedron4, CellShape::hexahedron20, CellShape::tetrahedron10}) {
       SCOPED_TRACE(example.name + " of cells with " + std::to_string(topology(cell).nodes) + " nodes");
-      with_volume(*example.options, cell, [&](const auto& complex) { check(complex, example); });
+      with_volume(*example.options, cell, [&](const auto& complex) {
+        if constexpr (!std::is_same_v<std::decay_t<decltype(complex)>, ListedComplex>) check(complex, example);
+      });
     }
 }
 

@@ -17,9 +17,11 @@ OverlapPlace place_of(const DeepestPoint& deepest, const std::string& surface) {
   return {deepest.depth, deepest.node, surface, {deepest.place[0], deepest.place[1], deepest.place[2]}};
 }
 
-/// A pair while it is examined.
+/// A pair, or what it has of two bodies, while it is examined.
 struct Examined {
+  std::size_t index;  ///< of the pair in the scene
   const Named<ContactPairOptions>& options;
+  SidesOfBody slave_sides, master_sides;
   NamedSurface slave, master;
   SurfaceView from_slave, from_master;
   PairAtStart result;
@@ -35,13 +37,12 @@ std::string where(const Mesh& mesh, const DeepestPoint& point, const std::string
   return to_string(mesh.dimension, place_of(point, surface));
 }
 
-Examined examine(const PlacedBodies& bodies, const Named<ContactPairOptions>& options) {
+Examined examine(const PlacedBodies& bodies, std::size_t index, const Named<ContactPairOptions>& options, const SidesOfBody& slave,
+                 const SidesOfBody& master) {
   const Mesh& mesh = bodies.mesh;
-  const auto surface = [&](const Located<std::string>& name) {
-    const SideSet& set = require_side_set(mesh, name);
-    return NamedSurface{name.value, set, body_of(mesh, set)};
-  };
-  Examined pair{options, surface(options.value.slave), surface(options.value.master), {}, {}, {}};
+  Examined pair{
+      index, options, slave, master, {options.value.slave.value, *slave.set, slave.body}, {options.value.master.value, *master.set, master.body},
+      {},    {},      {}};
   PairAtStart& result = pair.result;
   result.longest = std::max(longest_facet(mesh, pair.slave.set, bodies.at), longest_facet(mesh, pair.master.set, bodies.at));
   if (pair.slave.body == pair.master.body) return pair;  // what lies within a body lies within itself
@@ -51,6 +52,15 @@ Examined examine(const PlacedBodies& bodies, const Named<ContactPairOptions>& op
   result.is_swallowed = pair.from_slave.swallowed >= most_of_a_surface * pair.from_slave.probes;
   if (pair.deepest().depth > 0.0) result.overlap = place_of(pair.deepest(), pair.penetrating().name);
   return pair;
+}
+
+/// What is known of a pair whose surfaces belong to several bodies.
+void add(PairAtStart& pair, const PairAtStart& of_bodies) {
+  pair.longest = std::max(pair.longest, of_bodies.longest);
+  if (of_bodies.overlap.depth > pair.overlap.depth) pair.overlap = of_bodies.overlap;
+  if (of_bodies.gap) pair.gap = std::min(pair.gap.value_or(*of_bodies.gap), *of_bodies.gap);
+  if (of_bodies.reach) pair.reach = std::max(pair.reach.value_or(0.0), *of_bodies.reach);
+  pair.is_swallowed = pair.is_swallowed || of_bodies.is_swallowed;
 }
 
 // Half a facet beyond the overlap, so that the first iterations do not leave it; not more than the facet that is reached anyway.
@@ -151,20 +161,25 @@ SurfacesAtStart examine_surfaces(const Mesh& mesh, const Scene& scene, double le
   const PlacedBodies bodies{mesh, at, body_boxes(mesh, at), length, meant_to_touch * length};
   std::vector<Examined> pairs;
   std::set<std::pair<std::size_t, std::size_t>> connected, with_fronts;
-  for (const auto& options : scene.contact) {
-    const Examined& pair = pairs.emplace_back(examine(bodies, options));
-    const auto both = std::minmax(pair.slave.body, pair.master.body);
-    connected.insert(both);
-    if (pair.overlaps()) with_fronts.insert(both);
+  for (std::size_t p = 0; p < scene.contact.size(); ++p) {
+    const auto& options = scene.contact[p];
+    for (const SidesOfBody& slave : sides_by_body(mesh, require_side_set(mesh, options.value.slave)))
+      for (const SidesOfBody& master : sides_by_body(mesh, require_side_set(mesh, options.value.master))) {
+        const Examined& pair = pairs.emplace_back(examine(bodies, p, options, slave, master));
+        const auto both = std::minmax(slave.body, master.body);
+        connected.insert(both);
+        if (pair.overlaps()) with_fronts.insert(both);
+      }
   }
   std::vector<Diagnostic> diagnostics;
   SurfacesAtStart result;
+  result.pairs.resize(scene.contact.size());
   for (Examined& pair : pairs) {
     if (pair.overlaps())
       complain_of_overlap(bodies, pair, diagnostics);
     else
       complain_of_sides(bodies, pair, with_fronts.count(std::minmax(pair.slave.body, pair.master.body)) > 0, diagnostics);
-    result.pairs.push_back(pair.result);
+    add(result.pairs[pair.index], pair.result);
   }
   if (!diagnostics.empty()) throw InputError(diagnostics);
   result.strays = stray_overlaps(bodies, connected);

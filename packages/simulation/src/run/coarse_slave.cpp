@@ -70,12 +70,15 @@ std::vector<Place> on_all_ranks(const Communicator& comm, const std::vector<Plac
   return all;
 }
 
-double softer_modulus(const Model& model, std::size_t one, std::size_t other) {
-  double modulus = std::numeric_limits<double>::max();
-  for (const std::size_t body : {one, other})
-    if (const auto& properties = model.bodies()->properties()[body]; !properties.is_rigid())
-      modulus = std::min(modulus, properties.material->youngs_modulus);
-  return modulus;
+/// Of the elements on either side. Collective.
+double softer_modulus(const Model& model, const SideSet& one, const SideSet& other) {
+  double mine = std::numeric_limits<double>::max(), least = mine;
+  for (const SideSet* set : {&one, &other})
+    for (const Side& side : set->sides)
+      if (const auto& properties = model.bodies()->properties()[side.block]; !properties.is_rigid())
+        mine = std::min(mine, properties.material->youngs_modulus);
+  Teuchos::reduceAll(*model.mesh()->comm, Teuchos::REDUCE_MIN, mine, Teuchos::outArg(least));
+  return least;
 }
 
 std::optional<std::string> too_coarse(const Model& model, const Scene& scene, std::size_t p, const PlaceOfNode& at, const ContactLaws& laws) {
@@ -125,7 +128,7 @@ std::optional<std::string> too_coarse(const Model& model, const Scene& scene, st
   Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, off, Teuchos::outArg(turn));
   for (const Place& place : places) length = std::max(length, place.length);
   const double side_by_side = std::pow(static_cast<double>(places.size()), 1.0 / (mesh.dimension - 1));
-  const double of_one = turn / side_by_side, given = all[1] / softer_modulus(model, body_of(mesh, slave), body_of(mesh, master));
+  const double of_one = turn / side_by_side, given = all[1] / softer_modulus(model, slave, master);
   if (!(2.0 * weighing * of_one > given)) return std::nullopt;
   const Eigen::Vector3d& x = std::min_element(places.begin(), places.end(), [](const Place& one, const Place& other) {
                                return std::lexicographical_compare(one.centre.begin(), one.centre.end(), other.centre.begin(), other.centre.end());

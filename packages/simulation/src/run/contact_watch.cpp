@@ -36,8 +36,13 @@ ContactWatch::ContactWatch(const Model& model, const Scene& scene)
     const double reach = options.contact.mortar.search_reach.value_or(start.reach.value_or(start.longest));
     // Couplings of the reference configuration stay for ever: what they do not cover they never will.
     const bool is_frozen = options.contact.geometry == ContactGeometry::reference;
-    Pair pair{p, slave, master, body_of(mesh, slave), body_of(mesh, master), is_frozen ? touching_depth * model.size().length : reach, is_frozen};
-    if (pair.slave_body != pair.master_body && !start.is_swallowed) pairs_.push_back(pair);
+    for (const SidesOfBody& of_slave : sides_by_body(mesh, slave))
+      for (const SidesOfBody& of_master : sides_by_body(mesh, master)) {
+        sides_.insert(sides_.end(), {of_slave, of_master});
+        Pair pair{p,        *of_slave.set, *of_master.set, of_slave.body, of_master.body, is_frozen ? touching_depth * model.size().length : reach,
+                  is_frozen};
+        if (pair.slave_body != pair.master_body && !start.is_swallowed) pairs_.push_back(pair);
+      }
   }
 }
 

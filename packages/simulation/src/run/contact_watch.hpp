@@ -33,7 +33,8 @@ class ContactWatch {
 
   const Model& model_;
   const Scene& scene_;
-  std::vector<Pair> pairs_;
+  std::vector<SidesOfBody> sides_;  ///< that pairs refer to
+  std::vector<Pair> pairs_;         ///< of two bodies each: a pair of the scene may have several
   Import to_local_nodes_;
 };
 

@@ -55,14 +55,17 @@ CornerWatch::CornerWatch(const Model& model, const Scene& scene, std::function<v
   for (std::size_t p = 0; p < scene.contact.size(); ++p) {
     const ContactPairOptions& options = scene.contact[p].value;
     if (options.contact.formulation.options->two_pass()) continue;  // master nodes have gaps of their own
-    const SideSet &slave = require_side_set(mesh, options.slave), &master = require_side_set(mesh, options.master);
-    Pair pair{p, slave, body_of(mesh, slave), body_of(mesh, master), {}, master, {}, {}};
-    if (pair.slave_body == pair.master_body) continue;
-    const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
-    pair.facets = rcp(new Map(invalid, static_cast<std::size_t>(slave.owned), 0, mesh.comm));
-    pair.of_master = candidates(master, pair.master_body);
-    if (has_standard_weights(options.contact)) pair.of_slave = candidates(slave, pair.slave_body);
-    pairs_.push_back(std::move(pair));
+    for (const SidesOfBody& slave : sides_by_body(mesh, require_side_set(mesh, options.slave)))
+      for (const SidesOfBody& master : sides_by_body(mesh, require_side_set(mesh, options.master))) {
+        if (slave.body == master.body) continue;
+        sides_.insert(sides_.end(), {slave, master});
+        Pair pair{p, *slave.set, slave.body, master.body, {}, *master.set, {}, {}};
+        const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
+        pair.facets = rcp(new Map(invalid, static_cast<std::size_t>(slave.set->owned), 0, mesh.comm));
+        pair.of_master = candidates(*master.set, master.body);
+        if (has_standard_weights(options.contact)) pair.of_slave = candidates(*slave.set, slave.body);
+        pairs_.push_back(std::move(pair));
+      }
   }
 }
 

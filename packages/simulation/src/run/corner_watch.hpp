@@ -65,7 +65,8 @@ class CornerWatch {
   const Model& model_;
   const Scene& scene_;
   std::function<void(const std::string&)> warn_;
-  std::vector<Pair> pairs_;
+  std::vector<SidesOfBody> sides_;  ///< that pairs refer to
+  std::vector<Pair> pairs_;         ///< of two bodies each: a pair of the scene may have several
   std::vector<Found> found_;
   std::string accepted_;
 };

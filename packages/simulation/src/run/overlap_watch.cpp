@@ -22,20 +22,21 @@ OverlapWatch::OverlapWatch(const Model& model, const Scene& scene, std::function
   for (std::size_t p = 0; p < scene.contact.size(); ++p) {
     const ContactPairOptions& options = scene.contact[p].value;
     if (options.contact.geometry == ContactGeometry::reference) continue;  // small displacements: places are those of the reference configuration
-    Pair pair{p, surface(require_side_set(mesh, options.slave)), surface(require_side_set(mesh, options.master))};
-    if (pair.slave.body != pair.master.body) pairs_.push_back(std::move(pair));
+    for (const SidesOfBody& slave : sides_by_body(mesh, require_side_set(mesh, options.slave)))
+      for (const SidesOfBody& master : sides_by_body(mesh, require_side_set(mesh, options.master)))
+        if (slave.body != master.body) pairs_.push_back({p, surface(slave), surface(master)});
   }
 }
 
-OverlapWatch::Surface OverlapWatch::surface(const SideSet& set) const {
+OverlapWatch::Surface OverlapWatch::surface(const SidesOfBody& of_body) const {
   const Mesh& mesh = *model_.mesh();
   std::map<LocalOrdinal, std::vector<Side>> around;
-  for (const Side& side : set.sides) {
+  for (const Side& side : of_body.set->sides) {
     const std::vector<LocalOrdinal> nodes = mesh.side_nodes(side);
     for (std::size_t a = 0; a < facet_corners(mesh.dimension, nodes.size()); ++a)
       if (nodes[a] < mesh.owned_count()) around[nodes[a]].push_back(side);
   }
-  Surface result{set, body_of(mesh, set), {}};
+  Surface result{of_body, {}};
   for (auto& [node, sides] : around) result.nodes.push_back({node, std::move(sides)});
   return result;
 }
@@ -97,25 +98,25 @@ void OverlapWatch::examine(const PlacedBodies& bodies, const ContactLaws& laws) 
     if (carries_force(pair, laws)) continue;
     for (const bool of_slave : {true, false}) {
       const Surface &one = of_slave ? pair.slave : pair.master, &other = of_slave ? pair.master : pair.slave;
-      const bool rigid = is_rigid(mesh, other.body);
+      const bool rigid = is_rigid(mesh, other.sides.body);
       std::vector<SurfaceProbe> nodes;
       for (const SurfaceProbe& probe : probes(one, at))
-        if (may_penetrate(probe.point, boxes[one.body], boxes[other.body], rigid, touching)) nodes.push_back(probe);
+        if (may_penetrate(probe.point, boxes[one.sides.body], boxes[other.sides.body], rigid, touching)) nodes.push_back(probe);
       const int mine = static_cast<int>(nodes.size());
       int most = 0;
       Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, mine, Teuchos::outArg(most));
       if (most == 0) continue;
-      const auto own = tagged_surface(mesh, one.body, one.set, SurfaceTags::own, SurfaceTags::own, at);
-      const auto facing = tagged_surface(mesh, other.body, other.set, SurfaceTags::front, SurfaceTags::rest, at);
+      const auto own = tagged_surface(mesh, one.sides.body, *one.sides.set, SurfaceTags::own, SurfaceTags::own, at);
+      const auto facing = tagged_surface(mesh, other.sides.body, *other.sides.set, SurfaceTags::front, SurfaceTags::rest, at);
       std::vector<double> depths;
       for (const Penetration& found :
-           penetrations({*mesh.comm, mesh.dimension, own, facing, boxes[one.body], boxes[other.body], rigid, touching}, nodes))
+           penetrations({*mesh.comm, mesh.dimension, own, facing, boxes[one.sides.body], boxes[other.sides.body], rigid, touching}, nodes))
         depths.push_back(found.kind == Penetration::Kind::overlap && found.depth > touching ? found.depth : 0.0);
       const DeepestPoint point = deepest_point(mesh, at, nodes, depths);
       if (!(point.depth > 0.0) || point.depth <= sagitta(other, at)) continue;
       const auto& x = point.place;
       found_.push_back(
-          {p, point.depth > arc_depth * longest_facet(mesh, pair.slave.set, at),
+          {p, point.depth > arc_depth * longest_facet(mesh, *pair.slave.sides.set, at),
            fmt::format("contact \"{}\": node {} of the {} at ({:.6g}, {:.6g}{}) lies {:.3g} deep in the other body, and the pair carries no force",
                        scene_.contact[pair.index].name, point.node, of_slave ? "slave" : "master", x[0], x[1],
                        mesh.dimension == 3 ? fmt::format(", {:.6g}", x[2]) : "", point.depth)});

@@ -33,8 +33,7 @@ class OverlapWatch {
     std::vector<Side> around;
   };
   struct Surface {
-    const SideSet& set;
-    std::size_t body;
+    SidesOfBody sides;
     std::vector<SurfaceNode> nodes;
   };
   struct Pair {
@@ -48,7 +47,7 @@ class OverlapWatch {
     std::string text;
   };
 
-  Surface surface(const SideSet& set) const;
+  Surface surface(const SidesOfBody& sides) const;
   bool carries_force(const Pair& pair, const ContactLaws& laws) const;
   std::vector<SurfaceProbe> probes(const Surface& surface, const PlaceOfNode& at) const;
   double sagitta(const Surface& surface, const PlaceOfNode& at) const;
@@ -56,7 +55,7 @@ class OverlapWatch {
   const Model& model_;
   const Scene& scene_;
   std::function<void(const std::string&)> warn_;
-  std::vector<Pair> pairs_;
+  std::vector<Pair> pairs_;  ///< of two bodies each: a pair of the scene may have several
   std::vector<Found> found_;
   std::string accepted_;
 };

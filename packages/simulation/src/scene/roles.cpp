@@ -10,6 +10,7 @@
 #include "mortise/mesh/build_mesh.hpp"
 #include "mortise/mesh/sets.hpp"
 #include "mortise/simulation/scene/scene_bodies.hpp"
+#include "scene/automatic_pairs.hpp"
 #include "surfaces/body_surfaces.hpp"
 
 namespace mortise {
@@ -33,14 +34,14 @@ SurfaceTraits surface_traits(const Mesh& mesh, const Scene& scene, const Located
 }
 
 RoleChoice better_slave(const SurfaceTraits& first, const SurfaceTraits& second) {
-  if (std::isinf(first.modulus) != std::isinf(second.modulus)) return {std::isinf(second.modulus), "the other one is rigid"};
+  if (std::isinf(first.modulus) != std::isinf(second.modulus)) return {std::isinf(second.modulus), false, "the other one is rigid"};
   const auto choose = [](double a, double b, const char* what) {
-    return RoleChoice{a < b, fmt::format("{}, {:.3g} against {:.3g}", what, std::min(a, b), std::max(a, b))};
+    return RoleChoice{a < b, false, fmt::format("{}, {:.3g} against {:.3g}", what, std::min(a, b), std::max(a, b))};
   };
   const auto differ = [](double a, double b, double factor) { return std::max(a, b) > factor * std::min(a, b); };
   if (differ(first.modulus, second.modulus, same_modulus)) return choose(first.modulus, second.modulus, "its body is softer");
   if (differ(first.facet, second.facet, same_facet)) return choose(first.facet, second.facet, "its facets are shorter");
-  return {true, "both are alike, and it was given as the slave"};
+  return {true, true, "both are alike, and it was given as the slave"};
 }
 
 // A facet of the master of length H is straight, so slave nodes at distances h < H would have to lie on a straight line. But a stiff slave keeps its
@@ -57,9 +58,10 @@ double excess_of_peak(const SurfaceTraits& slave, const SurfaceTraits& master, i
 
 void assign_roles(const Communicator& comm, Scene& scene) {
   const auto open = [](const auto& pair) { return pair.value.roles == ContactRoles::automatic; };
-  if (std::none_of(scene.contact.begin(), scene.contact.end(), open)) return;
+  if (std::none_of(scene.contact.begin(), scene.contact.end(), open) && scene.automatic_contact.pairs == ContactSearch::none) return;
   const RCP<Mesh> mesh = build_mesh(Teuchos::rcpFromRef(comm), body_descriptions(comm, scene), contact_sides(scene), {});
   for (const auto& set : scene.sets) add_set(*mesh, set);
+  add_automatic_pairs(*mesh, scene);
   for (auto& pair : scene.contact) {
     if (!open(pair)) continue;
     Located<std::string>&slave = pair.value.slave, &master = pair.value.master;

@@ -21,6 +21,7 @@ SurfaceTraits surface_traits(const Mesh& mesh, const Scene& scene, const Located
 /// Of two surfaces the better slave.
 struct RoleChoice {
   bool is_first = true;
+  bool is_tie = false;  ///< nothing but their order tells them apart
   std::string reason;
 };
 
@@ -30,7 +31,8 @@ RoleChoice better_slave(const SurfaceTraits& first, const SurfaceTraits& second)
 /// By how much of itself the peak pressure may come out too high with this slave: 0, unless it is stiffer and finer.
 double excess_of_peak(const SurfaceTraits& slave, const SurfaceTraits& master, int dimension);
 
-/// Exchanges slave and master of pairs with automatic roles where the master is the better slave. Collective; without such pairs it does nothing.
+/// Finds the pairs that the scene leaves to the program, and exchanges slave and master of pairs with automatic roles where the master is the better
+/// slave. Collective; without either it does nothing.
 /// @throws InputError for what a mesh cannot be made of, and for unknown sets
 void assign_roles(const Communicator& comm, Scene& scene);
 

@@ -81,6 +81,7 @@ void ContactPairOptions::describe(Parameters& parameters) {
   parameters.add("initial overlap", initial_overlap, {{"interference", InitialOverlap::interference}, {"error", InitialOverlap::error}},
                  "surfaces that begin in one another: interference, the first step pushes them apart, whatever the depth, or its share if it is cut "
                  "short; error, the scene is refused");
+  parameters.add("reason", reason, "words on the choice of the sides, which the program writes for pairs that it found; they change nothing");
   contact.describe(parameters);
 }
 
@@ -123,6 +124,7 @@ void Scene::describe(Parameters& parameters) {
   parameters.named("boundary conditions", boundary_conditions, "prescribed displacements");
   parameters.named("loads", loads, "loads, by names of your choice");
   parameters.named("contact", contact, "contact pairs, by names of your choice");
+  parameters.list("automatic contact", automatic_contact, "contact pairs that the program finds");
   parameters.list("stepping", stepping, "pseudo-time and its steps");
   parameters.list("newton", newton, "when a Newton solve is done, and when it is given up");
   parameters.list("linear solver", linear_solver, "how linear systems are solved");

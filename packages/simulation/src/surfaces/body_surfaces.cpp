@@ -48,11 +48,25 @@ std::vector<Box3> body_boxes(const Mesh& mesh, const PlaceOfNode& at) {
   return boxes_over_ranks(*mesh.comm, boxes);
 }
 
-std::size_t body_of(const Mesh& mesh, const SideSet& set) {
-  const int mine = set.owned > 0 ? mesh.blocks[set.sides.front().block].body : -1;
-  int body = -1;
-  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, mine, Teuchos::outArg(body));
-  return static_cast<std::size_t>(body);
+std::vector<SidesOfBody> sides_by_body(const Mesh& mesh, const SideSet& set) {
+  const auto body_of_side = [&](const Side& side) { return static_cast<std::size_t>(mesh.blocks[side.block].body); };
+  std::vector<int> mine(mesh.bodies.size(), 0), all(mine.size(), 0);
+  for (const Side& side : set.sides) mine[body_of_side(side)] = 1;
+  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, static_cast<int>(mine.size()), mine.data(), all.data());
+  std::vector<SidesOfBody> parts;
+  const bool is_one = std::count(all.begin(), all.end(), 1) == 1;
+  for (std::size_t body = 0; body < all.size(); ++body) {
+    if (all[body] == 0) continue;
+    if (is_one) return {{body, std::shared_ptr<const SideSet>(std::shared_ptr<const SideSet>(), &set)}};
+    const auto part = std::make_shared<SideSet>();
+    for (std::size_t s = 0; s < set.sides.size(); ++s) {
+      if (body_of_side(set.sides[s]) != body) continue;
+      part->sides.push_back(set.sides[s]);
+      if (s < static_cast<std::size_t>(set.owned)) ++part->owned;
+    }
+    parts.push_back({body, part});
+  }
+  return parts;
 }
 
 std::vector<SurfaceProbe> probes_of(const Mesh& mesh, const SideSet& set, const PlaceOfNode& at) {

@@ -2,6 +2,7 @@
 // The surfaces of all bodies as oriented facets at given positions.
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "mortise/mesh/mesh.hpp"
@@ -37,8 +38,14 @@ struct PlacedBodies {
   double touching;          ///< shorter depths are none
 };
 
-/// The body whose sides a set holds. Collective; a set is not empty and belongs to one body.
-std::size_t body_of(const Mesh& mesh, const SideSet& set);
+/// What a set of sides has of one body.
+struct SidesOfBody {
+  std::size_t body = 0;
+  std::shared_ptr<const SideSet> set;  ///< may be empty on this rank
+};
+
+/// A set by bodies, of which it has one or more; the same ones on every rank. Of one body alone it is the set itself, which has to stay. Collective.
+std::vector<SidesOfBody> sides_by_body(const Mesh& mesh, const SideSet& set);
 
 /// A point of a surface with the node that it is next to.
 struct SurfaceProbe {

@@ -41,6 +41,9 @@ struct Patches {
 /// Entries of a part's row while it is summed up.
 enum Entry { number, body, seed_x, seed_y, seed_z, middle_x, middle_y, middle_z, normal_x, normal_y, normal_z, area, shortest, sides, entries };
 
+/// Three entries of a row.
+Eigen::Map<Eigen::Vector3d> in_row(std::array<double, entries>& row, Entry first) { return Eigen::Map<Eigen::Vector3d>(&row[first]); }
+
 Patches find_patches(const Mesh& mesh, const std::vector<char>& bodies, double angle) {
   const PlaceOfNode at = reference_places(mesh);
   std::vector<std::vector<GlobalOrdinal>> numbers(mesh.bodies.size());
@@ -58,9 +61,9 @@ Patches find_patches(const Mesh& mesh, const std::vector<char>& bodies, double a
       if (row[sides] == 0.0) row[shortest] = std::numeric_limits<double>::max();
       row[number] = static_cast<double>(numbers[b][place]);
       row[body] = static_cast<double>(b);
-      if (side_number(mesh, side) == numbers[b][place]) Eigen::Map<Eigen::Vector3d>(&row[seed_x]) = middle;
-      Eigen::Map<Eigen::Vector3d>(&row[middle_x]) += size * middle;
-      Eigen::Map<Eigen::Vector3d>(&row[normal_x]) += normal;
+      if (side_number(mesh, side) == numbers[b][place]) in_row(row, seed_x) = middle;
+      in_row(row, middle_x) += size * middle;
+      in_row(row, normal_x) += normal;
       row[area] += size;
       row[shortest] = std::min(row[shortest], side_lengths(mesh, side, at).front());
       row[sides] += 1.0;
@@ -80,16 +83,16 @@ Patches find_patches(const Mesh& mesh, const std::vector<char>& bodies, double a
   }
   Patches patches;
   std::map<GlobalOrdinal, int> index;
-  for (const auto& [patch, sum] : all) {
+  for (auto& [patch, sum] : all) {
     index[patch] = static_cast<int>(patches.parts.size());
     SurfacePart& part = patches.parts.emplace_back();
     part.body = static_cast<int>(sum[body]);
     part.number = patch;
-    part.seed = Eigen::Map<const Eigen::Vector3d>(&sum[seed_x]);
-    part.centre = Eigen::Map<const Eigen::Vector3d>(&sum[middle_x]) / sum[area];
+    part.seed = in_row(sum, seed_x);
+    part.centre = in_row(sum, middle_x) / sum[area];
     part.area = sum[area];
     part.shortest = sum[shortest];
-    part.turn = 1.0 - Eigen::Map<const Eigen::Vector3d>(&sum[normal_x]).norm() / sum[area];
+    part.turn = 1.0 - in_row(sum, normal_x).norm() / sum[area];
     part.sides = static_cast<GlobalOrdinal>(sum[sides]);
   }
   for (const auto& of_body : numbers) {

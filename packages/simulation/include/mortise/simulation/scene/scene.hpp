@@ -15,6 +15,7 @@
 #include "mortise/nonlinear/load_stepper.hpp"
 #include "mortise/nonlinear/newton_solver.hpp"
 #include "mortise/simulation/quantities/quantity.hpp"
+#include "mortise/simulation/scene/automatic_contact.hpp"
 #include "mortise/simulation/scene/checks.hpp"
 #include "mortise/simulation/scene/pattern.hpp"
 #include "mortise/solid/element_type.hpp"
@@ -75,6 +76,7 @@ struct ContactPairOptions {
   Located<std::string> slave, master;
   ContactRoles roles = ContactRoles::as_given;
   InitialOverlap initial_overlap = InitialOverlap::interference;
+  std::string reason;  ///< why the slave is the slave, of pairs that the program found
   ContactOptions contact;
   void describe(Parameters& parameters);
 };
@@ -118,6 +120,7 @@ struct Scene {
   std::vector<Named<BoundaryConditionOptions>> boundary_conditions;
   std::vector<Named<LoadChoice>> loads;
   std::vector<Named<ContactPairOptions>> contact;
+  AutomaticContactOptions automatic_contact;
   SteppingOptions stepping;
   NewtonOptions newton;
   LinearSolverOptions linear_solver;

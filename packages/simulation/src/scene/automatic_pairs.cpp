@@ -1,0 +1,318 @@
+#include "scene/automatic_pairs.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Teuchos_CommHelpers.hpp>
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "mortise/core/names.hpp"
+#include "mortise/input/expression.hpp"
+#include "mortise/mesh/surface_patches.hpp"
+#include "mortise/simulation/scene/scene_bodies.hpp"
+#include "scene/roles.hpp"
+#include "surfaces/facing_patches.hpp"
+
+namespace mortise {
+
+void AutomaticContactOptions::describe(Parameters& parameters) {
+  parameters.add(
+      "pairs", pairs, {{"none", ContactSearch::none}, {"automatic", ContactSearch::automatic}},
+      "automatic: pairs are found where surfaces of different bodies face one another at the start; they and the choice of their sides stand in the "
+      "log and in effective.xml");
+  parameters.add("bodies", bodies, "bodies that may touch one another; empty: all");
+  parameters.add(
+      "reach", reach,
+      Says("surfaces further apart are left alone; left out: as far as the longest edge of the facet that looks").unit("length").at_least(0.0));
+  parameters.add(
+      "patch angle", angle,
+      Says("surfaces are split into patches at edges where the normals of facets differ by more").unit("degrees").at_least(0.0).at_most(180.0));
+  contact.describe(parameters);
+}
+
+namespace {
+
+constexpr double same_curvature = 0.01;  ///< of SurfacePart::turn, below which no side is the more curved one
+constexpr double same_place = 1e-9;      ///< over the size of a part
+
+std::vector<char> bodies_that_take_part(const Mesh& mesh, const Located<std::vector<std::string>>& names) {
+  std::vector<std::string> known;
+  for (const MeshBody& body : mesh.bodies) known.push_back(body.name);
+  std::vector<char> chosen(known.size(), names.value.empty() ? 1 : 0);
+  for (const std::string& name : names.value) {
+    const auto found = std::find(known.begin(), known.end(), name);
+    if (found == known.end()) throw InputError(names.place, unknown_name("body", name, known));
+    chosen[static_cast<std::size_t>(found - known.begin())] = 1;
+  }
+  return chosen;
+}
+
+/// A part, or what of it lies nearer to one of those that face it than to the others.
+struct Zone {
+  int part = 0;
+  std::optional<int> facing;  ///< the part that it was split off for
+};
+
+/// Two zones that become a pair.
+struct Edge {
+  int first = 0, second = 0;
+};
+
+class PairMaker {
+ public:
+  PairMaker(const Mesh& mesh, Scene& scene, FacingSurfaces found) : mesh_(mesh), scene_(scene), found_(std::move(found)) {
+    std::vector<double> mine(mesh.bodies.size(), 0.0);  // the stiffest material of each body; infinite for a rigid one
+    for (const Block& block : mesh.blocks)
+      mine[static_cast<std::size_t>(block.body)] = std::max(mine[static_cast<std::size_t>(block.body)], youngs_modulus(scene, mesh, block));
+    modulus_ = mine;
+  }
+
+  void add_pairs() {
+    make_zones();
+    if (!choose_sides()) {
+      split_parts();
+      choose_sides();
+    }
+    // Pairs by their slave: one slave has all of its masters in one pair.
+    std::map<int, std::vector<int>> masters;
+    for (const Edge& edge : edges_) {
+      const bool first = is_slave_[static_cast<std::size_t>(edge.first)];
+      masters[first ? edge.first : edge.second].push_back(first ? edge.second : edge.first);
+    }
+    for (const auto& [slave, of_slave] : masters) add_pair(slave, of_slave);
+  }
+
+ private:
+  const SurfacePart& part(int zone) const { return found_.parts[static_cast<std::size_t>(zones_[static_cast<std::size_t>(zone)].part)]; }
+  bool is_rigid_part(const SurfacePart& one) const { return mesh_.bodies[static_cast<std::size_t>(one.body)].is_surface; }
+  SurfaceTraits traits(const SurfacePart& one) const { return {modulus_[static_cast<std::size_t>(one.body)], one.shortest}; }
+
+  void make_zones() {
+    std::map<int, int> zone_of_part;
+    const auto zone = [&](int p) {
+      const auto [found, is_new] = zone_of_part.try_emplace(p, static_cast<int>(zones_.size()));
+      if (is_new) zones_.push_back({p, std::nullopt});
+      return found->second;
+    };
+    for (const FacingParts& pair : found_.facing) {
+      if (is_rigid_part(found_.parts[static_cast<std::size_t>(pair.first)]) && is_rigid_part(found_.parts[static_cast<std::size_t>(pair.second)]))
+        continue;
+      const int first = zone(pair.first), second = zone(pair.second);
+      edges_.push_back({first, second});
+    }
+  }
+
+  /// Each zone for each that faces it.
+  void split_parts() {
+    std::vector<Zone> zones;
+    std::vector<Edge> edges;
+    for (const Edge& edge : edges_) {
+      const Zone &one = zones_[static_cast<std::size_t>(edge.first)], &other = zones_[static_cast<std::size_t>(edge.second)];
+      const auto first = static_cast<int>(zones.size());
+      zones.push_back({one.part, other.part});
+      zones.push_back({other.part, one.part});
+      edges.push_back({first, first + 1});
+    }
+    zones_ = std::move(zones);
+    edges_ = std::move(edges);
+  }
+
+  /// Above 0: the first is the better slave.
+  double better(int first, int second) const {
+    const SurfacePart &one = part(first), &other = part(second);
+    if (is_rigid_part(one) != is_rigid_part(other)) return is_rigid_part(other) ? 1e300 : -1e300;
+    const RoleChoice choice = better_slave(traits(one), traits(other));
+    const double weight = std::min(one.area, other.area);
+    if (!choice.is_tie) return choice.is_first ? weight : -weight;
+    if (std::abs(one.turn - other.turn) > same_curvature) return one.turn > other.turn ? weight : -weight;
+    for (int i = 0; i < 3; ++i)
+      if (const double apart = one.centre[i] - other.centre[i]; std::abs(apart) > same_place * std::max(one.area, other.area))
+        return apart < 0.0 ? 1e-6 * weight : -1e-6 * weight;
+    return one.number < other.number ? 1e-9 * weight : -1e-9 * weight;
+  }
+
+  /// Slaves and masters alternate along edges. Of the two ways for zones that hang together the better one is taken.
+  /// @return false if some zone would have to be both, or two rigid ones would be slaves
+  bool choose_sides() {
+    std::vector<int> side(zones_.size(), 0);  // +1 and -1
+    is_slave_.assign(zones_.size(), 0);
+    for (std::size_t start = 0; start < zones_.size(); ++start) {
+      if (side[start] != 0) continue;
+      side[start] = 1;
+      std::vector<int> members{static_cast<int>(start)};
+      for (std::size_t next = 0; next < members.size(); ++next)
+        for (const Edge& edge : edges_) {
+          if (edge.first != members[next] && edge.second != members[next]) continue;
+          const int other = edge.first == members[next] ? edge.second : edge.first;
+          int& of_other = side[static_cast<std::size_t>(other)];
+          const int wanted = -side[static_cast<std::size_t>(members[next])];
+          if (of_other == 0) members.push_back(other);
+          if (of_other != 0 && of_other != wanted) return false;
+          of_other = wanted;
+        }
+      double votes = 0.0;  // for +1
+      for (const Edge& edge : edges_)
+        if (std::find(members.begin(), members.end(), edge.first) != members.end())
+          votes += side[static_cast<std::size_t>(edge.first)] * better(edge.first, edge.second);
+      for (const int zone : members) {
+        is_slave_[static_cast<std::size_t>(zone)] = (side[static_cast<std::size_t>(zone)] > 0) == (votes >= 0.0);
+        if (is_slave_[static_cast<std::size_t>(zone)] && is_rigid_part(part(zone))) return false;
+      }
+    }
+    return true;
+  }
+
+  /// A side set that has the part's sides and no others.
+  std::optional<std::string> named_set(const SurfacePart& one) {
+    const std::string body = mesh_.bodies[static_cast<std::size_t>(one.body)].name + "/";
+    const SideSet& surface = mesh_.side_sets.at(body + "surface");
+    if (patches_.count(one.body) == 0) patches_[one.body] = patches_of(mesh_, surface, scene_.automatic_contact.angle);
+    const std::vector<GlobalOrdinal>& patches = patches_.at(one.body);
+    std::set<std::array<LocalOrdinal, 3>> mine;
+    for (LocalOrdinal s = 0; s < surface.owned; ++s)
+      if (patches[static_cast<std::size_t>(s)] == one.number) {
+        const Side& side = surface.sides[static_cast<std::size_t>(s)];
+        mine.insert({side.block, side.element, side.side});
+      }
+    for (const auto& [name, set] : mesh_.side_sets) {
+      if (name.rfind(body, 0) != 0) continue;
+      std::set<std::array<LocalOrdinal, 3>> of_set;
+      for (LocalOrdinal s = 0; s < set.owned; ++s)
+        of_set.insert({set.sides[static_cast<std::size_t>(s)].block, set.sides[static_cast<std::size_t>(s)].element,
+                       set.sides[static_cast<std::size_t>(s)].side});
+      const int differs = of_set == mine ? 0 : 1;
+      int anywhere = 0;
+      Teuchos::reduceAll(*mesh_.comm, Teuchos::REDUCE_MAX, differs, Teuchos::outArg(anywhere));
+      if (anywhere == 0) return name;
+    }
+    return std::nullopt;
+  }
+
+  std::string free_set_name(const std::string& wanted) const {
+    const auto is_taken = [&](const std::string& name) {
+      return mesh_.node_sets.count(name) > 0 ||
+             std::any_of(scene_.sets.begin(), scene_.sets.end(), [&](const auto& set) { return set.name == name; });
+    };
+    std::string name = wanted;
+    for (int n = 2; is_taken(name); ++n) name = fmt::format("{} {}", wanted, n);
+    return name;
+  }
+
+  std::vector<double> in_dimension(const Eigen::Vector3d& x) const { return {x.data(), x.data() + mesh_.dimension}; }
+
+  /// The name of the set of a zone, which is added to the scene if there is none yet.
+  std::string set_of(int zone) {
+    const Zone& of = zones_[static_cast<std::size_t>(zone)];
+    const auto key = std::pair(of.part, of.facing.value_or(-1));
+    if (const auto found = sets_.find(key); found != sets_.end()) return found->second;
+    const SurfacePart& one = part(zone);
+    if (!of.facing)
+      if (const auto name = named_set(one)) return sets_[key] = *name;
+    const std::string& body = mesh_.bodies[static_cast<std::size_t>(one.body)].name;
+    Named<SetOptions> set;
+    set.name = free_set_name(body + " patch");
+    set.place = scene_.automatic_contact.bodies.place;
+    set.value.of = {{body + "/surface"}, set.place};
+    set.value.kind = SetKind::sides;
+    set.value.patch = in_dimension(one.seed);
+    set.value.patch_angle = scene_.automatic_contact.angle;
+    if (of.facing) set.value.where = nearer_to(of.part, *of.facing, set.place);
+    scene_.sets.push_back(set);
+    return sets_[key] = set.name;
+  }
+
+  /// An expression above 0 where a point of a part is nearer to the centre of one that faces it than to those of all others:
+  ///   |x - c_o|^2 - |x - c|^2 = 2 (c - c_o) . x + |c_o|^2 - |c|^2
+  ScalarFunction nearer_to(int of, int facing, const Place& place) const {
+    const Eigen::Vector3d c = found_.parts[static_cast<std::size_t>(facing)].centre;
+    std::vector<std::string> conditions;
+    for (const FacingParts& pair : found_.facing) {
+      if (pair.first != of && pair.second != of) continue;
+      const int other = pair.first == of ? pair.second : pair.first;
+      if (other == facing) continue;
+      const Eigen::Vector3d o = found_.parts[static_cast<std::size_t>(other)].centre, slope = 2.0 * (c - o);
+      conditions.push_back(
+          fmt::format("{:.17g} + ({:.17g})*x + ({:.17g})*y + ({:.17g})*z", o.squaredNorm() - c.squaredNorm(), slope[0], slope[1], slope[2]));
+    }
+    if (conditions.empty()) return ScalarFunction(1.0);
+    const std::string text = conditions.size() == 1 ? conditions.front() : fmt::format("min({})", fmt::join(conditions, ", "));
+    return parse_expression(text, scene_.symbols, place);
+  }
+
+  void add_pair(int slave, const std::vector<int>& masters) {
+    std::vector<std::string> sets, bodies;
+    for (const int master : masters) {
+      sets.push_back(set_of(master));
+      const std::string& body = mesh_.bodies[static_cast<std::size_t>(part(master).body)].name;
+      if (std::find(bodies.begin(), bodies.end(), body) == bodies.end()) bodies.push_back(body);
+    }
+    Named<ContactPairOptions> pair;
+    const std::string wanted = fmt::format("{} on {}", mesh_.bodies[static_cast<std::size_t>(part(slave).body)].name, fmt::join(bodies, " and "));
+    pair.name = wanted;
+    const auto is_taken = [&] {
+      return std::any_of(scene_.contact.begin(), scene_.contact.end(), [&](const auto& one) { return one.name == pair.name; });
+    };
+    for (int n = 2; is_taken(); ++n) pair.name = fmt::format("{} {}", wanted, n);
+    pair.place = scene_.automatic_contact.bodies.place;
+    pair.value.slave = {set_of(slave), pair.place};
+    if (sets.size() > 1) {
+      Named<SetOptions> all;
+      all.name = free_set_name("masters of " + pair.name);
+      all.place = pair.place;
+      all.value.of = {sets, pair.place};
+      all.value.kind = SetKind::sides;
+      scene_.sets.push_back(all);
+      sets = {all.name};
+    }
+    pair.value.master = {sets.front(), pair.place};
+    pair.value.contact = scene_.automatic_contact.contact;
+    pair.value.reason = reason(slave, masters);
+    scene_.contact.push_back(pair);
+  }
+
+  /// Why the slave is the slave, for the log.
+  std::string reason(int slave, const std::vector<int>& masters) const {
+    const SurfacePart& one = part(slave);
+    std::vector<std::string> reasons;
+    for (const int master : masters) {
+      const SurfacePart& other = part(master);
+      const RoleChoice choice = better_slave(traits(one), traits(other));
+      std::string why = choice.reason;
+      if (!choice.is_tie && !choice.is_first) why = "so that no surface is slave and master at once, though " + choice.reason + " on the other side";
+      if (choice.is_tie)
+        why = std::abs(one.turn - other.turn) > same_curvature ? "it is the more curved one" : "both are alike, and it was taken by its place";
+      if (std::find(reasons.begin(), reasons.end(), why) == reasons.end()) reasons.push_back(why);
+    }
+    return fmt::format("{}", fmt::join(reasons, "; "));
+  }
+
+  const Mesh& mesh_;
+  Scene& scene_;
+  FacingSurfaces found_;
+  std::vector<double> modulus_;  ///< [bodies]
+  std::vector<Zone> zones_;
+  std::vector<Edge> edges_;
+  std::vector<char> is_slave_;                         ///< [zones]
+  std::map<int, std::vector<GlobalOrdinal>> patches_;  ///< of the sides of the bodies' surfaces, where they were asked for
+  std::map<std::pair<int, int>, std::string> sets_;    ///< names by part and what it faces
+};
+
+}  // namespace
+
+void add_automatic_pairs(const Mesh& mesh, Scene& scene) {
+  const AutomaticContactOptions& options = scene.automatic_contact;
+  if (options.pairs == ContactSearch::none) return;
+  FacingSurfaces found = find_facing_surfaces(mesh, bodies_that_take_part(mesh, options.bodies), options.angle, options.reach);
+  if (found.facing.empty())
+    throw InputError(
+        options.bodies.place,
+        fmt::format("no surfaces of different bodies face one another within {}; please give a \"reach\" as long as the gaps that may close, or "
+                    "leave out \"automatic contact\"",
+                    options.reach ? fmt::format("{:g}", *options.reach) : "an edge of their facets"));
+  PairMaker(mesh, scene, std::move(found)).add_pairs();
+  scene.automatic_contact.pairs = ContactSearch::none;
+}
+
+}  // namespace mortise
