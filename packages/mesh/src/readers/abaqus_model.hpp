@@ -39,7 +39,6 @@ struct AbaqusSurfaceItem {
     exterior,  ///< those that no other element has
     side,      ///< S1, S2, ...
     itself,    ///< SPOS, SNEG
-    nodes,     ///< no sides
   };
   AbaqusSetItem of;
   Face face = Face::exterior;
@@ -48,6 +47,7 @@ struct AbaqusSurfaceItem {
 
 struct AbaqusSurface {
   std::string name;
+  bool is_of_nodes = false;  ///< then its items have no faces
   bool is_internal = false;
   std::vector<AbaqusSurfaceItem> items;
 };

@@ -4,11 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "abaqus_element_types.hpp"
 #include "abaqus_keyword.hpp"
+#include "abaqus_placement.hpp"
 #include "abaqus_sets.hpp"
 #include "abaqus_surfaces.hpp"
 #include "mortise/mesh/cell_nodes.hpp"
@@ -30,42 +30,6 @@ struct PlacedScope {
   std::string prefix;  ///< of the names of its sets
   std::int32_t first_node = 0, nodes = 0, first_element = 0;
   std::vector<std::int32_t> groups, first;  ///< of each of its groups of cells: the group in the mesh, and where it begins there
-};
-
-/// x' = a + R (x + t - a): first the translation t, then the rotation by an angle about the axis from a to b. With the unit vector e along it and
-/// y = x + t - a (Rodrigues):  R y = y cos + (e x y) sin + e (e . y)(1 - cos).
-class RigidPlacement {
- public:
-  RigidPlacement(const AbaqusInstance& instance, const AbaqusLines& lines, FileErrors& errors) {
-    std::copy(instance.translation.begin(), instance.translation.end(), translation_.begin());
-    if (instance.rotation.empty()) return;
-    for (std::size_t i = 0; i < 3; ++i) {
-      point_[i] = instance.rotation[i];
-      axis_[i] = instance.rotation[3 + i] - instance.rotation[i];
-    }
-    const double length = std::hypot(axis_[0], axis_[1], axis_[2]);
-    if (!(length > 0.0) || !std::isfinite(length))
-      errors.stop(lines.place(instance.spot), fmt::format("instance {}: the two points of the axis of its rotation are the same", instance.name));
-    for (double& component : axis_) component /= length;
-    const double angle = instance.rotation[6] * std::acos(-1.0) / 180.0;
-    cosine_ = std::cos(angle);
-    sine_ = std::sin(angle);
-  }
-
-  std::array<double, 3> operator()(const std::array<double, 3>& x) const {
-    std::array<double, 3> y, moved;
-    for (std::size_t i = 0; i < 3; ++i) y[i] = x[i] + translation_[i] - point_[i];
-    const double along = axis_[0] * y[0] + axis_[1] * y[1] + axis_[2] * y[2];
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-      moved[i] = point_[i] + y[i] * cosine_ + (axis_[j] * y[k] - axis_[k] * y[j]) * sine_ + axis_[i] * along * (1.0 - cosine_);
-    }
-    return moved;
-  }
-
- private:
-  std::array<double, 3> translation_{}, point_{}, axis_{};
-  double cosine_ = 1.0, sine_ = 0.0;
 };
 
 class AbaqusReader {
@@ -171,7 +135,7 @@ class AbaqusReader {
     PlacedScope placed{
         &read, prefix, static_cast<std::int32_t>(file_.coordinates.size()), static_cast<std::int32_t>(scope.coordinates.size()), elements_, {}, {}};
     if (instance != nullptr && !instance->translation.empty()) {
-      const RigidPlacement move(*instance, lines_, errors_);
+      const AbaqusPlacement move(*instance, lines_, errors_);
       for (const auto& x : scope.coordinates) file_.coordinates.push_back(move(x));
     } else {
       file_.coordinates.insert(file_.coordinates.end(), scope.coordinates.begin(), scope.coordinates.end());
@@ -245,9 +209,8 @@ class AbaqusReader {
 
   void add_surface(const PlacedScope& placed, const AbaqusSurface& surface, const AbaqusSets::Instances& nodes,
                    const AbaqusSets::Instances& elements) {
-    const bool is_of_nodes = std::any_of(surface.items.begin(), surface.items.end(),
-                                         [](const AbaqusSurfaceItem& item) { return item.face == AbaqusSurfaceItem::Face::nodes; });
-    if (is_of_nodes) {
+    if (surface.is_internal) return;
+    if (surface.is_of_nodes) {
       // A surface may be called as a set of nodes that is another one.
       std::string name = placed.prefix + surface.name;
       if (node_sets_.contains(name)) name = "surface " + name;

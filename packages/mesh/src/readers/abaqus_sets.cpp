@@ -27,6 +27,7 @@ std::vector<std::string> AbaqusSets::resolve(const Instances& instances) {
     std::vector<std::int32_t> members;
     bool may_repeat = false;
     std::int64_t missing = 0;
+    std::size_t most = 2 * count_;  // members before repeated ones are looked for
     for (const AbaqusSetItem& item : set.items) {
       may_repeat = may_repeat || item.kind == AbaqusSetItem::Kind::set;
       const std::size_t before = members.size();
@@ -34,7 +35,10 @@ std::vector<std::string> AbaqusSets::resolve(const Instances& instances) {
       if (found && item.kind == AbaqusSetItem::Kind::labels)
         missing += (std::int64_t{item.b} - item.a) / item.c + 1 - static_cast<std::int64_t>(members.size() - before);
       // Sets of sets of sets do not grow beyond the mesh.
-      if (may_repeat && members.size() > 2 * (count_ + before)) keep_each_once(members);
+      if (may_repeat && members.size() > most) {
+        keep_each_once(members);
+        most = 2 * (count_ + members.size());
+      }
     }
     if (may_repeat) keep_each_once(members);
     if (missing > 0)

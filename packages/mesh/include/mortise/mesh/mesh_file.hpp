@@ -23,7 +23,7 @@ struct FileCellRange {
   std::int32_t group = 0, first = 0, count = 0;
 };
 
-/// A side of a cell: its number in the topology of the shape.
+/// A side of a cell: its number in the topology of the shape, or the_cell_itself of shells and of rigid surfaces, whose two faces are the same.
 struct FileSide {
   std::int32_t group = 0, cell = 0;
   std::int32_t side = 0;
