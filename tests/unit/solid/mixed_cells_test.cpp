@@ -101,7 +101,6 @@ MixedMesh make_mixed_mesh(const std::vector<MixedCell>& cells) {
     if (found == mixed.elements.end()) {
       mixed.elements.push_back(cell.element);
       Block block;
-      block.name = to_string(cell.element);
       block.shape = cell_shape(cell.element);
       block.nodes_per_element = shape.nodes;
       mesh.blocks.push_back(block);
@@ -122,6 +121,7 @@ MixedMesh make_mixed_mesh(const std::vector<MixedCell>& cells) {
     ++block.owned;
   }
   mesh.owned_nodes = mesh.local_nodes = rcp(new Map(nodes.size(), 0, mesh.comm));
+  mesh.bodies = {{"mixed", false}};
   mesh.body_of_node.assign(nodes.size(), 0);
   for (const auto& [point, node] : nodes)
     if (std::all_of(point.begin(), point.end(), [](int s) { return s > 0 && s < 2 * boxes_along; })) mixed.inside.push_back(node);
