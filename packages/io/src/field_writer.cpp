@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <numeric>
 #include <set>
 #include <stdexcept>
+#include <type_traits>
 
 #include "field_files.hpp"
 #include "hdf5_file.hpp"
@@ -22,6 +24,20 @@ namespace {
 /// Numbers of cells in XDMF's mixed topology.
 long long xdmf_cell(CellShape shape) {
   return visit_cell(shape, [](auto cell) -> long long { return decltype(cell)::xdmf_number; });
+}
+
+/// Which of a cell's nodes stands where in XDMF, whose orders are those of VTK. VTK's wedges begin with the triangle that has the others' normals
+/// turned round, outward: bottom and top change places.
+std::vector<int> xdmf_order(CellShape shape) {
+  return visit_cell(shape, [](auto cell) {
+    using Cell = decltype(cell);
+    std::vector<int> order(Cell::nodes);
+    std::iota(order.begin(), order.end(), 0);
+    if constexpr (std::is_base_of_v<ReferenceWedge, Cell>)
+      for (int first = 0; first + 6 <= Cell::nodes; first += 6)  // corners, then edges of the triangles
+        std::rotate(order.begin() + first, order.begin() + first + 3, order.begin() + first + 6);
+    return order;
+  });
 }
 
 /// Columns that hold [xdmf cell, body, number of nodes, nodes ...] of each element of the mesh; nodes beyond those of an element are not used.
@@ -42,12 +58,12 @@ std::vector<double> element_rows(const Mesh& mesh) {
   std::vector<double> rows;
   for (std::size_t body = 0; body < mesh.blocks.size(); ++body) {
     const Block& block = mesh.blocks[body];
+    const std::vector<int> order = xdmf_order(block.shape);
     for (LocalOrdinal element = 0; element < block.owned; ++element) {
       const std::size_t end = rows.size() + columns;
       for (const auto entry : {xdmf_cell(block.shape), static_cast<long long>(body), static_cast<long long>(block.nodes_per_element)})
         rows.push_back(static_cast<double>(entry));
-      for (int a = 0; a < block.nodes_per_element; ++a)
-        rows.push_back(static_cast<double>(mesh.local_nodes->getGlobalElement(block.nodes(element)[a])));
+      for (const int a : order) rows.push_back(static_cast<double>(mesh.local_nodes->getGlobalElement(block.nodes(element)[a])));
       rows.resize(end, 0.0);
     }
   }

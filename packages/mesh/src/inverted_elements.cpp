@@ -16,7 +16,8 @@ struct Inverted {
 };
 
 /// det J is evaluated at the nodes and at the points of a rule. On linear triangles and tetrahedra it is constant. On bilinear quadrilaterals it is
-/// linear in each reference coordinate without a mixed term: it is positive everywhere if it is so in the corners.
+/// linear in each reference coordinate without a mixed term: it is positive everywhere if it is so in the corners. On pyramids the corners of the
+/// base are enough too (see Pyramid5); the apex has the mean of what they have.
 template <class Cell>
 std::vector<std::array<double, Cell::dimension>> places_to_look_at() {
   std::vector<std::array<double, Cell::dimension>> places;

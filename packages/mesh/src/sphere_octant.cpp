@@ -84,6 +84,8 @@ SpatialPoint placed_octant(const Vector3d& x) { return {x[1], x[0], -x[2]}; }
 }  // namespace
 
 BodyComplex SphereOctantMesh::build(CellShape cell, const Place& place) const {
+  if (!VolumeComplex::is_made_of(cell))
+    throw InputError(place, "a sphere octant cannot be made of wedges or pyramids; please choose an element of hexahedra or tetrahedra, as \"H8\"");
   const Octant octant(radius, spacings(place));
   const std::array<std::string, 3> planes{"y plane", "x plane", "equator"};
   // Corners of the inner block by their number i + 2 j + 4 k; the sphere's, 7 + those of them that are not the origin.

@@ -22,11 +22,12 @@ std::optional<CellShape> middle_profile_shape(CellShape shape) {
 
 }  // namespace
 
-CellShape SweptComplex::profile_shape(CellShape shape) {
-  return visit_cell(shape, [](auto cell) -> CellShape {
+std::optional<CellShape> SweptComplex::profile_shape(CellShape shape) {
+  return visit_cell(shape, [](auto cell) -> std::optional<CellShape> {
     using Cell = decltype(cell);
-    if constexpr (Cell::dimension == 3) return shape_of<typename Cell::Profile>;
-    throw std::logic_error("a swept body is made of 3D cells");
+    if constexpr (Cell::dimension == 3)
+      if constexpr (!std::is_void_v<typename Cell::Profile>) return shape_of<typename Cell::Profile>;
+    return std::nullopt;
   });
 }
 
@@ -77,7 +78,7 @@ SweptComplex::Corners SweptComplex::corners_of(const Cell& cell) const {
   Corners corners;
   if (!is_cut()) {
     for (const int level : {lower, upper})
-      for (int a = 0; a < 4; ++a) corners.push_back({a, level});
+      for (int a = 0; a < topology(profile_.shape()).corners; ++a) corners.push_back({a, level});
     return corners;
   }
   const auto nodes = profile_.element_nodes(cell.below);

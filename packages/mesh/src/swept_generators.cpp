@@ -9,6 +9,17 @@
 #include "mortise/mesh/volume_generators.hpp"
 
 namespace mortise {
+namespace {
+
+/// Shape of the plane elements below cells of a shape. Throws InputError for cells that no sweep makes.
+CellShape profile_shape(CellShape cell, const Place& place) {
+  const auto shape = SweptComplex::profile_shape(cell);
+  if (!shape)
+    throw InputError(place, "a swept mesh cannot be made of pyramids; please choose an element of hexahedra, wedges or tetrahedra, as \"H8\"");
+  return *shape;
+}
+
+}  // namespace
 
 void BrickMesh::describe_shape(Parameters& parameters) {
   parameters.add("width", width, Says("extent in x, from the origin").unit("length").above(0.0));
@@ -21,7 +32,7 @@ void BrickMesh::describe_shape(Parameters& parameters) {
 
 BodyComplex BrickMesh::build(CellShape cell, const Place& place) const {
   const Spacing x = grading_x.spacing(width, cells_x, place), y = grading_y.spacing(depth, cells_y, place);
-  PatchComplex base(SweptComplex::profile_shape(cell), {{0.0, 0.0}, {width, 0.0}, {width, depth}, {0.0, depth}},
+  PatchComplex base(profile_shape(cell, place), {{0.0, 0.0}, {width, 0.0}, {width, depth}, {0.0, depth}},
                     {{0, 1, x}, {1, 2, y}, {3, 2, x}, {0, 3, y}}, {{{0, 1, 2, 3}, {"front", "right", "back", "left"}}}, {});
   return SweptComplex(cell, std::move(base), grading_z.spacing(height, cells_z, place), Extrusion{height}, {"bottom", "top"}, placement());
 }
@@ -56,7 +67,7 @@ void CylinderMesh::describe_shape(Parameters& parameters) {
 }
 
 BodyComplex CylinderMesh::build(CellShape cell, const Place& place) const {
-  return SweptComplex(cell, disk.build(SweptComplex::profile_shape(cell), place), grading_z.spacing(height, cells_z, place), Extrusion{height},
+  return SweptComplex(cell, disk.build(profile_shape(cell, place), place), grading_z.spacing(height, cells_z, place), Extrusion{height},
                       {"bottom", "top"}, placement());
 }
 
@@ -98,7 +109,7 @@ void ExtrudedMesh::describe_shape(Parameters& parameters) {
 }
 
 BodyComplex ExtrudedMesh::build(CellShape cell, const Place& place) const {
-  return sweep_body(require_profile(place).build(SweptComplex::profile_shape(cell), place), cell, grading_z.spacing(length, cells_z, place),
+  return sweep_body(require_profile(place).build(profile_shape(cell, place), place), cell, grading_z.spacing(length, cells_z, place),
                     Extrusion{length});
 }
 
@@ -140,7 +151,7 @@ Turn turn_of(const RevolvedMesh& mesh, const PlaneComplex& plane, const Place& p
 }  // namespace
 
 BodyComplex RevolvedMesh::build(CellShape cell, const Place& place) const {
-  PatchComplex plane = require_profile(place).build(SweptComplex::profile_shape(cell), place);
+  PatchComplex plane = require_profile(place).build(profile_shape(cell, place), place);
   const Turn turn = turn_of(*this, plane, place);
   return sweep_body(std::move(plane), cell, turn.layers, turn.sweep);
 }

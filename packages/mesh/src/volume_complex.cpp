@@ -16,6 +16,7 @@ std::array<int, 3> digits(int part) { return {part % 3, part / 3 % 3, part / 9};
 
 VolumeComplex::VolumeComplex(CellShape shape, std::vector<Block> blocks, Position position, SpatialPlacement placement)
     : shape_(shape), blocks_(std::move(blocks)), position_(std::move(position)), placement_(placement), parts_(blocks_.size()) {
+  if (!is_made_of(shape)) throw std::logic_error("blocks are made of hexahedra or tetrahedra");
   for (int dimension = 0; dimension <= 3; ++dimension) add_entities(dimension);
   for (const Entity& entity : entities_) first_node_.push_back(first_node_.back() + entity.lattice.size());
   for (const Block& block : blocks_) {
@@ -30,6 +31,11 @@ VolumeComplex::VolumeComplex(CellShape shape, std::vector<Block> blocks, Positio
     }
     block_sides_.push_back(names);
   }
+}
+
+bool VolumeComplex::is_made_of(CellShape shape) {
+  const CellTopology& cell = topology(shape);
+  return cell.dimension == 3 && (cell.corners == 8 || cell.corners == 4);
 }
 
 /// An entity is known by its corners; its directions are those of the first block that has it.

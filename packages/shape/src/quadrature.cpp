@@ -114,4 +114,21 @@ std::vector<CellPoint> tetrahedron_rule(int points) {
   throw std::invalid_argument("tetrahedra have rules of 1, 4 and 15 points, not " + std::to_string(points));
 }
 
+std::vector<CellPoint> wedge_rule(int triangle_points, int line_points) {
+  const auto triangle = triangle_rule(triangle_points);
+  std::vector<CellPoint> rule;
+  for (const auto& zeta : gauss_legendre(line_points))
+    for (const auto& at : triangle) rule.push_back({{at.xi[0], at.xi[1], zeta.xi}, at.weight * zeta.weight});
+  return rule;
+}
+
+std::vector<CellPoint> pyramid_rule(int points_per_direction) {
+  // Moments of the weight (1 - zeta)^2 on [0, 1]: of 1, 1/3; of zeta, 1/12.
+  constexpr double height = 0.25, weight = 1.0 / 3.0;
+  std::vector<CellPoint> rule;
+  for (const auto& at : quadrilateral_rule(points_per_direction))
+    rule.push_back({{at.xi[0] * (1.0 - height), at.xi[1] * (1.0 - height), height}, at.weight * weight});
+  return rule;
+}
+
 }  // namespace mortise

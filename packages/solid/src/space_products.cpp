@@ -60,8 +60,11 @@ void add_space_products(const double (&g)[3][filled_up(nodes)], const double (&A
 }
 
 template void add_space_products<4>(const double (&)[3][4], const double (&)[9][12], const double*, double*, double*);
+template void add_space_products<5>(const double (&)[3][8], const double (&)[9][12], const double*, double*, double*);
+template void add_space_products<6>(const double (&)[3][8], const double (&)[9][12], const double*, double*, double*);
 template void add_space_products<8>(const double (&)[3][8], const double (&)[9][12], const double*, double*, double*);
 template void add_space_products<10>(const double (&)[3][12], const double (&)[9][12], const double*, double*, double*);
+template void add_space_products<15>(const double (&)[3][16], const double (&)[9][12], const double*, double*, double*);
 template void add_space_products<20>(const double (&)[3][20], const double (&)[9][12], const double*, double*, double*);
 
 }  // namespace mortise

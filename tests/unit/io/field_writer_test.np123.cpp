@@ -258,8 +258,10 @@ TEST(FieldWriter, QuadraticCellsStandWithTheirNumbersAndAllNodes) {
   brick->cells_z = 1;
   const auto block = cells(std::make_shared<BlockMesh>());
   const std::vector<std::vector<BodyDescription>> scenes{{{"a", {}, brick, CellShape::hexahedron20}, {"b", {}, brick, CellShape::tetrahedron10}},
-                                                         {{"a", {}, block, CellShape::quadrilateral8}, {"b", {}, block, CellShape::triangle6}}};
-  const std::vector<std::vector<double>> numbers{{48.0, 38.0}, {37.0, 36.0}};
+                                                         {{"a", {}, block, CellShape::quadrilateral8}, {"b", {}, block, CellShape::triangle6}},
+                                                         {{"a", {}, brick, CellShape::hexahedron20}, {"b", {}, brick, CellShape::wedge15}}};
+  const std::vector<std::vector<double>> numbers{{48.0, 38.0}, {37.0, 36.0}, {48.0, 40.0}};
+  const std::vector<GlobalOrdinal> node_counts{20 + 27, 8 + 9, 20 + 22};
   for (std::size_t scene = 0; scene < scenes.size(); ++scene) {
     const auto mesh = build_mesh(world(), scenes[scene], {});
     const test::ScratchDirectory scratch(world());
@@ -280,7 +282,37 @@ TEST(FieldWriter, QuadraticCellsStandWithTheirNumbersAndAllNodes) {
         at += 1 + count;
       }
       EXPECT_EQ(at, topology_values.size());
-      EXPECT_EQ(static_cast<GlobalOrdinal>(nodes.size()), scene == 0 ? 20 + 27 : 8 + 9);
+      EXPECT_EQ(static_cast<GlobalOrdinal>(nodes.size()), node_counts[scene]);
+    }
+    world()->barrier();
+  }
+}
+
+// VTK: the first triangle's normal points outward; nodes in the middle of 01, 12, 20, 34, 45, 53, 03, 14, 25.
+TEST(FieldWriter, WedgesStandInTheOrderOfVtk) {
+  for (const CellShape shape : {CellShape::wedge6, CellShape::wedge15}) {
+    auto brick = std::make_shared<BrickMesh>();
+    brick->cells_x = brick->cells_y = brick->cells_z = 1;
+    const auto mesh = build_mesh(world(), {{"a", {}, brick, shape}}, {});
+    const test::ScratchDirectory scratch(world());
+    FieldWriter writer(mesh, scratch.path());
+    writer.write(0, 0.0, {});
+    world()->barrier();
+    if (world()->getRank() == 0) {
+      const Xdmf xdmf(scratch.path());
+      const auto numbers = xdmf.data("/Xdmf/Domain/Grid/Grid/Topology").values, coordinates = xdmf.data("/Xdmf/Domain/Grid/Grid/Geometry").values;
+      const std::size_t nodes = topology(shape).nodes;
+      ASSERT_EQ(numbers.size(), 2 * (1 + nodes));
+      for (std::size_t cell = 0; cell < 2; ++cell) {
+        const auto x = [&](std::size_t a) {
+          return Eigen::Vector3d(Eigen::Vector3d::Map(coordinates.data() + 3 * static_cast<std::size_t>(numbers[cell * (1 + nodes) + 1 + a])));
+        };
+        EXPECT_EQ(numbers[cell * (1 + nodes)], shape == CellShape::wedge6 ? 8.0 : 40.0);
+        EXPECT_NEAR((x(1) - x(0)).cross(x(2) - x(0)).dot(x(3) - x(0)), -1.0, 1e-14);
+        for (std::size_t a = 0; a < 3; ++a) EXPECT_EQ((x(a + 3) - x(a)).norm(), 1.0) << "upright";
+        constexpr std::array<std::array<std::size_t, 2>, 9> edges{{{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}}};
+        for (std::size_t k = 0; 6 + k < nodes; ++k) EXPECT_EQ((x(6 + k) - 0.5 * (x(edges[k][0]) + x(edges[k][1]))).norm(), 0.0);
+      }
     }
     world()->barrier();
   }

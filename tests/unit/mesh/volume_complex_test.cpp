@@ -12,11 +12,11 @@
 namespace mortise {
 namespace {
 
-/// check(complex, example) for every kind, of linear and of quadratic hexahedra and tetrahedra.
+/// check(complex, example) for every kind, of all cells that it can be made of.
 template <class Check>
 void for_all(const Check& check) {
   for (const auto& example : example_volumes())
-    for (const auto cell : {CellShape::hexahedron8, CellShape::tetrahedron4, CellShape::hexahedron20, CellShape::tetrahedron10}) {
+    for (const auto cell : cells_of(*example.options)) {
       SCOPED_TRACE(example.name + " of cells with " + std::to_string(topology(cell).nodes) + " nodes");
       with_volume(*example.options, cell, [&](const auto& complex) { check(complex, example); });
     }
@@ -132,6 +132,12 @@ TEST(VolumeComplex, RefusesBlocksThatRunThroughASharedFaceDifferently) {
   EXPECT_NO_THROW(build({1, 3, 8, 9, 5, 7, 10, 11}, {3, 5, 4}));                 // the face's directions in another order
   EXPECT_THROW(build({1, 8, 3, 9, 5, 10, 7, 11}, {5, 3, 3}), std::logic_error);  // other cells
   EXPECT_THROW(build({3, 9, 1, 8, 7, 11, 5, 10}, {5, 3, 4}), std::logic_error);  // the other way round
+}
+
+TEST(VolumeComplex, RefusesCellsThatBlocksAreNotCutInto) {
+  for (const auto cell : {CellShape::wedge6, CellShape::wedge15, CellShape::pyramid5, CellShape::quadrilateral4})
+    EXPECT_THROW(VolumeComplex(cell, {{{0, 1, 2, 3, 4, 5, 6, 7}, {2, 3, 4}, {}}}, [](const VolumeComplex::GridPoint&) { return SpatialPoint{}; }, {}),
+                 std::logic_error);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 /// The nodes of `side` are exactly those at which `distance` vanishes.
 template <class Distance>
 void expect_side(const VolumeMesh& options, const std::string& side, const Distance& distance) {
-  for (const auto cell : {CellShape::hexahedron8, CellShape::tetrahedron4, CellShape::hexahedron20, CellShape::tetrahedron10})
+  for (const auto cell : cells_of(options))
     with_volume(options, cell, [&](const auto& complex) {
       SCOPED_TRACE(side);
       const auto& names = complex.side_names();
@@ -53,6 +53,7 @@ TEST(BrickMesh, SidesLieOnItsPlanes) {
     EXPECT_NEAR(complex.coordinate(5 * 4)[2], 0.5, 1e-14);
   });
   with_volume(*brick, CellShape::tetrahedron4, [](const auto& complex) { EXPECT_EQ(complex.element_count(), 6 * 4 * 3 * 2); });
+  with_volume(*brick, CellShape::wedge6, [](const auto& complex) { EXPECT_EQ(complex.element_count(), 2 * 4 * 3 * 2); });
 }
 
 TEST(CylinderMesh, SidesLieOnTheMantleAndOnTheEnds) {
@@ -85,6 +86,17 @@ TEST(RevolvedMesh, RefusesProfilesThatReachTheAxis) {
   const Place place{"scene.xml", 5, "bodies/ball"};
   EXPECT_THAT(input_error_of([&] { ball.complex(CellShape::hexahedron8, place); }),
               ::testing::AllOf(HasSubstr("scene.xml:5: error: bodies/ball"), HasSubstr("reaches x = "), HasSubstr("wedges")));
+}
+
+TEST(VolumeMesh, RefusesCellsThatItCannotBeMadeOf) {
+  const Place place{"scene.xml", 5, "bodies/die"};
+  for (const auto& mesh : example_volumes()) {
+    SCOPED_TRACE(mesh.name);
+    EXPECT_THAT(input_error_of([&] { mesh.options->complex(CellShape::pyramid5, place); }),
+                ::testing::AllOf(HasSubstr("scene.xml:5: error: bodies/die"), HasSubstr("cannot be made of "), HasSubstr("pyramids; please choose")));
+  }
+  EXPECT_THAT(input_error_of([&] { example("sphere octant")->complex(CellShape::wedge15, place); }),
+              ::testing::AllOf(HasSubstr("scene.xml:5: error: bodies/die"), HasSubstr("cannot be made of wedges")));
 }
 
 TEST(SphereOctantMesh, SidesLieOnTheSphereAndOnThePlanes) {

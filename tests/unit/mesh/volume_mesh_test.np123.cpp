@@ -28,9 +28,11 @@ Number total(const Mesh& mesh, Number mine) {
 
 /// Every kind, of all cells in turn, beginning with number `first`.
 std::vector<BodyDescription> all_volumes(int first) {
-  constexpr CellShape cells[] = {CellShape::hexahedron8, CellShape::tetrahedron4, CellShape::hexahedron20, CellShape::tetrahedron10};
   std::vector<BodyDescription> bodies;
-  for (const auto& mesh : example_volumes()) bodies.push_back({mesh.name, {}, mesh.options, cells[(first + bodies.size()) % 4]});
+  for (const auto& mesh : example_volumes()) {
+    const auto cells = cells_of(*mesh.options);
+    bodies.push_back({mesh.name, {}, mesh.options, cells[(first + bodies.size()) % cells.size()]});
+  }
   return bodies;
 }
 
@@ -51,7 +53,7 @@ Positions positions_of(const Mesh& mesh, const LocalOrdinal* nodes, std::size_t 
 }
 
 TEST(VolumeMesh, ElementsFillTheVolumeThatFacetsOfOwnedElementsEnclose) {
-  for (const int first_cell : {0, 1, 2, 3}) {
+  for (const int first_cell : {0, 1, 2, 3, 4, 5}) {
     const auto mesh = build_mesh(Tpetra::getDefaultComm(), all_volumes(first_cell), contact_sides);
     EXPECT_EQ(mesh->dimension, 3);
     const auto examples = example_volumes();
@@ -75,7 +77,7 @@ TEST(VolumeMesh, ElementsFillTheVolumeThatFacetsOfOwnedElementsEnclose) {
 }
 
 TEST(VolumeMesh, IsTheSameOnAnyNumberOfRanks) {
-  for (const int first_cell : {0, 1, 2, 3}) {
+  for (const int first_cell : {0, 1, 2, 3, 4, 5}) {
     const auto mesh = with_sets(Tpetra::getDefaultComm(), first_cell), whole = with_sets(rcp(new Teuchos::SerialComm<int>()), first_cell);
     EXPECT_TRUE(mesh->owned_nodes->isOneToOne());
     const auto global = [&](LocalOrdinal node) { return mesh->local_nodes->getGlobalElement(node); };
@@ -173,7 +175,7 @@ TEST(VolumeMesh, RefusesWhatDoesNotFitOnEveryRank) {
   auto crossed = std::make_shared<BlockMesh>();
   crossed->corners = {0.0, 0.0, 1.0, 0.0, 0.4, 0.4, 0.0, 1.0};
   crossed->cells_x = crossed->cells_y = 8;
-  for (const auto cell : {CellShape::hexahedron8, CellShape::tetrahedron4, CellShape::hexahedron20, CellShape::tetrahedron10}) {
+  for (const auto cell : cells_of(ExtrudedMesh())) {
     auto extruded = std::make_shared<ExtrudedMesh>();
     extruded->profile = {"block", crossed, {}};
     extruded->cells_z = 2;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
 #include <memory>
@@ -83,6 +84,18 @@ inline std::vector<ExampleVolume> example_volumes() {
           {"half cylinder", half, {"arc", "diameter", "end", "start"}, 0.5 * half_disk},
           {"revolved ring", ring, {"bottom", "end", "left", "right", "start", "top"}, 10 * 0.5 * std::sin(pi / 9.0) * 8.0},
           {"sphere octant", octant, {"equator", "sphere", "x plane", "y plane"}, 0.0}};
+}
+
+/// Shapes of the cells that a mesh can be made of: none of pyramids, those that are swept also of wedges. Hexahedra come first.
+inline std::vector<CellShape> cells_of(const VolumeMesh& options) {
+  const bool is_swept = dynamic_cast<const SphereOctantMesh*>(&options) == nullptr;
+  std::vector<CellShape> cells;
+  visit_each_cell([&](auto cell) {
+    using Cell = decltype(cell);
+    if (Cell::dimension == 3 && Cell::corners != 5 && (Cell::corners != 6 || is_swept)) cells.push_back(shape_of<Cell>);
+  });
+  std::stable_sort(cells.begin(), cells.end(), [](CellShape a, CellShape b) { return topology(a).corners > topology(b).corners; });
+  return cells;
 }
 
 /// visit(complex) of a 3D body.

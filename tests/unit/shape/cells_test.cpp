@@ -56,37 +56,39 @@ class RegisteredCell : public ::testing::Test {
     return result;
   }
 
-  /// The integral of a polynomial, without the cell's own rules: over the simplices between the centroid and its sides' corners, by collapsed Gauss
-  /// rules that are exact to degree 10.
+  /// The integral without the cell's own rules: over the simplices between the last corner and the sides' corners, by Gauss rules collapsed there,
+  /// that are exact to degree 10. Last corners of pyramids are apexes: functions of the rays and polynomials in the distance from it are exact too.
   template <class Function>
   static auto integral(const Function& function) {
     auto sum = function(Cell::centroid);
     sum *= 0.0;
     const auto line = gauss_legendre(7);
-    const auto over = [&](const Eigen::Matrix<double, dimension, dimension>& legs) {  // the simplex of the centroid and what they lead to
+    const Vector tip = node(Cell::corners - 1);
+    const auto over = [&](const Eigen::Matrix<double, dimension, dimension>& legs) {  // the simplex of the tip and what they lead to
       std::array<std::size_t, dimension> at{};
       for (std::size_t flat = 0; flat < std::pow(line.size(), dimension); ++flat) {
         std::size_t rest = flat;
         for (auto& k : at) k = rest % line.size(), rest /= line.size();
-        // xi_i = s_i (1 - s_1) ... (1 - s_{i-1})
+        // s_1 is the share of the way from the tip: xi_i = s_1 ... s_i (1 - s_{i+1}), and s_{n+1} = 0.
         Vector xi = Vector::Zero();
-        double left = 1.0, weight = std::abs(legs.determinant());
+        double product = 1.0, weight = std::abs(legs.determinant());
         for (int i = 0; i < dimension; ++i) {
           const double s = 0.5 * (1.0 + line[at[i]].xi);
-          weight *= 0.5 * line[at[i]].weight * std::pow(1.0 - s, dimension - 1 - i);
-          xi(i) = s * left;
-          left *= 1.0 - s;
+          weight *= 0.5 * line[at[i]].weight * std::pow(s, dimension - 1 - i);
+          if (i > 0) xi(i - 1) = product * (1.0 - s);
+          product *= s;
         }
-        sum += weight * function(position(centroid() + legs * xi));
+        xi(dimension - 1) = product;
+        sum += weight * function(position(tip + legs * xi));
       }
     };
     Eigen::Matrix<double, dimension, dimension> legs;
     if constexpr (dimension == 1) {
-      for (int end = 0; end < 2; ++end) over(legs = node(end) - centroid());
+      over(legs = node(0) - tip);
     } else {
       for (const CellSide& side : topology(shape_of<Cell>).sides)
         for (int first = 1; first + dimension - 2 < side.corners; ++first) {  // a fan of simplices about the side's first corner
-          for (int i = 0; i < dimension; ++i) legs.col(i) = node(side.nodes[i == 0 ? 0 : first + i - 1]) - centroid();
+          for (int i = 0; i < dimension; ++i) legs.col(i) = node(side.nodes[i == 0 ? 0 : first + i - 1]) - tip;
           over(legs);
         }
     }
@@ -165,7 +167,8 @@ TYPED_TEST(RegisteredCell, GradientsAreTheCentralDifferencesOfTheValues) {
       ahead[i] += h;
       behind[i] -= h;
       const auto forward = TypeParam::values(ahead), backward = TypeParam::values(behind);
-      // The functions are at most quadratic in each direction: only round-off remains.
+      // Polynomials are at most quadratic in each direction: only round-off remains. Of pyramids d^3 N / dzeta^3 = 1.5 u v / (1 - zeta)^2 < 0.9 here,
+      // which leaves h^2 / 6 of it.
       for (int a = 0; a < TypeParam::nodes; ++a) EXPECT_NEAR(dN[a][i], (forward[a] - backward[a]) / (2.0 * h), 1e-10);
     }
   }
@@ -318,7 +321,9 @@ TYPED_TEST(RegisteredCell, RuleForLoadsOnASideIsExactToDegreeFive) {
 TYPED_TEST(RegisteredCell, IsMadeBySweepsOfPlaneCells) {
   if constexpr (TypeParam::dimension == 3) {
     using Profile = typename TypeParam::Profile;
-    EXPECT_EQ(topology(shape_of<Profile>).dimension, 2);
+    // Profiles lie below cells that end in two of them, and below tetrahedra; a pyramid ends in an apex.
+    EXPECT_EQ(std::is_void_v<Profile>, TypeParam::corners == 5);
+    if constexpr (!std::is_void_v<Profile>) EXPECT_EQ(topology(shape_of<Profile>).dimension, 2);
     EXPECT_EQ(std::is_void_v<typename TypeParam::MiddleProfile>, TypeParam::nodes == TypeParam::corners);
   }
 }
@@ -345,6 +350,92 @@ TEST(Lines, TakeACoordinateThatIsNoArray) {
     for (int a = 0; a < 2; ++a) EXPECT_EQ(Line2::gradients(xi)[a], Line2::gradients(array)[a][0]);
     for (int a = 0; a < 3; ++a) EXPECT_EQ(Line3::gradients(xi)[a], Line3::gradients(array)[a][0]);
   }
+}
+
+TEST(Wedge15, ReproducesWhatItsFunctionsSpan) {
+  // Quadratic in the plane times linear upright, linear in the plane times quadratic upright.
+  for (const auto& power : powers(3, 3)) {
+    const auto [p, q, r] = power;
+    if (!((p + q <= 2 && r <= 1) || (p + q <= 1 && r <= 2))) continue;
+    const auto monomial = [&, p = p, q = q, r = r](const std::array<double, 3>& x) {
+      return std::pow(x[0], p) * std::pow(x[1], q) * std::pow(x[2], r);
+    };
+    for (const std::array<double, 3>& xi : {std::array<double, 3>{0.1, 0.2, 0.3}, {0.6, 0.15, -0.7}, {1.0 / 3.0, 1.0 / 3.0, 0.9}}) {
+      const auto N = Wedge15::values(xi);
+      double sum = 0.0;
+      for (int a = 0; a < 15; ++a) sum += N[a] * monomial(Wedge15::node_positions[a]);
+      EXPECT_NEAR(sum, monomial(xi), 1e-15) << p << q << r;
+    }
+  }
+}
+
+TEST(Pyramid5, HasTheMeanOfTheLimitsAlongTheEdgesAtItsApex) {
+  const std::array<double, 3> apex{0.0, 0.0, 1.0};
+  std::array<std::array<double, 3>, 5> mean{};
+  for (int edge = 0; edge < 4; ++edge) {
+    const auto& p = Pyramid5::node_positions[edge];
+    const double left = 1e-6;  // of the way from the corner to the apex
+    const auto near = Pyramid5::gradients(std::array<double, 3>{left * p[0], left * p[1], 1.0 - left});
+    const auto at_corner = Pyramid5::gradients(p);
+    for (int a = 0; a < 5; ++a)
+      for (int i = 0; i < 3; ++i) {
+        EXPECT_NEAR(near[a][i], at_corner[a][i], 1e-9) << "derivatives are constant along a ray";
+        mean[a][i] += 0.25 * at_corner[a][i];
+      }
+  }
+  const auto gradients = Pyramid5::gradients(apex);
+  for (int a = 0; a < 5; ++a)
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(gradients[a][i], mean[a][i]);
+  // Where round-off puts points at the apex, everything is bounded.
+  for (const double xi : {0.0, 1e-16, -3e-16})
+    for (const double zeta : {1.0 - 2e-16, 1.0, 1.0 + 2e-16}) {
+      const auto N = Pyramid5::values(std::array<double, 3>{xi, -xi, zeta});
+      for (int a = 0; a < 5; ++a) EXPECT_NEAR(N[a], a == 4 ? 1.0 : 0.0, 1e-15);
+    }
+}
+
+TEST(Pyramid5, IsInvertedByNewtonsMethodUpToTheApex) {
+  const Eigen::Matrix<double, 3, 5> X =
+      (Eigen::Matrix<double, 3, 5>() << -1.1, 0.9, 1.3, -0.7, 0.2, -0.8, -1.2, 1.1, 0.9, 0.4, 0.1, -0.2, 0.3, 0.0, 1.2).finished();
+  for (const std::array<double, 3>& wanted : {std::array<double, 3>{0.0, 0.0, 1.0}, {1e-9, -1e-9, 1.0 - 1e-9}, {0.3, -0.3, 0.7}, {-1.0, 1.0, 0.0}}) {
+    const auto N = Pyramid5::values(wanted);
+    const Eigen::Vector3d point = X * Eigen::Map<const Eigen::Matrix<double, 5, 1>>(N.data());
+    auto xi = Pyramid5::centroid;
+    for (int iteration = 0; iteration < 10; ++iteration) {
+      const auto values = Pyramid5::values(xi);
+      const auto gradients = Pyramid5::gradients(xi);
+      const Eigen::Vector3d residual = X * Eigen::Map<const Eigen::Matrix<double, 5, 1>>(values.data()) - point;
+      Eigen::Matrix3d J = Eigen::Matrix3d::Zero();
+      for (int a = 0; a < 5; ++a)
+        for (int i = 0; i < 3; ++i) J.col(i) += gradients[a][i] * X.col(a);
+      const Eigen::Vector3d step = J.inverse() * residual;
+      for (int i = 0; i < 3; ++i) xi[i] -= step(i);
+    }
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(xi[i], wanted[i], 1e-14);
+    EXPECT_TRUE(Pyramid5::contains(xi, 1e-8));
+  }
+}
+
+TEST(Pyramid5, HasADeterminantThatIsLeastAtACornerOfTheBase) {
+  const Eigen::Matrix<double, 3, 5> X =
+      (Eigen::Matrix<double, 3, 5>() << -1.1, 0.9, 1.3, -0.7, 0.2, -0.8, -1.2, 1.1, 0.9, 0.4, 0.1, -0.2, 0.3, 0.0, 1.2).finished();
+  const auto determinant = [&](const std::array<double, 3>& xi) {
+    const auto dN = Pyramid5::gradients(xi);
+    Eigen::Matrix3d J = Eigen::Matrix3d::Zero();
+    for (int a = 0; a < 5; ++a)
+      for (int i = 0; i < 3; ++i) J.col(i) += dN[a][i] * X.col(a);
+    return J.determinant();
+  };
+  std::array<double, 4> corners{};
+  for (int a = 0; a < 4; ++a) corners[a] = determinant(Pyramid5::node_positions[a]);
+  for (const double u : {-1.0, -0.4, 0.3, 1.0})
+    for (const double v : {-1.0, -0.2, 0.7, 1.0})
+      for (const double zeta : {0.0, 0.5, 0.99}) {
+        const auto N = Quadrilateral4::values(std::array<double, 2>{u, v});
+        const double bilinear = N[0] * corners[0] + N[1] * corners[1] + N[2] * corners[2] + N[3] * corners[3];
+        EXPECT_NEAR(determinant({u * (1.0 - zeta), v * (1.0 - zeta), zeta}), bilinear, 1e-13);
+      }
+  EXPECT_NEAR(determinant(Pyramid5::node_positions[4]), 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]), 1e-15);
 }
 
 }  // namespace

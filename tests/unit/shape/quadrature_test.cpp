@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "mortise/shape/reference_domains.hpp"
 
@@ -78,6 +79,47 @@ TEST(HexahedronRule, IsExactInEachDirection) {
         }
 }
 
+TEST(WedgeRule, IsExactToTheDegreesOfTriangleAndLine) {
+  struct Degrees {
+    int points, plane, upright;
+  };
+  for (const auto& [points, plane, upright] : {Degrees{6, 2, 3}, {21, 5, 5}})
+    for (int p = 0; p <= plane; ++p)
+      for (int q = 0; p + q <= plane; ++q)
+        for (int r = 0; r <= upright; ++r) {
+          double sum = 0.0;
+          for (const auto& point : ReferenceWedge::rule(points))
+            sum += point.weight * std::pow(point.xi[0], p) * std::pow(point.xi[1], q) * std::pow(point.xi[2], r);
+          const double triangle = std::tgamma(p + 1.0) * std::tgamma(q + 1.0) / std::tgamma(p + q + 3.0);
+          EXPECT_NEAR(sum, triangle * line_monomial(r), 1e-15) << points << " points, " << p << q << r;
+        }
+}
+
+TEST(PyramidRule, IsExactForFunctionsOfTheRaysAndTheirProductsWithTheHeight) {
+  for (int n = 1; n <= 3; ++n)
+    for (int p = 0; p < 2 * n; ++p)
+      for (int q = 0; q < 2 * n; ++q)
+        for (int r = 0; r <= 1; ++r) {
+          double sum = 0.0;
+          for (const auto& point : pyramid_rule(n)) {
+            const auto [u, v] = ReferencePyramid::ray(point.position<3>());
+            sum += point.weight * std::pow(u, p) * std::pow(v, q) * std::pow(point.xi[2], r);
+          }
+          // int_0^1 (1 - zeta)^2 zeta^r dzeta = 1/3, 1/12
+          EXPECT_NEAR(sum, line_monomial(p) * line_monomial(q) * (r == 0 ? 1.0 / 3.0 : 1.0 / 12.0), 1e-15) << n << " points, " << p << q << r;
+        }
+}
+
+TEST(PyramidRule, IsExactForLinearMonomials) {
+  // int x^p y^q z^r = int u^p v^q du dv int (1 - z)^(p + q + 2) z^r dz
+  for (const auto& [p, q, r, exact] : {std::tuple(0, 0, 0, 4.0 / 3.0), {1, 0, 0, 0.0}, {0, 1, 0, 0.0}, {0, 0, 1, 1.0 / 3.0}}) {
+    double sum = 0.0;
+    for (const auto& point : ReferencePyramid::rule(4))
+      sum += point.weight * std::pow(point.xi[0], p) * std::pow(point.xi[1], q) * std::pow(point.xi[2], r);
+    EXPECT_NEAR(sum, exact, 1e-15);
+  }
+}
+
 TEST(Rules, OfSimplicesHavePositiveWeightsAndPointsInside) {
   for (const auto& [dimension, points] :
        {std::pair(2, 1), std::pair(2, 3), std::pair(2, 7), std::pair(2, 12), std::pair(3, 1), std::pair(3, 4), std::pair(3, 15)}) {
@@ -100,6 +142,8 @@ TEST(Rules, RefuseWhatTheyDoNotHave) {
   EXPECT_THROW(ReferenceSquare::rule(8), std::invalid_argument);
   EXPECT_THROW(ReferenceCube::rule(9), std::invalid_argument);
   EXPECT_THROW(ReferenceLine::rule(0), std::invalid_argument);
+  EXPECT_THROW(ReferenceWedge::rule(9), std::invalid_argument);
+  EXPECT_THROW(ReferencePyramid::rule(5), std::invalid_argument);
 }
 
 }  // namespace

@@ -16,20 +16,35 @@ namespace mortise {
 
 using LatticePoint = std::array<int, 3>;  ///< corners of boxes at even coordinates
 
-/// The corners of a box's cells, counted in boxes from its lowest corner. Triangles halve it, tetrahedra are Kuhn's six.
+/// Corners of the lowest box, in the order of a hexahedron.
+inline const std::vector<LatticePoint> lowest_box{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 0, 2}, {2, 0, 2}, {2, 2, 2}, {0, 2, 2}};
+
+/// The corners of the lowest box's cells. Triangles halve it, and so do wedges; pyramids stand on its sides with their apexes in its middle;
+/// tetrahedra are Kuhn's six. Diagonals of cut sides start at the corner where all coordinates are lowest.
 inline std::vector<std::vector<LatticePoint>> cells_of_a_box(CellShape shape) {
   const CellTopology& cell = topology(shape);
-  const std::vector<LatticePoint> box{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  const auto& box = lowest_box;
   if (cell.corners == 8) return {box};
   if (cell.dimension == 2 && cell.corners == 4) return {{box[0], box[1], box[2], box[3]}};
   if (cell.dimension == 2) return {{box[0], box[1], box[2]}, {box[0], box[2], box[3]}};
+  if (cell.corners == 6) return {{box[0], box[1], box[2], box[4], box[5], box[6]}, {box[0], box[2], box[3], box[4], box[6], box[7]}};
+  if (cell.corners == 5) {
+    std::vector<std::vector<LatticePoint>> pyramids;
+    for (const CellSide& side : topology(CellShape::hexahedron8).sides) {
+      std::vector<LatticePoint> corners;
+      for (int a = 3; a >= 0; --a) corners.push_back(box[side.nodes[a]]);  // counterclockwise seen from inside
+      corners.push_back({1, 1, 1});
+      pyramids.push_back(corners);
+    }
+    return pyramids;
+  }
   std::vector<std::vector<LatticePoint>> tetrahedra;
   LatticePoint way{0, 1, 2};
   do {
     std::vector<LatticePoint> corners{{0, 0, 0}};
     for (const int direction : way) {
       corners.push_back(corners.back());
-      ++corners.back()[direction];
+      corners.back()[direction] += 2;
     }
     const bool even = (way[1] - way[0] + 3) % 3 == 1;
     if (!even) std::swap(corners[1], corners[2]);
@@ -86,7 +101,7 @@ inline RCP<Mesh> make_lattice_mesh(const RCP<const Communicator>& comm, CellShap
     for (int j = 0; j < cells[1]; ++j)
       for (int i = 0; i < cells[0]; ++i)
         for (auto corners : cells_of_a_box(shape)) {
-          for (auto& corner : corners) corner = {2 * (corner[0] + i), 2 * (corner[1] + j), 2 * (corner[2] + k)};
+          for (auto& corner : corners) corner = {corner[0] + 2 * i, corner[1] + 2 * j, corner[2] + 2 * k};
           for (int a = 0; a < cell.nodes; ++a) {
             if (a < cell.corners) {
               block.connectivity.push_back(node_at(corners[a], map_point(corners[a])));

@@ -10,9 +10,9 @@
 namespace mortise {
 
 std::string calculix_element(CellShape shape) {
-  static const std::map<CellShape, std::string> elements{{CellShape::triangle3, "C3D6"},      {CellShape::quadrilateral4, "C3D8"},
-                                                         {CellShape::hexahedron8, "C3D8"},    {CellShape::tetrahedron4, "C3D4"},
-                                                         {CellShape::tetrahedron10, "C3D10"}, {CellShape::hexahedron20, "C3D20"}};
+  static const std::map<CellShape, std::string> elements{
+      {CellShape::triangle3, "C3D6"},      {CellShape::quadrilateral4, "C3D8"}, {CellShape::hexahedron8, "C3D8"}, {CellShape::tetrahedron4, "C3D4"},
+      {CellShape::tetrahedron10, "C3D10"}, {CellShape::hexahedron20, "C3D20"},  {CellShape::wedge6, "C3D6"},      {CellShape::wedge15, "C3D15"}};
   const auto found = elements.find(shape);
   return found == elements.end() ? "" : found->second;
 }

@@ -34,7 +34,8 @@ std::vector<Diagnostic> calculix_obstacles(const Scene& scene, const Model& mode
       continue;
     }
     if (calculix_element(cell_shape(body.element)).empty())
-      say(body.place, fmt::format("the elements {} of \"{}\"; in 2D it takes linear ones", to_string(body.element), body.name));
+      say(body.place,
+          fmt::format("the elements {} of \"{}\"; in 2D it takes linear ones, in 3D it has no pyramids", to_string(body.element), body.name));
     if (first == nullptr) first = &body;
     if (small_strain(body) != small_strain(*first))
       say(body.place, fmt::format("small strain in one of \"{}\" and \"{}\" and finite strain in the other", first->name, body.name));

@@ -59,7 +59,7 @@ struct VolumeMesh : MeshOptions {
   std::vector<double> rotation_axis{0.0, 0.0, 1.0};  ///< through the origin
   VolumeMesh() : MeshOptions(3) {}
 
-  /// The body in tetrahedra or hexahedra. Throws InputError at `place` for shapes without meaning.
+  /// The body in tetrahedra, wedges or hexahedra. Throws InputError at `place` for shapes without meaning and cells that it cannot be made of.
   virtual BodyComplex build(CellShape cell, const Place& place) const = 0;
 
   /// The surface alone, of quadrilaterals, for a rigid body. Throws InputError at `place` for shapes without meaning.

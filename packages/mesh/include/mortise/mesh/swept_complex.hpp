@@ -27,13 +27,13 @@ using Sweep = std::variant<Extrusion, Revolution>;
 /// Where a point of the plane is after a share of the sweep.
 SpatialPoint swept(const Sweep& sweep, const Point& point, double share);
 
-/// Layers of cells over the elements of a plane body: hexahedra over quadrilaterals; three tetrahedra in each prism over a triangle. Nodes and
-/// elements are numbered layer by layer, in the order of the plane body. The mid-side nodes of quadratic cells' upright edges make layers of their
-/// own. Has the members of PatchComplex that a mesh is built from.
+/// Layers of cells over the elements of a plane body: hexahedra over quadrilaterals; a wedge or three tetrahedra over a triangle. Nodes and elements
+/// are numbered layer by layer, in the order of the plane body. The mid-side nodes of quadratic cells' upright edges make layers of their own. Has
+/// the members of PatchComplex that a mesh is built from.
 class SweptComplex {
  public:
-  /// Shape of the plane elements below cells of this shape.
-  static CellShape profile_shape(CellShape shape);
+  /// Shape of the plane elements below cells of this shape; none: a sweep makes no such cells.
+  static std::optional<CellShape> profile_shape(CellShape shape);
 
   /// @param profile  of elements of profile_shape(shape); for a revolution every x is positive
   /// @param ends     names of the sides where the sweep starts and ends; different from those of the profile
@@ -83,7 +83,8 @@ class SweptComplex {
 
   CellShape shape_;
   PatchComplex profile_;
-  std::optional<PatchComplex> middle_;  ///< the nodes half way up a layer: corners of hexahedra, all nodes of tetrahedra; none for linear cells
+  std::optional<PatchComplex>
+      middle_;  ///< the nodes half way up a layer: corners of hexahedra and wedges, all nodes of tetrahedra; none for linear cells
   Spacing layers_;
   Sweep sweep_;
   SpatialPlacement placement_;

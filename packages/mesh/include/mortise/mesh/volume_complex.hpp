@@ -31,8 +31,11 @@ class VolumeComplex {
 
   /// Blocks that share an edge have to run through it in the same direction with the same number of cells. Then the diagonals that cut hexahedra into
   /// tetrahedra meet.
-  /// @throws std::logic_error otherwise (an error of the generator)
+  /// @throws std::logic_error otherwise, and for cells that blocks are not made of (errors of the generator)
   VolumeComplex(CellShape shape, std::vector<Block> blocks, Position position, SpatialPlacement placement);
+
+  /// Whether blocks can be made of cells of this shape.
+  static bool is_made_of(CellShape shape);
 
   CellShape shape() const { return shape_; }
   GlobalOrdinal node_count() const { return first_node_.back(); }

@@ -11,6 +11,7 @@
 #include "mortise/shape/hexahedron8.hpp"
 #include "mortise/shape/line2.hpp"
 #include "mortise/shape/line3.hpp"
+#include "mortise/shape/pyramid5.hpp"
 #include "mortise/shape/quadrilateral4.hpp"
 #include "mortise/shape/quadrilateral8.hpp"
 #include "mortise/shape/surface_facet.hpp"
@@ -18,13 +19,30 @@
 #include "mortise/shape/tetrahedron4.hpp"
 #include "mortise/shape/triangle3.hpp"
 #include "mortise/shape/triangle6.hpp"
+#include "mortise/shape/wedge15.hpp"
+#include "mortise/shape/wedge6.hpp"
 
 namespace mortise {
 
 /// Shapes of elements and of their sides. Corners come first, then mid-side nodes. Nodes of plane cells are numbered counterclockwise. Hexahedra have
-/// the bottom's nodes counterclockwise seen from above, then the top's (edges: bottom, top, upright). Tetrahedra have the base's nodes
-/// counterclockwise seen from the apex. Rigid bodies are made of lines in 2D, of quadrilaterals in 3D. The order of the names means nothing.
-enum class CellShape { line2, line3, triangle3, triangle6, quadrilateral4, quadrilateral8, tetrahedron4, tetrahedron10, hexahedron8, hexahedron20 };
+/// the bottom's nodes counterclockwise seen from above, then the top's (edges: bottom, top, upright), and so have wedges. Tetrahedra and pyramids
+/// have the base's nodes counterclockwise seen from the apex. Rigid bodies are made of lines in 2D, of quadrilaterals in 3D. The order of the names
+/// means nothing.
+enum class CellShape {
+  line2,
+  line3,
+  triangle3,
+  triangle6,
+  quadrilateral4,
+  quadrilateral8,
+  tetrahedron4,
+  tetrahedron10,
+  hexahedron8,
+  hexahedron20,
+  wedge6,
+  wedge15,
+  pyramid5
+};
 
 /// A line of the registry: the name of a shape and the type that says all about it. That type has
 ///   - dimension, corners, measure, centroid, edges, rule, contains: most often those of a reference domain;
@@ -38,8 +56,8 @@ enum class CellShape { line2, line3, triangle3, triangle6, quadrilateral4, quadr
 ///   - jacobian_points: of the rule where det J is looked at for inverted cells, besides the nodes; 0: the nodes are enough. Simplices of corners
 ///     alone have a constant det J and no such number;
 ///   - midpoint_directions: in how many directions of a lattice at once a node may be a midpoint;
-///   - Profile, MiddleProfile (3D): the plane cells below those that a sweep makes, and the plane cells whose nodes lie half way up them; void: no
-///     nodes lie there;
+///   - Profile, MiddleProfile (3D): the plane cells below those that a sweep makes (void: no sweep makes them), and the plane cells whose nodes lie
+///     half way up them (void: no nodes lie there);
 ///   - xdmf_number: of the shape in a mixed topology of XDMF.
 template <CellShape name, class Type>
 struct CellEntry {
@@ -56,7 +74,8 @@ using Cells = CellList<CellEntry<CellShape::line2, Line2>, CellEntry<CellShape::
                        CellEntry<CellShape::triangle6, Triangle6>, CellEntry<CellShape::quadrilateral4, Quadrilateral4>,
                        CellEntry<CellShape::quadrilateral8, Quadrilateral8>, CellEntry<CellShape::tetrahedron4, Tetrahedron4>,
                        CellEntry<CellShape::tetrahedron10, Tetrahedron10>, CellEntry<CellShape::hexahedron8, Hexahedron8>,
-                       CellEntry<CellShape::hexahedron20, Hexahedron20>>;
+                       CellEntry<CellShape::hexahedron20, Hexahedron20>, CellEntry<CellShape::wedge6, Wedge6>, CellEntry<CellShape::wedge15, Wedge15>,
+                       CellEntry<CellShape::pyramid5, Pyramid5>>;
 
 namespace detail {
 

@@ -44,4 +44,13 @@ std::vector<CellPoint> triangle_rule(int points);
 /// Rule on the tetrahedron (0,0,0), (1,0,0), (0,1,0), (0,0,1), likewise: 1 point (degree 1), 4 (degree 2), 15 (degree 5).
 std::vector<CellPoint> tetrahedron_rule(int points);
 
+/// Tensor product of triangle_rule(triangle_points) and gauss_legendre(line_points), the triangle running first: on (0,0), (1,0), (0,1) times [-1,
+/// 1].
+std::vector<CellPoint> wedge_rule(int triangle_points, int line_points);
+
+/// Conical product rule on the pyramid |xi|, |eta| <= 1 - zeta, 0 <= zeta <= 1: with xi = u (1 - zeta), eta = v (1 - zeta) its volume is
+/// (1 - zeta)^2 du dv dzeta. It has the points of quadrilateral_rule(points_per_direction) in (u, v) and one, zeta = 1/4, of the Gauss-Jacobi rule
+/// for the weight (1 - zeta)^2. Exact for f(u, v) of degree 2 points_per_direction - 1 in each, and for its products with zeta.
+std::vector<CellPoint> pyramid_rule(int points_per_direction);
+
 }  // namespace mortise

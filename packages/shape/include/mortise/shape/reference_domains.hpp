@@ -88,4 +88,44 @@ struct ReferenceCube {
   static bool contains(const std::array<double, 3>& xi, double tolerance);
 };
 
+/// (0,0), (1,0), (0,1) times [-1, 1]: the corners of the bottom (those of ReferenceTriangle at zeta = -1), then of the top.
+struct ReferenceWedge {
+  static constexpr int dimension = 3;                                          ///< number of reference coordinates
+  static constexpr int corners = 6;                                            ///< the first nodes
+  static constexpr double measure = 1.0;                                       ///< its volume
+  static constexpr std::array<double, 3> centroid{1.0 / 3.0, 1.0 / 3.0, 0.0};  ///< reference coordinates
+  /// Corners at the ends of each edge: of the bottom, of the top, upright.
+  static constexpr std::array<std::array<int, 2>, 9> edges{{{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}}};
+
+  /// The wedge_rule with so many points in all: 6 (3 x 2), 21 (7 x 3). Throws std::invalid_argument for any other number.
+  static std::vector<CellPoint> rule(int points);
+  /// Is the point inside, or outside by no more than the tolerance?
+  static bool contains(const std::array<double, 3>& xi, double tolerance);
+};
+
+/// |xi|, |eta| <= 1 - zeta, 0 <= zeta <= 1: the corners of the base (those of ReferenceSquare at zeta = 0), then the apex (0, 0, 1).
+struct ReferencePyramid {
+  static constexpr int dimension = 3;                               ///< number of reference coordinates
+  static constexpr int corners = 5;                                 ///< the first nodes
+  static constexpr double measure = 4.0 / 3.0;                      ///< its volume
+  static constexpr std::array<double, 3> centroid{0.0, 0.0, 0.25};  ///< reference coordinates
+  /// Corners at the ends of each edge: of the base, then the upright ones.
+  static constexpr std::array<std::array<int, 2>, 8> edges{{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}}};
+
+  /// Where the ray from the apex through a point meets the base: u = xi / (1 - zeta), v = eta / (1 - zeta). At the apex itself, which round-off
+  /// misses by some 1e-16, the axis is taken: u = v = 0.
+  template <class T>
+  static constexpr std::array<T, 2> ray(const std::array<T, 3>& xi) {
+    constexpr double at_apex = 1e-14;
+    const T height = 1.0 - xi[2];
+    if (height > at_apex || height < -at_apex) return {xi[0] / height, xi[1] / height};
+    return {T(0.0), T(0.0)};
+  }
+
+  /// The pyramid_rule with so many points in all. Throws std::invalid_argument if there is none.
+  static std::vector<CellPoint> rule(int points);
+  /// Is the point inside, or outside by no more than the tolerance?
+  static bool contains(const std::array<double, 3>& xi, double tolerance);
+};
+
 }  // namespace mortise

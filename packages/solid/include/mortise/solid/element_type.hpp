@@ -24,7 +24,7 @@ constexpr int dimension(Kinematics kinematics) { return kinematics == Kinematics
 enum class ElementFormulation { standard, f_bar };
 
 /// Elements, for run time. The order of the names means nothing.
-enum class ElementType { q4, q4_f_bar, t3, q8, t6, h8, h8_f_bar, tet4, h20, tet10 };
+enum class ElementType { q4, q4_f_bar, t3, q8, t6, h8, h8_f_bar, tet4, h20, tet10, w6, w15, p5 };
 
 /// A line of the registry: an element with its cell and formulation. Its loops are compiled in a source of the cell, src/cells_<cell>.cpp.
 template <class Type, ElementFormulation of_element = ElementFormulation::standard>
@@ -51,7 +51,10 @@ inline constexpr std::tuple element_registry{
         "trilinear hexahedron with the volume change of its centre, for nearly incompressible states; finite strain, three dimensional"},
     ElementEntry<Tetrahedron4>{ElementType::tet4, "Tet4", "linear tetrahedron; three dimensional"},
     ElementEntry<Hexahedron20>{ElementType::h20, "H20", "serendipity hexahedron of 20 nodes; three dimensional"},
-    ElementEntry<Tetrahedron10>{ElementType::tet10, "Tet10", "quadratic tetrahedron; three dimensional"}};
+    ElementEntry<Tetrahedron10>{ElementType::tet10, "Tet10", "quadratic tetrahedron; three dimensional"},
+    ElementEntry<Wedge6>{ElementType::w6, "W6", "linear wedge of 6 nodes; three dimensional"},
+    ElementEntry<Wedge15>{ElementType::w15, "W15", "serendipity wedge of 15 nodes; three dimensional"},
+    ElementEntry<Pyramid5>{ElementType::p5, "P5", "pyramid of 5 nodes, between hexahedra and tetrahedra; three dimensional"}};
 
 /// visitor(entry) for each entry of the registry.
 template <class Visitor>
