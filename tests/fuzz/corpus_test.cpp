@@ -31,7 +31,7 @@ TEST_P(FuzzCorpus, IsReadOrRefused) {
   EXPECT_GT(count, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, FuzzCorpus, ::testing::Values("scene", "point", "study", "expression", "checkpoint"),
+INSTANTIATE_TEST_SUITE_P(Targets, FuzzCorpus, ::testing::Values("scene", "point", "study", "expression", "checkpoint", "gmsh", "abaqus", "exodus"),
                          [](const auto& info) { return info.param; });
 
 TEST(FuzzTargets, AllHaveACorpus) {

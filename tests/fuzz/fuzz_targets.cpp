@@ -20,6 +20,7 @@
 
 #include "mortise/input/expression.hpp"
 #include "mortise/io/checkpoint_file.hpp"
+#include "mortise/mesh/mesh_file.hpp"
 #include "mortise/simulation/scene/file_kind.hpp"
 #include "mortise/simulation/scene/read_scene.hpp"
 #include "mortise/studies/point_file.hpp"
@@ -265,6 +266,17 @@ void read_checkpoint(const std::string& bytes) {
   if (const std::vector<std::string> refused = restore_checkpoint(checkpoint_file(bytes)); !refused.empty()) throw FileError(refused.front());
 }
 
+// ---- mesh files
+
+void read_gmsh_bytes(const std::string& bytes) { read_mesh_file(scratch().write("mesh.msh", bytes), MeshFormat::gmsh, {}); }
+
+void read_abaqus_bytes(const std::string& bytes) { read_mesh_file(scratch().write("mesh.inp", bytes), MeshFormat::abaqus, {}); }
+
+/// Of netCDF's own formats alone: HDF5 trusts its bytes.
+void read_exodus_bytes(const std::string& bytes) {
+  if (bytes.compare(0, 4, "\x89HDF") != 0) read_mesh_file(scratch().write("mesh.exo", bytes), MeshFormat::exodus, {});
+}
+
 }  // namespace
 
 const std::vector<Target>& targets() {
@@ -272,7 +284,10 @@ const std::vector<Target>& targets() {
                                        {"point", read_point_text, declarations_of<PointFile>},
                                        {"study", read_study_text, declarations_of<StudyFile>},
                                        {"expression", read_expression, nullptr},
-                                       {"checkpoint", read_checkpoint, nullptr}};
+                                       {"checkpoint", read_checkpoint, nullptr},
+                                       {"gmsh", read_gmsh_bytes, nullptr},
+                                       {"abaqus", read_abaqus_bytes, nullptr},
+                                       {"exodus", read_exodus_bytes, nullptr}};
   return all;
 }
 

@@ -22,8 +22,12 @@ double largest_difference(const DenseCoupling& a, const DenseCoupling& b) { retu
 
 TEST(MortarRanksInSpace, GiveTheValuesOfOneRank) {
   const auto comm = Tpetra::getDefaultComm();
-  for (const auto& [kind, is_quadratic] :
-       {std::pair(FacetKind::quadrilaterals, false), {FacetKind::triangles, false}, {FacetKind::quadrilaterals, true}, {FacetKind::triangles, true}})
+  for (const auto& [kind, is_quadratic] : {std::pair(FacetKind::quadrilaterals, false),
+                                           {FacetKind::triangles, false},
+                                           {FacetKind::mixed, false},
+                                           {FacetKind::quadrilaterals, true},
+                                           {FacetKind::triangles, true},
+                                           {FacetKind::mixed, true}})
     for (const bool crosspoint : {false, true}) {
       Surfaces surfaces = is_quadratic ? quadratic(waves(3, 4, 0.05, kind), true, true, 0.05) : waves(5, 6, 0.05, kind);
       if (crosspoint) fix(surfaces, 14, {0, 1, 2});

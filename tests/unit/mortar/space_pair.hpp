@@ -7,7 +7,8 @@
 
 namespace mortise::test {
 
-enum class FacetKind { quadrilaterals, triangles };
+/// mixed: squares of quadrilaterals and of two triangles take turns.
+enum class FacetKind { quadrilaterals, triangles, mixed };
 
 /// A grid of facets over [low, high] x [low_y, high_y] at z(x, y).
 struct Patch {
@@ -34,7 +35,7 @@ inline void append_patch(const Patch& patch, bool up, double unrest, Surfaces& s
   for (int j = 0; j < patch.across; ++j)
     for (int i = 0; i < patch.along; ++i) {
       const GlobalOrdinal row = patch.along + 1, a = first + i + row * j, b = a + 1, c = b + row, d = a + row;
-      if (patch.kind == FacetKind::quadrilaterals) {
+      if (patch.kind == FacetKind::quadrilaterals || (patch.kind == FacetKind::mixed && (i + j) % 2 == 0)) {
         add({a, b, c, d});
       } else {
         add({a, b, c});

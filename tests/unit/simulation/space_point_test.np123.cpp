@@ -62,10 +62,9 @@ class Brick {
 };
 
 TEST(SpacePoint, IsDisplacedAsTheElementThatHoldsIt) {
-  const std::vector<Case> cases{{ElementType::h8, CellShape::hexahedron8, false},
-                                {ElementType::tet4, CellShape::tetrahedron4, false},
-                                {ElementType::h20, CellShape::hexahedron20, true},
-                                {ElementType::tet10, CellShape::tetrahedron10, true}};
+  const std::vector<Case> cases{{ElementType::h8, CellShape::hexahedron8, false},  {ElementType::tet4, CellShape::tetrahedron4, false},
+                                {ElementType::h20, CellShape::hexahedron20, true}, {ElementType::tet10, CellShape::tetrahedron10, true},
+                                {ElementType::w6, CellShape::wedge6, false},       {ElementType::w15, CellShape::wedge15, true}};
   // Inside, on a side, on an edge, at a corner.
   const std::vector<Position> points{{0.7, 0.3, 1.1}, {2.0, 0.61, 0.2}, {0.0, 1.0, 0.9}, {2.0, 1.0, 1.5}};
   for (const Case& one : cases) {

@@ -55,7 +55,12 @@ Number GmshNumbers::bytes_of_number(const char* what) {
   return value;
 }
 
-std::int64_t GmshNumbers::whole(const char* what) { return binary_ ? bytes_of_number<std::int32_t>(what) : whole_word(what); }
+std::int64_t GmshNumbers::whole(const char* what) {
+  if (binary_) return bytes_of_number<std::int32_t>(what);
+  const std::int64_t value = whole_word(what);
+  if (value < -most_indices || value > most_indices) stop_at(word_line_, fmt::format("{}{} is {}, beyond {}", subject(), what, value, most_indices));
+  return value;
+}
 
 std::int64_t GmshNumbers::size(const char* what) {
   const std::int64_t at = spot(), value = binary_ ? bytes_of_number<std::int64_t>(what) : whole_word(what);
