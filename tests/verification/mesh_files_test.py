@@ -37,7 +37,7 @@ SIDES = {  # corners of the sides; in the order of Abaqus' faces
 SCENE = """<ParameterList name="two blocks">
   <Parameter name="kinematics" type="string" value="{kinematics}"/>
   <ParameterList name="materials"><ParameterList name="soft">
-    <Parameter name="type" type="string" value="neo-hooke"/><Parameter name="young's modulus" type="double" value="1"/>
+    <Parameter name="type" type="string" value="neo hooke"/><Parameter name="young's modulus" type="double" value="1"/>
     <Parameter name="poisson's ratio" type="double" value="0.3"/></ParameterList></ParameterList>
   <ParameterList name="bodies">
     <ParameterList name="lower"><Parameter name="material" type="string" value="soft"/>{element}{lower}</ParameterList>

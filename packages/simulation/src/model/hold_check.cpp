@@ -26,30 +26,37 @@ constexpr double rank_tolerance = 1e-12;
 
 Position position(const Mesh& mesh, LocalOrdinal node) { return Position(mesh.coordinates[node].data()); }
 
-/// Slave facets in the bounding box of the master surface, widened by the reach: what can touch at the start. Collective.
+/// Slave facets in the bounding box of what the master surface has of a body, widened by the reach: what can touch at the start. Collective.
 Eigen::MatrixXd contact_gram(const Mesh& mesh, const RigidModes& modes, const HoldingPair& pair) {
   const auto nodes_of = [&](const SurfaceFacet& facet) {
     Facet<LocalOrdinal> nodes;
     for (const GlobalOrdinal node : facet) nodes.push_back(mesh.local_nodes->getLocalElement(node));
     return nodes;
   };
-  // (x, y, z, -x, -y, -z) of the master nodes, largest facet, body of the master: largest over all ranks.
-  std::array<double, 8> mine, all;
-  mine.fill(-std::numeric_limits<double>::max());
+  // Over all ranks: the largest facet, and of each body (x, y, z, -x, -y, -z) of its master nodes.
+  std::vector<double> mine(1 + 6 * mesh.bodies.size(), -std::numeric_limits<double>::max()), all(mine.size());
+  const auto entry = [](std::size_t body, int i) { return 1 + 6 * body + static_cast<std::size_t>(i); };
   for (const auto* facets : {pair.slave, pair.master})
     for (const auto& facet : *facets) {
       const auto nodes = nodes_of(facet);
-      for (const LocalOrdinal node : nodes) mine[6] = std::max(mine[6], (position(mesh, node) - position(mesh, nodes[0])).norm());
+      for (const LocalOrdinal node : nodes) mine[0] = std::max(mine[0], (position(mesh, node) - position(mesh, nodes[0])).norm());
     }
   for (const auto& facet : *pair.master)
     for (const LocalOrdinal node : nodes_of(facet)) {
       const Position x = position(mesh, node);
-      for (int i = 0; i < 3; ++i) mine[i] = std::max(mine[i], x(i)), mine[3 + i] = std::max(mine[3 + i], -x(i));
-      mine[7] = std::max<double>(mine[7], mesh.body_of_node[node]);
+      const auto body = static_cast<std::size_t>(mesh.body_of_node[node]);
+      for (int i = 0; i < 3; ++i) {
+        mine[entry(body, i)] = std::max(mine[entry(body, i)], x(i));
+        mine[entry(body, 3 + i)] = std::max(mine[entry(body, 3 + i)], -x(i));
+      }
     }
-  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, 8, mine.data(), all.data());
-  const double reach = pair.reach > 0.0 ? pair.reach : all[6];
-  const int master_body = static_cast<int>(all[7]);
+  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, static_cast<int>(mine.size()), mine.data(), all.data());
+  const double reach = pair.reach > 0.0 ? pair.reach : all[0];
+  const auto is_near = [&](const Position& x, std::size_t body) {
+    for (int i = 0; i < 3; ++i)
+      if (x(i) > all[entry(body, i)] + reach || -x(i) > all[entry(body, 3 + i)] + reach) return false;
+    return true;
+  };
 
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(modes.count(), modes.count());
   for (const auto& facet : *pair.slave) {
@@ -57,19 +64,19 @@ Eigen::MatrixXd contact_gram(const Mesh& mesh, const RigidModes& modes, const Ho
     const std::size_t corners = mesh.dimension == 2 ? 2 : nodes.size() % 4 == 0 ? 4 : 3;
     Position middle = Position::Zero();
     for (std::size_t corner = 0; corner < corners; ++corner) middle += position(mesh, nodes[corner]) / static_cast<double>(corners);
-    bool near = true;
-    for (int i = 0; i < 3; ++i) near = near && middle(i) <= all[i] + reach && -middle(i) <= all[3 + i] + reach;
-    if (!near) continue;
     const auto x = [&](std::size_t corner) { return position(mesh, nodes[corner % corners]); };
     const Position area = mesh.dimension == 2 ? (x(1) - x(0)).cross(Position::UnitZ()) : (x(2) - x(0)).cross(x(3) - x(1));
     const Position normal = area.normalized();
     std::vector<Position> held{normal};
     if (pair.rubs) held = {Position::UnitX(), Position::UnitY(), Position::UnitZ()};
-    for (const Position& direction : held) {
-      Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(modes.count());
-      modes.add(mesh.body_of_node[nodes[0]], middle, direction, row);
-      modes.add(master_body, middle, -direction, row);
-      gram += row.transpose() * row;
+    for (std::size_t body = 0; body < mesh.bodies.size(); ++body) {
+      if (!is_near(middle, body)) continue;
+      for (const Position& direction : held) {
+        Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(modes.count());
+        modes.add(mesh.body_of_node[nodes[0]], middle, direction, row);
+        modes.add(static_cast<int>(body), middle, -direction, row);
+        gram += row.transpose() * row;
+      }
     }
   }
   return gram;
