@@ -134,6 +134,39 @@ TEST(HostileNames, AreTextOnThePagesOfHardCases) {
   expect_made_only("out", directory, {"scene.xml", "ledger.xml"});
 }
 
+// What files cannot be called is replaced in their names: two names could have one directory, and the second run would take the first one's place.
+TEST(HostileNames, ThatWouldShareADirectoryAreRefused) {
+  const files::path directory = fresh("shared");
+  std::ofstream(directory / "scene.xml") << good_scene;
+  const std::string what = text("scene", "scene.xml") + text("hard", "h") + text("expectation", "e") + text("source", "s") +
+                           list("expected", list("end", text("figure", "t") + text("low", "0")));
+  const auto refused = [&](const std::string& cases, const std::string& message, const std::vector<std::string>& more = {}) {
+    std::ofstream(directory / "ledger.xml") << list("ledger", list("cases", cases));
+    std::vector<std::string> words{"hard", "ledger.xml", "-o", "out"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Ending ending = in_directory(directory, words);
+    EXPECT_EQ(ending.code, 2) << ending.output;
+    EXPECT_THAT(ending.output, HasSubstr(message));
+    EXPECT_FALSE(files::exists(directory / "out"));
+  };
+  refused(list("a case", what) + list("another", what) + list("a/case", what),
+          "ledger.xml:27: error: cases/a/case: \"a case\" and \"a/case\" would share the name \"a_case\" among the files; please rename one of them");
+  refused(list("a case", what) + list("a:case", what), "would share the name \"a_case\"", {"--only", "a case"});
+  refused(list("ledger.csv", what), "a page of the ledger and \"ledger.csv\" would share the name");
+  refused(list("one", what + list("companions", list("np1", text("follows axes", "false")))),
+          "the run on 1 rank(s) and \"np1\" would share the name");
+  refused(list("one", what + list("axes", list("cells", list("choices", list("4 5", text("bodies/lower/mesh/cells x", "2")) +
+                                                                            list("4_5", text("bodies/lower/mesh/cells x", "3")))))),
+          "\"4 5\" and \"4_5\" would share the name \"4_5\"", {"--sweeps"});
+  std::ofstream(directory / "study.xml") << list(
+      "study", text("scene", "scene.xml") + text("h", "1") +
+                   list("axes", list("cells", text("setting", "bodies/lower/mesh/cells x") + text("values", "2, 3"))) +
+                   list("quantities", list("a|b", text("value", "2")) + list("a_b", text("value", "2"))));
+  const Ending study = in_directory(directory, {"study", "study.xml", "-o", "out"});
+  EXPECT_EQ(study.code, 2) << study.output;
+  EXPECT_THAT(study.output, HasSubstr("\"a|b\" and \"a_b\" would share the name \"a_b\""));
+}
+
 TEST(HostileNames, AreCommentsInADeck) {
   const std::string patch = read_file(std::string(INPUTS) + "/verification/patch_ratio_1_7.xml"), include = "*INCLUDE, INPUT=/etc/passwd";
   const auto from = patch.find("<ParameterList name=\"") + 21;

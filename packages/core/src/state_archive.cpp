@@ -6,6 +6,7 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
+#include <cmath>
 
 namespace mortise {
 
@@ -13,10 +14,17 @@ std::string not_whole(const std::string& name, double value) {
   return fmt::format("\"{}\" holds {}, which is no whole number of the kind that stands there", name, value);
 }
 
+std::optional<std::string> not_finite(const std::string& name, const std::vector<double>& values) {
+  const auto wrong = std::find_if(values.begin(), values.end(), [](double value) { return !std::isfinite(value); });
+  if (wrong == values.end()) return std::nullopt;
+  return fmt::format("\"{}\" holds {} as number {} of {}; only finite numbers can stand there", name, *wrong, wrong - values.begin() + 1,
+                     values.size());
+}
+
 void serialize(StateArchive& archive, const std::string& name, std::optional<double>& number) {
   std::vector<double> values;
   if (number) values.push_back(*number);
-  archive.values(name, values);
+  serialize(archive, name, values);
   number = values.empty() ? std::nullopt : std::optional(values.front());
 }
 

@@ -325,6 +325,11 @@ void CheckpointReader::rows(const std::string& name, const RowIds& ids, std::siz
   self.agree(all == plan.rows && stored == columns
                  ? std::nullopt
                  : std::optional(fmt::format("\"{}\" has {} x {} numbers; expected are {} x {}", name, all, stored, plan.rows, columns)));
+  const auto bad = std::find_if(slab.begin(), slab.end(), [](double value) { return !std::isfinite(value); });
+  self.agree(bad == slab.end()
+                 ? std::nullopt
+                 : std::optional(fmt::format("\"{}\" holds {} in the row of the id {} of \"{}\"; only finite numbers can stand there", name, *bad,
+                                             plan.slab->getGlobalElement(static_cast<LocalOrdinal>((bad - slab.begin()) / columns)), ids.name)));
   MultiVector source(plan.slab, columns), target(plan.wanted, columns);
   {
     const auto view = source.getLocalViewHost(Tpetra::Access::OverwriteAll);

@@ -189,7 +189,6 @@ struct FieldWriter::Implementation {
     std::string head = xdmf_head(description);
     on_rank_0("cannot continue", path(fields_directory), [&]() -> std::optional<std::string> {
       std::error_code error;
-      std::vector<int> steps;
       for (std::filesystem::directory_iterator entry(path(fields_directory), error); !error && entry != std::filesystem::directory_iterator();
            entry.increment(error))
         if (const auto step = step_of_file(fields_directory + "/" + entry->path().filename().string()); step && *step <= last) steps.push_back(*step);
@@ -202,10 +201,12 @@ struct FieldWriter::Implementation {
         if (stored.step != step) return fmt::format("{} is of step {}; please remove it", step_file(step), stored.step);
         head += xdmf_step(description, stored);
       }
-      if (!steps.empty()) last_step = steps.back();
       return {};
     });
-    Teuchos::broadcast(*comm, 0, Teuchos::outArg(last_step));
+    int count = static_cast<int>(steps.size());
+    Teuchos::broadcast(*comm, 0, Teuchos::outArg(count));
+    steps.resize(static_cast<std::size_t>(count));
+    if (count > 0) Teuchos::broadcast(*comm, 0, count, steps.data());
     return head;
   }
 
@@ -223,7 +224,8 @@ struct FieldWriter::Implementation {
 
   /// Empty if the fields can be written.
   std::string wrong(int step, const std::vector<Field>& fields) const {
-    if (step <= last_step) return fmt::format("fields of step {} cannot follow those of step {}", step, last_step);
+    const int last = steps.empty() ? -1 : steps.back();
+    if (step <= last) return fmt::format("fields of step {} cannot follow those of step {}", step, last);
     std::set<std::string> names{"body"};
     std::size_t owned_elements = 0;
     for (const Block& block : mesh->blocks) owned_elements += static_cast<std::size_t>(block.owned);
@@ -244,7 +246,7 @@ struct FieldWriter::Implementation {
   GlobalOrdinal topology_size = 0;  ///< entries of this rank's elements
   XdmfMesh description;
   std::uintmax_t tail_of_xdmf = 0;    ///< bytes before it, on rank 0
-  int last_step = -1;                 ///< that has been written; -1: none
+  std::vector<int> steps;             ///< that the index names, ascending
   std::vector<std::string> unsynced;  ///< files that may not be on the disk yet
 };
 
@@ -288,9 +290,11 @@ void FieldWriter::write(int step, double time, const std::vector<Field>& fields)
   }
   file.close();
   self.unsynced.push_back(self.path(step_file(step)));
-  self.last_step = step;
+  self.steps.push_back(step);
   self.add_to_index(stored);
 }
+
+const std::vector<int>& FieldWriter::steps() const { return implementation_->steps; }
 
 void FieldWriter::sync() {
   Implementation& self = *implementation_;

@@ -77,7 +77,14 @@ std::optional<std::string> not_writable(const std::string& directory) {
   namespace fs = std::filesystem;
   std::error_code error;
   fs::path there = fs::absolute(directory, error);
-  while (!error && !fs::exists(there, error) && there != there.root_path()) there = there.parent_path();
+  while (!error && !fs::exists(there, error) && there != there.root_path()) {
+    // No directory can be made in the place of a link.
+    if (std::error_code none; fs::is_symlink(fs::symlink_status(there, none)))
+      return fmt::format(
+          "{} is a symbolic link to {}, which does not exist; please make that directory, mend the link, or choose another directory (-o)",
+          there.string(), fs::read_symlink(there, none).string());
+    there = there.parent_path();
+  }
   if (error) return error.message();
   if (!fs::is_directory(there, error)) return fmt::format("{} exists and is not a directory", there.string());
   if (access(there.c_str(), W_OK | X_OK) != 0) return fmt::format("{}: {}", there.string(), std::strerror(errno));

@@ -73,7 +73,7 @@ Configuration SystemModel::configuration(double time, const Vector& displacement
 
 void SystemModel::serialize(StateArchive& archive) const {
   const std::size_t fields = stiffness_scales_.size();
-  archive.values("stiffness_scales", stiffness_scales_);
+  mortise::serialize(archive, "stiffness_scales", stiffness_scales_);
   if (stiffness_scales_.size() != fields)
     throw FileError(fmt::format("a stored state has {} fields; expected are {}", stiffness_scales_.size(), fields));
   for (const auto& contribution : parts_.contributions) contribution->serialize(archive);

@@ -23,6 +23,7 @@ namespace {
 
 using test::content;
 using test::file_error;
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -195,6 +196,49 @@ TEST(CheckpointFile, RefusesNumbersThatNothingCanBe) {
   EXPECT_THAT(file_error([&] { serialize(file, *world(), "wide", ids, ragged); }), HasSubstr("expected are 37 x 1000000000001"));
   EXPECT_THAT(file_error([&] { serialize(file, *world(), "ragged", ids, ragged); }),
               HasSubstr("a row of \"ragged\" is 3 long; the longest one has 2"));
+}
+
+// What is not finite is refused by the name of its dataset, on all ranks, wherever it stands.
+TEST(CheckpointFile, RefusesNumbersThatAreNotFinite) {
+  const test::ScratchDirectory scratch(world());
+  const std::string path = scratch.file("not_finite.h5");
+  const auto map = rcp(new Map(100, 0, world()));
+  const RowIds ids = some_ids(*world());
+  const std::vector<double> wrong{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+                                  -std::numeric_limits<double>::infinity()};
+  const std::vector<std::string> said{"nan", "inf", "-inf"};
+  for (std::size_t n = 0; n < wrong.size(); ++n) {
+    {
+      CheckpointWriter file(world(), path);
+      Vector x(map);
+      if (map->isNodeGlobalElement(73)) x.replaceGlobalValue(73, wrong[n]);
+      serialize(file, "x", "unknowns", x);
+      std::vector<double> table(3 * ids.ids.size(), 1.0), values{1.0, 2.0, wrong[n]}, one{wrong[n]};
+      std::vector<std::vector<double>> ragged(ids.ids.size(), {1.0, 2.0});
+      if (world()->getRank() == world()->getSize() - 1) table[3 * ids.owned - 1] = ragged[ids.owned - 1][1] = wrong[n];
+      file.rows("table", ids, 3, table);
+      serialize(file, *world(), "ragged", ids, ragged);
+      file.values("values", values);
+      file.values("one", one);
+      file.finish();
+    }
+    CheckpointReader file(world(), path);
+    Vector x(map);
+    std::vector<double> values;
+    std::vector<std::vector<double>> ragged;
+    double one = 0.0;
+    std::optional<double> maybe;
+    EXPECT_THAT(
+        file_error([&] { serialize(file, "x", "unknowns", x); }),
+        AllOf(HasSubstr("cannot read the checkpoint " + path), HasSubstr("\"x\" holds " + said[n] + " in the row of the id 73 of \"unknowns\"")));
+    EXPECT_THAT(file_error([&] { file.rows("table", ids, 3, values); }), HasSubstr("\"table\" holds " + said[n] + " in the row of the id "));
+    EXPECT_THAT(file_error([&] { serialize(file, *world(), "ragged", ids, ragged); }), HasSubstr("\"ragged\" holds " + said[n]));
+    EXPECT_THAT(file_error([&] { serialize(file, "values", values); }), HasSubstr("\"values\" holds " + said[n] + " as number 3 of 3"));
+    EXPECT_THAT(file_error([&] { serialize(file, "one", one); }), HasSubstr("\"one\" holds " + said[n]));
+    EXPECT_THAT(file_error([&] { serialize(file, "one", maybe); }), HasSubstr("\"one\" holds " + said[n]));
+    EXPECT_EQ(one, 0.0);
+    EXPECT_EQ(x.normInf(), 0.0);
+  }
 }
 
 TEST(CheckpointFile, RefusesIdsThatAreNotThere) {

@@ -413,8 +413,10 @@ TEST(FieldWriter, ContinuedRunLeavesTheSameFiles) {
       EXPECT_EQ(field_files(parts), (std::vector<std::string>{"mesh.h5", "notes.txt", "step-000001.h5", "step-000002.h5"}));
       EXPECT_EQ(Xdmf(parts).texts("/Xdmf/Domain/Grid/Grid").size(), 2u);
     });
+    EXPECT_EQ(writer.steps(), (std::vector<int>{1, 2}));
     EXPECT_THROW(write(writer, 2), std::invalid_argument);
     for (const int step : {4, 5}) write(writer, step);
+    EXPECT_EQ(writer.steps(), (std::vector<int>{1, 2, 4, 5}));
     on_rank_0([&] {
       EXPECT_EQ(test::content(parts + "/fields.xdmf"), test::content(whole + "/fields.xdmf"));
       for (const std::string& name : field_files(whole))

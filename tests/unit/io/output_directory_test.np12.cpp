@@ -271,6 +271,20 @@ TEST(OutputDirectory, KeepRefusesARun) {
               AllOf(HasSubstr(scratch.path()), HasSubstr("newton.csv")));
 }
 
+TEST(OutputDirectory, ALinkToNothingIsNamedWithItsTarget) {
+  const test::ScratchDirectory scratch(world());
+  on_first_rank([&] {
+    files::create_symlink("on_a_disk/results", scratch.file("link"));
+    files::create_directory(scratch.file("there"));
+    files::create_symlink("there", scratch.file("whole"));
+  });
+  for (const char* path : {"link", "link/below"})
+    EXPECT_THAT(file_error([&] { OutputDirectory(world(), scratch.file(path)); }),
+                AllOf(HasSubstr(scratch.file("link") + " is a symbolic link to on_a_disk/results, which does not exist"), HasSubstr("(-o)")));
+  EXPECT_FALSE(files::exists(scratch.file("on_a_disk")));
+  EXPECT_NO_THROW(OutputDirectory(world(), scratch.file("whole/below")).begin_run());
+}
+
 TEST(OutputDirectory, WhatIsNoDirectoryIsRefused) {
   const test::ScratchDirectory scratch(world());
   on_first_rank([&] { write(scratch.file("taken")); });

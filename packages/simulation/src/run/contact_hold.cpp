@@ -114,19 +114,17 @@ void ContactRecord::accept(const std::vector<PairHold>& pairs) {
 }
 
 void ContactRecord::serialize(StateArchive& archive) {
-  std::vector<double> closed, sticking, ever(ever_closed_.begin(), ever_closed_.end());
+  std::vector<int> closed, sticking;
   for (const PairHold& pair : last_) {
     closed.push_back(pair.closed);
     sticking.push_back(pair.sticking);
   }
-  archive.values("contact_record.closed", closed);
-  archive.values("contact_record.sticking", sticking);
-  archive.values("contact_record.ever_closed", ever);
+  mortise::serialize(archive, "contact_record.closed", closed);
+  mortise::serialize(archive, "contact_record.sticking", sticking);
+  mortise::serialize(archive, "contact_record.ever_closed", ever_closed_);
   if (!archive.restores()) return;
   last_.clear();
-  for (std::size_t p = 0; p < std::min(closed.size(), sticking.size()); ++p)
-    last_.push_back({static_cast<int>(closed[p]), static_cast<int>(sticking[p])});
-  ever_closed_.assign(ever.begin(), ever.end());
+  for (std::size_t p = 0; p < std::min(closed.size(), sticking.size()); ++p) last_.push_back({closed[p], sticking[p]});
 }
 
 std::string ContactRecord::describe(const Model& model, const std::vector<int>& bodies, const std::vector<PairHold>& now) const {

@@ -267,10 +267,10 @@ void CornerWatch::accept() {
 
 void CornerWatch::serialize(StateArchive& archive) {
   archive.text("corner_watch.without_force", accepted_);
-  std::vector<double> warned;
-  for (const Pair& pair : pairs_) warned.push_back(pair.is_warned ? 1.0 : 0.0);
-  archive.values("corner_watch.warned", warned);
-  for (std::size_t p = 0; p < std::min(warned.size(), pairs_.size()); ++p) pairs_[p].is_warned = warned[p] != 0.0;
+  std::vector<int> warned;
+  for (const Pair& pair : pairs_) warned.push_back(pair.is_warned ? 1 : 0);
+  mortise::serialize(archive, "corner_watch.warned", warned);
+  for (std::size_t p = 0; p < std::min(warned.size(), pairs_.size()); ++p) pairs_[p].is_warned = warned[p] != 0;
 }
 
 }  // namespace mortise

@@ -141,10 +141,10 @@ void OverlapWatch::accept(const std::function<bool(std::size_t)>& is_told) {
 
 void OverlapWatch::serialize(StateArchive& archive) {
   archive.text("overlap_watch.without_force", accepted_);
-  std::vector<double> warned;
-  for (const Pair& pair : pairs_) warned.push_back(pair.is_warned ? 1.0 : 0.0);
-  archive.values("overlap_watch.warned", warned);
-  for (std::size_t p = 0; p < std::min(warned.size(), pairs_.size()); ++p) pairs_[p].is_warned = warned[p] != 0.0;
+  std::vector<int> warned;
+  for (const Pair& pair : pairs_) warned.push_back(pair.is_warned ? 1 : 0);
+  mortise::serialize(archive, "overlap_watch.warned", warned);
+  for (std::size_t p = 0; p < std::min(warned.size(), pairs_.size()); ++p) pairs_[p].is_warned = warned[p] != 0;
 }
 
 }  // namespace mortise

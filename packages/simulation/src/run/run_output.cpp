@@ -1,8 +1,11 @@
 #include "run/run_output.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "mortise/simulation/run/newton_table.hpp"
 #include "scene/history_columns.hpp"
@@ -22,6 +25,17 @@ std::vector<std::string> columns_with(const StepEvaluation& evaluation) {
 }
 
 long long whole(int value) { return value; }
+
+/// "step 3", "steps 3, 5 to 8"
+std::string steps_in_words(const std::vector<int>& steps) {
+  std::vector<std::string> ranges;
+  for (std::size_t first = 0, next = 0; first < steps.size(); first = next) {
+    for (next = first + 1; next < steps.size() && steps[next] == steps[next - 1] + 1;) ++next;
+    ranges.push_back(next - first < 3 ? fmt::format("{}", fmt::join(steps.begin() + first, steps.begin() + next, ", "))
+                                      : fmt::format("{} to {}", steps[first], steps[next - 1]));
+  }
+  return fmt::format("step{} {}", steps.size() > 1 ? "s" : "", fmt::join(ranges, ", "));
+}
 
 }  // namespace
 
@@ -44,7 +58,8 @@ RunOutput::RunOutput(const RCP<const Communicator>& comm, const Scene& scene, Ou
     directory.claim("fields.xdmf");
     OutputDirectory files = directory.subdirectory("fields");
     for (const char* name : {"mesh.h5", "step-*.h5"}) files.claim(name);
-    fields_ = std::make_unique<FieldWriter>(mesh, directory.path(), checkpoint != nullptr ? std::optional(written_) : std::nullopt);
+    fields_ = std::make_unique<FieldWriter>(mesh, directory.path(), checkpoint != nullptr ? std::optional(last_fields()) : std::nullopt);
+    report_missing_fields();
   }
   if (checkpoint == nullptr) return;
   for (CsvWriter* table : {newton_.get(), history_.get(), profiles_.get()})
@@ -60,6 +75,17 @@ void RunOutput::restore(const RCP<const Communicator>& comm, StateArchive& archi
   steps_ = std::make_unique<LineFile>(comm, directory_.claim("steps.jsonl"), "", sizes.steps);
   if (sizes.profiles > 0) profiles_ = std::make_unique<CsvWriter>(comm, directory_.claim("profiles.csv"), profile_columns, sizes.profiles);
   begin_time_ = record_.time;
+}
+
+// Files of fields are large: one may well have been removed since, and the run does not need them.
+void RunOutput::report_missing_fields() {
+  std::vector<int> missing;
+  const std::vector<int>& there = fields_->steps();
+  std::set_difference(field_steps_.begin(), field_steps_.end(), there.begin(), there.end(), std::back_inserter(missing));
+  if (!missing.empty())
+    log_.warning(fmt::format("{} holds no fields any more of {}, which this run had written; fields.xdmf is without {}", directory_.file("fields"),
+                             steps_in_words(missing), missing.size() > 1 ? "them" : "it"));
+  field_steps_ = there;
 }
 
 void RunOutput::store(StateArchive& archive) {
@@ -78,7 +104,7 @@ void RunOutput::serialize_sizes(StateArchive& archive, FileSizes& sizes) {
   serialize(archive, "files.history", sizes.history);
   serialize(archive, "files.steps", sizes.steps);
   serialize(archive, "files.profiles", sizes.profiles);
-  serialize(archive, "files.fields", written_);
+  serialize(archive, "files.fields", field_steps_);
   serialize(archive, "files.has_fields", has_fields_);
 }
 
@@ -101,7 +127,7 @@ void RunOutput::undo(const StepFailure& failure) {
 
 void RunOutput::finish(const std::function<SystemEvaluation()>& last_state) {
   if (record_.steps == 0) return;
-  const bool fields = writes_fields_ && written_ != record_.steps, profiles = writes_profiles_ && !is_output_time(record_.time);
+  const bool fields = writes_fields_ && last_fields() != record_.steps, profiles = writes_profiles_ && !is_output_time(record_.time);
   if (!fields && !profiles) return;
   const SystemEvaluation at = last_state();
   if (fields) write_fields(at);
@@ -183,7 +209,7 @@ bool RunOutput::is_output_time(double time) const {
 
 void RunOutput::write_fields(const SystemEvaluation& at) {
   if (!writes_fields_) return;
-  written_ = record_.steps;
+  field_steps_.push_back(record_.steps);
   fields_->write(record_.steps, record_.time, evaluation_.fields(at, scene_.output.fields));
 }
 

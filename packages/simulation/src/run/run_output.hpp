@@ -48,9 +48,11 @@ class RunOutput {
   void accept(const StepReport& report, const SystemEvaluation& at);
   double seconds_left(double time) const;
   bool is_output_time(double time) const;
+  int last_fields() const { return field_steps_.empty() ? 0 : field_steps_.back(); }
   void write_fields(const SystemEvaluation& at);
   void write_profiles(const SystemEvaluation& at);
   void restore(const RCP<const Communicator>& comm, StateArchive& archive);
+  void report_missing_fields();
   void serialize_sizes(StateArchive& archive, FileSizes& sizes);
 
   const Scene& scene_;
@@ -64,8 +66,9 @@ class RunOutput {
   std::vector<CsvValue> last_iteration_;
   std::unique_ptr<FieldWriter> fields_;
   bool writes_fields_ = false, writes_profiles_ = false;
-  bool has_fields_ = false;  ///< this run, or an earlier part of it, has written some
-  int step_ = 0, try_ = 0, written_ = 0;
+  bool has_fields_ = false;       ///< this run, or an earlier part of it, has written some
+  std::vector<int> field_steps_;  ///< of which steps it has
+  int step_ = 0, try_ = 0;
   double time_ = 0.0, dt_ = 0.0, begin_time_ = 0.0;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };

@@ -17,6 +17,7 @@ std::string what_may_change();
 
 /// The parameters that differ and may not, one sentence each. What may differ is
 /// * "stepping", "newton", "linear solver", "output", "checks";
+/// * "balance" of contact pairs, which changes no solution;
 /// * "loads", and the values of "boundary conditions". Whether these are the same up to the checkpoint only the model can tell.
 std::vector<std::string> refused_changes(const std::string& fingerprint_before, const std::string& fingerprint_now);
 

@@ -156,20 +156,19 @@ void StateCheck::without_free_motions(const SemiSmoothSystem& system, const Vect
 
 void StateCheck::serialize(StateArchive& archive) {
   std::vector<double> free(free_before_.data(), free_before_.data() + free_before_.size());
-  archive.values("state_check.free", free);
-  double rows = static_cast<double>(free_before_.rows());
+  mortise::serialize(archive, "state_check.free", free);
+  Eigen::Index rows = free_before_.rows();
   mortise::serialize(archive, "state_check.rows", rows);
-  std::vector<double> touches(touches_before_.begin(), touches_before_.end()), said;
-  archive.values("state_check.touches", touches);
-  for (const auto& [body, mode] : said_) said.insert(said.end(), {static_cast<double>(body), static_cast<double>(mode)});
-  archive.values("state_check.said", said);
+  archive.refuse_if(rows >= 0 ? std::nullopt : std::optional(fmt::format("\"state_check.rows\" is {}; there cannot be fewer than 0", rows)));
+  std::vector<int> said;
+  mortise::serialize(archive, "state_check.touches", touches_before_);
+  for (const auto& [body, mode] : said_) said.insert(said.end(), {body, mode});
+  mortise::serialize(archive, "state_check.said", said);
   record_.serialize(archive);
   if (!archive.restores()) return;
-  const auto count = static_cast<Eigen::Index>(rows);
-  free_before_ = Eigen::Map<const Eigen::MatrixXd>(free.data(), count, count > 0 ? static_cast<Eigen::Index>(free.size()) / count : 0);
-  touches_before_.assign(touches.begin(), touches.end());
+  free_before_ = Eigen::Map<const Eigen::MatrixXd>(free.data(), rows, rows > 0 ? static_cast<Eigen::Index>(free.size()) / rows : 0);
   said_.clear();
-  for (std::size_t n = 0; n + 1 < said.size(); n += 2) said_.insert({static_cast<int>(said[n]), static_cast<int>(said[n + 1])});
+  for (std::size_t n = 0; n + 1 < said.size(); n += 2) said_.insert({said[n], said[n + 1]});
 }
 
 }  // namespace mortise

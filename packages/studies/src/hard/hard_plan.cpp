@@ -13,6 +13,7 @@
 #include "mortise/simulation/scene/file_kind.hpp"
 #include "mortise/simulation/scene/read_scene.hpp"
 #include "mortise/simulation/scene/scene.hpp"
+#include "shared/distinct_files.hpp"
 #include "shared/throw_all.hpp"
 
 namespace mortise {
@@ -122,6 +123,18 @@ void check_expressions(const Named<HardCase>& one, const HardLine& line, std::ve
   }
 }
 
+/// Cases and companions whose runs would share a directory, also of cases that are not chosen: their runs may be there already.
+void check_directories(const HardFile& ledger, const std::vector<int>& ranks, std::vector<Diagnostic>& diagnostics) {
+  DistinctFiles directories;
+  for (const std::string& page : hard_pages()) directories.reserve(page, "a page of the ledger");
+  for (const auto& one : ledger.cases) {
+    directories.add(one.name, one.place, diagnostics);
+    DistinctFiles below;
+    for (const int count : ranks) below.reserve(run_name(count), fmt::format("the run on {} rank(s)", count));
+    for (const auto& companion : one.value.companions) below.add(companion.name, companion.place, diagnostics);
+  }
+}
+
 bool is_chosen(const Named<HardCase>& one, const HardOptions& options) {
   if (options.only.empty()) return options.sweeps || one.value.axes.empty();
   return std::regex_search(one.name, std::regex(options.only));
@@ -140,6 +153,13 @@ double evaluate(const Located<std::string>& source, const Symbols& symbols, cons
   return parse_expression(arguments, source.value, symbols, source.place).at(values);
 }
 
+const std::vector<std::string>& hard_pages() {
+  static const std::vector<std::string> pages{"ledger.csv", "hard-cases.md", "hard-cases.html"};
+  return pages;
+}
+
+std::string run_name(int ranks) { return fmt::format("np{}", ranks); }
+
 HardPlan read_hard(const Communicator& comm, const HardOptions& options) {
   const XmlList root = parse_xml(read_text(comm, options.ledger), options.ledger);
   refuse_other_kinds(root, FileKind::ledger);
@@ -148,6 +168,7 @@ HardPlan read_hard(const Communicator& comm, const HardOptions& options) {
   read_parameters(ledger, root, {}, {}, diagnostics);
   throw_all(diagnostics);
 
+  check_directories(ledger, options.ranks, diagnostics);
   HardPlan plan;
   Scenes scenes(comm, options.ledger);
   for (const auto& one : ledger.cases) {
@@ -156,6 +177,7 @@ HardPlan read_hard(const Communicator& comm, const HardOptions& options) {
     const std::vector<double>& codes = one.value.stop.codes;
     const bool may_be_refused =
         !one.value.stop.reason.value.empty() && std::find(codes.begin(), codes.end(), static_cast<double>(ExitCode::invalid_input)) != codes.end();
+    DistinctFiles lines;
     for (const StudyPoint& point : study_points(as_study(ledger, one.value), diagnostics)) {
       HardLine line{
           plan.cases.size() - 1, point.labels.empty() ? "" : point.label(), scenes.complete(one.value.scene, point, may_be_refused, diagnostics), {}};
@@ -164,6 +186,7 @@ HardPlan read_hard(const Communicator& comm, const HardOptions& options) {
         const Located<std::string>& scene = companion.value.scene;
         line.companions.push_back(scenes.complete(scene.value.empty() ? one.value.scene : scene, beside, false, diagnostics));
       }
+      lines.add(line.label, one.place, diagnostics);
       check_expressions(one, line, diagnostics);
       plan.lines.push_back(std::move(line));
     }

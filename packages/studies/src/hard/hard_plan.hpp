@@ -36,6 +36,12 @@ struct HardPlan {
 /// Reads the ledger and its scenes and keeps the cases that the options choose. Throws FileError, InputError with all that is wrong.
 HardPlan read_hard(const Communicator& comm, const HardOptions& options);
 
+/// Files that a ledger leaves beside the directories of its cases.
+const std::vector<std::string>& hard_pages();
+
+/// Name of the directory of a run on so many ranks, in that of its line.
+std::string run_name(int ranks);
+
 /// Names and values that expressions of a line may use besides the scene's variables.
 struct HardNames {
   std::vector<std::string> names;

@@ -32,7 +32,7 @@ class Runner {
     const auto& one = plan_.case_of(line);
     OutputDirectory folder = directory_.subdirectory(name_for_files(one.name));
     if (!line.label.empty()) folder = folder.subdirectory(name_for_files(line.label));
-    HardRow row{&line, ranks, outcome_of(line.run, ranks, folder, fmt::format("np{}", ranks)), {}};
+    HardRow row{&line, ranks, outcome_of(line.run, ranks, folder, run_name(ranks)), {}};
     std::vector<HardOutcome> companions;
     for (std::size_t c = 0; c < line.companions.size(); ++c)
       companions.push_back(outcome_of(line.companions[c], options_.ranks.front(), folder, name_for_files(one.value.companions[c].name)));
@@ -80,12 +80,11 @@ ExitCode run_hard(const RCP<const Communicator>& comm, const HardOptions& option
   const HardPlan plan = read_hard(*comm, options);
   OutputDirectory directory(comm, options.directory.empty() ? "results/hard" : options.directory,
                             {"hard cases", options.ledger, options.directory.empty()});
-  const std::vector<std::string> pages{"ledger.csv", "hard-cases.md", "hard-cases.html"};
-  std::vector<std::string> cases, names = pages;
+  std::vector<std::string> cases, names = hard_pages();
   for (const auto& one : plan.cases) cases.push_back(name_for_files(one.name));
   names.insert(names.end(), cases.begin(), cases.end());
   directory.open(names);
-  for (const auto& old : options.fresh ? names : pages) directory.remove(old);
+  for (const auto& old : options.fresh ? names : hard_pages()) directory.remove(old);
 
   Runner runner(comm, plan, options, directory);
   std::vector<HardRow> rows;

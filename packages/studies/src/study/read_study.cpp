@@ -12,6 +12,7 @@
 #include "mortise/simulation/scene/scene_bodies.hpp"
 #include "mortise/studies/study_points.hpp"
 #include "peer/calculix_deck.hpp"
+#include "shared/distinct_files.hpp"
 #include "shared/throw_all.hpp"
 
 namespace mortise {
@@ -140,6 +141,8 @@ StudyPlan read_study(const Communicator& comm, const std::string& path, const st
     if (diagnostics.empty()) diagnostics.push_back({root.place, "a study needs an axis and a quantity"});
     throw_all(diagnostics);
   }
+  DistinctFiles plots;
+  for (const auto& quantity : study.quantities) plots.add(quantity.name, quantity.place, diagnostics);
   plan.points = study_points(study, diagnostics);
   if (plan.points.empty() && diagnostics.empty()) diagnostics.push_back({root.place, "all combinations are excluded"});
   if (!study.finest.all.empty()) {

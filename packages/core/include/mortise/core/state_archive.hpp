@@ -22,7 +22,7 @@ struct RowIds {
 
 /// Stores values by name, or restores them. A class with a memory has one function that hands all of it over: it serves both directions, so that
 /// they cannot disagree. Collective in all members, which are called with the same names in the same order on every rank.
-/// @throws FileError on all ranks, where a file cannot be written, lacks a value or holds another number of them
+/// @throws FileError on all ranks, where a file cannot be written, lacks a value, holds another number of them or one that cannot stand there
 class StateArchive {
  public:
   virtual ~StateArchive() = default;
@@ -32,7 +32,7 @@ class StateArchive {
   virtual void values(const std::string& name, std::vector<double>& values) = 0;
   /// Any bytes that are the same on every rank.
   virtual void text(const std::string& name, std::string& text) = 0;
-  /// A table of numbers.
+  /// A table of finite numbers.
   /// @param rows  [ids.ids x columns]; what is restored gets this size
   virtual void rows(const std::string& name, const RowIds& ids, std::size_t columns, std::vector<double>& rows) = 0;
   /// Throws FileError on all ranks if any of them has found something wrong with what it restored.
@@ -41,6 +41,24 @@ class StateArchive {
 
 /// What is wrong with a number that was stored as a whole one.
 std::string not_whole(const std::string& name, double value);
+/// What is wrong with numbers of which one is not finite; none: all are.
+std::optional<std::string> not_finite(const std::string& name, const std::vector<double>& values);
+
+/// What was restored as numbers of a kind. Throws as StateArchive does where one is not finite, or not whole where the kind is.
+template <class Number>
+std::vector<Number> restored_numbers(StateArchive& archive, const std::string& name, const std::vector<double>& values) {
+  static_assert(std::is_arithmetic_v<Number>, "for numbers");
+  if constexpr (std::is_integral_v<Number>) {
+    const auto wrong = std::find_if(values.begin(), values.end(), [](double value) { return !whole_number<Number>(value); });
+    archive.refuse_if(wrong == values.end() ? std::nullopt : std::optional(not_whole(name, *wrong)));
+    std::vector<Number> numbers;
+    for (const double value : values) numbers.push_back(*whole_number<Number>(value));
+    return numbers;
+  } else {
+    archive.refuse_if(not_finite(name, values));
+    return {values.begin(), values.end()};
+  }
+}
 
 /// One number, the same on every rank.
 template <class Number, std::enable_if_t<std::is_arithmetic_v<Number>, int> = 0>
@@ -49,16 +67,18 @@ void serialize(StateArchive& archive, const std::string& name, Number& number) {
   archive.values(name, one);
   if (!archive.restores()) return;
   if (one.size() != 1) throw FileError("a stored state has " + std::to_string(one.size()) + " numbers \"" + name + "\"; expected is 1");
-  if constexpr (std::is_integral_v<Number>) {
-    const std::optional<Number> whole = whole_number<Number>(one.front());
-    archive.refuse_if(whole ? std::nullopt : std::optional(not_whole(name, one.front())));
-    number = *whole;
-  } else {
-    number = static_cast<Number>(one.front());
-  }
+  number = restored_numbers<Number>(archive, name, one).front();
 }
 
-/// A number that there may be.
+/// Numbers that are the same on every rank, as many as there were.
+template <class Number>
+void serialize(StateArchive& archive, const std::string& name, std::vector<Number>& numbers) {
+  std::vector<double> values(numbers.begin(), numbers.end());
+  archive.values(name, values);
+  if (archive.restores()) numbers = restored_numbers<Number>(archive, name, values);
+}
+
+/// A finite number that there may be.
 void serialize(StateArchive& archive, const std::string& name, std::optional<double>& number);
 
 /// The values of a vector, by the ids of its map.
@@ -70,15 +90,7 @@ template <class Number>
 void serialize(StateArchive& archive, const std::string& name, const RowIds& ids, std::vector<Number>& numbers) {
   std::vector<double> rows(numbers.begin(), numbers.end());
   archive.rows(name, ids, 1, rows);
-  if (!archive.restores()) return;
-  numbers.clear();
-  if constexpr (std::is_integral_v<Number>) {
-    const auto wrong = std::find_if(rows.begin(), rows.end(), [](double value) { return !whole_number<Number>(value); });
-    archive.refuse_if(wrong == rows.end() ? std::nullopt : std::optional(not_whole(name, *wrong)));
-    for (const double value : rows) numbers.push_back(*whole_number<Number>(value));
-  } else {
-    numbers.assign(rows.begin(), rows.end());
-  }
+  if (archive.restores()) numbers = restored_numbers<Number>(archive, name, rows);
 }
 
 /// Rows of different lengths, [ids]. Collective.

@@ -53,6 +53,9 @@ class FieldWriter {
   /// that does not come after those that were written.
   void write(int step, double time, const std::vector<Field>& fields);
 
+  /// Steps whose fields the index names, ascending, the same on every rank: those that were written, and those that a run that goes on found.
+  const std::vector<int>& steps() const;
+
   /// Returns when all that was written is on the disk: it outlives a loss of power.
   void sync();
 
