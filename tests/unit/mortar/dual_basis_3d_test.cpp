@@ -31,8 +31,8 @@ std::pair<Eigen::VectorXd, Eigen::VectorXd> fields(const Surfaces& surfaces, con
 }
 
 TEST(MortarSumsInSpace, RowsOfDAndMAgree) {
-  for (const auto slave : {FacetKind::quadrilaterals, FacetKind::triangles})
-    for (const auto master : {FacetKind::quadrilaterals, FacetKind::triangles})
+  for (const auto slave : {FacetKind::quadrilaterals, FacetKind::triangles, FacetKind::mixed})
+    for (const auto master : {FacetKind::quadrilaterals, FacetKind::triangles, FacetKind::mixed})
       for (const bool runs_off : {false, true})
         for (const SharedCoupling& coupling : {coupling_of<DualMortarCoupling>(), coupling_of<StandardMortarCoupling>()}) {
           Surfaces surfaces = runs_off ? waves(4, 5, 0.0, slave, master, 0.9, 2.2) : waves(4, 5, 0.0, slave, master);
@@ -47,7 +47,7 @@ TEST(MortarSumsInSpace, RowsOfDAndMAgree) {
 
 // Matching flat meshes: D = diag A_j and M = the same between opposite nodes.
 TEST(MortarDualBasisInSpace, IsBiorthogonalOnAMatchingMesh) {
-  for (const auto kind : {FacetKind::quadrilaterals, FacetKind::triangles})
+  for (const auto kind : {FacetKind::quadrilaterals, FacetKind::triangles, FacetKind::mixed})
     for (const double angle : {0.0, 0.7}) {
       const Patch patch = flat(3, 4, 0.0, 2.0, 0.0, 3.0, kind);
       Surfaces surfaces = two_patches(patch, patch);
@@ -64,8 +64,8 @@ TEST(MortarDualBasisInSpace, IsBiorthogonalOnAMatchingMesh) {
 
 // A linear field on both sides is transferred exactly: int phi_j (u_slave - u_master) = 0, on any meshes and any cover.
 TEST(MortarDualBasisInSpace, TransfersLinearFieldsOnAnyCover) {
-  for (const auto slave_kind : {FacetKind::quadrilaterals, FacetKind::triangles})
-    for (const auto master_kind : {FacetKind::quadrilaterals, FacetKind::triangles})
+  for (const auto slave_kind : {FacetKind::quadrilaterals, FacetKind::triangles, FacetKind::mixed})
+    for (const auto master_kind : {FacetKind::quadrilaterals, FacetKind::triangles, FacetKind::mixed})
       for (const auto& [slaves, masters, low, high] : std::vector<std::tuple<int, int, double, double>>{{1, 5, -0.2, 1.3},
                                                                                                         {5, 1, -0.2, 1.3},
                                                                                                         {3, 4, 0.21, 1.4},

@@ -17,7 +17,7 @@ struct Case {
 };
 
 std::vector<Case> cases() {
-  constexpr auto quads = FacetKind::quadrilaterals, triangles = FacetKind::triangles;
+  constexpr auto quads = FacetKind::quadrilaterals, triangles = FacetKind::triangles, mixed = FacetKind::mixed;
   std::vector<Case> all;
   all.push_back({"open", waves(3, 4, 0.3)});
   all.push_back({"closed", waves(3, 4, -0.3)});
@@ -45,6 +45,8 @@ std::vector<Case> cases() {
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.3, Eigen::Vector3d(1.0, 2.0, -0.7).normalized()).toRotationMatrix();
   for (auto& x : turned.surfaces.points) x = turn * x;
   all.push_back(turned);
+  all.push_back({"both kinds on both kinds", waves(2, 3, 0.0, mixed, mixed)});
+  all.push_back({"both kinds, running off", waves(3, 3, 0.0, mixed, mixed, 0.9, 2.2)});
   const std::size_t count = all.size();
   for (std::size_t i = 0; i < count; ++i) {
     all.push_back(all[i]);

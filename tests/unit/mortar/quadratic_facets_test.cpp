@@ -18,7 +18,7 @@ namespace {
 
 using namespace test;
 
-constexpr auto quads = FacetKind::quadrilaterals, triangles = FacetKind::triangles;
+constexpr auto quads = FacetKind::quadrilaterals, triangles = FacetKind::triangles, mixed = FacetKind::mixed;
 
 struct Case {
   std::string name;
@@ -61,6 +61,7 @@ std::vector<Case> cases() {
   fix(all.back().surfaces, 10, {0, 1, 2});
   all.push_back({"quadrilateral8, symmetry", quadratic(waves(2, 2, 0.0), true, false, 0.05)});
   for (const std::size_t n : {0, 3, 6}) fix(all.back().surfaces, n, {0});
+  all.push_back({"triangle6 and quadrilateral8 on both", quadratic(waves(2, 2, 0.0, mixed, mixed), true, true, 0.05)});
   const std::size_t count = all.size();
   for (const std::size_t i : {std::size_t{0}, std::size_t{3}, std::size_t{8}, count - 2}) {
     all.push_back(all[i]);
