@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -8,6 +9,7 @@
 #include "mortise/simulation/run/run.hpp"
 #include "mortise/simulation/scene/read_scene.hpp"
 #include "mortise/simulation/scene/scene.hpp"
+#include "mortise/studies/picture.hpp"
 #include "program.hpp"
 
 namespace mortise {
@@ -80,6 +82,22 @@ void add_restart_arguments(CLI::App& command, RunOptions& options) {
       });
 }
 
+/// Draws the last step beside the results. They are complete: what hinders the drawing is told and changes nothing.
+void draw_results(const Program& program, const RunOptions& options) {
+  PictureOptions picture;
+  picture.run = options.directory.empty() ? default_directory(options.scene) : options.directory;
+  std::string hindered = "no python3 with matplotlib and h5py; please install python3-matplotlib and python3-h5py (Debian)";
+  try {
+    if (const auto drawn = draw_picture(program.comm, picture)) {
+      if (options.verbosity != Verbosity::quiet) print(program, *drawn + "\n");
+      return;
+    }
+  } catch (const FileError& error) {  // on every rank
+    hindered = error.what();
+  }
+  if (program.is_first_rank()) std::cerr << "warning: no picture: " << hindered << std::endl;
+}
+
 }  // namespace
 
 void add_run_command(CLI::App& app, Program& program) {
@@ -90,12 +108,18 @@ void add_run_command(CLI::App& app, Program& program) {
   add_input_arguments(*command, "SCENE", "scene file", *options);
   add_output_arguments(*command, "SCENE", *options);
   add_restart_arguments(*command, *options);
+  const auto picture = std::make_shared<bool>(false);
+  command->add_flag("--picture", *picture, "draw the last step at the end: picture.png, as `mortise picture` does");
   command->footer(
       "Leaves summary.json, newton.csv, history.csv, fields.xdmf, fields/, effective.xml and log.txt.\n"
       "Example: mpirun -n 2 mortise run inputs/paper/hertz_elastic.xml --set variables/n=8 -o fine");
-  command->callback([&program, options] {
+  command->callback([&program, options, picture] {
     const auto scene = read_before(program, options);
-    program.action = [&program, options, scene] { return run_scene(program.comm, *scene, *options); };
+    program.action = [&program, options, scene, picture] {
+      const ExitCode code = run_scene(program.comm, *scene, *options);
+      if (*picture) draw_results(program, *options);
+      return code;
+    };
   });
 }
 

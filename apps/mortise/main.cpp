@@ -27,6 +27,8 @@ constexpr const char* examples = R"(Examples:
   mortise scale inputs/scaling/pressed_blocks.xml            efficiency on 1, 2, 4 ... ranks of this machine, one page
   mortise paper -o page                                      every example of the paper, one page with its figures and tables
   mortise hard -o hard                                       the ledger of hard cases: which end right, which wrong
+  mortise picture results/hertz_elastic                      the last step, deformed, coloured by stress
+  mortise export results/hertz_elastic                       mesh and fields of all steps as an Exodus file
   mortise describe contact                                   every parameter with default, unit and meaning
   mortise list materials
 
@@ -116,6 +118,8 @@ int main(int argc, char** argv) {
   mortise::add_hard_command(app, program);
   mortise::add_scale_command(app, program);
   mortise::add_peer_command(app, program);
+  mortise::add_picture_command(app, program);
+  mortise::add_export_command(app, program);
   mortise::add_describe_command(app, program);
   mortise::add_list_command(app, program);
   mortise::add_doctor_command(app, program);

@@ -41,6 +41,8 @@ void print(const Program& program, const std::string& text);
 void add_run_command(CLI::App& app, Program& program);
 void add_check_command(CLI::App& app, Program& program);
 void add_point_command(CLI::App& app, Program& program);
+void add_picture_command(CLI::App& app, Program& program);
+void add_export_command(CLI::App& app, Program& program);
 void add_describe_command(CLI::App& app, Program& program);
 void add_list_command(CLI::App& app, Program& program);
 void add_doctor_command(CLI::App& app, Program& program);

@@ -51,7 +51,7 @@ foreach(program consumer contact_alone)
 endforeach()
 
 foreach(file share/mortise/schema/scene.rng share/mortise/inputs/paper/patch_test.xml share/doc/Mortise/LICENSE
-    share/bash-completion/completions/mortise share/man/man1/mortise.1)
+    share/bash-completion/completions/mortise share/man/man1/mortise.1 share/mortise/python/mortise_results.py)
   if(NOT EXISTS "${SCRATCH}/prefix/${file}")
     message(FATAL_ERROR "not installed: ${file}")
   endif()

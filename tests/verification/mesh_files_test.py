@@ -83,7 +83,7 @@ def block(dimension, cells, width, height, shift, swept):
         profile = '<ParameterList name="profile">' + "".join(
             [parameter("type", "string", "block"), parameter("width", "double", width), parameter("height", "double", width), parameter("cells x", "int", cells),
              parameter("cells y", "int", cells)]) + "</ParameterList>"
-        return mesh_list([parameter("type", "string", "extruded"), parameter("length", "double", height), parameter("layers", "int", 2), profile, place])
+        return mesh_list([parameter("type", "string", "extruded"), parameter("height", "double", height), parameter("cells z", "int", 2), profile, place])
     return mesh_list([parameter("type", "string", "brick"), parameter("width", "double", width), parameter("depth", "double", width), parameter("height", "double", height),
                       parameter("cells x", "int", cells), parameter("cells y", "int", cells), parameter("cells z", "int", 2), place])
 

@@ -148,6 +148,11 @@ bool is_foreign(const std::string& directory, const DirectoryMarker& marker, con
   return type_of(path) == fs::file_type::directory && !is_there(path / marker_name) && !is_vacant(path);
 }
 
+bool is_made(const std::string& directory, const std::string& listed) {
+  const std::vector<std::string> names = named_by(directory, listed);
+  return std::any_of(names.begin(), names.end(), [&](const std::string& one) { return is_there(fs::path(directory) / one); });
+}
+
 std::optional<std::string> busy_below(const std::string& directory, const std::vector<std::string>& names) {
   for (const auto& name : names) {
     const fs::path path = fs::path(directory) / name;

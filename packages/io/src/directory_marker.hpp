@@ -31,6 +31,9 @@ std::optional<std::string> write_marker(const std::string& directory, const Dire
 /// Whether `name` is there and nothing says that the program made it. A directory that is listed has to have a marker of its own, or to be empty.
 bool is_foreign(const std::string& directory, const DirectoryMarker& marker, const std::string& name);
 
+/// Whether what a list calls `listed` is there; of a series any of its files.
+bool is_made(const std::string& directory, const std::string& listed);
+
 /// Why what is listed cannot be removed as a whole: someone writes below. Touches nothing.
 std::optional<std::string> busy_below(const std::string& directory, const std::vector<std::string>& names);
 

@@ -241,14 +241,13 @@ void OutputDirectory::strike_missing() {
   State& self = *state_;
   self.on_first_rank("cannot write to the directory", [&] {
     std::vector<std::string>& all = self.marker.names;
-    const auto is_missing = [&](const std::string& name) {
-      std::error_code error;
-      return std::filesystem::symlink_status(file(name), error).type() == std::filesystem::file_type::not_found;
-    };
+    const auto is_missing = [&](const std::string& name) { return !is_made(self.path, name); };
     all.erase(std::remove_if(all.begin(), all.end(), is_missing), all.end());
     return write_marker(self.path, self.marker);
   });
 }
+
+bool OutputDirectory::is_open() const { return state_->is_open; }
 
 const std::string& OutputDirectory::path() const { return state_->path; }
 

@@ -1,6 +1,7 @@
 #include "xdmf.hpp"
 
 #include <fmt/format.h>
+#include <libxml/xmlreader.h>
 #include <libxml/xmlwriter.h>
 
 #include <memory>
@@ -108,6 +109,18 @@ std::string xdmf_step(const XdmfMesh& mesh, const StoredStep& step) {
   Part part;
   step_grid(part, mesh, step);
   return part.finish();
+}
+
+void read_body_names(const std::string& path, std::vector<std::string>& names) {
+  const std::unique_ptr<xmlTextReader, decltype(&xmlFreeTextReader)> reader(
+      xmlReaderForFile(path.c_str(), nullptr, XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING), xmlFreeTextReader);
+  while (reader != nullptr && xmlTextReaderRead(reader.get()) == 1) {
+    const std::string element = reinterpret_cast<const char*>(xmlTextReaderConstName(reader.get()));
+    if (element == "Grid") return;
+    if (element != "Information") continue;
+    const std::unique_ptr<xmlChar, decltype(xmlFree)> value(xmlTextReaderGetAttribute(reader.get(), text("Value")), xmlFree);
+    if (value != nullptr) names.emplace_back(reinterpret_cast<const char*>(value.get()));
+  }
 }
 
 std::string xdmf_tail() { return "</Grid>\n</Domain>\n</Xdmf>\n"; }

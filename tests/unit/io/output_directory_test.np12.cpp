@@ -8,6 +8,7 @@
 
 #include "file_error.hpp"
 #include "mortise/core/error.hpp"
+#include "mortise/io/output_file.hpp"
 #include "scratch_directory.hpp"
 
 namespace mortise {
@@ -144,6 +145,39 @@ TEST(OutputDirectory, WhatWasNotMadeMayBecomeAnothers) {
   on_first_rank([&] { write(scratch.file("point.svg")); });
   EXPECT_THAT(file_error([&] { OutputDirectory(world(), scratch.path(), {"run"}).begin_run(); }), HasSubstr("point.svg"));
   EXPECT_EQ(content(scratch.file("summary.json")), "ours");
+}
+
+TEST(OutputDirectory, ASeriesIsMadeOnceAFileOfItIs) {
+  const test::ScratchDirectory scratch(world());
+  {
+    OutputDirectory directory(world(), scratch.path());
+    directory.open();
+    directory.claim("at-*.png");
+    directory.claim("never-*.png");
+    on_first_rank([&] { write(scratch.file("at-000012.png")); });
+    directory.strike_missing();
+  }
+  on_first_rank([&] { write(scratch.file("never-000012.png")); });
+  OutputDirectory directory(world(), scratch.path());
+  directory.open({"at-*.png"});
+  EXPECT_THAT(file_error([&] { directory.claim("never-*.png"); }), HasSubstr("never"));
+  directory.remove("at-*.png");
+  EXPECT_FALSE(files::exists(scratch.file("at-000012.png")));
+}
+
+TEST(OutputFile, IsADirectoryAndANameInIt) {
+  const auto of = [](const std::string& path) {
+    const OutputFile file = output_file(path, {".png", ".gif"});
+    return file.directory + "|" + file.name;
+  };
+  EXPECT_EQ(of("a.png"), ".|a.png");
+  EXPECT_EQ(of("./a.gif"), ".|a.gif");
+  EXPECT_EQ(of("/a b/c.d/e.png"), "/a b/c.d|e.png");
+  EXPECT_EQ(of("/e.png"), "/|e.png");
+  for (const std::string wrong : {"", "a", "a.jpg", "a.png/", ".png", "x/.gif", "a.PNG", "a.png.part"})
+    EXPECT_THAT([&] { of(wrong); }, testing::ThrowsMessage<InputError>(HasSubstr("ends in .png or .gif"))) << wrong;
+  for (const std::string& wrong : {std::string("a*.png"), std::string("#a.png"), std::string("a\n.png"), std::string(252, 'a') + ".png"})
+    EXPECT_THAT([&] { of(wrong); }, testing::ThrowsMessage<InputError>(HasSubstr("cannot be the name"))) << wrong;
 }
 
 TEST(OutputDirectory, RemovesOnlyWhatListsBelowItHave) {

@@ -1,17 +1,21 @@
 #pragma once
 // Draws with matplotlib, in a python3 of its own.
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "mortise/core/types.hpp"
+#include "shared/run_process.hpp"
 
 namespace mortise {
 
-/// Runs plot_style and then `script` on rank 0, which sees `arguments` in sys.argv[1:]. Taken is the first that has matplotlib of: the python named
-/// by the environment variable MORTISE_PYTHON, alone if it is set; python3 of the path; /usr/bin/python3. It is isolated: it takes no modules of the
-/// working directory, of PYTHONPATH or of the user's own packages. Collective. Returns false on all ranks if there is none. Throws FileError on all
-/// ranks if the script fails.
+/// How plot_style and then `script` ended, which sees `arguments` in sys.argv[1:]. Taken is the first that has matplotlib of: the python named by the
+/// environment variable MORTISE_PYTHON, alone if it is set; python3 of the path; /usr/bin/python3. It is isolated: it takes no modules of the working
+/// directory, of PYTHONPATH or of the user's own packages. None if there is none. No communication.
+std::optional<ProcessEnding> run_script(const std::string& script, const std::vector<std::string>& arguments);
+
+/// run_script() on rank 0. Collective. Returns false on all ranks if there is no python for it. Throws FileError on all ranks if the script fails.
 /// @param image  what is drawn, for the error
 bool draw_plot(const Communicator& comm, const std::string& script, const std::vector<std::string>& arguments, const std::string& image);
 

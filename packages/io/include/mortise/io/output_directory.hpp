@@ -29,7 +29,7 @@ struct Origin {
 ///     OutputDirectory fields = directory.subdirectory("fields");
 ///     Hdf5File file(comm, fields.claim("mesh.h5"), ...);
 ///
-/// Members but path() and file() are collective and throw FileError on all ranks. Copies share what they know.
+/// Members but is_open(), path() and file() are collective and throw FileError on all ranks. Copies share what they know.
 class OutputDirectory {
  public:
   /// Makes sure that files can be made in the directory, or the directory where it does not exist. Touches nothing.
@@ -60,6 +60,9 @@ class OutputDirectory {
 
   /// Strikes from the list what was registered and has not been made: it may become another's.
   void strike_missing();
+
+  /// Whether it has been taken, by begin_run(), continue_run() or open().
+  bool is_open() const;
 
   const std::string& path() const;
   /// Path of a file in the directory.
