@@ -18,7 +18,9 @@ namespace files = std::filesystem;
 using namespace peer_support;
 
 const std::string blocks = std::string(INPUTS) + "/scaling/pressed_blocks.xml", space = peers + "/space";
-const std::vector<std::pair<std::string, std::string>> elements{{"H8", "C3D8"}, {"H20", "C3D20"}, {"Tet4", "C3D4"}, {"Tet10", "C3D10"}};
+using Elements = std::vector<std::pair<std::string, std::string>>;  ///< of ours and of CalculiX
+const Elements elements{{"H8", "C3D8"}, {"H20", "C3D20"}, {"Tet4", "C3D4"}, {"Tet10", "C3D10"}};
+const Elements wedges{{"W6", "C3D6"}, {"W15", "C3D15"}};  ///< with fewer points than ours: 2 and 9
 
 /// `mortise command scene` with settings.
 Ending call(const std::string& command, const std::string& scene, const std::string& results, const std::vector<std::string>& settings,
@@ -70,6 +72,8 @@ Deck read_deck(const std::string& path) {
 const std::vector<std::vector<int>>& faces_of(const std::string& type) {
   static const std::vector<std::vector<int>> hexahedron{{1, 2, 3, 4}, {5, 8, 7, 6}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 8, 4}, {4, 8, 5, 1}};
   static const std::vector<std::vector<int>> tetrahedron{{1, 2, 3}, {1, 4, 2}, {2, 4, 3}, {3, 4, 1}};
+  static const std::vector<std::vector<int>> wedge{{1, 2, 3}, {4, 5, 6}, {1, 2, 5, 4}, {2, 3, 6, 5}, {3, 1, 4, 6}};
+  if (type == "C3D6" || type == "C3D15") return wedge;
   return type == "C3D8" || type == "C3D20" ? hexahedron : tetrahedron;
 }
 
@@ -81,12 +85,16 @@ TEST(PeerInSpace, TheDeckHasTheElementsAndTheFacesOfTheScene) {
     double position;
   };
   constexpr std::size_t n = 4;  // cells along an edge of the lower block, 3 of the upper one
-  for (const auto& [element, theirs] : elements) {
-    const bool tetrahedra = element.front() == 'T', quadratic = theirs.size() == 5;
-    // A cell is cut into six tetrahedra, and has then diagonals on its sides and through its middle.
+  Elements all = elements;
+  all.insert(all.end(), wedges.begin(), wedges.end());
+  for (const auto& [element, theirs] : all) {
+    const bool tetrahedra = element.front() == 'T', of_wedges = element.front() == 'W', quadratic = theirs.size() == 5;
+    // A cell is cut into six tetrahedra, and has then diagonals on its sides and through its middle; or into two wedges, with diagonals below and
+    // above.
     const auto nodes = [&](std::size_t cells) {
       const std::size_t corners = (cells + 1) * (cells + 1) * (cells + 1), whole = (2 * cells + 1) * (2 * cells + 1) * (2 * cells + 1);
-      return !quadratic ? corners : tetrahedra ? whole : corners + 3 * cells * (cells + 1) * (cells + 1);
+      if (!quadratic || tetrahedra) return quadratic ? whole : corners;
+      return corners + 3 * cells * (cells + 1) * (cells + 1) + (of_wedges ? cells * cells * (cells + 1) : 0);
     };
     for (const Plane& plane : {Plane{"top", 2, 1.0}, {"left", 0, 0.0}, {"right", 0, 1.0}, {"front", 1, 0.0}, {"back", 1, 1.0}}) {
       SCOPED_TRACE(element + " " + plane.side);
@@ -97,14 +105,14 @@ TEST(PeerInSpace, TheDeckHasTheElementsAndTheFacesOfTheScene) {
       ASSERT_EQ(ending.code, 3) << ending.output;
       const Deck deck = read_deck(space + "/deck/peer.inp");
       EXPECT_EQ(deck.nodes.size(), nodes(n) + nodes(n - 1));
-      EXPECT_EQ(deck.elements.size(), (tetrahedra ? 6 : 1) * (n * n * n + (n - 1) * (n - 1) * (n - 1)));
+      EXPECT_EQ(deck.elements.size(), (tetrahedra ? 6 : of_wedges ? 2 : 1) * (n * n * n + (n - 1) * (n - 1) * (n - 1)));
       for (const auto& [id, one] : deck.elements) {
         ASSERT_EQ(one.first, theirs) << id;
-        ASSERT_EQ(one.second.size(), element == "H8" ? 8 : element == "H20" ? 20 : element == "Tet4" ? 4 : 10) << id;
+        ASSERT_EQ(one.second.size(), std::stoul(theirs.substr(3))) << id;
       }
       const auto expect_faces = [&](const std::string& surface, std::size_t cells, std::size_t direction, double position) {
         const auto& faces = deck.surfaces.at(surface);
-        EXPECT_EQ(faces.size(), (tetrahedra ? 2 : 1) * cells * cells);
+        EXPECT_EQ(faces.size(), (tetrahedra || (of_wedges && direction == 2) ? 2 : 1) * cells * cells);
         for (const auto& [id, face] : faces)
           for (const int corner : faces_of(theirs).at(face - 1))
             EXPECT_NEAR(deck.nodes.at(deck.elements.at(id).second[static_cast<std::size_t>(corner - 1)])[direction], position, 1e-12)

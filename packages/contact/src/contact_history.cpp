@@ -6,6 +6,7 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
+#include <algorithm>
 #include <utility>
 
 #include "evaluated_contact.hpp"
@@ -107,6 +108,28 @@ ContactHistory ContactSystem::allow_overlap(const ContactHistory& history, std::
   AcceptedContact changed = *history;
   changed.pairs[pair].allowed_overlap = depth;
   if (const auto other = second_pass(pair)) changed.pairs[*other].allowed_overlap = depth;
+  return ContactHistory(std::move(changed));
+}
+
+ContactHistory ContactSystem::with_clearances(const ContactHistory& history, double time) const {
+  const auto has_one = [](const auto& pair) { return pair->definition().options.clearance.has_value(); };
+  if (std::none_of(model_->pairs.begin(), model_->pairs.end(), has_one)) return history;
+  AcceptedContact changed = *history;
+  std::vector<Diagnostic> diagnostics;
+  const auto reference = model_->reference->getLocalViewHost(Tpetra::Access::ReadOnly);
+  const auto x = [&](const SlaveNode& node, std::size_t i) { return i < reference.extent(1) ? reference(node.owned_node, i) : 0.0; };
+  for (std::size_t p = 0; p < model_->pairs.size(); ++p) {
+    const auto& clearance = model_->pairs[p]->definition().options.clearance;
+    if (!clearance) continue;
+    std::vector<double>& values = changed.pairs[p].clearances;
+    values.clear();
+    try {
+      for (const SlaveNode& node : model_->pairs[p]->slave_nodes()) values.push_back((*clearance)(time, x(node, 0), x(node, 1), x(node, 2)));
+    } catch (const InputError& error) {
+      diagnostics.insert(diagnostics.end(), error.diagnostics().begin(), error.diagnostics().end());
+    }
+  }
+  throw_if_any(model_->comm(), diagnostics);
   return ContactHistory(std::move(changed));
 }
 

@@ -24,6 +24,11 @@ void ContactOptions::describe(Parameters& parameters) {
                      .unit("-")
                      .at_least(0.0)
                      .at_most(1.0));
+  parameters.add(
+      "clearance", clearance,
+      Says("added to the gap that the meshes have, of t and the reference position of a slave node: below 0 an interference, which a function of t "
+           "brings up bit by bit; needs the gap weighting \"dual\"")
+          .unit("length"));
   parameters.add("complementarity constant", complementarity_constant,
                  Says("c_n times A_j: weighs gap against pressure in the choice of the active set; changes no solution; default: Young's modulus "
                       "of the softer side over the shortest slave facet, of penalty and augmented Lagrange a tenth of that; allowed: 1e-4 to 1e4 "

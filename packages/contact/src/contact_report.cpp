@@ -39,7 +39,7 @@ std::vector<ContactNodeState> node_states(const ContactLaws& laws, std::size_t p
     std::copy(zs.begin(), zs.end(), state.traction.begin());
     std::copy(row.normal.begin(), row.normal.end(), state.normal.begin());
     state.pressure = zs.dot(row.normal);
-    state.gap = of_pair.geometry()->gaps[s] / slave.weight;
+    state.gap = (of_pair.geometry()->gaps[s] + of_pair.clearance(s) * of_pair.row(s).covered) / slave.weight;
     state.weight = slave.weight;
     state.state = at.state(pair, s);
     state.closed = state.state != ContactState::open;

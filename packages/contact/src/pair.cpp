@@ -104,7 +104,7 @@ std::shared_ptr<const PairGeometry> Pair::evaluate(const MultiVector& x, const P
         geometry->couplings, slave_nodes(), [&](std::size_t s) { return covered(s, (*rows)[s]); }, *pattern.local_nodes, pair_.options.full_cover,
         size_ / pair_.youngs_modulus, dimension_, slopes && !reference);
   geometry->ties = ties;
-  if (enforcement_->depends_on_weight() && derivatives && !reference) measure_covered(pattern, geometry->couplings, *rows);
+  if (needs_covered() && derivatives && !reference) measure_covered(pattern, geometry->couplings, *rows);
   geometry->rows = rows;
   if (reference) {
     freeze(pattern, *rows);
@@ -194,7 +194,7 @@ void Pair::freeze(const InterfacePattern& pattern, std::vector<NodeRow>& rows) c
     NodeRow& row = rows[s];
     row.dnormal.setZero();
     if (has_forces_of_gaps()) row.opening = row.covered * row.normal;
-    if (enforcement_->depends_on_weight()) row.dcovered.assign(row.dgap.size(), 0.0);
+    if (needs_covered()) row.dcovered.assign(row.dgap.size(), 0.0);
     if (!transpose) continue;
     const std::vector<LocalOrdinal>& coupled = pattern.coupled[s];
     for (std::size_t c = 0; c < coupled.size(); ++c) {

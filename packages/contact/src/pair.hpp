@@ -45,6 +45,8 @@ class Pair {
   /// Whether slave node s has a multiplier and its function anything to act on: D_jj > 0, of standard multipliers sum_k D_jk. What is round-off of a
   /// facet that is not covered is no part of it: see FacetMoments.
   bool covered(std::size_t s, const NodeRow& row) const;
+  /// Whether conditions depend on what is covered of a node.
+  bool needs_covered() const { return enforcement_->depends_on_weight() || pair_.options.clearance; }
   /// How often slips were measured on this rank, over all calls.
   long slip_evaluations() const { return slip_evaluations_; }
 

@@ -90,7 +90,7 @@ SpatialVector PairEvaluation::constraint_gradient(const Complementarity& law, st
   const auto column = static_cast<Eigen::Index>(entry);
   SpatialVector gradient = law.gap_factor * row.dgap[entry] + law.normal_factor * row.dnormal.col(column);
   if (law.slip_factor.size() > 0) gradient.tail(dimension() - 1) += law.slip_factor * geometry_->slips[s].dslip.col(column);
-  if (!row.dcovered.empty()) gradient += law.weight_factor * row.dcovered[entry];
+  if (!row.dcovered.empty()) gradient += (law.weight_factor + clearance(s) * law.gap_factor) * row.dcovered[entry];
   if (multiplier.shift.size() == 0) return gradient;
   gradient += law.gap_factor * multiplier.shift.dot(row.dnormal.col(column));
   if (law.slip_factor.size() == 0) return gradient;

@@ -53,8 +53,12 @@ class PairEvaluation {
   /// The sum of that force over the slave side.
   SpatialVector resultant(std::size_t s, const SpatialVector& z) const;
 
-  /// g of slave node s, beyond the overlap that is allowed.
-  double own_gap(std::size_t s) const { return geometry_->gaps[s] + history().allowed_overlap * slave_nodes()[s].weight; }
+  /// What is added to the gap at slave node s, as a mean.
+  double clearance(std::size_t s) const { return history().clearances.empty() ? 0.0 : history().clearances[s]; }
+  /// g of slave node s, with its clearance and beyond the overlap that is allowed: g_j + c_j sum_k D_jk.
+  double own_gap(std::size_t s) const {
+    return geometry_->gaps[s] + clearance(s) * row(s).covered + history().allowed_overlap * slave_nodes()[s].weight;
+  }
   /// That and n . q.
   double gap(std::size_t s, const NodeMultiplier& multiplier) const;
   /// u - (T q - T^old q^old); 0 without friction.

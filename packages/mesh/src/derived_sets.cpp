@@ -1,4 +1,4 @@
-// Sets that a scene derives from others.
+// Sets that are derived from others.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -63,7 +63,7 @@ void check_numbers(const Named<SetOptions>& set, int dimension) {
   const auto d = static_cast<std::size_t>(dimension);
   const auto check = [&](const char* name, const std::vector<double>& numbers, std::size_t needed) {
     if (!numbers.empty() && numbers.size() != needed)
-      throw InputError(set.place, fmt::format("\"{}\" of set \"{}\" has {} numbers; in a {}D scene it needs {}", name, set.name, numbers.size(),
+      throw InputError(set.place, fmt::format("\"{}\" of set \"{}\" has {} numbers; in {}D it needs {}", name, set.name, numbers.size(),
                                               dimension, needed));
   };
   const SetOptions& options = set.value;

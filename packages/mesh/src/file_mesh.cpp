@@ -6,7 +6,7 @@
 namespace mortise {
 
 void FileMesh::describe_shape(Parameters& parameters) {
-  parameters.add("file", file, Says("path of the mesh file; a relative one begins at the folder of the scene").required());
+  parameters.add("file", file, Says("path of the mesh file; a relative one begins at the folder of the file that names it").required());
   parameters.add("format", format,
                  {{"by name", MeshFormat::by_name}, {"exodus", MeshFormat::exodus}, {"gmsh", MeshFormat::gmsh}, {"abaqus", MeshFormat::abaqus}},
                  "format of the file; by name: .exo, .e, .g and the like are Exodus II, .msh is Gmsh, .inp is Abaqus or CalculiX");

@@ -28,19 +28,47 @@ double cosine(const Position& a, const Position& b) {
   return lengths > 0.0 ? (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) / lengths : -1.0;
 }
 
-/// Pairs of sides on this rank that share an edge with an owned node: every pair is found on a rank that owns a node of its edge.
-std::vector<std::array<std::size_t, 2>> neighbours(const Mesh& mesh, const SideSet& set) {
-  std::map<std::array<LocalOrdinal, 2>, std::vector<std::size_t>> sides_of_edge;
+/// Outward normal of a facet at one of its nodes, of any length: of quadratic ones that of the curved facet.
+Position normal_at(const Mesh& mesh, const std::vector<LocalOrdinal>& nodes, CellShape shape, std::size_t node) {
+  return visit_cell(shape, [&](auto cell) -> Position {
+    using Cell = decltype(cell);
+    Position t[2]{};
+    if constexpr (Cell::dimension < 3) {
+      const auto gradients = Cell::gradients(Cell::node_positions[node]);
+      for (std::size_t a = 0; a < nodes.size(); ++a)
+        for (int d = 0; d < Cell::dimension; ++d)
+          for (int i = 0; i < 3; ++i) t[d][i] += gradients[a][d] * mesh.coordinates[static_cast<std::size_t>(nodes[a])][i];
+    }
+    if (Cell::dimension == 1) return {t[0][1], -t[0][0], 0.0};
+    return {t[0][1] * t[1][2] - t[0][2] * t[1][1], t[0][2] * t[1][0] - t[0][0] * t[1][2], t[0][0] * t[1][1] - t[0][1] * t[1][0]};
+  });
+}
+
+/// A side at one of its edges, in 2D at a node.
+struct SideAtEdge {
+  std::size_t side;
+  Position normal;  ///< there
+};
+
+/// Pairs of sides on this rank that share an edge with an owned node, and how they meet there: every pair is found on a rank that owns a node of its
+/// edge.
+std::vector<std::array<SideAtEdge, 2>> neighbours(const Mesh& mesh, const SideSet& set) {
+  std::map<std::array<LocalOrdinal, 2>, std::vector<SideAtEdge>> sides_of_edge;
   for (std::size_t s = 0; s < set.sides.size(); ++s) {
     const auto nodes = mesh.side_nodes(set.sides[s]);
-    const int corners = topology(mesh.side_shape(set.sides[s])).corners;
-    for (int a = 0; a < corners; ++a) {
+    const CellShape shape = mesh.side_shape(set.sides[s]);
+    const CellTopology& facet = topology(shape);
+    for (int a = 0; a < facet.corners; ++a) {
       const LocalOrdinal first = nodes[static_cast<std::size_t>(a)];
-      const LocalOrdinal second = mesh.dimension == 2 ? first : nodes[static_cast<std::size_t>((a + 1) % corners)];
-      if (std::min(first, second) < mesh.owned_count()) sides_of_edge[{std::min(first, second), std::max(first, second)}].push_back(s);
+      const LocalOrdinal second = mesh.dimension == 2 ? first : nodes[static_cast<std::size_t>((a + 1) % facet.corners)];
+      if (std::min(first, second) >= mesh.owned_count()) continue;
+      // Edge a of a plane facet lies between corners a and a + 1; where it has a node in its middle that tells.
+      const bool has_middle = mesh.dimension == 3 && facet.nodes > facet.corners;
+      const Position normal = normal_at(mesh, nodes, shape, static_cast<std::size_t>(has_middle ? facet.corners + a : a));
+      sides_of_edge[{std::min(first, second), std::max(first, second)}].push_back({s, normal});
     }
   }
-  std::vector<std::array<std::size_t, 2>> pairs;
+  std::vector<std::array<SideAtEdge, 2>> pairs;
   for (const auto& [edge, sides] : sides_of_edge)
     for (std::size_t a = 0; a < sides.size(); ++a)
       for (std::size_t b = a + 1; b < sides.size(); ++b) pairs.push_back({sides[a], sides[b]});
@@ -87,7 +115,7 @@ std::vector<GlobalOrdinal> patches_of(const Mesh& mesh, const SideSet& set, doub
   const double least_cosine = std::cos(angle * M_PI / 180.0) - 1e-12;
   std::vector<std::array<std::size_t, 2>> smooth;
   for (const auto& [a, b] : neighbours(mesh, set))
-    if (cosine(normal_of(mesh, set.sides[a]), normal_of(mesh, set.sides[b])) >= least_cosine) smooth.push_back({a, b});
+    if (cosine(a.normal, b.normal) >= least_cosine) smooth.push_back({a.side, b.side});
   // Sides of this rank that hang together, by the first of them.
   std::vector<std::size_t> first(set.sides.size());
   std::iota(first.begin(), first.end(), std::size_t{0});

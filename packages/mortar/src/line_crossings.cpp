@@ -59,7 +59,7 @@ std::optional<Crossing> cross_line(const LineSegment& line, const Piece& piece) 
   if (std::abs(across) < grazing * along.norm()) return std::nullopt;
   const double place = cross_2d(offset, line.d) / across;
   if (place < -on_facet || place > 1.0 + on_facet) return std::nullopt;
-  return Crossing{cross_2d(offset, along) / across, across > 0.0, piece.tag};
+  return Crossing{cross_2d(offset, along) / across, across > 0.0, piece.tag, across / along.norm()};
 }
 
 std::optional<Crossing> cross_triangle(const LineSegment& line, const Piece& piece, int second) {
@@ -71,7 +71,7 @@ std::optional<Crossing> cross_triangle(const LineSegment& line, const Piece& pie
   const Eigen::Vector3d at = s * line.d - a;
   const double u = at.cross(f).dot(normal) / normal.squaredNorm(), v = e.cross(at).dot(normal) / normal.squaredNorm();
   if (u < -on_facet || v < -on_facet || u + v > 1.0 + on_facet) return std::nullopt;
-  return Crossing{s, across > 0.0, piece.tag};
+  return Crossing{s, across > 0.0, piece.tag, across / normal.norm()};
 }
 
 std::optional<Crossing> cross(int dimension, const LineSegment& line, const Piece& piece) {

@@ -153,7 +153,7 @@ TEST_F(DerivedSets, RefusesNumbersThatDoNotFit) {
   using ::testing::HasSubstr;
   SetOptions flat = of({"brick"});
   flat.box = {0.0, 0.0, 1.0, 1.0};
-  EXPECT_THAT(error(flat), HasSubstr("\"box\" of set \"set 0\" has 4 numbers; in a 3D scene it needs 6"));
+  EXPECT_THAT(error(flat), HasSubstr("\"box\" of set \"set 0\" has 4 numbers; in 3D it needs 6"));
   SetOptions turned = of({"brick"});
   turned.box = {0.0, 2.0, 0.0, 1.0, 1.0, 1.0};
   EXPECT_THAT(error(turned), HasSubstr("begins at 2 and ends at 1 in direction y"));

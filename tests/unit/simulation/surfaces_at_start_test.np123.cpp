@@ -102,7 +102,7 @@ TEST(InitialOverlap, OfAnyDepthIsFoundWithItsPlace) {
 }
 
 TEST(InitialOverlap, In3DHoldsForEveryFacet) {
-  for (const char* element : {"H8", "Tet4", "Tet10", "H20"})
+  for (const char* element : {"H8", "Tet4", "Tet10", "H20", "W6", "W15"})
     for (const double depth : {0.02, 0.24, 0.4}) {
       Case one;
       one.space = true, one.element = element, one.depth = depth, one.base_cells = 5, one.top_cells = 2;

@@ -53,7 +53,7 @@ void require_flat(const MeshFile& file, const FileBodyRequest& request, const Ch
   const double size = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
   if (high[2] - low[2] <= flat * size) return;
   throw InputError(request.place,
-                   fmt::format("body \"{}\" of {} reaches from z = {:.6g} to {:.6g}; a plane or axisymmetric scene needs a mesh in a plane of one z, "
+                   fmt::format("body \"{}\" of {} reaches from z = {:.6g} to {:.6g}; a plane or axisymmetric model needs a mesh in a plane of one z, "
                                "with x and y (the radius and the axis) in it",
                                request.name, file.path, low[2], high[2]));
 }

@@ -22,7 +22,7 @@ struct ChosenCells {
 };
 
 /// The cells of `request.blocks` (all, if it names none) with so many dimensions. Plane cells are turned so that their nodes run counterclockwise
-/// where `dimension` is the scene's, 2.
+/// where `dimension` is 2.
 /// @throws InputError for names that are none, cells in two parts, nothing that is left
 ChosenCells choose_cells(const MeshFile& file, const FileBodyRequest& request, int cell_dimension);
 

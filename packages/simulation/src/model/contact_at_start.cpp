@@ -32,6 +32,11 @@ void report_roles(const Mesh& mesh, const Scene& scene, RunLog& log) {
 }
 
 void report_pair(const Named<ContactPairOptions>& options, const PairAtStart& pair, int dimension, RunLog& log) {
+  if (!options.value.reason.empty())
+    log.info(fmt::format("  contact {}: the slave is \"{}\": {}", options.name, options.value.slave.value, options.value.reason));
+  if (options.value.start.mesh == MeshAtStart::adjusted)
+    log.info(fmt::format("  contact {}: {} slave nodes were moved onto the master, by up to {:.3g}", options.name, pair.adjusted.first,
+                         pair.adjusted.second));
   if (pair.overlap.depth > 0.0) {
     const std::string text =
         fmt::format("contact {}: the surfaces begin by up to {:.3g} in one another, deepest at {}; the first step pushes them apart{}", options.name,

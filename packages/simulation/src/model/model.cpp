@@ -15,6 +15,7 @@
 #include "mortise/simulation/model/hold_check.hpp"
 #include "mortise/simulation/model/mesh_limits.hpp"
 #include "mortise/simulation/scene/scene_bodies.hpp"
+#include "surfaces/adjustment.hpp"
 
 namespace mortise {
 namespace {
@@ -68,6 +69,32 @@ void tie(Mesh& mesh, const Scene& scene) {
     ++point;
   }
   collect.throw_found(*mesh.comm);
+}
+
+/// [local nodes] the components that conditions prescribe.
+std::vector<std::array<bool, 3>> held_components(const Mesh& mesh, const Scene& scene) {
+  std::vector<std::array<bool, 3>> held(static_cast<std::size_t>(mesh.local_count()), std::array<bool, 3>{});
+  for (const auto& condition : scene.boundary_conditions) {
+    const auto set = mesh.node_sets.find(condition.value.set.value);
+    if (set == mesh.node_sets.end()) continue;  // refused where conditions are made
+    for (const LocalOrdinal node : set->second) {
+      auto& of_node = held[static_cast<std::size_t>(node)];
+      of_node = {of_node[0] || condition.value.x, of_node[1] || condition.value.y, of_node[2] || condition.value.z};
+    }
+  }
+  return held;
+}
+
+/// Moves slave nodes of pairs that ask for it; what it did, by pairs. Collective.
+std::vector<Adjustment> adjust_slaves(Mesh& mesh, const Scene& scene) {
+  std::vector<Adjustment> done;
+  for (const auto& pair : scene.contact) {
+    done.emplace_back();
+    if (pair.value.start.mesh != MeshAtStart::adjusted) continue;
+    done.back() = adjust_onto_master(mesh, require_side_set(mesh, pair.value.slave), require_side_set(mesh, pair.value.master),
+                                     pair.value.start.tolerance, held_components(mesh, scene));
+  }
+  return done;
 }
 
 RCP<Mesh> make_mesh(const RCP<const Communicator>& comm, const Scene& scene) {
@@ -140,6 +167,18 @@ std::vector<std::vector<int>> bodies_of(const Mesh& mesh, const std::vector<Cont
     for (std::size_t body = 0; body < count; ++body)
       if (all[count * p + body]) bodies[p].push_back(static_cast<int>(body));
   return bodies;
+}
+
+/// A function of t and positions, as one of positions from `origin` on.
+ScalarFunction seen_from(const ScalarFunction& function, const std::array<double, 3>& origin) {
+  if (function.is_constant()) return function;
+  return ScalarFunction(
+      [function, origin](const std::vector<double>& arguments) {
+        std::vector<double> moved = arguments;
+        for (std::size_t i = 0; i < 3 && i + 1 < moved.size(); ++i) moved[i + 1] += origin[i];
+        return function.at(moved);
+      },
+      function.source(), function.place());
 }
 
 // The iteration that pushes surfaces apart that overlap by d leaves pressures of E d / L, L the size of the bodies, and gaps of second order, d^2 / 2
@@ -216,9 +255,12 @@ void refuse_beyond_axis(const Mesh& mesh, double length, const std::vector<Place
 }  // namespace
 
 Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Timers& timers) {
+  std::vector<Adjustment> adjustments;
   {
     const auto timer = timers.scope("mesh");
-    mesh_ = make_mesh(comm, scene);
+    const RCP<Mesh> mesh = make_mesh(comm, scene);
+    adjustments = adjust_slaves(*mesh, scene);
+    mesh_ = mesh;
     size_ = mesh_size(*mesh_);
   }
   std::vector<Place> places;
@@ -263,6 +305,7 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   if (parts_.dependent) kept->update(1.0, *marked_components(*mesh_, parts_.dependent->dofs(), 2.0), 1.0);
   const bool axisymmetric = scene.kinematics == Kinematics::axisymmetric;
   surfaces_at_start_ = examine_surfaces(*mesh_, scene, size_.length);
+  for (std::size_t p = 0; p < adjustments.size(); ++p) surfaces_at_start_.pairs[p].adjusted = {adjustments[p].nodes, adjustments[p].largest};
   for (std::size_t p = 0; p < pairs.size(); ++p) take_up(surfaces_at_start_.pairs[pairs[p].second_pass_of.value_or(p)], pairs[p]);
   std::vector<HoldingPair> holding;
   for (const auto& pair : pairs)
@@ -273,8 +316,10 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   if (pairs.empty()) return;
   bodies_of_pairs_ = bodies_of(*mesh_, pairs);
   const InterfaceMeasure measure{axisymmetric, scene.thickness};
-  parts_.contact = std::make_shared<ContactSystem>(mesh_->owned_nodes, bodies_->dofs(),
-                                                   reference_positions(*mesh_, contact_origin(*mesh_, size_.length, axisymmetric)), kept, measure,
+  const std::array<double, 3> origin = contact_origin(*mesh_, size_.length, axisymmetric);
+  for (ContactPair& pair : pairs)
+    if (pair.options.clearance) pair.options.clearance = seen_from(*pair.options.clearance, origin);
+  parts_.contact = std::make_shared<ContactSystem>(mesh_->owned_nodes, bodies_->dofs(), reference_positions(*mesh_, origin), kept, measure,
                                                    std::move(pairs), timers);
 }
 

@@ -75,7 +75,7 @@ void complain_of_overlap(const PlacedBodies& bodies, Examined& pair, std::vector
   const OverlapPlace& overlap = pair.result.overlap;
   const std::string what =
       fmt::format("the surfaces begin by {:.3g} in one another, deepest at {}", overlap.depth, to_string(bodies.mesh.dimension, overlap));
-  if (options.initial_overlap == InitialOverlap::error) {
+  if (options.start.initial_overlap == InitialOverlap::error) {
     say(what + "; \"initial overlap\" says that this is an error: please move the bodies apart, or take \"interference\"");
     return;
   }

@@ -141,6 +141,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
   if (restart) remove_checkpoints_after(*comm, directory.path(), restart->step);
 
   SteppingState state = restored ? *std::move(restored) : SteppingState(system.initial_state(Vector(system.map())));
+  if (auto& context = state.accepted.context; context.contact) context.contact = model.contact()->with_clearances(*context.contact, context.time);
   std::optional<SystemEvaluation> last;  // of `state`, in the step that led there; none while another step is tried
   std::optional<StepFailure> failure;
   StopRequest requests(options.supervised, options.time_limit, begin);
@@ -159,13 +160,17 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
     log.info(
         fmt::format("  checkpoint of step {}: {:.3g} MiB, {:.2g} s", state.steps, static_cast<double>(bytes) / 1048576.0, checkpoints.seconds()));
   };
-  // An overlap is taken up by the end of the first step. A try that is cut short takes up its share, as if the bodies were moved into one another.
+  // An overlap is taken up by the end of the first step unless a pair says when. A try that is cut short takes up its share, as if the bodies were
+  // moved into one another.
   const double taken_up = std::min(scene.stepping.step, scene.stepping.end_time);
   const auto start_step = [&](const AcceptedState& from, double time, const Vector& d, Vector& z) {
     AcceptedState allowed = from;
+    if (model.contact()) allowed.context.contact = model.contact()->with_clearances(*allowed.context.contact, time);
     for (std::size_t pair = 0; pair < scene.contact.size(); ++pair)
-      if (const double depth = model.surfaces_at_start().pairs[pair].overlap.depth; depth > 0.0)
-        allowed.context.contact = model.contact()->allow_overlap(*allowed.context.contact, pair, depth * std::max(0.0, 1.0 - time / taken_up));
+      if (const double depth = model.surfaces_at_start().pairs[pair].overlap.depth; depth > 0.0) {
+        const double left = 1.0 - time / scene.contact[pair].value.start.taken_up_at.value_or(taken_up);
+        allowed.context.contact = model.contact()->allow_overlap(*allowed.context.contact, pair, depth * std::max(0.0, left));
+      }
     return system.start_step(allowed, time, model.held_by_contact_only(), d, z);
   };
   {

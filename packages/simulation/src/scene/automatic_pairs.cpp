@@ -5,6 +5,7 @@
 
 #include <Teuchos_CommHelpers.hpp>
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 
@@ -29,6 +30,7 @@ void AutomaticContactOptions::describe(Parameters& parameters) {
   parameters.add(
       "patch angle", angle,
       Says("surfaces are split into patches at edges where the normals of facets differ by more").unit("degrees").at_least(0.0).at_most(180.0));
+  start.describe(parameters);
   contact.describe(parameters);
 }
 
@@ -75,13 +77,21 @@ class PairMaker {
       split_parts();
       choose_sides();
     }
-    // Pairs by their slave: one slave has all of its masters in one pair.
+    // One slave has all of its masters in one pair, and slaves of one body that have the same bodies as masters are one.
     std::map<int, std::vector<int>> masters;
     for (const Edge& edge : edges_) {
       const bool first = is_slave_[static_cast<std::size_t>(edge.first)];
       masters[first ? edge.first : edge.second].push_back(first ? edge.second : edge.first);
     }
-    for (const auto& [slave, of_slave] : masters) add_pair(slave, of_slave);
+    std::map<std::pair<int, std::set<int>>, std::array<std::set<int>, 2>> pairs;
+    for (const auto& [slave, of_slave] : masters) {
+      std::set<int> bodies;
+      for (const int master : of_slave) bodies.insert(part(master).body);
+      auto& [slaves, all_masters] = pairs[{part(slave).body, bodies}];
+      slaves.insert(slave);
+      all_masters.insert(of_slave.begin(), of_slave.end());
+    }
+    for (const auto& [bodies, sides] : pairs) add_pair(sides[0], sides[1]);
   }
 
  private:
@@ -241,49 +251,58 @@ class PairMaker {
     return parse_expression(text, scene_.symbols, place);
   }
 
-  void add_pair(int slave, const std::vector<int>& masters) {
-    std::vector<std::string> sets, bodies;
+  /// The names of the sets of zones, as one set if there are several.
+  std::string set_of_all(const std::set<int>& zones, const std::string& name, const Place& place) {
+    std::vector<std::string> sets;
+    for (const int zone : zones)
+      if (const std::string one = set_of(zone); std::find(sets.begin(), sets.end(), one) == sets.end()) sets.push_back(one);
+    if (sets.size() == 1) return sets.front();
+    Named<SetOptions> all;
+    all.name = free_set_name(name);
+    all.place = place;
+    all.value.of = {sets, place};
+    all.value.kind = SetKind::sides;
+    scene_.sets.push_back(all);
+    return all.name;
+  }
+
+  void add_pair(const std::set<int>& slaves, const std::set<int>& masters) {
+    std::vector<std::string> bodies;
     for (const int master : masters) {
-      sets.push_back(set_of(master));
       const std::string& body = mesh_.bodies[static_cast<std::size_t>(part(master).body)].name;
       if (std::find(bodies.begin(), bodies.end(), body) == bodies.end()) bodies.push_back(body);
     }
     Named<ContactPairOptions> pair;
-    const std::string wanted = fmt::format("{} on {}", mesh_.bodies[static_cast<std::size_t>(part(slave).body)].name, fmt::join(bodies, " and "));
+    const std::string wanted =
+        fmt::format("{} on {}", mesh_.bodies[static_cast<std::size_t>(part(*slaves.begin()).body)].name, fmt::join(bodies, " and "));
     pair.name = wanted;
     const auto is_taken = [&] {
       return std::any_of(scene_.contact.begin(), scene_.contact.end(), [&](const auto& one) { return one.name == pair.name; });
     };
     for (int n = 2; is_taken(); ++n) pair.name = fmt::format("{} {}", wanted, n);
     pair.place = scene_.automatic_contact.bodies.place;
-    pair.value.slave = {set_of(slave), pair.place};
-    if (sets.size() > 1) {
-      Named<SetOptions> all;
-      all.name = free_set_name("masters of " + pair.name);
-      all.place = pair.place;
-      all.value.of = {sets, pair.place};
-      all.value.kind = SetKind::sides;
-      scene_.sets.push_back(all);
-      sets = {all.name};
-    }
-    pair.value.master = {sets.front(), pair.place};
+    pair.value.slave = {set_of_all(slaves, "slaves of " + pair.name, pair.place), pair.place};
+    pair.value.master = {set_of_all(masters, "masters of " + pair.name, pair.place), pair.place};
+    pair.value.start = scene_.automatic_contact.start;
     pair.value.contact = scene_.automatic_contact.contact;
-    pair.value.reason = reason(slave, masters);
+    pair.value.reason = reason(slaves, masters);
     scene_.contact.push_back(pair);
   }
 
-  /// Why the slave is the slave, for the log.
-  std::string reason(int slave, const std::vector<int>& masters) const {
-    const SurfacePart& one = part(slave);
+  /// Why the slaves are the slaves, for the log.
+  std::string reason(const std::set<int>& slaves, const std::set<int>& masters) const {
     std::vector<std::string> reasons;
-    for (const int master : masters) {
-      const SurfacePart& other = part(master);
+    for (const Edge& edge : edges_) {
+      const int slave = is_slave_[static_cast<std::size_t>(edge.first)] ? edge.first : edge.second,
+                master = slave == edge.first ? edge.second : edge.first;
+      if (slaves.count(slave) == 0 || masters.count(master) == 0) continue;
+      const SurfacePart &one = part(slave), &other = part(master);
       const RoleChoice choice = better_slave(traits(one), traits(other));
       std::string why = choice.reason;
-      if (!choice.is_tie && !choice.is_first) why = "so that no surface is slave and master at once, though " + choice.reason + " on the other side";
+      if (!choice.is_tie && !choice.is_first) why = fmt::format("of the other side {}, but no surface is slave and master at once", choice.reason);
       if (choice.is_tie)
         why = std::abs(one.turn - other.turn) > same_curvature ? "it is the more curved one" : "both are alike, and it was taken by its place";
-      if (std::find(reasons.begin(), reasons.end(), why) == reasons.end()) reasons.push_back(why);
+      if (std::find(reasons.begin(), reasons.end(), why) == reasons.end() && reasons.size() < 3) reasons.push_back(why);
     }
     return fmt::format("{}", fmt::join(reasons, "; "));
   }

@@ -78,9 +78,7 @@ void ContactPairOptions::describe(Parameters& parameters) {
       "roles", roles, {{"as given", ContactRoles::as_given}, {"automatic", ContactRoles::automatic}},
       "automatic: slave and master are exchanged if the master is the better slave: the deformable one, else the softer one if moduli differ "
       "by more than a factor of 2, else the finer one");
-  parameters.add("initial overlap", initial_overlap, {{"interference", InitialOverlap::interference}, {"error", InitialOverlap::error}},
-                 "surfaces that begin in one another: interference, the first step pushes them apart, whatever the depth, or its share if it is cut "
-                 "short; error, the scene is refused");
+  start.describe(parameters);
   parameters.add("reason", reason, "words on the choice of the sides, which the program writes for pairs that it found; they change nothing");
   contact.describe(parameters);
 }

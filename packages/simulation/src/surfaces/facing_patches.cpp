@@ -10,6 +10,7 @@
 namespace mortise {
 namespace {
 
+constexpr double facing = 0.5;  ///< cosine of the angle between opposite normals: surfaces that meet at more than 60 degrees do not face one another
 constexpr double touching = 1e-9;  ///< over the size of the model: nearer crossings are at the point itself
 
 /// The lists of all ranks, one after the other. Collective.
@@ -108,7 +109,7 @@ std::optional<Crossing> seen(const std::vector<Crossing>& crossings, int own_par
   std::optional<Crossing> nearest;
   for (const Crossing& crossing : crossings) {
     const bool is_other = parts[static_cast<std::size_t>(crossing.tag)].body != own_body;
-    if (!is_other || crossing.leaves) continue;
+    if (!is_other || crossing.along > -facing) continue;
     const double low = std::min(0.0, crossing.s) + tolerance, high = std::max(0.0, crossing.s) - tolerance;
     const bool is_hidden = std::any_of(crossings.begin(), crossings.end(), [&](const Crossing& one) { return one.s > low && one.s < high; });
     if (!is_hidden && (!nearest || std::abs(crossing.s) < std::abs(nearest->s))) nearest = crossing;

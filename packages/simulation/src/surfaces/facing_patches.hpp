@@ -33,7 +33,8 @@ struct FacingSurfaces {
 };
 
 /// From points on every side of the bodies' surfaces a line is drawn along the normal, both ways. What it meets first is seen if it is another body's
-/// outside and no further than `reach`, and nothing, of the own body neither, stands between: so nothing is seen through a wall.
+/// outside, turned towards the point by less than 60 degrees, no further than `reach`, and nothing, of the own body neither, stands between: so
+/// nothing is seen through a wall.
 /// @param bodies  for each body whether it takes part
 /// @param angle   [degrees] between sides at the edges of parts
 /// @param reach   none: as far as the longest edge of the side that looks

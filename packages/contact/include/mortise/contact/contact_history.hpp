@@ -52,6 +52,7 @@ struct PairHistory {
   std::vector<NodeStart> starts;               ///< [owned slave nodes]; empty unless Enforcement::starts_from_multipliers()
   Settling settling;                           ///< of the updates of the multipliers
   double allowed_overlap = 0.0;                ///< by how much the surfaces may lie in one another [length]
+  std::vector<double> clearances;              ///< [owned slave nodes] added to the gap [length]; empty: none
 };
 
 /// An accepted state, as the next step needs it.

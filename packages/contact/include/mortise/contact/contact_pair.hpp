@@ -9,6 +9,7 @@
 #include "mortise/contact/friction.hpp"
 #include "mortise/core/error.hpp"
 #include "mortise/core/parameters.hpp"
+#include "mortise/core/scalar_function.hpp"
 #include "mortise/mortar/mortar_interface.hpp"
 
 namespace mortise {
@@ -21,6 +22,7 @@ struct ContactOptions {
   MortarOptions mortar;                                 ///< of the integrals
   ContactGeometry geometry = ContactGeometry::current;  ///< reference: for small displacements
   double full_cover = 1.0;                              ///< c_0: a slave node of which less is covered is tied to its neighbours; 0: none is
+  std::optional<ScalarFunction> clearance;              ///< of t and the reference position: added to the gap that is drawn [length]; none: 0
   std::optional<double> complementarity_constant;       ///< c_n A_j, and c_t A_j; default E / h times Enforcement::relative_constant()
   Choice<Formulation> formulation{"dual mortar", std::make_shared<DualMortar>(), {}};  ///< null is refused
   Choice<FrictionLaw> friction{"none", std::make_shared<NoFriction>(), {}};            ///< null is refused

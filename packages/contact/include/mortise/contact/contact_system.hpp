@@ -110,6 +110,10 @@ class ContactSystem {
   /// the pair then see gaps g_j + depth A_j; node_states() tells those that there are.
   ContactHistory allow_overlap(const ContactHistory& history, std::size_t pair, double depth) const;
 
+  /// The history with the clearances of all pairs at a time, those that hold within the step that ends then.
+  /// @throws InputError on every rank where a clearance is not finite
+  ContactHistory with_clearances(const ContactHistory& history, double time) const;
+
   /// Updates the multipliers of augmented Lagrange pairs if those of any of them are not exact to its tolerance yet. `laws` are those of a Newton
   /// solve's end. `round` counts from 1 within a step.
   Augmentation augment(const ContactLaws& laws, int round) const;

@@ -15,10 +15,10 @@ namespace mortise {
 /// A body to be made of a mesh file.
 struct FileBodyRequest {
   std::string name;  ///< of the body
-  Place place;       ///< where the scene has it
+  Place place;       ///< where it is described
   std::string file;  ///< path
   MeshFormat format = MeshFormat::by_name;
-  int dimension = 3;                        ///< of the scene: 2 or 3
+  int dimension = 3;                        ///< of the model: 2 or 3
   bool is_surface = false;                  ///< a rigid body
   bool shares_nodes = false;                ///< nodes that another body of the file has too are doubled; else they are an error
   std::vector<std::string> blocks;          ///< names of element blocks, physical groups or element sets; empty: all

@@ -15,7 +15,7 @@ enum class SharedNodes {
   doubled  ///< each body gets its own
 };
 
-/// A mesh of a file. Its dimension is the scene's. See make_file_bodies(), which makes the body.
+/// A mesh of a file. Its dimension is the model's. See make_file_bodies(), which makes the body.
 struct FileMesh : MeshOptions {
   FileMesh() : MeshOptions(3) {}
 

@@ -34,6 +34,7 @@ struct Crossing {
   double s = 0.0;       ///< of the line [length]
   bool leaves = false;  ///< the line goes along the facet's outward normal, out of the body
   int tag = 0;          ///< the facet's
+  double along = 0.0;   ///< the cosine of the angle between the line and the facet's outward normal
 };
 
 /// The centre of a facet, of a quadratic one of its part, and points just beside its corners, with the facet's unit normal. A line from such a point

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mortise/mesh/mesh.hpp"
@@ -28,7 +29,8 @@ struct PairAtStart {
   std::optional<double> gap;    ///< without overlap: least distance along the slave's normals to the master; none: the slave sees no front of it
   double longest = 0.0;         ///< facet of either surface
   std::optional<double> reach;  ///< what the search reach has to be to cover the overlap, where that is more than the longest facet
-  bool is_swallowed = false;    ///< most of the slave begins within the master's body; another pair of these bodies pushes it out
+  std::pair<GlobalOrdinal, double> adjusted{0, 0.0};  ///< how many slave nodes were moved onto the master, and the largest distance [length]
+  bool is_swallowed = false;  ///< most of the slave begins within the master's body; another pair of these bodies pushes it out
 };
 
 /// Two bodies that overlap and may not touch.

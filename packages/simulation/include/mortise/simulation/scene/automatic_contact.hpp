@@ -7,6 +7,7 @@
 
 #include "mortise/contact/contact_pair.hpp"
 #include "mortise/core/parameters.hpp"
+#include "mortise/simulation/scene/contact_start.hpp"
 
 namespace mortise {
 
@@ -18,7 +19,8 @@ struct AutomaticContactOptions {
   Located<std::vector<std::string>> bodies;  ///< that may touch one another; empty: all
   std::optional<double> reach;               ///< [length] of what is found; none: as far as the longest edge of the facet that looks
   double angle = 30.0;                       ///< [degrees] between facets at the edges of patches
-  ContactOptions contact;                    ///< of all pairs that are found
+  ContactStartOptions start;                 ///< of all pairs that are found
+  ContactOptions contact;                    ///< likewise
   void describe(Parameters& parameters);
 };
 

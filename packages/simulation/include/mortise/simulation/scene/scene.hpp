@@ -17,6 +17,7 @@
 #include "mortise/simulation/quantities/quantity.hpp"
 #include "mortise/simulation/scene/automatic_contact.hpp"
 #include "mortise/simulation/scene/checks.hpp"
+#include "mortise/simulation/scene/contact_start.hpp"
 #include "mortise/simulation/scene/pattern.hpp"
 #include "mortise/solid/element_type.hpp"
 #include "mortise/solid/loads.hpp"
@@ -59,12 +60,6 @@ struct LoadChoice {
   void describe(Parameters& parameters);
 };
 
-/// What becomes of surfaces that begin in one another.
-enum class InitialOverlap {
-  interference,  ///< the overlap is the load that it is
-  error          ///< refused
-};
-
 /// Which of a pair's surfaces is the slave.
 enum class ContactRoles {
   as_given,
@@ -75,7 +70,7 @@ enum class ContactRoles {
 struct ContactPairOptions {
   Located<std::string> slave, master;
   ContactRoles roles = ContactRoles::as_given;
-  InitialOverlap initial_overlap = InitialOverlap::interference;
+  ContactStartOptions start;
   std::string reason;  ///< why the slave is the slave, of pairs that the program found
   ContactOptions contact;
   void describe(Parameters& parameters);
