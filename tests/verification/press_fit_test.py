@@ -32,7 +32,7 @@ def ring(kinematics, inner, outer, cells, element):
                      parameter("cells x", "int", radial), parameter("cells y", "int", cells // 4), parameter("translation", "string", f"{inner!r}, 0"))
     else:
         sector = [parameter("type", "string", "ring sector"), parameter("inner radius", "double", inner), parameter("outer radius", "double", outer),
-                  parameter("cells radial", "int", radial), parameter("cells around", "int", cells)]
+                  parameter("cells across", "int", radial), parameter("cells around", "int", cells)]
         mesh = named("mesh", *sector) if kinematics == "plane stress" else named("mesh", parameter("type", "string", "extruded"), parameter("height", "double", H),
                                                                                  parameter("cells z", "int", 2), named("profile", *sector))
     return parameter("material", "string", "steel") + parameter("element", "string", element) + mesh

@@ -117,6 +117,27 @@ std::optional<Crossing> seen(const std::vector<Crossing>& crossings, int own_par
   return nearest;
 }
 
+/// Of points that see another body behind them those that lie within it: along their normals they leave it before they would enter it. A line that
+/// grazes a surface may miss it, so that what lies behind it alone tells nothing. A rigid surface has no inside. Collective.
+/// @param seen  [lines] what they see; what is not within is taken back
+void keep_overlaps(const Mesh& mesh, const std::vector<TaggedFacet>& facets, const std::vector<LineSegment>& lines,
+                   const std::vector<SurfacePart>& parts, double tolerance, double length, std::vector<std::optional<Crossing>>& seen) {
+  std::vector<LineSegment> ahead;
+  std::vector<std::size_t> line_of;
+  const auto body_of = [&](const Crossing& crossing) { return static_cast<std::size_t>(parts[static_cast<std::size_t>(crossing.tag)].body); };
+  for (std::size_t line = 0; line < lines.size(); ++line) {
+    if (!seen[line] || seen[line]->s >= -tolerance || is_rigid(mesh, body_of(*seen[line]))) continue;
+    ahead.push_back({lines[line].x, lines[line].d, tolerance, length});
+    line_of.push_back(line);
+  }
+  const auto found = crossings(*mesh.comm, mesh.dimension, facets, ahead);
+  for (std::size_t n = 0; n < ahead.size(); ++n) {
+    std::optional<Crossing>& behind = seen[line_of[n]];
+    const auto next = std::find_if(found[n].begin(), found[n].end(), [&](const Crossing& one) { return body_of(one) == body_of(*behind); });
+    if (next == found[n].end() || !next->leaves) behind.reset();
+  }
+}
+
 }  // namespace
 
 FacingSurfaces find_facing_surfaces(const Mesh& mesh, const std::vector<char>& bodies, double angle, std::optional<double> reach) {
@@ -141,7 +162,7 @@ FacingSurfaces find_facing_surfaces(const Mesh& mesh, const std::vector<char>& b
       }
     }
   }
-  const double tolerance = touching * boxes_over_ranks(*mesh.comm, {model}).front().diagonal();
+  const double length = boxes_over_ranks(*mesh.comm, {model}).front().diagonal(), tolerance = touching * length;
   for (LineSegment& line : lines) line.low -= tolerance, line.high += tolerance;
   std::map<std::array<int, 2>, std::array<double, 2>> mine;  // gap, probes
   const auto found = crossings(*mesh.comm, mesh.dimension, facets, lines);
@@ -150,8 +171,11 @@ FacingSurfaces find_facing_surfaces(const Mesh& mesh, const std::vector<char>& b
     entry[0] = std::min(entry[0], gap);
     entry[1] += probes;
   };
+  std::vector<std::optional<Crossing>> others;
+  for (std::size_t line = 0; line < lines.size(); ++line) others.push_back(seen(found[line], part_of_line[line], patches.parts, tolerance));
+  keep_overlaps(mesh, facets, lines, patches.parts, tolerance, length, others);
   for (std::size_t line = 0; line < lines.size(); ++line)
-    if (const auto other = seen(found[line], part_of_line[line], patches.parts, tolerance)) {
+    if (const auto& other = others[line]) {
       const std::array<int, 2> key{std::min(part_of_line[line], other->tag), std::max(part_of_line[line], other->tag)};
       add(mine, key, std::abs(other->s) <= tolerance ? 0.0 : other->s, 1.0);
     }
