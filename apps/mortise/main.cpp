@@ -14,6 +14,7 @@
 #include "launch.hpp"
 #include "mortise/core/names.hpp"
 #include "program.hpp"
+#include "standard_streams.hpp"
 
 namespace {
 
@@ -103,6 +104,7 @@ std::optional<int> read_alone(mortise::Program& program) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  mortise::open_closed_streams();
   // What a limit on file sizes or a closed pipe stops is an error of the write, which is told, and no end without a word.
   for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
   mortise::Program program;

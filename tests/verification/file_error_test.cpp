@@ -70,4 +70,28 @@ TEST(Files, StandardOutputThatCannotBeWrittenIsAFileError) {
   EXPECT_TRUE(files::exists(directory / "results/summary.json"));
 }
 
+// Standard streams that are closed are none that files could take the numbers of.
+TEST(Files, AProcessWithoutStandardStreamsWritesItsFilesAndNoMoreIntoThem) {
+  const files::path directory = files::path(SCRATCH) / "closed";
+  files::remove_all(directory);
+  files::create_directories(directory);
+  std::ofstream(directory / "scene.xml") << good_scene;
+  const std::string run = std::string("'" MORTISE "' run '") + (directory / "scene.xml").string() + "' -o '" + directory.string();
+  ASSERT_EQ(launch({"bash", "-c", "exec " + run + "/open'"}, 60).code, 0);
+  for (const std::string closed : {"<&-", ">&-", "2>&-", "<&- >&-", "<&- >&- 2>&-"}) {
+    const Ending ending = launch({"bash", "-c", "exec " + run + "/closed' " + closed}, 60);
+    EXPECT_EQ(ending.code, 0) << closed << "\n" << ending.output;
+    for (const char* name : {"history.csv", "effective.xml"})
+      EXPECT_EQ(read_file(directory / "closed" / name), read_file(directory / "open" / name)) << closed << ", " << name;
+    EXPECT_NE(read_file(directory / "closed/log.txt").find("results in"), std::string::npos) << closed;
+  }
+  EXPECT_EQ(launch({"bash", "-c", "exec '" MORTISE "' list materials <&- >&-"}, 60).code, 0);
+  const std::string wait = "while [ \"$(cat '" + directory.string() + "/long/history.csv' 2>/dev/null | wc -l)\" -le 2 ]; do sleep 0.02; done; ";
+  const Ending streams = launch({"bash", "-c",
+                                 run + "/long' --set stepping/step=1e-5 <&- >&- 2>&- & run=$!; " + wait +
+                                     "readlink /proc/$run/fd/0 /proc/$run/fd/1 /proc/$run/fd/2; kill -KILL $run; wait $run 2>/dev/null"},
+                                60);
+  EXPECT_EQ(streams.output, "/dev/null\n/dev/null\n/dev/null\n");
+}
+
 }  // namespace

@@ -217,6 +217,56 @@ TEST(Stop, ATimeLimitIsKept) {
   EXPECT_TRUE(summary_of(enough)["stopped"].is_null());
 }
 
+const Words fine_bar{"bodies/bar/mesh/cells x=16", "bodies/bar/mesh/cells y=32", "stepping/step=0.75", "stepping/minimum step=0.1"};
+
+/// A run none of whose files may have more than 64 KiB. Of those of the fine bar a checkpoint alone has more. MPI has no shared memory then.
+Ending run_with_small_files(const std::string& scene, const Words& settings, int ranks, const fs::path& results, const Words& more = {}) {
+  Words command{MPIEXEC, "-n", std::to_string(ranks), "env", "OMPI_MCA_btl=self,tcp", "bash", "-c", "ulimit -f 64; exec \"$@\"", "bash"};
+  command.insert(command.end(), {MORTISE, "run", scene, "-o", results, "--set", "output/fields="});
+  for (const std::string& setting : settings) command.insert(command.end(), {"--set", setting});
+  command.insert(command.end(), more.begin(), more.end());
+  return launch(command, 300);
+}
+
+// Why a step failed is told, with its exit code: that the last checkpoint could not be written is the lesser news.
+TEST(Stop, TheReasonIsToldWhereTheLastCheckpointCannotBeWritten) {
+  const std::string scene = std::string(INPUTS) + "/verification/limit_load.xml";
+  const fs::path results = scratch("reason");
+  for (const int ranks : {1, 2}) {
+    SCOPED_TRACE(ranks);
+    const Ending ending = run_with_small_files(scene, fine_bar, ranks, results);
+    EXPECT_EQ(ending.code, 3) << ending.output;
+    EXPECT_THAT(ending.output, HasSubstr("no equilibrium beyond this load"));
+    EXPECT_THAT(ending.output, HasSubstr("warning: cannot write " + (results / "checkpoints").string()));
+    const auto summary = summary_of(results);
+    EXPECT_THAT(summary["reason"].get<std::string>(), HasSubstr("no equilibrium beyond this load"));
+    EXPECT_EQ(summary["converged"], false);
+    EXPECT_EQ(summary["exit"], 3);
+    EXPECT_EQ(names_in(results / "checkpoints"), Words());
+  }
+}
+
+// A run that is stopped or comes to its end has no other failure to tell of.
+TEST(Stop, AMissingLastCheckpointOfARunWithoutFailureIsAFileError) {
+  const std::string scene = std::string(INPUTS) + "/verification/limit_load.xml";
+  const fs::path results = scratch("no_failure");
+  const auto expect_file_error = [&](const Ending& ending, bool converged) {
+    EXPECT_EQ(ending.code, 5) << ending.output;
+    const std::string reason = "cannot write " + (results / "checkpoints").string();
+    EXPECT_THAT(ending.output, HasSubstr(reason));
+    EXPECT_EQ(ending.output.find("to go on"), std::string::npos) << ending.output;
+    const auto summary = summary_of(results);
+    EXPECT_THAT(summary["reason"].get<std::string>(), HasSubstr(reason));
+    EXPECT_EQ(summary["converged"], converged);
+    EXPECT_EQ(summary["stopped"].is_null(), converged);
+    EXPECT_EQ(summary["exit"], 5);
+  };
+  expect_file_error(run_with_small_files(scene, fine_bar, 1, results, {"--time-limit", "0.001"}), false);
+  Words ends = with_checkpoints(fine_bar, 1000, 2);
+  ends.push_back("stepping/end time=0.2");
+  expect_file_error(run_with_small_files(scene, ends, 1, results), true);
+}
+
 // The end may move, loads may change later on; nothing else may.
 TEST(Restart, RefusesAnotherScene) {
   const fs::path folder = scratch("changes");
@@ -268,6 +318,23 @@ TEST(Restart, RefusesAnotherScene) {
   EXPECT_EQ(read_table(folder / "copy" / "history.csv").size(), 1U + 6U);
 }
 
+// `balance` says which rank integrates a facet: sums go in another order.
+TEST(Restart, BalanceOfContactMayChange) {
+  const std::string scene = std::string(INPUTS) + "/paper/hertz_elastic.xml";
+  const fs::path straight = scratch("balance_straight"), results = scratch("balance");
+  const std::string pair = "interface", balance = "contact/" + pair + "/balance=";
+  Words settings = with_checkpoints(short_hertz, 1, 10), other = settings;
+  settings.push_back(balance + "1e6");
+  other.push_back(balance + "1");
+  ASSERT_EQ(run(scene, settings, 3, straight).code, 0);
+  fs::copy(straight, results, fs::copy_options::recursive);
+  const Ending ending = run(scene, other, 3, results, {"--restart", "2"});
+  ASSERT_EQ(ending.code, 0) << ending.output;
+  EXPECT_EQ(summary_of(straight)["contact"][pair]["redistributions"], 0);
+  EXPECT_GT(summary_of(results)["contact"][pair]["redistributions"], 0);
+  expect_same_history(straight, results, 1e-9);
+}
+
 // A damaged checkpoint is named, and the one before it is taken.
 TEST(Restart, GoesBackToTheLastWholeCheckpoint) {
   const std::string scene = std::string(INPUTS) + "/paper/hertz_elastic.xml";
@@ -304,6 +371,33 @@ TEST(Restart, CutsFieldsAndProfilesOfARunThatGoesOnWithoutThem) {
   ASSERT_EQ(run(scene, settings, 1, results, {"--restart", "2"}).code, 0);
   EXPECT_EQ(names_in(results / "fields"), names_in(straight / "fields"));
   EXPECT_EQ(read_file(results / "profiles.csv"), read_file(straight / "profiles.csv"));
+}
+
+// Files of fields are large, and a user may remove some: the run goes on and says which are missing, once.
+TEST(Restart, NamesStepsWhoseFieldsAreMissing) {
+  const std::string scene = std::string(INPUTS) + "/paper/hertz_elastic.xml";
+  const fs::path straight = scratch("all_fields"), results = scratch("missing_fields");
+  Words settings = with_checkpoints(short_hertz, 1, 10);
+  settings.insert(settings.end(), {"variables/steps=8", "output/every step=1"});
+  ASSERT_EQ(run(scene, settings, 1, straight).code, 0);
+  for (const int ranks : {1, 2}) {
+    SCOPED_TRACE(ranks);
+    fs::remove_all(results);
+    fs::copy(straight, results, fs::copy_options::recursive);
+    for (const char* file : {"step-000001.h5", "step-000003.h5", "step-000004.h5", "step-000005.h5", "step-000007.h5"})
+      fs::remove(results / "fields" / file);
+    Ending ending = run(scene, settings, ranks, results, {"--restart", "6"});
+    EXPECT_EQ(ending.code, 0) << ending.output;
+    const std::string warning = "fields holds no fields any more of steps 1, 3 to 5, which this run had written";
+    const auto first = ending.output.find(warning);
+    EXPECT_NE(first, std::string::npos) << ending.output;
+    EXPECT_EQ(ending.output.find("fields any more", first + warning.size()), std::string::npos) << ending.output;
+    EXPECT_NE(read_file(results / "log.txt").find(warning), std::string::npos);
+    EXPECT_EQ(names_in(results / "fields"), (Words{"mesh.h5", "step-000002.h5", "step-000006.h5", "step-000007.h5", "step-000008.h5"}));
+    ending = run(scene, settings, ranks, results, {"--restart"});
+    EXPECT_EQ(ending.code, 0) << ending.output;
+    EXPECT_EQ(ending.output.find("fields any more"), std::string::npos) << ending.output;
+  }
 }
 
 // All files are looked at before one is cut.

@@ -95,6 +95,7 @@ Json summary(const RunRecord& record, const Model& model, const std::optional<Co
   json["elements"] = model.size().elements;
   json["slave_nodes"] = model.slave_nodes();
   json["converged"] = record.converged;
+  json["reason"] = record.reason ? Json(*record.reason) : Json(nullptr);
   json["stopped"] = record.stopped ? Json(*record.stopped) : Json(nullptr);
   json["exit"] = static_cast<int>(record.exit);
   json["linear_solver"] = model.parts().linear_solver->name();

@@ -23,6 +23,7 @@ struct RunRecord {
   int steps = 0;                             ///< accepted
   double time = 0.0;                         ///< of the last of them
   long long newton_steps = 0;                ///< of all of them
+  std::optional<std::string> reason;         ///< why a step found no solution; else what could not be written at the end
   std::optional<std::string> stopped;        ///< what made it stop before its end: a signal, the time limit
   std::vector<std::string> parts;            ///< JSON of each process that this run was made by; the last of them is this one
   std::map<std::string, double> quantities;  ///< at the end

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Map.hpp>
@@ -46,9 +47,12 @@ std::string effective_xml(const Scene& scene) {
 
 bool is_input(const std::optional<StepFailure>& failure) { return failure && failure->kind() == FailureKind::input; }
 
-ExitCode exit_code(const RunRecord& record, const std::optional<StepFailure>& failure) {
+/// Why a step failed tells more than what could not be written after it.
+ExitCode exit_code(const RunRecord& record, const std::optional<StepFailure>& failure, bool is_written) {
   if (failure && failure->kind() == FailureKind::out_of_memory) return ExitCode::memory;
-  if (!record.converged) return is_input(failure) ? ExitCode::invalid_input : ExitCode::not_converged;
+  if (failure) return is_input(failure) ? ExitCode::invalid_input : ExitCode::not_converged;
+  if (!is_written) return ExitCode::files;
+  if (!record.converged) return ExitCode::not_converged;
   for (const auto& check : record.checks)
     if (!check.ok) return ExitCode::check_missed;
   return ExitCode::done;
@@ -144,6 +148,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
   if (auto& context = state.accepted.context; context.contact) context.contact = model.contact()->with_clearances(*context.contact, context.time);
   std::optional<SystemEvaluation> last;  // of `state`, in the step that led there; none while another step is tried
   std::optional<StepFailure> failure;
+  std::vector<std::string> unwritten;  // why files of the end could not be written
   StopRequest requests(options.supervised, options.time_limit, begin);
   Checkpoints checkpoints(comm, scene.output.checkpoints, directory);
   const std::string fingerprint = scene_fingerprint(scene);
@@ -176,11 +181,13 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
   {
     const auto timer = timers.scope("steps");
     StepperObserver functions = output.functions();
+    bool is_asked_to_stop = false;
     functions.rest = [&](const SteppingState&) {
       const Request request = requests.after_step(*comm);
       record.stopped = request.stop;
-      if (request.stop || request.checkpoint || checkpoints.is_due(state.steps)) write_checkpoint();
-      return request.stop.has_value();
+      is_asked_to_stop = request.stop.has_value();  // the checkpoint is written at the end, below
+      if (!is_asked_to_stop && (request.checkpoint || checkpoints.is_due(state.steps))) write_checkpoint();
+      return is_asked_to_stop;
     };
     functions.verify = [&](const AcceptedState& from, const SystemEvaluation& found, int round) -> RCP<Vector> {
       if (surfaces) surfaces->examine(*system.displacement(found.x()), found.contact_laws());
@@ -266,12 +273,26 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
     } catch (const InputError& error) {  // on every rank: a quantity's expression without a value
       failure.emplace(FailureKind::input, error.what());
     }
-    const bool wants_last = !record.converged || scene.output.checkpoints.every_step > 0 || checkpoints.last() > 0 || restart;
-    if (wants_last && state.steps > 0 && checkpoints.last() != state.steps && (!restart || restart->step != state.steps)) write_checkpoint();
-    output.finish([&] { return last ? *last : system.evaluate_at(state.accepted, *system.multipliers(*state.accepted.x), state.accepted.context); });
+    const auto attempt = [&](const auto& write) {
+      try {
+        write();
+      } catch (const FileError& error) {  // on every rank
+        unwritten.emplace_back(error.what());
+      }
+    };
+    const bool wants_last = !record.converged || is_asked_to_stop || scene.output.checkpoints.every_step > 0 || checkpoints.last() > 0 || restart;
+    if (wants_last && state.steps > 0 && checkpoints.last() != state.steps && (!restart || restart->step != state.steps)) attempt(write_checkpoint);
+    attempt([&] {
+      output.finish(
+          [&] { return last ? *last : system.evaluate_at(state.accepted, *system.multipliers(*state.accepted.x), state.accepted.context); });
+    });
   }
   if (record.steps > 0) record.checks = evaluate_checks(scene.checks, record.quantities);
-  record.exit = exit_code(record, failure);
+  record.exit = exit_code(record, failure, unwritten.empty());
+  if (failure)
+    record.reason = failure->what();
+  else if (!unwritten.empty())
+    record.reason = fmt::format("{}", fmt::join(unwritten, "; "));
 
   for (std::size_t pair = 0; pair < scene.contact.size(); ++pair)
     record.integration.emplace_back(scene.contact[pair].name, model.contact()->integration_load(pair));
@@ -283,12 +304,15 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
   Teuchos::reduceAll(*comm, Teuchos::REDUCE_SUM, mine, Teuchos::outArg(record.memory_total_mib));
   log.detail(timer_report(timers, comm));
   report_end(record, failure, directory.path(), log);
-  if (record.stopped) log.info(fmt::format("to go on: {}", command_to_continue(options, directory.path(), comm->getSize())));
+  for (const std::string& line : unwritten) log.warning(line);
+  if (record.stopped && (checkpoints.last() > 0 || restart))
+    log.info(fmt::format("to go on: {}", command_to_continue(options, directory.path(), comm->getSize())));
   write_file(*comm, directory.claim("summary.json"),
              [&, json = summary(record, model, state.accepted.context.contact, directory.file("steps.jsonl"))] {
                return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
              });
   if (is_input(failure)) throw *failure;
+  if (record.exit == ExitCode::files) throw FileError(*record.reason);
   return record.exit;
 }
 
