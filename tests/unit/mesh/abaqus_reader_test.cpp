@@ -70,8 +70,9 @@ TEST_P(AbaqusShapes, HaveTheirNodesAndFacesInOurOrder) {
 }
 
 const std::vector<std::vector<int>> hexahedron_faces{{1, 2, 3, 4}, {5, 8, 7, 6}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 8, 4}, {4, 8, 5, 1}},
-    tetrahedron_faces{{1, 2, 3}, {1, 4, 2}, {2, 4, 3}, {3, 4, 1}}, triangle_faces{{1, 2}, {2, 3}, {3, 1}},
-    quadrilateral_faces{{1, 2}, {2, 3}, {3, 4}, {4, 1}};
+    wedge_faces{{1, 2, 3}, {4, 6, 5}, {1, 4, 5, 2}, {2, 5, 6, 3}, {3, 6, 4, 1}},
+    pyramid_faces{{1, 2, 3, 4}, {1, 5, 2}, {2, 5, 3}, {3, 5, 4}, {4, 5, 1}}, tetrahedron_faces{{1, 2, 3}, {1, 4, 2}, {2, 4, 3}, {3, 4, 1}},
+    triangle_faces{{1, 2}, {2, 3}, {3, 1}}, quadrilateral_faces{{1, 2}, {2, 3}, {3, 4}, {4, 1}};
 
 INSTANTIATE_TEST_SUITE_P(All, AbaqusShapes,
                          ::testing::Values(OneAbaqusElement{"C3D8", CellShape::hexahedron8, hexahedron_faces},
@@ -79,6 +80,9 @@ INSTANTIATE_TEST_SUITE_P(All, AbaqusShapes,
                                            OneAbaqusElement{"C3D20R", CellShape::hexahedron20, hexahedron_faces},
                                            OneAbaqusElement{"C3D4", CellShape::tetrahedron4, tetrahedron_faces},
                                            OneAbaqusElement{"C3D10MH", CellShape::tetrahedron10, tetrahedron_faces},
+                                           OneAbaqusElement{"C3D6", CellShape::wedge6, wedge_faces},
+                                           OneAbaqusElement{"C3D15", CellShape::wedge15, wedge_faces},
+                                           OneAbaqusElement{"C3D5", CellShape::pyramid5, pyramid_faces},
                                            OneAbaqusElement{"CPE3", CellShape::triangle3, triangle_faces},
                                            OneAbaqusElement{"CAX6", CellShape::triangle6, triangle_faces},
                                            OneAbaqusElement{"CPS4", CellShape::quadrilateral4, quadrilateral_faces},

@@ -62,6 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
     Shapes, WrittenMeshes,
     ::testing::Values(WrittenShape{"hexahedra8", CellShape::hexahedron8, 12, 2}, WrittenShape{"hexahedra20", CellShape::hexahedron20, 32, 2},
                       WrittenShape{"tetrahedra4", CellShape::tetrahedron4, 12, 12}, WrittenShape{"tetrahedra10", CellShape::tetrahedron10, 45, 12},
+                      WrittenShape{"wedges6", CellShape::wedge6, 12, 4}, WrittenShape{"wedges15", CellShape::wedge15, 36, 4},
                       WrittenShape{"triangles3", CellShape::triangle3, 6, 4}, WrittenShape{"triangles6", CellShape::triangle6, 15, 4},
                       WrittenShape{"quadrilaterals4", CellShape::quadrilateral4, 6, 2},
                       WrittenShape{"quadrilaterals8", CellShape::quadrilateral8, 13, 2}),
@@ -86,7 +87,8 @@ INSTANTIATE_TEST_SUITE_P(Shapes, WrittenSolids,
                          ::testing::Values(WrittenShape{"hexahedra8", CellShape::hexahedron8, 12, 2},
                                            WrittenShape{"hexahedra20", CellShape::hexahedron20, 32, 2},
                                            WrittenShape{"tetrahedra4", CellShape::tetrahedron4, 12, 12},
-                                           WrittenShape{"tetrahedra10", CellShape::tetrahedron10, 45, 12}),
+                                           WrittenShape{"tetrahedra10", CellShape::tetrahedron10, 45, 12},
+                                           WrittenShape{"wedges6", CellShape::wedge6, 12, 4}, WrittenShape{"wedges15", CellShape::wedge15, 36, 4}),
                          [](const auto& info) { return info.param.name; });
 
 TEST(WrittenByMeshio, IsReadAsExodus) {

@@ -17,9 +17,12 @@ struct AbaqusStem {
 };
 
 /// Solids and plane cells; a formulation stands behind these.
-constexpr std::array<AbaqusStem, 16> solid_stems{{{"C3D4", CellShape::tetrahedron4},
+constexpr std::array<AbaqusStem, 19> solid_stems{{{"C3D4", CellShape::tetrahedron4},
+                                                  {"C3D5", CellShape::pyramid5},
+                                                  {"C3D6", CellShape::wedge6},
                                                   {"C3D8", CellShape::hexahedron8},
                                                   {"C3D10", CellShape::tetrahedron10},
+                                                  {"C3D15", CellShape::wedge15},
                                                   {"C3D20", CellShape::hexahedron20},
                                                   {"CPE3", CellShape::triangle3},
                                                   {"CPE4", CellShape::quadrilateral4},
@@ -95,10 +98,11 @@ using Corners = std::vector<std::vector<int>>;
 /// Corners of S1, S2, ... by the numbers of corners.
 const Corners& abaqus_sides(const CellTopology& cell) {
   static const Corners none, triangle{{0, 1}, {1, 2}, {2, 0}}, quadrilateral{{0, 1}, {1, 2}, {2, 3}, {3, 0}},
-      tetrahedron{{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}},
+      tetrahedron{{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}, pyramid{{0, 1, 2, 3}, {0, 4, 1}, {1, 4, 2}, {2, 4, 3}, {3, 4, 0}},
+      wedge{{0, 1, 2}, {3, 5, 4}, {0, 3, 4, 1}, {1, 4, 5, 2}, {2, 5, 3, 0}},
       hexahedron{{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}};
   if (cell.dimension == 2) return cell.corners == 3 ? triangle : quadrilateral;
-  if (cell.dimension == 3) return cell.corners == 4 ? tetrahedron : hexahedron;
+  if (cell.dimension == 3) return cell.corners == 4 ? tetrahedron : cell.corners == 5 ? pyramid : cell.corners == 6 ? wedge : hexahedron;
   return none;
 }
 

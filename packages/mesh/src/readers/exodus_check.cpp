@@ -7,10 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cstring>
 #include <vector>
 
-#include "byte_stream.hpp"
+#include "netcdf_header.hpp"
 
 namespace mortise {
 namespace {
@@ -18,14 +17,14 @@ namespace {
 [[noreturn]] void refuse_exodus(const std::string& path, const std::string& message) { throw InputError({path, 0, ""}, message); }
 
 /// netCDF's classic formats begin with CDF and a number, those in HDF5 with HDF5's signature.
-void check_signature(const std::string& path) {
+void check_begin(const std::string& path) {
   ByteStream stream(path);
-  std::array<char, 8> begin{};
-  const std::array<char, 8> hdf5{'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};
-  const bool whole = stream.read(begin.data(), begin.size());
+  std::array<char, 4> begin{};
+  const bool is_whole = stream.read(begin.data(), begin.size());
   const bool is_classic = begin[0] == 'C' && begin[1] == 'D' && begin[2] == 'F' && (begin[3] == 1 || begin[3] == 2 || begin[3] == 5);
-  if (!whole || (!is_classic && begin != hdf5))
+  if (!is_whole || (!is_classic && begin != std::array<char, 4>{'\x89', 'H', 'D', 'F'}))
     refuse_exodus(path, "byte 0: expected \"CDF\" or the signature of HDF5, found neither: this is no Exodus II file");
+  if (is_classic) check_netcdf_header(stream, begin[3]);
 }
 
 /// A variable, or variables with numbers behind their names, and the dimensions that the library reads it by. A # stands for the number.
@@ -149,7 +148,7 @@ class ExodusCheck {
 }  // namespace
 
 void check_exodus_file(const std::string& path) {
-  check_signature(path);
+  check_begin(path);
   ExodusCheck(path).check();
 }
 

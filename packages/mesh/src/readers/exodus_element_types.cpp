@@ -17,12 +17,15 @@ using ExodusSides = std::vector<std::vector<int>>;
 /// Exodus has the nodes of upright edges before those of the top's.
 const ExodusEdges exodus_line{{0, 1}}, exodus_triangle{{0, 1}, {1, 2}, {2, 0}}, exodus_quadrilateral{{0, 1}, {1, 2}, {2, 3}, {3, 0}},
     exodus_tetrahedron{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}},
-    exodus_hexahedron{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 5}, {2, 6}, {3, 7}, {4, 5}, {5, 6}, {6, 7}, {7, 4}};
+    exodus_hexahedron{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 5}, {2, 6}, {3, 7}, {4, 5}, {5, 6}, {6, 7}, {7, 4}},
+    exodus_wedge{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 4}, {2, 5}, {3, 4}, {4, 5}, {5, 3}};
 
 /// Corners of sides, in the order of their numbers.
 const ExodusSides no_exodus_sides, exodus_triangle_sides{{0, 1}, {1, 2}, {2, 0}}, exodus_quadrilateral_sides{{0, 1}, {1, 2}, {2, 3}, {3, 0}},
     exodus_tetrahedron_sides{{0, 1, 3}, {1, 2, 3}, {0, 3, 2}, {0, 2, 1}},
-    exodus_hexahedron_sides{{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {0, 4, 7, 3}, {0, 3, 2, 1}, {4, 5, 6, 7}};
+    exodus_hexahedron_sides{{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {0, 4, 7, 3}, {0, 3, 2, 1}, {4, 5, 6, 7}},
+    exodus_wedge_sides{{0, 1, 4, 3}, {1, 2, 5, 4}, {0, 3, 5, 2}, {0, 2, 1}, {3, 4, 5}},
+    exodus_pyramid_sides{{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {0, 4, 3}, {0, 3, 2, 1}};
 
 /// Names of one family, beside which may stand the number of nodes.
 struct ExodusFamily {
@@ -43,7 +46,9 @@ const std::vector<ExodusFamily>& exodus_families() {
       {{"TRI", "TRIANGLE", "TRISHELL"}, 2, {{CellShape::triangle3, none}, {CellShape::triangle6, exodus_triangle}}, exodus_triangle_sides},
       {{"QUAD", "SHELL"}, 2, {{CellShape::quadrilateral4, none}, {CellShape::quadrilateral8, exodus_quadrilateral}}, exodus_quadrilateral_sides},
       {{"TET", "TETRA"}, 3, {{CellShape::tetrahedron4, none}, {CellShape::tetrahedron10, exodus_tetrahedron}}, exodus_tetrahedron_sides},
-      {{"HEX", "HEXAHEDRON"}, 3, {{CellShape::hexahedron8, none}, {CellShape::hexahedron20, exodus_hexahedron}}, exodus_hexahedron_sides}};
+      {{"HEX", "HEXAHEDRON"}, 3, {{CellShape::hexahedron8, none}, {CellShape::hexahedron20, exodus_hexahedron}}, exodus_hexahedron_sides},
+      {{"WEDGE"}, 3, {{CellShape::wedge6, none}, {CellShape::wedge15, exodus_wedge}}, exodus_wedge_sides},
+      {{"PYRAMID", "PYRA"}, 3, {{CellShape::pyramid5, none}}, exodus_pyramid_sides}};
   return all;
 }
 

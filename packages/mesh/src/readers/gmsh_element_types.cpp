@@ -14,7 +14,8 @@ using GmshEdges = std::vector<std::array<int, 2>>;
 /// The edges whose middle nodes Gmsh puts behind the corners, in its order.
 const GmshEdges no_gmsh_edges, gmsh_line{{0, 1}}, gmsh_triangle{{0, 1}, {1, 2}, {2, 0}}, gmsh_quadrilateral{{0, 1}, {1, 2}, {2, 3}, {3, 0}},
     gmsh_tetrahedron{{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}},
-    gmsh_hexahedron{{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 5}, {2, 3}, {2, 6}, {3, 7}, {4, 5}, {4, 7}, {5, 6}, {6, 7}};
+    gmsh_hexahedron{{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 5}, {2, 3}, {2, 6}, {3, 7}, {4, 5}, {4, 7}, {5, 6}, {6, 7}},
+    gmsh_wedge{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 4}, {2, 5}, {3, 4}, {3, 5}, {4, 5}};
 
 GmshElementType entry_of(CellShape shape, const GmshEdges& edges) {
   const CellTopology& cell = topology(shape);
@@ -27,12 +28,15 @@ const std::map<std::int64_t, GmshElementType>& gmsh_element_types() {
                                                            {3, entry_of(CellShape::quadrilateral4, no_gmsh_edges)},
                                                            {4, entry_of(CellShape::tetrahedron4, no_gmsh_edges)},
                                                            {5, entry_of(CellShape::hexahedron8, no_gmsh_edges)},
+                                                           {6, entry_of(CellShape::wedge6, no_gmsh_edges)},
+                                                           {7, entry_of(CellShape::pyramid5, no_gmsh_edges)},
                                                            {8, entry_of(CellShape::line3, gmsh_line)},
                                                            {9, entry_of(CellShape::triangle6, gmsh_triangle)},
                                                            {11, entry_of(CellShape::tetrahedron10, gmsh_tetrahedron)},
                                                            {15, {}},
                                                            {16, entry_of(CellShape::quadrilateral8, gmsh_quadrilateral)},
-                                                           {17, entry_of(CellShape::hexahedron20, gmsh_hexahedron)}};
+                                                           {17, entry_of(CellShape::hexahedron20, gmsh_hexahedron)},
+                                                           {18, entry_of(CellShape::wedge15, gmsh_wedge)}};
   return all;
 }
 
