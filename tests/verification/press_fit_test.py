@@ -4,7 +4,8 @@ usage: press_fit_test.py MPIRUN MORTISE DIRECTORY
 
 Radii a = 20, b = 40, c = 60, radial interference d = 0.005, E = 196000 for both rings. With free ends the pressure is
   p = E d / b (c^2 - b^2) (b^2 - a^2) / (2 b^2 (c^2 - a^2))
-whatever Poisson's ratio is (Timoshenko, Strength of Materials II, thick cylinders).
+whatever Poisson's ratio is (Timoshenko, Strength of Materials II, thick cylinders). Facets of two meshes that do not match leave each other by parts of
+their sagitta. Where these are not small against the interference the pressure has ripples, so that such meshes have to be fine.
 """
 import json
 import math
@@ -56,7 +57,7 @@ def scene(kinematics, element, cells, way, slave, friction=0.0, push=False):
         if swept:
             conditions.append((f"{body}/sweep start", "z", "0"))
     if push:
-        conditions = [("hub/bottom", "y", "0"), ("shaft/bottom", "y", "max(0, t - 1)*0.05")]
+        conditions = [("hub/right", "y", "0"), ("shaft/left", "y", "max(0, t - 1)*0.05")]  # slave nodes that are held bear no shear
     if kinematics == "axisymmetric":
         force = 2 * math.pi * B * H
     else:
@@ -67,7 +68,7 @@ def scene(kinematics, element, cells, way, slave, friction=0.0, push=False):
     quantities = named("force", parameter("type", "string", "contact force"), parameter("component", "string", "x")) + named(
         "peak", parameter("type", "string", "peak pressure"))
     if push:
-        quantities += named("push", parameter("type", "string", "reaction"), parameter("set", "string", "shaft/bottom"), parameter("component", "string", "y"))
+        quantities += named("push", parameter("type", "string", "reaction"), parameter("set", "string", "shaft/left"), parameter("component", "string", "y"))
     text = named(
         "press fit", parameter("kinematics", "string", kinematics),
         named("materials", named("steel", parameter("type", "string", "small strain linear"), parameter("young's modulus", "double", E), parameter("poisson's ratio", "double", NU))),
@@ -103,8 +104,8 @@ def main():
         print(("ok      " if holds else "FAILED  ") + text)
 
     ways = ("drawn", "drawn, ramped", "clearance", "clearance, ramped")
-    cases = [("axisymmetric", "Q4", (16, 16)), ("axisymmetric", "Q8", (16, 12)), ("plane stress", "Q4", (24, 24)), ("plane stress", "Q8", (16, 12)),
-             ("three dimensional", "H8", (24, 24)), ("three dimensional", "H20", (10, 8))]
+    cases = [("axisymmetric", "Q4", (16, 16)), ("axisymmetric", "Q8", (16, 12)), ("plane stress", "Q4", (24, 24)), ("plane stress", "Q8", (40, 32)),
+             ("three dimensional", "H8", (24, 24)), ("three dimensional", "H20", (12, 12))]
     for kinematics, element, cells in cases:
         for way in ways if kinematics != "three dimensional" else ("drawn, ramped", "clearance"):
             for slave in ("shaft", "hub"):

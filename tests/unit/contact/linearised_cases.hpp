@@ -175,6 +175,20 @@ inline std::vector<Case> cases() {
   add_in_space("hardly covered, coulomb, high, augmented lagrange", 3.0)->options.formulation.options = augmented;
   add_quadratic(all);
   add_corners(all);
+  // Interferences and gaps that are prescribed, of time and place.
+  const ScalarFunction clearance([](const std::vector<double>& of) { return of[0] * (0.02 * of[1] - 0.05); }, "t*(0.02*x - 0.05)");
+  for (const auto& name : {"current", "axisymmetric", "reference", "coulomb, mixed", "hardly covered, coulomb", "space, frictionless",
+                           "space, coulomb, mixed", "space, hardly covered, coulomb", "quadratic, plane", "quadratic, space, coulomb"}) {
+    const auto without = std::find_if(all.begin(), all.end(), [&](const Case& one) { return one.name == name; });
+    if (without == all.end()) throw std::logic_error(name);
+    all.push_back({"clearance, " + without->name, without->surfaces});
+    all.back().surfaces.options.clearance = clearance;
+  }
+  for (const NamedFormulation& formulation : other_formulations()) {
+    if (formulation.options->coupling()->has_forces_of_gaps() || !formulation.options->coupling()->integrates_facets()) continue;
+    add_friction("clearance, " + formulation.name, 0.12)->options.formulation.options = formulation.options;
+    all.back().surfaces.options.clearance = clearance;
+  }
   for (const NamedFormulation& formulation : other_formulations()) {
     if (!in_space(formulation)) continue;
     add_in_space(formulation.name, {})->options.formulation.options = formulation.options;
@@ -240,7 +254,7 @@ inline ContactHistory start(const Fixture& fixture) {
   const ContactSystem& contact = *fixture.contact;
   Vector z(contact.multiplier_map());
   const ContactHistory history = fixture.first_step(*before, z);
-  return updated(contact, contact.evaluate(*before, history).laws(*pressed), history);
+  return contact.with_clearances(updated(contact, contact.evaluate(*before, history).laws(*pressed), history), 0.5);
 }
 
 // Some nodes pressed, some open (in 3D those further on too); the tangential part is not zero, as it is before Newton has converged.
