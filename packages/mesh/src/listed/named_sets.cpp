@@ -39,6 +39,12 @@ class Finder {
     for (const FileSide& side : set.members) {
       const auto group = static_cast<std::size_t>(side.group), cell = static_cast<std::size_t>(side.cell);
       const std::int32_t element = chosen_.elements_of_cells[group][cell];
+      if (side.side == the_cell_itself) {  // a facet of the file: itself an element, or on sides of elements
+        if (element >= 0 && sides_ == nullptr) found.sides.push_back({element, the_cell_itself});
+        if (sides_ != nullptr && topology(file_.cells[group].shape).dimension == request_.dimension - 1)
+          add_sides_under(file_.cells[group], cell, found);
+        continue;
+      }
       if (element < 0) continue;
       // Turned cells: the side from corner s to s + 1 is the one from n - 1 - s to n - s.
       const bool turned = !chosen_.turned[group].empty() && chosen_.turned[group][cell];
@@ -59,15 +65,11 @@ class Finder {
             found.sides.push_back({element, the_cell_itself});
       return found;
     }
-    for_each_cell(set, request_.dimension - 1, [&](const CellTopology& cell, const std::int32_t* nodes) {
-      std::array<std::int32_t, 4> corners{};
-      for (int a = 0; a < cell.corners; ++a) {
-        corners[a] = number_[static_cast<std::size_t>(nodes[a])];
-        if (corners[a] < 0) return;
-      }
-      const auto on = sides_->find(corner_key(corners.data(), cell.corners));
-      found.sides.insert(found.sides.end(), on.begin(), on.end());
-    });
+    for (const FileCellRange& range : set.members) {
+      const FileCells& cells = file_.cells[static_cast<std::size_t>(range.group)];
+      if (topology(cells.shape).dimension != request_.dimension - 1) continue;
+      for (std::int32_t c = range.first; c < range.first + range.count; ++c) add_sides_under(cells, static_cast<std::size_t>(c), found);
+    }
     return found;
   }
 
@@ -97,6 +99,19 @@ class Finder {
   bool is_inside(const ElementSide& side) const { return sides_ != nullptr && sides_->find(sides_->key(side)).size() > 1; }
 
  private:
+  /// The sides of elements that a cell of one dimension less lies on.
+  void add_sides_under(const FileCells& cells, std::size_t cell, SetMembers& found) const {
+    const CellTopology& facet = topology(cells.shape);
+    const std::int32_t* nodes = cells.nodes.data() + static_cast<std::size_t>(facet.nodes) * cell;
+    std::array<std::int32_t, 4> corners{};
+    for (int a = 0; a < facet.corners; ++a) {
+      corners[a] = number_[static_cast<std::size_t>(nodes[a])];
+      if (corners[a] < 0) return;
+    }
+    const auto on = sides_->find(corner_key(corners.data(), facet.corners));
+    found.sides.insert(found.sides.end(), on.begin(), on.end());
+  }
+
   template <class Visit>
   void for_each_cell(const FileSet<FileCellRange>& set, int dimension, const Visit& visit) const {
     for (const FileCellRange& range : set.members) {
@@ -211,6 +226,7 @@ BodySets name_sets(const MeshFile& file, const FileBodyRequest& request, const C
 BodySets name_facets(const MeshFile& file, const FileBodyRequest& request, const ChosenCells& chosen) {
   const Finder find(file, request, chosen, nullptr);
   SetNamer namer(request, chosen, find);
+  for (const auto& set : file.side_sets) namer.add_sides(find.of_sides(set));
   for (const auto& set : file.cell_sets) namer.add_sides(find.of_facets(set));
   add_all_nodes(namer, find, file);
   std::vector<ElementSide> all;
