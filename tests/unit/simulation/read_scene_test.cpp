@@ -70,7 +70,7 @@ TEST_F(ReadScene, VariablesReachEveryValue) {
   const Scene scene = read(text);
   EXPECT_EQ(scene.name, "one block");
   EXPECT_EQ(scene.kinematics, Kinematics::plane_strain);
-  EXPECT_EQ(scene.bodies.at(0).value.element, ElementType::q4_f_bar);
+  EXPECT_EQ(scene.bodies.at(0).value.element.value, ElementType::q4_f_bar);
   EXPECT_DOUBLE_EQ(scene.materials.at(0).value.law.options->youngs_modulus, 3000.0);
   const Model model(comm_, scene, Timers());
   EXPECT_EQ(model.size().elements, 18);
