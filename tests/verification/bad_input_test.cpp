@@ -54,7 +54,7 @@ const std::vector<Case> cases{
     {"slave_is_master", R"xml(<Parameter name="master" type="string" value="upper/bottom"/>)xml",
      R"xml(<Parameter name="master" type="string" value="seat"/>)xml", "slave and master", R"xml(name="master" type="string" value="seat")xml"},
     {"slave_node_in_two_pairs", R"xml(<ParameterList name="interface">)xml", second_pair, "slave facets can carry no contact, as all their nodes belong to other pairs too",
-     R"xml(<ParameterList name="interface">)xml"},
+     R"xml(<ParameterList name="second">)xml"},
     {"slave_facet_with_all_nodes_fixed", R"xml(value="lower/bottom"/>)xml", R"xml(value="lower"/>)xml",
      "of 3 slave facets can carry no contact, as the displacements of all their nodes are prescribed; please make this side the master", "interface"},
     {"nan_in_a_table", R"xml(name="values" type="string" value="0, 1")xml", R"xml(name="values" type="string" value="0, nan")xml", "nan", "0, nan"},

@@ -63,8 +63,8 @@ void check_numbers(const Named<SetOptions>& set, int dimension) {
   const auto d = static_cast<std::size_t>(dimension);
   const auto check = [&](const char* name, const std::vector<double>& numbers, std::size_t needed) {
     if (!numbers.empty() && numbers.size() != needed)
-      throw InputError(set.place, fmt::format("\"{}\" of set \"{}\" has {} numbers; in {}D it needs {}", name, set.name, numbers.size(),
-                                              dimension, needed));
+      throw InputError(set.place,
+                       fmt::format("\"{}\" of set \"{}\" has {} numbers; in {}D it needs {}", name, set.name, numbers.size(), dimension, needed));
   };
   const SetOptions& options = set.value;
   check("box", options.box, 2 * d);

@@ -1,5 +1,8 @@
 #include "mortise/mesh/file_mesh.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <filesystem>
 #include <stdexcept>
 
@@ -11,6 +14,14 @@ void FileMesh::describe_shape(Parameters& parameters) {
                  {{"by name", MeshFormat::by_name}, {"exodus", MeshFormat::exodus}, {"gmsh", MeshFormat::gmsh}, {"abaqus", MeshFormat::abaqus}},
                  "format of the file; by name: .exo, .e, .g and the like are Exodus II, .msh is Gmsh, .inp is Abaqus or CalculiX");
   parameters.add("blocks", blocks, "element blocks, physical groups or element sets of the file that make the body; empty: all of its cells");
+  parameters.add("piece", piece,
+                 "of parts that have no node in common the one with the node nearest to this point, \"x, y\" or \"x, y, z\" in the coordinates of "
+                 "the file; empty: all, "
+                 "which have to be one piece");
+  if (!piece.empty() && piece.size() != 2 && piece.size() != 3) {
+    parameters.error("piece", fmt::format("is \"{}\"; it needs two or three numbers", fmt::join(piece, ", ")));
+    piece.clear();
+  }
   parameters.add("scale", scale,
                  Says("factor on the coordinates of the file, for its unit of length: 0.001 takes mm to m").at_least(1e-30).at_most(1e30));
   parameters.add("shared nodes", shared_nodes, {{"refused", SharedNodes::refused}, {"doubled", SharedNodes::doubled}},
@@ -33,6 +44,7 @@ FileBodyRequest FileMesh::request(const std::string& body, const Place& place, i
   request.is_surface = is_surface;
   request.shares_nodes = shared_nodes == SharedNodes::doubled;
   request.blocks = blocks;
+  request.piece = piece;
   request.scale = scale;
   request.placement = {
       {rotation_axis.at(0), rotation_axis.at(1), rotation_axis.at(2)}, rotation, {translation.at(0), translation.at(1), translation.at(2)}};

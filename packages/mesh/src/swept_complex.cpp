@@ -56,6 +56,16 @@ SpatialPoint SweptComplex::coordinate(GlobalOrdinal node) const {
   return placement_(swept(sweep_, at_level(level).coordinate(below), layers_.doubled_position(level)));
 }
 
+double SweptComplex::radius(GlobalOrdinal node) const {
+  const auto [below, level] = find(node);
+  return at_level(level).coordinate(below)[0];
+}
+
+GlobalOrdinal SweptComplex::on_level(GlobalOrdinal node, int level) const {
+  const Node place = find(node);
+  return node_at({place.below, level + place.level % 2});
+}
+
 GlobalOrdinal SweptComplex::node_at(const Node& node) const {
   return node.level / 2 * nodes_per_cell_layer() + (node.level % 2 == 0 ? 0 : profile_.node_count()) + node.below;
 }

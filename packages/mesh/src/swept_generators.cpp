@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <boost/math/constants/constants.hpp>
 
+#include "collapsed_sweep.hpp"
 #include "describe_cells.hpp"
 #include "mortise/mesh/volume_generators.hpp"
 
@@ -118,32 +119,36 @@ ShellComplex ExtrudedMesh::build_surface(const Place& place) const {
 }
 
 void RevolvedMesh::describe_shape(Parameters& parameters) {
-  describe_profile(parameters, "the mesh of the half plane z = 0, x > 0 that is turned about the y axis; its sides keep their names");
+  describe_profile(parameters, "the mesh of the half plane z = 0, x >= 0 that is turned about the y axis; its sides keep their names");
   parameters.add("angle", angle, Says("how far it is turned, from the x axis (\"start\") toward the z axis").unit("degrees").above(0.0).below(360.0));
   describe_cells(parameters, cells_around, grading_around, "cells around", "grading around", "from start to end (sizes where the radius is largest)");
 }
 
 namespace {
 
+constexpr double at_axis = 1e-9;  ///< over the largest radius
+
 struct Turn {
   Spacing layers;
   Revolution sweep;
 };
 
-/// How far and in how many layers a profile is turned, by its largest x. Throws InputError for one that reaches the axis.
+/// The smallest and largest x of a profile. Throws InputError for one beyond the axis.
 template <class PlaneComplex>
-Turn turn_of(const RevolvedMesh& mesh, const PlaneComplex& plane, const Place& place) {
+std::array<double, 2> reach_of(const PlaneComplex& plane, const Place& place) {
   double least = plane.coordinate(0)[0], most = least;
   for (GlobalOrdinal node = 1; node < plane.node_count(); ++node) {
     const double x = plane.coordinate(node)[0];
     least = std::min(least, x);
     most = std::max(most, x);
   }
-  if (!(least > 1e-9 * most))
-    throw InputError(place,
-                     fmt::format("the profile of a revolved mesh reaches x = {:g}, but has to stay on the side x > 0 of the axis: cells that touch "
-                                 "the axis would be wedges; please leave a hole about it, or extrude a disk",
-                                 least));
+  if (!(least >= -at_axis * most))
+    throw InputError(place, fmt::format("the profile of a revolved mesh reaches x = {:g}; allowed: x >= 0, one side of the axis", least));
+  return {least, most};
+}
+
+/// How far and in how many layers a profile is turned, by its largest x.
+Turn turn_of(const RevolvedMesh& mesh, double most, const Place& place) {
   const double angle = mesh.angle * boost::math::constants::pi<double>() / 180.0;
   return {mesh.grading_around.spacing(most * angle, mesh.cells_around, place), {angle}};
 }
@@ -152,13 +157,27 @@ Turn turn_of(const RevolvedMesh& mesh, const PlaneComplex& plane, const Place& p
 
 BodyComplex RevolvedMesh::build(CellShape cell, const Place& place) const {
   PatchComplex plane = require_profile(place).build(profile_shape(cell, place), place);
-  const Turn turn = turn_of(*this, plane, place);
+  const Turn turn = turn_of(*this, reach_of(plane, place)[1], place);
   return sweep_body(std::move(plane), cell, turn.layers, turn.sweep);
+}
+
+std::optional<MeshFile> RevolvedMesh::listed(CellShape cell, const Place& place) const {
+  if (topology(cell).dimension != 3) return std::nullopt;
+  const auto [least, most] = reach_of(require_profile(place).build(profile_shape(cell, place), place), place);
+  if (least > at_axis * most) return std::nullopt;
+  return collapse_onto_axis(std::get<SweptComplex>(build(cell, place)), place);
 }
 
 ShellComplex RevolvedMesh::build_surface(const Place& place) const {
   const CurveComplex curve = require_profile(place).build_surface(place);
-  const Turn turn = turn_of(*this, curve, place);
+  const auto [least, most] = reach_of(curve, place);
+  if (!(least > at_axis * most))
+    throw InputError(
+        place,
+        fmt::format("the profile of a rigid revolved mesh reaches x = {:g}, where its facets would be triangles; please leave a small hole about the "
+                    "axis, or take a ball or an extruded disk",
+                    least));
+  const Turn turn = turn_of(*this, most, place);
   return sweep_surface(curve, turn.layers, turn.sweep, placement());
 }
 

@@ -101,8 +101,8 @@ TEST_F(DerivedSets, ChoosesSidesByTheirNormal) {
   SetOptions slanted = up;
   slanted.normal = {1.0, 0.0, 1.0};  // 45 degrees from x and from z
   slanted.angle = 44.0;
-  EXPECT_THAT(error(slanted), ::testing::HasSubstr("is empty"));
   slanted.kind = SetKind::sides;
+  EXPECT_THAT(error(slanted), ::testing::HasSubstr("has a normal within 44 degrees of 1, 0, 1"));
   slanted.angle = 46.0;
   EXPECT_EQ(sides(slanted), 12 + 6);
 }

@@ -18,27 +18,6 @@ std::string place_text(const MeshFile& file, std::int32_t file_node) {
   return fmt::format("node {} at ({:.6g}, {:.6g}, {:.6g})", file.node_labels[static_cast<std::size_t>(file_node)], x[0], x[1], x[2]);
 }
 
-/// Trees of nodes that are connected.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
-  std::int32_t root(std::int32_t node) {
-    while (parent_[static_cast<std::size_t>(node)] != node) {
-      std::int32_t& up = parent_[static_cast<std::size_t>(node)];
-      up = parent_[static_cast<std::size_t>(up)];
-      node = up;
-    }
-    return node;
-  }
-  void join(std::int32_t a, std::int32_t b) {
-    const std::int32_t first = root(a), second = root(b);
-    parent_[static_cast<std::size_t>(std::max(first, second))] = std::min(first, second);
-  }
-
- private:
-  std::vector<std::int32_t> parent_;
-};
-
 }  // namespace
 
 void require_flat(const MeshFile& file, const FileBodyRequest& request, const ChosenCells& chosen) {
@@ -98,28 +77,26 @@ void require_conforming(const MeshFile& file, const FileBodyRequest& request, co
 
 void require_one_piece(const MeshFile& file, const FileBodyRequest& request, const ChosenCells& chosen) {
   const BodyElements& elements = chosen.elements;
-  DisjointSets pieces(chosen.file_nodes.size());
-  for (std::int32_t e = 0; e < elements.size(); ++e)
-    for (auto n = elements.offsets[static_cast<std::size_t>(e)] + 1; n < elements.offsets[static_cast<std::size_t>(e) + 1]; ++n)
-      pieces.join(*elements.nodes_of(e), elements.nodes[static_cast<std::size_t>(n)]);
-  std::set<std::int32_t> roots;
+  const std::vector<std::int32_t> lowest = lowest_connected_nodes(chosen);
+  std::set<std::int32_t> pieces;
   std::int64_t outside = 0;
-  const std::int32_t first = pieces.root(*elements.nodes_of(0));
   std::int32_t other = -1;
   for (std::int32_t e = 0; e < elements.size(); ++e) {
-    const std::int32_t root = pieces.root(*elements.nodes_of(e));
-    if (roots.size() < 1000) roots.insert(root);
-    if (root == first) continue;
+    const std::int32_t piece = lowest[static_cast<std::size_t>(*elements.nodes_of(e))];
+    if (pieces.size() < 1000) pieces.insert(piece);
+    if (piece == lowest[static_cast<std::size_t>(*elements.nodes_of(0))]) continue;
     ++outside;
     if (other < 0) other = e;
   }
-  if (roots.size() == 1) return;
+  if (pieces.size() == 1) return;
   throw InputError(
       request.place,
       fmt::format(
           "body \"{}\" of {} falls into {} pieces that have no node in common: {} of {} elements are not connected to the first one, for instance "
-          "element {} with {}; please make each piece a body of its own (\"blocks\"), or merge nodes that stand at one place",
-          request.name, file.path, roots.size(), outside, elements.size(), elements.labels[static_cast<std::size_t>(other)],
+          "element {} with {}; please make each piece a body of its own, by its \"blocks\" or a point of it (\"piece\"), or merge nodes that stand "
+          "at one "
+          "place",
+          request.name, file.path, pieces.size(), outside, elements.size(), elements.labels[static_cast<std::size_t>(other)],
           place_text(file, chosen.file_nodes[static_cast<std::size_t>(*elements.nodes_of(other))])));
 }
 

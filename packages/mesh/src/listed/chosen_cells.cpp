@@ -107,8 +107,10 @@ std::vector<std::int32_t> reversed(const std::int32_t* nodes, const CellTopology
 
 }  // namespace
 
-ChosenCells choose_cells(const MeshFile& file, const FileBodyRequest& request, int cell_dimension) {
-  const Membership part = choose(file, request, cell_dimension);
+namespace {
+
+/// The elements and nodes of cells that are in parts.
+ChosenCells make_elements(const MeshFile& file, const FileBodyRequest& request, const Membership& part, bool mends) {
   ChosenCells chosen;
   chosen.file_nodes = used_nodes(file, part);
   std::vector<std::int32_t> number(file.coordinates.size(), -1);
@@ -117,7 +119,6 @@ ChosenCells choose_cells(const MeshFile& file, const FileBodyRequest& request, i
   for (const auto& cells : part) chosen.elements_of_cells.emplace_back(cells.size(), -1);
   chosen.turned.resize(part.size());
   BodyElements& elements = chosen.elements;
-  const bool mends = cell_dimension == 2 && request.dimension == 2;
   for (std::size_t p = 0; p <= request.parts.size(); ++p)
     for (std::size_t group = 0; group < part.size(); ++group) {
       const FileCells& cells = file.cells[group];
@@ -142,6 +143,56 @@ ChosenCells choose_cells(const MeshFile& file, const FileBodyRequest& request, i
       if (added.elements > 0) elements.parts.push_back(added);
     }
   return chosen;
+}
+
+/// Takes cells out that do not hang together with the node nearest to request.piece.
+void keep_piece(const MeshFile& file, const FileBodyRequest& request, const ChosenCells& chosen, Membership& part) {
+  const std::vector<std::int32_t> lowest = lowest_connected_nodes(chosen);
+  double least = std::numeric_limits<double>::max();
+  std::int32_t wanted = 0;
+  for (std::size_t node = 0; node < lowest.size(); ++node) {
+    const auto& x = file.coordinates[static_cast<std::size_t>(chosen.file_nodes[node])];
+    double squared = 0.0;
+    for (std::size_t i = 0; i < request.piece.size(); ++i) squared += (x[i] - request.piece[i]) * (x[i] - request.piece[i]);
+    if (squared < least) least = squared, wanted = lowest[node];
+  }
+  for (std::size_t group = 0; group < part.size(); ++group)
+    for (std::size_t cell = 0; cell < part[group].size(); ++cell)
+      if (const std::int32_t element = chosen.elements_of_cells[group][cell];
+          element >= 0 && lowest[static_cast<std::size_t>(*chosen.elements.nodes_of(element))] != wanted)
+        part[group][cell] = not_chosen;
+}
+
+}  // namespace
+
+std::vector<std::int32_t> lowest_connected_nodes(const ChosenCells& chosen) {
+  std::vector<std::int32_t> parent(chosen.file_nodes.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](std::int32_t node) {
+    while (parent[static_cast<std::size_t>(node)] != node) {
+      std::int32_t& up = parent[static_cast<std::size_t>(node)];
+      up = parent[static_cast<std::size_t>(up)];
+      node = up;
+    }
+    return node;
+  };
+  const BodyElements& elements = chosen.elements;
+  for (std::int32_t e = 0; e < elements.size(); ++e)
+    for (auto n = elements.offsets[static_cast<std::size_t>(e)]; n < elements.offsets[static_cast<std::size_t>(e) + 1]; ++n) {
+      const std::int32_t one = root(*elements.nodes_of(e)), other = root(elements.nodes[static_cast<std::size_t>(n)]);
+      parent[static_cast<std::size_t>(std::max(one, other))] = std::min(one, other);
+    }
+  for (std::size_t node = 0; node < parent.size(); ++node) parent[node] = root(static_cast<std::int32_t>(node));
+  return parent;
+}
+
+ChosenCells choose_cells(const MeshFile& file, const FileBodyRequest& request, int cell_dimension) {
+  Membership part = choose(file, request, cell_dimension);
+  const bool mends = cell_dimension == 2 && request.dimension == 2;
+  ChosenCells chosen = make_elements(file, request, part, mends);
+  if (request.piece.empty() || chosen.elements.size() == 0) return chosen;
+  keep_piece(file, request, chosen, part);
+  return make_elements(file, request, part, mends);
 }
 
 }  // namespace mortise

@@ -26,4 +26,7 @@ struct ChosenCells {
 /// @throws InputError for names that are none, cells in two parts, nothing that is left
 ChosenCells choose_cells(const MeshFile& file, const FileBodyRequest& request, int cell_dimension);
 
+/// Trees of nodes that elements connect: [nodes] the lowest node that hangs together with each.
+std::vector<std::int32_t> lowest_connected_nodes(const ChosenCells& chosen);
+
 }  // namespace mortise

@@ -119,10 +119,11 @@ std::vector<std::shared_ptr<ListedBody>> read_bodies(const std::vector<FileBodyR
   for (std::size_t first = 0; first < requests.size(); ++first) {
     if (is_done[first]) continue;
     try {
-      const MeshFile file = read_mesh_file(requests[first].file, requests[first].format, requests[first].place);
+      const auto& made = requests[first].made;
+      const MeshFile file = made ? *made : read_mesh_file(requests[first].file, requests[first].format, requests[first].place);
       NodesOfBodies nodes(file);
       for (std::size_t r = first; r < requests.size(); ++r) {
-        if (requests[r].file != requests[first].file || requests[r].format != requests[first].format) continue;
+        if (requests[r].file != requests[first].file || requests[r].format != requests[first].format || requests[r].made != made) continue;
         is_done[r] = 1;
         try {
           std::vector<std::int32_t> file_nodes;

@@ -97,8 +97,11 @@ std::vector<Adjustment> adjust_slaves(Mesh& mesh, const Scene& scene) {
   return done;
 }
 
-RCP<Mesh> make_mesh(const RCP<const Communicator>& comm, const Scene& scene) {
+/// @param notes  gets what was changed or left out of mesh files
+RCP<Mesh> make_mesh(const RCP<const Communicator>& comm, const Scene& scene, std::vector<std::string>& notes) {
   const std::vector<BodyDescription> bodies = body_descriptions(*comm, scene);
+  for (const BodyDescription& body : bodies)
+    for (const std::string& note : body.listed ? body.listed->notes : std::vector<std::string>{}) notes.push_back(body.name + ": " + note);
   refuse_too_large(*comm, bodies);
   const auto mesh = build_mesh(comm, bodies, contact_sides(scene), reference_points(scene));
   Collector collect;
@@ -258,7 +261,7 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   std::vector<Adjustment> adjustments;
   {
     const auto timer = timers.scope("mesh");
-    const RCP<Mesh> mesh = make_mesh(comm, scene);
+    const RCP<Mesh> mesh = make_mesh(comm, scene, mesh_notes_);
     adjustments = adjust_slaves(*mesh, scene);
     mesh_ = mesh;
     size_ = mesh_size(*mesh_);

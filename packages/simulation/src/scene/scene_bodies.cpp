@@ -46,14 +46,29 @@ std::vector<BodyDescription> body_descriptions(const Communicator& comm, const S
       requests.push_back(mesh->request(body.name, body.place, dimension(scene.kinematics), body.value.rigid.value));
       for (const Assignment& part : body.value.materials.all) requests.back().parts.push_back({part.path, part.place});
     }
+  std::vector<char> is_listed;
+  for (const auto& body : scene.bodies) {
+    is_listed.push_back(dynamic_cast<const FileMesh*>(body.value.mesh.options.get()) != nullptr ? 1 : 0);
+    if (is_listed.back() || body.value.rigid.value) continue;
+    // Which bodies are lists does not depend on the rank; the lists themselves rank 0 needs alone.
+    auto made = body.value.mesh.options->listed(cell_shape(element_of(body.value)), body.place);
+    if (!made) continue;
+    is_listed.back() = 1;
+    FileBodyRequest request;
+    request.name = body.name;
+    request.place = body.place;
+    if (comm.getRank() == 0) request.made = std::make_shared<const MeshFile>(*std::move(made));
+    requests.push_back(std::move(request));
+  }
   const auto listed = make_file_bodies(comm, requests);
   std::vector<BodyDescription> descriptions;
-  auto next = listed.begin();
   for (const auto& body : scene.bodies) {
     const MeshOptions& mesh = *body.value.mesh.options;
     const auto copy = placement(body.value.mirror, body.value.pattern);
-    if (dynamic_cast<const FileMesh*>(&mesh) != nullptr)
-      descriptions.push_back({body.name, body.place, body.value.mesh.options, {}, *next++, copy});
+    const auto found =
+        std::find_if(requests.begin(), requests.end(), [&, &body = body](const FileBodyRequest& request) { return request.name == body.name; });
+    if (is_listed[descriptions.size()])
+      descriptions.push_back({body.name, body.place, body.value.mesh.options, {}, listed[static_cast<std::size_t>(found - requests.begin())], copy});
     else
       descriptions.push_back({body.name,
                               body.place,

@@ -14,14 +14,16 @@ namespace mortise {
 
 /// A body to be made of a mesh file.
 struct FileBodyRequest {
-  std::string name;  ///< of the body
-  Place place;       ///< where it is described
-  std::string file;  ///< path
+  std::string name;                        ///< of the body
+  Place place;                             ///< where it is described
+  std::string file;                        ///< path
+  std::shared_ptr<const MeshFile> made{};  ///< on rank 0: a mesh in the place of a file
   MeshFormat format = MeshFormat::by_name;
-  int dimension = 3;                        ///< of the model: 2 or 3
-  bool is_surface = false;                  ///< a rigid body
-  bool shares_nodes = false;                ///< nodes that another body of the file has too are doubled; else they are an error
-  std::vector<std::string> blocks;          ///< names of element blocks, physical groups or element sets; empty: all
+  int dimension = 3;                ///< of the model: 2 or 3
+  bool is_surface = false;          ///< a rigid body
+  bool shares_nodes = false;        ///< nodes that another body of the file has too are doubled; else they are an error
+  std::vector<std::string> blocks;  ///< names of element blocks, physical groups or element sets; empty: all
+  std::vector<double> piece;        ///< of cells that hang together by nodes only those with the node nearest to this point of the file; empty: all
   std::vector<Located<std::string>> parts;  ///< names of those with a material of their own
   double scale = 1.0;                       ///< factor on the file's coordinates
   SpatialPlacement placement;               ///< after the scaling

@@ -22,6 +22,7 @@ struct FileMesh : MeshOptions {
   Located<std::string> file;  ///< path as given
   MeshFormat format = MeshFormat::by_name;
   std::vector<std::string> blocks;  ///< empty: all
+  std::vector<double> piece;        ///< x, y(, z) in the file; empty: all
   double scale = 1.0;
   SharedNodes shared_nodes = SharedNodes::refused;
   std::vector<double> rotation_axis{0.0, 0.0, 1.0};  ///< through the origin

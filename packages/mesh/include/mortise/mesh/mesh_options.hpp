@@ -1,11 +1,13 @@
 #pragma once
 // Options from which a body's mesh is described; the kinds of built-in meshes are told apart by "type" (mesh_registry).
 
+#include <optional>
 #include <variant>
 
 #include "mortise/core/parameters.hpp"
 #include "mortise/mesh/curve_complex.hpp"
 #include "mortise/mesh/listed_complex.hpp"
+#include "mortise/mesh/mesh_file.hpp"
 #include "mortise/mesh/patch_complex.hpp"
 #include "mortise/mesh/shell_complex.hpp"
 #include "mortise/mesh/swept_complex.hpp"
@@ -29,6 +31,9 @@ struct MeshOptions : Described {
 
   /// The pure description of the body in elements of a shape. Throws InputError at `place` for shapes without meaning.
   virtual BodyComplex complex(CellShape cell, const Place& place) const = 0;
+
+  /// The body as a list, where complex() has no cells for it. None: complex() has. Throws InputError at `place`.
+  virtual std::optional<MeshFile> listed(CellShape /*cell*/, const Place& /*place*/) const { return std::nullopt; }
 
  protected:
   explicit MeshOptions(int dimension) : translation(dimension, 0.0), dimension_(dimension) {}

@@ -47,6 +47,14 @@ class SweptComplex {
   const std::vector<std::string>& side_names() const { return side_names_; }
 
   SpatialPoint coordinate(GlobalOrdinal node) const;
+  /// The body that is swept.
+  const PatchComplex& profile() const { return profile_; }
+  /// x of the point of the profile that a node lies over.
+  double radius(GlobalOrdinal node) const;
+  /// Half layers below a node.
+  int level_of(GlobalOrdinal node) const { return find(node).level; }
+  /// The node over the same point of the profile so many half layers up: as many modulo 2 as of `node`.
+  GlobalOrdinal on_level(GlobalOrdinal node, int level) const;
   CellNodes element_nodes(GlobalOrdinal element) const;
   /// Ascending.
   std::vector<GlobalOrdinal> elements_of_node(GlobalOrdinal node) const;

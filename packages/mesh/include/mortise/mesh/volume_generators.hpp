@@ -64,6 +64,7 @@ struct RevolvedMesh : SweptMesh {
   void describe_shape(Parameters& parameters) override;
   BodyComplex build(CellShape cell, const Place& place) const override;
   ShellComplex build_surface(const Place& place) const override;
+  std::optional<MeshFile> listed(CellShape cell, const Place& place) const override;
 };
 
 }  // namespace mortise

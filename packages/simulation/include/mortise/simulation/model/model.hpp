@@ -45,6 +45,8 @@ class Model {
   const Effects& effects() const { return effects_; }
   /// How the surfaces lie before anything moves.
   const SurfacesAtStart& surfaces_at_start() const { return surfaces_at_start_; }
+  /// What was changed or left out of mesh files, in words: "body: ...".
+  const std::vector<std::string>& mesh_notes() const { return mesh_notes_; }
 
   GlobalOrdinal dofs() const;
   /// Slave nodes that carry a multiplier, over all ranks.
@@ -67,6 +69,7 @@ class Model {
   std::vector<std::vector<int>> bodies_of_pairs_;
   Effects effects_;
   SurfacesAtStart surfaces_at_start_;
+  std::vector<std::string> mesh_notes_;
   SystemParts parts_;
 };
 
