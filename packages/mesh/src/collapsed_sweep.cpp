@@ -89,6 +89,7 @@ class Collapse {
     for (const std::string& name : complex_.side_names()) file_.side_sets.push_back({name, {}});
     find_middles();
     for (GlobalOrdinal element = 0; element < complex_.element_count(); ++element) add(element);
+    add_inherited_sides();
     const auto is_empty = [](const FileSet<FileSide>& set) { return set.members.empty(); };  // a side that lies on the axis
     file_.side_sets.erase(std::remove_if(file_.side_sets.begin(), file_.side_sets.end(), is_empty), file_.side_sets.end());
     return std::move(file_);
@@ -128,7 +129,10 @@ class Collapse {
     if (cell.corners == 4) {  // a tetrahedron of a cut prism
       auto sorted = corners;
       std::sort(sorted.begin(), sorted.end());
-      if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return;
+      if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) {
+        for (const SurfaceSide& side : complex_.surface_sides(element)) keep_for_neighbour(side, corners);
+        return;
+      }
     } else {
       std::vector<char> on_axis;
       for (int c = 0; c < cell.corners / 2; ++c) on_axis.push_back(is_on_axis(nodes[static_cast<std::size_t>(c)]) ? 1 : 0);
@@ -155,22 +159,51 @@ class Collapse {
     return file_.cells.size() - 1;
   }
 
+  /// The corners of a side, each once, ascending.
+  std::vector<GlobalOrdinal> corners_left(const SurfaceSide& side, const std::vector<GlobalOrdinal>& corners) const {
+    const CellSide& former = topology(complex_.shape()).sides[static_cast<std::size_t>(side.side)];
+    std::vector<GlobalOrdinal> left;
+    for (int c = 0; c < former.corners; ++c) left.push_back(corners[static_cast<std::size_t>(former.nodes[static_cast<std::size_t>(c)])]);
+    std::sort(left.begin(), left.end());
+    left.erase(std::unique(left.begin(), left.end()), left.end());
+    return left;
+  }
+
+  static std::vector<GlobalOrdinal> corners_of(const CellTopology& shape, std::size_t side, const std::vector<GlobalOrdinal>& own) {
+    std::vector<GlobalOrdinal> corners;
+    for (int c = 0; c < shape.sides[side].corners; ++c)
+      corners.push_back(own[static_cast<std::size_t>(shape.sides[side].nodes[static_cast<std::size_t>(c)])]);
+    std::sort(corners.begin(), corners.end());
+    return corners;
+  }
+
+  void add_member(int name, std::size_t group, std::size_t cell, std::size_t side) {
+    file_.side_sets[static_cast<std::size_t>(name)].members.push_back(
+        {static_cast<std::int32_t>(group), static_cast<std::int32_t>(cell), static_cast<std::int32_t>(side)});
+  }
+
   /// A side that has lost its area is none.
   void add_side(const SurfaceSide& side, const std::vector<GlobalOrdinal>& corners, const std::vector<GlobalOrdinal>& own, const CellTopology& shape,
                 std::size_t group, std::size_t cell) {
-    const CellSide& former = topology(complex_.shape()).sides[static_cast<std::size_t>(side.side)];
-    std::vector<GlobalOrdinal> wanted;
-    for (int c = 0; c < former.corners; ++c) wanted.push_back(corners[static_cast<std::size_t>(former.nodes[static_cast<std::size_t>(c)])]);
-    std::sort(wanted.begin(), wanted.end());
-    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
-    for (std::size_t s = 0; s < shape.sides.size(); ++s) {
-      std::vector<GlobalOrdinal> has;
-      for (int c = 0; c < shape.sides[s].corners; ++c)
-        has.push_back(own[static_cast<std::size_t>(shape.sides[s].nodes[static_cast<std::size_t>(c)])]);
-      std::sort(has.begin(), has.end());
-      if (has == wanted)
-        file_.side_sets[static_cast<std::size_t>(side.name)].members.push_back(
-            {static_cast<std::int32_t>(group), static_cast<std::int32_t>(cell), static_cast<std::int32_t>(s)});
+    const auto wanted = corners_left(side, corners);
+    for (std::size_t s = 0; s < shape.sides.size(); ++s)
+      if (corners_of(shape, s, own) == wanted) add_member(side.name, group, cell, s);
+  }
+
+  /// The side of a tetrahedron without volume that has an area is now the side of its neighbour.
+  void keep_for_neighbour(const SurfaceSide& side, const std::vector<GlobalOrdinal>& corners) {
+    if (const auto left = corners_left(side, corners); left.size() == 3) inherited_[left] = side.name;
+  }
+
+  void add_inherited_sides() {
+    for (std::size_t group = 0; group < file_.cells.size() && !inherited_.empty(); ++group) {
+      const CellTopology& shape = topology(file_.cells[group].shape);
+      for (std::size_t cell = 0; cell < file_.cells[group].labels.size(); ++cell) {
+        const auto first = file_.cells[group].nodes.begin() + static_cast<std::ptrdiff_t>(cell) * shape.nodes;
+        const std::vector<GlobalOrdinal> own(first, first + shape.corners);
+        for (std::size_t s = 0; s < shape.sides.size(); ++s)
+          if (const auto found = inherited_.find(corners_of(shape, s, own)); found != inherited_.end()) add_member(found->second, group, cell, s);
+      }
     }
   }
 
@@ -179,6 +212,7 @@ class Collapse {
   double near_ = 0.0;
   MeshFile file_;
   std::map<std::array<GlobalOrdinal, 2>, GlobalOrdinal> middles_;
+  std::map<std::vector<GlobalOrdinal>, int> inherited_;  ///< names of sides by their corners
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <Teuchos_CommHelpers.hpp>
 
+#include "mortise/contact/formulation/standard_mortar.hpp"
 #include "two_surfaces.hpp"
 
 namespace mortise {

@@ -76,7 +76,7 @@ TEST(RevolvedMesh, TurnsAboutTheYAxisFromXTowardZ) {
   expect_side(*ring, "end", [&](const SpatialPoint& x) { return angle(x) + 160.0; });
 }
 
-TEST(RevolvedMesh, RefusesProfilesThatReachTheAxis) {
+TEST(RevolvedMesh, IsAListWhereItsProfileReachesTheAxis) {
   auto disk = std::make_shared<HalfDiskMesh>();
   disk->half = DiskHalf::right;
   disk->cells_along = disk->cells_across = 3;
@@ -84,8 +84,14 @@ TEST(RevolvedMesh, RefusesProfilesThatReachTheAxis) {
   ball.profile = {"half disk", disk, {}};
   ball.cells_around = 5;
   const Place place{"scene.xml", 5, "bodies/ball"};
-  EXPECT_THAT(input_error_of([&] { ball.complex(CellShape::hexahedron8, place); }),
-              ::testing::AllOf(HasSubstr("scene.xml:5: error: bodies/ball"), HasSubstr("reaches x = "), HasSubstr("wedges")));
+  const auto made = ball.listed(CellShape::hexahedron8, place);
+  ASSERT_TRUE(made);
+  EXPECT_EQ(made->cells.size(), 2u);  // hexahedra, and wedges on the axis
+  disk->translation = {2.0, 0.0};
+  EXPECT_FALSE(ball.listed(CellShape::hexahedron8, place));
+  disk->translation = {-0.5, 0.0};
+  EXPECT_THAT(input_error_of([&] { ball.listed(CellShape::hexahedron8, place); }),
+              ::testing::AllOf(HasSubstr("scene.xml:5: error: bodies/ball"), HasSubstr("reaches x = "), HasSubstr("x >= 0")));
 }
 
 TEST(VolumeMesh, RefusesCellsThatItCannotBeMadeOf) {
