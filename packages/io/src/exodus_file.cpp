@@ -7,7 +7,6 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
-#include <map>
 #include <memory>
 #include <utility>
 
@@ -92,7 +91,7 @@ class ExodusWriter {
     complete();
     return {run_.nodes(),
             run_.elements(),
-            static_cast<int>(blocks_.size()),
+            static_cast<int>(run_.blocks().size()),
             number,
             static_cast<int>(nodal_.size()),
             static_cast<int>(elemental_.size())};
@@ -109,16 +108,13 @@ class ExodusWriter {
   }
 
   void write_head() {
-    // Ids of an Exodus block have nothing to do with those of bodies without elements, which have no block.
-    for (std::size_t body = 0; body < run_.bodies().size(); ++body)
-      if (run_.bodies()[body].elements > 0) blocks_.push_back(static_cast<int>(body));
     std::size_t longest = 32;
-    for (const StoredBody& body : run_.bodies()) longest = std::max(longest, body.name.size());
+    for (const StoredBlock& block : run_.blocks()) longest = std::max(longest, block.name.size());
     for (const auto* variables : {&nodal_, &elemental_})
       for (const ExodusVariable& one : *variables) longest = std::max(longest, one.name.size());
     check(ex_set_max_name_length(id_, static_cast<int>(std::min<std::size_t>(longest, longest_name))));
     const std::string title = cut_to("mortise: " + std::filesystem::path(run_.path("")).parent_path().filename().string(), MAX_LINE_LENGTH);
-    check(ex_put_init(id_, title.c_str(), run_.dimension(), run_.nodes(), run_.elements(), static_cast<int>(blocks_.size()), 0, 0));
+    check(ex_put_init(id_, title.c_str(), run_.dimension(), run_.nodes(), run_.elements(), static_cast<int>(run_.blocks().size()), 0, 0));
   }
 
   void write_nodes() {
@@ -135,40 +131,34 @@ class ExodusWriter {
   }
 
   void write_elements() {
-    std::map<int, long long> begin;  // where the elements of a body begin: blocks stand one after the other
-    std::map<int, std::vector<int>> order;
-    long long at = 0;
-    for (const int body : blocks_) {
-      const StoredBody& one = run_.bodies()[static_cast<std::size_t>(body)];
-      check(ex_put_block(id_, EX_ELEM_BLOCK, body + 1, exodus_name(one.shape, run_.dimension()).c_str(), one.elements, topology(one.shape).nodes, 0,
-                         0, 0));
-      check(ex_put_name(id_, EX_ELEM_BLOCK, body + 1, cut_to(one.name, longest_name).c_str()));
-      begin[body] = at;
-      order[body] = exodus_order(one.shape);
-      at += one.elements;
+    for (std::size_t b = 0; b < run_.blocks().size(); ++b) {
+      const StoredBlock& block = run_.blocks()[b];
+      check(ex_put_block(id_, EX_ELEM_BLOCK, block_id(b), exodus_name(block.shape, run_.dimension()).c_str(), block.elements,
+                         topology(block.shape).nodes, 0, 0, 0));
+      check(ex_put_name(id_, EX_ELEM_BLOCK, block_id(b), cut_to(block.name, longest_name).c_str()));
     }
-    std::map<int, long long> written;
-    run_.visit_elements([&](int body, const std::vector<long long>& nodes, long long first_id) {
-      const std::vector<int>& of = order[body];
-      const auto width = of.size();
+    run_.visit_elements([&](std::size_t b, const std::vector<long long>& nodes, long long first_id) {
+      const std::vector<int> order = exodus_order(run_.blocks()[b].shape);
+      const auto width = order.size();
       std::vector<int> connectivity(nodes.size()), ids(nodes.size() / width);
       for (std::size_t i = 0; i < nodes.size(); ++i)
-        connectivity[i] = static_cast<int>(nodes[i / width * width + static_cast<std::size_t>(of[i % width])]) + 1;
+        connectivity[i] = static_cast<int>(nodes[i / width * width + static_cast<std::size_t>(order[i % width])]) + 1;
       for (std::size_t e = 0; e < ids.size(); ++e) ids[e] = static_cast<int>(first_id) + static_cast<int>(e) + 1;
       const auto count = static_cast<long long>(ids.size());
-      check(ex_put_partial_elem_conn(id_, body + 1, written[body] + 1, count, connectivity.data()));
-      check(ex_put_partial_id_map(id_, EX_ELEM_MAP, begin[body] + written[body] + 1, count, ids.data()));
-      written[body] += count;
+      check(ex_put_partial_elem_conn(id_, block_id(b), first_id - run_.blocks()[b].first + 1, count, connectivity.data()));
+      check(ex_put_partial_id_map(id_, EX_ELEM_MAP, first_id + 1, count, ids.data()));
     });
   }
+
+  static int block_id(std::size_t block) { return static_cast<int>(block) + 1; }
 
   void name_variables(ex_entity_type type, const std::vector<ExodusVariable>& variables) {
     if (variables.empty()) return;
     check(ex_put_variable_param(id_, type, static_cast<int>(variables.size())));
     for (std::size_t v = 0; v < variables.size(); ++v) check(ex_put_variable_name(id_, type, static_cast<int>(v) + 1, variables[v].name.c_str()));
     if (type != EX_ELEM_BLOCK) return;
-    std::vector<int> all(blocks_.size() * variables.size(), 1);
-    check(ex_put_truth_table(id_, type, static_cast<int>(blocks_.size()), static_cast<int>(variables.size()), all.data()));
+    std::vector<int> all(run_.blocks().size() * variables.size(), 1);
+    check(ex_put_truth_table(id_, type, static_cast<int>(run_.blocks().size()), static_cast<int>(variables.size()), all.data()));
   }
 
   /// The variable's values in a step; none if the step does not have its field.
@@ -190,21 +180,14 @@ class ExodusWriter {
     }
   }
 
-  /// Rows of a chunk go to their bodies' blocks; in each of them they follow those of the chunks before.
   void write_elemental(const StoredStep& step, int number, int variable, const ExodusVariable& of) {
     const auto values = values_of(step, of);
-    const Hdf5Rows body(run_.path(mesh_file), "body");
-    std::map<int, long long> written;
-    for (long long first = 0; first < run_.elements(); first += chunk_rows) {
-      const long long count = std::min(chunk_rows, run_.elements() - first);
-      const auto chunk = chunk_of(values, first, count, of.column);
-      const auto bodies = body.whole_numbers(first, count);
-      std::map<int, std::vector<double>> parts;
-      for (std::size_t i = 0; i < chunk.size(); ++i) parts[static_cast<int>(bodies[i])].push_back(chunk[i]);
-      for (const auto& [part, numbers] : parts) {
-        const auto size = static_cast<long long>(numbers.size());
-        check(ex_put_partial_var(id_, number, EX_ELEM_BLOCK, variable, part + 1, written[part] + 1, size, numbers.data()));
-        written[part] += size;
+    for (std::size_t b = 0; b < run_.blocks().size(); ++b) {
+      const StoredBlock& block = run_.blocks()[b];
+      for (long long first = 0; first < block.elements; first += chunk_rows) {
+        const long long count = std::min(chunk_rows, block.elements - first);
+        check(ex_put_partial_var(id_, number, EX_ELEM_BLOCK, variable, block_id(b), first + 1, count,
+                                 chunk_of(values, block.first + first, count, of.column).data()));
       }
     }
   }
@@ -221,7 +204,6 @@ class ExodusWriter {
   const StoredRun& run_;
   std::string file_, part_;
   std::vector<ExodusVariable> nodal_, elemental_;
-  std::vector<int> blocks_;  ///< bodies that have elements
   int id_ = -1;
   bool complete_ = false;
 };

@@ -19,7 +19,7 @@ std::string exodus_name(CellShape shape, int dimension) {
   const CellTopology& cell = topology(shape);
   const std::string nodes = std::to_string(cell.nodes);
   if (cell.dimension == 1) return "BAR" + nodes;
-  if (cell.dimension == 3) return (cell.corners == 4 ? "TETRA" : "HEX") + nodes;
+  if (cell.dimension == 3) return (cell.corners == 4 ? "TETRA" : cell.corners == 5 ? "PYRAMID" : cell.corners == 6 ? "WEDGE" : "HEX") + nodes;
   if (cell.corners == 3) return (dimension == 3 ? "TRISHELL" : "TRI") + nodes;
   return (dimension == 3 ? "SHELL" : "QUAD") + nodes;
 }
@@ -28,6 +28,9 @@ std::vector<int> exodus_order(CellShape shape) {
   const CellTopology& cell = topology(shape);
   std::vector<int> order(static_cast<std::size_t>(cell.nodes));
   std::iota(order.begin(), order.end(), 0);
+  // XDMF's wedges have bottom and top exchanged; Exodus has the upright edges before those of the top.
+  if (shape == CellShape::wedge6) return {3, 4, 5, 0, 1, 2};
+  if (shape == CellShape::wedge15) return {3, 4, 5, 0, 1, 2, 9, 10, 11, 12, 13, 14, 6, 7, 8};
   if (cell.dimension != 3 || cell.corners != 8 || cell.mid_side_nodes() == 0) return order;
   for (std::size_t k = 0; k < hexahedron_edges.size(); ++k) {
     const auto edge = std::find_if(cell.edges.begin(), cell.edges.end(), [&](const auto& one) { return same_ends(one, hexahedron_edges[k]); });

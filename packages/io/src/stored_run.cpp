@@ -72,12 +72,12 @@ void StoredRun::read_mesh() {
     const auto shape = shape_of_number(number);
     if (!shape) damaged(fmt::format("element {} has the shape {}, which is none that a run writes", element, number));
     if (of < 0 || of >= elements_) damaged(fmt::format("element {} has the body {}", element, of));
-    while (static_cast<long long>(bodies_.size()) <= of)
-      bodies_.push_back({bodies_.size() < names.size() ? names[bodies_.size()] : fmt::format("body {}", bodies_.size()), *shape, 0});
-    StoredBody& here = bodies_[static_cast<std::size_t>(of)];
-    if (here.elements == 0) here.shape = *shape;
-    if (here.shape != *shape) damaged(fmt::format("element {} has another shape than the rest of its body \"{}\"", element, here.name));
-    ++here.elements;
+    if (blocks_.empty() || blocks_.back().body != static_cast<int>(of) || blocks_.back().shape != *shape) {
+      const auto before = std::count_if(blocks_.begin(), blocks_.end(), [&](const StoredBlock& block) { return block.body == static_cast<int>(of); });
+      const std::string name = of < static_cast<long long>(names.size()) ? names[static_cast<std::size_t>(of)] : fmt::format("body {}", of);
+      blocks_.push_back({before == 0 ? name : fmt::format("{} ({})", name, before + 1), static_cast<int>(of), *shape, element, 0});
+    }
+    ++blocks_.back().elements;
     dimension_ = std::max(dimension_, mortise::topology(*shape).dimension);
     if (*shape == CellShape::line2 && (topology.at_end() || topology.next() != 2)) damaged(fmt::format("element {} is no line of 2 nodes", element));
     for (int a = 0; a < mortise::topology(*shape).nodes; ++a) {
@@ -90,25 +90,21 @@ void StoredRun::read_mesh() {
 }
 
 void StoredRun::visit_elements(const Visitor& visit) const {
-  Numbers topology(path(mesh_file), "topology"), body(path(mesh_file), "body");
-  std::vector<long long> nodes;
-  int of = -1;
-  long long first = 0;
-  const auto flush = [&] {
-    if (!nodes.empty()) visit(of, nodes, first);
-    nodes.clear();
-  };
-  for (long long element = 0; element < elements_; ++element) {
-    const auto here = static_cast<int>(body.next());
-    if (here != of || static_cast<long long>(nodes.size()) >= chunk_rows) {
-      flush();
-      of = here, first = element;
+  Numbers topology(path(mesh_file), "topology");
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const StoredBlock& block = blocks_[b];
+    const int head = block.shape == CellShape::line2 ? 2 : 1, width = mortise::topology(block.shape).nodes;
+    std::vector<long long> nodes;
+    long long first = block.first;
+    for (long long element = block.first; element < block.first + block.elements; ++element) {
+      for (int skipped = 0; skipped < head; ++skipped) topology.next();
+      for (int a = 0; a < width; ++a) nodes.push_back(topology.next());
+      if (static_cast<long long>(nodes.size()) < chunk_rows && element + 1 < block.first + block.elements) continue;
+      visit(b, nodes, first);
+      nodes.clear();
+      first = element + 1;
     }
-    const CellShape shape = bodies_[static_cast<std::size_t>(here)].shape;
-    for (int skipped = shape == CellShape::line2 ? 2 : 1; skipped > 0; --skipped) topology.next();
-    for (int a = 0; a < mortise::topology(shape).nodes; ++a) nodes.push_back(topology.next());
   }
-  flush();
 }
 
 void StoredRun::read_steps() {

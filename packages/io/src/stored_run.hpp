@@ -10,10 +10,12 @@
 
 namespace mortise {
 
-/// A body of a stored mesh.
-struct StoredBody {
-  std::string name;
+/// Elements of one shape and body that follow one another.
+struct StoredBlock {
+  std::string name;  ///< of the body; from its second block on with a number
+  int body = 0;
   CellShape shape{};
+  long long first = 0;  ///< id of the first element
   long long elements = 0;
 };
 
@@ -26,12 +28,13 @@ class StoredRun {
   std::string path(const std::string& name) const { return directory_ + "/" + name; }
   long long nodes() const { return nodes_; }
   long long elements() const { return elements_; }
-  int dimension() const { return dimension_; }  ///< 3 if there are solids
-  const std::vector<StoredBody>& bodies() const { return bodies_; }
+  int dimension() const { return dimension_; }                        ///< 3 if there are solids
+  const std::vector<StoredBlock>& blocks() const { return blocks_; }  ///< by ids
   const std::vector<StoredStep>& steps() const { return steps_; }
 
-  /// visit(body, nodes of one element or of several that follow one another in the body, the first of them by its id) in the order of ids.
-  using Visitor = std::function<void(int body, const std::vector<long long>& nodes, long long first_id)>;
+  /// visit(block, nodes of one element or of several that follow one another in it, in XDMF's order, the first of them by its id) in the order of
+  /// ids.
+  using Visitor = std::function<void(std::size_t block, const std::vector<long long>& nodes, long long first_id)>;
   void visit_elements(const Visitor& visit) const;
 
  private:
@@ -42,7 +45,7 @@ class StoredRun {
   std::string directory_;
   long long nodes_ = 0, elements_ = 0;
   int dimension_ = 2;
-  std::vector<StoredBody> bodies_;
+  std::vector<StoredBlock> blocks_;
   std::vector<StoredStep> steps_;
 };
 

@@ -5,6 +5,9 @@ import numpy as np
 SIDES = {
     "tetrahedron4": [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]],
     "tetrahedron10": [[0, 2, 1, 6, 5, 4], [0, 1, 3, 4, 8, 7], [1, 2, 3, 5, 9, 8], [2, 0, 3, 6, 7, 9]],
+    "wedge6": [[0, 2, 1], [3, 4, 5], [0, 1, 4, 3], [1, 2, 5, 4], [2, 0, 3, 5]],
+    "wedge15": [[0, 2, 1, 8, 7, 6], [3, 4, 5, 9, 10, 11], [0, 1, 4, 3, 6, 13, 9, 12], [1, 2, 5, 4, 7, 14, 10, 13], [2, 0, 3, 5, 8, 12, 11, 14]],
+    "pyramid5": [[0, 3, 2, 1], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]],
     "hexahedron8": [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]],
     "hexahedron20": [[0, 3, 2, 1, 11, 10, 9, 8], [4, 5, 6, 7, 12, 13, 14, 15], [0, 1, 5, 4, 8, 17, 12, 16], [1, 2, 6, 5, 9, 18, 13, 17],
                      [2, 3, 7, 6, 10, 19, 14, 18], [3, 0, 4, 7, 11, 16, 15, 19]]}
@@ -88,17 +91,29 @@ def _alone(first, second):
 
 def faces_of(mesh):
     """All Faces that are drawn."""
-    found = []
+    found, sides = [], []  # sides of solids: shape, nodes, cells
     for name, cells in mesh.cells.items():
         ids = mesh.ids[name]
-        if name in SIDES:
-            nodes = np.concatenate([cells[:, side] for side in SIDES[name]])
-            cell = np.tile(ids, len(SIDES[name]))
-            shape = FACE_SHAPES[nodes.shape[1]]
-            outer = _alone(*_keys(nodes[:, : CORNERS[shape]], len(mesh.nodes)))
-            found.append(Faces(shape, nodes[outer], cell[outer], mesh.body[cell[outer]], False))
-        elif name in CORNERS:
+        if name in CORNERS:
             found.append(Faces(name, cells, ids, mesh.body[ids], mesh.is_rigid(name)))
+        for side in SIDES.get(name, []):
+            sides.append((FACE_SHAPES[len(side)], cells[:, side], ids))
+    # A side that two solids have, of whatever shapes, lies inside.
+    outer = {}
+    for corners in (3, 4):
+        members = [(index, nodes[:, :corners]) for index, (shape, nodes, _) in enumerate(sides) if CORNERS[shape] == corners]
+        if not members:
+            continue
+        alone = _alone(*_keys(np.concatenate([of for _, of in members]), len(mesh.nodes)))
+        at = 0
+        for index, of in members:
+            outer[index], at = alone[at : at + len(of)], at + len(of)
+    for shape in ("triangle3", "quadrilateral4", "triangle6", "quadrilateral8"):
+        chosen = [(nodes[outer[index]], ids[outer[index]]) for index, (of, nodes, ids) in enumerate(sides) if of == shape]
+        if not chosen:
+            continue
+        nodes, cell = np.concatenate([one for one, _ in chosen]), np.concatenate([one for _, one in chosen])
+        found.append(Faces(shape, nodes, cell, mesh.body[cell], False))
     _mark_outlines(found, mesh)
     return found
 

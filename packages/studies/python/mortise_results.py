@@ -50,9 +50,11 @@ class Shape:
 
 #: XDMF's number of a shape, as it stands in mesh.h5, -> Shape
 SHAPES = {2: Shape("line2", 2, 1), 4: Shape("triangle3", 3, 2), 5: Shape("quadrilateral4", 4, 2), 6: Shape("tetrahedron4", 4, 3),
-          9: Shape("hexahedron8", 8, 3), 36: Shape("triangle6", 6, 2), 37: Shape("quadrilateral8", 8, 2), 38: Shape("tetrahedron10", 10, 3),
+          7: Shape("pyramid5", 5, 3), 8: Shape("wedge6", 6, 3), 40: Shape("wedge15", 15, 3), 9: Shape("hexahedron8", 8, 3), 36: Shape("triangle6", 6, 2), 37: Shape("quadrilateral8", 8, 2), 38: Shape("tetrahedron10", 10, 3),
           48: Shape("hexahedron20", 20, 3)}
 _POLYLINE = 2  # its number of nodes follows the number of the shape
+# XDMF's wedges begin with the triangle that Mortise has at the top
+_OURS = {8: [3, 4, 5, 0, 1, 2], 40: [3, 4, 5, 0, 1, 2, 9, 10, 11, 6, 7, 8, 12, 13, 14]}
 
 #: order of the components of symmetric tensors
 TENSOR = ("xx", "xy", "xz", "yy", "yz", "zz")
@@ -349,7 +351,7 @@ def _read_mesh(path, index):
         block = block.reshape(count, width)[:, head:]
         if block.min() < 0 or block.max() >= len(nodes):
             raise FileProblem(f"{path} is damaged: nodes {block.min()} to {block.max()} in its topology, but there are {len(nodes)} nodes")
-        cells.setdefault(shape.name, []).append(block)
+        cells.setdefault(shape.name, []).append(block[:, _OURS[number]] if number in _OURS else block)
         ids.setdefault(shape.name, []).append(np.arange(element, element + count))
         at, element = at + count * width, element + count
     if len(body) != element:
