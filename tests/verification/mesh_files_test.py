@@ -2,8 +2,8 @@
 
 usage: mesh_files_test.py MPIRUN MORTISE DIRECTORY
 
-Two blocks are pressed on one another with friction. Their meshes are taken from a run's fields, written here as text of Gmsh 2.2 and of Abaqus, and by
-the program gmsh as 4.1 and in binary. Nodes keep their order but for gmsh's own files, so that quantities agree to round-off.
+Two blocks are pressed on one another with friction. Their meshes are taken from a run's fields, written here as text of Gmsh 2.2 and of Abaqus, by the
+program gmsh as 4.1 and in binary, and by `mortise export` as Exodus II. Nodes keep their order but for gmsh's own files, so that quantities agree to round-off.
 """
 import json
 import os
@@ -228,6 +228,31 @@ def main():
                     compared += 1
                     if not difference <= TOLERANCE * (1 if n < 2 and ranks == 1 else 10):
                         failures.append(f"{element}, {form}, {ranks} ranks: {quantity} is {found[quantity]!r} instead of {value!r} ({difference:.1e})")
+        # Exodus, as the program writes it: blocks of bodies, whose surfaces get their names here by their normals.
+        exported = os.path.join(folder, "run.exo")
+        done = subprocess.run([program, "export", os.path.join(folder, "generated"), "-o", exported], capture_output=True, text=True)
+        if done.returncode != 0:
+            sys.exit(f"export ended with {done.returncode}:\n{done.stdout}{done.stderr}")
+        meshes = [mesh_list([parameter("type", "string", "file"), parameter("file", "string", "run.exo"), parameter("blocks", "string", name)]) for name in ("lower", "upper")]
+        text = scene(dimension, "", meshes, swept)
+        sets = ""
+        for body in ("lower", "upper"):
+            for name, sign in zip(names, (-1, 1)):
+                text = text.replace(f"{body}/{name}", f"{body} {name}")
+                direction = ", ".join(["0"] * (dimension - 1) + [str(sign)])
+                sets += (f'<ParameterList name="{body} {name}">' + parameter("of", "string", f"{body}/surface") + parameter("kind", "string", "sides")
+                         + parameter("normal", "string", direction) + "</ParameterList>")
+        text = text.replace('<ParameterList name="boundary conditions">', f'<ParameterList name="sets">{sets}</ParameterList><ParameterList name="boundary conditions">')
+        path = os.path.join(folder, "exodus.xml")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        for ranks in (1, 2):
+            found = run(mpirun, program, path, os.path.join(folder, f"exodus_{ranks}"), ranks)
+            for quantity, value in expected.items():
+                difference = abs(found[quantity] - value) / abs(value)
+                compared += 1
+                if not difference <= 10 * TOLERANCE:
+                    failures.append(f"{element}, exodus, {ranks} ranks: {quantity} is {found[quantity]!r} instead of {value!r} ({difference:.1e})")
     for line in failures:
         print(line)
     print(f"{compared} quantities compared, {len(failures)} differ{'' if gmsh else '; gmsh is not here, so its own files were not written'}")
