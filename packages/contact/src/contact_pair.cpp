@@ -20,7 +20,7 @@ void ContactOptions::describe(Parameters& parameters) {
                  "configuration that carries the contact geometry: current, or reference for small displacements");
   parameters.add("full cover", full_cover,
                  Says("covered share of a facet below which the multiplier of a slave node is tied to those of its neighbours, so that a sliver "
-                      "of contact bears no peak; 0: none is tied, as in most published computations; penalty ties none")
+                      "of contact bears no peak; 0: none is tied, as in most published computations; penalty and pressure overclosure tie none")
                      .unit("-")
                      .at_least(0.0)
                      .at_most(1.0));
@@ -31,8 +31,8 @@ void ContactOptions::describe(Parameters& parameters) {
           .unit("length"));
   parameters.add("complementarity constant", complementarity_constant,
                  Says("c_n times A_j: weighs gap against pressure in the choice of the active set; changes no solution; default: Young's modulus "
-                      "of the softer side over the shortest slave facet, of penalty and augmented Lagrange a tenth of that; allowed: 1e-4 to 1e4 "
-                      "times that ratio")
+                      "of the softer side over the shortest slave facet, of penalty, pressure overclosure and augmented Lagrange a tenth of that; "
+                      "allowed: 1e-4 to 1e4 times that ratio")
                      .unit("stress / length")
                      .above(0.0));
   mortar.describe(parameters);
