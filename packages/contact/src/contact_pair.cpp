@@ -20,7 +20,7 @@ void ContactOptions::describe(Parameters& parameters) {
                  "configuration that carries the contact geometry: current, or reference for small displacements");
   parameters.add("full cover", full_cover,
                  Says("covered share of a facet below which the multiplier of a slave node is tied to those of its neighbours, so that a sliver "
-                      "of contact bears no peak; 0: none is tied, as in most published computations; penalty and pressure overclosure tie none")
+                      "of contact bears no peak; 0: none is tied, as in most published computations; penalty ties none")
                      .unit("-")
                      .at_least(0.0)
                      .at_most(1.0));
