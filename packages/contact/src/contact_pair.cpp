@@ -31,8 +31,8 @@ void ContactOptions::describe(Parameters& parameters) {
           .unit("length"));
   parameters.add("complementarity constant", complementarity_constant,
                  Says("c_n times A_j: weighs gap against pressure in the choice of the active set; changes no solution; default: Young's modulus "
-                      "of the softer side over the shortest slave facet, of penalty and augmented Lagrange a tenth of that; allowed: 1e-4 to 1e4 "
-                      "times that ratio")
+                      "of the softer side over the shortest slave facet, of penalty, pressure overclosure and augmented Lagrange a tenth of that; "
+                      "allowed: 1e-4 to 1e4 times that ratio")
                      .unit("stress / length")
                      .above(0.0));
   mortar.describe(parameters);

@@ -4,6 +4,7 @@
 #include "mortise/contact/formulation/dual_mortar.hpp"
 #include "mortise/contact/formulation/node_to_segment.hpp"
 #include "mortise/contact/formulation/penalty.hpp"
+#include "mortise/contact/formulation/pressure_overclosure.hpp"
 #include "mortise/contact/formulation/standard_mortar.hpp"
 #include "mortise/contact/formulation/variational_mortar.hpp"
 
@@ -19,6 +20,7 @@ const Registry<Formulation>& formulation_registry() {
     formulations.add<NodeToSegment>("node to segment", "multipliers at slave nodes, saddle point system");
     formulations.add<Penalty>("penalty", "tractions in proportion to penetration and slip");
     formulations.add<AugmentedLagrange>("augmented lagrange", "penalty, its multipliers updated until nothing penetrates (Uzawa)");
+    formulations.add<PressureOverclosure>("pressure overclosure", "pressures that are a given function of the mean gap");
     return formulations;
   }();
   return registry;

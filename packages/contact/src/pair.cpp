@@ -26,6 +26,7 @@ Pair::Pair(RCP<const Map> owned_nodes, RCP<const MultiVector> reference, RCP<con
     fixed_axes_.push_back(node.partly_fixed() ? static_cast<int>(first_fixed - node.fixed.begin()) : -1);
   }
   enforcement_ = pair_.options.formulation.options->enforcement();
+  refuse_reach_short_of_onset();
   if (pair_.options.friction.options->acts()) friction_ = pair_.options.friction.options.get();
 }
 
@@ -43,6 +44,17 @@ void Pair::refuse_constant_out_of_range() const {
       fmt::format("\"complementarity constant\" is {:g}; allowed: {:.2g} to {:.2g}, as errors of the iteration would choose the active set "
                   "beyond; please take about Young's modulus over the side of a facet, here {:.2g}, or leave it out",
                   *constant, least, largest, facet));
+}
+
+// Nothing is integrated beyond the reach: there pressures would jump from 0 to what they are at that distance.
+void Pair::refuse_reach_short_of_onset() const {
+  const double distance = -enforcement_->onset(), reach = interface_->reach();
+  if (distance <= reach) return;
+  throw InputError(
+      pair_.place,
+      fmt::format("the search reach is {:g}, and surfaces act on one another from a distance of {:g} on: pressures would jump where they "
+                  "come within reach; please give a \"search reach\" of {:g} or more",
+                  reach, distance, distance));
 }
 
 double Pair::complementarity_constant(std::size_t s) const {

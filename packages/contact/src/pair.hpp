@@ -68,6 +68,7 @@ class Pair {
   using Places = std::vector<std::vector<LocalOrdinal>>;
 
   void refuse_constant_out_of_range() const;
+  void refuse_reach_short_of_onset() const;
   std::vector<NodeRow> rows_of(const InterfacePattern& pattern, const std::vector<FacetCoupling>& couplings, const std::vector<NodalNormal>& normals,
                                bool derivatives, std::vector<double>& gaps) const;
   void measure_covered(const InterfacePattern& pattern, const std::vector<FacetCoupling>& couplings, std::vector<NodeRow>& rows) const;

@@ -2,6 +2,7 @@
 // The conditions of one pair's nodes at one configuration, with one history.
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -68,8 +69,10 @@ class PairEvaluation {
   bool covered(std::size_t s) const { return pair_->covered(s, row(s)); }
   /// Closed: covered, and the enforcement takes it to be closed.
   bool closed(std::size_t s, const NodeMultiplier& multiplier) const;
-  /// z_n above which a covered node without history is closed: c_n g.
-  double closing_pressure(std::size_t s) const { return pair_->complementarity_constant(s) * own_gap(s); }
+  /// That to where a node bears pressure, which may be deeper than where the surfaces touch.
+  double gap_to_onset(std::size_t s) const { return own_gap(s) + std::max(0.0, pair_->enforcement().onset()) * row(s).covered; }
+  /// z_n above which a covered node without history is closed: c_n g, g that to where it bears pressure.
+  double closing_pressure(std::size_t s) const { return pair_->complementarity_constant(s) * gap_to_onset(s); }
   /// Whether the multiplier of node s is eliminated by its conditions and not by its momentum. So it is where the enforcement has it so, and
   /// that of a tied node of which so little is covered, D_jj < (1 - w) A_j, that its tie is the larger pivot.
   bool is_eliminated_by_law(std::size_t s) const {

@@ -114,7 +114,7 @@ ContactHistory ContactSystem::start_step(const ContactHistory& accepted, const N
         if (self.multiplier_of[p][s] >= 0) set(s, 0.0);
         continue;
       }
-      const double gap = pair.own_gap(s) / pair.slave_nodes()[s].weight;
+      const double gap = pair.gap_to_onset(s) / pair.slave_nodes()[s].weight;
       bool closed = pair.closed(s, multipliers[s]);
       if (!closed && std::abs(gap) < touching * pair.pair().size()) {
         set(s, pressure);
@@ -129,7 +129,7 @@ ContactHistory ContactSystem::start_step(const ContactHistory& accepted, const N
     nearest = -self.maximum(-nearest);
     const double reach = std::max(detail::near * pair.pair().size(), nearest + touching * pair.pair().size());
     for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
-      if (!pair.covered(s) || pair.own_gap(s) > reach * pair.slave_nodes()[s].weight) continue;
+      if (!pair.covered(s) || pair.gap_to_onset(s) > reach * pair.slave_nodes()[s].weight) continue;
       set(s, std::max(0.0, pair.closing_pressure(s)) + pressure);
     }
   }

@@ -8,6 +8,7 @@
 #include "mortise/contact/formulation/augmented_lagrange.hpp"
 #include "mortise/contact/formulation/node_to_segment.hpp"
 #include "mortise/contact/formulation/penalty.hpp"
+#include "mortise/contact/formulation/pressure_overclosure.hpp"
 #include "mortise/contact/formulation/standard_mortar.hpp"
 #include "mortise/contact/formulation/variational_mortar.hpp"
 #include "mortise/mortar/coupling/node_to_segment.hpp"
@@ -34,12 +35,36 @@ inline std::vector<NamedFormulation> other_formulations() {
     result->normal = 3.0;
     return result;
   };
+  const auto soft = [](const SharedCoupling& discretisation, const std::shared_ptr<PressureLaw>& law) {
+    const auto result = std::make_shared<PressureOverclosure>();
+    result->discretisation = discretisation;
+    result->law.options = law;
+    result->tangential = 40.0;
+    return result;
+  };
+  const auto linear = std::make_shared<LinearPressure>();
+  linear->stiffness = 25.0;
+  const auto exponential = [](ExponentialPressure::Curve curve) {
+    const auto law = std::make_shared<ExponentialPressure>();
+    law->clearance = 0.04;
+    law->pressure = 1.5;
+    law->curve = curve;
+    return law;
+  };
+  const auto table = std::make_shared<TabulatedPressure>();
+  table->overclosures = {-0.04, 0.013, 0.047};
+  table->pressures = {0.0, 0.7, 2.3};
   return {{"standard mortar", std::make_shared<StandardMortar>()},
           {"variational mortar", std::make_shared<VariationalMortar>()},
           {"node to segment", std::make_shared<NodeToSegment>()},
           {"penalty", penalty(coupling_of<DualMortarCoupling>())},
           {"penalty of standard mortar", penalty(coupling_of<StandardMortarCoupling>())},
           {"penalty of node to segment", penalty(coupling_of<NodeToSegmentCoupling>())},
+          {"linear overclosure", soft(coupling_of<DualMortarCoupling>(), linear)},
+          {"exponential overclosure", soft(coupling_of<DualMortarCoupling>(), exponential(ExponentialPressure::Curve::from_zero))},
+          {"exponential overclosure of standard mortar",
+           soft(coupling_of<StandardMortarCoupling>(), exponential(ExponentialPressure::Curve::from_hundredth))},
+          {"tabulated overclosure of node to segment", soft(coupling_of<NodeToSegmentCoupling>(), table)},
           {"augmented lagrange", augmented(coupling_of<DualMortarCoupling>())},
           {"augmented lagrange of standard mortar", augmented(coupling_of<StandardMortarCoupling>())}};
 }

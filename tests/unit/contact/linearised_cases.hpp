@@ -173,6 +173,12 @@ inline std::vector<Case> cases() {
   const auto augmented = std::make_shared<AugmentedLagrange>();
   add_in_space("hardly covered, coulomb, augmented lagrange", 0.12)->options.formulation.options = augmented;
   add_in_space("hardly covered, coulomb, high, augmented lagrange", 3.0)->options.formulation.options = augmented;
+  const auto exponential = std::make_shared<ExponentialPressure>();
+  exponential->clearance = 0.05;
+  exponential->pressure = 1.5;
+  const auto soft = std::make_shared<PressureOverclosure>();
+  soft->law.options = exponential;
+  add_in_space("hardly covered, coulomb, pressure overclosure", 0.12)->options.formulation.options = soft;
   add_quadratic(all);
   add_corners(all);
   // Interferences and gaps that are prescribed, of time and place.

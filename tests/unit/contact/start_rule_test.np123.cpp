@@ -47,6 +47,28 @@ TEST_P(StartRule, ClosesNodesThatTouchAndSeedsUnheldBodies) {
   EXPECT_LE(nearest, 2);
 }
 
+// Surfaces that touch bear nothing yet; a body that only contact holds is seeded up to where they do.
+TEST(StartRuleOfPressureLaws, SeedsWhereThePressureBegins) {
+  const auto table = std::make_shared<TabulatedPressure>();
+  table->overclosures = {0.1, 0.2};
+  table->pressures = {0.0, 10.0};
+  const auto formulation = std::make_shared<PressureOverclosure>();
+  formulation->law.options = table;
+  TwoSurfaces flat;
+  flat.options.formulation.options = formulation;
+  for (int i = 0; i < 5; ++i) flat.slave.push_back({1.0 * i, 0.0, 0.0});
+  for (int i = 0; i < 4; ++i) flat.master.push_back({4.0 * (3 - i) / 3.0, 0.0, 0.0});
+  flat.fixed.assign(flat.size(), {});
+  Fixture fixture(flat, Tpetra::getDefaultComm());
+  const ContactSystem& contact = *fixture.contact;
+  for (const char unheld : {0, 1}) {
+    Vector d(fixture.dofs), z(contact.multiplier_map());
+    const std::vector<char> unconstrained(fixture.nodes->getNodeNumElements(), unheld);
+    const ContactHistory history = contact.start_step(contact.initial_history(d), d, unconstrained, z);
+    EXPECT_EQ(contact.evaluate(d, history).laws(z).norms(history->states).active, unheld ? 5 : 0);
+  }
+}
+
 /// A flat slave of squares, 4 x 4 nodes at unit distance; in 2D one row of 6 nodes. The master, at height 0, ends at x = `end`.
 TwoSurfaces flat_up_to(double end, bool space) {
   TwoSurfaces flat = space ? test::dome_on_waves() : TwoSurfaces();

@@ -70,6 +70,10 @@ class Enforcement {
   /// times softer than a facet.
   virtual double relative_constant() const { return 0.1; }
 
+  /// Mean overclosure -g / w up to which a node bears no traction [length]. Below 0 nodes act on one another before they touch, which has to be
+  /// within the search reach.
+  virtual double onset() const { return 0.0; }
+
   /// Whether nodes remember multipliers of an accepted state or of an update: ContactNode::start.
   virtual bool starts_from_multipliers() const { return false; }
   /// What they remember of a multiplier.

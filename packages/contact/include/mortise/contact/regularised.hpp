@@ -14,6 +14,40 @@ struct RegularisedNode {
   SpatialVector multiplier;           ///< (lambda_n, lambda_tau) in the node's frame: held fixed
 };
 
+/// Adds to `law`, the normal condition C_n = z_n - p of a node, the rows of friction with a stiffness:
+///   C_tau = z_tau - Pi_rho(y),   y = (1 - theta_t) z_tau + theta_t (lambda_tau + eps_t u / w),   rho at p
+/// @param pressure  p, whose derivatives are dp = dz_n - dC_n
+template <class Bound>
+void add_regularised_friction(Complementarity& law, double pressure, const RegularisedNode& node, const TangentVector& slip, double weight,
+                              const Frame& frame, const SpatialVector& z, const Bound& bound) {
+  const Eigen::Index tangents = frame.tangents.rows();
+  const double body = node.body_stiffness * weight, theta_t = body / (body + node.tangential_stiffness * node.full_weight);
+  const double stiffness = theta_t * node.tangential_stiffness / weight;
+  const TangentVector beyond = law.C.tail(tangents) - node.multiplier.tail(tangents);  // z_tau - lambda_tau
+  const TangentVector y = node.multiplier.tail(tangents) + (1.0 - theta_t) * beyond + stiffness * slip;
+  const FrictionBound limit = bound(pressure);
+  // dC_tau = dz_tau - response dy - slope dp,   dy = (1 - theta_t) dz_tau + stiffness du - theta_t / w ((1 - theta_t) (z_tau - lambda_tau) +
+  // stiffness u) dw
+  TangentMatrix response = TangentMatrix::Identity(tangents, tangents);
+  TangentVector slope = TangentVector::Zero(tangents);
+  if (y.norm() < at_the_bound * limit.value) {
+    law.state = ContactState::stick;
+    law.C.tail(tangents) -= y;
+  } else {
+    const SlipDirection direction(y, limit.value);
+    response = direction.turning;
+    slope = limit.slope * direction.along;
+    law.C.tail(tangents) -= direction.length * direction.along;
+  }
+  const TangentMatrix of_traction = TangentMatrix::Identity(tangents, tangents) - (1.0 - theta_t) * response;
+  const SpatialVector p_z = frame.normal - law.C_z.row(0).transpose(), p_normal = z - law.normal_factor.row(0).transpose();
+  law.C_z.bottomRows(tangents) = of_traction * frame.tangents - slope * p_z.transpose();
+  law.normal_factor.bottomRows(tangents) = of_traction * SpatialMatrix(law.normal_factor.bottomRows(tangents)) - slope * p_normal.transpose();
+  law.gap_factor.tail(tangents) = law.gap_factor[0] * slope;
+  law.slip_factor = -stiffness * response;
+  law.weight_factor.tail(tangents) = theta_t / weight * (response * ((1.0 - theta_t) * beyond + stiffness * slip)) + law.weight_factor[0] * slope;
+}
+
 /// C of a node whose tractions follow from averages over its share w = sum_k D_jk of the surface: g / w of the gap and u / w of the slip,
 ///   z_n = max(0, lambda_n - eps_n g / w),   z_tau = Pi_rho(lambda_tau + eps_t u / w).
 /// Pi_rho is the projection on the ball of radius rho, the bound at z_n (Simo, Laursen 1992). What stands in max and Pi_rho tells states apart. With
@@ -28,43 +62,16 @@ template <class Bound>
 Complementarity regularised(const RegularisedNode& node, double gap, const TangentVector& slip, double weight, const Frame& frame,
                             const SpatialVector& z, const Bound* bound) {
   const double body = node.body_stiffness * weight;
-  const auto share = [&](double stiffness) { return body / (body + stiffness * node.full_weight); };
-  const double theta_n = share(node.normal_stiffness), normal_stiffness = theta_n * node.normal_stiffness / weight;
+  const double theta_n = body / (body + node.normal_stiffness * node.full_weight), normal_stiffness = theta_n * node.normal_stiffness / weight;
   const double z_n = z.dot(frame.normal), pressure = (1.0 - theta_n) * z_n + theta_n * node.multiplier[0] - normal_stiffness * gap;
   if (!(pressure > 0.0)) return open_node(z);
-  const Eigen::Index tangents = frame.tangents.rows();
   // dp = (1 - theta_n) dz_n - normal_stiffness dg - theta_n / w ((1 - theta_n) (z_n - lambda_n) - normal_stiffness g) dw
   Complementarity result = closed_node(normal_stiffness, gap, frame, z);
   result.C[0] = z_n - pressure;
   result.C_z.row(0) = theta_n * frame.normal.transpose();
   result.weight_factor[0] = theta_n / weight * ((1.0 - theta_n) * (z_n - node.multiplier[0]) - normal_stiffness * gap);
   result.normal_factor.row(0) = theta_n * z.transpose();
-  if (bound == nullptr) return result;
-  const double theta_t = share(node.tangential_stiffness), stiffness = theta_t * node.tangential_stiffness / weight;
-  const TangentVector beyond = result.C.tail(tangents) - node.multiplier.tail(tangents);  // z_tau - lambda_tau
-  const TangentVector y = node.multiplier.tail(tangents) + (1.0 - theta_t) * beyond + stiffness * slip;
-  const FrictionBound limit = (*bound)(pressure);
-  // dC_tau = dz_tau - response dy - slope dp,   dy = (1 - theta_t) dz_tau + stiffness du - theta_t / w ((1 - theta_t) (z_tau - lambda_tau) +
-  // stiffness u) dw
-  TangentMatrix response = TangentMatrix::Identity(tangents, tangents);
-  TangentVector slope = TangentVector::Zero(tangents);
-  if (y.norm() < at_the_bound * limit.value) {
-    result.state = ContactState::stick;
-    result.C.tail(tangents) -= y;
-  } else {
-    const SlipDirection direction(y, limit.value);
-    response = direction.turning;
-    slope = limit.slope * direction.along;
-    result.C.tail(tangents) -= direction.length * direction.along;
-  }
-  const TangentMatrix of_traction = TangentMatrix::Identity(tangents, tangents) - (1.0 - theta_t) * response;
-  result.C_z.bottomRows(tangents) = of_traction * frame.tangents - (1.0 - theta_n) * slope * frame.normal.transpose();
-  result.normal_factor.bottomRows(tangents) =
-      of_traction * SpatialMatrix(result.normal_factor.bottomRows(tangents)) - (1.0 - theta_n) * slope * z.transpose();
-  result.gap_factor.tail(tangents) = normal_stiffness * slope;
-  result.slip_factor = -stiffness * response;
-  result.weight_factor.tail(tangents) =
-      theta_t / weight * (response * ((1.0 - theta_t) * beyond + stiffness * slip)) + result.weight_factor[0] * slope;
+  if (bound != nullptr) add_regularised_friction(result, pressure, node, slip, weight, frame, z, *bound);
   return result;
 }
 

@@ -1,0 +1,70 @@
+#include "mortise/contact/formulation/pressure_overclosure.hpp"
+
+#include <stdexcept>
+
+namespace mortise {
+
+namespace {
+/// The list "law" of the formulation.
+struct PressureLawList {
+  Choice<PressureLaw>& law;
+  void describe(Parameters& parameters) { parameters.choose(law, pressure_law_registry(), "how the pressure grows with the overclosure"); }
+};
+}  // namespace
+
+// Where forces are the gaps' derivatives, a law in the place of the multipliers would need these at all nodes that gaps depend on.
+void PressureOverclosure::describe(Parameters& parameters) {
+  std::vector<std::pair<std::string, SharedCoupling>> choices;
+  for (const SharedCoupling& one : coupling_registry())
+    if (!one->has_forces_of_gaps()) choices.emplace_back(one->name(), one);
+  parameters.add("discretisation", discretisation, choices, "what tractions act through");
+  parameters.add("tangential stiffness", tangential,
+                 Says("shear traction per slip before sliding; default: the stiffness of a linear law, the slope of an exponential one where the "
+                      "surfaces just touch, the steepest slope of a table")
+                     .unit("stress / length")
+                     .above(0.0));
+  PressureLawList list{law};
+  parameters.list("law", list, "pressure as a function of the overclosure, the mean gap with the opposite sign");
+}
+
+SharedEnforcement PressureOverclosure::enforcement() const {
+  if (!law.options) throw std::logic_error("contact: a pressure overclosure without a law; give a PressureLaw, as LinearPressure");
+  if (const auto fault = law.options->fault()) throw std::logic_error("contact: " + *fault);
+  return std::make_shared<const PressureOverclosureEnforcement>(law.options, tangential.value_or(law.options->typical_slope()));
+}
+
+// The condition z_n = p(h) at h = -g / w. For any c > 0 a point (h, z_n) is on the curve if and only if it is where the line through it of the slope
+// -c meets the curve, as p never falls (Minty 1962):
+//   C_n = z_n - P(s),   s = z_n + c h,   P = p(h*),   p(h*) + c h* = s.
+// So the solution is that of the law whatever c is. But P grows no faster than s, dP/ds = p' / (p' + c) < 1 with p' = p'(h*), however steep the law
+// is, and z_n tells a node's place on the curve as well as its gap does: no trial gap makes an exponential overflow. Of a linear law it is
+// regularised(), whose c of a node that is covered in part it has too.
+//   dP = p' / (p' + c) (dz_n + c dh + (h - h*) dc),   dh = -dg / w - h dw / w,   dc = c dw / w   =>   c dh + (h - h*) dc = -c / w (dg + h* dw)
+Complementarity PressureOverclosureEnforcement::law(const ContactNode& node) const {
+  const Frame frame = node.frame();
+  const double c = node.constant * node.weight, h = -node.gap / node.weight, z_n = node.z.dot(node.normal);
+  const PressurePoint point = law_->on_line(z_n + c * h, c);
+  if (!(point.pressure > 0.0)) return open_node(node.z);
+  const double share = c / (point.slope + c), of_gap = share * point.slope / node.weight;
+  Complementarity result = closed_node(of_gap, node.gap, frame, node.z);
+  result.C[0] = z_n - point.pressure;
+  result.C_z.row(0) = share * node.normal.transpose();
+  result.normal_factor.row(0) = share * node.z.transpose();
+  result.weight_factor[0] = of_gap * point.overclosure;
+  if (!node.friction) return result;
+  RegularisedNode sticking;
+  sticking.tangential_stiffness = tangential_;
+  sticking.body_stiffness = node.constant * node.full_weight;
+  sticking.full_weight = node.full_weight;
+  sticking.multiplier = node.start->multiplier;
+  add_regularised_friction(result, point.pressure, sticking, node.slip, node.weight, frame, node.z, *node.friction);
+  return result;
+}
+
+SpatialVector PressureOverclosureEnforcement::start_from(const SpatialVector& traction) const {
+  SpatialVector shear = traction;
+  shear[0] = 0.0;
+  return shear;
+}
+
+}  // namespace mortise
