@@ -125,7 +125,7 @@ ContactSystem::ContactSystem(const NodalField& displacement, RCP<const Map> dofs
   detail::ContactModel& self = *model;
   self.dofs = std::move(dofs);
   self.reference = std::move(reference);
-  self.fixed = fixed;
+  self.fixed = detail::without_crosspoints(fixed);
   self.timers = timers;
   self.dimension = static_cast<int>(self.reference->getNumVectors());
   for (std::size_t i = 0; i < self.reference->getNumVectors(); ++i) self.extent = std::max(self.extent, self.reference->getVector(i)->normInf());

@@ -47,4 +47,13 @@ std::vector<RCP<const MultiVector>> with_crosspoints(const RCP<const Map>& owned
   return marks;
 }
 
+RCP<const MultiVector> without_crosspoints(const RCP<const MultiVector>& fixed) {
+  const auto marks = rcp(new MultiVector(*fixed, Teuchos::Copy));
+  const auto view = marks->getLocalViewHost(Tpetra::Access::ReadWrite);
+  for (std::size_t node = 0; node < view.extent(0); ++node)
+    for (std::size_t i = 0; i < view.extent(1); ++i)
+      if (view(node, i) == crosspoint_mark) view(node, i) = 0.0;
+  return marks;
+}
+
 }  // namespace mortise::detail

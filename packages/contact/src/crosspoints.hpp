@@ -15,4 +15,7 @@ namespace mortise::detail {
 std::vector<RCP<const MultiVector>> with_crosspoints(const RCP<const Map>& owned_nodes, const RCP<const MultiVector>& fixed,
                                                      const std::vector<ContactPair>& pairs);
 
+/// The marks of what is prescribed or follows, where `fixed` also has crosspoint_mark: nodes that carry no multiplier of any pair, but move.
+RCP<const MultiVector> without_crosspoints(const RCP<const MultiVector>& fixed);
+
 }  // namespace mortise::detail

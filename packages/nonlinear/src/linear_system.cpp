@@ -76,7 +76,7 @@ LinearSystem reduced(const SystemModel& model, const EvaluatedSystem& at, Linear
   }
   system.matrix = follow.reduced(*system.matrix, at.forces);
   system.rhs = follow.reduced(*system.rhs);
-  system.prescribed = reduction.places(system.prescribed);
+  system.prescribed = reduction.held_places(system.prescribed);
   system.increment = reduction.unknown_part(*system.increment);
   const MultigridInput of_dofs = system.multigrid;
   if (of_dofs.near_null_space) system.multigrid.near_null_space = [&reduction, of_dofs] { return reduction.reduced(of_dofs.near_null_space()); };

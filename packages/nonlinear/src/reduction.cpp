@@ -11,12 +11,25 @@
 #include <utility>
 
 namespace mortise::detail {
+namespace {
 
-Reduction::Reduction(std::shared_ptr<const DependentDisplacements> followers, const RCP<const Map>& dofs, const RCP<const Map>& local_dofs)
-    : followers_(std::move(followers)), dofs_(dofs) {
-  const std::vector<LocalOrdinal>& dependent = followers_->dofs();
+RCP<const Matrix> product(const Matrix& A, const Matrix& B) {
+  const auto result = rcp(new Matrix(A.getRowMap(), 0));
+  Tpetra::MatrixMatrix::Multiply(A, false, B, false, *result);
+  return result;
+}
+
+}  // namespace
+
+Reduction::Reduction(std::shared_ptr<const DependentDisplacements> followers, std::shared_ptr<const TiedDisplacements> tied,
+                     const RCP<const Map>& dofs, const RCP<const Map>& local_dofs)
+    : followers_(std::move(followers)), tied_(std::move(tied)), dofs_(dofs) {
+  if (followers_) following_ = followers_->dofs();
+  dependents_ = following_;
+  if (tied_) dependents_.insert(dependents_.end(), tied_->dofs.begin(), tied_->dofs.end());
+  std::sort(dependents_.begin(), dependents_.end());
   place_of_.assign(dofs->getNodeNumElements(), 0);
-  for (const LocalOrdinal dof : dependent) place_of_[dof] = -1;
+  for (const LocalOrdinal dof : following_) place_of_[dof] = -1;
   LocalOrdinal count = 0;
   for (LocalOrdinal& place : place_of_)
     if (place >= 0) place = count++;
@@ -32,7 +45,7 @@ Reduction::Reduction(std::shared_ptr<const DependentDisplacements> followers, co
   }
   local_ids.doImport(ids, Import(dofs, local_dofs), Tpetra::INSERT);
   const Vector start(local_dofs);
-  const std::vector<Dependence> dependences = followers_->evaluate(start);
+  const std::vector<Dependence> dependences = evaluate(start);
   {
     const auto view = local_ids.getLocalViewHost(Tpetra::Access::ReadOnly);
     for (const Dependence& dependence : dependences) {
@@ -48,35 +61,66 @@ Reduction::Reduction(std::shared_ptr<const DependentDisplacements> followers, co
     const GlobalOrdinal column = unknowns_->getGlobalElement(place_of_[dof]);
     graph->insertGlobalIndices(dofs->getGlobalElement(dof), 1, &column);
   }
-  for (std::size_t n = 0; n < dependent.size(); ++n)
-    graph->insertGlobalIndices(dofs->getGlobalElement(dependent[n]), dependences[n].sources, sources_[n].data());
+  for (std::size_t n = 0; n < following_.size(); ++n)
+    graph->insertGlobalIndices(dofs->getGlobalElement(following_[n]), dependences[n].sources, sources_[n].data());
   graph->fillComplete(unknowns_, dofs);
   graph_ = graph;
+  if (followers_) return;
+  const auto renumbered = rcp(new Matrix(graph_));
+  renumbered->setAllToScalar(1.0);
+  renumbered->fillComplete(unknowns_, dofs_);
+  constant_T_ = product(*tied_->T, *renumbered);
 }
 
-std::vector<LocalOrdinal> Reduction::places(const std::vector<LocalOrdinal>& dofs) const {
+std::vector<LocalOrdinal> Reduction::held_places(const std::vector<LocalOrdinal>& prescribed) const {
   std::vector<LocalOrdinal> places;
-  for (const LocalOrdinal dof : dofs) places.push_back(place_of_.at(dof));
+  for (const LocalOrdinal dof : prescribed) places.push_back(place_of_.at(dof));
+  if (!tied_) return places;
+  for (const LocalOrdinal dof : tied_->dofs) places.push_back(place_of_.at(dof));
+  std::sort(places.begin(), places.end());
   return places;
 }
 
+std::vector<Dependence> Reduction::evaluate(const Vector& local_displacement) const {
+  return followers_ ? followers_->evaluate(local_displacement) : std::vector<Dependence>{};
+}
+
 FollowedDisplacements::FollowedDisplacements(std::shared_ptr<const Reduction> reduction, const Vector& local_displacement)
-    : reduction_(std::move(reduction)), dependences_(reduction_->followers_->evaluate(local_displacement)), T_(rcp(new Matrix(reduction_->graph_))) {
+    : reduction_(std::move(reduction)), dependences_(reduction_->evaluate(local_displacement)), T_(reduction_->constant_T_) {
+  if (!T_.is_null()) return;
   const Map& dofs = *reduction_->dofs_;
-  T_->setAllToScalar(1.0);
+  const auto of_followers = rcp(new Matrix(reduction_->graph_));
+  of_followers->setAllToScalar(1.0);
   for (std::size_t n = 0; n < dependences_.size(); ++n)
-    T_->replaceGlobalValues(dofs.getGlobalElement(reduction_->followers_->dofs()[n]), dependences_[n].sources, dependences_[n].gradient.data(),
-                            reduction_->sources_[n].data());
-  T_->fillComplete(reduction_->unknowns_, reduction_->dofs_);
+    of_followers->replaceGlobalValues(dofs.getGlobalElement(reduction_->following_[n]), dependences_[n].sources, dependences_[n].gradient.data(),
+                                      reduction_->sources_[n].data());
+  of_followers->fillComplete(reduction_->unknowns_, reduction_->dofs_);
+  T_ = of_followers;
+  if (reduction_->tied_) T_ = product(*reduction_->tied_->T, *of_followers);
+}
+
+RCP<const Vector> FollowedDisplacements::untied(const Vector& r) const {
+  if (!reduction_->tied_) return Teuchos::rcpFromRef(r);
+  const auto gathered = rcp(new Vector(reduction_->dofs_));
+  reduction_->tied_->T->apply(r, *gathered, Teuchos::TRANS);
+  return gathered;
 }
 
 double FollowedDisplacements::deviation(const Vector& displacement, double factor, Vector& deviation) const {
-  const auto d = displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
+  Vector follows(displacement, Teuchos::Copy);  // P (q, g(q))
+  {
+    const auto value = follows.getLocalViewHost(Tpetra::Access::ReadWrite);
+    for (std::size_t n = 0; n < dependences_.size(); ++n) value(reduction_->following_[n], 0) = dependences_[n].value;
+  }
+  if (reduction_->tied_) {
+    const Vector of_followers(follows, Teuchos::Copy);
+    reduction_->tied_->T->apply(of_followers, follows);
+  }
+  const auto d = displacement.getLocalViewHost(Tpetra::Access::ReadOnly), value = follows.getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto result = deviation.getLocalViewHost(Tpetra::Access::ReadWrite);
   double largest = 0.0;
-  for (std::size_t n = 0; n < dependences_.size(); ++n) {
-    const LocalOrdinal dof = reduction_->followers_->dofs()[n];
-    const double difference = d(dof, 0) - dependences_[n].value;
+  for (const LocalOrdinal dof : reduction_->dependents_) {
+    const double difference = d(dof, 0) - value(dof, 0);
     largest = std::max(largest, std::abs(difference));
     result(dof, 0) = factor * difference;
   }
@@ -155,29 +199,35 @@ RCP<Vector> FollowedDisplacements::expanded(const Vector& dq) const {
 
 void FollowedDisplacements::gather(Vector& r) const {
   const RCP<Vector> q = reduced(r);
+  if (reduction_->tied_) r.assign(*untied(r));
   const auto from = q->getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto to = r.getLocalViewHost(Tpetra::Access::ReadWrite);
   for (std::size_t dof = 0; dof < reduction_->place_of_.size(); ++dof)
     if (reduction_->place_of_[dof] >= 0) to(dof, 0) = from(reduction_->place_of_[dof], 0);
 }
 
-// A matrix of the few rows that are followed; its diagonal is there even where nothing is curved.
+// A matrix of the few rows that are followed or tied; its diagonal is there even where nothing is curved.
 RCP<Matrix> FollowedDisplacements::curvature(const Vector& r) const {
   const auto matrix = rcp(new Matrix(reduction_->unknowns_, Dependence::most));
-  const auto force = r.getLocalViewHost(Tpetra::Access::ReadOnly);
+  const RCP<const Vector> gathered = untied(r);
+  const auto force = gathered->getLocalViewHost(Tpetra::Access::ReadOnly);
   for (std::size_t n = 0; n < dependences_.size(); ++n) {
     const Dependence& dependence = dependences_[n];
     for (int k = 0; k < dependence.sources; ++k) {
       std::array<double, Dependence::most> row{};
-      for (int l = 0; l < dependence.sources; ++l) row[l] = force(reduction_->followers_->dofs()[n], 0) * dependence.curvature[k][l];
+      for (int l = 0; l < dependence.sources; ++l) row[l] = force(reduction_->following_[n], 0) * dependence.curvature[k][l];
       matrix->insertGlobalValues(reduction_->sources_[n][k], dependence.sources, row.data(), reduction_->sources_[n].data());
     }
   }
-  for (const LocalOrdinal dof : reduction_->followers_->followed()) {
-    const GlobalOrdinal id = reduction_->unknowns_->getGlobalElement(reduction_->place_of_[dof]);
-    const double zero = 0.0;
-    matrix->insertGlobalValues(id, 1, &zero, &id);
-  }
+  const auto add_diagonal = [&](const std::vector<LocalOrdinal>& of) {
+    for (const LocalOrdinal dof : of) {
+      const GlobalOrdinal id = reduction_->unknowns_->getGlobalElement(reduction_->place_of_[dof]);
+      const double zero = 0.0;
+      matrix->insertGlobalValues(id, 1, &zero, &id);
+    }
+  };
+  if (reduction_->followers_) add_diagonal(reduction_->followers_->followed());
+  if (reduction_->tied_) add_diagonal(reduction_->tied_->dofs);
   matrix->fillComplete(reduction_->unknowns_, reduction_->unknowns_);
   return matrix;
 }

@@ -11,16 +11,20 @@
 
 namespace mortise::detail {
 
-/// What of a displacement d = (q, g(q)) is an unknown. The unknowns q are numbered without gaps, in the order of the dofs.
+/// What of a displacement d = P (q, g(q)) is an unknown: g of followers, P of what is tied. The unknowns q are numbered without gaps, in the order of
+/// the dofs. Tied dofs keep their numbers, for multigrid wants whole nodes: their columns of P are empty, and their increments prescribed as 0.
 class Reduction {
  public:
-  /// `local_dofs`: owned dofs, then ghosts, as the followers want their displacement. Collective.
-  Reduction(std::shared_ptr<const DependentDisplacements> followers, const RCP<const Map>& dofs, const RCP<const Map>& local_dofs);
+  /// `local_dofs`: owned dofs, then ghosts, as the followers want their displacement. One of `followers` and `tied` may be null. Collective.
+  Reduction(std::shared_ptr<const DependentDisplacements> followers, std::shared_ptr<const TiedDisplacements> tied, const RCP<const Map>& dofs,
+            const RCP<const Map>& local_dofs);
 
   /// Map of q.
   const RCP<const Map>& unknowns() const { return unknowns_; }
-  /// Local indices in unknowns() of owned dofs, none of which follows.
-  std::vector<LocalOrdinal> places(const std::vector<LocalOrdinal>& dofs) const;
+  /// Owned dofs that follow or are tied, ascending.
+  const std::vector<LocalOrdinal>& dependents() const { return dependents_; }
+  /// Local indices in unknowns(), ascending, of owned dofs that are prescribed, none of which follows, and of those that are tied.
+  std::vector<LocalOrdinal> held_places(const std::vector<LocalOrdinal>& prescribed) const;
 
   /// v on unknowns().
   RCP<Vector> unknown_part(const Vector& v) const;
@@ -32,46 +36,52 @@ class Reduction {
  private:
   friend class FollowedDisplacements;
   RCP<MultiVector> unknown_rows(const MultiVector& v) const;
+  std::vector<Dependence> evaluate(const Vector& local_displacement) const;
 
   std::shared_ptr<const DependentDisplacements> followers_;
+  std::shared_ptr<const TiedDisplacements> tied_;
+  std::vector<LocalOrdinal> following_, dependents_;
   RCP<const Map> dofs_, unknowns_;
   std::vector<LocalOrdinal> place_of_;                                ///< [owned dofs] in unknowns(), -1: follows
   std::vector<std::array<GlobalOrdinal, Dependence::most>> sources_;  ///< [followers] ids in unknowns()
-  RCP<const Graph> graph_;                                            ///< of T
+  RCP<const Graph> graph_;                                            ///< of d(q, g(q))/dq
+  RCP<const Matrix> constant_T_;                                      ///< where nothing follows; else null
 };
 
-/// g and its derivatives at a displacement. With T = dd/dq a residual r(d) = 0 becomes T^T r = 0. Its linearisation is
-///   (T^T A T + sum_i r_i d2g_i/dq2) dq = T^T (rhs - A d0),   d0 = g(q) - d on the followers and 0 elsewhere,   dd = T dq + d0.
-/// Collective in all members but deviation().
+/// P (q, g(q)) and its derivatives at a displacement. With T = dd/dq a residual r(d) = 0 becomes T^T r = 0. Its linearisation is
+///   (T^T A T + sum_i (P^T r)_i d2g_i/dq2) dq = T^T (rhs - A d0),   d0 = P (q, g(q)) - d,   dd = T dq + d0.
+/// d0 is 0 but on followers and tied dofs. Collective in all members.
 class FollowedDisplacements {
  public:
   FollowedDisplacements(std::shared_ptr<const Reduction> reduction, const Vector& local_displacement);
 
-  /// Largest |d - g| over this rank, and `deviation`_i = factor (d_i - g_i) on followers. `deviation` keeps its other entries.
+  /// Largest |d0| over this rank, and `deviation`_i = -factor d0_i on followers and tied dofs. `deviation` keeps its other entries.
   double deviation(const Vector& displacement, double factor, Vector& deviation) const;
 
-  /// r becomes T^T r on the dofs that are unknowns and stays on followers.
+  /// r becomes T^T r on the dofs that are unknowns, 0 on those that are tied, and on followers what they bear with all that is tied to them.
   void gather(Vector& r) const;
   /// T^T r on the unknowns.
   RCP<Vector> reduced(const Vector& r) const;
   /// T dq on the dofs.
   RCP<Vector> expanded(const Vector& dq) const;
 
-  /// T^T A T + sum_i r_i d2g_i/dq2, with all diagonal entries of dofs that others follow in its graph.
+  /// T^T A T + sum_i (P^T r)_i d2g_i/dq2, with all diagonal entries of tied dofs and of dofs that others follow in its graph.
   RCP<Matrix> reduced(const Matrix& A, const Vector& r) const;
   /// T^T B and C T.
   RCP<Matrix> reduced_rows(const Matrix& B) const;
   RCP<Matrix> reduced_columns(const Matrix& C) const;
 
-  /// y += (sum_i r_i d2g_i/dq2) v on the dofs.
+  /// y += (sum_i (P^T r)_i d2g_i/dq2) v on the dofs.
   void add_curvature(const Vector& r, const Vector& v, Vector& y) const;
 
  private:
   RCP<Matrix> curvature(const Vector& r) const;
+  /// P^T r
+  RCP<const Vector> untied(const Vector& r) const;
 
   std::shared_ptr<const Reduction> reduction_;
   std::vector<Dependence> dependences_;
-  RCP<Matrix> T_;
+  RCP<const Matrix> T_;
 };
 
 }  // namespace mortise::detail

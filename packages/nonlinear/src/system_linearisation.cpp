@@ -70,7 +70,7 @@ void SystemLinearisation::apply(const Vector& v, Vector& y) const {
     const RCP<Vector> followed = at.follow->expanded(*model.reduction()->unknown_part(*v_d));
     const auto change = v_d->getLocalViewHost(Tpetra::Access::ReadOnly), follows = followed->getLocalViewHost(Tpetra::Access::ReadOnly);
     const auto rows = y_d->getLocalViewHost(Tpetra::Access::ReadWrite);
-    for (const LocalOrdinal row : model.parts().dependent->dofs()) rows(row, 0) = model.stiffness_scale() * (change(row, 0) - follows(row, 0));
+    for (const LocalOrdinal row : model.reduction()->dependents()) rows(row, 0) = model.stiffness_scale() * (change(row, 0) - follows(row, 0));
   }
   const auto step = v_d->getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto rows = y_d->getLocalViewHost(Tpetra::Access::ReadWrite);

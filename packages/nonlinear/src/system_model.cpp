@@ -44,7 +44,7 @@ SystemModel::SystemModel(SystemParts parts, Timers timers)
     map_ = map_of_both(*parts_.dofs, *multipliers_);
   }
   if (parts_.prescribed) prescribed_ = parts_.prescribed->dofs();
-  if (parts_.dependent) reduction_ = std::make_shared<const Reduction>(parts_.dependent, parts_.dofs, parts_.local_dofs);
+  if (parts_.dependent || parts_.tied) reduction_ = std::make_shared<const Reduction>(parts_.dependent, parts_.tied, parts_.dofs, parts_.local_dofs);
   if (parts_.contact && parts_.contact->keeps_multipliers())
     saddle_point_ = std::make_unique<SaddlePointMatrix>(reduction_ ? reduction_->unknowns() : parts_.dofs, multipliers_);
 }

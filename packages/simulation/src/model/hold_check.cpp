@@ -99,17 +99,18 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd& gram) {
 }  // namespace
 
 std::vector<char> check_held(const Mesh& mesh, bool axisymmetric, const MultiVector& fixed, const std::vector<HoldingPair>& pairs,
-                             const std::vector<Place>& body_places) {
+                             const std::vector<Place>& body_places, const TiedDisplacements* tied) {
   std::vector<int> bodies(mesh.bodies.size());
   std::iota(bodies.begin(), bodies.end(), 0);
   const NodePlaces at = node_places(mesh, nullptr);
   const RigidModes modes(mesh, axisymmetric, std::move(bodies), at.x);
-  const Eigen::MatrixXd prescribed = sum_over_ranks(mesh, prescribed_gram(mesh, modes, at, fixed));
+  const Eigen::MatrixXd prescribed = sum_over_ranks(mesh, prescribed_gram(mesh, modes, at, fixed, nullptr));
+  const Eigen::MatrixXd without_contact = tied != nullptr ? sum_over_ranks(mesh, prescribed_gram(mesh, modes, at, fixed, tied)) : prescribed;
   Eigen::MatrixXd contact = Eigen::MatrixXd::Zero(modes.count(), modes.count());
   for (const auto& pair : pairs) contact += contact_gram(mesh, modes, pair);
 
   std::vector<Diagnostic> diagnostics;
-  for (const auto& [body, mode] : distinct_modes(null_space(prescribed + sum_over_ranks(mesh, contact)), modes.per_body()))
+  for (const auto& [body, mode] : distinct_modes(null_space(without_contact + sum_over_ranks(mesh, contact)), modes.per_body()))
     diagnostics.push_back(
         {body_places[body], fmt::format("body '{}' can move: {}; neither boundary conditions nor contact hold it; contact holds where a slave "
                                         "facet is within reach at the start, along its normal, and with friction along the surface",
@@ -117,9 +118,12 @@ std::vector<char> check_held(const Mesh& mesh, bool axisymmetric, const MultiVec
   if (!diagnostics.empty()) throw InputError(diagnostics);
 
   std::vector<char> only_contact;
+  const Eigen::MatrixXd loose = tied != nullptr ? null_space(without_contact) : Eigen::MatrixXd();
+  constexpr double moves = 1e-6;  // in a motion of size 1 of all bodies
   for (Eigen::Index body = 0; body < static_cast<Eigen::Index>(mesh.bodies.size()); ++body) {
     const auto block = prescribed.block(modes.per_body() * body, modes.per_body() * body, modes.per_body(), modes.per_body());
-    only_contact.push_back(null_space(block).cols() > 0);
+    const bool is_tied_down = tied != nullptr && loose.middleRows(modes.per_body() * body, modes.per_body()).norm() < moves;
+    only_contact.push_back(null_space(block).cols() > 0 && !is_tied_down);
   }
   return only_contact;
 }

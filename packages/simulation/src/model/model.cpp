@@ -11,6 +11,7 @@
 
 #include "model/contributions.hpp"
 #include "model/precision.hpp"
+#include "model/surface_ties.hpp"
 #include "mortise/material/materials.hpp"
 #include "mortise/simulation/model/hold_check.hpp"
 #include "mortise/simulation/model/mesh_limits.hpp"
@@ -128,6 +129,14 @@ RCP<MultiVector> marked_components(const Mesh& mesh, const std::vector<LocalOrdi
   return marks;
 }
 
+/// Crosspoints get their mark in components that have none.
+void mark_crosspoints(const std::vector<char>& is_crosspoint, MultiVector& marks) {
+  const auto view = marks.getLocalViewHost(Tpetra::Access::ReadWrite);
+  for (std::size_t node = 0; node < is_crosspoint.size(); ++node)
+    for (std::size_t i = 0; is_crosspoint[node] != 0 && i < view.extent(1); ++i)
+      if (view(node, i) == 0.0) view(node, i) = crosspoint_mark;
+}
+
 /// Young's modulus of the softest deformable body with a facet in `facets`, over all ranks; the largest number if all are rigid.
 double softest(const Mesh& mesh, const Bodies& bodies, const SurfaceFacets& facets) {
   double mine = std::numeric_limits<double>::max(), least = mine;
@@ -197,8 +206,9 @@ void take_up(const PairAtStart& start, ContactPair& pair) {
 
 Effects effects_of(const Scene& scene, const Bodies& bodies) {
   std::vector<std::string> finite, small, f_bar, plastic, pairs, rubbing, loads, conditions;
-  std::vector<std::string> rigid, ties;
-  for (const auto& tie : scene.reference_points) ties.push_back(tie.name);
+  std::vector<std::string> rigid, points, ties;
+  for (const auto& point : scene.reference_points) points.push_back(point.name);
+  for (const auto& tie : scene.ties) ties.push_back(tie.name);
   const auto add = [](std::vector<std::string>& names, const std::string& name) {  // a body may have several blocks
     if (names.empty() || names.back() != name) names.push_back(name);
   };
@@ -218,9 +228,17 @@ Effects effects_of(const Scene& scene, const Bodies& bodies) {
   }
   for (const auto& load : scene.loads) loads.push_back(load.name);
   for (const auto& condition : scene.boundary_conditions) conditions.push_back(condition.name);
-  return {
-      {"finite strain", finite}, {"small strain", small}, {"F-bar", f_bar},           {"plasticity", plastic}, {"contact", pairs},
-      {"friction", rubbing},     {"rigid bodies", rigid}, {"reference points", ties}, {"loads", loads},        {"boundary conditions", conditions}};
+  return {{"finite strain", finite},
+          {"small strain", small},
+          {"F-bar", f_bar},
+          {"plasticity", plastic},
+          {"ties", ties},
+          {"contact", pairs},
+          {"friction", rubbing},
+          {"rigid bodies", rigid},
+          {"reference points", points},
+          {"loads", loads},
+          {"boundary conditions", conditions}};
 }
 
 LinearSystemTraits traits_of(const Scene& scene, const Map& dofs) {
@@ -258,17 +276,22 @@ void refuse_beyond_axis(const Mesh& mesh, double length, const std::vector<Place
 }  // namespace
 
 Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Timers& timers) {
+  const bool axisymmetric = scene.kinematics == Kinematics::axisymmetric;
+  const InterfaceMeasure measure{axisymmetric, scene.thickness};
   std::vector<Adjustment> adjustments;
   {
     const auto timer = timers.scope("mesh");
     const RCP<Mesh> mesh = make_mesh(comm, scene, mesh_notes_);
     adjustments = adjust_slaves(*mesh, scene);
+    SurfaceTies ties = tie_scene(*mesh, scene, held_components(*mesh, scene), measure, contact_origin(*mesh, mesh_size(*mesh).length, axisymmetric));
+    parts_.tied = ties.tied;
+    ties_at_start_ = std::move(ties.at_start);
     mesh_ = mesh;
     size_ = mesh_size(*mesh_);
   }
   std::vector<Place> places;
   for (const auto& body : scene.bodies) places.push_back(body.place);
-  if (scene.kinematics == Kinematics::axisymmetric) refuse_beyond_axis(*mesh_, size_.length, places);
+  if (axisymmetric) refuse_beyond_axis(*mesh_, size_.length, places);
   const auto bodies = std::make_shared<Bodies>(mesh_, scene.kinematics, scene.thickness, block_properties(scene, *mesh_));
   bodies_ = bodies;
   effects_ = effects_of(scene, *bodies_);
@@ -277,10 +300,10 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   parts_.local_dofs = bodies_->local_dofs();
   parts_.bulk_graph = [bodies] { return bodies->graph(); };
   parts_.length = size_.length;
-  parts_.near_null_space = [bodies = bodies_, apart = 1e6 * size_.length](const Vector& displacement) {
+  parts_.near_null_space = [bodies = bodies_, apart = 1e6 * size_.length, joined = joined_bodies(*mesh_, scene)](const Vector& displacement) {
     const RCP<MultiVector> coordinates = current_coordinates(*bodies, displacement);
     const auto x = coordinates->getLocalViewHost(Tpetra::Access::ReadWrite);
-    for (std::size_t node = 0; node < x.extent(0); ++node) x(node, 0) += apart * bodies->mesh()->body_of_node[node];
+    for (std::size_t node = 0; node < x.extent(0); ++node) x(node, 0) += apart * joined[bodies->mesh()->body_of_node[node]];
     return NearNullSpace{rigid_body_modes(*bodies, displacement), coordinates, apart};
   };
   parts_.contributions.push_back(std::make_shared<BulkContribution>(bodies, timers));
@@ -303,22 +326,25 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   collect.throw_found(*comm);
   if (!mesh_->reference_points.empty()) parts_.dependent = std::make_shared<TiedNodes>(*bodies_, parts_.prescribed->dofs());
 
-  // None of the dofs that follow is prescribed.
+  // None of the dofs that follow or are tied is prescribed. What tied nodes follow carries no multiplier of contact: momentum there has forces of
+  // ties.
   const auto fixed = marked_components(*mesh_, parts_.prescribed->dofs(), 1.0), kept = rcp(new MultiVector(*fixed, Teuchos::Copy));
   if (parts_.dependent) kept->update(1.0, *marked_components(*mesh_, parts_.dependent->dofs(), 2.0), 1.0);
-  const bool axisymmetric = scene.kinematics == Kinematics::axisymmetric;
+  if (parts_.tied) {
+    kept->update(1.0, *marked_components(*mesh_, parts_.tied->dofs, 2.0), 1.0);
+    mark_crosspoints(followed_by_ties(*mesh_, *parts_.tied), *kept);
+  }
   surfaces_at_start_ = examine_surfaces(*mesh_, scene, size_.length);
   for (std::size_t p = 0; p < adjustments.size(); ++p) surfaces_at_start_.pairs[p].adjusted = {adjustments[p].nodes, adjustments[p].largest};
   for (std::size_t p = 0; p < pairs.size(); ++p) take_up(surfaces_at_start_.pairs[pairs[p].second_pass_of.value_or(p)], pairs[p]);
   std::vector<HoldingPair> holding;
   for (const auto& pair : pairs)
     holding.push_back({&pair.slave, &pair.master, pair.options.mortar.search_reach.value_or(0.0), pair.options.friction.options->acts()});
-  const auto only_contact = check_held(*mesh_, axisymmetric, *fixed, holding, places);
+  const auto only_contact = check_held(*mesh_, axisymmetric, *fixed, holding, places, parts_.tied.get());
   for (LocalOrdinal node = 0; node < mesh_->owned_count(); ++node) held_by_contact_only_.push_back(only_contact[mesh_->body_of_node[node]]);
 
   if (pairs.empty()) return;
   bodies_of_pairs_ = bodies_of(*mesh_, pairs);
-  const InterfaceMeasure measure{axisymmetric, scene.thickness};
   const std::array<double, 3> origin = contact_origin(*mesh_, size_.length, axisymmetric);
   for (ContactPair& pair : pairs)
     if (pair.options.clearance) pair.options.clearance = seen_from(*pair.options.clearance, origin);

@@ -1,7 +1,11 @@
 #include "model/prescribed_rows.hpp"
 
 #include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
+#include <algorithm>
 
 #include "mortise/solid/rotation_vector.hpp"
 
@@ -71,9 +75,48 @@ void add_shared_translation(const Mesh& mesh, const RigidModes& modes, const Nod
   }
 }
 
+// A slave that stands off its master would hold rotations by its gap, as meshed: so weakly that they count as free.
+void add_ties(const Mesh& mesh, const RigidModes& modes, const NodePlaces& at, const TiedDisplacements& tied, Eigen::MatrixXd& gram) {
+  const Map& columns = *tied.T->getColMap();
+  const auto local = tied.T->getLocalMatrixHost();
+  std::vector<GlobalOrdinal> ids;  // of the nodes of columns
+  for (const LocalOrdinal dof : tied.dofs)
+    for (LocalOrdinal k = 0; k < local.rowConst(dof).length; ++k)
+      ids.push_back(columns.getGlobalElement(local.rowConst(dof).colidx(k)) / mesh.dimension);
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
+  const auto nodes = rcp(new Map(invalid, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, mesh.comm));
+  MultiVector owned(mesh.owned_nodes, 4), sources(nodes, 4);  // position and body
+  {
+    const auto view = owned.getLocalViewHost(Tpetra::Access::OverwriteAll);
+    for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node) {
+      for (int i = 0; i < 3; ++i) view(node, i) = at.x[static_cast<std::size_t>(node)][i];
+      view(node, 3) = mesh.body_of_node[static_cast<std::size_t>(node)];
+    }
+  }
+  sources.doImport(owned, Import(mesh.owned_nodes, nodes), Tpetra::INSERT);
+  const auto source = sources.getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (const LocalOrdinal dof : tied.dofs) {
+    const Vector3d direction = Vector3d::Unit(dof % mesh.dimension);
+    const auto of_dof = local.rowConst(dof);
+    Vector3d place = Vector3d::Zero();
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(modes.count());
+    for (LocalOrdinal k = 0; k < of_dof.length; ++k) {
+      const LocalOrdinal n = nodes->getLocalElement(columns.getGlobalElement(of_dof.colidx(k)) / mesh.dimension);
+      const Vector3d x(source(n, 0), source(n, 1), source(n, 2));
+      place += of_dof.value(k) * x;
+      modes.add(static_cast<int>(source(n, 3)), x, -of_dof.value(k) * direction, row);
+    }
+    modes.add(mesh.body_of_node[static_cast<std::size_t>(dof / mesh.dimension)], place, direction, row);
+    gram += row.transpose() * row;
+  }
+}
+
 }  // namespace
 
-Eigen::MatrixXd prescribed_gram(const Mesh& mesh, const RigidModes& modes, const NodePlaces& at, const MultiVector& fixed) {
+Eigen::MatrixXd prescribed_gram(const Mesh& mesh, const RigidModes& modes, const NodePlaces& at, const MultiVector& fixed,
+                                const TiedDisplacements* tied) {
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(modes.count(), modes.count());
   add_nodes(mesh, modes, at, fixed, gram);
   for (std::size_t p = 0; p < mesh.reference_points.size(); ++p) {
@@ -84,6 +127,7 @@ Eigen::MatrixXd prescribed_gram(const Mesh& mesh, const RigidModes& modes, const
     else
       add_shared_translation(mesh, modes, at, fixed, point, gram);
   }
+  if (tied != nullptr) add_ties(mesh, modes, at, *tied, gram);
   return gram;
 }
 

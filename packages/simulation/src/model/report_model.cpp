@@ -52,6 +52,12 @@ void report_model(const std::string& file, const Scene& scene, const Model& mode
       log.info(fmt::format("  body {}: {} elements {}, {}", name, model.size().elements_of_block[b], to_string(element_of(body, block.shape)),
                            material_name(body, block.part)));
   }
+  for (std::size_t t = 0; t < scene.ties.size(); ++t) {
+    const TieAtStart& tie = model.ties_at_start()[t];
+    const std::string open = tie.open > 0 ? fmt::format(", {} are free, as no master covers them within {:.3g}", tie.open, tie.tolerance) : "";
+    const std::string moved = tie.moved > 0 ? fmt::format(", {} were moved, by up to {:.3g}", tie.moved, tie.furthest) : "";
+    log.info(fmt::format("  tie {}: {} slave nodes follow the master{}{}", scene.ties[t].name, tie.tied, open, moved));
+  }
   log.info(fmt::format("  {} dofs, {} slave nodes, {} on {} rank(s)", model.dofs(), model.slave_nodes(), model.parts().linear_solver->name(),
                        model.mesh()->comm->getSize()));
 }

@@ -171,6 +171,10 @@ SurfacesAtStart examine_surfaces(const Mesh& mesh, const Scene& scene, double le
         if (pair.overlaps()) with_fronts.insert(both);
       }
   }
+  for (const auto& tie : scene.ties)
+    for (const SidesOfBody& slave : sides_by_body(mesh, require_side_set(mesh, tie.value.slave)))
+      for (const SidesOfBody& master : sides_by_body(mesh, require_side_set(mesh, tie.value.master)))
+        connected.insert(std::minmax(slave.body, master.body));
   std::vector<Diagnostic> diagnostics;
   SurfacesAtStart result;
   result.pairs.resize(scene.contact.size());

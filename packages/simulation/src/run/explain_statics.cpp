@@ -44,7 +44,7 @@ class BodyStatics {
     Vector outer(*system.displacement(evaluation.residual()), Teuchos::Copy);
     outer.update(-1.0, contact, 1.0);
     const Eigen::RowVectorXd mine = work_of_residual(mesh_, *modes_, at_, *fixed_, outer);
-    const Eigen::MatrixXd prescribed = prescribed_gram(mesh_, *modes_, at_, *fixed_);
+    const Eigen::MatrixXd prescribed = prescribed_gram(mesh_, *modes_, at_, *fixed_, model.parts().tied.get());
     motions_ = free_motions(sum(prescribed), modes_->per_body());
     load_ = -motions_.transpose() * sum(mine).transpose();
     round_off_ = std::max(evaluation.norms().round_off, 100.0 * epsilon * load_.norm());

@@ -102,7 +102,7 @@ bool SlipSettlement::find_sliding(const Vector& x, const Vector& F, const Contac
   const Eigen::Index count = modes.count();
   const ContactHold hold = contact_hold(model_, modes, found.at, laws);
   found.pairs = hold.pairs;
-  const Eigen::MatrixXd prescribed = prescribed_gram(mesh, modes, found.at, *fixed_);
+  const Eigen::MatrixXd prescribed = prescribed_gram(mesh, modes, found.at, *fixed_, model_.parts().tied.get());
   std::vector<double> gram(prescribed.data(), prescribed.data() + prescribed.size());
   sum(gram);
   const Eigen::MatrixXd held = Eigen::Map<const Eigen::MatrixXd>(gram.data(), count, count) + hold.gram;

@@ -68,7 +68,7 @@ RCP<Vector> StateCheck::verify(const SemiSmoothSystem& system, const Vector& bef
   const bool axisymmetric = model_.bodies()->kinematics() == Kinematics::axisymmetric;
   auto modes = std::make_unique<RigidModes>(mesh, axisymmetric, bodies_, to.x);
   const ContactHold hold = contact_hold(model_, *modes, to, found.contact_laws());
-  const Eigen::MatrixXd mine = prescribed_gram(mesh, *modes, to, *fixed_);
+  const Eigen::MatrixXd mine = prescribed_gram(mesh, *modes, to, *fixed_, model_.parts().tied.get());
   Eigen::MatrixXd gram(mine.rows(), mine.cols());
   Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), gram.data());
   gram += hold.gram;

@@ -11,18 +11,20 @@
 
 #include "mortise/core/names.hpp"
 #include "mortise/input/expression.hpp"
+#include "mortise/mesh/sets.hpp"
 #include "mortise/mesh/surface_patches.hpp"
 #include "mortise/simulation/scene/scene_bodies.hpp"
 #include "scene/roles.hpp"
+#include "surfaces/body_surfaces.hpp"
 #include "surfaces/facing_patches.hpp"
 
 namespace mortise {
 
 void AutomaticContactOptions::describe(Parameters& parameters) {
-  parameters.add(
-      "pairs", pairs, {{"none", ContactSearch::none}, {"automatic", ContactSearch::automatic}},
-      "automatic: pairs are found where surfaces of different bodies face one another at the start; they and the choice of their sides stand in the "
-      "log and in effective.xml");
+  parameters.add("pairs", pairs, {{"none", ContactSearch::none}, {"automatic", ContactSearch::automatic}},
+                 "automatic: pairs are found where surfaces of different bodies, which are not tied, face one another at the start; they and the "
+                 "choice of their sides stand in the "
+                 "log and in effective.xml");
   parameters.add("bodies", bodies, "bodies that may touch one another; empty: all");
   parameters.add(
       "reach", reach,
@@ -49,6 +51,18 @@ std::vector<char> bodies_that_take_part(const Mesh& mesh, const Located<std::vec
     chosen[static_cast<std::size_t>(found - known.begin())] = 1;
   }
   return chosen;
+}
+
+/// Surfaces of bodies that are tied to one another make no pairs. Collective.
+void leave_out_tied(const Mesh& mesh, const Scene& scene, FacingSurfaces& found) {
+  std::set<std::pair<std::size_t, std::size_t>> tied;
+  for (const auto& tie : scene.ties)
+    for (const SidesOfBody& slave : sides_by_body(mesh, require_side_set(mesh, tie.value.slave)))
+      for (const SidesOfBody& master : sides_by_body(mesh, require_side_set(mesh, tie.value.master)))
+        tied.insert(std::minmax(slave.body, master.body));
+  const auto body = [&](int part) { return static_cast<std::size_t>(found.parts[static_cast<std::size_t>(part)].body); };
+  const auto are_tied = [&](const FacingParts& pair) { return tied.count(std::minmax(body(pair.first), body(pair.second))) > 0; };
+  found.facing.erase(std::remove_if(found.facing.begin(), found.facing.end(), are_tied), found.facing.end());
 }
 
 /// A part, or what of it lies nearer to one of those that face it than to the others.
@@ -324,6 +338,7 @@ void add_automatic_pairs(const Mesh& mesh, Scene& scene) {
   const AutomaticContactOptions& options = scene.automatic_contact;
   if (options.pairs == ContactSearch::none) return;
   FacingSurfaces found = find_facing_surfaces(mesh, bodies_that_take_part(mesh, options.bodies), options.angle, options.reach);
+  leave_out_tied(mesh, scene, found);
   if (found.facing.empty())
     throw InputError(
         options.bodies.place,

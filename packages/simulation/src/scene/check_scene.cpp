@@ -51,6 +51,9 @@ std::vector<Diagnostic> check_scene(const Scene& scene) {
   for (const auto& pair : scene.contact)
     if (!pair.value.slave.value.empty() && pair.value.slave.value == pair.value.master.value)
       diagnostics.push_back({pair.value.master.place, fmt::format("slave and master are the same set \"{}\"", pair.value.slave.value)});
+  for (const auto& tie : scene.ties)
+    if (!tie.value.slave.value.empty() && tie.value.slave.value == tie.value.master.value)
+      diagnostics.push_back({tie.value.master.place, fmt::format("slave and master are the same set \"{}\"", tie.value.slave.value)});
   for (const auto& check : scene.checks) {
     const auto& wanted = check.value.quantity;
     if (!wanted.value.empty() && find(scene.quantities, wanted.value) == nullptr)

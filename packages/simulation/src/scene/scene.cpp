@@ -83,6 +83,18 @@ void ContactPairOptions::describe(Parameters& parameters) {
   contact.describe(parameters);
 }
 
+void SurfaceTieOptions::describe(Parameters& parameters) {
+  parameters.add("slave", slave, Says("side set whose nodes follow the master: the finer or softer one").required());
+  parameters.add("master", master, Says("side set that they follow").required());
+  parameters.add("start", mesh, {{"as meshed", MeshAtStart::as_meshed}, {"adjust", MeshAtStart::adjusted}},
+                 "as meshed: gaps stay as they are, and a rotation strains curved surfaces and gaps; adjust: slave nodes are moved to where the "
+                 "master has them before anything is computed, which strains nothing, and rotations are exact");
+  parameters.add("tolerance", tolerance,
+                 Says("distance up to which the slave is tied, and nodes are adjusted; default: a tenth of the longest facet of the tie")
+                     .unit("length")
+                     .above(0.0));
+}
+
 void CheckpointOptions::describe(Parameters& parameters) {
   parameters.add("every step", every_step, Says("a checkpoint is written after every so many steps, and at the end; 0: not by steps").at_least(0));
   parameters.add("every minutes", every_minutes,
@@ -121,6 +133,7 @@ void Scene::describe(Parameters& parameters) {
   parameters.named("reference points", reference_points, "sets of nodes that move like a rigid body or share a translation, by names of your choice");
   parameters.named("boundary conditions", boundary_conditions, "prescribed displacements");
   parameters.named("loads", loads, "loads, by names of your choice");
+  parameters.named("ties", ties, "surfaces that are glued together, by names of your choice");
   parameters.named("contact", contact, "contact pairs, by names of your choice");
   parameters.list("automatic contact", automatic_contact, "contact pairs that the program finds");
   parameters.list("stepping", stepping, "pseudo-time and its steps");

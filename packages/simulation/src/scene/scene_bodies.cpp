@@ -115,6 +115,8 @@ std::vector<std::string> contact_sides(const Scene& scene) {
   std::vector<std::string> sides;
   for (const auto& pair : scene.contact)
     for (const auto* name : {&pair.value.slave.value, &pair.value.master.value}) sides.push_back(*name);
+  for (const auto& tie : scene.ties)
+    for (const auto* name : {&tie.value.slave.value, &tie.value.master.value}) sides.push_back(*name);
   // A set may be part of sets that stand before it.
   for (auto set = scene.sets.rbegin(); set != scene.sets.rend(); ++set)
     if (std::find(sides.begin(), sides.end(), set->name) != sides.end())

@@ -33,7 +33,8 @@ std::map<LocalOrdinal, Eigen::Vector3d> nodal_normals(const Mesh& mesh, const Si
   return normals;
 }
 
-/// The ghosts get what their owners have.
+}  // namespace
+
 void share_positions(Mesh& mesh) {
   MultiVector owned(mesh.owned_nodes, 3), local(mesh.local_nodes, 3);
   {
@@ -46,8 +47,6 @@ void share_positions(Mesh& mesh) {
   for (LocalOrdinal node = mesh.owned_count(); node < mesh.local_count(); ++node)
     for (int i = 0; i < 3; ++i) mesh.coordinates[static_cast<std::size_t>(node)][static_cast<std::size_t>(i)] = view(node, i);
 }
-
-}  // namespace
 
 Adjustment adjust_onto_master(Mesh& mesh, const SideSet& slave, const SideSet& master, double tolerance,
                               const std::vector<std::array<bool, 3>>& held) {

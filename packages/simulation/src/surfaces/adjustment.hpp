@@ -20,4 +20,7 @@ struct Adjustment {
 Adjustment adjust_onto_master(Mesh& mesh, const SideSet& slave, const SideSet& master, double tolerance,
                               const std::vector<std::array<bool, 3>>& held);
 
+/// Ghosts get the reference positions that their owners have. Collective.
+void share_positions(Mesh& mesh);
+
 }  // namespace mortise

@@ -73,6 +73,12 @@ class PrescribedDisplacements {
   virtual std::vector<double> values(double time, std::optional<StepFailure>& failure) const = 0;
 };
 
+/// Displacements that are constant combinations of others: nodes of surfaces that are glued to others.
+struct TiedDisplacements {
+  std::vector<LocalOrdinal> dofs;  ///< owned dofs that are tied, ascending; none of them is prescribed, or among DependentDisplacements::dofs()
+  RCP<const Matrix> T;  ///< [owned dofs squared] d = T d: rows of dofs that are not tied are those of the identity, columns of tied ones empty
+};
+
 /// Displacements of owned dofs that follow from others: nodes of rigid bodies and tied sets, which follow reference points.
 class DependentDisplacements {
  public:

@@ -30,7 +30,8 @@ struct SystemParts {
   std::function<RCP<const Graph>()> bulk_graph;                              ///< makes it: rows `dofs`; what the contributions' Jacobians write into
   std::vector<std::shared_ptr<Contribution>> contributions;                  ///< f_int - f_ext, as their sum
   std::shared_ptr<PrescribedDisplacements> prescribed;                       ///< never null; may have no dofs
-  std::shared_ptr<DependentDisplacements> dependent;                         ///< null: every displacement is an unknown or prescribed
+  std::shared_ptr<DependentDisplacements> dependent;                         ///< null: every displacement is an unknown, prescribed or tied
+  std::shared_ptr<const TiedDisplacements> tied;                             ///< null: none is; they may be tied to those that follow
   std::shared_ptr<ContactSystem> contact;                                    ///< null: no contact
   std::shared_ptr<LinearSolver> linear_solver;                               ///< of each Newton step
   std::function<NearNullSpace(const Vector& displacement)> near_null_space;  ///< at a displacement; asked for by multigrid alone

@@ -26,6 +26,15 @@ struct BodyHistory {
   long evaluations = 0;  ///< of forces, stiffness and history by code that knows of history
 };
 
+/// What is known of a tie before anything moves, over all ranks.
+struct TieAtStart {
+  GlobalOrdinal tied = 0;   ///< slave nodes that follow the master
+  GlobalOrdinal open = 0;   ///< slave nodes that no master covers within the tolerance, or hardly: they are free
+  double tolerance = 0.0;   ///< [length]
+  GlobalOrdinal moved = 0;  ///< slave nodes that were adjusted
+  double furthest = 0.0;    ///< by so much [length]
+};
+
 /// Everything that a run solves for and with.
 class Model {
  public:
@@ -47,6 +56,8 @@ class Model {
   const SurfacesAtStart& surfaces_at_start() const { return surfaces_at_start_; }
   /// What was changed or left out of mesh files, in words: "body: ...".
   const std::vector<std::string>& mesh_notes() const { return mesh_notes_; }
+  /// In the order of the scene.
+  const std::vector<TieAtStart>& ties_at_start() const { return ties_at_start_; }
 
   GlobalOrdinal dofs() const;
   /// Slave nodes that carry a multiplier, over all ranks.
@@ -70,6 +81,7 @@ class Model {
   Effects effects_;
   SurfacesAtStart surfaces_at_start_;
   std::vector<std::string> mesh_notes_;
+  std::vector<TieAtStart> ties_at_start_;
   SystemParts parts_;
 };
 

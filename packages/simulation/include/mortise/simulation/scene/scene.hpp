@@ -76,6 +76,14 @@ struct ContactPairOptions {
   void describe(Parameters& parameters);
 };
 
+/// Two surfaces that are glued together.
+struct SurfaceTieOptions {
+  Located<std::string> slave, master;
+  MeshAtStart mesh = MeshAtStart::as_meshed;
+  std::optional<double> tolerance;  ///< [length] up to which facets are tied; none: tie_tolerance() says
+  void describe(Parameters& parameters);
+};
+
 /// What is written besides the summary.
 /// When a run leaves what it can be restarted from. It also does so when it stops before its end, and at the end if `every_step` is given or one
 /// has been written before.
@@ -114,6 +122,7 @@ struct Scene {
   std::vector<Named<TieOptions>> reference_points;
   std::vector<Named<BoundaryConditionOptions>> boundary_conditions;
   std::vector<Named<LoadChoice>> loads;
+  std::vector<Named<SurfaceTieOptions>> ties;
   std::vector<Named<ContactPairOptions>> contact;
   AutomaticContactOptions automatic_contact;
   SteppingOptions stepping;

@@ -1,0 +1,36 @@
+#pragma once
+// Surfaces that the scene glues together.
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "mortise/mesh/mesh.hpp"
+#include "mortise/mortar/tied_surfaces.hpp"
+#include "mortise/nonlinear/contribution.hpp"
+#include "mortise/simulation/model/model.hpp"
+#include "mortise/simulation/scene/scene.hpp"
+
+namespace mortise {
+
+/// The ties of a scene.
+struct SurfaceTies {
+  std::shared_ptr<const TiedDisplacements> tied;  ///< null: the scene has none
+  std::vector<TieAtStart> at_start;               ///< [ties of the scene]
+};
+
+/// Ties surfaces, and moves the slave nodes of ties that ask for it: first along their normals onto the master, then to X_s = P X_m with the P of the
+/// tie. The mesh has all its sets and reference points. Collective.
+/// @param held    [local nodes] components that conditions prescribe
+/// @param origin  from where positions are measured
+/// @throws InputError at the ties' places for unknown sets, and as tie_surfaces()
+SurfaceTies tie_scene(Mesh& mesh, const Scene& scene, const std::vector<std::array<bool, 3>>& held, const InterfaceMeasure& measure,
+                      const std::array<double, 3>& origin);
+
+/// [mesh.bodies] a number that bodies share which ties join. Collective.
+std::vector<int> joined_bodies(const Mesh& mesh, const Scene& scene);
+
+/// [owned nodes] 1 where a tied node of any rank follows the node. Collective.
+std::vector<char> followed_by_ties(const Mesh& mesh, const TiedDisplacements& tied);
+
+}  // namespace mortise
