@@ -10,6 +10,10 @@ namespace mortise {
 
 void FileMesh::describe_shape(Parameters& parameters) {
   parameters.add("file", file, Says("path of the mesh file; a relative one begins at the folder of the file that names it").required());
+  // Read once, the path is whole: effective.xml, which has it, stands in another folder.
+  namespace fs = std::filesystem;
+  if (const fs::path path(file.value); !file.value.empty() && !path.is_absolute() && !file.place.file.empty())
+    file.value = fs::absolute(fs::path(file.place.file).parent_path() / path).lexically_normal().string();
   parameters.add("format", format,
                  {{"by name", MeshFormat::by_name}, {"exodus", MeshFormat::exodus}, {"gmsh", MeshFormat::gmsh}, {"abaqus", MeshFormat::abaqus}},
                  "format of the file; by name: .exo, .e, .g and the like are Exodus II, .msh is Gmsh, .inp is Abaqus or CalculiX");
@@ -36,9 +40,7 @@ FileBodyRequest FileMesh::request(const std::string& body, const Place& place, i
   FileBodyRequest request;
   request.name = body;
   request.place = place;
-  namespace fs = std::filesystem;
-  const fs::path path(file.value), folder = fs::path(file.place.file).parent_path();
-  request.file = path.is_absolute() ? path.string() : (folder / path).string();
+  request.file = file.value;
   request.format = format;
   request.dimension = dimension;
   request.is_surface = is_surface;

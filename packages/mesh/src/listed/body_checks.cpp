@@ -2,9 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
+#include <boost/geometry.hpp>
+#include <boost/geometry/index/rtree.hpp>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -98,6 +103,106 @@ void require_one_piece(const MeshFile& file, const FileBodyRequest& request, con
           "place",
           request.name, file.path, pieces.size(), outside, elements.size(), elements.labels[static_cast<std::size_t>(other)],
           place_text(file, chosen.file_nodes[static_cast<std::size_t>(*elements.nodes_of(other))])));
+}
+
+void require_one_orientation(const MeshFile& file, const FileBodyRequest& request, const ChosenCells& chosen) {
+  const BodyElements& elements = chosen.elements;
+  std::map<std::array<std::int32_t, 2>, std::int32_t> ways;  // of edges from one node to the next, and the facet
+  const auto say = [&](std::int32_t one, std::int32_t other, std::int32_t node) {
+    throw InputError(
+        request.place,
+        fmt::format("rigid body \"{}\" of {}: facets {} and {} have their outsides on different sides, near {}; all facets have to run the same way "
+                    "round, counterclockwise seen from outside (in 2D with the body on the left)",
+                    request.name, file.path, elements.labels[static_cast<std::size_t>(one)], elements.labels[static_cast<std::size_t>(other)],
+                    place_text(file, chosen.file_nodes[static_cast<std::size_t>(node)])));
+  };
+  for (std::int32_t e = 0; e < elements.size(); ++e) {
+    const int corners = elements.cell(e).corners;
+    const std::int32_t* nodes = elements.nodes_of(e);
+    if (corners == 2) {  // each node is the start of one line and the end of another
+      for (const int end : {0, 1}) {
+        const auto [found, is_new] = ways.try_emplace({nodes[end], end}, e);
+        if (!is_new) say(found->second, e, nodes[end]);
+      }
+      continue;
+    }
+    for (int a = 0; a < corners; ++a) {
+      const auto [found, is_new] = ways.try_emplace({nodes[a], nodes[(a + 1) % corners]}, e);
+      if (!is_new) say(found->second, e, nodes[a]);
+    }
+  }
+}
+
+namespace {
+
+namespace geometry = boost::geometry;
+using TreePoint = geometry::model::point<double, 3, geometry::cs::cartesian>;
+using TreeBox = geometry::model::box<TreePoint>;
+
+Eigen::Vector3d place_of(const MeshFile& file, const ChosenCells& chosen, std::int32_t node) {
+  return Eigen::Vector3d(file.coordinates[static_cast<std::size_t>(chosen.file_nodes[static_cast<std::size_t>(node)])].data());
+}
+
+/// The distance of a point from a triangle or, with two corners, a line; infinite where it lies beside it.
+double distance(const Eigen::Vector3d& x, const std::vector<Eigen::Vector3d>& corners) {
+  constexpr double beside = 1e-9;
+  const Eigen::Vector3d e = corners[1] - corners[0], r = x - corners[0];
+  if (corners.size() == 2) {
+    const double s = r.dot(e) / e.squaredNorm();
+    return s < -beside || s > 1.0 + beside ? std::numeric_limits<double>::infinity() : (r - s * e).norm();
+  }
+  const Eigen::Vector3d f = corners[2] - corners[0], normal = e.cross(f);
+  const double u = r.cross(f).dot(normal) / normal.squaredNorm(), v = e.cross(r).dot(normal) / normal.squaredNorm();
+  if (u < -beside || v < -beside || u + v > 1.0 + beside) return std::numeric_limits<double>::infinity();
+  return std::abs(r.dot(normal)) / normal.norm();
+}
+
+}  // namespace
+
+std::optional<std::string> loose_nodes(const MeshFile& file, const ChosenCells& chosen, const SideTable& sides) {
+  constexpr double on_side = 1e-6;  ///< over its size: as many digits as mesh files often have
+  std::set<std::int32_t> nodes;
+  const std::vector<ElementSide> surface = sides.surface();
+  for (const ElementSide& side : surface)
+    for (const std::int32_t node : nodes_of_side(chosen.elements, side)) nodes.insert(node);
+  std::vector<std::pair<TreePoint, std::int32_t>> entries;
+  for (const std::int32_t node : nodes) {
+    const Eigen::Vector3d x = place_of(file, chosen, node);
+    entries.emplace_back(TreePoint(x[0], x[1], x[2]), node);
+  }
+  const geometry::index::rtree<std::pair<TreePoint, std::int32_t>, geometry::index::rstar<16>> tree(entries);
+  std::set<std::int32_t> loose;
+  std::int32_t of_element = -1, example = -1;
+  std::vector<std::pair<TreePoint, std::int32_t>> near;
+  for (const ElementSide& side : surface) {
+    const auto own = nodes_of_side(chosen.elements, side);
+    const int corners = topology(shape_of_side(chosen.elements, side)).corners;
+    std::vector<Eigen::Vector3d> x;
+    for (int c = 0; c < corners; ++c) x.push_back(place_of(file, chosen, own[static_cast<std::size_t>(c)]));
+    const double size = (x[1] - x[0]).norm();
+    Eigen::Vector3d low = x[0], high = x[0];
+    for (const Eigen::Vector3d& corner : x) low = low.cwiseMin(corner), high = high.cwiseMax(corner);
+    low.array() -= on_side * size, high.array() += on_side * size;
+    near.clear();
+    tree.query(geometry::index::intersects(TreeBox(TreePoint(low[0], low[1], low[2]), TreePoint(high[0], high[1], high[2]))),
+               std::back_inserter(near));
+    for (const auto& [point, node] : near) {
+      if (std::find(own.begin(), own.end(), node) != own.end()) continue;
+      const Eigen::Vector3d at = place_of(file, chosen, node);
+      double least = distance(at, {x[0], x[1]});
+      if (corners > 2) least = distance(at, {x[0], x[1], x[2]});
+      if (corners == 4) least = std::min(least, distance(at, {x[0], x[2], x[3]}));
+      if (least > on_side * size) continue;
+      if (loose.insert(node).second && example < 0) example = node, of_element = side.element;
+    }
+  }
+  if (loose.empty()) return std::nullopt;
+  return fmt::format(
+      "{} nodes of the surface lie on sides of elements that do not have them, for instance {} on a side of element {}: nothing connects the two "
+      "there. Please merge "
+      "nodes that stand at one place and let cells share whole sides, unless it is a crack",
+      loose.size(), place_text(file, chosen.file_nodes[static_cast<std::size_t>(example)]),
+      chosen.elements.labels[static_cast<std::size_t>(of_element)]);
 }
 
 }  // namespace mortise

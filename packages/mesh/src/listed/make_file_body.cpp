@@ -10,11 +10,21 @@
 namespace mortise {
 namespace {
 
-int wanted_dimension(const MeshFile& file, const FileBodyRequest& request) {
+/// The most dimensions of the cells that the body may be made of.
+int most_dimensions(const MeshFile& file, const FileBodyRequest& request) {
   int highest = 0;
   for (const FileCells& cells : file.cells)
-    if (!cells.labels.empty()) highest = std::max(highest, topology(cells.shape).dimension);
-  if (highest >= request.dimension) return request.dimension;
+    if (request.blocks.empty() && !cells.labels.empty()) highest = std::max(highest, topology(cells.shape).dimension);
+  for (const auto& set : file.cell_sets)
+    if (std::find(request.blocks.begin(), request.blocks.end(), set.name) != request.blocks.end())
+      for (const FileCellRange& range : set.members)
+        if (range.count > 0) highest = std::max(highest, topology(file.cells[static_cast<std::size_t>(range.group)].shape).dimension);
+  return highest;
+}
+
+int wanted_dimension(const MeshFile& file, const FileBodyRequest& request) {
+  const int highest = most_dimensions(file, request);
+  if (highest >= request.dimension || (highest == 0 && !request.blocks.empty())) return request.dimension;
   if (request.is_surface && highest == request.dimension - 1) return highest;
   static const char* const cells_of[] = {"no cells", "lines alone", "cells of two dimensions at most", "solid cells"};
   throw InputError(request.place,
@@ -137,11 +147,16 @@ void keep_surface(ChosenCells& chosen, BodySets& sets) {
 }
 
 BodySets sets_of(const MeshFile& file, const FileBodyRequest& request, ChosenCells& chosen, int dimension) {
-  if (dimension < request.dimension) return name_facets(file, request, chosen);
+  if (dimension < request.dimension) {
+    require_one_orientation(file, request, chosen);
+    return name_facets(file, request, chosen);
+  }
   const SideTable table(chosen.elements, chosen.nodes());
   require_conforming(file, request, chosen, table);
   if (!request.is_surface) require_one_piece(file, request, chosen);
   BodySets sets = name_sets(file, request, chosen, table);
+  if (!request.is_surface)
+    if (const auto note = loose_nodes(file, chosen, table)) sets.notes.push_back(*note);
   if (request.is_surface) keep_surface(chosen, sets);
   return sets;
 }

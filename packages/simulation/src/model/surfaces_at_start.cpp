@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <Teuchos_CommHelpers.hpp>
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include "mortise/mesh/sets.hpp"
@@ -148,6 +150,41 @@ std::vector<StrayOverlap> stray_overlaps(const PlacedBodies& bodies, const std::
   return strays;
 }
 
+/// The nearest front of a master body that a point of the slave sees behind a front of another one.
+struct HiddenFront {
+  double distance = std::numeric_limits<double>::max();
+  std::size_t hidden = 0;  ///< body
+};
+
+/// @param reach  how far behind counts
+/// Collective; over all ranks.
+std::optional<HiddenFront> find_hidden_front(const PlacedBodies& bodies, const SideSet& slave, const std::vector<SidesOfBody>& masters,
+                                             double reach) {
+  constexpr double facing = 0.5;  // cosine of the angle between opposite normals
+  const Mesh& mesh = bodies.mesh;
+  std::vector<TaggedFacet> facets;
+  for (const SidesOfBody& master : masters)
+    for (LocalOrdinal s = 0; s < master.set->owned; ++s)
+      facets.push_back({places_of(mesh, master.set->sides[static_cast<std::size_t>(s)], bodies.at), static_cast<int>(master.body)});
+  std::vector<LineSegment> lines;
+  for (const SurfaceProbe& probe : probes_of(mesh, slave, bodies.at)) lines.push_back({probe.point.x, probe.point.normal, -bodies.touching, reach});
+  double mine[2] = {-std::numeric_limits<double>::max(), 0.0}, all[2];
+  for (const auto& found : crossings(*mesh.comm, mesh.dimension, facets, lines)) {
+    const Crossing* first = nullptr;
+    for (const Crossing& crossing : found) {
+      if (crossing.along > -facing) continue;
+      if (first == nullptr) first = &crossing;
+      if (crossing.tag == first->tag || -crossing.s <= mine[0]) continue;
+      mine[0] = -crossing.s, mine[1] = crossing.tag;
+    }
+  }
+  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, mine[0], Teuchos::outArg(all[0]));
+  if (mine[0] < all[0]) mine[1] = 0.0;
+  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, mine[1], Teuchos::outArg(all[1]));
+  if (all[0] == -std::numeric_limits<double>::max()) return std::nullopt;
+  return HiddenFront{-all[0], static_cast<std::size_t>(all[1])};
+}
+
 }  // namespace
 
 std::string to_string(int dimension, const OverlapPlace& overlap) {
@@ -184,6 +221,19 @@ SurfacesAtStart examine_surfaces(const Mesh& mesh, const Scene& scene, double le
     else
       complain_of_sides(bodies, pair, with_fronts.count(std::minmax(pair.slave.body, pair.master.body)) > 0, diagnostics);
     add(result.pairs[pair.index], pair.result);
+  }
+  for (std::size_t p = 0; p < scene.contact.size(); ++p) {
+    const auto& [name, place, options] = scene.contact[p];
+    const auto masters = sides_by_body(mesh, require_side_set(mesh, options.master));
+    if (masters.size() < 2) continue;
+    const double reach = options.contact.mortar.search_reach.value_or(result.pairs[p].longest);
+    if (const auto hidden = find_hidden_front(bodies, require_side_set(mesh, options.slave), masters, reach))
+      diagnostics.push_back(
+          {place,
+           fmt::format(
+               "from the slave the master's surface of body '{}' stands behind that of another body, {:.3g} away and within the search reach {:.3g}: "
+               "both would act on the same facets; please give a \"search reach\" of {:.3g}, or each body a pair of its own",
+               mesh.bodies[hidden->hidden].name, hidden->distance, reach, 0.5 * hidden->distance)});
   }
   if (!diagnostics.empty()) throw InputError(diagnostics);
   result.strays = stray_overlaps(bodies, connected);

@@ -16,6 +16,7 @@
 #include "mortise/input/parameter_tree.hpp"
 #include "mortise/io/files.hpp"
 #include "mortise/io/output_directory.hpp"
+#include "mortise/mesh/file_mesh.hpp"
 #include "mortise/simulation/model/model.hpp"
 #include "mortise/simulation/model/run_log.hpp"
 #include "mortise/simulation/run/jump_check.hpp"
@@ -79,6 +80,24 @@ void report_end(const RunRecord& record, const std::optional<StepFailure>& failu
                        total == record.seconds.end() ? 0.0 : total->second, record.memory_peak_mib, directory));
 }
 
+/// What a run of the same directory left makes room for the next: a mesh file among it would be gone.
+void refuse_meshes_in(const Scene& scene, const std::string& directory) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path results = fs::weakly_canonical(directory, error);
+  for (const auto& body : scene.bodies) {
+    const auto* mesh = dynamic_cast<const FileMesh*>(body.value.mesh.options.get());
+    if (mesh == nullptr) continue;
+    const fs::path file = fs::weakly_canonical(mesh->file.value, error);
+    if (std::mismatch(results.begin(), results.end(), file.begin(), file.end()).first == results.end())
+      throw InputError(
+          mesh->file.place,
+          fmt::format("the mesh file {} lies in the directory of the results, {}, where a run replaces what it made; please move it, or give another "
+                      "directory (-o)",
+                      file.string(), directory));
+  }
+}
+
 }  // namespace
 
 std::string default_directory(const std::string& file) { return "results/" + std::filesystem::path(file).stem().string(); }
@@ -128,6 +147,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
     serialize_memory(*restart->file);
   }
 
+  refuse_meshes_in(scene, directory.path());
   // From here on the scene is one that can be run: only now is anything made, and what an earlier run left makes room.
   if (restart)
     directory.continue_run();

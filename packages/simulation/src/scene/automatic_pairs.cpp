@@ -6,6 +6,7 @@
 #include <Teuchos_CommHelpers.hpp>
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -300,7 +301,24 @@ class PairMaker {
     pair.value.start = scene_.automatic_contact.start;
     pair.value.contact = scene_.automatic_contact.contact;
     pair.value.reason = reason(slaves, masters);
+    if (const auto behind = hidden_master(slaves, masters)) {
+      auto& reach = pair.value.contact.mortar.search_reach;
+      reach = std::min(reach.value_or(std::numeric_limits<double>::max()), 0.5 * behind->distance);
+      pair.value.reason += fmt::format("; its search reach is half of the {:.3g} to body '{}', which stands behind another master", behind->distance,
+                                       mesh_.bodies[static_cast<std::size_t>(found_.parts[static_cast<std::size_t>(behind->hidden)].body)].name);
+    }
     scene_.contact.push_back(pair);
+  }
+
+  /// The nearest of the masters that stands behind another one, seen from the slaves: within the search reach it would count beside that.
+  std::optional<HiddenPart> hidden_master(const std::set<int>& slaves, const std::set<int>& masters) const {
+    const auto has = [&](const std::set<int>& zones, int wanted) {
+      return std::any_of(zones.begin(), zones.end(), [&](int zone) { return zones_[static_cast<std::size_t>(zone)].part == wanted; });
+    };
+    std::optional<HiddenPart> nearest;
+    for (const HiddenPart& one : found_.hidden)
+      if (has(slaves, one.from) && has(masters, one.hidden) && (!nearest || one.distance < nearest->distance)) nearest = one;
+    return nearest;
   }
 
   /// Why the slaves are the slaves, for the log.

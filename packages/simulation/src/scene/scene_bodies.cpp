@@ -44,6 +44,7 @@ std::vector<BodyDescription> body_descriptions(const Communicator& comm, const S
   for (const auto& body : scene.bodies)
     if (const auto* mesh = dynamic_cast<const FileMesh*>(body.value.mesh.options.get())) {
       requests.push_back(mesh->request(body.name, body.place, dimension(scene.kinematics), body.value.rigid.value));
+      requests.back().shares_nodes = requests.back().shares_nodes || body.value.pattern.begin > 0;  // copies of one body
       for (const Assignment& part : body.value.materials.all) requests.back().parts.push_back({part.path, part.place});
     }
   std::vector<char> is_listed;

@@ -104,12 +104,13 @@ Patches find_patches(const Mesh& mesh, const std::vector<char>& bodies, double a
 }
 
 /// What a point of a part sees: the nearest outside of another body along its normal, with nothing between.
-std::optional<Crossing> seen(const std::vector<Crossing>& crossings, int own_part, const std::vector<SurfacePart>& parts, double tolerance) {
+std::optional<Crossing> seen(const std::vector<Crossing>& crossings, int own_part, const std::vector<SurfacePart>& parts, double tolerance,
+                             double far) {
   const int own_body = parts[static_cast<std::size_t>(own_part)].body;
   std::optional<Crossing> nearest;
   for (const Crossing& crossing : crossings) {
     const bool is_other = parts[static_cast<std::size_t>(crossing.tag)].body != own_body;
-    if (!is_other || crossing.along > -facing) continue;
+    if (!is_other || crossing.along > -facing || std::abs(crossing.s) > far + tolerance) continue;
     const double low = std::min(0.0, crossing.s) + tolerance, high = std::max(0.0, crossing.s) - tolerance;
     const bool is_hidden = std::any_of(crossings.begin(), crossings.end(), [&](const Crossing& one) { return one.s > low && one.s < high; });
     if (!is_hidden && (!nearest || std::abs(crossing.s) < std::abs(nearest->s))) nearest = crossing;
@@ -146,6 +147,8 @@ FacingSurfaces find_facing_surfaces(const Mesh& mesh, const std::vector<char>& b
   std::vector<TaggedFacet> facets;
   std::vector<LineSegment> lines;
   std::vector<int> part_of_line;
+  std::vector<double> reach_of_line;
+  double longest = 0.0;
   Box3 model;
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
     if (!bodies[b]) continue;
@@ -155,15 +158,20 @@ FacingSurfaces find_facing_surfaces(const Mesh& mesh, const std::vector<char>& b
       const int part = patches.of_sides[b][static_cast<std::size_t>(s)];
       facets.push_back({places_of(mesh, side, at), part});
       const double far = reach.value_or(side_lengths(mesh, side, at).back());
+      longest = std::max(longest, side_lengths(mesh, side, at).back());
       for (const Eigen::Vector3d& x : facets.back().points) model.enclose(x);
       for (const SurfacePoint& point : surface_points(mesh.dimension, facets.back().points)) {
         lines.push_back({point.x, point.normal, -far, far});
         part_of_line.push_back(part);
+        reach_of_line.push_back(far);
       }
     }
   }
   const double length = boxes_over_ranks(*mesh.comm, {model}).front().diagonal(), tolerance = touching * length;
-  for (LineSegment& line : lines) line.low -= tolerance, line.high += tolerance;
+  double longest_of_all = 0.0;
+  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, longest, Teuchos::outArg(longest_of_all));
+  // Lines go on to where facets may come within the reach of contact, to see what stands behind.
+  for (LineSegment& line : lines) line.low -= tolerance, line.high = std::max(line.high, longest_of_all) + tolerance;
   std::map<std::array<int, 2>, std::array<double, 2>> mine;  // gap, probes
   const auto found = crossings(*mesh.comm, mesh.dimension, facets, lines);
   const auto add = [](auto& all, const std::array<int, 2>& key, double gap, double probes) {
@@ -172,20 +180,34 @@ FacingSurfaces find_facing_surfaces(const Mesh& mesh, const std::vector<char>& b
     entry[1] += probes;
   };
   std::vector<std::optional<Crossing>> others;
-  for (std::size_t line = 0; line < lines.size(); ++line) others.push_back(seen(found[line], part_of_line[line], patches.parts, tolerance));
+  for (std::size_t line = 0; line < lines.size(); ++line)
+    others.push_back(seen(found[line], part_of_line[line], patches.parts, tolerance, reach_of_line[line]));
   keep_overlaps(mesh, facets, lines, patches.parts, tolerance, length, others);
   for (std::size_t line = 0; line < lines.size(); ++line)
     if (const auto& other = others[line]) {
       const std::array<int, 2> key{std::min(part_of_line[line], other->tag), std::max(part_of_line[line], other->tag)};
       add(mine, key, std::abs(other->s) <= tolerance ? 0.0 : other->s, 1.0);
     }
-  std::vector<double> sent;
-  for (const auto& [key, entry] : mine) sent.insert(sent.end(), {static_cast<double>(key[0]), static_cast<double>(key[1]), entry[0], entry[1]});
-  std::map<std::array<int, 2>, std::array<double, 2>> all;
-  const std::vector<double> received = gather(*mesh.comm, sent);
-  for (auto row = received.begin(); row != received.end(); row += 4) add(all, {static_cast<int>(row[0]), static_cast<int>(row[1])}, row[2], row[3]);
-  FacingSurfaces result{patches.parts, {}};
-  for (const auto& [key, entry] : all) result.facing.push_back({key[0], key[1], entry[0], static_cast<long>(entry[1])});
+  std::map<std::array<int, 2>, std::array<double, 2>> hidden;  // from and what is hidden: distance, probes
+  for (std::size_t line = 0; line < lines.size(); ++line) {
+    if (!others[line]) continue;
+    const auto body_of = [&](int part) { return patches.parts[static_cast<std::size_t>(part)].body; };
+    for (const Crossing& crossing : found[line])
+      if (crossing.s > others[line]->s + tolerance && crossing.along < -facing && body_of(crossing.tag) != body_of(part_of_line[line]) &&
+          body_of(crossing.tag) != body_of(others[line]->tag))
+        add(hidden, {part_of_line[line], crossing.tag}, crossing.s, 1.0);
+  }
+  const auto over_ranks = [&](const std::map<std::array<int, 2>, std::array<double, 2>>& of_rank) {
+    std::vector<double> sent;
+    for (const auto& [key, entry] : of_rank) sent.insert(sent.end(), {static_cast<double>(key[0]), static_cast<double>(key[1]), entry[0], entry[1]});
+    std::map<std::array<int, 2>, std::array<double, 2>> all;
+    const std::vector<double> received = gather(*mesh.comm, sent);
+    for (auto row = received.begin(); row != received.end(); row += 4) add(all, {static_cast<int>(row[0]), static_cast<int>(row[1])}, row[2], row[3]);
+    return all;
+  };
+  FacingSurfaces result{patches.parts, {}, {}};
+  for (const auto& [key, entry] : over_ranks(mine)) result.facing.push_back({key[0], key[1], entry[0], static_cast<long>(entry[1])});
+  for (const auto& [key, entry] : over_ranks(hidden)) result.hidden.push_back({key[0], key[1], entry[0]});
   return result;
 }
 

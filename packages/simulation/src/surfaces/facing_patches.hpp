@@ -27,9 +27,16 @@ struct FacingParts {
   long probes = 0;            ///< points that see the other part
 };
 
+/// A part of another body that stands behind the one that a part sees.
+struct HiddenPart {
+  int from = 0, hidden = 0;  ///< indices of parts
+  double distance = 0.0;     ///< the smallest from a point of `from`, along its normal
+};
+
 struct FacingSurfaces {
   std::vector<SurfacePart> parts;   ///< by their numbers
   std::vector<FacingParts> facing;  ///< by their indices
+  std::vector<HiddenPart> hidden;   ///< as far as the longest edge of all sides, or the reach
 };
 
 /// From points on every side of the bodies' surfaces a line is drawn along the normal, both ways. What it meets first is seen if it is another body's
