@@ -17,6 +17,7 @@
 #include "mortise/simulation/model/mesh_limits.hpp"
 #include "mortise/simulation/scene/scene_bodies.hpp"
 #include "surfaces/adjustment.hpp"
+#include "surfaces/body_surfaces.hpp"
 
 namespace mortise {
 namespace {
@@ -86,12 +87,26 @@ std::vector<std::array<bool, 3>> held_components(const Mesh& mesh, const Scene& 
   return held;
 }
 
+/// Slave nodes would be moved onto the chords of a round quadratic master, which is wrong by a part of its sagitta.
+void refuse_curved_master(const Mesh& mesh, const Named<ContactPairOptions>& pair) {
+  constexpr double flat = 1e-9;  // over the longest facet
+  const PlaceOfNode at = reference_places(mesh);
+  const SideSet& master = require_side_set(mesh, pair.value.master);
+  const double inexact = deviation_from_parts(mesh, master, at);
+  if (inexact <= flat * longest_facet(mesh, master, at)) return;
+  throw InputError(pair.place,
+                   fmt::format("\"start\" = \"adjust\" moves slave nodes onto linear facets, and the quadratic facets of the master \"{}\" are curved: "
+                               "they leave their linear parts by up to {:.3g}; please mesh both surfaces with the same points, or take linear elements",
+                               pair.value.master.value, inexact));
+}
+
 /// Moves slave nodes of pairs that ask for it; what it did, by pairs. Collective.
 std::vector<Adjustment> adjust_slaves(Mesh& mesh, const Scene& scene) {
   std::vector<Adjustment> done;
   for (const auto& pair : scene.contact) {
     done.emplace_back();
     if (pair.value.start.mesh != MeshAtStart::adjusted) continue;
+    refuse_curved_master(mesh, pair);
     done.back() = adjust_onto_master(mesh, require_side_set(mesh, pair.value.slave), require_side_set(mesh, pair.value.master),
                                      pair.value.start.tolerance, held_components(mesh, scene));
   }

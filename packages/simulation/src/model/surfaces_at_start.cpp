@@ -52,7 +52,9 @@ Examined examine(const PlacedBodies& bodies, std::size_t index, const Named<Cont
   pair.from_master = look(bodies, pair.master, pair.slave);
   pair.deepest_is_slave = pair.from_slave.deepest.depth >= pair.from_master.deepest.depth;
   result.is_swallowed = pair.from_slave.swallowed >= most_of_a_surface * pair.from_slave.probes;
-  if (pair.deepest().depth > 0.0) result.overlap = place_of(pair.deepest(), pair.penetrating().name);
+  // Depths are measured between linear parts: round quadratic surfaces that touch seem to overlap by what they leave these.
+  const double inexact = deviation_from_parts(mesh, pair.slave.set, bodies.at) + deviation_from_parts(mesh, pair.master.set, bodies.at);
+  if (pair.deepest().depth > inexact) result.overlap = place_of(pair.deepest(), pair.penetrating().name);
   return pair;
 }
 

@@ -94,4 +94,18 @@ double longest_facet(const Mesh& mesh, const SideSet& set, const PlaceOfNode& at
   return longest;
 }
 
+double deviation_from_parts(const Mesh& mesh, const SideSet& set, const PlaceOfNode& at) {
+  double mine = 0.0, largest = 0.0;
+  for (LocalOrdinal s = 0; s < set.owned; ++s) {
+    const FacetPlaces places = places_of(mesh, set.sides[static_cast<std::size_t>(s)], at);
+    const std::size_t corners = facet_corners(mesh.dimension, places.size());
+    for (std::size_t a = corners; a < places.size(); ++a) {
+      const auto [one, other] = ends_of_edge(a, corners);
+      mine = std::max(mine, (places[a] - 0.5 * (places[one] + places[other])).norm());
+    }
+  }
+  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, mine, Teuchos::outArg(largest));
+  return 0.25 * (mesh.dimension - 1) * largest;
+}
+
 }  // namespace mortise

@@ -62,4 +62,8 @@ std::vector<double> side_lengths(const Mesh& mesh, const Side& side, const Place
 /// Length of the longest facet of the set, over all ranks, between corners. Collective.
 double longest_facet(const Mesh& mesh, const SideSet& set, const PlaceOfNode& at);
 
+/// The most by which quadratic facets leave their linear parts, over all ranks; 0 of linear facets. A parabola of the sagitta s leaves the chords of
+/// its halves by s/4 at most; a facet of a 3D body does so in two directions. Collective.
+double deviation_from_parts(const Mesh& mesh, const SideSet& set, const PlaceOfNode& at);
+
 }  // namespace mortise
