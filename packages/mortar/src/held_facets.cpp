@@ -31,8 +31,8 @@ std::optional<Diagnostic> refusal_of(const HeldFacets& mine, const Communicator&
   const auto [held, all, prescribed, follow, quadratic, shared] = sums;
   if (held == 0) return {};
   const char* const how = follow == 0       ? "are prescribed"
-                          : prescribed == 0 ? "follow a rigid body or a reference point"
-                                            : "are prescribed or follow a rigid body or a reference point";
+                          : prescribed == 0 ? "follow a rigid body, a reference point or a tie"
+                                            : "are prescribed or follow a rigid body, a reference point or a tie";
   if (shared > 0)
     return Diagnostic{
         place,

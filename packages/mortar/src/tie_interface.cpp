@@ -57,6 +57,7 @@ Integrated integrate(const RCP<const Map>& owned_nodes, const RCP<const MultiVec
   MortarOptions options;
   options.corners = CornerRule::averaged;
   options.search_reach = tie.tolerance;
+  options.balance = std::numeric_limits<double>::infinity();  // it is integrated once: facets are not worth sending
   Integrated result;
   result.interface = std::make_unique<MortarInterface>(owned_nodes, reference, marks_of(owned_nodes, reference->getNumVectors(), without), slave,
                                                        tie.master, measure, options, tie.place);
