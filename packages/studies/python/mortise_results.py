@@ -84,8 +84,12 @@ class Mesh:
         return max((shape.dimension for shape in SHAPES.values() if shape.name in self.cells and shape.dimension > 1), default=2)
 
     def is_rigid(self, shape):
-        """Whether cells of the shape of this name are surfaces of rigid bodies: they have a dimension less than the bodies that deform."""
-        return next(one for one in SHAPES.values() if one.name == shape).dimension < self.dimension
+        """Whether cells of the shape of this name are surfaces of rigid bodies: they have a dimension less than the bodies that deform.
+        Throws UnknownName."""
+        found = [one for one in SHAPES.values() if one.name == shape]
+        if not found:
+            raise UnknownName(f'there is no shape "{shape}"; there are {", ".join(one.name for one in SHAPES.values())}')
+        return found[0].dimension < self.dimension
 
     def body_index(self, name):
         """Index of the body of this name. Throws UnknownName."""

@@ -7,6 +7,7 @@
 #include <Tpetra_CrsGraph.hpp>
 
 #include "mortise/core/memory.hpp"
+#include "mortise/mesh/file_mesh.hpp"
 #include "mortise/simulation/model/memory_estimate.hpp"
 #include "mortise/simulation/model/mesh_limits.hpp"
 #include "mortise/simulation/scene/scene_bodies.hpp"
@@ -34,6 +35,16 @@ MemoryEstimate estimated_memory(const Model& model) {
   return estimate;
 }
 
+/// "floor, hole (nodes), surface": what a scene may name of a body from a file.
+std::string sets_of(const Mesh& mesh, const std::string& body) {
+  std::vector<std::string> names;
+  for (const auto& [name, nodes] : mesh.node_sets) {
+    if (name.rfind(body + "/", 0) != 0) continue;
+    names.push_back(name.substr(body.size() + 1) + (mesh.side_sets.count(name) > 0 ? "" : " (nodes)"));
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 }  // namespace
 
 void report_model(const std::string& file, const Scene& scene, const Model& model, RunLog& log) {
@@ -53,6 +64,9 @@ void report_model(const std::string& file, const Scene& scene, const Model& mode
       log.info(fmt::format("  body {}: {} elements {}, {}", name, model.size().elements_of_block[b], to_string(element_of(body, block.shape)),
                            material_name(body, block.part)));
   }
+  for (const auto& body : scene.bodies)
+    if (dynamic_cast<const FileMesh*>(body.value.mesh.options.get()) != nullptr)
+      log.info(fmt::format("  sets of {}: {}", body.name, sets_of(mesh, body.name)));
   for (std::size_t t = 0; t < scene.ties.size(); ++t) {
     const TieAtStart& tie = model.ties_at_start()[t];
     const std::string open = tie.open > 0 ? fmt::format(", {} are free, as no master covers them within {:.3g}", tie.open, tie.tolerance) : "";
