@@ -65,7 +65,6 @@ MultigridHierarchy make_hierarchy(const RCP<const Matrix>& A, const DecoupledSys
     const auto coordinates = rcp(new MultiVector(*near_null_space.coordinates, Teuchos::Copy));
     if (decoupled != nullptr) move_marked(*coordinates, decoupled->master_dofs(), near_null_space.separation);
     user_data.set("Coordinates", coordinates);
-    if (!given.isParameter("aggregation: drop tol")) list.set("aggregation: drop tol", near_null_space.least_coupling);
   } else {
     list.set("aggregation: drop scheme", "classical");
     list.set("aggregation: drop tol", 0.0);

@@ -34,6 +34,7 @@ Teuchos::ParameterList smoothed_aggregation(const MultigridSize& size) {
   list.set("sa: calculate eigenvalue estimate", true);
   list.set("rap: fix zero diagonals", true);  // of coarse dofs beyond those of an aggregate of a single node
   list.set("aggregation: drop scheme", "distance laplacian");
+  list.set("aggregation: drop tol", 1e-8);
   // The coarse solver is KLU2, which is right on one rank only: what is small enough for it is moved to one rank, and there is always a coarse level.
   list.set("coarse: max size", size.ranks == 1 ? rows_of_coarsest : static_cast<int>(std::clamp<GlobalOrdinal>(size.rows / 5, 1, rows_of_coarsest)));
   if (size.ranks == 1) {

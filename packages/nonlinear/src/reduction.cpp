@@ -162,7 +162,6 @@ NearNullSpace Reduction::reduced(const NearNullSpace& of_dofs) const {
   }
   result.coordinates = coordinates;
   result.separation = of_dofs.separation;
-  result.least_coupling = of_dofs.least_coupling;
   if (!of_dofs.rigid_body_modes.is_null()) result.rigid_body_modes = unknown_rows(*of_dofs.rigid_body_modes);
   return result;
 }

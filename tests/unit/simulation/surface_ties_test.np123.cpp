@@ -215,38 +215,6 @@ TEST_P(SurfaceTies, GatheredForcesKeepTheirResultants) {
 
 INSTANTIATE_TEST_SUITE_P(All, SurfaceTies, testing::ValuesIn(cases));
 
-/// A brick of 8 cells along an edge, or two halves of it that are tied; iterations of the first linear solve.
-int krylov_iterations(bool tied, const std::string& more) {
-  const auto brick = [](const std::string& height, const std::string& cells, const std::string& cells_z, const std::string& z) {
-    return parameter("type", "string", "brick") + parameter("height", "string", height) + parameter("cells x", "string", cells) +
-           parameter("cells y", "string", cells) + parameter("cells z", "string", cells_z) + parameter("translation", "string", "0, 0, " + z);
-  };
-  const std::string bodies = tied ? body_text("lower", "H8", brick("0.5", "12", "6", "0")) + body_text("upper", "H8", brick("0.5", "10", "5", "0.5"))
-                                  : body_text("lower", "H8", brick("1", "12", "12", "0"));
-  const std::string top = tied ? "upper/top" : "lower/top";
-  const std::string held = condition("floor", "lower/bottom", {{"x", "0"}, {"y", "0"}, {"z", "0"}}) +
-                           condition("press", top, {{"x", "0.01*t"}, {"y", "0"}, {"z", "-0.02*t"}});
-  const std::string tie =
-      list("ties", list("joint", parameter("slave", "string", "upper/bottom") + parameter("master", "string", "lower/top") + more));
-  const Scene scene = read_text(list("brick", parameter("kinematics", "string", "three dimensional") + list("materials", rubber) +
-                                                  list("bodies", bodies) + list("boundary conditions", held) + (tied ? tie : "") +
-                                                  list("linear solver", parameter("type", "string", "iterative"))));
-  const Timers timers;
-  const Model model(Tpetra::getDefaultComm(), scene, timers);
-  SemiSmoothSystem system(model.parts(), timers);
-  const Vector x(system.map());
-  StepContext context = system.step_from(system.initial_state(x), 1.0);
-  const SystemLinearisation linearisation = system.linearise(system.evaluate(x, context));
-  Vector direction(system.map());
-  return linearisation.newton_direction(linearisation.evaluation().residual(), direction, 1e-10).iterations;
-}
-
-TEST(TiesAndMultigrid, TakeTheIterationsOfOneBody) {
-  const int one_body = krylov_iterations(false, "");
-  EXPECT_GT(one_body, 1);
-  EXPECT_LE(krylov_iterations(true, ""), one_body + 3);
-}
-
 /// Two blocks side by side, tied, on a base that is held or not, with friction.
 std::string blocks_on_base(bool base_is_held) {
   const auto block = [](double x, double y, double width, int cells) {

@@ -40,10 +40,6 @@ class Collector {
   std::vector<Diagnostic> diagnostics_;
 };
 
-/// NearNullSpace::least_coupling of models with ties. What tied nodes follow is coupled over two and three sides of elements. Aggregates of all of
-/// these would be too large: they cost a brick of two tied halves up to 18 iterations, where one of one body takes 11.
-constexpr double near_neighbours = 0.02;
-
 /// Points of the rigid bodies, then those of the scene.
 std::vector<ReferencePointDescription> reference_points(const Scene& scene) {
   const bool axisymmetric = scene.kinematics == Kinematics::axisymmetric;
@@ -319,14 +315,11 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   parts_.local_dofs = bodies_->local_dofs();
   parts_.bulk_graph = [bodies] { return bodies->graph(); };
   parts_.length = size_.length;
-  parts_.near_null_space = [bodies = bodies_, apart = 1e6 * size_.length, joined = joined_bodies(*mesh_, scene),
-                            has_ties = parts_.tied != nullptr](const Vector& displacement) {
+  parts_.near_null_space = [bodies = bodies_, apart = 1e6 * size_.length, joined = joined_bodies(*mesh_, scene)](const Vector& displacement) {
     const RCP<MultiVector> coordinates = current_coordinates(*bodies, displacement);
     const auto x = coordinates->getLocalViewHost(Tpetra::Access::ReadWrite);
     for (std::size_t node = 0; node < x.extent(0); ++node) x(node, 0) += apart * joined[bodies->mesh()->body_of_node[node]];
-    NearNullSpace result{rigid_body_modes(*bodies, displacement), coordinates, apart};
-    if (has_ties) result.least_coupling = near_neighbours;
-    return result;
+    return NearNullSpace{rigid_body_modes(*bodies, displacement), coordinates, apart};
   };
   parts_.contributions.push_back(std::make_shared<BulkContribution>(bodies, timers));
 

@@ -25,9 +25,6 @@ struct NearNullSpace {
   RCP<const MultiVector> rigid_body_modes;  ///< on the dofs of the matrix
   RCP<const MultiVector> coordinates;       ///< on the nodes, `dimension` columns, with bodies moved away from one another by `separation`
   double separation = 0.0;                  ///< a length beside which bodies are points, so that no aggregate crosses contact
-  /// Neighbours i and j of the matrix may share an aggregate if d_ij^-2 exceeds this share of (L_ii L_jj)^1/2, d their distance, L_ii = sum_j
-  /// d_ij^-2: 1e-8 cuts between bodies. 0.02 cuts all beyond the neighbours in a regular grid as well: those across a cube have 0.0227.
-  double least_coupling = 1e-8;
 };
 
 /// What an iterative solver may ask of a system, each only if it is needed; any may be empty.
@@ -66,8 +63,8 @@ class LinearSolver {
   /// * the true relative residual of the iterative solver exceeds ten times the tolerance.
   virtual LinearSolveReport solve(const Vector& b, Vector& x, double tolerance = 0.0) = 0;
 
-  /// Forgets what it kept of earlier matrices: from the next one on it solves as a new solver would. So a run that goes on from a checkpoint takes
-  /// the way of the run that wrote it.
+  /// Forgets what it kept of earlier matrices: from the next one on it solves as a new solver would. So a run that goes on from a checkpoint takes the
+  /// way of the run that wrote it.
   virtual void forget() {}
 };
 
