@@ -10,7 +10,7 @@ namespace mortise {
 
 void FileMesh::describe_shape(Parameters& parameters) {
   parameters.add("file", file, Says("path of the mesh file; a relative one begins at the folder of the file that names it").required());
-  // Read once, the path is whole: effective.xml, which has it, stands in another folder.
+  // Read once, the path is whole: an input that repeats it may stand in another folder.
   namespace fs = std::filesystem;
   if (const fs::path path(file.value); !file.value.empty() && !path.is_absolute() && !file.place.file.empty())
     file.value = fs::absolute(fs::path(file.place.file).parent_path() / path).lexically_normal().string();

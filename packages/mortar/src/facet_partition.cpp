@@ -2,8 +2,10 @@
 
 #include <zoltan_cpp.h>
 
+#include <Teuchos_CommHelpers.hpp>
 #include <Teuchos_DefaultMpiComm.hpp>
 #include <algorithm>
+#include <cstdint>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -46,13 +48,28 @@ void centres(void* data, int, int, int objects, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR loc
   }
 }
 
+bool is_fine(int code) { return code == ZOLTAN_OK || code == ZOLTAN_WARN; }
+
 void check(int code) {
-  if (code != ZOLTAN_OK && code != ZOLTAN_WARN) throw std::runtime_error("Zoltan found no partition of the facets");
+  if (!is_fine(code)) throw std::runtime_error("Zoltan cannot be set up for the partition of the facets");
+}
+
+/// Equal numbers of facets in the order of ranks, whatever their work.
+std::vector<int> in_order(std::int64_t before, std::int64_t all, std::size_t here, int parts) {
+  std::vector<int> result(here);
+  for (std::size_t f = 0; f < here; ++f) result[f] = static_cast<int>((before + static_cast<std::int64_t>(f)) * parts / all);
+  return result;
 }
 
 }  // namespace
 
 std::vector<int> partition_facets(const RCP<const Communicator>& comm, const std::vector<PartitionedFacet>& facets, int parts) {
+  const auto mine = static_cast<std::int64_t>(facets.size());
+  std::int64_t until = 0, all = 0;
+  Teuchos::scan(*comm, Teuchos::REDUCE_SUM, mine, Teuchos::outArg(until));
+  Teuchos::reduceAll(*comm, Teuchos::REDUCE_SUM, mine, Teuchos::outArg(all));
+  if (all <= parts) return in_order(until - mine, all, facets.size(), parts);  // nothing to weigh, and bisection fails at so few
+
   float version = 0.0f;
   check(Zoltan_Initialize(0, nullptr, &version));
   const auto* mpi = dynamic_cast<const Teuchos::MpiComm<int>*>(comm.get());
@@ -71,9 +88,12 @@ std::vector<int> partition_facets(const RCP<const Communicator>& comm, const std
   int changes = 0, global_entries = 0, local_entries = 0, imports = 0, exports = 0;
   ZOLTAN_ID_PTR import_global = nullptr, import_local = nullptr, export_global = nullptr, export_local = nullptr;
   int *import_ranks = nullptr, *import_parts = nullptr, *export_ranks = nullptr, *export_parts = nullptr;
-  check(zoltan.LB_Partition(changes, global_entries, local_entries, imports, import_global, import_local, import_ranks, import_parts, exports,
-                            export_global, export_local, export_ranks, export_parts));
-  std::vector<int> result(facets.size());
+  const int code = zoltan.LB_Partition(changes, global_entries, local_entries, imports, import_global, import_local, import_ranks, import_parts,
+                                       exports, export_global, export_local, export_ranks, export_parts);
+  int fails = is_fine(code) ? 0 : 1, fails_anywhere = 0;
+  Teuchos::reduceAll(*comm, Teuchos::REDUCE_MAX, fails, Teuchos::outArg(fails_anywhere));
+  std::vector<int> result = in_order(until - mine, all, facets.size(), parts);  // the partition is only for speed: without one all goes on
+  if (fails_anywhere > 0) exports = 0;
   for (int k = 0; k < exports; ++k) result[export_local[k]] = export_parts[k];
   Zoltan::LB_Free_Part(&import_global, &import_local, &import_ranks, &import_parts);
   Zoltan::LB_Free_Part(&export_global, &export_local, &export_ranks, &export_parts);

@@ -173,5 +173,21 @@ TEST(FacetPartition, SharesWorkOut) {
   }
 }
 
+// Two facets of a tie on three ranks: some have none, and all stand on one rank or lie at one place.
+TEST(Balance, FewFacetsHaveAPartition) {
+  const auto comm = Tpetra::getDefaultComm();
+  for (int number = 0; number <= 12; ++number)
+    for (int home = 0; home < comm->getSize(); ++home)
+      for (const bool apart : {false, true})
+        for (const double work : {0.0, 1.0}) {
+          std::vector<PartitionedFacet> facets;
+          if (comm->getRank() == home)
+            for (int f = 0; f < number; ++f) facets.push_back({{apart ? 0.1 * f : 0.5, 0.3, 0.0}, work});
+          const std::vector<int> part = partition_facets(comm, facets, comm->getSize());
+          ASSERT_EQ(part.size(), facets.size());
+          for (const int one : part) EXPECT_TRUE(one >= 0 && one < comm->getSize()) << number << " facets on rank " << home;
+        }
+}
+
 }  // namespace
 }  // namespace mortise

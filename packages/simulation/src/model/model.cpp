@@ -94,10 +94,11 @@ void refuse_curved_master(const Mesh& mesh, const Named<ContactPairOptions>& pai
   const SideSet& master = require_side_set(mesh, pair.value.master);
   const double inexact = deviation_from_parts(mesh, master, at);
   if (inexact <= flat * longest_facet(mesh, master, at)) return;
-  throw InputError(pair.place,
-                   fmt::format("\"start\" = \"adjust\" moves slave nodes onto linear facets, and the quadratic facets of the master \"{}\" are curved: "
-                               "they leave their linear parts by up to {:.3g}; please mesh both surfaces with the same points, or take linear elements",
-                               pair.value.master.value, inexact));
+  throw InputError(
+      pair.place,
+      fmt::format("\"start\" = \"adjust\" moves slave nodes onto linear facets, and the quadratic facets of the master \"{}\" are curved: "
+                  "they leave their linear parts by up to {:.3g}; please mesh both surfaces with the same points, or take linear elements",
+                  pair.value.master.value, inexact));
 }
 
 /// Moves slave nodes of pairs that ask for it; what it did, by pairs. Collective.

@@ -52,9 +52,7 @@ Examined examine(const PlacedBodies& bodies, std::size_t index, const Named<Cont
   pair.from_master = look(bodies, pair.master, pair.slave);
   pair.deepest_is_slave = pair.from_slave.deepest.depth >= pair.from_master.deepest.depth;
   result.is_swallowed = pair.from_slave.swallowed >= most_of_a_surface * pair.from_slave.probes;
-  // Depths are measured between linear parts: round quadratic surfaces that touch seem to overlap by what they leave these.
-  const double inexact = deviation_from_parts(mesh, pair.slave.set, bodies.at) + deviation_from_parts(mesh, pair.master.set, bodies.at);
-  if (pair.deepest().depth > inexact) result.overlap = place_of(pair.deepest(), pair.penetrating().name);
+  if (pair.deepest().depth > 0.0) result.overlap = place_of(pair.deepest(), pair.penetrating().name);
   return pair;
 }
 
@@ -80,6 +78,10 @@ void complain_of_overlap(const PlacedBodies& bodies, Examined& pair, std::vector
   const std::string what =
       fmt::format("the surfaces begin by {:.3g} in one another, deepest at {}", overlap.depth, to_string(bodies.mesh.dimension, overlap));
   if (options.start.initial_overlap == InitialOverlap::error) {
+    // Depths are measured between linear parts: round quadratic surfaces that touch seem to overlap by what they leave these.
+    const double inexact =
+        deviation_from_parts(bodies.mesh, pair.slave.set, bodies.at) + deviation_from_parts(bodies.mesh, pair.master.set, bodies.at);
+    if (overlap.depth <= inexact) return;
     say(what + "; \"initial overlap\" says that this is an error: please move the bodies apart, or take \"interference\"");
     return;
   }
@@ -162,7 +164,8 @@ struct HiddenFront {
 /// Collective; over all ranks.
 std::optional<HiddenFront> find_hidden_front(const PlacedBodies& bodies, const SideSet& slave, const std::vector<SidesOfBody>& masters,
                                              double reach) {
-  constexpr double facing = 0.5;  // cosine of the angle between opposite normals
+  constexpr double facing = 0.5;   // cosine of the angle between opposite normals
+  constexpr double hardly = 1e-3;  // of the reach
   const Mesh& mesh = bodies.mesh;
   std::vector<TaggedFacet> facets;
   for (const SidesOfBody& master : masters)
@@ -176,7 +179,8 @@ std::optional<HiddenFront> find_hidden_front(const PlacedBodies& bodies, const S
     for (const Crossing& crossing : found) {
       if (crossing.along > -facing) continue;
       if (first == nullptr) first = &crossing;
-      if (crossing.tag == first->tag || -crossing.s <= mine[0]) continue;
+      const bool is_behind = crossing.tag != first->tag && crossing.s > first->s + hardly * reach;  // neighbours meet at edges
+      if (!is_behind || -crossing.s <= mine[0]) continue;
       mine[0] = -crossing.s, mine[1] = crossing.tag;
     }
   }
