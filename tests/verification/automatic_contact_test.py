@@ -211,9 +211,35 @@ def test_rollers(runner):
     return failures
 
 
+def test_hidden_masters(runner):
+    """A lid over a pad over a base with long facets: the base, which the pad hides, does not bear what lies on the pad."""
+    bodies = [block("base", -1, -1, 4, 1, 2, 2, "stiff"), block("pad", 0, 0, 2, 0.2, 8, 2), block("lid", -0.5, 0.2, 3, 0.5, 3, 2, "stiff")]
+    conditions = [named("floor", parameter("set", "string", "base/bottom"), parameter("x", "double", 0), parameter("y", "double", 0)),
+                  named("middle", parameter("set", "string", "pad/left"), parameter("x", "double", 0)),
+                  named("hand", parameter("set", "string", "lid/top"), parameter("x", "double", 0), parameter("y", "string", "-0.002*t"))]
+    quantities = named("push", parameter("type", "string", "reaction"), parameter("set", "string", "lid/top"), parameter("component", "string", "y"))
+    found, pairs, _ = runner.run("hidden", scene(bodies, conditions, quantities))
+    failures = check(len(pairs) == 2, f"a lid on a pad on a base are two pairs: {pairs}")
+
+    def by_hand(*contact):
+        text = scene(bodies, conditions, quantities)
+        automatic = named("automatic contact", parameter("pairs", "string", "automatic"))
+        return text.replace(automatic, "".join(contact))
+
+    def pair(name, slave, master):
+        return named(name, parameter("slave", "string", slave), parameter("master", "string", master))
+
+    alone, _, _ = runner.run("hidden_by_hand", by_hand(named("contact", pair("lower", "pad/bottom", "base/top"), pair("upper", "lid/bottom", "pad/top"))))
+    failures += check(close(found, alone, 1e-9), f"the base bears what it bears in pairs of two bodies each: {found['push']} and {alone['push']}")
+    both = named("sets", named("both", parameter("kind", "string", "sides"), parameter("of", "string", "base/top, pad/top")))
+    _, _, text = runner.run("hidden_refused", by_hand(named("contact", pair("lower", "pad/bottom", "base/top"), pair("upper", "lid/bottom", "both")), both), code=2)
+    failures += check("stands behind that of another body, 0.2 away" in text and "of 0.1" in text, "masters behind one another are refused, with the reach that parts them")
+    return failures
+
+
 def main():
     runner = Runner(*sys.argv[1:4])
-    failures = test_wall(runner) + test_thin_wall(runner) + test_reach(runner) + test_sides(runner) + test_rollers(runner)
+    failures = test_wall(runner) + test_thin_wall(runner) + test_reach(runner) + test_sides(runner) + test_rollers(runner) + test_hidden_masters(runner)
     print(f"{failures} failed")
     return 1 if failures else 0
 

@@ -39,7 +39,7 @@ def ring(kinematics, inner, outer, cells, element):
     return parameter("material", "string", "steel") + parameter("element", "string", element) + mesh
 
 
-def scene(kinematics, element, cells, way, slave, friction=0.0, push=False):
+def scene(kinematics, element, cells, way, slave, friction=0.0, push=False, begins=""):
     swept = kinematics == "three dimensional"
     drawn = D if way.startswith("drawn") else 0.0
     inner, outer = ("right", "left") if kinematics == "axisymmetric" else ("outer", "inner")
@@ -74,20 +74,22 @@ def scene(kinematics, element, cells, way, slave, friction=0.0, push=False):
         named("materials", named("steel", parameter("type", "string", "small strain linear"), parameter("young's modulus", "double", E), parameter("poisson's ratio", "double", NU))),
         named("bodies", named("shaft", ring(kinematics, A, B + drawn, cells[0], element)), named("hub", ring(kinematics, B, C, cells[1], element))),
         named("boundary conditions", *[named(f"{n}", parameter("set", "string", where), parameter(component, "string", value)) for n, (where, component, value) in enumerate(conditions)]),
-        named("contact", named("fit", parameter("slave", "string", sides[0]), parameter("master", "string", sides[1]), ways[way], law)),
+        named("contact", named("fit", parameter("slave", "string", sides[0]), parameter("master", "string", sides[1]), ways[way], begins, law)),
         named("stepping", parameter("end time", "double", 2.0 if push else 1.0), parameter("step", "double", 0.125 if push else 0.25 if "ramped" in way else 1.0)),
         named("output", parameter("fields", "string", "")), named("quantities", quantities))
     return text, force
 
 
-def run(mpirun, program, directory, name, text, ranks=1):
+def run(mpirun, program, directory, name, text, ranks=1, code=0):
     path, results = os.path.join(directory, name + ".xml"), os.path.join(directory, f"{name}_{ranks}")
     with open(path, "w", encoding="utf-8") as file:
         file.write(text)
     command = ([mpirun, "-n", str(ranks)] if ranks > 1 else []) + [program, "run", path, "-o", results, "--quiet"]
     done = subprocess.run(command, capture_output=True, text=True)
-    if done.returncode != 0:
+    if done.returncode != code:
         sys.exit(f"{' '.join(command)} ended with {done.returncode}:\n{done.stdout}{done.stderr}")
+    if code != 0:
+        return done.stdout + done.stderr
     with open(os.path.join(results, "summary.json"), encoding="utf-8") as file:
         return json.load(file)["quantities"]
 
@@ -115,6 +117,15 @@ def main():
                 mean = abs(found["force"]) / area
                 check(abs(mean / LAME - 1) < 0.01 and abs(found["peak"] / LAME - 1) < 0.03,
                       f"{kinematics}, {element}, {way}, slave {slave}: mean pressure {mean / LAME:.4f}, peak {found['peak'] / LAME:.4f} of Lame's {LAME:.4f}")
+    # Quadratic facets of two meshes of one circle leave each other by parts of their sagitta: that is no overlap, and no place to move nodes to.
+    refuse = parameter("initial overlap", "string", "error")
+    found = run(mpirun, program, directory, "touching", scene("plane stress", "Q8", (12, 9), "clearance", "shaft", begins=refuse)[0])
+    check(abs(abs(found["force"]) / B / LAME - 1) < 0.01, "round quadratic surfaces that touch are not refused as overlapping")
+    text = run(mpirun, program, directory, "overlapping", scene("plane stress", "Q4", (24, 24), "drawn", "shaft", begins=refuse)[0], code=2)
+    check("begin by 0.0050" in text and "in one another" in text, "overlaps that are real are refused where they are said to be errors")
+    adjust = parameter("start", "string", "adjust") + parameter("tolerance", "double", 0.1)
+    text = run(mpirun, program, directory, "adjusted", scene("plane stress", "Q8", (12, 9), "clearance", "shaft", begins=adjust)[0], code=2)
+    check("are curved" in text, "nodes are not moved onto curved masters")
     # Pushed out by its lower end: each facet slips at mu p, which Poisson's ratio changes by as much as the push is of the pressure.
     text, area = scene("axisymmetric", "Q8", (16, 12), "clearance, ramped", "shaft", 0.1, True)
     found = run(mpirun, program, directory, "push_out", text)

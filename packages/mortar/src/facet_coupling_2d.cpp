@@ -1,6 +1,7 @@
 #include "facet_coupling_2d.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "facet_alignment.hpp"
 #include "surface_search.hpp"
@@ -129,6 +130,7 @@ bool FacetIntegrator2d::find_pairs(const SlaveFacetData& slave, const std::vecto
       distances.push_back(distance);
     }
   const std::vector<char> yields = slave.goes_on ? yielding_facets(slave.nodes, near, x) : std::vector<char>(near.size(), 0);
+  std::vector<double> overlapping(near.size(), std::numeric_limits<double>::infinity());
   for (std::size_t f = 0; f < near.size(); ++f) {
     if (yields[f] != 0) continue;
     const Facet<LocalOrdinal>& nodes = near[f];
@@ -137,11 +139,13 @@ bool FacetIntegrator2d::find_pairs(const SlaveFacetData& slave, const std::vecto
     pair.line = line_on(nodes, x);
     const auto overlap = find_overlap(line_, pair.line);
     if (!overlap) continue;
+    overlapping[f] = distance;
     touches = touches || distance <= reach.touch;
     pair.overlap = *overlap;
     for (const LocalOrdinal node : nodes) pair.place.push_back(place_of(master_nodes, node));
     pairs_.push_back(pair);
   }
+  if (const auto kept = without_surfaces_behind(near, overlapping, reach.touch)) return find_pairs(slave, *kept, reach, x, master_nodes);
   if (!touches) pairs_.clear();
   return touches;
 }

@@ -39,7 +39,9 @@ bool FacetIntegrator3d::find_pairs(const std::vector<Facet<LocalOrdinal>>& maste
                                    FacetCoupling& coupling) {
   pairs_.clear();
   bool touches = false;
-  for (const Facet<LocalOrdinal>& facet : masters) {
+  std::vector<double> distances(masters.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t f = 0; f < masters.size(); ++f) {
+    const Facet<LocalOrdinal>& facet = masters[f];
     FacetVectors nodes;
     for (const LocalOrdinal node : facet) nodes.push_back(plane_.to_frame(x[node]));
     overlaps_.clear();
@@ -47,10 +49,15 @@ bool FacetIntegrator3d::find_pairs(const std::vector<Facet<LocalOrdinal>>& maste
     double distance = std::numeric_limits<double>::max();
     for (const Overlap3d& overlap : overlaps_) distance = std::min(distance, overlap.distance);
     if (overlaps_.empty() || distance > reach.all) continue;
+    distances[f] = distance;
     touches = touches || distance <= reach.touch;
     boost::container::static_vector<Eigen::Index, 8> place;
     for (const LocalOrdinal node : facet) place.push_back(place_of(coupling.master, node));
     for (const Overlap3d& overlap : overlaps_) pairs_.push_back({nodes, place, overlap});
+  }
+  if (const auto kept = without_surfaces_behind(masters, distances, reach.touch)) {
+    coupling.master.clear();
+    return find_pairs(*kept, reach, x, coupling);
   }
   return touches;
 }

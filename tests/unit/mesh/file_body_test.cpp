@@ -87,7 +87,7 @@ TEST(FileBody, IsMadeOfNamedBlocksAlone) {
   wanted.blocks = {"rihgt"};
   EXPECT_THAT(refused(row_of_squares(), wanted), AllOf(HasSubstr("scene.xml:5"), HasSubstr("did you mean \"right\"?")));
   wanted.blocks = {"foot"};
-  EXPECT_THAT(refused(row_of_squares(), wanted), HasSubstr("has no cells of 2 dimension(s)"));
+  EXPECT_THAT(refused(row_of_squares(), wanted), HasSubstr("blocks \"foot\" of row.msh have lines alone; body \"body\" needs cells of 2 dimensions"));
 }
 
 TEST(FileBody, HasPartsWithMaterialsOfTheirOwn) {
@@ -193,6 +193,33 @@ TEST(FileBody, OfFacetsIsARigidSurface) {
   EXPECT_EQ(body.nodes, 4);
   EXPECT_THAT(body.side_names, ElementsAre("lower", "upper"));
   EXPECT_THAT(sides_of(body, 1), ElementsAre(std::pair(the_cell_itself, 1)));
+}
+
+TEST(FileBody, OfFacetsHasOneOutside) {
+  MeshFile file = cube_with_tetrahedra();
+  file.cells = {{CellShape::triangle3, {1, 3, 7, 1, 5, 7}, {4, 5}}};  // the second one turned
+  file.cell_sets.clear();
+  FileBodyRequest wanted = request(3);
+  wanted.is_surface = true;
+  EXPECT_THAT(refused(file, wanted), HasSubstr("facets 4 and 5 have their outsides on different sides"));
+  MeshFile row = row_of_squares();
+  row.cells = {{CellShape::line2, {0, 1, 2, 1}, {1, 2}}};
+  row.cell_sets.clear(), row.side_sets.clear();
+  wanted.dimension = 2;
+  EXPECT_THAT(refused(row, wanted), HasSubstr("facets 1 and 2 have their outsides on different sides"));
+}
+
+TEST(FileBody, SaysWhereMeshesOnlyLieOnOneAnother) {
+  MeshFile file = row_of_squares();
+  file.cell_sets.clear();
+  EXPECT_TRUE(make_file_body(file, request(2)).notes.empty());
+  // Two half squares on top of the first one: a hanging node at (0.5, 1).
+  file.coordinates.insert(file.coordinates.end(), {{0.5, 1.0, 7.0}, {0.0, 1.5, 7.0}, {0.5, 1.5, 7.0}, {1.0, 1.5, 7.0}});
+  for (int n = 0; n < 4; ++n) file.node_labels.push_back(200 + n);
+  FileCells& squares = file.cells[0];
+  squares.nodes.insert(squares.nodes.end(), {5, 10, 12, 11, 10, 6, 13, 12});
+  squares.labels.insert(squares.labels.end(), {14, 15});
+  EXPECT_THAT(make_file_body(file, request(2)).notes, ElementsAre(AllOf(HasSubstr("1 nodes of the surface"), HasSubstr("side of element 10"))));
 }
 
 TEST(FileBody, KeepsReservedNames) {

@@ -152,6 +152,7 @@ double distance(const Eigen::Vector3d& x, const std::vector<Eigen::Vector3d>& co
     return s < -beside || s > 1.0 + beside ? std::numeric_limits<double>::infinity() : (r - s * e).norm();
   }
   const Eigen::Vector3d f = corners[2] - corners[0], normal = e.cross(f);
+  if (!(normal.squaredNorm() > 0.0)) return std::numeric_limits<double>::infinity();  // a side that is collapsed to a line
   const double u = r.cross(f).dot(normal) / normal.squaredNorm(), v = e.cross(r).dot(normal) / normal.squaredNorm();
   if (u < -beside || v < -beside || u + v > 1.0 + beside) return std::numeric_limits<double>::infinity();
   return std::abs(r.dot(normal)) / normal.norm();
@@ -199,8 +200,8 @@ std::optional<std::string> loose_nodes(const MeshFile& file, const ChosenCells& 
   if (loose.empty()) return std::nullopt;
   return fmt::format(
       "{} nodes of the surface lie on sides of elements that do not have them, for instance {} on a side of element {}: nothing connects the two "
-      "there. Please merge "
-      "nodes that stand at one place and let cells share whole sides, unless it is a crack",
+      "there. "
+      "Please merge nodes that stand at one place and let cells share whole sides, unless it is a crack",
       loose.size(), place_text(file, chosen.file_nodes[static_cast<std::size_t>(example)]),
       chosen.elements.labels[static_cast<std::size_t>(of_element)]);
 }

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,8 +28,10 @@ int wanted_dimension(const MeshFile& file, const FileBodyRequest& request) {
   if (highest >= request.dimension || (highest == 0 && !request.blocks.empty())) return request.dimension;
   if (request.is_surface && highest == request.dimension - 1) return highest;
   static const char* const cells_of[] = {"no cells", "lines alone", "cells of two dimensions at most", "solid cells"};
+  const std::string which =
+      request.blocks.empty() ? file.path + " has" : fmt::format("blocks \"{}\" of {} have", fmt::join(request.blocks, "\", \""), file.path);
   throw InputError(request.place,
-                   fmt::format("{} has {}; body \"{}\" needs cells of {} dimensions{}", file.path, cells_of[highest], request.name, request.dimension,
+                   fmt::format("{} {}; body \"{}\" needs cells of {} dimensions{}", which, cells_of[highest], request.name, request.dimension,
                                request.is_surface ? fmt::format(" or, as it is rigid, of {}", request.dimension - 1) : ""));
 }
 
