@@ -50,13 +50,7 @@ const FormatEntry& format_of(const std::string& path, MeshFormat format, const P
 }  // namespace
 
 MeshFile read_mesh_file(const std::string& path, MeshFormat format, const Place& place) {
-  const FormatEntry& entry = format_of(path, format, place);
-  try {
-    return entry.read(path);
-  } catch (const FileError& error) {
-    if (place.file.empty()) throw;
-    throw FileError(to_string({place, error.what()}));
-  }
+  return format_of(path, format, place).read(path);
 }
 
 }  // namespace mortise

@@ -57,7 +57,7 @@ enum class MeshFormat {
   abaqus    ///< .inp of Abaqus and CalculiX
 };
 
-/// Reads a file on this rank. `place` is where it is named.
+/// Reads a file on this rank. `place`, where it is named, is that of errors about the format.
 /// @throws InputError with the file's line or byte, the entity, what was seen and what was expected; FileError if it cannot be opened
 MeshFile read_mesh_file(const std::string& path, MeshFormat format, const Place& place);
 
