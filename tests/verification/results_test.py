@@ -162,7 +162,7 @@ class OfFiles(unittest.TestCase):
             with self.assertRaisesRegex(mortise_results.FileProblem, text):
                 mortise_results.open(self.directory).mesh
 
-        expect("element 0 has the shape 7", topology=np.array([7, 1, 2]))
+        expect("element 0 has the shape 77", topology=np.array([77, 1, 2]))
         expect("its topology ends within element 0", topology=np.array([5, 1, 2]))
         expect("nodes 1 to 10 in its topology, but there are 10 nodes", topology=np.array([4, 1, 2, 10]))
         expect("1 elements in its topology, but 2 have a body", topology=np.array([4, 1, 2, 3]), body=np.array([0, 0]))
