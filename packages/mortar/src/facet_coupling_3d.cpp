@@ -39,7 +39,7 @@ bool FacetIntegrator3d::find_pairs(const std::vector<Facet<LocalOrdinal>>& maste
                                    FacetCoupling& coupling) {
   pairs_.clear();
   bool touches = false;
-  std::vector<double> distances(masters.size(), std::numeric_limits<double>::infinity());
+  distances_.assign(masters.size(), std::numeric_limits<double>::infinity());
   for (std::size_t f = 0; f < masters.size(); ++f) {
     const Facet<LocalOrdinal>& facet = masters[f];
     FacetVectors nodes;
@@ -49,13 +49,13 @@ bool FacetIntegrator3d::find_pairs(const std::vector<Facet<LocalOrdinal>>& maste
     double distance = std::numeric_limits<double>::max();
     for (const Overlap3d& overlap : overlaps_) distance = std::min(distance, overlap.distance);
     if (overlaps_.empty() || distance > reach.all) continue;
-    distances[f] = distance;
+    distances_[f] = distance;
     touches = touches || distance <= reach.touch;
     boost::container::static_vector<Eigen::Index, 8> place;
     for (const LocalOrdinal node : facet) place.push_back(place_of(coupling.master, node));
     for (const Overlap3d& overlap : overlaps_) pairs_.push_back({nodes, place, overlap});
   }
-  if (const auto kept = without_surfaces_behind(masters, distances, reach.touch)) {
+  if (const auto kept = without_surfaces_behind(masters, distances_, reach.touch)) {
     coupling.master.clear();
     return find_pairs(*kept, reach, x, coupling);
   }

@@ -43,7 +43,8 @@ class FacetIntegrator3d {
   FacetVectors normals_;  ///< in the frame of the plane
   std::vector<Pair> pairs_;
   std::vector<Overlap3d> overlaps_;
-  Eigen::MatrixXd basis_;  ///< L = basis N
+  std::vector<double> distances_;  ///< of the master facets that overlap; of others infinite
+  Eigen::MatrixXd basis_;          ///< L = basis N
   SegmentIntegrals3d segment_;
   FacingIntegrals3d facing_;
   Eigen::MatrixXd raw_;  ///< derivatives with respect to slave positions, slave normals, masters

@@ -211,15 +211,14 @@ TEST(FileBody, OfFacetsHasOneOutside) {
 
 TEST(FileBody, SaysWhereMeshesOnlyLieOnOneAnother) {
   MeshFile file = row_of_squares();
-  file.cell_sets.clear();
-  EXPECT_TRUE(make_file_body(file, request(2)).notes.empty());
+  EXPECT_TRUE(make_file_body(file, request(2)).warnings.empty());
   // Two half squares on top of the first one: a hanging node at (0.5, 1).
   file.coordinates.insert(file.coordinates.end(), {{0.5, 1.0, 7.0}, {0.0, 1.5, 7.0}, {0.5, 1.5, 7.0}, {1.0, 1.5, 7.0}});
   for (int n = 0; n < 4; ++n) file.node_labels.push_back(200 + n);
   FileCells& squares = file.cells[0];
   squares.nodes.insert(squares.nodes.end(), {5, 10, 12, 11, 10, 6, 13, 12});
   squares.labels.insert(squares.labels.end(), {14, 15});
-  EXPECT_THAT(make_file_body(file, request(2)).notes, ElementsAre(AllOf(HasSubstr("1 nodes of the surface"), HasSubstr("side of element 10"))));
+  EXPECT_THAT(make_file_body(file, request(2)).warnings, ElementsAre(AllOf(HasSubstr("1 nodes of the surface"), HasSubstr("side of element 10"))));
 }
 
 TEST(FileBody, KeepsReservedNames) {

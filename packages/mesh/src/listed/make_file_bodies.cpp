@@ -60,7 +60,7 @@ void put_header(Letter& letter, const ListedBody& body) {
     letter.put(static_cast<long long>(part.shape));
     letter.put(part.elements);
   }
-  for (const auto* texts : {&body.side_names, &body.node_set_names, &body.notes}) letter.put(*texts);
+  for (const auto* texts : {&body.side_names, &body.node_set_names, &body.notes, &body.warnings}) letter.put(*texts);
 }
 
 ListedBody header(Letter& letter) {
@@ -73,7 +73,7 @@ ListedBody header(Letter& letter) {
     part.shape = static_cast<CellShape>(letter.number());
     part.elements = letter.number();
   }
-  for (auto* texts : {&body.side_names, &body.node_set_names, &body.notes}) *texts = letter.texts();
+  for (auto* texts : {&body.side_names, &body.node_set_names, &body.notes, &body.warnings}) *texts = letter.texts();
   return body;
 }
 

@@ -159,7 +159,7 @@ BodySets sets_of(const MeshFile& file, const FileBodyRequest& request, ChosenCel
   if (!request.is_surface) require_one_piece(file, request, chosen);
   BodySets sets = name_sets(file, request, chosen, table);
   if (!request.is_surface)
-    if (const auto note = loose_nodes(file, chosen, table)) sets.notes.push_back(*note);
+    if (const auto warning = loose_nodes(file, chosen, table)) sets.warnings.push_back(*warning);
   if (request.is_surface) keep_surface(chosen, sets);
   return sets;
 }
@@ -179,6 +179,7 @@ ListedBody make_file_body(const MeshFile& file, const FileBodyRequest& request, 
     body.notes.push_back(
         fmt::format("the nodes of {} of {} elements ran clockwise and were turned round", chosen.turned_count, chosen.elements.size()));
   body.notes.insert(body.notes.end(), sets.notes.begin(), sets.notes.end());
+  body.warnings = std::move(sets.warnings);
   body.side_names = std::move(sets.side_names);
   body.node_set_names = std::move(sets.node_set_names);
   fill_coordinates(body, file, request, chosen);

@@ -20,7 +20,7 @@ struct BodySets {
   std::vector<std::string> side_names, node_set_names;
   std::vector<NamedSide> sides;                                    ///< of the whole surface, by element and side; those without a name once
   std::vector<std::pair<std::int32_t, std::int32_t>> set_of_node;  ///< node, node set; ascending
-  std::vector<std::string> notes;
+  std::vector<std::string> notes, warnings;
 };
 
 /// @param sides  of the elements

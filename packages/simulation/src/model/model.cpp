@@ -114,11 +114,13 @@ std::vector<Adjustment> adjust_slaves(Mesh& mesh, const Scene& scene) {
   return done;
 }
 
-/// @param notes  gets what was changed or left out of mesh files
-RCP<Mesh> make_mesh(const RCP<const Communicator>& comm, const Scene& scene, std::vector<std::string>& notes) {
+RCP<Mesh> make_mesh(const RCP<const Communicator>& comm, const Scene& scene, MeshRemarks& remarks) {
   const std::vector<BodyDescription> bodies = body_descriptions(*comm, scene);
-  for (const BodyDescription& body : bodies)
-    for (const std::string& note : body.listed ? body.listed->notes : std::vector<std::string>{}) notes.push_back(body.name + ": " + note);
+  for (const BodyDescription& body : bodies) {
+    if (!body.listed) continue;
+    for (const std::string& note : body.listed->notes) remarks.notes.push_back(body.name + ": " + note);
+    for (const std::string& warning : body.listed->warnings) remarks.warnings.push_back(body.name + ": " + warning);
+  }
   refuse_too_large(*comm, bodies);
   const auto mesh = build_mesh(comm, bodies, contact_sides(scene), reference_points(scene));
   Collector collect;
@@ -297,7 +299,7 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   std::vector<Adjustment> adjustments;
   {
     const auto timer = timers.scope("mesh");
-    const RCP<Mesh> mesh = make_mesh(comm, scene, mesh_notes_);
+    const RCP<Mesh> mesh = make_mesh(comm, scene, mesh_remarks_);
     adjustments = adjust_slaves(*mesh, scene);
     SurfaceTies ties = tie_scene(*mesh, scene, held_components(*mesh, scene), measure, contact_origin(*mesh, mesh_size(*mesh).length, axisymmetric));
     parts_.tied = ties.tied;

@@ -52,8 +52,8 @@ void report_model(const std::string& file, const Scene& scene, const Model& mode
   for (const auto& [effect, members] : model.effects())
     if (!members.empty()) log.info(fmt::format("  {}: {}", effect, fmt::join(members, ", ")));
   const Mesh& mesh = *model.mesh();
-  for (const std::string& note : model.mesh_notes())
-    note.find("nothing connects") == std::string::npos ? log.info("  mesh of " + note) : log.warning("mesh of " + note);
+  for (const std::string& note : model.mesh_remarks().notes) log.info("  mesh of " + note);
+  for (const std::string& warning : model.mesh_remarks().warnings) log.warning("mesh of " + warning);
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     const Block& block = mesh.blocks[b];
     const BodyOptions& body = scene.bodies[static_cast<std::size_t>(block.body)].value;

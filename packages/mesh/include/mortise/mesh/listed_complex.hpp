@@ -28,6 +28,7 @@ struct ListedBody {
   std::vector<std::string> side_names;       ///< of sets of sides on its surface
   std::vector<std::string> node_set_names;   ///< of sets of nodes
   std::vector<std::string> notes;            ///< what was changed or left out, in words
+  std::vector<std::string> warnings;         ///< what is most likely not meant, in words
   RowStore<double> coordinates;              ///< [nodes][3]
   RowStore<std::int32_t> element_nodes;      ///< [elements][nodes of the shape]
   RowStore<std::int32_t> surface_sides;      ///< [elements][side, name, side, name, ...] -1: a side of the surface without a name

@@ -35,6 +35,12 @@ struct TieAtStart {
   double furthest = 0.0;    ///< by so much [length]
 };
 
+/// What is said of mesh files, in words: "body: ...".
+struct MeshRemarks {
+  std::vector<std::string> notes;     ///< what was changed or left out
+  std::vector<std::string> warnings;  ///< what is most likely not meant
+};
+
 /// Everything that a run solves for and with.
 class Model {
  public:
@@ -54,8 +60,7 @@ class Model {
   const Effects& effects() const { return effects_; }
   /// How the surfaces lie before anything moves.
   const SurfacesAtStart& surfaces_at_start() const { return surfaces_at_start_; }
-  /// What was changed or left out of mesh files, in words: "body: ...".
-  const std::vector<std::string>& mesh_notes() const { return mesh_notes_; }
+  const MeshRemarks& mesh_remarks() const { return mesh_remarks_; }
   /// In the order of the scene.
   const std::vector<TieAtStart>& ties_at_start() const { return ties_at_start_; }
 
@@ -80,7 +85,7 @@ class Model {
   std::vector<std::vector<int>> bodies_of_pairs_;
   Effects effects_;
   SurfacesAtStart surfaces_at_start_;
-  std::vector<std::string> mesh_notes_;
+  MeshRemarks mesh_remarks_;
   std::vector<TieAtStart> ties_at_start_;
   SystemParts parts_;
 };
