@@ -211,28 +211,47 @@ def test_rollers(runner):
     return failures
 
 
-def test_hidden_masters(runner):
-    """A lid over a pad over a base with long facets: the base, which the pad hides, does not bear what lies on the pad."""
-    bodies = [block("base", -1, -1, 4, 1, 2, 2, "stiff"), block("pad", 0, 0, 2, 0.2, 8, 2), block("lid", -0.5, 0.2, 3, 0.5, 3, 2, "stiff")]
+def stack(swept, thickness, lid_cells, contact):
+    """A lid over a pad over a base with long facets, with contact that is found or that is given."""
+    bodies = [block("base", -1, -1, 4, 1, 2, 2, "stiff"), block("pad", 0, 0, 2, thickness, 8, 2), block("lid", -0.5, thickness, 3, 0.5, lid_cells, 2, "stiff")]
     conditions = [named("floor", parameter("set", "string", "base/bottom"), parameter("x", "double", 0), parameter("y", "double", 0)),
                   named("middle", parameter("set", "string", "pad/left"), parameter("x", "double", 0)),
-                  named("hand", parameter("set", "string", "lid/top"), parameter("x", "double", 0), parameter("y", "string", "-0.002*t"))]
+                  named("hand", parameter("set", "string", "lid/top"), parameter("x", "double", 0), parameter("y", "double", -0.01 * thickness))]
     quantities = named("push", parameter("type", "string", "reaction"), parameter("set", "string", "lid/top"), parameter("component", "string", "y"))
-    found, pairs, _ = runner.run("hidden", scene(bodies, conditions, quantities))
-    failures = check(len(pairs) == 2, f"a lid on a pad on a base are two pairs: {pairs}")
+    if swept:
+        conditions += [named(f"{name} {end}", parameter("set", "string", f"{name}/{end}"), parameter("z", "double", 0)) for name, _ in bodies for end in ("start", "end")]
+    text = scene(bodies, conditions, quantities)
+    if swept:
+        profile = '<ParameterList name="mesh"><Parameter name="type" type="string" value="block"/>'
+        text = re.sub(re.escape(profile) + "(.*?)</ParameterList>",
+                      lambda found: named("mesh", parameter("type", "string", "extruded"), parameter("height", "double", 1), parameter("cells z", "int", 2),
+                                          '<ParameterList name="profile"><Parameter name="type" type="string" value="block"/>' + found[1] + "</ParameterList>"), text)
+        text = text.replace('<ParameterList name="parts">', '<ParameterList name="parts">' + parameter("kinematics", "string", "three dimensional"), 1)
+    return text.replace(named("automatic contact", parameter("pairs", "string", "automatic")), contact) if contact else text
 
-    def by_hand(*contact):
-        text = scene(bodies, conditions, quantities)
-        automatic = named("automatic contact", parameter("pairs", "string", "automatic"))
-        return text.replace(automatic, "".join(contact))
+
+def test_hidden_masters(runner):
+    """The base, which the pad hides, does not bear what lies on the pad: the same as with pairs of two bodies each, whatever thickness and facets are."""
 
     def pair(name, slave, master):
         return named(name, parameter("slave", "string", slave), parameter("master", "string", master))
 
-    alone, _, _ = runner.run("hidden_by_hand", by_hand(named("contact", pair("lower", "pad/bottom", "base/top"), pair("upper", "lid/bottom", "pad/top"))))
-    failures += check(close(found, alone, 1e-9), f"the base bears what it bears in pairs of two bodies each: {found['push']} and {alone['push']}")
+    def of_two_bodies(pairs):
+        """The pairs that were found, without what stands behind another body: the pad is between the others."""
+        def neighbours(slave, masters):
+            return masters if slave.startswith("pad") else [master for master in masters if master.startswith("pad")]
+        return named("contact", *[pair(f"{n} {m}", slave, master) for n, (slave, masters) in enumerate(pairs) for m, master in enumerate(neighbours(slave, masters))])
+
+    failures = 0
+    for swept in (False, True):
+        for thickness in (0.05, 0.2, 0.8):
+            for cells in (3, 12):
+                name = f"hidden_{3 if swept else 2}d_{thickness}_{cells}"
+                found, pairs, _ = runner.run(name, stack(swept, thickness, cells, ""))
+                alone, _, _ = runner.run(name + "_by_hand", stack(swept, thickness, cells, of_two_bodies(pairs)))
+                failures += check(len(pairs) == 2 and close(found, alone, 1e-9), f"{name}, {pairs}: the base bears {found['push']:.9g}, and {alone['push']:.9g} in pairs of two bodies each")
     both = named("sets", named("both", parameter("kind", "string", "sides"), parameter("of", "string", "base/top, pad/top")))
-    _, _, text = runner.run("hidden_refused", by_hand(named("contact", pair("lower", "pad/bottom", "base/top"), pair("upper", "lid/bottom", "both")), both), code=2)
+    _, _, text = runner.run("hidden_refused", stack(False, 0.2, 3, named("contact", pair("lower", "pad/bottom", "base/top"), pair("upper", "lid/bottom", "both")) + both), code=2)
     failures += check("stands behind that of another body, 0.2 away" in text and "of 0.1" in text, "masters behind one another are refused, with the reach that parts them")
     return failures
 
