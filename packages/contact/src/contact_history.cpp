@@ -128,6 +128,15 @@ ContactHistory ContactSystem::with_clearances(const ContactHistory& history, dou
     } catch (const InputError& error) {
       diagnostics.insert(diagnostics.end(), error.diagnostics().begin(), error.diagnostics().end());
     }
+    const auto least = std::min_element(values.begin(), values.end());
+    const double reach = model_->pairs[p]->interface().reach();
+    if (least == values.end() || -*least <= reach) continue;
+    const SlaveNode& node = model_->pairs[p]->slave_nodes()[static_cast<std::size_t>(least - values.begin())];
+    diagnostics.push_back(
+        {model_->pairs[p]->definition().place,
+         fmt::format("the clearance at node {} is {:.6g} at t = {:.6g}: surfaces act on one another from a distance of {:.6g} on, beyond "
+                     "the search reach {:.6g}, where nothing is looked for; please give a \"search reach\" above {:.6g}",
+                     node.id, *least, time, -*least, reach, -*least)});
   }
   throw_if_any(model_->comm(), diagnostics);
   return ContactHistory(std::move(changed));

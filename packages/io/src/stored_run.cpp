@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <set>
 
 #include "hdf5_rows.hpp"
 #include "mortise/core/error.hpp"
@@ -73,9 +74,8 @@ void StoredRun::read_mesh() {
     if (!shape) damaged(fmt::format("element {} has the shape {}, which is none that a run writes", element, number));
     if (of < 0 || of >= elements_) damaged(fmt::format("element {} has the body {}", element, of));
     if (blocks_.empty() || blocks_.back().body != static_cast<int>(of) || blocks_.back().shape != *shape) {
-      const auto before = std::count_if(blocks_.begin(), blocks_.end(), [&](const StoredBlock& block) { return block.body == static_cast<int>(of); });
       const std::string name = of < static_cast<long long>(names.size()) ? names[static_cast<std::size_t>(of)] : fmt::format("body {}", of);
-      blocks_.push_back({before == 0 ? name : fmt::format("{} ({})", name, before + 1), static_cast<int>(of), *shape, element, 0});
+      blocks_.push_back({name, static_cast<int>(of), *shape, element, 0});
     }
     ++blocks_.back().elements;
     dimension_ = std::max(dimension_, mortise::topology(*shape).dimension);
@@ -87,6 +87,19 @@ void StoredRun::read_mesh() {
     }
   }
   if (!topology.at_end()) damaged(fmt::format("its topology goes on after element {}", elements_ - 1));
+  name_blocks();
+}
+
+// The first block of a body has the name of the body, the others one with a number that no body and no other block has.
+void StoredRun::name_blocks() {
+  std::set<std::string> taken;
+  for (const StoredBlock& block : blocks_) taken.insert(block.name);
+  std::set<int> bodies;
+  for (StoredBlock& block : blocks_) {
+    if (bodies.insert(block.body).second) continue;
+    const std::string body = block.name;
+    for (int n = 2; !taken.insert(block.name).second; ++n) block.name = fmt::format("{} ({})", body, n);
+  }
 }
 
 void StoredRun::visit_elements(const Visitor& visit) const {

@@ -39,6 +39,7 @@ class StoredRun {
 
  private:
   void read_mesh();
+  void name_blocks();
   void read_steps();
   void check_rows(const StoredStep& step) const;
 

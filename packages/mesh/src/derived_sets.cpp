@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <tuple>
 
 #include "mortise/core/names.hpp"
@@ -277,6 +278,45 @@ void add_set(Mesh& mesh, const Named<SetOptions>& set) {
   require_any(*mesh.comm, kept.owned, set, "side");
   mesh.node_sets[set.name] = nodes_of_sides(mesh, kept);
   mesh.side_sets[set.name] = std::move(kept);
+}
+
+void add_sets(Mesh& mesh, const std::vector<Named<SetOptions>>& sets) {
+  std::vector<const Named<SetOptions>*> waiting;
+  for (const auto& set : sets) waiting.push_back(&set);
+  std::set<std::string> failed;
+  std::vector<Diagnostic> diagnostics;
+  const auto needs = [](const Named<SetOptions>& set, const auto& holds) {
+    for (const auto* names : {&set.value.of, &set.value.also_in, &set.value.not_in})
+      if (std::any_of(names->value.begin(), names->value.end(), holds)) return true;
+    return false;
+  };
+  for (bool goes_on = true; goes_on;) {
+    goes_on = false;
+    const std::vector<const Named<SetOptions>*> before = std::move(waiting);
+    waiting.clear();
+    std::set<std::string> later;
+    for (const auto* set : before) later.insert(set->name);
+    for (const auto* set : before) {
+      if (needs(*set, [&](const std::string& name) { return later.count(name) > 0; })) {
+        waiting.push_back(set);
+        continue;
+      }
+      goes_on = true;
+      later.erase(set->name);
+      if (needs(*set, [&](const std::string& name) { return failed.count(name) > 0; })) {
+        failed.insert(set->name);  // what is wrong has been said
+        continue;
+      }
+      try {
+        add_set(mesh, *set);
+      } catch (const InputError& error) {
+        failed.insert(set->name);
+        diagnostics.insert(diagnostics.end(), error.diagnostics().begin(), error.diagnostics().end());
+      }
+    }
+  }
+  for (const auto* set : waiting) diagnostics.push_back({set->place, fmt::format("set \"{}\" is made of itself, or of sets that are", set->name)});
+  if (!diagnostics.empty()) throw InputError(diagnostics);
 }
 
 }  // namespace mortise

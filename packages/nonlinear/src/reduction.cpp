@@ -85,8 +85,9 @@ std::vector<Dependence> Reduction::evaluate(const Vector& local_displacement) co
   return followers_ ? followers_->evaluate(local_displacement) : std::vector<Dependence>{};
 }
 
-FollowedDisplacements::FollowedDisplacements(std::shared_ptr<const Reduction> reduction, const Vector& local_displacement)
+FollowedDisplacements::FollowedDisplacements(std::shared_ptr<const Reduction> reduction, double time, const Vector& local_displacement)
     : reduction_(std::move(reduction)), dependences_(reduction_->evaluate(local_displacement)), T_(reduction_->constant_T_) {
+  if (reduction_->tied_ && reduction_->tied_->offset) offset_ = reduction_->tied_->offset(time, failure_);
   if (!T_.is_null()) return;
   const Map& dofs = *reduction_->dofs_;
   const auto of_followers = rcp(new Matrix(reduction_->graph_));
@@ -107,7 +108,7 @@ RCP<const Vector> FollowedDisplacements::untied(const Vector& r) const {
 }
 
 double FollowedDisplacements::deviation(const Vector& displacement, double factor, Vector& deviation) const {
-  Vector follows(displacement, Teuchos::Copy);  // P (q, g(q))
+  Vector follows(displacement, Teuchos::Copy);  // P (q, g(q)) + p
   {
     const auto value = follows.getLocalViewHost(Tpetra::Access::ReadWrite);
     for (std::size_t n = 0; n < dependences_.size(); ++n) value(reduction_->following_[n], 0) = dependences_[n].value;
@@ -115,6 +116,7 @@ double FollowedDisplacements::deviation(const Vector& displacement, double facto
   if (reduction_->tied_) {
     const Vector of_followers(follows, Teuchos::Copy);
     reduction_->tied_->T->apply(of_followers, follows);
+    if (!offset_.is_null()) follows.update(1.0, *offset_, 1.0);
   }
   const auto d = displacement.getLocalViewHost(Tpetra::Access::ReadOnly), value = follows.getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto result = deviation.getLocalViewHost(Tpetra::Access::ReadWrite);
@@ -204,6 +206,13 @@ void FollowedDisplacements::gather(Vector& r) const {
   const auto to = r.getLocalViewHost(Tpetra::Access::ReadWrite);
   for (std::size_t dof = 0; dof < reduction_->place_of_.size(); ++dof)
     if (reduction_->place_of_[dof] >= 0) to(dof, 0) = from(reduction_->place_of_[dof], 0);
+}
+
+RCP<Vector> FollowedDisplacements::support_forces(const Vector& r) const {
+  const auto gathered = rcp(new Vector(r, Teuchos::Copy));
+  gather(*gathered);
+  if (reduction_->tied_ && reduction_->tied_->put_support_forces) reduction_->tied_->put_support_forces(r, *gathered);
+  return gathered;
 }
 
 // A matrix of the few rows that are followed or tied; its diagonal is there even where nothing is curved.

@@ -2,6 +2,7 @@
 // Elimination of displacements that follow from others.
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "mortise/core/dependence.hpp"
@@ -11,8 +12,9 @@
 
 namespace mortise::detail {
 
-/// What of a displacement d = P (q, g(q)) is an unknown: g of followers, P of what is tied. The unknowns q are numbered without gaps, in the order of
-/// the dofs. Tied dofs keep their numbers, for multigrid wants whole nodes: their columns of P are empty, and their increments prescribed as 0.
+/// What of a displacement d = P (q, g(q)) + p(t) is an unknown: g of followers, P and p of what is tied. The unknowns q are numbered without gaps, in
+/// the order of the dofs. Tied dofs keep their numbers, for multigrid wants whole nodes: their columns of P are empty, and their increments
+/// prescribed as 0.
 class Reduction {
  public:
   /// `local_dofs`: owned dofs, then ghosts, as the followers want their displacement. One of `followers` and `tied` may be null. Collective.
@@ -48,18 +50,23 @@ class Reduction {
   RCP<const Matrix> constant_T_;                                      ///< where nothing follows; else null
 };
 
-/// P (q, g(q)) and its derivatives at a displacement. With T = dd/dq a residual r(d) = 0 becomes T^T r = 0. Its linearisation is
-///   (T^T A T + sum_i (P^T r)_i d2g_i/dq2) dq = T^T (rhs - A d0),   d0 = P (q, g(q)) - d,   dd = T dq + d0.
+/// P (q, g(q)) + p and its derivatives at a displacement. With T = dd/dq a residual r(d) = 0 becomes T^T r = 0. Its linearisation is
+///   (T^T A T + sum_i (P^T r)_i d2g_i/dq2) dq = T^T (rhs - A d0),   d0 = P (q, g(q)) + p - d,   dd = T dq + d0.
 /// d0 is 0 but on followers and tied dofs. Collective in all members.
 class FollowedDisplacements {
  public:
-  FollowedDisplacements(std::shared_ptr<const Reduction> reduction, const Vector& local_displacement);
+  /// Where p has no value it is NaN, and so are deviations; failure() says why.
+  FollowedDisplacements(std::shared_ptr<const Reduction> reduction, double time, const Vector& local_displacement);
+
+  const std::optional<StepFailure>& failure() const { return failure_; }
 
   /// Largest |d0| over this rank, and `deviation`_i = -factor d0_i on followers and tied dofs. `deviation` keeps its other entries.
   double deviation(const Vector& displacement, double factor, Vector& deviation) const;
 
   /// r becomes T^T r on the dofs that are unknowns, 0 on those that are tied, and on followers what they bear with all that is tied to them.
   void gather(Vector& r) const;
+  /// The same, but with what supports bear at the nodes that they hold.
+  RCP<Vector> support_forces(const Vector& r) const;
   /// T^T r on the unknowns.
   RCP<Vector> reduced(const Vector& r) const;
   /// T dq on the dofs.
@@ -82,6 +89,8 @@ class FollowedDisplacements {
   std::shared_ptr<const Reduction> reduction_;
   std::vector<Dependence> dependences_;
   RCP<const Matrix> T_;
+  RCP<const Vector> offset_;  ///< p; null: 0
+  std::optional<StepFailure> failure_;
 };
 
 }  // namespace mortise::detail

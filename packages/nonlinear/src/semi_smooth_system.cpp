@@ -54,8 +54,16 @@ SystemEvaluation SemiSmoothSystem::evaluate_at(const AcceptedState& state, const
 
 double SemiSmoothSystem::prescribed_deviation(const Vector& x, double time) const {
   double mine = 0.0, largest = 0.0;
+  std::optional<StepFailure> failure;  // evaluate() says it
+  if (parts().tied && parts().tied->offset) {
+    const RCP<const Vector> d = displacement(x);
+    const RCP<Vector> deviation = parts().tied->offset(time, failure);
+    parts().tied->T->apply(*d, *deviation, Teuchos::NO_TRANS, 1.0, 1.0);
+    deviation->update(-1.0, *d, 1.0);
+    const auto view = deviation->getLocalViewHost(Tpetra::Access::ReadOnly);
+    for (const LocalOrdinal dof : parts().tied->dofs) mine = std::max(mine, std::abs(view(dof, 0)) / parts().length);
+  }
   if (parts().prescribed) {
-    std::optional<StepFailure> failure;  // evaluate() says it
     const std::vector<double> values = parts().prescribed->values(time, failure);
     const std::vector<LocalOrdinal>& rows = model_->prescribed();
     const detail::FieldSizes& sizes = model_->sizes();

@@ -19,9 +19,8 @@ const ContactLaws& SystemEvaluation::contact_laws() const {
 }
 
 RCP<Vector> SystemEvaluation::forces() const {
-  const auto r = rcp(new Vector(evaluated_->forces, Teuchos::Copy));
-  if (evaluated_->follow) evaluated_->follow->gather(*r);
-  return r;
+  if (evaluated_->follow) return evaluated_->follow->support_forces(evaluated_->forces);
+  return rcp(new Vector(evaluated_->forces, Teuchos::Copy));
 }
 
 }  // namespace mortise

@@ -119,7 +119,7 @@ std::shared_ptr<const EvaluatedSystem> SystemModel::evaluate(const Vector& x, co
   }
   if (reduction_) {
     configuration(context.time, *at.d);
-    at.follow = std::make_shared<const FollowedDisplacements>(reduction_, local_displacement_);
+    at.follow = std::make_shared<const FollowedDisplacements>(reduction_, context.time, local_displacement_);
   }
   if (stiffness_scale() == 0.0) stiffness(result);
   add_norms(at, external);
@@ -157,6 +157,7 @@ void SystemModel::add_norms(EvaluatedSystem& at, const Vector& external) const {
   std::vector<double> deviation;  // d - prescribed
   double largest = 0.0;
   if (parts_.prescribed) deviation = parts_.prescribed->values(at.context.time, failure);
+  if (at.follow && !failure) failure = at.follow->failure();
   {
     if (at.follow) largest = at.follow->deviation(*at.d, 0.0, *r);
     const auto displacements = at.d->getLocalViewHost(Tpetra::Access::ReadOnly);

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <sstream>
 
 #include "mesh_file_test_support.hpp"
@@ -337,6 +338,53 @@ TEST(ExodusFiles, WithAbsurdCountsTakeNoMemory) {
   }
   ASSERT_EQ(nc_close(id), NC_NOERR);
   EXPECT_THAT(exodus_refusal(path), HasSubstr("node 1 (by its place in the file)"));
+}
+
+// netCDF numbers variables from 0 in the order in which they were made. Any of the coordinates may be the first.
+TEST(ExodusFiles, HaveTheirVariablesInAnyOrder) {
+  for (const std::string first : {"coordx", "coordy", "coordz", "connect1"}) {
+    const std::string path = mesh_file_folder().path("first_" + first + ".exo");
+    int id = 0, nodes = 0, elements = 0, width = 0, blocks = 0, other = 0;
+    ASSERT_EQ(nc_create(path.c_str(), NC_CLOBBER, &id), NC_NOERR);
+    nc_def_dim(id, "num_dim", 3, &other);
+    nc_def_dim(id, "num_nodes", 4, &nodes);
+    nc_def_dim(id, "num_elem", 1, &other);
+    nc_def_dim(id, "num_el_blk", 1, &blocks);
+    nc_def_dim(id, "num_el_in_blk1", 1, &elements);
+    nc_def_dim(id, "num_nod_per_el1", 4, &width);
+    const float version = 5.0F;
+    const int word = 8, separate_coordinates = 1;
+    nc_put_att_float(id, NC_GLOBAL, "version", NC_FLOAT, 1, &version);
+    nc_put_att_float(id, NC_GLOBAL, "api_version", NC_FLOAT, 1, &version);
+    nc_put_att_int(id, NC_GLOBAL, "floating_point_word_size", NC_INT, 1, &word);
+    nc_put_att_int(id, NC_GLOBAL, "file_size", NC_INT, 1, &separate_coordinates);
+    nc_put_att_text(id, NC_GLOBAL, "title", 1, "t");
+    std::vector<std::string> names{first};
+    for (const char* name : {"coordx", "coordy", "coordz", "connect1", "eb_prop1"})
+      if (name != first) names.emplace_back(name);
+    std::map<std::string, int> variables;
+    for (const std::string& name : names) {
+      const std::vector<int> shape = name == "connect1" ? std::vector<int>{elements, width} : std::vector<int>{name == "eb_prop1" ? blocks : nodes};
+      nc_def_var(id, name.c_str(), name[0] == 'c' && name != "connect1" ? NC_DOUBLE : NC_INT, static_cast<int>(shape.size()), shape.data(),
+                 &variables[name]);
+    }
+    EXPECT_EQ(variables[first], 0);
+    nc_put_att_text(id, variables["connect1"], "elem_type", 5, "TETRA");
+    nc_put_att_text(id, variables["eb_prop1"], "name", 2, "ID");
+    nc_enddef(id);
+    const std::vector<double> x{1.0, 2.0, 1.0, 1.0}, y{3.0, 3.0, 4.0, 3.0}, z{5.0, 5.0, 5.0, 6.0};
+    const std::vector<int> connectivity{1, 2, 3, 4}, number{1};
+    nc_put_var_double(id, variables["coordx"], x.data());
+    nc_put_var_double(id, variables["coordy"], y.data());
+    nc_put_var_double(id, variables["coordz"], z.data());
+    nc_put_var_int(id, variables["connect1"], connectivity.data());
+    nc_put_var_int(id, variables["eb_prop1"], number.data());
+    ASSERT_EQ(nc_close(id), NC_NOERR);
+    const MeshFile file = read_mesh_file(path, MeshFormat::exodus, {});
+    ASSERT_EQ(file.coordinates.size(), 4u) << first;
+    EXPECT_EQ(file.coordinates[1], (std::array<double, 3>{2.0, 3.0, 5.0})) << first;
+    EXPECT_EQ(file.coordinates[3], (std::array<double, 3>{1.0, 3.0, 6.0})) << first;
+  }
 }
 
 }  // namespace

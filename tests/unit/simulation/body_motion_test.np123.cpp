@@ -87,10 +87,10 @@ TEST(BodyMotions, PrescribedDofsCountAsImposed) {
   const NodePlaces before = node_places(*mesh, nullptr);
   const NodePlaces after = moved(*mesh, [](int body, const Vector3d&) { return body == 1 ? Vector3d(0.3, -0.2, 0.0) : Vector3d(Vector3d::Zero()); });
   const RigidModes modes(*mesh, false, {1}, after.x);
-  std::vector<LocalOrdinal> prescribed;
+  Supports supports;
   for (LocalOrdinal node = 0; node < mesh->owned_count(); ++node)
-    if (mesh->body_of_node[node] == 1) prescribed.push_back(2 * node + 1);
-  EXPECT_NEAR(body_motions(*mesh, modes, before, after, prescribed).imposed, 0.2, 1e-14);
+    if (mesh->body_of_node[node] == 1) supports.prescribed.push_back(2 * node + 1);
+  EXPECT_NEAR(body_motions(*mesh, modes, before, after, supports).imposed, 0.2, 1e-14);
 }
 
 TEST(BodyMotions, AxisymmetricBodiesMoveAlongTheAxis) {

@@ -99,7 +99,7 @@ Assembled assemble(const RCP<const Communicator>& comm, const BodySetup& setup) 
       for (int i = 0; i < dimension; ++i) column(dimension * node + i) = view(node, c);
     result.columns.push_back(column);
   }
-  const Named<BoundaryConditionOptions> left{"left", {}, {{"body/left", {}}, parse_expression("t*y", {}), {}, {}, {}, {}}};
+  const Named<BoundaryConditionOptions> left{"left", {}, {{"body/left", {}}, parse_expression("t*y", {}), {}, {}, {}, {}, {}, {}}};
   const PrescribedMotion motion(*bodies, {left});
   const auto values = motion.values(0.3, failure);
   EXPECT_FALSE(failure);
@@ -201,7 +201,7 @@ TEST(Refusals, OfABodyAreThrownOnEveryRank) {
   const auto mesh = make_test_mesh(world(), {});
   EXPECT_THROW(Bodies(mesh, Kinematics::plane_stress, 1.0, {{"body", {}, make_material("j2 plasticity"), ElementType::q4}}), InputError);
   const auto bodies = make_test_bodies(world(), {});
-  const Named<BoundaryConditionOptions> missing{"left", {}, {{"body/lefd", {}}, ScalarFunction(0.0), {}, {}, {}, {}}};
+  const Named<BoundaryConditionOptions> missing{"left", {}, {{"body/lefd", {}}, ScalarFunction(0.0), {}, {}, {}, {}, {}, {}}};
   EXPECT_THROW(PrescribedMotion(*bodies, {missing}), InputError);
 }
 

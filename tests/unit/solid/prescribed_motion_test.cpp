@@ -18,7 +18,7 @@ std::optional<ScalarFunction> given(const std::string& text) {
 
 Named<BoundaryConditionOptions> condition(const std::string& name, int line, const std::string& set, const std::string& x, const std::string& y) {
   const Place place{"scene.xml", line, "boundary conditions/" + name};
-  return {name, place, {{set, place}, given(x), given(y), {}, {}, {}}};
+  return {name, place, {{set, place}, given(x), given(y), {}, {}, {}, {}, {}}};
 }
 
 std::string error_of(const Bodies& bodies, const std::vector<Named<BoundaryConditionOptions>>& conditions) {

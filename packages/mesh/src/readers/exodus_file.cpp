@@ -2,6 +2,7 @@
 
 #include <exodusII.h>
 #include <fmt/format.h>
+#include <netcdf.h>
 
 #include <algorithm>
 #include <array>
@@ -50,6 +51,26 @@ void ExodusFile::refuse(const std::string& message) const { throw InputError({pa
 
 void ExodusFile::require(int status, const std::string& what) const {
   if (status < 0) refuse(fmt::format("{} cannot be read ({}): the file is damaged or cut off", what, nc_strerror(exerrval)));
+}
+
+// The library takes a variable with netCDF's number 0 for one that is missing, and leaves out what is missing: so the variables are asked for by
+// name.
+void ExodusFile::read_coordinates(std::int64_t first, std::int64_t count, int component, double* values) const {
+  const char letter = "xyz"[component];
+  const auto what = [&] { return fmt::format("the coordinates {} of nodes {} to {}", letter, first + 1, first + count); };
+  const auto check = [&](int status) {
+    if (status != NC_NOERR) refuse(fmt::format("{} cannot be read ({}): the file is damaged or cut off", what(), nc_strerror(status)));
+  };
+  const auto begin = static_cast<std::size_t>(first), length = static_cast<std::size_t>(count);
+  int variable = 0;
+  if (nc_inq_varid(id_, (std::string("coord") + letter).c_str(), &variable) == NC_NOERR) {
+    check(nc_get_vara_double(id_, variable, &begin, &length, values));
+    return;
+  }
+  if (const int status = nc_inq_varid(id_, "coord", &variable); status != NC_NOERR)  // as files had it before version 2.03
+    refuse(fmt::format("{} are missing: there is neither a variable \"coord{}\" nor \"coord\"", what(), letter));
+  const std::array<std::size_t, 2> start{static_cast<std::size_t>(component), begin}, shape{1, length};
+  check(nc_get_vara_double(id_, variable, start.data(), shape.data(), values));
 }
 
 std::vector<std::int64_t> ExodusFile::ids(int kind, std::int64_t count, const std::string& what) const {

@@ -28,6 +28,8 @@ class ExodusFile {
   [[noreturn]] void refuse(const std::string& message) const;
   /// Refuses the file where a call of the library reports an error (below 0); `what` it was to read.
   void require(int status, const std::string& what) const;
+  /// Component 0 (x), 1 or 2 of nodes `first` (from 0) and on.
+  void read_coordinates(std::int64_t first, std::int64_t count, int component, double* values) const;
   /// The numbers by which the file calls its blocks or sets: `kind` of the library, and how many there are.
   std::vector<std::int64_t> ids(int kind, std::int64_t count, const std::string& what) const;
   /// The name of a block or set; empty if it has none.

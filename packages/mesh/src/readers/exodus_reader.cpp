@@ -55,9 +55,9 @@ class ExodusReader {
     std::vector<double> x(slice), y(slice), z(slice);
     for (std::int64_t first = 0; first < in_.nodes(); first += slice) {
       const std::int64_t count = std::min(slice, in_.nodes() - first);
-      in_.require(
-          ex_get_n_coord(in_.id(), first + 1, count, x.data(), in_.dimension() > 1 ? y.data() : nullptr, in_.dimension() > 2 ? z.data() : nullptr),
-          fmt::format("the coordinates of nodes {} to {}", first + 1, first + count));
+      in_.read_coordinates(first, count, 0, x.data());
+      if (in_.dimension() > 1) in_.read_coordinates(first, count, 1, y.data());
+      if (in_.dimension() > 2) in_.read_coordinates(first, count, 2, z.data());
       for (std::int64_t n = 0; n < count; ++n) {
         const std::array<double, 3> position{x[n], y[n], z[n]};
         // Where nothing was ever written the library gives these.

@@ -12,6 +12,8 @@ namespace {
 
 /// Excess of the peak from which on a word is said.
 constexpr double noticeable = 0.2;
+/// Depth of an overlap over what it was before slave nodes were moved.
+constexpr double noticeable_rise = 1.1;
 
 /// Says which surface is the slave where that was left open, and warns of slaves that are stiffer and finer. Collective.
 void report_roles(const Mesh& mesh, const Scene& scene, RunLog& log) {
@@ -31,23 +33,36 @@ void report_roles(const Mesh& mesh, const Scene& scene, RunLog& log) {
   }
 }
 
+std::string what_becomes_of_overlap(const ContactPairOptions& options) {
+  std::string text = "the first step pushes them apart";
+  if (options.start.taken_up_at) text = fmt::format("they are pushed apart until t = {:.6g}", *options.start.taken_up_at);
+  if (options.contact.clearance) text += ", as far as their clearance asks for it";
+  return text;
+}
+
 void report_pair(const Named<ContactPairOptions>& options, const PairAtStart& pair, int dimension, RunLog& log) {
   if (!options.value.reason.empty())
     log.info(fmt::format("  contact {}: the slave is \"{}\": {}", options.name, options.value.slave.value, options.value.reason));
   if (options.value.start.mesh == MeshAtStart::adjusted)
     log.info(fmt::format("  contact {}: {} slave nodes were moved onto the master, by up to {:.3g}", options.name, pair.adjusted.first,
                          pair.adjusted.second));
+  if (options.value.start.mesh == MeshAtStart::adjusted && pair.overlap.depth > noticeable_rise * pair.overlap_as_meshed)
+    log.warning(fmt::format(
+        "contact {}: after slave nodes were moved onto the master, the surfaces lie {:.3g} deep in one another, before it {:.3g}: nodes of a "
+        "hollow slave are moved onto chords of the master, and its own chords cut deeper; please exchange slave and master, so that the round "
+        "side is the slave, or mesh both with the same points",
+        options.name, pair.overlap.depth, pair.overlap_as_meshed));
   if (pair.overlap.depth > 0.0) {
-    const std::string text =
-        fmt::format("contact {}: the surfaces begin by up to {:.3g} in one another, deepest at {}; the first step pushes them apart{}", options.name,
-                    pair.overlap.depth, to_string(dimension, pair.overlap),
-                    pair.reach ? fmt::format("; the search reach is {:.3g} instead of {:.3g}", *pair.reach, pair.longest) : "");
+    const std::string text = fmt::format("contact {}: the surfaces begin by up to {:.3g} in one another, deepest at {}; {}{}", options.name,
+                                         pair.overlap.depth, to_string(dimension, pair.overlap), what_becomes_of_overlap(options.value),
+                                         pair.reach ? fmt::format("; the search reach is {:.3g} instead of {:.3g}", *pair.reach, pair.longest) : "");
     if (pair.overlap.depth > pair.longest)
       log.warning(fmt::format("{}. That is more than the longest facet, {:.3g}: please make sure that it is meant", text, pair.longest));
     else
       log.info("  " + text);
   } else if (pair.gap) {
-    log.info(fmt::format("  contact {}: the surfaces {}", options.name, *pair.gap > 0.0 ? fmt::format("begin {:.3g} apart", *pair.gap) : "touch"));
+    log.info(fmt::format("  contact {}: the surfaces {}{}", options.name, *pair.gap > 0.0 ? fmt::format("begin {:.3g} apart", *pair.gap) : "touch",
+                         pair.reach ? fmt::format("; the search reach is {:.3g} instead of {:.3g}", *pair.reach, pair.longest) : ""));
   }
 }
 

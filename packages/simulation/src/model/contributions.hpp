@@ -63,12 +63,12 @@ class LoadContribution final : public CountedContribution {
 /// Boundary conditions.
 class PrescribedBoundary final : public PrescribedDisplacements {
  public:
-  explicit PrescribedBoundary(PrescribedMotion motion) : motion_(std::move(motion)) {}
-  const std::vector<LocalOrdinal>& dofs() const override { return motion_.dofs(); }
-  std::vector<double> values(double time, std::optional<StepFailure>& failure) const override { return motion_.values(time, failure); }
+  explicit PrescribedBoundary(std::shared_ptr<const PrescribedMotion> motion) : motion_(std::move(motion)) {}
+  const std::vector<LocalOrdinal>& dofs() const override { return motion_->dofs(); }
+  std::vector<double> values(double time, std::optional<StepFailure>& failure) const override { return motion_->values(time, failure); }
 
  private:
-  PrescribedMotion motion_;
+  std::shared_ptr<const PrescribedMotion> motion_;
 };
 
 /// Rigid bodies and tied sets.

@@ -71,12 +71,14 @@ Eigen::MatrixXd contact_gram(const Mesh& mesh, const RigidModes& modes, const Ho
     if (pair.rubs) held = {Position::UnitX(), Position::UnitY(), Position::UnitZ()};
     for (std::size_t body = 0; body < mesh.bodies.size(); ++body) {
       if (!is_near(middle, body)) continue;
-      for (const Position& direction : held) {
-        Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(modes.count());
-        modes.add(mesh.body_of_node[nodes[0]], middle, direction, row);
-        modes.add(static_cast<int>(body), middle, -direction, row);
-        gram += row.transpose() * row;
-      }
+      // At the corners, not the middle: one facet keeps a body from turning.
+      for (std::size_t corner = 0; corner < corners; ++corner)
+        for (const Position& direction : held) {
+          Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(modes.count());
+          modes.add(mesh.body_of_node[nodes[0]], x(corner), direction, row);
+          modes.add(static_cast<int>(body), x(corner), -direction, row);
+          gram += row.transpose() * row;
+        }
     }
   }
   return gram;
@@ -98,14 +100,16 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd& gram) {
 
 }  // namespace
 
-std::vector<char> check_held(const Mesh& mesh, bool axisymmetric, const MultiVector& fixed, const std::vector<HoldingPair>& pairs,
-                             const std::vector<Place>& body_places, const TiedDisplacements* tied) {
+std::vector<char> check_held(const Mesh& mesh, bool axisymmetric, const Supports& supports, const std::vector<HoldingPair>& pairs,
+                             const std::vector<Place>& body_places) {
   std::vector<int> bodies(mesh.bodies.size());
   std::iota(bodies.begin(), bodies.end(), 0);
   const NodePlaces at = node_places(mesh, nullptr);
   const RigidModes modes(mesh, axisymmetric, std::move(bodies), at.x);
-  const Eigen::MatrixXd prescribed = sum_over_ranks(mesh, prescribed_gram(mesh, modes, at, fixed, nullptr));
-  const Eigen::MatrixXd without_contact = tied != nullptr ? sum_over_ranks(mesh, prescribed_gram(mesh, modes, at, fixed, tied)) : prescribed;
+  Supports without_ties = supports;
+  without_ties.ties = nullptr;
+  const Eigen::MatrixXd prescribed = sum_over_ranks(mesh, prescribed_gram(mesh, modes, at, without_ties));
+  const Eigen::MatrixXd without_contact = supports.ties ? sum_over_ranks(mesh, prescribed_gram(mesh, modes, at, supports)) : prescribed;
   Eigen::MatrixXd contact = Eigen::MatrixXd::Zero(modes.count(), modes.count());
   for (const auto& pair : pairs) contact += contact_gram(mesh, modes, pair);
 
@@ -118,11 +122,11 @@ std::vector<char> check_held(const Mesh& mesh, bool axisymmetric, const MultiVec
   if (!diagnostics.empty()) throw InputError(diagnostics);
 
   std::vector<char> only_contact;
-  const Eigen::MatrixXd loose = tied != nullptr ? null_space(without_contact) : Eigen::MatrixXd();
+  const Eigen::MatrixXd loose = supports.ties ? null_space(without_contact) : Eigen::MatrixXd();
   constexpr double moves = 1e-6;  // in a motion of size 1 of all bodies
   for (Eigen::Index body = 0; body < static_cast<Eigen::Index>(mesh.bodies.size()); ++body) {
     const auto block = prescribed.block(modes.per_body() * body, modes.per_body() * body, modes.per_body(), modes.per_body());
-    const bool is_tied_down = tied != nullptr && loose.middleRows(modes.per_body() * body, modes.per_body()).norm() < moves;
+    const bool is_tied_down = supports.ties && loose.middleRows(modes.per_body() * body, modes.per_body()).norm() < moves;
     only_contact.push_back(null_space(block).cols() > 0 && !is_tied_down);
   }
   return only_contact;

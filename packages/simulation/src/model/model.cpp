@@ -10,6 +10,7 @@
 #include <algorithm>
 
 #include "model/contributions.hpp"
+#include "model/inclined_supports.hpp"
 #include "model/precision.hpp"
 #include "model/surface_ties.hpp"
 #include "mortise/material/materials.hpp"
@@ -48,7 +49,12 @@ std::vector<ReferencePointDescription> reference_points(const Scene& scene) {
   };
   std::vector<ReferencePointDescription> points;
   for (const auto& body : scene.bodies)
-    if (body.value.rigid.value) points.push_back({body.name + "/reference", body.place, !axisymmetric, position(body.value.reference_point)});
+    if (body.value.rigid.value) {
+      auto at = position(body.value.reference_point);
+      if (at)  // given for the first of a pattern
+        if (const auto moved = placement(Mirror::none, body.value.pattern)) at = (*moved)(*at);
+      points.push_back({body.name + "/reference", body.place, !axisymmetric, at});
+    }
   for (const auto& tie : scene.reference_points)
     points.push_back({tie.name, tie.place, tie.value.rotates && !axisymmetric, position(tie.value.position)});
   return points;
@@ -74,15 +80,22 @@ void tie(Mesh& mesh, const Scene& scene) {
 }
 
 /// [local nodes] the components that conditions prescribe.
-std::vector<std::array<bool, 3>> held_components(const Mesh& mesh, const Scene& scene) {
-  std::vector<std::array<bool, 3>> held(static_cast<std::size_t>(mesh.local_count()), std::array<bool, 3>{});
-  for (const auto& condition : scene.boundary_conditions) {
-    const auto set = mesh.node_sets.find(condition.value.set.value);
+HeldNodes held_nodes(const Mesh& mesh, const Scene& scene) {
+  HeldNodes held;
+  held.components.resize(static_cast<std::size_t>(mesh.local_count()));
+  for (const auto& [name, place, condition] : scene.boundary_conditions) {
+    const auto set = mesh.node_sets.find(condition.set.value);
     if (set == mesh.node_sets.end()) continue;  // refused where conditions are made
-    for (const LocalOrdinal node : set->second) {
-      auto& of_node = held[static_cast<std::size_t>(node)];
-      of_node = {of_node[0] || condition.value.x, of_node[1] || condition.value.y, of_node[2] || condition.value.z};
-    }
+    const std::array<bool, 3> given = {condition.x.has_value(), condition.y.has_value(), condition.z.has_value()};
+    const auto axes = axes_of(condition);
+    for (const LocalOrdinal node : set->second)
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (!given[i]) continue;
+        if (condition.x_axis.empty())
+          held.components[static_cast<std::size_t>(node)][i] = true;
+        else
+          held.directions[node].push_back(axes[i]);
+      }
   }
   return held;
 }
@@ -108,8 +121,10 @@ std::vector<Adjustment> adjust_slaves(Mesh& mesh, const Scene& scene) {
     done.emplace_back();
     if (pair.value.start.mesh != MeshAtStart::adjusted) continue;
     refuse_curved_master(mesh, pair);
+    const double before = deepest_overlap(mesh, pair, mesh_size(mesh).length);
     done.back() = adjust_onto_master(mesh, require_side_set(mesh, pair.value.slave), require_side_set(mesh, pair.value.master),
-                                     pair.value.start.tolerance, held_components(mesh, scene));
+                                     pair.value.start.tolerance, held_nodes(mesh, scene));
+    done.back().overlap = before;
   }
   return done;
 }
@@ -123,9 +138,7 @@ RCP<Mesh> make_mesh(const RCP<const Communicator>& comm, const Scene& scene, Mes
   }
   refuse_too_large(*comm, bodies);
   const auto mesh = build_mesh(comm, bodies, contact_sides(scene), reference_points(scene));
-  Collector collect;
-  for (const auto& set : scene.sets) collect([&] { add_set(*mesh, set); });
-  collect.throw_found(*comm);
+  add_sets(*mesh, scene.sets);
   tie(*mesh, scene);
   return mesh;
 }
@@ -211,12 +224,38 @@ ScalarFunction seen_from(const ScalarFunction& function, const std::array<double
       function.source(), function.place());
 }
 
+/// A pair with a negative clearance c acts from a distance -c on, and has to look as far. What c becomes is asked for at so many times of the run.
+/// Collective.
+void reach_for_clearances(const Mesh& mesh, const Scene& scene, SurfacesAtStart& surfaces) {
+  constexpr int times = 100;
+  for (std::size_t p = 0; p < surfaces.pairs.size(); ++p) {
+    const ContactPairOptions& options = scene.contact[p].value;
+    if (!options.contact.clearance || options.contact.mortar.search_reach) continue;
+    double mine = 0.0, largest = 0.0;
+    for (const LocalOrdinal node : require_node_set(mesh, options.slave.value)) {
+      const auto& x = mesh.coordinates[static_cast<std::size_t>(node)];
+      for (int n = 0; n <= times; ++n) {
+        std::optional<StepFailure> none;
+        try {
+          mine = std::max(mine, -(*options.contact.clearance)(scene.stepping.end_time * n / times, x[0], x[1], x[2]));
+        } catch (const InputError&) {  // the step that asks for it says so
+        }
+        if (options.contact.clearance->is_constant()) break;
+      }
+    }
+    Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, mine, Teuchos::outArg(largest));
+    PairAtStart& pair = surfaces.pairs[p];
+    if (largest > 0.0) pair.reach = std::max(pair.reach.value_or(0.0), pair.longest + largest);
+  }
+}
+
 // The iteration that pushes surfaces apart that overlap by d leaves pressures of E d / L, L the size of the bodies, and gaps of second order, d^2 / 2
 // R. Nodes stay closed through it if c_n A < 2 E R / (L d); half of E / d is that for R = L / 4. Beside it E / h of short facets makes all nodes
 // open, and close again, for ever.
 void take_up(const PairAtStart& start, ContactPair& pair) {
   if (!start.reach) return;
   pair.options.mortar.search_reach = start.reach;
+  if (!(start.overlap.depth > 0.0)) return;
   constexpr double share = 0.5;
   auto& constant = pair.options.complementarity_constant;
   if (!constant && pair.options.formulation.options->enforcement()->holds_exactly()) constant = share * pair.youngs_modulus / start.overlap.depth;
@@ -300,9 +339,11 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   {
     const auto timer = timers.scope("mesh");
     const RCP<Mesh> mesh = make_mesh(comm, scene, mesh_remarks_);
+    // Ties move nodes by what is summed up over ranks, so that digits differ with their number.
+    if (!scene.ties.empty()) mesh_digest_ = mortise::mesh_digest(*mesh);
     adjustments = adjust_slaves(*mesh, scene);
-    SurfaceTies ties = tie_scene(*mesh, scene, held_components(*mesh, scene), measure, contact_origin(*mesh, mesh_size(*mesh).length, axisymmetric));
-    parts_.tied = ties.tied;
+    SurfaceTies ties = tie_scene(*mesh, scene, held_nodes(*mesh, scene), measure, contact_origin(*mesh, mesh_size(*mesh).length, axisymmetric));
+    supports_.ties = ties.tied;
     ties_at_start_ = std::move(ties.at_start);
     mesh_ = mesh;
     size_ = mesh_size(*mesh_);
@@ -329,7 +370,11 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   Collector collect;
   for (const auto& load : scene.loads)
     collect([&] { parts_.contributions.push_back(std::make_shared<LoadContribution>(load.name, load.value.load.options->make(bodies_), timers)); });
-  collect([&] { parts_.prescribed = std::make_shared<PrescribedBoundary>(PrescribedMotion(*bodies_, scene.boundary_conditions)); });
+  std::shared_ptr<const PrescribedMotion> motion;
+  collect([&] {
+    motion = std::make_shared<const PrescribedMotion>(*bodies_, scene.boundary_conditions);
+    parts_.prescribed = std::make_shared<PrescribedBoundary>(motion);
+  });
   std::vector<ContactPair> pairs;
   for (const auto& pair : scene.contact) collect([&] { pairs.push_back(make_pair(*mesh_, *bodies_, pair, pair.value.slave, pair.value.master)); });
   for (std::size_t first = 0; first < scene.contact.size(); ++first) {  // second passes behind all pairs of the scene
@@ -344,21 +389,32 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   collect.throw_found(*comm);
   if (!mesh_->reference_points.empty()) parts_.dependent = std::make_shared<TiedNodes>(*bodies_, parts_.prescribed->dofs());
 
+  parts_.tied = with_inclined_supports(parts_.dofs, mesh_->dimension, supports_.ties, motion);
+  supports_.prescribed = motion->dofs();
+  supports_.fixed = marked_components(*mesh_, motion->dofs(), 1.0);
+  supports_.inclined = motion->inclined();
+  const std::vector<LocalOrdinal> inclined = held_dofs(supports_.inclined, mesh_->dimension);
+  std::merge(motion->dofs().begin(), motion->dofs().end(), inclined.begin(), inclined.end(), std::back_inserter(supports_.dofs));
+
   // None of the dofs that follow or are tied is prescribed. What tied nodes follow carries no multiplier of contact: momentum there has forces of
-  // ties.
-  const auto fixed = marked_components(*mesh_, parts_.prescribed->dofs(), 1.0), kept = rcp(new MultiVector(*fixed, Teuchos::Copy));
+  // ties, or of inclined supports.
+  const auto kept = rcp(new MultiVector(*supports_.fixed, Teuchos::Copy));
   if (parts_.dependent) kept->update(1.0, *marked_components(*mesh_, parts_.dependent->dofs(), 2.0), 1.0);
   if (parts_.tied) {
     kept->update(1.0, *marked_components(*mesh_, parts_.tied->dofs, 2.0), 1.0);
     mark_crosspoints(followed_by_ties(*mesh_, *parts_.tied), *kept);
   }
   surfaces_at_start_ = examine_surfaces(*mesh_, scene, size_.length);
-  for (std::size_t p = 0; p < adjustments.size(); ++p) surfaces_at_start_.pairs[p].adjusted = {adjustments[p].nodes, adjustments[p].largest};
+  reach_for_clearances(*mesh_, scene, surfaces_at_start_);
+  for (std::size_t p = 0; p < adjustments.size(); ++p) {
+    surfaces_at_start_.pairs[p].adjusted = {adjustments[p].nodes, adjustments[p].largest};
+    surfaces_at_start_.pairs[p].overlap_as_meshed = adjustments[p].overlap;
+  }
   for (std::size_t p = 0; p < pairs.size(); ++p) take_up(surfaces_at_start_.pairs[pairs[p].second_pass_of.value_or(p)], pairs[p]);
   std::vector<HoldingPair> holding;
   for (const auto& pair : pairs)
     holding.push_back({&pair.slave, &pair.master, pair.options.mortar.search_reach.value_or(0.0), pair.options.friction.options->acts()});
-  const auto only_contact = check_held(*mesh_, axisymmetric, *fixed, holding, places, parts_.tied.get());
+  const auto only_contact = check_held(*mesh_, axisymmetric, supports_, holding, places);
   for (LocalOrdinal node = 0; node < mesh_->owned_count(); ++node) held_by_contact_only_.push_back(only_contact[mesh_->body_of_node[node]]);
 
   if (pairs.empty()) return;
@@ -371,6 +427,8 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
 }
 
 Model::~Model() = default;
+
+std::string Model::mesh_digest() const { return mesh_digest_.empty() ? mortise::mesh_digest(*mesh_) : mesh_digest_; }
 
 GlobalOrdinal Model::dofs() const { return static_cast<GlobalOrdinal>(parts_.dofs->getGlobalNumElements()); }
 

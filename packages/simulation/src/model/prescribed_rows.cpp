@@ -29,6 +29,16 @@ void add_nodes(const Mesh& mesh, const RigidModes& modes, const NodePlaces& at, 
   }
 }
 
+void add_inclined(const Mesh& mesh, const RigidModes& modes, const NodePlaces& at, const std::vector<InclinedComponent>& inclined,
+                  Eigen::MatrixXd& gram) {
+  for (const InclinedComponent& component : inclined) {
+    const LocalOrdinal node = component.dof / mesh.dimension;
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(modes.count());
+    modes.add(mesh.body_of_node[node], at.x[node], Vector3d(direction_of(component, mesh.dimension).data()), row);
+    gram += row.transpose() * row;
+  }
+}
+
 /// What a point that turns with its followers holds of their body: the motion at the point, where prescribed. In 3D the rates of the components of
 /// the rotation vector are T^-1 times the spin.
 void add_turning_point(const Mesh& mesh, const RigidModes& modes, const NodePlaces& at, const MultiVector& fixed, std::size_t p,
@@ -115,10 +125,11 @@ void add_ties(const Mesh& mesh, const RigidModes& modes, const NodePlaces& at, c
 
 }  // namespace
 
-Eigen::MatrixXd prescribed_gram(const Mesh& mesh, const RigidModes& modes, const NodePlaces& at, const MultiVector& fixed,
-                                const TiedDisplacements* tied) {
+Eigen::MatrixXd prescribed_gram(const Mesh& mesh, const RigidModes& modes, const NodePlaces& at, const Supports& supports) {
+  const MultiVector& fixed = *supports.fixed;
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(modes.count(), modes.count());
   add_nodes(mesh, modes, at, fixed, gram);
+  add_inclined(mesh, modes, at, supports.inclined, gram);
   for (std::size_t p = 0; p < mesh.reference_points.size(); ++p) {
     const ReferencePoint& point = mesh.reference_points[p];
     const bool is_rigid = mesh.bodies[mesh.body_of_node[point.node]].is_surface;
@@ -127,7 +138,7 @@ Eigen::MatrixXd prescribed_gram(const Mesh& mesh, const RigidModes& modes, const
     else
       add_shared_translation(mesh, modes, at, fixed, point, gram);
   }
-  if (tied != nullptr) add_ties(mesh, modes, at, *tied, gram);
+  if (supports.ties) add_ties(mesh, modes, at, *supports.ties, gram);
   return gram;
 }
 

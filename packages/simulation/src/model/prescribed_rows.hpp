@@ -3,21 +3,18 @@
 
 #include <Eigen/Core>
 
-#include "mortise/nonlinear/contribution.hpp"
 #include "mortise/simulation/model/rigid_modes.hpp"
+#include "mortise/simulation/model/supports.hpp"
 
 namespace mortise {
 
 /// The Gram matrix of the motions on what boundary conditions hold:
-///   - each prescribed dof adds (motion at the dof)^2;
+///   - each prescribed dof adds (motion at the dof)^2, each inclined support (motion along its direction)^2;
 ///   - a set that follows a reference point adds what deviates from the motion that it may share;
 ///   - a point that turns adds its prescribed rotations;
 ///   - each tied dof adds (its motion - that of what it is tied to)^2, as if the slave were where the master has it.
 /// Collective; a part of the sum over the ranks.
-/// @param fixed  [owned nodes x dim] 1 where the displacement is prescribed
-/// @param tied   null: nothing is
 /// @returns [modes.count() squared]
-Eigen::MatrixXd prescribed_gram(const Mesh& mesh, const RigidModes& modes, const NodePlaces& at, const MultiVector& fixed,
-                                const TiedDisplacements* tied);
+Eigen::MatrixXd prescribed_gram(const Mesh& mesh, const RigidModes& modes, const NodePlaces& at, const Supports& supports);
 
 }  // namespace mortise

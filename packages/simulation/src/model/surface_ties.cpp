@@ -11,7 +11,6 @@
 #include <numeric>
 
 #include "mortise/mesh/sets.hpp"
-#include "surfaces/adjustment.hpp"
 #include "surfaces/body_surfaces.hpp"
 
 namespace mortise {
@@ -74,8 +73,9 @@ std::vector<TiedPair> pairs_of(const Mesh& mesh, const Scene& scene) {
 
 bool adjusts(const Scene& scene, std::size_t tie) { return scene.ties[tie].value.mesh == MeshAtStart::adjusted; }
 
-/// X_s = P X_m in the ties that adjust. Returns the largest move over its tie's tolerance, over all ranks.
-double move_slaves(Mesh& mesh, const Scene& scene, const std::vector<TiedPair>& pairs, const TieRows& rows, const std::array<double, 3>& origin) {
+/// X_s = P X_m in the ties that adjust, but along what inclined supports hold. Returns the largest move over its tie's tolerance, over all ranks.
+double move_slaves(Mesh& mesh, const Scene& scene, const HeldNodes& held, const std::vector<TiedPair>& pairs, const TieRows& rows,
+                   const std::array<double, 3>& origin) {
   const auto dimension = static_cast<LocalOrdinal>(mesh.dimension);
   const RCP<const Map> dofs = rows.T->getRowMap();
   Vector X(dofs), moved(dofs);
@@ -90,12 +90,17 @@ double move_slaves(Mesh& mesh, const Scene& scene, const std::vector<TiedPair>& 
   {
     const auto view = moved.getLocalViewHost(Tpetra::Access::ReadOnly);
     for (std::size_t n = 0; n < rows.dofs.size(); ++n) {
-      if (!adjusts(scene, rows.tie_of[n])) continue;
-      const LocalOrdinal dof = rows.dofs[n];
-      double& x = mesh.coordinates[static_cast<std::size_t>(dof / dimension)][static_cast<std::size_t>(dof % dimension)];
-      const double now = view(dof, 0) + origin[static_cast<std::size_t>(dof % dimension)];
-      mine = std::max(mine, std::abs(now - x) / pairs[rows.tie_of[n]].tolerance);
-      x = now;
+      const LocalOrdinal dof = rows.dofs[n], node = dof / dimension;
+      if (!adjusts(scene, rows.tie_of[n]) || (n > 0 && rows.dofs[n - 1] / dimension == node)) continue;
+      auto& x = mesh.coordinates[static_cast<std::size_t>(node)];
+      Eigen::Vector3d move = Eigen::Vector3d::Zero();
+      for (std::size_t of_node = n; of_node < rows.dofs.size() && rows.dofs[of_node] / dimension == node; ++of_node) {
+        const auto i = static_cast<std::size_t>(rows.dofs[of_node] % dimension);
+        move[static_cast<Eigen::Index>(i)] = view(rows.dofs[of_node], 0) + origin[i] - x[i];
+      }
+      if (held.directions.count(node) > 0) move = free_part(held, node, move);
+      mine = std::max(mine, move.cwiseAbs().maxCoeff() / pairs[rows.tie_of[n]].tolerance);
+      for (std::size_t i = 0; i < 3; ++i) x[i] += move[static_cast<Eigen::Index>(i)];
     }
   }
   share_positions(mesh);
@@ -122,12 +127,11 @@ void count_moves(const Mesh& mesh, const Scene& scene, const std::vector<std::ar
 
 }  // namespace
 
-SurfaceTies tie_scene(Mesh& mesh, const Scene& scene, const std::vector<std::array<bool, 3>>& held, const InterfaceMeasure& measure,
-                      const std::array<double, 3>& origin) {
+SurfaceTies tie_scene(Mesh& mesh, const Scene& scene, const HeldNodes& held, const InterfaceMeasure& measure, const std::array<double, 3>& origin) {
   if (scene.ties.empty()) return {};
   const std::vector<TiedPair> pairs = pairs_of(mesh, scene);
   const RCP<const Map> dofs = dofs_of(mesh);
-  const RCP<const MultiVector> marks = held_marks(mesh, held);
+  const RCP<const MultiVector> marks = held_marks(mesh, held.components);
   const std::vector<std::array<double, 3>> before = mesh.coordinates;
   const auto rows_now = [&] { return tie_surfaces(mesh.owned_nodes, dofs, positions_from(mesh, origin), marks, pairs, measure); };
   bool any_adjusts = false;
@@ -138,9 +142,9 @@ SurfaceTies tie_scene(Mesh& mesh, const Scene& scene, const std::vector<std::arr
                        pairs[t].tolerance, held);
   }
   TieRows rows = rows_now();
-  for (int round = 1; any_adjusts && move_slaves(mesh, scene, pairs, rows, origin) > settled && round < most_rounds; ++round) rows = rows_now();
+  for (int round = 1; any_adjusts && move_slaves(mesh, scene, held, pairs, rows, origin) > settled && round < most_rounds; ++round) rows = rows_now();
   SurfaceTies result;
-  result.tied = std::make_shared<const TiedDisplacements>(TiedDisplacements{rows.dofs, rows.T});
+  result.tied = std::make_shared<const TiedDisplacements>(TiedDisplacements{rows.dofs, rows.T, {}, {}});
   for (std::size_t t = 0; t < pairs.size(); ++t) result.at_start.push_back({rows.counts[t].tied, rows.counts[t].open, pairs[t].tolerance, 0, 0.0});
   if (any_adjusts) count_moves(mesh, scene, before, result.at_start);
   return result;

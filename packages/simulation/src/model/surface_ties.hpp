@@ -10,6 +10,7 @@
 #include "mortise/nonlinear/contribution.hpp"
 #include "mortise/simulation/model/model.hpp"
 #include "mortise/simulation/scene/scene.hpp"
+#include "surfaces/adjustment.hpp"
 
 namespace mortise {
 
@@ -21,11 +22,10 @@ struct SurfaceTies {
 
 /// Ties surfaces, and moves the slave nodes of ties that ask for it: first along their normals onto the master, then to X_s = P X_m with the P of the
 /// tie. The mesh has all its sets and reference points. Collective.
-/// @param held    [local nodes] components that conditions prescribe
+/// @param held    what conditions prescribe
 /// @param origin  from where positions are measured
 /// @throws InputError at the ties' places for unknown sets, and as tie_surfaces()
-SurfaceTies tie_scene(Mesh& mesh, const Scene& scene, const std::vector<std::array<bool, 3>>& held, const InterfaceMeasure& measure,
-                      const std::array<double, 3>& origin);
+SurfaceTies tie_scene(Mesh& mesh, const Scene& scene, const HeldNodes& held, const InterfaceMeasure& measure, const std::array<double, 3>& origin);
 
 /// [mesh.bodies] a number that bodies share which ties join. Collective.
 std::vector<int> joined_bodies(const Mesh& mesh, const Scene& scene);

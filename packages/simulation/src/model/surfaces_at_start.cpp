@@ -246,4 +246,14 @@ SurfacesAtStart examine_surfaces(const Mesh& mesh, const Scene& scene, double le
   return result;
 }
 
+double deepest_overlap(const Mesh& mesh, const Named<ContactPairOptions>& pair, double length) {
+  const PlaceOfNode at = reference_places(mesh);
+  const PlacedBodies bodies{mesh, at, body_boxes(mesh, at), length, meant_to_touch * length};
+  double depth = 0.0;
+  for (const SidesOfBody& slave : sides_by_body(mesh, require_side_set(mesh, pair.value.slave)))
+    for (const SidesOfBody& master : sides_by_body(mesh, require_side_set(mesh, pair.value.master)))
+      depth = std::max(depth, examine(bodies, 0, pair, slave, master).result.overlap.depth);
+  return depth;
+}
+
 }  // namespace mortise

@@ -54,8 +54,7 @@ Vector3d motion_at(const RigidModes& modes, const Eigen::VectorXd& motion, int b
   return t + rotation_of(modes, motion, b).cross(x - middle);
 }
 
-BodyMotions body_motions(const Mesh& mesh, const RigidModes& modes, const NodePlaces& before, const NodePlaces& after,
-                         const std::vector<LocalOrdinal>& prescribed) {
+BodyMotions body_motions(const Mesh& mesh, const RigidModes& modes, const NodePlaces& before, const NodePlaces& after, const Supports& supports) {
   const std::size_t bodies = modes.bodies().size();
   const auto sum = [&](const std::vector<double>& mine) {
     std::vector<double> all(mine.size());
@@ -109,9 +108,14 @@ BodyMotions body_motions(const Mesh& mesh, const RigidModes& modes, const NodePl
   });
   for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node)
     if (modes.number(mesh.body_of_node[node]) < 0) mine.back() = std::max(mine.back(), (after.x[node] - before.x[node]).norm());
-  for (const LocalOrdinal dof : prescribed) {
+  for (const LocalOrdinal dof : supports.prescribed) {
     const LocalOrdinal node = dof / mesh.dimension, i = dof % mesh.dimension;
     mine.back() = std::max(mine.back(), std::abs(after.x[node][i] - before.x[node][i]));
+  }
+  for (const InclinedComponent& component : supports.inclined) {
+    const LocalOrdinal node = component.dof / mesh.dimension;
+    const Vector3d along(direction_of(component, mesh.dimension).data());
+    mine.back() = std::max(mine.back(), std::abs(along.dot(after.x[node] - before.x[node])));
   }
   Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, static_cast<int>(mine.size()), mine.data(), all.data());
   result.imposed = all.back();

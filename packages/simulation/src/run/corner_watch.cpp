@@ -130,12 +130,13 @@ std::optional<CornerWatch::Found> CornerWatch::deepest_of_master(std::size_t p, 
   std::vector<LineSegment> lines;
   for (const Corner& corner : corners)
     lines.push_back({corner.probe.point.x, -corner.probe.point.normal, touching, boxes[pair.master_body].diagonal()});
+  const double allowed = allowed_overlap(laws, pair.index);
   std::vector<double> depth(corners.size(), 0.0);
   std::vector<GlobalOrdinal> facet(corners.size(), -1);
   const auto found = crossings(*mesh.comm, mesh.dimension, facets, lines);
   for (std::size_t c = 0; c < corners.size(); ++c) {
     if (found[c].empty() || found[c].front().tag == own || !found[c].front().leaves) continue;
-    depth[c] = found[c].front().s;
+    depth[c] = std::max(0.0, found[c].front().s * std::abs(found[c].front().along) - allowed);
     facet[c] = found[c].front().tag;
   }
   std::set<GlobalOrdinal> wanted(facet.begin(), facet.end());
@@ -201,6 +202,7 @@ std::optional<CornerWatch::Found> CornerWatch::deepest_of_slave(std::size_t p, c
   const auto found = penetrations(
       {*mesh.comm, mesh.dimension, own, other, boxes[pair.slave_body], boxes[pair.master_body], is_rigid(mesh, pair.master_body), touching}, probes);
   const std::vector<char> is_closed = closed(pair, laws);
+  const double allowed = allowed_overlap(laws, pair.index);
   std::vector<double> length(corners.size(), 0.0), share[2] = {length, length};  // [carries]
   for (std::size_t c = 0; c < corners.size(); ++c) {
     if (found[c].kind != Penetration::Kind::overlap) continue;
@@ -209,7 +211,8 @@ std::optional<CornerWatch::Found> CornerWatch::deepest_of_slave(std::size_t p, c
       length[c] = std::max(length[c], side_lengths(mesh, side, at).back());
       for (const LocalOrdinal node : mesh.side_nodes(side)) carries = carries || is_closed[node];
     }
-    if (found[c].depth > allowed_of_slave(mesh.dimension) * length[c]) share[carries ? 1 : 0][c] = found[c].depth / length[c];
+    const double depth = found[c].depth - allowed;
+    if (depth > allowed_of_slave(mesh.dimension) * length[c]) share[carries ? 1 : 0][c] = depth / length[c];
   }
   for (const bool carries : {false, true}) {
     const DeepestPoint point = deepest_point(mesh, at, probes, share[carries ? 1 : 0]);

@@ -34,7 +34,7 @@ constexpr std::size_t most_bodies = 10;  ///< that are looked at together: the r
 class BodyStatics {
  public:
   BodyStatics(const Model& model, const SemiSmoothSystem& system, const SystemEvaluation& evaluation, const std::vector<int>& held)
-      : model_(model), mesh_(*model.mesh()), at_(node_places(mesh_, system.displacement(evaluation.x()).get())), fixed_(prescribed_marks(model)) {
+      : model_(model), mesh_(*model.mesh()), at_(node_places(mesh_, system.displacement(evaluation.x()).get())) {
     const ContactLaws& laws = evaluation.contact_laws();
     find_nodes(held, laws);
     if (bodies_.empty()) return;
@@ -43,8 +43,8 @@ class BodyStatics {
     laws.add_force(contact);
     Vector outer(*system.displacement(evaluation.residual()), Teuchos::Copy);
     outer.update(-1.0, contact, 1.0);
-    const Eigen::RowVectorXd mine = work_of_residual(mesh_, *modes_, at_, *fixed_, outer);
-    const Eigen::MatrixXd prescribed = prescribed_gram(mesh_, *modes_, at_, *fixed_, model.parts().tied.get());
+    const Eigen::RowVectorXd mine = work_of_residual(mesh_, *modes_, at_, *model_.supports().fixed, outer);
+    const Eigen::MatrixXd prescribed = prescribed_gram(mesh_, *modes_, at_, model.supports());
     motions_ = free_motions(sum(prescribed), modes_->per_body());
     load_ = -motions_.transpose() * sum(mine).transpose();
     round_off_ = std::max(evaluation.norms().round_off, 100.0 * epsilon * load_.norm());
@@ -247,7 +247,6 @@ class BodyStatics {
   const Model& model_;
   const Mesh& mesh_;
   NodePlaces at_;
-  RCP<const MultiVector> fixed_;
   std::vector<int> bodies_;
   bool is_whole_ = false;
   std::optional<RigidModes> modes_;

@@ -113,7 +113,7 @@ void OverlapWatch::examine(const PlacedBodies& bodies, const ContactLaws& laws) 
            penetrations({*mesh.comm, mesh.dimension, own, facing, boxes[one.sides.body], boxes[other.sides.body], rigid, touching}, nodes))
         depths.push_back(found.kind == Penetration::Kind::overlap && found.depth > touching ? found.depth : 0.0);
       const DeepestPoint point = deepest_point(mesh, at, nodes, depths);
-      if (!(point.depth > 0.0) || point.depth <= sagitta(other, at)) continue;
+      if (!(point.depth > 0.0) || point.depth <= sagitta(other, at) + allowed_overlap(laws, pair.index)) continue;
       const auto& x = point.place;
       found_.push_back(
           {p, point.depth > arc_depth * longest_facet(mesh, *pair.slave.sides.set, at),

@@ -6,7 +6,7 @@ QuantityContext quantity_context(const Scene& scene, const Model& model) {
   QuantityContext context{*model.bodies()};
   context.contact = model.contact().get();
   for (const auto& pair : scene.contact) context.pairs.push_back({pair.name, pair.value.slave.value, pair.value.master.value});
-  context.prescribed = &model.parts().prescribed->dofs();
+  context.prescribed = &model.supports().dofs;
   if (model.parts().dependent) context.following = &model.parts().dependent->dofs();
   context.symbols = &scene.symbols;
   return context;

@@ -47,7 +47,7 @@ Restart restart_from(const RCP<const Communicator>& comm, const std::string& dir
 
 void store_run(StateArchive& archive, const std::string& fingerprint, const Model& model, const SemiSmoothSystem& system,
                const StepEvaluation& evaluation, const SteppingState& state) {
-  std::string scene = fingerprint, mesh = mesh_digest(*model.mesh());
+  std::string scene = fingerprint, mesh = model.mesh_digest();
   archive.text("scene", scene);
   archive.text("mesh", mesh);
   store(archive, system, state);
@@ -62,7 +62,7 @@ SteppingState restore_run(const Restart& restart, const Scene& scene, const std:
   archive.text("mesh", mesh);
   if (std::vector<std::string> changes = refused_changes(before, scene_fingerprint(scene)); !changes.empty())
     refuse(restart, file, std::move(changes));
-  if (mesh != mesh_digest(*model.mesh())) refuse(restart, file, {"the mesh is another"});
+  if (mesh != model.mesh_digest()) refuse(restart, file, {"the mesh is another"});
 
   SteppingState state = restore_stepping(archive, system);
   const double time = state.accepted.context.time;

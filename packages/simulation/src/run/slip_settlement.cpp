@@ -71,7 +71,7 @@ bool SlipSettlement::is_needed(const Model& model) {
 }
 
 // Bodies whose rotation is a degree of freedom of its own are left alone.
-SlipSettlement::SlipSettlement(const Model& model) : model_(model), bodies_(bodies_held_by_contact_only(model)), fixed_(prescribed_marks(model)) {
+SlipSettlement::SlipSettlement(const Model& model) : model_(model), bodies_(bodies_held_by_contact_only(model)) {
   const Mesh& mesh = *model.mesh();
   for (const ReferencePoint& point : mesh.reference_points) {
     if (point.rotation_node < 0) continue;
@@ -102,7 +102,7 @@ bool SlipSettlement::find_sliding(const Vector& x, const Vector& F, const Contac
   const Eigen::Index count = modes.count();
   const ContactHold hold = contact_hold(model_, modes, found.at, laws);
   found.pairs = hold.pairs;
-  const Eigen::MatrixXd prescribed = prescribed_gram(mesh, modes, found.at, *fixed_, model_.parts().tied.get());
+  const Eigen::MatrixXd prescribed = prescribed_gram(mesh, modes, found.at, model_.supports());
   std::vector<double> gram(prescribed.data(), prescribed.data() + prescribed.size());
   sum(gram);
   const Eigen::MatrixXd held = Eigen::Map<const Eigen::MatrixXd>(gram.data(), count, count) + hold.gram;
@@ -146,7 +146,7 @@ bool SlipSettlement::find_sliding(const Vector& x, const Vector& F, const Contac
   Eigen::Map<Eigen::VectorXd> borne(sums.data() + count, n), by_law(borne.data() + n, n);
   Eigen::Map<Eigen::MatrixXd> stiffness(by_law.data() + n, n, n);
   double &if_stuck = sums[sums.size() - 3], &forces = sums[sums.size() - 2], &slipped = sums.back();
-  residual = work_of_residual(mesh, modes, found.at, *fixed_, F);
+  residual = work_of_residual(mesh, modes, found.at, *model_.supports().fixed, F);
   for (std::size_t i = 0; i < found.nodes.size(); ++i) {
     const SlidingNode& node = found.nodes[i];
     const Eigen::MatrixXd& work = found.rows[i].work;

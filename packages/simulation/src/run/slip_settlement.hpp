@@ -39,7 +39,6 @@ class SlipSettlement {
 
   const Model& model_;
   std::vector<int> bodies_;
-  RCP<const MultiVector> fixed_;
   std::string overload_;
 };
 

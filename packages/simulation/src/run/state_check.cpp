@@ -49,18 +49,10 @@ std::vector<int> bodies_held_by_contact_only(const Model& model) {
   return bodies;
 }
 
-RCP<const MultiVector> prescribed_marks(const Model& model) {
-  const Mesh& mesh = *model.mesh();
-  const auto fixed = rcp(new MultiVector(mesh.owned_nodes, static_cast<std::size_t>(mesh.dimension)));
-  const auto values = fixed->getLocalViewHost(Tpetra::Access::ReadWrite);
-  for (const LocalOrdinal dof : model.parts().prescribed->dofs()) values(dof / mesh.dimension, dof % mesh.dimension) = 1.0;
-  return fixed;
-}
-
 bool StateCheck::is_needed(const Model& model) { return model.contact() && !bodies_held_by_contact_only(model).empty(); }
 
 StateCheck::StateCheck(const Model& model, double resolution, std::function<void(const std::string&)> warn)
-    : model_(model), resolution_(resolution), warn_(std::move(warn)), bodies_(bodies_held_by_contact_only(model)), fixed_(prescribed_marks(model)) {}
+    : model_(model), resolution_(resolution), warn_(std::move(warn)), bodies_(bodies_held_by_contact_only(model)) {}
 
 RCP<Vector> StateCheck::verify(const SemiSmoothSystem& system, const Vector& before, const SystemEvaluation& found, int round) {
   const Mesh& mesh = *model_.mesh();
@@ -68,13 +60,13 @@ RCP<Vector> StateCheck::verify(const SemiSmoothSystem& system, const Vector& bef
   const bool axisymmetric = model_.bodies()->kinematics() == Kinematics::axisymmetric;
   auto modes = std::make_unique<RigidModes>(mesh, axisymmetric, bodies_, to.x);
   const ContactHold hold = contact_hold(model_, *modes, to, found.contact_laws());
-  const Eigen::MatrixXd mine = prescribed_gram(mesh, *modes, to, *fixed_, model_.parts().tied.get());
+  const Eigen::MatrixXd mine = prescribed_gram(mesh, *modes, to, model_.supports());
   Eigen::MatrixXd gram(mine.rows(), mine.cols());
   Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), gram.data());
   gram += hold.gram;
 
   const Eigen::MatrixXd free = free_motions(gram, modes->per_body());
-  const BodyMotions motions = body_motions(mesh, *modes, from, to, model_.parts().prescribed->dofs());
+  const BodyMotions motions = body_motions(mesh, *modes, from, to, model_.supports());
   const auto along = [&](const Eigen::MatrixXd& directions) { return Eigen::VectorXd(directions * (directions.transpose() * motions.rigid)); };
   const Eigen::VectorXd freely = along(free), formerly = free_before_.cols() > 0 ? along(free_before_) : freely;
   const Eigen::VectorXd loosely = formerly.norm() > freely.norm() ? formerly : freely, held = motions.rigid - loosely;

@@ -74,7 +74,7 @@ std::vector<Field> StepEvaluation::fields(const SystemEvaluation& at, const std:
     const auto all = forces->getLocalViewHost(Tpetra::Access::ReadOnly);
     const auto supports = reaction.getLocalViewHost(Tpetra::Access::OverwriteAll);
     for (std::size_t dof = 0; dof < supports.extent(0); ++dof) supports(dof, 0) = 0.0;
-    for (const LocalOrdinal dof : model_.parts().prescribed->dofs()) supports(dof, 0) = all(dof, 0);
+    for (const LocalOrdinal dof : model_.supports().dofs) supports(dof, 0) = all(dof, 0);
   }
   const FieldState state{*model_.bodies(), model_.contact().get(), *displacement, *local_displacement, contact_laws(at), &reaction};
   for (const auto& name : names) fields.push_back(make_field(name, state));

@@ -155,6 +155,10 @@ class PairMaker {
     for (int i = 0; i < 3; ++i)
       if (const double apart = one.centre[i] - other.centre[i]; std::abs(apart) > same_place * std::max(one.area, other.area))
         return apart < 0.0 ? 1e-6 * weight : -1e-6 * weight;
+    // Surfaces that lie on one another: flat ones face different ways. Closed ones around one another are not equally curved.
+    constexpr double same_direction = 1e-6;
+    for (int i = 0; i < 3; ++i)
+      if (const double apart = one.normal[i] - other.normal[i]; std::abs(apart) > same_direction) return apart > 0.0 ? 1e-7 * weight : -1e-7 * weight;
     return one.number < other.number ? 1e-9 * weight : -1e-9 * weight;
   }
 

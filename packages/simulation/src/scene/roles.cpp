@@ -60,7 +60,7 @@ void assign_roles(const Communicator& comm, Scene& scene) {
   const auto open = [](const auto& pair) { return pair.value.roles == ContactRoles::automatic; };
   if (std::none_of(scene.contact.begin(), scene.contact.end(), open) && scene.automatic_contact.pairs == ContactSearch::none) return;
   const RCP<Mesh> mesh = build_mesh(Teuchos::rcpFromRef(comm), body_descriptions(comm, scene), contact_sides(scene), {});
-  for (const auto& set : scene.sets) add_set(*mesh, set);
+  add_sets(*mesh, scene.sets);
   add_automatic_pairs(*mesh, scene);
   for (auto& pair : scene.contact) {
     if (!open(pair)) continue;

@@ -1,5 +1,6 @@
 #include "surfaces/adjustment.hpp"
 
+#include <Eigen/Geometry>
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Map.hpp>
@@ -14,10 +15,11 @@
 namespace mortise {
 namespace {
 
-constexpr double opposite = 0.5;  ///< cosine of the angle between normals that face one another
+constexpr double opposite = 0.5;        ///< cosine of the angle between normals that face one another
+constexpr double no_direction = 1e-10;  ///< what is left of a unit vector that is held, by round-off
 
-/// Unit normals of owned nodes: means over their facets, without the components that are held.
-std::map<LocalOrdinal, Eigen::Vector3d> nodal_normals(const Mesh& mesh, const SideSet& slave, const std::vector<std::array<bool, 3>>& held) {
+/// Unit normals of owned nodes: means over their facets, without what is held of the nodes.
+std::map<LocalOrdinal, Eigen::Vector3d> nodal_normals(const Mesh& mesh, const SideSet& slave, const HeldNodes& held) {
   const PlaceOfNode at = reference_places(mesh);
   std::map<LocalOrdinal, Eigen::Vector3d> normals;
   for (const Side& side : slave.sides) {
@@ -26,14 +28,32 @@ std::map<LocalOrdinal, Eigen::Vector3d> nodal_normals(const Mesh& mesh, const Si
       if (node < mesh.owned_count()) normals.emplace(node, Eigen::Vector3d::Zero()).first->second += normal;
   }
   for (auto& [node, normal] : normals) {
-    for (int i = 0; i < 3; ++i)
-      if (held[static_cast<std::size_t>(node)][static_cast<std::size_t>(i)]) normal[i] = 0.0;
-    if (normal.norm() > 0.0) normal.normalize();
+    const double length = normal.norm();
+    normal = free_part(held, node, normal);
+    if (normal.norm() <= no_direction * length)
+      normal.setZero();
+    else
+      normal.normalize();
   }
   return normals;
 }
 
 }  // namespace
+
+Eigen::Vector3d free_part(const HeldNodes& held, LocalOrdinal node, Eigen::Vector3d v) {
+  std::vector<Eigen::Vector3d> orthonormal;
+  const auto take_away = [&](Eigen::Vector3d n) {
+    for (const Eigen::Vector3d& other : orthonormal) n -= n.dot(other) * other;
+    if (n.norm() < no_direction) return;
+    orthonormal.push_back(n.normalized());
+    v -= v.dot(orthonormal.back()) * orthonormal.back();
+  };
+  for (int i = 0; i < 3; ++i)
+    if (held.components[static_cast<std::size_t>(node)][static_cast<std::size_t>(i)]) take_away(Eigen::Vector3d::Unit(i));
+  if (const auto inclined = held.directions.find(node); inclined != held.directions.end())
+    for (const auto& direction : inclined->second) take_away(Eigen::Vector3d(direction.data()));
+  return v;
+}
 
 void share_positions(Mesh& mesh) {
   MultiVector owned(mesh.owned_nodes, 3), local(mesh.local_nodes, 3);
@@ -48,8 +68,7 @@ void share_positions(Mesh& mesh) {
     for (int i = 0; i < 3; ++i) mesh.coordinates[static_cast<std::size_t>(node)][static_cast<std::size_t>(i)] = view(node, i);
 }
 
-Adjustment adjust_onto_master(Mesh& mesh, const SideSet& slave, const SideSet& master, double tolerance,
-                              const std::vector<std::array<bool, 3>>& held) {
+Adjustment adjust_onto_master(Mesh& mesh, const SideSet& slave, const SideSet& master, double tolerance, const HeldNodes& held) {
   const PlaceOfNode at = reference_places(mesh);
   std::vector<TaggedFacet> facets;
   for (LocalOrdinal s = 0; s < master.owned; ++s) facets.push_back({places_of(mesh, master.sides[static_cast<std::size_t>(s)], at), 0});
@@ -75,7 +94,7 @@ Adjustment adjust_onto_master(Mesh& mesh, const SideSet& slave, const SideSet& m
   double moved = 0.0, largest = 0.0;
   Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, mine[0], Teuchos::outArg(moved));
   Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, mine[1], Teuchos::outArg(largest));
-  return {static_cast<GlobalOrdinal>(moved), largest};
+  return {static_cast<GlobalOrdinal>(moved), largest, 0.0};
 }
 
 }  // namespace mortise

@@ -93,7 +93,8 @@ Patches find_patches(const Mesh& mesh, const std::vector<char>& bodies, double a
     part.centre = in_row(sum, middle_x) / sum[area];
     part.area = sum[area];
     part.shortest = sum[shortest];
-    part.turn = 1.0 - in_row(sum, normal_x).norm() / sum[area];
+    part.normal = in_row(sum, normal_x) / sum[area];
+    part.turn = 1.0 - part.normal.norm();
     part.sides = static_cast<GlobalOrdinal>(sum[sides]);
   }
   for (const auto& of_body : numbers) {

@@ -14,6 +14,7 @@ struct SurfacePart {
   GlobalOrdinal number = 0;                          ///< of the patch: see patches_of()
   Eigen::Vector3d seed = Eigen::Vector3d::Zero();    ///< the middle of the side that has this number
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< weighted by area
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< mean of the unit normals
   double area = 0.0;                                 ///< in 2D a length
   double shortest = 0.0;                             ///< side of a facet
   double turn = 0.0;                                 ///< 1 - |mean of the unit normals|: 0 of a plane part, the more it is curved the larger

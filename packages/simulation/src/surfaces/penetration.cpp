@@ -3,6 +3,7 @@
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Map.hpp>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace mortise {
@@ -31,7 +32,7 @@ Penetration classify(const std::vector<Crossing>& crossings, bool rigid, double 
   }
   const bool pushes_out = first->tag == SurfaceTags::front && first->s < own_end;
   result.kind = pushes_out ? Penetration::Kind::overlap : Penetration::Kind::swallowed;
-  result.depth = first->s;
+  result.depth = first->s * std::abs(first->along);  // at corners the line is longer than the way out
   return result;
 }
 

@@ -34,7 +34,9 @@ struct Penetration {
     pierced     ///< in front of a rigid surface that lies within the own body
   };
   Kind kind = Kind::none;
-  double depth = 0.0;  ///< to the surface where the line leaves the other body; pierced: from the surface to the end of the own body
+  /// Distance to the plane of the facet by which the line leaves the other body; pierced: along the line, from the surface to the end of the own
+  /// body.
+  double depth = 0.0;
 };
 
 /// Whether the line from a probe meets the other body's box, so that penetrations() looks at it.

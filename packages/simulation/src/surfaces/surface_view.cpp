@@ -2,6 +2,7 @@
 
 #include <Teuchos_CommHelpers.hpp>
 #include <algorithm>
+#include <cmath>
 
 namespace mortise {
 namespace {
@@ -51,7 +52,7 @@ std::optional<double> distance_to_back(const PlacedBodies& bodies, const Deepest
   for (const auto& found :
        crossings(*mesh.comm, mesh.dimension, tagged_surface(mesh, to.body, to.set, SurfaceTags::front, SurfaceTags::rest, bodies.at), lines))
     for (const Crossing& crossing : found)
-      if (crossing.leaves) mine = std::min(mine, crossing.s);
+      if (crossing.leaves) mine = std::min(mine, crossing.s * std::abs(crossing.along));
   const double distance = least(*mesh.comm, mine);
   return distance < std::numeric_limits<double>::max() ? std::optional(distance) : std::nullopt;
 }

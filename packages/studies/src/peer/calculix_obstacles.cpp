@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "mortise/contact/formulation/pressure_overclosure.hpp"
 #include "mortise/material/materials.hpp"
 #include "peer/calculix_deck.hpp"
 
@@ -41,11 +42,18 @@ std::vector<Diagnostic> calculix_obstacles(const Scene& scene, const Model& mode
       say(body.place, fmt::format("small strain in one of \"{}\" and \"{}\" and finite strain in the other", first->name, body.name));
   }
   for (const auto& point : scene.reference_points) say(point.place, fmt::format("the reference point \"{}\"", point.name));
+  for (const auto& tie : scene.ties) say(tie.place, fmt::format("the tie \"{}\"", tie.name));
+  for (const auto& condition : scene.boundary_conditions)
+    if (!condition.value.x_axis.empty()) say(condition.place, fmt::format("the axes of boundary condition \"{}\"", condition.name));
   for (const auto& load : scene.loads)
     if (load.value.load.options->make(model.bodies())->follows()) say(load.place, fmt::format("the load \"{}\", which follows the body", load.name));
   for (const auto& pair : scene.contact) {
     const ContactOptions& contact = pair.value.contact;
     if (contact.geometry != ContactGeometry::current) say(pair.place, fmt::format("contact \"{}\" in the reference configuration", pair.name));
+    if (contact.clearance) say(pair.place, fmt::format("the clearance of \"{}\"", pair.name));
+    if (pair.value.start.taken_up_at) say(pair.place, fmt::format("the overlap of \"{}\" that is taken up over time", pair.name));
+    if (dynamic_cast<const PressureOverclosureEnforcement*>(contact.formulation.options->enforcement().get()) != nullptr)
+      say(pair.place, fmt::format("the pressure overclosure law of \"{}\"", pair.name));
     if (contact.friction.options->acts() && !is_plain_coulomb(*contact.friction.options))
       say(pair.place, fmt::format("friction of \"{}\" other than Coulomb's with a constant coefficient", pair.name));
   }

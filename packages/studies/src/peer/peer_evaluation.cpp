@@ -84,9 +84,10 @@ void PeerEvaluation::read_pressure(const CalculixResults& results) {
   const GlobalOrdinal first = model_.dofs();  // ids of multipliers follow those of displacements
   for (std::size_t pair = 0; pair < scene_.contact.size(); ++pair)
     for (const auto& state : node_states(without_pressure, pair)) {
+      const LocalOrdinal multiplier = map->getLocalElement(first + numbers.dimension * state.node);
+      if (multiplier < 0) continue;  // a node that is held carries none
       const double pressure = over_layers(results, "CONTACT", numbers, state.node)[3] / numbers.layers;
-      for (int i = 0; i < numbers.dimension; ++i)
-        values(map->getLocalElement(first + numbers.dimension * state.node + i), 0) = pressure * state.normal[i];
+      for (int i = 0; i < numbers.dimension; ++i) values(multiplier + i, 0) = pressure * state.normal[i];
     }
   laws_ = evaluation.laws(multipliers);
 }

@@ -12,7 +12,7 @@ namespace mortise {
 struct ContactNodeState {
   GlobalOrdinal node = 0;                   ///< of the model
   LocalOrdinal owned_node = 0;              ///< local index in the map of owned nodes
-  std::array<double, 3> traction{};         ///< multiplier z (compression positive along the normal), force per area; third component 0 in 2D
+  std::array<double, 3> traction{};         ///< multiplier z (compression positive along the normal), or the mean of its heirs', force per area
   std::array<double, 3> normal{};           ///< unit normal n of the slave
   double pressure = 0.0;                    ///< z . n
   double gap = 0.0;                         ///< weighted gap / A_j
@@ -44,8 +44,12 @@ struct CornerReport {
   bool as_asked = true;                    ///< the rule is the pair's option; false: something else of the pair calls for this one
 };
 
-/// States of the owned slave nodes of a pair. The slip path includes the slip of the step.
+/// States of the owned slave nodes of a pair. The slip path includes the slip of the step. A node without multiplier is open, and has the traction of
+/// those that act in its place: the mean of their multipliers. Collective.
 std::vector<ContactNodeState> node_states(const ContactLaws& laws, std::size_t pair);
+/// How deep the surfaces of a pair may lie in one another without touching: the overlap that its history allows, and its largest clearance above 0
+/// [length]. Collective.
+double allowed_overlap(const ContactLaws& laws, std::size_t pair);
 /// Resultant (over all ranks) of the contact forces on the slave side of a pair, of both passes if there are two. Collective.
 std::array<double, 3> resultant(const ContactLaws& laws, std::size_t pair);
 /// Collective.

@@ -35,6 +35,10 @@ struct SetOptions {
 /// nothing is kept.
 void add_set(Mesh& mesh, const Named<SetOptions>& set);
 
+/// Adds sets, each after those that it is made of, in whatever order they stand. Collective.
+/// @throws InputError on all ranks: as add_set(), and for sets that are made of themselves
+void add_sets(Mesh& mesh, const std::vector<Named<SetOptions>>& sets);
+
 /// The set, or InputError at the name's place with the nearest name and the list of sets.
 const SideSet& require_side_set(const Mesh& mesh, const Located<std::string>& name);
 const std::vector<LocalOrdinal>& require_node_set(const Mesh& mesh, const Located<std::string>& name);

@@ -1,6 +1,7 @@
 #pragma once
 // What may add to the residual and to its Jacobian.
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -73,10 +74,15 @@ class PrescribedDisplacements {
   virtual std::vector<double> values(double time, std::optional<StepFailure>& failure) const = 0;
 };
 
-/// Displacements that are constant combinations of others: nodes of surfaces that are glued to others.
+/// Displacements that are constant combinations of others: nodes of surfaces that are glued to others, and nodes that inclined supports hold.
 struct TiedDisplacements {
   std::vector<LocalOrdinal> dofs;  ///< owned dofs that are tied, ascending; none of them is prescribed, or among DependentDisplacements::dofs()
-  RCP<const Matrix> T;  ///< [owned dofs squared] d = T d: rows of dofs that are not tied are those of the identity, columns of tied ones empty
+  /// [owned dofs squared] d = T d + offset: rows of dofs that are not tied are those of the identity, columns of tied ones empty
+  RCP<const Matrix> T;
+  /// [owned dofs] at a pseudo-time, 0 at dofs that are not tied; empty: always 0. Failures as in PrescribedDisplacements. Collective.
+  std::function<RCP<Vector>(double time, std::optional<StepFailure>& failure)> offset;
+  /// Puts what supports bear of forces on all dofs into `gathered`, at the dofs of the nodes that they hold; empty: there are none. Collective.
+  std::function<void(const Vector& forces, Vector& gathered)> put_support_forces;
 };
 
 /// Displacements of owned dofs that follow from others: nodes of rigid bodies and tied sets, which follow reference points.

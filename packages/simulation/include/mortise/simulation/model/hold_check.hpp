@@ -8,7 +8,7 @@
 #include "mortise/core/error.hpp"
 #include "mortise/mesh/mesh.hpp"
 #include "mortise/mortar/mortar_interface.hpp"
-#include "mortise/nonlinear/contribution.hpp"
+#include "mortise/simulation/model/supports.hpp"
 
 namespace mortise {
 
@@ -25,17 +25,15 @@ struct HoldingPair {
 ///   - axisymmetric: the translation along the axis;
 ///   - 3D: three of each.
 /// The Gram matrix of q adds up what holds a motion:
-///   - every prescribed dof adds (mode at the dof)^2;
+///   - every prescribed dof adds (mode at the dof)^2, every inclined support (mode along its direction)^2;
 ///   - a set that follows a reference point adds what deviates from the motion that it may share;
 ///   - every tied dof adds (mode - modes of what it is tied to)^2;
-///   - every slave facet in reach of its master adds (n . (mode_slave - mode_master))^2, with friction |mode_slave - mode_master|^2.
+///   - every corner of a slave facet in reach of its master adds (n . (mode_slave - mode_master))^2, with friction |mode_slave - mode_master|^2.
 /// A null vector of the matrix is a motion that nothing holds.
-/// @param fixed        [owned nodes x dim] 1 where the displacement is prescribed
 /// @param body_places  where the scene gives each body (mesh.bodies order)
-/// @param tied         null: nothing is
 /// @returns for each body (mesh.bodies order) whether only contact holds it, or those that it is tied to
 /// @throws InputError naming body and mode for each motion that nothing holds
-std::vector<char> check_held(const Mesh& mesh, bool axisymmetric, const MultiVector& fixed, const std::vector<HoldingPair>& pairs,
-                             const std::vector<Place>& body_places, const TiedDisplacements* tied = nullptr);
+std::vector<char> check_held(const Mesh& mesh, bool axisymmetric, const Supports& supports, const std::vector<HoldingPair>& pairs,
+                             const std::vector<Place>& body_places);
 
 }  // namespace mortise

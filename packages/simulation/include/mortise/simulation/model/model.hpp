@@ -10,6 +10,7 @@
 #include "mortise/core/timers.hpp"
 #include "mortise/mesh/build_mesh.hpp"
 #include "mortise/nonlinear/semi_smooth_system.hpp"
+#include "mortise/simulation/model/supports.hpp"
 #include "mortise/simulation/model/surfaces_at_start.hpp"
 #include "mortise/simulation/scene/scene.hpp"
 #include "mortise/solid/bodies.hpp"
@@ -50,6 +51,8 @@ class Model {
 
   const RCP<const Mesh>& mesh() const { return mesh_; }
   const MeshSize& size() const { return size_; }
+  /// mesh_digest() of the mesh as it was before ties adjusted it. Collective.
+  std::string mesh_digest() const;
   const std::shared_ptr<const Bodies>& bodies() const { return bodies_; }
   /// Null if the scene has no contact.
   const std::shared_ptr<ContactSystem>& contact() const { return parts_.contact; }
@@ -58,6 +61,8 @@ class Model {
   /// mesh.bodies indices of the bodies on either side of each contact pair, second passes behind all pairs of the scene.
   const std::vector<std::vector<int>>& bodies_of_pairs() const { return bodies_of_pairs_; }
   const Effects& effects() const { return effects_; }
+  /// What holds bodies besides contact.
+  const Supports& supports() const { return supports_; }
   /// How the surfaces lie before anything moves.
   const SurfacesAtStart& surfaces_at_start() const { return surfaces_at_start_; }
   const MeshRemarks& mesh_remarks() const { return mesh_remarks_; }
@@ -87,6 +92,8 @@ class Model {
   SurfacesAtStart surfaces_at_start_;
   MeshRemarks mesh_remarks_;
   std::vector<TieAtStart> ties_at_start_;
+  Supports supports_;
+  std::string mesh_digest_;  ///< empty: that of the mesh as it is
   SystemParts parts_;
 };
 

@@ -30,6 +30,7 @@ struct PairAtStart {
   double longest = 0.0;         ///< facet of either surface
   std::optional<double> reach;  ///< what the search reach has to be to cover the overlap, where that is more than the longest facet
   std::pair<GlobalOrdinal, double> adjusted{0, 0.0};  ///< how many slave nodes were moved onto the master, and the largest distance [length]
+  double overlap_as_meshed = 0.0;                     ///< depth before slave nodes were moved, if they were [length]
   bool is_swallowed = false;  ///< most of the slave begins within the master's body; another pair of these bodies pushes it out
 };
 
@@ -52,5 +53,8 @@ struct SurfacesAtStart {
 ///   - a slave wholly within or behind its master;
 ///   - a master that turns its back.
 SurfacesAtStart examine_surfaces(const Mesh& mesh, const Scene& scene, double length);
+
+/// How deep the surfaces of a pair lie in one another, as examine_surfaces() sees it. Collective.
+double deepest_overlap(const Mesh& mesh, const Named<ContactPairOptions>& pair, double length);
 
 }  // namespace mortise

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mortise/simulation/model/rigid_modes.hpp"
+#include "mortise/simulation/model/supports.hpp"
 
 namespace mortise {
 
@@ -15,14 +16,12 @@ struct BodyMotions {
   Eigen::VectorXd rigid;
   std::vector<Eigen::Vector3d> middle;  ///< [bodies]
   std::vector<double> deformation;      ///< [bodies] largest motion of a node beside the rigid one
-  double imposed = 0.0;                 ///< largest motion of a node of the other bodies, and of a prescribed dof of any
+  double imposed = 0.0;                 ///< largest motion of a node of the other bodies, and of any along what is prescribed
 };
 
 /// Fitted to the nodes of each body, all alike. Collective.
-/// @param modes       at `after`
-/// @param prescribed  owned dofs with a prescribed displacement
-BodyMotions body_motions(const Mesh& mesh, const RigidModes& modes, const NodePlaces& before, const NodePlaces& after,
-                         const std::vector<LocalOrdinal>& prescribed);
+/// @param modes  at `after`
+BodyMotions body_motions(const Mesh& mesh, const RigidModes& modes, const NodePlaces& before, const NodePlaces& after, const Supports& supports);
 
 /// t + w x (x - middle) of a rigid motion of bodies()[b], numbers as in BodyMotions::rigid.
 Eigen::Vector3d motion_at(const RigidModes& modes, const Eigen::VectorXd& motion, int b, const Eigen::Vector3d& middle, const Eigen::Vector3d& x);

@@ -76,7 +76,6 @@ class StateCheck {
   double resolution_;
   std::function<void(const std::string&)> warn_;
   std::vector<int> bodies_;
-  RCP<const MultiVector> fixed_;
   ContactRecord record_;
   std::vector<PairHold> pairs_;
   std::unique_ptr<const RigidModes> modes_;     ///< of the state that verify() passed last
@@ -91,8 +90,5 @@ class StateCheck {
 
 /// mesh.bodies indices of the bodies that only contact holds. Collective.
 std::vector<int> bodies_held_by_contact_only(const Model& model);
-
-/// [owned nodes x dim] 1 where a displacement is prescribed, else 0.
-RCP<const MultiVector> prescribed_marks(const Model& model);
 
 }  // namespace mortise
