@@ -14,7 +14,8 @@ import re
 import subprocess
 import sys
 
-SOLIDS = {"C3D4": 4, "C3D6": 6, "C3D8": 8, "C3D8R": 8, "C3D8I": 8, "C3D10": 10, "C3D10T": 10, "C3D10M": 10, "C3D15": 15, "C3D20": 20, "C3D20R": 20, "C3D20RI": 20}
+SOLIDS = {"C3D4": 4, "C3D6": 6, "C3D8": 8, "C3D8R": 8, "C3D8I": 8, "C3D10": 10, "C3D10T": 10, "C3D10M": 10,
+          "C3D15": 15, "C3D20": 20, "C3D20R": 20, "C3D20RI": 20}
 PLANE = {f"{kind}{nodes}{variant}": nodes for kind in ("CPE", "CPS", "CAX") for nodes in (3, 4, 6, 8) for variant in ("", "R")}
 SHELLS = {f"{kind}{variant}": nodes for kind, nodes in (("S3", 3), ("S4", 4), ("S6", 6), ("S8", 8), ("M3D4", 4), ("M3D8", 8)) for variant in ("", "R")}
 SCENE = """<ParameterList name="deck"><Parameter name="kinematics" type="string" value="{kinematics}"/>
@@ -119,7 +120,8 @@ def main():
             bodies = {f"deck{i + 1}": (PIECE.format(point), len(piece)) for i, (piece, point) in enumerate(zip(pieces, points))}
         scene = os.path.join(directory, name + ".xml")
         with open(scene, "w", encoding="utf-8") as file:
-            file.write(SCENE.format(kinematics=kinematics, bodies="".join(BODY.format(name=body, file=name + ".inp", piece=piece) for body, (piece, _) in bodies.items()),
+            written = "".join(BODY.format(name=body, file=name + ".inp", piece=piece) for body, (piece, _) in bodies.items())
+            file.write(SCENE.format(kinematics=kinematics, bodies=written,
                                     fixed="".join(FIXED.format(name=body, components=components) for body in bodies)))
         try:
             done = subprocess.run([program, "check", scene], capture_output=True, text=True, timeout=300)
@@ -134,7 +136,8 @@ def main():
             read += 1
             several += len(bodies) > 1
             wrong += found != expected
-            rows.append((name, counts, f"**wrong**: {found} elements of {expected}" if found != expected else "read" if len(bodies) == 1 else f"read, {len(bodies)} bodies"))
+            result = "read" if len(bodies) == 1 else f"read, {len(bodies)} bodies"
+            rows.append((name, counts, result if found == expected else f"**wrong**: {found} elements of {expected}"))
         elif done.returncode == 2:
             reason = re.sub(r"^\S+?: error: (bodies/\S+: )?", "", text.strip().splitlines()[0]) if text.strip() else ""
             rows.append((name, counts, "refused: " + reason.replace(directory + "/", "").replace("|", "\\|")[:220]))
@@ -142,9 +145,11 @@ def main():
             rows.append((name, counts, f"**ends with {done.returncode}**"))
             wrong += 1
     with open(page, "w", encoding="utf-8") as file:
-        file.write("# The decks of CalculiX' examples\n\nThis page says which decks of CalculiX' own examples (Debian: `calculix-ccx-test`) are read as [mesh files](../mesh_files.md). "
-                   "`tests/verification/calculix_meshes.py` writes it.\nEach piece of a deck, the elements that nodes connect, is a body of its own. Elements of each body are counted "
-                   f"by the program\nand from the lines of the deck.\n\n{read} of {len(rows)} decks are read, {several} of them as several bodies; {wrong} are wrong.\n\n"
+        file.write("# The decks of CalculiX' examples\n\nThis page says which decks of CalculiX' own examples (Debian: `calculix-ccx-test`) are read as [mesh "
+                   "files](../mesh_files.md).\n`tests/verification/calculix_meshes.py` writes it. Each piece of a deck, the elements that nodes connect, is a body of "
+                   "its own.\nElements of each body are counted by the program and from the lines of the deck. Decks with contact and ties are [computed\n"
+                   "too](calculix_examples.md).\n\n"
+                   f"{read} of {len(rows)} decks are read, {several} of them as several bodies; {wrong} are wrong.\n\n"
                    "| deck | elements | what comes of it |\n|---|---|---|\n")
         for name, counts, result in rows:
             file.write(f"| {name} | {', '.join(f'{count} {kind}' for kind, count in sorted(counts.items())) or '-'} | {result} |\n")
