@@ -188,6 +188,41 @@ class Mesh:
         return "\n".join(lines + [""])
 
 
+def blocks_of_one_body(program, directory):
+    """A body of hexahedra and wedges beside one whose name is what its second block would have: names of blocks differ, and either is read back."""
+    folder = os.path.join(directory, "names")
+    os.makedirs(folder)
+    profile = '<ParameterList name="profile">' + "".join([parameter("type", "string", "block"), parameter("width", "double", 2.0), parameter("height", "double", 1.0),
+                                                          parameter("cells x", "int", 2), parameter("cells y", "int", 1)]) + "</ParameterList>"
+    ring = mesh_list([parameter("type", "string", "revolved"), parameter("angle", "double", 90.0), parameter("cells around", "int", 3), profile])
+    brick = mesh_list([parameter("type", "string", "brick"), parameter("cells x", "int", 1), parameter("cells y", "int", 1), parameter("cells z", "int", 1),
+                       parameter("translation", "string", "0, 5, 0")])
+
+    def text(bodies):
+        return ('<ParameterList name="names"><Parameter name="kinematics" type="string" value="three dimensional"/><ParameterList name="materials"><ParameterList name="soft">'
+                + parameter("type", "string", "neo hooke") + parameter("young's modulus", "double", 1.0) + parameter("poisson's ratio", "double", 0.3)
+                + "</ParameterList></ParameterList><ParameterList name='bodies'>" + "".join(f'<ParameterList name="{name}">' + parameter("material", "string", "soft") + mesh + "</ParameterList>"
+                                                                                          for name, mesh in bodies)
+                + "</ParameterList><ParameterList name='boundary conditions'>" + "".join(
+                    f'<ParameterList name="of {name}">' + parameter("set", "string", name) + "".join(parameter(axis, "double", 0.0) for axis in "xyz") + "</ParameterList>" for name, _ in bodies)
+                + "</ParameterList></ParameterList>")
+
+    failures = []
+    with open(os.path.join(folder, "names.xml"), "w", encoding="utf-8") as file:
+        file.write(text([("one", ring), ("one (2)", brick)]))
+    for arguments in (["run", "names.xml", "--quiet", "-o", "run"], ["export", "run", "-o", "names.exo"]):
+        done = subprocess.run([program, *arguments], cwd=folder, capture_output=True, text=True)
+        if done.returncode != 0:
+            return [f"{' '.join(arguments)} ended with {done.returncode}: {done.stdout}{done.stderr}"]
+    for blocks, elements in (("one, one (3)", 6), ("one (2)", 1)):
+        with open(os.path.join(folder, "back.xml"), "w", encoding="utf-8") as file:
+            file.write(text([("read", mesh_list([parameter("type", "string", "file"), parameter("file", "string", "names.exo"), parameter("blocks", "string", blocks)]))]))
+        done = subprocess.run([program, "check", "back.xml"], cwd=folder, capture_output=True, text=True)
+        if done.returncode != 0 or f"{elements} element" not in done.stdout:
+            failures.append(f'blocks "{blocks}" of an exported body: expected {elements} elements: {done.returncode}, {done.stdout}{done.stderr}')
+    return failures
+
+
 def main():
     mpirun, program, directory = sys.argv[1:4]
     shutil.rmtree(directory, ignore_errors=True)
@@ -253,6 +288,7 @@ def main():
                 compared += 1
                 if not difference <= 10 * TOLERANCE:
                     failures.append(f"{element}, exodus, {ranks} ranks: {quantity} is {found[quantity]!r} instead of {value!r} ({difference:.1e})")
+    failures += blocks_of_one_body(program, directory)
     for line in failures:
         print(line)
     print(f"{compared} quantities compared, {len(failures)} differ{'' if gmsh else '; gmsh is not here, so its own files were not written'}")

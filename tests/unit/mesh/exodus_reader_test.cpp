@@ -311,7 +311,7 @@ TEST(ExodusFiles, WithOtherDimensionsOrAttributesAreRefusedBeforeTheLibraryReads
                 nc_put_att_int(id, NC_GLOBAL, "floating_point_word_size", NC_INT, 100, words.data());
               })),
               HasSubstr("attribute \"floating_point_word_size\" of the file has length 100, above 1"));
-  EXPECT_THAT(exodus_refusal(file_with([](int) {})), HasSubstr("cannot be read"));
+  EXPECT_THAT(exodus_refusal(file_with([](int) {})), HasSubstr("neither a variable \"coordx\" nor \"coord\""));
 }
 
 // The header of the file tells of 2^31 - 1 nodes, and none was written.

@@ -14,6 +14,7 @@
 #include "model/precision.hpp"
 #include "model/surface_ties.hpp"
 #include "mortise/material/materials.hpp"
+#include "mortise/mesh/digest.hpp"
 #include "mortise/simulation/model/hold_check.hpp"
 #include "mortise/simulation/model/mesh_limits.hpp"
 #include "mortise/simulation/scene/scene_bodies.hpp"
@@ -232,7 +233,7 @@ void reach_for_clearances(const Mesh& mesh, const Scene& scene, SurfacesAtStart&
     const ContactPairOptions& options = scene.contact[p].value;
     if (!options.contact.clearance || options.contact.mortar.search_reach) continue;
     double mine = 0.0, largest = 0.0;
-    for (const LocalOrdinal node : require_node_set(mesh, options.slave.value)) {
+    for (const LocalOrdinal node : require_node_set(mesh, options.slave)) {
       const auto& x = mesh.coordinates[static_cast<std::size_t>(node)];
       for (int n = 0; n <= times; ++n) {
         std::optional<StepFailure> none;

@@ -360,7 +360,12 @@ void add_automatic_pairs(const Mesh& mesh, Scene& scene) {
   const AutomaticContactOptions& options = scene.automatic_contact;
   if (options.pairs == ContactSearch::none) return;
   FacingSurfaces found = find_facing_surfaces(mesh, bodies_that_take_part(mesh, options.bodies), options.angle, options.reach);
+  const bool any_faces = !found.facing.empty();
   leave_out_tied(mesh, scene, found);
+  if (found.facing.empty() && any_faces)
+    throw InputError(options.bodies.place,
+                     "all surfaces that face one another belong to bodies that are tied to one another, which make no pairs; please leave out \"automatic "
+                     "contact\", or name the pairs in \"contact\"");
   if (found.facing.empty())
     throw InputError(
         options.bodies.place,
