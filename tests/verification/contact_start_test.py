@@ -137,6 +137,29 @@ def check_patterns_of_rigid_bodies():
             expect(f"pattern by {way}", abs(found["moment0"]) > 0.01, f"moment {found['moment0']}")
 
 
+def check_tools_to_the_axis():
+    """Rigid revolved tools whose profile ends on the axis: a flat one presses uniformly, a cone as one with a tiny hole does."""
+    def pressed(name, points, ranks=1):
+        tool = named("mesh", named("profile", type="profile", points=points, cell_size=0.3), type="revolved", angle=90.0, cells_around=12)
+        block = named("mesh", type="brick", cells_x=4, cells_y=3, cells_z=4, translation="0, -1, 0")
+        code, said, found = run(name, [parameter("kinematics", "three dimensional"), SMALL,
+                                named("bodies", named("block", block, material="m", element="H8"), named("tool", tool, parameter("reference point", "0, 0, 0"), rigid=True)),
+                                named("contact", named("joint", slave="block/back", master="tool/profile")),
+                                named("boundary conditions", named("floor", set="block/front", y=0), named("x", set="block/left", x=0), named("z", set="block/bottom", z=0),
+                                      named("drive", set="tool/reference", x=0, y="-0.1*t", z=0, **{"rotation x": 0, "rotation y": 0, "rotation z": 0})),
+                                named("quantities", named("force", type="reaction", set="tool/reference", component="y"), named("peak", type="peak pressure")), named("stepping", step=0.5)], ranks)
+        expect(name, code == 0 and found is not None, f"exit code {code}: {said[-500:]}")
+        return found
+    for ranks in (1, 2):
+        flat = pressed(f"flat tool {ranks}", "0, 0, 4, 0", ranks)
+        if flat:
+            close(f"flat tool {ranks}", flat["force"], -E * 0.1, 1e-6, E * 0.1)
+            close(f"flat tool {ranks}: peak", flat["peak"], E * 0.1, 1e-6, E * 0.1)
+    cone, hollow = pressed("cone", "0, 0, 4, 1"), pressed("cone with a hole", "0.0001, 0.000025, 4, 1")
+    if cone and hollow:
+        close("cone", cone["force"], hollow["force"], 1e-3, abs(hollow["force"]))
+
+
 def check_sets_in_any_order():
     first = named("one", of="two", kind="nodes", where="0.6 - x")
     second = named("two", of="lower/top", kind="nodes", where="x - 0.4")
@@ -201,6 +224,7 @@ check_clearances()
 check_overlap_taken_up()
 check_order_of_bodies()
 check_patterns_of_rigid_bodies()
+check_tools_to_the_axis()
 check_sets_in_any_order()
 check_adjusted_ties_restart()
 check_adjusting()

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
 
 #include "mortise/shape/hexahedron20.hpp"
+#include "readers/file_cells.hpp"
 
 namespace mortise {
 namespace {
@@ -218,5 +220,40 @@ class Collapse {
 }  // namespace
 
 MeshFile collapse_onto_axis(const SweptComplex& complex, const Place& place) { return Collapse(complex, place).make(); }
+
+// Nodes of the axis with one height are the first of them.
+MeshFile collapse_onto_axis(const ShellComplex& unplaced, const ShellComplex& placed, double near) {
+  MeshFile file;
+  file.path = "the revolved surface";
+  std::vector<GlobalOrdinal> merged;
+  std::map<double, GlobalOrdinal> on_axis;
+  for (GlobalOrdinal node = 0; node < placed.node_count(); ++node) {
+    const SpatialPoint x = unplaced.coordinate(node);
+    merged.push_back(std::hypot(x[0], x[2]) > near ? node : on_axis.try_emplace(x[1], node).first->second);
+    file.coordinates.push_back(placed.coordinate(node));
+    file.node_labels.push_back(node);
+  }
+  file.cells = {{CellShape::triangle3, {}, {}}, {CellShape::quadrilateral4, {}, {}}};
+  for (const std::string& name : placed.side_names()) file.cell_sets.push_back({name, {}});
+  for (GlobalOrdinal element = 0; element < placed.element_count(); ++element) {
+    const CellNodes nodes = placed.element_nodes(element);
+    std::vector<std::int32_t> own;
+    for (const GlobalOrdinal node : nodes)
+      if (const auto one = static_cast<std::int32_t>(merged[static_cast<std::size_t>(node)]); std::find(own.begin(), own.end(), one) == own.end())
+        own.push_back(one);
+    if (own.size() < 3) continue;  // a line on the axis
+    const auto group = static_cast<std::int32_t>(own.size()) - 3;
+    FileCells& cells = file.cells[static_cast<std::size_t>(group)];
+    auto& members = file.cell_sets[static_cast<std::size_t>(placed.surface_sides(element).front().name)].members;
+    members.push_back({group, static_cast<std::int32_t>(cells.labels.size()), 1});
+    cells.nodes.insert(cells.nodes.end(), own.begin(), own.end());
+    cells.labels.push_back(element);
+  }
+  for (auto& set : file.cell_sets) join_ranges(set.members);
+  const auto is_empty = [](const auto& set) { return set.members.empty(); };  // a side that lies on the axis
+  file.cell_sets.erase(std::remove_if(file.cell_sets.begin(), file.cell_sets.end(), is_empty), file.cell_sets.end());
+  if (file.cells.back().labels.empty()) file.cells.pop_back();
+  return file;
+}
 
 }  // namespace mortise

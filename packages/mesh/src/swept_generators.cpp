@@ -162,6 +162,14 @@ BodyComplex RevolvedMesh::build(CellShape cell, const Place& place) const {
 }
 
 std::optional<MeshFile> RevolvedMesh::listed(CellShape cell, const Place& place) const {
+  if (cell == CellShape::quadrilateral4) {  // the surface of a rigid body
+    const CurveComplex curve = require_profile(place).build_surface(place);
+    const auto [least, most] = reach_of(curve, place);
+    if (least > at_axis * most) return std::nullopt;
+    const Turn turn = turn_of(*this, most, place);
+    return collapse_onto_axis(sweep_surface(curve, turn.layers, turn.sweep, {}), sweep_surface(curve, turn.layers, turn.sweep, placement()),
+                              at_axis * most);
+  }
   if (topology(cell).dimension != 3) return std::nullopt;
   const auto [least, most] = reach_of(require_profile(place).build(profile_shape(cell, place), place), place);
   if (least > at_axis * most) return std::nullopt;

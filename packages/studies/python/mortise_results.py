@@ -233,7 +233,7 @@ class Run:
                               '"output" of the scene is empty')
         step = steps[-1] if step is None else step
         if step not in steps:
-            raise UnknownName(f"{self.directory} has no fields of step {step}; there are steps {_ranges(steps)}")
+            raise UnknownName(f"{self.directory} has no fields of step {step!r}; there are steps {_ranges(steps)}")
         return _StepFile(self.path(f"fields/step-{step:06}.h5"))
 
 

@@ -27,9 +27,10 @@ void report_roles(const Mesh& mesh, const Scene& scene, RunLog& log) {
     if (excess < noticeable) continue;
     log.warning(
         fmt::format("contact {}: the slave \"{}\" is {:.3g} times as stiff as \"{}\" and its facets are {:.3g} times as fine: few of its nodes "
-                    "bear the force, and peaks of pressure may be too high by about {:.0f} %; please exchange slave and master (\"roles\": "
-                    "\"automatic\" does), or make the master finer",
-                    pair.name, slave.value, of_slave.modulus / of_master.modulus, master.value, of_master.facet / of_slave.facet, 100.0 * excess));
+                    "bear the force, and peaks of pressure may be too high by about {:.0f} %; please {}, or make the master finer",
+                    pair.name, slave.value, of_slave.modulus / of_master.modulus, master.value, of_master.facet / of_slave.facet, 100.0 * excess,
+                    pair.value.reason.empty() ? "exchange slave and master (\"roles\": \"automatic\" does)"
+                                              : "name the pair in \"contact\" with slave and master exchanged"));
   }
 }
 

@@ -58,6 +58,10 @@ std::optional<double> remaining_stiffness(const SemiSmoothSystem& system, const 
     const auto rows = load.getLocalViewHost(Tpetra::Access::ReadWrite);
     for (const LocalOrdinal dof : prescribed->dofs()) rows(dof, 0) = 0.0;
   }
+  if (const auto& tied = system.parts().tied) {  // inclined supports that move are no loads either
+    const auto rows = load.getLocalViewHost(Tpetra::Access::ReadWrite);
+    for (const LocalOrdinal dof : tied->dofs) rows(dof, 0) = 0.0;
+  }
   system.multipliers(load)->putScalar(0.0);
   const RCP<Vector> u = answer_to_load(system, failed, load);
   system.multipliers(*u)->putScalar(0.0);

@@ -50,14 +50,19 @@ std::vector<BodyDescription> body_descriptions(const Communicator& comm, const S
   std::vector<char> is_listed;
   for (const auto& body : scene.bodies) {
     is_listed.push_back(dynamic_cast<const FileMesh*>(body.value.mesh.options.get()) != nullptr ? 1 : 0);
-    if (is_listed.back() || body.value.rigid.value) continue;
+    if (is_listed.back()) continue;
     // Which bodies are lists does not depend on the rank; the lists themselves rank 0 needs alone.
-    auto made = body.value.mesh.options->listed(cell_shape(element_of(body.value)), body.place);
+    const MeshOptions& mesh = *body.value.mesh.options;
+    const bool is_rigid = body.value.rigid.value;
+    const CellShape cell = is_rigid ? rigid_shape(mesh.dimension()) : cell_shape(element_of(body.value));
+    if (!is_rigid && topology(cell).dimension != mesh.dimension()) continue;  // refused where the mesh is built
+    auto made = mesh.listed(cell, body.place);
     if (!made) continue;
     is_listed.back() = 1;
     FileBodyRequest request;
     request.name = body.name;
     request.place = body.place;
+    request.is_surface = is_rigid;
     if (comm.getRank() == 0) request.made = std::make_shared<const MeshFile>(*std::move(made));
     requests.push_back(std::move(request));
   }
