@@ -5,50 +5,16 @@ usage: contact_start_test.py MPIRUN MORTISE DIRECTORY
 Two blocks of height 1 on one another, with Young's modulus E, Poisson's ratio 0 and small strain, are two springs in a row: pressed into one another by d
 they bear E d / 2 for each unit of area.
 """
-import json
-import math
-import os
-import shutil
-import subprocess
 import sys
 
-MPIRUN, MORTISE, DIRECTORY = sys.argv[1:4]
+from scene_writer import Bench, named, parameter
+
+bench = Bench(*sys.argv[1:4])
+run, expect = bench.call, bench.expect
 E = 1000.0
-faults = []
-
-
-def parameter(name, value):
-    kind = {bool: "bool", int: "int", float: "double", str: "string"}[type(value)]
-    return f'<Parameter name="{name}" type="{kind}" value="{str(value).lower() if kind == "bool" else value}"/>'
-
-
-def named(name, *content, **parameters):
-    return f'<ParameterList name="{name}">' + "".join(parameter(key.replace("_", " "), value) for key, value in parameters.items()) + "".join(content) + "</ParameterList>"
-
-
-def run(name, content, ranks=1, arguments=(), command="run"):
-    """Exit code, what was said, and quantities."""
-    scene = os.path.join(DIRECTORY, name + ".xml")
-    with open(scene, "w") as file:
-        file.write(named(name, *content))
-    output = os.path.join(DIRECTORY, name)
-    launched = [MPIRUN, "-n", str(ranks)] if ranks > 1 else []
-    done = subprocess.run(launched + [MORTISE, command, scene, "-o", output, *arguments], capture_output=True, text=True)
-    summary = os.path.join(output, "summary.json")
-    quantities = None
-    if command == "run" and done.returncode == 0 and os.path.exists(summary):
-        with open(summary) as file:
-            quantities = json.load(file)["quantities"]
-    return done.returncode, done.stdout + done.stderr, quantities
-
-
-def expect(name, is_so, what):
-    if not is_so:
-        faults.append(f"{name}: {what}")
-
 
 def close(name, value, expected, tolerance, scale=1.0):
-    expect(name, abs(value - expected) <= tolerance * scale, f"{value!r} instead of {expected!r}")
+    bench.equal(name, value, expected, tolerance, scale)
 
 
 SMALL = named("materials", named("m", type="small strain linear", **{"young's modulus": E, "poisson's ratio": 0.0}))
@@ -163,7 +129,6 @@ def check_tools_to_the_axis():
 def check_sets_in_any_order():
     first = named("one", of="two", kind="nodes", where="0.6 - x")
     second = named("two", of="lower/top", kind="nodes", where="x - 0.4")
-    middle = named("middle of one", type="mean", field="displacement y", on="one")
     for name, sets in (("after", [second, first]), ("before", [first, second])):
         code, said, _ = run("sets " + name, column(False, 0.0, (4, 4), pair(), more=[named("sets", *sets), ]))
         expect("sets " + name, code == 0, said)
@@ -180,7 +145,6 @@ def check_adjusted_ties_restart():
                named("boundary conditions", named("inner x", set="inner/end", x=0), named("inner y", set="inner/start", y=0), named("outer x", set="outer/end", x=0),
                      named("outer y", set="outer/start", y=0), named("push", set="inner/inner", x="0.01*t*x", y="0.01*t*y")),
                named("quantities", named("force", type="reaction", set="outer/end", component="x")), named("stepping", step=0.25), named("output", named("checkpoints", every_step=1, keep=10))]
-    content = [part.replace('set="inner/inner"', 'set="inner/inner"') for part in content]
     straight = None
     for first, then in ((1, 2), (2, 1), (3, 2), (1, 3)):
         name = f"adjusted tie {first} {then}"
@@ -218,8 +182,6 @@ def check_decks():
         expect("deck of a " + name, code == 2 and words in said, f"{code}: {said[-400:]}")
 
 
-shutil.rmtree(DIRECTORY, ignore_errors=True)
-os.makedirs(DIRECTORY)
 check_clearances()
 check_overlap_taken_up()
 check_order_of_bodies()
@@ -229,6 +191,4 @@ check_sets_in_any_order()
 check_adjusted_ties_restart()
 check_adjusting()
 check_decks()
-for fault in faults:
-    print(fault)
-sys.exit(1 if faults else 0)
+bench.end()

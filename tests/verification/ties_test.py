@@ -2,44 +2,13 @@
 
 usage: ties_test.py MPIRUN MORTISE DIRECTORY
 """
-import json
-import os
-import shutil
-import subprocess
 import sys
 
-MPIRUN, MORTISE, DIRECTORY = sys.argv[1:4]
+from scene_writer import Bench, named, parameter
+
+bench = Bench(*sys.argv[1:4])
+run, close = bench.run, bench.equal
 E, NU = 1000.0, 0.3
-faults = []
-
-
-def parameter(name, value):
-    kind = {bool: "bool", int: "int", float: "double", str: "string"}[type(value)]
-    return f'<Parameter name="{name}" type="{kind}" value="{str(value).lower() if kind == "bool" else value}"/>'
-
-
-def named(name, *content, **parameters):
-    return f'<ParameterList name="{name}">' + "".join(parameter(key.replace("_", " "), value) for key, value in parameters.items()) + "".join(content) + "</ParameterList>"
-
-
-def run(name, content, ranks=1, arguments=()):
-    scene = os.path.join(DIRECTORY, name + ".xml")
-    with open(scene, "w") as file:
-        file.write(named(name, *content))
-    output = os.path.join(DIRECTORY, name)
-    launched = [MPIRUN, "-n", str(ranks)] if ranks > 1 else []
-    done = subprocess.run(launched + [MORTISE, "run", scene, "--quiet", "-o", output, *arguments], capture_output=True, text=True)
-    if done.returncode != 0:
-        faults.append(f"{name} on {ranks} ranks {' '.join(arguments)}: exit code {done.returncode}: {(done.stdout + done.stderr)[-500:]}")
-        return None
-    with open(os.path.join(output, "summary.json")) as file:
-        return json.load(file)["quantities"]
-
-
-def close(name, value, expected, tolerance, scale=None):
-    size = abs(expected) if scale is None else scale
-    if not abs(value - expected) <= tolerance * size:
-        faults.append(f"{name}: {value!r} instead of {expected!r}")
 
 
 def material(name, poisson, kind="small strain linear"):
@@ -70,8 +39,7 @@ def check_tubes():
         coarse, fine = tubes_error(f"tubes {slave} coarse", 3, slave, 2), tubes_error(f"tubes {slave} fine", 6, slave, 1)
         if coarse is not None and fine is not None:
             close(f"tubes, slave {slave}", fine, 0.0, 1e-3, 1.0)
-            if not fine < 0.3 * coarse:  # of second order at least
-                faults.append(f"tubes, slave {slave}: errors {coarse:.2e} and {fine:.2e}")
+            bench.expect(f"tubes, slave {slave}", fine < 0.3 * coarse, f"errors {coarse:.2e} and {fine:.2e}, not of second order")
 
 
 def on_base(solver, poisson, drawn):
@@ -118,14 +86,9 @@ def check_beside_contact():
         close(name + ": balance", found["imbalance"], 0.0, 1e-6, 1.0)
     if reference:
         ratio = abs(reference["force_x"] / reference["force_z"])
-        if not 0.05 < ratio < 0.2 + 1e-9:
-            faults.append(f"drawn: {ratio} of the pressing force")
+        bench.expect("drawn", 0.05 < ratio < 0.2 + 1e-9, f"{ratio} of the pressing force")
 
 
-shutil.rmtree(DIRECTORY, ignore_errors=True)
-os.makedirs(DIRECTORY)
 check_tubes()
 check_beside_contact()
-for fault in faults:
-    print(fault)
-sys.exit(1 if faults else 0)
+bench.end()

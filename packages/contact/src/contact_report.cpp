@@ -7,6 +7,10 @@
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
+#include <cmath>
+#include <optional>
+#include <tuple>
+#include <utility>
 
 #include "evaluated_contact.hpp"
 
@@ -26,15 +30,57 @@ CornerReport corners(const ContactEvaluation& evaluation, std::size_t pair) {
 
 namespace {
 
-/// z of the heirs of owned nodes [x dim], on the target of ContactModel::heirs. Collective.
-RCP<const MultiVector> of_heirs(const detail::EvaluatedLaws& at, std::size_t pair) {
-  const RCP<const Import>& import = at.contact->model->heirs[pair];
-  const auto z = at.z->getLocalViewHost(Tpetra::Access::ReadOnly);
-  const RCP<MultiVector> owned = at.contact->model->owned_multipliers(pair, z, import->getSourceMap());
-  const auto result = rcp(new MultiVector(import->getTargetMap(), owned->getNumVectors()));
-  result->doImport(*owned, *import, Tpetra::INSERT);
-  return result;
-}
+/// What others do at slave nodes that carry no multiplier. The multiplier j acts at node k by D_jk = int phi_j N_k: means have the weights |D_jk|.
+/// Corners of quadratic facets have entries of either sign.
+class ActionOfOthers {
+ public:
+  /// Collective.
+  ActionOfOthers(const detail::EvaluatedLaws& at, std::size_t pair) : dimension_(at.contact->model->dimension) {
+    const detail::PairEvaluation& of_pair = at.contact->pairs[pair];
+    const InterfacePattern& pattern = *of_pair.geometry()->pattern;
+    const auto columns = static_cast<std::size_t>(tangential + dimension_);
+    MultiVector local(pattern.local_nodes, columns);
+    {
+      const auto sums = local.getLocalViewHost(Tpetra::Access::ReadWrite);
+      for (std::size_t s = 0; s < at.laws[pair].size(); ++s) {
+        const SpatialVector &z = at.multipliers[pair][s].z, &normal = of_pair.row(s).normal;
+        if (!of_pair.slave_nodes()[s].carries_multiplier) continue;
+        const double pressure = z.dot(normal);
+        const SpatialVector across = z - pressure * normal;
+        const std::vector<LocalOrdinal>& coupled = of_pair.coupled_nodes(s);
+        for (std::size_t c = 0; c < coupled.size(); ++c) {
+          const double weight = std::abs(of_pair.row(s).coefficients[c]);
+          if (weight == 0.0) continue;
+          sums(coupled[c], all) += weight;
+          if (at.state(pair, s) != ContactState::open) sums(coupled[c], at.state(pair, s) == ContactState::stick ? stick : slip) += weight;
+          sums(coupled[c], normal_part) += weight * pressure;
+          for (int i = 0; i < dimension_; ++i) sums(coupled[c], static_cast<std::size_t>(tangential + i)) += weight * across[i];
+        }
+      }
+    }
+    sums_ = rcp(new MultiVector(at.contact->model->owned_nodes, columns));
+    sums_->doExport(local, *pattern.import, Tpetra::ADD);
+  }
+
+  /// The mean traction at a node, and whether and how most of what acts there is closed. Nothing acts where no master covers the node's facets.
+  std::pair<SpatialVector, ContactState> at(const SlaveNode& node, const SpatialVector& normal) const {
+    constexpr double nothing = 1e-9;
+    const auto sums = sums_->getLocalViewHost(Tpetra::Access::ReadOnly);
+    const LocalOrdinal row = node.owned_node;
+    SpatialVector z = SpatialVector::Zero(dimension_);
+    if (!(sums(row, all) > nothing * node.weight)) return {z, ContactState::open};
+    for (int i = 0; i < dimension_; ++i) z[i] = sums(row, static_cast<std::size_t>(tangential + i)) / sums(row, all);
+    z += (sums(row, normal_part) / sums(row, all) - z.dot(normal)) * normal;
+    const double closed = sums(row, stick) + sums(row, slip);
+    if (2.0 * closed < sums(row, all)) return {z, ContactState::open};
+    return {z, sums(row, stick) > sums(row, slip) ? ContactState::stick : ContactState::slip};
+  }
+
+ private:
+  enum Column { all, stick, slip, normal_part, tangential };
+  int dimension_;
+  RCP<MultiVector> sums_;
+};
 
 }  // namespace
 
@@ -43,18 +89,15 @@ std::vector<ContactNodeState> node_states(const ContactLaws& laws, std::size_t p
   const detail::PairEvaluation& of_pair = at.contact->pairs[pair];
   const FrictionLaw* friction = of_pair.pair().friction();
   std::vector<ContactNodeState> states;
-  RCP<const MultiVector> inherited;
-  if (!at.contact->model->heirs[pair].is_null()) inherited = of_heirs(at, pair);
+  std::optional<ActionOfOthers> others;
+  if (at.contact->model->leaves_out[pair] != 0) others.emplace(at, pair);
   for (std::size_t s = 0; s < at.laws[pair].size(); ++s) {
     const SlaveNode& slave = of_pair.slave_nodes()[s];
     const detail::NodeRow& row = of_pair.row(s);
     SpatialVector zs = at.multipliers[pair][s].z;
     const SpatialVector force = of_pair.resultant(s, zs);
-    if (!slave.heirs.empty()) {
-      const auto z = inherited->getLocalViewHost(Tpetra::Access::ReadOnly);
-      for (const auto& [id, share] : slave.heirs)
-        for (Eigen::Index i = 0; i < zs.size(); ++i) zs[i] += share * z(inherited->getMap()->getLocalElement(id), static_cast<std::size_t>(i));
-    }
+    ContactState acting = at.state(pair, s);
+    if (!slave.carries_multiplier) std::tie(zs, acting) = others->at(slave, row.normal);
     const SpatialVector across = of_pair.frame(s).tangents * zs;
     const auto signed_size = [](const TangentVector& v) { return v.size() == 1 ? v[0] : v.norm(); };
     ContactNodeState state;
@@ -65,7 +108,8 @@ std::vector<ContactNodeState> node_states(const ContactLaws& laws, std::size_t p
     state.pressure = zs.dot(row.normal);
     state.gap = (of_pair.geometry()->gaps[s] + of_pair.clearance(s) * of_pair.row(s).covered) / slave.weight;
     state.weight = slave.weight;
-    state.state = at.state(pair, s);
+    state.carries = slave.carries_multiplier;
+    state.state = acting;
     state.closed = state.state != ContactState::open;
     state.covered = row.covered;
     state.shear = signed_size(across);

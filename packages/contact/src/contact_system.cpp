@@ -3,7 +3,6 @@
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_CrsGraph.hpp>
 #include <Tpetra_Export.hpp>
-#include <Tpetra_Import.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
@@ -111,27 +110,6 @@ std::shared_ptr<const EvaluatedContact> ContactModel::evaluate(const std::shared
 
 }  // namespace detail
 
-namespace {
-
-/// For ContactModel::heirs. Collective.
-RCP<const Import> heirs_of(const detail::Pair& pair, const detail::ContactModel& model) {
-  std::vector<GlobalOrdinal> owned, heirs;
-  for (const SlaveNode& node : pair.slave_nodes()) {
-    owned.push_back(node.id);
-    for (const auto& [id, share] : node.heirs) heirs.push_back(id);
-  }
-  if (model.maximum(static_cast<double>(heirs.size())) == 0.0) return Teuchos::null;
-  std::sort(heirs.begin(), heirs.end());
-  heirs.erase(std::unique(heirs.begin(), heirs.end()), heirs.end());
-  const auto map = [&](const std::vector<GlobalOrdinal>& ids) {
-    return rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(), ids.data(), static_cast<LocalOrdinal>(ids.size()), 0,
-                       model.dofs->getComm()));
-  };
-  return rcp(new Import(map(owned), map(heirs)));
-}
-
-}  // namespace
-
 ContactSystem::ContactSystem(const RCP<const Map>& owned_nodes, RCP<const Map> dofs, RCP<const MultiVector> reference, RCP<const MultiVector> fixed,
                              const InterfaceMeasure& measure, std::vector<ContactPair> pairs, const Timers& timers)
     : ContactSystem(numbered_by_nodes("displacement", owned_nodes, static_cast<int>(reference->getNumVectors())), std::move(dofs), reference,
@@ -187,7 +165,11 @@ ContactSystem::ContactSystem(const NodalField& displacement, RCP<const Map> dofs
         if (const LocalOrdinal owned = self.owned_nodes->getLocalElement(node); owned >= 0) masters.insert(owned);
     self.master_nodes.emplace_back(masters.begin(), masters.end());
   }
-  for (const auto& pair : self.pairs) self.heirs.push_back(heirs_of(*pair, self));
+  for (const auto& pair : self.pairs) {
+    const auto carries = [](const SlaveNode& node) { return node.carries_multiplier; };
+    const bool mine = std::all_of(pair->slave_nodes().begin(), pair->slave_nodes().end(), carries);
+    self.leaves_out.push_back(self.maximum(mine ? 0.0 : 1.0) > 0.0 ? 1 : 0);
+  }
   for (const auto& pair : self.pairs)
     for (std::size_t s = 0; s < pair->slave_nodes().size(); ++s) self.middles_first |= pair->before_corners(s);
   self.middles_first = self.maximum(self.middles_first) > 0.0;

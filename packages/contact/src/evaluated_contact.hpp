@@ -39,11 +39,11 @@ struct ContactModel {
   int dimension = 2;
   double extent = 0.0;  ///< largest coordinate of the reference positions
   std::vector<std::unique_ptr<Pair>> pairs;
-  std::vector<std::vector<LocalOrdinal>> multiplier_of;  ///< [pair][slave node] local index of the first component in z, -1: none
-  std::vector<RCP<const Import>> heirs;                  ///< [pair] from owned slave nodes to SlaveNode::heirs; null: no rank has any
-  std::vector<std::vector<LocalOrdinal>> master_nodes;   ///< [pair] local indices in owned_nodes
-  bool middles_first = false;                            ///< there are multipliers that are condensed before others, on any rank
-  mutable std::shared_ptr<SystemScatter> scatter;        ///< of the last evaluation that was asked for a graph; null: none yet
+  std::vector<std::vector<LocalOrdinal>> multiplier_of;                      ///< [pair][slave node] local index of the first component in z, -1: none
+  std::vector<char> leaves_out;                                              ///< [pair] a slave node carries no multiplier, on any rank
+  std::vector<std::vector<LocalOrdinal>> master_nodes;                       ///< [pair] local indices in owned_nodes
+  bool middles_first = false;                                                ///< there are multipliers that are condensed before others, on any rank
+  mutable std::shared_ptr<SystemScatter> scatter;                            ///< of the last evaluation that was asked for a graph; null: none yet
   mutable std::vector<std::shared_ptr<const InterfaceDofs>> interface_dofs;  ///< [pairs] the last of dofs_of()
 
   const Communicator& comm() const { return *dofs->getComm(); }

@@ -61,35 +61,6 @@ std::string written(const SurfaceFacet& ids, const FacetPoints<dim>& x) {
 bool sound(const FacetPoints<2>&) { return true; }  // without length it has no normal
 bool sound(const FacetPoints<3>& x) { return make_auxiliary_plane(x).has_value(); }
 
-/// To the nodes of the last facet.
-void add_heirs(SlaveSurface& surface, const SurfaceFacet& ids, const Facet<LocalOrdinal>& facet) {
-  const FacetMultipliers& of_facet = surface.multipliers.back();
-  for (std::size_t k = 0; k < facet.size(); ++k) {
-    if (static_cast<std::size_t>(facet[k]) >= surface.owned.size() || surface.carries[facet[k]] != 0) continue;
-    for (std::size_t j = 0; j < facet.size(); ++j) {
-      const double share =
-          of_facet.share(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(k)) * std::abs(of_facet.weights[static_cast<Eigen::Index>(k)]);
-      if (share > 0.0) surface.owned[facet[k]].heirs.emplace_back(ids[j], share);
-    }
-  }
-}
-
-/// One entry for each id; shares that add up to 1.
-void normalise_heirs(std::vector<std::pair<GlobalOrdinal, double>>& heirs) {
-  std::sort(heirs.begin(), heirs.end());
-  double sum = 0.0;
-  std::vector<std::pair<GlobalOrdinal, double>> merged;
-  for (const auto& [id, share] : heirs) {
-    sum += share;
-    if (merged.empty() || merged.back().first != id)
-      merged.emplace_back(id, share);
-    else
-      merged.back().second += share;
-  }
-  for (auto& [id, share] : merged) share /= sum;
-  heirs = std::move(merged);
-}
-
 }  // namespace
 
 bool SlaveSurface::may_load(int dimension, std::size_t facet, LocalOrdinal multiplier, LocalOrdinal node) const {
@@ -223,9 +194,7 @@ SlaveSurface make_slave_surface(const RCP<const Map>& owned_nodes, const RCP<con
     surface.facets.push_back(facet);
     surface.normals.push_back(facet);
     surface.multipliers.push_back({multiplier_shares(carries, corners), weights});
-    add_heirs(surface, ids, facet);
   }
-  for (SlaveNode& node : surface.owned) normalise_heirs(node.heirs);
   if (const auto refusal = refusal_of(held, *owned_nodes->getComm(), place)) diagnostics.push_back(*refusal);
   throw_if_any(*owned_nodes->getComm(), diagnostics);
   return surface;

@@ -53,10 +53,12 @@ void BoundaryConditionOptions::describe(Parameters& parameters) {
   }
   if (x_axis.size() == 2 && !y_axis.empty()) parameters.error("y axis", "is for 3D; in 2D the direction of y follows from \"x axis\"");
   if (x_axis.size() == 3 && y_axis.empty() && (y || z))
-    parameters.error("x axis", "says where x points to, but y or z is prescribed as well; please give \"y axis\" too");
+    parameters.error("x axis", "has three numbers, as in 3D, and y or z is prescribed as well; please give \"y axis\" too, or in 2D two numbers");
   if (x_axis.size() == 3 && !y_axis.empty()) {
     y_axis.resize(3);
-    const Vector3d along(x_axis.data()), other(y_axis.data());
+    Vector3d along(x_axis.data()), other(y_axis.data());
+    along /= along.cwiseAbs().maxCoeff();
+    other /= other.cwiseAbs().maxCoeff();
     constexpr double one_direction = 1e-6;  // sine of the angle
     if (along.cross(other).norm() <= one_direction * along.norm() * other.norm())
       parameters.error("y axis", fmt::format("is \"{}\", which is the direction of \"x axis\"", fmt::join(y_axis, ", ")));
@@ -68,14 +70,15 @@ void BoundaryConditionOptions::describe(Parameters& parameters) {
 std::array<std::array<double, 3>, 3> axes_of(const BoundaryConditionOptions& condition) {
   if (condition.x_axis.empty()) return {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   const auto vector = [](const std::vector<double>& numbers) { return Vector3d(numbers[0], numbers[1], numbers.size() == 3 ? numbers[2] : 0.0); };
-  const Vector3d x = vector(condition.x_axis).normalized();
+  const auto unit = [](const Vector3d& v) { return (v / v.cwiseAbs().maxCoeff()).normalized(); };  // squares of any length
+  const Vector3d x = unit(vector(condition.x_axis));
   Vector3d y;
   if (condition.x_axis.size() == 2)
     y = Vector3d(-x[1], x[0], 0.0);
   else if (condition.y_axis.empty())
     y = x.unitOrthogonal();
   else
-    y = vector(condition.y_axis);
+    y = unit(vector(condition.y_axis));
   y = (y - y.dot(x) * x).normalized();
   const Vector3d z = x.cross(y);
   return {{{x[0], x[1], x[2]}, {y[0], y[1], y[2]}, {z[0], z[1], z[2]}}};

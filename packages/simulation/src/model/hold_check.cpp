@@ -1,6 +1,7 @@
 #include "mortise/simulation/model/hold_check.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/Geometry>
 #include <Teuchos_CommHelpers.hpp>
@@ -98,6 +99,22 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd& gram) {
   return spectrum.vectors.leftCols(count);
 }
 
+/// A free motion of a body in which `mode` is largest: its name, or the direction of a translation that is not along an axis.
+/// @param translations  how many of the modes of a body are
+std::string name_of_motion(const RigidModes& modes, const Eigen::MatrixXd& free, int body, int mode, int translations) {
+  if (mode >= translations || translations == 1) return modes.name(mode);
+  const Eigen::VectorXd motion = free * free.row(modes.per_body() * body + mode).transpose();
+  Eigen::VectorXd along = motion.segment(modes.per_body() * body, translations).normalized();
+  constexpr double on_axis = 1e-3;
+  if (std::abs(along[mode]) > 1.0 - on_axis) return modes.name(mode);
+  Eigen::Index first = 0;
+  while (std::abs(along[first]) < on_axis) ++first;
+  if (along[first] < 0.0) along = -along;
+  std::vector<std::string> numbers;
+  for (const double one : along) numbers.push_back(fmt::format("{:.3g}", std::abs(one) < on_axis ? 0.0 : one));
+  return fmt::format("translation along ({})", fmt::join(numbers, ", "));
+}
+
 }  // namespace
 
 std::vector<char> check_held(const Mesh& mesh, bool axisymmetric, const Supports& supports, const std::vector<HoldingPair>& pairs,
@@ -114,11 +131,12 @@ std::vector<char> check_held(const Mesh& mesh, bool axisymmetric, const Supports
   for (const auto& pair : pairs) contact += contact_gram(mesh, modes, pair);
 
   std::vector<Diagnostic> diagnostics;
-  for (const auto& [body, mode] : distinct_modes(null_space(without_contact + sum_over_ranks(mesh, contact)), modes.per_body()))
+  const Eigen::MatrixXd free = null_space(without_contact + sum_over_ranks(mesh, contact));
+  for (const auto& [body, mode] : distinct_modes(free, modes.per_body()))
     diagnostics.push_back(
         {body_places[body], fmt::format("body '{}' can move: {}; neither boundary conditions nor contact hold it; contact holds where a slave "
                                         "facet is within reach at the start, along its normal, and with friction along the surface",
-                                        mesh.bodies[body].name, modes.name(mode))});
+                                        mesh.bodies[body].name, name_of_motion(modes, free, body, mode, axisymmetric ? 1 : mesh.dimension))});
   if (!diagnostics.empty()) throw InputError(diagnostics);
 
   std::vector<char> only_contact;

@@ -89,7 +89,7 @@ std::optional<std::string> too_coarse(const Model& model, const Scene& scene, st
   std::vector<char> closed(static_cast<std::size_t>(mesh.owned_count()), 0);
   double counted[2] = {0.0, 0.0}, all[2] = {};  // nodes that carry force, and the largest pressure
   for (const ContactNodeState& node : node_states(laws, p)) {
-    if (!node.closed || !(node.pressure > 0.0)) continue;
+    if (!node.closed || !node.carries || !(node.pressure > 0.0)) continue;
     closed[node.owned_node] = 1;
     counted[0] += 1.0;
     counted[1] = std::max(counted[1], node.pressure);

@@ -12,11 +12,12 @@ namespace mortise {
 struct ContactNodeState {
   GlobalOrdinal node = 0;                   ///< of the model
   LocalOrdinal owned_node = 0;              ///< local index in the map of owned nodes
-  std::array<double, 3> traction{};         ///< multiplier z (compression positive along the normal), or the mean of its heirs', force per area
+  std::array<double, 3> traction{};         ///< multiplier z (compression positive along the normal), force per area; third component 0 in 2D
   std::array<double, 3> normal{};           ///< unit normal n of the slave
   double pressure = 0.0;                    ///< z . n
   double gap = 0.0;                         ///< weighted gap / A_j
   double weight = 0.0;                      ///< A_j
+  bool carries = true;                      ///< false: it has no multiplier, others act in its place
   bool closed = false;                      ///< its state is not open
   ContactState state = ContactState::open;  ///< what it does
   double covered = 0.0;                     ///< sum_k D_jk: the force on the slave side is -covered * traction
@@ -44,8 +45,8 @@ struct CornerReport {
   bool as_asked = true;                    ///< the rule is the pair's option; false: something else of the pair calls for this one
 };
 
-/// States of the owned slave nodes of a pair. The slip path includes the slip of the step. A node without multiplier is open, and has the traction of
-/// those that act in its place: the mean of their multipliers. Collective.
+/// States of the owned slave nodes of a pair. The slip path includes the slip of the step. A node without multiplier has the mean traction of the
+/// multipliers that act at it, and is closed if most of them are. Collective.
 std::vector<ContactNodeState> node_states(const ContactLaws& laws, std::size_t pair);
 /// How deep the surfaces of a pair may lie in one another without touching: the overlap that its history allows, and its largest clearance above 0
 /// [length]. Collective.

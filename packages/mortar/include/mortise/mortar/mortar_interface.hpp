@@ -119,8 +119,6 @@ struct SlaveNode {
   bool carries_multiplier = true;  ///< false: prescribed in every direction its normal could push it, or marked as a crosspoint
   bool middle = false;             ///< of an edge of quadratic facets: its dual multiplier acts on corners too
   double weight = 0.0;             ///< A_j = int N_j (Ñ_j) over the whole reference slave surface (with t or 2 pi R), times the pair's share
-  /// Of a node without multiplier: ids of the nodes whose multipliers act at it, and shares that add up to 1. Facets count by their weights int N_j.
-  std::vector<std::pair<GlobalOrdinal, double>> heirs;
 
   /// Whether any component is prescribed.
   bool partly_fixed() const { return fixed[0] || fixed[1] || fixed[2]; }
