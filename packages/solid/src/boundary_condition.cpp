@@ -1,4 +1,4 @@
-// What a scene says of a boundary condition.
+// What can be said of a boundary condition.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

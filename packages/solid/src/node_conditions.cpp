@@ -6,7 +6,7 @@
 namespace mortise {
 namespace {
 
-constexpr double no_pivot = 1e-10;     // directions that differ by less are one: angles in scenes have more digits, and round-off is 1e-16
+constexpr double no_pivot = 1e-10;     // directions that differ by less are one: angles are given with more digits, and round-off is 1e-16
 constexpr double no_coupling = 1e-12;  // cos(90 degrees) and the like
 
 }  // namespace
