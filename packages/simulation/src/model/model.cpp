@@ -236,7 +236,6 @@ void reach_for_clearances(const Mesh& mesh, const Scene& scene, SurfacesAtStart&
     for (const LocalOrdinal node : require_node_set(mesh, options.slave)) {
       const auto& x = mesh.coordinates[static_cast<std::size_t>(node)];
       for (int n = 0; n <= times; ++n) {
-        std::optional<StepFailure> none;
         try {
           mine = std::max(mine, -(*options.contact.clearance)(scene.stepping.end_time * n / times, x[0], x[1], x[2]));
         } catch (const InputError&) {  // the step that asks for it says so
@@ -256,7 +255,7 @@ void reach_for_clearances(const Mesh& mesh, const Scene& scene, SurfacesAtStart&
 void take_up(const PairAtStart& start, ContactPair& pair) {
   if (!start.reach) return;
   pair.options.mortar.search_reach = start.reach;
-  if (!(start.overlap.depth > 0.0)) return;
+  if (start.overlap.depth <= 0.5 * start.longest) return;  // the reach is that of a clearance
   constexpr double share = 0.5;
   auto& constant = pair.options.complementarity_constant;
   if (!constant && pair.options.formulation.options->enforcement()->holds_exactly()) constant = share * pair.youngs_modulus / start.overlap.depth;
