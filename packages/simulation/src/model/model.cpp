@@ -9,16 +9,17 @@
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 
+#include "model/adjusted_slaves.hpp"
 #include "model/contributions.hpp"
 #include "model/inclined_supports.hpp"
 #include "model/precision.hpp"
+#include "model/search_reach.hpp"
 #include "model/surface_ties.hpp"
 #include "mortise/material/materials.hpp"
 #include "mortise/mesh/digest.hpp"
 #include "mortise/simulation/model/hold_check.hpp"
 #include "mortise/simulation/model/mesh_limits.hpp"
 #include "mortise/simulation/scene/scene_bodies.hpp"
-#include "surfaces/adjustment.hpp"
 #include "surfaces/body_surfaces.hpp"
 
 namespace mortise {
@@ -78,56 +79,6 @@ void tie(Mesh& mesh, const Scene& scene) {
     ++point;
   }
   collect.throw_found(*mesh.comm);
-}
-
-/// [local nodes] the components that conditions prescribe.
-HeldNodes held_nodes(const Mesh& mesh, const Scene& scene) {
-  HeldNodes held;
-  held.components.resize(static_cast<std::size_t>(mesh.local_count()));
-  for (const auto& [name, place, condition] : scene.boundary_conditions) {
-    const auto set = mesh.node_sets.find(condition.set.value);
-    if (set == mesh.node_sets.end()) continue;  // refused where conditions are made
-    const std::array<bool, 3> given = {condition.x.has_value(), condition.y.has_value(), condition.z.has_value()};
-    const auto axes = axes_of(condition);
-    for (const LocalOrdinal node : set->second)
-      for (std::size_t i = 0; i < 3; ++i) {
-        if (!given[i]) continue;
-        if (condition.x_axis.empty())
-          held.components[static_cast<std::size_t>(node)][i] = true;
-        else
-          held.directions[node].push_back(axes[i]);
-      }
-  }
-  return held;
-}
-
-/// Slave nodes would be moved onto the chords of a round quadratic master, which is wrong by a part of its sagitta.
-void refuse_curved_master(const Mesh& mesh, const Named<ContactPairOptions>& pair) {
-  constexpr double flat = 1e-9;  // over the longest facet
-  const PlaceOfNode at = reference_places(mesh);
-  const SideSet& master = require_side_set(mesh, pair.value.master);
-  const double inexact = deviation_from_parts(mesh, master, at);
-  if (inexact <= flat * longest_facet(mesh, master, at)) return;
-  throw InputError(
-      pair.place,
-      fmt::format("\"start\" = \"adjust\" moves slave nodes onto linear facets, and the quadratic facets of the master \"{}\" are curved: "
-                  "they leave their linear parts by up to {:.3g}; please mesh both surfaces with the same points, or take linear elements",
-                  pair.value.master.value, inexact));
-}
-
-/// Moves slave nodes of pairs that ask for it; what it did, by pairs. Collective.
-std::vector<Adjustment> adjust_slaves(Mesh& mesh, const Scene& scene) {
-  std::vector<Adjustment> done;
-  for (const auto& pair : scene.contact) {
-    done.emplace_back();
-    if (pair.value.start.mesh != MeshAtStart::adjusted) continue;
-    refuse_curved_master(mesh, pair);
-    const double before = deepest_overlap(mesh, pair, mesh_size(mesh).length);
-    done.back() = adjust_onto_master(mesh, require_side_set(mesh, pair.value.slave), require_side_set(mesh, pair.value.master),
-                                     pair.value.start.tolerance, held_nodes(mesh, scene));
-    done.back().overlap = before;
-  }
-  return done;
 }
 
 RCP<Mesh> make_mesh(const RCP<const Communicator>& comm, const Scene& scene, MeshRemarks& remarks) {
@@ -225,42 +176,6 @@ ScalarFunction seen_from(const ScalarFunction& function, const std::array<double
       function.source(), function.place());
 }
 
-/// A pair with a negative clearance c acts from a distance -c on, and has to look as far. What c becomes is asked for at so many times of the run.
-/// Collective.
-void reach_for_clearances(const Mesh& mesh, const Scene& scene, SurfacesAtStart& surfaces) {
-  constexpr int times = 100;
-  for (std::size_t p = 0; p < surfaces.pairs.size(); ++p) {
-    const ContactPairOptions& options = scene.contact[p].value;
-    if (!options.contact.clearance || options.contact.mortar.search_reach) continue;
-    double mine = 0.0, largest = 0.0;
-    for (const LocalOrdinal node : require_node_set(mesh, options.slave)) {
-      const auto& x = mesh.coordinates[static_cast<std::size_t>(node)];
-      for (int n = 0; n <= times; ++n) {
-        try {
-          mine = std::max(mine, -(*options.contact.clearance)(scene.stepping.end_time * n / times, x[0], x[1], x[2]));
-        } catch (const InputError&) {  // the step that asks for it says so
-        }
-        if (options.contact.clearance->is_constant()) break;
-      }
-    }
-    Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, mine, Teuchos::outArg(largest));
-    PairAtStart& pair = surfaces.pairs[p];
-    if (largest > 0.0) pair.reach = std::max(pair.reach.value_or(0.0), pair.longest + largest);
-  }
-}
-
-// The iteration that pushes surfaces apart that overlap by d leaves pressures of E d / L, L the size of the bodies, and gaps of second order, d^2 / 2
-// R. Nodes stay closed through it if c_n A < 2 E R / (L d); half of E / d is that for R = L / 4. Beside it E / h of short facets makes all nodes
-// open, and close again, for ever.
-void take_up(const PairAtStart& start, ContactPair& pair) {
-  if (!start.reach) return;
-  pair.options.mortar.search_reach = start.reach;
-  if (start.overlap.depth <= 0.5 * start.longest) return;  // the reach is that of a clearance
-  constexpr double share = 0.5;
-  auto& constant = pair.options.complementarity_constant;
-  if (!constant && pair.options.formulation.options->enforcement()->holds_exactly()) constant = share * pair.youngs_modulus / start.overlap.depth;
-}
-
 Effects effects_of(const Scene& scene, const Bodies& bodies) {
   std::vector<std::string> finite, small, f_bar, plastic, pairs, rubbing, loads, conditions;
   std::vector<std::string> rigid, points, ties;
@@ -342,9 +257,11 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
     // Ties move nodes by what is summed up over ranks, so that digits differ with their number.
     if (!scene.ties.empty()) mesh_digest_ = mortise::mesh_digest(*mesh);
     adjustments = adjust_slaves(*mesh, scene);
-    SurfaceTies ties = tie_scene(*mesh, scene, held_nodes(*mesh, scene), measure, contact_origin(*mesh, mesh_size(*mesh).length, axisymmetric));
-    supports_.ties = ties.tied;
-    ties_at_start_ = std::move(ties.at_start);
+    if (!scene.ties.empty()) {
+      SurfaceTies ties = tie_scene(*mesh, scene, held_nodes(*mesh, scene), measure, contact_origin(*mesh, mesh_size(*mesh).length, axisymmetric));
+      supports_.ties = ties.tied;
+      ties_at_start_ = std::move(ties.at_start);
+    }
     mesh_ = mesh;
     size_ = mesh_size(*mesh_);
   }

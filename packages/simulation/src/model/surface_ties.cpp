@@ -128,7 +128,6 @@ void count_moves(const Mesh& mesh, const Scene& scene, const std::vector<std::ar
 }  // namespace
 
 SurfaceTies tie_scene(Mesh& mesh, const Scene& scene, const HeldNodes& held, const InterfaceMeasure& measure, const std::array<double, 3>& origin) {
-  if (scene.ties.empty()) return {};
   const std::vector<TiedPair> pairs = pairs_of(mesh, scene);
   const RCP<const Map> dofs = dofs_of(mesh);
   const RCP<const MultiVector> marks = held_marks(mesh, held.components);

@@ -76,8 +76,8 @@ class PrescribedDisplacements {
 
 /// Displacements that are constant combinations of others: nodes of surfaces that are glued to others, and nodes that inclined supports hold.
 struct TiedDisplacements {
-  std::vector<LocalOrdinal> dofs;  ///< owned dofs that are tied, ascending; none of them is prescribed, or among DependentDisplacements::dofs()
-  /// [owned dofs squared] d = T d + offset: rows of dofs that are not tied are those of the identity, columns of tied ones empty
+  std::vector<LocalOrdinal> dofs;  ///< owned dofs that are tied, ascending; none of them is prescribed, or among DependentDisplacements::dofs().
+  /// [owned dofs squared] d = T d + offset. Rows of dofs that are not tied are those of the identity, columns of tied ones empty
   RCP<const Matrix> T;
   /// [owned dofs] at a pseudo-time, 0 at dofs that are not tied; empty: always 0. Failures as in PrescribedDisplacements. Collective.
   std::function<RCP<Vector>(double time, std::optional<StepFailure>& failure)> offset;
