@@ -49,7 +49,7 @@ std::vector<HoldingRow::Wrench> wrenches(const std::vector<LocalOrdinal>& couple
 }  // namespace
 
 // A multiplier acts at the nodes m with c_jm; where forces are the gaps' derivatives its normal part acts with -dg_j/dx_m instead.
-std::vector<HoldingRow> holding_rows(const ContactLaws& laws, const MultiVector& places) {
+std::vector<HoldingRow> holding_rows(const ContactLaws& laws, const MultiVector& places, HeldTangents tangents) {
   const detail::EvaluatedLaws& evaluated = detail::evaluated(laws);
   const detail::ContactModel& self = *evaluated.contact->model;
   const Eigen::Index dimension = self.dimension;
@@ -85,7 +85,7 @@ std::vector<HoldingRow> holding_rows(const ContactLaws& laws, const MultiVector&
         add_row(false, [&](std::size_t c) { return SpatialVector(-Eigen::Map<const Eigen::VectorXd>(&row.dgap[dimension * c], dimension)); });
       else
         add_row(false, along(row.normal));
-      if (state != ContactState::stick) continue;
+      if (state != ContactState::stick && (tangents == HeldTangents::of_sticking_nodes || pair.pair().friction() == nullptr)) continue;
       const Frame in = pair.frame(s);
       const bool partly_fixed = pair.slave_nodes()[s].partly_fixed();  // its first tangent bears no shear
       for (Eigen::Index a = partly_fixed ? 1 : 0; a < in.tangents.rows(); ++a) {
@@ -135,7 +135,7 @@ std::vector<SlidingNode> sliding_nodes(const ContactLaws& laws, const MultiVecto
   return nodes;
 }
 
-std::vector<BearingNode> bearing_nodes(const ContactLaws& laws, const MultiVector& places) {
+std::vector<BearingNode> bearing_nodes(const ContactLaws& laws, const MultiVector& places, OpenNodes open) {
   const detail::EvaluatedLaws& evaluated = detail::evaluated(laws);
   const detail::ContactModel& self = *evaluated.contact->model;
   std::vector<BearingNode> nodes;
@@ -149,8 +149,14 @@ std::vector<BearingNode> bearing_nodes(const ContactLaws& laws, const MultiVecto
       if (self.multiplier_of[p][s] < 0 || !pair.covered(s)) continue;
       const SlaveNode& slave = pair.slave_nodes()[s];
       const detail::NodeRow& row = pair.row(s);
-      BearingNode node{p, slave.owned_node, evaluated.state(p, s) != ContactState::open, 0.0, {}, {}};
-      if (!node.closed && pair.own_gap(s) > detail::near * pair.pair().size() * slave.weight) continue;
+      BearingNode node;
+      node.pair = p;
+      node.slave = s;
+      node.owned_node = slave.owned_node;
+      node.closed = evaluated.state(p, s) != ContactState::open;
+      node.gap = pair.gap_to_onset(s) / slave.weight;
+      node.near = detail::near * pair.pair().size();
+      if (!node.closed && open == OpenNodes::near && pair.own_gap(s) > node.near * slave.weight) continue;
       const std::vector<LocalOrdinal>& coupled = pair.coupled_nodes(s);
       double largest = 0.0;
       const auto along = [&](const SpatialVector& direction) {

@@ -1,16 +1,12 @@
 // Guesses of multipliers, at the start of a step and where the cover changes. Only guesses: no residual is changed by them.
 
-#include <fmt/format.h>
-
 #include <Teuchos_CommHelpers.hpp>
-#include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <stdexcept>
 
 #include "evaluated_contact.hpp"
+#include "mortise/contact/holding_nodes.hpp"
 
 namespace mortise {
 namespace {
@@ -18,20 +14,14 @@ namespace {
 constexpr double touching = 1e-8;      // |g_j| / (A_j h) below which a node touches: then the sign of g is round-off
 constexpr double small_strain = 1e-6;  // the pressure it starts with, over Young's modulus
 
-bool slave_is_unconstrained(const detail::Pair& pair, const std::vector<char>& unconstrained) {
-  for (const SlaveNode& slave : pair.slave_nodes())
-    if (unconstrained[slave.owned_node]) return true;
-  return false;
+/// Sets z_n of slave node s of a pair, and nothing along the surface.
+template <class View>
+void set_pressure(const detail::ContactModel& model, const detail::PairEvaluation& pair, std::size_t p, std::size_t s, double z_n, const View& values) {
+  const LocalOrdinal first = model.multiplier_of[p][s];
+  for (int i = 0; i < model.dimension; ++i) values(first + i, 0) = z_n * pair.row(s).normal[i];
 }
 
-bool master_is_unconstrained(const detail::Pair& pair, const Map& owned_nodes, const std::vector<char>& unconstrained) {
-  for (const auto& facet : pair.definition().master)
-    for (const GlobalOrdinal node : facet) {
-      const LocalOrdinal owned = owned_nodes.getLocalElement(node);
-      if (owned >= 0 && unconstrained[owned]) return true;
-    }
-  return false;
-}
+double first_pressure(const detail::PairEvaluation& pair) { return small_strain * pair.pair().definition().youngs_modulus; }
 
 }  // namespace
 
@@ -85,15 +75,8 @@ bool ContactEvaluation::follow_cover(const ContactStates& last, Vector& z) const
 }
 
 // A node whose gap is zero up to round-off would be open or closed at random: it starts closed, at a pressure that no result can see.
-// Where a body that only contact holds has no closed node, its system is singular: the nodes nearest to contact start closed,
-// z_n = c_n g + 1e-6 E.
-ContactHistory ContactSystem::start_step(const ContactHistory& accepted, const NodalDisplacement& d, const std::vector<char>& unconstrained,
-                                         Vector& z) const {
+ContactHistory ContactSystem::start_step(const ContactHistory& accepted, const NodalDisplacement& d, Vector& z) const {
   const detail::ContactModel& self = *model_;
-  const std::size_t nodes = self.owned_nodes->getNodeNumElements();
-  if (self.maximum(unconstrained.size() != nodes) > 0.0)
-    throw std::invalid_argument(fmt::format("contact: start_step() needs one entry of `unconstrained` for each owned node; this rank gave {} for {}",
-                                            unconstrained.size(), nodes));
   const ContactHistory history = detail::with_kinks_of_its_state(model_, accepted);
   const ContactEvaluation evaluation = evaluate(d, history);
   const detail::EvaluatedContact& contact = detail::evaluated(evaluation);
@@ -102,38 +85,25 @@ ContactHistory ContactSystem::start_step(const ContactHistory& accepted, const N
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadWrite);
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
     const detail::PairEvaluation& pair = contact.pairs[p];
-    const double pressure = small_strain * pair.pair().definition().youngs_modulus;
-    const auto set = [&](std::size_t s, double z_n) {
-      const LocalOrdinal first = self.multiplier_of[p][s];
-      for (int i = 0; i < self.dimension; ++i) values(first + i, 0) = z_n * pair.row(s).normal[i];
-    };
     const std::vector<detail::NodeMultiplier> multipliers = contact.multipliers_of(z, p);
-    double active = 0.0, nearest = std::numeric_limits<double>::max();
     for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
       if (!pair.covered(s)) {
-        if (self.multiplier_of[p][s] >= 0) set(s, 0.0);
+        if (self.multiplier_of[p][s] >= 0) set_pressure(self, pair, p, s, 0.0, values);
         continue;
       }
       const double gap = pair.gap_to_onset(s) / pair.slave_nodes()[s].weight;
-      bool closed = pair.closed(s, multipliers[s]);
-      if (!closed && std::abs(gap) < touching * pair.pair().size()) {
-        set(s, pressure);
-        closed = true;
-      }
-      active += closed;
-      nearest = std::min(nearest, gap);
-    }
-    const bool needed = self.maximum(slave_is_unconstrained(pair.pair(), unconstrained) ||
-                                     master_is_unconstrained(pair.pair(), *self.owned_nodes, unconstrained)) > 0.0;
-    if (!needed || self.sum(active) > 0.0) continue;
-    nearest = -self.maximum(-nearest);
-    const double reach = std::max(detail::near * pair.pair().size(), nearest + touching * pair.pair().size());
-    for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
-      if (!pair.covered(s) || pair.gap_to_onset(s) > reach * pair.slave_nodes()[s].weight) continue;
-      set(s, std::max(0.0, pair.closing_pressure(s)) + pressure);
+      if (std::abs(gap) < touching * pair.pair().size() && !pair.closed(s, multipliers[s]))
+        set_pressure(self, pair, p, s, first_pressure(pair), values);
     }
   }
   return history;
+}
+
+void guess_closed(const ContactLaws& laws, const BearingNode& node, Vector& z) {
+  const detail::EvaluatedContact& contact = *detail::evaluated(laws).contact;
+  const detail::PairEvaluation& pair = contact.pairs[node.pair];
+  const double pressure = std::max(0.0, pair.closing_pressure(node.slave)) + first_pressure(pair);
+  set_pressure(*contact.model, pair, node.pair, node.slave, pressure, z.getLocalViewHost(Tpetra::Access::ReadWrite));
 }
 
 }  // namespace mortise

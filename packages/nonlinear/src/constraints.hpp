@@ -9,7 +9,7 @@
 
 namespace mortise::detail {
 
-/// Keeps the elimination of prescribed rows as long as the matrices have the same entries.
+/// Keeps the elimination of prescribed rows as long as the matrices have the same entries and the rows are the same.
 class Constraints {
  public:
   struct Match {
@@ -21,6 +21,7 @@ class Constraints {
 
  private:
   RCP<const Graph> graph_;
+  std::vector<LocalOrdinal> rows_;
   std::unique_ptr<const DirichletElimination> elimination_;
 };
 

@@ -1,5 +1,7 @@
 #include "linear_system.hpp"
 
+#include <algorithm>
+
 namespace mortise::detail {
 namespace {
 
@@ -10,7 +12,8 @@ void close(Matrix& matrix) {
 }  // namespace
 
 // With followers F holds what is gathered from them; their own forces are wanted.
-LinearSystem assembled(const SystemModel& model, const std::shared_ptr<const EvaluatedSystem>& at, const Vector& F) {
+LinearSystem assembled(const SystemModel& model, const std::shared_ptr<const EvaluatedSystem>& at, const Vector& F,
+                       const std::vector<LocalOrdinal>& held) {
   LinearSystem system;
   system.matrix = model.take_stiffness(at);
   const RCP<const Vector> residual = model.d(F);
@@ -22,6 +25,10 @@ LinearSystem assembled(const SystemModel& model, const std::shared_ptr<const Eva
     const auto step = system.increment->getLocalViewHost(Tpetra::Access::ReadWrite);
     const auto rows = residual->getLocalViewHost(Tpetra::Access::ReadOnly);
     for (const LocalOrdinal row : system.prescribed) step(row, 0) = -rows(row, 0) / model.stiffness_scale_of(row);
+  }
+  if (!held.empty()) {
+    system.prescribed.insert(system.prescribed.end(), held.begin(), held.end());
+    std::sort(system.prescribed.begin(), system.prescribed.end());
   }
   if (model.parts().near_null_space) system.multigrid.near_null_space = [&model, d = at->d] { return model.parts().near_null_space(*d); };
   system.recover = [](const Vector& u, Vector& dd, Vector&) { Tpetra::deep_copy(dd, u); };

@@ -35,8 +35,9 @@ struct LinearSystem {
   std::function<RCP<Vector>(const Vector& u)> prolonged;
 };
 
-/// K dd = -r with the prescribed increments that F asks for.
-LinearSystem assembled(const SystemModel& model, const std::shared_ptr<const EvaluatedSystem>& at, const Vector& F);
+/// K dd = -r with the prescribed increments that F asks for. Dofs that are held, none of which follows others, are prescribed not to move.
+LinearSystem assembled(const SystemModel& model, const std::shared_ptr<const EvaluatedSystem>& at, const Vector& F,
+                       const std::vector<LocalOrdinal>& held);
 
 /// The linearised contact. Multipliers are condensed,
 ///   (K + C~ condensed) dd = rhs,   dz from dd,

@@ -140,6 +140,7 @@ bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, 
         if (observer.begin) observer.begin(step, report.time, report.dt);
         StepSolver solver(system, newton, report.newton, linearised, observer.iteration);
         SystemEvaluation begin = start_of_try(system, newton, state, at.rate, report.time, start);
+        if (const RCP<Vector> z = observer.close ? observer.close(begin) : Teuchos::null; !z.is_null()) begin = system.with_multipliers(begin, *z);
         context = begin.context();
         solution = solver.solve(std::move(begin));
         for (int round = 1; observer.verify; ++round) {

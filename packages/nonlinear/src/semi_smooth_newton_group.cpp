@@ -165,15 +165,22 @@ NOX::Abstract::Group::ReturnType SemiSmoothNewtonGroup::computeNewton(Teuchos::P
       norms_.changed <= settled * norms_.active ? GeometricContactStiffness::included : GeometricContactStiffness::left_out;
   const RCP<Vector> direction = tpetra_vector(*newton_);
   const auto& better_start = system_->parts().better_start;
+  const auto held_at = [&](const SystemEvaluation& at) {
+    const auto& held_motions = system_->parts().held_motions;
+    return held_motions ? held_motions(at) : std::nullopt;
+  };
   const SystemEvaluation here = shared_->jacobian->evaluation();
   if (const RCP<Vector> start = better_start ? better_start(here) : Teuchos::null; !start.is_null()) {
     // x + direction is where Newton's method gets to from there.
     starts_elsewhere_ = true;
     const SystemEvaluation there = system_->evaluate(*start, shared_->context);
-    newton_solve_ = linearise(there).newton_direction(there.residual(), *direction, tolerance, geometric_stiffness);
+    const SystemLinearisation& at_start = linearise(there);
+    const std::optional<HeldMotions> held = held_at(there);
+    newton_solve_ = at_start.newton_direction(there.residual(), *direction, tolerance, geometric_stiffness, held ? &*held : nullptr);
     direction->update(1.0, *start, -1.0, here.x(), 1.0);
   } else {
-    newton_solve_ = shared_->jacobian->newton_direction(here.residual(), *direction, tolerance, geometric_stiffness);
+    const std::optional<HeldMotions> held = held_at(here);
+    newton_solve_ = shared_->jacobian->newton_direction(here.residual(), *direction, tolerance, geometric_stiffness, held ? &*held : nullptr);
   }
   shared_->jacobian.reset();  // contact at an iterate takes memory
   shortened_ = 1.0;

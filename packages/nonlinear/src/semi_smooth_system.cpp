@@ -35,10 +35,9 @@ StepContext SemiSmoothSystem::step_from(const AcceptedState& state, double time)
   return context;
 }
 
-StepContext SemiSmoothSystem::start_step(const AcceptedState& state, double time, const std::vector<char>& unconstrained, const Vector& d,
-                                         Vector& z) const {
+StepContext SemiSmoothSystem::start_step(const AcceptedState& state, double time, const Vector& d, Vector& z) const {
   if (!parts().contact) return step_from(state, time);
-  const ContactHistory history = parts().contact->start_step(*state.context.contact, d, unconstrained, z);
+  const ContactHistory history = parts().contact->start_step(*state.context.contact, d, z);
   return {time, history, history->states};
 }
 
@@ -50,6 +49,13 @@ SystemEvaluation SemiSmoothSystem::evaluate_at(const AcceptedState& state, const
   Vector x(*state.x, Teuchos::Copy);
   Tpetra::deep_copy(*multipliers(x), z);
   return SystemEvaluation(model_->evaluate(x, context, {state.internal_forces, std::nullopt}));
+}
+
+SystemEvaluation SemiSmoothSystem::with_multipliers(const SystemEvaluation& evaluation, const Vector& z) const {
+  const detail::EvaluatedSystem& at = detail::evaluated(evaluation);
+  Vector x(at.x, Teuchos::Copy);
+  Tpetra::deep_copy(*multipliers(x), z);
+  return SystemEvaluation(model_->evaluate(x, at.context, {at.internal, at.contact}));
 }
 
 double SemiSmoothSystem::prescribed_deviation(const Vector& x, double time) const {
@@ -81,9 +87,7 @@ std::optional<SystemEvaluation> SemiSmoothSystem::follow_cover(const SystemEvalu
   if (!at.contact) return std::nullopt;
   Vector z(*at.z, Teuchos::Copy);
   if (!at.contact->follow_cover(at.context.states, z)) return std::nullopt;
-  Vector x(at.x, Teuchos::Copy);
-  Tpetra::deep_copy(*multipliers(x), z);
-  return SystemEvaluation(model_->evaluate(x, at.context, {at.internal, at.contact}));
+  return with_multipliers(evaluation, z);
 }
 
 SystemLinearisation SemiSmoothSystem::linearise(const SystemEvaluation& evaluation) const {

@@ -13,6 +13,9 @@ const StepContext& SystemEvaluation::context() const { return evaluated_->contex
 const Vector& SystemEvaluation::residual() const { return evaluated_->residual; }
 const ResidualNorms& SystemEvaluation::norms() const { return evaluated_->norms; }
 
+const Vector& SystemEvaluation::nodal_forces() const { return evaluated_->forces; }
+const Vector& SystemEvaluation::internal_forces() const { return *evaluated_->internal; }
+
 const ContactLaws& SystemEvaluation::contact_laws() const {
   if (!evaluated_->laws) throw std::logic_error("SystemEvaluation: contact_laws() of a system without contact");
   return *evaluated_->laws;

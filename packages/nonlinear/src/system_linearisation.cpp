@@ -78,10 +78,10 @@ void SystemLinearisation::apply(const Vector& v, Vector& y) const {
 }
 
 LinearSolveReport SystemLinearisation::newton_direction(const Vector& F, Vector& direction, double tolerance,
-                                                        GeometricContactStiffness geometric_stiffness) const {
+                                                        GeometricContactStiffness geometric_stiffness, const HeldMotions* held) const {
   const SystemModel& model = *model_;
   const detail::EvaluatedSystem& at = detail::evaluated(evaluation_);
-  detail::LinearSystem system = detail::assembled(model, evaluation_.evaluated_, F);
+  detail::LinearSystem system = detail::assembled(model, evaluation_.evaluated_, F, held != nullptr ? held->dofs : std::vector<LocalOrdinal>{});
   system = detail::with_contact(model, at, F, geometric_stiffness, std::move(system));
   system = detail::reduced(model, at, std::move(system));
   system = detail::merged(model, std::move(system));
@@ -99,6 +99,7 @@ LinearSolveReport SystemLinearisation::newton_direction(const Vector& F, Vector&
   const RCP<Vector> dd = model.d(direction), dz = model.z(direction);
   system.recover(u, *dd, *dz);
   if (system.condensed && system.condensed->leaves_out_couplings()) correct(model, system, tolerance, report, *dd, *dz);
+  if (held != nullptr) held->take_out(*dd);
   return report;
 }
 

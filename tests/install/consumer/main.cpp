@@ -56,8 +56,7 @@ struct Solved {
 
 Solved solve_step(const Blocks& blocks, const ContactSystem& contact, const ContactHistory& accepted, const Matrix& K, LinearSolver& solver,
                   const Vector& target, Vector& d, Vector& z) {
-  const std::vector<char> unconstrained(blocks.nodes->getNodeNumElements(), 0);  // no body is held by contact alone
-  const ContactHistory history = contact.start_step(accepted, d, unconstrained, z);
+  const ContactHistory history = contact.start_step(accepted, d, z);
   ContactStates last = history->states;
   RCP<Matrix> A;
   Solved solved{false, Vector(blocks.dofs), {}};

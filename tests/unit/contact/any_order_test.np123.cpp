@@ -148,14 +148,13 @@ constexpr std::array<double, 4> ends = {0.0, 0.4, -0.3, 0.4};  // shift where ea
 template <class Meanwhile>
 Chain chain(const Fixture& fixture, const TwoSurfaces& surfaces, const Meanwhile& meanwhile) {
   const ContactSystem& contact = *fixture.contact;
-  const std::vector<char> held(fixture.nodes->getNodeNumElements(), 0);
   const RCP<Vector> z = fixture.multipliers(pressure);
   RCP<Vector> d = moved(fixture, surfaces, ends[0], 0);
   Chain result{{contact.initial_history(*d)}, {}};
   for (int step = 1; step < static_cast<int>(ends.size()); ++step) {
     Vector guess(*z, Teuchos::Copy);
     meanwhile(result.histories.back());
-    ContactHistory history = contact.start_step(result.histories.back(), *d, held, guess);
+    ContactHistory history = contact.start_step(result.histories.back(), *d, guess);
     result.guesses["step " + std::to_string(step)] = numbers_of(guess);
     d = moved(fixture, surfaces, ends[static_cast<std::size_t>(step)], step);
     meanwhile(history);
@@ -271,10 +270,9 @@ TEST_P(AnyOrder, HistoriesAreTheirData) {
       }
 
   // The step that follows.
-  const std::vector<char> held(one_.nodes->getNodeNumElements(), 0);
   const auto next = [&](const Fixture& fixture, const ContactHistory& accepted) {
     const RCP<Vector> d = moved(fixture, surfaces_, ends.back(), 3), guess = fixture.multipliers(pressure);
-    const ContactHistory history = fixture.contact->start_step(accepted, *d, held, *guess);
+    const ContactHistory history = fixture.contact->start_step(accepted, *d, *guess);
     Numbers result = numbers_of(fixture, fixture.contact->differentiate(*moved(fixture, surfaces_, 0.15, 6), history), history);
     result["guess"] = numbers_of(*guess);
     return result;

@@ -72,7 +72,6 @@ TEST(Slip, PathAndWorkGrowWithAcceptedSteps) {
   const TwoSurfaces surfaces = flat(ContactGeometry::current, 0.3);
   Fixture fixture(surfaces, Tpetra::getDefaultComm());
   const ContactSystem& contact = *fixture.contact;
-  const std::vector<char> held(fixture.nodes->getNodeNumElements(), 0);
   const double pressure = 10.0;
   // z = (shear, -p): normal down. Forward by 0.5, back by 0.2: the shear traction follows the slip.
   const GlobalOrdinal offset = fixture.dofs->getMaxAllGlobalIndex() + 1;
@@ -85,7 +84,7 @@ TEST(Slip, PathAndWorkGrowWithAcceptedSteps) {
   double path = 0.0, position = 0.0;
   for (const double step : {0.5, -0.2}) {
     ContactHistory history = accepted;
-    for (int tries = 0; tries < 2; ++tries) history = contact.start_step(accepted, *d, held, z);  // undone and tried again
+    for (int tries = 0; tries < 2; ++tries) history = contact.start_step(accepted, *d, z);  // undone and tried again
     position += step;
     const RCP<Vector> before = d;
     d = motion(fixture, surfaces, [&](bool slave, const test::Point&) { return test::Point{slave ? position : 0.0, 0.0}; });
@@ -125,7 +124,6 @@ TEST(Slip, OfTiedNodesVanishesInADwell) {
     surfaces.options.friction.options = coulomb;
     Fixture fixture(surfaces, Tpetra::getDefaultComm());
     const ContactSystem& contact = *fixture.contact;
-    const std::vector<char> held(fixture.nodes->getNodeNumElements(), 0);
     const auto z = fixture.multipliers([](std::size_t node) { return 5.0 + std::sin(1.3 * static_cast<double>(node)); });
     Vector d(fixture.dofs), guess(contact.multiplier_map());
     const GlobalOrdinal offset = fixture.dofs->getMaxAllGlobalIndex() + 1;
@@ -149,7 +147,7 @@ TEST(Slip, OfTiedNodesVanishesInADwell) {
     EXPECT_GT(largest_slip_condition(d, *z), 1e-2);  // the first shear of the ties counts
     const ContactHistory accepted = contact.commit(contact.evaluate(d, history).laws(*z));
     for (int tries = 0; tries < 2; ++tries) {
-      history = contact.start_step(accepted, d, held, guess);
+      history = contact.start_step(accepted, d, guess);
       EXPECT_LE(largest_slip_condition(d, *z), 1e-12);
       Vector changed(*z, Teuchos::Copy);
       changed.scale(1.1);

@@ -16,8 +16,7 @@ struct Linearised {
     const ContactSystem& contact = *fixture.contact;
     const auto of = [](const Vector& dofs, const MultiVector* nodes) { return nodes ? NodalDisplacement(dofs, *nodes) : NodalDisplacement(dofs); };
     Vector guess(contact.multiplier_map());
-    const ContactHistory history = contact.start_step(contact.initial_history(of(before, prescribed_before)), of(before, prescribed_before),
-                                                      std::vector<char>(fixture.nodes->getNodeNumElements(), 0), guess);
+    const ContactHistory history = contact.start_step(contact.initial_history(of(before, prescribed_before)), of(before, prescribed_before), guess);
     z = fixture.multipliers(pressure);
     const DifferentiatedContact first = contact.differentiate(of(d, prescribed), history);
     at = first.with(updated(contact, first.laws(*z), history));

@@ -58,7 +58,7 @@ struct Flat {
   /// A step from there, without pressure.
   void start(double x, double y) {
     const auto z = pressed(0.0);
-    history = contact.start_step(history, *moved(x, y), std::vector<char>(fixture.nodes->getNodeNumElements(), 0), *z);
+    history = contact.start_step(history, *moved(x, y), *z);
     marked.reset();
   }
 

@@ -246,12 +246,5 @@ TEST(Misuse, LawsOfAnotherEvaluation) {
   EXPECT_THAT(refusal(model.contact.evaluate(model.d, model.history).laws(model.z)), HasSubstr("laws of another evaluation"));
 }
 
-TEST(Misuse, TooFewNodesSaidToBeHeld) {
-  Started model;
-  const std::vector<char> none;
-  EXPECT_THAT(thrown<std::invalid_argument>([&] { model.contact.start_step(model.history, model.d, none, model.z); }),
-              HasSubstr("for each owned node"));
-}
-
 }  // namespace
 }  // namespace mortise

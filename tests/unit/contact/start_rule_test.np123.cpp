@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "formulations.hpp"
+#include "mortise/contact/holding_nodes.hpp"
 #include "two_surfaces.hpp"
 
 namespace mortise {
@@ -15,58 +16,83 @@ using test::TwoSurfaces;
 class StartRule : public ::testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(All, StartRule, ::testing::Range(-1, static_cast<int>(test::other_formulations().size())));
 
-TEST_P(StartRule, ClosesNodesThatTouchAndSeedsUnheldBodies) {
+/// Which body a node is of does not matter here: the slave is body 0, the master body 1.
+MultiVector places_of(const Fixture& fixture, const TwoSurfaces& surfaces) {
+  MultiVector places(fixture.nodes, static_cast<std::size_t>(1 + surfaces.dimension));
+  for (std::size_t n = 0; n < fixture.nodes->getNodeNumElements(); ++n)
+    places.replaceLocalValue(static_cast<LocalOrdinal>(n), 0,
+                             fixture.nodes->getGlobalElement(static_cast<LocalOrdinal>(n)) < static_cast<GlobalOrdinal>(surfaces.slave.size()) ? 0 : 1);
+  return places;
+}
+
+int sum_over_ranks(const Fixture& fixture, int mine) {
+  int all = 0;
+  Teuchos::reduceAll(*fixture.nodes->getComm(), Teuchos::REDUCE_SUM, mine, Teuchos::outArg(all));
+  return all;
+}
+
+TwoSurfaces five_nodes_over_three_facets() {
   TwoSurfaces flat;
-  if (GetParam() >= 0) flat.options.formulation.options = test::other_formulations()[GetParam()].options;
   for (int i = 0; i < 5; ++i) flat.slave.push_back({1.0 * i, 0.0, 0.0});
   for (int i = 0; i < 4; ++i) flat.master.push_back({4.0 * (3 - i) / 3.0, 0.0, 0.0});
   flat.fixed.assign(flat.size(), {});
-  Fixture fixture(flat, Tpetra::getDefaultComm());
-  const std::vector<char> held(fixture.nodes->getNodeNumElements(), 0), unconstrained(held.size(), 1);
-  Vector d(fixture.dofs), z(fixture.contact->multiplier_map());
-  // How many nodes are closed at the start of a first step from there.
-  const auto closed = [&](const Vector& from, const std::vector<char>& unheld) {
-    const ContactSystem& contact = *fixture.contact;
-    const ContactHistory history = contact.start_step(contact.initial_history(from), from, unheld, z);
-    return contact.evaluate(from, history).laws(z).norms(history->states).active;
-  };
-  EXPECT_EQ(closed(d, held), 5);
-
-  // Lifted by 0.05 h: nothing touches; only a body that nothing else holds is seeded.
-  const GlobalOrdinal slave_dofs = 10;
-  const auto lifted = Fixture::vector(fixture.dofs, [&](GlobalOrdinal id) { return id < slave_dofs && id % 2 == 1 ? 0.05 : 0.0; });
-  z.putScalar(0.0);
-  EXPECT_EQ(closed(*lifted, held), 0);
-  EXPECT_EQ(closed(*lifted, unconstrained), 5);
-
-  // Tilted and lifted beyond 0.1 h: at least the nearest node.
-  const auto tilted = Fixture::vector(fixture.dofs, [&](GlobalOrdinal id) { return id < slave_dofs && id % 2 == 1 ? 0.2 + 0.02 * id : 0.0; });
-  z.putScalar(0.0);
-  const int nearest = closed(*tilted, unconstrained);
-  EXPECT_GE(nearest, 1);
-  EXPECT_LE(nearest, 2);
+  return flat;
 }
 
-// Surfaces that touch bear nothing yet; a body that only contact holds is seeded up to where they do.
-TEST(StartRuleOfPressureLaws, SeedsWhereThePressureBegins) {
+// What touches starts closed. What stands apart does not, until it is asked for: then it is closed, however far it is.
+TEST_P(StartRule, ClosesNodesThatTouchAndThoseThatAreGuessedTo) {
+  TwoSurfaces flat = five_nodes_over_three_facets();
+  if (GetParam() >= 0) flat.options.formulation.options = test::other_formulations()[GetParam()].options;
+  Fixture fixture(flat, Tpetra::getDefaultComm());
+  const ContactSystem& contact = *fixture.contact;
+  const auto lifted = [&](double by) {
+    return Fixture::vector(fixture.dofs, [&](GlobalOrdinal id) { return id < 10 && id % 2 == 1 ? by : 0.0; });
+  };
+  const MultiVector places = places_of(fixture, flat);
+  for (const double by : {0.0, 0.05, 0.3}) {
+    SCOPED_TRACE(by);
+    const RCP<Vector> d = lifted(by);
+    Vector z(contact.multiplier_map());
+    const ContactHistory history = contact.start_step(contact.initial_history(*d), *d, z);
+    const DifferentiatedContact at = contact.differentiate(*d, history);
+    const ContactLaws laws = at.laws(z);
+    EXPECT_EQ(laws.norms(history->states).active, by == 0.0 ? 5 : 0);
+
+    const auto near = bearing_nodes(laws, places), covered = bearing_nodes(laws, places, OpenNodes::covered);
+    EXPECT_EQ(sum_over_ranks(fixture, static_cast<int>(near.size())), by < 0.1 ? 5 : 0);
+    EXPECT_EQ(sum_over_ranks(fixture, static_cast<int>(covered.size())), 5);
+    Vector guess(z, Teuchos::Copy);
+    for (const BearingNode& node : covered) {
+      EXPECT_EQ(node.closed, by == 0.0);
+      EXPECT_NEAR(node.gap, by, 1e-14);
+      EXPECT_NEAR(node.near, 0.1, 1e-14);
+      guess_closed(laws, node, guess);
+    }
+    EXPECT_EQ(at.laws(guess).norms(history->states).active, 5);
+  }
+}
+
+// Surfaces that touch bear nothing yet; what is guessed to be closed bears pressure.
+TEST(StartRuleOfPressureLaws, GapsAreThoseToWhereThePressureBegins) {
   const auto table = std::make_shared<TabulatedPressure>();
   table->overclosures = {0.1, 0.2};
   table->pressures = {0.0, 10.0};
   const auto formulation = std::make_shared<PressureOverclosure>();
   formulation->law.options = table;
-  TwoSurfaces flat;
+  TwoSurfaces flat = five_nodes_over_three_facets();
   flat.options.formulation.options = formulation;
-  for (int i = 0; i < 5; ++i) flat.slave.push_back({1.0 * i, 0.0, 0.0});
-  for (int i = 0; i < 4; ++i) flat.master.push_back({4.0 * (3 - i) / 3.0, 0.0, 0.0});
-  flat.fixed.assign(flat.size(), {});
   Fixture fixture(flat, Tpetra::getDefaultComm());
   const ContactSystem& contact = *fixture.contact;
-  for (const char unheld : {0, 1}) {
-    Vector d(fixture.dofs), z(contact.multiplier_map());
-    const std::vector<char> unconstrained(fixture.nodes->getNodeNumElements(), unheld);
-    const ContactHistory history = contact.start_step(contact.initial_history(d), d, unconstrained, z);
-    EXPECT_EQ(contact.evaluate(d, history).laws(z).norms(history->states).active, unheld ? 5 : 0);
+  Vector d(fixture.dofs), z(contact.multiplier_map());
+  const ContactHistory history = contact.start_step(contact.initial_history(d), d, z);
+  const DifferentiatedContact at = contact.differentiate(d, history);
+  const ContactLaws laws = at.laws(z);
+  EXPECT_EQ(laws.norms(history->states).active, 0);
+  for (const BearingNode& node : bearing_nodes(laws, places_of(fixture, flat), OpenNodes::covered)) {
+    EXPECT_NEAR(node.gap, 0.1, 1e-14);
+    guess_closed(laws, node, z);
   }
+  EXPECT_EQ(at.laws(z).norms(history->states).active, 5);
 }
 
 /// A flat slave of squares, 4 x 4 nodes at unit distance; in 2D one row of 6 nodes. The master, at height 0, ends at x = `end`.

@@ -214,7 +214,7 @@ class Fixture {
 
   /// The history of a first step from displacement d; no body is held by contact alone. The start rule changes z.
   ContactHistory first_step(const Vector& d, Vector& z) const {
-    return contact->start_step(contact->initial_history(d), d, std::vector<char>(nodes->getNodeNumElements(), 0), z);
+    return contact->start_step(contact->initial_history(d), d, z);
   }
 
   /// K of springs: symmetric part with a dominant diagonal, and an antisymmetric one, on the condensed system's graph.

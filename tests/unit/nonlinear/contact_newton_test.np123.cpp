@@ -232,9 +232,8 @@ TEST(ContactNewton, SlidesOverManyFacets) {
   StepperObserver observer;
   observer.iteration = [&](const NewtonIteration& iteration) { iterations += iteration.iteration > 0; };
   observer.accepted = [&](const StepReport& report, const SystemEvaluation&) { cutbacks += report.cutbacks; };
-  const std::vector<char> unconstrained(problem.grid->owned_nodes().size(), 0);
   const auto start = [&](const AcceptedState& from, double time, const Vector& d, Vector& z) {
-    return problem.system->start_step(from, time, unconstrained, d, z);
+    return problem.system->start_step(from, time, d, z);
   };
   SteppingState state(problem.system->initial_state(*problem.x));
   EXPECT_TRUE(run_steps(*problem.system, stepping, {}, state, start, observer, failure));

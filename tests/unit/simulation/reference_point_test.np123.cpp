@@ -150,7 +150,7 @@ TEST_P(ReferencePoints, JacobianAgreesWithCentralDifferences) {
   SteppingState state(system.initial_state(Vector(system.map())));
   std::optional<StepFailure> failure;
   const auto start = [&](const AcceptedState& from, double time, const Vector& d, Vector& z) {
-    return system.start_step(from, time, model.held_by_contact_only(), d, z);
+    return system.start_step(from, time, d, z);
   };
   SteppingOptions stepping = scene.stepping;
   stepping.end_time = 0.5;

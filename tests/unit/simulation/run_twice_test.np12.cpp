@@ -176,7 +176,7 @@ std::string steps_of(const Scene& scene, const std::function<void()>& interrupti
   SteppingState state(system.initial_state(Vector(system.map())));
   std::optional<StepFailure> failure;
   const auto start = [&](const AcceptedState& from, double time, const Vector& d, Vector& z) {
-    return system.start_step(from, time, model.held_by_contact_only(), d, z);
+    return system.start_step(from, time, d, z);
   };
   EXPECT_TRUE(run_steps(system, scene.stepping, scene.newton, state, start, observer, failure)) << (failure ? failure->what() : "");
   EXPECT_GT(count, 2);

@@ -141,7 +141,7 @@ Reached run_to(const Scene& scene, const Model& model, const SemiSmoothSystem& s
   SteppingState state(system.initial_state(Vector(system.map())));
   std::optional<StepFailure> failure;
   const auto start = [&](const AcceptedState& from, double to, const Vector& d, Vector& z) {
-    return system.start_step(from, to, model.held_by_contact_only(), d, z);
+    return system.start_step(from, to, d, z);
   };
   SteppingOptions stepping = scene.stepping;
   stepping.end_time = time;

@@ -55,13 +55,19 @@ RigidModes::RigidModes(const Mesh& mesh, bool axisymmetric, std::vector<int> bod
 
 const char* RigidModes::name(int mode) const { return rigid_mode_name(dimension_, axisymmetric_, mode); }
 
-void RigidModes::add_wrench(int b, const Eigen::Vector3d& force, const Eigen::Vector3d& moment, Eigen::RowVectorXd& row) const {
+Eigen::RowVectorXd RigidModes::works_of_wrench(const Eigen::Vector3d& force, const Eigen::Vector3d& moment) const {
+  Eigen::RowVectorXd works(per_body());
   if (axisymmetric_)
-    row(b) += force.y();
+    works << force.y();
   else if (dimension_ == 2)
-    row.segment<3>(3 * b) += Eigen::RowVector3d(force.x(), force.y(), moment.z());
+    works << force.x(), force.y(), moment.z();
   else
-    row.segment<6>(6 * b) << row.segment<3>(6 * b) + force.transpose(), row.segment<3>(6 * b + 3) + moment.transpose();
+    works << force.transpose(), moment.transpose();
+  return works;
+}
+
+void RigidModes::add_wrench(int b, const Eigen::Vector3d& force, const Eigen::Vector3d& moment, Eigen::RowVectorXd& row) const {
+  row.segment(per_body() * b, per_body()) += works_of_wrench(force, moment);
 }
 
 void RigidModes::add(int body, const Eigen::Vector3d& x, const Eigen::Vector3d& direction, Eigen::RowVectorXd& row) const {

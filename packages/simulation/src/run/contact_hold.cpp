@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "mortise/contact/holding_nodes.hpp"
 #include "mortise/core/symmetric_spectrum.hpp"
 
 namespace mortise {
@@ -22,8 +21,9 @@ bool has_friction(const Model& model, const std::string& pair) {
   return false;
 }
 
-/// Bodies that a Gram matrix couples have the same number.
-std::vector<int> groups_of(const Eigen::MatrixXd& gram, int per_body) {
+}  // namespace
+
+std::vector<int> coupled_bodies(const Eigen::MatrixXd& gram, int per_body) {
   const int bodies = static_cast<int>(gram.rows()) / per_body;
   std::vector<int> group(bodies);
   std::iota(group.begin(), group.end(), 0);
@@ -36,8 +36,6 @@ std::vector<int> groups_of(const Eigen::MatrixXd& gram, int per_body) {
   return group;
 }
 
-}  // namespace
-
 RCP<MultiVector> contact_places(const Mesh& mesh, const RigidModes& modes, const std::vector<Eigen::Vector3d>& x) {
   const auto result = rcp(new MultiVector(mesh.owned_nodes, static_cast<std::size_t>(1 + mesh.dimension)));
   const auto values = result->getLocalViewHost(Tpetra::Access::OverwriteAll);
@@ -49,7 +47,8 @@ RCP<MultiVector> contact_places(const Mesh& mesh, const RigidModes& modes, const
   return result;
 }
 
-ContactHold contact_hold(const Model& model, const RigidModes& modes, const NodePlaces& at, const ContactLaws& laws) {
+ContactHold contact_hold(const Model& model, const RigidModes& modes, const NodePlaces& at, const ContactLaws& laws,
+                         HeldTangents tangents) {
   const Mesh& mesh = *model.mesh();
   const int size = modes.count();
   const std::size_t pairs = model.contact()->pairs();
@@ -58,7 +57,7 @@ ContactHold contact_hold(const Model& model, const RigidModes& modes, const Node
   Eigen::Map<Eigen::MatrixXd> gram(mine.data(), size, size);
   double* counts = mine.data() + static_cast<std::size_t>(size) * size;
   bool after_normal = false;  // tangents of a node follow its normal
-  for (const HoldingRow& row : holding_rows(laws, *contact_places(mesh, modes, at.x))) {
+  for (const HoldingRow& row : holding_rows(laws, *contact_places(mesh, modes, at.x), tangents)) {
     if (!row.along_surface) ++counts[2 * row.pair];
     if (row.along_surface && after_normal) ++counts[2 * row.pair + 1];
     after_normal = !row.along_surface;
@@ -81,7 +80,7 @@ ContactHold contact_hold(const Model& model, const RigidModes& modes, const Node
 }
 
 Eigen::MatrixXd free_motions(const Eigen::MatrixXd& gram, int per_body, double hardly_held, const Eigen::MatrixXd& reference) {
-  const std::vector<int> group = groups_of(gram, per_body);
+  const std::vector<int> group = coupled_bodies(gram, per_body);
   Eigen::MatrixXd motions(gram.rows(), 0);
   for (int g = 0; g < static_cast<int>(group.size()); ++g) {
     std::vector<Eigen::Index> rows;

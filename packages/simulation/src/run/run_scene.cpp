@@ -28,11 +28,13 @@
 #include "run/explain_failure.hpp"
 #include "run/explain_statics.hpp"
 #include "run/limit_load.hpp"
+#include "run/motion_hold.hpp"
 #include "run/restart.hpp"
 #include "run/run_output.hpp"
 #include "run/run_record.hpp"
 #include "run/scene_changes.hpp"
 #include "run/slip_settlement.hpp"
+#include "run/start_rule.hpp"
 #include "run/stop_request.hpp"
 #include "run/surface_watch.hpp"
 #include "run/timer_sums.hpp"
@@ -117,7 +119,18 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
     settlement.emplace(model);
     parts.better_start = [&](const SystemEvaluation& at) { return settlement->better_start(at); };
   }
+  // Parts of the system that look at its iterates, while it is solved.
+  const SemiSmoothSystem* whole = nullptr;
+  std::vector<int> loose;  // bodies that contact alone holds
+  if (StateCheck::is_needed(model)) {
+    loose = bodies_held_by_contact_only(model);
+    parts.held_motions = [&](const SystemEvaluation& at) {
+      const auto timer = timers.scope("free motions");
+      return motions_without_load(model, *whole, at, loose, scene.newton.momentum_tolerance);
+    };
+  }
   const SemiSmoothSystem system(std::move(parts), timers);
+  whole = &system;
   StepEvaluation evaluation(scene, model, system);
 
   const auto warn = [&](const std::string& line) { log.warning(line); };
@@ -196,7 +209,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
         const double left = 1.0 - time / scene.contact[pair].value.start.taken_up_at.value_or(taken_up);
         allowed.context.contact = model.contact()->allow_overlap(*allowed.context.contact, pair, depth * std::max(0.0, left));
       }
-    return system.start_step(allowed, time, model.held_by_contact_only(), d, z);
+    return system.start_step(allowed, time, d, z);
   };
   {
     const auto timer = timers.scope("steps");
@@ -269,6 +282,8 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
       if (check) check->without_free_motions(system, at, dt, rate);
     };
     if (check) {
+      functions.close = [&, rule = StartRule(model, loose, scene.newton.momentum_tolerance, [&](const std::string& line) { log.info(line); })](
+                            const SystemEvaluation& start) { return rule.close(system, start); };
       functions.begin = [&, begin = functions.begin](int step, double time, double dt) {
         check->begin();
         if (settlement) settlement->begin();

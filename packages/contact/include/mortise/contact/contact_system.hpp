@@ -98,13 +98,11 @@ class ContactSystem {
   /// only for another one `bulk` is asked for the bulk's, which is not kept.
   RCP<const Graph> graph(const ContactEvaluation& evaluation, const std::function<RCP<const Graph>()>& bulk) const;
 
-  /// The start of a step from displacement d: kinks of the slave surfaces are chosen as the accepted state tells. Then the start rule: multipliers of
-  /// nodes that touch, and seeds for bodies that only contact holds, are set to a small pressure. Only the guess z is changed.
-  /// @param unconstrained  for each owned node whether it belongs to a body that nothing but contact holds
+  /// The start of a step from displacement d: kinks of the slave surfaces are chosen as the accepted state tells. Then multipliers of nodes
+  /// that touch are set to a small pressure. Only the guess z is changed. For a body with a load that nothing holds, guess_closed() closes more.
   /// @return the history that holds within the step
   /// @throws StepFailure on every rank, as evaluate()
-  /// @throws std::invalid_argument on every rank for another number of entries than owned nodes
-  ContactHistory start_step(const ContactHistory& accepted, const NodalDisplacement& d, const std::vector<char>& unconstrained, Vector& z) const;
+  ContactHistory start_step(const ContactHistory& accepted, const NodalDisplacement& d, Vector& z) const;
 
   /// By how much the surfaces of a pair may lie in one another, 0 unless said: what is left of an overlap that is taken up bit by bit. Conditions of
   /// the pair then see gaps g_j + depth A_j; node_states() tells those that there are.

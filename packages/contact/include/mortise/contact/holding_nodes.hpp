@@ -35,11 +35,14 @@ struct SlidingNode {
   std::vector<std::vector<HoldingRow::Wrench>> along;
 };
 
-/// A covered slave node whose gap is within reach of closing.
+/// A covered slave node that bears pressure, or would if it closed.
 struct BearingNode {
   std::size_t pair = 0;         ///< its contact pair
+  std::size_t slave = 0;        ///< its place among the owned slave nodes of the pair
   LocalOrdinal owned_node = 0;  ///< local index in the map of owned nodes
-  bool closed = false;          ///< its state; open: it is about to close
+  bool closed = false;          ///< its state; open: it may close
+  double gap = 0.0;             ///< how far it is from where it bears pressure, in the mean [length]
+  double near = 0.0;            ///< the gap up to which an open node counts as about to close: 0.1 h
   double friction = 0.0;        ///< |z_tau| <= friction z_n whatever z_n; infinite: the law says no more
   /// What a unit pressure does to each body, as f_c: forces on bodies are its negative.
   std::vector<HoldingRow::Wrench> normal;
@@ -47,16 +50,28 @@ struct BearingNode {
   std::vector<std::vector<HoldingRow::Wrench>> along;
 };
 
-/// Directions in which the owned slave nodes of all pairs hold. They are the normal of each closed node, and where it sticks the tangents along which
+/// Whose tangents hold.
+enum class HeldTangents {
+  of_sticking_nodes,  ///< those that resist
+  of_closed_nodes     ///< those of slipping nodes too, which bear a load, whether or not it is enough
+};
+/// Directions in which the owned slave nodes of all pairs hold. They are the normal of each closed node, and with friction the tangents along which
 /// it may bear shear. Collective.
 /// @param places  [owned nodes x 1 + dim] the body that a node counts for, below 0: none. The other columns are its position, in any unit, relative
 ///                to the point of the body that moments are taken about
-std::vector<HoldingRow> holding_rows(const ContactLaws& laws, const MultiVector& places);
+std::vector<HoldingRow> holding_rows(const ContactLaws& laws, const MultiVector& places,
+                                     HeldTangents tangents = HeldTangents::of_sticking_nodes);
 /// Of the owned slave nodes of all pairs with friction that is not regularised; those that bear shear freely, without a fixed component. `places` as
 /// above. Collective.
 std::vector<SlidingNode> sliding_nodes(const ContactLaws& laws, const MultiVector& places);
-/// Of the owned slave nodes of all pairs those that are closed, or covered and near. Near are the nodes that ContactSystem::start_step() closes for a
-/// body that only contact holds: within 0.1 h. `places` as above. Collective.
-std::vector<BearingNode> bearing_nodes(const ContactLaws& laws, const MultiVector& places);
+/// Which open nodes count among those that may bear something.
+enum class OpenNodes {
+  near,    ///< whose gap is no larger than BearingNode::near
+  covered  ///< all that stand before a master within the search reach
+};
+/// Of the owned slave nodes of all pairs those that are closed, and some that are open. `places` as above. Collective.
+std::vector<BearingNode> bearing_nodes(const ContactLaws& laws, const MultiVector& places, OpenNodes open = OpenNodes::near);
+/// Gives an open node a guess of its multiplier with which it is closed, at a pressure that no result can see: z_n = max(0, c_n g) + 1e-6 E.
+void guess_closed(const ContactLaws& laws, const BearingNode& node, Vector& z);
 
 }  // namespace mortise

@@ -11,6 +11,7 @@
 #include "mortise/core/timers.hpp"
 #include "mortise/core/types.hpp"
 #include "mortise/nonlinear/contribution.hpp"
+#include "mortise/nonlinear/held_motions.hpp"
 #include "mortise/nonlinear/linear_solver.hpp"
 #include "mortise/nonlinear/system_evaluation.hpp"
 #include "mortise/nonlinear/system_linearisation.hpp"
@@ -38,6 +39,8 @@ struct SystemParts {
   /// For an x at which the Jacobian is singular although the system has a solution: a better point to linearise at, or null where there is none. It
   /// is close to x as far as Newton's method is concerned. Collective; empty: never.
   std::function<RCP<Vector>(const SystemEvaluation& at)> better_start;
+  /// The motions that a Newton step from there leaves out. Nothing: none. Collective; empty: never any.
+  std::function<std::optional<HeldMotions>(const SystemEvaluation& at)> held_motions;
   double length = 1.0;  ///< size of the model
   /// All fields if there is more than one: then norms are taken of each. The first, in whose units norms are given, has the size `length`.
   std::vector<SystemField> fields;
@@ -75,14 +78,15 @@ class SemiSmoothSystem {
   StepContext step_from(const AcceptedState& state, double time) const;
   /// What holds within a step, or another try of it, that starts at displacement d from a state. Multipliers z get their guesses
   /// (ContactSystem::start_step()). Throws StepFailure on every rank.
-  /// @param unconstrained  for each owned node whether it belongs to a body that nothing but contact holds
-  StepContext start_step(const AcceptedState& state, double time, const std::vector<char>& unconstrained, const Vector& d, Vector& z) const;
+  StepContext start_step(const AcceptedState& state, double time, const Vector& d, Vector& z) const;
 
   /// F(x) = (r, C). Dirichlet rows hold s (d - prescribed), rows of followers s (d - what they follow), whose forces stand in the rows of what they
   /// follow. Throws StepFailure on every rank, and std::invalid_argument for a context without a history where there is contact.
   SystemEvaluation evaluate(const Vector& x, const StepContext& context) const;
   /// The same at the displacement of an accepted state, with multipliers z: internal forces that are known are taken.
   SystemEvaluation evaluate_at(const AcceptedState& state, const Vector& z, const StepContext& context) const;
+  /// The same displacement with other multipliers: what is known of an evaluation is taken.
+  SystemEvaluation with_multipliers(const SystemEvaluation& evaluation, const Vector& z) const;
   /// max |d - prescribed| of x at a time, relative to the size of the field; costs next to nothing.
   double prescribed_deviation(const Vector& x, double time) const;
   /// Multipliers follow what is covered since the iterate that was linearised last (ContactEvaluation::follow_cover()). Nothing if none changes.

@@ -59,6 +59,10 @@ class SystemEvaluation {
   /// The contact conditions at x.
   /// @throws std::logic_error without contact
   const ContactLaws& contact_laws() const;
+  /// f_int - f_ext + f_c on all owned dofs, those of followers not gathered.
+  const Vector& nodal_forces() const;
+  /// f_int on all owned dofs.
+  const Vector& internal_forces() const;
   /// f_int - f_ext + f_c on all owned dofs, without Dirichlet rows. On prescribed dofs, and on all of nodes that inclined supports hold, these are
   /// the reactions, those of followers gathered.
   RCP<Vector> forces() const;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "mortise/nonlinear/held_motions.hpp"
 #include "mortise/nonlinear/linear_solver.hpp"
 #include "mortise/nonlinear/system_evaluation.hpp"
 
@@ -27,10 +28,11 @@ class SystemLinearisation {
   /// Newton direction: solves J dx = -F. It does so by condensation or, where the contact keeps multipliers, as a saddle point system. F is the
   /// evaluation's residual. Without contact and followers it may be any vector: a condensing contact forms the rows of C itself. `tolerance`: see
   /// LinearSolver::solve(). Without the geometric stiffness of contact it is not Newton's direction. Where contact's geometry does not change, it
-  /// depends on the states of the nodes alone and not on their multipliers.
+  /// depends on the states of the nodes alone and not on their multipliers. Motions that are `held` are left out of it.
   /// @throws StepFailure (linear_solver) on every rank
   LinearSolveReport newton_direction(const Vector& F, Vector& direction, double tolerance = 0.0,
-                                     GeometricContactStiffness geometric_stiffness = GeometricContactStiffness::included) const;
+                                     GeometricContactStiffness geometric_stiffness = GeometricContactStiffness::included,
+                                     const HeldMotions* held = nullptr) const;
 
  private:
   friend class SemiSmoothSystem;

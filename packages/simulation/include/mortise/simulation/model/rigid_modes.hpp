@@ -39,6 +39,8 @@ class RigidModes {
   const Eigen::Vector3d& centre(int b) const { return centres_[b]; }
   double size(int b) const { return sizes_[b]; }
 
+  /// [per_body()] Work of a force, and of a moment over the size, about the centre of a body.
+  Eigen::RowVectorXd works_of_wrench(const Eigen::Vector3d& force, const Eigen::Vector3d& moment) const;
   /// row += work of a force, and of a moment over the size, about the centre of bodies()[b].
   void add_wrench(int b, const Eigen::Vector3d& force, const Eigen::Vector3d& moment, Eigen::RowVectorXd& row) const;
   /// row += direction . motions of a body at x; nothing for a body that is not in bodies().

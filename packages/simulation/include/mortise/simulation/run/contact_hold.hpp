@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "mortise/contact/holding_nodes.hpp"
 #include "mortise/simulation/model/model.hpp"
 #include "mortise/simulation/model/rigid_modes.hpp"
 
@@ -25,7 +26,11 @@ struct ContactHold {
 RCP<MultiVector> contact_places(const Mesh& mesh, const RigidModes& modes, const std::vector<Eigen::Vector3d>& x);
 
 /// At the laws of contact at a state with derivatives, where nodes are `at`. Collective.
-ContactHold contact_hold(const Model& model, const RigidModes& modes, const NodePlaces& at, const ContactLaws& laws);
+ContactHold contact_hold(const Model& model, const RigidModes& modes, const NodePlaces& at, const ContactLaws& laws,
+                         HeldTangents tangents = HeldTangents::of_sticking_nodes);
+
+/// [bodies] Bodies that a Gram matrix couples have the same number.
+std::vector<int> coupled_bodies(const Eigen::MatrixXd& gram, int per_body);
 
 /// Motions that a Gram matrix of what holds them leaves free: orthonormal columns [rows of gram x motions]. Bodies that hold one another are looked
 /// at together, others by themselves. A motion is free where what it costs is below hardly_held^2 of the most that another one costs. The bound is
