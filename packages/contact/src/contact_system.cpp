@@ -209,12 +209,13 @@ DifferentiatedContact ContactSystem::differentiate(const NodalDisplacement& d, c
   return DifferentiatedContact(model_->evaluate(model_, model_->positions(d), history, last, true));
 }
 
-RCP<const Graph> ContactSystem::graph(const ContactEvaluation& evaluation, const std::function<RCP<const Graph>()>& bulk) const {
+RCP<const Graph> ContactSystem::graph(const ContactEvaluation& evaluation, const std::function<RCP<const Graph>()>& bulk, long bulk_version) const {
   const detail::EvaluatedContact& contact = detail::evaluated(evaluation);
-  if (!model_->scatter || !model_->scatter->fits(contact.pairs)) {
+  if (!model_->scatter || !model_->scatter->fits(contact.pairs) || model_->bulk_version != bulk_version) {
     const auto scope = model_->timers.scope("contact");
     const auto part = model_->timers.scope("contact graph");
     model_->scatter = std::make_shared<detail::SystemScatter>(*bulk(), contact);
+    model_->bulk_version = bulk_version;
   }
   return model_->scatter->graph();
 }

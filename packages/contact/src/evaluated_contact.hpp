@@ -44,6 +44,7 @@ struct ContactModel {
   std::vector<std::vector<LocalOrdinal>> master_nodes;                       ///< [pair] local indices in owned_nodes
   bool middles_first = false;                                                ///< there are multipliers that are condensed before others, on any rank
   mutable std::shared_ptr<SystemScatter> scatter;                            ///< of the last evaluation that was asked for a graph; null: none yet
+  mutable long bulk_version = 0;                                             ///< of the bulk's graph that it was built from
   mutable std::vector<std::shared_ptr<const InterfaceDofs>> interface_dofs;  ///< [pairs] the last of dofs_of()
 
   const Communicator& comm() const { return *dofs->getComm(); }

@@ -102,7 +102,7 @@ std::shared_ptr<const EvaluatedSystem> SystemModel::evaluate(const Vector& x, co
     if (at.internal.is_null()) at.internal = internal = rcp(new Vector(parts_.dofs));
     std::optional<StepFailure> failure;
     for (const auto& contribution : parts_.contributions)
-      if (contribution->kind() == Contribution::Kind::external)
+      if (contribution->kind() != Contribution::Kind::internal)
         contribution->add_residual(configuration, external, failure);
       else if (!internal.is_null())
         contribution->add_residual(configuration, *internal, failure);
@@ -205,7 +205,8 @@ const RCP<Matrix>& SystemModel::stiffness(const std::shared_ptr<const EvaluatedS
   if (!matrix_of_.owner_before(at) && !at.owner_before(matrix_of_)) return matrix_;
   matrix_of_.reset();
   // The bulk's graph, or the larger one that the present candidates of contact ask for.
-  const RCP<const Graph> graph = at->contact         ? parts_.contact->graph(*at->contact, parts_.bulk_graph)
+  const long version = parts_.bulk_version ? parts_.bulk_version() : 0;
+  const RCP<const Graph> graph = at->contact         ? parts_.contact->graph(*at->contact, parts_.bulk_graph, version)
                                  : matrix_.is_null() ? parts_.bulk_graph()
                                                      : matrix_->getCrsGraph();
   if (matrix_.is_null() || matrix_->getCrsGraph() != graph)

@@ -8,9 +8,12 @@
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
+#include <cmath>
 
 #include "model/adjusted_slaves.hpp"
 #include "model/contributions.hpp"
+#include "model/current_places.hpp"
+#include "model/edge_contact.hpp"
 #include "model/inclined_supports.hpp"
 #include "model/precision.hpp"
 #include "model/search_reach.hpp"
@@ -176,6 +179,24 @@ ScalarFunction seen_from(const ScalarFunction& function, const std::array<double
       function.source(), function.place());
 }
 
+/// Null where no pair has sharp edges on both sides. Collective.
+/// @param reaches  [pairs of the scene]
+std::shared_ptr<EdgeContact> make_edge_contact(const std::shared_ptr<const Bodies>& bodies, const Scene& scene, const std::vector<double>& reaches,
+                                               double length, const Timers& timers) {
+  std::vector<double> compliances;
+  for (const BodyProperties& block : bodies->properties())
+    compliances.push_back(block.is_rigid() ? 0.0 : (1.0 - std::pow(block.material->poissons_ratio, 2)) / block.material->youngs_modulus);
+  EdgeSearch search(*bodies->mesh(), scene, compliances, reaches);
+  if (!search.any()) return nullptr;
+  std::vector<std::string> names;
+  for (const auto& pair : scene.contact) names.push_back(pair.name);
+  const auto displaced = [bodies, length](const Vector& displacement) {
+    const PlaceOfNode at = current_places(*bodies, displacement);
+    return PlacedBodies{*bodies->mesh(), at, body_boxes(*bodies->mesh(), at), length, touching_depth * length};
+  };
+  return std::make_shared<EdgeContact>(bodies, std::move(search), std::move(names), displaced, timers);
+}
+
 Effects effects_of(const Scene& scene, const Bodies& bodies) {
   std::vector<std::string> finite, small, f_bar, plastic, pairs, rubbing, loads, conditions;
   std::vector<std::string> rigid, points, ties;
@@ -336,6 +357,15 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
 
   if (pairs.empty()) return;
   bodies_of_pairs_ = bodies_of(*mesh_, pairs);
+  std::vector<double> reaches;
+  for (std::size_t p = 0; p < scene.contact.size(); ++p)
+    reaches.push_back(pairs[p].options.mortar.search_reach.value_or(surfaces_at_start_.pairs[p].longest));
+  if (const auto edges = make_edge_contact(bodies_, scene, reaches, size_.length, timers)) {
+    edges_ = edges;
+    parts_.contributions.push_back(edges);
+    parts_.bulk_graph = [edges] { return edges->graph(); };
+    parts_.bulk_version = [edges] { return edges->graph_version(); };
+  }
   const std::array<double, 3> origin = contact_origin(*mesh_, size_.length, axisymmetric);
   for (ContactPair& pair : pairs)
     if (pair.options.clearance) pair.options.clearance = seen_from(*pair.options.clearance, origin);

@@ -7,7 +7,9 @@ namespace {
 
 double contact_force_of(const ContactForce& quantity, const QuantityContext& context, std::size_t of_pair) {
   const int i = static_cast<int>(quantity.component);
-  if (quantity.part == ContactForce::Part::all) return resultant(*context.laws, of_pair)[i];
+  // Edges have no friction.
+  const double of_edges = context.edge_force && quantity.part != ContactForce::Part::tangential ? context.edge_force(of_pair)[i] : 0.0;
+  if (quantity.part == ContactForce::Part::all) return resultant(*context.laws, of_pair)[i] + of_edges;
   double force = 0.0;
   const auto subtract = [&](std::size_t pair, double sign) {
     for (const auto& state : node_states(*context.laws, pair)) {
@@ -17,7 +19,7 @@ double contact_force_of(const ContactForce& quantity, const QuantityContext& con
   };
   subtract(of_pair, 1.0);
   if (const auto other = context.contact->second_pass(of_pair)) subtract(*other, -1.0);
-  return sum_over_ranks(context.mesh(), force);
+  return sum_over_ranks(context.mesh(), force) + of_edges;
 }
 
 }  // namespace

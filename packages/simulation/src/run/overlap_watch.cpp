@@ -9,6 +9,7 @@
 #include <map>
 
 #include "model/current_places.hpp"
+#include "model/edge_contact.hpp"
 #include "mortise/mesh/sets.hpp"
 #include "mortise/mortar/quadratic_facet.hpp"
 #include "surfaces/facet_kinks.hpp"
@@ -42,6 +43,7 @@ OverlapWatch::Surface OverlapWatch::surface(const SidesOfBody& of_body) const {
 }
 
 bool OverlapWatch::carries_force(const Pair& pair, const ContactLaws& laws) const {
+  if (model_.edges() && model_.edges()->acts(pair.index)) return true;
   int mine = 0, any = 0;
   for (const ContactNodeState& node : node_states(laws, pair.index)) mine = mine || (node.closed && node.pressure > 0.0);
   Teuchos::reduceAll(*model_.mesh()->comm, Teuchos::REDUCE_MAX, mine, Teuchos::outArg(any));

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/contact_at_start.hpp"
+#include "model/edge_contact.hpp"
 #include "model/precision.hpp"
 #include "model/report_model.hpp"
 #include "mortise/core/memory.hpp"
@@ -24,6 +25,7 @@
 #include "mortise/simulation/run/state_check.hpp"
 #include "mortise/simulation/run/step_evaluation.hpp"
 #include "run/checkpoints.hpp"
+#include "run/coarse_crossing.hpp"
 #include "run/coarse_slave.hpp"
 #include "run/explain_failure.hpp"
 #include "run/explain_statics.hpp"
@@ -178,6 +180,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
   if (restart) remove_checkpoints_after(*comm, directory.path(), restart->step);
 
   SteppingState state = restored ? *std::move(restored) : SteppingState(system.initial_state(Vector(system.map())));
+  if (model.edges()) model.edges()->start_step(*system.displacement(*state.accepted.x));
   if (auto& context = state.accepted.context; context.contact) context.contact = model.contact()->with_clearances(*context.contact, context.time);
   std::optional<SystemEvaluation> last;  // of `state`, in the step that led there; none while another step is tried
   std::optional<StepFailure> failure;
@@ -203,6 +206,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
   const double taken_up = std::min(scene.stepping.step, scene.stepping.end_time);
   const auto start_step = [&](const AcceptedState& from, double time, const Vector& d, Vector& z) {
     AcceptedState allowed = from;
+    if (model.edges()) model.edges()->start_step(*system.displacement(*from.x));
     if (model.contact()) allowed.context.contact = model.contact()->with_clearances(*allowed.context.contact, time);
     for (std::size_t pair = 0; pair < scene.contact.size(); ++pair)
       if (const double depth = model.surfaces_at_start().pairs[pair].overlap.depth; depth > 0.0) {
@@ -223,6 +227,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
       return is_asked_to_stop;
     };
     functions.verify = [&](const AcceptedState& from, const SystemEvaluation& found, int round) -> RCP<Vector> {
+      if (model.edges()) model.edges()->examine(*system.displacement(found.x()));
       if (surfaces) surfaces->examine(*system.displacement(found.x()), found.contact_laws());
       if (check) {
         const auto timer = timers.scope("state check");
@@ -304,6 +309,9 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
       }
       if (record.converged && model.contact() && last)
         for (const std::string& line : slaves_too_coarse(model, scene, *system.displacement(*state.accepted.x), last->contact_laws()))
+          log.warning(line);
+      if (record.converged && model.edges() && last)
+        for (const std::string& line : crossings_too_coarse(model, scene, *system.displacement(*state.accepted.x), last->contact_laws()))
           log.warning(line);
     } catch (const InputError& error) {  // on every rank: a quantity's expression without a value
       failure.emplace(FailureKind::input, error.what());

@@ -4,6 +4,8 @@
 #include <Tpetra_Vector.hpp>
 #include <limits>
 
+#include "model/edge_contact.hpp"
+
 namespace mortise {
 
 StepEvaluation::StepEvaluation(const Scene& scene, const Model& model, const SemiSmoothSystem& system)
@@ -40,6 +42,8 @@ std::vector<double> StepEvaluation::quantities(const SystemEvaluation& at) {
   context.displacement = displacement.get();
   context.local_displacement = local_displacement.get();
   context.laws = contact_laws(at);
+  if (const EdgeContact* edges = model_.edges())
+    context.edge_force = [edges, local_displacement](std::size_t pair) { return edges->resultant(pair, *local_displacement); };
   context.reaction = reaction.get();
   context.external_force = external.get();
   context.force_round_off = force_round_off(*displacement);

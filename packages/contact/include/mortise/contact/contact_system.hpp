@@ -96,7 +96,8 @@ class ContactSystem {
 
   /// Graph of the condensed system at an evaluation: the bulk's, and what the pairs couple. The same graph as long as the candidates of contact stay;
   /// only for another one `bulk` is asked for the bulk's, which is not kept.
-  RCP<const Graph> graph(const ContactEvaluation& evaluation, const std::function<RCP<const Graph>()>& bulk) const;
+  /// @param bulk_version  another number than before: `bulk` gives another graph
+  RCP<const Graph> graph(const ContactEvaluation& evaluation, const std::function<RCP<const Graph>()>& bulk, long bulk_version = 0) const;
 
   /// The start of a step from displacement d: kinks of the slave surfaces are chosen as the accepted state tells. Then multipliers of nodes
   /// that touch are set to a small pressure. Only the guess z is changed. For a body with a load that nothing holds, guess_closed() closes more.

@@ -40,8 +40,8 @@ struct FieldUse {
 /// Evaluation never changes committed state; failures are put into `failure` (first one kept), the caller agrees on them over the ranks.
 class Contribution {
  public:
-  /// Whether it is a part of f_int or of f_ext.
-  enum class Kind { internal, external };
+  /// Whether it is a part of f_int or of f_ext, or acts between bodies. What is not internal is evaluated anew at each step's start.
+  enum class Kind { internal, external, interaction };
   virtual ~Contribution() = default;
 
   virtual std::string name() const = 0;  ///< by which its calls are counted and timed
@@ -49,7 +49,8 @@ class Contribution {
   /// What it reads and writes. A system refuses what it does not have.
   virtual FieldUse uses() const { return {}; }
 
-  /// residual += this contribution with its sign in r (external forces enter with a minus). Owned dofs; no communication.
+  /// residual += this contribution with its sign in r (external forces enter with a minus). Owned dofs. Collective for interactions, which may
+  /// communicate; others must not.
   /// Internal forces depend on displacement and committed state, not on time. commit(at) does not change those at `at`.
   virtual void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) = 0;
 

@@ -29,6 +29,7 @@ struct SystemParts {
   RCP<const Map> dofs;                                                       ///< owned
   RCP<const Map> local_dofs;                                                 ///< owned then ghosts
   std::function<RCP<const Graph>()> bulk_graph;                              ///< makes it: rows `dofs`; what the contributions' Jacobians write into
+  std::function<long()> bulk_version;                                        ///< another number for another bulk_graph(); empty: it stays. Read with contact alone
   std::vector<std::shared_ptr<Contribution>> contributions;                  ///< f_int - f_ext, as their sum
   std::shared_ptr<PrescribedDisplacements> prescribed;                       ///< never null; may have no dofs
   std::shared_ptr<DependentDisplacements> dependent;                         ///< null: every displacement is an unknown, prescribed or tied

@@ -17,6 +17,8 @@
 
 namespace mortise {
 
+class EdgeContact;
+
 /// Which effect is on for what: ("finite strain", bodies), ("contact", pairs), ... in the order in which they are shown.
 using Effects = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
@@ -56,6 +58,8 @@ class Model {
   const std::shared_ptr<const Bodies>& bodies() const { return bodies_; }
   /// Null if the scene has no contact.
   const std::shared_ptr<ContactSystem>& contact() const { return parts_.contact; }
+  /// Null if no edges of the scene's pairs may cross.
+  EdgeContact* edges() const { return edges_.get(); }
   /// For each owned node whether it belongs to a body that nothing but contact holds.
   const std::vector<char>& held_by_contact_only() const { return held_by_contact_only_; }
   /// mesh.bodies indices of the bodies on either side of each contact pair, second passes behind all pairs of the scene.
@@ -95,6 +99,7 @@ class Model {
   Supports supports_;
   std::string mesh_digest_;  ///< empty: that of the mesh as it is
   SystemParts parts_;
+  std::shared_ptr<EdgeContact> edges_;
 };
 
 }  // namespace mortise

@@ -1,6 +1,8 @@
 #pragma once
 // Numbers that a scene wants of its run.
 
+#include <array>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,6 +30,8 @@ struct QuantityContext {
   const Vector* displacement = nullptr;        ///< owned dofs
   const Vector* local_displacement = nullptr;  ///< owned dofs, then ghosts
   const ContactLaws* laws = nullptr;           ///< of contact at `displacement`; null without contact
+  /// Force of edges that cross, on the slave side of a pair, at `local_displacement`. Collective; empty: no edges may cross.
+  std::function<std::array<double, 3>(std::size_t pair)> edge_force{};
   /// f_int - f_ext + f_c on owned dofs: on prescribed ones the force of the support on the body, on followers that of their reference point
   const Vector* reaction = nullptr;
   const Vector* external_force = nullptr;                 ///< f_ext on owned dofs
