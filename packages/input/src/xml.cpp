@@ -51,7 +51,9 @@ class Converter {
     for (xmlNode* child = node->children; child; child = child->next) {
       const std::string tag = text_of(child->name);
       if (child->type == XML_COMMENT_NODE || child->type == XML_PI_NODE || xmlIsBlankNode(child)) continue;
-      if (child->type != XML_ELEMENT_NODE) {
+      if (child->type == XML_ENTITY_REF_NODE) {
+        say(child, result.place.path, fmt::format("the entity \"&{};\" stands in the place of elements; please write these out", tag));
+      } else if (child->type != XML_ELEMENT_NODE) {
         say(child, result.place.path, fmt::format("text outside of elements: \"{}\"", text_of(child->content)));
       } else if (tag == "ParameterList") {
         result.lists.push_back(list(child, result.place.path, false));
@@ -81,8 +83,8 @@ class Converter {
         if (wanted == "name")
           say(node, path, fmt::format("unknown attribute \"{}\" of <{}>; known: {}", name, text_of(node->name), quoted_list(allowed)));
       } else if (name == wanted) {
-        const std::unique_ptr<xmlChar, void (*)(void*)> content(xmlNodeGetContent(one->children ? one->children : reinterpret_cast<xmlNode*>(one)),
-                                                                xmlFree);
+        // Entities split a value into several nodes: the content is that of all of them.
+        const std::unique_ptr<xmlChar, void (*)(void*)> content(xmlNodeGetContent(reinterpret_cast<xmlNode*>(one)), xmlFree);
         value = text_of(content.get());
         found = true;
       }

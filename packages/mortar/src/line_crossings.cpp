@@ -8,8 +8,11 @@
 #include <cmath>
 #include <optional>
 
+#include "curved_crossings.hpp"
 #include "exchange.hpp"
+#include "facet_geometry.hpp"
 #include "line_distance.hpp"
+#include "mortise/mortar/facet_surface.hpp"
 #include "mortise/mortar/quadratic_facet.hpp"
 
 namespace mortise {
@@ -20,64 +23,82 @@ using TreePoint = geometry::model::point<double, 3, geometry::cs::cartesian>;
 using TreeBox = geometry::model::box<TreePoint>;
 using TreeSegment = geometry::model::segment<TreePoint>;
 
-/// Sine of the angle between line and facet below which they do not cross: that of facets that face one another.
-constexpr double grazing = 0.05;
-/// Distance of surface points from corners, over that of the centre.
+/// Distance of surface points from nodes, over that of the centre.
 constexpr double inset = 1e-5;
+/// Of mid-side nodes from the middles of their edges, over the size of the facet, below which a quadratic facet is made of its linear parts.
+constexpr double straight = 1e-12;
 
 TreePoint tree_point(const Eigen::Vector3d& x) { return {x[0], x[1], x[2]}; }
 
-/// A linear facet as it travels.
+/// A linear facet, or a curved quadratic one, as it travels.
 struct Piece {
-  std::array<double, 12> x{};
+  std::array<double, 3 * most_side_nodes> x{};
   int count = 0, tag = 0;
+  bool is_curved = false;
+
+  Piece() = default;
+  Piece(const FacetPlaces& points, int of, bool curved) : count(static_cast<int>(points.size())), tag(of), is_curved(curved) {
+    double* to = x.data();
+    for (const Eigen::Vector3d& point : points) to = std::copy(point.begin(), point.end(), to);
+  }
   Eigen::Vector3d point(int a) const { return Eigen::Map<const Eigen::Vector3d>(&x[3 * static_cast<std::size_t>(a)]); }
-  Box3 box() const {
+  FacetPlaces points() const {
+    FacetPlaces all;
+    for (int a = 0; a < count; ++a) all.push_back(point(a));
+    return all;
+  }
+  Box3 box(int dimension) const {
     Box3 box;
-    for (int a = 0; a < count; ++a) box.enclose(point(a));
+    if (is_curved && dimension == 3)
+      for (const Eigen::Vector3d& one : control_points<3>(points())) box.enclose(one);
+    else
+      for (int a = 0; a < count; ++a) box.enclose(point(a));
+    // x_2 - (x_0 + x_1)/2 is the most that a line of 3 nodes rises above its chord: the control point is twice as high.
+    if (is_curved && dimension == 2) box.enclose(2.0 * point(2) - 0.5 * (point(0) + point(1)));
     return box;
   }
 };
 
 std::vector<Piece> pieces_of(int dimension, const std::vector<TaggedFacet>& facets) {
   std::vector<Piece> pieces;
-  for (const TaggedFacet& facet : facets)
-    for (const FacetPart& part : linear_parts(dimension, facet.points.size())) {
-      Piece& piece = pieces.emplace_back();
-      piece.count = static_cast<int>(part.size());
-      piece.tag = facet.tag;
-      for (std::size_t a = 0; a < part.size(); ++a) Eigen::Map<Eigen::Vector3d>(&piece.x[3 * a]) = facet.points[static_cast<std::size_t>(part[a])];
-    }
+  for (const TaggedFacet& facet : facets) {
+    if (bend_of(dimension, facet.points) > straight * (facet.points[1] - facet.points[0]).norm())
+      pieces.emplace_back(facet.points, facet.tag, true);
+    else
+      for (const FacetPart& part : linear_parts(dimension, facet.points.size())) pieces.emplace_back(part_of(facet.points, part), facet.tag, false);
+  }
   return pieces;
 }
 
 double cross_2d(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a[0] * b[1] - a[1] * b[0]; }
 
-std::optional<Crossing> cross_line(const LineSegment& line, const Piece& piece) {
+/// @param least  sine of the angle between line and facet below which they do not cross
+std::optional<Crossing> cross_line(const LineSegment& line, const Piece& piece, double least) {
   const Eigen::Vector3d along = piece.point(1) - piece.point(0), offset = piece.point(0) - line.x;
-  const double across = cross_2d(line.d, along);  // the outward normal is (along_y, -along_x)
-  if (std::abs(across) < grazing * along.norm()) return std::nullopt;
+  const double across = cross_2d(line.d, along), length = along.norm();  // the outward normal is (along_y, -along_x)
+  if (std::abs(across) < least * length || across == 0.0) return std::nullopt;
   const double place = cross_2d(offset, line.d) / across;
   if (place < -on_facet || place > 1.0 + on_facet) return std::nullopt;
-  return Crossing{cross_2d(offset, along) / across, across > 0.0, piece.tag, across / along.norm()};
+  return Crossing{cross_2d(offset, along) / across, across > 0.0, piece.tag, across / length, Eigen::Vector3d(along[1], -along[0], 0.0) / length};
 }
 
-std::optional<Crossing> cross_triangle(const LineSegment& line, const Piece& piece, int second) {
+std::optional<Crossing> cross_triangle(const LineSegment& line, const Piece& piece, int second, double least) {
   const Eigen::Vector3d a = piece.point(0) - line.x, e = piece.point(second) - piece.point(0), f = piece.point(second + 1) - piece.point(0),
                         normal = e.cross(f);
   const double across = line.d.dot(normal);
-  if (std::abs(across) < grazing * normal.norm() || across == 0.0) return std::nullopt;
+  if (std::abs(across) < least * normal.norm() || across == 0.0) return std::nullopt;
   const double s = a.dot(normal) / across;
   const Eigen::Vector3d at = s * line.d - a;
   const double u = at.cross(f).dot(normal) / normal.squaredNorm(), v = e.cross(at).dot(normal) / normal.squaredNorm();
   if (u < -on_facet || v < -on_facet || u + v > 1.0 + on_facet) return std::nullopt;
-  return Crossing{s, across > 0.0, piece.tag, across / normal.norm()};
+  return Crossing{s, across > 0.0, piece.tag, across / normal.norm(), normal.normalized()};
 }
 
-std::optional<Crossing> cross(int dimension, const LineSegment& line, const Piece& piece) {
-  std::optional<Crossing> found = dimension == 2 ? cross_line(line, piece) : cross_triangle(line, piece, 1);
-  if (!found && piece.count == 4) found = cross_triangle(line, piece, 2);
-  return found && found->s >= line.low && found->s <= line.high ? found : std::nullopt;
+void cross(int dimension, const LineSegment& line, const Piece& piece, double least, std::vector<Crossing>& all) {
+  if (piece.is_curved) return cross_curved(dimension, line, piece.points(), piece.tag, least, all);
+  std::optional<Crossing> found = dimension == 2 ? cross_line(line, piece, least) : cross_triangle(line, piece, 1, least);
+  if (!found && piece.count == 4) found = cross_triangle(line, piece, 2, least);
+  if (found && found->s >= line.low && found->s <= line.high) all.push_back(*found);
 }
 
 Box3 box_of(const LineSegment& line) {
@@ -124,26 +145,49 @@ std::vector<Box3> boxes_over_ranks(const Communicator& comm, const std::vector<B
   return boxes;
 }
 
+namespace {
+
+std::vector<SurfacePoint> points_of_linear(int dimension, const FacetPlaces& x) {
+  std::vector<SurfacePoint> points;
+  Eigen::Vector3d normal, centre = Eigen::Vector3d::Zero();
+  if (dimension == 2)
+    normal = {x[1][1] - x[0][1], x[0][0] - x[1][0], 0.0};
+  else
+    normal = central_normal(x);
+  if (!(normal.norm() > 0.0)) return points;
+  normal.normalize();
+  for (const Eigen::Vector3d& corner : x) centre += corner / static_cast<double>(x.size());
+  for (std::size_t a = 0; a < x.size(); ++a)
+    points.push_back({x[a] + inset * (centre - x[a]), normal, static_cast<int>(a), (centre - x[a]).normalized()});
+  points.push_back({centre, normal, 0});
+  return points;
+}
+
+}  // namespace
+
 std::vector<SurfacePoint> surface_points(int dimension, const FacetPlaces& facet) {
+  if (facet.size() == facet_corners(dimension, facet.size())) return points_of_linear(dimension, facet);
   std::vector<SurfacePoint> points;
   for (const FacetPart& part : linear_parts(dimension, facet.size())) {
-    const FacetPlaces x = part_of(facet, part);
-    Eigen::Vector3d normal, centre = Eigen::Vector3d::Zero();
-    if (dimension == 2)
-      normal = {x[1][1] - x[0][1], x[0][0] - x[1][0], 0.0};
-    else
-      normal = x.size() == 3 ? (x[1] - x[0]).cross(x[2] - x[0]) : (x[2] - x[0]).cross(x[3] - x[1]);
-    if (!(normal.norm() > 0.0)) continue;
-    normal.normalize();
-    for (const Eigen::Vector3d& corner : x) centre += corner / static_cast<double>(x.size());
-    for (std::size_t a = 0; a < x.size(); ++a) points.push_back({x[a] + inset * (centre - x[a]), normal, part[a]});
-    points.push_back({centre, normal, part[0]});
+    Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+    for (const int a : part) centre += facet_node(dimension, facet.size(), static_cast<std::size_t>(a)) / static_cast<double>(part.size());
+    const FacetPoint middle = facet_point(dimension, facet, centre);
+    const auto add = [&](const FacetPoint& point, int node, const Eigen::Vector3d& inward) {
+      if (const double size = point.normal.norm(); size > 0.0) points.push_back({point.x, point.normal / size, node, inward});
+    };
+    for (const int a : part) {
+      const Eigen::Vector2d xi = facet_node(dimension, facet.size(), static_cast<std::size_t>(a));
+      const FacetPoint point = facet_point(dimension, facet, xi + inset * (centre - xi));
+      add(point, a, (middle.x - point.x).normalized());
+    }
+    add(middle, part[0], Eigen::Vector3d::Zero());
   }
   return points;
 }
 
 std::vector<std::vector<Crossing>> crossings(const Communicator& comm, int dimension, const std::vector<TaggedFacet>& facets,
-                                             const std::vector<LineSegment>& segments) {
+                                             const std::vector<LineSegment>& segments, Grazing grazing) {
+  const double least = grazing == Grazing::counted ? 0.0 : grazing_angle;
   Box3 mine;
   double length = 0.0;
   for (const LineSegment& segment : segments) {
@@ -169,13 +213,13 @@ std::vector<std::vector<Crossing>> crossings(const Communicator& comm, int dimen
   std::vector<std::vector<Piece>> send(boxes.size());
   for (const Piece& piece : pieces_of(dimension, facets))
     for (std::size_t r = 0; r < boxes.size(); ++r)
-      if (!boxes[r].empty() && boxes[r].meets(piece.box())) send[r].push_back(piece);
+      if (!boxes[r].empty() && boxes[r].meets(piece.box(dimension))) send[r].push_back(piece);
   std::vector<Piece> near;
   for (const auto& part : all_to_all(comm, send)) near.insert(near.end(), part.begin(), part.end());
 
   std::vector<std::pair<TreeBox, std::size_t>> entries;
   for (std::size_t p = 0; p < near.size(); ++p) {
-    const Box3 box = near[p].box(), wider = box.widened(slack + on_facet * box.diagonal());
+    const Box3 box = near[p].box(dimension), wider = box.widened(slack + on_facet * box.diagonal());
     entries.emplace_back(TreeBox(tree_point(wider.low), tree_point(wider.high)), p);
   }
   const geometry::index::rtree<std::pair<TreeBox, std::size_t>, geometry::index::rstar<16>> tree(entries);
@@ -185,8 +229,7 @@ std::vector<std::vector<Crossing>> crossings(const Communicator& comm, int dimen
     hits.clear();
     tree.query(geometry::index::intersects(TreeSegment(tree_point(line.x + line.low * line.d), tree_point(line.x + line.high * line.d))),
                std::back_inserter(hits));
-    for (const auto& hit : hits)
-      if (const auto crossing = cross(dimension, line, near[hit.second])) result[n].push_back(*crossing);
+    for (const auto& hit : hits) cross(dimension, line, near[hit.second], least, result[n]);
     std::sort(result[n].begin(), result[n].end(),
               [](const Crossing& a, const Crossing& b) { return std::tie(a.s, a.tag, a.leaves) < std::tie(b.s, b.tag, b.leaves); });
   }

@@ -312,6 +312,29 @@ TEST(ReadParameters, RefusesBrokenXml) {
   EXPECT_THAT(read("<a></b>\n<c>\n").errors, HasSubstr("scene.xml:2: error: not well-formed XML: Opening and ending tag mismatch"));
 }
 
+TEST(ReadParameters, PutsInWhatEntitiesStandFor) {
+  const XmlList root = parse_xml(
+      R"(<!DOCTYPE ParameterList [<!ENTITY v "23"><!ENTITY w "&v;4"><!ENTITY z "&#48;">]>
+<ParameterList name="s&v;"><Parameter name="a&w;b" type="string" value="1&v;&z;"/><Parameter name="c" type="string" value="&v;"/></ParameterList>)",
+      "scene.xml");
+  EXPECT_EQ(root.name, "s23");
+  ASSERT_EQ(root.parameters.size(), 2u);
+  EXPECT_EQ(root.parameters[0].name, "a234b");
+  EXPECT_EQ(root.parameters[0].value, "1230");
+  EXPECT_EQ(root.parameters[1].value, "23");
+  const auto error_of = [](const std::string& text) -> std::string {
+    try {
+      parse_xml(text, "scene.xml");
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(error_of("<!DOCTYPE l [<!ENTITY e \"<Parameter name='a' type='int' value='1'/>\">]>\n<ParameterList name=\"s\">&e;</ParameterList>"),
+              HasSubstr("scene.xml:2: error: the entity \"&e;\" stands in the place of elements"));
+  EXPECT_THAT(error_of("<!DOCTYPE l [<!ENTITY e SYSTEM \"/etc/hostname\">]>\n<ParameterList name=\"&e;\"/>"), HasSubstr("external entity"));
+}
+
 // The parser's limits keep it from running out of stack and memory.
 TEST(ReadParameters, RefusesXmlBeyondAnyScene) {
   std::string begin, end;

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "mesh_file_test_support.hpp"
 #include "mortise/mesh/cell_nodes.hpp"
 
@@ -247,6 +249,50 @@ TEST(Abaqus, SetsOfSetsDoNotGrowBeyondTheMesh) {
   std::string text = two_cubes + "*NSET, NSET=S0\n1, 2\n";
   for (int s = 1; s <= 40; ++s) text += "*NSET, NSET=S" + std::to_string(s) + "\nS" + std::to_string(s - 1) + ", S" + std::to_string(s - 1) + "\n";
   EXPECT_THAT(set_named(read_text(text).node_sets, "S40").members, ElementsAre(0, 1));
+}
+
+/// Each letter left out, doubled or exchanged with the next one.
+std::vector<std::string> misspellings(const std::string& word) {
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < word.size(); ++i) {
+    all.push_back(word.substr(0, i) + word.substr(i + 1));
+    all.push_back(word.substr(0, i) + word[i] + word.substr(i));
+    if (i + 1 < word.size() && word[i] != word[i + 1]) {
+      all.push_back(word);
+      std::swap(all.back()[i], all.back()[i + 1]);
+    }
+  }
+  return all;
+}
+
+std::string letters_of(std::string word) {
+  word.erase(std::remove(word.begin(), word.end(), ' '), word.end());
+  return word;
+}
+
+TEST(Abaqus, NoMisspeltKeywordOfTheMeshIsPassedOver) {
+  for (const std::string word : {"NODE", "ELEMENT", "NSET", "ELSET", "SURFACE", "PART", "INSTANCE", "END INSTANCE", "ASSEMBLY", "INCLUDE", "STEP"})
+    for (const std::string& wrong : misspellings(word)) {
+      if (letters_of(wrong) == letters_of(word)) continue;  // blanks do not count
+      const std::string text = refused_text(two_cubes + "*" + wrong + ", TYPE=C3D8, NAME=n\n3, 1\n");
+      EXPECT_THAT(text, HasSubstr("a.inp:18: error: there is no keyword *" + letters_of(wrong))) << wrong;
+    }
+  EXPECT_EQ(refused_text("*NODE\n1, 0, 0\n*ELEMNT, TYPE=C3D8\n1, 1, 2\n*NODES\n2, 0, 1\n"),
+            "a.inp:3: error: there is no keyword *ELEMNT; did you mean \"*ELEMENT\"?; what it stands for is not read, so nodes, elements or sets may "
+            "be missing\na.inp:5: error: there is no keyword *NODES; did you mean \"*NODE\"?; what it stands for is not read, so nodes, elements or "
+            "sets may be missing");
+  EXPECT_THAT(refused_text(two_cubes + "*QUITE SOMETHING ELSE\n"), HasSubstr("there is no keyword *QUITESOMETHINGELSE; what it stands for"));
+  EXPECT_THAT(refused_text(two_cubes + "*IMPERFECTION, FILE=f, STEP=1\n1, 0.1\n"), HasSubstr("a.inp:18: error: *IMPERFECTION is not read"));
+}
+
+TEST(Abaqus, KeywordsWithoutMeaningForAMeshAreListed) {
+  // CalculiX takes "fluid sections" for *FLUID SECTION, and passes over *MEMBRANE itself: its own examples have both.
+  const MeshFile file = read_text(two_cubes +
+                                  "*fluid sections, elset=e\n1.\n*Membrane, elset=e\n1.\n*VALUES AT INFINITY\n1.\n*Mohr Coulomb\n30.\n*Solid\tSection\n"
+                                  "*SOLIDSECTION\n*PRE-TENSION SECTION\n*BOUNDARYF\n*Boundary\n1, 1\n");
+  EXPECT_THAT(file.notes.back(),
+              "passed over, as they say nothing of the mesh: *BOUNDARY, *BOUNDARYF, *FLUID SECTION, *MEMBRANE SECTION, *MOHR COULOMB, *PRE-TENSION "
+              "SECTION, *SOLID SECTION (2), *VALUES AT INFINITY");
 }
 
 TEST(Abaqus, RangesOfLabelsCostNoMoreThanTheMesh) {

@@ -6,17 +6,12 @@
 #include <set>
 
 #include "abaqus_context.hpp"
+#include "abaqus_keywords.hpp"
 #include "abaqus_mesh_lines.hpp"
 #include "abaqus_set_lines.hpp"
 
 namespace mortise {
 namespace {
-
-/// Keywords that make nodes or elements in ways that are not read.
-const std::set<std::string>& refused_keywords() {
-  static const std::set<std::string> all{"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM", "PARAMETER", "IMPORT", "SUBSTRUCTURE"};
-  return all;
-}
 
 class AbaqusParser {
  public:
@@ -74,10 +69,12 @@ class AbaqusParser {
       read_instance(keyword);
     else if (name == "ENDINSTANCE")
       instance_open_ = false;
-    else if (refused_keywords().count(name) > 0)
+    else if (is_refused_keyword(name))
       context_.error(keyword.spot, fmt::format("*{} is not read; write the file with all nodes and elements, as preprocessors do", name));
+    else if (const auto known = keyword_without_mesh(name))
+      ++model_.passed_over[*known];
     else
-      ++model_.passed_over[name];
+      context_.error(keyword.spot, unknown_keyword(name));
   }
 
   // ---- parts and instances

@@ -27,7 +27,9 @@ namespace {
 // it is wrong by more than itself. A half width a of Hertz' contact, E/(1 - nu^2) a^2 pi/(4 R h) = p, is then less than half of h. A force that acts
 // on more nodes than those of one place is wider.
 constexpr double weighing = 1.0 / 12.0;
-constexpr int nodes_of_one_place(int dimension) { return dimension == 2 ? 2 : 4; }
+/// Turn over one facet from which on weighted gaps are off by more than a hundredth of it, h theta/12: a third of what takes a corner.
+constexpr double notable_turn = kink_angle / 3.0;
+constexpr int most_in_one_place(int dimension) { return dimension == 2 ? 2 : 4; }
 
 /// A slave facet beside a closed node, as all ranks know it.
 struct Place {
@@ -81,29 +83,28 @@ double softer_modulus(const Model& model, const SideSet& one, const SideSet& oth
   return least;
 }
 
-std::optional<std::string> too_coarse(const Model& model, const Scene& scene, std::size_t p, const PlaceOfNode& at, const ContactLaws& laws) {
-  const Mesh& mesh = *model.mesh();
-  const ContactPairOptions& options = scene.contact[p].value;
-  const Formulation& formulation = *options.contact.formulation.options;
-  if (!formulation.coupling()->integrates_facets() || options.contact.geometry == ContactGeometry::reference) return std::nullopt;
-  std::vector<char> closed(static_cast<std::size_t>(mesh.owned_count()), 0);
-  double counted[2] = {0.0, 0.0}, all[2] = {};  // nodes that carry force, and the largest pressure
-  for (const ContactNodeState& node : node_states(laws, p)) {
-    if (!node.closed || !node.carries || !(node.pressure > 0.0)) continue;
-    closed[node.owned_node] = 1;
-    counted[0] += 1.0;
-    counted[1] = std::max(counted[1], node.pressure);
-  }
-  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, counted[0], Teuchos::outArg(all[0]));
-  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, counted[1], Teuchos::outArg(all[1]));
-  if (all[0] == 0.0 || all[0] > nodes_of_one_place(mesh.dimension)) return std::nullopt;
+/// Slave facets around nodes that act, and what the master does over one of them.
+struct CoarsePlace {
+  Eigen::Vector3d x;    ///< of a facet
+  double length = 0.0;  ///< of the longest facet
+  double turn = 0.0;    ///< angle that the master turns by over one facet
+};
 
+bool has_weighted_gaps(const Model& model, const ContactPairOptions& options) {
+  const Formulation& formulation = *options.contact.formulation.options;
+  return model.contact() && formulation.coupling()->integrates_facets() && options.contact.geometry == ContactGeometry::current;
+}
+
+/// @param acts  [owned nodes] of the slave: those of one place, if there are any
+/// Collective.
+std::optional<CoarsePlace> coarse_place(const Model& model, const ContactPairOptions& options, const PlaceOfNode& at, const std::vector<char>& acts) {
+  const Mesh& mesh = *model.mesh();
   const SideSet &slave = require_side_set(mesh, options.slave), &master = require_side_set(mesh, options.master);
-  const std::vector<char> is_closed = on_local_nodes(mesh, Import(mesh.owned_nodes, mesh.local_nodes), closed);
+  const std::vector<char> does_act = on_local_nodes(mesh, Import(mesh.owned_nodes, mesh.local_nodes), acts);
   std::vector<Place> mine;
   for (LocalOrdinal s = 0; s < slave.owned; ++s) {
     const std::vector<LocalOrdinal> nodes = mesh.side_nodes(slave.sides[s]);
-    if (std::none_of(nodes.begin(), nodes.end(), [&](LocalOrdinal node) { return is_closed[node]; })) continue;
+    if (std::none_of(nodes.begin(), nodes.end(), [&](LocalOrdinal node) { return does_act[node]; })) continue;
     const FacetPlaces facet = places_of(mesh, slave.sides[s], at);
     Place place{facet_centre(facet), facet_normal(mesh.dimension, facet), 0.0, side_lengths(mesh, slave.sides[s], at).back()};
     for (const Eigen::Vector3d& x : facet) place.radius = std::max(place.radius, (x - place.centre).norm());
@@ -128,29 +129,123 @@ std::optional<std::string> too_coarse(const Model& model, const Scene& scene, st
   Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, off, Teuchos::outArg(turn));
   for (const Place& place : places) length = std::max(length, place.length);
   const double side_by_side = std::pow(static_cast<double>(places.size()), 1.0 / (mesh.dimension - 1));
-  const double of_one = turn / side_by_side, given = all[1] / softer_modulus(model, slave, master);
-  if (!(2.0 * weighing * of_one > given)) return std::nullopt;
   const Eigen::Vector3d& x = std::min_element(places.begin(), places.end(), [](const Place& one, const Place& other) {
                                return std::lexicographical_compare(one.centre.begin(), one.centre.end(), other.centre.begin(), other.centre.end());
                              })->centre;
+  return CoarsePlace{x, length, turn / side_by_side};
+}
+
+/// Nodes of a pair that act in one place: none if there are too many for that, over all ranks. Collective.
+template <class Acts>
+std::vector<char> nodes_of_one_place(const Mesh& mesh, const std::vector<ContactNodeState>& states, const Acts& acts, double& count) {
+  std::vector<char> result(static_cast<std::size_t>(mesh.owned_count()), 0);
+  double mine = 0.0;
+  for (const ContactNodeState& node : states)
+    if (node.carries && acts(node)) result[static_cast<std::size_t>(node.owned_node)] = 1, mine += 1.0;
+  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, mine, Teuchos::outArg(count));
+  if (count == 0.0 || count > most_in_one_place(mesh.dimension)) result.clear();
+  return result;
+}
+
+std::string where(const Mesh& mesh, const CoarsePlace& place) {
+  const Eigen::Vector3d& x = place.x;
+  return fmt::format("facets of length {:.3g} near ({:.6g}, {:.6g}{}), over one of which the master turns by {:.2g} degrees", place.length, x[0], x[1],
+                     mesh.dimension == 3 ? fmt::format(", {:.6g}", x[2]) : "", place.turn * 180.0 / M_PI);
+}
+
+bool presses(const ContactNodeState& node) { return node.closed && node.pressure > 0.0; }
+
+double largest_pressure(const Model& model, const std::vector<ContactNodeState>& states) {
+  double mine = 0.0, all = 0.0;
+  for (const ContactNodeState& node : states)
+    if (node.carries && presses(node)) mine = std::max(mine, node.pressure);
+  Teuchos::reduceAll(*model.mesh()->comm, Teuchos::REDUCE_MAX, mine, Teuchos::outArg(all));
+  return all;
+}
+
+/// What is wrong with a pair in a solution; empty: nothing. Collective.
+std::string too_coarse(const Model& model, const Named<ContactPairOptions>& pair, const PlaceOfNode& at, const std::vector<ContactNodeState>& states,
+                       double pressure, double time) {
+  const Mesh& mesh = *model.mesh();
+  double count = 0.0;
+  const std::vector<char> acts = nodes_of_one_place(mesh, states, presses, count);
+  if (acts.empty()) return {};
+  const std::optional<CoarsePlace> place = coarse_place(model, pair.value, at, acts);
+  if (!place) return {};
+  const double given = pressure / softer_modulus(model, require_side_set(mesh, pair.value.slave), require_side_set(mesh, pair.value.master));
+  if (!(2.0 * weighing * place->turn > given)) return {};
   return fmt::format(
-      "contact \"{}\": its force acts on {:.0f} slave {} at facets of length {:.3g} near ({:.6g}, {:.6g}{}), over one of which the master turns by "
-      "{:.2g} "
-      "degrees: weighted gaps see the master off its place by about {:.2g}, where a facet gives way by {:.2g}; so approach and pressure are wrong by "
-      "as "
-      "much as they are; please make the slave finer there",
-      scene.contact[p].name, all[0], all[0] == 1.0 ? "node" : "nodes", length, x[0], x[1], mesh.dimension == 3 ? fmt::format(", {:.6g}", x[2]) : "",
-      of_one * 180.0 / M_PI, weighing * of_one * length, given * length);
+      "contact \"{}\": at t = {:.6g} its force acts on {:.0f} slave {} at {}: weighted gaps see the master off its place by about {:.2g}, where a facet "
+      "gives way by {:.2g}; so approach and pressure are wrong by as much as they are; please make the slave finer there",
+      pair.name, time, count, count == 1.0 ? "node" : "nodes", where(mesh, *place), weighing * place->turn * place->length, given * place->length);
 }
 
 }  // namespace
 
-std::vector<std::string> slaves_too_coarse(const Model& model, const Scene& scene, const Vector& displacement, const ContactLaws& laws) {
-  const PlaceOfNode at = current_places(*model.bodies(), displacement);
+CoarseSlaveWatch::CoarseSlaveWatch(const Model& model, const Scene& scene) : model_(model), scene_(scene), hardest_(scene.contact.size()) {}
+
+// What a facet is wrong by in the approach is the same whatever the force: it matters where the pair presses hardest. A light touch on the way there
+// is wrong by a part of that alone.
+void CoarseSlaveWatch::accept(const Vector& displacement, const ContactLaws& laws, double time) {
+  std::optional<PlaceOfNode> at;
+  for (std::size_t p = 0; p < hardest_.size(); ++p) {
+    if (!has_weighted_gaps(model_, scene_.contact[p].value)) continue;
+    const std::vector<ContactNodeState> states = node_states(laws, p);
+    const double pressure = largest_pressure(model_, states);
+    if (!(pressure > hardest_[p].pressure)) continue;
+    if (!at) at = current_places(*model_.bodies(), displacement);
+    hardest_[p] = {pressure, too_coarse(model_, scene_.contact[p], *at, states, pressure, time)};
+  }
+}
+
+std::vector<std::string> CoarseSlaveWatch::warnings(const Vector& displacement, const ContactLaws& laws, double time) const {
   std::vector<std::string> lines;
-  for (std::size_t p = 0; p < scene.contact.size(); ++p)
-    if (auto line = too_coarse(model, scene, p, at, laws)) lines.push_back(std::move(*line));
+  const PlaceOfNode at = current_places(*model_.bodies(), displacement);
+  for (std::size_t p = 0; p < hardest_.size(); ++p) {
+    if (!has_weighted_gaps(model_, scene_.contact[p].value)) continue;
+    std::string line = hardest_[p].words;
+    if (line.empty()) {
+      const std::vector<ContactNodeState> states = node_states(laws, p);
+      if (const double pressure = largest_pressure(model_, states); pressure > 0.0)
+        line = too_coarse(model_, scene_.contact[p], at, states, pressure, time);
+    }
+    if (!line.empty()) lines.push_back(std::move(line));
+  }
   return lines;
+}
+
+void CoarseSlaveWatch::serialize(StateArchive& archive) {
+  std::vector<double> pressures;
+  for (const Hardest& one : hardest_) pressures.push_back(one.pressure);
+  mortise::serialize(archive, "coarse_slave.pressure", pressures);
+  for (std::size_t p = 0; p < hardest_.size(); ++p) {
+    archive.text(fmt::format("coarse_slave.words.{}", p), hardest_[p].words);
+    if (p < pressures.size()) hardest_[p].pressure = pressures[p];
+  }
+}
+
+// Nodes that open and close in turn are closed in one iterate and lie behind the master in the next.
+std::string explain_by_coarse_slave(const FailedTry& failed, const Model& model, const Scene& scene, const SemiSmoothSystem& system) {
+  const FailureKind kind = failed.failure.kind();
+  if (!model.contact() || !failed.linearised || (kind != FailureKind::cycling_active_set && kind != FailureKind::too_many_iterations)) return {};
+  const Mesh& mesh = *model.mesh();
+  const SystemEvaluation evaluation = system.evaluate(*failed.linearised->x, failed.linearised->context);
+  const PlaceOfNode at = current_places(*model.bodies(), *system.displacement(evaluation.x()));
+  for (std::size_t p = 0; p < scene.contact.size(); ++p) {
+    const auto& pair = scene.contact[p];
+    if (!has_weighted_gaps(model, pair.value)) continue;
+    double count = 0.0;
+    const auto acts = nodes_of_one_place(
+        mesh, node_states(evaluation.contact_laws(), p), [](const ContactNodeState& node) { return node.closed || node.gap < 0.0; }, count);
+    if (acts.empty()) continue;
+    const std::optional<CoarsePlace> place = coarse_place(model, pair.value, at, acts);
+    if (!place || place->turn < notable_turn) continue;
+    return fmt::format(
+        "contact \"{}\": the slave is too coarse for the master's curvature: contact is sought at {:.0f} slave {} at {}; weighted gaps are means over "
+        "facets, which there may close where they ought to open; please make the slave finer there, or take the curved side as the slave",
+        pair.name, count, count == 1.0 ? "node" : "nodes", where(mesh, *place));
+  }
+  return {};
 }
 
 }  // namespace mortise

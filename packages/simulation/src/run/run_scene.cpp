@@ -141,6 +141,8 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
   std::optional<StateCheck> check;
   if (StateCheck::is_needed(model)) check.emplace(model, scene.newton.increment_tolerance * model.parts().length, warn);
   JumpCheck jump(model.parts().length);
+  std::optional<CoarseSlaveWatch> coarse;
+  if (model.contact()) coarse.emplace(model, scene);
 
   RunRecord record;
   record.scene = options.scene;
@@ -152,6 +154,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
     evaluation.serialize(archive);
     if (surfaces) surfaces->serialize(archive);
     if (check) check->serialize(archive);
+    if (coarse) coarse->serialize(archive);
     jump.serialize(archive);
     record.serialize(archive);
   };
@@ -246,7 +249,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
     // Smaller tries of a step often end where less can be told: then what an earlier one showed is said again.
     std::string known;
     const double smallest = scene.stepping.minimum_step.value_or(scene.stepping.step / 1024.0);
-    functions.explain = [&](const FailedTry& failed) -> std::string {
+    const auto explain_statically = [&](const FailedTry& failed) -> std::string {
       if (failed.failure.kind() == FailureKind::input || failed.failure.kind() == FailureKind::out_of_memory) return {};
       const StaticsReason statics = check ? explain_statics(model, system, *failed.from.x, failed.context) : StaticsReason{};
       if (statics.verdict == StaticsVerdict::falls) return known = statics.words;
@@ -265,6 +268,10 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
       if (known.empty()) return check ? describe_held_bodies(failed, model, system, check->record()) : known;
       return known + "; so an earlier try of this step";
     };
+    functions.explain = [&](const FailedTry& failed) -> std::string {
+      const std::string words = explain_statically(failed), mesh = explain_by_coarse_slave(failed, model, scene, system);
+      return words.empty() || mesh.empty() ? words + mesh : words + "; " + mesh;
+    };
     functions.begin = [&, begin = functions.begin](int step, double time, double dt) {
       last.reset();
       begin(step, time, dt);
@@ -272,6 +279,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
     functions.accepted = [&, accepted = functions.accepted](const StepReport& report, const SystemEvaluation& at) {
       last = at;
       known.clear();
+      if (coarse) coarse->accept(*system.displacement(at.x()), at.contact_laws(), at.context().time);
       if (surfaces) surfaces->accept();
       jump.accept();
       accepted(report, at);
@@ -307,9 +315,8 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
         failure.emplace(FailureKind::lost_contact, surfaces->without_force() + "; please make the slave finer there, or exchange slave and master");
         record.converged = false;
       }
-      if (record.converged && model.contact() && last)
-        for (const std::string& line : slaves_too_coarse(model, scene, *system.displacement(*state.accepted.x), last->contact_laws()))
-          log.warning(line);
+      if (coarse && last)
+        for (const std::string& line : coarse->warnings(*system.displacement(*state.accepted.x), last->contact_laws(), record.time)) log.warning(line);
       if (record.converged && model.edges() && last)
         for (const std::string& line : crossings_too_coarse(model, scene, *system.displacement(*state.accepted.x), last->contact_laws()))
           log.warning(line);

@@ -34,7 +34,7 @@ struct Penetration {
     pierced     ///< in front of a rigid surface that lies within the own body
   };
   Kind kind = Kind::none;
-  /// Distance to the plane of the facet by which the line leaves the other body; pierced: along the line, from the surface to the end of the own
+  /// Distance to the plane of the facet by which the line leaves the other body; pierced: from the surface against its normal to the end of the own
   /// body.
   double depth = 0.0;
 };
@@ -42,7 +42,8 @@ struct Penetration {
 /// Whether the line from a probe meets the other body's box, so that penetrations() looks at it.
 bool may_penetrate(const SurfacePoint& point, const Box3& own_box, const Box3& other_box, bool other_is_rigid, double touching);
 
-/// For each probe. Collective. Only probes whose line meets the other body's box cost anything.
+/// For each probe. Collective. Only probes whose line meets the other body's box cost anything. What meets a facet at a grazing angle on its way, as
+/// lines that run within a face, finds nothing.
 std::vector<Penetration> penetrations(const BodiesToCompare& bodies, const std::vector<SurfaceProbe>& probes);
 
 /// The deepest overlap over all ranks, the same on each.

@@ -35,23 +35,34 @@ struct Crossing {
   bool leaves = false;  ///< the line goes along the facet's outward normal, out of the body
   int tag = 0;          ///< the facet's
   double along = 0.0;   ///< the cosine of the angle between the line and the facet's outward normal
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< outward unit normal of the facet there
 };
 
-/// The centre of a facet, of a quadratic one of its part, and points just beside its corners, with the facet's unit normal. A line from such a point
-/// passes beside the edges that the surfaces of conforming meshes share.
+/// Sine of the angle between line and facet below which they are hardly told apart: that of facets that face one another.
+inline constexpr double grazing_angle = 0.05;
+
+/// What becomes of facets that a line meets at less than the grazing angle.
+enum class Grazing {
+  left_out,  ///< the line passes them by
+  counted    ///< they are crossed as others are: |along| is below grazing_angle
+};
+
+/// The centre of a facet, or of each part of a quadratic one, and points just beside its nodes, with the facet's unit normal there. A line from such
+/// a point passes beside the edges that the surfaces of conforming meshes share.
 struct SurfacePoint {
-  Eigen::Vector3d x;       ///< on the facet or just beside a corner of it
-  Eigen::Vector3d normal;  ///< outward unit normal of the facet
+  Eigen::Vector3d x;       ///< on the facet or just beside a node of it
+  Eigen::Vector3d normal;  ///< outward unit normal of the facet at x
   int node = 0;            ///< place of the nearest node among the facet's
+  Eigen::Vector3d inward = Eigen::Vector3d::Zero();  ///< unit vector to the centre; 0 at the centre, and where none is known
 };
 
 /// None of a facet without area.
 std::vector<SurfacePoint> surface_points(int dimension, const FacetPlaces& facet);
 
-/// Collective: for each segment of this rank the crossings with the facets of all ranks, in ascending order of s. Quadratic facets count by their
-/// linear parts. A facet within three degrees of the line's direction is passed by. Facets travel to the ranks whose box of segments they meet.
+/// Collective: for each segment of this rank the crossings with the facets of all ranks, in ascending order of s. Quadratic facets count as curved as
+/// they are. Facets travel to the ranks whose box of segments they meet.
 std::vector<std::vector<Crossing>> crossings(const Communicator& comm, int dimension, const std::vector<TaggedFacet>& facets,
-                                             const std::vector<LineSegment>& segments);
+                                             const std::vector<LineSegment>& segments, Grazing grazing = Grazing::left_out);
 
 /// An axis-parallel box; empty as it is made.
 struct Box3 {
