@@ -47,8 +47,7 @@ RCP<MultiVector> contact_places(const Mesh& mesh, const RigidModes& modes, const
   return result;
 }
 
-ContactHold contact_hold(const Model& model, const RigidModes& modes, const NodePlaces& at, const ContactLaws& laws,
-                         HeldTangents tangents) {
+ContactHold contact_hold(const Model& model, const RigidModes& modes, const NodePlaces& at, const ContactLaws& laws, HeldTangents tangents) {
   const Mesh& mesh = *model.mesh();
   const int size = modes.count();
   const std::size_t pairs = model.contact()->pairs();

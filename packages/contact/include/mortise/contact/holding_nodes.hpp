@@ -59,8 +59,7 @@ enum class HeldTangents {
 /// it may bear shear. Collective.
 /// @param places  [owned nodes x 1 + dim] the body that a node counts for, below 0: none. The other columns are its position, in any unit, relative
 ///                to the point of the body that moments are taken about
-std::vector<HoldingRow> holding_rows(const ContactLaws& laws, const MultiVector& places,
-                                     HeldTangents tangents = HeldTangents::of_sticking_nodes);
+std::vector<HoldingRow> holding_rows(const ContactLaws& laws, const MultiVector& places, HeldTangents tangents = HeldTangents::of_sticking_nodes);
 /// Of the owned slave nodes of all pairs with friction that is not regularised; those that bear shear freely, without a fixed component. `places` as
 /// above. Collective.
 std::vector<SlidingNode> sliding_nodes(const ContactLaws& laws, const MultiVector& places);
