@@ -42,7 +42,7 @@ FreeBodies::FreeBodies(const Model& model, const SemiSmoothSystem& system, const
   for (std::size_t p = 0; p < mesh.reference_points.size(); ++p)
     if (const LocalOrdinal node = mesh.reference_points[p].rotation_node; node >= 0 && node < mesh.owned_count())
       turning_[node] = static_cast<int>(p);
-  held_ += contact_hold(model, modes_, at_, evaluation.contact_laws(), HeldTangents::of_closed_nodes).gram;
+  held_ += contact_hold(model, modes_, at_, evaluation.contact_laws(), Holds::by_conditions).gram;
 }
 
 // See move_bodies(): of a point that rotates the second node carries arm theta, whose rates in 3D are T^-1 times the spin.

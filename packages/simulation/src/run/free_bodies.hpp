@@ -23,8 +23,8 @@ struct FreeGroup {
 /// How far a dof moves in each motion of its body.
 using DofMotion = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 6>;
 
-/// A motion is held where boundary conditions, the normal of a closed node or, with friction, one of its tangents works on it. A node that slips
-/// holds as well: how much it bears is for its law to say.
+/// A motion is held where a boundary condition forbids it, where it changes the gap of a closed node, or goes along its tangents if that has
+/// friction. A node that slips holds as well: how much it bears is for its law to say.
 class FreeBodies {
  public:
   /// Collective.
