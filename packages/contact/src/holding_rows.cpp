@@ -49,7 +49,7 @@ std::vector<HoldingRow::Wrench> wrenches(const std::vector<LocalOrdinal>& couple
 }  // namespace
 
 // A multiplier acts at the nodes m with c_jm; where forces are the gaps' derivatives its normal part acts with -dg_j/dx_m instead.
-std::vector<HoldingRow> holding_rows(const ContactLaws& laws, const MultiVector& places, HeldTangents tangents) {
+std::vector<HoldingRow> holding_rows(const ContactLaws& laws, const MultiVector& places, Holds holds) {
   const detail::EvaluatedLaws& evaluated = detail::evaluated(laws);
   const detail::ContactModel& self = *evaluated.contact->model;
   const Eigen::Index dimension = self.dimension;
@@ -81,11 +81,11 @@ std::vector<HoldingRow> holding_rows(const ContactLaws& laws, const MultiVector&
       const auto along = [&](const SpatialVector& direction) {
         return [&](std::size_t c) { return SpatialVector((row.coefficients[c] + (coupled[c] == own ? row.D : 0.0)) * direction); };
       };
-      if (pair.pair().has_forces_of_gaps())
+      if (holds == Holds::by_conditions || pair.pair().has_forces_of_gaps())
         add_row(false, [&](std::size_t c) { return SpatialVector(-Eigen::Map<const Eigen::VectorXd>(&row.dgap[dimension * c], dimension)); });
       else
         add_row(false, along(row.normal));
-      if (state != ContactState::stick && (tangents == HeldTangents::of_sticking_nodes || pair.pair().friction() == nullptr)) continue;
+      if (state != ContactState::stick && (holds == Holds::by_forces || pair.pair().friction() == nullptr)) continue;
       const Frame in = pair.frame(s);
       const bool partly_fixed = pair.slave_nodes()[s].partly_fixed();  // its first tangent bears no shear
       for (Eigen::Index a = partly_fixed ? 1 : 0; a < in.tangents.rows(); ++a) {

@@ -16,7 +16,8 @@ constexpr double small_strain = 1e-6;  // the pressure it starts with, over Youn
 
 /// Sets z_n of slave node s of a pair, and nothing along the surface.
 template <class View>
-void set_pressure(const detail::ContactModel& model, const detail::PairEvaluation& pair, std::size_t p, std::size_t s, double z_n, const View& values) {
+void set_pressure(const detail::ContactModel& model, const detail::PairEvaluation& pair, std::size_t p, std::size_t s, double z_n,
+                  const View& values) {
   const LocalOrdinal first = model.multiplier_of[p][s];
   for (int i = 0; i < model.dimension; ++i) values(first + i, 0) = z_n * pair.row(s).normal[i];
 }

@@ -153,6 +153,42 @@ TEST(HoldingRows, OpenNodesHoldNothingAndNodesWithoutABodyAreLeftOut) {
   EXPECT_TRUE(holding_rows(at.laws(*pressed), places).empty());
 }
 
+// Over a plane no gap changes by a motion along it, whatever the shape of the slave. Forces along its normals, which lean, do work on that motion.
+// Nodes that slip hold by what friction bears along the tangent, but not as those that stick.
+TEST(HoldingRows, ConditionsHoldNothingAlongAPlane) {
+  TwoSurfaces surfaces;
+  for (int i = 0; i < 6; ++i) surfaces.slave.push_back({1.0 * i, 0.02 * i * i - 0.003 * i * i * i, 0.0});
+  for (int i = 0; i < 4; ++i) surfaces.master.push_back({7.0 - 3.0 * i, 0.0, 0.0});
+  surfaces.fixed.assign(surfaces.size(), {});
+  for (const bool rubs : {false, true}) {
+    SCOPED_TRACE(rubs);
+    const TwoSurfaces pair = rubs ? with_friction(surfaces, nullptr) : surfaces;
+    Fixture fixture(pair, Tpetra::getDefaultComm());
+    Vector d(fixture.dofs), none(fixture.contact->multiplier_map());
+    const DifferentiatedContact at = fixture.contact->differentiate(d, fixture.first_step(d, none));
+    const RCP<Vector> z = fixture.multipliers([](std::size_t) { return 1e6; });
+    for (std::size_t n = 0; n < z->getLocalLength(); n += 2) z->replaceLocalValue(static_cast<LocalOrdinal>(n), 0.6e6);  // twice what friction bears
+    const ContactLaws laws = at.laws(*z);
+    const MultiVector places = places_in(fixture, pair);
+    const auto by_forces = holding_rows(laws, places), by_conditions = holding_rows(laws, places, Holds::by_conditions);
+    int mine[2] = {static_cast<int>(by_forces.size()), static_cast<int>(by_conditions.size())}, all[2];
+    Teuchos::reduceAll(*fixture.nodes->getComm(), Teuchos::REDUCE_SUM, 2, mine, all);
+    EXPECT_EQ(all[0], 6);
+    EXPECT_EQ(all[1], rubs ? 12 : 6);
+    double leans = 0.0, most = 0.0;
+    for (const HoldingRow& row : by_forces) leans = std::max(leans, std::abs(of_row(row)(0, 0)));
+    for (const HoldingRow& row : by_conditions) {
+      const Wrenches wrenches = of_row(row);
+      if (row.along_surface) continue;
+      EXPECT_LE(wrenches.row(0).cwiseAbs().maxCoeff(), 1e-12);
+      EXPECT_NEAR(wrenches(1, 0) + wrenches(1, 1), 0.0, 1e-12);
+      EXPECT_GT(std::abs(wrenches(1, 0)), 0.1);
+    }
+    Teuchos::reduceAll(*fixture.nodes->getComm(), Teuchos::REDUCE_MAX, leans, Teuchos::outArg(most));
+    EXPECT_GT(most, 0.01);
+  }
+}
+
 /// The slave is moved as a whole, by so little that what is coupled stays the same; its shear is more than friction bears.
 void compare_sliding(const TwoSurfaces& surfaces) {
   Fixture fixture(surfaces, Tpetra::getDefaultComm());

@@ -20,8 +20,9 @@ INSTANTIATE_TEST_SUITE_P(All, StartRule, ::testing::Range(-1, static_cast<int>(t
 MultiVector places_of(const Fixture& fixture, const TwoSurfaces& surfaces) {
   MultiVector places(fixture.nodes, static_cast<std::size_t>(1 + surfaces.dimension));
   for (std::size_t n = 0; n < fixture.nodes->getNodeNumElements(); ++n)
-    places.replaceLocalValue(static_cast<LocalOrdinal>(n), 0,
-                             fixture.nodes->getGlobalElement(static_cast<LocalOrdinal>(n)) < static_cast<GlobalOrdinal>(surfaces.slave.size()) ? 0 : 1);
+    places.replaceLocalValue(
+        static_cast<LocalOrdinal>(n), 0,
+        fixture.nodes->getGlobalElement(static_cast<LocalOrdinal>(n)) < static_cast<GlobalOrdinal>(surfaces.slave.size()) ? 0 : 1);
   return places;
 }
 
@@ -45,9 +46,7 @@ TEST_P(StartRule, ClosesNodesThatTouchAndThoseThatAreGuessedTo) {
   if (GetParam() >= 0) flat.options.formulation.options = test::other_formulations()[GetParam()].options;
   Fixture fixture(flat, Tpetra::getDefaultComm());
   const ContactSystem& contact = *fixture.contact;
-  const auto lifted = [&](double by) {
-    return Fixture::vector(fixture.dofs, [&](GlobalOrdinal id) { return id < 10 && id % 2 == 1 ? by : 0.0; });
-  };
+  const auto lifted = [&](double by) { return Fixture::vector(fixture.dofs, [&](GlobalOrdinal id) { return id < 10 && id % 2 == 1 ? by : 0.0; }); };
   const MultiVector places = places_of(fixture, flat);
   for (const double by : {0.0, 0.05, 0.3}) {
     SCOPED_TRACE(by);

@@ -42,7 +42,8 @@ struct Sheared {
   Sheared() : fixture(surfaces(), Tpetra::getDefaultComm()), d(fixture.dofs), z(fixture.contact->multiplier_map()) {
     const auto pressed = fixture.multipliers([](std::size_t) { return 5.0; });
     const ContactHistory history = fixture.first_step(d, z);
-    fixture.contact->store(stored, fixture.contact->start_step(fixture.contact->commit(fixture.contact->evaluate(d, history).laws(*pressed)), d, *pressed));
+    fixture.contact->store(stored,
+                           fixture.contact->start_step(fixture.contact->commit(fixture.contact->evaluate(d, history).laws(*pressed)), d, *pressed));
   }
 
   static TwoSurfaces surfaces() {

@@ -213,9 +213,7 @@ class Fixture {
   }
 
   /// The history of a first step from displacement d; no body is held by contact alone. The start rule changes z.
-  ContactHistory first_step(const Vector& d, Vector& z) const {
-    return contact->start_step(contact->initial_history(d), d, z);
-  }
+  ContactHistory first_step(const Vector& d, Vector& z) const { return contact->start_step(contact->initial_history(d), d, z); }
 
   /// K of springs: symmetric part with a dominant diagonal, and an antisymmetric one, on the condensed system's graph.
   RCP<Matrix> springs(const RCP<const Graph>& graph) const {

@@ -47,8 +47,7 @@ RCP<MultiVector> contact_places(const Mesh& mesh, const RigidModes& modes, const
   return result;
 }
 
-ContactHold contact_hold(const Model& model, const RigidModes& modes, const NodePlaces& at, const ContactLaws& laws,
-                         HeldTangents tangents) {
+ContactHold contact_hold(const Model& model, const RigidModes& modes, const NodePlaces& at, const ContactLaws& laws, Holds holds) {
   const Mesh& mesh = *model.mesh();
   const int size = modes.count();
   const std::size_t pairs = model.contact()->pairs();
@@ -57,7 +56,7 @@ ContactHold contact_hold(const Model& model, const RigidModes& modes, const Node
   Eigen::Map<Eigen::MatrixXd> gram(mine.data(), size, size);
   double* counts = mine.data() + static_cast<std::size_t>(size) * size;
   bool after_normal = false;  // tangents of a node follow its normal
-  for (const HoldingRow& row : holding_rows(laws, *contact_places(mesh, modes, at.x), tangents)) {
+  for (const HoldingRow& row : holding_rows(laws, *contact_places(mesh, modes, at.x), holds)) {
     if (!row.along_surface) ++counts[2 * row.pair];
     if (row.along_surface && after_normal) ++counts[2 * row.pair + 1];
     after_normal = !row.along_surface;

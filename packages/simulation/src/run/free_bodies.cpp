@@ -40,8 +40,9 @@ FreeBodies::FreeBodies(const Model& model, const SemiSmoothSystem& system, const
   for (const LocalOrdinal dof : model.parts().prescribed->dofs()) prescribed_[static_cast<std::size_t>(dof)] = 1;
   turning_.assign(static_cast<std::size_t>(mesh.owned_count()), -1);
   for (std::size_t p = 0; p < mesh.reference_points.size(); ++p)
-    if (const LocalOrdinal node = mesh.reference_points[p].rotation_node; node >= 0 && node < mesh.owned_count()) turning_[node] = static_cast<int>(p);
-  held_ += contact_hold(model, modes_, at_, evaluation.contact_laws(), HeldTangents::of_closed_nodes).gram;
+    if (const LocalOrdinal node = mesh.reference_points[p].rotation_node; node >= 0 && node < mesh.owned_count())
+      turning_[node] = static_cast<int>(p);
+  held_ += contact_hold(model, modes_, at_, evaluation.contact_laws(), Holds::by_conditions).gram;
 }
 
 // See move_bodies(): of a point that rotates the second node carries arm theta, whose rates in 3D are T^-1 times the spin.
@@ -155,7 +156,8 @@ std::string names_of(const Model& model, const RigidModes& modes, const FreeGrou
   for (std::size_t b = 0; b < group.bodies.size(); ++b) {
     std::vector<std::string> names;
     for (int m = 0; m < modes.per_body(); ++m)
-      if (std::abs(motion[modes.per_body() * static_cast<Eigen::Index>(b) + m]) >= 0.5 * motion.cwiseAbs().maxCoeff()) names.emplace_back(modes.name(m));
+      if (std::abs(motion[modes.per_body() * static_cast<Eigen::Index>(b) + m]) >= 0.5 * motion.cwiseAbs().maxCoeff())
+        names.emplace_back(modes.name(m));
     if (!names.empty())
       bodies.push_back(fmt::format("'{}' ({})", model.mesh()->bodies[modes.bodies()[group.bodies[b]]].name, fmt::join(names, ", ")));
   }

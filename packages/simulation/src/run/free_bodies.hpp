@@ -13,18 +13,18 @@ namespace mortise {
 
 /// Bodies that hold one another, and their common motions that nothing holds.
 struct FreeGroup {
-  std::vector<int> bodies;    ///< numbers in the modes, ascending
-  Eigen::MatrixXd motions;    ///< [per_body() x bodies, motions] orthonormal columns
-  Eigen::VectorXd load;       ///< [motions] work of f_ext - f_int on them
-  double no_load = 0.0;       ///< a load that is no larger is none
+  std::vector<int> bodies;  ///< numbers in the modes, ascending
+  Eigen::MatrixXd motions;  ///< [per_body() x bodies, motions] orthonormal columns
+  Eigen::VectorXd load;     ///< [motions] work of f_ext - f_int on them
+  double no_load = 0.0;     ///< a load that is no larger is none
   bool is_loaded() const { return load.norm() > no_load; }
 };
 
 /// How far a dof moves in each motion of its body.
 using DofMotion = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 6>;
 
-/// A motion is held where boundary conditions, the normal of a closed node or, with friction, one of its tangents works on it. A node that slips holds
-/// as well: how much it bears is for its law to say.
+/// A motion is held where a boundary condition forbids it, where it changes the gap of a closed node, or goes along its tangents if that has
+/// friction. A node that slips holds as well: how much it bears is for its law to say.
 class FreeBodies {
  public:
   /// Collective.
@@ -69,11 +69,11 @@ class FreeBodies {
   NodePlaces at_;
   RigidModes modes_;
   Eigen::MatrixXd held_;
-  std::vector<char> prescribed_;                 ///< [owned dofs]
-  std::vector<int> turning_;                     ///< [owned nodes] reference point whose rotation the node is, -1: none
-  bool has_loads_ = false;                       ///< whether the rest has been found
-  Eigen::MatrixXd loads_;                        ///< [per_body() x bodies] work of f_ext - f_int on each motion
-  std::vector<double> forces_, masses_;          ///< [bodies] |f_int|^2 + |f_ext - f_int|^2; the largest sum of squared motions of the dofs
+  std::vector<char> prescribed_;         ///< [owned dofs]
+  std::vector<int> turning_;             ///< [owned nodes] reference point whose rotation the node is, -1: none
+  bool has_loads_ = false;               ///< whether the rest has been found
+  Eigen::MatrixXd loads_;                ///< [per_body() x bodies] work of f_ext - f_int on each motion
+  std::vector<double> forces_, masses_;  ///< [bodies] |f_int|^2 + |f_ext - f_int|^2; the largest sum of squared motions of the dofs
 };
 
 /// "'a' (translation in y), 'b' (rotation)": what of a motion of a group is at least half as large as the largest of it.

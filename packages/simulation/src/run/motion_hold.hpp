@@ -8,9 +8,9 @@
 
 namespace mortise {
 
-/// SystemParts::held_motions: of the bodies that contact alone holds, the motions at an iterate that neither boundary conditions nor closed nodes hold
-/// and no load acts along. Where a load does act along a motion of a group of bodies, the motions across it count. Nothing if there are none, or no
-/// dofs to hold them at. Collective.
+/// SystemParts::held_motions: of the bodies that contact alone holds, the motions at an iterate that neither boundary conditions nor closed nodes
+/// hold and no load acts along. Where a load does act along a motion of a group of bodies, the motions across it count. Nothing if there are none, or
+/// no dofs to hold them at. Collective.
 std::optional<HeldMotions> motions_without_load(const Model& model, const SemiSmoothSystem& system, const SystemEvaluation& at,
                                                 const std::vector<int>& bodies, double momentum_tolerance);
 

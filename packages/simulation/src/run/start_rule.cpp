@@ -16,16 +16,24 @@
 namespace mortise {
 namespace {
 
-constexpr double tilted_normals = 1e-4;    ///< of free_motions(): what contact normals that turn with the loads seem to hold
-constexpr double works_against = 1e-3;  ///< work over force and motion, below which a node does not hinder a motion
-constexpr double no_gap = std::numeric_limits<double>::max();
+constexpr double tilted_normals = 1e-4;  ///< of free_motions(): what contact normals that turn with the loads seem to hold
+constexpr double works_against = 1e-3;   ///< share of a motion that closes a gap, below which a node does not hinder it
+constexpr double as_near = 1.0 + 1e-6;   ///< nodes that are as near but for round-off close together
+constexpr double no_way = std::numeric_limits<double>::max();
 
-/// The groups that bear a load, and the motion of size 1 that it drives each of them along: v = V V^T f.
+/// What a node hinders.
+struct Hindrance {
+  int group = -1;       ///< -1: nothing
+  double way = no_way;  ///< how far the bodies of the group may move until the node bears pressure
+};
+
+/// The groups that bear a load, and the motion that it drives each of them along: v = V V^T f, in which the body that moves most has the size 1.
 struct DrivenBodies {
   DrivenBodies(const std::vector<FreeGroup>& groups, int per_body, std::size_t bodies) : group_of(bodies, -1), motion_of(bodies) {
     for (std::size_t g = 0; g < groups.size(); ++g) {
       if (!groups[g].is_loaded()) continue;
-      const Eigen::VectorXd motion = (groups[g].motions * groups[g].load).normalized();
+      Eigen::VectorXd motion = groups[g].motions * groups[g].load;
+      motion /= Eigen::Map<const Eigen::MatrixXd>(motion.data(), per_body, motion.size() / per_body).colwise().norm().maxCoeff();
       for (std::size_t i = 0; i < groups[g].bodies.size(); ++i) {
         group_of[groups[g].bodies[i]] = static_cast<int>(g);
         motion_of[groups[g].bodies[i]] = motion.segment(per_body * static_cast<Eigen::Index>(i), per_body);
@@ -37,18 +45,20 @@ struct DrivenBodies {
     return std::any_of(group_of.begin(), group_of.end(), [](int group) { return group >= 0; });
   }
 
-  /// The group that a pressure at a node hinders, -1: none. It acts on bodies as the negative of BearingNode::normal.
-  int hindered_by(const BearingNode& node, const RigidModes& modes) const {
+  /// A pressure acts on bodies as the negative of BearingNode::normal. Its work on v over its force is the share of v that closes the gap.
+  Hindrance hindered_by(const BearingNode& node, const RigidModes& modes) const {
     double work = 0.0, force = 0.0;
-    int group = -1;
+    Hindrance hindrance;
     for (const auto& wrench : node.normal) {
-      const Eigen::RowVectorXd push = -modes.works_of_wrench(Eigen::Vector3d(wrench.force.data()), Eigen::Vector3d(wrench.moment.data()));
-      force = std::max(force, push.norm());
+      const Eigen::Vector3d of_pressure(wrench.force.data());
+      force = std::max(force, of_pressure.norm());
       if (group_of[wrench.body] < 0) continue;
-      group = group_of[wrench.body];
-      work += push.dot(motion_of[wrench.body]);
+      hindrance.group = group_of[wrench.body];
+      work -= modes.works_of_wrench(of_pressure, Eigen::Vector3d(wrench.moment.data())).dot(motion_of[wrench.body]);
     }
-    return work < -works_against * force ? group : -1;
+    if (!(work < -works_against * force)) return {};
+    hindrance.way = node.gap * force / -work;
+    return hindrance;
   }
 
   std::vector<int> group_of;               ///< [bodies] -1: no load drives it
@@ -58,7 +68,7 @@ struct DrivenBodies {
 /// Of one pair, what started closed.
 struct ClosedNodes {
   int count = 0;
-  double nearest = no_gap;
+  double farthest = 0.0;  ///< gap
   std::string why;
 };
 
@@ -82,21 +92,21 @@ RCP<Vector> StartRule::close(const SemiSmoothSystem& system, const SystemEvaluat
     Teuchos::reduceAll(comm, type, static_cast<int>(mine.size()), mine.data(), all.data());
     return all;
   };
-  std::vector<BearingNode> open =
-      bearing_nodes(start.contact_laws(), *contact_places(*model_.mesh(), modes, free.places()), OpenNodes::covered);
+  std::vector<BearingNode> open = bearing_nodes(start.contact_laws(), *contact_places(*model_.mesh(), modes, free.places()), OpenNodes::covered);
   open.erase(std::remove_if(open.begin(), open.end(), [](const BearingNode& node) { return node.closed; }), open.end());
 
   Eigen::MatrixXd held = free.held();
   const auto z = rcp(new Vector(*system.multipliers(start.x()), Teuchos::Copy));
   std::vector<ClosedNodes> closed(model_.contact()->pairs());
   while (driven->any()) {
-    std::vector<double> nearest(groups.size(), no_gap);
+    std::vector<double> nearest(groups.size(), no_way);
     for (const BearingNode& node : open)
-      if (const int group = driven->hindered_by(node, modes); group >= 0) nearest[group] = std::min(nearest[group], node.gap);
+      if (const Hindrance hindrance = driven->hindered_by(node, modes); hindrance.group >= 0)
+        nearest[hindrance.group] = std::min(nearest[hindrance.group], hindrance.way);
     nearest = reduce(Teuchos::REDUCE_MIN, nearest);
-    if (std::all_of(nearest.begin(), nearest.end(), [](double gap) { return gap == no_gap; })) break;
+    if (std::all_of(nearest.begin(), nearest.end(), [](double way) { return way == no_way; })) break;
 
-    std::vector<double> works(static_cast<std::size_t>(modes.count() * modes.count()), 0.0), gaps(closed.size(), no_gap);
+    std::vector<double> works(static_cast<std::size_t>(modes.count() * modes.count()), 0.0), gaps(closed.size(), 0.0);
     std::vector<int> counts(closed.size(), 0), of_group(closed.size(), -1);
     Eigen::Map<Eigen::MatrixXd> gram(works.data(), modes.count(), modes.count());
     const auto hold = [&](const std::vector<HoldingRow::Wrench>& wrenches) {
@@ -104,31 +114,30 @@ RCP<Vector> StartRule::close(const SemiSmoothSystem& system, const SystemEvaluat
       for (const auto& wrench : wrenches)
         rows.push_back(modes.works_of_wrench(Eigen::Vector3d(wrench.force.data()), Eigen::Vector3d(wrench.moment.data())));
       for (std::size_t a = 0; a < rows.size(); ++a)
-        for (std::size_t b = 0; b < rows.size(); ++b)
-          gram.block(n * wrenches[a].body, n * wrenches[b].body, n, n) += rows[a].transpose() * rows[b];
+        for (std::size_t b = 0; b < rows.size(); ++b) gram.block(n * wrenches[a].body, n * wrenches[b].body, n, n) += rows[a].transpose() * rows[b];
     };
     open.erase(std::remove_if(open.begin(), open.end(),
                               [&](const BearingNode& node) {
-                                const int group = driven->hindered_by(node, modes);
-                                if (group < 0 || node.gap > std::max(node.near, (1.0 + 1e-6) * nearest[group])) return false;
+                                const Hindrance hindrance = driven->hindered_by(node, modes);
+                                if (hindrance.group < 0 || hindrance.way > std::max(node.near, as_near * nearest[hindrance.group])) return false;
                                 guess_closed(start.contact_laws(), node, *z);
                                 hold(node.normal);
                                 for (const auto& along : node.along) hold(along);
                                 ++counts[node.pair];
-                                gaps[node.pair] = std::min(gaps[node.pair], node.gap);
-                                of_group[node.pair] = std::max(of_group[node.pair], group);
+                                gaps[node.pair] = std::max(gaps[node.pair], node.gap);
+                                of_group[node.pair] = std::max(of_group[node.pair], hindrance.group);
                                 return true;
                               }),
                open.end());
     works = reduce(Teuchos::REDUCE_SUM, works);
     counts = reduce(Teuchos::REDUCE_SUM, counts);
-    gaps = reduce(Teuchos::REDUCE_MIN, gaps);
+    gaps = reduce(Teuchos::REDUCE_MAX, gaps);
     of_group = reduce(Teuchos::REDUCE_MAX, of_group);
     for (std::size_t p = 0; p < closed.size(); ++p) {
       if (of_group[p] < 0) continue;
       const FreeGroup& group = groups[of_group[p]];
       closed[p].count += counts[p];
-      closed[p].nearest = std::min(closed[p].nearest, gaps[p]);
+      closed[p].farthest = std::max(closed[p].farthest, gaps[p]);
       if (closed[p].why.empty())
         closed[p].why = fmt::format("{}, where a load of {:.3g} acts", names_of(model_, modes, group, group.motions * group.load), group.load.norm());
     }
@@ -141,7 +150,7 @@ RCP<Vector> StartRule::close(const SemiSmoothSystem& system, const SystemEvaluat
     if (closed[p].count == 0) continue;
     any = true;
     say_(fmt::format("  contact \"{}\" starts with {} nodes closed that are up to {:.3g} away: nothing else holds body {}",
-                     model_.contact()->pair_name(p), closed[p].count, std::max(0.0, closed[p].nearest), closed[p].why));
+                     model_.contact()->pair_name(p), closed[p].count, closed[p].farthest, closed[p].why));
   }
   return any ? z : Teuchos::null;
 }

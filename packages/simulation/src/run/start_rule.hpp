@@ -10,8 +10,8 @@
 
 namespace mortise {
 
-/// A body that bears a load along a motion that nothing holds has a singular system. Nodes that hinder the motion start closed: those of all pairs that
-/// are near to contact, at least the nearest. This changes the guess of multipliers and nothing else. What nothing drives needs no node: see
+/// A body that bears a load along a motion that nothing holds has a singular system. Nodes that hinder the motion start closed: those of all pairs
+/// that are near to contact, at least the nearest. This changes the guess of multipliers and nothing else. What nothing drives needs no node: see
 /// motions_without_load().
 class StartRule {
  public:

@@ -50,17 +50,20 @@ struct BearingNode {
   std::vector<std::vector<HoldingRow::Wrench>> along;
 };
 
-/// Whose tangents hold.
-enum class HeldTangents {
-  of_sticking_nodes,  ///< those that resist
-  of_closed_nodes     ///< those of slipping nodes too, which bear a load, whether or not it is enough
+/// What it means that a node holds.
+enum class Holds {
+  /// Forces of contact work on the motion: along the normals of closed nodes, and the tangents of those that stick.
+  by_forces,
+  /// Conditions of contact forbid the motion, or friction bears a load along it: it changes the gap of a closed node, or goes along its tangents,
+  /// also
+  /// if it slips. Normals that lean, as those of strained facets do, hold nothing along a plane. Laws of an evaluation with derivatives.
+  by_conditions
 };
 /// Directions in which the owned slave nodes of all pairs hold. They are the normal of each closed node, and with friction the tangents along which
 /// it may bear shear. Collective.
 /// @param places  [owned nodes x 1 + dim] the body that a node counts for, below 0: none. The other columns are its position, in any unit, relative
 ///                to the point of the body that moments are taken about
-std::vector<HoldingRow> holding_rows(const ContactLaws& laws, const MultiVector& places,
-                                     HeldTangents tangents = HeldTangents::of_sticking_nodes);
+std::vector<HoldingRow> holding_rows(const ContactLaws& laws, const MultiVector& places, Holds holds = Holds::by_forces);
 /// Of the owned slave nodes of all pairs with friction that is not regularised; those that bear shear freely, without a fixed component. `places` as
 /// above. Collective.
 std::vector<SlidingNode> sliding_nodes(const ContactLaws& laws, const MultiVector& places);

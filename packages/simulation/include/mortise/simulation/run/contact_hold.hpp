@@ -26,8 +26,7 @@ struct ContactHold {
 RCP<MultiVector> contact_places(const Mesh& mesh, const RigidModes& modes, const std::vector<Eigen::Vector3d>& x);
 
 /// At the laws of contact at a state with derivatives, where nodes are `at`. Collective.
-ContactHold contact_hold(const Model& model, const RigidModes& modes, const NodePlaces& at, const ContactLaws& laws,
-                         HeldTangents tangents = HeldTangents::of_sticking_nodes);
+ContactHold contact_hold(const Model& model, const RigidModes& modes, const NodePlaces& at, const ContactLaws& laws, Holds holds = Holds::by_forces);
 
 /// [bodies] Bodies that a Gram matrix couples have the same number.
 std::vector<int> coupled_bodies(const Eigen::MatrixXd& gram, int per_body);
