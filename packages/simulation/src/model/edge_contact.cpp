@@ -16,7 +16,7 @@
 namespace mortise {
 namespace {
 
-constexpr int dimension = 3;
+constexpr int in_space = 3;
 
 /// The bodies' graph with further columns in rows of owned nodes.
 RCP<const Graph> widened(const Graph& bulk, const Mesh& mesh, const std::set<std::pair<GlobalOrdinal, GlobalOrdinal>>& coupled) {
@@ -25,9 +25,9 @@ RCP<const Graph> widened(const Graph& bulk, const Mesh& mesh, const std::set<std
   for (const auto& [one, other] : coupled) {
     const LocalOrdinal node = mesh.owned_nodes->getLocalElement(one);
     if (node < 0) continue;
-    for (int j = 0; j < dimension; ++j) {
-      further.push_back(dimension * other + j);
-      for (int i = 0; i < dimension; ++i) of_row[dimension * node + i].push_back(further.back());
+    for (int j = 0; j < in_space; ++j) {
+      further.push_back(in_space * other + j);
+      for (int i = 0; i < in_space; ++i) of_row[in_space * node + i].push_back(further.back());
     }
   }
   const RCP<const Map> rows = bulk.getRowMap(), columns = with_further_columns(*bulk.getColMap(), further);
@@ -77,7 +77,7 @@ std::vector<Eigen::Vector3d> EdgeContact::places(const Vector& local_displacemen
   const auto u = local_displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
   return places_on_all_ranks(mesh, active_.nodes, [&](LocalOrdinal node) {
     Eigen::Vector3d x(mesh.coordinates[static_cast<std::size_t>(node)].data());
-    for (int i = 0; i < dimension; ++i) x[i] += u(dimension * node + i, 0);
+    for (int i = 0; i < in_space; ++i) x[i] += u(in_space * node + i, 0);
     return x;
   });
 }
@@ -104,8 +104,8 @@ void EdgeContact::add_residual(const Configuration& at, Vector& residual, std::o
   visit_forces(at.local_displacement, [&](const EdgeSpot&, const EdgeCrossing&, const CrossingForce& force) {
     for (std::size_t n = 0; n < force.nodes.size(); ++n) {
       const LocalOrdinal node = mesh.owned_nodes->getLocalElement(active_.nodes[static_cast<std::size_t>(force.nodes[n])]);
-      for (int i = 0; i < dimension && node >= 0; ++i)
-        residual.sumIntoLocalValue(dimension * node + i, force.residual[dimension * static_cast<Eigen::Index>(n) + i]);
+      for (int i = 0; i < in_space && node >= 0; ++i)
+        residual.sumIntoLocalValue(in_space * node + i, force.residual[in_space * static_cast<Eigen::Index>(n) + i]);
     }
   });
 }
@@ -119,13 +119,13 @@ void EdgeContact::add_jacobian(const Configuration& at, const JacobianWeights& w
       const LocalOrdinal node = mesh.owned_nodes->getLocalElement(active_.nodes[static_cast<std::size_t>(force.nodes[n])]);
       if (node < 0) continue;
       for (std::size_t m = 0; m < force.nodes.size(); ++m)
-        for (int j = 0; j < dimension; ++j) {
+        for (int j = 0; j < in_space; ++j) {
           const LocalOrdinal column =
-              jacobian.getColMap()->getLocalElement(dimension * active_.nodes[static_cast<std::size_t>(force.nodes[m])] + j);
-          for (int i = 0; i < dimension; ++i) {
-            const double value = weights.displacement * force.tangent(dimension * static_cast<Eigen::Index>(n) + i,
-                                                                      dimension * static_cast<Eigen::Index>(m) + j);
-            if (value != 0.0) jacobian.sumIntoLocalValues(dimension * node + i, 1, &value, &column);
+              jacobian.getColMap()->getLocalElement(in_space * active_.nodes[static_cast<std::size_t>(force.nodes[m])] + j);
+          for (int i = 0; i < in_space; ++i) {
+            const double value = weights.displacement * force.tangent(in_space * static_cast<Eigen::Index>(n) + i,
+                                                                      in_space * static_cast<Eigen::Index>(m) + j);
+            if (value != 0.0) jacobian.sumIntoLocalValues(in_space * node + i, 1, &value, &column);
           }
         }
     }

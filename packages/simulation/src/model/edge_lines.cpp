@@ -62,8 +62,8 @@ class Union {
     return i;
   }
   void join(std::size_t a, std::size_t b) {
-    const auto [low, high] = std::minmax(root(a), root(b));
-    parent_[high] = low;
+    const std::size_t of_a = root(a), of_b = root(b);
+    parent_[std::max(of_a, of_b)] = std::min(of_a, of_b);
   }
 
  private:

@@ -100,7 +100,7 @@ EdgePair near_crossings(const EdgePair& pair, const std::vector<EdgeCrossing>& c
 std::vector<Eigen::Vector3d> places_on_all_ranks(const Mesh& mesh, const std::vector<GlobalOrdinal>& nodes, const PlaceOfNode& at) {
   std::vector<double> mine(3 * nodes.size(), 0.0), all(mine.size());
   for (std::size_t n = 0; n < nodes.size(); ++n)
-    if (const LocalOrdinal node = mesh.owned_nodes->getLocalElement(nodes[n]); node >= 0) Eigen::Map<Eigen::Vector3d>(&mine[3 * n]) = at(node);
+    if (const LocalOrdinal node = mesh.owned_nodes->getLocalElement(nodes[n]); node >= 0) Eigen::Map<Eigen::Vector3d>(&mine[3 * n] + 0) = at(node);
   Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), all.data());
   std::vector<Eigen::Vector3d> places;
   for (std::size_t n = 0; n < nodes.size(); ++n) places.emplace_back(&all[3 * n]);
