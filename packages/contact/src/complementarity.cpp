@@ -40,41 +40,56 @@ bool sticks(const TangentVector& t, const TangentVector& cu, double bound) {
   return t.size() > 1 && length > bound && cu.norm() < bound && length * (length - bound) < -against_the_traction * t.dot(cu);
 }
 
+Landing::Landing(double depth, double start) {
+  if (!(start > 0.0)) return;
+  const double sum = depth + start;
+  share = depth / sum;
+  of_depth = start / (sum * sum);
+  of_start = -depth / (sum * sum);
+}
+
+// With t = z_tau, and S that leaves out held tangents,  s = S t + t^old,  y = q (s + c_t u):
+//   dy = q (S dt + c_t du) + (s + c_t u) dq,   dq = of_depth dp + of_start c_t dg0,   dp = dz_n - c_n dg.
+// Where the node slips, s + c_t u is along y, which does not turn by it.
 Complementarity with_friction(double c_n, double c_t, double gap, const TangentVector& slip, const Frame& frame, const SpatialVector& z,
-                              const FrictionBound& bound) {
+                              const FrictionBound& bound, double start, const HeldTangents& held) {
   const Eigen::Index tangents = slip.size();
   Complementarity result = closed_node(c_n, gap, frame, z);
   const TangentVector t = result.C.tail(tangents), cu = c_t * slip;
-  if (sticks(t, cu, bound.value)) {
+  TangentMatrix own = TangentMatrix::Identity(tangents, tangents);  // S
+  own.topLeftCorner(held.count, held.count).setZero();
+  const TangentVector s = held.count == 0 ? t : TangentVector(own * t + held.traction), trial = s + cu;
+  const Landing landing(z.dot(frame.normal) - c_n * gap, c_t * start);
+  const TangentVector y = landing.share * trial;
+  if (sticks(s, start > 0.0 ? TangentVector(y - s) : cu, bound.value)) {
+    const TangentMatrix borne = TangentMatrix::Identity(tangents, tangents) - landing.share * own;
     result.state = ContactState::stick;
-    result.C.tail(tangents) = -cu;
-    result.C_z.bottomRows(tangents).setZero();
-    result.normal_factor.bottomRows(tangents).setZero();
-    result.slip_factor = -c_t * TangentMatrix::Identity(tangents, tangents);
+    result.C.tail(tangents) = borne * t - landing.share * cu;
+    if (held.count > 0) result.C.tail(tangents) -= landing.share * held.traction;
+    result.C_z.bottomRows(tangents) = borne * frame.tangents;
+    result.normal_factor.bottomRows(tangents) = borne * SpatialMatrix(result.normal_factor.bottomRows(tangents));
+    result.slip_factor = -c_t * landing.share * TangentMatrix::Identity(tangents, tangents);
+    if (!(start > 0.0)) return result;
+    const TangentVector slope = landing.of_depth * trial;
+    result.C_z.bottomRows(tangents) -= slope * frame.normal.transpose();
+    result.normal_factor.bottomRows(tangents) -= slope * z.transpose();
+    result.gap_factor.tail(tangents) = c_n * slope;
+    result.start_factor = -landing.of_start * c_t * trial;
     return result;
   }
-  const SlipDirection direction(t + cu, bound.value);
+  const SlipDirection direction(y, bound.value);
   const TangentVector slope = bound.slope * direction.along;
   result.C.tail(tangents) -= direction.length * direction.along;
   if (tangents > 1) {
-    result.C_z.bottomRows(tangents) -= direction.turning * frame.tangents;
-    result.normal_factor.bottomRows(tangents) -= direction.turning * SpatialMatrix(result.normal_factor.bottomRows(tangents));
-    result.slip_factor = -c_t * direction.turning;
+    const TangentMatrix turning = landing.share * direction.turning;
+    result.C_z.bottomRows(tangents) -= turning * own * frame.tangents;
+    result.normal_factor.bottomRows(tangents) -= turning * own * SpatialMatrix(result.normal_factor.bottomRows(tangents));
+    result.slip_factor = -c_t * turning;
   }
   result.C_z.bottomRows(tangents) -= slope * frame.normal.transpose();
   result.normal_factor.bottomRows(tangents) -= slope * z.transpose();
   result.gap_factor.tail(tangents) = c_n * slope;
   return result;
-}
-
-void hold_tangent(Complementarity& law, const Frame& frame, const SpatialVector& z, Eigen::Index a) {
-  law.C[1 + a] = frame.tangents.row(a).dot(z);
-  law.C_z.row(1 + a) = frame.tangents.row(a);
-  law.normal_factor.row(1 + a) = z.transpose() * frame.turn[a];
-  law.gap_factor[1 + a] = law.weight_factor[1 + a] = 0.0;
-  if (law.slip_factor.size() == 0) return;
-  law.slip_factor.row(a).setZero();
-  law.slip_factor.col(a).setZero();
 }
 
 }  // namespace mortise

@@ -24,7 +24,8 @@ AcceptedContact accepted_state(const EvaluatedContact& contact, const RCP<const 
   for (std::size_t p = 0; p < contact.pairs.size(); ++p) {
     const PairEvaluation& pair = contact.pairs[p];
     PairHistory& history = result.pairs[p];
-    if (pair.pair().friction() != nullptr) history.slip = pair.slip_references(multipliers[p], result.states[p].states, std::move(paths[p]));
+    if (pair.pair().friction() != nullptr)
+      history.slip = pair.slip_references(multipliers[p], result.states[p].states, std::move(paths[p]), contact.positions);
     if (pair.pair().corner_rule() == CornerRule::nearest_facet) history.nearest_facets = pair.nearest_facets();
   }
   return result;
@@ -147,8 +148,8 @@ long friction_bytes(const ContactHistory& history) {
   for (const PairHistory& pair : history->pairs) {
     if (pair.slip == nullptr) continue;
     const SlipReferences& slip = *pair.slip;
-    const std::size_t per_node =
-        sizeof(slip.nodes[0]) + sizeof(slip.coefficients[0]) + sizeof(slip.positions[0]) + sizeof(slip.ties[0]) + sizeof(double);
+    const std::size_t per_node = sizeof(slip.nodes[0]) + sizeof(slip.coefficients[0]) + sizeof(slip.positions[0]) + sizeof(slip.ties[0]) +
+                                 sizeof(slip.tractions[0]) + 2 * sizeof(double);
     bytes += slip.nodes.capacity() * per_node;
     for (std::size_t s = 0; s < slip.nodes.size(); ++s)
       bytes += slip.nodes[s].capacity() * sizeof(GlobalOrdinal) + slip.coefficients[s].capacity() * sizeof(double);

@@ -70,16 +70,27 @@ struct Directions {
   SpatialMatrix N, P, Q;
 };
 
+// A node that sticks after it closed a gap is a spring along the surface next to a share of its momentum.
 // In 3D friction holds a node that slips across the direction t of slip. Its condition there is that of a spring next to the share 1 - rho / |y| of
 // the node's momentum. Either the spring is the stiffer part, and t is eliminated, or Q makes the momentum whole.
 Directions directions(const SpatialMatrix& free, const detail::NodeRow& row, const Frame& frame, const Complementarity& law,
                       const std::function<SpatialMatrix()>& stiffness_of_node) {
   const SpatialMatrix none = SpatialMatrix::Zero(free.rows(), free.cols());
-  if (law.state == ContactState::stick) return {free, none, none};
+  const bool sticks = law.state == ContactState::stick;
+  const Eigen::Index last = frame.tangents.rows() - 1;  // that of a partly fixed node which is free
+  const double borne = sticks ? law.C_z.row(1 + last).dot(frame.tangents.row(last)) : 0.0;
+  if (sticks && !(borne > 0.0)) return {free, none, none};
   Directions result;
-  result.N = row.normal * row.normal.transpose();
+  const SpatialVector normal = (free * row.normal).normalized();
+  result.N = normal * normal.transpose();
   result.Q = result.P = free - result.N;
   if (law.slip_factor.size() == 0) return result;
+  if (sticks) {
+    const SpatialVector tangent = frame.tangents.row(last).transpose();
+    if (-row.D * row.D * law.slip_factor(last, last) > borne * tangent.dot(stiffness_of_node() * tangent)) return {free, none, none};
+    result.Q /= borne;
+    return result;
+  }
   const Eigen::MatrixXd along = result.P * frame.tangents.transpose();
   const SpatialMatrix spring = -row.D * row.D * along * law.slip_factor * along.transpose();
   const double stiffness = spring.trace();

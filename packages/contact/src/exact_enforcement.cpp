@@ -2,15 +2,15 @@
 
 namespace mortise {
 
-// A component that is prescribed takes one tangent: what the bound says is of the rest of the traction.
+// A node that is held sticks by a spring, a hundred times as stiff as a facet.
 Complementarity ExactEnforcement::law(const ContactNode& node) const {
   if (!is_closed(node)) return open_node(node.z);
   const Frame in = node.frame();
   const double c = node.constant;
   if (!node.friction) return closed_node(c, node.gap, in, node.z);
-  SpatialVector borne = node.z;
-  if (node.holds_first_tangent) borne -= in.tangents.row(0).dot(node.z) * in.tangents.row(0).transpose();
-  return with_friction(c, c, node.gap, node.slip, in, borne, (*node.friction)(node.z.dot(node.normal) - c * node.gap));
+  constexpr double stiff = 100.0;
+  return with_friction(c, node.held.count > 0 ? stiff * c : c, node.gap, node.slip, in, node.z,
+                       (*node.friction)(node.z.dot(node.normal) - c * node.gap), node.start_gap, node.held);
 }
 
 }  // namespace mortise

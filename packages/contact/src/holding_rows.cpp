@@ -87,8 +87,7 @@ std::vector<HoldingRow> holding_rows(const ContactLaws& laws, const MultiVector&
         add_row(false, along(row.normal));
       if (state != ContactState::stick && (holds == Holds::by_forces || pair.pair().friction() == nullptr)) continue;
       const Frame in = pair.frame(s);
-      const bool partly_fixed = pair.slave_nodes()[s].partly_fixed();  // its first tangent bears no shear
-      for (Eigen::Index a = partly_fixed ? 1 : 0; a < in.tangents.rows(); ++a) {
+      for (Eigen::Index a = 0; a < in.tangents.rows(); ++a) {
         const SpatialVector tangent = in.tangents.row(a).transpose();
         add_row(true, along(tangent));
       }
@@ -118,7 +117,7 @@ std::vector<SlidingNode> sliding_nodes(const ContactLaws& laws, const MultiVecto
       for (Eigen::Index a = 0; a < node.frame.tangents.rows(); ++a)  // C_tau = z_tau - rho y / |y|
         node.bound = std::hypot(node.bound, node.frame.tangents.row(a).dot(multipliers[s].z) - law.C[1 + a]);
       if (!(node.bound > 0.0)) continue;
-      node.slip = pair.slip(s, multipliers[s]);
+      node.slip = pair.slip_in_contact(s, multipliers[s]);
       const std::vector<LocalOrdinal>& coupled = pair.coupled_nodes(s);
       const LocalOrdinal own = pair.slave_nodes()[s].local_node;
       for (Eigen::Index a = 0; a < node.frame.tangents.rows(); ++a) {
@@ -172,8 +171,7 @@ std::vector<BearingNode> bearing_nodes(const ContactLaws& laws, const MultiVecto
       if (node.normal.empty()) continue;
       if (pair.pair().friction() != nullptr) node.friction = pair.pair().friction()->largest_ratio();
       const Frame in = pair.frame(s);
-      for (Eigen::Index a = slave.partly_fixed() ? 1 : 0; node.friction > 0.0 && a < in.tangents.rows(); ++a)
-        node.along.push_back(along(in.tangents.row(a).transpose()));
+      for (Eigen::Index a = 0; node.friction > 0.0 && a < in.tangents.rows(); ++a) node.along.push_back(along(in.tangents.row(a).transpose()));
       nodes.push_back(std::move(node));
     }
   }

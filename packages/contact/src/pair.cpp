@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Import.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <algorithm>
@@ -15,6 +16,7 @@ Pair::Pair(RCP<const Map> owned_nodes, RCP<const MultiVector> reference, RCP<con
     : pair_(std::move(pair)),
       owned_nodes_(std::move(owned_nodes)),
       reference_(std::move(reference)),
+      fixed_(fixed),
       dimension_(static_cast<int>(reference_->getNumVectors())) {
   interface_ = std::make_unique<MortarInterface>(owned_nodes_, reference_, std::move(fixed), pair_.slave, pair_.master, measure, pair_.options.mortar,
                                                  pair_.place);
@@ -27,7 +29,14 @@ Pair::Pair(RCP<const Map> owned_nodes, RCP<const MultiVector> reference, RCP<con
   }
   enforcement_ = pair_.options.formulation.options->enforcement();
   refuse_reach_short_of_onset();
-  if (pair_.options.friction.options->acts()) friction_ = pair_.options.friction.options.get();
+  if (!pair_.options.friction.options->acts()) return;
+  friction_ = pair_.options.friction.options.get();
+  const bool mine = std::any_of(slave_nodes().begin(), slave_nodes().end(), [](const SlaveNode& node) { return node.partly_fixed(); });
+  int held = 0;
+  Teuchos::reduceAll(*owned_nodes_->getComm(), Teuchos::REDUCE_MAX, mine ? 1 : 0, Teuchos::outArg(held));
+  any_held_ = held != 0;
+  if (any_held_)
+    for (const SurfaceFacet& facet : pair_.slave) slave_ids_.insert(facet.begin(), facet.end());
 }
 
 // Newton's method finds gaps to about 1e-8 h and pressures to about 1e-8 E on its way, and pressures of 1e-4 E and gaps of 1e-4 h are to be told from

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "mortise/contact/contact_history.hpp"
@@ -74,19 +75,23 @@ class Pair {
   void measure_covered(const InterfacePattern& pattern, const std::vector<FacetCoupling>& couplings, std::vector<NodeRow>& rows) const;
   void freeze(const InterfacePattern& pattern, std::vector<NodeRow>& rows) const;
   std::shared_ptr<const PairGeometry> moved(const MultiVector& x, const PairHistory& history) const;
-  /// Of the nodes that slips are measured against, among the coupled nodes.
+  /// Of the nodes that slips are measured against, among the coupled nodes. Sets start_ too.
   const Places& places_of(const std::shared_ptr<const InterfacePattern>& pattern, const std::shared_ptr<const SlipReferences>& references) const;
   void measure_slip(const PairHistory& history, bool derivatives, PairGeometry& geometry) const;
+  void measure_first_slip(const PairHistory& history, bool derivatives, PairGeometry& geometry) const;
+  void find_resting(PairGeometry& geometry) const;
   void measure_frozen_slip(const PairHistory& history, PairGeometry& geometry) const;
 
   ContactPair pair_;
   RCP<const Map> owned_nodes_;
-  RCP<const MultiVector> reference_;
+  RCP<const MultiVector> reference_, fixed_;
   std::unique_ptr<MortarInterface> interface_;
   MultiplierTies untied_;
   const FrictionLaw* friction_ = nullptr;
   SharedEnforcement enforcement_;
-  std::vector<int> fixed_axes_;  ///< [slave nodes] first component that is prescribed; -1: none
+  std::vector<int> fixed_axes_;        ///< [slave nodes] first component that is prescribed; -1: none
+  std::set<GlobalOrdinal> slave_ids_;  ///< nodes of the slave facets of this rank; only where any_held_
+  bool any_held_ = false;              ///< with friction: slave nodes have prescribed components, on any rank
   double size_ = 1.0;
   int dimension_ = 2;
 
@@ -95,6 +100,8 @@ class Pair {
   mutable std::optional<StepFailure> frozen_failure_;   ///< of that evaluation
   mutable long slip_evaluations_ = 0;
   mutable Places places_;
+  mutable RCP<const MultiVector> start_;  ///< [local nodes x dim] positions in the state that slips are measured from
+  mutable RCP<const MultiVector> held_;   ///< [local nodes x dim] what is prescribed; only where any_held_
   mutable std::shared_ptr<const InterfacePattern> places_pattern_;
   mutable std::shared_ptr<const SlipReferences> places_references_;
 };

@@ -30,17 +30,34 @@ TangentVector PairEvaluation::slip(std::size_t s, const NodeMultiplier& multipli
   return slip;
 }
 
-// A component that is prescribed takes one tangent: there the node bears no shear traction.
+TangentVector PairEvaluation::slip_in_contact(std::size_t s, const NodeMultiplier& multiplier) const {
+  const TangentVector whole = slip(s, multiplier);
+  const double start = start_gap(s), c = pair_->complementarity_constant(s);
+  if (!(start > 0.0)) return whole;
+  const TangentVector t = frame(s).tangents * multiplier.z;  // of a node without prescribed components
+  const Landing landing(multiplier.z.dot(row(s).normal) - c * gap(s, multiplier), c * start);
+  return (landing.share * (t + c * whole) - t) / c;
+}
+
 Complementarity PairEvaluation::complementarity(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* missing_bound) const {
   Complementarity law = law_of(s, multiplier, missing_bound);
   if (multiplier.tie > 0.0) law.C_z += multiplier.tie * shift_factor(law, s);
   return law;
 }
 
-bool PairEvaluation::has_friction(std::size_t s) const {
+// One tangent for each component that is prescribed; the first has the axis of the first of these.
+Eigen::Index PairEvaluation::held_tangents(std::size_t s) const {
   const SlaveNode& node = slave_nodes()[s];
-  const auto fixed = std::count(node.fixed.begin(), node.fixed.end(), true);
-  return history().slip != nullptr && !history().slip->nodes[s].empty() && fixed < dimension() - 1;
+  return std::count(node.fixed.begin(), node.fixed.end(), true);
+}
+
+// Of a node that was not covered, or hardly so, the gap at the start is that of the surfaces alone.
+double PairEvaluation::start_gap(std::size_t s) const {
+  const NodeSlip& slip = geometry_->slips[s];
+  if (!history().slip->nodes[s].empty()) return slip.start_gap;
+  if (history().slip->gaps[s] < 0.0) return 0.0;
+  return std::max(
+      0.0, slip.start_gap + (clearance(s) + pair_->enforcement().onset()) * row(s).covered + history().allowed_overlap * slave_nodes()[s].weight);
 }
 
 ContactNode PairEvaluation::node(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* missing_bound) const {
@@ -56,11 +73,18 @@ ContactNode PairEvaluation::node(std::size_t s, const NodeMultiplier& multiplier
   node.youngs_modulus = pair_->definition().youngs_modulus;
   node.size = pair_->size();
   node.tie = ties().compliance(s);
-  if (has_friction(s)) {
+  if (history().slip != nullptr) {
     node.friction = NodeFriction{pair_->friction(), history().slip->paths[s], missing_bound};
-    node.holds_first_tangent = slave.partly_fixed();
     node.slip = slip(s, multiplier);
-    if (node.holds_first_tangent) node.slip[0] = 0.0;
+    node.start_gap = start_gap(s);
+    node.held.count = held_tangents(s);
+    if (node.held.count > 0) {
+      node.held.traction = TangentVector::Zero(dimension() - 1);
+      if (const TangentVector& old = history().slip->tractions[s]; old.size() > 0)
+        node.held.traction.head(node.held.count) = old.head(node.held.count);
+      for (Eigen::Index a = 0; a < node.held.count; ++a)
+        if (geometry_->slips[s].rests[static_cast<std::size_t>(a)]) node.slip[a] = 0.0;
+    }
   } else {
     node.slip = TangentVector::Zero(dimension() - 1);
   }
@@ -73,7 +97,8 @@ Complementarity PairEvaluation::law_of(std::size_t s, const NodeMultiplier& mult
   if (!covered(s)) return open_node(multiplier.z);
   const ContactNode node = this->node(s, multiplier, missing_bound);
   Complementarity law = pair_->enforcement().law(node);
-  if (node.holds_first_tangent && law.state != ContactState::open) hold_tangent(law, node.frame(), node.z, 0);
+  for (Eigen::Index a = 0; a < node.held.count && law.slip_factor.size() > 0; ++a)
+    if (geometry_->slips[s].rests[static_cast<std::size_t>(a)]) law.slip_factor.col(a).setZero();
   return law;
 }
 
@@ -91,6 +116,11 @@ SpatialVector PairEvaluation::constraint_gradient(const Complementarity& law, st
   SpatialVector gradient = law.gap_factor * row.dgap[entry] + law.normal_factor * row.dnormal.col(column);
   if (law.slip_factor.size() > 0) gradient.tail(dimension() - 1) += law.slip_factor * geometry_->slips[s].dslip.col(column);
   if (!row.dcovered.empty()) gradient += (law.weight_factor + clearance(s) * law.gap_factor) * row.dcovered[entry];
+  if (law.start_factor.size() > 0 && !geometry_->slips[s].dstart_gap.empty()) {
+    double slope = geometry_->slips[s].dstart_gap[entry];
+    if (!row.dcovered.empty()) slope += (clearance(s) + pair_->enforcement().onset()) * row.dcovered[entry];
+    gradient.tail(dimension() - 1) += slope * law.start_factor;
+  }
   if (multiplier.shift.size() == 0) return gradient;
   gradient += law.gap_factor * multiplier.shift.dot(row.dnormal.col(column));
   if (law.slip_factor.size() == 0) return gradient;
@@ -101,27 +131,39 @@ SpatialVector PairEvaluation::constraint_gradient(const Complementarity& law, st
   return gradient;
 }
 
-// Path: |u_j| over the weight that it carries.
+// Path: |u_j| over the weight that it carries. One that came from a gap and sticks has moved before it touched.
 double PairEvaluation::slip_path(std::size_t s, ContactState state) const {
   const SlipReferences& start = *history().slip;
-  if (state == ContactState::open || start.nodes[s].empty()) return start.paths[s];
+  if (state == ContactState::open || (state == ContactState::stick && start_gap(s) > 0.0)) return start.paths[s];
   return start.paths[s] + geometry_->slips[s].slip.norm() / row(s).covered;
 }
 
+// Couplings of a node that is hardly covered are no measure of what it faces at the end of the next step: a slip would have next to no weight beside
+// what gaps that vary along a facet leave of sum_m c_jm x_m.
 std::shared_ptr<const SlipReferences> PairEvaluation::slip_references(const std::vector<NodeMultiplier>& multipliers,
-                                                                      const std::vector<ContactState>& states, std::vector<double> paths) const {
+                                                                      const std::vector<ContactState>& states, std::vector<double> paths,
+                                                                      const RCP<const MultiVector>& start) const {
   const auto x = geometry_->positions->getLocalViewHost(Tpetra::Access::ReadOnly);
   const std::size_t count = slave_nodes().size();
+  constexpr double hardly = 0.1;  // of its weight; where edges meet at a node a quarter is covered, or more
   const auto references = std::make_shared<SlipReferences>();
   references->nodes.resize(count);
   references->coefficients.resize(count);
   references->positions.resize(count);
   references->ties.resize(count);
+  references->gaps.resize(count);
+  references->tractions.resize(count);
+  references->start = start;
   references->paths = std::move(paths);
   for (std::size_t s = 0; s < count; ++s) {
     if (!covered(s)) continue;
     const Frame in = frame(s);
+    const bool compares = pair_->uses_reference() || row(s).covered >= hardly * slave_nodes()[s].weight;
+    if (!compares && states[s] != ContactState::open) references->gaps[s] = -1.0;
+    if (compares && states[s] == ContactState::open) references->gaps[s] = std::max(0.0, own_gap(s) + pair_->enforcement().onset() * row(s).covered);
+    if (states[s] != ContactState::open && slave_nodes()[s].partly_fixed()) references->tractions[s] = in.tangents * multipliers[s].z;
     if (states[s] != ContactState::open && multipliers[s].shift.size() > 0) references->ties[s] = in.tangents * multipliers[s].shift;
+    if (!compares) continue;
     if (pair_->uses_reference()) references->positions[s] = TangentVector::Zero(dimension() - 1);
     const std::vector<LocalOrdinal>& coupled = coupled_nodes(s);
     for (std::size_t c = 0; c < coupled.size(); ++c) {

@@ -64,6 +64,10 @@ class PairEvaluation {
   double gap(std::size_t s, const NodeMultiplier& multiplier) const;
   /// u - (T q - T^old q^old); 0 without friction.
   TangentVector slip(std::size_t s, const NodeMultiplier& multiplier) const;
+  /// The weighted gap that slave node s had to where it bears pressure when the step began; 0 if it was closed. Friction only.
+  double start_gap(std::size_t s) const;
+  /// Of a closed node whose conditions are exact the slip that these see: that since first contact.
+  TangentVector slip_in_contact(std::size_t s, const NodeMultiplier& multiplier) const;
   /// The frame of slave node s. Tangents of partly fixed nodes are the fixed directions first.
   Frame frame(std::size_t s) const { return make_frame(row(s).normal, history().axes[s]); }
   bool covered(std::size_t s) const { return pair_->covered(s, row(s)); }
@@ -81,7 +85,7 @@ class PairEvaluation {
   /// Slipped in all accepted steps and in this one [length]. Friction only.
   double slip_path(std::size_t s, ContactState state) const;
 
-  /// C and its linearisation, of the law that the node obeys. A node with a fixed component carries no shear traction.
+  /// C and its linearisation, of the law that the node obeys.
   /// @param missing_bound  gets what the law of friction says where it has no bound; C is NaN there
   Complementarity complementarity(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* missing_bound = nullptr) const;
   /// Derivative of C of node s, whose linearisation is `law`, in entry dim c + i of its coupled nodes, at fixed z and q.
@@ -107,8 +111,9 @@ class PairEvaluation {
   /// @param multipliers  [slave nodes]
   /// @param states       [slave nodes]
   /// @param paths        [slave nodes]
+  /// @param start        [owned nodes x dim] positions of this state
   std::shared_ptr<const SlipReferences> slip_references(const std::vector<NodeMultiplier>& multipliers, const std::vector<ContactState>& states,
-                                                        std::vector<double> paths) const;
+                                                        std::vector<double> paths, const RCP<const MultiVector>& start) const;
   /// [slave nodes] the facet nearest to the master by the mean gap; empty where none is covered.
   std::vector<SurfaceFacet> nearest_facets() const;
   /// Reference axes of the tangents for the next step: nodes whose normal has come near theirs get another one.
@@ -118,8 +123,8 @@ class PairEvaluation {
   /// Of a node that is covered.
   ContactNode node(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* missing_bound = nullptr) const;
   ContactNode unloaded_node(std::size_t s) const { return node(s, SpatialVector(SpatialVector::Zero(dimension()))); }
-  /// Whether node s bears shear traction, if it is closed.
-  bool has_friction(std::size_t s) const;
+  /// Along how many of its tangents, the first ones, the displacement of node s is prescribed.
+  Eigen::Index held_tangents(std::size_t s) const;
   /// How far z is from the return map from lambda; in all of |z - z'|.
   double distance_to_return_map(const ContactNode& node) const;
   /// C and its linearisation at fixed q.

@@ -2,6 +2,7 @@
 // The facets' couplings of one pair at one configuration, summed to one row per owned slave node.
 
 #include <Eigen/Core>
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -10,6 +11,14 @@
 #include "multiplier_ties.hpp"
 
 namespace mortise::detail {
+
+/// Of a node in a host view [nodes x dim].
+template <class View>
+SpatialVector position_of(const View& x, LocalOrdinal node, int dimension) {
+  SpatialVector position(dimension);
+  for (int i = 0; i < dimension; ++i) position[i] = x(node, i);
+  return position;
+}
 
 /// Derivatives of one scalar of a slave node with respect to the positions of its coupled nodes; entry dim c + i is component i of node c.
 using PositionGradient = std::vector<double>;
@@ -31,6 +40,9 @@ struct NodeRow {
 struct NodeSlip {
   TangentVector slip;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 2> dslip;  ///< [tangents x dim coupled nodes]; empty without derivatives
+  double start_gap = 0.0;       ///< weighted gap to what it faces now, at the start of the step; only of a node that was not covered then
+  PositionGradient dstart_gap;  ///< empty without derivatives, and where the node was covered
+  std::array<bool, 2> rests{};  ///< [held tangents] whether nothing moves along it in this step, neither the node nor what holds the master there
 };
 
 /// A pair at one configuration. Immutable once it is made.

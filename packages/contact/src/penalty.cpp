@@ -17,7 +17,7 @@ SharedEnforcement Penalty::enforcement() const { return std::make_shared<const P
 
 RegularisedNode PenaltyEnforcement::regularised_node(const ContactNode& node) const {
   const double scale = node.youngs_modulus / node.size * node.start->stiffening * node.hardening;
-  return {normal_ * scale, tangential_ * scale, node.constant * node.full_weight, node.full_weight, node.start->multiplier};
+  return {normal_ * scale, tangential_ * scale, node.constant * node.full_weight, node.full_weight, node.start->multiplier, node.start_gap};
 }
 
 Complementarity PenaltyEnforcement::law(const ContactNode& node) const {

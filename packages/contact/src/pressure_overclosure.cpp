@@ -57,7 +57,12 @@ Complementarity PressureOverclosureEnforcement::law(const ContactNode& node) con
   sticking.body_stiffness = node.constant * node.full_weight;
   sticking.full_weight = node.full_weight;
   sticking.multiplier = node.start->multiplier;
-  add_regularised_friction(result, point.pressure, sticking, node.slip, node.weight, frame, node.z, *node.friction);
+  sticking.start = node.start_gap;
+  // Its depth is that beyond the onset:  dh* = (dz_n + z . dn - c / w (dg + h* dw)) / (p' + c).
+  const double of_sum = share / c;
+  const NodeDepth depth{point.overclosure - law_->onset(),       1.0, of_sum * node.normal, of_sum * node.z, -share / node.weight,
+                        -share / node.weight * point.overclosure};
+  add_regularised_friction(result, point.pressure, depth, sticking, node.slip, node.weight, frame, node.z, *node.friction);
   return result;
 }
 

@@ -9,15 +9,6 @@
 
 namespace mortise::detail {
 
-namespace {
-template <class View>
-SpatialVector position_of(const View& x, LocalOrdinal node, int dimension) {
-  SpatialVector position(dimension);
-  for (int i = 0; i < dimension; ++i) position[i] = x(node, i);
-  return position;
-}
-}  // namespace
-
 const Pair::Places& Pair::places_of(const std::shared_ptr<const InterfacePattern>& pattern,
                                     const std::shared_ptr<const SlipReferences>& references) const {
   if (places_pattern_ == pattern && places_references_ == references) return places_;
@@ -33,6 +24,14 @@ const Pair::Places& Pair::places_of(const std::shared_ptr<const InterfacePattern
     }
   }
   places_ = std::move(places);
+  const auto start = rcp(new MultiVector(pattern->local_nodes, static_cast<std::size_t>(dimension_)));
+  start->doImport(*references->start, *pattern->import, Tpetra::REPLACE);
+  start_ = start;
+  if (any_held_) {
+    const auto fixed = rcp(new MultiVector(pattern->local_nodes, static_cast<std::size_t>(dimension_)));
+    fixed->doImport(*fixed_, *pattern->import, Tpetra::REPLACE);
+    held_ = fixed;
+  }
   places_pattern_ = pattern;
   places_references_ = references;
   return places_;
@@ -46,7 +45,7 @@ void Pair::measure_slip(const PairHistory& history, bool derivatives, PairGeomet
   const SlipReferences& start = *history.slip;
   const Places& places = places_of(geometry.pattern, history.slip);
   const auto x = geometry.positions->getLocalViewHost(Tpetra::Access::ReadOnly);
-  geometry.slips.assign(geometry.gaps.size(), {TangentVector::Zero(dimension_ - 1), {}});
+  geometry.slips.assign(geometry.gaps.size(), {TangentVector::Zero(dimension_ - 1), {}, 0.0, {}, {}});
   const auto position = [&](LocalOrdinal node) { return position_of(x, node, dimension_); };
   const Eigen::Index tangents = dimension_ - 1;
   for (std::size_t s = 0; s < geometry.slips.size(); ++s) {
@@ -54,6 +53,7 @@ void Pair::measure_slip(const PairHistory& history, bool derivatives, PairGeomet
     NodeSlip& of_node = geometry.slips[s];
     const std::vector<LocalOrdinal>& coupled = pattern.coupled[s];
     of_node.dslip.setZero(tangents, derivatives ? dimension_ * static_cast<Eigen::Index>(coupled.size()) : 0);
+    of_node.start_gap = start.gaps[s];
     if (start.nodes[s].empty() || !covered(s, row)) continue;
     std::vector<double> change = row.coefficients;
     for (std::size_t c = 0; c < coupled.size(); ++c)
@@ -68,6 +68,8 @@ void Pair::measure_slip(const PairHistory& history, bool derivatives, PairGeomet
     for (std::size_t c = 0; c < coupled.size(); ++c)
       of_node.dslip.middleCols(dimension_ * static_cast<Eigen::Index>(c), dimension_) -= change[c] * in.tangents;
   }
+  measure_first_slip(history, derivatives, geometry);
+  find_resting(geometry);
   if (!derivatives) return;
   // The facets' derivatives of D and M.
   for (const FacetCoupling& facet : geometry.couplings) {
@@ -93,14 +95,17 @@ void Pair::measure_slip(const PairHistory& history, bool derivatives, PairGeomet
 void Pair::measure_frozen_slip(const PairHistory& history, PairGeometry& geometry) const {
   ++slip_evaluations_;
   const SlipReferences& start = *history.slip;
+  if (any_held_) places_of(geometry.pattern, history.slip);
   const auto x = geometry.positions->getLocalViewHost(Tpetra::Access::ReadOnly);
-  geometry.slips.assign(geometry.gaps.size(), {TangentVector::Zero(dimension_ - 1), {}});
+  geometry.slips.assign(geometry.gaps.size(), {TangentVector::Zero(dimension_ - 1), {}, 0.0, {}, {}});
+  find_resting(geometry);
   for (std::size_t s = 0; s < geometry.slips.size(); ++s) {
     const NodeRow& row = (*geometry.rows)[s];
     NodeSlip& of_node = geometry.slips[s];
     const std::vector<LocalOrdinal>& coupled = geometry.pattern->coupled[s];
     const Frame in = make_frame(row.normal, history.axes[s]);
     if (start.positions[s].size() > 0) of_node.slip -= start.positions[s];
+    of_node.start_gap = start.gaps[s];
     of_node.dslip.resize(dimension_ - 1, dimension_ * static_cast<Eigen::Index>(coupled.size()));
     for (std::size_t c = 0; c < coupled.size(); ++c) {
       const double coefficient = row.coefficients[c] + (coupled[c] == slave_nodes()[s].local_node ? row.D : 0.0);

@@ -104,11 +104,13 @@ void serialize_slip(StateArchive& archive, const Map& nodes, const std::string& 
     archive.refuse_if(match ? std::nullopt : std::optional(fmt::format("\"{0}.nodes\" and \"{0}.coefficients\" differ in their numbers", name)));
   serialize_vectors(archive, comm, name + ".positions", slaves, dimension - 1, references.positions);
   serialize_vectors(archive, comm, name + ".ties", slaves, dimension - 1, references.ties);
+  serialize_vectors(archive, comm, name + ".tractions", slaves, dimension - 1, references.tractions);
   serialize(archive, name + ".paths", slaves, references.paths);
+  serialize(archive, name + ".gaps", slaves, references.gaps);
   if (archive.restores()) slip = std::make_shared<const SlipReferences>(std::move(references));
 }
 
-/// All but positions and multipliers, which are those of the state.
+/// All but positions and multipliers, which are those of the state; slips are measured from these positions too.
 void serialize_accepted(StateArchive& archive, const ContactModel& model, AcceptedContact& accepted) {
   const Communicator& comm = model.comm();
   const Map& nodes = *accepted.positions->getMap();

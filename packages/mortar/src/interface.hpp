@@ -45,6 +45,8 @@ class Interface final : public InterfaceImplementation {
   using Candidates = std::vector<SurfaceFacets>;
 
   void measure_facets(const MultiVector& reference, const Place& place);
+  /// Normals of nodes at supports keep the components that are prescribed there; those at planes of symmetry do not.
+  void release_leaning_nodes(const MultiVector& reference);
   bool moved(const MultiVector& x) const;
   std::vector<PlacedFacet<dim>> place_master(const MultiVector& x);
   double least_height(const Positions<dim>& slave_x, const std::vector<PlacedFacet<dim>>& placed_master) const;

@@ -50,6 +50,7 @@ Interface<dim>::Interface(const InterfaceInput& input)
   slave_positions_ = std::make_unique<Gathered<dim>>(owned_nodes_, slave.node_ids);
   master_positions_ = std::make_unique<Gathered<dim>>(owned_nodes_, nodes_of(master_));
   measure_facets(*input.reference, input.place);
+  release_leaning_nodes(*input.reference);
   candidate_ids_.resize(slave.facets.size());
   segments_of_facet_.assign(slave.facets.size(), 0);
   if (owned_nodes_->getComm()->getSize() > 1 && options_.coupling->integrates_facets())

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "linearised_cases.hpp"
 #include "two_surfaces.hpp"
 
 namespace mortise {
@@ -66,6 +67,93 @@ TEST(Slip, IsMeasuredOverManyFacets) {
   Fixture fixture(surfaces, Tpetra::getDefaultComm());
   const auto d = motion(fixture, surfaces, [](bool slave, const test::Point&) { return test::Point{slave ? 3.0 : 0.0, 0.0}; });
   for (const double slip : slips(fixture, *d)) EXPECT_NEAR(slip, 3.0, 1e-12);
+}
+
+/// Slips as components along the tangents, over what is covered, of nodes that are wholly covered: of a step from d0 to d.
+std::vector<double> slips_of_step(const Fixture& fixture, const ContactHistory& history, const Vector& d) {
+  Vector z(fixture.contact->multiplier_map());
+  std::vector<double> slips;
+  for (const auto& state : node_states(fixture.contact->evaluate(d, history).laws(z), 0))
+    if (state.covered > 0.3 * state.weight) slips.push_back(state.slip);
+  return slips;
+}
+
+// What the node faces now, and what it faced at the start: the slips differ by the square of the step.
+TEST(Slip, OfANewlyCoveredNodeIsThatOfAnOlderOneToSecondOrder) {
+  auto coulomb = std::make_shared<CoulombFriction>();
+  coulomb->coefficient = ScalarFunction(0.3);
+  for (const bool quadratic : {false, true})
+    for (TwoSurfaces surfaces : {test::arch_on_ground(), test::dome_on_waves(), test::dome_on_waves(true)}) {
+      if (quadratic) surfaces = test::quadratic(surfaces, true, true);
+      SCOPED_TRACE(surfaces.dimension);
+      surfaces.options.friction.options = coulomb;
+      surfaces.options.mortar.search_reach = 1.0;
+      Fixture fixture(surfaces, Tpetra::getDefaultComm());
+      Vector none(fixture.dofs), z(fixture.contact->multiplier_map());
+      const ContactHistory older = fixture.first_step(none, z), newly = test::without_couplings(older);
+      const GlobalOrdinal dim = surfaces.dimension;
+      std::vector<double> largest, differences;
+      for (const double step : {0.02, 0.01, 0.005}) {
+        // The slave slides by 1.5 steps and turns by a step, with what it lies on, and both strain.
+        const auto d = Fixture::vector(fixture.dofs, [&](GlobalOrdinal id) {
+          const auto node = static_cast<std::size_t>(id / dim), i = static_cast<std::size_t>(id % dim);
+          const bool slave = node < surfaces.slave.size();
+          const test::Point& X = slave ? surfaces.slave[node] : surfaces.master[node - surfaces.slave.size()];
+          const auto up = static_cast<std::size_t>(dim - 1);
+          const double slid = slave && i == 0 ? 1.5 : 0.0, turned = i == 0 ? -X[up] : (i == up ? X[0] : 0.0);
+          return step * (slid + turned + 0.1 * test::wiggle(id));
+        });
+        const std::vector<double> a = slips_of_step(fixture, older, *d), b = slips_of_step(fixture, newly, *d);
+        ASSERT_EQ(a.size(), b.size());
+        double mine[2] = {0.0, 0.0}, all[2];
+        for (std::size_t s = 0; s < a.size(); ++s) {
+          mine[0] = std::max(mine[0], std::abs(a[s]));
+          mine[1] = std::max(mine[1], std::abs(a[s] - b[s]));
+        }
+        Teuchos::reduceAll(*Tpetra::getDefaultComm(), Teuchos::REDUCE_MAX, 2, mine, all);
+        largest.push_back(all[0]);
+        differences.push_back(all[1]);
+      }
+      EXPECT_GT(largest[2], 0.5 * largest[1] * 0.9);
+      EXPECT_LT(differences[0], 0.2 * largest[0]);
+      for (int k = 0; k < 2; ++k) EXPECT_LT(differences[k + 1], 0.3 * differences[k]);  // a quarter
+    }
+}
+
+// Both bodies turn and move as one, by any angle, after they slid a little.
+TEST(Slip, OfANewlyCoveredNodeIsObjective) {
+  auto coulomb = std::make_shared<CoulombFriction>();
+  coulomb->coefficient = ScalarFunction(0.3);
+  for (TwoSurfaces surfaces : {test::arch_on_ground(), test::corner_on_ground(), test::dome_on_waves(), test::dome_on_waves(true)}) {
+    const GlobalOrdinal dim = surfaces.dimension;
+    SCOPED_TRACE(dim);
+    surfaces.options.friction.options = coulomb;
+    surfaces.options.mortar.search_reach = 1.0;
+    Fixture fixture(surfaces, Tpetra::getDefaultComm());
+    Vector none(fixture.dofs), z(fixture.contact->multiplier_map());
+    const ContactHistory history = test::without_couplings(fixture.first_step(none, z));
+    const auto moved = [&](const Eigen::Matrix3d& turn, double slide) {
+      return Fixture::vector(fixture.dofs, [&](GlobalOrdinal id) {
+        const auto node = static_cast<std::size_t>(id / dim);
+        const bool slave = node < surfaces.slave.size();
+        const test::Point& X = slave ? surfaces.slave[node] : surfaces.master[node - surfaces.slave.size()];
+        const Eigen::Vector3d start(X[0], X[1], X[2]), slid = start + slide * (slave ? Eigen::Vector3d(0.3, 0.0, 0.0) : Eigen::Vector3d::Zero());
+        return (turn * slid + (turn.isIdentity() ? 0.0 : 1.0) * Eigen::Vector3d(3.0, -2.0, 1.0) - start)[id % dim];
+      });
+    };
+    const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity(), about_z = Eigen::AngleAxisd(1.1, Eigen::Vector3d::UnitZ()).matrix(),
+                          skew = Eigen::AngleAxisd(2.0, Eigen::Vector3d(1.0, 2.0, -0.5).normalized()).matrix();
+    for (const Eigen::Matrix3d& turn : {about_z, dim == 2 ? about_z : skew}) {
+      for (const double slip : slips_of_step(fixture, history, *moved(turn, 0.0))) EXPECT_NEAR(slip, 0.0, 1e-12);
+      const std::vector<double> as_it_was = slips_of_step(fixture, history, *moved(identity, 1.0));
+      const std::vector<double> turned = slips_of_step(fixture, history, *moved(turn, 1.0));
+      ASSERT_EQ(turned.size(), as_it_was.size());
+      for (std::size_t s = 0; s < turned.size(); ++s) {
+        EXPECT_NEAR(std::abs(turned[s]), std::abs(as_it_was[s]), 1e-12);
+        EXPECT_GT(std::abs(as_it_was[s]), 0.1);
+      }
+    }
+  }
 }
 
 TEST(Slip, PathAndWorkGrowWithAcceptedSteps) {
@@ -219,6 +307,24 @@ TEST(Coulomb, SlipsAtTheBoundUpToRoundOff) {
   }
   EXPECT_TRUE(sticks(plane(rho * (1.0 - 1e-8), 0.0)));
   EXPECT_TRUE(sticks(space(rho * (1.0 - 1e-8), 0.0)));
+}
+
+// A node that closed a gap bears  p u / g0,  whatever the constant is, up to the bound: it came along that way.
+TEST(Coulomb, OfANodeThatClosedAGapLiesAlongItsWay) {
+  for (const double c : {0.7, 7.0, 70.0})
+    for (const double slip : {-0.02, 0.004, 0.012, 0.1}) {
+      const double pressure = 10.0, start = 0.05, traction = std::clamp(pressure * slip / start, -3.0, 3.0);
+      const Frame plane = make_frame(Eigen::Vector2d(0.0, -1.0), 0), space = make_frame(Eigen::Vector3d(0.0, 0.0, -1.0), 0);
+      const FrictionBound bound{3.0, 0.3};
+      const auto in_plane = with_friction(c, c, 0.0, TangentVector::Constant(1, slip), plane, Eigen::Vector2d(traction, -pressure), bound, start);
+      const TangentVector along = Eigen::Vector2d(0.6, -0.8);
+      const auto in_space = with_friction(c, c, 0.0, slip * along, space,
+                                          SpatialVector(pressure * space.normal + space.tangents.transpose() * (traction * along)), bound, start);
+      EXPECT_NEAR(in_plane.C[1], 0.0, 1e-13) << c << " " << slip;
+      EXPECT_NEAR(in_space.C.tail(2).norm(), 0.0, 1e-13) << c << " " << slip;
+      EXPECT_EQ(in_plane.state == ContactState::stick, std::abs(traction) < 3.0);
+      EXPECT_EQ(in_space.state == ContactState::stick, std::abs(traction) < 3.0);
+    }
 }
 
 // Newton's method leaves the traction on a tangent of the circle: longer than the bound by its turn, which must not hide that it slips the wrong way.

@@ -10,7 +10,7 @@ namespace mortise {
 enum class ContactState { open = 0, stick = 1, slip = 2 };
 
 /// C of one node in its frame (n, tau_a), rows in units of traction, and its linearisation
-///   dC = C_z dz + gap_factor dg + weight_factor dw + normal_factor dn + [ 0 ; slip_factor du ],   w = sum_k D_jk.
+///   dC = C_z dz + gap_factor dg + weight_factor dw + normal_factor dn + [ 0 ; slip_factor du + start_factor dg0 ],   w = sum_k D_jk.
 struct Complementarity {
   ContactState state = ContactState::open;  ///< what C takes the node to do
   SpatialVector C;                          ///< rows n, tau_a; 0 where the conditions are met
@@ -19,6 +19,7 @@ struct Complementarity {
   SpatialVector weight_factor;              ///< 0 but for regularised conditions
   SpatialMatrix normal_factor;              ///< dC/dn
   TangentMatrix slip_factor;                ///< without size: slips do not matter
+  TangentVector start_factor;               ///< of the gap at the start of the step; without size: it does not matter
 };
 
 /// C of an open node:  C = z.
@@ -50,17 +51,41 @@ inline constexpr double against_the_traction = 10.0;
 /// @param bound  rho
 bool sticks(const TangentVector& t, const TangentVector& cu, double bound);
 
+/// Of the motion of a step the share q that a node makes in contact, where it began at a gap G0 > 0 before that and has come to the depth delta
+/// behind it. Both move on a straight line in the step, so  q = delta / (delta + G0),  and 1 without a gap.
+struct Landing {
+  double share = 1.0;     ///< q
+  double of_depth = 0.0;  ///< dq / d delta
+  double of_start = 0.0;  ///< dq / dG0
+  Landing() = default;    ///< without a gap
+  /// @param depth  delta > 0
+  Landing(double depth, double start);
+};
+
+/// The first tangents of a node along which its displacement is prescribed. Its momentum along them holds an unknown reaction, so that the traction
+/// there has to be told by its law: what it was when the step began takes the place of z_tau in y.
+struct HeldTangents {
+  Eigen::Index count = 0;  ///< how many; 0: none
+  TangentVector traction;  ///< z_tau when the step began, 0 beyond the first `count`; without size if there are none
+};
+
 /// C of a closed node with friction (Hueber, Wohlmuth 2005; Gitterle et al. 2010, with all rows in units of traction). With y = z_tau + c_t u and the
 /// bound rho at the pressure z_n - c_n g:
 ///   stick   |y| < rho   C_tau = -c_t u
 ///   slip                C_tau = z_tau - rho y / |y|
 /// In 3D a node whose slip is against its traction sticks too: 0 < |t| - rho < -10 c_t u . t / |t| with t = z_tau and c_t |u| < rho. Then
 /// |t| - rho < 10 |C_tau|, so C vanishes where it did. Just below the bound (at_the_bound) it is C of stick with the derivative of slip.
-/// @param slip  weighted slip u of the step: the slave's motion relative to the master along tau_a, times the weight
+///
+/// A node that closed the gap g0 in this step slips from the moment of first contact on. With the pressure p = z_n - c_n g, which is c_n times a
+/// depth,
+///   y = q (z_tau + c_t u),   q = p / (p + c_n g0),   stick   C_tau = z_tau - y.
+/// With c_t = c_n its traction then is  p u / g0  if friction bears that, whatever c is: it lies along the way on which the node came. A node that
+/// comes from within the cone of friction sticks.
+///
+/// Along tangents that are held y = q (z_tau^old + c_t u) and stick too is C_tau = z_tau - y: a spring, and at the bound rho y / |y| as of others.
+/// @param slip   weighted slip u of the step: the slave's motion relative to the master along tau_a, times the weight
+/// @param start  g0 >= 0, the weighted gap that the node had when the step began; 0 for one that was closed
 Complementarity with_friction(double c_n, double c_t, double gap, const TangentVector& slip, const Frame& frame, const SpatialVector& z,
-                              const FrictionBound& bound);
-
-/// `law` with z . tau_a = 0 in the place of what it asks along tangent a: nothing moves there, and no shear traction is borne.
-void hold_tangent(Complementarity& law, const Frame& frame, const SpatialVector& z, Eigen::Index a);
+                              const FrictionBound& bound, double start = 0.0, const HeldTangents& held = {});
 
 }  // namespace mortise

@@ -22,11 +22,14 @@ using ContactStates = std::vector<PairStates>;
 
 /// What slips are measured against, [owned slave nodes]: the couplings of an accepted state.
 struct SlipReferences {
-  RetainedNodes nodes;                            ///< nodes it was coupled to, itself among them; none: it slips freely in this step
+  RetainedNodes nodes;                            ///< nodes it was coupled to, itself among them; none: it was hardly covered, or not at all
   std::vector<std::vector<double>> coefficients;  ///< of these nodes: rows of D and -M
   std::vector<TangentVector> positions;           ///< tau_a . sum_m c_jm x_m; empty unless the geometry is that of the reference configuration
   std::vector<TangentVector> ties;                ///< tau_a . q, what its tie shifted the slip by; empty: open, or not tied
+  std::vector<TangentVector> tractions;           ///< tau_a . z of closed nodes with prescribed components; else empty
   std::vector<double> paths;                      ///< slipped until then [length]
+  std::vector<double> gaps;                       ///< weighted, to where it bears pressure, of an open node with `nodes`; -1: closed, without `nodes`
+  RCP<const MultiVector> start;                   ///< [owned nodes x dim] positions in that state
 };
 
 /// What the conditions of a node start from where Enforcement::starts_from_multipliers(): fixed while they are solved, renewed by an update of the

@@ -24,6 +24,7 @@ struct ContactNode {
   int axis = -1;                                            ///< reference axis of the tangents; not used in 2D
   double gap = 0.0;                                         ///< weighted, beyond the overlap that is allowed; of a tied node with its tie's part
   TangentVector slip;                                       ///< weighted, since the start of the step; 0 without friction
+  double start_gap = 0.0;                                   ///< g0 >= 0, weighted, that it closed in this step, to where it bears pressure
   double weight = 0.0;                                      ///< w = sum_k D_jk, its share of the surface that is covered
   double full_weight = 0.0;                                 ///< A_j, where it is covered wholly
   double constant = 0.0;                                    ///< c_n and c_t [traction / weighted gap]
@@ -31,7 +32,7 @@ struct ContactNode {
   double size = 0.0;                                        ///< h of the pair
   double tie = 0.0;                                         ///< sigma_j, the compliance of its tie; 0: it is not tied
   std::optional<NodeFriction> friction;                     ///< none: it bears no shear traction
-  bool holds_first_tangent = false;                         ///< with friction: nothing moves there and no shear traction is borne; its slip is 0
+  HeldTangents held;                                        ///< tangents with a prescribed displacement; friction only
   const NodeStart* start = nullptr;                         ///< null unless Enforcement::starts_from_multipliers()
   double hardening = 1.0;                                   ///< Settling::hardening
   Frame frame() const { return make_frame(normal, axis); }  ///< (n, tau_a)
@@ -49,7 +50,7 @@ class Enforcement {
  public:
   virtual ~Enforcement() = default;
 
-  /// C of a node and its linearisation. What a node does along a tangent that it holds is put in place afterwards, by hold_tangent().
+  /// C of a node and its linearisation.
   virtual Complementarity law(const ContactNode& node) const = 0;
   /// Whether that closes it.
   virtual bool is_closed(const ContactNode& node) const { return law(node).state != ContactState::open; }
