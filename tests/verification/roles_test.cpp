@@ -147,4 +147,23 @@ TEST(AutomaticRoles, TakeTheSofterSideThenTheFinerOneThenTheGivenOne) {
   EXPECT_EQ(automatically, by_hand);
 }
 
+// Each wall bears mu N = 0.02 by friction, and the disk is heavier by a twentieth. Normals of a coarse disk lean, and bear the rest.
+TEST(LeaningNormals, AreSaidWhereTheyBearALoad) {
+  for (const int ranks : {1, 2}) {
+    const Outcome outcome = run("disk_between_walls.xml", "leans_np" + std::to_string(ranks), {"variables/part=1.05"}, ranks);
+    EXPECT_TRUE(outcome.says("contact \"cl\" bears 0.021 along the master, where friction bears 0.02: the slave's normals lean"))
+        << outcome.ending.output;
+    EXPECT_TRUE(outcome.says("of what acts on body 'd'; please make the slave finer there")) << outcome.ending.output;
+  }
+  const Outcome light = run("disk_between_walls.xml", "does_not_lean", {"variables/part=0.9"});
+  EXPECT_EQ(light.ending.code, 0) << light.ending.output;
+  EXPECT_FALSE(light.says("normals lean")) << light.ending.output;
+}
+
+// With facets half as long it falls.
+TEST(LeaningNormals, DoNotBearItOnAFinerSlave) {
+  const Outcome outcome = run("disk_between_walls.xml", "falls", {"variables/part=1.05", "variables/n=16"});
+  EXPECT_EQ(outcome.ending.code, 3) << outcome.ending.output;
+}
+
 }  // namespace

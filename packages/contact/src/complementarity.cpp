@@ -42,6 +42,10 @@ bool sticks(const TangentVector& t, const TangentVector& cu, double bound) {
 
 Landing::Landing(double depth, double start) {
   if (!(start > 0.0)) return;
+  if (!(depth > 0.0)) {  // on Newton's way: it has not landed
+    share = 0.0;
+    return;
+  }
   const double sum = depth + start;
   share = depth / sum;
   of_depth = start / (sum * sum);

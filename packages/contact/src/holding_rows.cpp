@@ -113,7 +113,7 @@ std::vector<SlidingNode> sliding_nodes(const ContactLaws& laws, const MultiVecto
       if (self.multiplier_of[p][s] < 0 || pair.slave_nodes()[s].partly_fixed()) continue;
       const Complementarity& law = evaluated.laws[p][s];
       if (law.state != ContactState::slip) continue;
-      SlidingNode node{p, self.multiplier_of[p][s], pair.frame(s), 0.0, pair.pair().complementarity_constant(s), pair.row(s).covered, {}, {}};
+      SlidingNode node{p, self.multiplier_of[p][s], pair.frame(s), 0.0, pair.pair().friction_constant(s), pair.row(s).covered, {}, {}};
       for (Eigen::Index a = 0; a < node.frame.tangents.rows(); ++a)  // C_tau = z_tau - rho y / |y|
         node.bound = std::hypot(node.bound, node.frame.tangents.row(a).dot(multipliers[s].z) - law.C[1 + a]);
       if (!(node.bound > 0.0)) continue;

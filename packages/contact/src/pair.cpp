@@ -46,12 +46,13 @@ void Pair::refuse_constant_out_of_range() const {
   const auto& constant = pair_.options.complementarity_constant;
   if (!constant) return;
   constexpr double most = 1e4;
+  constexpr double written = 1e-5;  // the ends as the message writes them are allowed
   const double facet = pair_.youngs_modulus / size_, least = facet / most, largest = most * facet;
-  if (*constant >= least && *constant <= largest) return;
+  if (*constant >= (1.0 - written) * least && *constant <= (1.0 + written) * largest) return;
   throw InputError(
       pair_.place,
-      fmt::format("\"complementarity constant\" is {:g}; allowed: {:.2g} to {:.2g}, as errors of the iteration would choose the active set "
-                  "beyond; please take about Young's modulus over the side of a facet, here {:.2g}, or leave it out",
+      fmt::format("\"complementarity constant\" is {:g}; allowed: {:.6g} to {:.6g}, as errors of the iteration would choose the active set "
+                  "beyond; please take about Young's modulus over the side of a facet, here {:.6g}, or leave it out",
                   *constant, least, largest, facet));
 }
 
@@ -69,6 +70,10 @@ void Pair::refuse_reach_short_of_onset() const {
 double Pair::complementarity_constant(std::size_t s) const {
   const double facet = pair_.youngs_modulus / size_;
   return pair_.options.complementarity_constant.value_or(enforcement_->relative_constant() * facet) / slave_nodes()[s].weight;
+}
+
+double Pair::friction_constant(std::size_t s) const {
+  return std::min(complementarity_constant(s), pair_.youngs_modulus / size_ / slave_nodes()[s].weight);
 }
 
 bool Pair::covered(std::size_t s, const NodeRow& row) const {

@@ -39,6 +39,8 @@ class Pair {
   double size() const { return size_; }
   /// c_n of slave node s: unless given E / (h A_j) times Enforcement::relative_constant().
   double complementarity_constant(std::size_t s) const;
+  /// c of exact conditions for slips and for the pressure of friction's bound: that, but no more than E / (h A_j).
+  double friction_constant(std::size_t s) const;
   /// Whether the multiplier of slave node s is condensed before those of corners, whose momentum rows it stands in: that of a mid-side node.
   bool before_corners(std::size_t s) const { return slave_nodes()[s].middle && enforcement_->needs_diagonal_coupling(); }
   /// Whether hardly covered nodes are tied.

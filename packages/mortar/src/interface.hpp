@@ -12,6 +12,8 @@
 
 namespace mortise {
 
+struct SettledCorner;
+
 template <int dim>
 struct IntegratorOf;
 template <>
@@ -65,8 +67,9 @@ class Interface final : public InterfaceImplementation {
   void pass_couplings(std::vector<FacetCoupling>& couplings);
   /// Kinks of owned nodes get the normals that their facets' couplings [facets] call for, and their rows the weights.
   void settle_corners(bool derivatives, std::vector<NodalNormal>& normals, std::vector<FacetCoupling>& couplings) const;
-  std::size_t couple_nodes(const Positions<dim>& x, bool derivatives, const std::vector<NodalNormal>& normals,
-                           std::vector<FacetCoupling>& couplings) const;
+  bool settle_node(std::size_t s, const Positions<dim>& x, bool derivatives, std::vector<NodalNormal>& normals, SettledCorner& corner);
+  std::size_t couple_nodes(const Positions<dim>& x, bool derivatives, std::vector<NodalNormal>& normals, std::vector<FacetCoupling>& couplings,
+                           std::optional<StepFailure>& failure);
 
   RCP<const Map> owned_nodes_;
   InterfaceMeasure measure_;

@@ -7,7 +7,6 @@
 
 #include "coupling_message.hpp"
 #include "interface.hpp"
-#include "slave_node.hpp"
 
 namespace mortise {
 
@@ -109,20 +108,6 @@ void Interface<dim>::pass_couplings(std::vector<FacetCoupling>& couplings) {
 }
 
 template <int dim>
-std::size_t Interface<dim>::couple_nodes(const Positions<dim>& x, bool derivatives, const std::vector<NodalNormal>& normals,
-                                         std::vector<FacetCoupling>& couplings) const {
-  std::size_t used = 0;
-  if constexpr (dim == 2)
-    for (std::size_t s = 0; s < slave.owned.size(); ++s) {
-      if (!slave.owned[s].carries_multiplier) continue;
-      if (used == couplings.size()) couplings.emplace_back();
-      used += options_.coupling->couple_node({slave.owned[s].local_node, &slave.stencils[s], &normals[s]}, met_[s], reach, x, measure_,
-                                             options_.share, derivatives, couplings[used]);
-    }
-  return used;
-}
-
-template <int dim>
 void Interface<dim>::evaluate(const MultiVector& x, bool derivatives, std::vector<FacetCoupling>& couplings, std::vector<NodalNormal>& normals,
                               std::optional<StepFailure>& failure) {
   const Positions<dim> positions = positions_of<dim>(x.getLocalViewHost(Tpetra::Access::ReadOnly));
@@ -148,7 +133,7 @@ void Interface<dim>::evaluate(const MultiVector& x, bool derivatives, std::vecto
   if (options_.coupling->integrates_facets())
     couple_facets(positions, derivatives, normals, couplings, failure);
   else
-    couplings.resize(failure ? 0 : couple_nodes(positions, derivatives, normals, couplings));
+    couplings.resize(couple_nodes(positions, derivatives, normals, couplings, failure));
   normals.resize(slave.owned.size());
 }
 
@@ -180,6 +165,7 @@ std::vector<GapCurvature> Interface<dim>::gap_curvatures(const MultiVector& x, c
   return curvatures;
 }
 
+template std::size_t Interface<2>::segments_of(SlaveFacetData&, const std::vector<Facet<LocalOrdinal>>&, const Positions<2>&, bool, FacetCoupling&);
 template std::vector<GapCurvature> Interface<2>::gap_curvatures(const MultiVector&, const std::vector<double>&);
 template std::vector<GapCurvature> Interface<3>::gap_curvatures(const MultiVector&, const std::vector<double>&);
 template void Interface<2>::evaluate(const MultiVector&, bool, std::vector<FacetCoupling>&, std::vector<NodalNormal>&, std::optional<StepFailure>&);

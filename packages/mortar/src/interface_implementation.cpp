@@ -148,8 +148,8 @@ typename Interface<dim>::Candidates Interface<dim>::find(const Positions<dim>& x
     for (std::size_t j = 0; j < facet.size(); ++j) sound = average_normal(slave.stencils[slave.normals[f][j]], x, false, normals[j]) && sound;
     if (!sound) continue;  // evaluate() says what is wrong
     const OverlapTest<dim> may_overlap(points_of<dim>(facet, x), normals, motion);
-    bool beside_corner = false;
-    if constexpr (dim == 2) beside_corner = any_may_yield(near[f], 2.0 * turn_until_next);
+    bool beside_corner = !options_.coupling->integrates_facets() && slave.normals[f] != facet;  // a corner's line may run between those of its facets
+    if constexpr (dim == 2) beside_corner = beside_corner || any_may_yield(near[f], 2.0 * turn_until_next);
     for (const PlacedFacet<dim>& one : near[f])
       if (beside_corner || may_overlap(one.points())) result[f].push_back(one.ids());
   }

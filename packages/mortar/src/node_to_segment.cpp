@@ -2,10 +2,13 @@
 
 #include <Sacado.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "mortise/mortar/mortar_interface.hpp"
 #include "mortise/mortar/segment_2d.hpp"
+#include "settled_corner.hpp"
+#include "slave_facet.hpp"
 #include "slave_node.hpp"
 
 namespace mortise {
@@ -55,23 +58,38 @@ std::size_t facet_hit(const SlaveNodeData& slave, const std::vector<Facet<LocalO
   return nearest;
 }
 
-// w = sum over the node's facets of t L / 2, or 2 pi L (r_j / 3 + r_k / 6); its derivative in the columns of the stencil.
-double share_of_surface(const SlaveNodeData& slave, const Positions<2>& x, const InterfaceMeasure& measure, Eigen::RowVectorXd* slope) {
+// What of a facet at the node counts: at a corner what is seen along its normal. Its derivative stands in the corner's columns.
+struct Seen {
+  double share = 1.0;
+  const Eigen::RowVectorXd* slope = nullptr;
+
+  Seen(const SlaveNodeData& slave, const NodeTangents& facet) {
+    if (slave.corner == nullptr) return;
+    const std::size_t side = slave.corner->sides.size() == 2 && facet.nodes[0] == slave.node ? 1 : 0;  // the one that ends there comes first
+    share = slave.corner->weight[side];
+    slope = &slave.corner->slope_of_weight[side];
+  }
+};
+
+// w = sum over the node's facets of w_f t L / 2, or w_f 2 pi L (r_j / 3 + r_k / 6); its derivative in `columns`. w_f is 1 but at a corner.
+double share_of_surface(const SlaveNodeData& slave, const Positions<2>& x, const InterfaceMeasure& measure, const std::vector<LocalOrdinal>& columns,
+                        Eigen::RowVectorXd* slope) {
   double weight = 0.0;
   for (const NodeTangents& facet : slave.stencil->facets) {
+    const Seen seen(slave, facet);
     const LocalOrdinal other = facet.nodes[0] == slave.node ? facet.nodes[1] : facet.nodes[0];
     const Eigen::Vector2d travel = x[slave.node] - x[other];
     const double length = travel.norm();
     const double height = measure.axisymmetric ? two_pi * (x[slave.node].x() / 3.0 + x[other].x() / 6.0) : 0.5 * measure.thickness;
-    weight += length * height;
+    weight += seen.share * length * height;
     if (slope == nullptr) continue;
-    const auto& columns = slave.stencil->columns;
     const auto place = [&](LocalOrdinal node) { return 2 * (std::find(columns.begin(), columns.end(), node) - columns.begin()); };
-    slope->middleCols<2>(place(slave.node)) += height * travel.transpose() / length;
-    slope->middleCols<2>(place(other)) -= height * travel.transpose() / length;
+    slope->middleCols<2>(place(slave.node)) += seen.share * height * travel.transpose() / length;
+    slope->middleCols<2>(place(other)) -= seen.share * height * travel.transpose() / length;
+    if (seen.slope != nullptr) add_columns<2>(columns, slave.corner->columns, Eigen::RowVectorXd(length * height * *seen.slope), *slope);
     if (!measure.axisymmetric) continue;
-    (*slope)[place(slave.node)] += two_pi * length / 3.0;
-    (*slope)[place(other)] += two_pi * length / 6.0;
+    (*slope)[place(slave.node)] += seen.share * two_pi * length / 3.0;
+    (*slope)[place(other)] += seen.share * two_pi * length / 6.0;
   }
   return weight;
 }
@@ -80,7 +98,8 @@ double share_of_surface(const SlaveNodeData& slave, const Positions<2>& x, const
 
 // The node meets the master facet that the line along its normal n hits nearest, at most `reach` away:
 //   x + s n = y(eta),   D_jj = w,   M_jl = w N_l(eta),   g_j = w s.
-// The node's share of the current surface is w = share sum_facets int N_j. The surface goes on straight for 1/200 of a facet beyond its ends.
+// The node's share of the current surface is w = share sum_facets w_f int N_j; w_f is 1 but at corners, which couple_nodes.cpp settles. The surface
+// goes on straight for 1/200 of a facet beyond its ends.
 bool NodeToSegmentCoupling::couple_node(const SlaveNodeData& slave, const std::vector<Facet<LocalOrdinal>>& masters, double reach,
                                         const Positions<2>& x, const InterfaceMeasure& measure, double share, bool derivatives,
                                         FacetCoupling& coupling) const {
@@ -89,13 +108,17 @@ bool NodeToSegmentCoupling::couple_node(const SlaveNodeData& slave, const std::v
   if (hit == masters.size()) return false;
   coupling.slave.assign(1, slave.node);
   coupling.master.assign(masters[hit].begin(), masters[hit].end());
+  // A corner's normal depends on masters too.
   coupling.columns = slave.stencil->columns;
-  const auto first_master = static_cast<Eigen::Index>(2 * coupling.columns.size());
-  coupling.columns.insert(coupling.columns.end(), coupling.master.begin(), coupling.master.end());
+  for (const LocalOrdinal node : slave.normal->columns) place_of(coupling.columns, node);
+  if (slave.corner != nullptr)
+    for (const LocalOrdinal node : slave.corner->columns) place_of(coupling.columns, node);
+  const std::array<Eigen::Index, 2> first_of_master = {2 * place_of(coupling.columns, coupling.master[0]),
+                                                       2 * place_of(coupling.columns, coupling.master[1])};
   const auto columns = static_cast<Eigen::Index>(2 * coupling.columns.size());
 
   Eigen::RowVectorXd weight_slope = Eigen::RowVectorXd::Zero(derivatives ? columns : 0);
-  const double weight = share * share_of_surface(slave, x, measure, derivatives ? &weight_slope : nullptr);
+  const double weight = share * share_of_surface(slave, x, measure, coupling.columns, derivatives ? &weight_slope : nullptr);
   weight_slope *= share;
   const Point2<double> start = point(x[slave.node]), normal = point(slave.normal->normal);
   const MasterLine<double> line = {{point(x[masters[hit][0]]), point(x[masters[hit][1]])}};
@@ -121,10 +144,10 @@ bool NodeToSegmentCoupling::couple_node(const SlaveNodeData& slave, const std::v
   const auto chain = [&](const Dual& scalar) {
     Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(columns);
     const Eigen::RowVector2d along(scalar.fastAccessDx(2), scalar.fastAccessDx(3));
-    row.head(first_master) = along * slave.normal->derivative;
+    add_columns<2>(coupling.columns, slave.normal->columns, Eigen::RowVectorXd(along * slave.normal->derivative), row);
     row[own] += scalar.fastAccessDx(0);
     row[own + 1] += scalar.fastAccessDx(1);
-    for (int k = 0; k < 4; ++k) row[first_master + k] = scalar.fastAccessDx(4 + k);
+    for (int k = 0; k < 4; ++k) row[first_of_master[static_cast<std::size_t>(k / 2)] + k % 2] += scalar.fastAccessDx(4 + k);
     return row;
   };
   coupling.dD.row(0) = weight_slope;

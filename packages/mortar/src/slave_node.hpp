@@ -6,11 +6,14 @@
 
 namespace mortise {
 
+struct SettledCorner;
+
 /// A slave node, its facets and its normal.
 struct SlaveNodeData {
   LocalOrdinal node = 0;
   const NormalStencil* stencil = nullptr;  ///< its facets
   const NodalNormal* normal = nullptr;
+  const SettledCorner* corner = nullptr;  ///< what counts of its facets; null: all of them
 };
 
 }  // namespace mortise

@@ -5,6 +5,7 @@
 #include <Tpetra_Core.hpp>
 
 #include "exact_derivatives.hpp"
+#include "mortise/mortar/coupling/node_to_segment.hpp"
 #include "mortise/mortar/coupling/standard_mortar.hpp"
 #include "mortise/mortar/coupling/variational_mortar.hpp"
 
@@ -103,6 +104,59 @@ TEST(SplitKinks, LeaveTheFunctionOfAHeldNodeThatStandsOff) {
     SurfacePair along(lines, alone());
     ASSERT_TRUE(split(along, Surfaces(lines).points));
     EXPECT_NEAR(along.dense().D(corner, above), 0.5 * side, 1e-13) << angle;
+  }
+}
+
+// A node that is coupled by itself takes the master's normal too, and of its facets what is seen along it; of a wall nothing.
+TEST(SplitKinks, LetANodeFaceTheMaster) {
+  for (const double angle : {35.0, 50.0, 75.0, 90.0}) {
+    TwoLines lines = folding(angle);
+    lines.options.coupling = coupling_of<NodeToSegmentCoupling>();
+    lines.options.search_reach = 0.6;
+    for (Eigen::Vector2d& x : lines.slave) x.y() += 0.01;
+    const Surfaces surfaces = lines;
+    SurfacePair pair(surfaces, alone());
+    ASSERT_TRUE(split(pair, surfaces.points));
+    const DenseCoupling coupling = pair.dense();
+    const double seen = 0.5 * (0.7 + side * std::cos(angle * degree));
+    EXPECT_LT((coupling.normal.segment<2>(2 * corner) - Eigen::Vector2d(0.0, -1.0)).norm(), 1e-15) << angle;
+    EXPECT_NEAR(coupling.D(corner, corner), seen, 1e-14) << angle;
+    EXPECT_NEAR(coupling.gap[corner], 0.01 * seen, 1e-14) << angle;
+    lines.options.corners = CornerRule::averaged;
+    EXPECT_NEAR(evaluated(lines)->dense().normal[2 * corner], std::sin(0.5 * angle * degree), 1e-14) << angle;
+  }
+}
+
+TEST(SplitKinks, HasExactDerivativesOfANodeThatFacesTheMaster) {
+  for (const double tilt : {30.0, 55.0, 66.0, 4.0, -5.0, -14.0})
+    for (const bool axisymmetric : {false, true}) {
+      SCOPED_TRACE(tilt);
+      TwoLines lines = uneven(60.0, tilt);
+      lines.options.coupling = coupling_of<NodeToSegmentCoupling>();
+      lines.options.search_reach = 0.6;
+      lines.measure.axisymmetric = axisymmetric;
+      expect_exact_derivatives_of(lines, false);
+    }
+}
+
+// A wall that leans over begins to be covered at 87 degrees. The corner's multiplier acts along it, if it is a standard one, from nothing on.
+TEST(SplitKinks, BeginSmoothlyWhereAWallFacesTheMaster) {
+  for (const SharedCoupling& coupling : {coupling_of<DualMortarCoupling>(), coupling_of<StandardMortarCoupling>()}) {
+    const auto row_at = [&](double angle) {
+      TwoLines lines = folding(angle);
+      lines.options.coupling = coupling;
+      lines.options.search_reach = 1.0;
+      const Surfaces surfaces = lines;
+      SurfacePair pair(surfaces, alone());
+      split(pair, surfaces.points);
+      return std::pair(pair.dense().D(corner, corner), pair.dense().gap[corner]);
+    };
+    const double begins = 90.0 - std::asin(0.05) / degree;
+    const auto [before, gap_before] = row_at(begins + 0.01);
+    const auto [after, gap_after] = row_at(begins - 0.01);
+    EXPECT_NEAR(before, after, 1e-6);  // w = 0.05 S((c - 0.05) / 0.1), c - 0.05 = 0.01 degrees: 5e-7
+    EXPECT_NEAR(gap_before, gap_after, 1e-6);
+    EXPECT_GT(row_at(80.0).first, 0.35 + 0.3 * side * std::cos(80.0 * degree));  // the whole share seen by then
   }
 }
 

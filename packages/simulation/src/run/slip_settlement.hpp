@@ -21,17 +21,23 @@ class SlipSettlement {
 
   /// SystemParts::better_start: x with the bodies moved to where friction bears the load, each node with the traction that it has there, and those
   /// that rest sticking. Where friction does not bear the load at the pressures of x, the node that slipped least sticks: pressures are for the next
-  /// iterate to find. Null where something else holds the bodies, or Newton's step along the free motions is no longer than the slips.
+  /// iterate to find. Null where something else holds the bodies, or Newton's step along the free motions is no longer than the slips. Null too for
+  /// the rest of a try in which a start has led back: then what hardly holds the bodies does hold them, and Newton's own steps find how.
   RCP<Vector> better_start(const SystemEvaluation& at);
 
   /// A try of a step begins.
-  void begin() { overload_.clear(); }
+  void begin() {
+    overload_.clear();
+    offered_at_ = Teuchos::null;
+    led_back_ = false;
+  }
   /// Of the last iterate of this try, in equilibrium across the surface, where friction alone held a body and did not bear its load. Names the body,
   /// the motion, the load and what friction bears. Empty if there was none, or a later one held.
   const std::string& overload() const { return overload_; }
 
  private:
   struct Sliding;
+  bool has_led_back(const Vector& z);
   bool find_sliding(const Vector& x, const Vector& F, const ContactLaws& laws, Sliding& found) const;
   std::string describe_overload(const Sliding& sliding, const Eigen::VectorXd& direction) const;
   double sum(double mine) const;
@@ -40,6 +46,8 @@ class SlipSettlement {
   const Model& model_;
   std::vector<int> bodies_;
   std::string overload_;
+  RCP<const Vector> offered_at_;  ///< the multipliers of the iterate at which a start was given last, in this try; null: none
+  bool led_back_ = false;         ///< one has led back in this try
 };
 
 }  // namespace mortise

@@ -6,12 +6,13 @@
 
 #include "run/contact_watch.hpp"
 #include "run/corner_watch.hpp"
+#include "run/lean_watch.hpp"
 #include "run/overlap_watch.hpp"
 
 namespace mortise {
 
-/// Looks at each converged state once. It asks whether a body has passed through another, whether a corner lies within a facet, and whether bodies
-/// overlap although their pair carries no force.
+/// Looks at each converged state once. It asks whether a body has passed through another, whether a corner lies within a facet, whether bodies
+/// overlap although their pair carries no force, and whether leaning normals bear what friction does not.
 class SurfaceWatch {
  public:
   /// @param warn  called once for each pair and question
@@ -32,6 +33,7 @@ class SurfaceWatch {
   ContactWatch passages_;
   CornerWatch corners_;
   OverlapWatch overlaps_;
+  LeanWatch leans_;
 };
 
 }  // namespace mortise

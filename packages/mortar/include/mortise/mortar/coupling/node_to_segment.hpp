@@ -12,8 +12,8 @@ struct NodeToSegmentCoupling final : Coupling {
   bool integrates_facets() const override { return false; }
   bool couple_node(const SlaveNodeData& slave, const std::vector<Facet<LocalOrdinal>>& masters, double reach, const std::vector<Eigen::Vector2d>& x,
                    const InterfaceMeasure& measure, double share, bool derivatives, FacetCoupling& coupling) const override;
-  /// Takes the averaged normal.
-  CornerRule corner_rule(CornerRule, int) const override { return CornerRule::averaged; }
+  /// Takes the master's normal in the place of that of the nearest facet.
+  CornerRule corner_rule(CornerRule asked, int) const override { return asked == CornerRule::averaged ? asked : CornerRule::master_normal; }
   bool exists_in(int dimension) const override { return dimension == 2; }
   bool takes_quadratic_facets() const override { return false; }
 };
