@@ -1,5 +1,6 @@
 #include "mortise/nonlinear/linear_solver.hpp"
 
+#include "automatic_solver.hpp"
 #include "direct_solver.hpp"
 #include "iterative_solver.hpp"
 
@@ -7,8 +8,8 @@ namespace mortise {
 
 void LinearSolverOptions::describe(Parameters& parameters) {
   parameters.add("type", kind, {{"automatic", Kind::automatic}, {"mumps", Kind::mumps}, {"klu2", Kind::klu2}, {"iterative", Kind::iterative}},
-                 "automatic: iterative in 3D from 10000 unknowns on, otherwise mumps; mumps: direct, on any number of ranks; klu2: direct, on one "
-                 "rank; iterative: GMRES with algebraic multigrid");
+                 "automatic: iterative in 3D from 10000 unknowns on, and mumps where that is slow, otherwise mumps; mumps: direct, on any number of ranks; "
+                 "klu2: direct, on one rank; iterative: GMRES with algebraic multigrid");
   parameters.add(
       "residual bound", residual_bound,
       Says("largest backward error |b - A x| / (|A| |x| + |b|) of a direct solver after refinement, which is tried where |b - A x| / |b| is "
@@ -41,8 +42,12 @@ std::unique_ptr<LinearSolver> make_linear_solver(const LinearSolverOptions& opti
       if (!traits.not_iterative.empty()) throw InputError(options.kind.place, traits.not_iterative);
       return detail::make_iterative_solver(options, comm, timers, "");
     case Kind::automatic:
-      if (traits.dimension == 3 && traits.unknowns >= LinearSolverOptions::fewest_for_multigrid && traits.not_iterative.empty())
-        return detail::make_iterative_solver(options, comm, timers, "automatic: ");
+      if (traits.dimension == 3 && traits.unknowns >= LinearSolverOptions::fewest_for_multigrid && traits.not_iterative.empty()) {
+        auto iterative = detail::make_iterative_solver(options, comm, timers, "automatic: ");
+        const double most = detail::iterations_of_factorisation(traits.unknowns);
+        if (most >= options.maximum_iterations) return iterative;
+        return detail::make_automatic_solver(std::move(iterative), detail::make_mumps_solver(options, timers, "automatic: MUMPS"), most);
+      }
       return detail::make_mumps_solver(options, timers, "automatic: MUMPS");
     case Kind::mumps:
       break;
