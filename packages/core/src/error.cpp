@@ -91,6 +91,8 @@ std::string to_string(FailureKind kind) {
       return "projection";
     case FailureKind::augmentation:
       return "augmentation";
+    case FailureKind::unstable:
+      return "unstable";
     case FailureKind::lost_contact:
       return "lost contact";
     case FailureKind::linear_solver:

@@ -193,6 +193,8 @@ class MumpsSolver : public DirectSolver {
   MumpsSolver(std::string name, double residual_bound, const Timers& timers, int work_space)
       : DirectSolver(std::move(name), residual_bound, timers), work_space_(work_space) {}
 
+  int determinant_sign() const override { return sign_; }
+
  protected:
   RCP<Amesos2Solver> make(const RCP<const Matrix>& matrix) override { return make_mumps_adapter(matrix); }
 
@@ -214,6 +216,7 @@ class MumpsSolver : public DirectSolver {
       check_memory("the factorisation", needed - (held_since_ == symbolic_setups() ? held_ : 0.0));
       try {
         mumps.numericFactorization();
+        sign_ = mumps_determinant_sign();
         held_ = needed;
         held_since_ = symbolic_setups();
         return;
@@ -226,6 +229,7 @@ class MumpsSolver : public DirectSolver {
  private:
   static constexpr double default_work_space = 20.0;  ///< of MUMPS, with which analyses look ahead [percent]
   int work_space_;
+  int sign_ = 0;
   double held_ = 0.0;    ///< what the last factors take, whose place the next ones of the same analysis get [MiB]
   int held_since_ = -1;  ///< analyses until then
 };

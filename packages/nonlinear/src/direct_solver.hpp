@@ -35,6 +35,8 @@ class MumpsError : public std::runtime_error {
 RCP<Amesos2Solver> make_mumps_adapter(const RCP<const Matrix>& matrix);
 /// What the last analysis foresaw for the factorisation on this rank, extra work space included [MiB].
 double mumps_memory_foreseen();
+/// Sign of the determinant that the last factorisation gave; 0: it gave none.
+int mumps_determinant_sign();
 void set_mumps_work_space(Amesos2Solver& mumps, int percent);
 
 /// @param work_space  extra work space of the first factorisation, in percent; more is taken where that is not enough

@@ -46,6 +46,8 @@ void store(StateArchive& archive, const SemiSmoothSystem& system, const Stepping
   if (has_rate == 0) return;
   Vector rate(*state.rate, Teuchos::Copy);
   serialize(archive, "rate", "unknowns", rate);
+  double last_step = state.last_step;
+  serialize(archive, "last_step", last_step);
 }
 
 SteppingState restore_stepping(StateArchive& archive, const SemiSmoothSystem& system) {
@@ -58,10 +60,14 @@ SteppingState restore_stepping(StateArchive& archive, const SemiSmoothSystem& sy
   const auto rate = rcp(new Vector(system.map()));
   serialize(archive, "rate", "unknowns", *rate);
   state.rate = rate;
+  serialize(archive, "last_step", state.last_step);
   return state;
 }
 
 namespace {
+/// The observer ends the run within a step.
+struct Interrupted {};
+
 /// Newton's method as often as a step needs it; `report` is that of all of them.
 class StepSolver {
  public:
@@ -103,26 +109,58 @@ bool is_solution(const SystemEvaluation& at, const NewtonOptions& options) {
          norms.complementarity <= options.complementarity_tolerance;
 }
 
-/// Where the iterations of a try start: see run_steps().
-SystemEvaluation start_of_try(const SemiSmoothSystem& system, const NewtonOptions& newton, const AcceptedState& state, const RCP<const Vector>& rate,
-                              double time, const StepStart& start) {
-  const auto context_of = [&](const Vector& d, Vector& z) { return start ? start(state, time, d, z) : system.step_from(state, time); };
+/// Merit of a predicted start over that of the last state beyond which the prediction is not taken.
+constexpr double far_off = 1e3;
+
+/// Where the iterations of a try start.
+struct Begin {
+  SystemEvaluation at;
+  bool is_predicted;
+};
+
+/// See run_steps().
+Begin begin_of_try(const SemiSmoothSystem& system, const NewtonOptions& newton, const SteppingState& from, double time, bool may_predict,
+                   const StepStart& start) {
+  const AcceptedState& state = from.accepted;
+  const double now = state.context.time;
+  const auto prepared = [&](Vector& x) {
+    const RCP<const Vector> d = system.displacement(std::as_const(x));
+    return start ? start(state, time, *d, *system.multipliers(x)) : system.step_from(state, time);
+  };
+  std::optional<SystemEvaluation> rest;
+  const auto at_rest = [&]() -> const SystemEvaluation& {
+    if (!rest) {
+      Vector x(*state.x, Teuchos::Copy);
+      const StepContext context = prepared(x);
+      rest = system.evaluate_at(state, *system.multipliers(std::as_const(x)), context);
+    }
+    return *rest;
+  };
+  if (!may_predict) return {at_rest(), false};
+  const Drive drive = system.drive(*state.x, now, time);
+  const std::optional<double> share = drive.continuation(system.drive(*state.x, now - from.last_step, now));
+  const double length = std::min(time - now, share ? *share * from.last_step : time - now);
+  if (length == 0.0) return {at_rest(), false};
+  // What drove the last step is not known, as where clearances do. Motion does not go on if the last state is a solution of this step too.
+  if (!share && system.prescribed_deviation(*state.x, time) <= newton.increment_tolerance && is_solution(at_rest(), newton)) return {*rest, false};
   Vector x(*state.x, Teuchos::Copy);
-  // Motion does not go on where the last state is a solution of this step too. Carried on all the same, it may end in another equilibrium.
-  if (rate.is_null() || system.prescribed_deviation(*state.x, time) <= newton.increment_tolerance) {
-    const StepContext context = context_of(*system.displacement(std::as_const(x)), *system.multipliers(x));
-    SystemEvaluation at_rest = system.evaluate_at(state, *system.multipliers(std::as_const(x)), context);
-    if (rate.is_null() || is_solution(at_rest, newton)) return at_rest;
-  }
-  x.update(1.0, *state.x, time - state.context.time, *rate, 0.0);
-  const StepContext context = context_of(*system.displacement(std::as_const(x)), *system.multipliers(x));
-  return system.evaluate(x, context);
+  x.update(length, *from.rate, 1.0);
+  const StepContext context = prepared(x);
+  SystemEvaluation predicted = system.evaluate(x, context);
+  // What drives the step is the least that the last state lacks.
+  const auto is_far_off = [&](double merit) { return !(predicted.norms().merit <= far_off * merit); };
+  if (drive.strength() > 0.0 && is_far_off(drive.strength()) && is_far_off(at_rest().norms().merit)) return {*rest, false};
+  return {std::move(predicted), true};
 }
 }  // namespace
 
 bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, const NewtonOptions& newton, SteppingState& at,
                const StepStart& start, const StepperObserver& observer, std::optional<StepFailure>& last_failure) {
   StepSchedule schedule(stepping, at.accepted.context.time, at.next_step);
+  const std::function<void(const NewtonIteration&)> iteration = [&](const NewtonIteration& done) {
+    if (observer.iteration) observer.iteration(done);
+    if (observer.interrupted && observer.interrupted()) throw Interrupted();
+  };
   while (!schedule.finished()) {
     const AcceptedState& state = at.accepted;
     const int step = at.steps + 1;
@@ -130,19 +168,21 @@ bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, 
     report.step = step;
     detail::RepeatedCourse course;
     std::optional<SystemEvaluation> solution;
+    bool may_predict = !at.rate.is_null();
     while (!solution) {
       report.time = schedule.next_time();
       report.dt = report.time - schedule.time();
       StepContext context = system.step_from(state, report.time);
       std::optional<LinearisedIterate> linearised;
-      bool solved = false;
+      bool solved = false, is_predicted = false;
       try {
         if (observer.begin) observer.begin(step, report.time, report.dt);
-        StepSolver solver(system, newton, report.newton, linearised, observer.iteration);
-        SystemEvaluation begin = start_of_try(system, newton, state, at.rate, report.time, start);
-        if (const RCP<Vector> z = observer.close ? observer.close(begin) : Teuchos::null; !z.is_null()) begin = system.with_multipliers(begin, *z);
-        context = begin.context();
-        solution = solver.solve(std::move(begin));
+        StepSolver solver(system, newton, report.newton, linearised, iteration);
+        Begin begin = begin_of_try(system, newton, at, report.time, may_predict, start);
+        is_predicted = begin.is_predicted;
+        if (const RCP<Vector> z = observer.close ? observer.close(begin.at) : Teuchos::null; !z.is_null()) begin.at = system.with_multipliers(begin.at, *z);
+        context = begin.at.context();
+        solution = solver.solve(std::move(begin.at));
         for (int round = 1; observer.verify; ++round) {
           solved = true;
           const RCP<Vector> other_start = observer.verify(state, *solution, round);
@@ -152,21 +192,30 @@ bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, 
           solution.reset();  // contact at an iterate takes memory
           solution = solver.solve(system.evaluate(*other_start, context));
         }
+      } catch (const Interrupted&) {  // on every rank
+        last_failure.reset();
+        return false;
       } catch (const StepFailure& caught) {
         solution.reset();
         const std::string explanation = observer.explain && !solved ? observer.explain({caught, state, report.time, context, linearised}) : "";
         StepFailure failure = explanation.empty() ? caught : StepFailure(caught.kind(), fmt::format("{} ({})", explanation, caught.what()));
-        const bool in_vain = course.add(caught, report.newton);
+        const bool leaves_prediction = solved && is_predicted;
+        const bool in_vain = !leaves_prediction && course.add(caught, report.newton);
         if (in_vain)
           failure = StepFailure(failure.kind(),
                                 fmt::format("{}; a smaller step is of no use: the last {} tries, each with half the step of the one before, "
-                                            "went through the same states of contact",
+                                            "went the same way",
                                             failure.what(), detail::RepeatedCourse::enough));
         last_failure = failure;
         ++report.cutbacks;
         report.undone.push_back(to_string(failure.kind()) + ": " + failure.what());
         if (observer.undone) observer.undone(report, failure);
-        if (in_vain || caught.kind() == FailureKind::out_of_memory || !schedule.cut()) return false;
+        if (in_vain || caught.kind() == FailureKind::out_of_memory) return false;
+        // What a prediction led to, and was refused, is no word on what the last state leads to.
+        if (leaves_prediction)
+          may_predict = false;
+        else if (!schedule.cut())
+          return false;
       }
     }
     last_failure.reset();
@@ -176,6 +225,7 @@ bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, 
       rate->update(1.0 / report.dt, *next.x, -1.0 / report.dt, *state.x, 0.0);
       if (observer.predict) observer.predict(*next.x, report.dt, *rate);
       at.rate = rate;
+      at.last_step = report.dt;
     }
     at.accepted = std::move(next);
     schedule.accept(report.newton.newton_steps() <= stepping.easy_iterations);

@@ -10,15 +10,23 @@
 
 namespace mortise::detail {
 namespace {
-double foreseen = 0.0;  // the adapter shows nothing of what an analysis tells
+// The adapter shows nothing of what an analysis and a factorisation tell.
+double foreseen = 0.0;
+int determinant_sign = 0;
 }
 }  // namespace mortise::detail
 
-// The adapter's own version prints to the terminal and takes warnings (positive codes) for errors.
+// The adapter's own version prints to the terminal and takes warnings (positive codes) for errors. It is called after each phase, so that parameters
+// that the adapter does not know are set here for the next: ICNTL(33) asks a factorisation for the determinant, RINFOG(12) * 2^INFOG(34).
 template <>
 void Amesos2::MUMPS<mortise::Matrix, mortise::MultiVector>::MUMPS_ERROR() const {
-  constexpr int analysis = 1;
+  constexpr int analysis = 1, factorisation = 2;
+  mumps_par.icntl[32] = 1;
   if (mumps_par.job == analysis) mortise::detail::foreseen = mumps_par.info[14];
+  if (mumps_par.job == factorisation) {
+    const double mantissa = mumps_par.rinfog[11];
+    mortise::detail::determinant_sign = mumps_par.infog[0] < 0 ? 0 : (mantissa > 0.0) - (mantissa < 0.0);
+  }
   if (mumps_par.infog[0] < 0) throw mortise::detail::MumpsError(mumps_par.infog[0], mumps_par.infog[1]);
 }
 
@@ -47,6 +55,8 @@ RCP<Amesos2Solver> make_mumps_adapter(const RCP<const Matrix>& matrix) {
 }
 
 double mumps_memory_foreseen() { return foreseen; }
+
+int mumps_determinant_sign() { return determinant_sign; }
 
 void set_mumps_work_space(Amesos2Solver& mumps, int percent) { set(mumps, "ICNTL(14)", percent); }
 

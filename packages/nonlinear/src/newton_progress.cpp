@@ -19,4 +19,23 @@ int iterations_without_progress(const std::vector<NewtonIteration>& iterates) {
   return iterates.back().iteration - std::min(progress, closed);
 }
 
+bool wanders(const std::vector<NewtonIteration>& iterates) {
+  constexpr std::size_t patience = 12, half = patience / 2;
+  constexpr double few = 0.05;  // of the closed nodes
+  if (iterates.size() <= patience) return false;
+  const double start = iterates.front().norms.merit;
+  int before = 0, now = 0, closed = 0;
+  for (std::size_t back = 1; back < iterates.size(); ++back) {
+    const ResidualNorms& norms = iterates[iterates.size() - back].norms;
+    if (norms.merit < start) return false;
+    if (back <= half) {
+      now += norms.changed;
+      closed += norms.active;
+    } else if (back <= patience) {
+      before += norms.changed;
+    }
+  }
+  return now >= before && now > few * closed;
+}
+
 }  // namespace mortise::detail

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "mortise/core/error.hpp"
@@ -18,14 +19,15 @@ class RepeatedCourse {
   static constexpr int enough = 3;
 
   /// Takes the next failed try. Failures of an evaluation have reasons that depend on the size of a step: they never count.
-  /// @returns whether it and the `enough` - 1 before it ended Newton's method for the same reason after the same sequence of states of contact.
-  /// States have to change in that sequence.
+  /// @returns whether it and the `enough` - 1 before it ended Newton's method for the same reason after the same sequence of states of contact, in
+  /// which states have to change; or whether all of them have the same words with the same figures, decimals among them
   bool add(const StepFailure& failure, const NewtonReport& report);
 
  private:
   std::vector<std::array<long long, 2>> course_;
   std::optional<FailureKind> kind_;
-  int tries_ = 0;
+  std::string words_;
+  int tries_ = 0, alike_ = 0;
 };
 
 }  // namespace mortise::detail

@@ -82,6 +82,8 @@ double SemiSmoothSystem::prescribed_deviation(const Vector& x, double time) cons
   return largest;
 }
 
+Drive SemiSmoothSystem::drive(const Vector& x, double from, double to) const { return {model_, x, from, to}; }
+
 std::optional<SystemEvaluation> SemiSmoothSystem::follow_cover(const SystemEvaluation& evaluation) const {
   const detail::EvaluatedSystem& at = detail::evaluated(evaluation);
   if (!at.contact) return std::nullopt;

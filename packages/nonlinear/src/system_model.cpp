@@ -168,10 +168,6 @@ void SystemModel::add_norms(EvaluatedSystem& at, const Vector& external) const {
       rows(prescribed_[i], 0) = 0.0;
     }
   }
-  // Residuals of other fields in units of the first: those that a change by the field's size brings about are alike.
-  const auto weight = [&](std::size_t field) {
-    return field == 0 ? 1.0 : stiffness_scale() * parts_.length / (stiffness_scale(field) * sizes_.size(field));
-  };
   const auto total = [&](const std::vector<double>& of_fields) {
     if (of_fields.size() == 1) return of_fields[0];
     double squares = 0.0;
@@ -199,6 +195,10 @@ void SystemModel::add_norms(EvaluatedSystem& at, const Vector& external) const {
   norms.finite = finite && std::isfinite(rows);
   if (!norms.finite) throw_if_any(comm(), failure);  // all ranks have the same norms
   norms.merit = norms.finite ? std::hypot(rows, violation) : std::numeric_limits<double>::infinity();
+}
+
+double SystemModel::weight(std::size_t field) const {
+  return field == 0 ? 1.0 : stiffness_scale() * parts_.length / (stiffness_scale(field) * sizes_.size(field));
 }
 
 const RCP<Matrix>& SystemModel::stiffness(const std::shared_ptr<const EvaluatedSystem>& at) const {

@@ -58,6 +58,8 @@ class SystemModel {
   double stiffness_scale(std::size_t field = 0) const { return stiffness_scales_[field]; }
   /// s of the field of an owned dof.
   double stiffness_scale_of(LocalOrdinal dof) const { return stiffness_scales_[sizes_.field(dof)]; }
+  /// Of a residual of a field, in units of the first: residuals that changes by the fields' sizes bring about are alike.
+  double weight(std::size_t field) const;
   SaddlePointMatrix& saddle_point() const { return *saddle_point_; }  ///< with a contact that keeps multipliers
   Constraints& constraints() const { return constraints_; }
 

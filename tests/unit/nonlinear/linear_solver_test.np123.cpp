@@ -44,6 +44,25 @@ TEST_P(Mumps, SolvesToRoundOff) {
   EXPECT_EQ(report.iterations, 0);
 }
 
+// The determinant of a stable body is positive; a negative number in the place of a fixed dof turns its sign.
+TEST_P(Mumps, TellsTheSignOfTheDeterminant) {
+  const auto grid = std::make_shared<SpringGrid>(Tpetra::getDefaultComm(), 7, 5, GetParam());
+  const auto b = loads(*grid);
+  Vector x(grid->dofs);
+  const auto solver = solver_of(Kind::mumps);
+  EXPECT_EQ(solver->determinant_sign(), 0);
+  for (const double sign : {1.0, -1.0, 1.0}) {
+    const auto matrix = stiffness(grid, true);
+    matrix->resumeFill();
+    const GlobalOrdinal fixed = grid->dof(0, 1);
+    if (grid->dofs->isNodeGlobalElement(fixed)) matrix->replaceGlobalValues(fixed, 1, &sign, &fixed);
+    matrix->fillComplete(grid->dofs, grid->dofs);
+    solver->set_matrix(matrix, x.norm2() == 0.0, {});
+    solver->solve(*b, x);
+    EXPECT_EQ(solver->determinant_sign(), sign);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Numberings, Mumps, ::testing::Values(Numbering::blocks, Numbering::scattered, Numbering::with_gaps));
 
 TEST(MumpsReuse, AnalysisStandsWhileTheGraphDoes) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Tpetra_Core.hpp>
+#include <cmath>
 
 #include "spring_grid.hpp"
 
@@ -163,6 +164,80 @@ TEST(Stepper, ALinearPredictorContinuesTheLastStep) {
   EXPECT_LT(steps_with, steps_without);
   plain.x->update(-1.0, *predicted.x, 1.0);
   EXPECT_LE(plain.x->normInf(), 1e-7);
+}
+
+// Loads and motions that slow down, or return, are followed by as much less.
+TEST(Stepper, APredictionGoesAsFarAsWhatDrivesTheStepGoesOn) {
+  for (const bool by_motion : {true, false}) {
+    Problem::Choices choices;
+    if (by_motion)
+      choices.motion = {1.0, 0.5};
+    else
+      choices.force = {0.02, 0.01};
+    const std::vector<double> levels{0.0, 0.25, 0.5, 0.525, 0.425};  // at t = 0, 0.25, ...
+    choices.course = [&](double time) { return levels.at(static_cast<std::size_t>(std::lround(4.0 * time))); };
+    Problem problem(Tpetra::getDefaultComm(), choices);
+    SteppingOptions stepping;
+    stepping.step = 0.25;
+    std::vector<Vector> states{Vector(problem.x->getMap())};
+    const std::vector<double> shares{0.0, 1.0, 0.1, 0.0};
+    std::size_t starts = 0;
+    walk(problem, stepping, start_with(problem, [&](const Vector& d) {
+           if (starts > 0) states.emplace_back(problem.brittle->committed, Teuchos::Copy);
+           Vector expected(states.back(), Teuchos::Copy);
+           if (starts > 0) expected.update(-shares[starts], states[starts - 1], 1.0 + shares[starts]);
+           expected.update(-1.0, d, 1.0);
+           EXPECT_LE(expected.normInf(), 1e-12) << "step " << starts + 1;
+           ++starts;
+         }));
+    EXPECT_EQ(starts, 4u);
+  }
+}
+
+// What is refused after a prediction is sought from the last state, and only then with half the step.
+TEST(Stepper, APredictionThatLedAstrayIsLeftOutBeforeTheStepIsCut) {
+  for (const int refusals : {1, 2}) {
+    Problem problem(Tpetra::getDefaultComm(), moved(1e30));
+    SteppingOptions stepping;
+    stepping.step = 0.25;
+    StepperObserver observer;
+    int refused = 0;
+    observer.verify = [&](const AcceptedState& from, const SystemEvaluation&, int) -> RCP<Vector> {
+      if (from.context.time == 0.25 && refused < refusals) {
+        ++refused;
+        throw StepFailure(FailureKind::unstable, "another branch");
+      }
+      return Teuchos::null;
+    };
+    std::vector<bool> predicted;
+    const auto look = [&](const Vector& d) {
+      Vector difference(d, Teuchos::Copy);
+      difference.update(-1.0, problem.brittle->committed, 1.0);
+      predicted.push_back(difference.normInf() > 0.01);
+    };
+    std::optional<StepFailure> failure;
+    EXPECT_TRUE(run(problem, stepping, start_with(problem, look), observer, failure));
+    const std::vector<double> whole{0.25, 0.5, 0.75, 1.0};
+    if (refusals == 1)
+      EXPECT_EQ(problem.brittle->times, whole);
+    else
+      EXPECT_EQ(problem.brittle->times.at(1), 0.375);
+    ASSERT_GE(predicted.size(), 3u);
+    EXPECT_EQ(std::vector<bool>(predicted.begin(), predicted.begin() + 3), (std::vector<bool>{false, true, false}));
+  }
+}
+
+TEST(Stepper, IsInterruptedWithinAStepAndKeepsTheLastState) {
+  Problem problem(Tpetra::getDefaultComm(), moved(1e30));
+  SteppingOptions stepping;
+  stepping.step = 0.25;
+  StepperObserver observer;
+  observer.interrupted = [&] { return problem.brittle->times.size() == 2; };
+  std::optional<StepFailure> failure;
+  EXPECT_FALSE(run(problem, stepping, {}, observer, failure));
+  EXPECT_FALSE(failure);
+  EXPECT_EQ(problem.brittle->times, (std::vector<double>{0.25, 0.5}));
+  EXPECT_DOUBLE_EQ(problem.x->normInf(), 0.5);
 }
 
 // A start that throws is a failed try like any other.

@@ -39,6 +39,24 @@ TEST(Progress, EndsWhereEachClosedNodeMayHaveChanged) {
   EXPECT_EQ(detail::iterations_without_progress(iterates), 1);
 }
 
+TEST(Progress, IsNotToBeHopedForWhereTheResidualNeverFellAndStatesChangeOn) {
+  const auto wanders = [](const std::function<double(int)>& merit, const std::function<int(int)>& changed, int iterations) {
+    Iterates iterates = course(std::vector<long long>(iterations + 1, 1), std::vector<double>(iterations + 1, 1.0));
+    for (int k = 0; k <= iterations; ++k) {
+      iterates[k].norms.merit = merit(k);
+      iterates[k].norms.changed = k == 0 ? 0 : changed(k);
+    }
+    return detail::wanders(iterates);
+  };
+  const auto grown = [](int k) { return k == 0 ? 1.0 : 5.0; };
+  const auto at_random = [](int) { return 30; };
+  EXPECT_TRUE(wanders(grown, at_random, 12));
+  EXPECT_FALSE(wanders(grown, at_random, 11)) << "too early to tell";
+  EXPECT_FALSE(wanders([](int k) { return k == 4 ? 0.9 : 1.0 + k; }, at_random, 20)) << "it fell once";
+  EXPECT_FALSE(wanders(grown, [](int k) { return 100 / k; }, 12)) << "states settle";
+  EXPECT_FALSE(wanders(grown, [](int) { return 1; }, 12)) << "a front passes one node after the other";
+}
+
 /// Iterates that meet all other criteria, the last one with other states than it was computed with and led to by `increment`.
 bool is_done(double increment, double momentum_before, double complementarity = 0.0) {
   const NewtonOptions options;
@@ -78,6 +96,19 @@ TEST(RepeatedCourse, IsTheSameStatesAndReasonThreeTimes) {
   for (const long long last : {3, 4, 3, 4, 3}) EXPECT_FALSE(varied.add(failure, report_of({1, 2, last})));
   for (const FailureKind kind : {FailureKind::line_search, FailureKind::too_many_iterations, FailureKind::line_search})
     EXPECT_FALSE(other.add(StepFailure(kind, ""), report_of({1, 2, 3})));
+}
+
+TEST(RepeatedCourse, IsTheSameFiguresThreeTimes) {
+  const auto tries = [](FailureKind kind, const std::vector<std::string>& words) {
+    detail::RepeatedCourse course;
+    std::vector<bool> in_vain;
+    for (const std::string& text : words) in_vain.push_back(course.add(StepFailure(kind, text), report_of({0, 0})));
+    return in_vain;
+  };
+  using Answers = std::vector<bool>;
+  EXPECT_EQ(tries(FailureKind::linear_solver, {"by 1.3e-02", "by 1.3e-02", "by 1.3e-02"}), (Answers{false, false, true}));
+  EXPECT_EQ(tries(FailureKind::linear_solver, {"by 1.3e-02", "by 1.2e-02", "by 1.3e-02"}), (Answers{false, false, false}));
+  EXPECT_EQ(tries(FailureKind::linear_solver, {"pivot 3", "pivot 3", "pivot 3"}), (Answers{false, false, false})) << "no measured figure";
 }
 
 TEST(RepeatedCourse, DoesNotCountFailuresOfEvaluationsNorSolvesWithoutChangesOfState) {

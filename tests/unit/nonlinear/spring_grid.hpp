@@ -157,22 +157,28 @@ class Springs : public Contribution {
   double stiffness_;
 };
 
-/// A dead load on each node of the upper edge, growing with time.
+/// What a load or a motion is multiplied by, as a function of time.
+using Course = std::function<double(double time)>;
+inline double steadily(double time) { return time; }
+
+/// A dead load on each node of the upper edge.
 class EdgeLoad : public Contribution {
  public:
-  EdgeLoad(std::shared_ptr<const SpringGrid> grid, std::array<double, 2> force) : grid_(std::move(grid)), force_(force) {}
+  EdgeLoad(std::shared_ptr<const SpringGrid> grid, std::array<double, 2> force, Course course = steadily)
+      : grid_(std::move(grid)), force_(force), course_(std::move(course)) {}
   std::string name() const override { return "edge load"; }
   Kind kind() const override { return Kind::external; }
   void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>&) override {
     for (const int node : grid_->owned_nodes())
       if (node / grid_->nx() == grid_->ny() - 1)
-        for (int i = 0; i < 2; ++i) residual.sumIntoGlobalValue(grid_->dof(node, i), -at.time * force_[i]);
+        for (int i = 0; i < 2; ++i) residual.sumIntoGlobalValue(grid_->dof(node, i), -course_(at.time) * force_[i]);
   }
   void add_jacobian(const Configuration&, const JacobianWeights&, Matrix&, std::optional<StepFailure>&) override {}
 
  private:
   std::shared_ptr<const SpringGrid> grid_;
   std::array<double, 2> force_;
+  Course course_;
 };
 
 /// Adds no force, but fails on the rank that owns a displacement that went further than `reach` since the last commit, or beyond `limit` in all.
@@ -201,10 +207,10 @@ class Brittle : public Contribution {
   double reach_, limit_;
 };
 
-/// The lower edge is fixed; the upper one, if `motion` is given, moves by time * motion.
+/// The lower edge is fixed; the upper one, if `motion` is given, moves by course(time) * motion.
 class Edges : public PrescribedDisplacements {
  public:
-  Edges(const SpringGrid& grid, std::optional<std::array<double, 2>> motion) {
+  Edges(const SpringGrid& grid, std::optional<std::array<double, 2>> motion, Course course = steadily) : course_(std::move(course)) {
     for (const int node : grid.owned_nodes()) {
       const bool lower = node < grid.nx(), upper = node / grid.nx() == grid.ny() - 1;
       if (!lower && !(upper && motion)) continue;
@@ -217,13 +223,14 @@ class Edges : public PrescribedDisplacements {
   const std::vector<LocalOrdinal>& dofs() const override { return dofs_; }
   std::vector<double> values(double time, std::optional<StepFailure>&) const override {
     std::vector<double> result = rates_;
-    for (double& value : result) value *= time;
+    for (double& value : result) value *= course_(time);
     return result;
   }
 
  private:
   std::vector<LocalOrdinal> dofs_;
   std::vector<double> rates_;
+  Course course_;
 };
 
 /// A grid with its lower edge fixed, pulled at its upper edge by forces or by a motion.
@@ -241,6 +248,7 @@ struct Problem {
   struct Choices {
     int nx = 6, ny = 5;
     std::optional<std::array<double, 2>> force, motion;
+    Course course = steadily;  ///< of both
     double stiffness = 1.0;
     double reach = 1e30, limit = 1e30;
     LinearSolverOptions linear_solver;
@@ -279,8 +287,8 @@ struct Problem {
     parts.local_dofs = grid->local_dofs;
     parts.bulk_graph = [graph = grid->graph] { return graph; };
     parts.contributions = {std::make_shared<Springs>(grid, choices.stiffness), brittle};
-    if (choices.force) parts.contributions.push_back(std::make_shared<EdgeLoad>(grid, *choices.force));
-    parts.prescribed = std::make_shared<Edges>(*grid, choices.motion);
+    if (choices.force) parts.contributions.push_back(std::make_shared<EdgeLoad>(grid, *choices.force, choices.course));
+    parts.prescribed = std::make_shared<Edges>(*grid, choices.motion, choices.course);
     if (choices.cut > 0) parts.contact = contact(*grid, *parts.prescribed, choices.stiffness, choices.formulation, choices.linearisation);
     parts.linear_solver = make_linear_solver(choices.linear_solver, comm, Timers());
     parts.near_null_space = [grid = grid](const Vector&) { return grid->near_null_space(); };

@@ -29,6 +29,9 @@ class RunOutput {
   /// What the stepper calls.
   StepperObserver functions();
 
+  /// The steps are over: a try that was interrupted is marked as stopped.
+  void end_steps() { write_last_iteration("stopped"); }
+
   /// Writes fields and profiles of the last accepted state, if that has not been done.
   void finish(const std::function<SystemEvaluation()>& last_state);
 

@@ -22,6 +22,7 @@
 #include "mortise/simulation/model/run_log.hpp"
 #include "mortise/simulation/run/jump_check.hpp"
 #include "mortise/simulation/run/run.hpp"
+#include "mortise/simulation/run/stability_check.hpp"
 #include "mortise/simulation/run/state_check.hpp"
 #include "mortise/simulation/run/step_evaluation.hpp"
 #include "run/checkpoints.hpp"
@@ -143,6 +144,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
   JumpCheck jump(model.parts().length);
   std::optional<CoarseSlaveWatch> coarse;
   if (model.contact()) coarse.emplace(model, scene);
+  StabilityCheck stability(scene.newton.increment_tolerance * model.parts().length, warn);
 
   RunRecord record;
   record.scene = options.scene;
@@ -156,6 +158,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
     if (check) check->serialize(archive);
     if (coarse) coarse->serialize(archive);
     jump.serialize(archive);
+    stability.serialize(archive);
     record.serialize(archive);
   };
   const std::optional<Restart> restart = options.restart ? std::optional(restart_from(comm, directory.path(), *options.restart)) : std::nullopt;
@@ -229,6 +232,11 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
       if (!is_asked_to_stop && (request.checkpoint || checkpoints.is_due(state.steps))) write_checkpoint();
       return is_asked_to_stop;
     };
+    functions.interrupted = [&] {
+      record.stopped = requests.within_step(*comm);
+      is_asked_to_stop = record.stopped.has_value();
+      return is_asked_to_stop;
+    };
     functions.verify = [&](const AcceptedState& from, const SystemEvaluation& found, int round) -> RCP<Vector> {
       if (model.edges()) model.edges()->examine(*system.displacement(found.x()));
       if (surfaces) surfaces->examine(*system.displacement(found.x()), found.contact_laws());
@@ -244,6 +252,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
       }
       jump.verify(*system.displacement(*from.x), *system.displacement(found.x()), found.context().time - from.context.time,
                   check && check->went_far());
+      stability.verify(system, from, found);
       return Teuchos::null;
     };
     // Smaller tries of a step often end where less can be told: then what an earlier one showed is said again.
@@ -282,6 +291,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
       if (coarse) coarse->accept(*system.displacement(at.x()), at.contact_laws(), at.context().time);
       if (surfaces) surfaces->accept();
       jump.accept();
+      stability.accept();
       accepted(report, at);
     };
     // What is pushed apart does not go on: predicted, it would let all nodes of a press fit slip.
@@ -310,6 +320,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
     try {
       record.converged = run_steps(system, scene.stepping, scene.newton, state, start_step, functions, failure);
       if (record.converged) record.stopped.reset();
+      output.end_steps();
       // On its way in a corner passes through a part of a facet before contact begins; a run that ends there has not found its force.
       if (record.converged && surfaces && !surfaces->without_force().empty()) {
         failure.emplace(FailureKind::lost_contact, surfaces->without_force() + "; please make the slave finer there, or exchange slave and master");

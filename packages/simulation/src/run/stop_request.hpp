@@ -1,5 +1,5 @@
 #pragma once
-// Signals and the time limit: what asks a run to leave a checkpoint, or to end, between two steps.
+// Signals and the time limit: what asks a run to leave a checkpoint, or to end.
 
 #include <chrono>
 #include <optional>
@@ -16,7 +16,7 @@ struct Request {
 };
 
 /// While it lives, signals are requests:
-/// * SIGTERM, SIGINT, SIGHUP, SIGUSR1: stop after this step; a second SIGINT ends the program at once;
+/// * SIGTERM, SIGINT, SIGHUP, SIGUSR1: stop after this Newton iteration; a second SIGINT ends the program at once;
 /// * SIGUSR2: checkpoint after this step.
 /// Signals that were ignored before stay so. Afterwards signals do what they did before.
 class StopRequest {
@@ -31,6 +31,9 @@ class StopRequest {
   /// After a step: what any rank was asked for. With a time limit a run stops where another step like the longest of the last ones, and its
   /// checkpoint, would not fit. Collective.
   Request after_step(const Communicator& comm);
+
+  /// After a Newton iteration: what asks for an end that does not wait for the step, a signal or a time limit that is reached. Collective.
+  std::optional<std::string> within_step(const Communicator& comm) const;
 
   /// Seconds that a checkpoint took, to be kept free before the time limit.
   void reserve(double seconds) { reserved_ = seconds; }

@@ -64,7 +64,8 @@ enum class FailureKind {
   too_many_iterations,
   cycling_active_set,
   out_of_memory,  ///< what is to come would not fit; no smaller step helps
-  augmentation    ///< augmented Lagrange multipliers that did not settle
+  augmentation,   ///< augmented Lagrange multipliers that did not settle
+  unstable        ///< an equilibrium that is not stable, far from the last state
 };
 std::string to_string(FailureKind kind);
 

@@ -66,6 +66,9 @@ class LinearSolver {
   /// Forgets what it kept of earlier matrices: from the next one on it solves as a new solver would. So a run that goes on from a checkpoint takes the
   /// way of the run that wrote it.
   virtual void forget() {}
+
+  /// Sign of the determinant of the matrix that was factorised last; 0: not known.
+  virtual int determinant_sign() const { return 0; }
 };
 
 /// What is known of the systems to be solved before there is one.

@@ -13,7 +13,7 @@ namespace mortise {
 /// Where the Newton iterations of a step start.
 enum class Predictor {
   none,   ///< at the last accepted state
-  linear  ///< at the line through the last two accepted states: points that flow start flowing; at the last one where it is still a solution
+  linear  ///< on the line through the last two accepted states, as far as loads and prescribed motions go on: points that flow start flowing
 };
 
 /// Pseudo-time and its steps.
@@ -46,6 +46,7 @@ struct SteppingState {
   int steps = 0;                    ///< finished ones
   std::optional<double> next_step;  ///< length of the next step unless a target cuts it short; none: the first one of the options
   RCP<const Vector> rate;           ///< of the last step, which a predictor follows; null: there is none
+  double last_step = 0.0;           ///< length of the last step, where there is a rate
 };
 
 /// Stores where a run stands.
@@ -67,7 +68,8 @@ struct StepperObserver {
   std::function<void(int step, double time, double dt)> begin;  ///< before each try
   /// Multipliers for the start of a try that may be better than those of its StepStart; null: they are not.
   std::function<RCP<Vector>(const SystemEvaluation& start)> close;
-  std::function<void(const NewtonIteration&)> iteration;  ///< after each Newton iteration
+  std::function<void(const NewtonIteration&)> iteration;        ///< after each Newton iteration
+  std::function<bool()> interrupted;                            ///< after that. True, the same on every rank: the run ends here, at its last state
   /// A solution of the step from the accepted state `from`, before it is committed. `round` counts the solutions of a try from 1. Returns null if the
   /// solution stands, else another start, from which the step is solved once more. May throw StepFailure, on every rank: the try is undone.
   std::function<RCP<Vector>(const AcceptedState& from, const SystemEvaluation& solution, int round)> verify;
@@ -85,9 +87,13 @@ struct StepperObserver {
 using StepStart = std::function<StepContext(const AcceptedState& state, double time, const Vector& d, Vector& z)>;
 
 /// Runs from the time of a state to the end. On return `state` is that after the last accepted step. Returns true at the end time; false when the
-/// smallest step failed, with its failure in `last_failure`, and without one where the observer wanted rest. Each try is prepared by `start`; without
-/// one nothing is guessed. With a predictor it prepares the last state where no prescribed displacement changes. If that is not tried, or no
-/// solution, it prepares the predicted state.
+/// smallest step failed, with its failure in `last_failure`, and without one where the observer wanted rest or interrupted a step. Each try is prepared by `start`; without
+/// one nothing is guessed.
+///
+/// With a predictor a step starts on the line through the last two states. It goes on there by the share of the last step's changes of loads and
+/// prescribed displacements that is made again (Drive::continuation()), and at most by the length of the step. It starts at the last state where that
+/// is nothing, where what drives it is not known and the last state is a solution of this step too, or where the residual of the predicted one is a
+/// thousand times as large. A solution that is refused, and was predicted, is sought from the last state before the step is cut.
 bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, const NewtonOptions& newton, SteppingState& state,
                const StepStart& start, const StepperObserver& observer, std::optional<StepFailure>& last_failure);
 

@@ -11,6 +11,7 @@
 #include "mortise/core/timers.hpp"
 #include "mortise/core/types.hpp"
 #include "mortise/nonlinear/contribution.hpp"
+#include "mortise/nonlinear/drive.hpp"
 #include "mortise/nonlinear/held_motions.hpp"
 #include "mortise/nonlinear/linear_solver.hpp"
 #include "mortise/nonlinear/system_evaluation.hpp"
@@ -90,6 +91,8 @@ class SemiSmoothSystem {
   SystemEvaluation with_multipliers(const SystemEvaluation& evaluation, const Vector& z) const;
   /// max |d - prescribed| of x at a time, relative to the size of the field; costs next to nothing.
   double prescribed_deviation(const Vector& x, double time) const;
+  /// What drives a step from x between two pseudo-times. Throws StepFailure on every rank.
+  Drive drive(const Vector& x, double from, double to) const;
   /// Multipliers follow what is covered since the iterate that was linearised last (ContactEvaluation::follow_cover()). Nothing if none changes.
   std::optional<SystemEvaluation> follow_cover(const SystemEvaluation& evaluation) const;
 
