@@ -51,7 +51,8 @@ Eigen::Index PairEvaluation::held_tangents(std::size_t s) const {
   return std::count(node.fixed.begin(), node.fixed.end(), true);
 }
 
-// Of a node that was not covered, or hardly so, the gap at the start is that of the surfaces alone.
+// Of a node that was not covered the gap at the start is that of the surfaces alone. One that was covered slips from the start of the step on: where
+// it is about to close it holds its body along the surface from the first iterate on, when it bears no pressure yet.
 double PairEvaluation::start_gap(std::size_t s) const {
   const NodeSlip& slip = geometry_->slips[s];
   if (!history().slip->nodes[s].empty()) return slip.start_gap;
@@ -159,8 +160,7 @@ std::shared_ptr<const SlipReferences> PairEvaluation::slip_references(const std:
     if (!covered(s)) continue;
     const Frame in = frame(s);
     const bool compares = pair_->uses_reference() || row(s).covered >= hardly * slave_nodes()[s].weight;
-    if (!compares && states[s] != ContactState::open) references->gaps[s] = -1.0;
-    if (compares && states[s] == ContactState::open) references->gaps[s] = std::max(0.0, own_gap(s) + pair_->enforcement().onset() * row(s).covered);
+    if (!compares) references->gaps[s] = -1.0;
     if (states[s] != ContactState::open && slave_nodes()[s].partly_fixed()) references->tractions[s] = in.tangents * multipliers[s].z;
     if (states[s] != ContactState::open && multipliers[s].shift.size() > 0) references->ties[s] = in.tangents * multipliers[s].shift;
     if (!compares) continue;

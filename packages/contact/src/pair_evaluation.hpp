@@ -64,7 +64,7 @@ class PairEvaluation {
   double gap(std::size_t s, const NodeMultiplier& multiplier) const;
   /// u - (T q - T^old q^old); 0 without friction.
   TangentVector slip(std::size_t s, const NodeMultiplier& multiplier) const;
-  /// The weighted gap that slave node s had to where it bears pressure when the step began; 0 if it was closed. Friction only.
+  /// The weighted gap that slave node s had to where it bears pressure when the step began; 0 if it was covered. Friction only.
   double start_gap(std::size_t s) const;
   /// Of a closed node whose conditions are exact the slip that these see: that since first contact.
   TangentVector slip_in_contact(std::size_t s, const NodeMultiplier& multiplier) const;

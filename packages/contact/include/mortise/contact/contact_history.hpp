@@ -28,7 +28,7 @@ struct SlipReferences {
   std::vector<TangentVector> ties;                ///< tau_a . q, what its tie shifted the slip by; empty: open, or not tied
   std::vector<TangentVector> tractions;           ///< tau_a . z of closed nodes with prescribed components; else empty
   std::vector<double> paths;                      ///< slipped until then [length]
-  std::vector<double> gaps;                       ///< weighted, to where it bears pressure, of an open node with `nodes`; -1: closed, without `nodes`
+  std::vector<double> gaps;                       ///< that they close first; -1: a node without `nodes` that was covered, and closes none
   RCP<const MultiVector> start;                   ///< [owned nodes x dim] positions in that state
 };
 
