@@ -17,9 +17,9 @@ namespace {
 constexpr double worth_saying = 1e-2;
 
 /// Of the largest force of a pair: a sum of the forces on a body below it is nothing but their round-off.
-constexpr double nothing = 1e-6;
+constexpr double no_force = 1e-6;
 
-double size(const std::array<double, 3>& v) { return std::hypot(v[0], v[1], v[2]); }
+double magnitude(const std::array<double, 3>& v) { return std::hypot(v[0], v[1], v[2]); }
 
 }  // namespace
 
@@ -44,7 +44,7 @@ void LeanWatch::examine(const ContactLaws& laws) {
     for (const double sign : {1.0, -1.0})
       for (const std::size_t body : sign > 0.0 ? pairs_[p].slave : pairs_[p].master) {
         for (int i = 0; i < 3; ++i) acting[body][i] += sign * force[i];
-        largest[body] = std::max(largest[body], size(force));
+        largest[body] = std::max(largest[body], magnitude(force));
       }
   }
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
@@ -57,7 +57,7 @@ void LeanWatch::examine(const ContactLaws& laws) {
     for (const auto* bodies : {&pair.slave, &pair.master}) {
       if (bodies->size() != 1) continue;  // what acts on each of several is not known
       const std::size_t body = bodies->front();
-      const double whole = size(acting[body]), load = whole > nothing * largest[body] ? whole : largest[body];
+      const double whole = magnitude(acting[body]), load = whole > no_force * largest[body] ? whole : largest[body];
       if (load > 0.0 && excess / load > share) share = excess / load, which = body;
     }
     if (!(share > worth_saying)) continue;
