@@ -54,7 +54,7 @@ const Point& point_at(const EdgeLine& line, std::size_t k, const std::vector<Poi
 /// The point y(m) of an edge with (y - x) . t(m) = 0: of several the nearest. Beyond its ends the edge goes on straight.
 struct Foot {
   std::size_t piece = 0;
-  double m = 0.0;      ///< below 0 or above 1: beyond an end
+  double m = 0.0;  ///< below 0 or above 1: beyond an end
   Point place;
 };
 
@@ -189,7 +189,8 @@ std::vector<EdgeCrossing> crossings_of(const EdgePair& pair, const std::vector<P
   Foot foot;
   double before = ahead_on_slave(pair, 0, 0.0, positions, foot);
   for (std::size_t k = 0; k + 1 < pair.slave.nodes.size(); ++k) {
-    const double behind = k + 2 < pair.slave.nodes.size() ? ahead_on_slave(pair, k + 1, 0.0, positions, foot) : ahead_on_slave(pair, k, 1.0, positions, foot);
+    const double behind =
+        k + 2 < pair.slave.nodes.size() ? ahead_on_slave(pair, k + 1, 0.0, positions, foot) : ahead_on_slave(pair, k, 1.0, positions, foot);
     const bool crosses = before > 0.0 && behind <= 0.0;
     before = behind;
     if (!crosses) continue;

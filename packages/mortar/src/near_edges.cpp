@@ -75,8 +75,8 @@ std::vector<Box3> boxes_of_ranks(const Communicator& comm, const Box3& mine) {
 
 // The least of the distances of the four ends to the other segment, and of the lines where their nearest points lie within both segments.
 double distance(const EdgePiece& one, const EdgePiece& other) {
-  double least = std::min({to_segment(one.ends[0], other), to_segment(one.ends[1], other), to_segment(other.ends[0], one),
-                           to_segment(other.ends[1], one)});
+  double least =
+      std::min({to_segment(one.ends[0], other), to_segment(one.ends[1], other), to_segment(other.ends[0], one), to_segment(other.ends[1], one)});
   const Eigen::Vector3d a = one.ends[1] - one.ends[0], b = other.ends[1] - other.ends[0], w = other.ends[0] - one.ends[0];
   const double aa = a.dot(a), ab = a.dot(b), bb = b.dot(b), determinant = aa * bb - ab * ab;
   if (!(determinant > 1e-12 * aa * bb)) return least;
@@ -112,9 +112,8 @@ std::vector<NearPieces> near_pieces(const Communicator& comm, const std::vector<
       for (const auto& [box, s] : hits)
         if (distance(slaves[s], master) <= reach) found.push_back({s, master});
     }
-  std::sort(found.begin(), found.end(), [](const NearPieces& a, const NearPieces& b) {
-    return std::tie(a.slave, a.master.nodes) < std::tie(b.slave, b.master.nodes);
-  });
+  std::sort(found.begin(), found.end(),
+            [](const NearPieces& a, const NearPieces& b) { return std::tie(a.slave, a.master.nodes) < std::tie(b.slave, b.master.nodes); });
   return found;
 }
 

@@ -120,11 +120,10 @@ void EdgeContact::add_jacobian(const Configuration& at, const JacobianWeights& w
       if (node < 0) continue;
       for (std::size_t m = 0; m < force.nodes.size(); ++m)
         for (int j = 0; j < in_space; ++j) {
-          const LocalOrdinal column =
-              jacobian.getColMap()->getLocalElement(in_space * active_.nodes[static_cast<std::size_t>(force.nodes[m])] + j);
+          const LocalOrdinal column = jacobian.getColMap()->getLocalElement(in_space * active_.nodes[static_cast<std::size_t>(force.nodes[m])] + j);
           for (int i = 0; i < in_space; ++i) {
-            const double value = weights.displacement * force.tangent(in_space * static_cast<Eigen::Index>(n) + i,
-                                                                      in_space * static_cast<Eigen::Index>(m) + j);
+            const double value =
+                weights.displacement * force.tangent(in_space * static_cast<Eigen::Index>(n) + i, in_space * static_cast<Eigen::Index>(m) + j);
             if (value != 0.0) jacobian.sumIntoLocalValues(in_space * node + i, 1, &value, &column);
           }
         }

@@ -16,17 +16,17 @@ namespace mortise {
 
 /// A crossing of edges that may touch.
 struct CrossingEdges {
-  std::size_t contact = 0;         ///< pair of the scene
-  Eigen::Vector3d place;           ///< half way between the two edges
-  Eigen::Vector3d normal;          ///< out of the slave
-  double gap = 0.0, force = 0.0;   ///< below 0: so deep in one another; what they press with then
-  double stiffness = 0.0;          ///< K of F = K g^2
-  double area = 0.0;               ///< of the section of the overlap, over the depth squared
-  double length = 0.0;             ///< of the longer one of the pieces of the edges that cross
+  std::size_t contact = 0;        ///< pair of the scene
+  Eigen::Vector3d place;          ///< half way between the two edges
+  Eigen::Vector3d normal;         ///< out of the slave
+  double gap = 0.0, force = 0.0;  ///< below 0: so deep in one another; what they press with then
+  double stiffness = 0.0;         ///< K of F = K g^2
+  double area = 0.0;              ///< of the section of the overlap, over the depth squared
+  double length = 0.0;            ///< of the longer one of the pieces of the edges that cross
 };
 
-/// Weighted gaps are taken at the nodes of a slave facet. Where an edge of it crosses an edge of the master between nodes they see nothing, and where a
-/// node is there they see it as wide as a facet. This adds the force of the crossing itself, F = K g^2: see wedge_contact(). Which edges may touch,
+/// Weighted gaps are taken at the nodes of a slave facet. Where an edge of it crosses an edge of the master between nodes they see nothing, and where
+/// a node is there they see it as wide as a facet. This adds the force of the crossing itself, F = K g^2: see wedge_contact(). Which edges may touch,
 /// and K, are those of the accepted state, so that within a step F is a function of g. As facets come to resolve the crossing they lie on one another
 /// there, g and K vanish, and weighted gaps have all of the force.
 class EdgeContact final : public CountedContribution {
@@ -60,7 +60,8 @@ class EdgeContact final : public CountedContribution {
   std::vector<Eigen::Vector3d> places(const Vector& local_displacement) const;
   RCP<Vector> local(const Vector& displacement) const;
   /// Calls `visit` for each force that acts.
-  void visit_forces(const Vector& local_displacement, const std::function<void(const EdgeSpot&, const EdgeCrossing&, const CrossingForce&)>& visit) const;
+  void visit_forces(const Vector& local_displacement,
+                    const std::function<void(const EdgeSpot&, const EdgeCrossing&, const CrossingForce&)>& visit) const;
   void take(EdgeSpots spots);
 
   std::shared_ptr<const Bodies> bodies_;
@@ -70,7 +71,7 @@ class EdgeContact final : public CountedContribution {
   EdgeSpots active_, next_;
   std::set<std::size_t> acting_;
   std::vector<CrossingEdges> crossings_;
-  RCP<Vector> searched_at_;  ///< the displacement of next_; null: none
+  RCP<Vector> searched_at_;                                    ///< the displacement of next_; null: none
   std::set<std::pair<GlobalOrdinal, GlobalOrdinal>> coupled_;  ///< nodes of the graph
   long version_ = 0;
 };

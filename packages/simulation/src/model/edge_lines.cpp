@@ -80,7 +80,8 @@ LinePair pair_of(const std::map<std::pair<PieceKey, PieceKey>, const EdgeCell*>&
   Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns)), counts = sums;
   for (std::size_t k = 0; k + 1 < rows; ++k)
     for (std::size_t l = 0; l + 1 < columns; ++l) {
-      const auto found = cells.find({piece_of(result.slave.nodes[k], result.slave.nodes[k + 1]), piece_of(result.master.nodes[l], result.master.nodes[l + 1])});
+      const auto found =
+          cells.find({piece_of(result.slave.nodes[k], result.slave.nodes[k + 1]), piece_of(result.master.nodes[l], result.master.nodes[l + 1])});
       if (found == cells.end()) continue;
       const double sign = found->second->sign * direction(result.slave, k) * direction(result.master, l);
       if (result.sign == 0.0) result.sign = sign;

@@ -58,8 +58,8 @@ std::vector<FoundCell> cells_on_all_ranks(const Communicator& comm, const std::v
     if (!(wedges.stiffness > 0.0)) continue;
     for (const GlobalOrdinal node : {slave.nodes[0], slave.nodes[1], near.master.nodes[0], near.master.nodes[1]})
       mine.push_back(static_cast<double>(node));
-    mine.insert(mine.end(), {wedges.stiffness, wedges.sign, distance(slave, near.master), gap_of_lines(slave, near.master, wedges.sign),
-                            wedges.area});
+    mine.insert(mine.end(),
+                {wedges.stiffness, wedges.sign, distance(slave, near.master), gap_of_lines(slave, near.master, wedges.sign), wedges.area});
   }
   std::vector<FoundCell> cells;
   const std::vector<double> all = on_all_ranks(comm, mine);
@@ -67,9 +67,8 @@ std::vector<FoundCell> cells_on_all_ranks(const Communicator& comm, const std::v
     const double* v = &all[at];
     cells.push_back({{{id_of(v[0]), id_of(v[1])}, {id_of(v[2]), id_of(v[3])}, v[4], v[5], v[8]}, v[6], v[7]});
   }
-  std::sort(cells.begin(), cells.end(), [](const FoundCell& a, const FoundCell& b) {
-    return std::tie(a.cell.slave, a.cell.master) < std::tie(b.cell.slave, b.cell.master);
-  });
+  std::sort(cells.begin(), cells.end(),
+            [](const FoundCell& a, const FoundCell& b) { return std::tie(a.cell.slave, a.cell.master) < std::tie(b.cell.slave, b.cell.master); });
   return cells;
 }
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "mortise/simulation/scene/scene.hpp"
 #include "mortise/mortar/edge_crossing.hpp"
+#include "mortise/simulation/scene/scene.hpp"
 #include "surfaces/sharp_edges.hpp"
 
 namespace mortise {

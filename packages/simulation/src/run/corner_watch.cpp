@@ -13,6 +13,7 @@
 #include <set>
 
 #include "model/current_places.hpp"
+#include "model/edge_contact.hpp"
 #include "mortise/mesh/sets.hpp"
 #include "mortise/mortar/quadratic_facet.hpp"
 #include "surfaces/facet_kinks.hpp"
@@ -259,7 +260,8 @@ bool CornerWatch::has_warned(std::size_t pair) const {
 void CornerWatch::accept() {
   accepted_.clear();
   for (const Found& found : found_) {
-    if (!found.carries) accepted_ += (accepted_.empty() ? "" : "; ") + found.text;
+    const bool edges_act = model_.edges() && model_.edges()->acts(pairs_[found.pair].index);
+    if (!found.carries && !edges_act) accepted_ += (accepted_.empty() ? "" : "; ") + found.text;
     if (pairs_[found.pair].is_warned) continue;
     pairs_[found.pair].is_warned = true;
     warn_(fmt::format("  {}: weighted gaps are means over facets, so that {}; please make the slave finer there, or exchange slave and master",

@@ -35,12 +35,12 @@ struct EdgePair {
 
 /// Where they cross.
 struct EdgeCrossing {
-  std::size_t slave = 0, master = 0;               ///< first nodes of the pieces
-  double s = 0.0, m = 0.0;                         ///< places along them, 0 to 1
-  double gap = 0.0;                                ///< below 0: that deep in one another
-  double stiffness = 0.0;                          ///< K there
+  std::size_t slave = 0, master = 0;                 ///< first nodes of the pieces
+  double s = 0.0, m = 0.0;                           ///< places along them, 0 to 1
+  double gap = 0.0;                                  ///< below 0: that deep in one another
+  double stiffness = 0.0;                            ///< K there
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< out of the slave
-  Eigen::Vector3d on_slave, on_master;             ///< the points
+  Eigen::Vector3d on_slave, on_master;               ///< the points
 };
 
 /// All crossings, along the slave's edge. With tangents t that are linear between nodes the points x(s) and y(m) are those for which

@@ -11,10 +11,10 @@ namespace mortise {
 
 /// A straight piece of an edge between two facets.
 struct EdgePiece {
-  std::array<GlobalOrdinal, 2> nodes{};      ///< ids of its ends
-  std::array<Eigen::Vector3d, 2> ends;       ///< positions of its ends
-  std::array<Eigen::Vector3d, 2> beside;     ///< a point of each facet that is not on the edge
-  double compliance = 0.0;                   ///< (1 - nu^2)/E of the body; 0: rigid
+  std::array<GlobalOrdinal, 2> nodes{};   ///< ids of its ends
+  std::array<Eigen::Vector3d, 2> ends;    ///< positions of its ends
+  std::array<Eigen::Vector3d, 2> beside;  ///< a point of each facet that is not on the edge
+  double compliance = 0.0;                ///< (1 - nu^2)/E of the body; 0: rigid
 };
 
 /// Two pieces within reach of one another.
@@ -26,8 +26,8 @@ struct NearPieces {
 /// Distance of two segments.
 double distance(const EdgePiece& one, const EdgePiece& other);
 
-/// For the slave pieces of this rank the master pieces of all ranks within `reach`, in ascending order of their nodes. Master pieces travel to the ranks
-/// whose box of slave pieces they meet. Collective.
+/// For the slave pieces of this rank the master pieces of all ranks within `reach`, in ascending order of their nodes. Master pieces travel to the
+/// ranks whose box of slave pieces they meet. Collective.
 std::vector<NearPieces> near_pieces(const Communicator& comm, const std::vector<EdgePiece>& slaves, const std::vector<EdgePiece>& masters,
                                     double reach);
 

@@ -27,16 +27,16 @@ struct SystemField {
 
 /// What a nonlinear system is made of. Shared by all groups that NOX clones.
 struct SystemParts {
-  RCP<const Map> dofs;                                                       ///< owned
-  RCP<const Map> local_dofs;                                                 ///< owned then ghosts
-  std::function<RCP<const Graph>()> bulk_graph;                              ///< makes it: rows `dofs`; what the contributions' Jacobians write into
-  std::function<long()> bulk_version;                                        ///< another number for another bulk_graph(); empty: it stays. Read with contact alone
-  std::vector<std::shared_ptr<Contribution>> contributions;                  ///< f_int - f_ext, as their sum
-  std::shared_ptr<PrescribedDisplacements> prescribed;                       ///< never null; may have no dofs
-  std::shared_ptr<DependentDisplacements> dependent;                         ///< null: every displacement is an unknown, prescribed or tied
-  std::shared_ptr<const TiedDisplacements> tied;                             ///< null: none is; they may be tied to those that follow
-  std::shared_ptr<ContactSystem> contact;                                    ///< null: no contact
-  std::shared_ptr<LinearSolver> linear_solver;                               ///< of each Newton step
+  RCP<const Map> dofs;                                       ///< owned
+  RCP<const Map> local_dofs;                                 ///< owned then ghosts
+  std::function<RCP<const Graph>()> bulk_graph;              ///< makes it: rows `dofs`; what the contributions' Jacobians write into
+  std::function<long()> bulk_version;                        ///< another number for another bulk_graph(); empty: it stays. Read with contact alone
+  std::vector<std::shared_ptr<Contribution>> contributions;  ///< f_int - f_ext, as their sum
+  std::shared_ptr<PrescribedDisplacements> prescribed;       ///< never null; may have no dofs
+  std::shared_ptr<DependentDisplacements> dependent;         ///< null: every displacement is an unknown, prescribed or tied
+  std::shared_ptr<const TiedDisplacements> tied;             ///< null: none is; they may be tied to those that follow
+  std::shared_ptr<ContactSystem> contact;                    ///< null: no contact
+  std::shared_ptr<LinearSolver> linear_solver;               ///< of each Newton step
   std::function<NearNullSpace(const Vector& displacement)> near_null_space;  ///< at a displacement; asked for by multigrid alone
   /// For an x at which the Jacobian is singular although the system has a solution: a better point to linearise at, or null where there is none. It
   /// is close to x as far as Newton's method is concerned. Collective; empty: never.
