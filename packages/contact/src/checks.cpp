@@ -62,14 +62,18 @@ void refuse_misfit(const ContactPair& pair, std::vector<Diagnostic>& diagnostics
     diagnostics.push_back({pair.place, fmt::format("the multipliers of {} cannot be condensed by the momentum of slave nodes, as D is not diagonal; "
                                                    "take an enforcement that keeps them, or dual mortar",
                                                    coupling->name())});
-  if (pair.options.clearance && (coupling->has_forces_of_gaps() || !coupling->integrates_facets()))
+  const bool has_clearances = pair.options.clearance || pair.facet_gaps;
+  if (has_clearances && (coupling->has_forces_of_gaps() || !coupling->integrates_facets()))
     diagnostics.push_back(
-        {pair.place, fmt::format("a clearance has no meaning with {}; take dual or standard mortar, penalty or augmented Lagrange, or move the "
-                                 "surfaces in the mesh",
-                                 coupling->name())});
-  else if (pair.options.clearance && coupling->has_dual_multipliers() && !coupling->has_dual_gap(pair.options.mortar.gap_weighting))
+        {pair.place,
+         fmt::format(
+             "a clearance, or round facets, have no meaning with {}; take dual or standard mortar, penalty or augmented Lagrange, or move the "
+             "surfaces in the mesh",
+             coupling->name())});
+  else if (has_clearances && coupling->has_dual_multipliers() && !coupling->has_dual_gap(pair.options.mortar.gap_weighting))
     diagnostics.push_back(
-        {pair.place, "a clearance needs gaps that are weighted by the multipliers' own functions; take the gap weighting \"dual\""});
+        {pair.place,
+         "a clearance, and round facets, need gaps that are weighted by the multipliers' own functions; take the gap weighting \"dual\""});
   if (coupling->has_forces_of_gaps() && !enforcement->keeps_multipliers())
     diagnostics.push_back({pair.place, fmt::format("the multipliers of {} have to stay unknowns, as its forces are the derivatives of gaps; take an "
                                                    "enforcement that keeps them, or another coupling",

@@ -113,19 +113,23 @@ ContactHistory ContactSystem::allow_overlap(const ContactHistory& history, std::
 }
 
 ContactHistory ContactSystem::with_clearances(const ContactHistory& history, double time) const {
-  const auto has_one = [](const auto& pair) { return pair->definition().options.clearance.has_value(); };
+  const auto has_one = [](const auto& pair) { return pair->has_clearances(); };
   if (std::none_of(model_->pairs.begin(), model_->pairs.end(), has_one)) return history;
   AcceptedContact changed = *history;
   std::vector<Diagnostic> diagnostics;
   const auto reference = model_->reference->getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto x = [&](const SlaveNode& node, std::size_t i) { return i < reference.extent(1) ? reference(node.owned_node, i) : 0.0; };
   for (std::size_t p = 0; p < model_->pairs.size(); ++p) {
+    if (!has_one(model_->pairs[p])) continue;
     const auto& clearance = model_->pairs[p]->definition().options.clearance;
-    if (!clearance) continue;
+    const auto& of_facets = model_->pairs[p]->definition().facet_gaps;
     std::vector<double>& values = changed.pairs[p].clearances;
     values.clear();
     try {
-      for (const SlaveNode& node : model_->pairs[p]->slave_nodes()) values.push_back((*clearance)(time, x(node, 0), x(node, 1), x(node, 2)));
+      for (const SlaveNode& node : model_->pairs[p]->slave_nodes()) {
+        values.push_back(clearance ? (*clearance)(time, x(node, 0), x(node, 1), x(node, 2)) : 0.0);
+        if (of_facets) values.back() += (*of_facets)[static_cast<std::size_t>(node.owned_node)];
+      }
     } catch (const InputError& error) {
       diagnostics.insert(diagnostics.end(), error.diagnostics().begin(), error.diagnostics().end());
     }

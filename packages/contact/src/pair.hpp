@@ -49,7 +49,9 @@ class Pair {
   /// facet that is not covered is no part of it: see FacetMoments.
   bool covered(std::size_t s, const NodeRow& row) const;
   /// Whether conditions depend on what is covered of a node.
-  bool needs_covered() const { return enforcement_->depends_on_weight() || pair_.options.clearance; }
+  bool needs_covered() const { return enforcement_->depends_on_weight() || has_clearances(); }
+  /// Whether anything is added to the gaps that are drawn.
+  bool has_clearances() const { return pair_.options.clearance.has_value() || pair_.facet_gaps != nullptr; }
   /// How often slips were measured on this rank, over all calls.
   long slip_evaluations() const { return slip_evaluations_; }
 

@@ -2,8 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <boost/container/static_vector.hpp>
 #include <algorithm>
+#include <boost/container/static_vector.hpp>
 #include <cmath>
 
 #include "facet_geometry.hpp"

@@ -287,9 +287,10 @@ TEST(Abaqus, NoMisspeltKeywordOfTheMeshIsPassedOver) {
 
 TEST(Abaqus, KeywordsWithoutMeaningForAMeshAreListed) {
   // CalculiX takes "fluid sections" for *FLUID SECTION, and passes over *MEMBRANE itself: its own examples have both.
-  const MeshFile file = read_text(two_cubes +
-                                  "*fluid sections, elset=e\n1.\n*Membrane, elset=e\n1.\n*VALUES AT INFINITY\n1.\n*Mohr Coulomb\n30.\n*Solid\tSection\n"
-                                  "*SOLIDSECTION\n*PRE-TENSION SECTION\n*BOUNDARYF\n*Boundary\n1, 1\n");
+  const MeshFile file =
+      read_text(two_cubes +
+                "*fluid sections, elset=e\n1.\n*Membrane, elset=e\n1.\n*VALUES AT INFINITY\n1.\n*Mohr Coulomb\n30.\n*Solid\tSection\n"
+                "*SOLIDSECTION\n*PRE-TENSION SECTION\n*BOUNDARYF\n*Boundary\n1, 1\n");
   EXPECT_THAT(file.notes.back(),
               "passed over, as they say nothing of the mesh: *BOUNDARY, *BOUNDARYF, *FLUID SECTION, *MEMBRANE SECTION, *MOHR COULOMB, *PRE-TENSION "
               "SECTION, *SOLID SECTION (2), *VALUES AT INFINITY");

@@ -60,9 +60,59 @@ TEST(LineCrossings, OfARingSayWhereALineEntersAndLeaves) {
   EXPECT_THAT(through_nodes.front(), Crosses(1.0, false, 2));
 }
 
-TEST(LineCrossings, OfQuadraticLinesAreThoseOfTheirParts) {
-  const Eigen::Vector3d d(std::cos(pi / 16), std::sin(pi / 16), 0.0);  // the middle of the first part of a facet
-  EXPECT_THAT(along(ring(8, true), 2, {{0.0, 0.0, 0.0}, d, 0.0, 1.5}), ElementsAre(Crosses(std::cos(pi / 16), false, 2)));
+// The parabola through (-a, 0), (a, 0) and (0, f) is y = f (1 - x^2/a^2): a line x = const, or a slanted one, meets it where a quadratic equation
+// says.
+TEST(LineCrossings, OfQuadraticLinesAreThoseOfTheParabola) {
+  const double a = 0.7, f = 0.2, x = 0.31;
+  const std::vector<TaggedFacet> arch{{{Eigen::Vector3d(a, 0.0, 0.0), Eigen::Vector3d(-a, 0.0, 0.0), Eigen::Vector3d(0.0, f, 0.0)}, 4}};
+  const double height = f * (1.0 - x * x / (a * a)), slope = -2.0 * f * x / (a * a);
+  const auto up = along(arch, 2, {{x, -1.0, 0.0}, {0.0, 1.0, 0.0}, 0.0, 5.0});
+  ASSERT_EQ(up.size(), 1u);
+  EXPECT_THAT(up[0], Crosses(1.0 + height, true, 4));
+  EXPECT_NEAR((up[0].normal - Eigen::Vector3d(-slope, 1.0, 0.0).normalized()).norm(), 0.0, 1e-14);
+  const auto chord = along(arch, 2, {{-1.0, 0.5 * f, 0.0}, {1.0, 0.0, 0.0}, 0.0, 5.0});  // in and out again
+  ASSERT_EQ(chord.size(), 2u);
+  EXPECT_THAT(chord, ElementsAre(Crosses(1.0 - a * std::sqrt(0.5), false, 4), Crosses(1.0 + a * std::sqrt(0.5), true, 4)));
+  EXPECT_THAT(along(arch, 2, {{-1.0, 1.01 * f, 0.0}, {1.0, 0.0, 0.0}, 0.0, 5.0}), IsEmpty());
+}
+
+/// A facet with all nodes on the sphere of radius R about the origin.
+FacetPlaces on_sphere(std::size_t nodes, double R, double size) {
+  const auto place = [&](double u, double v) { return Eigen::Vector3d(R * Eigen::Vector3d(u * size, v * size, 1.0).normalized()); };
+  FacetPlaces points{place(0, 0), place(1, 0), place(1, 1)};
+  if (nodes == 6) points.insert(points.end(), {place(0.5, 0), place(1, 0.5), place(0.5, 0.5)});
+  if (nodes == 8) points.insert(points.end(), {place(0, 1), place(0.5, 0), place(1, 0.5), place(0.5, 1), place(0, 0.5)});
+  return points;
+}
+
+// A quadratic facet leaves the sphere by a length of fourth order, its linear parts by one of second.
+TEST(LineCrossings, OfQuadraticFacetsLieOnTheSphereToFourthOrder) {
+  for (const std::size_t nodes : {6u, 8u}) {
+    double last = 0.0;
+    for (const double size : {0.4, 0.2}) {
+      const Eigen::Vector3d at = Eigen::Vector3d(0.55 * size, 0.3 * size, 1.0).normalized();
+      const auto found = along({{on_sphere(nodes, 2.0, size), 1}}, 3, {0.5 * at, at, 0.0, 9.0});
+      ASSERT_EQ(found.size(), 1u) << nodes;
+      const double error = std::abs(found[0].s - 1.5), of_normal = (found[0].normal - at).norm();
+      EXPECT_TRUE(found[0].leaves);
+      EXPECT_LT(error, 2.0 * std::pow(size, 3) / 30.0) << nodes;  // h^2/8R of chords is 0.02 at 0.4
+      EXPECT_LT(of_normal, 0.3 * size * size) << nodes;
+      if (last > 0.0) {
+        EXPECT_LT(error, last / 7.0) << nodes;
+      }
+      last = error;
+    }
+  }
+}
+
+TEST(LineCrossings, AtGrazingAnglesAreCountedIfThatIsAskedFor) {
+  const std::vector<TaggedFacet> flank{{{Eigen::Vector3d(0.0, 0.0, 0.0), Eigen::Vector3d(0.01, 1.0, 0.0)}, 7}};
+  const LineSegment line{{0.005, -1.0, 0.0}, {0.0, 1.0, 0.0}, 0.0, 5.0};
+  EXPECT_THAT(along(flank, 2, line), IsEmpty());
+  const auto found = crossings(*Tpetra::getDefaultComm(), 2, of_this_rank(flank), {line}, Grazing::counted).front();
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].s, 1.5, 1e-12);
+  EXPECT_LT(std::abs(found[0].along), grazing_angle);
 }
 
 TEST(LineCrossings, PassByWhatRunsAlongTheLine) {

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <Tpetra_Core.hpp>
+#include <algorithm>
+#include <cmath>
 
 #include "mortise/simulation/model/model.hpp"
 #include "scene_text.hpp"
@@ -216,6 +218,115 @@ TEST(RigidSurfaces, HaveASolidSideThatNothingMayBeginBehind) {
   for (const double height : {10.0, 9.0, 10.02})
     EXPECT_THAT(on_table(height, SolidSide::above).error, HasSubstr("the master \"table/profile\" turns its back on the slave \"top/bottom\""))
         << height;
+}
+
+/// Rings about the origin, quarters of them: the inner one from 1 to 2, the outer one from 2 + `clearance` to 3.
+Found rings(double clearance, const std::string& element, int inner, int outer, const std::string& more = "", bool revolved = false) {
+  const auto ring = [&](const std::string& name, double from, double to, int count) {
+    const std::string plane = number("type", "ring sector") + number("inner radius", fmt::format("{:.17g}", from)) +
+                              number("outer radius", fmt::format("{:.17g}", to)) + number("cells across", "2") +
+                              number("cells around", std::to_string(count));
+    const std::string turned = number("type", "revolved") + number("angle", "90") + number("cells around", std::to_string(count)) + list("profile", plane);
+    return list(name, number("material", "soft") + number("element", element) + list("mesh", revolved ? turned : plane));
+  };
+  const auto clamp = [&](const std::string& name, const std::string& set) {
+    return list(name, number("set", set) + number("x", "0") + number("y", "0") + (revolved ? number("z", "0") : ""));
+  };
+  const std::string text = list(
+      "rings",
+      number("kinematics", revolved ? "three dimensional" : "plane strain") +
+          list("materials", list("soft", number("type", "neo hooke") + number("young's modulus", "1000") + number("poisson's ratio", "0.3"))) +
+          list("bodies", ring("inner", 1.0, 2.0, inner) + ring("outer", 2.0 + clearance, 3.0, outer)) +
+          list("boundary conditions", clamp("i", "inner/inner") + clamp("o", "outer/outer")) +
+          list("contact", list("c", number("slave", "inner/outer") + number("master", "outer/inner") + more)));
+  Found found;
+  try {
+    found.start = Model(Tpetra::getDefaultComm(), read_text(text), Timers()).surfaces_at_start();
+  } catch (const InputError& error) {
+    found.error = error.what();
+  }
+  return found;
+}
+
+double sagitta(double radius, int cells) { return radius * (1.0 - std::cos(0.25 * M_PI / cells)); }  // of a quarter's chords
+
+// A parabola through three points of an arc of radius R leaves it by h^4 / 512 R^3, its chords by h^2 / 8 R.
+TEST(RoundSurfaces, OfQuadraticElementsAreMeasuredAsCurvedAsTheyAre) {
+  for (const auto& [inner, outer] : {std::pair{4, 4}, std::pair{4, 5}, std::pair{9, 6}})
+    for (const double clearance : {0.05, 0.3}) {
+      const Found found = rings(clearance, "Q8", inner, outer);
+      ASSERT_EQ(found.error, "");
+      const double h = 0.5 * M_PI * 2.3 / std::min(inner, outer), leaves = 2.0 * std::pow(h, 4) / (512.0 * 8.0);
+      ASSERT_TRUE(found.start.pairs[0].gap);
+      EXPECT_NEAR(*found.start.pairs[0].gap, clearance, leaves) << inner << " " << outer;
+    }
+  const std::string refuse = number("initial overlap", "error");
+  for (const auto& [inner, outer] : {std::pair{6, 5}, std::pair{5, 6}, std::pair{3, 8}}) {
+    EXPECT_EQ(rings(0.0, "Q8", inner, outer, refuse).error, "");
+    EXPECT_LT(rings(0.0, "Q8", inner, outer).start.pairs[0].overlap.depth, 2.0 * std::pow(M_PI / std::min(inner, outer), 4) / 4096.0);
+    EXPECT_THAT(rings(-0.05, "Q8", inner, outer, refuse).error, HasSubstr("\"initial overlap\" says that this is an error")) << "that is one";
+  }
+  EXPECT_THAT(rings(0.0, "Q4", 6, 5, refuse).error, HasSubstr("in one another")) << "linear facets are what they are";
+  EXPECT_EQ(rings(0.0, "Q4", 6, 5, refuse + number("facets", "round")).error, "");
+}
+
+// All nodes lie on one sphere. Quadrilaterals of 8 nodes leave it by no more than h^4 / 64 R^3 inside and h^4 / 512 R^3 at their edges.
+TEST(RoundSurfaces, OfSpheresThatTouchLieInOneAnotherToFourthOrder) {
+  const Found found = rings(0.0, "H20", 6, 5, number("initial overlap", "error"), true);
+  ASSERT_EQ(found.error, "");
+  const double h = 0.5 * M_PI * 2.0 / 5.0;
+  EXPECT_LT(found.start.pairs[0].overlap.depth, 2.0 * std::pow(h, 4) / (64.0 * 8.0));
+}
+
+// On the pin of radius 2 facets leave 2/3 of their sagitta on average, which is nearer to the hole. Of the hole's facets, which are as long or a half
+// or twice as long, a node with dual weights 2 - 3 s sees on average between 1/6 and 7/6 of the sagitta, and 2/3 where its own are much longer.
+TEST(RoundSurfaces, OfLinearFacetsChangeGapsByWhatTheFacetsLeave) {
+  for (const auto& [inner, outer] : {std::pair{12, 12}, std::pair{12, 24}, std::pair{24, 12}, std::pair{6, 48}}) {
+    const Found found = rings(0.02, "Q4", inner, outer, number("facets", "round"));
+    ASSERT_EQ(found.error, "");
+    const double pin = sagitta(2.0, inner), hole = sagitta(2.02, outer);
+    const PairAtStart& pair = found.start.pairs[0];
+    EXPECT_NEAR(pair.arcs[0], pin, 0.02 * pin);
+    EXPECT_NEAR(pair.arcs[1], hole, 0.02 * hole);
+    ASSERT_TRUE(pair.facet_gaps);
+    const double exact = 0.03 * (pin + hole);  // chords are not parabolas
+    EXPECT_GT((*pair.facet_gaps)[0], std::min(0.0, -2.0 / 3.0 * pin + hole / 6.0) - exact) << inner << " " << outer;
+    EXPECT_LT((*pair.facet_gaps)[1], std::max(0.0, -2.0 / 3.0 * pin + 7.0 / 6.0 * hole) + exact) << inner << " " << outer;
+    if (inner == 24) {
+      EXPECT_NEAR((*pair.facet_gaps)[1], -2.0 / 3.0 * pin + 7.0 / 6.0 * hole, exact) << "over the middle of a chord";
+    }
+    if (inner == 6) {
+      EXPECT_NEAR((*pair.facet_gaps)[0], -2.0 / 3.0 * (pin - hole), exact);
+    }
+  }
+  const Found flat = rings(0.02, "Q4", 12, 24);
+  EXPECT_FALSE(flat.start.pairs[0].facet_gaps);
+  const Found cubes = rings(0.02, "H8", 8, 12, number("facets", "round"), true);
+  ASSERT_EQ(cubes.error, "");
+  EXPECT_GT((*cubes.start.pairs[0].facet_gaps)[0], -2.0 * (sagitta(2.0, 8) + sagitta(2.0, 8)) * 2.0 / 3.0) << "of both directions";
+  EXPECT_LT((*cubes.start.pairs[0].facet_gaps)[0], -0.5 * sagitta(2.0, 8));
+}
+
+// A plate's top falls by a degree or two to the left, and so does the bottom of a body above it: a line from the plate's right side runs out of the plate and into
+// that body at angles at which facets are hardly met, and out of it at its far end. The bodies are apart.
+TEST(InitialOverlap, IsNotToldByLinesThatRunWithinAFace) {
+  for (const double tilt : {0.5, 1.0, 2.0, 2.7})
+    for (const double up : {0.001, 0.01, 0.02}) {
+      const double slope = std::tan(tilt * M_PI / 180.0);
+      const auto quadrilateral = [&](const std::string& name, const std::string& corners) {
+        return list(name, number("material", "soft") + number("element", "Q4") +
+                              list("mesh", number("type", "block") + number("corners", corners) + number("cells x", "4") + number("cells y", "2")));
+      };
+      const std::string text = list(
+          "plates",
+          list("materials", list("soft", number("type", "neo hooke") + number("young's modulus", "1000") + number("poisson's ratio", "0.3"))) +
+              list("bodies", quadrilateral("plate", fmt::format("-1, 0, 1, 0, 1, 1, -1, {:.12g}", 1.0 - 2.0 * slope)) +
+                                 quadrilateral("beside", fmt::format("-5, {:.12g}, 1.2, {:.12g}, 1.2, 2, -5, 2", 1.0 + up - 6.0 * slope, 1.0 + up + 0.2 * slope))) +
+              list("boundary conditions", list("a", number("set", "plate/bottom") + number("x", "0") + number("y", "0")) +
+                                              list("b", number("set", "beside/top") + number("x", "0") + number("y", "0"))));
+      const Model model(Tpetra::getDefaultComm(), read_text(text), Timers());
+      EXPECT_THAT(model.surfaces_at_start().strays, IsEmpty()) << tilt << " " << up;
+    }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Tpetra_Vector.hpp>
+#include <cmath>
 
 #include "model/report_corners.hpp"
 #include "scene/roles.hpp"
@@ -41,6 +42,31 @@ std::string what_becomes_of_overlap(const ContactPairOptions& options) {
   return text;
 }
 
+constexpr const char* round_advice = "\"facets\" = \"round\" takes the surfaces as smooth ones";
+
+// An arc with the sagitta s over each facet is 2/3 s from its chords on average: gaps between conforming arcs are off by 2/3 of the difference of
+// both. What is left of the larger one varies along the facet by its sagitta.
+void report_arcs(const Named<ContactPairOptions>& options, const PairAtStart& pair, RunLog& log) {
+  constexpr double noticeable_share = 0.1;  // of the gap
+  const auto& [slave, master] = pair.arcs;
+  const double left = slave + master;
+  if (!(left > 0.0) || pair.facet_gaps) return;
+  const std::string text = fmt::format(
+      "contact {}: facets leave up to {:.3g} of the slave's arcs and {:.3g} of the master's: mean gaps are off by {:.2g}, those of single nodes by "
+      "up to "
+      "{:.2g}",
+      options.name, slave, master, 2.0 / 3.0 * std::abs(slave - master), left);
+  if (*pair.gap > 0.0 && left > noticeable_share * *pair.gap) {
+    const double share = std::sqrt(noticeable_share * *pair.gap / left);
+    log.warning(
+        fmt::format("{}, beside a clearance of {:.3g}; pressures are wrong with them; {}, and so would facets of at most {:.3g} (slave) and "
+                    "{:.3g} (master), or quadratic elements",
+                    text, *pair.gap, round_advice, share * pair.facets[0], share * pair.facets[1]));
+  } else {
+    log.info("  " + text);
+  }
+}
+
 void report_pair(const Named<ContactPairOptions>& options, const PairAtStart& pair, int dimension, RunLog& log) {
   if (!options.value.reason.empty())
     log.info(fmt::format("  contact {}: the slave is \"{}\": {}", options.name, options.value.slave.value, options.value.reason));
@@ -61,10 +87,19 @@ void report_pair(const Named<ContactPairOptions>& options, const PairAtStart& pa
       log.warning(fmt::format("{}. That is more than the longest facet, {:.3g}: please make sure that it is meant", text, pair.longest));
     else
       log.info("  " + text);
+    if (const double left = pair.arcs[0] + pair.arcs[1]; left > 0.0 && pair.overlap.depth <= left && !pair.facet_gaps)
+      log.warning(
+          fmt::format("contact {}: facets leave up to {:.3g} of the slave's arcs and {:.3g} of the master's, so that the overlap may be of the "
+                      "meshes alone, and strains both; {}",
+                      options.name, pair.arcs[0], pair.arcs[1], round_advice));
   } else if (pair.gap) {
     log.info(fmt::format("  contact {}: the surfaces {}{}", options.name, *pair.gap > 0.0 ? fmt::format("begin {:.3g} apart", *pair.gap) : "touch",
                          pair.reach ? fmt::format("; the search reach is {:.3g} instead of {:.3g}", *pair.reach, pair.longest) : ""));
+    report_arcs(options, pair, log);
   }
+  if (pair.facet_gaps)
+    log.info(fmt::format("  contact {}: facets are taken as round: gaps change by {:.3g} to {:.3g}", options.name, (*pair.facet_gaps)[0],
+                         (*pair.facet_gaps)[1]));
 }
 
 // Collective.

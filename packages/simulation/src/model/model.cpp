@@ -24,6 +24,7 @@
 #include "mortise/simulation/model/mesh_limits.hpp"
 #include "mortise/simulation/scene/scene_bodies.hpp"
 #include "surfaces/body_surfaces.hpp"
+#include "surfaces/rounded_facets.hpp"
 
 namespace mortise {
 namespace {
@@ -150,6 +151,14 @@ ContactPair make_pair(const Mesh& mesh, const Bodies& bodies, const Named<Contac
   collect.throw_found(*mesh.comm);
   pair.youngs_modulus = std::min(softest(mesh, bodies, pair.slave), softest(mesh, bodies, pair.master));
   return pair;
+}
+
+/// The least and the largest of values, over all ranks; 0 of none. Collective.
+std::array<double, 2> range_over_ranks(const Communicator& comm, const std::vector<double>& values) {
+  double mine[2] = {0.0, 0.0}, all[2];
+  for (const double value : values) mine[0] = std::max(mine[0], -value), mine[1] = std::max(mine[1], value);
+  Teuchos::reduceAll(comm, Teuchos::REDUCE_MAX, 2, mine, all);
+  return {-all[0], all[1]};
 }
 
 /// mesh.bodies indices of the bodies of each pair. Collective.
@@ -314,7 +323,15 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
     parts_.prescribed = std::make_shared<PrescribedBoundary>(motion);
   });
   std::vector<ContactPair> pairs;
-  for (const auto& pair : scene.contact) collect([&] { pairs.push_back(make_pair(*mesh_, *bodies_, pair, pair.value.slave, pair.value.master)); });
+  for (const auto& pair : scene.contact) {
+    collect([&] { pairs.push_back(make_pair(*mesh_, *bodies_, pair, pair.value.slave, pair.value.master)); });
+    if (pair.value.start.facets == FacetShape::round)
+      collect([&] {
+        const bool dual = pair.value.contact.formulation.options->coupling()->has_dual_gap(pair.value.contact.mortar.gap_weighting);
+        pairs.back().facet_gaps = std::make_shared<const std::vector<double>>(gaps_of_round_surfaces(
+            *mesh_, require_side_set(*mesh_, pair.value.slave), require_side_set(*mesh_, pair.value.master), reference_places(*mesh_), dual));
+      });
+  }
   for (std::size_t first = 0; first < scene.contact.size(); ++first) {  // second passes behind all pairs of the scene
     const auto& pair = scene.contact[first];
     if (!pair.value.contact.formulation.options->two_pass()) continue;
@@ -343,6 +360,8 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
     mark_crosspoints(followed_by_ties(*mesh_, *parts_.tied), *kept);
   }
   surfaces_at_start_ = examine_surfaces(*mesh_, scene, size_.length);
+  for (std::size_t p = 0; p < scene.contact.size(); ++p)
+    if (pairs[p].facet_gaps) surfaces_at_start_.pairs[p].facet_gaps = range_over_ranks(*comm, *pairs[p].facet_gaps);
   reach_for_clearances(*mesh_, scene, surfaces_at_start_);
   for (std::size_t p = 0; p < adjustments.size(); ++p) {
     surfaces_at_start_.pairs[p].adjusted = {adjustments[p].nodes, adjustments[p].largest};

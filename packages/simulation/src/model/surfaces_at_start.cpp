@@ -8,6 +8,7 @@
 #include <set>
 
 #include "mortise/mesh/sets.hpp"
+#include "surfaces/rounded_facets.hpp"
 #include "surfaces/surface_view.hpp"
 
 namespace mortise {
@@ -39,6 +40,13 @@ std::string where(const Mesh& mesh, const DeepestPoint& point, const std::string
   return to_string(mesh.dimension, place_of(point, surface));
 }
 
+/// What facets leave of the arcs of two surfaces, one of which is hollow where the other is convex.
+std::array<double, 2> conforming_arcs(const RoundedFacets& slave, const RoundedFacets& master, double least) {
+  const bool slave_is_hollow = slave.deepest > slave.highest, master_is_hollow = master.deepest > master.highest;
+  if (slave.arc() <= least || master.arc() <= least || slave_is_hollow == master_is_hollow) return {0.0, 0.0};
+  return {slave.arc(), master.arc()};
+}
+
 Examined examine(const PlacedBodies& bodies, std::size_t index, const Named<ContactPairOptions>& options, const SidesOfBody& slave,
                  const SidesOfBody& master) {
   const Mesh& mesh = bodies.mesh;
@@ -46,11 +54,13 @@ Examined examine(const PlacedBodies& bodies, std::size_t index, const Named<Cont
       index, options, slave, master, {options.value.slave.value, *slave.set, slave.body}, {options.value.master.value, *master.set, master.body},
       {},    {},      {}};
   PairAtStart& result = pair.result;
-  result.longest = std::max(longest_facet(mesh, pair.slave.set, bodies.at), longest_facet(mesh, pair.master.set, bodies.at));
+  result.facets = {longest_facet(mesh, pair.slave.set, bodies.at), longest_facet(mesh, pair.master.set, bodies.at)};
+  result.longest = std::max(result.facets[0], result.facets[1]);
   if (pair.slave.body == pair.master.body) return pair;  // what lies within a body lies within itself
   pair.from_slave = look(bodies, pair.slave, pair.master);
   pair.from_master = look(bodies, pair.master, pair.slave);
   pair.deepest_is_slave = pair.from_slave.deepest.depth >= pair.from_master.deepest.depth;
+  result.arcs = conforming_arcs(round_facets(mesh, pair.slave.set, bodies.at), round_facets(mesh, pair.master.set, bodies.at), bodies.touching);
   result.is_swallowed = pair.from_slave.swallowed >= most_of_a_surface * pair.from_slave.probes;
   if (pair.deepest().depth > 0.0) result.overlap = place_of(pair.deepest(), pair.penetrating().name);
   return pair;
@@ -61,6 +71,10 @@ void add(PairAtStart& pair, const PairAtStart& of_bodies) {
   pair.longest = std::max(pair.longest, of_bodies.longest);
   if (of_bodies.overlap.depth > pair.overlap.depth) pair.overlap = of_bodies.overlap;
   if (of_bodies.gap) pair.gap = std::min(pair.gap.value_or(*of_bodies.gap), *of_bodies.gap);
+  for (std::size_t side = 0; side < 2; ++side) {
+    pair.arcs[side] = std::max(pair.arcs[side], of_bodies.arcs[side]);
+    pair.facets[side] = std::max(pair.facets[side], of_bodies.facets[side]);
+  }
   if (of_bodies.reach) pair.reach = std::max(pair.reach.value_or(0.0), *of_bodies.reach);
   pair.is_swallowed = pair.is_swallowed || of_bodies.is_swallowed;
 }
@@ -78,10 +92,11 @@ void complain_of_overlap(const PlacedBodies& bodies, Examined& pair, std::vector
   const std::string what =
       fmt::format("the surfaces begin by {:.3g} in one another, deepest at {}", overlap.depth, to_string(bodies.mesh.dimension, overlap));
   if (options.start.initial_overlap == InitialOverlap::error) {
-    // Depths are measured between linear parts: round quadratic surfaces that touch seem to overlap by what they leave these.
-    const double inexact =
-        deviation_from_parts(bodies.mesh, pair.slave.set, bodies.at) + deviation_from_parts(bodies.mesh, pair.master.set, bodies.at);
-    if (overlap.depth <= inexact) return;
+    // Facets that pass through the nodes of one smooth surface may lie in one another by what they leave of it. Of quadratic ones that is of fourth
+    // order, and no pressure to speak of; linear ones have to be said to be round.
+    const bool is_round = options.start.facets == FacetShape::round;
+    const auto left = [&](const NamedSurface& one) { return height_of_kinks(bodies.mesh, one.set, bodies.at, is_round); };
+    if (overlap.depth <= left(pair.slave) + left(pair.master)) return;
     say(what + "; \"initial overlap\" says that this is an error: please move the bodies apart, or take \"interference\"");
     return;
   }

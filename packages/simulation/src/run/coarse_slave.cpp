@@ -149,8 +149,8 @@ std::vector<char> nodes_of_one_place(const Mesh& mesh, const std::vector<Contact
 
 std::string where(const Mesh& mesh, const CoarsePlace& place) {
   const Eigen::Vector3d& x = place.x;
-  return fmt::format("facets of length {:.3g} near ({:.6g}, {:.6g}{}), over one of which the master turns by {:.2g} degrees", place.length, x[0], x[1],
-                     mesh.dimension == 3 ? fmt::format(", {:.6g}", x[2]) : "", place.turn * 180.0 / M_PI);
+  return fmt::format("facets of length {:.3g} near ({:.6g}, {:.6g}{}), over one of which the master turns by {:.2g} degrees", place.length, x[0],
+                     x[1], mesh.dimension == 3 ? fmt::format(", {:.6g}", x[2]) : "", place.turn * 180.0 / M_PI);
 }
 
 bool presses(const ContactNodeState& node) { return node.closed && node.pressure > 0.0; }
@@ -175,7 +175,8 @@ std::string too_coarse(const Model& model, const Named<ContactPairOptions>& pair
   const double given = pressure / softer_modulus(model, require_side_set(mesh, pair.value.slave), require_side_set(mesh, pair.value.master));
   if (!(2.0 * weighing * place->turn > given)) return {};
   return fmt::format(
-      "contact \"{}\": at t = {:.6g} its force acts on {:.0f} slave {} at {}: weighted gaps see the master off its place by about {:.2g}, where a facet "
+      "contact \"{}\": at t = {:.6g} its force acts on {:.0f} slave {} at {}: weighted gaps see the master off its place by about {:.2g}, where a "
+      "facet "
       "gives way by {:.2g}; so approach and pressure are wrong by as much as they are; please make the slave finer there",
       pair.name, time, count, count == 1.0 ? "node" : "nodes", where(mesh, *place), weighing * place->turn * place->length, given * place->length);
 }
@@ -241,7 +242,8 @@ std::string explain_by_coarse_slave(const FailedTry& failed, const Model& model,
     const std::optional<CoarsePlace> place = coarse_place(model, pair.value, at, acts);
     if (!place || place->turn < notable_turn) continue;
     return fmt::format(
-        "contact \"{}\": the slave is too coarse for the master's curvature: contact is sought at {:.0f} slave {} at {}; weighted gaps are means over "
+        "contact \"{}\": the slave is too coarse for the master's curvature: contact is sought at {:.0f} slave {} at {}; weighted gaps are means "
+        "over "
         "facets, which there may close where they ought to open; please make the slave finer there, or take the curved side as the slave",
         pair.name, count, count == 1.0 ? "node" : "nodes", where(mesh, *place));
   }

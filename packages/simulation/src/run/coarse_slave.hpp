@@ -32,7 +32,8 @@ class CoarseSlaveWatch {
   std::vector<Hardest> hardest_;  ///< [pairs of the scene]
 };
 
-/// Why Newton's method found no equilibrium, if contact was sought at a node or two whose facets are too coarse for the master; else empty. Collective.
+/// Why Newton's method found no equilibrium, if contact was sought at a node or two whose facets are too coarse for the master; else empty.
+/// Collective.
 std::string explain_by_coarse_slave(const FailedTry& failed, const Model& model, const Scene& scene, const SemiSmoothSystem& system);
 
 }  // namespace mortise

@@ -32,6 +32,7 @@
 #include "run/explain_statics.hpp"
 #include "run/limit_load.hpp"
 #include "run/motion_hold.hpp"
+#include "run/parts_apart.hpp"
 #include "run/restart.hpp"
 #include "run/run_output.hpp"
 #include "run/run_record.hpp"
@@ -278,8 +279,10 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
       return known + "; so an earlier try of this step";
     };
     functions.explain = [&](const FailedTry& failed) -> std::string {
-      const std::string words = explain_statically(failed), mesh = explain_by_coarse_slave(failed, model, scene, system);
-      return words.empty() || mesh.empty() ? words + mesh : words + "; " + mesh;
+      std::vector<std::string> words{explain_by_coarse_slave(failed, model, scene, system), advise_parts_apart(failed, model, scene, system),
+                                     explain_statically(failed)};
+      words.erase(std::remove(words.begin(), words.end(), std::string()), words.end());
+      return fmt::format("{}", fmt::join(words, "; "));
     };
     functions.begin = [&, begin = functions.begin](int step, double time, double dt) {
       last.reset();

@@ -10,6 +10,11 @@ void ContactStartOptions::describe(Parameters& parameters) {
   parameters.add("tolerance", tolerance, Says("by how much nodes are adjusted at most").unit("length").at_least(0.0));
   if (mesh == MeshAtStart::adjusted && tolerance == 0.0) parameters.error("start", "adjusts no node without a \"tolerance\" above 0; please add it");
   if (mesh == MeshAtStart::as_meshed && tolerance > 0.0) parameters.error("tolerance", "is for \"start\" (string, adjust); please add that");
+  parameters.add("facets", facets, {{"flat", FacetShape::flat}, {"round", FacetShape::round}},
+                 "round: linear facets that turn by less than 30 degrees from one to the next stand for the smooth surface through their nodes, and "
+                 "gaps are changed by what the facets leave of it, as the reference configuration says; for round parts with a clearance");
+  if (mesh == MeshAtStart::adjusted && facets == FacetShape::round)
+    parameters.error("facets", "\"round\" is not for slave nodes that are moved onto flat facets; please leave out \"start\" = \"adjust\"");
   parameters.add("initial overlap", initial_overlap, {{"interference", InitialOverlap::interference}, {"error", InitialOverlap::error}},
                  "surfaces that begin in one another: interference, they are pushed apart, whatever the depth; error, the scene is refused");
   parameters.add(

@@ -101,8 +101,7 @@ std::vector<Penetration> penetrations(const BodiesToCompare& bodies, const std::
   ProbeLines rays;
   for (std::size_t p = 0; p < probes.size(); ++p) {
     const SurfacePoint& point = probes[p].point;
-    if (may_penetrate(point, bodies.own_box, bodies.other_box, bodies.other_is_rigid, bodies.touching))
-      rays.add(bodies, p, point.x, -point.normal);
+    if (may_penetrate(point, bodies.own_box, bodies.other_box, bodies.other_is_rigid, bodies.touching)) rays.add(bodies, p, point.x, -point.normal);
   }
   std::vector<Finding> findings(probes.size());
   const auto follow = [&](const ProbeLines& along) {

@@ -51,6 +51,7 @@ std::vector<Diagnostic> calculix_obstacles(const Scene& scene, const Model& mode
     const ContactOptions& contact = pair.value.contact;
     if (contact.geometry != ContactGeometry::current) say(pair.place, fmt::format("contact \"{}\" in the reference configuration", pair.name));
     if (contact.clearance) say(pair.place, fmt::format("the clearance of \"{}\"", pair.name));
+    if (pair.value.start.facets == FacetShape::round) say(pair.place, fmt::format("the round facets of \"{}\"", pair.name));
     if (pair.value.start.taken_up_at) say(pair.place, fmt::format("the overlap of \"{}\" that is taken up over time", pair.name));
     if (dynamic_cast<const PressureOverclosureEnforcement*>(contact.formulation.options->enforcement().get()) != nullptr)
       say(pair.place, fmt::format("the pressure overclosure law of \"{}\"", pair.name));

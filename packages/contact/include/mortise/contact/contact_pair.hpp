@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "mortise/contact/formulation/dual_mortar.hpp"
 #include "mortise/contact/friction.hpp"
@@ -40,7 +41,9 @@ struct ContactPair {
   SurfaceFacets master;  ///< likewise
   /// Above 0. Of the softer side: sets c_n, the start rule and the stiffness of conditions that give way.
   double youngs_modulus = 0.0;
-  ContactOptions options;                     ///< the rest of it
+  ContactOptions options;  ///< the rest of it
+  /// [owned nodes] added to the gap that is drawn, beside the clearance [length]: what facets leave of round surfaces. Null: nothing.
+  std::shared_ptr<const std::vector<double>> facet_gaps;
   std::optional<std::size_t> second_pass_of;  ///< an earlier pair of a two-pass formulation, with the sides exchanged
 };
 

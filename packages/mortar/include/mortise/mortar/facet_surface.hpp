@@ -11,9 +11,9 @@ namespace mortise {
 
 /// A point of a facet.
 struct FacetPoint {
-  Eigen::Vector3d x;                          ///< its place
-  std::array<Eigen::Vector3d, 2> tangent;     ///< dx/dxi_i; in 2D the second is 0
-  Eigen::Vector3d normal;                     ///< outwards; not of unit length
+  Eigen::Vector3d x;                       ///< its place
+  std::array<Eigen::Vector3d, 2> tangent;  ///< dx/dxi_i; in 2D the second is 0
+  Eigen::Vector3d normal;                  ///< outwards; not of unit length
 };
 
 /// The point at reference coordinates xi; in 2D xi.y is 0.

@@ -31,10 +31,10 @@ struct LineSegment {
 
 /// Where a line crosses a facet.
 struct Crossing {
-  double s = 0.0;       ///< of the line [length]
-  bool leaves = false;  ///< the line goes along the facet's outward normal, out of the body
-  int tag = 0;          ///< the facet's
-  double along = 0.0;   ///< the cosine of the angle between the line and the facet's outward normal
+  double s = 0.0;                                    ///< of the line [length]
+  bool leaves = false;                               ///< the line goes along the facet's outward normal, out of the body
+  int tag = 0;                                       ///< the facet's
+  double along = 0.0;                                ///< the cosine of the angle between the line and the facet's outward normal
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< outward unit normal of the facet there
 };
 
@@ -50,9 +50,9 @@ enum class Grazing {
 /// The centre of a facet, or of each part of a quadratic one, and points just beside its nodes, with the facet's unit normal there. A line from such
 /// a point passes beside the edges that the surfaces of conforming meshes share.
 struct SurfacePoint {
-  Eigen::Vector3d x;       ///< on the facet or just beside a node of it
-  Eigen::Vector3d normal;  ///< outward unit normal of the facet at x
-  int node = 0;            ///< place of the nearest node among the facet's
+  Eigen::Vector3d x;                                 ///< on the facet or just beside a node of it
+  Eigen::Vector3d normal;                            ///< outward unit normal of the facet at x
+  int node = 0;                                      ///< place of the nearest node among the facet's
   Eigen::Vector3d inward = Eigen::Vector3d::Zero();  ///< unit vector to the centre; 0 at the centre, and where none is known
 };
 

@@ -31,7 +31,11 @@ struct PairAtStart {
   std::optional<double> reach;  ///< what the search reach has to be to cover the overlap, where that is more than the longest facet
   std::pair<GlobalOrdinal, double> adjusted{0, 0.0};  ///< how many slave nodes were moved onto the master, and the largest distance [length]
   double overlap_as_meshed = 0.0;                     ///< depth before slave nodes were moved, if they were [length]
-  bool is_swallowed = false;  ///< most of the slave begins within the master's body; another pair of these bodies pushes it out
+  std::array<double, 2> arcs{0.0, 0.0};    ///< the most that linear facets leave of the slave's arcs, and of the master's, if one is hollow where the
+                                           ///< other is convex; else 0 [length]
+  std::array<double, 2> facets{0.0, 0.0};  ///< longest one of the slave, and of the master
+  std::optional<std::array<double, 2>> facet_gaps;  ///< least and largest of what is added to gaps for round facets
+  bool is_swallowed = false;                        ///< most of the slave begins within the master's body; another pair of these bodies pushes it out
 };
 
 /// Two bodies that overlap and may not touch.

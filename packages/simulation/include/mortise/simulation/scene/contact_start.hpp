@@ -19,10 +19,14 @@ enum class MeshAtStart {
   adjusted  ///< moved onto the master, without strain
 };
 
+/// What linear facets stand for.
+enum class FacetShape { flat, round };
+
 /// Of one pair.
 struct ContactStartOptions {
   MeshAtStart mesh = MeshAtStart::as_meshed;
   double tolerance = 0.0;  ///< [length] that nodes are moved at most, if they are adjusted
+  FacetShape facets = FacetShape::flat;
   InitialOverlap initial_overlap = InitialOverlap::interference;
   std::optional<double> taken_up_at;  ///< pseudo-time at which nothing is left of an overlap; none: the end of the first step
   void describe(Parameters& parameters);
