@@ -26,7 +26,7 @@ double magnitude(const std::array<double, 3>& v) { return std::hypot(v[0], v[1],
 LeanWatch::LeanWatch(const Model& model, const Scene& scene, std::function<void(const std::string&)> warn)
     : model_(model), scene_(scene), warn_(std::move(warn)) {
   const Mesh& mesh = *model.mesh();
-  const auto bodies = [&](const std::string& set) {
+  const auto bodies = [&](const Located<std::string>& set) {
     std::vector<std::size_t> result;
     for (const SidesOfBody& sides : sides_by_body(mesh, require_side_set(mesh, set))) result.push_back(sides.body);
     return result;
