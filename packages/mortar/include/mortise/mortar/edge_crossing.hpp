@@ -28,19 +28,23 @@ struct EdgeLine {
 
 /// Two edges near one another. K at a point is linear in either coordinate between its values at nodes, the means of the pieces around them.
 struct EdgePair {
-  EdgeLine slave, master;
+  EdgeLine slave;             ///< whose direction the normal has
+  EdgeLine master;            ///< against it
   Eigen::MatrixXd stiffness;  ///< [slave nodes x master nodes]
   double sign = 1.0;          ///< as in WedgeContact
 };
 
 /// Where they cross.
 struct EdgeCrossing {
-  std::size_t slave = 0, master = 0;                 ///< first nodes of the pieces
-  double s = 0.0, m = 0.0;                           ///< places along them, 0 to 1
+  std::size_t slave = 0;                             ///< first node of the piece of the slave
+  std::size_t master = 0;                            ///< likewise
+  double s = 0.0;                                    ///< place along the piece of the slave, 0 to 1
+  double m = 0.0;                                    ///< likewise, of the master
   double gap = 0.0;                                  ///< below 0: that deep in one another
   double stiffness = 0.0;                            ///< K there
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< out of the slave
-  Eigen::Vector3d on_slave, on_master;               ///< the points
+  Eigen::Vector3d on_slave;                          ///< x(s)
+  Eigen::Vector3d on_master;                         ///< y(m)
 };
 
 /// All crossings, along the slave's edge. With tangents t that are linear between nodes the points x(s) and y(m) are those for which
