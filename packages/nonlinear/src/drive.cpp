@@ -68,7 +68,8 @@ std::optional<double> Drive::continuation(const Drive& before) const {
   const std::size_t fields = model_->sizes().fields();
   std::vector<double> mine(2 * changes_.size() * fields, 0.0), all(mine.size());
   for (std::size_t kind = 0; kind < changes_.size(); ++kind) {
-    const auto now = changes_[kind]->getLocalViewHost(Tpetra::Access::ReadOnly), then = before.changes_[kind]->getLocalViewHost(Tpetra::Access::ReadOnly);
+    const auto now = changes_[kind]->getLocalViewHost(Tpetra::Access::ReadOnly),
+               then = before.changes_[kind]->getLocalViewHost(Tpetra::Access::ReadOnly);
     for (std::size_t row = 0; row < now.extent(0); ++row) {
       double* products = &mine[2 * (kind * fields + model_->sizes().field(static_cast<LocalOrdinal>(row)))];
       products[0] += now(row, 0) * then(row, 0);

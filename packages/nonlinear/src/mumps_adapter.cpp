@@ -13,7 +13,7 @@ namespace {
 // The adapter shows nothing of what an analysis and a factorisation tell.
 double foreseen = 0.0;
 int determinant_sign = 0;
-}
+}  // namespace
 }  // namespace mortise::detail
 
 // The adapter's own version prints to the terminal and takes warnings (positive codes) for errors. It is called after each phase, so that parameters

@@ -12,8 +12,8 @@ namespace mortise::detail {
 /// each node once, no more iterations than there are closed nodes count as progress.
 int iterations_without_progress(const std::vector<NewtonIteration>& iterates);
 
-/// Whether a solve wanders: after `patience` iterations or more, no merit is below that of the start, and in the last of them states of contact change
-/// at as many nodes as in those before, and at more than a few.
+/// Whether a solve wanders: after `patience` iterations or more, no merit is below that of the start, and in the last of them states of contact
+/// change at as many nodes as in those before, and at more than a few.
 bool wanders(const std::vector<NewtonIteration>& iterates);
 
 }  // namespace mortise::detail

@@ -114,10 +114,11 @@ std::optional<StepFailure> reason_to_give_up(const std::vector<NewtonIteration>&
                                    last.norms.active, last.norms.changed));
 
   if (wanders(iterates))
-    return StepFailure(FailureKind::too_many_iterations,
-                       fmt::format("Newton's method wanders: after {} iterations the residual has never been below that of the start ({:.2e} now, {:.2e} "
-                                   "there), and {} of {} closed nodes still change their state",
-                                   last.iteration, last.norms.merit, iterates.front().norms.merit, last.norms.changed, last.norms.active));
+    return StepFailure(
+        FailureKind::too_many_iterations,
+        fmt::format("Newton's method wanders: after {} iterations the residual has never been below that of the start ({:.2e} now, {:.2e} "
+                    "there), and {} of {} closed nodes still change their state",
+                    last.iteration, last.norms.merit, iterates.front().norms.merit, last.norms.changed, last.norms.active));
 
   const int in_vain = iterations_without_progress(iterates);
   if (in_vain >= options.maximum_iterations) {

@@ -53,8 +53,12 @@ TEST(Progress, IsNotToBeHopedForWhereTheResidualNeverFellAndStatesChangeOn) {
   EXPECT_TRUE(wanders(grown, at_random, 12));
   EXPECT_FALSE(wanders(grown, at_random, 11)) << "too early to tell";
   EXPECT_FALSE(wanders([](int k) { return k == 4 ? 0.9 : 1.0 + k; }, at_random, 20)) << "it fell once";
-  EXPECT_FALSE(wanders(grown, [](int k) { return 100 / k; }, 12)) << "states settle";
-  EXPECT_FALSE(wanders(grown, [](int) { return 1; }, 12)) << "a front passes one node after the other";
+  EXPECT_FALSE(wanders(
+      grown, [](int k) { return 100 / k; }, 12))
+      << "states settle";
+  EXPECT_FALSE(wanders(
+      grown, [](int) { return 1; }, 12))
+      << "a front passes one node after the other";
 }
 
 /// Iterates that meet all other criteria, the last one with other states than it was computed with and led to by `increment`.

@@ -84,14 +84,16 @@ void StabilityCheck::verify(const SemiSmoothSystem& system, const AcceptedState&
   if (!passed_unstable_ && !passes_a_maximum(system, *from.x, to.x())) return;
   refused_rate_ = now;
   refused_dt_ = passed_dt_;
-  const std::string farther =
-      last_dt_ && before > 0.0 && by_strength && strength > 0.0 ? fmt::format(", {:.3g} times as far for what drives it as in the step before", now / before) : "";
+  const std::string farther = last_dt_ && before > 0.0 && by_strength && strength > 0.0
+                                  ? fmt::format(", {:.3g} times as far for what drives it as in the step before", now / before)
+                                  : "";
   throw StepFailure(
       FailureKind::unstable,
       fmt::format("no equilibrium is near: {}, and a node moves by {:.3g} in a step of {:.3g}{}. The structure may snap through, buckle or tip; "
                   "between two states at rest that are that far apart there is motion with inertia. Prescribe the motion instead of the load, or "
                   "end before",
-                  passed_unstable_ ? "the one that was found is not stable (det J < 0)" : "forces have a maximum between the last state and the one that was found",
+                  passed_unstable_ ? "the one that was found is not stable (det J < 0)"
+                                   : "forces have a maximum between the last state and the one that was found",
                   passed_moved_, passed_dt_, farther));
 }
 

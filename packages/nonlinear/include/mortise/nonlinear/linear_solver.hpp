@@ -63,8 +63,8 @@ class LinearSolver {
   /// * the true relative residual of the iterative solver exceeds ten times the tolerance.
   virtual LinearSolveReport solve(const Vector& b, Vector& x, double tolerance = 0.0) = 0;
 
-  /// Forgets what it kept of earlier matrices: from the next one on it solves as a new solver would. So a run that goes on from a checkpoint takes the
-  /// way of the run that wrote it.
+  /// Forgets what it kept of earlier matrices: from the next one on it solves as a new solver would. So a run that goes on from a checkpoint takes
+  /// the way of the run that wrote it.
   virtual void forget() {}
 
   /// Sign of the determinant of the matrix that was factorised last; 0: not known.

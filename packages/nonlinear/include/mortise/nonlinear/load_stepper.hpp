@@ -87,8 +87,8 @@ struct StepperObserver {
 using StepStart = std::function<StepContext(const AcceptedState& state, double time, const Vector& d, Vector& z)>;
 
 /// Runs from the time of a state to the end. On return `state` is that after the last accepted step. Returns true at the end time; false when the
-/// smallest step failed, with its failure in `last_failure`, and without one where the observer wanted rest or interrupted a step. Each try is prepared by `start`; without
-/// one nothing is guessed.
+/// smallest step failed, with its failure in `last_failure`, and without one where the observer wanted rest or interrupted a step. Each try is
+/// prepared by `start`; without one nothing is guessed.
 ///
 /// With a predictor a step starts on the line through the last two states. It goes on there by the share of the last step's changes of loads and
 /// prescribed displacements that is made again (Drive::continuation()), and at most by the length of the step. It starts at the last state where that
