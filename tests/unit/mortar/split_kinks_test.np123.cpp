@@ -127,6 +127,13 @@ TEST(SplitKinks, LetANodeFaceTheMaster) {
   }
 }
 
+void expect_exact_derivatives_of(const TwoLines& lines, bool curved_slave, bool curved_master = false) {
+  const Surfaces surfaces = curved_slave || curved_master ? quadratic(lines, curved_slave, curved_master, 0.02) : Surfaces(lines);
+  SurfacePair pair(surfaces, alone());
+  ASSERT_TRUE(split(pair, surfaces.points));
+  expect_exact_derivatives(surfaces, &pair);
+}
+
 TEST(SplitKinks, HasExactDerivativesOfANodeThatFacesTheMaster) {
   for (const double tilt : {30.0, 55.0, 66.0, 4.0, -5.0, -14.0})
     for (const bool axisymmetric : {false, true}) {
@@ -238,13 +245,6 @@ TEST(SplitKinks, SeeHalfOfACornerOnALineOfSymmetry) {
         ASSERT_TRUE(split(uneven_half, Surfaces(half).points));
         expect_exact_derivatives(half, &uneven_half);
       }
-}
-
-void expect_exact_derivatives_of(const TwoLines& lines, bool curved_slave, bool curved_master = false) {
-  const Surfaces surfaces = curved_slave || curved_master ? quadratic(lines, curved_slave, curved_master, 0.02) : Surfaces(lines);
-  SurfacePair pair(surfaces, alone());
-  ASSERT_TRUE(split(pair, surfaces.points));
-  expect_exact_derivatives(surfaces, &pair);
 }
 
 TEST(SplitKinks, HasExactDerivatives) {
