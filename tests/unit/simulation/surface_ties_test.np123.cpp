@@ -137,7 +137,7 @@ struct Reached {
   StepContext context;
 };
 
-Reached run_to(const Scene& scene, const Model& model, const SemiSmoothSystem& system, double time) {
+Reached run_to(const Scene& scene, const SemiSmoothSystem& system, double time) {
   SteppingState state(system.initial_state(Vector(system.map())));
   std::optional<StepFailure> failure;
   const auto start = [&](const AcceptedState& from, double to, const Vector& d, Vector& z) {
@@ -156,7 +156,7 @@ TEST_P(SurfaceTies, JacobianAgreesWithCentralDifferences) {
   const Timers timers;
   const Model model(Tpetra::getDefaultComm(), scene, timers);
   SemiSmoothSystem system(model.parts(), timers);
-  auto [x, context] = run_to(scene, model, system, 0.5);
+  auto [x, context] = run_to(scene, system, 0.5);
   Vector v(system.map()), J_v(system.map()), difference(system.map()), direction(system.map()), J_dx(system.map());
   for (const GlobalOrdinal id : x.getMap()->getNodeElementList()) {
     x.sumIntoGlobalValue(id, 2e-3 * std::sin(0.37 * id + 0.4));
@@ -195,7 +195,7 @@ TEST_P(DeformableTies, GatheredForcesKeepTheirResultants) {
   const Timers timers;
   const Model model(Tpetra::getDefaultComm(), scene, timers);
   SemiSmoothSystem system(model.parts(), timers);
-  const auto [x, context] = run_to(scene, model, system, 0.5);
+  const auto [x, context] = run_to(scene, system, 0.5);
   const SystemEvaluation at = system.evaluate(x, context);
   const RCP<const Vector> gathered = at.forces();
   Vector internal(model.parts().dofs), on_tied(model.parts().dofs);
@@ -262,7 +262,7 @@ TEST(TiesHold, BodiesTogetherWhereContactAloneHoldsThem) {
   for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node)
     EXPECT_EQ(model.held_by_contact_only()[static_cast<std::size_t>(node)] != 0, mesh.body_of_node[static_cast<std::size_t>(node)] > 0);
   const SemiSmoothSystem system(model.parts(), timers);
-  run_to(scene, model, system, 0.75);
+  run_to(scene, system, 0.75);
 }
 
 TEST(TiesHold, NoMotionOfAllBodiesTogether) {

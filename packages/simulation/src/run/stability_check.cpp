@@ -17,6 +17,7 @@ namespace mortise {
 namespace {
 
 constexpr double much_farther = 2.5;  ///< for what drives a step than in the step before, see StabilityCheck
+constexpr int parts_of_the_line = 8;  ///< between two states, at whose ends forces are looked at
 constexpr double no_work = 1e-6;      ///< of work, in which forces of rigid motion leave differences
 constexpr double as_far = 1.5;        ///< between 1 on a path, 1.4 at a maximum of the load, and 2 of a jump in half the step
 
@@ -37,11 +38,11 @@ bool passes_a_maximum(const SemiSmoothSystem& system, const Vector& from, const 
   Vector change(*system.displacement(to), Teuchos::Copy);
   change.update(-1.0, *u, 1.0);
   const Import to_local(parts.dofs, parts.local_dofs);
-  std::array<double, 3> g{};
+  std::array<double, parts_of_the_line + 1> g{};
   double size = 0.0;
-  for (int point = 0; point < 3; ++point) {
+  for (int point = 0; point <= parts_of_the_line; ++point) {
     Vector at(*u, Teuchos::Copy), local(parts.local_dofs), forces(parts.dofs);
-    at.update(0.5 * point, change, 1.0);
+    at.update(static_cast<double>(point) / parts_of_the_line, change, 1.0);
     local.doImport(at, to_local, Tpetra::REPLACE);
     std::optional<StepFailure> failure;
     for (const auto& contribution : parts.contributions)
@@ -52,7 +53,9 @@ bool passes_a_maximum(const SemiSmoothSystem& system, const Vector& from, const 
     g[point] = change.dot(forces);
     size = std::max(size, change.norm2() * forces.norm2());
   }
-  return std::abs(g[1] - 0.5 * (g[0] + g[2])) > 0.5 * std::abs(g[2] - g[0]) + no_work * size;
+  const auto [least, most] = std::minmax(g.front(), g.back());
+  return std::any_of(g.begin(), g.end(),
+                     [&, low = least, high = most](double value) { return value > high + no_work * size || value < low - no_work * size; });
 }
 
 /// How far a step moved for what drove it. Where nothing drove it that is known, it moved as long as it lasted.

@@ -16,9 +16,8 @@ namespace mortise {
 /// * det J < 0, and it was positive before. J is that of the unknowns, with contact's conditions in the place of what they hold; MUMPS tells the sign
 ///   with each factorisation. At a stable equilibrium it is positive. Along a path it changes where the path loses stability: at a maximum of the
 ///   load, or where another path branches off. A state that moved no farther is on such a path. It stands, and is said.
-/// * Forces between the two states are beyond both. Let g(s) = du . f_int(u + s du), 0 <= s <= 1. If g is monotone,
-///       |g(1/2) - (g(0) + g(1))/2| <= |g(1) - g(0)|/2.
-///   If that is not so there is a maximum in between: the structure snaps through.
+/// * Forces between the two states are beyond both. Let g(s) = du . f_int(u + s du), 0 <= s <= 1, at eighths. If g is monotone, all its values are
+///   between g(0) and g(1). If one is not there is a maximum in between: the structure snaps through.
 ///
 /// What is refused is sought from the last state: without a predictor, then with smaller steps. If half the step goes half as far, the path became
 /// softer within the step, and the state stands. An even number of negative eigenvalues is not seen, and with solvers that do not tell the sign,
