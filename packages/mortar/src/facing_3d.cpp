@@ -80,7 +80,13 @@ class Facing {
     result.derivative.setZero(3 * n_, 3 * (n_ + m_));
     derivative_ = &result.derivative;
     const std::size_t vertices = overlap_.polygon.size();
-    const auto position = overlap_.positions();
+    std::vector<Eigen::Vector2d> position;
+    Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+    for (const ClipVertex& vertex : overlap_.polygon) {
+      position.push_back(vertex.position);
+      centre += vertex.position / static_cast<double>(vertices);
+    }
+    position.push_back(centre);
     std::vector<Gradients> of_vertex(vertices + 1, Gradients::Zero(3 * n_, 2));
     for (std::size_t t = 0; t < overlap_.triangles.size(); ++t) {
       const auto& corner = overlap_.triangles[t];
@@ -93,13 +99,13 @@ class Facing {
       }
       result.value += on_triangle;
       // d(2A) = dv_k . (v_j - v_i turned by +90 degrees), k, i, j in turn
-      on_triangle /= overlap_.points[t * rule.size()].weight / rule[0].weight;
+      on_triangle /= doubled_area(position[corner[0]], position[corner[1]], position[corner[2]]);
       for (int k = 0; k < 3; ++k) {
         const Eigen::Vector2d edge = position[corner[(k + 2) % 3]] - position[corner[(k + 1) % 3]];
         of_vertex[corner[k]] += on_triangle * Eigen::RowVector2d(-edge.y(), edge.x());
       }
     }
-    for (const int v : overlap_.outline) of_vertex[v] += of_vertex[vertices] / static_cast<double>(overlap_.outline.size());
+    for (std::size_t v = 0; v < vertices; ++v) of_vertex[v] += of_vertex[vertices] / static_cast<double>(vertices);
     for (std::size_t v = 0; v < vertices; ++v) hand_out(v, of_vertex[v], position);
   }
 
@@ -163,7 +169,7 @@ class Facing {
     return of_node(node < slaves ? overlap_.slave_part[node] : n_ + overlap_.master_part[node - slaves]);
   }
 
-  void hand_out(std::size_t v, const Gradients& of_vertex, const boost::container::static_vector<Eigen::Vector2d, 17>& position) {
+  void hand_out(std::size_t v, const Gradients& of_vertex, const std::vector<Eigen::Vector2d>& position) {
     PlanePolygon first, second;
     for (const int a : overlap_.slave_part) first.push_back(slave_[a].head<2>());
     for (const int l : overlap_.master_part) second.push_back(master_[l].head<2>());

@@ -23,12 +23,6 @@ constexpr double facing_tolerance = 0.05;
 /// Of the slave facet's area: a smaller overlap is round-off of a matching mesh and carries nothing.
 constexpr double no_area = 1e-13;
 
-/// Of the slave facet's size: vertices that lie nearer to the outline are left to slivers.
-constexpr double beside_outline = 1e-6;
-
-/// Doubled area of a sliver without area. Its mean is needed all the same: its derivative is that times what its vertices move by.
-constexpr double no_weight = 1e-200;
-
 StepFailure too_distorted() {
   return {FailureKind::projection, "a point of a contact facet cannot be projected on the opposite one, which is too distorted"};
 }
@@ -108,41 +102,19 @@ Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 8, 1> values_of(const 
   return Eigen::Map<const Eigen::Matrix<double, Shape::nodes, 1>>(N.data());
 }
 
-// Takes vertices out of the outline as long as one lies nearer to the line between its neighbours than `near`, the nearest one first. With each goes
-// a sliver. If nothing is left of the outline but a sliver, all vertices stay.
-void draw_outline(Overlap3d& overlap, double near) {
-  auto& outline = overlap.outline;
-  boost::container::static_vector<std::array<int, 3>, 16> slivers;
-  const auto distance = [&](std::size_t v) {
-    const std::size_t count = outline.size();
-    const Eigen::Vector2d &from = overlap.polygon[outline[(v + count - 1) % count]].position,
-                          &to = overlap.polygon[outline[(v + 1) % count]].position;
-    const double length = (to - from).norm();
-    return length > 0.0 ? std::abs(doubled_area(from, overlap.polygon[outline[v]].position, to)) / length : 0.0;
-  };
-  for (std::size_t v = 0; v < overlap.polygon.size(); ++v) outline.push_back(static_cast<int>(v));
-  while (true) {
-    std::size_t nearest = 0;
-    double least = near;
-    for (std::size_t v = 0; v < outline.size(); ++v)
-      if (const double d = distance(v); d < least) least = d, nearest = v + 1;
-    if (nearest == 0) break;
-    if (outline.size() == 3) {
-      slivers.clear();
-      outline.clear();
-      for (std::size_t v = 0; v < overlap.polygon.size(); ++v) outline.push_back(static_cast<int>(v));
-      break;
-    }
-    const std::size_t v = nearest - 1, count = outline.size();
-    slivers.push_back({outline[(v + count - 1) % count], outline[v], outline[(v + 1) % count]});
-    outline.erase(outline.begin() + static_cast<std::ptrdiff_t>(v));
+// Fan triangles of a polygon about the mean of its vertices, which is put behind them.
+void cut_into_triangles(Overlap3d& overlap, boost::container::static_vector<Eigen::Vector2d, 17>& vertices) {
+  const auto count = static_cast<int>(overlap.polygon.size());
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+  for (const ClipVertex& vertex : overlap.polygon) {
+    vertices.push_back(vertex.position);
+    centre += vertex.position / count;
   }
-  const int centre = static_cast<int>(overlap.polygon.size());
-  if (outline.size() == 3)
-    overlap.triangles.push_back({outline[0], outline[1], outline[2]});
+  vertices.push_back(centre);
+  if (count == 3)
+    overlap.triangles.push_back({0, 1, 2});
   else
-    for (std::size_t v = 0; v < outline.size(); ++v) overlap.triangles.push_back({centre, outline[v], outline[(v + 1) % outline.size()]});
-  overlap.triangles.insert(overlap.triangles.end(), slivers.begin(), slivers.end());
+    for (int v = 0; v < count; ++v) overlap.triangles.push_back({count, v, (v + 1) % count});
 }
 
 // Adds the overlap of two parts whose nodes are given, if there is one.
@@ -156,10 +128,8 @@ void add_overlap(const FacetVectors& slave, const FacetPart& slave_part, const F
   overlap.slave_part = slave_part;
   overlap.master_part = master_part;
   overlap.polygon = polygon;
-  double size = 0.0;
-  for (const Eigen::Vector2d& x : first) size = std::max(size, (x - first[0]).norm());
-  draw_outline(overlap, beside_outline * size);
-  const auto vertices = overlap.positions();
+  boost::container::static_vector<Eigen::Vector2d, 17> vertices;
+  cut_into_triangles(overlap, vertices);
   double area = 0.0, whole = 0.0;
   for (const auto& [a, b, c] : overlap.triangles) area += doubled_area(vertices[a], vertices[b], vertices[c]);
   for (std::size_t a = 2; a < first.size(); ++a) whole += doubled_area(first[0], first[a - 1], first[a]);
@@ -169,8 +139,7 @@ void add_overlap(const FacetVectors& slave, const FacetPart& slave_part, const F
   }
   overlap.distance = std::numeric_limits<double>::max();
   for (const auto& [a, b, c] : overlap.triangles) {
-    double twice = doubled_area(vertices[a], vertices[b], vertices[c]);
-    if (twice == 0.0) twice = no_weight;
+    const double twice = doubled_area(vertices[a], vertices[b], vertices[c]);
     for (const TrianglePoint& one : triangle_points(slave.size())) {
       const Eigen::Vector2d s = one.share[0] * vertices[a] + one.share[1] * vertices[b] + one.share[2] * vertices[c];
       OverlapPoint point;
@@ -219,15 +188,6 @@ double height_at(const FacetVectors& nodes, const Eigen::Vector2d& xi) {
   double sum = 0.0;
   for (std::size_t a = 0; a < nodes.size(); ++a) sum += N[static_cast<Eigen::Index>(a)] * nodes[a].z();
   return sum;
-}
-
-boost::container::static_vector<Eigen::Vector2d, 17> Overlap3d::positions() const {
-  boost::container::static_vector<Eigen::Vector2d, 17> vertices;
-  for (const ClipVertex& vertex : polygon) vertices.push_back(vertex.position);
-  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
-  for (const int v : outline) centre += vertices[static_cast<std::size_t>(v)] / static_cast<double>(outline.size());
-  vertices.push_back(centre);
-  return vertices;
 }
 
 void find_overlaps(const FacetVectors& slave, const FacetVectors& master, std::vector<Overlap3d>& overlaps) {

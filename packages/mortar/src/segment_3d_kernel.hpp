@@ -77,8 +77,13 @@ class Integrator {
     const Eigen::Matrix<double, 2, n> X = x_.template topRows<2>();
     const Eigen::Matrix<double, 2, m> Y = y_.template topRows<2>();
     const auto vertices = static_cast<int>(overlap.polygon.size());
-    const auto position = overlap.positions();
+    std::array<Eigen::Vector2d, 17> position;
     std::array<Gradients, 17> of_vertex;
+    position[vertices].setZero();
+    for (int v = 0; v < vertices; ++v) {
+      position[v] = overlap.polygon[v].position;
+      position[vertices] += position[v] / vertices;
+    }
     for (int v = 0; v <= vertices; ++v) of_vertex[v].setZero();
     for (Gradients& one : of_node_) one.setZero();
     of_normal_.setZero();
@@ -96,7 +101,8 @@ class Integrator {
       }
       sum += on_triangle;
       // d(2A) = dv_k . (v_j - v_i turned by +90 degrees), k, i, j in turn
-      on_triangle /= overlap.points[t * rule.size()].weight / rule[0].weight;
+      const double twice = doubled_area(position[corner[0]], position[corner[1]], position[corner[2]]);
+      on_triangle /= twice;
       for (int k = 0; k < 3; ++k) {
         const Eigen::Vector2d edge = position[corner[(k + 2) % 3]] - position[corner[(k + 1) % 3]];
         for (int r = 0; r < rows; ++r) of_vertex[corner[k]].template segment<2>(2 * r) += on_triangle[r] * Eigen::Vector2d(-edge.y(), edge.x());
@@ -107,9 +113,8 @@ class Integrator {
     PlanePolygon first, second;
     for (const int a : overlap.slave_part) first.push_back(slave_nodes[a].template head<2>());
     for (const int l : overlap.master_part) second.push_back(master_nodes[l].template head<2>());
-    for (const int v : overlap.outline)
-      of_vertex[v] += of_vertex[vertices] / static_cast<double>(overlap.outline.size());  // of the centre, which a single triangle does not use
     for (int v = 0; v < vertices; ++v) {
+      of_vertex[v] += of_vertex[vertices] / vertices;  // the centre is their mean; without use in a single triangle, then 0
       const ClipVertex& vertex = overlap.polygon[v];
       if (const auto node = vertex_node(vertex, first, second)) {
         of_polygon_node(*node) += of_vertex[v];

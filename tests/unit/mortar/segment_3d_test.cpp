@@ -139,44 +139,6 @@ TEST(SegmentInSpace, DerivativesAgreeWithCentralDifferences) {
   }
 }
 
-// A node of the master under one of the slave's, but for round-off: vertices of the overlap come and go there. The sum over the points of a warped
-// facet is not exact; with triangles about the mean of all vertices it jumped by its error.
-TEST(SegmentInSpace, IsContinuousWhereNodesMeet) {
-  for (const int slave : {3, 4})
-    for (const int master : {3, 4}) {
-      SCOPED_TRACE(std::to_string(slave) + " on " + std::to_string(master));
-      const Pair original = pair("", slave, master, 1.5, {1.1, 0.3}, 0.3);
-      const auto plane = make_auxiliary_plane(original.slave);
-      // The master's node that lies within the slave goes under the slave's node nearest to it.
-      FacetVectors on_plane;
-      for (const auto& v : original.master) on_plane.push_back(plane->to_frame(v));
-      std::size_t a = 0, l = 0;
-      double least = 1e9;
-      for (std::size_t i = 0; i < plane->slave.size(); ++i)
-        for (std::size_t k = 0; k < on_plane.size(); ++k)
-          if (const double d = (plane->slave[i] - on_plane[k]).head<2>().norm(); d < least) least = d, a = i, l = k;
-      const auto met = [&](const Eigen::Vector2d& off, Eigen::MatrixXd* derivative) {
-        Pair p = original;
-        Eigen::Vector3d shift = plane->slave[a] - on_plane[l];
-        shift.z() = 0.0;
-        shift.head<2>() += off;
-        for (Eigen::Vector3d& x : p.master) x += plane->frame.transpose() * shift;
-        return evaluate(p, Eigen::MatrixXd::Identity(slave, slave), derivative);
-      };
-      Eigen::MatrixXd slope;
-      const Eigen::VectorXd value = met({0.0, 0.0}, &slope);
-      EXPECT_TRUE(slope.allFinite());
-      for (int direction = 0; direction < 16; ++direction) {
-        const double angle = 0.1 + M_PI / 8.0 * direction, distance = 1e-11;
-        const Eigen::Vector2d towards(std::cos(angle), std::sin(angle));
-        Eigen::MatrixXd near, far;
-        EXPECT_LT((met(distance * towards, &near) - value).cwiseAbs().maxCoeff(), 10.0 * distance) << direction;
-        met(1e-4 * towards, &far);  // beyond what is left to slivers
-        EXPECT_LT((near - far).cwiseAbs().maxCoeff(), 1e-2 * far.cwiseAbs().maxCoeff()) << direction;
-      }
-    }
-}
-
 // Unit normals, integrals of a flat facet over a plane: the rule is exact for what it has to be exact for.
 TEST(SegmentInSpace, MeasuresAFlatGap) {
   Pair p;

@@ -19,22 +19,16 @@ struct OverlapPoint {
   double height = 0.0;  ///< of the master over the slave along the plane's normal
 };
 
-/// What a linear part of a slave facet and one of a master facet cover of one another on the auxiliary plane. It is a convex polygon. Its outline is
-/// cut into triangles about the mean of its vertices (which is vertex polygon.size(); one triangle stays whole). What the outline leaves out is
-/// slivers. Each triangle has the points of triangle_points(), whose sum is exact for flat facets alone. Where nodes or edges of the two sides lie on
-/// one another, vertices come and go with round-off, and a triangulation that had them all would come and go with them. The sum would jump by its
-/// error.
+/// What a linear part of a slave facet and one of a master facet cover of one another on the auxiliary plane. It is a convex polygon, cut into
+/// triangles about the mean of its vertices (which is vertex polygon.size(); one triangle stays whole). Each triangle has the points of
+/// triangle_points().
 struct Overlap3d {
   FacetPart slave_part;                                               ///< of the slave facet
   FacetPart master_part;                                              ///< of the master facet
   ClipPolygon polygon;                                                ///< what the two have in common
-  boost::container::static_vector<int, 16> outline;                   ///< vertices without those that lie within 1e-6 of the facet of it
-  boost::container::static_vector<std::array<int, 3>, 16> triangles;  ///< three vertices each: of the outline, then slivers beside it
+  boost::container::static_vector<std::array<int, 3>, 16> triangles;  ///< three vertices each
   boost::container::static_vector<OverlapPoint, 12 * 16> points;      ///< triangle by triangle
   double distance = 0.0;                                              ///< least |height|
-
-  /// Positions of the vertices and of the mean of those of the outline.
-  boost::container::static_vector<Eigen::Vector2d, 17> positions() const;
 };
 
 /// The overlaps of all parts. Those are missing where a part of the master does not face the plane (its normal at a corner is nearly along it, or it
