@@ -13,7 +13,7 @@ namespace mortise {
 /// before. Up to a maximum of the load u goes like a root, so that equal changes of the load move by at most 1/(sqrt 2 - 1) = 2.4 times as much as
 /// those before. What moved more than 2.5 times as much is refused for one of two reasons.
 ///
-/// * det J < 0, and it was positive before. J is that of the unknowns, with contact's conditions in the place of what they hold; MUMPS tells the sign
+/// * det J < 0, and it was positive before, in a scene without contact: conditions of closed nodes have signs of their own. MUMPS tells the sign
 ///   with each factorisation. At a stable equilibrium it is positive. Along a path it changes where the path loses stability: at a maximum of the
 ///   load, or where another path branches off. A state that moved no farther is on such a path. It stands, and is said.
 /// * Forces between the two states are beyond both. Let g(s) = du . f_int(u + s du), 0 <= s <= 1, at eighths. If g is monotone, all its values are
