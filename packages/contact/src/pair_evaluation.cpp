@@ -84,7 +84,10 @@ ContactNode PairEvaluation::node(std::size_t s, const NodeMultiplier& multiplier
       if (const TangentVector& old = history().slip->tractions[s]; old.size() > 0)
         node.held.traction.head(node.held.count) = old.head(node.held.count);
       for (Eigen::Index a = 0; a < node.held.count; ++a)
-        if (geometry_->slips[s].rests[static_cast<std::size_t>(a)]) node.slip[a] = 0.0;
+        if (geometry_->slips[s].rests[static_cast<std::size_t>(a)])
+          node.slip[a] = 0.0;
+        else
+          node.held.move = true;
     }
   } else {
     node.slip = TangentVector::Zero(dimension() - 1);

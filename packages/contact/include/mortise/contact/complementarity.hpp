@@ -67,6 +67,7 @@ struct Landing {
 struct HeldTangents {
   Eigen::Index count = 0;  ///< how many; 0: none
   TangentVector traction;  ///< z_tau when the step began, 0 beyond the first `count`; without size if there are none
+  bool move = false;       ///< whether the node, or what it faces, moves along one of them in this step
 };
 
 /// C of a closed node with friction (Hueber, Wohlmuth 2005; Gitterle et al. 2010, with all rows in units of traction). With y = z_tau + c_t u and the
