@@ -27,8 +27,6 @@ namespace {
 // it is wrong by more than itself. A half width a of Hertz' contact, E/(1 - nu^2) a^2 pi/(4 R h) = p, is then less than half of h. A force that acts
 // on more nodes than those of one place is wider.
 constexpr double weighing = 1.0 / 12.0;
-/// Turn over one facet from which on weighted gaps are off by more than a hundredth of it, h theta/12: a third of what takes a corner.
-constexpr double notable_turn = kink_angle / 3.0;
 constexpr int most_in_one_place(int dimension) { return dimension == 2 ? 2 : 4; }
 
 /// A slave facet beside a closed node, as all ranks know it.
@@ -240,7 +238,7 @@ std::string explain_by_coarse_slave(const FailedTry& failed, const Model& model,
         mesh, node_states(evaluation.contact_laws(), p), [](const ContactNodeState& node) { return node.closed || node.gap < 0.0; }, count);
     if (acts.empty()) continue;
     const std::optional<CoarsePlace> place = coarse_place(model, pair.value, at, acts);
-    if (!place || place->turn < notable_turn) continue;
+    if (!place || place->turn < kink_angle) continue;
     return fmt::format(
         "contact \"{}\": the slave is too coarse for the master's curvature: contact is sought at {:.0f} slave {} at {}; weighted gaps are means "
         "over "
