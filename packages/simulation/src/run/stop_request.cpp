@@ -82,15 +82,13 @@ Request StopRequest::after_step(const Communicator& comm) {
 }
 
 std::optional<std::string> StopRequest::within_step(const Communicator& comm) const {
-  if (!watches_ && !limit_) return std::nullopt;
-  std::array<int, stopping.size() + 1> mine{}, any{};
-  if (watches_)
-    for (std::size_t n = 0; n < stopping.size(); ++n) mine[n] = stops[n];
-  if (limit_) mine.back() = std::chrono::duration<double>(Clock::now() - begin_).count() + reserved_ > *limit_ ? 1 : 0;
+  if (!watches_) return std::nullopt;
+  std::array<int, stopping.size()> mine{}, any{};
+  for (std::size_t n = 0; n < stopping.size(); ++n) mine[n] = stops[n];
   Teuchos::reduceAll(comm, Teuchos::REDUCE_MAX, static_cast<int>(mine.size()), mine.data(), any.data());
   for (std::size_t n = 0; n < stopping.size(); ++n)
     if (any[n] != 0) return stopping[n].name;
-  return any.back() != 0 ? std::optional<std::string>("time limit") : std::nullopt;
+  return std::nullopt;
 }
 
 }  // namespace mortise

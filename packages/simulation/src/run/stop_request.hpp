@@ -32,7 +32,7 @@ class StopRequest {
   /// checkpoint, would not fit. Collective.
   Request after_step(const Communicator& comm);
 
-  /// After a Newton iteration: what asks for an end that does not wait for the step, a signal or a time limit that is reached. Collective.
+  /// After a Newton iteration: a signal, which does not wait for the end of the step as a time limit does. Collective.
   std::optional<std::string> within_step(const Communicator& comm) const;
 
   /// Seconds that a checkpoint took, to be kept free before the time limit.
