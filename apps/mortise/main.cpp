@@ -12,6 +12,7 @@
 
 #include "allocator.hpp"
 #include "launch.hpp"
+#include "mortise/core/memory.hpp"
 #include "mortise/core/names.hpp"
 #include "program.hpp"
 #include "standard_streams.hpp"
@@ -37,6 +38,9 @@ Exit codes: 0 done, 1 usage, 2 invalid input, 3 not converged, 4 a check of the 
 
 /// Of ranks that leave the answer to the first: an error would make mpirun end all ranks, perhaps before the first has answered.
 constexpr int others_code = 0;
+
+/// Address space that Open MPI takes until it has started in a process alone: 27 MiB, with a margin.
+constexpr double mpi_start_mib = 32.0;
 
 /// What is to be said of a first word that is no command; "" if it is one.
 std::string unknown_command(const CLI::App& app, int argc, char** argv) {
@@ -150,6 +154,13 @@ int main(int argc, char** argv) {
     if (!program.uses_mpi) return run_alone(program);
     if (program.read)
       if (const auto code = read_alone(program)) return *code;
+    // Open MPI without memory ends the process, with an exit code of its own.
+    if (const double left = mortise::own_memory_left_mib(); left < mpi_start_mib) {
+      std::cerr << fmt::format("mortise: a limit leaves {:.0f} MiB to this process, and MPI needs {:.0f} MiB to start; please raise it (ulimit -v)", left,
+                               mpi_start_mib)
+                << std::endl;
+      return static_cast<int>(mortise::ExitCode::memory);
+    }
     mortise::start_mpi_alone();
   }
   mortise::keep_freed_memory();

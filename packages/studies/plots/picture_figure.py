@@ -58,8 +58,9 @@ def picture_of(model, step, layout, colours, labels):
     center, values = model.field.at(step)
     make = lambda some: Triangles(some, layout.in_raster(model.points(step)), center, values, model.field.is_whole)
     image = shaded(make(model.solid), make(model.ghosts), colours, layout.width, layout.height, model.is_plane)
+    # In shares of the axes, not in coordinates of the model: their round-off would make a column of pixels appear twice.
     axes.imshow(np.concatenate([image[..., :3].clip(0, 1), image[..., 3:].clip(0, 1)], axis=2), interpolation="nearest", aspect="auto", zorder=2,
-                extent=(layout.low[0], layout.high[0], layout.low[1], layout.high[1]))
+                extent=(0, 1, 0, 1), transform=axes.transAxes)
     if model.is_deformed:
         add_undeformed(axes, model)
     add_rigid_lines(axes, model, step)
