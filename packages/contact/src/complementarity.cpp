@@ -52,7 +52,7 @@ Landing::Landing(double depth, double start) {
   of_start = -depth / (sum * sum);
 }
 
-// With t = z_tau, and S that leaves out held tangents,  s = S t + t^old,  y = q (s + c_t u):
+// With t = z_tau, and S = 1 - e for tangents that are held, 1 for others,  s = S t + (1 - S) t^old,  y = q (s + c_t u):
 //   dy = q (S dt + c_t du) + (s + c_t u) dq,   dq = of_depth dp + of_start c_t dg0,   dp = dz_n - c_n dg.
 // Where the node slips, s + c_t u is along y, which does not turn by it.
 Complementarity with_friction(double c_n, double c_t, double gap, const TangentVector& slip, const Frame& frame, const SpatialVector& z,
@@ -61,15 +61,19 @@ Complementarity with_friction(double c_n, double c_t, double gap, const TangentV
   Complementarity result = closed_node(c_n, gap, frame, z);
   const TangentVector t = result.C.tail(tangents), cu = c_t * slip;
   TangentMatrix own = TangentMatrix::Identity(tangents, tangents);  // S
-  own.topLeftCorner(held.count, held.count).setZero();
-  const TangentVector s = held.count == 0 ? t : TangentVector(own * t + held.traction), trial = s + cu;
+  TangentVector kept = TangentVector::Zero(tangents);  // (1 - S) t^old
+  for (Eigen::Index a = 0; a < held.count; ++a) {
+    own(a, a) = 1.0 - held.compliance;
+    kept[a] = held.compliance * held.traction[a];
+  }
+  const TangentVector trial = own * t + kept + cu;
   const Landing landing(z.dot(frame.normal) - c_n * gap, c_t * start);
   const TangentVector y = landing.share * trial;
-  if (sticks(s, start > 0.0 ? TangentVector(y - s) : cu, bound.value)) {
+  if (sticks(t, start > 0.0 || held.count > 0 ? TangentVector(y - t) : cu, bound.value)) {
     const TangentMatrix borne = TangentMatrix::Identity(tangents, tangents) - landing.share * own;
     result.state = ContactState::stick;
     result.C.tail(tangents) = borne * t - landing.share * cu;
-    if (held.count > 0) result.C.tail(tangents) -= landing.share * held.traction;
+    if (held.count > 0) result.C.tail(tangents) -= landing.share * kept;
     result.C_z.bottomRows(tangents) = borne * frame.tangents;
     result.normal_factor.bottomRows(tangents) = borne * SpatialMatrix(result.normal_factor.bottomRows(tangents));
     result.slip_factor = -c_t * landing.share * TangentMatrix::Identity(tangents, tangents);

@@ -61,7 +61,9 @@ double PairEvaluation::start_gap(std::size_t s) const {
       0.0, slip.start_gap + (clearance(s) + pair_->enforcement().onset()) * row(s).covered + history().allowed_overlap * slave_nodes()[s].weight);
 }
 
+// A node that moves along what holds it sticks by a spring a hundred times as stiff as a facet.
 ContactNode PairEvaluation::node(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* missing_bound) const {
+  constexpr double of_held = 0.01;
   const SlaveNode& slave = slave_nodes()[s];
   ContactNode node;
   node.z = multiplier.z;
@@ -87,7 +89,7 @@ ContactNode PairEvaluation::node(std::size_t s, const NodeMultiplier& multiplier
         if (geometry_->slips[s].rests[static_cast<std::size_t>(a)])
           node.slip[a] = 0.0;
         else
-          node.held.move = true;
+          node.held.compliance = of_held;
     }
   } else {
     node.slip = TangentVector::Zero(dimension() - 1);

@@ -4,7 +4,7 @@
 // image lies along the plane. Or it may end at a support, as a hub on a cone that stands on a table: its normal leans over, and so does its pressure.
 // What is prescribed does not tell. But on a smooth surface that goes on beyond the plane of symmetry the lean is that of half a facet, and a facet
 // on it is three times that. And on a master without a lean, as a wedge's tip on a flat face, the pressure has none. So a component stays in the
-// average if the averaged normal at the next nodes leans no further, by a quarter, and the master's facets that the plane meets lean, by half as much
+// average if the averaged normal at the next nodes leans to the same side and no further, by a quarter, and the master's facets that the plane meets lean, by half as much
 // or more. All this is said of the reference configuration, once.
 
 #include <Teuchos_CommHelpers.hpp>
@@ -19,7 +19,8 @@
 namespace mortise {
 namespace {
 
-constexpr double no_lean = 1e-6, of_round_off = 1e-9;
+constexpr double no_lean = 1e-3;  ///< what an irregular mesh of curved facets leaves at a plane of symmetry; it carries as much of the pressure
+constexpr double on_the_plane = 1e-6, of_round_off = 1e-9;
 constexpr double bends = 1.25;        ///< lean at the next nodes, over that of the node, from which on the surface is smooth
 constexpr double master_leans = 0.5;  ///< lean of the master, over that of the node, from which on they lie on one another
 
@@ -51,16 +52,17 @@ void add_leaning(const SlaveSurface& slave, std::size_t node, const Positions<di
     const double lean = normal.normal[i];
     if (!stencil.projected[i] || !(std::abs(lean) > no_lean)) continue;
     bool any = false;
-    double next = 0.0;
+    double next = 0.0, least = bends;
     for (const LocalOrdinal other : stencil.columns) {
       const double length = (x[other] - x[node]).norm();
-      if (static_cast<std::size_t>(other) >= slave.nodes_with_normal || std::abs(x[other][i] - x[node][i]) <= no_lean * length) continue;
+      if (static_cast<std::size_t>(other) >= slave.nodes_with_normal || std::abs(x[other][i] - x[node][i]) <= on_the_plane * length) continue;
       NodalNormal of_other;
       if (!average_normal(whole(slave.stencils[other]), x, false, of_other)) continue;
       any = true;
       next = std::max(next, of_other.normal[i] / lean);
+      least = std::min(least, of_other.normal[i] / lean);
     }
-    if (any && next < bends) found.push_back({node, {i, x[node][i]}, std::abs(lean)});
+    if (any && least > 0.0 && next < bends) found.push_back({node, {i, x[node][i]}, std::abs(lean)});
   }
 }
 

@@ -197,8 +197,10 @@ bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, 
         return false;
       } catch (const StepFailure& caught) {
         solution.reset();
-        const std::string explanation = observer.explain && !solved ? observer.explain({caught, state, report.time, context, linearised}) : "";
-        StepFailure failure = explanation.empty() ? caught : StepFailure(caught.kind(), fmt::format("{} ({})", explanation, caught.what()));
+        const FailureExplanation explanation =
+            observer.explain && !solved ? observer.explain({caught, state, report.time, context, linearised}) : FailureExplanation{};
+        StepFailure failure =
+            explanation.words.empty() ? caught : StepFailure(caught.kind(), fmt::format("{} ({})", explanation.words, caught.what()));
         const bool leaves_prediction = solved && is_predicted;
         const bool in_vain = !leaves_prediction && course.add(caught, report.newton);
         if (in_vain)
@@ -210,7 +212,7 @@ bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, 
         ++report.cutbacks;
         report.undone.push_back(to_string(failure.kind()) + ": " + failure.what());
         if (observer.undone) observer.undone(report, failure);
-        if (in_vain || caught.kind() == FailureKind::out_of_memory) return false;
+        if (in_vain || explanation.at_any_step || caught.kind() == FailureKind::out_of_memory) return false;
         // What a prediction led to, and was refused, is no word on what the last state leads to.
         if (leaves_prediction)
           may_predict = false;

@@ -98,17 +98,47 @@ TEST(HeldNode, BearsFrictionAgainstItsSlip) {
 TEST(HeldTangents, GoOnFromTheTractionTheyHad) {
   const double c = 7.0, rho = 3.0;
   const Frame plane = make_frame(Eigen::Vector2d(0.0, -1.0), 0), space = make_frame(Eigen::Vector3d(0.0, 0.0, -1.0), 0);
-  for (const double had : {-2.0, 0.0, 2.5})
-    for (const double slip : {-0.8, -0.1, 0.0, 0.05, 0.3}) {
-      const double borne = std::clamp(had + c * slip, -rho, rho);
-      const HeldTangents held{1, TangentVector::Constant(1, had)};
-      const auto node = with_friction(c, c, 0.0, TangentVector::Constant(1, slip), plane, Eigen::Vector2d(borne, -10.0), {rho, 0.3}, 0.0, held);
-      EXPECT_NEAR(node.C[1], 0.0, 1e-14) << had << " " << slip;
-      const HeldTangents both{2, TangentVector(Eigen::Vector2d(0.6 * had, 0.8 * had))};
-      const auto in_space =
-          with_friction(c, c, 0.0, TangentVector(slip * Eigen::Vector2d(0.6, 0.8)), space,
-                        SpatialVector(10.0 * space.normal + space.tangents.transpose() * (borne * Eigen::Vector2d(0.6, 0.8))), {rho, 0.3}, 0.0, both);
-      EXPECT_NEAR(in_space.C.tail(2).norm(), 0.0, 1e-14) << had << " " << slip;
+  for (const double compliance : {1.0, 0.01})
+    for (const double had : {-2.0, 0.0, 2.5})
+      for (const double slip : {-0.8, -0.1, 0.0, 0.05, 0.3}) {
+        const double borne = std::clamp(had + c / compliance * slip, -rho, rho);
+        const HeldTangents held{1, TangentVector::Constant(1, had), compliance};
+        const auto node = with_friction(c, c, 0.0, TangentVector::Constant(1, slip), plane, Eigen::Vector2d(borne, -10.0), {rho, 0.3}, 0.0, held);
+        EXPECT_NEAR(node.C[1], 0.0, 1e-14) << had << " " << slip;
+        const HeldTangents both{2, TangentVector(Eigen::Vector2d(0.6 * had, 0.8 * had)), compliance};
+        const auto in_space = with_friction(c, c, 0.0, TangentVector(slip * Eigen::Vector2d(0.6, 0.8)), space,
+                                            SpatialVector(10.0 * space.normal + space.tangents.transpose() * (borne * Eigen::Vector2d(0.6, 0.8))),
+                                            {rho, 0.3}, 0.0, both);
+        EXPECT_NEAR(in_space.C.tail(2).norm(), 0.0, 1e-14) << had << " " << slip;
+      }
+}
+
+// Of two tangents, one of them held: a plastic slip takes the direction of the traction, as of a node that is held along none.
+TEST(HeldTangents, SlipAlongTheTraction) {
+  const double c = 7.0, rho = 3.0, compliance = 0.01, had = 0.4;
+  const Frame in = make_frame(Eigen::Vector3d(0.0, 0.0, -1.0), 0);
+  for (const double angle : {0.0, 0.5, 1.5, 2.5})
+    for (const double plastic : {0.01, 1.0}) {
+      const Eigen::Vector2d along(std::cos(angle), std::sin(angle)), t = rho * along;
+      const Eigen::Vector2d slip = plastic * along + Eigen::Vector2d(compliance * (t[0] - had) / c, 0.0);
+      const HeldTangents held{1, TangentVector(Eigen::Vector2d(had, 0.0)), compliance};
+      const auto law = [&](const SpatialVector& z, const Eigen::Vector2d& u) {
+        return with_friction(c, c, 0.0, TangentVector(u), in, z, {0.3 * z.dot(in.normal), 0.3}, 0.0, held);
+      };
+      const SpatialVector z = 10.0 * in.normal + in.tangents.transpose() * t;
+      EXPECT_NEAR(law(z, slip).C.tail(2).norm(), 0.0, 1e-13) << angle;
+      const double h = 1e-5;
+      const auto at = law(z, slip);
+      for (int k = 0; k < 3; ++k) {
+        const SpatialVector e = SpatialVector::Unit(3, k);
+        const SpatialVector difference = (law(z + h * e, slip).C - law(z - h * e, slip).C) / (2.0 * h);
+        EXPECT_NEAR((at.C_z.col(k) - difference).tail(2).norm(), 0.0, 1e-8) << angle;
+      }
+      for (int k = 0; k < 2; ++k) {
+        const Eigen::Vector2d e = Eigen::Vector2d::Unit(k);
+        const SpatialVector difference = (law(z, slip + h * e).C - law(z, slip - h * e).C) / (2.0 * h);
+        EXPECT_NEAR((at.slip_factor.col(k) - difference.tail(2)).norm(), 0.0, 1e-7) << angle;
+      }
     }
 }
 

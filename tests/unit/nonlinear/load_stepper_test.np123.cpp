@@ -267,7 +267,7 @@ TEST(Stepper, ASolutionThatIsRefusedIsAFailedTry) {
   };
   observer.explain = [&](const FailedTry&) {
     ++explained;
-    return std::string("never");
+    return FailureExplanation{"never", true};
   };
   std::vector<StepReport> accepted;
   observer.accepted = [&](const StepReport& report, const SystemEvaluation&) { accepted.push_back(report); };

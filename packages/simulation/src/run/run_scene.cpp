@@ -278,11 +278,11 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
       if (known.empty()) return check ? describe_held_bodies(failed, model, system, check->record()) : known;
       return known + "; so an earlier try of this step";
     };
-    functions.explain = [&](const FailedTry& failed) -> std::string {
-      std::vector<std::string> words{explain_by_coarse_slave(failed, model, scene, system), advise_parts_apart(failed, model, scene, system),
-                                     explain_statically(failed)};
+    functions.explain = [&](const FailedTry& failed) -> FailureExplanation {
+      const std::string apart = advise_parts_apart(failed, model, scene, system);
+      std::vector<std::string> words{explain_by_coarse_slave(failed, model, scene, system), apart, explain_statically(failed)};
       words.erase(std::remove(words.begin(), words.end(), std::string()), words.end());
-      return fmt::format("{}", fmt::join(words, "; "));
+      return {fmt::format("{}", fmt::join(words, "; ")), !apart.empty()};
     };
     functions.begin = [&, begin = functions.begin](int step, double time, double dt) {
       last.reset();

@@ -112,7 +112,14 @@ class PairMaker {
  private:
   const SurfacePart& part(int zone) const { return found_.parts[static_cast<std::size_t>(zones_[static_cast<std::size_t>(zone)].part)]; }
   bool is_rigid_part(const SurfacePart& one) const { return mesh_.bodies[static_cast<std::size_t>(one.body)].is_surface; }
-  SurfaceTraits traits(const SurfacePart& one) const { return {modulus_[static_cast<std::size_t>(one.body)], one.shortest}; }
+
+  SurfaceTraits traits(int zone) const {
+    const SurfacePart& one = part(zone);
+    std::set<int> bodies;
+    for (const Edge& edge : edges_)
+      if (edge.first == zone || edge.second == zone) bodies.insert(part(edge.first == zone ? edge.second : edge.first).body);
+    return {modulus_[static_cast<std::size_t>(one.body)], one.shortest, static_cast<int>(bodies.size())};
+  }
 
   void make_zones() {
     std::map<int, int> zone_of_part;
@@ -148,7 +155,7 @@ class PairMaker {
   double better(int first, int second) const {
     const SurfacePart &one = part(first), &other = part(second);
     if (is_rigid_part(one) != is_rigid_part(other)) return is_rigid_part(other) ? 1e300 : -1e300;
-    const RoleChoice choice = better_slave(traits(one), traits(other));
+    const RoleChoice choice = better_slave(traits(first), traits(second));
     const double weight = std::min(one.area, other.area);
     if (!choice.is_tie) return choice.is_first ? weight : -weight;
     if (std::abs(one.turn - other.turn) > same_curvature) return one.turn > other.turn ? weight : -weight;
@@ -333,7 +340,7 @@ class PairMaker {
                 master = slave == edge.first ? edge.second : edge.first;
       if (slaves.count(slave) == 0 || masters.count(master) == 0) continue;
       const SurfacePart &one = part(slave), &other = part(master);
-      const RoleChoice choice = better_slave(traits(one), traits(other));
+      const RoleChoice choice = better_slave(traits(slave), traits(master));
       std::string why = choice.reason;
       if (!choice.is_tie && !choice.is_first) why = fmt::format("of the other side {}, but no surface is slave and master at once", choice.reason);
       if (choice.is_tie)

@@ -63,11 +63,11 @@ struct Landing {
 };
 
 /// The first tangents of a node along which its displacement is prescribed. Its momentum along them holds an unknown reaction, so that the traction
-/// there has to be told by its law: what it was when the step began takes the place of z_tau in y.
+/// there has to be told by its law. What sticks is a spring, whose give is taken out of the slip.
 struct HeldTangents {
-  Eigen::Index count = 0;  ///< how many; 0: none
-  TangentVector traction;  ///< z_tau when the step began, 0 beyond the first `count`; without size if there are none
-  bool move = false;       ///< whether the node, or what it faces, moves along one of them in this step
+  Eigen::Index count = 0;   ///< how many; 0: none
+  TangentVector traction;   ///< z_tau when the step began, 0 beyond the first `count`; without size if there are none
+  double compliance = 1.0;  ///< e in (0, 1]: of the spring that a node that sticks has along them, in slip per traction over 1 / c_t
 };
 
 /// C of a closed node with friction (Hueber, Wohlmuth 2005; Gitterle et al. 2010, with all rows in units of traction). With y = z_tau + c_t u and the
@@ -83,7 +83,8 @@ struct HeldTangents {
 /// With c_t = c_n its traction then is  p u / g0  if friction bears that, whatever c is: it lies along the way on which the node came. A node that
 /// comes from within the cone of friction sticks.
 ///
-/// Along tangents that are held y = q (z_tau^old + c_t u) and stick too is C_tau = z_tau - y: a spring, and at the bound rho y / |y| as of others.
+/// Along tangents that are held a node that sticks gives by e (z_tau - z_tau^old) / c_t, which takes the place of a slip, as an elastic strain does
+/// of a plastic one:  y = q (z_tau + c_t u - e (z_tau - z_tau^old)),  and stick too is  C_tau = z_tau - y.
 /// @param slip   weighted slip u of the step: the slave's motion relative to the master along tau_a, times the weight
 /// @param start  g0 >= 0, the weighted gap that the node had when the step began; 0 for one that was closed
 Complementarity with_friction(double c_n, double c_t, double gap, const TangentVector& slip, const Frame& frame, const SpatialVector& z,

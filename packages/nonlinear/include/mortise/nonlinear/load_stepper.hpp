@@ -63,6 +63,12 @@ struct FailedTry {
   const std::optional<LinearisedIterate>& linearised;  ///< where Newton's method was linearised last; none: it was not
 };
 
+/// What lies behind a failure of Newton's method.
+struct FailureExplanation {
+  std::string words;         ///< they stand before the failure's message; "" without an explanation
+  bool at_any_step = false;  ///< it holds for a smaller step as well: none is tried
+};
+
 /// What the stepper calls.
 struct StepperObserver {
   std::function<void(int step, double time, double dt)> begin;  ///< before each try
@@ -79,7 +85,7 @@ struct StepperObserver {
   /// Between two steps, the last of which has been accepted. True: the run ends here. The same on every rank.
   std::function<bool(const SteppingState& state)> rest;
   std::function<void(const StepReport&, const StepFailure&)> undone;  ///< a try failed
-  std::function<std::string(const FailedTry&)> explain;               ///< what lies behind a failure of Newton's method, before its message
+  std::function<FailureExplanation(const FailedTry&)> explain;        ///< of a failure of Newton's method
 };
 
 /// Makes what holds within a try of a step from a state to a time, which starts at displacement d, and guesses multipliers z (the contact start
