@@ -1,5 +1,8 @@
 #include "launch.hpp"
 
+#include <dlfcn.h>
+#include <unistd.h>
+
 #include <array>
 #include <cstdlib>
 #include <cstring>
@@ -16,6 +19,20 @@ bool is_first_process() {
   for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"})
     if (const char* rank = std::getenv(name)) return std::strcmp(rank, "0") == 0;
   return true;
+}
+
+// OpenBLAS chooses as it is loaded, so the variable has to be there before.
+void choose_blas_kernels(char** argv) {
+#ifdef __x86_64__
+  constexpr const char *variable = "OPENBLAS_CORETYPE", *slowest = "Prescott";
+  if (std::getenv(variable) != nullptr || !__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return;
+  const auto name = reinterpret_cast<char* (*)()>(dlsym(RTLD_DEFAULT, "openblas_get_corename"));
+  if (name == nullptr || std::strcmp(name(), slowest) != 0) return;
+  setenv(variable, __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") ? "SkylakeX" : "Haswell", 1);
+  execv("/proc/self/exe", argv);  // if it fails, the slow ones do
+#else
+  static_cast<void>(argv);
+#endif
 }
 
 // By default a process alone starts the daemon orted, so that it could start others. If the process is killed, the daemon stays, and it grows. It

@@ -102,6 +102,7 @@ ContactHistory ContactSystem::commit(const ContactLaws& laws) const {
   for (std::size_t p = 0; p < contact->pairs.size(); ++p)
     for (std::size_t s = 0; s < result.pairs[p].starts.size(); ++s)
       result.pairs[p].starts[s] = contact->pairs[p].start_from(s, at.multipliers[p][s].z);
+  for (PairHistory& pair : result.pairs) pair.constant_share = 1.0;
   return ContactHistory(std::move(result));
 }
 
@@ -109,6 +110,13 @@ ContactHistory ContactSystem::allow_overlap(const ContactHistory& history, std::
   AcceptedContact changed = *history;
   changed.pairs[pair].allowed_overlap = depth;
   if (const auto other = second_pass(pair)) changed.pairs[*other].allowed_overlap = depth;
+  return ContactHistory(std::move(changed));
+}
+
+ContactHistory ContactSystem::weigh_gaps(const ContactHistory& history, double share) const {
+  AcceptedContact changed = *history;
+  for (std::size_t p = 0; p < model_->pairs.size(); ++p)
+    if (model_->pairs[p]->enforcement().holds_exactly()) changed.pairs[p].constant_share = share;
   return ContactHistory(std::move(changed));
 }
 

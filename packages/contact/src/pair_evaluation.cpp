@@ -32,7 +32,7 @@ TangentVector PairEvaluation::slip(std::size_t s, const NodeMultiplier& multipli
 
 TangentVector PairEvaluation::slip_in_contact(std::size_t s, const NodeMultiplier& multiplier) const {
   const TangentVector whole = slip(s, multiplier);
-  const double start = start_gap(s), c = pair_->complementarity_constant(s);
+  const double start = start_gap(s), c = constant(s);
   if (!(start > 0.0)) return whole;
   const TangentVector t = frame(s).tangents * multiplier.z;  // of a node without prescribed components
   const Landing landing(multiplier.z.dot(row(s).normal) - c * gap(s, multiplier), c * start);
@@ -72,7 +72,7 @@ ContactNode PairEvaluation::node(std::size_t s, const NodeMultiplier& multiplier
   node.gap = gap(s, multiplier);
   node.weight = row(s).covered;
   node.full_weight = slave.weight;
-  node.constant = pair_->complementarity_constant(s);
+  node.constant = constant(s);
   node.youngs_modulus = pair_->definition().youngs_modulus;
   node.size = pair_->size();
   node.tie = ties().compliance(s);

@@ -76,7 +76,9 @@ class PairEvaluation {
   /// That to where a node bears pressure, which may be deeper than where the surfaces touch.
   double gap_to_onset(std::size_t s) const { return own_gap(s) + std::max(0.0, pair_->enforcement().onset()) * row(s).covered; }
   /// z_n above which a covered node without history is closed: c_n g, g that to where it bears pressure.
-  double closing_pressure(std::size_t s) const { return pair_->complementarity_constant(s) * gap_to_onset(s); }
+  double closing_pressure(std::size_t s) const { return constant(s) * gap_to_onset(s); }
+  /// The complementarity constant of the node in this step [traction / weighted gap].
+  double constant(std::size_t s) const { return pair_->complementarity_constant(s) * history().constant_share; }
   /// Whether the multiplier of node s is eliminated by its conditions and not by its momentum. So it is where the enforcement has it so, and
   /// that of a tied node of which so little is covered, D_jj < (1 - w) A_j, that its tie is the larger pivot.
   bool is_eliminated_by_law(std::size_t s) const {

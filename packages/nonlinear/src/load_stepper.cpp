@@ -112,6 +112,15 @@ bool is_solution(const SystemEvaluation& at, const NewtonOptions& options) {
 /// Merit of a predicted start over that of the last state beyond which the prediction is not taken.
 constexpr double far_off = 1e3;
 
+/// Factor of the complementarity constants with which a try is repeated whose states of contact run in circles.
+constexpr double careful = 0.01;
+
+/// How a try starts.
+struct TryOptions {
+  bool may_predict;
+  double constant_share = 1.0;  ///< SemiSmoothSystem::weigh_gaps()
+};
+
 /// Where the iterations of a try start.
 struct Begin {
   SystemEvaluation at;
@@ -119,13 +128,14 @@ struct Begin {
 };
 
 /// See run_steps().
-Begin begin_of_try(const SemiSmoothSystem& system, const NewtonOptions& newton, const SteppingState& from, double time, bool may_predict,
+Begin begin_of_try(const SemiSmoothSystem& system, const NewtonOptions& newton, const SteppingState& from, double time, const TryOptions& options,
                    const StepStart& start) {
   const AcceptedState& state = from.accepted;
   const double now = state.context.time;
   const auto prepared = [&](Vector& x) {
     const RCP<const Vector> d = system.displacement(std::as_const(x));
-    return start ? start(state, time, *d, *system.multipliers(x)) : system.step_from(state, time);
+    StepContext context = start ? start(state, time, *d, *system.multipliers(x)) : system.step_from(state, time);
+    return options.constant_share == 1.0 ? context : system.weigh_gaps(std::move(context), options.constant_share);
   };
   std::optional<SystemEvaluation> rest;
   const auto at_rest = [&]() -> const SystemEvaluation& {
@@ -136,7 +146,7 @@ Begin begin_of_try(const SemiSmoothSystem& system, const NewtonOptions& newton, 
     }
     return *rest;
   };
-  if (!may_predict) return {at_rest(), false};
+  if (!options.may_predict) return {at_rest(), false};
   const Drive drive = system.drive(*state.x, now, time);
   const std::optional<double> share = drive.continuation(system.drive(*state.x, now - from.last_step, now));
   const double length = std::min(time - now, share ? *share * from.last_step : time - now);
@@ -168,7 +178,8 @@ bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, 
     report.step = step;
     detail::RepeatedCourse course;
     std::optional<SystemEvaluation> solution;
-    bool may_predict = !at.rate.is_null();
+    TryOptions next_try{!at.rate.is_null()};
+    bool may_be_careful = system.parts().contact != nullptr;
     while (!solution) {
       report.time = schedule.next_time();
       report.dt = report.time - schedule.time();
@@ -178,7 +189,7 @@ bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, 
       try {
         if (observer.begin) observer.begin(step, report.time, report.dt);
         StepSolver solver(system, newton, report.newton, linearised, iteration);
-        Begin begin = begin_of_try(system, newton, at, report.time, may_predict, start);
+        Begin begin = begin_of_try(system, newton, at, report.time, next_try, start);
         is_predicted = begin.is_predicted;
         if (const RCP<Vector> z = observer.close ? observer.close(begin.at) : Teuchos::null; !z.is_null()) begin.at = system.with_multipliers(begin.at, *z);
         context = begin.at.context();
@@ -213,10 +224,16 @@ bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, 
         report.undone.push_back(to_string(failure.kind()) + ": " + failure.what());
         if (observer.undone) observer.undone(report, failure);
         if (in_vain || explanation.at_any_step || caught.kind() == FailureKind::out_of_memory) return false;
-        // What a prediction led to, and was refused, is no word on what the last state leads to.
+        // What a prediction led to, and was refused, is no word on what the last state leads to. Where it led nowhere a smaller step starts at the
+        // last state, and after that with a prediction again.
         if (leaves_prediction)
-          may_predict = false;
-        else if (!schedule.cut())
+          next_try.may_predict = false;
+        else if (caught.kind() == FailureKind::cycling_active_set && may_be_careful) {
+          next_try.constant_share = careful;
+          may_be_careful = false;
+        } else if (schedule.cut())
+          next_try = {!at.rate.is_null() && !is_predicted};
+        else
           return false;
       }
     }

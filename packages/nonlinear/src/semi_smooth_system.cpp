@@ -41,6 +41,11 @@ StepContext SemiSmoothSystem::start_step(const AcceptedState& state, double time
   return {time, history, history->states};
 }
 
+StepContext SemiSmoothSystem::weigh_gaps(StepContext context, double share) const {
+  if (parts().contact) context.contact = parts().contact->weigh_gaps(*context.contact, share);
+  return context;
+}
+
 SystemEvaluation SemiSmoothSystem::evaluate(const Vector& x, const StepContext& context) const {
   return SystemEvaluation(model_->evaluate(x, context, {}));
 }

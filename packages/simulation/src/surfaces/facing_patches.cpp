@@ -119,25 +119,40 @@ std::optional<Crossing> seen(const std::vector<Crossing>& crossings, int own_par
   return nearest;
 }
 
-/// Of points that see another body behind them those that lie within it: along their normals they leave it before they would enter it. A line that
-/// grazes a surface may miss it, so that what lies behind it alone tells nothing. A rigid surface has no inside. Collective.
+/// Of points that see another body behind them those that lie within it: along their normals they leave it before they would enter it, and across
+/// them it ends no nearer than half as far as behind. So a hole's rim that lies a little in the seat of a bolt does not face the far side of its head.
+/// A line that grazes a surface may miss it, so that what lies behind it alone tells nothing. A rigid surface has no inside. Collective.
 /// @param seen  [lines] what they see; what is not within is taken back
 void keep_overlaps(const Mesh& mesh, const std::vector<TaggedFacet>& facets, const std::vector<LineSegment>& lines,
                    const std::vector<SurfacePart>& parts, double tolerance, double length, std::vector<std::optional<Crossing>>& seen) {
-  std::vector<LineSegment> ahead;
-  std::vector<std::size_t> line_of;
+  std::vector<LineSegment> ahead, across;
+  std::vector<std::size_t> line_of, line_of_across;
   const auto body_of = [&](const Crossing& crossing) { return static_cast<std::size_t>(parts[static_cast<std::size_t>(crossing.tag)].body); };
   for (std::size_t line = 0; line < lines.size(); ++line) {
     if (!seen[line] || seen[line]->s >= -tolerance || is_rigid(mesh, body_of(*seen[line]))) continue;
     ahead.push_back({lines[line].x, lines[line].d, tolerance, length});
     line_of.push_back(line);
+    const Eigen::Vector3d& n = lines[line].d;
+    const Eigen::Vector3d first = mesh.dimension == 2 ? Eigen::Vector3d(-n[1], n[0], 0.0) : n.unitOrthogonal();
+    for (const Eigen::Vector3d& d : {first, Eigen::Vector3d(n.cross(first))})
+      for (const double sign : {1.0, -1.0}) {
+        if (mesh.dimension == 2 && d[2] != 0.0) continue;
+        across.push_back({lines[line].x, sign * d, tolerance, -0.5 * seen[line]->s});
+        line_of_across.push_back(line);
+      }
   }
-  const auto found = crossings(*mesh.comm, mesh.dimension, facets, ahead);
+  const auto found = crossings(*mesh.comm, mesh.dimension, facets, ahead), beside = crossings(*mesh.comm, mesh.dimension, facets, across);
+  std::vector<std::size_t> outside;
+  const auto first_of_body = [&](const std::vector<Crossing>& of_line, const Crossing& behind) {
+    return std::find_if(of_line.begin(), of_line.end(), [&](const Crossing& one) { return body_of(one) == body_of(behind); });
+  };
   for (std::size_t n = 0; n < ahead.size(); ++n) {
-    std::optional<Crossing>& behind = seen[line_of[n]];
-    const auto next = std::find_if(found[n].begin(), found[n].end(), [&](const Crossing& one) { return body_of(one) == body_of(*behind); });
-    if (next == found[n].end() || !next->leaves) behind.reset();
+    const auto next = first_of_body(found[n], *seen[line_of[n]]);
+    if (next == found[n].end() || !next->leaves) outside.push_back(line_of[n]);
   }
+  for (std::size_t n = 0; n < across.size(); ++n)
+    if (first_of_body(beside[n], *seen[line_of_across[n]]) != beside[n].end()) outside.push_back(line_of_across[n]);
+  for (const std::size_t line : outside) seen[line].reset();
 }
 
 }  // namespace

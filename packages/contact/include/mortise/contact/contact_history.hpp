@@ -56,6 +56,7 @@ struct PairHistory {
   Settling settling;                           ///< of the updates of the multipliers
   double allowed_overlap = 0.0;                ///< by how much the surfaces may lie in one another [length]
   std::vector<double> clearances;              ///< [owned slave nodes] added to the gap [length]; empty: none
+  double constant_share = 1.0;                 ///< factor of complementarity constants within the step
 };
 
 /// An accepted state, as the next step needs it.

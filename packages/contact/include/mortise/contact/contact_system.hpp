@@ -109,6 +109,10 @@ class ContactSystem {
   /// the pair then see gaps g_j + depth A_j; node_states() tells those that there are.
   ContactHistory allow_overlap(const ContactHistory& history, std::size_t pair, double depth) const;
 
+  /// The history with complementarity constants times `share`, of conditions whose solution does not depend on them. A smaller one takes longer to
+  /// close nodes, and does not close and open them in turn where a weighted gap is no measure of where a surface is.
+  ContactHistory weigh_gaps(const ContactHistory& history, double share) const;
+
   /// The history with the clearances of all pairs at a time, those that hold within the step that ends then.
   /// @throws InputError on every rank where a clearance is not finite
   ContactHistory with_clearances(const ContactHistory& history, double time) const;

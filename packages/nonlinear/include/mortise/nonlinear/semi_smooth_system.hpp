@@ -82,6 +82,9 @@ class SemiSmoothSystem {
   /// (ContactSystem::start_step()). Throws StepFailure on every rank.
   StepContext start_step(const AcceptedState& state, double time, const Vector& d, Vector& z) const;
 
+  /// The step with complementarity constants times `share` (ContactSystem::weigh_gaps()).
+  StepContext weigh_gaps(StepContext context, double share) const;
+
   /// F(x) = (r, C). Dirichlet rows hold s (d - prescribed), rows of followers s (d - what they follow), whose forces stand in the rows of what they
   /// follow. Throws StepFailure on every rank, and std::invalid_argument for a context without a history where there is contact.
   SystemEvaluation evaluate(const Vector& x, const StepContext& context) const;
