@@ -13,7 +13,6 @@ namespace {
 
 constexpr double touching = 1e-8;      // |g_j| / (A_j h) below which a node touches: then the sign of g is round-off
 constexpr double small_strain = 1e-6;  // the pressure it starts with, over Young's modulus
-
 /// Sets z_n of slave node s of a pair, and nothing along the surface.
 template <class View>
 void set_pressure(const detail::ContactModel& model, const detail::PairEvaluation& pair, std::size_t p, std::size_t s, double z_n,
@@ -100,11 +99,23 @@ ContactHistory ContactSystem::start_step(const ContactHistory& accepted, const N
   return history;
 }
 
-void guess_closed(const ContactLaws& laws, const BearingNode& node, Vector& z) {
+// A node sticks where |z_tau + c_t u| is below the bound. Above it, its condition is  z_tau = rho y / |y|  and across y that of a spring of c_t rho / |y|:
+// with |y| = 1e6 rho it holds nothing, and bears nothing that a result can see.
+void guess_closed(const ContactLaws& laws, const BearingNode& node, Vector& z, bool slides) {
+  constexpr double hardly_a_strain = 1e-12;
   const detail::EvaluatedContact& contact = *detail::evaluated(laws).contact;
   const detail::PairEvaluation& pair = contact.pairs[node.pair];
-  const double pressure = std::max(0.0, pair.closing_pressure(node.slave)) + first_pressure(pair);
-  set_pressure(*contact.model, pair, node.pair, node.slave, pressure, z.getLocalViewHost(Tpetra::Access::ReadWrite));
+  const SlaveNode& slave = pair.slave_nodes()[node.slave];
+  const double modulus = pair.pair().definition().youngs_modulus, across = std::max(0.0, pair.closing_pressure(node.slave));
+  const auto values = z.getLocalViewHost(Tpetra::Access::ReadWrite);
+  if (!slides || slave.partly_fixed() || pair.pair().friction() == nullptr) {
+    set_pressure(*contact.model, pair, node.pair, node.slave, across + first_pressure(pair), values);
+    return;
+  }
+  set_pressure(*contact.model, pair, node.pair, node.slave, across + hardly_a_strain * modulus, values);
+  const SpatialVector shear = small_strain * modulus * pair.frame(node.slave).tangents.row(0).transpose();
+  const LocalOrdinal first = contact.model->multiplier_of[node.pair][node.slave];
+  for (int i = 0; i < contact.model->dimension; ++i) values(first + i, 0) += shear[i];
 }
 
 }  // namespace mortise

@@ -177,6 +177,7 @@ bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, 
     StepReport report;
     report.step = step;
     detail::RepeatedCourse course;
+    int at_any_step = 0;  // tries in a row with such an explanation
     std::optional<SystemEvaluation> solution;
     TryOptions next_try{!at.rate.is_null()};
     bool may_be_careful = system.parts().contact != nullptr;
@@ -213,7 +214,9 @@ bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, 
         StepFailure failure =
             explanation.words.empty() ? caught : StepFailure(caught.kind(), fmt::format("{} ({})", explanation.words, caught.what()));
         const bool leaves_prediction = solved && is_predicted;
-        const bool in_vain = !leaves_prediction && course.add(caught, report.newton);
+        at_any_step = explanation.at_any_step ? at_any_step + 1 : 0;
+        const bool repeats = !leaves_prediction && course.add(caught, report.newton);
+        const bool in_vain = repeats || at_any_step >= detail::RepeatedCourse::enough;
         if (in_vain)
           failure = StepFailure(failure.kind(),
                                 fmt::format("{}; a smaller step is of no use: the last {} tries, each with half the step of the one before, "
@@ -223,7 +226,7 @@ bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, 
         ++report.cutbacks;
         report.undone.push_back(to_string(failure.kind()) + ": " + failure.what());
         if (observer.undone) observer.undone(report, failure);
-        if (in_vain || explanation.at_any_step || caught.kind() == FailureKind::out_of_memory) return false;
+        if (in_vain || caught.kind() == FailureKind::out_of_memory) return false;
         // What a prediction led to, and was refused, is no word on what the last state leads to. Where it led nowhere a smaller step starts at the
         // last state, and after that with a prediction again.
         if (leaves_prediction)

@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <Teuchos_CommHelpers.hpp>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mortise/contact/contact_report.hpp"
 #include "mortise/contact/surface_force.hpp"
 #include "mortise/mesh/sets.hpp"
+#include "mortise/simulation/scene/scene_bodies.hpp"
 #include "surfaces/body_surfaces.hpp"
 
 namespace mortise {
@@ -18,6 +21,9 @@ constexpr double worth_saying = 1e-2;
 
 /// Of the largest force of a pair: a sum of the forces on a body below it is nothing but their round-off.
 constexpr double no_force = 1e-6;
+
+/// Of E L^(d-1), with the softest material: a force below it strains nothing.
+constexpr double no_strain = 1e-12;
 
 double magnitude(const std::array<double, 3>& v) { return std::hypot(v[0], v[1], v[2]); }
 
@@ -31,6 +37,10 @@ LeanWatch::LeanWatch(const Model& model, const Scene& scene, std::function<void(
     for (const SidesOfBody& sides : sides_by_body(mesh, require_side_set(mesh, set))) result.push_back(sides.body);
     return result;
   };
+  double softest = std::numeric_limits<double>::max(), softest_of_all = softest;
+  for (const Block& block : mesh.blocks) softest = std::min(softest, youngs_modulus(scene, mesh, block));
+  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MIN, softest, Teuchos::outArg(softest_of_all));
+  hardly_strains_ = no_strain * softest_of_all * std::pow(model.parts().length, mesh.dimension - 1);
   for (const auto& contact : scene.contact) pairs_.push_back({bodies(contact.value.slave), bodies(contact.value.master), false, ""});
 }
 
@@ -58,7 +68,7 @@ void LeanWatch::examine(const ContactLaws& laws) {
       if (bodies->size() != 1) continue;  // what acts on each of several is not known
       const std::size_t body = bodies->front();
       const double whole = magnitude(acting[body]), load = whole > no_force * largest[body] ? whole : largest[body];
-      if (load > 0.0 && excess / load > share) share = excess / load, which = body;
+      if (load > hardly_strains_ && excess / load > share) share = excess / load, which = body;
     }
     if (!(share > worth_saying)) continue;
     pair.found = fmt::format(

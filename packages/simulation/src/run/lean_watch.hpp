@@ -33,7 +33,8 @@ class LeanWatch {
   const Model& model_;
   const Scene& scene_;
   std::function<void(const std::string&)> warn_;
-  std::vector<Pair> pairs_;  ///< [pairs of the scene]
+  std::vector<Pair> pairs_;      ///< [pairs of the scene]
+  double hardly_strains_ = 0.0;  ///< a force: of a pair that bears less all is round-off
 };
 
 }  // namespace mortise

@@ -95,7 +95,8 @@ RCP<Vector> StartRule::close(const SemiSmoothSystem& system, const SystemEvaluat
   std::vector<BearingNode> open = bearing_nodes(start.contact_laws(), *contact_places(*model_.mesh(), modes, free.places()), OpenNodes::covered);
   open.erase(std::remove_if(open.begin(), open.end(), [](const BearingNode& node) { return node.closed; }), open.end());
 
-  Eigen::MatrixXd held = free.held();
+  Eigen::MatrixXd held = free.held(), by_normals = held;
+  std::vector<BearingNode> started;
   const auto z = rcp(new Vector(*system.multipliers(start.x()), Teuchos::Copy));
   std::vector<ClosedNodes> closed(model_.contact()->pairs());
   while (driven->any()) {
@@ -106,10 +107,12 @@ RCP<Vector> StartRule::close(const SemiSmoothSystem& system, const SystemEvaluat
     nearest = reduce(Teuchos::REDUCE_MIN, nearest);
     if (std::all_of(nearest.begin(), nearest.end(), [](double way) { return way == no_way; })) break;
 
-    std::vector<double> works(static_cast<std::size_t>(modes.count() * modes.count()), 0.0), gaps(closed.size(), 0.0);
+    const auto squared = static_cast<std::size_t>(modes.count() * modes.count());
+    std::vector<double> works(2 * squared, 0.0), gaps(closed.size(), 0.0);  // of normals, then of tangents
     std::vector<int> counts(closed.size(), 0), of_group(closed.size(), -1);
-    Eigen::Map<Eigen::MatrixXd> gram(works.data(), modes.count(), modes.count());
-    const auto hold = [&](const std::vector<HoldingRow::Wrench>& wrenches) {
+    const auto gram_of = [&](std::size_t which) { return Eigen::Map<Eigen::MatrixXd>(&works[which * squared], modes.count(), modes.count()); };
+    const auto hold = [&](const std::vector<HoldingRow::Wrench>& wrenches, std::size_t which) {
+      Eigen::Map<Eigen::MatrixXd> gram = gram_of(which);
       std::vector<Eigen::RowVectorXd> rows;
       for (const auto& wrench : wrenches)
         rows.push_back(modes.works_of_wrench(Eigen::Vector3d(wrench.force.data()), Eigen::Vector3d(wrench.moment.data())));
@@ -121,8 +124,9 @@ RCP<Vector> StartRule::close(const SemiSmoothSystem& system, const SystemEvaluat
                                 const Hindrance hindrance = driven->hindered_by(node, modes);
                                 if (hindrance.group < 0 || hindrance.way > std::max(node.near, as_near * nearest[hindrance.group])) return false;
                                 guess_closed(start.contact_laws(), node, *z);
-                                hold(node.normal);
-                                for (const auto& along : node.along) hold(along);
+                                hold(node.normal, 0);
+                                for (const auto& along : node.along) hold(along, 1);
+                                started.push_back(node);
                                 ++counts[node.pair];
                                 gaps[node.pair] = std::max(gaps[node.pair], node.gap);
                                 of_group[node.pair] = std::max(of_group[node.pair], hindrance.group);
@@ -141,10 +145,15 @@ RCP<Vector> StartRule::close(const SemiSmoothSystem& system, const SystemEvaluat
       if (closed[p].why.empty())
         closed[p].why = fmt::format("{}, where a load of {:.3g} acts", names_of(model_, modes, group, group.motions * group.load), group.load.norm());
     }
-    held += Eigen::Map<const Eigen::MatrixXd>(works.data(), modes.count(), modes.count());
+    by_normals += gram_of(0);
+    held += gram_of(0) + gram_of(1);
     groups = free.groups(held, tilted_normals);
     driven.emplace(groups, n, modes.bodies().size());
   }
+  // Friction that holds nothing yet would keep the bodies from coming along the surfaces. Where it alone can hold them it has to from the first
+  // iterate on.
+  if (!DrivenBodies(free.groups(by_normals, tilted_normals), n, modes.bodies().size()).any())
+    for (const BearingNode& node : started) guess_closed(start.contact_laws(), node, *z, node.gap > 0.0);
   bool any = false;
   for (std::size_t p = 0; p < closed.size(); ++p) {
     if (closed[p].count == 0) continue;

@@ -75,6 +75,8 @@ enum class OpenNodes {
 /// Of the owned slave nodes of all pairs those that are closed, and some that are open. `places` as above. Collective.
 std::vector<BearingNode> bearing_nodes(const ContactLaws& laws, const MultiVector& places, OpenNodes open = OpenNodes::near);
 /// Gives an open node a guess of its multiplier with which it is closed, at a pressure that no result can see: z_n = max(0, c_n g) + 1e-6 E.
-void guess_closed(const ContactLaws& laws, const BearingNode& node, Vector& z);
+/// @param slides  whether it starts as one that slips without a bound: a body then comes along the surface until it touches, where the normals of
+///                closed nodes hold it. Nodes with prescribed components stick all the same
+void guess_closed(const ContactLaws& laws, const BearingNode& node, Vector& z, bool slides = false);
 
 }  // namespace mortise

@@ -66,7 +66,7 @@ struct FailedTry {
 /// What lies behind a failure of Newton's method.
 struct FailureExplanation {
   std::string words;         ///< they stand before the failure's message; "" without an explanation
-  bool at_any_step = false;  ///< it holds for a smaller step as well: none is tried
+  bool at_any_step = false;  ///< it says nothing of the size of the step: three tries in a row with it are the last
 };
 
 /// What the stepper calls.
