@@ -70,21 +70,6 @@ struct Directions {
   SpatialMatrix N, P, Q;
 };
 
-// Multipliers along held tangents are told by their own rows, which leave those of the free ones:  C_f - (C_f,h / C_h,h) C_h.
-Complementarity without_held(Complementarity law, const Frame& frame, Eigen::Index held) {
-  const Eigen::Index tangents = frame.tangents.rows();
-  for (Eigen::Index h = 0; h < std::min(held, tangents - 1); ++h) {
-    const double own = law.C_z.row(1 + h).dot(frame.tangents.row(h));
-    if (!(std::abs(own) > 0.0)) continue;
-    for (Eigen::Index f = h + 1; f < tangents; ++f) {
-      const double factor = law.C_z.row(1 + f).dot(frame.tangents.row(h)) / own;
-      law.C_z.row(1 + f) -= factor * law.C_z.row(1 + h);
-      if (law.slip_factor.size() > 0) law.slip_factor.row(f) -= factor * law.slip_factor.row(h);
-    }
-  }
-  return law;
-}
-
 // A node that sticks after it closed a gap is a spring along the surface next to a share of its momentum.
 // In 3D friction holds a node that slips across the direction t of slip. Its condition there is that of a spring next to the share 1 - rho / |y| of
 // the node's momentum. Either the spring is the stiffer part, and t is eliminated, or Q makes the momentum whole.
@@ -161,9 +146,7 @@ Decoupling CondensedContact::decoupling() const {
         const detail::RecoveryRow& kept = condensation_->recovery[kept_of[static_cast<std::size_t>(self.multiplier_of[p][s])]];
         return own_stiffness(kept, condensation_->scatter->positions(p), slave.local_node, row.D, dimension);
       };
-      const Eigen::Index held = std::count(slave.fixed.begin(), slave.fixed.end(), true);
-      const Complementarity law = without_held(laws.laws[p][s], pair.frame(s), held);
-      const auto [N, P, Q] = directions(free, row, pair.frame(s), law, stiffness_of_node);
+      const auto [N, P, Q] = directions(free, row, pair.frame(s), laws.laws[p][s], stiffness_of_node);
       const LocalOrdinal* own_rows = condensation_->own_rows_of(slave);
       for (int i = 0; i < dimension; ++i) {
         const LocalOrdinal dof = own_rows[i];
