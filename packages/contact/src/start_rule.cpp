@@ -102,7 +102,7 @@ ContactHistory ContactSystem::start_step(const ContactHistory& accepted, const N
 // A node sticks where |z_tau + c_t u| is below the bound. Above it, its condition is  z_tau = rho y / |y|  and across y that of a spring of c_t rho / |y|:
 // with |y| = 1e6 rho it holds nothing, and bears nothing that a result can see.
 void guess_closed(const ContactLaws& laws, const BearingNode& node, Vector& z, bool slides) {
-  constexpr double hardly_a_strain = 1e-12;
+  constexpr double hardly_a_strain = 1e-15;
   const detail::EvaluatedContact& contact = *detail::evaluated(laws).contact;
   const detail::PairEvaluation& pair = contact.pairs[node.pair];
   const SlaveNode& slave = pair.slave_nodes()[node.slave];
@@ -113,7 +113,7 @@ void guess_closed(const ContactLaws& laws, const BearingNode& node, Vector& z, b
     return;
   }
   set_pressure(*contact.model, pair, node.pair, node.slave, across + hardly_a_strain * modulus, values);
-  const SpatialVector shear = small_strain * modulus * pair.frame(node.slave).tangents.row(0).transpose();
+  const SpatialVector shear = 1e6 * hardly_a_strain * modulus * pair.frame(node.slave).tangents.row(0).transpose();
   const LocalOrdinal first = contact.model->multiplier_of[node.pair][node.slave];
   for (int i = 0; i < contact.model->dimension; ++i) values(first + i, 0) += shear[i];
 }

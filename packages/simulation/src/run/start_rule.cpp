@@ -24,6 +24,7 @@ constexpr double no_way = std::numeric_limits<double>::max();
 /// What a node hinders.
 struct Hindrance {
   int group = -1;       ///< -1: nothing
+  bool slides = false;  ///< the motion comes from without the cone of friction: a node that stuck would not let it come
   double way = no_way;  ///< how far the bodies of the group may move until the node bears pressure
 };
 
@@ -47,23 +48,36 @@ struct DrivenBodies {
 
   /// A pressure acts on bodies as the negative of BearingNode::normal. Its work on v over its force is the share of v that closes the gap.
   Hindrance hindered_by(const BearingNode& node, const RigidModes& modes) const {
-    double work = 0.0, force = 0.0;
     Hindrance hindrance;
-    for (const auto& wrench : node.normal) {
-      const Eigen::Vector3d of_pressure(wrench.force.data());
-      force = std::max(force, of_pressure.norm());
-      if (group_of[wrench.body] < 0) continue;
-      hindrance.group = group_of[wrench.body];
-      work -= modes.works_of_wrench(of_pressure, Eigen::Vector3d(wrench.moment.data())).dot(motion_of[wrench.body]);
-    }
-    if (!(work < -works_against * force)) return {};
-    hindrance.way = node.gap * force / -work;
+    const auto work_over_force = [&](const std::vector<HoldingRow::Wrench>& wrenches) {
+      double work = 0.0, largest = 0.0;
+      for (const auto& wrench : wrenches) {
+        const Eigen::Vector3d force(wrench.force.data());
+        largest = std::max(largest, force.norm());
+        if (group_of[wrench.body] < 0) continue;
+        hindrance.group = group_of[wrench.body];
+        work += modes.works_of_wrench(force, Eigen::Vector3d(wrench.moment.data())).dot(motion_of[wrench.body]);
+      }
+      return largest > 0.0 ? work / largest : 0.0;
+    };
+    const double closes = work_over_force(node.normal);
+    if (!(closes > works_against)) return {};
+    hindrance.way = node.gap / closes;
+    double along = 0.0;
+    for (const auto& tangent : node.along) along = std::hypot(along, work_over_force(tangent));
+    hindrance.slides = along > node.friction * closes;
     return hindrance;
   }
 
   std::vector<int> group_of;               ///< [bodies] -1: no load drives it
   std::vector<Eigen::VectorXd> motion_of;  ///< [bodies]
 };
+
+Eigen::Index count_of_motions(const std::vector<FreeGroup>& groups) {
+  Eigen::Index count = 0;
+  for (const FreeGroup& group : groups) count += group.motions.cols();
+  return count;
+}
 
 /// Of one pair, what started closed.
 struct ClosedNodes {
@@ -96,7 +110,7 @@ RCP<Vector> StartRule::close(const SemiSmoothSystem& system, const SystemEvaluat
   open.erase(std::remove_if(open.begin(), open.end(), [](const BearingNode& node) { return node.closed; }), open.end());
 
   Eigen::MatrixXd held = free.held(), by_normals = held;
-  std::vector<BearingNode> started;
+  std::vector<std::pair<BearingNode, bool>> started;  // and whether it slides
   const auto z = rcp(new Vector(*system.multipliers(start.x()), Teuchos::Copy));
   std::vector<ClosedNodes> closed(model_.contact()->pairs());
   while (driven->any()) {
@@ -126,7 +140,7 @@ RCP<Vector> StartRule::close(const SemiSmoothSystem& system, const SystemEvaluat
                                 guess_closed(start.contact_laws(), node, *z);
                                 hold(node.normal, 0);
                                 for (const auto& along : node.along) hold(along, 1);
-                                started.push_back(node);
+                                started.emplace_back(node, hindrance.slides);
                                 ++counts[node.pair];
                                 gaps[node.pair] = std::max(gaps[node.pair], node.gap);
                                 of_group[node.pair] = std::max(of_group[node.pair], hindrance.group);
@@ -150,10 +164,10 @@ RCP<Vector> StartRule::close(const SemiSmoothSystem& system, const SystemEvaluat
     groups = free.groups(held, tilted_normals);
     driven.emplace(groups, n, modes.bodies().size());
   }
-  // Friction that holds nothing yet would keep the bodies from coming along the surfaces. Where it alone can hold them it has to from the first
+  // Friction that holds nothing yet would keep the bodies from coming along the surfaces. A motion that it alone can hold it has to hold from the first
   // iterate on.
-  if (!DrivenBodies(free.groups(by_normals, tilted_normals), n, modes.bodies().size()).any())
-    for (const BearingNode& node : started) guess_closed(start.contact_laws(), node, *z, node.gap > 0.0);
+  if (count_of_motions(free.groups(by_normals, tilted_normals)) == count_of_motions(groups))
+    for (const auto& [node, slides] : started) guess_closed(start.contact_laws(), node, *z, slides && node.gap > 0.0);
   bool any = false;
   for (std::size_t p = 0; p < closed.size(); ++p) {
     if (closed[p].count == 0) continue;

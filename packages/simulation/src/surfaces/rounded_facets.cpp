@@ -86,10 +86,18 @@ struct WeightedPoint {
   std::vector<double> weights;  ///< [nodes]
 };
 
+/// gauss_legendre(3) on equal parts of [-1, 1]: what the master leaves has a kink at each of its nodes.
+std::vector<LinePoint> line_points(int parts) {
+  std::vector<LinePoint> points;
+  for (int part = 0; part < parts; ++part)
+    for (const LinePoint& point : gauss_legendre(3)) points.push_back({-1.0 + (2.0 * part + 1.0 + point.xi) / parts, point.weight / parts});
+  return points;
+}
+
 // Dual functions of a line are 2 N_a - N_b = 3 N_a - 1, those of a quadrilateral products of these, and those of a triangle 4 N_a - 1.
 std::vector<WeightedPoint> gap_points(int dimension, std::size_t nodes, bool dual) {
   std::vector<WeightedPoint> points;
-  const auto line = gauss_legendre(4);
+  const auto line = line_points(dimension == 2 ? 16 : 3);
   const auto function = [&](double N) { return dual ? 3.0 * N - 1.0 : N; };
   if (dimension == 2) {
     for (const LinePoint& point : line) {
