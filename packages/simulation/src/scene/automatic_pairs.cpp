@@ -41,6 +41,7 @@ namespace {
 
 constexpr double same_curvature = 0.01;  ///< of SurfacePart::turn, below which no side is the more curved one
 constexpr double same_place = 1e-9;      ///< over the size of a part
+constexpr double about_to_touch = 0.1;   ///< gap over the shortest facet, up to which a body counts among those that a part faces
 
 std::vector<char> bodies_that_take_part(const Mesh& mesh, const Located<std::vector<std::string>>& names) {
   std::vector<std::string> known;
@@ -75,6 +76,7 @@ struct Zone {
 /// Two zones that become a pair.
 struct Edge {
   int first = 0, second = 0;
+  double gap = 0.0;  ///< FacingParts::gap
 };
 
 class PairMaker {
@@ -117,8 +119,9 @@ class PairMaker {
     const SurfacePart& one = part(zone);
     std::set<int> bodies;
     for (const Edge& edge : edges_)
-      if (edge.first == zone || edge.second == zone) bodies.insert(part(edge.first == zone ? edge.second : edge.first).body);
-    return {modulus_[static_cast<std::size_t>(one.body)], one.shortest, static_cast<int>(bodies.size())};
+      if ((edge.first == zone || edge.second == zone) && edge.gap <= about_to_touch * one.shortest)
+        bodies.insert(part(edge.first == zone ? edge.second : edge.first).body);
+    return {modulus_[static_cast<std::size_t>(one.body)], one.shortest, std::max(1, static_cast<int>(bodies.size()))};
   }
 
   void make_zones() {
@@ -132,7 +135,7 @@ class PairMaker {
       if (is_rigid_part(found_.parts[static_cast<std::size_t>(pair.first)]) && is_rigid_part(found_.parts[static_cast<std::size_t>(pair.second)]))
         continue;
       const int first = zone(pair.first), second = zone(pair.second);
-      edges_.push_back({first, second});
+      edges_.push_back({first, second, pair.gap});
     }
   }
 
@@ -145,7 +148,7 @@ class PairMaker {
       const auto first = static_cast<int>(zones.size());
       zones.push_back({one.part, other.part});
       zones.push_back({other.part, one.part});
-      edges.push_back({first, first + 1});
+      edges.push_back({first, first + 1, edge.gap});
     }
     zones_ = std::move(zones);
     edges_ = std::move(edges);
