@@ -157,8 +157,8 @@ int main(int argc, char** argv) {
       if (const auto code = read_alone(program)) return *code;
     // Open MPI without memory ends the process, with an exit code of its own.
     if (const double left = mortise::own_memory_left_mib(); left < mpi_start_mib) {
-      std::cerr << fmt::format("mortise: a limit leaves {:.0f} MiB to this process, and MPI needs {:.0f} MiB to start; please raise it (ulimit -v)", left,
-                               mpi_start_mib)
+      std::cerr << fmt::format("mortise: a limit leaves {:.0f} MiB to this process, and MPI needs {:.0f} MiB to start; please raise it (ulimit -v)",
+                               left, mpi_start_mib)
                 << std::endl;
       return static_cast<int>(mortise::ExitCode::memory);
     }

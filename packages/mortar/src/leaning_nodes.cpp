@@ -4,8 +4,8 @@
 // image lies along the plane. Or it may end at a support, as a hub on a cone that stands on a table: its normal leans over, and so does its pressure.
 // What is prescribed does not tell. But on a smooth surface that goes on beyond the plane of symmetry the lean is that of half a facet, and a facet
 // on it is three times that. And on a master without a lean, as a wedge's tip on a flat face, the pressure has none. So a component stays in the
-// average if the averaged normal at the next nodes leans to the same side and no further, by a quarter, and the master's facets that the plane meets lean, by half as much
-// or more. All this is said of the reference configuration, once.
+// average if the averaged normal at the next nodes leans to the same side and no further, by a quarter, and the master's facets that the plane meets
+// lean, by half as much or more. All this is said of the reference configuration, once.
 
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Map.hpp>

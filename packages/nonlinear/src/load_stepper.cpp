@@ -192,7 +192,8 @@ bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, 
         StepSolver solver(system, newton, report.newton, linearised, iteration);
         Begin begin = begin_of_try(system, newton, at, report.time, next_try, start);
         is_predicted = begin.is_predicted;
-        if (const RCP<Vector> z = observer.close ? observer.close(begin.at) : Teuchos::null; !z.is_null()) begin.at = system.with_multipliers(begin.at, *z);
+        if (const RCP<Vector> z = observer.close ? observer.close(begin.at) : Teuchos::null; !z.is_null())
+          begin.at = system.with_multipliers(begin.at, *z);
         context = begin.at.context();
         solution = solver.solve(std::move(begin.at));
         for (int round = 1; observer.verify; ++round) {

@@ -18,8 +18,8 @@ constexpr double pieces = 2.0;  ///< fewer of them across the contact do not res
 
 // A force F on crossing edges comes of an approach d = sqrt(F/K), over a section sqrt(A) d wide. Where that is less than two facets of length h, F is
 // that of the few nodes there, which give way by about F/(E* h): too much force for the approach, about h/d times. Or it is K d^2 of the edges
-// themselves, which is right as far as the bodies are half spaces, and pressures around have no meaning. Nodes that bear far too much make d too large
-// as well: two facets are resolved where nodes beyond the one with the crossing bear some of the force.
+// themselves, which is right as far as the bodies are half spaces, and pressures around have no meaning. Nodes that bear far too much make d too
+// large as well: two facets are resolved where nodes beyond the one with the crossing bear some of the force.
 std::vector<std::string> crossings_too_coarse(const Model& model, const Scene& scene, const Vector& displacement, const ContactLaws& laws) {
   std::vector<std::string> lines;
   if (!model.edges()) return lines;
@@ -39,10 +39,12 @@ std::vector<std::string> crossings_too_coarse(const Model& model, const Scene& s
     if (!(force > 0.0) || (is_wide && reached_of_all > crossing.length)) continue;
     const auto& x = crossing.place;
     lines.push_back(fmt::format(
-        "contact \"{}\": edges cross at ({:.6g}, {:.6g}, {:.6g}) and press with {:.3g} at nodes up to {:.2g} away, or over about {:.2g}, which is less than {:.0f} facets "
-        "of length {:.2g}; a law for two elastic wedges bears {:.2g} of it, nodes of these facets the rest; so the force is known to its order of "
-        "magnitude, and pressures are not; please make both sides finer there, or take \"gap weighting\" \"standard\"",
-        scene.contact[crossing.contact].name, x[0], x[1], x[2], force, reached_of_all, std::sqrt(crossing.area) * depth, pieces, crossing.length, crossing.force));
+        "contact \"{}\": edges cross at ({:.6g}, {:.6g}, {:.6g}) and press with {:.3g}, by nodes within {:.2g} of there or over a width of {:.2g}, "
+        "which is less than {:.0f} facets of length {:.2g}; a law for two elastic wedges bears {:.2g} of it, nodes of these facets the rest; so the "
+        "force "
+        "is known to its order of magnitude, and pressures are not; please make both sides finer there, or take \"gap weighting\" \"standard\"",
+        scene.contact[crossing.contact].name, x[0], x[1], x[2], force, reached_of_all, std::sqrt(crossing.area) * depth, pieces, crossing.length,
+        crossing.force));
   }
   return lines;
 }

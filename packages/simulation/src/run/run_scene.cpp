@@ -330,7 +330,8 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
         record.converged = false;
       }
       if (coarse && last)
-        for (const std::string& line : coarse->warnings(*system.displacement(*state.accepted.x), last->contact_laws(), record.time)) log.warning(line);
+        for (const std::string& line : coarse->warnings(*system.displacement(*state.accepted.x), last->contact_laws(), record.time))
+          log.warning(line);
       if (record.converged && model.edges() && last)
         for (const std::string& line : crossings_too_coarse(model, scene, *system.displacement(*state.accepted.x), last->contact_laws()))
           log.warning(line);

@@ -164,8 +164,8 @@ RCP<Vector> StartRule::close(const SemiSmoothSystem& system, const SystemEvaluat
     groups = free.groups(held, tilted_normals);
     driven.emplace(groups, n, modes.bodies().size());
   }
-  // Friction that holds nothing yet would keep the bodies from coming along the surfaces. A motion that it alone can hold it has to hold from the first
-  // iterate on.
+  // Friction that holds nothing yet would keep the bodies from coming along the surfaces. A motion that it alone can hold it has to hold from the
+  // first iterate on.
   if (count_of_motions(free.groups(by_normals, tilted_normals)) == count_of_motions(groups))
     for (const auto& [node, slides] : started) guess_closed(start.contact_laws(), node, *z, slides && node.gap > 0.0);
   bool any = false;

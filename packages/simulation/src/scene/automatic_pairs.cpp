@@ -373,9 +373,10 @@ void add_automatic_pairs(const Mesh& mesh, Scene& scene) {
   const bool any_faces = !found.facing.empty();
   leave_out_tied(mesh, scene, found);
   if (found.facing.empty() && any_faces)
-    throw InputError(options.bodies.place,
-                     "all surfaces that face one another belong to bodies that are tied to one another, which make no pairs; please leave out \"automatic "
-                     "contact\", or name the pairs in \"contact\"");
+    throw InputError(
+        options.bodies.place,
+        "all surfaces that face one another belong to bodies that are tied to one another, which make no pairs; please leave out \"automatic "
+        "contact\", or name the pairs in \"contact\"");
   if (found.facing.empty())
     throw InputError(
         options.bodies.place,

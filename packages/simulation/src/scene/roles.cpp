@@ -43,8 +43,8 @@ RoleChoice better_slave(const SurfaceTraits& first, const SurfaceTraits& second)
   if (differ(first.modulus, second.modulus, same_modulus)) return choose(first.modulus, second.modulus, "its body is softer");
   // A slave facet that lies across the edges of two masters has both gaps, and weights of a linear function: a jump from 0 to g counts as -g/2.
   if (first.faces != second.faces && !differ(first.facet, second.facet, similar_facet))
-    return {first.faces < second.faces, false, fmt::format("it faces fewer bodies, {} against {}", std::min(first.faces, second.faces),
-                                                           std::max(first.faces, second.faces))};
+    return {first.faces < second.faces, false,
+            fmt::format("it faces fewer bodies, {} against {}", std::min(first.faces, second.faces), std::max(first.faces, second.faces))};
   if (differ(first.facet, second.facet, same_facet)) return choose(first.facet, second.facet, "its facets are shorter");
   return {true, true, "both are alike, and it was given as the slave"};
 }

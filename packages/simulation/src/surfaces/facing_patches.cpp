@@ -120,8 +120,8 @@ std::optional<Crossing> seen(const std::vector<Crossing>& crossings, int own_par
 }
 
 /// Of points that see another body behind them those that lie within it: along their normals they leave it before they would enter it, and across
-/// them it ends no nearer than half as far as behind. So a hole's rim that lies a little in the seat of a bolt does not face the far side of its head.
-/// A line that grazes a surface may miss it, so that what lies behind it alone tells nothing. A rigid surface has no inside. Collective.
+/// them it ends no nearer than half as far as behind. So a hole's rim that lies a little in the seat of a bolt does not face the far side of its
+/// head. A line that grazes a surface may miss it, so that what lies behind it alone tells nothing. A rigid surface has no inside. Collective.
 /// @param seen  [lines] what they see; what is not within is taken back
 void keep_overlaps(const Mesh& mesh, const std::vector<TaggedFacet>& facets, const std::vector<LineSegment>& lines,
                    const std::vector<SurfacePart>& parts, double tolerance, double length, std::vector<std::optional<Crossing>>& seen) {

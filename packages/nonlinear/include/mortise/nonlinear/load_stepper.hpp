@@ -74,8 +74,8 @@ struct StepperObserver {
   std::function<void(int step, double time, double dt)> begin;  ///< before each try
   /// Multipliers for the start of a try that may be better than those of its StepStart; null: they are not.
   std::function<RCP<Vector>(const SystemEvaluation& start)> close;
-  std::function<void(const NewtonIteration&)> iteration;        ///< after each Newton iteration
-  std::function<bool()> interrupted;                            ///< after that. True, the same on every rank: the run ends here, at its last state
+  std::function<void(const NewtonIteration&)> iteration;  ///< after each Newton iteration
+  std::function<bool()> interrupted;                      ///< after that. True, the same on every rank: the run ends here, at its last state
   /// A solution of the step from the accepted state `from`, before it is committed. `round` counts the solutions of a try from 1. Returns null if the
   /// solution stands, else another start, from which the step is solved once more. May throw StepFailure, on every rank: the try is undone.
   std::function<RCP<Vector>(const AcceptedState& from, const SystemEvaluation& solution, int round)> verify;
