@@ -43,7 +43,7 @@ CAUSES = """## What is behind the numbers
 * **Dovetail.** A wedge whose flanks of 45 degrees slip has a thrust over pull of `(1 - μ)/(1 + μ)` = 0.6667 on the way up and, once it slips back,
   1.5. Coarse meshes have 0.6705 and 0.6713, and 1.4956 when it is let go to a fifth.
 * **Clamp.** GMRES took up to 386 iterations for a Newton step. `automatic` changes to MUMPS by itself.
-* **Hinge.** The pin is the master of both leaves. As their slave it did not get through its first step: facets of the pin across the edges of the two
+* **Hinge.** The pin is the master of both leaves. As their slave it did not get through its first step. Facets of the pin across the edges of the two
   knuckles have the gaps of both, and what their dual functions make of a jump from 0 to 0.04 counts as an overlap of 0.019.
 * **Flange.** The rim of each hole lies 0.01 deep in the seat of the bolt. Seen along its normal it is 3.5 deep in the head, whose far side was taken for
   the hole's master. What lies nearer to another face does not count any more.

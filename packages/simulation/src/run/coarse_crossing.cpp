@@ -41,8 +41,7 @@ std::vector<std::string> crossings_too_coarse(const Model& model, const Scene& s
     lines.push_back(fmt::format(
         "contact \"{}\": edges cross at ({:.6g}, {:.6g}, {:.6g}) and press with {:.3g}, by nodes within {:.2g} of there or over a width of {:.2g}, "
         "which is less than {:.0f} facets of length {:.2g}; a law for two elastic wedges bears {:.2g} of it, nodes of these facets the rest; so the "
-        "force "
-        "is known to its order of magnitude, and pressures are not; please make both sides finer there, or take \"gap weighting\" \"standard\"",
+        "force is known to its order of magnitude, and pressures are not; please make both sides finer there, or take \"gap weighting\" \"standard\"",
         scene.contact[crossing.contact].name, x[0], x[1], x[2], force, reached_of_all, std::sqrt(crossing.area) * depth, pieces, crossing.length,
         crossing.force));
   }

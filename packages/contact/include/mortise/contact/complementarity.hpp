@@ -83,8 +83,8 @@ struct HeldTangents {
 /// With c_t = c_n its traction then is  p u / g0  if friction bears that, whatever c is: it lies along the way on which the node came. A node that
 /// comes from within the cone of friction sticks.
 ///
-/// Along tangents that are held a node that sticks gives by e (z_tau - z_tau^old) / c_t, which takes the place of a slip, as an elastic strain does
-/// of a plastic one:  y = q (z_tau + c_t u - e (z_tau - z_tau^old)),  and stick too is  C_tau = z_tau - y.
+/// Along tangents that are held a node that sticks gives by e (z_tau - z_tau^old) / c_t. That is no slip, as an elastic strain is no plastic one:
+///   y = q (z_tau + c_t u - e (z_tau - z_tau^old)),   and stick too is   C_tau = z_tau - y.
 /// @param slip   weighted slip u of the step: the slave's motion relative to the master along tau_a, times the weight
 /// @param start  g0 >= 0, the weighted gap that the node had when the step began; 0 for one that was closed
 Complementarity with_friction(double c_n, double c_t, double gap, const TangentVector& slip, const Frame& frame, const SpatialVector& z,
