@@ -61,7 +61,7 @@ Complementarity with_friction(double c_n, double c_t, double gap, const TangentV
   Complementarity result = closed_node(c_n, gap, frame, z);
   const TangentVector t = result.C.tail(tangents), cu = c_t * slip;
   TangentMatrix own = TangentMatrix::Identity(tangents, tangents);  // S
-  TangentVector kept = TangentVector::Zero(tangents);  // (1 - S) t^old
+  TangentVector kept = TangentVector::Zero(tangents);               // (1 - S) t^old
   for (Eigen::Index a = 0; a < held.count; ++a) {
     own(a, a) = 1.0 - held.compliance;
     kept[a] = held.compliance * held.traction[a];
