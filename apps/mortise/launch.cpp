@@ -21,18 +21,35 @@ bool is_first_process() {
   return true;
 }
 
-// OpenBLAS chooses as it is loaded, so the variable has to be there before.
-void choose_blas_kernels(char** argv) {
+namespace {
+
+/// The kernels that suit this processor where OpenBLAS took its slowest, else null.
+const char* better_kernels() {
 #ifdef __x86_64__
-  constexpr const char *variable = "OPENBLAS_CORETYPE", *slowest = "Prescott";
-  if (std::getenv(variable) != nullptr || !__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return;
   const auto name = reinterpret_cast<char* (*)()>(dlsym(RTLD_DEFAULT, "openblas_get_corename"));
-  if (name == nullptr || std::strcmp(name(), slowest) != 0) return;
-  setenv(variable, __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") ? "SkylakeX" : "Haswell", 1);
-  execv("/proc/self/exe", argv);  // if it fails, the slow ones do
+  if (name == nullptr || std::strcmp(name(), "Prescott") != 0) return nullptr;
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return nullptr;
+  return __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") ? "SkylakeX" : "Haswell";
 #else
-  static_cast<void>(argv);
+  return nullptr;
 #endif
+}
+
+bool is_set(const char* variable) { return std::getenv(variable) != nullptr; }
+
+}  // namespace
+
+// OpenBLAS reads its variables as it is loaded, so they have to be there before.
+void set_up_blas(char** argv) {
+  if (dlsym(RTLD_DEFAULT, "openblas_get_corename") == nullptr) return;
+  bool starts_anew = false;
+  const auto set = [&](const char* variable, const char* value) {
+    setenv(variable, value, 0);
+    starts_anew = true;
+  };
+  if (!is_set("OPENBLAS_NUM_THREADS") && !is_set("OMP_NUM_THREADS")) set("OPENBLAS_NUM_THREADS", "1");
+  if (const char* kernels = better_kernels(); kernels != nullptr && !is_set("OPENBLAS_CORETYPE")) set("OPENBLAS_CORETYPE", kernels);
+  if (starts_anew) execv("/proc/self/exe", argv);  // if it fails, this process goes on
 }
 
 // By default a process alone starts the daemon orted, so that it could start others. If the process is killed, the daemon stays, and it grows. It

@@ -9,9 +9,10 @@ bool started_by_mpirun();
 /// Whether this is the process that speaks for all, told without MPI.
 bool is_first_process();
 
-/// Starts the program anew, once, where OpenBLAS does not know the processor and takes its slowest kernels although the processor has AVX2: Debian's
-/// 0.3.21 does so on each processor that is newer. OPENBLAS_CORETYPE in the environment stays as it is.
-void choose_blas_kernels(char** argv);
+/// Starts the program anew, once, where OpenBLAS would not suit it. One thread a process, as ranks share the cores; further threads also never end
+/// where memory is limited. The kernels of the processor's AVX2 or AVX-512 where OpenBLAS takes its slowest: Debian's 0.3.21 does so on each
+/// processor that it does not know. OPENBLAS_NUM_THREADS, OMP_NUM_THREADS and OPENBLAS_CORETYPE in the environment stay as they are.
+void set_up_blas(char** argv);
 
 /// Before MPI is started in a process that nobody started with other ranks: Open MPI starts faster, and without a daemon. What the user has set
 /// stays. Programs that this process starts inherit it and have one rank each: commands that start runs use no MPI themselves.

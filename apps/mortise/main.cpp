@@ -108,7 +108,7 @@ std::optional<int> read_alone(mortise::Program& program) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  mortise::choose_blas_kernels(argv);
+  mortise::set_up_blas(argv);
   mortise::open_closed_streams();
   // What a limit on file sizes or a closed pipe stops is an error of the write, which is told, and no end without a word.
   for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);

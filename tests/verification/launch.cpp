@@ -19,7 +19,7 @@ std::string quoted(const std::string& word) {
 }  // namespace
 
 Ending launch(const std::vector<std::string>& command, int seconds) {
-  std::string line = "timeout " + std::to_string(seconds);
+  std::string line = "timeout -k 10 " + std::to_string(seconds);
   const bool is_one_rank = command.size() > 3 && command[1] == "-n" && command[2] == "1";
   for (auto word = command.begin() + (is_one_rank ? 3 : 0); word != command.end(); ++word) line += " " + quoted(*word);
   FILE* pipe = popen((line + " 2>&1").c_str(), "r");

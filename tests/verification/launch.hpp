@@ -10,8 +10,8 @@ struct Ending {
   std::string output;
 };
 
-/// Runs a command and waits for it; `seconds` later it is ended, with code 124. One rank (mpirun -n 1 ...) is run without mpirun, which takes longer to
-/// start than most of these scenes to run.
+/// Runs a command and waits for it; `seconds` later it is ended, with code 124, or 137 if it has to be killed. One rank (mpirun -n 1 ...) is run
+/// without mpirun, which takes longer to start than most of these scenes to run.
 Ending launch(const std::vector<std::string>& command, int seconds = 300);
 
 std::string read_file(const std::string& path);

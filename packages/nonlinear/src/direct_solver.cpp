@@ -38,9 +38,9 @@ struct Refined {
 /// ever.
 constexpr double blas_buffer_mib = 129.0;
 
-/// Lets the BLAS take its buffer.
+/// Lets the BLAS take its buffer. Kernels for small matrices (up to 100^3 products) take none.
 void warm_blas() {
-  constexpr int size = 64;
+  constexpr int size = 160;
   const std::vector<double> ones(size * size, 1.0);
   std::vector<double> product(size * size);
   Teuchos::BLAS<int, double>().GEMM(Teuchos::NO_TRANS, Teuchos::NO_TRANS, size, size, size, 1.0, ones.data(), size, ones.data(), size, 0.0,
