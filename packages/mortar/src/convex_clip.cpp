@@ -6,7 +6,7 @@
 namespace mortise {
 namespace {
 
-constexpr double on_edge = 1e-12;  // of the first polygon's size
+constexpr double coincide = 1e-12;  // of the first polygon's size
 
 // The nodes of an edge: {start, end}, counted over both polygons.
 std::array<int, 2> nodes_of(int edge, int first, int second) {
@@ -35,31 +35,39 @@ struct Corner {
 };
 using Corners = boost::container::static_vector<Corner, 16>;
 
-// The corners that are left of the second polygon's edge `line`, seen against its direction.
-Corners cut(const Corners& corners, int line, const PlanePolygon& first, const PlanePolygon& second, double tolerance) {
+// Whether the segments a b and l m lie within `tolerance` of one another wherever they are side by side.
+bool coincident(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& l, const Eigen::Vector2d& m, double tolerance) {
+  constexpr double sine = 1e-3, share = 0.01;  // with less in common than this share of the shorter one they are taken as they are
+  const Eigen::Vector2d along = b - a, other = m - l;
+  const double length = along.norm(), other_length = other.norm(), cross = along.x() * other.y() - along.y() * other.x();
+  if (!(std::abs(cross) < sine * length * other_length)) return false;
+  const double of_l = (l - a).dot(along) / length, of_m = (m - a).dot(along) / length;
+  const double begin = std::max(0.0, std::min(of_l, of_m)), end = std::min(length, std::max(of_l, of_m));
+  if (!(end - begin > share * std::min(length, other_length))) return false;
+  const auto apart = [&](double s) { return doubled_area(a, b, l + (s - of_l) / (of_m - of_l) * other) / length; };
+  return std::abs(apart(begin)) <= tolerance && std::abs(apart(end)) <= tolerance;
+}
+
+// The corners that are left of the second polygon's edge `line`, seen against its direction. Each edge of the common part has to end at two vertices
+// that move with its line. So two vertices stand at one place where a corner that is kept lies on the line.
+Corners cut(const Corners& corners, int line, const PlanePolygon& first, const PlanePolygon& second) {
   const auto first_count = static_cast<int>(first.size()), second_count = static_cast<int>(second.size());
   const auto [start, end] = nodes_of(line, first_count, second_count);
   const Eigen::Vector2d &from = node_position(end, first, second), &to = node_position(start, first, second);
-  const double length = (to - from).norm();
-  boost::container::static_vector<double, 16> distance;
-  for (const Corner& corner : corners) distance.push_back(doubled_area(from, to, corner.vertex.position) / length);
+  boost::container::static_vector<double, 16> area;
+  for (const Corner& corner : corners) area.push_back(doubled_area(from, to, corner.vertex.position));
   Corners kept;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const std::size_t next = (i + 1) % corners.size();
-    const bool inside = distance[i] >= -tolerance, next_inside = distance[next] >= -tolerance;
+    const bool inside = area[i] >= 0.0, next_inside = area[next] >= 0.0;
     if (inside) kept.push_back(corners[i]);
     if (inside == next_inside) continue;
-    if (inside && distance[i] <= tolerance) {
-      kept.back().edge = line;
-      continue;
-    }
-    if (next_inside && distance[next] <= tolerance) continue;
     Corner crossing;
     crossing.vertex.edges = {corners[i].edge, line};
     crossing.edge = inside ? line : corners[i].edge;
     crossing.vertex.second_leaves = inside;
     const int node = common_node(crossing.vertex.edges, first_count, second_count);
-    const double share = distance[i] / (distance[i] - distance[next]);
+    const double share = area[i] / (area[i] - area[next]);
     crossing.vertex.position = node >= 0 ? node_position(node, first, second)
                                          : Eigen::Vector2d((1.0 - share) * corners[i].vertex.position + share * corners[next].vertex.position);
     kept.push_back(crossing);
@@ -69,6 +77,8 @@ Corners cut(const Corners& corners, int line, const PlanePolygon& first, const P
 
 }  // namespace
 
+// Where edges coincide, the polygons on both sides of the second one's have to take the same of the two for their border. They take the first
+// polygon's: it bounds the one that lies on its side, and leaves nothing of the other.
 ClipPolygon clip_convex(const PlanePolygon& first, const PlanePolygon& second) {
   const auto first_count = static_cast<int>(first.size()), second_count = static_cast<int>(second.size());
   Corners corners;
@@ -77,8 +87,18 @@ ClipPolygon clip_convex(const PlanePolygon& first, const PlanePolygon& second) {
     corners.push_back({{first[a], {(a + first_count - 1) % first_count, a}}, a});
     size = std::max(size, (first[a] - first[0]).norm());
   }
-  for (int line = first_count; line < first_count + second_count && corners.size() >= 3; ++line)
-    corners = cut(corners, line, first, second, on_edge * size);
+  for (int line = first_count; line < first_count + second_count && corners.size() >= 3; ++line) {
+    const auto [start, end] = nodes_of(line, first_count, second_count);
+    const Eigen::Vector2d &from = node_position(end, first, second), &to = node_position(start, first, second);
+    bool bounded = false;
+    for (int a = 0; a < first_count && !bounded; ++a) {
+      const Eigen::Vector2d& next = first[(a + 1) % first_count];
+      if (!coincident(first[a], next, from, to, coincide * size)) continue;
+      if ((next - first[a]).dot(to - from) < 0.0) return {};
+      bounded = true;
+    }
+    if (!bounded) corners = cut(corners, line, first, second);
+  }
   ClipPolygon polygon;
   if (corners.size() >= 3)
     for (const Corner& corner : corners) polygon.push_back(corner.vertex);

@@ -90,19 +90,18 @@ class Facing {
     std::vector<Gradients> of_vertex(vertices + 1, Gradients::Zero(3 * n_, 2));
     for (std::size_t t = 0; t < overlap_.triangles.size(); ++t) {
       const auto& corner = overlap_.triangles[t];
-      Eigen::VectorXd on_triangle = Eigen::VectorXd::Zero(3 * n_);
+      Eigen::VectorXd of_unit_area = Eigen::VectorXd::Zero(3 * n_);  // it may have none, and grow
       for (std::size_t q = 0; q < rule.size(); ++q) {
         const OverlapPoint& point = overlap_.points[t * rule.size() + q];
-        on_triangle += point.weight * integrand(point.xi, point.eta);
+        of_unit_area += rule[q].weight * integrand(point.xi, point.eta);
         const Gradients moved = move(point);
         for (int k = 0; k < 3; ++k) of_vertex[corner[k]] += rule[q].share[k] * moved;
       }
-      result.value += on_triangle;
+      result.value += doubled_area(position[corner[0]], position[corner[1]], position[corner[2]]) * of_unit_area;
       // d(2A) = dv_k . (v_j - v_i turned by +90 degrees), k, i, j in turn
-      on_triangle /= doubled_area(position[corner[0]], position[corner[1]], position[corner[2]]);
       for (int k = 0; k < 3; ++k) {
         const Eigen::Vector2d edge = position[corner[(k + 2) % 3]] - position[corner[(k + 1) % 3]];
-        of_vertex[corner[k]] += on_triangle * Eigen::RowVector2d(-edge.y(), edge.x());
+        of_vertex[corner[k]] += of_unit_area * Eigen::RowVector2d(-edge.y(), edge.x());
       }
     }
     for (std::size_t v = 0; v < vertices; ++v) of_vertex[v] += of_vertex[vertices] / static_cast<double>(vertices);

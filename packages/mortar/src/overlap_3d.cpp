@@ -20,8 +20,9 @@ namespace {
 /// Sine of the angle that a master facet has to keep from standing upright on the plane.
 constexpr double facing_tolerance = 0.05;
 
-/// Of the slave facet's area: a smaller overlap is round-off of a matching mesh and carries nothing.
-constexpr double no_area = 1e-13;
+/// Of the slave facet's area: a smaller overlap is short as well, as its edges do not coincide, and carries nothing. A long one counts however narrow
+/// it is: what its edges add by their motion depends on their length.
+constexpr double no_area = 1e-20;
 
 StepFailure too_distorted() {
   return {FailureKind::projection, "a point of a contact facet cannot be projected on the opposite one, which is too distorted"};

@@ -93,19 +93,17 @@ class Integrator {
     const auto& rule = triangle_points(n);
     for (std::size_t t = 0; t < overlap.triangles.size(); ++t) {
       const auto& corner = overlap.triangles[t];
-      Eigen::Matrix<double, rows, 1> on_triangle = Eigen::Matrix<double, rows, 1>::Zero();
+      Eigen::Matrix<double, rows, 1> of_unit_area = Eigen::Matrix<double, rows, 1>::Zero();  // it may have none, and grow
       for (std::size_t q = 0; q < rule.size(); ++q) {
         const OverlapPoint& point = overlap.points[t * rule.size() + q];
-        add_point(AtPoint<Slave>(X, point.xi), AtPoint<Master>(Y, point.eta), point, on_triangle);
+        add_point(AtPoint<Slave>(X, point.xi), AtPoint<Master>(Y, point.eta), point, rule[q].weight, of_unit_area);
         for (int k = 0; k < 3; ++k) of_vertex[corner[k]] += rule[q].share[k] * (from_slave_ + from_master_);
       }
-      sum += on_triangle;
+      sum += doubled_area(position[corner[0]], position[corner[1]], position[corner[2]]) * of_unit_area;
       // d(2A) = dv_k . (v_j - v_i turned by +90 degrees), k, i, j in turn
-      const double twice = doubled_area(position[corner[0]], position[corner[1]], position[corner[2]]);
-      on_triangle /= twice;
       for (int k = 0; k < 3; ++k) {
         const Eigen::Vector2d edge = position[corner[(k + 2) % 3]] - position[corner[(k + 1) % 3]];
-        for (int r = 0; r < rows; ++r) of_vertex[corner[k]].template segment<2>(2 * r) += on_triangle[r] * Eigen::Vector2d(-edge.y(), edge.x());
+        for (int r = 0; r < rows; ++r) of_vertex[corner[k]].template segment<2>(2 * r) += of_unit_area[r] * Eigen::Vector2d(-edge.y(), edge.x());
       }
     }
     result.value = sum;
@@ -152,7 +150,9 @@ class Integrator {
     for (int i = 0; i < n; ++i) sum[r++] += weight * L[i] * gap;
   }
 
-  void add_point(const AtPoint<Slave>& slave, const AtPoint<Master>& master, const OverlapPoint& point, Eigen::Matrix<double, rows, 1>& sum) {
+  // What the point adds to a triangle whose doubled area is 1, and how it moves in this one.
+  void add_point(const AtPoint<Slave>& slave, const AtPoint<Master>& master, const OverlapPoint& point, double weight_of_unit_area,
+                 Eigen::Matrix<double, rows, 1>& of_unit_area) {
     const double weight = point.weight;
     const Eigen::Vector3d normal = normal_ * slave.N;
     const double length = normal.norm(), cosine = normal.z() / length, gap = cosine * point.height;
@@ -161,7 +161,7 @@ class Integrator {
     const Eigen::Vector3d gap_of_normal = point.height / length * (Eigen::Vector3d::UnitZ() - cosine / length * normal);  // dg / dn
     const Eigen::Vector2d gap_slave = slave.slope * (normal_.transpose() * gap_of_normal - cosine * x_.row(2).transpose());
     const Eigen::Vector2d gap_master = cosine * (master.slope * y_.row(2).transpose());
-    add_values(L, master.N, gap, weight, sum);
+    add_values(L, master.N, gap, weight_of_unit_area, of_unit_area);
 
     int r = 0;
     for (int i = 0; i < n; ++i)

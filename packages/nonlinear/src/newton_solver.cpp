@@ -20,10 +20,12 @@ void NewtonOptions::describe(Parameters& parameters) {
       Says("Newton iterations without progress after which the step is undone; one that leads to new states of contact and to the smallest "
            "residual so far is progress")
           .at_least(1));
-  parameters.add("momentum tolerance", momentum_tolerance,
-                 Says("bound on |r| of the free dofs over the largest of |f_int|, |f_ext| and |f_c|, reactions included; round-off is 1e-15 at best")
-                     .unit("-")
-                     .at_least(1e-15));
+  parameters.add(
+      "momentum tolerance", momentum_tolerance,
+      Says("bound on |r| of the free dofs over the largest of |f_int|, |f_ext| and |f_c|, reactions included; round-off is 1e-15 at best; 100 "
+           "times as much where integrals of contact jump: with corrections below a tenth of their tolerance |r| falls no more")
+          .unit("-")
+          .at_least(1e-15));
   parameters.add("gap tolerance", gap_tolerance,
                  Says("bound on the gap of closed nodes over the length of the shortest slave facet").unit("-").above(0.0));
   parameters.add("complementarity tolerance", complementarity_tolerance,

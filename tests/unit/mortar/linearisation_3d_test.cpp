@@ -99,6 +99,42 @@ TEST(MortarLinearisationInSpaceNearTies, StaysThatOfTheWay) {
   }
 }
 
+TEST(MortarLinearisationInSpaceNearTies, TMP) {
+  for (const auto kind : {FacetKind::quadrilaterals, FacetKind::triangles}) {
+    const auto wave = [](double x, double y) { return 0.1 * std::sin(1.7 * x) * std::cos(1.3 * y); };
+    const Patch slave{2, 2, 0.0, 2.0, 0.1, 1.9, kind, wave}, master{8, 6, -1.0, 3.0, -1.0, 3.0, kind, wave};
+    Surfaces matching;
+    matching.dim = 3;
+    append_patch(slave, false, 0.0, matching, matching.slave);
+    matching.slaves = matching.points.size();
+    append_patch(master, true, 0.0, matching, matching.master);
+    const auto derivative_at = [&](double t) {
+      Surfaces surfaces = matching;
+      for (std::size_t n = 0; n < 3 * matching.points.size(); ++n) surfaces.points[n / 3][static_cast<Eigen::Index>(n % 3)] += t * disorder(7 * n);
+      return evaluated(surfaces, true)->dense_derivative();
+    };
+    const Eigen::MatrixXd limit = derivative_at(1e-4);
+    for (const double t : {1e-2, 1e-5, 1e-7, 1e-9, 1e-11, 1e-12, 1e-13, 0.0, -1e-13, -1e-11, -1e-9, -1e-7, -1e-4})
+      fprintf(stderr, "%d t %g  %g of %g\n", (int)kind, t, (derivative_at(t) - limit).cwiseAbs().maxCoeff(), limit.cwiseAbs().maxCoeff());
+  }
+}
+
+// Lines of finer masters along those of the slave, shifted to either side by less and by more than what counts as coincident.
+TEST(MortarLinearisationInSpaceNearTies, IsTheSameOnBothSides) {
+  for (const auto kind : {FacetKind::quadrilaterals, FacetKind::triangles}) {
+    const auto wave = [](double x, double y) { return 0.1 * std::sin(1.7 * x) * std::cos(1.3 * y); };
+    const Surfaces tied = two_patches({2, 2, 0.0, 2.0, 0.1, 1.9, kind, wave}, {8, 6, -1.0, 3.0, -1.0, 3.0, kind, wave});
+    const auto derivative_at = [&](double t) {
+      Surfaces surfaces = tied;
+      for (std::size_t n = 0; n < 3 * tied.points.size(); ++n) surfaces.points[n / 3][static_cast<Eigen::Index>(n % 3)] += t * disorder(7 * n);
+      return evaluated(surfaces, true)->dense_derivative();
+    };
+    const Eigen::MatrixXd limit = derivative_at(1e-4);
+    for (const double t : {1e-7, 1e-9, 1e-11, 1e-12, 1e-13, 0.0, -1e-13, -1e-12, -1e-11, -1e-9, -1e-7, -1e-4})
+      EXPECT_LT((derivative_at(t) - limit).cwiseAbs().maxCoeff(), 10.0 * 1e-4 * limit.cwiseAbs().maxCoeff()) << t;
+  }
+}
+
 // Grids whose lines coincide in part, as those of bodies meshed with numbers that are multiples of one another do. Whichever way round-off puts the
 // lines, the integrals are the same, and move as their derivatives say.
 TEST(MortarIntegralsInSpaceAtTies, AreContinuous) {

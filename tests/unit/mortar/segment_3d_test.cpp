@@ -139,6 +139,39 @@ TEST(SegmentInSpace, DerivativesAgreeWithCentralDifferences) {
   }
 }
 
+// Masters that cover a facet measure it together, wherever their edges are. One of them lies along the facet's edge, to within t, with a node in its
+// middle. The place of a crossing there is known to round-off over the distance of the edges, and a derivative likewise.
+TEST(SegmentInSpace, DoesNotDependOnMastersThatShareIt) {
+  for (const double t : {1e-3, 1e-6, 1e-9, 1e-11, 1e-12, 1e-13, 1e-15, 0.0})
+    for (std::size_t seed = 0; seed < 50; ++seed) {
+      FacetVectors slave{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, normals(4, Eigen::Vector3d::UnitZ());
+      std::vector<Eigen::Vector3d> nodes;
+      for (const double y : {-1.0, 0.4, 2.0})
+        for (const double x : {-1.0, 1.0, 3.0}) nodes.push_back({x, y, 0.3});
+      for (std::size_t i = 0; i < 2; ++i) {
+        const auto c = static_cast<Eigen::Index>(i);
+        for (std::size_t a = 0; a < slave.size(); ++a) slave[a][c] += t * disorder(7 * (2 * a + i) + 13 * seed);
+        for (std::size_t l = 0; l < nodes.size(); ++l) nodes[l][c] += t * disorder(7 * (2 * l + i) + 13 * seed + 3);
+      }
+      Eigen::MatrixXd of_nodes = Eigen::MatrixXd::Zero(10, 27);  // of int N_i N_j over the facet
+      double area = 0.0;
+      for (const std::array<int, 4>& facet : std::vector<std::array<int, 4>>{{0, 3, 4, 1}, {1, 4, 5, 2}, {3, 6, 7, 4}, {4, 7, 8, 5}}) {
+        FacetVectors master;
+        for (const int l : facet) master.push_back(nodes[static_cast<std::size_t>(l)]);
+        std::vector<Overlap3d> overlaps;
+        find_overlaps(slave, master, overlaps);
+        for (const Overlap3d& overlap : overlaps) {
+          SegmentIntegrals3d result;
+          integrate_segment(slave, normals, master, overlap, Eigen::MatrixXd::Identity(4, 4), true, result);
+          for (int l = 0; l < 4; ++l) of_nodes.middleCols<3>(3 * facet[static_cast<std::size_t>(l)]) += result.derivative.block<10, 3>(0, 24 + 3 * l);
+          for (const OverlapPoint& point : overlap.points) area += point.weight;
+        }
+      }
+      EXPECT_NEAR(area, 1.0, 4.0 * t + 2e-12);
+      EXPECT_LT(of_nodes.cwiseAbs().maxCoeff(), 1e-14 / std::max(t, 1e-12)) << t;
+    }
+}
+
 // Unit normals, integrals of a flat facet over a plane: the rule is exact for what it has to be exact for.
 TEST(SegmentInSpace, MeasuresAFlatGap) {
   Pair p;

@@ -85,6 +85,33 @@ TEST(ChangesOfState, WithoutAnEffectAreNoReasonToGoOn) {
   EXPECT_FALSE(is_done(1e-14, 1e-13, 1e-6));  // this one is none
 }
 
+TEST(Momentum, IsMetWhereItJumpsAndCorrectionsDoNot) {
+  const auto is_done = [](const std::vector<double>& momentum, double increment, double step_length = 1.0, int changed = 0) {
+    std::vector<NewtonIteration> iterates;
+    for (std::size_t i = 0; i < momentum.size(); ++i) {
+      NewtonIteration at;
+      at.iteration = static_cast<int>(i);
+      at.norms.momentum = at.norms.momentum_absolute = momentum[i];
+      at.norms.active = 7;
+      at.norms.changed = changed;
+      at.increment = increment;
+      at.step_length = step_length;
+      iterates.push_back(at);
+    }
+    for (const auto& criterion : detail::convergence_criteria(NewtonOptions(), 1.0))
+      if (!criterion.met(iterates)) return false;
+    return true;
+  };
+  const std::vector<double> jumping{1.0, 5e-9, 4.7e-9, 5.2e-9, 4.9e-9, 4.7e-9};
+  EXPECT_TRUE(is_done(jumping, 5e-11));
+  EXPECT_FALSE(is_done(jumping, 5e-11, 1.0 / 128.0));                       // the whole correction is not small
+  EXPECT_FALSE(is_done(jumping, 5e-11, 1.0, 1));                            // states change
+  EXPECT_FALSE(is_done(jumping, 5e-9));                                     // displacements do
+  EXPECT_FALSE(is_done({1.0, 5e-9, 4.7e-9, 5.2e-9, 4.9e-9, 2e-9}, 5e-11));  // it still falls
+  EXPECT_FALSE(is_done({1.0, 5e-7, 4.7e-7, 5.2e-7, 4.9e-7, 4.7e-7}, 5e-11));
+  EXPECT_FALSE(is_done({1.0, 5e-9, 4.7e-9, 5.2e-9}, 5e-11));  // too early to say
+}
+
 NewtonReport report_of(const std::vector<long long>& sets) {
   NewtonReport report;
   report.iterations = course(sets, std::vector<double>(sets.size(), 1.0));

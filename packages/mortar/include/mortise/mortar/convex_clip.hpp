@@ -28,9 +28,9 @@ struct ClipVertex {
 /// Vertices of the common part, counterclockwise.
 using ClipPolygon = boost::container::static_vector<ClipVertex, 16>;
 
-/// Sutherland and Hodgman's algorithm. Each vertex keeps the two edges it lies on, from which its derivatives follow. Nodes of the first polygon
-/// nearer to an edge of the second than 1e-12 of the first's size lie on it. So matching meshes cover one another once, and edges that coincide are
-/// not intersected.
+/// Sutherland and Hodgman's algorithm. Each vertex keeps the two edges it lies on, from which its derivatives follow. Edges of the two polygons that
+/// lie within 1e-12 of the first's size of one another coincide: the first's stands for both. So matching meshes cover one another once. Elsewhere
+/// vertices may stand at the same place, with the edges that meet there two by two.
 /// @param first   counterclockwise
 /// @param second  clockwise (a facet that faces the first)
 /// @return counterclockwise; fewer than 3 vertices: no common part
