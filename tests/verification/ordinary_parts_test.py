@@ -1,4 +1,4 @@
-"""Two of the ordinary parts of inputs/parts on coarse meshes of Gmsh, against a closed form and CalculiX.
+"""Three of the ordinary parts of inputs/parts on coarse meshes of Gmsh, against a closed form, CalculiX and an axisymmetric model.
 
     ordinary_parts_test.py GMSH MORTISE DIRECTORY
 """
@@ -30,6 +30,13 @@ def test_gear_teeth(run):
     return check(code == 0 and abs(force / theirs - 1) <= 0.01, f"gear_teeth ends with {code}; the force is {force:.5g}, of CalculiX {theirs:.5g}")
 
 
+def test_press_bush(run):
+    """A quarter of the force of the same rings with axisymmetric Q8 cells of 0.5 mm (docs/results/ordinary_parts.md)."""
+    code, found = run("press_bush", {}, h=6)
+    force, theirs = found.get("reaction", 0.0), -6134.413 / 4
+    return check(code == 0 and abs(force / theirs - 1) <= 0.02, f"press_bush ends with {code}; the force is {force:.5g}, of axisymmetric rings {theirs:.5g}")
+
+
 def main():
     gmsh, program, directory = sys.argv[1:4]
 
@@ -40,7 +47,7 @@ def main():
         print(f"        {name}: {result.get('dofs')} dofs, {result['steps']} steps, {result['iterations']} iterations, {result['seconds']:.1f} s")
         return result["code"], result["quantities"]
 
-    return 1 if sum(test(run) for test in (test_dovetail, test_gear_teeth)) else 0
+    return 1 if sum(test(run) for test in (test_dovetail, test_gear_teeth, test_press_bush)) else 0
 
 
 if __name__ == "__main__":
