@@ -42,6 +42,9 @@ constexpr int others_code = 0;
 /// Address space that Open MPI takes until it has started in a process alone: 27 MiB, with a margin.
 constexpr double mpi_start_mib = 32.0;
 
+/// The same among other ranks, with the segments of memory that they share: runs with 160 MiB and less ended within Open MPI.
+constexpr double mpi_start_among_others_mib = 256.0;
+
 /// What is to be said of a first word that is no command; "" if it is one.
 std::string unknown_command(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> names;
@@ -151,19 +154,19 @@ int main(int argc, char** argv) {
     return static_cast<int>(mortise::ExitCode::usage);
   }
   if (program.launches) return run_alone(program);
-  if (!mortise::started_by_mpirun()) {
-    if (!program.uses_mpi) return run_alone(program);
-    if (program.read)
-      if (const auto code = read_alone(program)) return *code;
-    // Open MPI without memory ends the process, with an exit code of its own.
-    if (const double left = mortise::own_memory_left_mib(); left < mpi_start_mib) {
+  const bool alone = !mortise::started_by_mpirun();
+  if (alone && !program.uses_mpi) return run_alone(program);
+  if (alone && program.read)
+    if (const auto code = read_alone(program)) return *code;
+  // Open MPI without memory ends the process, with an exit code of its own.
+  if (const double left = mortise::own_memory_left_mib(), needed = alone ? mpi_start_mib : mpi_start_among_others_mib; left < needed) {
+    if (mortise::is_first_process())
       std::cerr << fmt::format("mortise: a limit leaves {:.0f} MiB to this process, and MPI needs {:.0f} MiB to start; please raise it (ulimit -v)",
-                               left, mpi_start_mib)
+                               left, needed)
                 << std::endl;
-      return static_cast<int>(mortise::ExitCode::memory);
-    }
-    mortise::start_mpi_alone();
+    return static_cast<int>(mortise::ExitCode::memory);
   }
+  if (alone) mortise::start_mpi_alone();
   mortise::keep_freed_memory();
   return run_with_mpi(argv, program);
 }

@@ -34,10 +34,10 @@ Physical Surface("recess") = Surface In BoundingBox {-e,-e,1-e, 21,21,1+e};
 Physical Surface("plane x") = Surface In BoundingBox {-e,-e,-31, e,60,10};
 Physical Surface("plane y") = Surface In BoundingBox {-e,-e,-31, 60,e,10};
 // What follows names surfaces that touch, for CalculiX alone: Mortise finds them.
-Physical Surface("face of the flange") = Surface In BoundingBox {1,-e,-e, 51,51,e};
+Physical Surface("face of the flange") = Surface In BoundingBox {-e,-e,-e, 51,51,e};
 s() = Surface In BoundingBox {-e,-e,9-e, 51,51,9+e};
 Physical Surface("top of the cover") = {s()};
 Physical Surface("back of the flange") = Surface In BoundingBox {-e,-e,-10-e, 51,51,-10+e};
 Physical Surface("seat of the head") = Surface In BoundingBox {x-9,x-9,9-i/2-e, x+9,x+9,9-i/2+e};
 Physical Surface("seat of the nut") = Surface In BoundingBox {x-9,x-9,-10+i/2-e, x+9,x+9,-10+i/2+e};
-Physical Surface("foot of the cover") = Surface In BoundingBox {1,-e,-e, 51,51,e};
+Physical Surface("foot of the cover") = Surface In BoundingBox {-e,-e,-e, 51,51,e};

@@ -44,7 +44,8 @@ bool Backtracking::compute(NOX::Abstract::Group& group, double& step, const NOX:
   }
   if (iterate.failure()) throw *iterate.failure();
   shortened_ = 0;
-  if (changes_states) return try_step(longest);
+  if (longest > 0.0 && try_step(longest) && (changes_states || iterate.increment() <= longest * negligible_correction(options_, length_)))
+    return true;
   step = 0.0;
   return false;
 }

@@ -20,12 +20,10 @@ void NewtonOptions::describe(Parameters& parameters) {
       Says("Newton iterations without progress after which the step is undone; one that leads to new states of contact and to the smallest "
            "residual so far is progress")
           .at_least(1));
-  parameters.add(
-      "momentum tolerance", momentum_tolerance,
-      Says("bound on |r| of the free dofs over the largest of |f_int|, |f_ext| and |f_c|, reactions included; round-off is 1e-15 at best; 100 "
-           "times as much where integrals of contact jump: with corrections below a tenth of their tolerance |r| falls no more")
-          .unit("-")
-          .at_least(1e-15));
+  parameters.add("momentum tolerance", momentum_tolerance,
+                 Says("bound on |r| of the free dofs over the largest of |f_int|, |f_ext| and |f_c|, reactions included; round-off is 1e-15 at best")
+                     .unit("-")
+                     .at_least(1e-15));
   parameters.add("gap tolerance", gap_tolerance,
                  Says("bound on the gap of closed nodes over the length of the shortest slave facet").unit("-").above(0.0));
   parameters.add("complementarity tolerance", complementarity_tolerance,
@@ -80,7 +78,7 @@ SystemEvaluation solve_newton(const SemiSmoothSystem& system, SystemEvaluation s
   list->set("Nonlinear Solver", "Line Search Based");
   list->sublist("Line Search").set("Method", backtrack ? "User Defined" : "Full Step");
   if (backtrack) {
-    const RCP<NOX::LineSearch::UserDefinedFactory> factory = rcp(new detail::BacktrackingFactory(options));
+    const RCP<NOX::LineSearch::UserDefinedFactory> factory = rcp(new detail::BacktrackingFactory(options, system.parts().length));
     list->sublist("Line Search").set("User Defined Line Search Factory", factory);
   }
   list->sublist("Direction").set("Method", "Newton");

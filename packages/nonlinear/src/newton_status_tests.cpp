@@ -9,6 +9,7 @@
 #include <cmath>
 #include <ostream>
 
+#include "backtracking.hpp"
 #include "newton_progress.hpp"
 #include "semi_smooth_newton_group.hpp"
 
@@ -17,20 +18,22 @@ namespace {
 /// Of the increment's tolerance: a correction below it that changes states has no effect.
 constexpr double no_effect = 1e-3;
 
-// Whether |r| is what the integrals of contact jump by, and no error that a correction takes away. A rule for them is exact on no warped facet. Where
-// edges of the two sides lie over one another the parts that it acts on change at once, and the integral with them, by 1e-9 of itself and less.
-// Newton's method then steps from one side to the other: the states stay, whole corrections are far below their tolerance, |r| falls no more.
+// Whether what is left of the residual is a jump of the integrals of contact, and no error that a correction takes away. A rule for them is exact on
+// no warped facet. Where edges of the two sides lie over one another the parts that it acts on change at once, and the integral with them, by 1e-9 of
+// itself and less. Newton's method then steps from one side to the other: the states stay, whole corrections are far below their tolerance, the
+// residual falls no more.
 bool jumps(const IterateTest::Iterates& iterates, const NewtonOptions& options, double length) {
   constexpr std::size_t steps = 4;
-  constexpr double largest_momentum = 100.0, largest_increment = 0.1, falls = 0.5;  // of the tolerances; of the smallest before
+  constexpr double largest = 100.0, falls = 0.5;  // of the tolerances; of the smallest before
   if (iterates.size() <= steps) return false;
   const auto first = iterates.end() - steps;
-  const auto less = [](const NewtonIteration& a, const NewtonIteration& b) { return a.norms.momentum < b.norms.momentum; };
-  if (std::min_element(first, iterates.end(), less)->norms.momentum < falls * std::min_element(iterates.begin(), first, less)->norms.momentum)
-    return false;
+  const auto less = [](const NewtonIteration& a, const NewtonIteration& b) { return a.norms.merit < b.norms.merit; };
+  if (std::min_element(first, iterates.end(), less)->norms.merit < falls * std::min_element(iterates.begin(), first, less)->norms.merit) return false;
   return std::all_of(first, iterates.end(), [&](const NewtonIteration& at) {
-    return at.norms.changed == 0 && at.norms.active > 0 && at.norms.momentum <= largest_momentum * options.momentum_tolerance &&
-           at.step_length > 0.0 && at.increment <= largest_increment * options.increment_tolerance * length * at.step_length;
+    const ResidualNorms& norms = at.norms;
+    return norms.changed == 0 && norms.active > 0 && norms.momentum <= largest * options.momentum_tolerance &&
+           norms.gap <= largest * options.gap_tolerance && norms.complementarity <= largest * options.complementarity_tolerance &&
+           at.step_length > 0.0 && at.increment <= negligible_correction(options, length) * at.step_length;
   });
 }
 }  // namespace
@@ -69,7 +72,7 @@ std::vector<ConvergenceCriterion> convergence_criteria(const NewtonOptions& opti
   std::vector<ConvergenceCriterion> criteria;
   const auto bounded = [&](const std::string& name, double ResidualNorms::*norm, double tolerance) {
     criteria.push_back({fmt::format("{} (tolerance {:.1e})", name, tolerance),
-                        [=](const Iterates& iterates) { return iterates.back().norms.*norm <= tolerance; },
+                        [=](const Iterates& iterates) { return iterates.back().norms.*norm <= tolerance || jumps(iterates, options, length); },
                         [=](const NewtonIteration& at) { return fmt::format("{:.2e}", at.norms.*norm); }});
   };
   const auto is_round_off = [](const ResidualNorms& norms) { return norms.momentum_absolute <= norms.round_off; };

@@ -85,13 +85,14 @@ TEST(ChangesOfState, WithoutAnEffectAreNoReasonToGoOn) {
   EXPECT_FALSE(is_done(1e-14, 1e-13, 1e-6));  // this one is none
 }
 
-TEST(Momentum, IsMetWhereItJumpsAndCorrectionsDoNot) {
+TEST(Residual, IsMetWhereItJumpsAndCorrectionsDoNot) {
   const auto is_done = [](const std::vector<double>& momentum, double increment, double step_length = 1.0, int changed = 0) {
     std::vector<NewtonIteration> iterates;
     for (std::size_t i = 0; i < momentum.size(); ++i) {
       NewtonIteration at;
       at.iteration = static_cast<int>(i);
-      at.norms.momentum = at.norms.momentum_absolute = momentum[i];
+      at.norms.momentum = at.norms.momentum_absolute = at.norms.merit = momentum[i];
+      at.norms.complementarity = momentum[i];
       at.norms.active = 7;
       at.norms.changed = changed;
       at.increment = increment;
