@@ -6,6 +6,7 @@
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -18,7 +19,7 @@ namespace {
 
 constexpr double tilted_normals = 1e-4;  ///< of free_motions(): what contact normals that turn with the loads seem to hold
 constexpr double works_against = 1e-3;   ///< share of a motion that closes a gap, below which a node does not hinder it
-constexpr double as_near = 1.0 + 1e-6;   ///< nodes that are as near but for round-off close together
+constexpr double as_near = 1e-6;         ///< of the way of the nearest node: nodes that are as near but for round-off close together
 constexpr double no_way = std::numeric_limits<double>::max();
 
 /// What a node hinders.
@@ -133,10 +134,14 @@ RCP<Vector> StartRule::close(const SemiSmoothSystem& system, const SystemEvaluat
       for (std::size_t a = 0; a < rows.size(); ++a)
         for (std::size_t b = 0; b < rows.size(); ++b) gram.block(n * wrenches[a].body, n * wrenches[b].body, n, n) += rows[a].transpose() * rows[b];
     };
+    const auto is_nearest = [&](const Hindrance& hindrance) {
+      const double way = nearest[hindrance.group];
+      return hindrance.way - way <= as_near * std::abs(way);
+    };
     open.erase(std::remove_if(open.begin(), open.end(),
                               [&](const BearingNode& node) {
                                 const Hindrance hindrance = driven->hindered_by(node, modes);
-                                if (hindrance.group < 0 || hindrance.way > as_near * nearest[hindrance.group]) return false;
+                                if (hindrance.group < 0 || !is_nearest(hindrance)) return false;
                                 guess_closed(start.contact_laws(), node, *z);
                                 hold(node.normal, 0);
                                 const bool slides = hindrance.slides && node.gap > 0.0;
