@@ -6,7 +6,6 @@
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -19,7 +18,7 @@ namespace {
 
 constexpr double tilted_normals = 1e-4;  ///< of free_motions(): what contact normals that turn with the loads seem to hold
 constexpr double works_against = 1e-3;   ///< share of a motion that closes a gap, below which a node does not hinder it
-constexpr double as_near = 1e-6;         ///< of the way of the nearest node: nodes that are as near but for round-off close together
+constexpr double as_near = 1.0 + 1e-6;   ///< nodes that are as near but for round-off close together
 constexpr double no_way = std::numeric_limits<double>::max();
 
 /// What a node hinders.
@@ -110,7 +109,7 @@ RCP<Vector> StartRule::close(const SemiSmoothSystem& system, const SystemEvaluat
   std::vector<BearingNode> open = bearing_nodes(start.contact_laws(), *contact_places(*model_.mesh(), modes, free.places()), OpenNodes::covered);
   open.erase(std::remove_if(open.begin(), open.end(), [](const BearingNode& node) { return node.closed; }), open.end());
 
-  Eigen::MatrixXd held = free.held(), by_normals = held, by_all = held;
+  Eigen::MatrixXd held = free.held(), by_normals = held;
   std::vector<std::pair<BearingNode, bool>> started;  // and whether it slides
   const auto z = rcp(new Vector(*system.multipliers(start.x()), Teuchos::Copy));
   std::vector<ClosedNodes> closed(model_.contact()->pairs());
@@ -123,7 +122,7 @@ RCP<Vector> StartRule::close(const SemiSmoothSystem& system, const SystemEvaluat
     if (std::all_of(nearest.begin(), nearest.end(), [](double way) { return way == no_way; })) break;
 
     const auto squared = static_cast<std::size_t>(modes.count() * modes.count());
-    std::vector<double> works(3 * squared, 0.0), gaps(closed.size(), 0.0);  // of normals; of tangents of nodes that stick; that slide
+    std::vector<double> works(2 * squared, 0.0), gaps(closed.size(), 0.0);  // of normals, then of tangents
     std::vector<int> counts(closed.size(), 0), of_group(closed.size(), -1);
     const auto gram_of = [&](std::size_t which) { return Eigen::Map<Eigen::MatrixXd>(&works[which * squared], modes.count(), modes.count()); };
     const auto hold = [&](const std::vector<HoldingRow::Wrench>& wrenches, std::size_t which) {
@@ -134,19 +133,14 @@ RCP<Vector> StartRule::close(const SemiSmoothSystem& system, const SystemEvaluat
       for (std::size_t a = 0; a < rows.size(); ++a)
         for (std::size_t b = 0; b < rows.size(); ++b) gram.block(n * wrenches[a].body, n * wrenches[b].body, n, n) += rows[a].transpose() * rows[b];
     };
-    const auto is_nearest = [&](const Hindrance& hindrance) {
-      const double way = nearest[hindrance.group];
-      return hindrance.way - way <= as_near * std::abs(way);
-    };
     open.erase(std::remove_if(open.begin(), open.end(),
                               [&](const BearingNode& node) {
                                 const Hindrance hindrance = driven->hindered_by(node, modes);
-                                if (hindrance.group < 0 || !is_nearest(hindrance)) return false;
+                                if (hindrance.group < 0 || hindrance.way > std::max(node.near, as_near * nearest[hindrance.group])) return false;
                                 guess_closed(start.contact_laws(), node, *z);
                                 hold(node.normal, 0);
-                                const bool slides = hindrance.slides && node.gap > 0.0;
-                                for (const auto& along : node.along) hold(along, slides ? 2 : 1);
-                                started.emplace_back(node, slides);
+                                for (const auto& along : node.along) hold(along, 1);
+                                started.emplace_back(node, hindrance.slides);
                                 ++counts[node.pair];
                                 gaps[node.pair] = std::max(gaps[node.pair], node.gap);
                                 of_group[node.pair] = std::max(of_group[node.pair], hindrance.group);
@@ -167,14 +161,13 @@ RCP<Vector> StartRule::close(const SemiSmoothSystem& system, const SystemEvaluat
     }
     by_normals += gram_of(0);
     held += gram_of(0) + gram_of(1);
-    by_all += gram_of(0) + gram_of(1) + gram_of(2);
     groups = free.groups(held, tilted_normals);
     driven.emplace(groups, n, modes.bodies().size());
   }
   // Friction that holds nothing yet would keep the bodies from coming along the surfaces. A motion that it alone can hold it has to hold from the
   // first iterate on.
-  if (count_of_motions(free.groups(by_normals, tilted_normals)) == count_of_motions(free.groups(by_all, tilted_normals)))
-    for (const auto& [node, slides] : started) guess_closed(start.contact_laws(), node, *z, slides);
+  if (count_of_motions(free.groups(by_normals, tilted_normals)) == count_of_motions(groups))
+    for (const auto& [node, slides] : started) guess_closed(start.contact_laws(), node, *z, slides && node.gap > 0.0);
   bool any = false;
   for (std::size_t p = 0; p < closed.size(); ++p) {
     if (closed[p].count == 0) continue;
