@@ -46,7 +46,8 @@ CAUSES = """## What is behind the numbers
   A wedge whose flanks of 45 degrees slip has a thrust over pull of `(1 - μ)/(1 + μ)` = 0.6667 on the way up and, once it slips back,
   1.5. Coarse meshes have 0.6705 and 0.6713, and 1.4956 when it is let go to a fifth.
 * **Press-fitted bush.** Lame's rings give 1220 N in plane stress and 1415 N in plane strain; the ends of the bush, which stand out of the lug, add to
-  that. Axisymmetric meshes of `Q8` with the same sections give 1537 N with cells of 1 mm and 1534 N with cells of 0.5 mm. The part gives 1545 N.
+  that. Axisymmetric meshes of `Q8` with the same sections (`press_bush_rings.xml`, a quarter of its reaction) give 1537 N with
+  cells of 1 mm and 1534 N with cells of 0.5 mm (`--set variables/n=2`). The part gives 1545 N.
 * **Clamp.** GMRES took up to 386 iterations for a Newton step. `automatic` changes to MUMPS by itself.
 * **Hinge.** The pin is the master of both leaves. As their slave it did not get through its first step. Facets of the pin across the edges of the two
   knuckles have the gaps of both, and what their dual functions make of a jump from 0 to 0.04 counts as an overlap of 0.019.

@@ -51,9 +51,9 @@ struct ConvergenceCriterion {
   std::function<std::string(const NewtonIteration&)> value;
 };
 
-/// All of them: momentum, prescribed displacements, gap, complementarity, increment, states of the nodes. Those of the
-/// residual are met as well where four whole corrections in a row are negligible, no state changes, and what is left is below 100 times the
-/// tolerances but falls no more: integrals of contact jump by it. The last is met where no node has another
+/// All of them: momentum, prescribed displacements, gap, complementarity, increment, states of the nodes. Those of the residual are met as well where
+/// integrals of contact jump: four whole corrections in a row are negligible, and no state changes. What is left is below 100 times the tolerances,
+/// and falls no more. The criterion of states is met where no node has another
 /// state than the iterate was computed with. It is also met where states change without an effect. Then the last two iterates meet all other
 /// criteria, and between them no displacement changes by more than 1e-3 of the tolerance. F is continuous across a change of state, so both are
 /// solutions. Which of the states a node on the border between two has is up to round-off.
