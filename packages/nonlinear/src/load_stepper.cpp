@@ -147,6 +147,12 @@ Begin begin_of_try(const SemiSmoothSystem& system, const NewtonOptions& newton, 
     return *rest;
   };
   if (!options.may_predict) return {at_rest(), false};
+  if (system.parts().time) {
+    Vector x(*state.x, Teuchos::Copy);
+    Tpetra::deep_copy(*system.displacement(x), *predicted_unknowns(*system.step_from(state, time).step));
+    const StepContext context = prepared(x);
+    return {system.evaluate(x, context), true};
+  }
   const Drive drive = system.drive(*state.x, now, time);
   const std::optional<double> share = drive.continuation(system.drive(*state.x, now - from.last_step, now));
   const double length = std::min(time - now, share ? *share * from.last_step : time - now);
@@ -162,6 +168,15 @@ Begin begin_of_try(const SemiSmoothSystem& system, const NewtonOptions& newton, 
   if (drive.strength() > 0.0 && is_far_off(drive.strength()) && is_far_off(at_rest().norms().merit)) return {*rest, false};
   return {std::move(predicted), true};
 }
+
+/// Length of the next step over that of the last one. Without tolerances a step of time only grows back to the first one.
+double growth_of_step(const SemiSmoothSystem& system, const SteppingOptions& stepping, const StepperObserver& observer, const StepReport& report,
+                      double next_step, const AcceptedState& before, const AcceptedState& after) {
+  if (observer.growth) return observer.growth(before, after, report.dt);
+  const bool easy = report.newton.newton_steps() <= stepping.easy_iterations;
+  return easy && (!system.parts().time || next_step < stepping.step) ? 2.0 : 1.0;
+}
+
 }  // namespace
 
 bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, const NewtonOptions& newton, SteppingState& at,
@@ -179,7 +194,8 @@ bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, 
     detail::RepeatedCourse course;
     int at_any_step = 0;  // tries in a row with such an explanation
     std::optional<SystemEvaluation> solution;
-    TryOptions next_try{!at.rate.is_null()};
+    const bool may_predict = system.parts().time ? stepping.predictor == Predictor::linear : !at.rate.is_null();
+    TryOptions next_try{may_predict};
     bool may_be_careful = system.parts().contact != nullptr;
     while (!solution) {
       report.time = schedule.next_time();
@@ -236,14 +252,15 @@ bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, 
           next_try.constant_share = careful;
           may_be_careful = false;
         } else if (schedule.cut())
-          next_try = {!at.rate.is_null() && !is_predicted};
+          next_try = {may_predict && (!is_predicted || system.parts().time)};
         else
           return false;
       }
     }
     last_failure.reset();
     AcceptedState next = system.commit(*solution);
-    if (stepping.predictor == Predictor::linear) {
+    const double growth = growth_of_step(system, stepping, observer, report, schedule.next_step(), state, next);
+    if (stepping.predictor == Predictor::linear && !system.parts().time) {
       const auto rate = rcp(new Vector(system.map()));
       rate->update(1.0 / report.dt, *next.x, -1.0 / report.dt, *state.x, 0.0);
       if (observer.predict) observer.predict(*next.x, report.dt, *rate);
@@ -251,7 +268,7 @@ bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, 
       at.last_step = report.dt;
     }
     at.accepted = std::move(next);
-    schedule.accept(report.newton.newton_steps() <= stepping.easy_iterations);
+    schedule.accept(growth);
     at.steps = step;
     at.next_step = schedule.next_step();
     if (observer.accepted) observer.accepted(report, *solution);

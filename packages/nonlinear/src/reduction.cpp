@@ -199,6 +199,30 @@ RCP<Vector> FollowedDisplacements::expanded(const Vector& dq) const {
   return d;
 }
 
+RCP<Vector> FollowedDisplacements::convected(const Vector& rate) const {
+  const Map& columns = *reduction_->graph_->getColMap();
+  Vector sources(reduction_->graph_->getColMap());
+  const RCP<const Import> importer = reduction_->graph_->getImporter();
+  if (importer.is_null())
+    Tpetra::deep_copy(sources, rate);
+  else
+    sources.doImport(rate, *importer, Tpetra::INSERT);
+  const auto result = rcp(new Vector(reduction_->dofs_));
+  {
+    const auto from = sources.getLocalViewHost(Tpetra::Access::ReadOnly);
+    const auto to = result->getLocalViewHost(Tpetra::Access::ReadWrite);
+    const auto rate_of = [&](std::size_t n, int k) { return from(columns.getLocalElement(reduction_->sources_[n][k]), 0); };
+    for (std::size_t n = 0; n < dependences_.size(); ++n)
+      for (int k = 0; k < dependences_[n].sources; ++k)
+        for (int l = 0; l < dependences_[n].sources; ++l)
+          to(reduction_->following_[n], 0) += dependences_[n].curvature[k][l] * rate_of(n, k) * rate_of(n, l);
+  }
+  if (!reduction_->tied_) return result;
+  const auto untied = rcp(new Vector(reduction_->dofs_));
+  reduction_->tied_->T->apply(*result, *untied);
+  return untied;
+}
+
 void FollowedDisplacements::gather(Vector& r) const {
   const RCP<Vector> q = reduced(r);
   if (reduction_->tied_) r.assign(*untied(r));

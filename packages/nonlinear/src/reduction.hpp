@@ -71,6 +71,8 @@ class FollowedDisplacements {
   RCP<Vector> reduced(const Vector& r) const;
   /// T dq on the dofs.
   RCP<Vector> expanded(const Vector& dq) const;
+  /// P (d2g/dq2 : rate x rate), the acceleration of the dofs where q has none.
+  RCP<Vector> convected(const Vector& rate) const;
 
   /// T^T A T + sum_i (P^T r)_i d2g_i/dq2, with all diagonal entries of tied dofs and of dofs that others follow in its graph.
   RCP<Matrix> reduced(const Matrix& A, const Vector& r) const;

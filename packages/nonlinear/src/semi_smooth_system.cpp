@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "initial_motion.hpp"
 #include "system_model.hpp"
 
 namespace mortise {
@@ -22,23 +23,44 @@ double SemiSmoothSystem::stiffness_scale() const { return model_->stiffness_scal
 double SemiSmoothSystem::largest_displacement(const Vector& x) const { return model_->sizes().largest(*displacement(x)); }
 
 AcceptedState SemiSmoothSystem::initial_state(const Vector& x, double time) const {
-  AcceptedState state{rcp(new Vector(x, Teuchos::Copy)), {time, std::nullopt, {}}, {}};
+  AcceptedState state{rcp(new Vector(x, Teuchos::Copy)), {time, std::nullopt, {}, nullptr}, {}, std::nullopt};
   if (!parts().contact) return state;
   state.context.contact = parts().contact->initial_history(*displacement(x));
   state.context.states = (*state.context.contact)->states;
   return state;
 }
 
+AcceptedState SemiSmoothSystem::initial_state(const Vector& x, const Vector& velocity, bool at_rest, double time) const {
+  if (!parts().time) throw std::logic_error("SemiSmoothSystem: rates of a system without time derivatives");
+  AcceptedState state = initial_state(x, time);
+  detail::begin_motion(*model_, velocity, at_rest, state);
+  return state;
+}
+
+namespace {
+
+/// Null in a system without time derivatives.
+std::shared_ptr<const TimeStep> time_step(const detail::SystemModel& model, const AcceptedState& state, double time) {
+  const auto& integration = model.parts().time;
+  if (!integration) return nullptr;
+  if (!state.rates) throw std::logic_error("SemiSmoothSystem: a state without rates in a system with time derivatives");
+  return std::make_shared<const TimeStep>(TimeStep{integration.get(), time - state.context.time, model.d(*state.x), *state.rates,
+                                                   integration->scheme.blends_forces() ? state.internal_forces : Teuchos::null});
+}
+
+}  // namespace
+
 StepContext SemiSmoothSystem::step_from(const AcceptedState& state, double time) const {
   StepContext context = state.context;
   context.time = time;
+  context.step = time_step(*model_, state, time);
   return context;
 }
 
 StepContext SemiSmoothSystem::start_step(const AcceptedState& state, double time, const Vector& d, Vector& z) const {
   if (!parts().contact) return step_from(state, time);
   const ContactHistory history = parts().contact->start_step(*state.context.contact, d, z);
-  return {time, history, history->states};
+  return {time, history, history->states, time_step(*model_, state, time)};
 }
 
 StepContext SemiSmoothSystem::weigh_gaps(StepContext context, double share) const {
@@ -123,9 +145,12 @@ std::optional<SystemEvaluation> SemiSmoothSystem::augment(const SystemEvaluation
 
 AcceptedState SemiSmoothSystem::commit(const SystemEvaluation& evaluation) const {
   const detail::EvaluatedSystem& at = detail::evaluated(evaluation);
-  const Configuration configuration = model_->configuration(at.context.time, *at.d);
+  const TimeStep* step = at.context.step.get();
+  const Configuration configuration = model_->configuration(at.context.time, *at.d, step);
   for (const auto& contribution : parts().contributions) contribution->commit(configuration);
-  AcceptedState state{rcp(new Vector(at.x, Teuchos::Copy)), at.context, at.internal};
+  AcceptedState state{rcp(new Vector(at.x, Teuchos::Copy)), at.context, at.internal, std::nullopt};
+  if (step != nullptr) state.rates = rates_at_end(*step, *at.d, at.external);
+  state.context.step = nullptr;  // it holds the state before
   if (!at.contact) return state;
   state.context.contact = parts().contact->commit(*at.laws);
   state.context.states = (*state.context.contact)->states;
@@ -143,11 +168,32 @@ void serialize_state(StateArchive& archive, Vector& x, double& time, const RCP<V
 
 }  // namespace
 
+namespace {
+
+/// What a state holds of rates; the vectors that a scheme has are stored or restored.
+void serialize_rates(StateArchive& archive, const TimeScheme& scheme, const RCP<const Map>& dofs, AcceptedRates& rates) {
+  const auto vector = [&](const char* name, RCP<const Vector>& value) {
+    const auto copy = archive.restores() ? rcp(new Vector(dofs)) : rcp(new Vector(*value, Teuchos::Copy));
+    serialize(archive, name, "dofs", *copy);
+    value = copy;
+  };
+  vector("velocity", rates.velocity);
+  vector("acceleration", rates.acceleration);
+  if (scheme.has_balanced_acceleration()) vector("balanced_acceleration", rates.balanced_acceleration);
+  if (scheme.blends_forces()) vector("external_forces", rates.external_forces);
+}
+
+}  // namespace
+
 void SemiSmoothSystem::store(StateArchive& archive, const AcceptedState& state) const {
   Vector x(*state.x, Teuchos::Copy);
   double time = state.context.time, has_forces = state.internal_forces.is_null() ? 0.0 : 1.0;
   serialize(archive, "has_internal_forces", has_forces);
   serialize_state(archive, x, time, has_forces > 0.0 ? rcp(new Vector(*state.internal_forces, Teuchos::Copy)) : Teuchos::null);
+  if (parts().time) {
+    AcceptedRates rates = *state.rates;
+    serialize_rates(archive, parts().time->scheme, parts().dofs, rates);
+  }
   model_->serialize(archive);
   if (state.context.contact) parts().contact->store(archive, *state.context.contact);
 }
@@ -158,8 +204,9 @@ AcceptedState SemiSmoothSystem::restore(StateArchive& archive) const {
   serialize(archive, "has_internal_forces", has_forces);
   const RCP<Vector> internal = has_forces > 0.0 ? rcp(new Vector(parts().dofs)) : Teuchos::null;
   serialize_state(archive, *x, time, internal);
+  AcceptedState state{x, {time, std::nullopt, {}, nullptr}, internal, std::nullopt};
+  if (parts().time) serialize_rates(archive, parts().time->scheme, parts().dofs, state.rates.emplace());
   model_->serialize(archive);
-  AcceptedState state{x, {time, std::nullopt, {}}, internal};
   if (!parts().contact) return state;
   state.context.contact = parts().contact->restore(archive, *displacement(std::as_const(*x)), *multipliers(std::as_const(*x)));
   state.context.states = (*state.context.contact)->states;

@@ -24,11 +24,12 @@ double StepSchedule::next_time() const {
 }
 
 // A step that a target cut short says nothing about the next one's size.
-void StepSchedule::accept(bool easy) {
-  const double next = next_time();
-  const bool whole = next - time_ >= step_ * (1.0 - round_off);
+void StepSchedule::accept(double growth) {
+  const double next = next_time(), length = next - time_;
+  const bool whole = length >= step_ * (1.0 - round_off);
   time_ = next;
-  if (easy && whole) step_ = std::min(2.0 * step_, maximum_);
+  if (growth > 1.0 && whole) step_ = std::min(growth * step_, maximum_);
+  if (growth < 1.0) step_ = std::clamp(growth * length, std::min(minimum_, step_), step_);
 }
 
 bool StepSchedule::cut() {

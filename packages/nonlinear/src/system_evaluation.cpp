@@ -15,6 +15,12 @@ const ResidualNorms& SystemEvaluation::norms() const { return evaluated_->norms;
 
 const Vector& SystemEvaluation::nodal_forces() const { return evaluated_->forces; }
 const Vector& SystemEvaluation::internal_forces() const { return *evaluated_->internal; }
+const Vector& SystemEvaluation::external_forces() const { return evaluated_->external; }
+
+const Vector& SystemEvaluation::rate_forces() const {
+  if (evaluated_->of_rates.is_null()) throw std::logic_error("SystemEvaluation: rate_forces() of a system without time derivatives");
+  return *evaluated_->of_rates;
+}
 
 const ContactLaws& SystemEvaluation::contact_laws() const {
   if (!evaluated_->laws) throw std::logic_error("SystemEvaluation: contact_laws() of a system without contact");

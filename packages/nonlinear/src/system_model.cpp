@@ -60,7 +60,7 @@ void SystemModel::check_contributions() const {
         if (std::find(known.begin(), known.end(), name) == known.end())
           throw std::invalid_argument(
               fmt::format("contribution \"{}\" knows a field '{}'; the system's fields are: {}", contribution->name(), name, fmt::join(known, ", ")));
-    if (uses.time_derivatives > 0)
+    if (uses.time_derivatives > 0 && !parts_.time)
       throw std::invalid_argument(
           fmt::format("contribution \"{}\" reads time derivatives of order {}; this system has none", contribution->name(), uses.time_derivatives));
   }
@@ -71,45 +71,63 @@ Configuration SystemModel::configuration(double time, const Vector& displacement
   return {time, displacement, local_displacement_};
 }
 
+Configuration SystemModel::configuration(double time, const Vector& displacement, const TimeStep* step) const {
+  return step == nullptr ? configuration(time, displacement) : configuration(time, displacement, blended_rates(*step, displacement));
+}
+
+Configuration SystemModel::configuration(double time, const Vector& displacement, BlendedRates rates) const {
+  Configuration result = configuration(time, displacement);
+  if (rates_.local_velocity.is_null()) {
+    rates_.local_velocity = rcp(new Vector(parts_.local_dofs));
+    rates_.local_acceleration = rcp(new Vector(parts_.local_dofs));
+  }
+  rates_.of_dofs = std::move(rates);
+  rates_.local_velocity->doImport(*rates_.of_dofs.velocity, to_local_, Tpetra::REPLACE);
+  rates_.local_acceleration->doImport(*rates_.of_dofs.acceleration, to_local_, Tpetra::REPLACE);
+  result.velocity = rates_.of_dofs.velocity.get();
+  result.local_velocity = rates_.local_velocity.get();
+  result.acceleration = rates_.of_dofs.acceleration.get();
+  result.local_acceleration = rates_.local_acceleration.get();
+  return result;
+}
+
 void SystemModel::serialize(StateArchive& archive) const {
   const std::size_t fields = stiffness_scales_.size();
   mortise::serialize(archive, "stiffness_scales", stiffness_scales_);
+  if (parts_.time) {
+    mortise::serialize(archive, "static_scales", static_scales_);
+    mortise::serialize(archive, "mass_scales", mass_scales_);
+  }
   if (stiffness_scales_.size() != fields)
     throw FileError(fmt::format("a stored state has {} fields; expected are {}", stiffness_scales_.size(), fields));
   for (const auto& contribution : parts_.contributions) contribution->serialize(archive);
 }
 
+std::shared_ptr<EvaluatedSystem> SystemModel::begin_evaluation(const Vector& x, const StepContext& context) const {
+  const Vector values(x, Teuchos::Copy);
+  return std::make_shared<EvaluatedSystem>(EvaluatedSystem{values,
+                                                           d(values),
+                                                           z(values),
+                                                           context,
+                                                           Teuchos::null,
+                                                           Vector(parts_.dofs),
+                                                           Teuchos::null,
+                                                           std::nullopt,
+                                                           std::nullopt,
+                                                           nullptr,
+                                                           Vector(parts_.dofs),
+                                                           Vector(map_),
+                                                           {}});
+}
+
 std::shared_ptr<const EvaluatedSystem> SystemModel::evaluate(const Vector& x, const StepContext& context, AtHand at_hand) const {
   if (parts_.contact && !context.contact)
     throw std::invalid_argument("SemiSmoothSystem: a context without a history of contact; take step_from() or start_step() of an initial_state()");
-  Vector values(x, Teuchos::Copy);
-  const auto result = std::make_shared<EvaluatedSystem>(EvaluatedSystem{values,
-                                                                        d(std::as_const(values)),
-                                                                        z(std::as_const(values)),
-                                                                        context,
-                                                                        std::move(at_hand.internal),
-                                                                        std::move(at_hand.contact),
-                                                                        std::nullopt,
-                                                                        nullptr,
-                                                                        Vector(parts_.dofs),
-                                                                        Vector(map_),
-                                                                        {}});
+  const std::shared_ptr<EvaluatedSystem> result = begin_evaluation(x, context);
+  result->internal = std::move(at_hand.internal);
+  result->contact = std::move(at_hand.contact);
   EvaluatedSystem& at = *result;
-  Vector external(parts_.dofs);  // -f_ext
-  {
-    const Configuration configuration = this->configuration(context.time, *at.d);
-    RCP<Vector> internal;
-    if (at.internal.is_null()) at.internal = internal = rcp(new Vector(parts_.dofs));
-    std::optional<StepFailure> failure;
-    for (const auto& contribution : parts_.contributions)
-      if (contribution->kind() != Contribution::Kind::internal)
-        contribution->add_residual(configuration, external, failure);
-      else if (!internal.is_null())
-        contribution->add_residual(configuration, *internal, failure);
-    if (parts_.dependent) parts_.dependent->check(local_displacement_, failure);
-    throw_if_any(comm(), failure);
-  }
-  at.forces.update(1.0, *at.internal, 1.0, external, 0.0);
+  add_forces(at);
   if (parts_.contact) {
     if (!at.contact) at.contact = parts_.contact->differentiate(*at.d, *context.contact, &context.states);
     at.laws = at.contact->laws(*at.z);
@@ -122,18 +140,53 @@ std::shared_ptr<const EvaluatedSystem> SystemModel::evaluate(const Vector& x, co
     at.follow = std::make_shared<const FollowedDisplacements>(reduction_, context.time, local_displacement_);
   }
   if (stiffness_scale() == 0.0) stiffness(result);
-  add_norms(at, external);
+  add_norms(at);
   return result;
 }
 
+// What acts between bodies has the weight 1 of contact in any scheme.
+void SystemModel::add_forces(EvaluatedSystem& at) const {
+  const TimeStep* step = at.context.step.get();
+  const Configuration configuration = this->configuration(at.context.time, *at.d, step);
+  RCP<Vector> internal, of_rates, between;
+  if (at.internal.is_null()) at.internal = internal = rcp(new Vector(parts_.dofs));
+  if (step != nullptr) at.of_rates = of_rates = rcp(new Vector(parts_.dofs));
+  if (step != nullptr && step->integration->scheme.blends_forces()) between = rcp(new Vector(parts_.dofs));
+  std::optional<StepFailure> failure;
+  for (const auto& contribution : parts_.contributions) {
+    if (contribution->uses().time_derivatives > 0) {
+      if (step != nullptr) contribution->add_residual(configuration, *of_rates, failure);
+    } else if (contribution->kind() == Contribution::Kind::internal) {
+      if (!internal.is_null()) contribution->add_residual(configuration, *internal, failure);
+    } else {
+      const bool is_between = contribution->kind() == Contribution::Kind::interaction && !between.is_null();
+      contribution->add_residual(configuration, is_between ? *between : at.external, failure);
+    }
+  }
+  if (parts_.dependent) parts_.dependent->check(local_displacement_, failure);
+  throw_if_any(comm(), failure);
+  at.forces.update(1.0, *at.internal, 1.0, at.external, 0.0);
+  if (step == nullptr) return;
+  if (step->integration->scheme.blends_forces()) {
+    const double before = step->integration->scheme.alpha_f;
+    at.forces.update(before, *step->internal_forces, before, *step->start.external_forces, 1.0 - before);
+    at.forces.update(1.0, *between, 1.0);
+  }
+  at.forces.update(1.0, *of_rates, 1.0);
+}
+
 // F: r = f_int - f_ext + f_c; rows of prescribed dofs: s (d - prescribed); C.
-void SystemModel::add_norms(EvaluatedSystem& at, const Vector& external) const {
+void SystemModel::add_norms(EvaluatedSystem& at) const {
   const RCP<Vector> r = d(at.residual);
   Tpetra::deep_copy(*r, at.forces);
   ResidualNorms& norms = at.norms;
   std::vector<double> force = sizes_.norms(*at.internal);  // [fields]
-  const std::vector<double> external_force = sizes_.norms(external), displacement = sizes_.norms(*at.d);
+  const std::vector<double> external_force = sizes_.norms(at.external), displacement = sizes_.norms(*at.d);
   for (std::size_t field = 0; field < force.size(); ++field) force[field] = std::max(force[field], external_force[field]);
+  if (!at.of_rates.is_null()) {
+    const std::vector<double> rate_force = sizes_.norms(*at.of_rates);
+    for (std::size_t field = 0; field < force.size(); ++field) force[field] = std::max(force[field], rate_force[field]);
+  }
   double other = 0.0, violation = 0.0;
   std::optional<StepFailure> failure;  // why something is not finite
   if (parts_.contact) {
@@ -178,13 +231,14 @@ void SystemModel::add_norms(EvaluatedSystem& at, const Vector& external) const {
   norms.momentum_absolute = total(out_of_balance);
   bool finite = std::isfinite(other);
   for (std::size_t field = 0; field < force.size(); ++field) {
-    force[field] = std::max(force[field], round_off_floor * stiffness_scale(field) * displacement[field]);
+    force[field] = std::max(force[field], round_off_floor * diagonal_scale(field, at.context.step.get()) * displacement[field]);
     finite = finite && std::isfinite(force[field]);
     if (out_of_balance[field] != 0.0) norms.momentum = std::max(norms.momentum, out_of_balance[field] / force[field]);
   }
   if (!std::isfinite(norms.momentum_absolute)) norms.momentum = norms.momentum_absolute;  // a maximum passes over what is no number
   // F = I + grad u is known to eps, and so are stresses, to eps E; contact forces come from positions, known to eps |x| at each closed node.
-  norms.round_off = 4.0 * std::numeric_limits<double>::epsilon() * stiffness_scale() * parts_.length * std::sqrt(1.0 + norms.active);
+  norms.round_off =
+      4.0 * std::numeric_limits<double>::epsilon() * diagonal_scale(0, at.context.step.get()) * parts_.length * std::sqrt(1.0 + norms.active);
   Teuchos::reduceAll(comm(), Teuchos::REDUCE_MAX, largest / parts_.length, Teuchos::outArg(norms.prescribed));
   {
     const auto rows = r->getLocalViewHost(Tpetra::Access::ReadWrite);
@@ -195,6 +249,11 @@ void SystemModel::add_norms(EvaluatedSystem& at, const Vector& external) const {
   norms.finite = finite && std::isfinite(rows);
   if (!norms.finite) throw_if_any(comm(), failure);  // all ranks have the same norms
   norms.merit = norms.finite ? std::hypot(rows, violation) : std::numeric_limits<double>::infinity();
+}
+
+double SystemModel::diagonal_scale(std::size_t field, const TimeStep* step) const {
+  if (step == nullptr || static_scales_.empty()) return stiffness_scale(field);
+  return step->integration->scheme.force_share() * static_scales_[field] + step->weights().acceleration * mass_scales_[field];
 }
 
 double SystemModel::weight(std::size_t field) const {
@@ -214,19 +273,48 @@ const RCP<Matrix>& SystemModel::stiffness(const std::shared_ptr<const EvaluatedS
   else
     matrix_->resumeFill();
   matrix_->setAllToScalar(0.0);
-  const Configuration configuration = this->configuration(at->context.time, *at->d);
   std::optional<StepFailure> failure;
-  for (const auto& contribution : parts_.contributions) contribution->add_jacobian(configuration, {}, *matrix_, failure);
+  add_jacobians(*at, failure);
   matrix_->fillComplete(parts_.dofs, parts_.dofs);
   throw_if_any(comm(), failure);
   matrix_of_ = at;
-  if (stiffness_scale() > 0.0) return matrix_;
+  if (stiffness_scale() == 0.0) stiffness_scales_ = scales_of_diagonal();
+  return matrix_;
+}
+
+void SystemModel::add_jacobians(const EvaluatedSystem& at, std::optional<StepFailure>& failure) const {
+  const TimeStep* step = at.context.step.get();
+  const Configuration configuration = this->configuration(at.context.time, *at.d, step);
+  JacobianWeights of_forces;
+  if (step != nullptr) of_forces.displacement = step->integration->scheme.force_share();
+  for (const auto& contribution : parts_.contributions)
+    if (contribution->uses().time_derivatives == 0)
+      contribution->add_jacobian(configuration, contribution->kind() == Contribution::Kind::interaction ? JacobianWeights{} : of_forces, *matrix_,
+                                 failure);
+  if (step == nullptr) return;
+  std::vector<double> of_statics;
+  if (mass_scales_.empty()) of_statics = scales_of_diagonal();
+  JacobianWeights weights = step->weights();
+  if (rates_.local_shares.is_null()) rates_.local_shares = rcp(new Vector(parts_.local_dofs));
+  rates_.local_shares->doImport(*velocity_shares(*step), to_local_, Tpetra::REPLACE);
+  weights.local_velocity_shares = rates_.local_shares.get();
+  for (const auto& contribution : parts_.contributions)
+    if (contribution->uses().time_derivatives > 0) contribution->add_jacobian(configuration, weights, *matrix_, failure);
+  if (of_statics.empty()) return;
+  const std::vector<double> of_all = scales_of_diagonal();
+  for (std::size_t field = 0; field < of_all.size(); ++field) {
+    static_scales_.push_back(of_statics[field] / of_forces.displacement);
+    mass_scales_.push_back(std::max(0.0, of_all[field] - of_statics[field]) / weights.acceleration);
+  }
+}
+
+std::vector<double> SystemModel::scales_of_diagonal() const {
   Vector diagonal(parts_.dofs);
   matrix_->getLocalDiagCopy(diagonal);
-  stiffness_scales_ = sizes_.means(diagonal);
-  for (double& scale : stiffness_scales_)
+  std::vector<double> scales = sizes_.means(diagonal);
+  for (double& scale : scales)
     if (!(scale > 0.0 && std::isfinite(scale))) scale = 1.0;
-  return matrix_;
+  return scales;
 }
 
 RCP<Matrix> SystemModel::take_stiffness(const std::shared_ptr<const EvaluatedSystem>& at) const {

@@ -18,8 +18,10 @@ struct Configuration {
   double time;                                 ///< pseudo-time
   const Vector& displacement;                  ///< on the owned dofs
   const Vector& local_displacement;            ///< on owned dofs followed by ghosts
-  const Vector* local_velocity = nullptr;      ///< likewise; null where there are no first time derivatives
-  const Vector* local_acceleration = nullptr;  ///< likewise; null where there are no second ones
+  const Vector* velocity = nullptr;            ///< on the owned dofs; null in a system without time derivatives
+  const Vector* local_velocity = nullptr;      ///< on owned dofs followed by ghosts; null likewise
+  const Vector* acceleration = nullptr;        ///< on the owned dofs; null likewise
+  const Vector* local_acceleration = nullptr;  ///< on owned dofs followed by ghosts; null likewise
 };
 
 /// What a Jacobian is: alpha dr/d(acceleration) + beta dr/d(velocity) + omega dr/d(displacement), as Thyra's model evaluators have it.
@@ -27,6 +29,8 @@ struct JacobianWeights {
   double acceleration = 0.0;  ///< alpha
   double velocity = 0.0;      ///< beta
   double displacement = 1.0;  ///< omega
+  /// On owned dofs followed by ghosts: factors of beta, as dofs without mass take their velocity by another formula. Null: 1
+  const Vector* local_velocity_shares = nullptr;
 };
 
 /// Fields and time derivatives that a contribution knows.
@@ -49,9 +53,8 @@ class Contribution {
   /// What it reads and writes. A system refuses what it does not have.
   virtual FieldUse uses() const { return {}; }
 
-  /// residual += this contribution with its sign in r (external forces enter with a minus). Owned dofs. Collective for interactions, which may
-  /// communicate; others must not.
-  /// Internal forces depend on displacement and committed state, not on time. commit(at) does not change those at `at`.
+  /// residual += this contribution with its sign in r (external forces enter with a minus). Owned dofs. Collective.
+  /// Internal forces without time derivatives depend on displacement and committed state, not on time. commit(at) does not change those at `at`.
   virtual void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) = 0;
 
   /// jacobian += the derivatives of the residual with their weights. `jacobian` has the graph that the system was built with, or that and more

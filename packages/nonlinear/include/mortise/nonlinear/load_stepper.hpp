@@ -81,6 +81,8 @@ struct StepperObserver {
   std::function<RCP<Vector>(const AcceptedState& from, const SystemEvaluation& solution, int round)> verify;
   /// May change the rate of the step of length dt that was accepted in x: the line that the next step starts at.
   std::function<void(const Vector& x, double dt, Vector& rate)> predict;
+  /// Length of the next step over dt, that of the step between two accepted states; empty: twice as long after an easy step. The same on every rank.
+  std::function<double(const AcceptedState& before, const AcceptedState& after, double dt)> growth;
   std::function<void(const StepReport&, const SystemEvaluation&)> accepted;  ///< after commit
   /// Between two steps, the last of which has been accepted. True: the run ends here. The same on every rank.
   std::function<bool(const SteppingState& state)> rest;
@@ -100,6 +102,7 @@ using StepStart = std::function<StepContext(const AcceptedState& state, double t
 /// prescribed displacements that is made again (Drive::continuation()), and at most by the length of the step. It starts at the last state where that
 /// is nothing, where what drives it is not known and the last state is a solution of this step too, or where the residual of the predicted one is a
 /// thousand times as large. A solution that is refused, and was predicted, is sought from the last state before the step is cut.
+/// In a system with time derivatives it starts where velocities and accelerations lead to, and steps keep their length, or what the observer says.
 bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, const NewtonOptions& newton, SteppingState& state,
                const StepStart& start, const StepperObserver& observer, std::optional<StepFailure>& last_failure);
 

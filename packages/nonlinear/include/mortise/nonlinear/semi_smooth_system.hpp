@@ -43,7 +43,8 @@ struct SystemParts {
   std::function<RCP<Vector>(const SystemEvaluation& at)> better_start;
   /// The motions that a Newton step from there leaves out. Nothing: none. Collective; empty: never any.
   std::function<std::optional<HeldMotions>(const SystemEvaluation& at)> held_motions;
-  double length = 1.0;  ///< size of the model
+  std::shared_ptr<const TimeIntegration> time;  ///< null: statics, no contribution has time derivatives
+  double length = 1.0;                          ///< size of the model
   /// All fields if there is more than one: then norms are taken of each. The first, in whose units norms are given, has the size `length`.
   std::vector<SystemField> fields;
 };
@@ -76,6 +77,11 @@ class SemiSmoothSystem {
 
   /// A state in which nothing has happened yet: no node is closed, slips are measured from x on. Throws StepFailure on every rank.
   AcceptedState initial_state(const Vector& x, double time = 0.0) const;
+  /// The same with rates. Those of followers follow from those of what they follow; those of prescribed dofs are taken as they are.
+  /// @param velocity  on the owned dofs
+  /// @param at_rest   whether accelerations are 0 at the start; else inertia is in balance with all other forces but those of contact
+  /// @throws StepFailure on every rank, std::logic_error in a system without time derivatives
+  AcceptedState initial_state(const Vector& x, const Vector& velocity, bool at_rest, double time = 0.0) const;
   /// What holds within a step that starts from a state, without a guess of multipliers.
   StepContext step_from(const AcceptedState& state, double time) const;
   /// What holds within a step, or another try of it, that starts at displacement d from a state. Multipliers z get their guesses

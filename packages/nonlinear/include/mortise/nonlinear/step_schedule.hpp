@@ -18,8 +18,8 @@ class StepSchedule {
   double next_step() const { return step_; }                  ///< length of the next step unless a target cuts it short
   bool finished() const { return time_ >= targets_.back(); }  ///< whether the end was reached
   double next_time() const;                                   ///< where the next try ends
-  /// The try worked; an easy one may be followed by a step twice as long.
-  void accept(bool easy);
+  /// The try worked; the next step is to be `growth` times as long as it.
+  void accept(double growth);
   /// The try failed: the next one is half as long. False if that is shorter than the smallest step.
   bool cut();
 

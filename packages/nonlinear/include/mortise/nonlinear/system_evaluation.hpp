@@ -8,6 +8,7 @@
 
 #include "mortise/contact/contact_evaluation.hpp"
 #include "mortise/core/types.hpp"
+#include "mortise/nonlinear/time_scheme.hpp"
 
 namespace mortise {
 
@@ -21,7 +22,8 @@ const EvaluatedSystem& evaluated(const SystemEvaluation& evaluation);
 /// Sizes of the residual's blocks at one iterate, over all ranks; what the status tests look at. With several fields relative norms are
 /// the largest of all; absolute ones are in the units of the first, as if r were s times the size of each.
 struct ResidualNorms {
-  double momentum = 0.0;                  ///< |r| on free dofs relative to max(|f_int|, |f_ext|, |f_c|, 1e-6 s |d|), reactions included
+  /// |r| on free dofs relative to max(|f_int|, |f_ext|, |f_c|, |f_rate|, 1e-6 s |d|), reactions included; f_rate has inertia and damping
+  double momentum = 0.0;
   double momentum_absolute = 0.0;         ///< |r| on free dofs [force]
   double round_off = 0.0;                 ///< what round-off alone leaves of momentum_absolute
   double prescribed = 0.0;                ///< max |d - prescribed| and |d - what it follows|, relative to the size of the field
@@ -40,13 +42,15 @@ struct StepContext {
   double time = 0.0;                      ///< pseudo-time
   std::optional<ContactHistory> contact;  ///< the history that holds within the step; none without contact
   ContactStates states;                   ///< of the iterate that was linearised last: ResidualNorms::changed counts against them
+  std::shared_ptr<const TimeStep> step;   ///< where it starts; null in a system without time derivatives
 };
 
 /// A state that was accepted: what the next step starts from.
 struct AcceptedState {
-  RCP<const Vector> x;                ///< (d, z)
-  StepContext context;                ///< its time, and the history of contact after it
-  RCP<const Vector> internal_forces;  ///< f_int at d, which committing does not change; null: not known
+  RCP<const Vector> x;                 ///< (d, z)
+  StepContext context;                 ///< its time, and the history of contact after it
+  RCP<const Vector> internal_forces;   ///< f_int at d, which committing does not change; null: not known
+  std::optional<AcceptedRates> rates;  ///< time derivatives of d; none in a system without
 };
 
 /// F at one x: residual, norms and contact conditions. A value that is cheap to copy and does not change.
@@ -59,11 +63,17 @@ class SystemEvaluation {
   /// The contact conditions at x.
   /// @throws std::logic_error without contact
   const ContactLaws& contact_laws() const;
-  /// f_int - f_ext + f_c on all owned dofs, those of followers not gathered.
+  /// The sum of all forces, as they are in balance, on all owned dofs, those of followers not gathered: f_int - f_ext + f_c without time derivatives,
+  /// else see TimeScheme::Balance.
   const Vector& nodal_forces() const;
-  /// f_int on all owned dofs.
+  /// f_int at x on all owned dofs.
   const Vector& internal_forces() const;
-  /// f_int - f_ext + f_c on all owned dofs, without Dirichlet rows. On prescribed dofs, and on all of nodes that inclined supports hold, these are
+  /// -f_ext at x and the step's end on all owned dofs.
+  const Vector& external_forces() const;
+  /// Inertia and damping on all owned dofs.
+  /// @throws std::logic_error without time derivatives
+  const Vector& rate_forces() const;
+  /// nodal_forces() without Dirichlet rows. On prescribed dofs, and on all of nodes that inclined supports hold, these are
   /// the reactions, those of followers gathered.
   RCP<Vector> forces() const;
 
