@@ -111,6 +111,22 @@ std::vector<double> Bodies::nodal_volumes(LocalOrdinal block) const {
   return volumes;
 }
 
+RCP<const Matrix> Bodies::mass(bool) const {
+  std::vector<double> masses(mesh_->owned_count(), 0.0);
+  for (std::size_t n = 0; n < properties_.size(); ++n) {
+    if (properties_[n].is_rigid()) continue;
+    const auto volumes = nodal_volumes(static_cast<LocalOrdinal>(n));
+    for (std::size_t a = 0; a < masses.size(); ++a) masses[a] += properties_[n].material->density * volumes[a];
+  }
+  const auto M = rcp(new Matrix(mesh_->owned_nodes, 1));
+  for (LocalOrdinal a = 0; a < mesh_->owned_count(); ++a) {
+    const GlobalOrdinal id = mesh_->owned_nodes->getGlobalElement(a);
+    M->insertGlobalValues(id, 1, &masses[a], &id);
+  }
+  M->fillComplete();
+  return M;
+}
+
 std::vector<double> Bodies::stored_energies(const Vector& local_displacement) const {
   std::vector<double> mine(mesh_->bodies.size(), 0.0), all(mine.size(), 0.0);
   visit_points(local_displacement, [&](const MaterialPoint& point) { mine[mesh_->blocks[point.block].body] += point.weight * point.energy; });

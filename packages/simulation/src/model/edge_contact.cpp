@@ -9,54 +9,13 @@
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <map>
-#include <numeric>
 
-#include "mortise/core/column_map.hpp"
+#include "model/widened_graph.hpp"
 
 namespace mortise {
 namespace {
 
 constexpr int in_space = 3;
-
-/// The bodies' graph with further columns in rows of owned nodes.
-RCP<const Graph> widened(const Graph& bulk, const Mesh& mesh, const std::set<std::pair<GlobalOrdinal, GlobalOrdinal>>& coupled) {
-  std::map<LocalOrdinal, std::vector<GlobalOrdinal>> of_row;
-  std::vector<GlobalOrdinal> further;
-  for (const auto& [one, other] : coupled) {
-    const LocalOrdinal node = mesh.owned_nodes->getLocalElement(one);
-    if (node < 0) continue;
-    for (int j = 0; j < in_space; ++j) {
-      further.push_back(in_space * other + j);
-      for (int i = 0; i < in_space; ++i) of_row[in_space * node + i].push_back(further.back());
-    }
-  }
-  const RCP<const Map> rows = bulk.getRowMap(), columns = with_further_columns(*bulk.getColMap(), further);
-  const auto narrow = bulk.getLocalGraphHost();
-  const auto count = static_cast<LocalOrdinal>(rows->getNodeNumElements());
-  std::map<LocalOrdinal, std::vector<LocalOrdinal>> wide;
-  for (const auto& [row, ids] : of_row) {
-    std::vector<LocalOrdinal>& all = wide[row];
-    for (std::size_t k = narrow.row_map(row); k < narrow.row_map(row + 1); ++k) all.push_back(narrow.entries(k));
-    for (const GlobalOrdinal id : ids) all.push_back(columns->getLocalElement(id));
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
-  }
-  Graph::local_graph_device_type::row_map_type::non_const_type starts("starts", static_cast<std::size_t>(count) + 1);
-  for (LocalOrdinal row = 0; row < count; ++row) starts(row + 1) = narrow.row_map(row + 1) - narrow.row_map(row);
-  for (const auto& [row, all] : wide) starts(row + 1) = all.size();
-  std::partial_sum(starts.data(), starts.data() + starts.extent(0), starts.data());
-  Graph::local_graph_device_type::entries_type::non_const_type entries(Kokkos::view_alloc(Kokkos::WithoutInitializing, "entries"), starts(count));
-  for (LocalOrdinal row = 0; row < count; ++row) {
-    const auto found = wide.find(row);
-    if (found != wide.end())
-      std::copy(found->second.begin(), found->second.end(), entries.data() + starts(row));
-    else
-      std::copy(narrow.entries.data() + narrow.row_map(row), narrow.entries.data() + narrow.row_map(row + 1), entries.data() + starts(row));
-  }
-  const auto graph = rcp(new Graph(rows, columns, starts, entries));
-  graph->expertStaticFillComplete(rows, rows);
-  return graph;
-}
 
 std::string piece_text(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return fmt::format("from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})", a[0], a[1], a[2], b[0], b[1], b[2]);
@@ -150,9 +109,8 @@ void EdgeContact::take(EdgeSpots spots) {
   ++version_;
 }
 
-RCP<const Graph> EdgeContact::graph() const {
-  const RCP<const Graph> bulk = bodies_->graph();
-  return coupled_.empty() ? bulk : widened(*bulk, *bodies_->mesh(), coupled_);
+RCP<const Graph> EdgeContact::graph(const RCP<const Graph>& bulk) const {
+  return coupled_.empty() ? bulk : widened(*bulk, *bodies_->mesh()->owned_nodes, in_space, coupled_);
 }
 
 void EdgeContact::start_step(const Vector& displacement) {

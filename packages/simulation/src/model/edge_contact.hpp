@@ -51,8 +51,8 @@ class EdgeContact final : public CountedContribution {
   /// Crossings in the solution that was examined last, the same on every rank.
   const std::vector<CrossingEdges>& crossings() const { return crossings_; }
 
-  /// The graph of the bodies, widened by what edges couple.
-  RCP<const Graph> graph() const;
+  /// A graph, widened by what edges couple.
+  RCP<const Graph> graph(const RCP<const Graph>& bulk) const;
   /// Grows whenever graph() changes.
   long graph_version() const { return version_; }
 

@@ -14,6 +14,7 @@
 #include "model/contributions.hpp"
 #include "model/current_places.hpp"
 #include "model/edge_contact.hpp"
+#include "model/inertia.hpp"
 #include "model/inclined_supports.hpp"
 #include "model/precision.hpp"
 #include "model/search_reach.hpp"
@@ -208,7 +209,7 @@ std::shared_ptr<EdgeContact> make_edge_contact(const std::shared_ptr<const Bodie
 
 Effects effects_of(const Scene& scene, const Bodies& bodies) {
   std::vector<std::string> finite, small, f_bar, plastic, pairs, rubbing, loads, conditions;
-  std::vector<std::string> rigid, points, ties;
+  std::vector<std::string> rigid, points, ties, moving;
   for (const auto& point : scene.reference_points) points.push_back(point.name);
   for (const auto& tie : scene.ties) ties.push_back(tie.name);
   const auto add = [](std::vector<std::string>& names, const std::string& name) {  // a body may have several blocks
@@ -224,6 +225,9 @@ Effects effects_of(const Scene& scene, const Bodies& bodies) {
     if (formulation(block.element) == ElementFormulation::f_bar) add(f_bar, block.name);
     if (std::visit([](const auto& law) { return has_history<std::decay_t<decltype(law)>>; }, block.material->law())) add(plastic, block.name);
   }
+  if (scene.inertia.acts())
+    for (const auto& body : scene.bodies)
+      if (!body.value.rigid.value) moving.push_back(body.name);
   for (const auto& pair : scene.contact) {
     pairs.push_back(pair.name);
     if (pair.value.contact.friction.options->acts()) rubbing.push_back(pair.name);
@@ -239,6 +243,7 @@ Effects effects_of(const Scene& scene, const Bodies& bodies) {
           {"friction", rubbing},
           {"rigid bodies", rigid},
           {"reference points", points},
+          {"inertia", moving},
           {"loads", loads},
           {"boundary conditions", conditions}};
 }
@@ -359,6 +364,7 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
     kept->update(1.0, *marked_components(*mesh_, parts_.tied->dofs, 2.0), 1.0);
     mark_crosspoints(followed_by_ties(*mesh_, *parts_.tied), *kept);
   }
+  inertia_ = add_inertia(scene, bodies_, timers, parts_);
   surfaces_at_start_ = examine_surfaces(*mesh_, scene, size_.length);
   for (std::size_t p = 0; p < scene.contact.size(); ++p)
     if (pairs[p].facet_gaps) surfaces_at_start_.pairs[p].facet_gaps = range_over_ranks(*comm, *pairs[p].facet_gaps);
@@ -371,8 +377,11 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   std::vector<HoldingPair> holding;
   for (const auto& pair : pairs)
     holding.push_back({&pair.slave, &pair.master, pair.options.mortar.search_reach.value_or(0.0), pair.options.friction.options->acts()});
-  const auto only_contact = check_held(*mesh_, axisymmetric, supports_, holding, places);
-  for (LocalOrdinal node = 0; node < mesh_->owned_count(); ++node) held_by_contact_only_.push_back(only_contact[mesh_->body_of_node[node]]);
+  held_by_contact_only_.assign(mesh_->owned_count(), false);
+  if (!scene.inertia.acts()) {  // mass balances what nothing holds
+    const auto only_contact = check_held(*mesh_, axisymmetric, supports_, holding, places);
+    for (LocalOrdinal node = 0; node < mesh_->owned_count(); ++node) held_by_contact_only_[node] = only_contact[mesh_->body_of_node[node]];
+  }
 
   if (pairs.empty()) return;
   bodies_of_pairs_ = bodies_of(*mesh_, pairs);
@@ -382,7 +391,7 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   if (const auto edges = make_edge_contact(bodies_, scene, reaches, size_.length, timers)) {
     edges_ = edges;
     parts_.contributions.push_back(edges);
-    parts_.bulk_graph = [edges] { return edges->graph(); };
+    parts_.bulk_graph = [edges, inner = parts_.bulk_graph] { return edges->graph(inner()); };
     parts_.bulk_version = [edges] { return edges->graph_version(); };
   }
   const std::array<double, 3> origin = contact_origin(*mesh_, size_.length, axisymmetric);

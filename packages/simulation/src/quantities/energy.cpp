@@ -1,5 +1,6 @@
 // Energies and works.
 
+#include <Tpetra_Import.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
@@ -19,11 +20,15 @@ namespace {
 /// holds to the tolerance of momentum, whatever the step. [work]
 struct Energy : Quantity {
   enum class Of {
-    stored,         ///< int W dV0
-    plastic_work,   ///< int int_0^alpha sigma_y dalpha dV0
-    friction,       ///< of the shear tractions of all pairs with friction
-    external_work,  ///< of loads and supports
-    internal_work   ///< of the internal forces
+    stored,                ///< int W dV0
+    plastic_work,          ///< int int_0^alpha sigma_y dalpha dV0
+    friction,              ///< of the shear tractions of all pairs with friction
+    external_work,         ///< of loads and supports
+    internal_work,         ///< of the internal forces
+    kinetic,               ///< 1/2 v . M v
+    contact_work,          ///< of all contact forces on the bodies, friction included: what contact takes is negative
+    damping,               ///< taken by damping
+    numerical_dissipation  ///< external + contact work - change of stored and kinetic energy - plastic work - damping: what time integration takes
   };
   Of of = Of::stored;
   Located<std::string> body;  ///< stored energy and plastic work only; empty: all
@@ -35,17 +40,24 @@ struct Energy : Quantity {
          {"plastic work", Of::plastic_work},
          {"friction", Of::friction},
          {"external work", Of::external_work},
-         {"internal work", Of::internal_work}},
+         {"internal work", Of::internal_work},
+         {"kinetic", Of::kinetic},
+         {"contact work", Of::contact_work},
+         {"damping", Of::damping},
+         {"numerical dissipation", Of::numerical_dissipation}},
         "stored in the bodies, spent on plastic flow, dissipated by friction of all pairs (of first order in the step where slip begins or "
         "turns round), or the work since the start of loads and supports, "
-        "or of the internal forces");
-    parameters.add("body", body, "body whose stored energy or plastic work is meant; empty: all");
-    if (of != Of::stored && of != Of::plastic_work && !body.value.empty())
-      parameters.error("body", "only stored energy and plastic work are those of a body; please remove \"body\"");
+        "or of the internal forces; with inertia kinetic energy, the work of all contact forces on the bodies (negative where contact takes energy), "
+        "what damping takes, or what time integration takes besides");
+    parameters.add("body", body, "body whose stored or kinetic energy or plastic work is meant; empty: all");
+    if (of != Of::stored && of != Of::plastic_work && of != Of::kinetic && !body.value.empty())
+      parameters.error("body", "only stored energy, kinetic energy and plastic work are those of a body; please remove \"body\"");
   }
 
   std::unique_ptr<QuantityEvaluator> make_evaluator(const QuantityContext& context) const override;
 };
+
+std::unique_ptr<QuantityEvaluator> numerical_dissipation(const QuantityContext& context);
 
 // What a work is done by, on all owned dofs. From outside act loads, and supports on prescribed dofs. Reference points act on their followers, and
 // there their work is counted. A point that is carried round by an angle a with a moment M would do M a. Its followers do M sin a along the chords of
@@ -58,9 +70,19 @@ RCP<Vector> working_force(Energy::Of of, const QuantityContext& context) {
     add_contact_force(*context.laws->evaluation().shear_tractions(context.laws->multipliers()));
     return result;
   }
+  if (of == Energy::Of::damping) {
+    if (context.motion != nullptr) result->assign(context.motion->damping_force);
+    return result;
+  }
+  if (of == Energy::Of::contact_work) {
+    add_contact_force(context.laws->multipliers());
+    result->scale(-1.0);
+    return result;
+  }
   if (of == Energy::Of::internal_work) {
     if (context.contact != nullptr) add_contact_force(context.laws->multipliers());
     result->update(1.0, *context.reaction, 1.0, *context.external_force, -1.0);
+    if (context.motion != nullptr) result->update(-1.0, context.motion->rate_force, 1.0);
   } else {
     result->assign(*context.external_force);
     const auto reaction = context.reaction->getLocalViewHost(Tpetra::Access::ReadOnly);
@@ -83,11 +105,14 @@ class WorkEvaluator final : public QuantityEvaluator {
       : of_(of), force_(rcp(new Vector(context.bodies.dofs()))), displacement_(rcp(new Vector(context.bodies.dofs()))) {}
 
   double evaluate(const QuantityContext& context) override {
-    if (of_ == Energy::Of::friction && context.contact == nullptr) return 0.0;
+    if ((of_ == Energy::Of::friction || of_ == Energy::Of::contact_work) && context.contact == nullptr) return 0.0;
     const RCP<Vector> now = working_force(of_, context);
+    if (!has_begun_ && context.motion != nullptr) displacement_->assign(context.motion->displacement_before);
+    has_begun_ = true;
     Vector change(*context.displacement, Teuchos::Copy);
     change.update(-1.0, *displacement_, 1.0);
-    force_->update(0.5, *now, 0.5);
+    const bool is_constant = context.motion != nullptr && context.motion->is_over_step;
+    force_->update(is_constant ? 1.0 : 0.5, *now, is_constant ? 0.0 : 0.5);
     work_ += force_->dot(change);
     force_ = now;
     displacement_->assign(*context.displacement);
@@ -95,6 +120,9 @@ class WorkEvaluator final : public QuantityEvaluator {
   }
 
   void serialize(StateArchive& archive, const std::string& name) override {
+    int has_begun = has_begun_ ? 1 : 0;
+    mortise::serialize(archive, name + ".has_begun", has_begun);
+    has_begun_ = has_begun != 0;
     mortise::serialize(archive, name + ".work", work_);
     mortise::serialize(archive, name + ".force", "dofs", *force_);
     mortise::serialize(archive, name + ".displacement", "dofs", *displacement_);
@@ -103,11 +131,89 @@ class WorkEvaluator final : public QuantityEvaluator {
  private:
   Energy::Of of_;
   double work_ = 0.0;
+  bool has_begun_ = false;
   RCP<Vector> force_, displacement_;  ///< at the last step
 };
 
+std::unique_ptr<QuantityEvaluator> energy(Energy::Of of, const QuantityContext& context) {
+  Energy energy;
+  energy.of = of;
+  return energy.make_evaluator(context);
+}
+
+/// Stored and kinetic energy since the start.
+class MechanicalEnergyChange final : public QuantityEvaluator {
+ public:
+  double evaluate(const QuantityContext& context) override {
+    if (context.motion == nullptr) return 0.0;
+    if (!has_begun_) {
+      Vector local(context.bodies.local_dofs());
+      local.doImport(context.motion->displacement_before, *context.bodies.ghost_import(), Tpetra::INSERT);
+      at_start_ = mechanical_energy(context, local, context.motion->velocity_before);
+      has_begun_ = true;
+    }
+    return mechanical_energy(context, *context.local_displacement, context.motion->velocity) - at_start_;
+  }
+
+  double at_start() const { return at_start_; }
+
+  void serialize(StateArchive& archive, const std::string& name) override {
+    int has_begun = has_begun_ ? 1 : 0;
+    mortise::serialize(archive, name + ".has_begun", has_begun);
+    has_begun_ = has_begun != 0;
+    mortise::serialize(archive, name + ".at_start", at_start_);
+  }
+
+ private:
+  static double mechanical_energy(const QuantityContext& context, const Vector& local_displacement, const Vector& velocity) {
+    const std::vector<double> stored = context.bodies.stored_energies(local_displacement);
+    return std::accumulate(stored.begin(), stored.end(), 0.5 * sum_over_body(context, std::nullopt, *context.mass->times(velocity), velocity));
+  }
+
+  bool has_begun_ = false;
+  double at_start_ = 0.0;
+};
+
+/// A sum of energies with signs.
+class EnergySum final : public QuantityEvaluator {
+ public:
+  void add(double sign, std::unique_ptr<QuantityEvaluator> energy) { terms_.push_back({sign, std::move(energy)}); }
+  double evaluate(const QuantityContext& context) override {
+    double sum = 0.0;
+    for (const Term& term : terms_) sum += term.sign * term.energy->evaluate(context);
+    return sum;
+  }
+  void serialize(StateArchive& archive, const std::string& name) override {
+    for (std::size_t n = 0; n < terms_.size(); ++n) terms_[n].energy->serialize(archive, name + ".term." + std::to_string(n));
+  }
+
+ private:
+  struct Term {
+    double sign;
+    std::unique_ptr<QuantityEvaluator> energy;
+  };
+  std::vector<Term> terms_;
+};
+
+std::unique_ptr<QuantityEvaluator> numerical_dissipation(const QuantityContext& context) {
+  auto sum = std::make_unique<EnergySum>();
+  sum->add(1.0, energy(Energy::Of::external_work, context));
+  sum->add(1.0, energy(Energy::Of::contact_work, context));
+  sum->add(-1.0, std::make_unique<MechanicalEnergyChange>());
+  sum->add(-1.0, energy(Energy::Of::plastic_work, context));
+  sum->add(-1.0, energy(Energy::Of::damping, context));
+  return sum;
+}
+
 std::unique_ptr<QuantityEvaluator> Energy::make_evaluator(const QuantityContext& context) const {
   const std::optional<LocalOrdinal> of_body = find_optional_body(context, body);
+  if (of == Of::kinetic || of == Of::damping || of == Of::numerical_dissipation) require_inertia(context);
+  if (of == Of::numerical_dissipation) return numerical_dissipation(context);
+  if (of == Of::kinetic)
+    return evaluator_of([of_body](const QuantityContext& at) {
+      if (at.motion == nullptr) return std::numeric_limits<double>::quiet_NaN();
+      return 0.5 * sum_over_body(at, of_body, *at.mass->times(at.motion->velocity), at.motion->velocity);
+    });
   if (of != Of::stored && of != Of::plastic_work) return std::make_unique<WorkEvaluator>(of, context);
   return evaluator_of([of = of, of_body](const QuantityContext& at) {
     const auto energies = of == Of::stored ? at.bodies.stored_energies(*at.local_displacement) : at.bodies.plastic_works(*at.local_displacement);
@@ -120,14 +226,19 @@ std::unique_ptr<QuantityEvaluator> Energy::make_evaluator(const QuantityContext&
 ///     over.
 ///   - stored_and_plastic: external work - stored - plastic work - friction. It counts besides what F-bar, without a potential, and the steps of the
 ///     flow rule make of internal work.
+///   - mechanical: with inertia, external work - change of stored and kinetic energy - plastic work - friction - damping, over the largest of these
+///     and of the energy at the start: what impacts and time integration take. Below 0 energy was gained.
 /// NaN while nothing has been done.
 struct EnergyError : Quantity {
-  enum class Against { internal_work, stored_and_plastic };
+  enum class Against { internal_work, stored_and_plastic, mechanical };
   Against against = Against::internal_work;
 
   void describe(Parameters& parameters) override {
-    parameters.add("against", against, {{"internal work", Against::internal_work}, {"stored and plastic", Against::stored_and_plastic}},
-                   "what external work less friction is compared with: work of the internal forces, or stored energy and plastic work");
+    parameters.add(
+        "against", against,
+        {{"internal work", Against::internal_work}, {"stored and plastic", Against::stored_and_plastic}, {"mechanical", Against::mechanical}},
+        "what external work less friction is compared with: work of the internal forces, stored energy and plastic work, or with inertia "
+        "stored and kinetic energy, plastic work and damping: a result below 0 is a gain of energy");
   }
 
   std::unique_ptr<QuantityEvaluator> make_evaluator(const QuantityContext& context) const override;
@@ -136,18 +247,22 @@ struct EnergyError : Quantity {
 class EnergyErrorEvaluator final : public QuantityEvaluator {
  public:
   /// @param spent  what external work is spent on
-  EnergyErrorEvaluator(const std::vector<Energy::Of>& spent, const QuantityContext& context)
-      : external_(evaluator(Energy::Of::external_work, context)) {
-    for (const Energy::Of of : spent) spent_.push_back(evaluator(of, context));
+  EnergyErrorEvaluator(const std::vector<Energy::Of>& spent, const QuantityContext& context) : external_(energy(Energy::Of::external_work, context)) {
+    for (const Energy::Of of : spent) spent_.push_back(energy(of, context));
   }
+  void add_mechanical_energy() { mechanical_ = std::make_unique<MechanicalEnergyChange>(); }
 
   double evaluate(const QuantityContext& context) override {
     const double external = external_->evaluate(context);
     double difference = external, largest = std::abs(external);
-    for (const auto& energy : spent_) {
-      const double value = energy->evaluate(context);
+    const auto spend = [&](double value) {
       difference -= value;
       largest = std::max(largest, std::abs(value));
+    };
+    for (const auto& energy : spent_) spend(energy->evaluate(context));
+    if (mechanical_) {
+      spend(mechanical_->evaluate(context));
+      largest = std::max(largest, mechanical_->at_start());
     }
     return largest > 0.0 ? difference / largest : std::numeric_limits<double>::quiet_NaN();
   }
@@ -155,24 +270,24 @@ class EnergyErrorEvaluator final : public QuantityEvaluator {
   void serialize(StateArchive& archive, const std::string& name) override {
     external_->serialize(archive, name + ".external");
     for (std::size_t n = 0; n < spent_.size(); ++n) spent_[n]->serialize(archive, name + ".spent." + std::to_string(n));
+    if (mechanical_) mechanical_->serialize(archive, name + ".mechanical");
   }
 
  private:
-  static std::unique_ptr<QuantityEvaluator> evaluator(Energy::Of of, const QuantityContext& context) {
-    Energy energy;
-    energy.of = of;
-    return energy.make_evaluator(context);
-  }
-
   std::unique_ptr<QuantityEvaluator> external_;
   std::vector<std::unique_ptr<QuantityEvaluator>> spent_;
+  std::unique_ptr<MechanicalEnergyChange> mechanical_;  ///< null: not spent on
 };
 
 std::unique_ptr<QuantityEvaluator> EnergyError::make_evaluator(const QuantityContext& context) const {
   using Of = Energy::Of;
-  const std::vector<Of> spent = against == Against::internal_work ? std::vector<Of>{Of::friction, Of::internal_work}
-                                                                  : std::vector<Of>{Of::friction, Of::stored, Of::plastic_work};
-  return std::make_unique<EnergyErrorEvaluator>(spent, context);
+  if (against == Against::internal_work) return std::make_unique<EnergyErrorEvaluator>(std::vector<Of>{Of::friction, Of::internal_work}, context);
+  if (against == Against::stored_and_plastic)
+    return std::make_unique<EnergyErrorEvaluator>(std::vector<Of>{Of::friction, Of::stored, Of::plastic_work}, context);
+  require_inertia(context);
+  auto result = std::make_unique<EnergyErrorEvaluator>(std::vector<Of>{Of::friction, Of::plastic_work, Of::damping}, context);
+  result->add_mechanical_energy();
+  return result;
 }
 
 }  // namespace

@@ -24,10 +24,15 @@ Values on_nodes(const Mesh& mesh, const Vector& vector) {
 
 Values displacement(const FieldState& state) { return on_nodes(*state.bodies.mesh(), state.displacement); }
 
-Values reaction_force(const FieldState& state) {
+/// 0 where there is no such vector.
+Values on_nodes_or_none(const FieldState& state, const Vector* vector) {
   const Mesh& mesh = *state.bodies.mesh();
-  return state.reaction != nullptr ? on_nodes(mesh, *state.reaction) : Values(static_cast<std::size_t>(mesh.dimension) * mesh.owned_count(), 0.0);
+  return vector != nullptr ? on_nodes(mesh, *vector) : Values(static_cast<std::size_t>(mesh.dimension) * mesh.owned_count(), 0.0);
 }
+
+Values reaction_force(const FieldState& state) { return on_nodes_or_none(state, state.reaction); }
+Values velocity(const FieldState& state) { return on_nodes_or_none(state, state.velocity); }
+Values acceleration(const FieldState& state) { return on_nodes_or_none(state, state.acceleration); }
 
 /// `put(node, values of the node)` for every owned slave node of every pair.
 Values on_slave_nodes(const FieldState& state, int components, const std::function<void(const ContactNodeState&, double*)>& put) {
@@ -128,7 +133,10 @@ const std::vector<Kind>& kinds() {
       {"nodal_logarithmic_strain", "logarithmic strain at the nodes, in the same way", Center::node, FieldKind::symmetric_tensor, 4, 6,
        nodal_strains},
       {"reaction_force", "force of the supports on each node, in prescribed directions; 0 in all others", Center::node, FieldKind::vector, 2, 3,
-       reaction_force}};
+       reaction_force},
+      {"velocity", "velocity of the nodes; 0 without inertia", Center::node, FieldKind::vector, 2, 3, velocity},
+      {"acceleration", "acceleration of the nodes, of contact nodes without mass that of their neighbours; 0 without inertia", Center::node,
+       FieldKind::vector, 2, 3, acceleration}};
   return all;
 }
 

@@ -31,6 +31,22 @@ double largest_over_ranks(const Mesh& mesh, double mine) {
   return all;
 }
 
+void require_inertia(const QuantityContext& context) {
+  if (context.mass == nullptr)
+    throw InputError(Place{}, "this quantity is one of motion; the scene has no inertia: please give the list \"inertia\"");
+}
+
+double sum_over_body(const QuantityContext& context, const std::optional<LocalOrdinal>& body, const Vector& a, const Vector& b) {
+  const Mesh& mesh = context.mesh();
+  const auto of_a = a.getLocalViewHost(Tpetra::Access::ReadOnly), of_b = b.getLocalViewHost(Tpetra::Access::ReadOnly);
+  double mine = 0.0;
+  for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node) {
+    if (body && mesh.body_of_node[node] != *body) continue;
+    for (int i = 0; i < mesh.dimension; ++i) mine += of_a(mesh.dimension * node + i, 0) * of_b(mesh.dimension * node + i, 0);
+  }
+  return sum_over_ranks(mesh, mine);
+}
+
 void require_component(const QuantityContext& context, Component component) {
   if (component == Component::z && context.mesh().dimension == 2)
     throw InputError(Place{}, "\"component\" is \"z\", which exists in three-dimensional scenes only; in 2D please take \"x\" or \"y\"");

@@ -9,6 +9,7 @@ QuantityContext quantity_context(const Scene& scene, const Model& model) {
   context.prescribed = &model.supports().dofs;
   if (model.parts().dependent) context.following = &model.parts().dependent->dofs();
   context.symbols = &scene.symbols;
+  context.mass = model.inertia().mass.get();
   return context;
 }
 

@@ -11,6 +11,7 @@
 
 #include "model/contact_at_start.hpp"
 #include "model/edge_contact.hpp"
+#include "model/initial_state.hpp"
 #include "model/precision.hpp"
 #include "model/report_model.hpp"
 #include "mortise/core/memory.hpp"
@@ -119,7 +120,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
   const Model model(comm, scene, timers);
   SystemParts parts = model.parts();
   std::optional<SlipSettlement> settlement;
-  if (SlipSettlement::is_needed(model)) {
+  if (!scene.inertia.acts() && SlipSettlement::is_needed(model)) {
     settlement.emplace(model);
     parts.better_start = [&](const SystemEvaluation& at) { return settlement->better_start(at); };
   }
@@ -186,7 +187,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
   RunOutput output(comm, scene, directory, model.mesh(), evaluation, log, record, timers, restart ? restart->file.get() : nullptr);
   if (restart) remove_checkpoints_after(*comm, directory.path(), restart->step);
 
-  SteppingState state = restored ? *std::move(restored) : SteppingState(system.initial_state(Vector(system.map())));
+  SteppingState state = restored ? *std::move(restored) : SteppingState(initial_state(scene, model, system));
   if (model.edges()) model.edges()->start_step(*system.displacement(*state.accepted.x));
   if (auto& context = state.accepted.context; context.contact) context.contact = model.contact()->with_clearances(*context.contact, context.time);
   std::optional<SystemEvaluation> last;  // of `state`, in the step that led there; none while another step is tried
@@ -251,6 +252,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
           throw StepFailure(far.kind(), fmt::format("{}; the state that was found is too far away: {}", statics.words, far.what()));
         }
       }
+      if (scene.inertia.acts()) return Teuchos::null;
       jump.verify(*system.displacement(*from.x), *system.displacement(found.x()), found.context().time - from.context.time,
                   check && check->went_far());
       stability.verify(system, from, found);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "model/edge_contact.hpp"
+#include "run/step_motion.hpp"
 
 namespace mortise {
 
@@ -35,7 +36,13 @@ std::vector<double> StepEvaluation::quantities(const SystemEvaluation& at) {
   const auto displacement = system_.displacement(at.x());
   const auto local_displacement = local(*displacement);
   const double time = at.context().time;
-  const RCP<const Vector> reaction = at.forces(), external = external_force(at.x(), time);
+  const RCP<const Vector> reaction = at.forces();
+  const RCP<Vector> external = external_force(at.x(), time);
+  const std::optional<StepMotion> motion = step_motion(model_, system_, at);
+  if (const TimeStep* step = at.context().step.get(); step != nullptr && step->integration->scheme.blends_forces()) {
+    const double before = step->integration->scheme.alpha_f;
+    external->update(-before, *step->start.external_forces, 1.0 - before);
+  }
 
   QuantityContext context = quantity_context(scene_, model_);
   context.time = time;
@@ -46,6 +53,8 @@ std::vector<double> StepEvaluation::quantities(const SystemEvaluation& at) {
     context.edge_force = [edges, local_displacement](std::size_t pair) { return edges->resultant(pair, *local_displacement); };
   context.reaction = reaction.get();
   context.external_force = external.get();
+  const std::optional<MotionOfStep> of_step = motion ? std::optional(motion->of_quantities()) : std::nullopt;
+  context.motion = of_step ? &*of_step : nullptr;
   context.force_round_off = force_round_off(*displacement);
   for (const auto& evaluator : evaluators_) context.earlier_values.push_back(evaluator->evaluate(context));
   return context.earlier_values;
@@ -80,7 +89,12 @@ std::vector<Field> StepEvaluation::fields(const SystemEvaluation& at, const std:
     for (std::size_t dof = 0; dof < supports.extent(0); ++dof) supports(dof, 0) = 0.0;
     for (const LocalOrdinal dof : model_.supports().dofs) supports(dof, 0) = all(dof, 0);
   }
-  const FieldState state{*model_.bodies(), model_.contact().get(), *displacement, *local_displacement, contact_laws(at), &reaction};
+  FieldState state{*model_.bodies(), model_.contact().get(), *displacement, *local_displacement, contact_laws(at), &reaction};
+  const std::optional<StepMotion> motion = step_motion(model_, system_, at);
+  if (motion) {
+    state.velocity = motion->velocity.get();
+    state.acceleration = motion->acceleration.get();
+  }
   for (const auto& name : names) fields.push_back(make_field(name, state));
   return fields;
 }

@@ -136,7 +136,12 @@ void Scene::describe(Parameters& parameters) {
   parameters.named("ties", ties, "surfaces that are glued together, by names of your choice");
   parameters.named("contact", contact, "contact pairs, by names of your choice");
   parameters.list("automatic contact", automatic_contact, "contact pairs that the program finds");
-  parameters.list("stepping", stepping, "pseudo-time and its steps");
+  parameters.list("inertia", inertia, "mass of the bodies and time integration; without a scheme the scene is static");
+  parameters.locate("inertia", inertia.place);
+  parameters.named("initial conditions", initial_conditions, "displacements and velocities at the start, with inertia");
+  if (!inertia.acts() && !initial_conditions.empty())
+    parameters.error("initial conditions", "need inertia; please give the list \"inertia\" a \"scheme\"");
+  parameters.list("stepping", stepping, "pseudo-time and its steps; with inertia time");
   parameters.list("newton", newton, "when a Newton solve is done, and when it is given up");
   parameters.list("linear solver", linear_solver, "how linear systems are solved");
   parameters.list("output", output, "what is written besides the summary");

@@ -114,6 +114,9 @@ class Bodies {
   /// Work that plastic flow of each body has taken, summed over all ranks; 0 for laws without plasticity. Collective.
   std::vector<double> plastic_works(const Vector& local_displacement) const;
 
+  /// TEMP
+  RCP<const Matrix> mass(bool lumped) const;
+
   /// Integral of N_a dV0 over the body `block`, for each owned node a.
   std::vector<double> nodal_volumes(LocalOrdinal block) const;
 

@@ -10,6 +10,7 @@
 #include "mortise/core/timers.hpp"
 #include "mortise/mesh/build_mesh.hpp"
 #include "mortise/nonlinear/semi_smooth_system.hpp"
+#include "mortise/simulation/model/inertia_of_model.hpp"
 #include "mortise/simulation/model/supports.hpp"
 #include "mortise/simulation/model/surfaces_at_start.hpp"
 #include "mortise/simulation/scene/scene.hpp"
@@ -58,6 +59,8 @@ class Model {
   const std::shared_ptr<const Bodies>& bodies() const { return bodies_; }
   /// Null if the scene has no contact.
   const std::shared_ptr<ContactSystem>& contact() const { return parts_.contact; }
+  /// Without mass if the scene has no inertia.
+  const InertiaOfModel& inertia() const { return inertia_; }
   /// Null if no edges of the scene's pairs may cross.
   EdgeContact* edges() const { return edges_.get(); }
   /// For each owned node whether it belongs to a body that nothing but contact holds.
@@ -90,6 +93,7 @@ class Model {
   RCP<const Mesh> mesh_;
   MeshSize size_;
   std::shared_ptr<const Bodies> bodies_;
+  InertiaOfModel inertia_;
   std::vector<char> held_by_contact_only_;
   std::vector<std::vector<int>> bodies_of_pairs_;
   Effects effects_;

@@ -16,11 +16,13 @@ const std::vector<std::pair<std::string, std::string>>& field_names();
 /// The state that fields are made of.
 struct FieldState {
   const Bodies& bodies;
-  const ContactSystem* contact;      ///< null: contact fields are zero, and the gap is too
-  const Vector& displacement;        ///< owned dofs
-  const Vector& local_displacement;  ///< owned dofs, then ghosts
-  const ContactLaws* laws;           ///< of it at this state; null without contact
-  const Vector* reaction = nullptr;  ///< owned dofs: forces of the supports, 0 where nothing is prescribed; null: all are 0
+  const ContactSystem* contact;          ///< null: contact fields are zero, and the gap is too
+  const Vector& displacement;            ///< owned dofs
+  const Vector& local_displacement;      ///< owned dofs, then ghosts
+  const ContactLaws* laws;               ///< of it at this state; null without contact
+  const Vector* reaction = nullptr;      ///< owned dofs: forces of the supports, 0 where nothing is prescribed; null: all are 0
+  const Vector* velocity = nullptr;      ///< owned dofs; null without inertia
+  const Vector* acceleration = nullptr;  ///< owned dofs; null likewise
 };
 
 /// The values of the field `name`, one of field_names().

@@ -12,6 +12,7 @@
 #include "mortise/core/state_archive.hpp"
 #include "mortise/input/expression.hpp"
 #include "mortise/solid/bodies.hpp"
+#include "mortise/solid/nodal_mass.hpp"
 
 namespace mortise {
 
@@ -19,6 +20,18 @@ namespace mortise {
 struct PairSurfaces {
   std::string name;
   std::string slave, master;
+};
+
+/// Motion at the end of a step, on owned dofs.
+struct MotionOfStep {
+  const Vector& velocity;
+  const Vector& acceleration;         ///< that balances forces
+  const Vector& rate_force;           ///< inertia and damping as they are in balance over the step
+  const Vector& damping_force;        ///< the latter alone
+  const Vector& displacement_before;  ///< at the start of the step
+  const Vector& velocity_before;      ///< likewise
+  double dt;                          ///< length of the step
+  bool is_over_step;                  ///< forces are constant over the step: works are f . (d - d_old), else those of the trapezoidal rule
 };
 
 /// What a quantity may look at. The vectors are null while evaluators are made.
@@ -34,7 +47,9 @@ struct QuantityContext {
   std::function<std::array<double, 3>(std::size_t pair)> edge_force{};
   /// f_int - f_ext + f_c on owned dofs: on prescribed ones the force of the support on the body, on followers that of their reference point
   const Vector* reaction = nullptr;
-  const Vector* external_force = nullptr;                 ///< f_ext on owned dofs
+  const Vector* external_force = nullptr;                 ///< f_ext on owned dofs, as it is in balance
+  const NodalMass* mass = nullptr;                        ///< null: the scene has no inertia
+  const MotionOfStep* motion = nullptr;                   ///< null at the first state, and without inertia
   double force_round_off = 0.0;                           ///< what round-off of positions and stresses may leave of a sum of |forces|, over all ranks
   const std::vector<LocalOrdinal>* prescribed = nullptr;  ///< prescribed owned dofs
   const std::vector<LocalOrdinal>* following = nullptr;   ///< owned dofs that follow reference points; null: none does

@@ -28,6 +28,12 @@ std::unique_ptr<QuantityEvaluator> evaluator_of(Function function) {
 }
 
 /// Sum and largest over all ranks. Collective.
+/// Throws InputError for a scene without inertia.
+void require_inertia(const QuantityContext& context);
+
+/// a . b over the nodes of a body, or of all. Collective.
+double sum_over_body(const QuantityContext& context, const std::optional<LocalOrdinal>& body, const Vector& a, const Vector& b);
+
 double sum_over_ranks(const Mesh& mesh, double mine);
 double largest_over_ranks(const Mesh& mesh, double mine);
 

@@ -18,6 +18,7 @@
 #include "mortise/simulation/scene/automatic_contact.hpp"
 #include "mortise/simulation/scene/checks.hpp"
 #include "mortise/simulation/scene/contact_start.hpp"
+#include "mortise/simulation/scene/inertia.hpp"
 #include "mortise/simulation/scene/pattern.hpp"
 #include "mortise/solid/element_type.hpp"
 #include "mortise/solid/loads.hpp"
@@ -125,6 +126,8 @@ struct Scene {
   std::vector<Named<SurfaceTieOptions>> ties;
   std::vector<Named<ContactPairOptions>> contact;
   AutomaticContactOptions automatic_contact;
+  InertiaOptions inertia;
+  std::vector<Named<InitialConditionOptions>> initial_conditions;
   SteppingOptions stepping;
   NewtonOptions newton;
   LinearSolverOptions linear_solver;

@@ -1,0 +1,74 @@
+#include "model/widened_graph.hpp"
+
+#include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_CrsGraph.hpp>
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Map.hpp>
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <vector>
+
+#include "mortise/core/column_map.hpp"
+
+namespace mortise {
+
+RCP<const Graph> widened(const Graph& bulk, const Map& owned_nodes, int dimension, const std::set<std::pair<GlobalOrdinal, GlobalOrdinal>>& coupled) {
+  std::map<LocalOrdinal, std::vector<GlobalOrdinal>> of_row;
+  std::vector<GlobalOrdinal> further;
+  for (const auto& [one, other] : coupled) {
+    const LocalOrdinal node = owned_nodes.getLocalElement(one);
+    if (node < 0) continue;
+    for (int j = 0; j < dimension; ++j) {
+      further.push_back(dimension * other + j);
+      for (int i = 0; i < dimension; ++i) of_row[dimension * node + i].push_back(further.back());
+    }
+  }
+  const RCP<const Map> rows = bulk.getRowMap(), columns = with_further_columns(*bulk.getColMap(), further);
+  const auto narrow = bulk.getLocalGraphHost();
+  const auto count = static_cast<LocalOrdinal>(rows->getNodeNumElements());
+  std::map<LocalOrdinal, std::vector<LocalOrdinal>> wide;
+  for (const auto& [row, ids] : of_row) {
+    std::vector<LocalOrdinal>& all = wide[row];
+    for (std::size_t k = narrow.row_map(row); k < narrow.row_map(row + 1); ++k) all.push_back(narrow.entries(k));
+    for (const GlobalOrdinal id : ids) all.push_back(columns->getLocalElement(id));
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+  }
+  Graph::local_graph_device_type::row_map_type::non_const_type starts("starts", static_cast<std::size_t>(count) + 1);
+  for (LocalOrdinal row = 0; row < count; ++row) starts(row + 1) = narrow.row_map(row + 1) - narrow.row_map(row);
+  for (const auto& [row, all] : wide) starts(row + 1) = all.size();
+  std::partial_sum(starts.data(), starts.data() + starts.extent(0), starts.data());
+  Graph::local_graph_device_type::entries_type::non_const_type entries(Kokkos::view_alloc(Kokkos::WithoutInitializing, "entries"), starts(count));
+  for (LocalOrdinal row = 0; row < count; ++row) {
+    const auto found = wide.find(row);
+    if (found != wide.end())
+      std::copy(found->second.begin(), found->second.end(), entries.data() + starts(row));
+    else
+      std::copy(narrow.entries.data() + narrow.row_map(row), narrow.entries.data() + narrow.row_map(row + 1), entries.data() + starts(row));
+  }
+  const auto graph = rcp(new Graph(rows, columns, starts, entries));
+  graph->expertStaticFillComplete(rows, rows);
+  return graph;
+}
+
+RCP<const Graph> with_entries_of(const RCP<const Graph>& bulk, const Matrix& of_nodes, int dimension) {
+  std::set<std::pair<GlobalOrdinal, GlobalOrdinal>> coupled;
+  const auto mass = of_nodes.getLocalMatrixHost();
+  const auto graph = bulk->getLocalGraphHost();
+  for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(of_nodes.getNodeNumRows()); ++node) {
+    const auto *first = graph.entries.data() + graph.row_map(dimension * node), *last = graph.entries.data() + graph.row_map(dimension * node + 1);
+    for (std::size_t k = mass.graph.row_map(node); k < mass.graph.row_map(node + 1); ++k) {
+      const GlobalOrdinal other = of_nodes.getColMap()->getGlobalElement(mass.graph.entries(k));
+      const LocalOrdinal column = bulk->getColMap()->getLocalElement(dimension * other);
+      if (mass.values(k) != 0.0 && (column < 0 || !std::binary_search(first, last, column)))
+        coupled.emplace(of_nodes.getRowMap()->getGlobalElement(node), other);
+    }
+  }
+  const int mine = coupled.empty() ? 0 : 1;
+  int anywhere = 0;
+  Teuchos::reduceAll(*bulk->getComm(), Teuchos::REDUCE_MAX, mine, Teuchos::outArg(anywhere));
+  return anywhere == 0 ? bulk : widened(*bulk, *of_nodes.getRowMap(), dimension, coupled);
+}
+
+}  // namespace mortise

@@ -1,0 +1,17 @@
+#pragma once
+// Graphs with more couplings of nodes than elements make.
+
+#include <set>
+#include <utility>
+
+#include "mortise/core/types.hpp"
+
+namespace mortise {
+
+/// A graph with further entries in rows of owned nodes: all dofs of pairs of nodes, by their ids. Its columns come after those of `bulk`.
+RCP<const Graph> widened(const Graph& bulk, const Map& owned_nodes, int dimension, const std::set<std::pair<GlobalOrdinal, GlobalOrdinal>>& coupled);
+
+/// The graph itself if it holds all entries of a matrix of nodes that are not 0, else one that does. Collective.
+RCP<const Graph> with_entries_of(const RCP<const Graph>& bulk, const Matrix& of_nodes, int dimension);
+
+}  // namespace mortise

@@ -1,0 +1,88 @@
+#include "mortise/simulation/scene/inertia.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace mortise {
+
+void InertiaOptions::describe(Parameters& parameters) {
+  using Balance = TimeScheme::Balance;
+  parameters.add("scheme", scheme,
+                 {{"none", Scheme::none},
+                  {"generalised alpha", Scheme::generalised_alpha},
+                  {"newmark", Scheme::newmark},
+                  {"backward euler", Scheme::backward_euler}},
+                 "time integration; none: the scene is static and bodies have no mass. Generalised alpha is of second order and damps high "
+                 "frequencies alone");
+  parameters.add(
+      "spectral radius", spectral_radius,
+      Says("of generalised alpha at infinite frequency: 1 damps nothing, and lets contact forces ring; 0 damps high frequencies within a step")
+          .unit("-")
+          .at_least(0.0)
+          .at_most(1.0));
+  parameters.add("balance", balance, {{"over the step", Balance::over_step}, {"at the end", Balance::at_end}},
+                 "of generalised alpha: over the step, contact forces are constant within a step and cannot add energy; at the end, contact forces "
+                 "are those of the end of the step");
+  parameters.add("beta", beta, Says("of Newmark's method").unit("-").above(0.0));
+  parameters.add("gamma", gamma, Says("of Newmark's method; above 0.5 it damps, and is of first order").unit("-").at_least(0.5));
+  if (2.0 * beta < gamma)
+    parameters.error(
+        "beta", fmt::format("is {}, and \"gamma\" {}; Newmark's method is unstable for 2 beta < gamma, please take a \"beta\" of {} or more", beta,
+                            gamma, 0.5 * gamma));
+  parameters.add("mass", mass, {{"consistent", Mass::consistent}, {"lumped", Mass::lumped}},
+                 "consistent: integrals of products of shape functions; lumped: at the nodes alone");
+  parameters.add("contact mass", contact_mass, {{"removed", ContactMass::removed}, {"kept", ContactMass::kept}},
+                 "removed: nodes of contact surfaces give their mass to interior nodes of their body, so that contact forces do not chatter");
+  parameters.add("start", start, {{"in balance", Start::in_balance}, {"at rest", Start::at_rest}},
+                 "accelerations of the first state: in balance with loads and stresses, or 0");
+  parameters.add("mass damping", mass_damping, Says("a of the damping a M + b K, K the stiffness at the start").unit("1 / time").at_least(0.0));
+  parameters.add("stiffness damping", stiffness_damping, Says("b of the damping a M + b K").unit("time").at_least(0.0));
+  parameters.add(
+      "error tolerance", error_tolerance,
+      Says("bound on the local error of a step over the size of the motion; steps get as long as it allows; default: their length is constant")
+          .unit("-")
+          .above(0.0));
+  parameters.add("impact tolerance", impact_tolerance,
+                 Says("bound on the energy that contact takes by closing within a step, over the largest kinetic energy so far; a step with more is "
+                      "halved; default: none")
+                     .unit("-")
+                     .above(0.0));
+}
+
+TimeScheme InertiaOptions::time_scheme() const {
+  switch (scheme) {
+    case Scheme::newmark:
+      return newmark(beta, gamma);
+    case Scheme::backward_euler:
+      return backward_euler();
+    default:
+      return mortise::generalised_alpha(spectral_radius, balance);
+  }
+}
+
+void InitialConditionOptions::describe(Parameters& parameters) {
+  parameters.add("body", body, "body that has them; left out: every body");
+  constexpr std::array<const char*, 3> names{"x", "y", "z"};
+  const std::vector<std::string> arguments{"x", "y", "z"};
+  for (std::size_t i = 0; i < 3; ++i)
+    parameters.add(
+        std::string("displacement ") + names[i], displacement[i],
+        Says(fmt::format("displacement in {} at the start, of the reference position; left out: 0", names[i])).unit("length").arguments(arguments));
+  for (std::size_t i = 0; i < 3; ++i)
+    parameters.add(std::string("velocity ") + names[i], velocity[i],
+                   Says(fmt::format("velocity in {} at the start, of the reference position; left out: 0", names[i]))
+                       .unit("length / time")
+                       .arguments(arguments));
+  parameters.add("spin", spin, Says("angular velocity that is added, counterclockwise about the axis").unit("radians / time"));
+  parameters.add("axis", axis, "direction of the axis of the spin in three dimensions, \"x, y, z\"; left out: z");
+  parameters.add("centre", centre,
+                 Says("point on the axis of the spin; left out: of a rigid body its reference point, else the middle of the box around the body")
+                     .unit("length"));
+  if (!axis.empty() && axis.size() != 3)
+    parameters.error("axis", "needs three numbers, \"x, y, z\"");
+  else if (!axis.empty() && std::hypot(axis[0], axis[1], axis[2]) == 0.0)
+    parameters.error("axis", "has no direction");
+}
+
+}  // namespace mortise

@@ -1,0 +1,33 @@
+#pragma once
+// Mass that couples nodes, the same in each direction.
+
+#include "mortise/core/types.hpp"
+
+namespace mortise {
+
+/// M as a matrix of nodes, for dofs that stand node by node. Collective in all members but the accessor.
+class NodalMass {
+ public:
+  /// @param matrix     [owned nodes squared], filled
+  /// @param dimension  dofs of a node
+  NodalMass(RCP<const Matrix> matrix, int dimension) : matrix_(std::move(matrix)), dimension_(dimension) {}
+
+  const Matrix& matrix() const { return *matrix_; }
+
+  /// M v of vectors on the owned dofs.
+  RCP<Vector> times(const Vector& v) const;
+  /// jacobian += factor M; `jacobian` is open, and its rows hold the entries.
+  void add_to(Matrix& jacobian, double factor) const;
+
+ private:
+  RCP<const Matrix> matrix_;
+  int dimension_;
+};
+
+/// P^T M P.
+RCP<const Matrix> mass_of_extension(const Matrix& M, const Matrix& P);
+
+/// A matrix of nodes as one of dofs, the same for each component.
+RCP<const Matrix> for_each_component(const Matrix& of_nodes, const RCP<const Map>& dofs, int dimension);
+
+}  // namespace mortise
