@@ -20,6 +20,7 @@
 #include "model/surface_ties.hpp"
 #include "mortise/material/materials.hpp"
 #include "mortise/mesh/digest.hpp"
+#include "mortise/nonlinear/linear_solver_factory.hpp"
 #include "mortise/simulation/model/hold_check.hpp"
 #include "mortise/simulation/model/mesh_limits.hpp"
 #include "mortise/simulation/scene/scene_bodies.hpp"
