@@ -12,11 +12,11 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "field_files.hpp"
-#include "hdf5_file.hpp"
-#include "id_order.hpp"
+#include "fields/field_files.hpp"
+#include "fields/id_order.hpp"
+#include "fields/xdmf.hpp"
+#include "hdf5/hdf5_file.hpp"
 #include "mortise/io/files.hpp"
-#include "xdmf.hpp"
 
 namespace mortise {
 namespace {

@@ -1,4 +1,4 @@
-#include "hdf5_file.hpp"
+#include "hdf5/hdf5_file.hpp"
 
 #include <fcntl.h>
 

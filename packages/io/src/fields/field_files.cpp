@@ -1,11 +1,11 @@
-#include "field_files.hpp"
+#include "fields/field_files.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <charconv>
 
-#include "hdf5_handle.hpp"
+#include "hdf5/hdf5_handle.hpp"
 
 namespace mortise {
 namespace {

@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
-#include "file_descriptor.hpp"
-#include "hdf5_layout.hpp"
+#include "files/file_descriptor.hpp"
+#include "hdf5/hdf5_layout.hpp"
 #include "mortise/core/types.hpp"
 
 namespace mortise {

@@ -1,4 +1,4 @@
-#include "id_order.hpp"
+#include "fields/id_order.hpp"
 
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Map.hpp>

@@ -1,4 +1,4 @@
-#include "file_descriptor.hpp"
+#include "files/file_descriptor.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -12,8 +12,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include "directory_lock.hpp"
-#include "directory_marker.hpp"
+#include "files/directory_lock.hpp"
+#include "files/directory_marker.hpp"
 #include "mortise/io/files.hpp"
 
 namespace mortise {

@@ -1,4 +1,4 @@
-#include "hdf5_rows.hpp"
+#include "hdf5/hdf5_rows.hpp"
 
 #include <fmt/format.h>
 

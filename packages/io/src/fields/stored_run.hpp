@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "field_files.hpp"
+#include "fields/field_files.hpp"
 #include "mortise/shape/cell.hpp"
 
 namespace mortise {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "field_files.hpp"
+#include "fields/field_files.hpp"
 
 namespace mortise {
 

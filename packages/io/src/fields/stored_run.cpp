@@ -1,4 +1,4 @@
-#include "stored_run.hpp"
+#include "fields/stored_run.hpp"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <optional>
 #include <set>
 
-#include "hdf5_rows.hpp"
+#include "fields/xdmf.hpp"
+#include "hdf5/hdf5_rows.hpp"
 #include "mortise/core/error.hpp"
-#include "xdmf.hpp"
 
 namespace mortise {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "directory_marker.hpp"
+#include "files/directory_marker.hpp"
 #include "mortise/core/error.hpp"
 #include "mortise/core/names.hpp"
 

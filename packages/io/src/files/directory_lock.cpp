@@ -1,4 +1,4 @@
-#include "directory_lock.hpp"
+#include "files/directory_lock.hpp"
 
 #include <fcntl.h>
 #include <fmt/chrono.h>
@@ -16,7 +16,7 @@
 #include <sstream>
 #include <thread>
 
-#include "directory_marker.hpp"
+#include "files/directory_marker.hpp"
 
 namespace mortise {
 namespace {

@@ -20,9 +20,9 @@
 #include <numeric>
 #include <set>
 
-#include "file_descriptor.hpp"
-#include "hdf5_file.hpp"
-#include "hdf5_handle.hpp"
+#include "files/file_descriptor.hpp"
+#include "hdf5/hdf5_file.hpp"
+#include "hdf5/hdf5_handle.hpp"
 #include "mortise/io/files.hpp"
 
 namespace mortise {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "file_descriptor.hpp"
-#include "hdf5_handle.hpp"
+#include "files/file_descriptor.hpp"
+#include "hdf5/hdf5_handle.hpp"
 
 namespace mortise {
 

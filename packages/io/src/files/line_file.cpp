@@ -5,7 +5,7 @@
 
 #include <Teuchos_CommHelpers.hpp>
 
-#include "file_descriptor.hpp"
+#include "files/file_descriptor.hpp"
 #include "mortise/io/files.hpp"
 
 namespace mortise {

@@ -10,12 +10,12 @@
 #include <memory>
 #include <utility>
 
-#include "exodus_shapes.hpp"
-#include "hdf5_rows.hpp"
+#include "fields/exodus_shapes.hpp"
+#include "fields/stored_run.hpp"
+#include "fields/xdmf.hpp"
+#include "hdf5/hdf5_rows.hpp"
 #include "mortise/core/error.hpp"
 #include "mortise/io/files.hpp"
-#include "stored_run.hpp"
-#include "xdmf.hpp"
 
 namespace mortise {
 namespace {

@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "file_descriptor.hpp"
+#include "files/file_descriptor.hpp"
 #include "mortise/core/error.hpp"
 
 namespace mortise {

@@ -1,4 +1,4 @@
-#include "hdf5_layout.hpp"
+#include "hdf5/hdf5_layout.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "xdmf.hpp"
+#include "fields/xdmf.hpp"
 
 #include <fmt/format.h>
 #include <libxml/xmlreader.h>

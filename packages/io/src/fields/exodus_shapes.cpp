@@ -1,4 +1,4 @@
-#include "exodus_shapes.hpp"
+#include "fields/exodus_shapes.hpp"
 
 #include <algorithm>
 #include <array>

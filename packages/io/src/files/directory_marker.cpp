@@ -1,4 +1,4 @@
-#include "directory_marker.hpp"
+#include "files/directory_marker.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <fstream>
 #include <system_error>
 
-#include "directory_lock.hpp"
+#include "files/directory_lock.hpp"
 #include "mortise/io/files.hpp"
 
 namespace mortise {
