@@ -1,4 +1,4 @@
-#include "model/surface_ties.hpp"
+#include "model/pairs/surface_ties.hpp"
 
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_CrsMatrix.hpp>

@@ -1,4 +1,4 @@
-#include "model/edge_search.hpp"
+#include "model/edges/edge_search.hpp"
 
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Map.hpp>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "model/edge_lines.hpp"
+#include "model/edges/edge_lines.hpp"
 #include "mortise/mesh/sets.hpp"
 #include "surfaces/penetration.hpp"
 

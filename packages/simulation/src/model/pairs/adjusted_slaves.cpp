@@ -1,4 +1,4 @@
-#include "model/adjusted_slaves.hpp"
+#include "model/pairs/adjusted_slaves.hpp"
 
 #include <fmt/format.h>
 

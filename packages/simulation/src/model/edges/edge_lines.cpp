@@ -1,4 +1,4 @@
-#include "model/edge_lines.hpp"
+#include "model/edges/edge_lines.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,4 +1,4 @@
-#include "model/search_reach.hpp"
+#include "model/pairs/search_reach.hpp"
 
 #include <Teuchos_CommHelpers.hpp>
 #include <algorithm>
