@@ -11,7 +11,7 @@ def load(*names):
     """The scripts one after the other, as the program runs them."""
     space = {}
     for name in names:
-        exec(compile((scripts / f"{name}.py").read_text(encoding="utf-8"), f"{name}.py", "exec"), space)
+        exec(compile(next(scripts.rglob(f"{name}.py")).read_text(encoding="utf-8"), f"{name}.py", "exec"), space)
     return space
 
 

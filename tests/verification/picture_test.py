@@ -30,7 +30,7 @@ def load():
     """The scripts one after the other, as the program runs them."""
     space = {"mortise_results": mortise_results}
     for name in SCRIPTS:
-        exec(compile((pathlib.Path(scripts) / f"{name}.py").read_text(encoding="utf-8"), f"{name}.py", "exec"), space)
+        exec(compile(next(pathlib.Path(scripts).rglob(f"{name}.py")).read_text(encoding="utf-8"), f"{name}.py", "exec"), space)
     return space
 
 
