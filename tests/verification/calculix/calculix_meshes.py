@@ -146,7 +146,7 @@ def main():
             wrong += 1
     with open(page, "w", encoding="utf-8") as file:
         file.write("# The decks of CalculiX' examples\n\nThis page says which decks of CalculiX' own examples (Debian: `calculix-ccx-test`) are read as [mesh "
-                   "files](../mesh_files.md).\n`tests/verification/calculix_meshes.py` writes it. Each piece of a deck, the elements that nodes connect, is a body of "
+                   "files](../mesh_files.md).\n`tests/verification/calculix/calculix_meshes.py` writes it. Each piece of a deck, the elements that nodes connect, is a body of "
                    "its own.\nElements of each body are counted by the program and from the lines of the deck. Decks with contact and ties are [computed\n"
                    "too](calculix_examples.md).\n\n"
                    f"{read} of {len(rows)} decks are read, {several} of them as several bodies; {wrong} are wrong.\n\n"

@@ -190,10 +190,10 @@ def compute(program, ccx, directory, examples, name, level, changes, settings, q
 PAGE = """# CalculiX' examples with contact and ties
 
 This page compares {decks} of CalculiX' own examples (Debian: `calculix-ccx-test`, CalculiX 2.20) with the same problems in Mortise, on the same mesh
-files. `tests/verification/calculix_examples.py` writes it. It takes the decks from the package and the scenes from
-`tests/verification/calculix_examples/`.
+files. `tests/verification/calculix/calculix_examples.py` writes it. It takes the decks from the package and the scenes from
+`tests/verification/calculix/calculix_examples/`.
 
-    python3 tests/verification/calculix_examples.py build/release/apps/mortise/mortise ccx results/calculix_examples docs/results/calculix_examples.md
+    python3 tests/verification/calculix/calculix_examples.py build/release/apps/mortise/mortise ccx results/calculix_examples docs/results/calculix_examples.md
 
 Pairs with a linear or an exponential law are `pressure overclosure` with the numbers of the deck. Decks with `NLGEOM` have St. Venant's and Kirchhoff's
 law in both programs; all others have small strains. No example has a table for a law. Where the deck as it is differs, a row below it changes the one

@@ -34,10 +34,10 @@ def table(name, ours, theirs):
 PAGE = """# Ordinary parts
 
 This page shows ten parts as they are drawn and meshed in Gmsh: `inputs/parts/*.geo`. Their scenes, `inputs/parts/*.xml`, name materials, supports and loads,
-and the program finds what touches. CalculiX 2.20 computes each on the same mesh. `tests/verification/ordinary_parts.py` makes the meshes, runs both programs
+and the program finds what touches. CalculiX 2.20 computes each on the same mesh. `tests/verification/parts/ordinary_parts.py` makes the meshes, runs both programs
 one after the other and writes this page:
 
-    python3 tests/verification/ordinary_parts.py build/release/apps/mortise/mortise ccx results/parts docs/results/ordinary_parts.md
+    python3 tests/verification/parts/ordinary_parts.py build/release/apps/mortise/mortise ccx results/parts docs/results/ordinary_parts.md
 
 Seconds are user CPU time. Elements are `C3D10`, `CPE6` and `CAX6` there, contact is surface to surface with a penalty, and its stiffness stands in the
 script. Increments are no longer than the steps here. Stresses and plastic strains are the largest ones at integration points. Contact pressures are the
