@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <cstdlib>
 
-#include "mortise/nonlinear/linear_solver.hpp"
+#include "mortise/nonlinear/linear_solver_factory.hpp"
 #include "program.hpp"
 
 namespace mortise {

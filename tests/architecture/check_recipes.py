@@ -13,11 +13,11 @@ import sys
 KINDS = {
     "A material": ("packages/material/include/mortise/material/material_options.hpp", r"using Law = std::variant<(.*?)>;", ""),
     "An element": ("packages/solid/include/mortise/solid/element_type.hpp", r"ElementEntry<(\w+)[,>]", ""),
-    "A load": ("packages/solid/src/dead_loads.cpp", r"\.add<(\w+)>", "Options"),
+    "A load": ("packages/solid/src/loads/dead_loads.cpp", r"\.add<(\w+)>", "Options"),
     "A quantity": ("packages/simulation/src/quantities/*.cpp", r"Registry<Quantity>& kinds\) \{\s*kinds\.add<(\w+)>", "Quantity"),
     "A contribution to the residual": ("packages/simulation/src/model/contributions.hpp", r"class (\w+Contribution) final", "Contribution"),
-    "How contact is enforced": ("packages/contact/src/formulation.cpp", r"\.add<(\w+)>", ""),
-    "What multipliers act through": ("packages/mortar/src/coupling.cpp", r"coupling_of<(\w+)>", "Coupling"),
+    "How contact is enforced": ("packages/contact/src/laws/formulation.cpp", r"\.add<(\w+)>", ""),
+    "What multipliers act through": ("packages/mortar/src/coupling/coupling.cpp", r"coupling_of<(\w+)>", "Coupling"),
     "A boundary condition": ("packages/solid/include/mortise/solid/prescribed_motion.hpp", r"struct (BoundaryConditionOptions)", "Options"),
 }
 

@@ -8,7 +8,7 @@
 
 #include "blocks.hpp"
 #include "mortise/core/error.hpp"
-#include "mortise/nonlinear/linear_solver.hpp"
+#include "mortise/nonlinear/linear_solver_factory.hpp"
 
 namespace host {
 

@@ -1,6 +1,6 @@
 // Locks of directories where the file system has locks, and where it has none.
 
-#include "../../../packages/io/src/directory_lock.hpp"
+#include "files/directory_lock.hpp"
 
 #include <gmock/gmock.h>
 #include <sys/wait.h>

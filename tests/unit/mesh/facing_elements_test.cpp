@@ -1,11 +1,11 @@
 // Which elements are one another's nearest across contact.
 
-#include "../../../packages/mesh/src/facing_elements.hpp"
+#include "distribution/facing_elements.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "../../../packages/mesh/src/partition.hpp"
+#include "distribution/partition.hpp"
 #include "mortise/mesh/generators.hpp"
 #include "mortise/mesh/volume_generators.hpp"
 

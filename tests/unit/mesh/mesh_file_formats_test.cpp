@@ -34,7 +34,7 @@ TEST_P(WrittenMeshes, AreTheSameInAllFormatsOfGmsh) {
   const bool solid = topology(shape).dimension == 3;
   for (const std::string format : {"22_text", "22_binary", "41_text", "41_binary"}) {
     SCOPED_TRACE(format);
-    const MeshFile file = read_written(name + "_" + format + ".msh");
+    const MeshFile file = read_written("gmsh_" + format.substr(0, 1) + "/" + name + "_" + format + ".msh");
     EXPECT_EQ(file.coordinates.size(), nodes);
     EXPECT_EQ(file.node_labels.size(), nodes);
     EXPECT_EQ(cells_of(file, shape).labels.size(), cells);
@@ -73,7 +73,7 @@ class WrittenSolids : public ::testing::TestWithParam<WrittenShape> {};
 // gmsh writes groups of surfaces as plane elements there, and groups of all dimensions as sets of nodes too.
 TEST_P(WrittenSolids, AreTheSameInTheFormatOfAbaqus) {
   const auto& [name, shape, nodes, cells] = GetParam();
-  const MeshFile file = read_written(name + ".inp");
+  const MeshFile file = read_written("abaqus/" + name + ".inp");
   EXPECT_EQ(file.coordinates.size(), nodes);
   EXPECT_EQ(cells_of(file, shape).labels.size(), cells);
   expect_middles(file);
@@ -95,7 +95,7 @@ TEST(WrittenByMeshio, IsReadAsExodus) {
   for (const auto& [name, shape, nodes, cells] :
        {WrittenShape{"tetrahedra10", CellShape::tetrahedron10, 45, 12}, WrittenShape{"triangles6", CellShape::triangle6, 15, 4}}) {
     SCOPED_TRACE(name);
-    const MeshFile file = read_written(name + ".e");
+    const MeshFile file = read_written("exodus/" + name + ".e");
     EXPECT_EQ(file.coordinates.size(), nodes);
     ASSERT_EQ(file.cells.size(), 1u);
     EXPECT_EQ(file.cells[0].shape, shape);
@@ -107,7 +107,7 @@ TEST(WrittenByMeshio, IsReadAsExodus) {
 
 // Cells between partitions are of no group, and parts of an entity are the entity's.
 TEST(WrittenByGmsh, PartitionsAreOneMesh) {
-  const MeshFile file = read_written("tetrahedra4_partitioned.msh"), whole = read_written("tetrahedra4_41_text.msh");
+  const MeshFile file = read_written("gmsh_4/tetrahedra4_partitioned.msh"), whole = read_written("gmsh_4/tetrahedra4_41_text.msh");
   EXPECT_EQ(file.coordinates.size(), whole.coordinates.size());
   for (const std::string name : {"steel", "all", "top", "physical surface 77"}) {
     EXPECT_NEAR(measure_of(file, set_named(file.cell_sets, name)), measure_of(whole, set_named(whole.cell_sets, name)), 1e-12) << name;
@@ -115,14 +115,14 @@ TEST(WrittenByGmsh, PartitionsAreOneMesh) {
 }
 
 TEST(WrittenByGmsh, EntitiesAreSetsWithoutGroups) {
-  const MeshFile file = read_written("hexahedra8_without_groups.msh");
+  const MeshFile file = read_written("gmsh_4/hexahedra8_without_groups.msh");
   EXPECT_NEAR(measure_of(file, set_named(file.cell_sets, "surface 27")), 2.0, 1e-12);
   EXPECT_NEAR(measure_of(file, set_named(file.cell_sets, "curve 1")), 2.0, 1e-12);
   EXPECT_EQ(set_named(file.node_sets, "point 2").members.size(), 1u);
 }
 
 TEST(WrittenByGmsh, OldVersionsAreRefused) {
-  for (const std::string name : {"version_40.msh", "version_1.msh"}) {
+  for (const std::string name : {"gmsh_4/version_40.msh", "gmsh_2/version_1.msh"}) {
     try {
       read_written(name);
       FAIL() << name << " was read";

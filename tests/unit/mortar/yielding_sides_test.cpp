@@ -1,4 +1,4 @@
-#include "../../../packages/mortar/src/yielding_sides.hpp"
+#include "search/yielding_sides.hpp"
 
 #include <gtest/gtest.h>
 

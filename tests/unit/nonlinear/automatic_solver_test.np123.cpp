@@ -1,6 +1,6 @@
 // The iterative solver that gives way to a direct one.
 
-#include "../../../packages/nonlinear/src/automatic_solver.hpp"
+#include "selection/automatic_solver.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,14 @@
 // Multigrid of a condensed contact system: the iterations are those of the bodies.
 
-#include "../../../packages/nonlinear/src/decoupled_multigrid.hpp"
+#include "multigrid/decoupled_multigrid.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Tpetra_Core.hpp>
 #include <algorithm>
 
-#include "../../../packages/nonlinear/src/interface_correction.hpp"
-#include "../../../packages/nonlinear/src/sparse_parts.hpp"
+#include "multigrid/interface_correction.hpp"
+#include "multigrid/sparse_parts.hpp"
 #include "spring_grid.hpp"
 
 namespace mortise {

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <random>
 
-#include "../../../packages/nonlinear/src/direct_solver.hpp"
+#include "linear/direct_solver.hpp"
 
 namespace mortise {
 namespace {

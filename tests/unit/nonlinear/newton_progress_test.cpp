@@ -1,11 +1,11 @@
 // When a Newton solve with contact gets on, when it is done though states change, when a smaller step is of no use.
 
-#include "../../../packages/nonlinear/src/newton_progress.hpp"
+#include "newton/newton_progress.hpp"
 
 #include <gtest/gtest.h>
 
-#include "../../../packages/nonlinear/src/newton_status_tests.hpp"
-#include "../../../packages/nonlinear/src/repeated_course.hpp"
+#include "newton/newton_status_tests.hpp"
+#include "stepping/repeated_course.hpp"
 
 namespace mortise {
 namespace {

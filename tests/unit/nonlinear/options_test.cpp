@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "mortise/input/read_parameters.hpp"
+#include "mortise/nonlinear/linear_solver_options.hpp"
 #include "mortise/nonlinear/load_stepper.hpp"
 
 namespace mortise {

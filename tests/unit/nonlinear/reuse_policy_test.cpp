@@ -1,5 +1,5 @@
 // When a hierarchy is rebuilt.
-#include "../../../packages/nonlinear/src/reuse_policy.hpp"
+#include "multigrid/reuse_policy.hpp"
 
 #include <gtest/gtest.h>
 

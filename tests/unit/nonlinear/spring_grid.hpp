@@ -14,6 +14,7 @@
 #include <functional>
 #include <set>
 
+#include "mortise/nonlinear/linear_solver_factory.hpp"
 #include "mortise/nonlinear/semi_smooth_system.hpp"
 
 namespace mortise::test {

@@ -1,5 +1,5 @@
 // Conditions along any directions at a node, solved for components.
-#include "../../../packages/solid/src/node_conditions.hpp"
+#include "constraints/node_conditions.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "body_checks.hpp"
+#include "listed/body_checks.hpp"
 
 #include <fmt/format.h>
 

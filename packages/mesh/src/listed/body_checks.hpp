@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "chosen_cells.hpp"
-#include "side_table.hpp"
+#include "listed/chosen_cells.hpp"
+#include "listed/side_table.hpp"
 
 namespace mortise {
 

@@ -1,4 +1,4 @@
-#include "chosen_cells.hpp"
+#include "listed/chosen_cells.hpp"
 
 #include <fmt/format.h>
 

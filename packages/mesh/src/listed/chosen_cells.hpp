@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "body_elements.hpp"
+#include "listed/body_elements.hpp"
 #include "mortise/mesh/file_body.hpp"
 #include "mortise/mesh/mesh_file.hpp"
 

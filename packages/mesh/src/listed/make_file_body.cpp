@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "body_checks.hpp"
+#include "listed/body_checks.hpp"
+#include "listed/named_sets.hpp"
 #include "mortise/mesh/file_body.hpp"
-#include "named_sets.hpp"
 
 namespace mortise {
 namespace {

@@ -1,4 +1,4 @@
-#include "named_sets.hpp"
+#include "listed/named_sets.hpp"
 
 #include <fmt/format.h>
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "chosen_cells.hpp"
-#include "side_table.hpp"
+#include "listed/chosen_cells.hpp"
+#include "listed/side_table.hpp"
 
 namespace mortise {
 

@@ -1,4 +1,4 @@
-#include "side_table.hpp"
+#include "listed/side_table.hpp"
 
 #include <algorithm>
 

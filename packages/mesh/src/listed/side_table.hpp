@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "body_elements.hpp"
+#include "listed/body_elements.hpp"
 
 namespace mortise {
 

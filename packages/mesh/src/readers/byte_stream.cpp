@@ -1,4 +1,4 @@
-#include "byte_stream.hpp"
+#include "readers/byte_stream.hpp"
 
 #include <fmt/format.h>
 #include <sys/stat.h>

@@ -1,4 +1,4 @@
-#include "file_cells.hpp"
+#include "readers/file_cells.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,4 +1,4 @@
-#include "label_table.hpp"
+#include "readers/label_table.hpp"
 
 namespace mortise {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "mortise/core/names.hpp"
-#include "readers.hpp"
+#include "readers/readers.hpp"
 
 namespace mortise {
 namespace {
@@ -49,8 +49,6 @@ const FormatEntry& format_of(const std::string& path, MeshFormat format, const P
 
 }  // namespace
 
-MeshFile read_mesh_file(const std::string& path, MeshFormat format, const Place& place) {
-  return format_of(path, format, place).read(path);
-}
+MeshFile read_mesh_file(const std::string& path, MeshFormat format, const Place& place) { return format_of(path, format, place).read(path); }
 
 }  // namespace mortise

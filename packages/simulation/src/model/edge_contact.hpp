@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "model/contributions.hpp"
-#include "model/edge_search.hpp"
+#include "model/edges/edge_search.hpp"
 
 namespace mortise {
 

@@ -10,17 +10,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/adjusted_slaves.hpp"
 #include "model/contributions.hpp"
 #include "model/current_places.hpp"
 #include "model/edge_contact.hpp"
 #include "model/inertia.hpp"
 #include "model/inclined_supports.hpp"
+#include "model/pairs/adjusted_slaves.hpp"
+#include "model/pairs/search_reach.hpp"
+#include "model/pairs/surface_ties.hpp"
 #include "model/precision.hpp"
-#include "model/search_reach.hpp"
-#include "model/surface_ties.hpp"
 #include "mortise/material/materials.hpp"
 #include "mortise/mesh/digest.hpp"
+#include "mortise/nonlinear/linear_solver_factory.hpp"
 #include "mortise/simulation/model/hold_check.hpp"
 #include "mortise/simulation/model/mesh_limits.hpp"
 #include "mortise/simulation/scene/scene_bodies.hpp"

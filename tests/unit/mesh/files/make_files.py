@@ -55,17 +55,17 @@ def main():
                   "quadrilaterals8"]:
         order = 2 if shape in ["hexahedra20", "tetrahedra10", "wedges15", "triangles6", "quadrilaterals8"] else 1
         for suffix, options in FORMATS.items():
-            gmsh(geometry(shape), order, options, f"{shape}_{suffix}.msh")
+            gmsh(geometry(shape), order, options, f"gmsh_{suffix[0]}/{shape}_{suffix}.msh")
         if shape.startswith(("hexahedra", "tetrahedra", "wedges")):  # gmsh writes curves of plane meshes as trusses
-            gmsh(geometry(shape), order, "-format inp -setnumber Mesh.SaveGroupsOfElements 1 -setnumber Mesh.SaveGroupsOfNodes 1", f"{shape}.inp")
+            gmsh(geometry(shape), order, "-format inp -setnumber Mesh.SaveGroupsOfElements 1 -setnumber Mesh.SaveGroupsOfNodes 1", f"abaqus/{shape}.inp")
         if shape in ["tetrahedra10", "triangles6"]:
-            mesh = meshio.read(FOLDER / f"{shape}_41_text.msh")
+            mesh = meshio.read(FOLDER / f"gmsh_4/{shape}_41_text.msh")
             largest = max(block.dim for block in mesh.cells)
-            meshio.write(FOLDER / f"{shape}.e", meshio.Mesh(mesh.points, [block for block in mesh.cells if block.dim == largest]))
-    gmsh(geometry("tetrahedra4"), 1, "-part 2 -setnumber Mesh.MshFileVersion 4.1", "tetrahedra4_partitioned.msh")
-    gmsh(geometry("hexahedra8").replace(NAMES_3D, ""), 1, "-setnumber Mesh.MshFileVersion 4.1", "hexahedra8_without_groups.msh")
-    gmsh(geometry("hexahedra8"), 1, "-setnumber Mesh.MshFileVersion 4.0", "version_40.msh")
-    gmsh(geometry("hexahedra8"), 1, "-setnumber Mesh.MshFileVersion 1", "version_1.msh")
+            meshio.write(FOLDER / f"exodus/{shape}.e", meshio.Mesh(mesh.points, [block for block in mesh.cells if block.dim == largest]))
+    gmsh(geometry("tetrahedra4"), 1, "-part 2 -setnumber Mesh.MshFileVersion 4.1", "gmsh_4/tetrahedra4_partitioned.msh")
+    gmsh(geometry("hexahedra8").replace(NAMES_3D, ""), 1, "-setnumber Mesh.MshFileVersion 4.1", "gmsh_4/hexahedra8_without_groups.msh")
+    gmsh(geometry("hexahedra8"), 1, "-setnumber Mesh.MshFileVersion 4.0", "gmsh_4/version_40.msh")
+    gmsh(geometry("hexahedra8"), 1, "-setnumber Mesh.MshFileVersion 1", "gmsh_2/version_1.msh")
 
 
 if __name__ == "__main__":

@@ -8,8 +8,6 @@
 
 #include "mortise/contact/decoupling.hpp"
 #include "mortise/core/error.hpp"
-#include "mortise/core/parameters.hpp"
-#include "mortise/core/timers.hpp"
 #include "mortise/core/types.hpp"
 
 namespace mortise {
@@ -70,35 +68,5 @@ class LinearSolver {
   /// Sign of the determinant of the matrix that was factorised last; 0: not known.
   virtual int determinant_sign() const { return 0; }
 };
-
-/// What is known of the systems to be solved before there is one.
-struct LinearSystemTraits {
-  GlobalOrdinal unknowns = 0;  ///< over all ranks
-  int dimension = 2;           ///< of the model: 2 or 3
-  std::string not_iterative;   ///< why the iterative solver cannot solve them, a sentence; empty: it can
-};
-
-/// Which solver, and its settings. `automatic` is the iterative solver in 3D from `fewest_for_multigrid` unknowns on if it can solve the systems.
-/// Else it is MUMPS.
-struct LinearSolverOptions {
-  /// Which solver.
-  enum class Kind { automatic, mumps, klu2, iterative };
-  /// From here on it takes less time than a factorisation, and much less memory (docs/results/space.md).
-  static constexpr GlobalOrdinal fewest_for_multigrid = 10000;
-  Located<Kind> kind{Kind::automatic, {}};  ///< which one
-  double residual_bound = 1e-8;             ///< of the direct solvers' backward error |b - A x| / (|A| |x| + |b|)
-  double tolerance = 1e-10;                 ///< of the iterative solver
-  double largest_tolerance = 1e-3;          ///< of the iterative solver, while Newton's iterate is far from the solution
-  int maximum_iterations = 500;             ///< of the iterative solver
-  Located<Teuchos::ParameterList> muelu;    ///< overrides what Mortise sets; checked by MueLu
-  Located<Teuchos::ParameterList> belos;    ///< likewise, by Belos
-  void describe(Parameters& parameters);    ///< the list "linear solver"
-};
-
-/// Makes the solver that `options` ask for.
-/// @throws InputError where that cannot work: KLU2 on more than one rank, systems that the iterative solver cannot solve, a parameter that MueLu or
-/// Belos does not know
-std::unique_ptr<LinearSolver> make_linear_solver(const LinearSolverOptions& options, const RCP<const Communicator>& comm, const Timers& timers,
-                                                 const LinearSystemTraits& traits = {});
 
 }  // namespace mortise

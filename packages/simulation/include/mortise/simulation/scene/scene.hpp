@@ -11,7 +11,7 @@
 #include "mortise/material/material_options.hpp"
 #include "mortise/mesh/mesh_options.hpp"
 #include "mortise/mesh/sets.hpp"
-#include "mortise/nonlinear/linear_solver.hpp"
+#include "mortise/nonlinear/linear_solver_options.hpp"
 #include "mortise/nonlinear/load_stepper.hpp"
 #include "mortise/nonlinear/newton_solver.hpp"
 #include "mortise/simulation/quantities/quantity.hpp"

@@ -1,0 +1,247 @@
+#include "mortise/contact/contact_system.hpp"
+
+#include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_CrsGraph.hpp>
+#include <Tpetra_Export.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
+#include <Tpetra_Vector.hpp>
+#include <algorithm>
+#include <set>
+
+#include "evaluation/checks.hpp"
+#include "evaluation/crosspoints.hpp"
+#include "evaluation/evaluated_contact.hpp"
+
+namespace mortise {
+namespace {
+
+/// What to take instead of a formulation whose coupling is not made for the surfaces.
+InputError with_other_formulations(const UnfitCoupling& unfit) {
+  std::vector<Diagnostic> diagnostics = unfit.diagnostics();
+  for (Diagnostic& one : diagnostics)
+    one.message += "; use dual mortar, standard mortar, or penalty or augmented Lagrange with a mortar discretisation";
+  return InputError(std::move(diagnostics));
+}
+
+}  // namespace
+
+namespace detail {
+
+std::optional<std::size_t> ContactModel::second_pass(std::size_t pair) const {
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    if (pairs[p]->definition().second_pass_of == pair) return p;
+  return std::nullopt;
+}
+
+bool ContactModel::keeps_multipliers() const {
+  return std::any_of(pairs.begin(), pairs.end(), [](const auto& pair) { return pair->enforcement().keeps_multipliers(); });
+}
+
+RCP<const MultiVector> ContactModel::positions(const NodalDisplacement& d) const {
+  const auto x = rcp(new MultiVector(*reference, Teuchos::Copy));
+  const auto u = d.dofs.getLocalViewHost(Tpetra::Access::ReadOnly);
+  const auto view = x->getLocalViewHost(Tpetra::Access::ReadWrite);
+  for (std::size_t node = 0; node < view.extent(0); ++node)
+    for (std::size_t i = 0; i < view.extent(1); ++i)
+      if (const LocalOrdinal row = rows[view.extent(1) * node + i]; row >= 0) view(node, i) += u(row, 0);
+  if (d.nodes == nullptr) return x;
+  const auto elsewhere = d.nodes->getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (std::size_t node = 0; node < view.extent(0); ++node)
+    for (std::size_t i = 0; i < view.extent(1); ++i)
+      if (rows[view.extent(1) * node + i] < 0) view(node, i) += elsewhere(node, i);
+  return x;
+}
+
+std::shared_ptr<const InterfaceDofs> ContactModel::dofs_of(std::size_t pair, const std::shared_ptr<const InterfacePattern>& pattern) const {
+  std::shared_ptr<const InterfaceDofs>& kept = interface_dofs[pair];
+  if (kept && kept->pattern == pattern) return kept;
+  const auto result = std::make_shared<InterfaceDofs>();
+  result->pattern = pattern;
+  result->ids = displacement.ids_on(pattern->local_nodes);
+  std::vector<GlobalOrdinal> unknowns;
+  for (const GlobalOrdinal id : result->ids) {
+    result->places.push_back(id == NodalField::none ? -1 : static_cast<LocalOrdinal>(unknowns.size()));
+    if (id != NodalField::none) unknowns.push_back(id);
+  }
+  const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
+  result->map = rcp(new Map(invalid, unknowns.data(), static_cast<LocalOrdinal>(unknowns.size()), 0, dofs->getComm()));
+  result->to_owners = rcp(new Export(result->map, dofs));
+  return kept = result;
+}
+
+double ContactModel::sum(double value) const {
+  double all = 0.0;
+  Teuchos::reduceAll(comm(), Teuchos::REDUCE_SUM, value, Teuchos::outArg(all));
+  return all;
+}
+
+double ContactModel::maximum(double value) const {
+  double all = 0.0;
+  Teuchos::reduceAll(comm(), Teuchos::REDUCE_MAX, value, Teuchos::outArg(all));
+  return all;
+}
+
+std::shared_ptr<const EvaluatedContact> ContactModel::evaluate(const std::shared_ptr<const ContactModel>& self, const RCP<const MultiVector>& x,
+                                                               const ContactHistory& history, const ContactStates* last, bool derivatives) const {
+  const auto scope = timers.scope("contact");
+  const auto result = std::make_shared<EvaluatedContact>(EvaluatedContact{self, history, x, {}, {}});
+  std::optional<StepFailure> failure;
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    const PairHistory& of_pair = history->pairs[p];
+    {
+      const auto part = timers.scope("search");
+      pairs[p]->search(*x, of_pair);
+    }
+    const auto part = timers.scope("contact integrals");
+    result->pairs.emplace_back(*pairs[p], pairs[p]->evaluate(*x, of_pair, derivatives, failure), history, p);
+    result->dofs.push_back(dofs_of(p, result->pairs.back().geometry()->pattern));
+  }
+  {
+    const auto part = timers.scope("search");
+    if (!history->positions.is_null()) {
+      const std::optional<StepFailure> lost = find_lost_contact(*result, last, failure.has_value());
+      if (lost) failure = lost;
+    }
+  }
+  throw_if_any(comm(), failure);
+  return result;
+}
+
+}  // namespace detail
+
+ContactSystem::ContactSystem(const RCP<const Map>& owned_nodes, RCP<const Map> dofs, RCP<const MultiVector> reference, RCP<const MultiVector> fixed,
+                             const InterfaceMeasure& measure, std::vector<ContactPair> pairs, const Timers& timers)
+    : ContactSystem(numbered_by_nodes("displacement", owned_nodes, static_cast<int>(reference->getNumVectors())), std::move(dofs), reference,
+                    std::move(fixed), measure, std::move(pairs), timers) {}
+
+ContactSystem::ContactSystem(const NodalField& displacement, RCP<const Map> dofs, RCP<const MultiVector> reference, RCP<const MultiVector> fixed,
+                             const InterfaceMeasure& measure, std::vector<ContactPair> pairs, const Timers& timers) {
+  detail::refuse_unfit_fields(displacement, *dofs, *reference, *fixed);
+  for (ContactPair& pair : pairs)
+    if (pair.place.path.empty()) pair.place.path = "contact/" + pair.name;
+  detail::refuse_incomplete_pairs(*dofs->getComm(), pairs);
+  const auto model = std::make_shared<detail::ContactModel>(displacement);
+  detail::ContactModel& self = *model;
+  self.dofs = std::move(dofs);
+  self.reference = std::move(reference);
+  self.fixed = detail::without_crosspoints(fixed);
+  self.timers = timers;
+  self.dimension = static_cast<int>(self.reference->getNumVectors());
+  for (std::size_t i = 0; i < self.reference->getNumVectors(); ++i) self.extent = std::max(self.extent, self.reference->getVector(i)->normInf());
+  const auto fixed_of_pairs = detail::with_crosspoints(self.owned_nodes, fixed, pairs);
+  for (ContactPair& pair : pairs) {
+    const Formulation& formulation = *pair.options.formulation.options;
+    pair.options.mortar.coupling = formulation.coupling();
+    pair.options.mortar.share = formulation.two_pass() ? 0.5 : 1.0;
+    try {
+      self.pairs.push_back(
+          std::make_unique<detail::Pair>(self.owned_nodes, self.reference, fixed_of_pairs[self.pairs.size()], measure, std::move(pair)));
+    } catch (const UnfitCoupling& unfit) {
+      throw with_other_formulations(unfit);
+    }
+  }
+  self.interface_dofs.resize(self.pairs.size());
+  for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(self.owned_nodes->getNodeNumElements()); ++node)
+    for (int i = 0; i < self.dimension; ++i) {
+      const GlobalOrdinal id = displacement.id(node, i);
+      self.rows.push_back(id == NodalField::none ? -1 : self.dofs->getLocalElement(id));
+    }
+
+  // Ids of z: those of the nodes' dofs, beyond all dofs.
+  const GlobalOrdinal offset = self.dofs->getMaxAllGlobalIndex() + 1;
+  std::vector<GlobalOrdinal> ids;
+  for (const auto& pair : self.pairs) {
+    std::vector<LocalOrdinal> first;
+    for (const SlaveNode& slave : pair->slave_nodes()) {
+      first.push_back(slave.carries_multiplier ? static_cast<LocalOrdinal>(ids.size()) : -1);
+      if (!slave.carries_multiplier) continue;
+      for (int i = 0; i < self.dimension; ++i) ids.push_back(offset + self.dimension * slave.id + i);
+    }
+    self.multiplier_of.push_back(std::move(first));
+    std::set<LocalOrdinal> masters;
+    for (const auto& facet : pair->definition().master)
+      for (const GlobalOrdinal node : facet)
+        if (const LocalOrdinal owned = self.owned_nodes->getLocalElement(node); owned >= 0) masters.insert(owned);
+    self.master_nodes.emplace_back(masters.begin(), masters.end());
+  }
+  for (const auto& pair : self.pairs) {
+    const auto carries = [](const SlaveNode& node) { return node.carries_multiplier; };
+    const bool mine = std::all_of(pair->slave_nodes().begin(), pair->slave_nodes().end(), carries);
+    self.leaves_out.push_back(self.maximum(mine ? 0.0 : 1.0) > 0.0 ? 1 : 0);
+  }
+  for (const auto& pair : self.pairs)
+    for (std::size_t s = 0; s < pair->slave_nodes().size(); ++s) self.middles_first |= pair->before_corners(s);
+  self.middles_first = self.maximum(self.middles_first) > 0.0;
+  const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
+  self.multipliers = rcp(new Map(invalid, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, self.dofs->getComm()));
+  model_ = model;
+}
+
+std::size_t ContactSystem::pairs() const { return model_->pairs.size(); }
+const std::string& ContactSystem::pair_name(std::size_t pair) const { return model_->pairs[pair]->definition().name; }
+std::optional<std::size_t> ContactSystem::second_pass(std::size_t pair) const { return model_->second_pass(pair); }
+ContactGeometry ContactSystem::geometry(std::size_t pair) const { return model_->pairs[pair]->definition().options.geometry; }
+bool ContactSystem::keeps_multipliers() const { return model_->keeps_multipliers(); }
+const RCP<const Map>& ContactSystem::multiplier_map() const { return model_->multipliers; }
+
+std::vector<GlobalOrdinal> ContactSystem::slave_ids(std::size_t pair) const {
+  std::vector<GlobalOrdinal> ids;
+  for (const SlaveNode& node : model_->pairs[pair]->slave_nodes()) ids.push_back(node.id);
+  return ids;
+}
+
+RCP<Vector> ContactSystem::weights() const {
+  const auto result = rcp(new Vector(model_->multipliers));
+  const auto view = result->getLocalViewHost(Tpetra::Access::OverwriteAll);
+  for (std::size_t p = 0; p < model_->pairs.size(); ++p)
+    for (std::size_t s = 0; s < model_->multiplier_of[p].size(); ++s)
+      for (int i = 0; i < model_->dimension; ++i)
+        if (const LocalOrdinal first = model_->multiplier_of[p][s]; first >= 0) view(first + i, 0) = model_->pairs[p]->slave_nodes()[s].weight;
+  return result;
+}
+
+ContactEvaluation ContactSystem::evaluate(const NodalDisplacement& d, const ContactHistory& history) const {
+  return ContactEvaluation(model_->evaluate(model_, model_->positions(d), history, nullptr, false));
+}
+
+DifferentiatedContact ContactSystem::differentiate(const NodalDisplacement& d, const ContactHistory& history, const ContactStates* last) const {
+  return DifferentiatedContact(model_->evaluate(model_, model_->positions(d), history, last, true));
+}
+
+RCP<const Graph> ContactSystem::graph(const ContactEvaluation& evaluation, const std::function<RCP<const Graph>()>& bulk, long bulk_version) const {
+  const detail::EvaluatedContact& contact = detail::evaluated(evaluation);
+  if (!model_->scatter || !model_->scatter->fits(contact.pairs) || model_->bulk_version != bulk_version) {
+    const auto scope = model_->timers.scope("contact");
+    const auto part = model_->timers.scope("contact graph");
+    model_->scatter = std::make_shared<detail::SystemScatter>(*bulk(), contact);
+    model_->bulk_version = bulk_version;
+  }
+  return model_->scatter->graph();
+}
+
+long ContactSystem::friction_evaluations() const {
+  long evaluations = 0;
+  for (const auto& pair : model_->pairs) evaluations += pair->slip_evaluations();
+  return evaluations;
+}
+
+IntegrationLoad ContactSystem::integration_load(std::size_t pair) const {
+  IntegrationLoad load;
+  const auto add = [&](std::size_t p) {
+    const InterfaceLoad& mine = model_->pairs[p]->interface().load();
+    load.facets += mine.facets;
+    load.segments += mine.segments;
+    load.imbalance_as_owned = std::max(load.imbalance_as_owned, mine.imbalance_as_owned);
+    load.redistributions += mine.redistributions;
+  };
+  add(pair);
+  if (const auto other = second_pass(pair)) add(*other);
+  const double largest = model_->maximum(static_cast<double>(load.segments)), sum = model_->sum(static_cast<double>(load.segments));
+  load.facets = static_cast<long>(model_->sum(static_cast<double>(load.facets)));
+  load.segments = static_cast<long>(sum);
+  if (sum > 0.0) load.imbalance = largest * model_->comm().getSize() / sum;
+  return load;
+}
+
+}  // namespace mortise

@@ -1,0 +1,54 @@
+#pragma once
+// Multipliers condensed into the bodies' system, and what is kept to find them again.
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "evaluation/evaluated_contact.hpp"
+
+namespace mortise::detail {
+
+/// The affine map z^{k+1} = b + S dd of a closed node. Rows of S stand in the local columns of the system.
+struct RecoveryRow {
+  LocalOrdinal multiplier = 0;  ///< local index of the first component in z
+  SpatialVector b;
+  std::vector<LocalOrdinal> columns;
+  std::array<std::vector<double>, 3> S;  ///< [dim]
+
+  // What makes b, and the node's right-hand side, from residuals. Of a node that is eliminated by its law  b = z - C_z^-1 C.
+  std::size_t pair = 0, node = 0;
+  bool by_law = false;
+  SpatialVector z, C;            ///< of the iterate
+  SpatialMatrix inverse;         ///< C_z^-1; else E^-1 of condense_node()
+  SpatialMatrix C_z, axes;       ///< [conditions x dim]; rows of `axes`: n, tau_a
+  std::array<int, 3> condition;  ///< [dim] which of the conditions stands in the place of the momentum of a fixed component; -1: none
+};
+
+/// One condensed system.
+struct Condensation {
+  ContactLaws laws;
+  std::shared_ptr<SystemScatter> scatter;
+  std::vector<RecoveryRow> recovery;
+  std::size_t middles_condensed = 0;  ///< the first of them
+  TieBlocks left_out;                 ///< L; null: nothing is
+
+  const EvaluatedLaws& at() const { return evaluated(laws); }
+  const ContactModel& model() const { return *at().contact->model; }
+  const PairEvaluation& pair(std::size_t p) const { return at().contact->pairs[p]; }
+  /// Local rows of the components of an owned slave node, -1: no unknown.
+  const LocalOrdinal* own_rows_of(const SlaveNode& slave) const {
+    return &model().rows[static_cast<std::size_t>(model().dimension * slave.owned_node)];
+  }
+
+  void condense_node(std::size_t pair, std::size_t s, Matrix& system);
+  void eliminate_by_law(std::size_t pair, std::size_t s, Matrix& system);
+  void add_right_hand_side(RecoveryRow& row, const SpatialVector& z, const SpatialVector& C, Vector& rhs);
+  /// @param C  null: that of the iterate, for z^{k+1}; else for an increment of z
+  void condense_right_hand_side(const Vector* C, Vector& rhs);
+};
+
+/// What ContactLinearisation::add_stiffness() adds for a pair of variational mortar beyond what the facets' dD and dM give.
+void add_gap_stiffness(const EvaluatedLaws& laws, std::size_t pair, SystemScatter& scatter, Matrix& system);
+
+}  // namespace mortise::detail

@@ -1,0 +1,41 @@
+#pragma once
+// GMRES of Belos.
+
+#include <exception>
+#include <vector>
+
+#include "mortise/nonlinear/linear_solver_options.hpp"
+
+namespace mortise::detail {
+
+/// True residuals up to so many times the tolerance do.
+constexpr double accepted_residual = 10.0;
+
+/// How iterations ended.
+struct GmresReport {
+  int iterations = 0;        ///< how many
+  bool converged = false;    ///< to the tolerance, or to a true residual that does
+  std::exception_ptr error;  ///< what ended them early, such as overflow; null: nothing
+};
+
+/// GMRES, preconditioned from the right. It keeps few vectors before it restarts, and more from a system on that took many iterations.
+class Gmres {
+ public:
+  /// With the maximum of iterations and the parameters of Belos in `options`.
+  explicit Gmres(LinearSolverOptions options) : options_(std::move(options)) {}
+
+  /// Goes on from x towards the solution of A x = b. Collective.
+  /// @param tolerance        of the residual over |b|
+  /// @param most_iterations  bounds those of the options; may be infinite
+  GmresReport solve(const RCP<const Matrix>& A, const RCP<const Operator>& preconditioner, const Vector& b, Vector& x, double tolerance,
+                    double most_iterations);
+
+ private:
+  LinearSolverOptions options_;
+  bool has_large_basis_ = false;
+};
+
+/// What Belos does not accept in the parameters of `options`: names and types.
+std::vector<Diagnostic> gmres_parameter_errors(const LinearSolverOptions& options);
+
+}  // namespace mortise::detail

@@ -1,0 +1,21 @@
+#pragma once
+// A multigrid hierarchy: of a matrix, or of what is left of a condensed contact system.
+
+#include "mortise/nonlinear/linear_solver.hpp"
+#include "multigrid/decoupled_multigrid.hpp"
+#include "multigrid/multigrid_smoother.hpp"
+
+namespace mortise::detail {
+
+/// What multigrid keeps of the matrix that it was set up for.
+struct MultigridHierarchy {
+  RCP<const Operator> cycle;       ///< applies one cycle
+  RCP<const Vector> contact_dofs;  ///< DecoupledSystem::contact_dofs() of that matrix; null: without contact
+};
+
+/// Sets up multigrid for A or, if `decoupled` is not null, for its matrix C. Collective.
+/// @param given  parameters of MueLu
+MultigridHierarchy make_hierarchy(const RCP<const Matrix>& A, const DecoupledSystem* decoupled, const NearNullSpace& near_null_space,
+                                  const Teuchos::ParameterList& given, Smoother smoother);
+
+}  // namespace mortise::detail

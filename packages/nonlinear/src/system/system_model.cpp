@@ -1,0 +1,327 @@
+#include "system/system_model.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "system/active_set_hash.hpp"
+
+namespace mortise::detail {
+namespace {
+
+// Forces below this, relative to stiffness times displacement, are the round-off of f_int. The momentum of a body that only moved rigidly is measured
+// against it instead of against nothing.
+constexpr double round_off_floor = 1e-6;
+
+/// Ids of the first map, then those of the second.
+RCP<const Map> map_of_both(const Map& first, const Map& second) {
+  std::vector<GlobalOrdinal> ids;
+  for (const Map* map : {&first, &second})
+    for (const GlobalOrdinal id : map->getNodeElementList()) ids.push_back(id);
+  const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
+  return rcp(new Map(invalid, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, first.getComm()));
+}
+
+}  // namespace
+
+SystemModel::SystemModel(SystemParts parts, Timers timers)
+    : parts_(std::move(parts)),
+      sizes_(parts_),
+      timers_(std::move(timers)),
+      to_local_(parts_.dofs, parts_.local_dofs),
+      local_displacement_(parts_.local_dofs),
+      stiffness_scales_(sizes_.fields(), 0.0) {
+  check_contributions();
+  multipliers_ = rcp(new Map(0, 0, parts_.dofs->getComm()));
+  map_ = parts_.dofs;
+  if (parts_.contact) {
+    multipliers_ = parts_.contact->multiplier_map();
+    map_ = map_of_both(*parts_.dofs, *multipliers_);
+  }
+  if (parts_.prescribed) prescribed_ = parts_.prescribed->dofs();
+  if (parts_.dependent || parts_.tied) reduction_ = std::make_shared<const Reduction>(parts_.dependent, parts_.tied, parts_.dofs, parts_.local_dofs);
+  if (parts_.contact && parts_.contact->keeps_multipliers())
+    saddle_point_ = std::make_unique<SaddlePointMatrix>(reduction_ ? reduction_->unknowns() : parts_.dofs, multipliers_);
+}
+
+void SystemModel::check_contributions() const {
+  std::vector<std::string> known;
+  for (const SystemField& field : parts_.fields) known.push_back(field.unknowns.name());
+  if (known.empty()) known.push_back("displacement");
+  for (const auto& contribution : parts_.contributions) {
+    const FieldUse uses = contribution->uses();
+    for (const auto* names : {&uses.reads, &uses.writes})
+      for (const std::string& name : *names)
+        if (std::find(known.begin(), known.end(), name) == known.end())
+          throw std::invalid_argument(
+              fmt::format("contribution \"{}\" knows a field '{}'; the system's fields are: {}", contribution->name(), name, fmt::join(known, ", ")));
+    if (uses.time_derivatives > 0 && !parts_.time)
+      throw std::invalid_argument(
+          fmt::format("contribution \"{}\" reads time derivatives of order {}; this system has none", contribution->name(), uses.time_derivatives));
+  }
+}
+
+Configuration SystemModel::configuration(double time, const Vector& displacement) const {
+  local_displacement_.doImport(displacement, to_local_, Tpetra::REPLACE);
+  return {time, displacement, local_displacement_};
+}
+
+Configuration SystemModel::configuration(double time, const Vector& displacement, const TimeStep* step) const {
+  return step == nullptr ? configuration(time, displacement) : configuration(time, displacement, blended_rates(*step, displacement));
+}
+
+Configuration SystemModel::configuration(double time, const Vector& displacement, BlendedRates rates) const {
+  Configuration result = configuration(time, displacement);
+  if (rates_.local_velocity.is_null()) {
+    rates_.local_velocity = rcp(new Vector(parts_.local_dofs));
+    rates_.local_acceleration = rcp(new Vector(parts_.local_dofs));
+  }
+  rates_.of_dofs = std::move(rates);
+  rates_.local_velocity->doImport(*rates_.of_dofs.velocity, to_local_, Tpetra::REPLACE);
+  rates_.local_acceleration->doImport(*rates_.of_dofs.acceleration, to_local_, Tpetra::REPLACE);
+  result.velocity = rates_.of_dofs.velocity.get();
+  result.local_velocity = rates_.local_velocity.get();
+  result.acceleration = rates_.of_dofs.acceleration.get();
+  result.local_acceleration = rates_.local_acceleration.get();
+  return result;
+}
+
+void SystemModel::serialize(StateArchive& archive) const {
+  const std::size_t fields = stiffness_scales_.size();
+  mortise::serialize(archive, "stiffness_scales", stiffness_scales_);
+  if (parts_.time) {
+    mortise::serialize(archive, "static_scales", static_scales_);
+    mortise::serialize(archive, "mass_scales", mass_scales_);
+  }
+  if (stiffness_scales_.size() != fields)
+    throw FileError(fmt::format("a stored state has {} fields; expected are {}", stiffness_scales_.size(), fields));
+  for (const auto& contribution : parts_.contributions) contribution->serialize(archive);
+}
+
+std::shared_ptr<EvaluatedSystem> SystemModel::begin_evaluation(const Vector& x, const StepContext& context) const {
+  const Vector values(x, Teuchos::Copy);
+  return std::make_shared<EvaluatedSystem>(EvaluatedSystem{values,
+                                                           d(values),
+                                                           z(values),
+                                                           context,
+                                                           Teuchos::null,
+                                                           Vector(parts_.dofs),
+                                                           Teuchos::null,
+                                                           std::nullopt,
+                                                           std::nullopt,
+                                                           nullptr,
+                                                           Vector(parts_.dofs),
+                                                           Vector(map_),
+                                                           {}});
+}
+
+std::shared_ptr<const EvaluatedSystem> SystemModel::evaluate(const Vector& x, const StepContext& context, AtHand at_hand) const {
+  if (parts_.contact && !context.contact)
+    throw std::invalid_argument("SemiSmoothSystem: a context without a history of contact; take step_from() or start_step() of an initial_state()");
+  const std::shared_ptr<EvaluatedSystem> result = begin_evaluation(x, context);
+  result->internal = std::move(at_hand.internal);
+  result->contact = std::move(at_hand.contact);
+  EvaluatedSystem& at = *result;
+  add_forces(at);
+  if (parts_.contact) {
+    if (!at.contact) at.contact = parts_.contact->differentiate(*at.d, *context.contact, &context.states);
+    at.laws = at.contact->laws(*at.z);
+    Vector contact_force(parts_.dofs);
+    at.laws->add_force(contact_force);
+    at.forces.update(1.0, contact_force, 1.0);
+  }
+  if (reduction_) {
+    configuration(context.time, *at.d);
+    at.follow = std::make_shared<const FollowedDisplacements>(reduction_, context.time, local_displacement_);
+  }
+  if (stiffness_scale() == 0.0) stiffness(result);
+  add_norms(at);
+  return result;
+}
+
+// What acts between bodies has the weight 1 of contact in any scheme.
+void SystemModel::add_forces(EvaluatedSystem& at) const {
+  const TimeStep* step = at.context.step.get();
+  const Configuration configuration = this->configuration(at.context.time, *at.d, step);
+  RCP<Vector> internal, of_rates, between;
+  if (at.internal.is_null()) at.internal = internal = rcp(new Vector(parts_.dofs));
+  if (step != nullptr) at.of_rates = of_rates = rcp(new Vector(parts_.dofs));
+  if (step != nullptr && step->integration->scheme.blends_forces()) between = rcp(new Vector(parts_.dofs));
+  std::optional<StepFailure> failure;
+  for (const auto& contribution : parts_.contributions) {
+    if (contribution->uses().time_derivatives > 0) {
+      if (step != nullptr) contribution->add_residual(configuration, *of_rates, failure);
+    } else if (contribution->kind() == Contribution::Kind::internal) {
+      if (!internal.is_null()) contribution->add_residual(configuration, *internal, failure);
+    } else {
+      const bool is_between = contribution->kind() == Contribution::Kind::interaction && !between.is_null();
+      contribution->add_residual(configuration, is_between ? *between : at.external, failure);
+    }
+  }
+  if (parts_.dependent) parts_.dependent->check(local_displacement_, failure);
+  throw_if_any(comm(), failure);
+  at.forces.update(1.0, *at.internal, 1.0, at.external, 0.0);
+  if (step == nullptr) return;
+  if (step->integration->scheme.blends_forces()) {
+    const double before = step->integration->scheme.alpha_f;
+    at.forces.update(before, *step->internal_forces, before, *step->start.external_forces, 1.0 - before);
+    at.forces.update(1.0, *between, 1.0);
+  }
+  at.forces.update(1.0, *of_rates, 1.0);
+}
+
+// F: r = f_int - f_ext + f_c; rows of prescribed dofs: s (d - prescribed); C.
+void SystemModel::add_norms(EvaluatedSystem& at) const {
+  const RCP<Vector> r = d(at.residual);
+  Tpetra::deep_copy(*r, at.forces);
+  ResidualNorms& norms = at.norms;
+  std::vector<double> force = sizes_.norms(*at.internal);  // [fields]
+  const std::vector<double> external_force = sizes_.norms(at.external), displacement = sizes_.norms(*at.d);
+  for (std::size_t field = 0; field < force.size(); ++field) force[field] = std::max(force[field], external_force[field]);
+  if (!at.of_rates.is_null()) {
+    const std::vector<double> rate_force = sizes_.norms(*at.of_rates);
+    for (std::size_t field = 0; field < force.size(); ++field) force[field] = std::max(force[field], rate_force[field]);
+  }
+  double other = 0.0, violation = 0.0;
+  std::optional<StepFailure> failure;  // why something is not finite
+  if (parts_.contact) {
+    const RCP<Vector> C = z(at.residual);
+    at.laws->complementarity(*C);
+    other = C->norm2();
+    if (!std::isfinite(other)) failure = at.laws->friction_failure();
+    const ContactNorms contact = at.laws->norms(at.context.states);
+    norms.gap = contact.gap;
+    norms.complementarity = contact.complementarity;
+    violation = contact.violation;
+    norms.active = contact.active;
+    norms.sticking = contact.sticking;
+    norms.changed = contact.changed;
+    norms.active_set = active_set_hash(*parts_.contact, at.laws->states(), comm());
+    force[0] = std::max(force[0], contact.force);
+  }
+
+  // Momentum on the free rows alone, then the prescribed ones and those of followers.
+  if (at.follow) at.follow->gather(*r);
+  std::vector<double> deviation;  // d - prescribed
+  double largest = 0.0;
+  if (parts_.prescribed) deviation = parts_.prescribed->values(at.context.time, failure);
+  if (at.follow && !failure) failure = at.follow->failure();
+  {
+    if (at.follow) largest = at.follow->deviation(*at.d, 0.0, *r);
+    const auto displacements = at.d->getLocalViewHost(Tpetra::Access::ReadOnly);
+    const auto rows = r->getLocalViewHost(Tpetra::Access::ReadWrite);
+    for (std::size_t i = 0; i < prescribed_.size(); ++i) {
+      deviation[i] = displacements(prescribed_[i], 0) - deviation[i];
+      largest = std::max(largest, std::abs(deviation[i]) * parts_.length / sizes_.size(sizes_.field(prescribed_[i])));
+      rows(prescribed_[i], 0) = 0.0;
+    }
+  }
+  const auto total = [&](const std::vector<double>& of_fields) {
+    if (of_fields.size() == 1) return of_fields[0];
+    double squares = 0.0;
+    for (std::size_t field = 0; field < of_fields.size(); ++field) squares += std::pow(weight(field) * of_fields[field], 2);
+    return std::sqrt(squares);
+  };
+  const std::vector<double> out_of_balance = sizes_.norms(*r);
+  norms.momentum_absolute = total(out_of_balance);
+  bool finite = std::isfinite(other);
+  for (std::size_t field = 0; field < force.size(); ++field) {
+    force[field] = std::max(force[field], round_off_floor * diagonal_scale(field, at.context.step.get()) * displacement[field]);
+    finite = finite && std::isfinite(force[field]);
+    if (out_of_balance[field] != 0.0) norms.momentum = std::max(norms.momentum, out_of_balance[field] / force[field]);
+  }
+  if (!std::isfinite(norms.momentum_absolute)) norms.momentum = norms.momentum_absolute;  // a maximum passes over what is no number
+  // F = I + grad u is known to eps, and so are stresses, to eps E; contact forces come from positions, known to eps |x| at each closed node.
+  norms.round_off =
+      4.0 * std::numeric_limits<double>::epsilon() * diagonal_scale(0, at.context.step.get()) * parts_.length * std::sqrt(1.0 + norms.active);
+  Teuchos::reduceAll(comm(), Teuchos::REDUCE_MAX, largest / parts_.length, Teuchos::outArg(norms.prescribed));
+  {
+    const auto rows = r->getLocalViewHost(Tpetra::Access::ReadWrite);
+    for (std::size_t i = 0; i < prescribed_.size(); ++i) rows(prescribed_[i], 0) = stiffness_scale_of(prescribed_[i]) * deviation[i];
+  }
+  if (at.follow) at.follow->deviation(*at.d, stiffness_scale(), *r);
+  const double rows = total(sizes_.norms(*r));
+  norms.finite = finite && std::isfinite(rows);
+  if (!norms.finite) throw_if_any(comm(), failure);  // all ranks have the same norms
+  norms.merit = norms.finite ? std::hypot(rows, violation) : std::numeric_limits<double>::infinity();
+}
+
+double SystemModel::diagonal_scale(std::size_t field, const TimeStep* step) const {
+  if (step == nullptr || static_scales_.empty()) return stiffness_scale(field);
+  return step->integration->scheme.force_share() * static_scales_[field] + step->weights().acceleration * mass_scales_[field];
+}
+
+double SystemModel::weight(std::size_t field) const {
+  return field == 0 ? 1.0 : stiffness_scale() * parts_.length / (stiffness_scale(field) * sizes_.size(field));
+}
+
+const RCP<Matrix>& SystemModel::stiffness(const std::shared_ptr<const EvaluatedSystem>& at) const {
+  if (!matrix_of_.owner_before(at) && !at.owner_before(matrix_of_)) return matrix_;
+  matrix_of_.reset();
+  // The bulk's graph, or the larger one that the present candidates of contact ask for.
+  const long version = parts_.bulk_version ? parts_.bulk_version() : 0;
+  const RCP<const Graph> graph = at->contact         ? parts_.contact->graph(*at->contact, parts_.bulk_graph, version)
+                                 : matrix_.is_null() ? parts_.bulk_graph()
+                                                     : matrix_->getCrsGraph();
+  if (matrix_.is_null() || matrix_->getCrsGraph() != graph)
+    matrix_ = rcp(new Matrix(graph));
+  else
+    matrix_->resumeFill();
+  matrix_->setAllToScalar(0.0);
+  std::optional<StepFailure> failure;
+  add_jacobians(*at, failure);
+  matrix_->fillComplete(parts_.dofs, parts_.dofs);
+  throw_if_any(comm(), failure);
+  matrix_of_ = at;
+  if (stiffness_scale() == 0.0) stiffness_scales_ = scales_of_diagonal();
+  return matrix_;
+}
+
+void SystemModel::add_jacobians(const EvaluatedSystem& at, std::optional<StepFailure>& failure) const {
+  const TimeStep* step = at.context.step.get();
+  const Configuration configuration = this->configuration(at.context.time, *at.d, step);
+  JacobianWeights of_forces;
+  if (step != nullptr) of_forces.displacement = step->integration->scheme.force_share();
+  for (const auto& contribution : parts_.contributions)
+    if (contribution->uses().time_derivatives == 0)
+      contribution->add_jacobian(configuration, contribution->kind() == Contribution::Kind::interaction ? JacobianWeights{} : of_forces, *matrix_,
+                                 failure);
+  if (step == nullptr) return;
+  std::vector<double> of_statics;
+  if (mass_scales_.empty()) of_statics = scales_of_diagonal();
+  JacobianWeights weights = step->weights();
+  if (rates_.local_shares.is_null()) rates_.local_shares = rcp(new Vector(parts_.local_dofs));
+  rates_.local_shares->doImport(*velocity_shares(*step), to_local_, Tpetra::REPLACE);
+  weights.local_velocity_shares = rates_.local_shares.get();
+  for (const auto& contribution : parts_.contributions)
+    if (contribution->uses().time_derivatives > 0) contribution->add_jacobian(configuration, weights, *matrix_, failure);
+  if (of_statics.empty()) return;
+  const std::vector<double> of_all = scales_of_diagonal();
+  for (std::size_t field = 0; field < of_all.size(); ++field) {
+    static_scales_.push_back(of_statics[field] / of_forces.displacement);
+    mass_scales_.push_back(std::max(0.0, of_all[field] - of_statics[field]) / weights.acceleration);
+  }
+}
+
+std::vector<double> SystemModel::scales_of_diagonal() const {
+  Vector diagonal(parts_.dofs);
+  matrix_->getLocalDiagCopy(diagonal);
+  std::vector<double> scales = sizes_.means(diagonal);
+  for (double& scale : scales)
+    if (!(scale > 0.0 && std::isfinite(scale))) scale = 1.0;
+  return scales;
+}
+
+RCP<Matrix> SystemModel::take_stiffness(const std::shared_ptr<const EvaluatedSystem>& at) const {
+  stiffness(at);
+  matrix_of_.reset();
+  matrix_->resumeFill();
+  return matrix_;
+}
+
+}  // namespace mortise::detail

@@ -1,0 +1,237 @@
+#include "mortise/solid/bodies.hpp"
+
+#include <fmt/format.h>
+
+#include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Vector.hpp>
+#include <limits>
+#include <stdexcept>
+
+#include "bodies/host_view.hpp"
+#include "elements/element_block.hpp"
+#include "elements/extrapolation.hpp"
+#include "mortise/core/dof_map.hpp"
+#include "mortise/material/logarithmic.hpp"
+#include "mortise/material/materials.hpp"
+
+namespace mortise {
+namespace {
+
+/// A rigid body has no elements: nothing is computed, nothing remembered.
+class RigidBlock final : public ElementBlock {
+ public:
+  void add_internal_force(const double*, double*, std::optional<StepFailure>&) const override {}
+  void add_stiffness(const double*, const NodalSparsity::Values&, double, std::optional<StepFailure>&) const override {}
+  void visit_points(const double*, LocalOrdinal, const std::function<void(const MaterialPoint&)>&) const override {}
+  void commit(const double*) override {}
+  void serialize(StateArchive&, const std::string&) override {}
+  std::size_t history_bytes() const override { return 0; }
+  long history_evaluations() const override { return 0; }
+  void add_nodal_volumes(std::vector<double>&) const override {}
+  std::pair<LocalOrdinal, double> smallest_reference_determinant() const override { return {-1, std::numeric_limits<double>::infinity()}; }
+};
+
+}  // namespace
+
+Bodies::Bodies(RCP<const Mesh> mesh, Kinematics kinematics, double thickness, std::vector<BodyProperties> bodies)
+    : mesh_(std::move(mesh)), kinematics_(kinematics), thickness_(thickness), properties_(std::move(bodies)) {
+  if (properties_.size() != mesh_->blocks.size()) throw std::logic_error("properties and blocks of the mesh do not match");
+  std::vector<Diagnostic> diagnostics;
+  for (std::size_t n = 0; n < properties_.size(); ++n) {
+    for (Diagnostic& diagnostic : check_combination(properties_[n], kinematics_)) diagnostics.push_back(std::move(diagnostic));
+    const CellShape shape = mesh_->blocks[n].shape;
+    if (properties_[n].is_rigid() ? topology(shape).dimension != mesh_->dimension - 1 : cell_shape(properties_[n].element) != shape)
+      throw std::logic_error("a block's cells are not those of its body's element");
+  }
+  throw_if_any(*mesh_->comm, diagnostics);
+  if (mesh_->dimension != dimension()) throw std::logic_error("the mesh and the kinematics do not have the same dimension");
+
+  dofs_ = make_dof_map(*mesh_->owned_nodes, dimension());
+  local_dofs_ = make_dof_map(*mesh_->local_nodes, dimension());
+  ghost_import_ = rcp(new Import(dofs_, local_dofs_));
+  sparsity_ = std::make_unique<NodalSparsity>(*mesh_, dofs_, local_dofs_);
+  for (std::size_t n = 0; n < properties_.size(); ++n) {
+    const BlockContext context{*mesh_, mesh_->blocks[n], static_cast<LocalOrdinal>(n), *sparsity_};
+    if (properties_[n].is_rigid()) {
+      blocks_.push_back(std::make_unique<RigidBlock>());
+      continue;
+    }
+    blocks_.push_back(make_element_block(context, properties_[n], kinematics_, thickness_));
+    const auto [element, determinant] = blocks_.back()->smallest_reference_determinant();
+    if (!(determinant > 0.0))
+      diagnostics.push_back({properties_[n].place, fmt::format("body \"{}\": element {} {} is inverted, det J = {:.3g}", properties_[n].name,
+                                                               context.block.element_ids[element], element_place(context, element), determinant)});
+  }
+  throw_if_any(*mesh_->comm, diagnostics);
+}
+
+Bodies::~Bodies() = default;
+
+double Bodies::depth(double radius) const {
+  if (kinematics_ == Kinematics::three_dimensional) return 1.0;
+  return kinematics_ == Kinematics::axisymmetric ? 2.0 * EIGEN_PI * radius : thickness_;
+}
+
+void Bodies::add_internal_force(const Vector& local_displacement, Vector& residual, std::optional<StepFailure>& failure) const {
+  const HostReadView displacement(local_displacement);
+  const HostWriteView force(residual);
+  for (const auto& block : blocks_) block->add_internal_force(displacement.data(), force.data(), failure);
+}
+
+void Bodies::add_stiffness(const Vector& local_displacement, Matrix& matrix, std::optional<StepFailure>& failure, double factor) const {
+  const HostReadView displacement(local_displacement);
+  const NodalSparsity::Values values = sparsity_->open(matrix);
+  for (const auto& block : blocks_) block->add_stiffness(displacement.data(), values, factor, failure);
+  values.close();
+}
+
+void Bodies::commit(const Vector& local_displacement) {
+  const HostReadView displacement(local_displacement);
+  for (const auto& block : blocks_) block->commit(displacement.data());
+}
+
+void Bodies::serialize(StateArchive& archive) {
+  for (std::size_t n = 0; n < blocks_.size(); ++n) blocks_[n]->serialize(archive, fmt::format("body.{}", n));
+}
+
+std::size_t Bodies::history_bytes(LocalOrdinal block) const { return blocks_.at(block)->history_bytes(); }
+
+long Bodies::history_evaluations(LocalOrdinal block) const { return blocks_.at(block)->history_evaluations(); }
+
+void Bodies::visit_points(const Vector& local_displacement, const std::function<void(const MaterialPoint&)>& visit) const {
+  const HostReadView displacement(local_displacement);
+  for (std::size_t n = 0; n < blocks_.size(); ++n) blocks_[n]->visit_points(displacement.data(), mesh_->blocks[n].owned, visit);
+}
+
+std::vector<double> Bodies::nodal_volumes(LocalOrdinal block) const {
+  std::vector<double> volumes(mesh_->owned_count(), 0.0);
+  blocks_.at(block)->add_nodal_volumes(volumes);
+  return volumes;
+}
+
+RCP<const Matrix> Bodies::mass(bool) const {
+  std::vector<double> masses(mesh_->owned_count(), 0.0);
+  for (std::size_t n = 0; n < properties_.size(); ++n) {
+    if (properties_[n].is_rigid()) continue;
+    const auto volumes = nodal_volumes(static_cast<LocalOrdinal>(n));
+    for (std::size_t a = 0; a < masses.size(); ++a) masses[a] += properties_[n].material->density * volumes[a];
+  }
+  const auto M = rcp(new Matrix(mesh_->owned_nodes, 1));
+  for (LocalOrdinal a = 0; a < mesh_->owned_count(); ++a) {
+    const GlobalOrdinal id = mesh_->owned_nodes->getGlobalElement(a);
+    M->insertGlobalValues(id, 1, &masses[a], &id);
+  }
+  M->fillComplete();
+  return M;
+}
+
+std::vector<double> Bodies::stored_energies(const Vector& local_displacement) const {
+  std::vector<double> mine(mesh_->bodies.size(), 0.0), all(mine.size(), 0.0);
+  visit_points(local_displacement, [&](const MaterialPoint& point) { mine[mesh_->blocks[point.block].body] += point.weight * point.energy; });
+  Teuchos::reduceAll(*mesh_->comm, Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), all.data());
+  return all;
+}
+
+std::vector<double> Bodies::plastic_works(const Vector& local_displacement) const {
+  std::vector<double> mine(mesh_->bodies.size(), 0.0), all(mine.size(), 0.0);
+  const HostReadView displacement(local_displacement);
+  for (std::size_t n = 0; n < blocks_.size(); ++n)
+    if (blocks_[n]->history_bytes() > 0)
+      blocks_[n]->visit_points(displacement.data(), mesh_->blocks[n].owned,
+                               [&](const MaterialPoint& point) { mine[mesh_->blocks[n].body] += point.weight * point.plastic_work; });
+  Teuchos::reduceAll(*mesh_->comm, Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), all.data());
+  return all;
+}
+
+namespace {
+
+StressComponents components_of(const Matrix3& tensor) { return {tensor(0, 0), tensor(1, 1), tensor(2, 2), tensor(0, 1), tensor(1, 2), tensor(0, 2)}; }
+
+const Matrix3& stress_of(const MaterialPoint& point) { return point.cauchy_stress; }
+
+}  // namespace
+
+std::vector<StressComponents> Bodies::element_means(const Vector& local_displacement, LocalOrdinal block, const PointTensor& tensor) const {
+  const LocalOrdinal owned = mesh_->blocks.at(block).owned;
+  std::vector<StressComponents> means(owned, StressComponents{});
+  std::vector<double> volumes(owned, 0.0);
+  const HostReadView displacement(local_displacement);
+  blocks_.at(block)->visit_points(displacement.data(), owned, [&](const MaterialPoint& point) {
+    const double weight = point.weight * point.volume_ratio;
+    const StressComponents components = components_of(tensor(point));
+    volumes[point.element] += weight;
+    for (std::size_t c = 0; c < components.size(); ++c) means[point.element][c] += weight * components[c];
+  });
+  for (LocalOrdinal element = 0; element < owned; ++element)
+    if (volumes[element] > 0.0)  // a rigid body has no points
+      for (double& component : means[element]) component /= volumes[element];
+  return means;
+}
+
+RCP<MultiVector> Bodies::nodal_means(const Vector& local_displacement, const PointTensor& tensor) const {
+  const LocalOrdinal owned = mesh_->owned_count();
+  std::vector<StressComponents> sums(owned, StressComponents{});
+  std::vector<int> elements(owned, 0);
+  const HostReadView displacement(local_displacement);
+  for (std::size_t n = 0; n < blocks_.size(); ++n) {
+    if (properties_[n].is_rigid()) continue;
+    const Block& block = mesh_->blocks[n];
+    const Eigen::MatrixXd extrapolation = extrapolation_to_nodes(properties_[n].element, kinematics_);
+    // Ghost elements too: every element around an owned node counts.
+    blocks_[n]->visit_points(displacement.data(), block.size(), [&](const MaterialPoint& point) {
+      const LocalOrdinal* nodes = block.nodes(point.element);
+      const StressComponents components = components_of(tensor(point));
+      for (int a = 0; a < block.nodes_per_element; ++a) {
+        if (nodes[a] >= owned) continue;
+        if (point.point == 0) ++elements[nodes[a]];
+        for (std::size_t c = 0; c < components.size(); ++c) sums[nodes[a]][c] += extrapolation(a, point.point) * components[c];
+      }
+    });
+  }
+  auto result = rcp(new MultiVector(mesh_->owned_nodes, stress_components()));
+  auto view = result->getLocalViewHost(Tpetra::Access::OverwriteAll);
+  for (LocalOrdinal node = 0; node < owned; ++node)
+    for (int c = 0; c < stress_components(); ++c) view(node, c) = elements[node] > 0 ? sums[node][c] / elements[node] : 0.0;
+  return result;
+}
+
+Bodies::PointTensor Bodies::strain_of_points() const {
+  std::vector<char> is_small;
+  for (const BodyProperties& body : properties_)
+    is_small.push_back(!body.is_rigid() && std::visit([](const auto& law) { return law.small_strain; }, body.material->law()) ? 1 : 0);
+  return [is_small](const MaterialPoint& point) -> Matrix3 {
+    const Matrix3& F = point.deformation_gradient;
+    if (is_small[point.block] != 0) return 0.5 * (F + F.transpose()) - Matrix3::Identity();
+    const Spectrum b = spectral_decomposition(F * F.transpose());
+    return in_axes_of(b, logarithmic_strain(b));
+  };
+}
+
+std::vector<StressComponents> Bodies::element_stresses(const Vector& local_displacement, LocalOrdinal block) const {
+  return element_means(local_displacement, block, stress_of);
+}
+
+std::vector<StressComponents> Bodies::element_strains(const Vector& local_displacement, LocalOrdinal block) const {
+  return element_means(local_displacement, block, strain_of_points());
+}
+
+RCP<MultiVector> Bodies::nodal_stresses(const Vector& local_displacement) const { return nodal_means(local_displacement, stress_of); }
+
+RCP<MultiVector> Bodies::nodal_strains(const Vector& local_displacement) const { return nodal_means(local_displacement, strain_of_points()); }
+
+std::vector<double> Bodies::element_plastic_strains(const Vector& local_displacement, LocalOrdinal block) const {
+  const LocalOrdinal owned = mesh_->blocks.at(block).owned;
+  std::vector<double> strains(owned, 0.0), volumes(owned, 0.0);
+  if (history_bytes(block) == 0) return strains;
+  const HostReadView displacement(local_displacement);
+  blocks_[block]->visit_points(displacement.data(), owned, [&](const MaterialPoint& point) {
+    volumes[point.element] += point.weight;
+    strains[point.element] += point.weight * point.equivalent_plastic_strain;
+  });
+  for (LocalOrdinal element = 0; element < owned; ++element) strains[element] /= volumes[element];
+  return strains;
+}
+
+}  // namespace mortise

@@ -1,0 +1,11 @@
+// Elements that are quadratic hexahedra.
+
+#include "elements/kernel_block.hpp"
+#include "mortise/shape/hexahedron20.hpp"
+
+namespace mortise {
+
+template std::unique_ptr<ElementBlock> make_cell_block<Hexahedron20, ElementFormulation::standard>(const BlockContext&, const Law&, Kinematics,
+                                                                                                   double);
+
+}  // namespace mortise

@@ -1,0 +1,12 @@
+// Elements that are trilinear hexahedra.
+
+#include "elements/kernel_block.hpp"
+#include "mortise/shape/hexahedron8.hpp"
+
+namespace mortise {
+
+template std::unique_ptr<ElementBlock> make_cell_block<Hexahedron8, ElementFormulation::standard>(const BlockContext&, const Law&, Kinematics,
+                                                                                                  double);
+template std::unique_ptr<ElementBlock> make_cell_block<Hexahedron8, ElementFormulation::f_bar>(const BlockContext&, const Law&, Kinematics, double);
+
+}  // namespace mortise

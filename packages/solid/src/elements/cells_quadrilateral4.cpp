@@ -1,0 +1,13 @@
+// Elements that are bilinear quadrilaterals.
+
+#include "elements/kernel_block.hpp"
+#include "mortise/shape/quadrilateral4.hpp"
+
+namespace mortise {
+
+template std::unique_ptr<ElementBlock> make_cell_block<Quadrilateral4, ElementFormulation::standard>(const BlockContext&, const Law&, Kinematics,
+                                                                                                     double);
+template std::unique_ptr<ElementBlock> make_cell_block<Quadrilateral4, ElementFormulation::f_bar>(const BlockContext&, const Law&, Kinematics,
+                                                                                                  double);
+
+}  // namespace mortise

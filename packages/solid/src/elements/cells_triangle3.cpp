@@ -1,0 +1,10 @@
+// Elements that are linear triangles.
+
+#include "elements/kernel_block.hpp"
+#include "mortise/shape/triangle3.hpp"
+
+namespace mortise {
+
+template std::unique_ptr<ElementBlock> make_cell_block<Triangle3, ElementFormulation::standard>(const BlockContext&, const Law&, Kinematics, double);
+
+}  // namespace mortise

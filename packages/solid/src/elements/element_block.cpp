@@ -1,0 +1,29 @@
+#include "elements/element_block.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <type_traits>
+
+#include "elements/cell_block.hpp"
+#include "mortise/material/materials.hpp"
+
+namespace mortise {
+
+std::string element_place(const BlockContext& context, LocalOrdinal element) {
+  const int nodes = context.block.nodes_per_element;
+  std::array<double, 3> middle{};
+  for (int a = 0; a < nodes; ++a)
+    for (int i = 0; i < 3; ++i) middle[i] += context.mesh.coordinates[context.block.nodes(element)[a]][i] / nodes;
+  return fmt::format("at ({:.6g}) of the reference configuration", fmt::join(middle.begin(), middle.begin() + context.mesh.dimension, ", "));
+}
+
+std::unique_ptr<ElementBlock> make_element_block(const BlockContext& context, const BodyProperties& body, Kinematics kinematics, double thickness) {
+  return visit_element(body.element, [&](const auto& entry) {
+    using Entry = std::decay_t<decltype(entry)>;
+    return make_cell_block<typename Entry::Cell, Entry::formulation>(context, body.material->law(), kinematics, thickness);
+  });
+}
+
+}  // namespace mortise

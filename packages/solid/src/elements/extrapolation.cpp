@@ -1,0 +1,57 @@
+#include "elements/extrapolation.hpp"
+
+#include <Eigen/QR>
+#include <type_traits>
+#include <vector>
+
+#include "elements/element_kernel.hpp"
+
+namespace mortise {
+namespace {
+
+/// Those of the products of coordinates, named by the bits of k, that `has` tells to take.
+template <std::size_t dimension, class Has>
+Eigen::RowVectorXd products_of_coordinates(const std::array<double, dimension>& xi, const Has& has) {
+  std::vector<double> values;
+  for (unsigned k = 0; k < 1u << dimension; ++k) {
+    if (!has(k)) continue;
+    values.push_back(1.0);
+    for (std::size_t i = 0; i < dimension; ++i)
+      if ((k >> i & 1u) != 0) values.back() *= xi[i];
+  }
+  return Eigen::Map<const Eigen::RowVectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+/// The functions about the centroid that are fitted, at a reference point of a cell. Pyramids have no others than those of the rays: a strain is
+/// constant along each.
+template <class Cell, std::size_t dimension>
+Eigen::RowVectorXd fitted_functions(const std::array<double, dimension>& xi) {
+  if constexpr (std::is_base_of_v<ReferencePyramid, Cell>) {
+    return products_of_coordinates(Cell::ray(xi), [](unsigned) { return true; });
+  } else {
+    std::array<double, dimension> from_centroid{};
+    for (std::size_t i = 0; i < dimension; ++i) from_centroid[i] = xi[i] - Cell::centroid[i];
+    return products_of_coordinates(from_centroid, [](unsigned k) {
+      constexpr bool is_simplex = Cell::corners == Cell::dimension + 1, is_wedge = std::is_base_of_v<ReferenceWedge, Cell>;
+      constexpr unsigned linear = is_simplex ? ~0u : is_wedge ? 3u : 0u;  // coordinates of which a product has one at most
+      return ((k & linear) & ((k & linear) - 1)) == 0;
+    });
+  }
+}
+
+}  // namespace
+
+Eigen::MatrixXd extrapolation_to_nodes(ElementType element, Kinematics kinematics) {
+  return visit_element(element, [&](const auto& entry) -> Eigen::MatrixXd {
+    using Cell = typename std::decay_t<decltype(entry)>::Cell;
+    const auto rule = Cell::rule(quadrature_points<Cell>(kinematics));
+    const Eigen::Index functions = fitted_functions<Cell>(Cell::centroid).size();
+    Eigen::MatrixXd at_points(rule.size(), functions), at_nodes(Cell::nodes, functions);
+    for (std::size_t q = 0; q < rule.size(); ++q)
+      at_points.row(static_cast<Eigen::Index>(q)) = fitted_functions<Cell>(rule[q].template position<Cell::dimension>());
+    for (int a = 0; a < Cell::nodes; ++a) at_nodes.row(a) = fitted_functions<Cell>(Cell::node_positions[a]);
+    return at_nodes * at_points.completeOrthogonalDecomposition().pseudoInverse();
+  });
+}
+
+}  // namespace mortise

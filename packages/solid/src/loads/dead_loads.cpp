@@ -1,0 +1,143 @@
+// Loads that do not follow the deformation: nodal force, dead traction, gravity.
+
+#include <fmt/format.h>
+
+#include "bodies/host_view.hpp"
+#include "loads/load_support.hpp"
+#include "loads/loaded_side.hpp"
+
+namespace mortise {
+namespace {
+
+class NodalForce final : public Load {
+ public:
+  NodalForce(std::shared_ptr<const Bodies> bodies, const NodalForceOptions& options)
+      : bodies_(std::move(bodies)), components_(components(*bodies_, options.x, options.y, options.z)) {
+    const Mesh& mesh = *bodies_->mesh();
+    look_up(mesh, [&] {
+      for (LocalOrdinal node : require_node_set(mesh, options.set))
+        if (node < mesh.owned_count()) nodes_.push_back(node);
+    });
+  }
+
+  void add_residual(double time, const Vector&, Vector& residual, std::optional<StepFailure>& failure) const override {
+    const HostWriteView r(residual);
+    const int dimension = bodies_->dimension();
+    for (LocalOrdinal node : nodes_)
+      for (int i = 0; i < dimension; ++i)
+        r.data()[dimension * node + i] -= evaluate(components_[i], time, bodies_->mesh()->coordinates[node], failure);
+  }
+
+ private:
+  std::shared_ptr<const Bodies> bodies_;
+  std::vector<ScalarFunction> components_;
+  std::vector<LocalOrdinal> nodes_;
+};
+
+/// f_a = integral of N_a T dGamma0, in 2D dGamma0 = reference length x thickness or 2 pi R.
+class DeadTraction final : public Load {
+ public:
+  DeadTraction(std::shared_ptr<const Bodies> bodies, const DeadTractionOptions& options)
+      : bodies_(std::move(bodies)),
+        components_(components(*bodies_, options.x, options.y, options.z)),
+        sides_(sides_at_owned_nodes(*bodies_->mesh(), options.set)) {}
+
+  void add_residual(double time, const Vector&, Vector& residual, std::optional<StepFailure>& failure) const override {
+    const Mesh& mesh = *bodies_->mesh();
+    const HostWriteView r(residual);
+    for (const LoadedSide& side : sides_)
+      for (const SidePoint& point : *side.rule) {
+        const SidePosition reference = side.at(point, mesh, nullptr);
+        const auto& X = reference.position;
+        const double area = point.weight * reference.area.norm() * bodies_->depth(X(0));
+        for (int i = 0; i < mesh.dimension; ++i) {
+          const double traction = evaluate(components_[i], time, {X(0), X(1), X(2)}, failure);
+          for (std::size_t a = 0; a < side.nodes.size(); ++a)
+            if (side.nodes[a] < mesh.owned_count()) r.data()[mesh.dimension * side.nodes[a] + i] -= area * point.N[a] * traction;
+        }
+      }
+  }
+
+ private:
+  std::shared_ptr<const Bodies> bodies_;
+  std::vector<ScalarFunction> components_;
+  std::vector<LoadedSide> sides_;
+};
+
+/// f_a = integral of rho g N_a dV0.
+class Gravity final : public Load {
+ public:
+  Gravity(const std::shared_ptr<const Bodies>& bodies, const GravityOptions& options)
+      : components_(components(*bodies, options.x, options.y, options.z)), masses_(bodies->mesh()->owned_count(), 0.0) {
+    bool found = false;
+    for (std::size_t n = 0; n < bodies->properties().size(); ++n) {
+      const BodyProperties& body = bodies->properties()[n];
+      if (!options.body.value.empty() && options.body.value != body.name) continue;
+      found = true;
+      if (body.is_rigid()) continue;  // it has no mass; a force on its reference point will do
+      const std::vector<double> volumes = bodies->nodal_volumes(static_cast<LocalOrdinal>(n));
+      for (std::size_t node = 0; node < masses_.size(); ++node) masses_[node] += body.material->density * volumes[node];
+    }
+    if (found) return;
+    std::string names;
+    for (const MeshBody& body : bodies->mesh()->bodies) names += (names.empty() ? "" : ", ") + body.name;
+    throw InputError(options.body.place, fmt::format("there is no body \"{}\"; the bodies are: {}", options.body.value, names));
+  }
+
+  void add_residual(double time, const Vector&, Vector& residual, std::optional<StepFailure>& failure) const override {
+    const HostWriteView r(residual);
+    const std::size_t dimension = components_.size();
+    for (std::size_t i = 0; i < dimension; ++i) {
+      const double acceleration = evaluate(components_[i], time, {}, failure);
+      for (std::size_t node = 0; node < masses_.size(); ++node) r.data()[dimension * node + i] -= masses_[node] * acceleration;
+    }
+  }
+
+ private:
+  std::vector<ScalarFunction> components_;
+  std::vector<double> masses_;  ///< of the owned nodes
+};
+
+}  // namespace
+
+void NodalForceOptions::describe(Parameters& parameters) {
+  parameters.add("set", set, Says("node or side set; each of its nodes gets the whole force").required());
+  parameters.add("x", x, Says("force on each node in x (axisymmetric: r, on the whole circle), of t and the reference position").unit("force"));
+  parameters.add("y", y, Says("force on each node in y (axisymmetric: z, on the whole circle), of t and the reference position").unit("force"));
+  parameters.add("z", z, Says("force on each node in z, in three dimensions, of t and the reference position; left out: none").unit("force"));
+}
+
+void DeadTractionOptions::describe(Parameters& parameters) {
+  parameters.add("set", set, Says("side set that carries the traction").required());
+  parameters.add("x", x, Says("force per reference area in x (axisymmetric: r), of t and the reference position").unit("stress"));
+  parameters.add("y", y, Says("force per reference area in y (axisymmetric: z), of t and the reference position").unit("stress"));
+  parameters.add("z", z, Says("force per reference area in z, in three dimensions, of t and the reference position; left out: none").unit("stress"));
+}
+
+void GravityOptions::describe(Parameters& parameters) {
+  parameters.add("body", body, Says("the body that has weight; left out: every body"));
+  parameters.add("x", x, Says("acceleration in x (axisymmetric: r), of t").unit("length / time^2").arguments({"t"}));
+  parameters.add("y", y, Says("acceleration in y (axisymmetric: z), of t").unit("length / time^2").arguments({"t"}));
+  parameters.add("z", z, Says("acceleration in z, in three dimensions, of t; left out: none").unit("length / time^2").arguments({"t"}));
+}
+
+std::unique_ptr<Load> NodalForceOptions::make(const std::shared_ptr<const Bodies>& bodies) const {
+  return std::make_unique<NodalForce>(bodies, *this);
+}
+std::unique_ptr<Load> DeadTractionOptions::make(const std::shared_ptr<const Bodies>& bodies) const {
+  return std::make_unique<DeadTraction>(bodies, *this);
+}
+std::unique_ptr<Load> GravityOptions::make(const std::shared_ptr<const Bodies>& bodies) const { return std::make_unique<Gravity>(bodies, *this); }
+
+const Registry<LoadOptions>& load_registry() {
+  static const Registry<LoadOptions> registry =
+      Registry<LoadOptions>()
+          .add<NodalForceOptions>("nodal force", "the same force on each node of a set")
+          .add<MomentOptions>("moment", "a moment on a reference point that rotates")
+          .add<DeadTractionOptions>("dead traction", "force per reference area, of fixed direction")
+          .add<FollowerPressureOptions>("follower pressure", "pressure on the current surface, against its outward normal")
+          .add<GravityOptions>("gravity", "density times acceleration");
+  return registry;
+}
+
+}  // namespace mortise

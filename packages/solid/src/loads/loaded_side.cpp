@@ -1,0 +1,65 @@
+#include "loads/loaded_side.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "loads/load_support.hpp"
+
+namespace mortise {
+namespace {
+
+template <class Cell>
+std::vector<SidePoint> make_side_rule() {
+  std::vector<SidePoint> rule;
+  for (const CellPoint& at : Cell::rule(Cell::side_points)) {
+    SidePoint& point = rule.emplace_back();
+    const auto xi = at.template position<Cell::dimension>();
+    const auto N = Cell::values(xi);
+    const auto gradient = Cell::gradients(xi);
+    std::copy(N.begin(), N.end(), point.N.begin());
+    for (int a = 0; a < Cell::nodes; ++a) std::copy(gradient[a].begin(), gradient[a].end(), point.gradient[a].begin());
+    point.weight = at.weight;
+  }
+  return rule;
+}
+
+const std::vector<SidePoint>& side_rule(CellShape side) {
+  return visit_cell(side, [](auto cell) -> const std::vector<SidePoint>& {
+    using Cell = decltype(cell);
+    if constexpr (Cell::dimension < 3) {
+      static const auto rule = make_side_rule<Cell>();
+      return rule;
+    }
+    throw std::logic_error("a 3D cell is no side");
+  });
+}
+
+}  // namespace
+
+SidePosition LoadedSide::at(const SidePoint& point, const Mesh& mesh, const double* displacement) const {
+  SidePosition result;
+  for (std::size_t a = 0; a < nodes.size(); ++a) {
+    Eigen::Vector3d x = Eigen::Map<const Eigen::Vector3d>(mesh.coordinates[nodes[a]].data());
+    if (displacement != nullptr)
+      for (int i = 0; i < dimension; ++i) x(i) += displacement[dimension * nodes[a] + i];
+    result.position += point.N[a] * x;
+    for (int i = 0; i < dimension - 1; ++i) result.tangents[i] += point.gradient[a][i] * x;
+  }
+  if (dimension == 2) result.tangents[1] = Eigen::Vector3d::UnitZ();
+  result.area = result.tangents[0].cross(result.tangents[1]);
+  return result;
+}
+
+std::vector<LoadedSide> sides_at_owned_nodes(const Mesh& mesh, const Located<std::string>& set) {
+  std::vector<LoadedSide> sides;
+  look_up(mesh, [&] {
+    for (const Side& side : require_side_set(mesh, set).sides) {
+      const auto nodes = mesh.side_nodes(side);
+      if (std::none_of(nodes.begin(), nodes.end(), [&](LocalOrdinal node) { return node < mesh.owned_count(); })) continue;
+      sides.push_back({{nodes.begin(), nodes.end()}, mesh.dimension, &side_rule(mesh.side_shape(side))});
+    }
+  });
+  return sides;
+}
+
+}  // namespace mortise
