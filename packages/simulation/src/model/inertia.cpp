@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <Teuchos_CommHelpers.hpp>
+#include <TpetraExt_MatrixMatrix.hpp>
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 #include <set>
 
 #include "model/widened_graph.hpp"
+#include "mortise/solid/rigid_mass.hpp"
 
 namespace mortise {
 
@@ -71,14 +73,97 @@ void StiffnessDamping::add_jacobian(const Configuration&, const JacobianWeights&
 
 namespace {
 
-void refuse_without_density(const Bodies& bodies) {
+void refuse_without_density(const Scene& scene, const Bodies& bodies) {
+  const auto is_massless = [&](const std::string& name) {
+    return std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const auto& body) { return body.name == name && body.value.massless; });
+  };
   std::vector<Diagnostic> diagnostics;
   std::set<std::string> named;
   for (const BodyProperties& body : bodies.properties())
-    if (!body.is_rigid() && !(body.material->density > 0.0) && named.insert(body.name).second)
-      diagnostics.push_back({body.place, fmt::format("body \"{}\" has the density {}; with inertia it needs one above 0, in the list of its material",
-                                                     body.name, body.material->density)});
+    if (!body.is_rigid() && !(body.material->density > 0.0) && !is_massless(body.name) && named.insert(body.name).second)
+      diagnostics.push_back(
+          {body.place,
+           fmt::format("body \"{}\" has the density {}; with inertia it needs one above 0, in the list of its material, or \"massless\" (bool, true)",
+                       body.name, body.material->density)});
   throw_if_any(*bodies.mesh()->comm, diagnostics);
+}
+
+RCP<const Matrix> diagonal_matrix(const RCP<const Map>& map, const std::vector<double>& values) {
+  const auto result = rcp(new Matrix(map, 1));
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    const GlobalOrdinal id = map->getGlobalElement(static_cast<LocalOrdinal>(n));
+    result->insertGlobalValues(id, 1, &values[n], &id);
+  }
+  result->fillComplete();
+  return result;
+}
+
+/// Whether all dofs of a rigid body's reference point are prescribed, over all ranks. Collective.
+bool is_led(const Mesh& mesh, const ReferencePoint& point, const std::vector<LocalOrdinal>& prescribed) {
+  int free_here = 0, free = 0;
+  const auto count = [&](LocalOrdinal node, int dofs) {
+    for (int i = 0; i < dofs && node >= 0 && node < mesh.owned_count(); ++i)
+      if (!std::binary_search(prescribed.begin(), prescribed.end(), mesh.dimension * node + i)) ++free_here;
+  };
+  count(point.node, mesh.dimension);
+  count(point.rotation_node, mesh.dimension);
+  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, free_here, Teuchos::outArg(free));
+  return free == 0;
+}
+
+RigidMass mass_of(const Scene& scene, const Bodies& bodies, const Named<BodyOptions>& body, const ReferencePoint& point) {
+  const BodyOptions& options = body.value;
+  const int dimension = bodies.dimension();
+  if (options.density) return mass_within(bodies, {body.name + "/surface", body.place}, *options.density);
+  const std::size_t needed = scene.kinematics == Kinematics::axisymmetric || point.rotation_node < 0 ? 0 : dimension == 2 ? 1 : 3;
+  if (options.moments_of_inertia.size() != needed)
+    throw InputError(body.place, fmt::format("\"moments of inertia\" of the rigid body \"{}\" has {} numbers; {} are needed", body.name,
+                                             options.moments_of_inertia.size(), needed));
+  Eigen::Vector3d centre(bodies.mesh()->coordinates[point.node].data()), moments = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < options.centre_of_mass.size(); ++i) centre[static_cast<Eigen::Index>(i)] = options.centre_of_mass[i];
+  if (needed == 1) moments[2] = options.moments_of_inertia[0];
+  if (needed == 3) moments = Eigen::Map<const Eigen::Vector3d>(options.moments_of_inertia.data());
+  const Eigen::Vector3d others = Eigen::Vector3d::Constant(moments.sum()) - 2.0 * moments;
+  if (needed == 3 && !(moments.minCoeff() > 0.0 && others.minCoeff() >= -1e-12 * moments.sum()))
+    throw InputError(body.place,
+                     fmt::format("\"moments of inertia\" of the rigid body \"{}\" are ({}, {}, {}); each has to be above 0 and not larger "
+                                 "than the sum of the other two",
+                                 body.name, moments[0], moments[1], moments[2]));
+  if (needed == 1 && !(moments[2] > 0.0)) throw InputError(body.place, "\"moments of inertia\" has to be above 0");
+  return rigid_mass(*options.mass, centre, moments);
+}
+
+/// [owned nodes]; nothing without rigid bodies that have mass. Collective.
+std::optional<std::vector<double>> masses_of_rigid_bodies(const Scene& scene, const Bodies& bodies, const std::vector<LocalOrdinal>& prescribed) {
+  const Mesh& mesh = *bodies.mesh();
+  std::vector<double> masses(static_cast<std::size_t>(mesh.owned_count()), 0.0);
+  bool any = false;
+  for (const auto& body : scene.bodies) {
+    if (!body.value.rigid.value) continue;
+    const auto point = std::find_if(mesh.reference_points.begin(), mesh.reference_points.end(), [&](const ReferencePoint& one) {
+      return mesh.bodies[mesh.body_of_node[one.node]].name == body.name && mesh.bodies[mesh.body_of_node[one.node]].is_surface;
+    });
+    if (point == mesh.reference_points.end()) continue;
+    if (!body.value.density && !body.value.mass) {
+      if (!is_led(mesh, *point, prescribed))
+        throw InputError(body.place, fmt::format("the rigid body \"{}\" moves and has no mass; please give it a \"density\", or a \"mass\" and "
+                                                 "\"moments of inertia\"",
+                                                 body.name));
+      continue;
+    }
+    std::vector<LocalOrdinal> nodes;
+    for (const LocalOrdinal node : point->followers)
+      if (node < mesh.owned_count()) nodes.push_back(node);
+    const auto found = masses_of_nodes(mesh, nodes, mass_of(scene, bodies, body, *point));
+    if (!found)
+      throw InputError(body.place, fmt::format("the nodes of the rigid body \"{}\" do not span the space, so that they cannot carry its moments of "
+                                               "inertia; please give it a mesh with some depth",
+                                               body.name));
+    for (std::size_t n = 0; n < nodes.size(); ++n) masses[static_cast<std::size_t>(nodes[n])] = (*found)[n];
+    any = true;
+  }
+  if (any) return masses;
+  return std::nullopt;
 }
 
 GlobalOrdinal count_over_ranks(const Communicator& comm, std::size_t mine) {
@@ -118,12 +203,17 @@ double largest_shift(const std::vector<std::array<double, 3>>& before, const std
 
 }  // namespace
 
-InertiaOfModel add_inertia(const Scene& scene, const std::shared_ptr<const Bodies>& bodies, const Timers& timers, SystemParts& parts) {
+InertiaOfModel add_inertia(const Scene& scene, const std::shared_ptr<const Bodies>& bodies, const std::vector<LocalOrdinal>& prescribed,
+                           const Timers& timers, SystemParts& parts) {
   InertiaOfModel result;
   if (!scene.inertia.acts()) return result;
-  refuse_without_density(*bodies);
+  refuse_without_density(scene, *bodies);
   const Mesh& mesh = *bodies->mesh();
   RCP<const Matrix> mass = bodies->mass(scene.inertia.mass == InertiaOptions::Mass::lumped);
+  if (const auto rigid = masses_of_rigid_bodies(scene, *bodies, prescribed)) {
+    const RCP<const Matrix> diagonal = diagonal_matrix(mesh.owned_nodes, *rigid);
+    mass = Tpetra::MatrixMatrix::add(1.0, false, *mass, 1.0, false, *diagonal, mass->getDomainMap(), mass->getRangeMap());
+  }
   const auto integration = std::make_shared<TimeIntegration>();
   integration->scheme = scene.inertia.time_scheme();
   if (scene.inertia.contact_mass == InertiaOptions::ContactMass::removed && !scene.contact.empty()) {
@@ -147,8 +237,7 @@ InertiaOfModel add_inertia(const Scene& scene, const std::shared_ptr<const Bodie
   parts.contributions.push_back(std::make_shared<InertiaContribution>(result.mass, scene.inertia.mass_damping, timers));
   if (scene.inertia.stiffness_damping > 0.0)
     parts.contributions.push_back(std::make_shared<StiffnessDamping>(*bodies, scene.inertia.stiffness_damping, timers));
-  if (result.without_mass > 0)
-    parts.bulk_graph = [inner = parts.bulk_graph, mass, dimension = mesh.dimension] { return with_entries_of(inner(), *mass, dimension); };
+  parts.bulk_graph = [inner = parts.bulk_graph, mass, dimension = mesh.dimension] { return with_entries_of(inner(), *mass, dimension); };
   return result;
 }
 

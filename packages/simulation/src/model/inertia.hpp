@@ -38,7 +38,9 @@ class StiffnessDamping final : public CountedContribution {
 };
 
 /// Gives a system time integration, inertia and damping, as the scene says, and the graph that mass needs. Collective.
-/// @throws InputError on all ranks for bodies without density
-InertiaOfModel add_inertia(const Scene& scene, const std::shared_ptr<const Bodies>& bodies, const Timers& timers, SystemParts& parts);
+/// @param prescribed  owned dofs, ascending
+/// @throws InputError on all ranks for bodies without density, rigid bodies that move without mass
+InertiaOfModel add_inertia(const Scene& scene, const std::shared_ptr<const Bodies>& bodies, const std::vector<LocalOrdinal>& prescribed,
+                           const Timers& timers, SystemParts& parts);
 
 }  // namespace mortise

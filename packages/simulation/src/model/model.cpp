@@ -365,7 +365,7 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
     kept->update(1.0, *marked_components(*mesh_, parts_.tied->dofs, 2.0), 1.0);
     mark_crosspoints(followed_by_ties(*mesh_, *parts_.tied), *kept);
   }
-  inertia_ = add_inertia(scene, bodies_, timers, parts_);
+  inertia_ = add_inertia(scene, bodies_, motion->dofs(), timers, parts_);
   surfaces_at_start_ = examine_surfaces(*mesh_, scene, size_.length);
   for (std::size_t p = 0; p < scene.contact.size(); ++p)
     if (pairs[p].facet_gaps) surfaces_at_start_.pairs[p].facet_gaps = range_over_ranks(*comm, *pairs[p].facet_gaps);

@@ -37,6 +37,18 @@ void BodyOptions::describe(Parameters& parameters) {
       Says("of a rigid body, \"x, y\" or \"x, y, z\": what it turns about and where forces on it act; left out: the middle of the box around it")
           .unit("length"));
   check_position(parameters, "reference point", reference_point);
+  parameters.add("density", density, Says("of a rigid body with inertia, whose surface has to be closed").unit("mass / volume").above(0.0));
+  parameters.add("mass", mass, Says("of a rigid body with inertia, in the place of a density").unit("mass").above(0.0));
+  parameters.add(
+      "moments of inertia", moments_of_inertia,
+      Says("of a rigid body with a mass, about its centre of mass: in 2D one number, in 3D three, about x, y and z").unit("mass length^2"));
+  parameters.add("centre of mass", centre_of_mass, Says("of a rigid body with a mass; left out: its reference point").unit("length"));
+  check_position(parameters, "centre of mass", centre_of_mass);
+  parameters.add("massless", massless, "with inertia: a body without density has no mass; it follows loads and contact at once");
+  if (density && mass) parameters.error("mass", "is given beside \"density\"; please remove one of the two");
+  if (!rigid.value && (density || mass || !moments_of_inertia.empty()))
+    parameters.error("mass", "the mass of a deformable body is that of its material; please give that a \"density\"");
+  if (!mass && !(moments_of_inertia.empty() && centre_of_mass.empty())) parameters.error("moments of inertia", "need a \"mass\" beside them");
   Says says("name of one of the scene's materials; a rigid body has none");
   parameters.list("materials", materials, "materials of blocks of a mesh file: the name of a block, and as its value the name of a material");
   if (!rigid.value && materials.all.empty()) says.required();

@@ -50,6 +50,18 @@ SidePosition LoadedSide::at(const SidePoint& point, const Mesh& mesh, const doub
   return result;
 }
 
+std::vector<LoadedSide> owned_sides(const Mesh& mesh, const Located<std::string>& set) {
+  std::vector<LoadedSide> sides;
+  look_up(mesh, [&] {
+    const SideSet& all = require_side_set(mesh, set);
+    for (LocalOrdinal n = 0; n < all.owned; ++n) {
+      const auto nodes = mesh.side_nodes(all.sides[n]);
+      sides.push_back({{nodes.begin(), nodes.end()}, mesh.dimension, &side_rule(mesh.side_shape(all.sides[n]))});
+    }
+  });
+  return sides;
+}
+
 std::vector<LoadedSide> sides_at_owned_nodes(const Mesh& mesh, const Located<std::string>& set) {
   std::vector<LoadedSide> sides;
   look_up(mesh, [&] {

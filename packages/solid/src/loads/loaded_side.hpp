@@ -36,6 +36,9 @@ struct LoadedSide {
   SidePosition at(const SidePoint& point, const Mesh& mesh, const double* displacement) const;
 };
 
+/// The sides of the set whose elements this rank owns. Collective; throws InputError on all ranks if there is no such set.
+std::vector<LoadedSide> owned_sides(const Mesh& mesh, const Located<std::string>& set);
+
 /// The sides of the set that touch a node of this rank. Collective; throws InputError on all ranks if there is no such set.
 std::vector<LoadedSide> sides_at_owned_nodes(const Mesh& mesh, const Located<std::string>& set);
 

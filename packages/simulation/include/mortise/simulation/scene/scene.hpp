@@ -29,7 +29,12 @@ namespace mortise {
 /// A body: what it is made of and its mesh.
 struct BodyOptions {
   Located<bool> rigid;
-  std::vector<double> reference_point;  ///< of a rigid body: x, y(, z); empty: the middle of its box
+  std::vector<double> reference_point;     ///< of a rigid body: x, y(, z); empty: the middle of its box
+  std::optional<double> density;           ///< of a rigid body with inertia; none: `mass`, or no mass
+  std::optional<double> mass;              ///< of a rigid body with inertia
+  std::vector<double> moments_of_inertia;  ///< about its centre of mass: in 2D one, in 3D about x, y, z; with `mass`
+  std::vector<double> centre_of_mass;      ///< empty: the reference point; with `mass`
+  bool massless = false;                   ///< with inertia: a body without density has no mass
   Located<std::string> material;
   AssignmentList materials;                     ///< of blocks of a mesh file: name of the block, name of the material
   Located<std::optional<ElementType>> element;  ///< none: what the mesh has; see element_of()
