@@ -7,7 +7,7 @@
 
 #include "mortise/core/error.hpp"
 #include "mortise/core/types.hpp"
-#include "mortise/simulation/run/exit_code.hpp"
+#include "mortise/simulation/run/output/exit_code.hpp"
 
 namespace CLI {
 class App;

@@ -25,7 +25,7 @@
 #include "mortise/simulation/scene/read_scene.hpp"
 #include "mortise/studies/point_file.hpp"
 #include "mortise/studies/study_points.hpp"
-#include "run/scene_changes.hpp"
+#include "run/restart/scene_changes.hpp"
 
 namespace mortise::fuzz {
 namespace {

@@ -93,6 +93,8 @@ std::string to_string(FailureKind kind) {
       return "augmentation";
     case FailureKind::unstable:
       return "unstable";
+    case FailureKind::step_error:
+      return "step error";
     case FailureKind::lost_contact:
       return "lost contact";
     case FailureKind::linear_solver:

@@ -1,6 +1,6 @@
 // Rigid motions are found exactly, however far; what is left is deformation.
 
-#include "mortise/simulation/run/body_motion.hpp"
+#include "mortise/simulation/run/diagnosis/body_motion.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Which loads can be borne by pressures and friction: blocks on a floor, whose answers are in every textbook.
 
-#include "mortise/simulation/run/contact_statics.hpp"
+#include "mortise/simulation/run/diagnosis/contact_statics.hpp"
 
 #include <gtest/gtest.h>
 

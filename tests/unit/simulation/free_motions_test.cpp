@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mortise/simulation/run/contact_hold.hpp"
+#include "mortise/simulation/run/diagnosis/contact_hold.hpp"
 
 namespace mortise {
 namespace {

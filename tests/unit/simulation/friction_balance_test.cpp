@@ -1,6 +1,6 @@
 // Where bodies that slip come to rest against friction.
 
-#include "mortise/simulation/run/friction_balance.hpp"
+#include "mortise/simulation/run/diagnosis/friction_balance.hpp"
 
 #include <gtest/gtest.h>
 

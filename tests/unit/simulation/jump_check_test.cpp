@@ -1,6 +1,6 @@
 // Steps that jump to another branch of equilibria, told from those along a path by their rates.
 
-#include "mortise/simulation/run/jump_check.hpp"
+#include "mortise/simulation/run/path/jump_check.hpp"
 
 #include <gtest/gtest.h>
 

@@ -18,8 +18,8 @@
 #include <sstream>
 
 #include "mortise/input/parameter_tree.hpp"
+#include "mortise/simulation/run/output/step_evaluation.hpp"
 #include "mortise/simulation/run/run.hpp"
-#include "mortise/simulation/run/step_evaluation.hpp"
 #include "mortise/simulation/scene/read_scene.hpp"
 
 namespace mortise {
@@ -175,9 +175,7 @@ std::string steps_of(const Scene& scene, const std::function<void()>& interrupti
   };
   SteppingState state(system.initial_state(Vector(system.map())));
   std::optional<StepFailure> failure;
-  const auto start = [&](const AcceptedState& from, double time, const Vector& d, Vector& z) {
-    return system.start_step(from, time, d, z);
-  };
+  const auto start = [&](const AcceptedState& from, double time, const Vector& d, Vector& z) { return system.start_step(from, time, d, z); };
   EXPECT_TRUE(run_steps(system, scene.stepping, scene.newton, state, start, observer, failure)) << (failure ? failure->what() : "");
   EXPECT_GT(count, 2);
   return steps;

@@ -171,8 +171,9 @@ Begin begin_of_try(const SemiSmoothSystem& system, const NewtonOptions& newton, 
 
 /// Length of the next step over that of the last one. Without tolerances a step of time only grows back to the first one.
 double growth_of_step(const SemiSmoothSystem& system, const SteppingOptions& stepping, const StepperObserver& observer, const StepReport& report,
-                      double next_step, const AcceptedState& before, const AcceptedState& after) {
-  if (observer.growth) return observer.growth(before, after, report.dt);
+                      double next_step) {
+  if (observer.growth)
+    if (const std::optional<double> growth = observer.growth()) return *growth;
   const bool easy = report.newton.newton_steps() <= stepping.easy_iterations;
   return easy && (!system.parts().time || next_step < stepping.step) ? 2.0 : 1.0;
 }
@@ -259,7 +260,7 @@ bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, 
     }
     last_failure.reset();
     AcceptedState next = system.commit(*solution);
-    const double growth = growth_of_step(system, stepping, observer, report, schedule.next_step(), state, next);
+    const double growth = growth_of_step(system, stepping, observer, report, schedule.next_step());
     if (stepping.predictor == Predictor::linear && !system.parts().time) {
       const auto rate = rcp(new Vector(system.map()));
       rate->update(1.0 / report.dt, *next.x, -1.0 / report.dt, *state.x, 0.0);

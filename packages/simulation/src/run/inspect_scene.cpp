@@ -5,8 +5,8 @@
 #include "model/report_model.hpp"
 #include "mortise/simulation/model/model.hpp"
 #include "mortise/simulation/model/run_log.hpp"
+#include "mortise/simulation/run/output/step_evaluation.hpp"
 #include "mortise/simulation/run/run.hpp"
-#include "mortise/simulation/run/step_evaluation.hpp"
 
 namespace mortise {
 

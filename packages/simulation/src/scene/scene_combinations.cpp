@@ -37,6 +37,11 @@ void refuse_out_of_plane(const Scene& scene, const Named<BodyOptions>& body, std
 
 std::vector<Diagnostic> wrong_combinations(const Scene& scene) {
   std::vector<Diagnostic> diagnostics;
+  const bool has_points = !scene.reference_points.empty() ||
+                          std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const auto& body) { return body.value.rigid.value; });
+  if (scene.inertia.scheme == InertiaOptions::Scheme::generalised_alpha && scene.inertia.spectral_radius == 1.0 && has_points)
+    diagnostics.push_back({scene.inertia.place,
+                           "a \"spectral radius\" of 1 lets forces of rigid bodies and reference points ring without end; please take one below 1"});
   for (const auto& body : scene.bodies) {
     check_position(scene, body.value.reference_point, body.place, diagnostics);
     if (body.value.rigid.value && !body.value.reference_point.empty() && scene.kinematics == Kinematics::axisymmetric &&

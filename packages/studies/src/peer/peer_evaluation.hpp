@@ -6,7 +6,7 @@
 #include "mortise/simulation/model/model.hpp"
 #include "mortise/simulation/quantities/contact_profile.hpp"
 #include "mortise/simulation/quantities/quantity_kinds.hpp"
-#include "mortise/simulation/run/quantity_evaluators.hpp"
+#include "mortise/simulation/run/output/quantity_evaluators.hpp"
 #include "peer/calculix_results.hpp"
 
 namespace mortise {

@@ -12,7 +12,7 @@
 #include "mortise/io/files.hpp"
 #include "mortise/io/output_directory.hpp"
 #include "mortise/simulation/model/run_log.hpp"
-#include "mortise/simulation/run/quantity_evaluators.hpp"
+#include "mortise/simulation/run/output/quantity_evaluators.hpp"
 #include "mortise/simulation/run/run.hpp"
 #include "mortise/simulation/scene/read_scene.hpp"
 #include "mortise/studies/peer.hpp"

@@ -65,7 +65,8 @@ enum class FailureKind {
   cycling_active_set,
   out_of_memory,  ///< what is to come would not fit; no smaller step helps
   augmentation,   ///< augmented Lagrange multipliers that did not settle
-  unstable        ///< an equilibrium that is not stable, far from the last state
+  unstable,       ///< an equilibrium that is not stable, far from the last state
+  step_error      ///< a step of time that is too long for its tolerances
 };
 std::string to_string(FailureKind kind);
 

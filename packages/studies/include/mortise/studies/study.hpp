@@ -6,7 +6,7 @@
 
 #include "mortise/core/log.hpp"
 #include "mortise/core/types.hpp"
-#include "mortise/simulation/run/exit_code.hpp"
+#include "mortise/simulation/run/output/exit_code.hpp"
 
 namespace mortise {
 

@@ -1,0 +1,116 @@
+#include "mortise/simulation/run/output/step_evaluation.hpp"
+
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Vector.hpp>
+#include <limits>
+
+#include "model/edge_contact.hpp"
+#include "run/output/step_motion.hpp"
+
+namespace mortise {
+
+StepEvaluation::StepEvaluation(const Scene& scene, const Model& model, const SemiSmoothSystem& system)
+    : scene_(scene), model_(model), system_(system), evaluators_(make_evaluators(scene, model)) {}
+
+std::vector<std::string> StepEvaluation::names() const {
+  std::vector<std::string> names;
+  for (const auto& quantity : scene_.quantities) names.push_back(quantity.name);
+  return names;
+}
+
+RCP<Vector> StepEvaluation::local(const Vector& displacement) const {
+  const auto values = rcp(new Vector(model_.bodies()->local_dofs()));
+  values->doImport(displacement, *model_.bodies()->ghost_import(), Tpetra::INSERT);
+  return values;
+}
+
+// A force is a stiffness times a position, and that is known to eps (L + |u|): summed over all dofs, of which the stiffness scale is the mean
+// diagonal.
+double StepEvaluation::force_round_off(const Vector& displacement) const {
+  const double sum_of_diagonal = system_.stiffness_scale() * static_cast<double>(model_.dofs());
+  return std::numeric_limits<double>::epsilon() * sum_of_diagonal * (model_.size().length + displacement.normInf());
+}
+
+std::vector<double> StepEvaluation::quantities(const SystemEvaluation& at) {
+  if (scene_.quantities.empty()) return {};
+  const auto displacement = system_.displacement(at.x());
+  const auto local_displacement = local(*displacement);
+  const double time = at.context().time;
+  const RCP<const Vector> reaction = at.forces();
+  const RCP<Vector> external = external_force(at.x(), time);
+  const std::optional<StepMotion> motion = step_motion(model_, system_, at);
+  if (const TimeStep* step = at.context().step.get(); step != nullptr && step->integration->scheme.blends_forces()) {
+    const double before = step->integration->scheme.alpha_f;
+    external->update(-before, *step->start.external_forces, 1.0 - before);
+  }
+
+  QuantityContext context = quantity_context(scene_, model_);
+  context.time = time;
+  context.displacement = displacement.get();
+  context.local_displacement = local_displacement.get();
+  context.laws = contact_laws(at);
+  if (const EdgeContact* edges = model_.edges())
+    context.edge_force = [edges, local_displacement](std::size_t pair) { return edges->resultant(pair, *local_displacement); };
+  context.reaction = reaction.get();
+  context.external_force = external.get();
+  const std::optional<MotionOfStep> of_step = motion ? std::optional(motion->of_quantities()) : std::nullopt;
+  context.motion = of_step ? &*of_step : nullptr;
+  context.force_round_off = force_round_off(*displacement);
+  for (const auto& evaluator : evaluators_) context.earlier_values.push_back(evaluator->evaluate(context));
+  return context.earlier_values;
+}
+
+RCP<Vector> StepEvaluation::external_force(const Vector& x, double time) const {
+  const auto displacement = system_.displacement(x);
+  const auto local_displacement = local(*displacement);
+  const auto external = rcp(new Vector(model_.bodies()->dofs()));
+  std::optional<StepFailure> failure;
+  const Configuration configuration{time, *displacement, *local_displacement};
+  for (const auto& contribution : model_.parts().contributions)
+    if (contribution->kind() == Contribution::Kind::external) contribution->add_residual(configuration, *external, failure);
+  throw_if_any(*model_.mesh()->comm, failure);
+  external->scale(-1.0);
+  return external;
+}
+
+void StepEvaluation::serialize(StateArchive& archive) {
+  for (std::size_t n = 0; n < evaluators_.size(); ++n) evaluators_[n]->serialize(archive, "quantity." + scene_.quantities[n].name);
+}
+
+std::vector<Field> StepEvaluation::fields(const SystemEvaluation& at, const std::vector<std::string>& names) {
+  const auto displacement = system_.displacement(at.x());
+  const auto local_displacement = local(*displacement);
+  std::vector<Field> fields;
+  const RCP<const Vector> forces = at.forces();
+  Vector reaction(forces->getMap());
+  {
+    const auto all = forces->getLocalViewHost(Tpetra::Access::ReadOnly);
+    const auto supports = reaction.getLocalViewHost(Tpetra::Access::OverwriteAll);
+    for (std::size_t dof = 0; dof < supports.extent(0); ++dof) supports(dof, 0) = 0.0;
+    for (const LocalOrdinal dof : model_.supports().dofs) supports(dof, 0) = all(dof, 0);
+  }
+  FieldState state{*model_.bodies(), model_.contact().get(), *displacement, *local_displacement, contact_laws(at), &reaction};
+  const std::optional<StepMotion> motion = step_motion(model_, system_, at);
+  if (motion) {
+    state.velocity = motion->velocity.get();
+    state.acceleration = motion->acceleration.get();
+  }
+  for (const auto& name : names) fields.push_back(make_field(name, state));
+  return fields;
+}
+
+std::vector<std::vector<ProfilePoint>> StepEvaluation::profiles(const SystemEvaluation& at) {
+  std::vector<std::vector<ProfilePoint>> profiles;
+  if (!model_.contact()) return profiles;
+  const auto pairs = quantity_context(scene_, model_).pairs;
+  for (std::size_t pair = profiles_.size(); pair < pairs.size(); ++pair) profiles_.emplace_back(*model_.mesh(), pairs[pair], pair);
+  const auto displacement = system_.displacement(at.x());
+  const auto local_displacement = local(*displacement);
+  const FieldState state{*model_.bodies(), model_.contact().get(), *displacement, *local_displacement, contact_laws(at)};
+  for (const ContactProfile& profile : profiles_) profiles.push_back(profile.points(state));
+  return profiles;
+}
+
+const ContactLaws* StepEvaluation::contact_laws(const SystemEvaluation& at) const { return model_.contact() ? &at.contact_laws() : nullptr; }
+
+}  // namespace mortise

@@ -1,0 +1,57 @@
+#include "run/path/transient_guards.hpp"
+
+#include <fmt/format.h>
+
+#include <Tpetra_Vector.hpp>
+#include <limits>
+
+#include "run/path/impact_loss.hpp"
+#include "run/path/step_error.hpp"
+
+namespace mortise {
+namespace {
+
+/// Bodies that cross the reach of the search within a step may pass through one another.
+class SpeedGuard final : public StepGuard {
+ public:
+  SpeedGuard(double reach, std::function<void(const std::string&)> warn) : reach_(reach), warn_(std::move(warn)) {}
+
+  RCP<Vector> verify(const SemiSmoothSystem&, const AcceptedState& from, const SystemEvaluation& found, int) override {
+    if (is_said_) return Teuchos::null;
+    const double speed = from.rates->velocity->normInf(), dt = found.context().step->dt;
+    if (speed * dt <= reach_) return Teuchos::null;
+    is_said_ = true;
+    warn_(fmt::format(
+        "the step of {:.3g} is longer than {:.3g}, the time in which the fastest node, at {:.3g}, crosses the search reach of {:.3g}: bodies "
+        "may pass through one another; please take a smaller \"step\", or a larger \"search reach\"",
+        dt, reach_ / speed, speed, reach_));
+    return Teuchos::null;
+  }
+  void serialize(StateArchive& archive) override {
+    int is_said = is_said_ ? 1 : 0;
+    mortise::serialize(archive, "speed.is_said", is_said);
+    is_said_ = is_said != 0;
+  }
+
+ private:
+  double reach_;
+  std::function<void(const std::string&)> warn_;
+  bool is_said_ = false;
+};
+
+}  // namespace
+
+StepGuards transient_guards(const Model& model, const Scene& scene, std::function<void(const std::string&)> warn) {
+  StepGuards guards;
+  if (!scene.contact.empty()) {
+    double reach = std::numeric_limits<double>::infinity();
+    for (std::size_t pair = 0; pair < scene.contact.size(); ++pair)
+      reach = std::min(reach, scene.contact[pair].value.contact.mortar.search_reach.value_or(model.surfaces_at_start().pairs[pair].longest));
+    guards.push_back(std::make_shared<SpeedGuard>(reach, std::move(warn)));
+    if (scene.inertia.impact_tolerance) guards.push_back(std::make_shared<ImpactLossGuard>(model.inertia().mass, *scene.inertia.impact_tolerance));
+  }
+  if (scene.inertia.error_tolerance) guards.push_back(std::make_shared<StepErrorGuard>(*scene.inertia.error_tolerance));
+  return guards;
+}
+
+}  // namespace mortise
