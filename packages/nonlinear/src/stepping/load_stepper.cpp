@@ -231,7 +231,7 @@ bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, 
             observer.explain && !solved ? observer.explain({caught, state, report.time, context, linearised}) : FailureExplanation{};
         StepFailure failure =
             explanation.words.empty() ? caught : StepFailure(caught.kind(), fmt::format("{} ({})", explanation.words, caught.what()));
-        const bool leaves_prediction = solved && is_predicted;
+        const bool leaves_prediction = solved && is_predicted && caught.kind() != FailureKind::step_error;
         at_any_step = explanation.at_any_step ? at_any_step + 1 : 0;
         const bool repeats = !leaves_prediction && course.add(caught, report.newton);
         const bool in_vain = repeats || at_any_step >= detail::RepeatedCourse::enough;
