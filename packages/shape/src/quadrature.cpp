@@ -122,12 +122,22 @@ std::vector<CellPoint> wedge_rule(int triangle_points, int line_points) {
   return rule;
 }
 
-std::vector<CellPoint> pyramid_rule(int points_per_direction) {
-  // Moments of the weight (1 - zeta)^2 on [0, 1]: of 1, 1/3; of zeta, 1/12.
-  constexpr double height = 0.25, weight = 1.0 / 3.0;
+std::vector<CellPoint> pyramid_rule(int points_per_direction, int heights) {
+  // Moments of the weight (1 - zeta)^2 on [0, 1]: of 1, 1/3; of zeta, 1/12; of zeta^2, 1/30; of zeta^3, 1/60. The two points are the zeros of
+  // 15 zeta^2 - 10 zeta + 1, to which 1 and zeta are orthogonal.
+  std::vector<LinePoint> along;
+  if (heights == 1) {
+    along = {{0.25, 1.0 / 3.0}};
+  } else if (heights == 2) {
+    const double r = std::sqrt(10.0);
+    along = {{(5.0 - r) / 15.0, (8.0 + r) / 48.0}, {(5.0 + r) / 15.0, (8.0 - r) / 48.0}};
+  } else {
+    throw std::invalid_argument("pyramids have rules of 1 and 2 points along the height, not " + std::to_string(heights));
+  }
   std::vector<CellPoint> rule;
-  for (const auto& at : quadrilateral_rule(points_per_direction))
-    rule.push_back({{at.xi[0] * (1.0 - height), at.xi[1] * (1.0 - height), height}, at.weight * weight});
+  for (const auto& [height, weight] : along)
+    for (const auto& at : quadrilateral_rule(points_per_direction))
+      rule.push_back({{at.xi[0] * (1.0 - height), at.xi[1] * (1.0 - height), height}, at.weight * weight});
   return rule;
 }
 

@@ -36,7 +36,7 @@ std::vector<CellPoint> ReferenceLine::rule(int points) {
 
 std::vector<CellPoint> ReferenceSquare::rule(int points) { return quadrilateral_rule(root(points, 2)); }
 std::vector<CellPoint> ReferenceCube::rule(int points) { return hexahedron_rule(root(points, 3)); }
-std::vector<CellPoint> ReferencePyramid::rule(int points) { return pyramid_rule(root(points, 2)); }
+std::vector<CellPoint> ReferencePyramid::rule(int points) { return points == 8 ? pyramid_rule(2, 2) : pyramid_rule(root(points, 2)); }
 
 std::vector<CellPoint> ReferenceWedge::rule(int points) {
   if (points == 6) return wedge_rule(3, 2);

@@ -265,7 +265,8 @@ TYPED_TEST(RegisteredCell, HasTheMeasureOfItsSimplices) {
 TYPED_TEST(RegisteredCell, RulesHavePositiveWeightsAndPointsInside) {
   std::set<int> sizes;
   if constexpr (TypeParam::dimension > 1) sizes.insert(TypeParam::stiffness_points);
-  if constexpr (TypeParam::dimension == 2) sizes.insert(TypeParam::axisymmetric_stiffness_points);
+  if constexpr (TypeParam::dimension > 1) sizes.insert(TypeParam::mass_points);
+  if constexpr (TypeParam::dimension == 2) sizes.insert({TypeParam::axisymmetric_stiffness_points, TypeParam::axisymmetric_mass_points});
   if constexpr (TypeParam::dimension < 3) sizes.insert(TypeParam::side_points);
   if constexpr (TypeParam::nodes > TypeParam::dimension + 1) sizes.insert(TypeParam::jacobian_points);
   sizes.erase(0);
@@ -303,6 +304,18 @@ TYPED_TEST(RegisteredCell, RuleForTheAxisymmetricStiffnessIsExactForRadiiAndHoop
     const Eigen::MatrixXd hoop = this->integral(with_hoop), hoop_by_rule = this->integral_by_rule(points, with_hoop);
     EXPECT_LE((radius_by_rule - radius).cwiseAbs().maxCoeff(), 1e-13);
     EXPECT_LE((hoop_by_rule - hoop).cwiseAbs().maxCoeff(), 1e-13);
+  }
+}
+
+TYPED_TEST(RegisteredCell, RulesForTheMassAreExact) {
+  if constexpr (TypeParam::dimension > 1) {
+    const auto products = [&](const auto& xi) -> Eigen::MatrixXd { return this->values(xi) * this->values(xi).transpose(); };
+    EXPECT_LE((this->integral_by_rule(TypeParam::mass_points, products) - this->integral(products)).cwiseAbs().maxCoeff(), 1e-14);
+    if constexpr (TypeParam::dimension == 2) {
+      const auto with_radius = [&](const auto& xi) -> Eigen::MatrixXd { return products(xi) * (3.0 + xi[0] + 0.5 * xi[1]); };
+      EXPECT_LE((this->integral_by_rule(TypeParam::axisymmetric_mass_points, with_radius) - this->integral(with_radius)).cwiseAbs().maxCoeff(),
+                1e-14);
+    }
   }
 }
 

@@ -96,18 +96,19 @@ TEST(WedgeRule, IsExactToTheDegreesOfTriangleAndLine) {
 }
 
 TEST(PyramidRule, IsExactForFunctionsOfTheRaysAndTheirProductsWithTheHeight) {
-  for (int n = 1; n <= 3; ++n)
-    for (int p = 0; p < 2 * n; ++p)
-      for (int q = 0; q < 2 * n; ++q)
-        for (int r = 0; r <= 1; ++r) {
-          double sum = 0.0;
-          for (const auto& point : pyramid_rule(n)) {
-            const auto [u, v] = ReferencePyramid::ray(point.position<3>());
-            sum += point.weight * std::pow(u, p) * std::pow(v, q) * std::pow(point.xi[2], r);
+  const std::array moments{1.0 / 3.0, 1.0 / 12.0, 1.0 / 30.0, 1.0 / 60.0};  // int_0^1 (1 - zeta)^2 zeta^r dzeta
+  for (int heights = 1; heights <= 2; ++heights)
+    for (int n = 1; n <= 3; ++n)
+      for (int p = 0; p < 2 * n; ++p)
+        for (int q = 0; q < 2 * n; ++q)
+          for (int r = 0; r < 2 * heights; ++r) {
+            double sum = 0.0;
+            for (const auto& point : pyramid_rule(n, heights)) {
+              const auto [u, v] = ReferencePyramid::ray(point.position<3>());
+              sum += point.weight * std::pow(u, p) * std::pow(v, q) * std::pow(point.xi[2], r);
+            }
+            EXPECT_NEAR(sum, line_monomial(p) * line_monomial(q) * moments[r], 1e-15) << n << " points, " << heights << " heights, " << p << q << r;
           }
-          // int_0^1 (1 - zeta)^2 zeta^r dzeta = 1/3, 1/12
-          EXPECT_NEAR(sum, line_monomial(p) * line_monomial(q) * (r == 0 ? 1.0 / 3.0 : 1.0 / 12.0), 1e-15) << n << " points, " << p << q << r;
-        }
 }
 
 TEST(PyramidRule, IsExactForLinearMonomials) {
@@ -144,6 +145,7 @@ TEST(Rules, RefuseWhatTheyDoNotHave) {
   EXPECT_THROW(ReferenceLine::rule(0), std::invalid_argument);
   EXPECT_THROW(ReferenceWedge::rule(9), std::invalid_argument);
   EXPECT_THROW(ReferencePyramid::rule(5), std::invalid_argument);
+  EXPECT_THROW(pyramid_rule(2, 3), std::invalid_argument);
 }
 
 }  // namespace

@@ -88,16 +88,6 @@ void refuse_without_density(const Scene& scene, const Bodies& bodies) {
   throw_if_any(*bodies.mesh()->comm, diagnostics);
 }
 
-RCP<const Matrix> diagonal_matrix(const RCP<const Map>& map, const std::vector<double>& values) {
-  const auto result = rcp(new Matrix(map, 1));
-  for (std::size_t n = 0; n < values.size(); ++n) {
-    const GlobalOrdinal id = map->getGlobalElement(static_cast<LocalOrdinal>(n));
-    result->insertGlobalValues(id, 1, &values[n], &id);
-  }
-  result->fillComplete();
-  return result;
-}
-
 /// Whether all dofs of a rigid body's reference point are prescribed, over all ranks. Collective.
 bool is_led(const Mesh& mesh, const ReferencePoint& point, const std::vector<LocalOrdinal>& prescribed) {
   int free_here = 0, free = 0;
@@ -209,9 +199,10 @@ InertiaOfModel add_inertia(const Scene& scene, const std::shared_ptr<const Bodie
   if (!scene.inertia.acts()) return result;
   refuse_without_density(scene, *bodies);
   const Mesh& mesh = *bodies->mesh();
-  RCP<const Matrix> mass = bodies->mass(scene.inertia.mass == InertiaOptions::Mass::lumped);
+  RCP<const Matrix> mass =
+      scene.inertia.mass == InertiaOptions::Mass::lumped ? mass_of_nodes(mesh.owned_nodes, bodies->nodal_masses()) : consistent_mass(*bodies);
   if (const auto rigid = masses_of_rigid_bodies(scene, *bodies, prescribed)) {
-    const RCP<const Matrix> diagonal = diagonal_matrix(mesh.owned_nodes, *rigid);
+    const RCP<const Matrix> diagonal = mass_of_nodes(mesh.owned_nodes, *rigid);
     mass = Tpetra::MatrixMatrix::add(1.0, false, *mass, 1.0, false, *diagonal, mass->getDomainMap(), mass->getRangeMap());
   }
   const auto integration = std::make_shared<TimeIntegration>();

@@ -22,13 +22,14 @@ namespace {
 /// A rigid body has no elements: nothing is computed, nothing remembered.
 class RigidBlock final : public ElementBlock {
  public:
-  void add_internal_force(const double*, double*, std::optional<StepFailure>&) const override {}
-  void add_stiffness(const double*, const NodalSparsity::Values&, double, std::optional<StepFailure>&) const override {}
+  void add(const double*, const AssemblyTarget&, std::optional<StepFailure>&) const override {}
   void visit_points(const double*, LocalOrdinal, const std::function<void(const MaterialPoint&)>&) const override {}
   void commit(const double*) override {}
   void serialize(StateArchive&, const std::string&) override {}
   std::size_t history_bytes() const override { return 0; }
   long history_evaluations() const override { return 0; }
+  void add_mass(double, const NodalSparsity::Values&, double) const override {}
+  void add_nodal_masses(double, std::vector<double>&) const override {}
   void add_nodal_volumes(std::vector<double>&) const override {}
   std::pair<LocalOrdinal, double> smallest_reference_determinant() const override { return {-1, std::numeric_limits<double>::infinity()}; }
 };
@@ -77,14 +78,45 @@ double Bodies::depth(double radius) const {
 void Bodies::add_internal_force(const Vector& local_displacement, Vector& residual, std::optional<StepFailure>& failure) const {
   const HostReadView displacement(local_displacement);
   const HostWriteView force(residual);
-  for (const auto& block : blocks_) block->add_internal_force(displacement.data(), force.data(), failure);
+  for (const auto& block : blocks_) block->add(displacement.data(), {force.data()}, failure);
 }
 
 void Bodies::add_stiffness(const Vector& local_displacement, Matrix& matrix, std::optional<StepFailure>& failure, double factor) const {
   const HostReadView displacement(local_displacement);
   const NodalSparsity::Values values = sparsity_->open(matrix);
-  for (const auto& block : blocks_) block->add_stiffness(displacement.data(), values, factor, failure);
+  for (const auto& block : blocks_) block->add(displacement.data(), {nullptr, &values, factor}, failure);
   values.close();
+}
+
+void Bodies::add_internal_force_and_stiffness(const Vector& local_displacement, Vector& residual, Matrix& matrix, std::optional<StepFailure>& failure,
+                                              double factor) const {
+  const HostReadView displacement(local_displacement);
+  const HostWriteView force(residual);
+  const NodalSparsity::Values values = sparsity_->open(matrix);
+  for (const auto& block : blocks_) block->add(displacement.data(), {force.data(), &values, factor}, failure);
+  values.close();
+}
+
+void Bodies::add_mass(Matrix& matrix, double factor) const {
+  const NodalSparsity::Values values = sparsity_->open(matrix);
+  for (std::size_t n = 0; n < blocks_.size(); ++n)
+    if (!properties_[n].is_rigid()) blocks_[n]->add_mass(properties_[n].material->density, values, factor);
+  values.close();
+}
+
+std::vector<double> Bodies::nodal_masses() const {
+  std::vector<double> masses(mesh_->owned_count(), 0.0);
+  for (std::size_t n = 0; n < blocks_.size(); ++n)
+    if (!properties_[n].is_rigid()) blocks_[n]->add_nodal_masses(properties_[n].material->density, masses);
+  return masses;
+}
+
+std::vector<double> Bodies::masses() const {
+  std::vector<double> mine(mesh_->bodies.size(), 0.0), all(mine.size(), 0.0);
+  const std::vector<double> of_nodes = nodal_masses();
+  for (std::size_t node = 0; node < of_nodes.size(); ++node) mine[mesh_->body_of_node[node]] += of_nodes[node];
+  Teuchos::reduceAll(*mesh_->comm, Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), all.data());
+  return all;
 }
 
 void Bodies::commit(const Vector& local_displacement) {
@@ -109,22 +141,6 @@ std::vector<double> Bodies::nodal_volumes(LocalOrdinal block) const {
   std::vector<double> volumes(mesh_->owned_count(), 0.0);
   blocks_.at(block)->add_nodal_volumes(volumes);
   return volumes;
-}
-
-RCP<const Matrix> Bodies::mass(bool) const {
-  std::vector<double> masses(mesh_->owned_count(), 0.0);
-  for (std::size_t n = 0; n < properties_.size(); ++n) {
-    if (properties_[n].is_rigid()) continue;
-    const auto volumes = nodal_volumes(static_cast<LocalOrdinal>(n));
-    for (std::size_t a = 0; a < masses.size(); ++a) masses[a] += properties_[n].material->density * volumes[a];
-  }
-  const auto M = rcp(new Matrix(mesh_->owned_nodes, 1));
-  for (LocalOrdinal a = 0; a < mesh_->owned_count(); ++a) {
-    const GlobalOrdinal id = mesh_->owned_nodes->getGlobalElement(a);
-    M->insertGlobalValues(id, 1, &masses[a], &id);
-  }
-  M->fillComplete();
-  return M;
 }
 
 std::vector<double> Bodies::stored_energies(const Vector& local_displacement) const {

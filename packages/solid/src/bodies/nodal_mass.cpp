@@ -50,6 +50,40 @@ void NodalMass::add_to(Matrix& jacobian, double factor) const {
   }
 }
 
+RCP<const Matrix> consistent_mass(const Bodies& bodies) {
+  const Mesh& mesh = *bodies.mesh();
+  Matrix of_dofs(bodies.graph());
+  of_dofs.setAllToScalar(0.0);
+  bodies.add_mass(of_dofs);
+  const auto local = of_dofs.getLocalMatrixHost();
+  const int dimension = mesh.dimension;
+  const auto result = rcp(new Matrix(mesh.owned_nodes, mesh.local_nodes, of_dofs.getCrsGraph()->getNodeMaxNumRowEntries() / dimension));
+  std::vector<double> values;
+  std::vector<LocalOrdinal> columns;
+  for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node) {
+    values.clear();
+    columns.clear();
+    for (std::size_t k = local.graph.row_map(dimension * node); k < local.graph.row_map(dimension * node + 1); ++k) {
+      if (local.graph.entries(k) % dimension != 0) continue;
+      values.push_back(local.values(k));
+      columns.push_back(local.graph.entries(k) / dimension);
+    }
+    result->insertLocalValues(node, static_cast<LocalOrdinal>(values.size()), values.data(), columns.data());
+  }
+  result->fillComplete(mesh.owned_nodes, mesh.owned_nodes);
+  return result;
+}
+
+RCP<const Matrix> mass_of_nodes(const RCP<const Map>& owned_nodes, const std::vector<double>& masses) {
+  const auto result = rcp(new Matrix(owned_nodes, 1));
+  for (std::size_t n = 0; n < masses.size(); ++n) {
+    const GlobalOrdinal id = owned_nodes->getGlobalElement(static_cast<LocalOrdinal>(n));
+    result->insertGlobalValues(id, 1, &masses[n], &id);
+  }
+  result->fillComplete();
+  return result;
+}
+
 RCP<const Matrix> mass_of_extension(const Matrix& M, const Matrix& P) {
   Matrix MP(M.getRowMap(), 0);
   Tpetra::MatrixMatrix::Multiply(M, false, P, false, MP);

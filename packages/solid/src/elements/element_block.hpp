@@ -9,6 +9,7 @@
 
 #include "mortise/core/state_archive.hpp"
 #include "mortise/solid/bodies.hpp"
+#include "mortise/solid/element_loop.hpp"
 
 namespace mortise {
 
@@ -23,13 +24,12 @@ struct BlockContext {
 /// The middle of an element's nodes in the reference configuration, for people: "at (1, 0.5) of the reference configuration".
 std::string element_place(const BlockContext& context, LocalOrdinal element);
 
-/// `displacement`: on the local dofs; `force`: on the owned dofs. See Bodies for what the members do.
+/// `displacement`: on the local dofs. See Bodies for what the members do.
 class ElementBlock {
  public:
   virtual ~ElementBlock() = default;
-  virtual void add_internal_force(const double* displacement, double* force, std::optional<StepFailure>& failure) const = 0;
-  virtual void add_stiffness(const double* displacement, const NodalSparsity::Values& matrix, double factor,
-                             std::optional<StepFailure>& failure) const = 0;
+  /// Adds the internal force to target.residual, the stiffness to target.matrix: to what is not null.
+  virtual void add(const double* displacement, const AssemblyTarget& target, std::optional<StepFailure>& failure) const = 0;
   /// Points of the first `count` elements.
   virtual void visit_points(const double* displacement, LocalOrdinal count, const std::function<void(const MaterialPoint&)>& visit) const = 0;
   virtual void commit(const double* displacement) = 0;
@@ -37,6 +37,10 @@ class ElementBlock {
   virtual void serialize(StateArchive& archive, const std::string& name) = 0;
   virtual std::size_t history_bytes() const = 0;
   virtual long history_evaluations() const = 0;
+  /// matrix += factor x consistent mass matrix.
+  virtual void add_mass(double density, const NodalSparsity::Values& matrix, double factor) const = 0;
+  /// masses[owned node] += lumped mass.
+  virtual void add_nodal_masses(double density, std::vector<double>& masses) const = 0;
   /// volumes[owned node] += integral of N_a dV0.
   virtual void add_nodal_volumes(std::vector<double>& volumes) const = 0;
   /// The element with the smallest det dX/dxi and that value; element -1 if the block is empty.

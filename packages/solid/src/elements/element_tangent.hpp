@@ -7,6 +7,7 @@
 #include "elements/element_geometry.hpp"
 #include "elements/space_products.hpp"
 #include "mortise/material/tensor_components.hpp"
+#include "mortise/solid/element_points.hpp"
 
 namespace mortise {
 
@@ -36,10 +37,16 @@ class ElementTangent {
   /// In 2D columns run as rows do; in 3D the nodes run first, filled up: the innermost loops are over them.
   static constexpr int width = filled_up(nodes);
   static constexpr int column(int b, int k) { return dimension == 3 ? k * width + b : dimension * b + k; }
-  using Stiffness = std::array<std::array<double, dimension == 3 ? 3 * width : dofs>, dofs>;  ///< rows dimension * a + i, columns column(b, k)
+
+  /// The sum, for ElementLoop.
+  struct Stiffness {
+    static constexpr int components = dimension;
+    std::array<std::array<double, dimension == 3 ? 3 * width : dofs>, dofs> rows{};  ///< rows dimension * a + i, columns column(b, k)
+    double operator()(int a, int i, int b, int k) const { return rows[dimension * a + i][column(b, k)]; }
+  };
 
   /// `centre`, pushed forward, and `stiffness` have to outlive this object.
-  ElementTangent(const Centre& centre, Stiffness& stiffness) : centre_(centre), stiffness_(stiffness) {}
+  ElementTangent(const Centre& centre, Stiffness& stiffness) : centre_(centre), stiffness_(stiffness.rows) {}
 
   /// A point after push_forward.
   void add(const Point& at, const StressAndTangent<Components>& response, double weight) {
@@ -118,7 +125,7 @@ class ElementTangent {
   }
 
   const Centre& centre_;
-  Stiffness& stiffness_;
+  decltype(Stiffness::rows)& stiffness_;
   std::array<double, dimension == 3 && f_bar ? dofs : 0> volumetric_{};
 };
 

@@ -4,7 +4,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "elements/element_kernel.hpp"
+#include "mortise/solid/element_points.hpp"
 
 namespace mortise {
 namespace {
@@ -37,6 +37,14 @@ Eigen::RowVectorXd fitted_functions(const std::array<double, dimension>& xi) {
       return ((k & linear) & ((k & linear) - 1)) == 0;
     });
   }
+}
+
+/// Points of the rule that stresses are computed at.
+template <class Cell>
+int quadrature_points([[maybe_unused]] Kinematics kinematics) {
+  if constexpr (Cell::dimension == 2)
+    if (kinematics == Kinematics::axisymmetric) return ElementGeometry<Cell, true>::stiffness_points;
+  return ElementGeometry<Cell>::stiffness_points;
 }
 
 }  // namespace

@@ -51,6 +51,8 @@ enum class CellShape {
 ///     (t_y, -t_x). In 3D the corners of a side run counterclockwise seen from outside;
 ///   - stiffness_points (2D, 3D): of the rule that integrates the stiffness of an undistorted cell exactly;
 ///   - axisymmetric_stiffness_points (2D): the same with radii and hoop strains;
+///   - mass_points (2D, 3D): of the rule that integrates products of two shape functions over an undistorted cell exactly;
+///   - axisymmetric_mass_points (2D): of the rule for these products times a radius;
 ///   - side_points (lines, 2D): of the rule for loads on a side of this shape. It is exact to degree 5 or more on straight sides: for N_a x radius x
 ///     expressions up to cubic;
 ///   - jacobian_points: of the rule where det J is looked at for inverted cells, besides the nodes; 0: the nodes are enough. Simplices of corners

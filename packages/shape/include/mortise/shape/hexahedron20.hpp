@@ -23,6 +23,7 @@ struct Hexahedron20 : ReferenceCube {
                                                                    {{2, 3, 7, 6, 10, 19, 14, 18}},
                                                                    {{3, 0, 4, 7, 11, 16, 15, 19}}}};
   static constexpr int stiffness_points = 27;    ///< of the rule for the stiffness
+  static constexpr int mass_points = 27;         ///< of the rule for the mass
   static constexpr int jacobian_points = 27;     ///< of the rule where det J is looked at
   static constexpr int midpoint_directions = 1;  ///< directions of a lattice in which a node is a midpoint
   using Profile = Quadrilateral8;                ///< below cells that a sweep makes

@@ -16,6 +16,7 @@ struct Hexahedron8 : ReferenceCube {
   static constexpr std::array<SideNodes<Quadrilateral4>, 6> sides{
       {{{0, 3, 2, 1}}, {{4, 5, 6, 7}}, {{0, 1, 5, 4}}, {{1, 2, 6, 5}}, {{2, 3, 7, 6}}, {{3, 0, 4, 7}}}};
   static constexpr int stiffness_points = 8;     ///< of the rule for the stiffness
+  static constexpr int mass_points = 8;          ///< of the rule for the mass
   static constexpr int jacobian_points = 8;      ///< of the rule where det J is looked at
   static constexpr int midpoint_directions = 0;  ///< directions of a lattice in which a node is a midpoint
   using Profile = Quadrilateral4;                ///< below cells that a sweep makes

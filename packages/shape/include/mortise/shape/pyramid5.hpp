@@ -33,6 +33,7 @@ struct Pyramid5 : ReferencePyramid {
   static constexpr std::tuple<SideNodes<Quadrilateral4>, SideNodes<Triangle3>, SideNodes<Triangle3>, SideNodes<Triangle3>, SideNodes<Triangle3>>
       sides{{{0, 3, 2, 1}}, {{0, 1, 4}}, {{1, 2, 4}}, {{2, 3, 4}}, {{3, 0, 4}}};
   static constexpr int stiffness_points = 4;     ///< of the rule for the stiffness
+  static constexpr int mass_points = 8;          ///< of the rule for the mass
   static constexpr int jacobian_points = 0;      ///< of the rule where det J is looked at
   static constexpr int midpoint_directions = 0;  ///< directions of a lattice in which a node is a midpoint
   using Profile = void;                          ///< below cells that a sweep makes

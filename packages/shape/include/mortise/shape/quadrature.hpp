@@ -49,8 +49,10 @@ std::vector<CellPoint> tetrahedron_rule(int points);
 std::vector<CellPoint> wedge_rule(int triangle_points, int line_points);
 
 /// Conical product rule on the pyramid |xi|, |eta| <= 1 - zeta, 0 <= zeta <= 1: with xi = u (1 - zeta), eta = v (1 - zeta) its volume is
-/// (1 - zeta)^2 du dv dzeta. It has the points of quadrilateral_rule(points_per_direction) in (u, v) and one, zeta = 1/4, of the Gauss-Jacobi rule
-/// for the weight (1 - zeta)^2. Exact for f(u, v) of degree 2 points_per_direction - 1 in each, and for its products with zeta.
-std::vector<CellPoint> pyramid_rule(int points_per_direction);
+/// (1 - zeta)^2 du dv dzeta. It has the points of quadrilateral_rule(points_per_direction) in (u, v) and, along zeta, `heights` points of the
+/// Gauss-Jacobi rule for the weight (1 - zeta)^2: 1 or 2. Exact for f(u, v) of degree 2 points_per_direction - 1 in each, and for its products with
+/// polynomials in zeta of degree 2 heights - 1.
+/// Throws std::invalid_argument for any other number.
+std::vector<CellPoint> pyramid_rule(int points_per_direction, int heights = 1);
 
 }  // namespace mortise

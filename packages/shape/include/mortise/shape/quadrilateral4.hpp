@@ -14,6 +14,8 @@ struct Quadrilateral4 : ReferenceSquare {
   static constexpr std::array<SideNodes<Line2>, 4> sides{{{{0, 1}}, {{1, 2}}, {{2, 3}}, {{3, 0}}}};  ///< nodes of each side
   static constexpr int stiffness_points = 4;                                                         ///< of the rule for the stiffness
   static constexpr int axisymmetric_stiffness_points = 4;                                            ///< of the rule for the axisymmetric stiffness
+  static constexpr int mass_points = 4;                                                              ///< of the rule for the mass
+  static constexpr int axisymmetric_mass_points = 4;                                                 ///< of the rule for the axisymmetric mass
   static constexpr int side_points = 9;          ///< of the rule for loads on a side of this shape
   static constexpr int jacobian_points = 0;      ///< of the rule where det J is looked at
   static constexpr int midpoint_directions = 0;  ///< directions of a lattice in which a node is a midpoint

@@ -122,7 +122,7 @@ struct ReferencePyramid {
     return {T(0.0), T(0.0)};
   }
 
-  /// The pyramid_rule with so many points in all. Throws std::invalid_argument if there is none.
+  /// The pyramid_rule with so many points in all: 8 (4 x 2), or one point along the height. Throws std::invalid_argument if there is none.
   static std::vector<CellPoint> rule(int points);
   /// Is the point inside, or outside by no more than the tolerance?
   static bool contains(const std::array<double, 3>& xi, double tolerance);

@@ -16,6 +16,7 @@ struct Tetrahedron10 : ReferenceTetrahedron {
   static constexpr std::array<SideNodes<Triangle6>, 4> sides{
       {{{0, 2, 1, 6, 5, 4}}, {{0, 1, 3, 4, 8, 7}}, {{1, 2, 3, 5, 9, 8}}, {{2, 0, 3, 6, 7, 9}}}};  ///< nodes of each side
   static constexpr int stiffness_points = 4;                                                      ///< of the rule for the stiffness
+  static constexpr int mass_points = 15;                                                          ///< of the rule for the mass
   static constexpr int jacobian_points = 15;                                                      ///< of the rule where det J is looked at
   static constexpr int midpoint_directions = 3;  ///< directions of a lattice in which a node is a midpoint
   using Profile = Triangle6;                     ///< below cells that a sweep makes

@@ -13,6 +13,7 @@ struct Tetrahedron4 : ReferenceTetrahedron {
   static constexpr int nodes = 4;                                                                                    ///< number of nodes
   static constexpr std::array<SideNodes<Triangle3>, 4> sides{{{{0, 2, 1}}, {{0, 1, 3}}, {{1, 2, 3}}, {{2, 0, 3}}}};  ///< nodes of each side
   static constexpr int stiffness_points = 1;     ///< of the rule for the stiffness
+  static constexpr int mass_points = 4;          ///< of the rule for the mass
   static constexpr int midpoint_directions = 0;  ///< directions of a lattice in which a node is a midpoint
   using Profile = Triangle3;                     ///< below cells that a sweep makes
   using MiddleProfile = void;                    ///< whose nodes lie half way up

@@ -14,6 +14,8 @@ struct Triangle3 : ReferenceTriangle {
   static constexpr std::array<SideNodes<Line2>, 3> sides{{{{0, 1}}, {{1, 2}}, {{2, 0}}}};  ///< nodes of each side
   static constexpr int stiffness_points = 1;                                               ///< of the rule for the stiffness
   static constexpr int axisymmetric_stiffness_points = 3;                                  ///< of the rule for the axisymmetric stiffness
+  static constexpr int mass_points = 3;                                                    ///< of the rule for the mass
+  static constexpr int axisymmetric_mass_points = 7;                                       ///< of the rule for the axisymmetric mass
   static constexpr int side_points = 7;                                                    ///< of the rule for loads on a side of this shape
   static constexpr int midpoint_directions = 0;                                            ///< directions of a lattice in which a node is a midpoint
   static constexpr int xdmf_number = 4;                                                    ///< in a mixed topology

@@ -15,6 +15,8 @@ struct Triangle6 : ReferenceTriangle {
   static constexpr std::array<SideNodes<Line3>, 3> sides{{{{0, 1, 3}}, {{1, 2, 4}}, {{2, 0, 5}}}};  ///< nodes of each side
   static constexpr int stiffness_points = 3;                                                        ///< of the rule for the stiffness
   static constexpr int axisymmetric_stiffness_points = 7;                                           ///< of the rule for the axisymmetric stiffness
+  static constexpr int mass_points = 7;                                                             ///< of the rule for the mass
+  static constexpr int axisymmetric_mass_points = 7;                                                ///< of the rule for the axisymmetric mass
   static constexpr int side_points = 7;                                                             ///< of the rule for loads on a side of this shape
   static constexpr int jacobian_points = 7;                                                         ///< of the rule where det J is looked at
   static constexpr int midpoint_directions = 3;  ///< directions of a lattice in which a node is a midpoint

@@ -27,6 +27,7 @@ struct Wedge15 : ReferenceWedge {
                               SideNodes<Quadrilateral8>>
       sides{{{0, 2, 1, 8, 7, 6}}, {{3, 4, 5, 9, 10, 11}}, {{0, 1, 4, 3, 6, 13, 9, 12}}, {{1, 2, 5, 4, 7, 14, 10, 13}}, {{2, 0, 3, 5, 8, 12, 11, 14}}};
   static constexpr int stiffness_points = 21;    ///< of the rule for the stiffness
+  static constexpr int mass_points = 21;         ///< of the rule for the mass
   static constexpr int jacobian_points = 21;     ///< of the rule where det J is looked at
   static constexpr int midpoint_directions = 2;  ///< directions of a lattice in which a node is a midpoint
   using Profile = Triangle6;                     ///< below cells that a sweep makes

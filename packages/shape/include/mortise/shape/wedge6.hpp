@@ -22,6 +22,7 @@ struct Wedge6 : ReferenceWedge {
                               SideNodes<Quadrilateral4>>
       sides{{{0, 2, 1}}, {{3, 4, 5}}, {{0, 1, 4, 3}}, {{1, 2, 5, 4}}, {{2, 0, 3, 5}}};
   static constexpr int stiffness_points = 6;     ///< of the rule for the stiffness
+  static constexpr int mass_points = 6;          ///< of the rule for the mass
   static constexpr int jacobian_points = 6;      ///< of the rule where det J is looked at
   static constexpr int midpoint_directions = 0;  ///< directions of a lattice in which a node is a midpoint
   using Profile = Triangle3;                     ///< below cells that a sweep makes

@@ -75,6 +75,21 @@ class Bodies {
   /// matrix += factor d f_int / d displacement. `matrix` has graph(), or more entries and more columns after its own.
   void add_stiffness(const Vector& local_displacement, Matrix& matrix, std::optional<StepFailure>& failure, double factor = 1.0) const;
 
+  /// Both in one pass over the elements, for the time that add_stiffness() takes.
+  void add_internal_force_and_stiffness(const Vector& local_displacement, Vector& residual, Matrix& matrix, std::optional<StepFailure>& failure,
+                                        double factor = 1.0) const;
+
+  /// matrix += factor M, the consistent mass matrix: M_ab = integral of rho0 N_a N_b dV0 for each component. Rigid bodies have no elements and add
+  /// nothing. `matrix` is as for add_stiffness().
+  void add_mass(Matrix& matrix, double factor = 1.0) const;
+
+  /// Lumped mass of each owned node. Linear elements give it the sum of its row of M, quadratic ones, whose sums can be negative, their diagonal of M
+  /// scaled to their mass.
+  std::vector<double> nodal_masses() const;
+
+  /// Mass of each body of the mesh, summed over all ranks; 0 for rigid ones. Collective.
+  std::vector<double> masses() const;
+
   /// The step that ended at this displacement is accepted: material points with a history move on to it. Everything else that is asked for at a
   /// displacement takes it as the end of a step from the last committed one.
   void commit(const Vector& local_displacement);
@@ -113,9 +128,6 @@ class Bodies {
 
   /// Work that plastic flow of each body has taken, summed over all ranks; 0 for laws without plasticity. Collective.
   std::vector<double> plastic_works(const Vector& local_displacement) const;
-
-  /// TEMP
-  RCP<const Matrix> mass(bool lumped) const;
 
   /// Integral of N_a dV0 over the body `block`, for each owned node a.
   std::vector<double> nodal_volumes(LocalOrdinal block) const;

@@ -1,7 +1,10 @@
 #pragma once
 // Mass that couples nodes, the same in each direction.
 
+#include <vector>
+
 #include "mortise/core/types.hpp"
+#include "mortise/solid/bodies.hpp"
 
 namespace mortise {
 
@@ -24,10 +27,15 @@ class NodalMass {
   int dimension_;
 };
 
-/// P^T M P.
+/// The consistent mass of all bodies, [owned nodes squared]. Collective.
+RCP<const Matrix> consistent_mass(const Bodies& bodies);
+/// A diagonal matrix of nodes. Collective.
+RCP<const Matrix> mass_of_nodes(const RCP<const Map>& owned_nodes, const std::vector<double>& masses);
+
+/// P^T M P. Collective.
 RCP<const Matrix> mass_of_extension(const Matrix& M, const Matrix& P);
 
-/// A matrix of nodes as one of dofs, the same for each component.
+/// A matrix of nodes as one of dofs, the same for each component. Collective.
 RCP<const Matrix> for_each_component(const Matrix& of_nodes, const RCP<const Map>& dofs, int dimension);
 
 }  // namespace mortise

@@ -19,6 +19,9 @@ class NodalSparsity {
   /// and is needed only until it has become a matrix, or part of a wider graph. Collective.
   RCP<const Graph> graph() const;
 
+  /// Dofs of a node.
+  int components() const { return dimension_; }
+
   /// Where, in a row of the owned node `row`, the columns of the local node `column` start. -1: `row` is a ghost, or the two share no element.
   LocalOrdinal position(LocalOrdinal row, LocalOrdinal column) const;
 

@@ -1,0 +1,234 @@
+#pragma once
+// The loop over the elements of a block: gathers what an integrand reads and scatters what it gives.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "mortise/mesh/mesh.hpp"
+#include "mortise/solid/element_history.hpp"
+#include "mortise/solid/element_points.hpp"
+#include "mortise/solid/nodal_sparsity.hpp"
+
+namespace mortise {
+
+/// A tangent of an element: the derivative of the component i at node a with respect to the component k at node b.
+template <int nodes, int field_components>
+struct NodalBlocks {
+  static constexpr int components = field_components;
+  std::array<std::array<double, components * nodes>, components * nodes> entries{};
+  double& operator()(int a, int i, int b, int k) { return entries[components * a + i][components * b + k]; }
+  double operator()(int a, int i, int b, int k) const { return entries[components * a + i][components * b + k]; }
+};
+
+/// A tangent with one number for a pair of nodes, which holds for each component; components do not mix.
+template <int nodes>
+struct NodalPairs {
+  std::array<std::array<double, nodes>, nodes> entries{};
+  double& operator()(int a, int b) { return entries[a][b]; }
+  double operator()(int a, int b) const { return entries[a][b]; }
+};
+
+/// What is absent is no member.
+template <class Integrand, bool wanted>
+struct ResidualSum {};
+template <class Integrand>
+struct ResidualSum<Integrand, true> {
+  typename Integrand::Residual residual{};
+};
+template <class Integrand, bool wanted>
+struct TangentSum {};
+template <class Integrand>
+struct TangentSum<Integrand, true> {
+  typename Integrand::Tangent tangent{};
+};
+
+/// What an integrand's points are summed into: `residual`, `tangent` or both.
+template <class Integrand, bool residual_wanted, bool tangent_wanted>
+struct ElementSums : ResidualSum<Integrand, residual_wanted>, TangentSum<Integrand, tangent_wanted> {
+  static constexpr bool with_residual = residual_wanted, with_tangent = tangent_wanted;
+};
+
+/// An integrand says what is integrated over one element and knows no mesh, no vector and no matrix. It has
+///   - Geometry, an ElementGeometry; point_count, the number of points of the cell's rule;
+///   - Reads, a tuple of what it takes of fields at the points: FieldValue, FieldGradient, or a type of its own made like them;
+///   - Residual, an array [components * node + i] of the field in whose rows it stands, and `components`; or no such type;
+///   - Tangent, NodalBlocks or a type that is called like it, or NodalPairs; or no such type;
+///   - State, what a point remembers; or no such type;
+///   - add(points, sums), with a State add(points, states, sums): adds to sums.residual if Sums::with_residual, to sums.tangent if
+///   Sums::with_tangent.
+///     It returns nothing, or what converts to true where the element has no such sums.
+/// `points` are ElementPoints.
+///
+/// An integrand over the elements of a block, with its rule and what its points remember.
+template <class Integrand>
+class BlockIntegral {
+  template <class Type, class = void>
+  struct StateIn {
+    using State = NoState;
+    static constexpr bool exists = false;
+  };
+  template <class Type>
+  struct StateIn<Type, std::void_t<typename Type::State>> {
+    using State = typename Type::State;
+    static constexpr bool exists = true;
+  };
+
+ public:
+  using Geometry = typename Integrand::Geometry;
+  using Points = ElementPoints<Geometry, Integrand::point_count, typename Integrand::Reads>;
+  using History = ElementHistory<typename StateIn<Integrand>::State, Integrand::point_count>;
+
+  Integrand integrand;
+  typename Points::Rule rule;
+  History history;
+
+  /// `thickness` counts for plane cells.
+  BlockIntegral(Integrand of_element, const Block& block, double thickness) : integrand(std::move(of_element)), rule(thickness), history(block) {}
+
+  template <class Sums>
+  auto add(LocalOrdinal element, const Points& points, Sums& sums) const {
+    if constexpr (StateIn<Integrand>::exists)
+      return integrand.add(points, history[element], sums);
+    else
+      return integrand.add(points, sums);
+  }
+};
+
+/// Where sums of elements go.
+struct AssemblyTarget {
+  double* residual = nullptr;                     ///< [components * owned node + i]
+  const NodalSparsity::Values* matrix = nullptr;  ///< of the field's sparsity
+  double factor = 1.0;                            ///< of what is added to the matrix
+};
+
+/// The elements of a block that touch an owned node. Rows of other nodes are left to their ranks.
+template <class Cell>
+class ElementLoop {
+ public:
+  static constexpr int nodes = Cell::nodes, dimension = Cell::dimension;
+  using Positions = std::array<std::array<double, dimension>, nodes>;
+  /// The values of fields on the local nodes, [components * node + i], in the order of Reads.
+  template <std::size_t fields>
+  using Fields = std::array<const double*, fields>;
+
+  /// All three have to outlive the loop. The matrices that are added to have this sparsity.
+  ElementLoop(const Mesh& mesh, const Block& block, const NodalSparsity& sparsity)
+      : mesh_(mesh), block_(block), sparsity_(sparsity), owned_nodes_(mesh.owned_count()) {
+    positions_.reserve(static_cast<std::size_t>(block.size()) * nodes * nodes);
+    for (LocalOrdinal element = 0; element < block.size(); ++element)
+      for (int a = 0; a < nodes; ++a)
+        for (int b = 0; b < nodes; ++b) positions_.push_back(sparsity.position(block.nodes(element)[a], block.nodes(element)[b]));
+  }
+
+  const Mesh& mesh() const { return mesh_; }
+  const Block& block() const { return block_; }
+  LocalOrdinal owned_nodes() const { return owned_nodes_; }
+
+  /// target += the integral over each element, of its residual, its tangent or both. A wanted residual without a place in the target is left out
+  /// there. report(element, what add() returned) where an integrand has no sums; the target's are then meaningless.
+  template <bool residual_wanted, bool tangent_wanted, class Integrand, std::size_t fields, class Report>
+  void add(const BlockIntegral<Integrand>& integral, const Fields<fields>& values, const AssemblyTarget& target, const Report& report) const {
+    for (LocalOrdinal element = 0; element < block_.size(); ++element) {
+      const LocalOrdinal* node = block_.nodes(element);
+      if (!touches_owned(node)) continue;
+      ElementSums<Integrand, residual_wanted, tangent_wanted> sums;
+      const auto points = points_of<Integrand>(element, integral.rule, values);
+      if constexpr (std::is_void_v<decltype(integral.add(element, points, sums))>)
+        integral.add(element, points, sums);
+      else if (const auto trouble = integral.add(element, points, sums))
+        report(element, trouble);
+      if constexpr (residual_wanted)
+        if (target.residual != nullptr) scatter<Integrand::components>(node, sums.residual, target.residual);
+      if constexpr (tangent_wanted) scatter(element, sums.tangent, target);
+    }
+  }
+
+  /// The same of integrands that always have sums.
+  template <bool residual_wanted, bool tangent_wanted, class Integrand, std::size_t fields>
+  void add(const BlockIntegral<Integrand>& integral, const Fields<fields>& values, const AssemblyTarget& target) const {
+    add<residual_wanted, tangent_wanted>(integral, values, target, [](LocalOrdinal, auto) {});
+  }
+
+  /// The points of an element, whether it touches an owned node or not.
+  template <class Integrand, std::size_t fields>
+  auto points_of(LocalOrdinal element, const typename BlockIntegral<Integrand>::Points::Rule& rule, const Fields<fields>& values) const {
+    using Points = typename BlockIntegral<Integrand>::Points;
+    static_assert(fields == std::tuple_size_v<typename Integrand::Reads>);
+    const LocalOrdinal* node = block_.nodes(element);
+    return Points(rule, reference(node), gather<typename Points::NodalValues>(node, values, std::make_index_sequence<fields>{}));
+  }
+
+  /// Reference positions of nodes.
+  Positions reference(const LocalOrdinal* node) const {
+    Positions X;
+    for (int a = 0; a < nodes; ++a) std::copy_n(mesh_.coordinates[node[a]].begin(), dimension, X[a].begin());
+    return X;
+  }
+
+ private:
+  bool touches_owned(const LocalOrdinal* node) const {
+    for (int a = 0; a < nodes; ++a)
+      if (node[a] < owned_nodes_) return true;
+    return false;
+  }
+
+  template <class NodalValues, std::size_t fields, std::size_t... n>
+  static NodalValues gather([[maybe_unused]] const LocalOrdinal* node, [[maybe_unused]] const Fields<fields>& values, std::index_sequence<n...>) {
+    NodalValues result;
+    (gather(node, values[n], std::get<n>(result)), ...);
+    return result;
+  }
+
+  template <std::size_t components>
+  static void gather(const LocalOrdinal* node, const double* values, std::array<std::array<double, components>, nodes>& result) {
+    for (int a = 0; a < nodes; ++a) std::copy_n(values + static_cast<LocalOrdinal>(components) * node[a], components, result[a].begin());
+  }
+
+  template <int components>
+  void scatter(const LocalOrdinal* node, const std::array<double, components * nodes>& sum, double* residual) const {
+    for (int a = 0; a < nodes; ++a)
+      if (node[a] < owned_nodes_)
+        for (int i = 0; i < components; ++i) residual[components * node[a] + i] += sum[components * a + i];
+  }
+
+  template <class Tangent>
+  void scatter(LocalOrdinal element, const Tangent& tangent, const AssemblyTarget& target) const {
+    constexpr int components = Tangent::components;
+    const LocalOrdinal* node = block_.nodes(element);
+    const LocalOrdinal* position = positions_.data() + static_cast<std::size_t>(element) * nodes * nodes;
+    for (int a = 0; a < nodes; ++a) {
+      if (node[a] >= owned_nodes_) continue;
+      for (int i = 0; i < components; ++i) {
+        double* row = target.matrix->row(components * node[a] + i);
+        for (int b = 0; b < nodes; ++b)
+          for (int k = 0; k < components; ++k) row[position[a * nodes + b] + k] += target.factor * tangent(a, i, b, k);
+      }
+    }
+  }
+
+  void scatter(LocalOrdinal element, const NodalPairs<nodes>& tangent, const AssemblyTarget& target) const {
+    const int components = sparsity_.components();
+    const LocalOrdinal* node = block_.nodes(element);
+    const LocalOrdinal* position = positions_.data() + static_cast<std::size_t>(element) * nodes * nodes;
+    for (int a = 0; a < nodes; ++a) {
+      if (node[a] >= owned_nodes_) continue;
+      for (int i = 0; i < components; ++i) {
+        double* row = target.matrix->row(components * node[a] + i);
+        for (int b = 0; b < nodes; ++b) row[position[a * nodes + b] + i] += target.factor * tangent(a, b);
+      }
+    }
+  }
+
+  const Mesh& mesh_;
+  const Block& block_;
+  const NodalSparsity& sparsity_;
+  LocalOrdinal owned_nodes_;
+  std::vector<LocalOrdinal> positions_;  ///< [elements x nodes x nodes] NodalSparsity::position
+};
+
+}  // namespace mortise
