@@ -1,5 +1,6 @@
 #include "system/initial_motion.hpp"
 
+#include <TpetraExt_MatrixMatrix.hpp>
 #include <algorithm>
 
 #include "system/system_model.hpp"
@@ -19,8 +20,20 @@ RCP<Matrix> mass_matrix(const SystemModel& model, const Configuration& at) {
   return mass;
 }
 
-/// Solves A u = b with u = 0 in some rows and in those without a diagonal.
-RCP<Vector> solve(LinearSolver& solver, const RCP<Matrix>& A, Vector& b, std::vector<LocalOrdinal> rows) {
+/// A with a diagonal, 0 where there was none.
+RCP<Matrix> with_diagonal(const Matrix& A) {
+  Matrix zeros(A.getRowMap(), 1);
+  for (const GlobalOrdinal id : A.getRowMap()->getNodeElementList()) {
+    const double zero = 0.0;
+    zeros.insertGlobalValues(id, 1, &zero, &id);
+  }
+  zeros.fillComplete();
+  return Tpetra::MatrixMatrix::add(1.0, false, A, 1.0, false, zeros, A.getDomainMap(), A.getRangeMap());
+}
+
+/// Solves M u = b with u = 0 in some rows and in those without mass.
+RCP<Vector> solve(LinearSolver& solver, const Matrix& M, Vector& b, std::vector<LocalOrdinal> rows) {
+  const RCP<Matrix> A = with_diagonal(M);
   Vector diagonal(A->getRowMap());
   A->getLocalDiagCopy(diagonal);
   {
@@ -71,10 +84,10 @@ void begin_motion(const SystemModel& model, const Vector& velocity, bool at_rest
       mass->apply(*convected, rhs, Teuchos::NO_TRANS, -1.0, 1.0);
       const RCP<Vector> b = at->follow->reduced(rhs);
       const Vector none(model.parts().dofs);
-      const RCP<Vector> of_unknowns = solve(solver, at->follow->reduced(*mass, none), *b, model.reduction()->held_places(model.prescribed()));
+      const RCP<Vector> of_unknowns = solve(solver, *at->follow->reduced(*mass, none), *b, model.reduction()->held_places(model.prescribed()));
       a->update(1.0, *at->follow->expanded(*of_unknowns), 1.0, *convected, 0.0);
     } else {
-      Tpetra::deep_copy(*a, *solve(solver, mass, rhs, model.prescribed()));
+      Tpetra::deep_copy(*a, *solve(solver, *mass, rhs, model.prescribed()));
     }
     if (!integration.extension.is_null()) {
       const Vector massive(*a, Teuchos::Copy);

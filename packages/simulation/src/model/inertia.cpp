@@ -10,6 +10,7 @@
 #include <set>
 
 #include "model/widened_graph.hpp"
+#include "mortise/material/materials.hpp"
 #include "mortise/solid/rigid_mass.hpp"
 
 namespace mortise {
@@ -191,6 +192,19 @@ double largest_shift(const std::vector<std::array<double, 3>>& before, const std
   return largest;
 }
 
+/// [mesh.bodies] whether contact nodes of a body keep their mass.
+std::vector<char> bodies_that_keep(const Scene& scene, const Bodies& bodies) {
+  const Mesh& mesh = *bodies.mesh();
+  std::vector<char> keeps(mesh.bodies.size(), false);
+  if (scene.inertia.contact_mass == InertiaOptions::ContactMass::removed) return keeps;
+  for (std::size_t block = 0; block < mesh.blocks.size(); ++block) {
+    const BodyProperties& body = bodies.properties()[block];
+    if (!body.is_rigid() && std::visit([](const auto& law) { return has_history<std::decay_t<decltype(law)>>; }, body.material->law()))
+      keeps[static_cast<std::size_t>(mesh.blocks[block].body)] = true;
+  }
+  return keeps;
+}
+
 }  // namespace
 
 InertiaOfModel add_inertia(const Scene& scene, const std::shared_ptr<const Bodies>& bodies, const std::vector<LocalOrdinal>& prescribed,
@@ -207,11 +221,11 @@ InertiaOfModel add_inertia(const Scene& scene, const std::shared_ptr<const Bodie
   }
   const auto integration = std::make_shared<TimeIntegration>();
   integration->scheme = scene.inertia.time_scheme();
-  if (scene.inertia.contact_mass == InertiaOptions::ContactMass::removed && !scene.contact.empty()) {
+  if (scene.inertia.contact_mass != InertiaOptions::ContactMass::kept && !scene.contact.empty()) {
     std::vector<Located<std::string>> surfaces;
     for (const auto& pair : scene.contact)
       for (const auto* side : {&pair.value.slave, &pair.value.master}) surfaces.push_back(*side);
-    result.massless = massless_nodes(mesh, surfaces);
+    result.massless = massless_nodes(mesh, surfaces, bodies_that_keep(scene, *bodies));
     result.without_mass = count_over_ranks(*mesh.comm, result.massless.nodes.size());
     result.kept = count_over_ranks(*mesh.comm, result.massless.kept.size());
     if (result.without_mass > 0) {

@@ -5,6 +5,7 @@
 
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_CrsGraph.hpp>
+#include <algorithm>
 
 #include "mortise/core/memory.hpp"
 #include "mortise/mesh/file_mesh.hpp"
@@ -45,6 +46,35 @@ std::string sets_of(const Mesh& mesh, const std::string& body) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+/// Time integration, mass that contact nodes gave away, and choices that lose accuracy.
+void report_inertia(const Scene& scene, const Model& model, RunLog& log) {
+  const InertiaOptions& inertia = scene.inertia;
+  if (!inertia.acts()) return;
+  const InertiaOfModel& mass = model.inertia();
+  const bool is_over_step = inertia.time_scheme().balance == TimeScheme::Balance::over_step;
+  if (mass.without_mass > 0)
+    log.info(fmt::format("  {} nodes of contact surfaces give their mass to interior nodes; centres of mass move by up to {:.3g}", mass.without_mass,
+                         mass.centre_shift));
+  if (mass.kept > 0)
+    log.info(
+        fmt::format("  {} nodes of contact surfaces keep their mass: they follow reference points, or have no interior node beside them", mass.kept));
+  if (!scene.contact.empty() && inertia.scheme == InertiaOptions::Scheme::generalised_alpha && inertia.spectral_radius > 0.95)
+    log.warning(
+        fmt::format("a \"spectral radius\" of {:g} hardly damps high frequencies, so that contact forces ring; please take 0.8, or at most 0.95",
+                    inertia.spectral_radius));
+  const auto& points = model.mesh()->reference_points;
+  const auto& prescribed = model.supports().prescribed;
+  int turning_here = 0, turning = 0;
+  for (const ReferencePoint& point : points)
+    if (point.rotation_node >= 0 && point.rotation_node < model.mesh()->owned_count() &&
+        !std::binary_search(prescribed.begin(), prescribed.end(), model.mesh()->dimension * point.rotation_node))
+      turning_here = 1;
+  Teuchos::reduceAll(*model.mesh()->comm, Teuchos::REDUCE_MAX, turning_here, Teuchos::outArg(turning));
+  if (turning > 0 && is_over_step)
+    log.warning(
+        "bodies turn with reference points: \"balance\" \"over the step\" is of first order in the step for them; please take \"at the end\"");
+}
+
 }  // namespace
 
 void report_model(const std::string& file, const Scene& scene, const Model& model, RunLog& log) {
@@ -73,6 +103,7 @@ void report_model(const std::string& file, const Scene& scene, const Model& mode
     const std::string moved = tie.moved > 0 ? fmt::format(", {} were moved, by up to {:.3g}", tie.moved, tie.furthest) : "";
     log.info(fmt::format("  tie {}: {} slave nodes follow the master{}{}", scene.ties[t].name, tie.tied, open, moved));
   }
+  report_inertia(scene, model, log);
   log.info(fmt::format("  {} dofs, {} slave nodes, {} on {} rank(s)", model.dofs(), model.slave_nodes(), model.parts().linear_solver->name(),
                        model.mesh()->comm->getSize()));
 }

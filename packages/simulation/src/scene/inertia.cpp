@@ -32,8 +32,10 @@ void InertiaOptions::describe(Parameters& parameters) {
                             gamma, 0.5 * gamma));
   parameters.add("mass", mass, {{"consistent", Mass::consistent}, {"lumped", Mass::lumped}},
                  "consistent: integrals of products of shape functions; lumped: at the nodes alone");
-  parameters.add("contact mass", contact_mass, {{"removed", ContactMass::removed}, {"kept", ContactMass::kept}},
-                 "removed: nodes of contact surfaces give their mass to interior nodes of their body, so that contact forces do not chatter");
+  parameters.add("contact mass", contact_mass,
+                 {{"automatic", ContactMass::automatic}, {"removed", ContactMass::removed}, {"kept", ContactMass::kept}},
+                 "removed: nodes of contact surfaces give their mass to interior nodes of their body, so that contact forces do not chatter; "
+                 "automatic: kept in bodies that yield, where a layer without mass would flow at once, else removed");
   parameters.add("start", start, {{"in balance", Start::in_balance}, {"at rest", Start::at_rest}},
                  "accelerations of the first state: in balance with loads and stresses, or 0");
   parameters.add("mass damping", mass_damping, Says("a of the damping a M + b K, K the stiffness at the start").unit("1 / time").at_least(0.0));

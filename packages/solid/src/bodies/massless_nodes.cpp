@@ -21,14 +21,14 @@ constexpr double straight_below = 1e-6;
 enum class Role : char { interior, on_surface, follower };
 
 /// [local nodes]. Collective.
-std::vector<Role> roles(const Mesh& mesh, const std::vector<std::vector<LoadedSide>>& surfaces) {
+std::vector<Role> roles(const Mesh& mesh, const std::vector<std::vector<LoadedSide>>& surfaces, const std::vector<char>& keeps) {
   Vector owned(mesh.owned_nodes), local(mesh.local_nodes);
   {
     const auto role = owned.getLocalViewHost(Tpetra::Access::ReadWrite);
     for (const auto& sides : surfaces)
       for (const LoadedSide& side : sides)
         for (const LocalOrdinal node : side.nodes)
-          if (node < mesh.owned_count() && !mesh.bodies[mesh.body_of_node[node]].is_surface) role(node, 0) = 1.0;
+          if (node < mesh.owned_count() && !mesh.bodies[mesh.body_of_node[node]].is_surface && !keeps[mesh.body_of_node[node]]) role(node, 0) = 1.0;
     for (const ReferencePoint& point : mesh.reference_points)
       for (const LocalOrdinal node : point.followers)
         if (node < mesh.owned_count()) role(node, 0) = 2.0;
@@ -101,10 +101,10 @@ std::vector<double> weights(const Mesh& mesh, LocalOrdinal node, const Surroundi
 
 }  // namespace
 
-MasslessNodes massless_nodes(const Mesh& mesh, const std::vector<Located<std::string>>& surfaces) {
+MasslessNodes massless_nodes(const Mesh& mesh, const std::vector<Located<std::string>>& surfaces, const std::vector<char>& keeps) {
   std::vector<std::vector<LoadedSide>> sides;
   for (const auto& surface : surfaces) sides.push_back(sides_at_owned_nodes(mesh, surface));
-  const std::vector<Role> role = roles(mesh, sides);
+  const std::vector<Role> role = roles(mesh, sides, keeps);
   const auto around = surroundings(mesh, sides, role);
 
   // Nodes with interior nodes beside them, then those with such neighbours.

@@ -15,7 +15,7 @@ namespace mortise {
 /// the kinetic energy is 1/2 v^T P^T M P v: total mass stays, and row sums are in proportion to integral N_s of the face where layers are alike.
 struct MasslessNodes {
   std::vector<LocalOrdinal> nodes;  ///< owned nodes without mass, ascending
-  std::vector<LocalOrdinal> kept;   ///< owned nodes of the surfaces that keep their mass, as no interior node is near, or as they follow a point
+  std::vector<LocalOrdinal> kept;   ///< owned nodes of the surfaces that keep their mass, as no interior node is near, or as they follow a point; those of bodies that keep theirs are not counted
   /// [owned nodes squared] P: the identity in rows of nodes with mass, w in rows of those without, whose columns are empty.
   RCP<const Matrix> extension;
 };
@@ -23,7 +23,8 @@ struct MasslessNodes {
 /// Nodes of side sets of deformable bodies. Interior nodes are those of the elements at s that lie on none of the sets, with weights by inverse
 /// distance to the line through s along the surface's normal; on structured layers the node below has weight 1. A node whose elements have no
 /// interior node takes the mean of its neighbours. Collective.
+/// @param keeps  [mesh.bodies] bodies whose nodes keep their mass
 /// @throws InputError on all ranks for a set that does not exist
-MasslessNodes massless_nodes(const Mesh& mesh, const std::vector<Located<std::string>>& surfaces);
+MasslessNodes massless_nodes(const Mesh& mesh, const std::vector<Located<std::string>>& surfaces, const std::vector<char>& keeps);
 
 }  // namespace mortise
