@@ -8,8 +8,8 @@ void MortarOptions::describe(Parameters& parameters) {
                  "strongly curved coarse facets");
   parameters.add(
       "search reach", search_reach,
-      Says("distance up to which facets can touch; default: the length of the pair's longest facet, and more if the surfaces are known to begin "
-           "deeper in one another")
+      Says("distance up to which facets can touch; default: the length of the pair's longest facet, and more if the surfaces are known to overlap "
+           "deeper at the start")
           .unit("length")
           .above(0.0));
   parameters.add(

@@ -16,11 +16,11 @@ void ContactStartOptions::describe(Parameters& parameters) {
   if (mesh == MeshAtStart::adjusted && facets == FacetShape::round)
     parameters.error("facets", "\"round\" is not for slave nodes that are moved onto flat facets; please leave out \"start\" = \"adjust\"");
   parameters.add("initial overlap", initial_overlap, {{"interference", InitialOverlap::interference}, {"error", InitialOverlap::error}},
-                 "surfaces that begin in one another: interference, they are pushed apart, whatever the depth; error, the scene is refused");
+                 "surfaces that overlap at the start: interference, they are pushed apart, whatever the depth; error, the scene is refused");
   parameters.add(
       "overlap taken up at", taken_up_at,
       Says(
-          "pseudo-time at which nothing is left of an overlap that the surfaces begin with; it falls in proportion to time. Left out: the end of the "
+          "pseudo-time at which nothing is left of an overlap that the surfaces start with; it falls in proportion to time. Left out: the end of the "
           "first step, or its share if that is cut short")
           .above(0.0));
 }
