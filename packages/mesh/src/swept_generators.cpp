@@ -147,7 +147,7 @@ std::array<double, 2> reach_of(const PlaneComplex& plane, const Place& place) {
   return {least, most};
 }
 
-/// How far and in how many layers a profile is turned, by its largest x.
+/// Angle and layers by which a profile is turned, by its largest x.
 Turn turn_of(const RevolvedMesh& mesh, double most, const Place& place) {
   const double angle = mesh.angle * boost::math::constants::pi<double>() / 180.0;
   return {mesh.grading_around.spacing(most * angle, mesh.cells_around, place), {angle}};

@@ -39,7 +39,7 @@ ListRecord hard_tree() {
   return collect_parameters("hard", ledger, CollectParameters::What::declarations);
 }
 
-/// What a user names to use it in expressions; read apart from the other lists, before them.
+/// Lists that a user names to use them in expressions; read apart from the other lists, before them.
 std::vector<ListRecord> free_lists() {
   using Kind = ParameterRecord::Kind;
   ListRecord variables;
@@ -68,7 +68,7 @@ std::vector<ListRecord> free_lists() {
 struct OtherFile {
   std::string name, sentence;
   ListRecord (*tree)();
-  bool symbols;  ///< whether such a file has variables and tables
+  bool symbols;  ///< true if such a file has variables and tables
 };
 
 const std::vector<OtherFile>& other_files() {
