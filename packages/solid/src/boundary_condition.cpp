@@ -1,4 +1,4 @@
-// What can be said of a boundary condition.
+// Parameters of a boundary condition.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

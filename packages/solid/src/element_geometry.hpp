@@ -1,5 +1,5 @@
 #pragma once
-// What a point of an element has of its own: shape functions, gradients, deformation gradient, volume.
+// Data of a point of an element: shape functions, gradients, deformation gradient, volume.
 
 #include <Eigen/Dense>
 #include <array>

@@ -46,7 +46,7 @@ class ElementKernel {
   using AnyLaw = std::conditional_t<kinematics == Kinematics::plane_stress, PlaneStress<PlainLaw>, Unconstrained<PlainLaw>>;
   static constexpr bool small_strain = AnyLaw::small_strain, history = has_history<PlainLaw>;
   using State = typename AnyLaw::State;
-  using States = std::array<State, points>;  ///< what the points of an element remember
+  using States = std::array<State, points>;  ///< memory of the points of an element
 
   using Positions = typename Geometry::Positions;
   using Point = typename Geometry::Point;
@@ -95,7 +95,7 @@ class ElementKernel {
     return {};
   }
 
-  /// What the points remember if the step that ends at u is accepted. Only for laws with a history.
+  /// Memory of the points if the step that ends at u is accepted. Only for laws with a history.
   void commit(const Positions& X, const Positions& u, States& states) const {
     const Centre centre = centre_point(X, u);
     for (int q = 0; q < points; ++q)

@@ -47,7 +47,7 @@ struct Energy : Quantity {
   std::unique_ptr<QuantityEvaluator> make_evaluator(const QuantityContext& context) const override;
 };
 
-// What a work is done by, on all owned dofs. From outside act loads, and supports on prescribed dofs. Reference points act on their followers, and
+// Forces that do a work, on all owned dofs. From outside act loads, and supports on prescribed dofs. Reference points act on their followers, and
 // there their work is counted. A point that is carried round by an angle a with a moment M would do M a. Its followers do M sin a along the chords of
 // their ways, as do all other nodes of the body. With r = f_int - f_ext + f_c the internal forces are r + f_ext - f_c, and what supports and points
 // do is r. Friction takes what its forces on both sides do not give back: f_c of the shear tractions alone.
@@ -115,7 +115,7 @@ std::unique_ptr<QuantityEvaluator> Energy::make_evaluator(const QuantityContext&
   });
 }
 
-/// What is missing in the balance of works, over the largest of them:
+/// Gap in the balance of works, over the largest of them:
 ///   - internal_work: external work - internal work - friction. It is what contact pressures have done, which is nothing where surfaces touch all
 ///     over.
 ///   - stored_and_plastic: external work - stored - plastic work - friction. It counts besides what F-bar, without a potential, and the steps of the

@@ -29,7 +29,7 @@ struct Squares {
   }
 };
 
-/// Whether the exact solution has what the field is compared with.
+/// True if the exact solution has what the field is compared with.
 bool is_known(const ErrorNorm& quantity, double time) {
   const ExactSolution::Point somewhere{1.0, 1.0};
   if (quantity.of == ErrorNorm::Of::contact_pressure) return quantity.exact.options->pressure(somewhere, time).has_value();

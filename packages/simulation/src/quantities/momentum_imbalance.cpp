@@ -1,4 +1,4 @@
-// How far forces are from balance.
+// Distance of forces from balance.
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>

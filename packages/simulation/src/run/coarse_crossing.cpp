@@ -16,9 +16,9 @@ constexpr double pieces = 2.0;  ///< fewer of them across the contact do not res
 
 }  // namespace
 
-// A force F on crossing edges comes of an approach d = sqrt(F/K), over a section sqrt(A) d wide. Where that is less than two facets of length h, F is
-// that of the few nodes there, which give way by about F/(E* h): too much force for the approach, about h/d times. Or it is K d^2 of the edges
-// themselves, which is right as far as the bodies are half spaces, and pressures around have no meaning. Nodes that bear far too much make d too
+// A force F on crossing edges comes of an approach d = sqrt(F/K), over a section sqrt(A) d wide. If that is less than two facets of length h, F may
+// be that of the few nodes there. They give way by about F/(E* h): too much force for the approach, about h/d times. Or it is K d^2 of the edges
+// themselves. That is right as far as the bodies are half spaces, and pressures around have no meaning. Nodes that bear far too much make d too
 // large as well: two facets are resolved where nodes beyond the one with the crossing bear some of the force.
 std::vector<std::string> crossings_too_coarse(const Model& model, const Scene& scene, const Vector& displacement, const ContactLaws& laws) {
   std::vector<std::string> lines;

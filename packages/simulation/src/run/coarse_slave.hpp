@@ -24,7 +24,7 @@ class CoarseSlaveWatch {
  private:
   struct Hardest {
     double pressure = 0.0;  ///< largest of a node
-    std::string words;      ///< what is wrong with that state; empty: nothing
+    std::string words;      ///< error of that state; empty: none
   };
 
   const Model& model_;

@@ -86,7 +86,7 @@ void report_end(const RunRecord& record, const std::optional<StepFailure>& failu
                        total == record.seconds.end() ? 0.0 : total->second, record.memory_peak_mib, directory));
 }
 
-/// What a run of the same directory left makes room for the next: a mesh file among it would be gone.
+/// Results of an earlier run in the directory make room for the next: a mesh file among them would be gone.
 void refuse_meshes_in(const Scene& scene, const std::string& directory) {
   namespace fs = std::filesystem;
   std::error_code error;
@@ -152,7 +152,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
   record.version = options.version;
   record.settings = options.settings;
   record.quantity_order = evaluation.names();
-  // What a run remembers beside the state of the system and how far its files go.
+  // Memory of a run beside the state of the system and how far its files go.
   const auto serialize_memory = [&](StateArchive& archive) {
     evaluation.serialize(archive);
     if (surfaces) surfaces->serialize(archive);
@@ -202,7 +202,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
       serialize_memory(archive);
       output.store(archive);
     });
-    // A run that goes on from here takes the way of the one that is restarted. What the clock or a signal asks for has no influence on the way.
+    // A run that goes on from here takes the way of the one that is restarted. The clock and signals have no influence on the way.
     if (checkpoints.is_due_by_step(state.steps)) system.parts().linear_solver->forget();
     requests.reserve(checkpoints.seconds());
     log.info(
@@ -256,7 +256,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
       stability.verify(system, from, found);
       return Teuchos::null;
     };
-    // Smaller tries of a step often end where less can be told: then what an earlier one showed is said again.
+    // Smaller tries of a step often end where less can be told: then the finding of an earlier one is reported again.
     std::string known;
     const double smallest = scene.stepping.minimum_step.value_or(scene.stepping.step / 1024.0);
     const auto explain_statically = [&](const FailedTry& failed) -> std::string {
@@ -267,7 +267,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
       if (failed.time - failed.from.context.time < 2.0 * smallest)
         if (const std::string turns = explain_turning_point(failed, model, system); !turns.empty()) return known = turns;
       if (check && !check->refused().empty()) return known = check->refused() + "; put back, it found no equilibrium";
-      // What Newton's last iterate says of motions is no reason where statics says that contact can hold the bodies.
+      // Newton's last iterate gives no reason about motions where statics says that contact can hold the bodies.
       std::string explanation = settlement && !may_hold ? settlement->overload() : std::string();
       if (explanation.empty() && check && !may_hold) explanation = explain_failure(failed, model, system, check->record());
       if (explanation.empty()) explanation = explain_limit_load(failed, model, system);
@@ -297,7 +297,7 @@ ExitCode run_scene(const RCP<const Communicator>& comm, const Scene& scene, cons
       stability.accept();
       accepted(report, at);
     };
-    // What is pushed apart does not go on: predicted, it would let all nodes of a press fit slip.
+    // The motion that pushes surfaces apart does not go on: predicted, it would let all nodes of a press fit slip.
     const auto& at_start = model.surfaces_at_start().pairs;
     const bool begins_pressed = std::any_of(at_start.begin(), at_start.end(), [](const PairAtStart& pair) { return pair.overlap.depth > 0.0; });
     functions.predict = [&](const Vector& at, double dt, Vector& rate) {

@@ -9,14 +9,14 @@
 namespace mortise {
 
 /// A node that slips bears a given traction, whatever its slip: where all nodes of a body slip the Jacobian is singular along the surface. There is
-/// an equilibrium all the same if friction can bear the load: then some nodes slip the other way, or stick. Which these are depends on where the body
-/// goes to as a whole, which the Jacobian does not tell; balance_friction() does.
+/// an equilibrium all the same if friction can bear the load: then some nodes slip the other way, or stick. The set of these depends on where the
+/// body goes to as a whole, which the Jacobian does not tell; balance_friction() does.
 class SlipSettlement {
  public:
   /// Collective.
   explicit SlipSettlement(const Model& model);
 
-  /// Whether a model has bodies that contact alone holds, with friction. Collective.
+  /// True if a model has bodies that contact alone holds, with friction. Collective.
   static bool is_needed(const Model& model);
 
   /// SystemParts::better_start: x with the bodies moved to where friction bears the load, each node with the traction that it has there, and those

@@ -1,5 +1,5 @@
 #pragma once
-// What the surfaces of the bodies tell of a state that contact alone does not see.
+// Checks of a state by the surfaces of the bodies, for what contact alone does not see.
 
 #include <functional>
 #include <string>
@@ -11,8 +11,8 @@
 
 namespace mortise {
 
-/// Looks at each converged state once. It asks whether a body has passed through another, whether a corner lies within a facet, whether bodies
-/// overlap although their pair carries no force, and whether leaning normals bear what friction does not.
+/// Looks at each converged state once. It finds bodies that have passed through another, corners within a facet, bodies that
+/// overlap although their pair carries no force, and leaning normals that bear what friction does not.
 class SurfaceWatch {
  public:
   /// @param warn  called once for each pair and question
@@ -23,7 +23,7 @@ class SurfaceWatch {
   void examine(const Vector& displacement, const ContactLaws& laws);
   /// The solution that was examined last is an accepted state.
   void accept();
-  /// What of the accepted state lies in the other body where the pair carries no force; empty: nothing.
+  /// Place of the accepted state where bodies overlap and the pair carries no force; empty: none.
   const std::string& without_force() const;
   /// Stores or restores what it knows of the accepted state and has said.
   void serialize(StateArchive& archive);

@@ -262,7 +262,7 @@ class PairMaker {
     return sets_[key] = set.name;
   }
 
-  /// An expression above 0 where a point of a part is nearer to the centre of one that faces it than to those of all others:
+  /// An expression above 0 where a point of a part is nearer to the centre of one that faces it than to those of all others. For each other one
   ///   |x - c_o|^2 - |x - c|^2 = 2 (c - c_o) . x + |c_o|^2 - |c|^2
   ScalarFunction nearer_to(int of, int facing, const Place& place) const {
     const Eigen::Vector3d c = found_.parts[static_cast<std::size_t>(facing)].centre;

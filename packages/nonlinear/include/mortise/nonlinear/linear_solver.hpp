@@ -14,20 +14,20 @@
 
 namespace mortise {
 
-/// What one solve did.
+/// Report of one solve.
 struct LinearSolveReport {
   int iterations = 0;              ///< 0 for a direct solver
   double relative_residual = 0.0;  ///< true one, |b - A x| / |b|
 };
 
-/// What a multigrid hierarchy is made of besides the matrix, on the current configuration.
+/// Data for a multigrid hierarchy besides the matrix, on the current configuration.
 struct NearNullSpace {
   RCP<const MultiVector> rigid_body_modes;  ///< on the dofs of the matrix
   RCP<const MultiVector> coordinates;       ///< on the nodes, `dimension` columns, with bodies moved away from one another by `separation`
   double separation = 0.0;                  ///< a length beside which bodies are points, so that no aggregate crosses contact
 };
 
-/// What an iterative solver may ask of a system, each only if it is needed; any may be empty.
+/// Data that an iterative solver may ask of a system, each only if it is needed; any may be empty.
 struct MultigridInput {
   std::function<NearNullSpace()> near_null_space;  ///< rigid body modes and coordinates
   std::function<Decoupling()> decoupling;          ///< of a condensed system with contact
@@ -39,7 +39,7 @@ class LinearSolver {
   virtual ~LinearSolver() = default;
   virtual std::string name() const = 0;  ///< as messages say it
 
-  /// How often the work that depends on the pattern alone was done (analysis of a direct solver, set-up of multigrid).
+  /// Number of times that the work that depends on the pattern alone was done (analysis of a direct solver, set-up of multigrid).
   virtual int symbolic_setups() const = 0;
 
   /// Takes the matrix of the next solves. `graph_changed`: the pattern is not that of the last call, so nothing symbolic may be reused.
@@ -71,27 +71,27 @@ class LinearSolver {
   virtual int determinant_sign() const { return 0; }
 };
 
-/// What is known of the systems to be solved before there is one.
+/// Properties of the systems to be solved, known before there is one.
 struct LinearSystemTraits {
   GlobalOrdinal unknowns = 0;  ///< over all ranks
   int dimension = 2;           ///< of the model: 2 or 3
   std::string not_iterative;   ///< why the iterative solver cannot solve them, a sentence; empty: it can
 };
 
-/// Which solver, and its settings. `automatic` is the iterative solver in 3D from `fewest_for_multigrid` unknowns on if it can solve the systems.
+/// A solver and its settings. `automatic` is the iterative solver in 3D from `fewest_for_multigrid` unknowns on if it can solve the systems.
 /// Else it is MUMPS.
 struct LinearSolverOptions {
-  /// Which solver.
+  /// Kind of solver.
   enum class Kind { automatic, mumps, klu2, iterative };
   /// From here on it takes less time than a factorisation, and much less memory (docs/results/space.md).
   static constexpr GlobalOrdinal fewest_for_multigrid = 10000;
-  Located<Kind> kind{Kind::automatic, {}};  ///< which one
+  Located<Kind> kind{Kind::automatic, {}};  ///< the solver
   double residual_bound = 1e-8;             ///< of the direct solvers' backward error |b - A x| / (|A| |x| + |b|)
   double tolerance = 1e-10;                 ///< of the iterative solver
   double largest_tolerance = 1e-3;          ///< of the iterative solver, while Newton's iterate is far from the solution
   int maximum_iterations = 500;             ///< of the iterative solver
   Located<Teuchos::ParameterList> muelu;    ///< overrides what Mortise sets; checked by MueLu
-  Located<Teuchos::ParameterList> belos;    ///< likewise, by Belos
+  Located<Teuchos::ParameterList> belos;    ///< overrides what Mortise sets; checked by Belos
   void describe(Parameters& parameters);    ///< the list "linear solver"
 };
 
