@@ -17,7 +17,7 @@ from part_pages import table, write_page
 from part_results import blocks, history, increments, largest, mises
 
 PARTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "inputs", "parts")
-# What touches in CalculiX: slave, master and the stiffness of its penalty, N/mm^3.
+# Contact pairs in CalculiX: slave, master and the stiffness of its penalty, N/mm^3.
 PAIRS = {
     "flange": [("bolt/seat of the head", "cover/top of the cover", 1e6), ("bolt/seat of the nut", "flange/back of the flange", 1e6),
                ("cover/foot of the cover", "flange/face of the flange", 1e6)],
