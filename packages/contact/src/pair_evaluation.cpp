@@ -145,7 +145,7 @@ double PairEvaluation::slip_path(std::size_t s, ContactState state) const {
 }
 
 // Couplings of a node that is hardly covered are no measure of what it faces at the end of the next step. A slip would have next to no weight beside
-// the rest of sum_m c_jm x_m that gaps leave which vary along a facet.
+// the error of sum_m c_jm x_m from gaps that vary along a facet.
 std::shared_ptr<const SlipReferences> PairEvaluation::slip_references(const std::vector<NodeMultiplier>& multipliers,
                                                                       const std::vector<ContactState>& states, std::vector<double> paths,
                                                                       const RCP<const MultiVector>& start) const {

@@ -8,7 +8,7 @@ namespace {
 /// The list "law" of the formulation.
 struct PressureLawList {
   Choice<PressureLaw>& law;
-  void describe(Parameters& parameters) { parameters.choose(law, pressure_law_registry(), "how the pressure grows with the overclosure"); }
+  void describe(Parameters& parameters) { parameters.choose(law, pressure_law_registry(), "kind of the curve of pressure over overclosure"); }
 };
 }  // namespace
 
@@ -17,7 +17,7 @@ void PressureOverclosure::describe(Parameters& parameters) {
   std::vector<std::pair<std::string, SharedCoupling>> choices;
   for (const SharedCoupling& one : coupling_registry())
     if (!one->has_forces_of_gaps()) choices.emplace_back(one->name(), one);
-  parameters.add("discretisation", discretisation, choices, "what tractions act through");
+  parameters.add("discretisation", discretisation, choices, "functions through which tractions act");
   parameters.add("tangential stiffness", tangential,
                  Says("shear traction per slip before sliding; default: the stiffness of a linear law, the slope of an exponential one where the "
                       "surfaces just touch, the steepest slope of a table")

@@ -26,7 +26,7 @@ bool assigns(const std::string& source) {
   return std::regex_search(source, single_equals);
 }
 
-/// Numbers of C that are no numbers of an expression: "nan", "inf", "1e400", "0x10".
+/// True for numbers of C that an expression does not take: "nan", "inf", "1e400", "0x10".
 bool is_number_of_c(const std::string& source) {
   char* end = nullptr;
   std::strtod(source.c_str(), &end);

@@ -16,14 +16,13 @@ void LinearSolverOptions::describe(Parameters& parameters) {
            "larger than this; beyond it the step is undone")
           .unit("-")
           .above(0.0));
-  parameters.add("tolerance", tolerance, Says("relative residual to which the iterative solver goes at most").unit("-").above(0.0).below(1.0));
-  parameters.add(
-      "largest tolerance", largest_tolerance,
-      Says("relative residual at which the iterative solver stops while Newton's iterate is far from the solution; from there it falls with the "
-           "square of Newton's residual; not above \"tolerance\": every solve goes to \"tolerance\"")
-          .unit("-")
-          .above(0.0)
-          .below(1.0));
+  parameters.add("tolerance", tolerance, Says("smallest relative residual to which the iterative solver goes").unit("-").above(0.0).below(1.0));
+  parameters.add("largest tolerance", largest_tolerance,
+                 Says("relative residual at which the iterative solver stops while Newton's iterate is far from the solution. From there it falls "
+                      "with the square of Newton's residual. Not above \"tolerance\": every solve goes to \"tolerance\"")
+                     .unit("-")
+                     .above(0.0)
+                     .below(1.0));
   parameters.add("maximum iterations", maximum_iterations, Says("of the iterative solver; beyond them the step is undone").at_least(1));
   parameters.verbatim("muelu", muelu, "parameters of MueLu that replace or add to those Mortise sets");
   parameters.verbatim("belos", belos, "parameters of Belos that replace or add to those Mortise sets");

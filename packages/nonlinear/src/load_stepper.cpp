@@ -17,12 +17,10 @@ void SteppingOptions::describe(Parameters& parameters) {
   parameters.add("step", step, Says("first step, and the largest unless `maximum step` says otherwise").unit("time").above(0.0));
   parameters.add("maximum step", maximum_step, Says("largest step; default: `step`").unit("time").above(0.0));
   parameters.add("minimum step", minimum_step, Says("smallest step; the run stops if it fails; default: `step` / 1024").unit("time").above(0.0));
-  parameters.add("easy iterations", easy_iterations,
-                 Says("a step that took no more Newton iterations may be followed by one twice as long").at_least(0));
+  parameters.add("easy iterations", easy_iterations, Says("most Newton iterations of a step that may be followed by one twice as long").at_least(0));
   parameters.add("output times", output_times, Says("times that are hit exactly").unit("time"));
-  parameters.add(
-      "predictor", predictor, {{"none", Predictor::none}, {"linear", Predictor::linear}},
-      "where Newton's iterations start: at the last state, or at the line through the last two, which suits motion that goes on as before");
+  parameters.add("predictor", predictor, {{"none", Predictor::none}, {"linear", Predictor::linear}},
+                 "start of Newton's iterations: the last state, or the line through the last two, which suits motion that goes on as before");
   if (!(step >= least_step * end_time))
     parameters.error("step",
                      fmt::format("is {} of an \"end time\" of {}; allowed: >= {} of it, a thousand million steps", step, end_time, least_step));

@@ -29,16 +29,14 @@ struct Energy : Quantity {
   Located<std::string> body;  ///< stored energy and plastic work only; empty: all
 
   void describe(Parameters& parameters) override {
-    parameters.add(
-        "of", of,
-        {{"stored", Of::stored},
-         {"plastic work", Of::plastic_work},
-         {"friction", Of::friction},
-         {"external work", Of::external_work},
-         {"internal work", Of::internal_work}},
-        "stored in the bodies, spent on plastic flow, dissipated by friction of all pairs (of first order in the step where slip begins or "
-        "turns round), or the work since the start of loads and supports, "
-        "or of the internal forces");
+    parameters.add("of", of,
+                   {{"stored", Of::stored},
+                    {"plastic work", Of::plastic_work},
+                    {"friction", Of::friction},
+                    {"external work", Of::external_work},
+                    {"internal work", Of::internal_work}},
+                   "energy stored in the bodies, spent on plastic flow, or dissipated by friction of all pairs (of first order in the step where "
+                   "slip begins or turns round). Or the work since the start of loads and supports, or of the internal forces");
     parameters.add("body", body, "body whose stored energy or plastic work is meant; empty: all");
     if (of != Of::stored && of != Of::plastic_work && !body.value.empty())
       parameters.error("body", "only stored energy and plastic work are those of a body; please remove \"body\"");
@@ -127,7 +125,7 @@ struct EnergyError : Quantity {
 
   void describe(Parameters& parameters) override {
     parameters.add("against", against, {{"internal work", Against::internal_work}, {"stored and plastic", Against::stored_and_plastic}},
-                   "what external work less friction is compared with: work of the internal forces, or stored energy and plastic work");
+                   "work that is compared with external work less friction: work of the internal forces, or stored energy and plastic work");
   }
 
   std::unique_ptr<QuantityEvaluator> make_evaluator(const QuantityContext& context) const override;
@@ -182,7 +180,7 @@ void add_energy(Registry<Quantity>& kinds) {
 }
 
 void add_energy_error(Registry<Quantity>& kinds) {
-  kinds.add<EnergyError>("energy error", "what external work leaves after internal work and friction, relative");
+  kinds.add<EnergyError>("energy error", "relative difference of external work and the sum of internal work and friction");
 }
 
 }  // namespace mortise

@@ -23,9 +23,8 @@ namespace mortise {
 
 void AutomaticContactOptions::describe(Parameters& parameters) {
   parameters.add("pairs", pairs, {{"none", ContactSearch::none}, {"automatic", ContactSearch::automatic}},
-                 "automatic: pairs are found where surfaces of different bodies, which are not tied, face one another at the start; they and the "
-                 "choice of their sides stand in the "
-                 "log and in effective.xml");
+                 "automatic: finds pairs of surfaces of different bodies that face one another at the start and are not tied. The log and "
+                 "effective.xml list them with the choice of their sides");
   parameters.add("bodies", bodies, "bodies that may touch one another; empty: all");
   parameters.add(
       "reach", reach,

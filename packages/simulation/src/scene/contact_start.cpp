@@ -7,12 +7,12 @@ void ContactStartOptions::describe(Parameters& parameters) {
                  "adjust: slave nodes no further than the \"tolerance\" from the master are moved onto it along their normals before anything is "
                  "computed, which "
                  "strains nothing");
-  parameters.add("tolerance", tolerance, Says("by how much nodes are adjusted at most").unit("length").at_least(0.0));
+  parameters.add("tolerance", tolerance, Says("largest distance by which nodes are moved").unit("length").at_least(0.0));
   if (mesh == MeshAtStart::adjusted && tolerance == 0.0) parameters.error("start", "adjusts no node without a \"tolerance\" above 0; please add it");
   if (mesh == MeshAtStart::as_meshed && tolerance > 0.0) parameters.error("tolerance", "is for \"start\" (string, adjust); please add that");
   parameters.add("facets", facets, {{"flat", FacetShape::flat}, {"round", FacetShape::round}},
-                 "round: linear facets that turn by less than 30 degrees from one to the next stand for the smooth surface through their nodes, and "
-                 "gaps are changed by what the facets leave of it, as the reference configuration says; for round parts with a clearance");
+                 "round: linear facets stand for the smooth surface through their nodes where they turn by less than 30 degrees from one to the "
+                 "next. Gaps change by the distance between facets and surface in the reference configuration. For round parts with a clearance");
   if (mesh == MeshAtStart::adjusted && facets == FacetShape::round)
     parameters.error("facets", "\"round\" is not for slave nodes that are moved onto flat facets; please leave out \"start\" = \"adjust\"");
   parameters.add("initial overlap", initial_overlap, {{"interference", InitialOverlap::interference}, {"error", InitialOverlap::error}},

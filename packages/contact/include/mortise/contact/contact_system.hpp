@@ -28,7 +28,7 @@ struct Augmentation {
   bool more = false;       ///< the multipliers have to be updated: solve again with `history`
   bool exhausted = false;  ///< more would be needed than the pair allows
   double error = 0.0;   ///< of the multipliers of the pair that is furthest from exact ones, over its largest; infinite where nothing is known of it
-  double change = 0.0;  ///< of them by one more update, over the same largest multiplier
+  double change = 0.0;  ///< their change by one more update, over the same largest one
   double tolerance = 0.0;                 ///< of `error`
   std::string pair;                       ///< where
   std::optional<ContactHistory> history;  ///< with the new multipliers; none unless `more`, and none if `exhausted`

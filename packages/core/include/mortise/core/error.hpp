@@ -63,7 +63,7 @@ enum class FailureKind {
   diverged,
   too_many_iterations,
   cycling_active_set,
-  out_of_memory,  ///< a memory need to come would not fit; no smaller step helps
+  out_of_memory,  ///< the memory needed next would not fit; no smaller step helps
   augmentation,   ///< augmented Lagrange multipliers that did not settle
   unstable        ///< an equilibrium that is not stable, far from the last state
 };

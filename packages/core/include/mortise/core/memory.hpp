@@ -14,8 +14,7 @@ double machine_memory_mib();
 /// Memory that the limits of this process (`ulimit -v`, `ulimit -d`) let it take beyond what it has, in MiB; infinite without limits.
 double own_memory_left_mib();
 
-/// Memory that all processes of this machine, or of this control group, can still take without swapping, in MiB; infinite where the system does not
-/// say.
+/// Memory that all processes of this machine, or of this control group, can still take without swapping, in MiB; infinite where it is not known.
 double machine_memory_left_mib();
 
 /// Ranks of a communicator on the machine of this rank. Collective.

@@ -47,7 +47,7 @@ class Says {
   Says& required() { return required_ = true, *this; }
   /// Arguments of a function, instead of t, x, y, z.
   Says& arguments(std::vector<std::string> names) { return arguments_ = std::move(names), *this; }
-  /// The parameter's name in earlier versions; "": none. A scene that still uses it is refused with the new name.
+  /// The parameter's name in earlier versions; "": none. Input that still uses it is refused with the new name.
   Says& formerly(std::string name) { return former_ = std::move(name), *this; }
 
   const std::string& sentence() const { return sentence_; }                 ///< description of the parameter

@@ -40,8 +40,7 @@ struct FieldUse {
 /// Evaluation never changes committed state; failures are put into `failure` (first one kept), the caller agrees on them over the ranks.
 class Contribution {
  public:
-  /// Part of the residual: of f_int, of f_ext, or acting between bodies. Contributions that are not internal are evaluated again at each step's
-  /// start.
+  /// Part of the residual: of f_int, of f_ext, or acting between bodies. Others than internal ones are evaluated again at each step's start.
   enum class Kind { internal, external, interaction };
   virtual ~Contribution() = default;
 

@@ -97,9 +97,11 @@ using StepStart = std::function<StepContext(const AcceptedState& state, double t
 /// prepared by `start`; without one nothing is guessed.
 ///
 /// With a predictor a step starts on the line through the last two states. It goes on there by the share of the last step's changes of loads and
-/// prescribed displacements that is made again (Drive::continuation()), at most by the length of the step. There are three cases in which it starts
-/// at the last state. That share is 0. The drive is not known and the last state is a solution of this step too. Or the residual of the predicted
-/// state is a thousand times as large. A solution that is refused, and was predicted, is sought from the last state before the step is cut.
+/// prescribed displacements that is made again (Drive::continuation()), at most by the length of the step. It starts at the last state if
+///   - that share is 0,
+///   - the drive is not known and the last state is a solution of this step too, or
+///   - the residual of the predicted state is a thousand times as large.
+/// A solution that is refused, and was predicted, is sought from the last state before the step is cut.
 bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, const NewtonOptions& newton, SteppingState& state,
                const StepStart& start, const StepperObserver& observer, std::optional<StepFailure>& last_failure);
 

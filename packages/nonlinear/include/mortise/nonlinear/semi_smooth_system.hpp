@@ -39,7 +39,7 @@ struct SystemParts {
   std::shared_ptr<LinearSolver> linear_solver;               ///< of each Newton step
   std::function<NearNullSpace(const Vector& displacement)> near_null_space;  ///< at a displacement, for multigrid alone
   /// For an x at which the Jacobian is singular although the system has a solution: a better point to linearise at, or null where there is none. It
-  /// is so close to x that Newton's method takes it for the same iterate. Collective; empty: never.
+  /// is close to x: Newton's step from there counts as the step from x. Collective; empty: never.
   std::function<RCP<Vector>(const SystemEvaluation& at)> better_start;
   /// The motions that a Newton step from there leaves out. Nothing: none. Collective; empty: never any.
   std::function<std::optional<HeldMotions>(const SystemEvaluation& at)> held_motions;

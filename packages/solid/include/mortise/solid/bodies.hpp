@@ -97,8 +97,7 @@ class Bodies {
   /// Volume-weighted mean accumulated plastic strain of each owned element of a block; 0 for laws without plasticity.
   std::vector<double> element_plastic_strains(const Vector& local_displacement, LocalOrdinal block) const;
 
-  /// Volume-weighted mean strain of each owned element of a block: 1/2 ln(F F^T) of the F that the law sees; for small strain the symmetric part of F
-  /// - 1.
+  /// Volume-weighted mean strain of each owned element of a block: 1/2 ln(F F^T) of the law's F; for small strain the symmetric part of F - 1.
   std::vector<StressComponents> element_strains(const Vector& local_displacement, LocalOrdinal block) const;
 
   /// Cauchy stress at each owned node: stress_components() columns on mesh()->owned_nodes. It is the mean over the elements around the node of what

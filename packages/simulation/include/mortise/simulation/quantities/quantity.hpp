@@ -34,8 +34,8 @@ struct QuantityContext {
   std::function<std::array<double, 3>(std::size_t pair)> edge_force{};
   /// f_int - f_ext + f_c on owned dofs: on prescribed ones the force of the support on the body, on followers that of their reference point
   const Vector* reaction = nullptr;
-  const Vector* external_force = nullptr;  ///< f_ext on owned dofs
-  double force_round_off = 0.0;            ///< part of a sum of |forces| that round-off of positions and stresses may leave, over all ranks
+  const Vector* external_force = nullptr;                 ///< f_ext on owned dofs
+  double force_round_off = 0.0;                           ///< round-off of positions and stresses in a sum of |forces|, over all ranks
   const std::vector<LocalOrdinal>* prescribed = nullptr;  ///< prescribed owned dofs
   const std::vector<LocalOrdinal>* following = nullptr;   ///< owned dofs that follow reference points; null: none does
   const Symbols* symbols = nullptr;                       ///< variables and tables of the scene
