@@ -1,5 +1,5 @@
-// What contact costs within the steps of Hertz' problem: search, integrals, residual and graph of the condensed system (contact), condensation and
-// recovery (condensation), as a share.
+// Share of contact in the steps of Hertz' problem: search, integrals, residual and graph of the condensed system (contact), condensation and
+// recovery (condensation).
 //
 //     contact_share_benchmark [n ...]        elements per half width of the contact; by default 16 48 110: about 12k, 51k, 191k dofs
 

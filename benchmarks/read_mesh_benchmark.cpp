@@ -1,6 +1,6 @@
-// Seconds and memory that the reader of each format of mesh files takes for a cube of n x n x n hexahedra. Files are written to the folder of temporary
-// files and removed. Each is read by a process of its own, whose largest memory and time of a processor are told. Beside them stands the size of the
-// value itself, which no reader can go below.
+// Seconds and memory that the reader of each format of mesh files takes for a cube of n x n x n hexahedra. Files are written to the folder of
+// temporary files and removed. Each is read by a process of its own, whose largest memory and processor time are printed. Beside them stands the size
+// of the value itself, which no reader can go below.
 //
 //     read_mesh_benchmark [n = 100]        100: 1 000 000 hexahedra, 1 030 301 nodes
 

@@ -1,4 +1,4 @@
-"""Which lines of each package the last runs went through: BUILD/lines.md from the counters that a build with --coverage has left in BUILD."""
+"""Lines of each package that the last runs went through: BUILD/lines.md from the counters that a build with --coverage has left in BUILD."""
 
 import json
 import pathlib

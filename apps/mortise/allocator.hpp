@@ -1,5 +1,5 @@
 #pragma once
-// How this process keeps the memory that it has freed.
+// Settings that make this process keep the memory that it has freed.
 
 namespace mortise {
 

@@ -33,7 +33,7 @@ constexpr const char* end = R"(  case $files in
 complete -F _mortise mortise
 )";
 
-/// What completes a value: an assignment for the script.
+/// The completion of an option's value: an assignment for the script.
 std::string completing(const DeclaredOption& option) {
   if (option.value == xml_value) return "files=xml";
   if (option.value == directory_value) return "files=directory";

@@ -30,7 +30,7 @@ int ranks_on_node() {
   return size;
 }
 
-/// Whether the solver can be made here; why not otherwise. Collective.
+/// Says whether the solver can be made here, and why not otherwise. Collective.
 std::string state_of(LinearSolverOptions::Kind kind, const RCP<const Communicator>& comm) {
   LinearSolverOptions options;
   options.kind.value = kind;

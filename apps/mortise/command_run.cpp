@@ -82,7 +82,7 @@ void add_restart_arguments(CLI::App& command, RunOptions& options) {
       });
 }
 
-/// Draws the last step beside the results. They are complete: what hinders the drawing is told and changes nothing.
+/// Draws the last step beside the results. They are complete: a failure of the drawing is reported and changes nothing.
 void draw_results(const Program& program, const RunOptions& options) {
   PictureOptions picture;
   picture.run = options.directory.empty() ? default_directory(options.scene) : options.directory;

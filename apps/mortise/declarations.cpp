@@ -6,7 +6,7 @@
 namespace mortise {
 namespace {
 
-/// What the checks of an option say of its value: it stands behind the name of the value.
+/// The description by the checks of an option of its allowed values; it follows the name of the value.
 std::string said_by_checks(CLI::Option& option) {
   std::string said;
   try {

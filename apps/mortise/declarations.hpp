@@ -10,7 +10,7 @@ namespace mortise {
 /// An option, or an argument that has a place instead of a name.
 struct DeclaredOption {
   std::vector<std::string> names;    ///< "-o", "--output"; of an argument its name, as SCENE
-  std::string value;                 ///< what stands for its value, as DIR; empty: it has none
+  std::string value;                 ///< placeholder of its value, as DIR; empty: it has none
   std::vector<std::string> choices;  ///< the values that it may have; empty: any
   std::string meaning;
   bool has_place = false;  ///< an argument
@@ -26,7 +26,7 @@ struct DeclaredCommand {
 /// All commands, in the order of their declaration.
 std::vector<DeclaredCommand> declared_commands(CLI::App& app);
 
-/// The value of arguments and options that are a scene or another file of XML, of those that are a directory, and of those that are a list of a
+/// Placeholders of values of arguments and options: a scene or another file of XML, a directory, a list of a
 /// scene.
 inline constexpr const char *xml_value = "FILE", *directory_value = "DIR", *list_value = "LIST";
 

@@ -32,7 +32,7 @@ int agree_on_exit(const Program& program, const Outcome& outcome) {
   if (mpi == nullptr || mpi->getSize() == 1) return mine;
   const MPI_Comm raw = *mpi->getRawMpiComm();
   int worst = mine;
-  // A rank that got here by itself would wait for ever in a blocking call. A good end waits as long as it takes.
+  // A rank that got here by itself would never return from a blocking call. A good end waits as long as it takes.
   MPI_Request request;
   MPI_Iallreduce(&mine, &worst, 1, MPI_INT, MPI_MAX, raw, &request);
   if (outcome.code == ExitCode::done) {

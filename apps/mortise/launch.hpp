@@ -1,12 +1,12 @@
 #pragma once
-// How this process was started, and what that means for MPI.
+// The start of this process, and what it means for MPI.
 
 namespace mortise {
 
-/// Whether mpirun, or what a cluster has in its place, started this process.
+/// True if mpirun, or what a cluster has in its place, started this process.
 bool started_by_mpirun();
 
-/// Whether this is the process that speaks for all, told without MPI.
+/// True if this is the process that prints for all, known without MPI.
 bool is_first_process();
 
 /// Starts the program anew, once, where OpenBLAS would not suit it. One thread a process, as ranks share the cores; further threads also never end
@@ -14,8 +14,8 @@ bool is_first_process();
 /// processor that it does not know. OPENBLAS_NUM_THREADS, OMP_NUM_THREADS and OPENBLAS_CORETYPE in the environment stay as they are.
 void set_up_blas(char** argv);
 
-/// Before MPI is started in a process that nobody started with other ranks: Open MPI starts faster, and without a daemon. What the user has set
-/// stays. Programs that this process starts inherit it and have one rank each: commands that start runs use no MPI themselves.
+/// Before MPI is started in a process that nobody started with other ranks: Open MPI starts faster, and without a daemon. Settings of the user
+/// stay. Programs that this process starts inherit them and have one rank each: commands that start runs use no MPI themselves.
 void start_mpi_alone();
 
 }  // namespace mortise

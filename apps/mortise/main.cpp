@@ -45,7 +45,7 @@ constexpr double mpi_start_mib = 32.0;
 /// The same among other ranks, with the segments of memory that they share: runs with 160 MiB and less ended within Open MPI.
 constexpr double mpi_start_among_others_mib = 256.0;
 
-/// What is to be said of a first word that is no command; "" if it is one.
+/// The error message for a first word that is no command; "" if it is one.
 std::string unknown_command(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(command->get_name());
@@ -54,7 +54,7 @@ std::string unknown_command(const CLI::App& app, int argc, char** argv) {
   return fmt::format("\"{}\" is no command{}\nThe commands are {}.", argv[1], mortise::did_you_mean(argv[1], names), known);
 }
 
-/// What is to be said of a first word that is an option the program does not have; "" if it is none such.
+/// The error message for a first word that is an option the program does not have; "" if it is none such.
 std::string unknown_option(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] != '-') return {};
   std::vector<std::string> names;
@@ -68,12 +68,12 @@ std::string unknown_option(const CLI::App& app, int argc, char** argv) {
                      fmt::join(names, ", "));
 }
 
-/// What the program is to do: the input first, then the action.
+/// The action of the program: the input first, then the command.
 mortise::Outcome run_program(const mortise::Program& program) {
   return mortise::run_action(program, [&] {
     if (program.read) program.read();
     const mortise::ExitCode code = program.action();
-    // A log on standard output does not stop a run, whose results are worth more: what it could not say is told here.
+    // A log on standard output does not stop a run, whose results are worth more: output that was lost is reported here.
     if (program.is_first_rank() && code == mortise::ExitCode::done && !std::cout.flush())
       throw mortise::FileError("cannot write to standard output; the results in files are complete");
     return code;
@@ -98,7 +98,7 @@ int run_with_mpi(char** argv, mortise::Program& program) {
   return code;
 }
 
-/// A process alone reads its input before it starts MPI: an error of the input is said at once. Returns the exit code of such an error.
+/// A process alone reads its input before it starts MPI: an error of the input is reported at once. Returns the exit code of such an error.
 std::optional<int> read_alone(mortise::Program& program) {
   program.comm = Teuchos::rcp(new Teuchos::SerialComm<int>);
   const mortise::Outcome outcome = mortise::run_action(program, [&] { return program.read(), mortise::ExitCode::done; });
@@ -113,7 +113,7 @@ std::optional<int> read_alone(mortise::Program& program) {
 int main(int argc, char** argv) {
   mortise::set_up_blas(argv);
   mortise::open_closed_streams();
-  // What a limit on file sizes or a closed pipe stops is an error of the write, which is told, and no end without a word.
+  // A write that a limit on file sizes or a closed pipe stops fails with an error, which is reported, and does not end the process silently.
   for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
   mortise::Program program;
   CLI::App app("Mortise: contact between bodies that deform, slide and yield", "mortise");

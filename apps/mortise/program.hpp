@@ -1,5 +1,5 @@
 #pragma once
-// What the commands of the program share.
+// Declarations that the commands of the program share.
 
 #include <functional>
 #include <string>
@@ -69,7 +69,7 @@ void add_settings(CLI::App& command, std::vector<std::string>& settings,
 void add_input_arguments(CLI::App& command, const std::string& file, const std::string& meaning, RunOptions& options);
 void add_output_arguments(CLI::App& command, const std::string& file, RunOptions& options);
 
-/// How a rank's action ended; the message is empty unless it failed.
+/// End of a rank's action; the message is empty unless it failed.
 struct Outcome {
   ExitCode code = ExitCode::done;
   std::string message;
@@ -79,7 +79,7 @@ struct Outcome {
 Outcome run_action(const Program& program, const std::function<ExitCode()>& action);
 
 /// Collective: agrees on the largest of all ranks' codes. A rank may find itself alone here, while another one is stuck in a collective call that
-/// this rank will never join. It then says why and ends the whole program with code 70 instead of waiting for ever.
+/// this rank will never join. It then says why and ends the whole program with code 70 instead of waiting without end.
 int agree_on_exit(const Program& program, const Outcome& outcome);
 
 }  // namespace mortise

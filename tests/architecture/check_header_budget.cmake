@@ -1,4 +1,4 @@
-# How many lines a source gets with a public header of core or contact, after the preprocessor, without blank ones. Nearly all are of Trilinos and
+# Number of lines that a source gets with a public header of core or contact, after the preprocessor, without blank ones. Nearly all are of Trilinos and
 # Eigen: declarations of vectors and matrices are 113 000, Eigen/Core 80 000, both 157 000. A budget leaves room for our own lines, not for another
 # library: Eigen/Dense, fmt, Sacado, Boost or nlohmann json in a header is felt by each source of every user.
 # Call: cmake -D COMPILER=... -D INCLUDES="dir;dir" -D SOURCE=... -P check_header_budget.cmake

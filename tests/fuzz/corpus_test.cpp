@@ -38,7 +38,7 @@ TEST(FuzzTargets, AllHaveACorpus) {
   for (const Target& one : targets()) EXPECT_TRUE(std::filesystem::is_directory(std::filesystem::path(CORPUS) / one.name)) << one.name;
 }
 
-// What the target of checkpoints asks for stands in the files that the program writes, and in those that it makes from bytes.
+// Data that the target of checkpoints asks for is in the files that the program writes, and in those that it makes from bytes.
 TEST(FuzzTargets, AWholeCheckpointIsRestored) {
   EXPECT_EQ(restore_checkpoint(written_checkpoint()), std::vector<std::string>());
   EXPECT_EQ(restore_checkpoint(checkpoint_file(whole_checkpoint())), std::vector<std::string>());

@@ -186,7 +186,7 @@ const std::vector<std::string>& dataset_names() {
   return names;
 }
 
-/// How bytes tell a dataset: this, then `count` words of 8 bytes. HDF5's own structures are made from it, as the library trusts what they say.
+/// Header by which bytes describe a dataset: this, then `count` words of 8 bytes. HDF5's own structures are made from it, as the library trusts them.
 struct DatasetHeader {
   std::uint8_t name, type, dimensions, layout, rows, columns, count, none;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// What the program makes of bytes that anybody may have written, one function for each kind of input. libFuzzer and the test of the corpus share
+// Reading of bytes that anybody may have written, one function for each kind of input. libFuzzer and the test of the corpus share
 // them.
 
 #include <string>
@@ -12,9 +12,9 @@ namespace mortise::fuzz {
 /// One kind of input.
 struct Target {
   std::string name;  ///< also that of its folder in corpus/
-  /// Reads the bytes as that kind of input. What it throws is an InputError or a FileError: anything else is a defect.
+  /// Reads the bytes as that kind of input. It may throw an InputError or a FileError: anything else is a defect.
   void (*read)(const std::string& bytes);
-  /// What such a file may hold; null where it does not consist of lists and parameters.
+  /// Allowed content of such a file; null where it does not consist of lists and parameters.
   ListRecord (*declarations)();
 };
 

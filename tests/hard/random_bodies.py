@@ -121,7 +121,7 @@ class Scene:
         self.W, self.N = [6.0, 0.5], [random.randint(3, 20), 1]
         self.press = random.uniform(0.01, 0.05) * self.w[-1] + self.at[-1]
 
-    # What else can be made of it.
+    # Other scenes that can be made of it.
 
     def mirrored(self):
         """The scene seen in a mirror, x to -x."""
@@ -141,7 +141,7 @@ class Scene:
         return other
 
     def apart(self):
-        """The same bodies that begin at a touch and are moved together by the overlap."""
+        """The bodies of the scene, touching at the start and moved together by the overlap."""
         other = copy.deepcopy(self)
         other.press, other.at[-1] = self.press - self.at[-1], 0.0
         return other

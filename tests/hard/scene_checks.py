@@ -1,4 +1,4 @@
-"""What is known of a random scene without running it, and what its companions have to give."""
+"""Checks of a random scene that are known without running it, and by its companions."""
 
 import math
 import re
@@ -37,7 +37,7 @@ def peaks(scene):
 
 
 def told_excess(result):
-    """What a run said that its peaks may be too high by, over their size: a slave that is stiffer and finer than its master."""
+    """Possible excess of peaks over their size, as the run warned: a slave that is stiffer and finer than its master."""
     return max([0.0] + [float(number) / 100 for number in re.findall(r"peaks of pressure may be too high by about (\d+) %", result.said)])
 
 
@@ -105,7 +105,7 @@ def check_alone(scene, result):
 
 
 def companions_of(scene, chance):
-    """Which companions a scene is run with: two at most."""
+    """Companions with which a scene is run: two at most."""
     if scene.family == "walls" or scene.under_dead_load():
         return []
     kinds = ["mirrored"] if "Tet4" not in scene.elements else []
@@ -117,7 +117,7 @@ def companions_of(scene, chance):
 
 
 def check_companion(kind, scene, main, other):
-    """What differs that ought to be the same."""
+    """Differences of values that ought to be equal."""
     up = "xyz"[scene.d - 1]
     a, b = main[f"floor_{up}"], other[f"floor_{up}"]
     wrong = []
@@ -140,7 +140,7 @@ def check_companion(kind, scene, main, other):
 
 
 def false_reason(scene, result):
-    """Whether a run says that nothing holds a block that has an equilibrium under its dead loads."""
+    """True if a run says that nothing holds a block that has an equilibrium under its dead loads."""
     # "Newton's method found no equilibrium" says that there is one, and that the run did not find it.
     said = result.said.replace("Newton's method found no equilibrium", "")
     told = any(text in said for text in ("free to move", "bear no more", "no equilibrium"))
@@ -148,5 +148,5 @@ def false_reason(scene, result):
 
 
 def stop_is_told(result):
-    """Whether a run that did not come to its end says why."""
+    """True if a run that did not come to its end says why."""
     return result.code in (2, 3) and len(result.reason) > 20

@@ -30,7 +30,7 @@ def numbers(values):
 
 
 class Result:
-    """What a run gave: exit code, what it said last, quantities at the end."""
+    """Outcome of a run: exit code, last message, quantities at the end."""
 
     def __init__(self, code, said, directory):
         self.code, self.said, self.quantities, self.steps = code, said, {}, 0

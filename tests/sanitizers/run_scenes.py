@@ -49,7 +49,7 @@ class Runs:
         return subprocess.Popen(line, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace")
 
     def finish(self, name, process, expected):
-        """Whether the run ended as it should; says so."""
+        """Waits for the run and reports it. True if it ended as it should."""
         start = time.time()
         try:
             text = process.communicate(timeout=SECONDS)[0]

@@ -30,7 +30,7 @@ double kib_behind(const std::string& path, const std::string& name, double other
   return otherwise;
 }
 
-/// What a limit of this process leaves in bytes.
+/// Bytes that a limit of this process leaves.
 double left_of(__rlimit_resource_t resource, double used) {
   rlimit limit{};
   if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return std::numeric_limits<double>::infinity();

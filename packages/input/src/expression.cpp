@@ -15,7 +15,7 @@
 namespace mortise {
 namespace {
 
-// What a table's function gets as user data.
+// Calls a table, which a table's function gets as user data.
 double evaluate_table(void* table, double time) { return (*static_cast<const Table*>(table))(time); }
 
 const std::vector<std::string> time_and_position{"t", "x", "y", "z"};
@@ -26,7 +26,7 @@ bool assigns(const std::string& source) {
   return std::regex_search(source, single_equals);
 }
 
-/// What C takes for a number and an expression does not: "nan", "inf", "1e400", "0x10".
+/// True for numbers of C that an expression does not take: "nan", "inf", "1e400", "0x10".
 bool is_number_of_c(const std::string& source) {
   char* end = nullptr;
   std::strtod(source.c_str(), &end);
@@ -43,7 +43,7 @@ std::string names_of(const std::vector<std::string>& arguments, const Symbols& s
   return names;
 }
 
-/// What muParser needs for as long as the function lives.
+/// Data that muParser needs for as long as the function lives.
 struct Parsed {
   std::vector<double> arguments;  // never resized: the parser holds the addresses
   std::map<std::string, Table> tables;

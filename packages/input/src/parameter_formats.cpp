@@ -137,7 +137,7 @@ class RelaxNg {
     line("<attribute name=\"value\">" + values + "</attribute></element>");
   }
 
-  // What may stand in a list, in any order. RELAX NG cannot interleave elements of one name, so that each parameter stands once and none is
+  // Allowed content of a list, in any order. RELAX NG cannot interleave elements of one name, so that each parameter stands once and none is
   // missing is left to the reader.
   void content(const ListRecord& list) {
     if (list.kind == Kind::verbatim) {

@@ -29,7 +29,7 @@ bool in_range(double value, const Says& says) {
   return true;
 }
 
-/// Whether all of the text is a number of this type.
+/// True if all of the text is a number of this type.
 template <class Number>
 bool reads(const std::string& text, Number& value) {
   const char* end = text.data() + text.size();
@@ -37,7 +37,7 @@ bool reads(const std::string& text, Number& value) {
   return error == std::errc() && last == end;
 }
 
-/// What a command line says has no type: its look gives one.
+/// A value of a command line has no type: its look gives one.
 void set_by_look(Teuchos::ParameterList& list, const std::string& name, const std::string& text) {
   int whole = 0;
   double number = 0.0;

@@ -12,7 +12,7 @@ constexpr std::size_t longest_name_in_expressions = 100;
 /// "a, f(b, c), d" -> {"a", "f(b, c)", "d"}; an empty text has no parts.
 std::vector<std::string> split(const std::string& text);
 
-/// Whether `name` stands in `text` as a word of its own.
+/// True if `text` contains `name` as a word of its own.
 bool has_word(const std::string& text, const std::string& name);
 
 }  // namespace mortise

@@ -33,10 +33,10 @@ void keep_first(void* context, xmlError* error) {
   std::string message = error->message;
   message.erase(message.find_last_not_of(" \n") + 1);
   const bool is_limit = message.find("XML_PARSE_HUGE") != std::string::npos || message.find("too long") != std::string::npos;
-  *first = {{"", error->line, ""},
-            is_limit ? fmt::format("too much: lists may stand in one another {} deep, and an attribute may have {} characters", xmlParserMaxDepth,
-                                   XML_MAX_TEXT_LENGTH)
-                     : "not well-formed XML: " + message};
+  *first = {
+      {"", error->line, ""},
+      is_limit ? fmt::format("too much: lists may be nested {} deep, and an attribute may have {} characters", xmlParserMaxDepth, XML_MAX_TEXT_LENGTH)
+               : "not well-formed XML: " + message};
 }
 
 class Converter {
@@ -201,7 +201,7 @@ std::string wrong_assignment(const std::string& assignment) {
 }
 
 namespace {
-/// Whether a value of the list, or of one within, holds `name` as a word.
+/// True if a value of the list, or of one within, holds `name` as a word.
 bool uses(const XmlList& list, const std::string& name) {
   return std::any_of(list.parameters.begin(), list.parameters.end(), [&](const XmlParameter& one) { return has_word(one.value, name); }) ||
          std::any_of(list.lists.begin(), list.lists.end(), [&](const XmlList& one) { return uses(one, name); });

@@ -30,8 +30,8 @@ struct HasInverse : std::false_type {};
 template <class Law>
 struct HasInverse<Law, std::void_t<decltype(std::declval<const Law&>().plastic_strain(0.0))>> : std::true_type {};
 
-/// x of sigma_y(alpha + x) + stiffness x = trial_stress within [low, high] by Newton's method, bisecting where it would leave the bracket. What is
-/// round-off of the stresses counts as zero.
+/// x of sigma_y(alpha + x) + stiffness x = trial_stress within [low, high] by Newton's method, bisecting where it would leave the bracket. A residual
+/// within the round-off of the stresses counts as zero.
 template <class Law>
 double newton_within(const Law& law, double trial_stress, double alpha, double stiffness, double start, double low, double high) {
   if (!(low < high)) return high;  // nothing hardens
@@ -44,8 +44,8 @@ double newton_within(const Law& law, double trial_stress, double alpha, double s
   return boost::math::tools::newton_raphson_iterate(function, start, low, high, std::numeric_limits<double>::digits, iterations);
 }
 
-/// The same with the stress as unknown, s + stiffness (alpha(s) - alpha) = trial_stress on [sigma_y(alpha), trial_stress], for increments that are
-/// round-off of x but not of s.
+/// Newton's method with the stress as unknown, s + stiffness (alpha(s) - alpha) = trial_stress on [sigma_y(alpha), trial_stress], for increments that
+/// are round-off of x but not of s.
 template <class Law>
 double increment_by_stress(const Law& law, double trial_stress, double yield, double alpha, double stiffness) {
   if constexpr (HasInverse<Law>::value) {

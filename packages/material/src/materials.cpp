@@ -33,7 +33,7 @@ namespace {
 struct HardeningList {
   Choice<HardeningOptions>& hardening;
   void describe(Parameters& parameters) {
-    parameters.choose(hardening, hardening_registry(), "how the yield stress grows with the accumulated plastic strain alpha");
+    parameters.choose(hardening, hardening_registry(), "kind of the curve of yield stress over the accumulated plastic strain alpha");
   }
 };
 }  // namespace

@@ -1,4 +1,4 @@
-# What pages consist of: one HTML file that needs no other.
+# Parts of pages: one HTML file that needs no other.
 import base64
 import html
 import io

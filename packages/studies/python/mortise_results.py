@@ -28,7 +28,7 @@ __all__ = ["open", "Run", "Mesh", "Shape", "SHAPES", "TENSOR", "ResultsError", "
 
 
 class ResultsError(Exception):
-    """What cannot be had of a run. The text says where, what and what there is."""
+    """Results of a run that cannot be had. The text says where, what and what there is."""
 
 
 class FileProblem(ResultsError):
@@ -84,7 +84,7 @@ class Mesh:
         return max((shape.dimension for shape in SHAPES.values() if shape.name in self.cells and shape.dimension > 1), default=2)
 
     def is_rigid(self, shape):
-        """Whether cells of the shape of this name are surfaces of rigid bodies: they have a dimension less than the bodies that deform.
+        """True if cells of the shape of this name are surfaces of rigid bodies: they have a dimension less than the bodies that deform.
         Throws UnknownName."""
         found = [one for one in SHAPES.values() if one.name == shape]
         if not found:
@@ -366,7 +366,7 @@ def _read_mesh(path, index):
 
 
 def _run_length(topology, at, width, number):
-    """How many elements of this shape follow one another from `at` on; elements of one body do."""
+    """Number of elements of this shape that follow one another from `at` on; elements of one body do."""
     found, window = 1, 64
     while True:
         heads = topology[at + found * width : at + (found + window) * width : width]

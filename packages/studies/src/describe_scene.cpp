@@ -39,7 +39,7 @@ ListRecord hard_tree() {
   return collect_parameters("hard", ledger, CollectParameters::What::declarations);
 }
 
-/// What a user names to use it in expressions; read apart from the other lists, before them.
+/// Lists that a user names to use them in expressions; read apart from the other lists, before them.
 std::vector<ListRecord> free_lists() {
   using Kind = ParameterRecord::Kind;
   ListRecord variables;
@@ -68,14 +68,14 @@ std::vector<ListRecord> free_lists() {
 struct OtherFile {
   std::string name, sentence;
   ListRecord (*tree)();
-  bool symbols;  ///< whether such a file has variables and tables
+  bool symbols;  ///< true if such a file has variables and tables
 };
 
 const std::vector<OtherFile>& other_files() {
   static const std::vector<OtherFile> kinds{
-      {"point", "what `mortise point` reads: a material and the path of one point of it", point_tree, true},
-      {"study", "what `mortise study` reads: a scene, what is varied of it, and what errors are measured against", study_tree, false},
-      {"hard", "what `mortise hard` reads: hard cases and what is expected of them", hard_tree, false}};
+      {"point", "input of `mortise point`: a material and the path of one point of it", point_tree, true},
+      {"study", "input of `mortise study`: a scene, its varied values, and the references of errors", study_tree, false},
+      {"hard", "input of `mortise hard`: hard cases and their expected results", hard_tree, false}};
   return kinds;
 }
 
@@ -169,8 +169,8 @@ std::vector<ReferencePage> reference_pages() {
   const ListRecord tree = scene_tree();
   std::vector<ReferencePage> pages;
   std::string index =
-      "# Reference\n\nEvery parameter of a scene, made by `mortise describe --format md -o docs/reference`; do not edit. The same is said by\n"
-      "`mortise describe [LIST]` in a terminal, and `scene.rng` is a RELAX NG schema for editors.\n\n";
+      "# Reference\n\nEvery parameter of a scene, made by `mortise describe --format md -o docs/reference`; do not edit. In a terminal\n`mortise "
+      "describe [LIST]` prints the same text, and `scene.rng` is a RELAX NG schema for editors.\n\n";
   ListRecord top = tree;
   top.lists.clear();
   index += to_markdown(top) + "\n## Lists\n\n";

@@ -167,7 +167,7 @@ class Mutation {
     return chosen < below ? any_declared(tree.kinds[chosen - tree.lists.size()].second) : tree;
   }
 
-  /// What is declared for a list of the document; of its kinds that which it names, if it names one.
+  /// Declarations for a list of the document; of its kinds that which it names, if it names one.
   const ListRecord* declared(xmlNode* list) {
     if (list == root_ || list->parent == nullptr) return &declarations();
     const ListRecord* around = declared(list->parent);

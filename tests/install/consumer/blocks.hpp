@@ -1,5 +1,5 @@
 #pragma once
-// What a host application has of its own: two blocks of bilinear elements, one on the other, linear elastic with Poisson's ratio 0, in plane strain.
+// Part of a host application: two blocks of bilinear elements, one on the other, linear elastic with Poisson's ratio 0, in plane strain.
 
 #include <Tpetra_Core.hpp>
 #include <Tpetra_CrsGraph.hpp>

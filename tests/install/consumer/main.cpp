@@ -47,7 +47,7 @@ std::array<double, 2> residuals(const Blocks& blocks, const Vector& r, const Vec
   return {std::sqrt(sum_over_ranks(blocks, free)), sum_over_ranks(blocks, off)};
 }
 
-/// What a Newton solve leaves beside d and z.
+/// Result of a Newton solve beside d and z.
 struct Solved {
   bool converged = false;
   Vector r;                         ///< forces that are not balanced: the reactions of prescribed dofs

@@ -93,7 +93,7 @@ std::vector<double> numbers_of(const ContactLaws& laws, std::size_t pairs) {
   return result;
 }
 
-/// What an evaluation gives at the multipliers of the cases.
+/// Results of an evaluation at the multipliers of the cases.
 Numbers numbers_of(const Fixture& fixture, const DifferentiatedContact& at, const ContactHistory& history) {
   const ContactSystem& contact = *fixture.contact;
   const ContactLaws laws = at.laws(*fixture.multipliers(pressure));

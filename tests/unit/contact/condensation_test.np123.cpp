@@ -71,7 +71,7 @@ TEST_P(Condensation, StepEqualsSaddlePointStep) {
   Vector z_new(contact.multiplier_map());
   condensed.recover(*vector_of(fixture.dofs, dof_ids, increment), z_new);
   z_new.update(-1.0, *z, 1.0);
-  // What condensation leaves out of J = J~ + L: the step x of J is  J~^-1 (-F) - J~^-1 (0, L x).
+  // Condensation leaves out L of J = J~ + L: the step x of J is  J~^-1 (-F) - J~^-1 (0, L x).
   const bool is_tied = one.name.find("hardly covered") != std::string::npos;
   if (is_tied) EXPECT_TRUE(condensed.leaves_out_couplings());
   if (condensed.leaves_out_couplings()) {

@@ -68,7 +68,7 @@ TEST_F(Crosspoints, SlavesOfTwoPairs) {
 TEST_F(Crosspoints, SlavesThatAreMastersElsewhere) {
   const std::vector<ContactPair> both{pair("left", {{2, 1}, {1, 0}}, {{6, 7}}), pair("right", {{11, 10}, {10, 9}}, {{2, 3}})};
   EXPECT_THAT(carriers(both), ::testing::ElementsAre(0, 1, 9, 10, 11));
-  // A multiplier that is no unknown's momentum row may stand anywhere.
+  // A multiplier that no momentum row eliminates may be at any node.
   const auto standard = std::make_shared<StandardMortar>();
   EXPECT_THAT(carriers({pair("left", {{2, 1}, {1, 0}}, {{6, 7}}, standard), pair("right", {{11, 10}, {10, 9}}, {{2, 3}}, standard)}),
               ::testing::ElementsAre(0, 1, 2, 9, 10, 11));

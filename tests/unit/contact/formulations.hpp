@@ -69,7 +69,7 @@ inline std::vector<NamedFormulation> other_formulations() {
           {"augmented lagrange of standard mortar", augmented(coupling_of<StandardMortarCoupling>())}};
 }
 
-/// Whether a formulation exists for 3D surfaces.
+/// True if a formulation exists for 3D surfaces.
 inline bool in_space(const NamedFormulation& formulation) { return formulation.options->coupling()->exists_in(3); }
 
 }  // namespace mortise::test

@@ -78,7 +78,7 @@ std::vector<double> slips_of_step(const Fixture& fixture, const ContactHistory& 
   return slips;
 }
 
-// What the node faces now, and what it faced at the start: the slips differ by the square of the step.
+// Slip against what the node faces now, and against what it faced at the start: the two differ by the square of the step.
 TEST(Slip, OfANewlyCoveredNodeIsThatOfAnOlderOneToSecondOrder) {
   auto coulomb = std::make_shared<CoulombFriction>();
   coulomb->coefficient = ScalarFunction(0.3);
@@ -199,8 +199,8 @@ TEST(Slip, PathAndWorkGrowWithAcceptedSteps) {
   EXPECT_GT(contact.friction_evaluations(), 0);
 }
 
-// With ties bearing shear, in stick: a step in which nothing changes has no slip, after tries that were undone and in a rigid motion too. What ties
-// give way by is a part of slip only as far as it changes.
+// With ties bearing shear, in stick: a step in which nothing changes has no slip, after tries that were undone and in a rigid motion too. The
+// give of ties is a part of slip only as far as it changes.
 TEST(Slip, OfTiedNodesVanishesInADwell) {
   TwoSurfaces plane = test::arch_on_ground();
   for (test::Point& x : plane.master) x[0] *= 4.15 / 4.6;

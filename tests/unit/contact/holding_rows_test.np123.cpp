@@ -1,4 +1,4 @@
-// What holds bodies against the forces of contact itself.
+// Rows that hold bodies against the forces of contact itself.
 
 #include <gtest/gtest.h>
 

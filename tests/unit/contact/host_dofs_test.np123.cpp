@@ -98,7 +98,7 @@ TEST_P(HostDofs, GetTheSystemOfTheUsualNumbering) {
   expect_equal(block(*usual_K, usual_ids, usual_ids), block(*host_K, host_ids, host_ids), "condensed K");
   expect_equal(Fixture::dense(usual_rhs, usual_ids), Fixture::dense(host_rhs, host_ids), "condensed rhs");
 
-  // What is prescribed does not move.
+  // Prescribed dofs do not move.
   const auto increment = Fixture::vector(
       usual.fixture.dofs, [&](GlobalOrdinal id) { return host.fixture.number(id) == NodalField::none ? 0.0 : 0.02 * wiggle(3 * id + 1); });
   Vector usual_new(usual.fixture.contact->multiplier_map()), host_new(host.fixture.contact->multiplier_map());

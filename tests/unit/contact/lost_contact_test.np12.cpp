@@ -1,4 +1,4 @@
-// Which nodes that find nothing within reach any more are lost, and which have opened or run off.
+// Nodes that find nothing within reach any more: lost ones, and those that have opened or run off.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ struct Flat {
   }
   /// Where the last evaluation was, an iterate ends with this pressure.
   void mark(double pressure) { marked = at->laws(*pressed(pressure)).states(); }
-  /// Likewise a step.
+  /// Accepts a step with this pressure.
   void accept(double pressure) {
     history = contact.commit(at->laws(*pressed(pressure)));
     marked.reset();
@@ -98,8 +98,8 @@ TEST(LostContact, ANodeThatRunsOffTheEdgeIsNotLost) {
   EXPECT_THAT(flat.failure_at(3.0, -0.75), HasSubstr("0.75 behind")) << "some have run off, the others have gone through";
 }
 
-// In front of the master in the accepted state, one step carries it through, farther than contact reaches. What was behind it already, or comes to
-// lie there from beside the master, has not gone through.
+// In front of the master in the accepted state, one step carries it through, farther than contact reaches. A node that was behind it already, or
+// comes to lie there from beside the master, has not gone through.
 TEST(LostContact, AnOpenNodeThatGoesThroughInOneStepIsLost) {
   for (const double height : {0.1, 2.0}) {
     Flat flat(0.0, height);

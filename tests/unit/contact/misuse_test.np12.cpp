@@ -1,4 +1,4 @@
-// What a host application can get wrong, and is told on every rank.
+// Errors of a host application, which are reported on every rank.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 using test::Fixture;
 using ::testing::HasSubstr;
 
-/// What is thrown, on every rank alike: "" if nothing is.
+/// Message of the exception that is thrown, on every rank alike: "" if there is none.
 template <class Error, class Call>
 std::string thrown(const Call& call) {
   std::string text;

@@ -95,7 +95,7 @@ TEST(PressureLaw, SlopesAreThoseOfDifferences) {
     }
 }
 
-// What an iteration may try: far beyond where the exponential itself overflows.
+// Trial values of an iteration: far beyond where the exponential itself overflows.
 TEST(PressureLaw, NoLineOverflows) {
   for (const Curve& curve : curves())
     for (const double sum : {1e-300, 1e-20, 1.0, 1e10, 1e100, 1e300})

@@ -57,7 +57,7 @@ struct NodeOnSpring {
   Frame frame = make_frame(Eigen::Vector2d(0.0, -1.0), -1);
 };
 
-// From slip one way (u = (f - rho) / k, z = rho) the node is taken to slip the other way where y <= -rho, and back again likewise. Both happen only
+// From slip one way (u = (f - rho) / k, z = rho) the node is taken to slip the other way where y <= -rho, and back for y >= rho. Both happen only
 // for k <= c eps / (c + 2 eps), which is below c / 2. Otherwise each of the three states is passed once at most.
 TEST(RegularisedNode, FindsItsStateInThreeStepsOnASpringOfHalfTheBodysStiffnessOrMore) {
   const double c = 1.0;

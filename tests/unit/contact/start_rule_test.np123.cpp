@@ -16,7 +16,7 @@ using test::TwoSurfaces;
 class StartRule : public ::testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(All, StartRule, ::testing::Range(-1, static_cast<int>(test::other_formulations().size())));
 
-/// Which body a node is of does not matter here: the slave is body 0, the master body 1.
+/// Places of all nodes. The body of a node does not matter here: the slave is body 0, the master body 1.
 MultiVector places_of(const Fixture& fixture, const TwoSurfaces& surfaces) {
   MultiVector places(fixture.nodes, static_cast<std::size_t>(1 + surfaces.dimension));
   for (std::size_t n = 0; n < fixture.nodes->getNodeNumElements(); ++n)
@@ -40,7 +40,7 @@ TwoSurfaces five_nodes_over_three_facets() {
   return flat;
 }
 
-// What touches starts closed. What stands apart does not, until it is asked for: then it is closed, however far it is.
+// A node that touches starts closed. One that stands apart does not, until it is asked for: then it is closed, however far it is.
 TEST_P(StartRule, ClosesNodesThatTouchAndThoseThatAreGuessedTo) {
   TwoSurfaces flat = five_nodes_over_three_facets();
   if (GetParam() >= 0) flat.options.formulation.options = test::other_formulations()[GetParam()].options;
@@ -157,7 +157,7 @@ TEST(FollowCover, StartsWhatBeginsToBeCoveredWithTheMeanOfItsNeighbours) {
     EXPECT_FALSE(at.follow_cover(last, *z));
     EXPECT_NEAR(z->normInf(), 2.0 * p, 1e-3 * p);
 
-    // What is not covered any more has none.
+    // A node that is not covered any more has none.
     at = contact.differentiate(*moved(0.0, 0.0), history, &last);
     EXPECT_TRUE(at.follow_cover(last, *z));
     z->scale(0.5);

@@ -54,7 +54,7 @@ struct Sheared {
     return surfaces;
   }
 
-  /// What is said of the history after `change`.
+  /// Message about the history after `change`.
   std::string refusal(const std::function<void(Numbers&)>& change) const {
     Memory changed(stored.numbers);
     change(changed.numbers);
@@ -79,7 +79,7 @@ TEST(StoredHistory, ComesBack) {
   EXPECT_EQ(again.numbers, sheared.stored.numbers);
 }
 
-// What no table of numbers can tell: which nodes there are, how long vectors are, which states a node may have.
+// Checks against data that no table of numbers has: which nodes there are, how long vectors are, which states a node may have.
 TEST(StoredHistory, RefusesWhatCannotBeOne) {
   const Sheared sheared;
   EXPECT_EQ(sheared.refusal([](Numbers&) {}), "");

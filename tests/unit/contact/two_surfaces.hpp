@@ -143,7 +143,7 @@ inline TwoSurfaces quadratic(const TwoSurfaces& linear, bool slave, bool master)
   return result;
 }
 
-/// How a host numbers its dofs.
+/// Numbering of a host's dofs.
 enum class HostNumbering {
   by_nodes,    ///< dim * node + component
   interleaved  ///< backwards, a scalar field before each node's displacements, and without those that are prescribed
@@ -268,7 +268,7 @@ class Fixture {
     if (surfaces_.fixed[node][static_cast<std::size_t>(by_nodes % dim)]) return NodalField::none;
     return scalar(by_nodes / dim) + 1 + by_nodes % dim;
   }
-  /// The same for all displacements of this host, by the ids dim * node + component.
+  /// Displacements in the numbering of this host, by the ids dim * node + component.
   RCP<Vector> numbered(const Vector& by_nodes) const {
     const auto result = rcp(new Vector(dofs));
     const auto view = by_nodes.getLocalViewHost(Tpetra::Access::ReadOnly);
@@ -309,7 +309,7 @@ class Fixture {
     for (GlobalOrdinal node = first; node + 1 < end; ++node) facets.push_back({node, node + 1});
     return facets;
   }
-  /// What of it a rank gives: slave facets of its nodes, master facets once.
+  /// The pair as a rank gives it: slave facets of its nodes, master facets once.
   ContactPair make_pair(const SurfaceFacets& slave, const SurfaceFacets& master) const {
     ContactPair pair;
     pair.name = "pair";

@@ -106,7 +106,7 @@ TEST(VariationalMortar, HasNoResultantAndNoMoment) {
   }
 }
 
-// What the slave side is said to bear is what stands in the rows of its nodes.
+// The resultant of the slave side is the sum of the rows of its nodes.
 TEST(VariationalMortar, ResultantIsTheSumOverTheSlaveSide) {
   for (const TwoSurfaces& pair : surfaces()) {
     const Pressed pressed(with(pair, std::make_shared<VariationalMortar>()));

@@ -490,7 +490,7 @@ TEST(SecondField, AgreesWithOneRank) {
   }
 }
 
-// What a system does not have is refused by name.
+// Derivatives that a system does not have are refused by name.
 TEST(SecondField, ContributionsThatKnowMoreThanTheSystemAreRefused) {
   class Inertia : public Contribution {
    public:

@@ -277,7 +277,7 @@ TEST(ReadParameters, SaysOnceThatAVariableIsWrong) {
   EXPECT_THAT(reserved, HasSubstr("cannot evaluate \"2*x +\""));
 }
 
-// What a message quotes may be as long as a scene's author pleases.
+// Text that a message quotes may be as long as a scene's author pleases.
 TEST(ReadParameters, ShortensLongValues) {
   std::string ones = "1";
   while (ones.size() < 10000) ones += "+ 1";
@@ -339,7 +339,7 @@ TEST(ReadParameters, PutsInWhatEntitiesStandFor) {
 TEST(ReadParameters, RefusesXmlBeyondAnyScene) {
   std::string begin, end;
   for (int i = 0; i < 100000; ++i) begin += "<ParameterList name=\"a\">", end += "</ParameterList>";
-  const std::string limits = "too much: lists may stand in one another 256 deep, and an attribute may have 10000000 characters\n";
+  const std::string limits = "too much: lists may be nested 256 deep, and an attribute may have 10000000 characters\n";
   EXPECT_EQ(read(begin + end).errors, "scene.xml:2: error: " + limits);
   EXPECT_EQ(read("\n" + parameter("needed", "string", std::string(50000000, 'a'))).errors, "scene.xml:3: error: " + limits);
 }
@@ -355,7 +355,7 @@ TEST(ReadParameters, TakesOverridesFromTheCommandLine) {
     EXPECT_THAT(read(scene, {nameless}).errors, HasSubstr("names nothing before, after or between two \"/\"")) << nameless;
 }
 
-// What is not used is mistyped: it would change nothing.
+// A symbol that is not used is mistyped: it would change nothing.
 TEST(ReadParameters, RefusesSymbolsThatNothingCouldUse) {
   const std::string n = list("variables", parameter("n", "int", "4"));
   EXPECT_THAT(read(n + needed, {"variables/N=8"}).errors,

@@ -198,7 +198,7 @@ TEST(CheckpointFile, RefusesNumbersThatNothingCanBe) {
               HasSubstr("a row of \"ragged\" is 3 long; the longest one has 2"));
 }
 
-// What is not finite is refused by the name of its dataset, on all ranks, wherever it stands.
+// Numbers that are not finite are refused by the name of their dataset, on all ranks, wherever they are.
 TEST(CheckpointFile, RefusesNumbersThatAreNotFinite) {
   const test::ScratchDirectory scratch(world());
   const std::string path = scratch.file("not_finite.h5");

@@ -104,7 +104,7 @@ class Xdmf {
     EXPECT_EQ(found.size(), 1u) << expression;
     return found.empty() ? "" : found.front();
   }
-  /// What the DataItem below `parent` refers to; its dimensions have to be those that the XDMF file says.
+  /// Dataset of the DataItem below `parent`; its dimensions have to be those that the XDMF file says.
   Dataset data(const std::string& parent) const {
     const std::string reference = text(parent + "/DataItem"), dimensions = text(parent + "/DataItem/@Dimensions");
     const auto colon = reference.find(':');
@@ -318,7 +318,7 @@ TEST(FieldWriter, WedgesStandInTheOrderOfVtk) {
   }
 }
 
-/// What stands in the directory of fields, in order.
+/// Names in the directory of fields, in order.
 std::vector<std::string> field_files(const std::string& directory) {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(directory + "/fields")) names.push_back(entry.path().filename().string());

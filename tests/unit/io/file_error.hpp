@@ -1,5 +1,5 @@
 #pragma once
-// What a FileError says that every rank is to throw.
+// Text of a FileError that every rank has to throw.
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 namespace mortise::test {
 
-/// what() of the FileError that `action` throws; a failure if it throws none. Every rank calls it.
+/// Text of the FileError that `action` throws; a failure if it throws none. Every rank calls it.
 template <class Action>
 std::string file_error(const Action& action) {
   try {

@@ -1,4 +1,4 @@
-// What a directory for results lets be replaced and removed, and by whom.
+// Rules by which a directory for results lets files be replaced and removed, and by whom.
 
 #include "mortise/io/output_directory.hpp"
 
@@ -205,7 +205,7 @@ TEST(OutputDirectory, RemovesOnlyWhatListsBelowItHave) {
   EXPECT_EQ(content(scratch.file("runs/second/notes.txt")), "theirs");
   EXPECT_EQ(content(scratch.file("runs/third/summary.json")), "theirs");
   world()->barrier();
-  // What stayed is still the program's directory.
+  // The files that stayed are still in the program's directory.
   EXPECT_NO_THROW(directory.subdirectory("runs").subdirectory("second").claim("summary.json"));
   EXPECT_THAT(file_error([&] { directory.subdirectory("runs").subdirectory("third"); }), HasSubstr("third"));
 }

@@ -137,7 +137,7 @@ TEST(FiniteJ2, CommittingTwiceChangesNothing) {
 }
 
 TEST(FiniteJ2, FirstPlasticIncrementOfLudwikOverTwelveDecades) {
-  // Isochoric tension that stretches r beyond the strain at yield, from alpha = 0. What is within 1e-12 of yield counts as elastic.
+  // Isochoric tension that stretches r beyond the strain at yield, from alpha = 0. A state within 1e-12 of yield counts as elastic.
   for (const auto& [elastic, hardening] : {std::pair{steel, steel_hardening}, {aluminium, aluminium_hardening}}) {
     const FiniteJ2 law(elastic, hardening);
     const double yield_strain = hardening.initial_yield_stress / (3.0 * elastic.shear_modulus());

@@ -165,7 +165,7 @@ TEST(ReturnMap, FirstPlasticIncrementOfLudwikOverTwelveDecades) {
   }
 }
 
-/// What reading the parameters of a hardening law says.
+/// Message on reading the parameters of a hardening law.
 std::string refused(const std::string& parameters) {
   struct List {
     Choice<HardeningOptions> hardening;

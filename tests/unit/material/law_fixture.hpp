@@ -47,7 +47,7 @@ inline std::vector<Deformation> plane_states() {
   return states;
 }
 
-/// The same, tilted out of the plane.
+/// The states of plane_states(), tilted out of the plane.
 inline std::vector<Deformation> solid_states() {
   std::vector<Deformation> states = plane_states();
   const Matrix3 tilt = rotation(0.7, {1.0, 2.0, -1.0});

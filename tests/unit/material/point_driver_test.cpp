@@ -147,7 +147,7 @@ TEST(PointDriver, NamesTheStepWithoutALateralStretch) {
   }
 }
 
-/// What reading a path says.
+/// Message on reading a path.
 std::string said_about(const std::string& parameters) {
   struct List {
     Choice<PointPath> path;

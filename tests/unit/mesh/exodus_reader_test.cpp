@@ -26,7 +26,7 @@ struct OneElement {
 
 void PrintTo(const OneElement& one, std::ostream* stream) { *stream << one.type; }
 
-/// Positions of the nodes of a reference cell, in space.
+/// Positions of the nodes of a reference cell, in 3D.
 std::vector<std::array<double, 3>> reference_nodes(CellShape shape) {
   return visit_cell(shape, [](auto kind) {
     std::vector<std::array<double, 3>> all;
@@ -39,7 +39,7 @@ std::vector<std::array<double, 3>> reference_nodes(CellShape shape) {
   });
 }
 
-/// How a file is made: changes of it, to be refused.
+/// Settings of a file in the making: changes of it, to be refused.
 struct Exodus {
   int mode = EX_CLOBBER;
   int dimension = 3;
@@ -251,7 +251,7 @@ std::string with_bytes(std::string bytes, const std::string& text, std::ptrdiff_
   return mesh_file_folder().write("forged.exo", bytes);
 }
 
-// What the header of netCDF's classic format claims is looked at before its library takes memory for it.
+// Claims in the header of netCDF's classic format are checked before its library takes memory for them.
 TEST(ExodusFiles, TellTheByteOfWhatTheirHeaderClaimsTooMuchOf) {
   const std::string whole = bytes_of(cube().write("a.exo")), much = "\x1f\xff\xff\xff";
   EXPECT_THAT(exodus_refusal(with_bytes(whole, "coordx", 8, much)), HasSubstr("the number of dimensions of a variable is 536870911, and "));

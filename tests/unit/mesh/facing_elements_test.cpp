@@ -1,4 +1,4 @@
-// Which elements are one another's nearest across contact.
+// Elements that are one another's nearest across contact.
 
 #include "distribution/facing_elements.hpp"
 

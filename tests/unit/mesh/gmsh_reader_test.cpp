@@ -76,7 +76,7 @@ TEST(Gmsh, TellsTheElementThatIsWrong) {
   EXPECT_THAT(with_22("1\n7 2 -1 1 2 3\n"), StartsWith("a.msh:12: error: the number of tags is -1"));
   EXPECT_THAT(refused(head_41 + triangle_nodes_41 + "$Elements\n1 1 1 1\n3 1 2 1\n1 1 2 3\n$EndElements\n"),
               StartsWith("a.msh:16: error: entity 1 is of dimension 3, and its elements of dimension 2"));
-  // Not all errors of a long file are told, and not the first one alone.
+  // Some errors of a long file are reported, neither all nor the first one alone.
   std::string many = "20\n";
   for (int e = 1; e <= 20; ++e) many += std::to_string(e) + " 2 2 1 1 1 2 9\n";
   const std::string told = with_22(many);

@@ -46,7 +46,7 @@ inline MeshFile read_mesh_text(const std::string& name, const std::string& bytes
   return read_mesh_file(mesh_file_folder().write(name, bytes), MeshFormat::by_name, {});
 }
 
-/// What is said of a file that is refused, without the folder in which it is.
+/// Message on a file that is refused, without the folder in which it is.
 inline std::string refusal_of(const std::string& name, const std::string& bytes) {
   try {
     read_mesh_text(name, bytes);

@@ -62,7 +62,7 @@ inline std::vector<BodyDescription> all_kinds(CellShape cell) {
   return bodies;
 }
 
-/// What `call` throws; it has to throw on every rank.
+/// Message of the error that `call` throws; it has to throw on every rank.
 template <class Call>
 std::string input_error_of(Call&& call) {
   try {

@@ -1,4 +1,4 @@
-// What D, M and the gap have to be in 3D: sums, biorthogonality, fields that are transferred exactly, slivers, nodes without multiplier.
+// Properties of D, M and the gap in 3D: sums, biorthogonality, fields that are transferred exactly, slivers, nodes without multiplier.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What D, M and the gap have to be: sums, biorthogonality, slivers, crosspoints, and integrals by brute force.
+// Properties of D, M and the gap: sums, biorthogonality, slivers, crosspoints, and integrals by brute force.
 
 #include <gtest/gtest.h>
 

@@ -24,7 +24,7 @@ EdgeLine line(int first, int count) {
   return result;
 }
 
-/// A bent edge along x, 3 pieces, and one along another direction above it, 2 pieces, a depth in one another.
+/// A bent edge along x, 3 pieces, and one along another direction above it, 2 pieces; they overlap by a depth.
 struct Crossed {
   EdgePair pair{line(0, 4), line(4, 3), Eigen::MatrixXd(4, 3), 1.0};
   std::vector<Point> x;

@@ -56,8 +56,8 @@ TEST(MortarRanksInSpace, GiveTheValuesOfOneRank) {
     }
 }
 
-// The slave slides over the master, turns and leaves it, in steps below and above what a search allows for. What a long-lived interface finds is what
-// a new one finds.
+// The slave slides over the master, turns and leaves it, in steps below and above what a search allows for. A long-lived interface finds the
+// couplings that a new one finds.
 TEST(MortarSearchInSpace, DoesNotDependOnItsHistory) {
   const auto comm = Tpetra::getDefaultComm();
   const Surfaces surfaces = waves(4, 7, 0.1, FacetKind::quadrilaterals, FacetKind::triangles);

@@ -61,8 +61,8 @@ TEST(MortarRanks, GiveTheValuesOfOneRank) {
     }
 }
 
-// The slave slides over the whole master and off both its ends, in steps below and above what a search allows for. What a long-lived
-// interface finds is what a new one finds.
+// The slave slides over the whole master and off both its ends, in steps below and above what a search allows for. A long-lived
+// interface finds the couplings that a new one finds.
 TEST(MortarSearch, DoesNotDependOnItsHistory) {
   const auto comm = Tpetra::getDefaultComm();
   TwoLines lines = wavy();

@@ -80,7 +80,7 @@ TEST_P(MortarLinearisation, SecondDerivativesAgreeWithDifferencesOfFirstOnes) {
 }
 
 // The overlaps of a master node's two facets change sides of a slave node. The rest of one of them may be too short to count, while the end of the
-// other is where it was. First derivatives are continuous there: they change by no more than what moves, 1e-10 of a facet, times second ones, of size
+// other is where it was. First derivatives are continuous there: they change by at most what moves, 1e-10 of a facet, times second ones, of size
 // 10.
 TEST(MortarLinearisation, IsContinuousWhereAMasterNodePassesASlaveNode) {
   for (const SharedCoupling& coupling : {coupling_of<DualMortarCoupling>(), coupling_of<StandardMortarCoupling>()}) {

@@ -1,4 +1,4 @@
-// What D, M, gaps and their derivatives have to be on quadratic facets.
+// Properties of D, M, gaps and their derivatives on quadratic facets.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -140,7 +140,7 @@ TEST(SegmentInSpace, DerivativesAgreeWithCentralDifferences) {
 }
 
 // Masters that cover a facet measure it together, wherever their edges are. One of them lies along the facet's edge, to within t, with a node in its
-// middle. The place of a crossing there is known to round-off over the distance of the edges, and a derivative likewise.
+// middle. The place of a crossing there, and its derivative, is known to round-off over the distance of the edges.
 TEST(SegmentInSpace, DoesNotDependOnMastersThatShareIt) {
   for (const double t : {1e-3, 1e-6, 1e-9, 1e-11, 1e-12, 1e-13, 1e-15, 0.0})
     for (std::size_t seed = 0; seed < 50; ++seed) {

@@ -69,7 +69,7 @@ TEST(AutomaticSolver, TriesAgainAfterTwiceAsManyMatrices) {
   EXPECT_EQ(pair.direct->solves, 58);
 }
 
-// What a failed solve leaves is solved directly at once; a pattern that changed before is new to the direct solver.
+// A system whose solve failed is solved directly at once; a pattern that changed before is new to the direct solver.
 TEST(AutomaticSolver, SolvesDirectlyWhatTheOtherCannot) {
   Pair pair(10, 50.0);
   pair.solve(2, true);

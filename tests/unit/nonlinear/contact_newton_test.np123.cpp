@@ -188,7 +188,7 @@ TEST(ContactNewton, FrozenNormalsChangeTheWayAndNotTheSolution) {
   EXPECT_LE(difference.normInf(), 1e-8 * exact.x->normInf());
 }
 
-// What the upper body is pushed with arrives below; without friction on a level interface nothing goes sideways.
+// The force on the upper body arrives below; without friction on a level interface nothing goes sideways.
 TEST_P(ContactFormulation, ForcesPassThroughTheInterface) {
   Problem problem(Tpetra::getDefaultComm(), choose(pressed(0.25)));
   const Solved solved = solve(problem);
@@ -303,8 +303,8 @@ TEST(ContactSystem, AContextWithoutAHistoryIsRefused) {
   EXPECT_THROW(problem.system->evaluate(*problem.x, StepContext{}), std::invalid_argument);
 }
 
-// What was closed in the accepted state may not go through the other body. The upper body is put three rows deep into the lower one, beyond the reach
-// of one facet.
+// A node that was closed in the accepted state may not go through the other body. The upper body is put three rows deep into the lower one, beyond
+// the reach of one facet.
 TEST(ContactSystem, ContactLostSinceTheAcceptedStateIsAFailureOnAllRanks) {
   Problem problem(Tpetra::getDefaultComm(), pressed(0.2));
   SemiSmoothSystem& system = *problem.system;

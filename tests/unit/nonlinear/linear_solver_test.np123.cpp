@@ -143,7 +143,7 @@ RCP<Matrix> weakly_held(const std::shared_ptr<SpringGrid>& grid, double foot) {
   return matrix;
 }
 
-// The condition is some 1e12, so that |b - A x| / |b| stays far above 1e-8 however well the system is solved. What the feet bear is what is loaded,
+// The condition is some 1e12, so that |b - A x| / |b| stays far above 1e-8 however well the system is solved. The feet bear the load,
 // to round-off times the condition.
 TEST(IllConditioned, IsSolvedWhereTheBackwardErrorIsRoundOff) {
   const auto comm = Tpetra::getDefaultComm();
@@ -177,7 +177,7 @@ TEST(Singular, IsRefusedThoughItsBackwardErrorIsSmall) {
   }
 }
 
-// A right-hand side in the range of a singular matrix has solutions. What is returned, if the factorisation meets no zero pivot, is one of them.
+// A right-hand side in the range of a singular matrix has solutions. If the factorisation meets no zero pivot, one of them is returned.
 TEST(Singular, WithAConsistentRightHandSideIsRefusedOrSolved) {
   const auto grid = std::make_shared<SpringGrid>(Tpetra::getDefaultComm(), 9, 9);
   const auto matrix = weakly_held(grid, 0.0);

@@ -194,7 +194,7 @@ TEST(Stepper, APredictionGoesAsFarAsWhatDrivesTheStepGoesOn) {
   }
 }
 
-// What is refused after a prediction is sought from the last state, and only then with half the step.
+// A state that is refused after a prediction is sought from the last state, and only then with half the step.
 TEST(Stepper, APredictionThatLedAstrayIsLeftOutBeforeTheStepIsCut) {
   for (const int refusals : {1, 2}) {
     Problem problem(Tpetra::getDefaultComm(), moved(1e30));

@@ -85,7 +85,7 @@ TEST(Newton, ReactionsBalanceTheLoad) {
     for (int i = 0; i < 2; ++i) mine[i] += r->getData()[problem.grid->dofs->getLocalElement(problem.grid->dof(node, i))];
   }
   Teuchos::reduceAll(*problem.grid->dofs->getComm(), Teuchos::REDUCE_SUM, 2, mine, all);
-  // What is out of balance is at most |r| of the free dofs: 60 of them, 1e-9 of a load of 0.13.
+  // The imbalance is at most |r| of the free dofs: 60 of them, 1e-9 of a load of 0.13.
   EXPECT_NEAR(all[0], -6 * 0.02, 1e-8);
   EXPECT_NEAR(all[1], -6 * 0.05, 1e-8);
 }

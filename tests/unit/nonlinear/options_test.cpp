@@ -1,4 +1,4 @@
-// Options as a scene gives them, and what is said about those that make no sense.
+// Options as a scene gives them, and messages about those that make no sense.
 
 #include <gtest/gtest.h>
 

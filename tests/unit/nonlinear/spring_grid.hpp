@@ -21,7 +21,7 @@ namespace mortise::test {
 
 inline RCP<const Communicator> this_rank_only() { return rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF)); }
 
-/// How nodes are given to ranks, and how they are numbered.
+/// Distribution of nodes over ranks, and their numbering.
 enum class Numbering { blocks, scattered, with_gaps };
 
 /// nx x ny nodes at unit distance; springs to all eight neighbours. With a cut, the rows from `cut` on are a body of their own: narrower, so
@@ -158,7 +158,7 @@ class Springs : public Contribution {
   double stiffness_;
 };
 
-/// What a load or a motion is multiplied by, as a function of time.
+/// Factor of a load or a motion, as a function of time.
 using Course = std::function<double(double time)>;
 inline double steadily(double time) { return time; }
 
@@ -243,7 +243,7 @@ struct Problem {
 
   /// F at x from rest, at a time.
   SystemEvaluation evaluate(double time) const { return system->evaluate(*x, context(time)); }
-  /// What holds in a step from rest.
+  /// Context of a step from rest.
   StepContext context(double time) const { return system->step_from(system->initial_state(Vector(system->map())), time); }
 
   struct Choices {

@@ -1,4 +1,4 @@
-// What every shape in the registry has to be. A new shape is tested by its line there.
+// Properties of every shape in the registry. A new shape is tested by its line there.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -366,7 +366,7 @@ TEST(Lines, TakeACoordinateThatIsNoArray) {
 }
 
 TEST(Wedge15, ReproducesWhatItsFunctionsSpan) {
-  // Quadratic in the plane times linear upright, linear in the plane times quadratic upright.
+  // Quadratic in the triangle times linear upright, linear in the triangle times quadratic upright.
   for (const auto& power : powers(3, 3)) {
     const auto [p, q, r] = power;
     if (!((p + q <= 2 && r <= 1) || (p + q <= 1 && r <= 2))) continue;

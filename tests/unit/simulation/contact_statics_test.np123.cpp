@@ -1,4 +1,4 @@
-// Which loads can be borne by pressures and friction: blocks on a floor, whose answers are in every textbook.
+// Loads that pressures and friction can bear: blocks on a floor, whose answers are in every textbook.
 
 #include "mortise/simulation/run/diagnosis/contact_statics.hpp"
 
@@ -62,7 +62,7 @@ TEST(ContactStatics, ABlockIsLiftedOff) {
   for (const BearingCone& cone : on_floor(*comm, 0.5, 1.0)) EXPECT_LT(resistance(cone, lifted.missing), -0.1);
 }
 
-// What is missing is a motion on which the load works and no force works against it, the certificate of Farkas' lemma.
+// The rest of a load is a motion on which the load works and no force works against it, the certificate of Farkas' lemma.
 TEST(ContactStatics, TheMotionIsACertificate) {
   const auto comm = Teuchos::DefaultComm<int>::getComm();
   for (const Eigen::Vector3d& load : {Eigen::Vector3d(0.9, -1.0, 0.2), Eigen::Vector3d(0.1, -1.0, 1.4), Eigen::Vector3d(-0.4, 0.3, 0.2)}) {

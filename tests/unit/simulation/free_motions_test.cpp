@@ -1,4 +1,4 @@
-// Which motions a Gram matrix leaves free.
+// Motions that a Gram matrix leaves free.
 
 #include <gtest/gtest.h>
 

@@ -134,7 +134,7 @@ TEST(Quantity, BalanceOfLoadsAndReactions) {
   TwoBlocks blocks;
   blocks.prescribed = blocks.dofs("lower/bottom");
   blocks.external = blocks.nodal([](int, const Point& X) { return Point{0.0, X[1] == 2.0 ? -5.0 : 0.0}; });  // 6 nodes: -30
-  // 5 supported nodes carry 6 each: balance. What stands on free dofs is no reaction.
+  // 5 supported nodes carry 6 each: balance. A value on free dofs is no reaction.
   blocks.reaction = blocks.nodal([](int, const Point& X) { return Point{0.0, X[1] == 0.0 ? 6.0 : 100.0}; });
   const auto imbalance = quantity("momentum imbalance", {{"of", "total"}});
   EXPECT_NEAR(blocks.value(*imbalance), 0.0, 1e-15);

@@ -185,7 +185,7 @@ TEST_P(ReferencePoints, JacobianAgreesWithCentralDifferences) {
 INSTANTIATE_TEST_SUITE_P(All, ReferencePoints, testing::ValuesIn(cases));
 INSTANTIATE_TEST_SUITE_P(InSpace, ReferencePoints, testing::ValuesIn(space_cases));
 
-/// The same with multipliers that stay unknowns, and with conditions that give them.
+/// The cases with multipliers that stay unknowns, and with conditions that give them.
 std::vector<Case> other_formulations() {
   std::vector<Case> all;
   for (const std::string formulation : {"standard mortar", "variational mortar", "node to segment", "penalty"})

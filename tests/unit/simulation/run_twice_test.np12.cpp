@@ -103,7 +103,7 @@ void expect_same_but_for_round_off(const std::string& first, const std::string& 
   }
 }
 
-/// What a run has come to: its exit code and, on rank 0, what it left, by file.
+/// Outcome of a run: its exit code and, on rank 0, its results, by file.
 using Outcome = std::map<std::string, std::string>;
 
 Outcome run(const Scene& scene, const Case& one, const std::string& directory) {

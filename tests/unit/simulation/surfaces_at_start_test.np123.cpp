@@ -1,4 +1,4 @@
-// Bodies that begin in one another: found whatever the depth, told where, refused where no side is the nearest.
+// Bodies that overlap at the start: found whatever the depth, reported with the place, refused where no side is the nearest.
 
 #include "mortise/simulation/model/surfaces_at_start.hpp"
 
@@ -146,7 +146,7 @@ TEST(InitialOverlap, OfBodiesSideBySideIsNone) {
 TEST(InitialOverlap, IsRefusedWhereThePairSaysSo) {
   Case one;
   one.depth = 0.24, one.pair = number("initial overlap", "error");
-  EXPECT_THAT(examine(one).error, AllOf(HasSubstr("contact/joint: the surfaces begin by 0.24 in one another, deepest at node "),
+  EXPECT_THAT(examine(one).error, AllOf(HasSubstr("contact/joint: the surfaces overlap by 0.24 at the start, deepest at node "),
                                         HasSubstr("of \"top/bottom\" at (0, -0.24)"), HasSubstr("\"initial overlap\" says that this is an error")));
   one.depth = 0.0;
   EXPECT_EQ(examine(one).error, "");
@@ -165,7 +165,8 @@ TEST(InitialOverlap, BeyondAGivenReachIsRefused) {
 TEST(InitialOverlap, BeyondTheMiddleOfTheOtherBodyIsRefused) {
   Case one;
   one.depth = 0.6;
-  EXPECT_THAT(examine(one).error, AllOf(HasSubstr("by 0.6 in one another"), HasSubstr("more than half of the 1 that body 'base' is thick there")));
+  EXPECT_THAT(examine(one).error,
+              AllOf(HasSubstr("overlap by 0.6 at the start"), HasSubstr("more than half of the 1 that body 'base' is thick there")));
 }
 
 TEST(InitialOverlap, OfABodyWhollyWithinAnotherIsRefused) {
@@ -266,11 +267,11 @@ TEST(RoundSurfaces, OfQuadraticElementsAreMeasuredAsCurvedAsTheyAre) {
     EXPECT_LT(rings(0.0, "Q8", inner, outer).start.pairs[0].overlap.depth, 2.0 * std::pow(M_PI / std::min(inner, outer), 4) / 4096.0);
     EXPECT_THAT(rings(-0.05, "Q8", inner, outer, refuse).error, HasSubstr("\"initial overlap\" says that this is an error")) << "that is one";
   }
-  EXPECT_THAT(rings(0.0, "Q4", 6, 5, refuse).error, HasSubstr("in one another")) << "linear facets are what they are";
+  EXPECT_THAT(rings(0.0, "Q4", 6, 5, refuse).error, HasSubstr("overlap by")) << "linear facets are what they are";
   EXPECT_EQ(rings(0.0, "Q4", 6, 5, refuse + number("facets", "round")).error, "");
 }
 
-// All nodes lie on one sphere. Quadrilaterals of 8 nodes leave it by no more than h^4 / 64 R^3 inside and h^4 / 512 R^3 at their edges.
+// All nodes lie on one sphere. Quadrilaterals of 8 nodes leave it by at most h^4 / 64 R^3 inside and h^4 / 512 R^3 at their edges.
 TEST(RoundSurfaces, OfSpheresThatTouchLieInOneAnotherToFourthOrder) {
   const Found found = rings(0.0, "H20", 6, 5, number("initial overlap", "error"), true);
   ASSERT_EQ(found.error, "");
@@ -278,8 +279,8 @@ TEST(RoundSurfaces, OfSpheresThatTouchLieInOneAnotherToFourthOrder) {
   EXPECT_LT(found.start.pairs[0].overlap.depth, 2.0 * std::pow(h, 4) / (64.0 * 8.0));
 }
 
-// On the pin of radius 2 facets leave 2/3 of their sagitta on average, which is nearer to the hole. Of the hole's facets, which are as long or a half
-// or twice as long, a node with dual weights 2 - 3 s sees on average between 1/6 and 7/6 of the sagitta, and 2/3 where its own are much longer.
+// On the pin of radius 2 facets leave 2/3 of their sagitta on average, which is nearer to the hole. The hole's facets are as long, or a half or twice
+// as long. A node there with dual weights 2 - 3 s sees on average between 1/6 and 7/6 of the sagitta, and 2/3 where its own are much longer.
 TEST(RoundSurfaces, OfLinearFacetsChangeGapsByWhatTheFacetsLeave) {
   for (const auto& [inner, outer] : {std::pair{12, 12}, std::pair{12, 24}, std::pair{24, 12}, std::pair{6, 48}}) {
     const Found found = rings(0.02, "Q4", inner, outer, number("facets", "round"));
@@ -307,8 +308,8 @@ TEST(RoundSurfaces, OfLinearFacetsChangeGapsByWhatTheFacetsLeave) {
   EXPECT_LT((*cubes.start.pairs[0].facet_gaps)[0], -0.5 * sagitta(2.0, 8));
 }
 
-// A plate's top falls by a degree or two to the left, and so does the bottom of a body above it: a line from the plate's right side runs out of the plate and into
-// that body at angles at which facets are hardly met, and out of it at its far end. The bodies are apart.
+// A plate's top falls by a degree or two to the left, and so does the bottom of a body above it. A line from the plate's right side runs out of the
+// plate and into that body at angles at which facets are hardly met. It leaves that body at its far end. The bodies are apart.
 TEST(InitialOverlap, IsNotToldByLinesThatRunWithinAFace) {
   for (const double tilt : {0.5, 1.0, 2.0, 2.7})
     for (const double up : {0.001, 0.01, 0.02}) {

@@ -134,7 +134,7 @@ TEST_P(Assembly, AgreesWithOneRank) {
       EXPECT_NEAR(shared.columns[c](dof), one.columns[c](whole.getLocalElement(part.getGlobalElement(dof))), 1e-12 * scale) << "column " << c;
   }
   EXPECT_NEAR(shared.energy, one.energy, 1e-13 * one.energy);
-  // Each prescribed dof stands on the one rank that owns it, with the same value.
+  // Each prescribed dof is on the one rank that owns it, with the same value.
   int mine = static_cast<int>(shared.prescribed.size()), all = 0;
   Teuchos::reduceAll(*world(), Teuchos::REDUCE_SUM, 1, &mine, &all);
   EXPECT_EQ(all, static_cast<int>(one.prescribed.size()));

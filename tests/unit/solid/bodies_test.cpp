@@ -179,7 +179,7 @@ TEST(Bodies, DoNotAllocateInTheElementLoop) {
         counts.push_back(allocations - before);
         EXPECT_FALSE(failure);
       }
-      // What is allocated (views) does not grow with the number of elements.
+      // The number of allocations (views) does not grow with the number of elements.
       if (!counts.empty()) {
         EXPECT_EQ(counts[0], counts[1]) << law << " " << to_string(element);
       }

@@ -1,4 +1,4 @@
-// What every element in the registry has to be.
+// Properties of every element in the registry.
 
 #include <gtest/gtest.h>
 

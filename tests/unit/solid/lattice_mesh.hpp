@@ -19,7 +19,7 @@ using LatticePoint = std::array<int, 3>;  ///< corners of boxes at even coordina
 /// Corners of the lowest box, in the order of a hexahedron.
 inline const std::vector<LatticePoint> lowest_box{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 0, 2}, {2, 0, 2}, {2, 2, 2}, {0, 2, 2}};
 
-/// The corners of the lowest box's cells. Triangles halve it, and so do wedges; pyramids stand on its sides with their apexes in its middle;
+/// The corners of the lowest box's cells. Triangles halve it, and so do wedges; pyramids have its sides as bases, with their apexes in its middle;
 /// tetrahedra are Kuhn's six. Diagonals of cut sides start at the corner where all coordinates are lowest.
 inline std::vector<std::vector<LatticePoint>> cells_of_a_box(CellShape shape) {
   const CellTopology& cell = topology(shape);

@@ -8,7 +8,7 @@
 namespace mortise {
 namespace {
 
-/// What a box of a lattice is cut into. Joints have an apex in the middle: over sides that their neighbours do not cut stand pyramids, over the
+/// Cells into which a box of a lattice is cut. Joints have an apex in the middle: over sides that their neighbours do not cut are pyramids, over the
 /// halves of the others tetrahedra.
 enum class Box { hexahedron, wedges, tetrahedra, joint };
 

@@ -97,7 +97,7 @@ TEST(FullTurn, HasNoMomentAcrossTheAxis) {
   EXPECT_EQ(spatial_moment(theta, Eigen::Vector3d::Zero()).norm(), 0.0);
 }
 
-/// What is said of a point turned by theta whose components in `prescribed` are prescribed.
+/// Message about a point turned by theta whose components in `prescribed` are prescribed.
 std::string refusal(const Eigen::Vector3d& theta, const std::vector<int>& prescribed) {
   const auto bodies = rigid_brick();
   std::vector<LocalOrdinal> dofs;

@@ -154,7 +154,7 @@ TEST_P(EverySpaceSetup, RigidMotionTakesNoForce) {
   const Eigen::MatrixXd K = stiffness(*bodies, u);
   EXPECT_LE(internal_force(*bodies, u).cwiseAbs().maxCoeff(), 1e-13 * K.cwiseAbs().maxCoeff() * u.cwiseAbs().maxCoeff());
   bodies->visit_points(to_local(*bodies, u), [](const MaterialPoint& point) { EXPECT_LE(point.cauchy_stress.norm(), 1e-12 * 1000.0); });
-  // The rigid body modes are the null space there: as many as there are, and no more.
+  // The rigid body modes are exactly the null space there.
   const auto modes = rigid_body_modes(*bodies, to_local(*bodies, u));
   ASSERT_EQ(modes->getNumVectors(), 6u);
   Eigen::MatrixXd columns(K.rows(), 6);

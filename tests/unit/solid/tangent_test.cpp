@@ -175,7 +175,7 @@ TEST_P(EverySetup, RigidMotionTakesNoForce) {
   const Eigen::MatrixXd K = stiffness(*bodies, u);
   const double round_off = 1e-13 * K.cwiseAbs().maxCoeff() * u.cwiseAbs().maxCoeff();
   EXPECT_LE(internal_force(*bodies, u).cwiseAbs().maxCoeff(), round_off);
-  // The rigid body modes are the null space there: as many as there are, and no more.
+  // The rigid body modes are exactly the null space there.
   const auto modes = rigid_body_modes(*bodies, to_local(*bodies, u));
   ASSERT_EQ(modes->getNumVectors(), axisymmetric ? 1u : 3u);
   for (std::size_t n = 0; n < modes->getNumVectors(); ++n)

@@ -91,7 +91,7 @@ def command(scene, results, ranks):
 
 
 class Results:
-    """What a run left."""
+    """Results of a run."""
 
     def __init__(self, directory):
         self.directory = directory

@@ -191,7 +191,7 @@ class OfFiles(unittest.TestCase):
 
 
 class Export(unittest.TestCase):
-    """What the files hold is a unit test of the package io; this is the command."""
+    """The content of the files is a unit test of the package io; this is the command."""
 
     def call(self, *words):
         ending = subprocess.run([mortise, "export", *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)

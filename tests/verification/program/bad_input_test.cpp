@@ -12,7 +12,7 @@ using namespace scene_support;
 /// One thing done wrong: `from` is replaced by `to` in the good scene.
 struct Case {
   std::string name, from, to;
-  std::string message;  ///< has to stand in the output
+  std::string message;  ///< a part of the expected output
   std::string marker;   ///< text of the line that the message has to point at; empty: any line
   int code = 2;
 };
@@ -152,7 +152,7 @@ TEST(BadInputs, AreAllReportedAtOnce) {
   for (const char* wrong : {"5x", "cels x", "contacts"}) EXPECT_NE(ending.output.find(wrong), std::string::npos) << ending.output;
 }
 
-/// What was refused is not missing as well.
+/// A parameter that was refused is not reported as missing too.
 TEST(BadInputs, AreReportedOnce) {
   const std::string cells = R"xml("cells x" type="int" value="2000000000")xml", smallest = R"xml("smallest cell" type="double" value="-1")xml";
   const std::string given = R"xml("cells x" type="int" value="3"/>)xml",

@@ -21,7 +21,7 @@ TEST(Kinematics, ABodyBeyondTheAxisIsRefused) {
   }
 }
 
-/// What commands say of the lower block with so many cells in each direction.
+/// Expects commands to refuse the lower block with so many cells in each direction.
 void expect_refused(const std::vector<std::vector<std::string>>& commands, const std::string& cells, const std::string& message) {
   const files::path directory = files::path(SCRATCH) / "too_large";
   files::create_directories(directory);

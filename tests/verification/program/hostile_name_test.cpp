@@ -134,7 +134,7 @@ TEST(HostileNames, AreTextOnThePagesOfHardCases) {
   expect_made_only("out", directory, {"scene.xml", "ledger.xml"});
 }
 
-// What files cannot be called is replaced in their names: two names could have one directory, and the second run would take the first one's place.
+// Characters that files cannot have are replaced in their names: two names could share a directory, and the second run would replace the first.
 TEST(HostileNames, ThatWouldShareADirectoryAreRefused) {
   const files::path directory = fresh("shared");
   std::ofstream(directory / "scene.xml") << good_scene;

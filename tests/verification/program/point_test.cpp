@@ -15,7 +15,7 @@ namespace {
 
 namespace files = std::filesystem;
 
-/// What python draws with: the one that is found, or none, which saves a second.
+/// The python that draws: the one that is found, or none, which saves a second.
 const std::string any_python = "", no_python = "/nowhere/python3";
 
 Ending mortise(std::vector<std::string> words, int ranks = 1, const std::string& python = no_python) {

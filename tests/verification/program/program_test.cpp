@@ -18,7 +18,7 @@ Ending mortise(std::vector<std::string> words, int ranks = 1) {
   return launch(command, 60);
 }
 
-/// A block pressed by `force`; `more` stands in its outermost list.
+/// A block pressed by `force`; its outermost list contains `more`.
 std::string write_scene(const std::string& name, const std::string& more) {
   const std::filesystem::path directory = std::filesystem::path(SCRATCH) / "commands";
   std::filesystem::create_directories(directory);
@@ -308,8 +308,8 @@ TEST(Program, SurfacesThatBeginInOneAnotherAreTold) {
     const Ending ending =
         mortise({"check", std::string(INPUTS) + "/verification/held_by_contact.xml", "--set", "bodies/block/mesh/translation=-0.02,0.03"}, ranks);
     EXPECT_EQ(ending.code, 0) << ending.output;
-    EXPECT_NE(ending.output.find("contact on wall: the surfaces begin by up to 0.02 in one another"), std::string::npos) << ending.output;
-    EXPECT_EQ(ending.output.find("contact on floor: the surfaces begin by"), std::string::npos) << ending.output;
+    EXPECT_NE(ending.output.find("contact on wall: the surfaces overlap by up to 0.02 at the start"), std::string::npos) << ending.output;
+    EXPECT_EQ(ending.output.find("contact on floor: the surfaces overlap by"), std::string::npos) << ending.output;
   }
 }
 

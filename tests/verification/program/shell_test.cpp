@@ -1,4 +1,4 @@
-// What the program gives to shells and to man: completions and its manual page.
+// Support for shells and man: completions and the manual page.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ files::path some_files() {
   return directory;
 }
 
-/// What bash offers for the last of the words.
+/// Completions that bash offers for the last of the words.
 std::vector<std::string> completions(const std::vector<std::string>& words) {
   std::string script = "source <('" MORTISE "' completion); cd '" + some_files().string() + "'; COMP_WORDS=(mortise";
   for (const std::string& word : words) script += " '" + word + "'";

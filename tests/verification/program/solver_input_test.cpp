@@ -1,4 +1,4 @@
-// What a scene says wrongly of its linear solver, and of the packages behind it.
+// Errors of a scene about its linear solver and the packages behind it.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-"""What faults do to a run: a table for docs/results/faults.md.
+"""Effects of faults on a run: a table for docs/results/faults.md.
 
 python3 fault_table.py MPIRUN PROGRAM SCENE SCRATCH   (as root: full disks are small file systems in memory)
 
@@ -36,7 +36,7 @@ lines, failed = [], 0
 
 
 def go_on(results, ranks):
-    """Whether the run comes to its end, and how many steps were computed again."""
+    """Goes on with the run. True if it comes to its end, the number of steps that were computed again, and the output."""
     done = len(rows(results))
     left = checkpoints(results)
     step = left[-1] if left else 0

@@ -77,7 +77,7 @@ if ending.returncode != 0:
 checkpoint = os.path.join("checkpoints", "step-000002.h5")
 wrong = []
 
-# What is put together again as it was is taken: it is the number that is refused.
+# A file that is put together again as it was is taken: it is the number that is refused.
 shutil.copytree(straight, forged)
 with h5py.File(os.path.join(straight, checkpoint), "r") as whole:
     same = whole["rows/x"][...].flat[whole["rows/x"].size // 2]

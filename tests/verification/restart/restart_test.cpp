@@ -143,7 +143,7 @@ TEST(Restart, QuadraticFacets) {
 }
 TEST(Restart, KinksOfTheNearestFacet) { expect_seamless({"kinks", "verification/dragged_corner.xml", {}}); }
 TEST(Restart, BodiesHeldByContact) { expect_seamless({"held", "hard/dwell.xml", {}}); }
-// What the iterative solver keeps of earlier steps shows within its tolerance alone.
+// Data that the iterative solver keeps of earlier steps changes results within its tolerance alone.
 TEST(Restart, IterativeSolver) {
   expect_seamless({"iterative", "verification/3d/punch.xml", {"linear solver/type=iterative", "variables/n=2", "stepping/end time=0.75"}});
 }
@@ -228,7 +228,7 @@ Ending run_with_small_files(const std::string& scene, const Words& settings, int
   return launch(command, 300);
 }
 
-// Why a step failed is told, with its exit code: that the last checkpoint could not be written is the lesser news.
+// The reason of a failed step is reported, with its exit code: the last checkpoint that could not be written is the lesser news.
 TEST(Stop, TheReasonIsToldWhereTheLastCheckpointCannotBeWritten) {
   const std::string scene = std::string(INPUTS) + "/verification/limit_load.xml";
   const fs::path results = scratch("reason");
@@ -307,7 +307,7 @@ TEST(Restart, RefusesAnotherScene) {
   EXPECT_EQ(ending.code, 5);
   EXPECT_THAT(ending.output, HasSubstr("holds no checkpoint of step 9; there are those of the steps 1, 2, 3, 4"));
 
-  // What may change.
+  // Changes that are allowed.
   const std::string later = scene_support::replaced(scene, "value=\"0, 1\"/>\n      " + std::string("<Parameter ") + ramp,
                                                     "value=\"0, 0.5, 2\"/>\n      <Parameter name=\"values\" type=\"string\" value=\"0, 0.5, 8\"");
   write(scene_support::replaced(later, "name=\"end time\" type=\"double\" value=\"1\"", "name=\"end time\" type=\"double\" value=\"1.5\""));
@@ -354,7 +354,7 @@ TEST(Restart, GoesBackToTheLastWholeCheckpoint) {
   EXPECT_THAT(ending.output, HasSubstr("goes on from " + (results / "checkpoints" / "step-000003.h5").string()));
 }
 
-// What later steps left is of another way, whether or not this part writes fields and profiles.
+// Results of later steps belong to another run, whether or not this part writes fields and profiles.
 TEST(Restart, CutsFieldsAndProfilesOfARunThatGoesOnWithoutThem) {
   const std::string scene = std::string(INPUTS) + "/paper/hertz_elastic.xml";
   const fs::path straight = scratch("cut_straight"), results = scratch("cut");

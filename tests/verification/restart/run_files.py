@@ -1,4 +1,4 @@
-"""What a run left in its directory, for tests of runs that are cut, killed and restarted."""
+"""Files of a run in its directory, for tests of runs that are cut, killed and restarted."""
 import csv
 import glob
 import math
@@ -52,5 +52,5 @@ def worst_difference(one, other):
 
 
 def same(one, other):
-    """Whether two runs agree to 1e-9, iterations included."""
+    """True if two runs agree to 1e-9, iterations included."""
     return worst_difference(one, other)[0] <= 1e-9

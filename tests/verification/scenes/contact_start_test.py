@@ -1,4 +1,4 @@
-"""How contact begins: clearances beyond facets, overlaps that are open, patterns of rigid bodies, sets in any order, adjusted ties after a restart.
+"""Start of contact: clearances beyond facets, overlaps that are open, patterns of rigid bodies, sets in any order, adjusted ties after a restart.
 
 usage: contact_start_test.py MPIRUN MORTISE DIRECTORY
 
@@ -173,7 +173,7 @@ def check_adjusting():
 
 
 def check_decks():
-    """What a deck of CalculiX cannot hold is refused before anything is run."""
+    """Features that a deck of CalculiX cannot hold are refused before anything is run."""
     tie = named("ties", named("joint", slave="upper/bottom", master="lower/top"))
     soft = named("contact", named("joint", named("formulation", named("law", type="linear", stiffness=1000.0), type="pressure overclosure"), slave="upper/bottom", master="lower/top"))
     for name, contact, words in (("tie", tie, "the tie"), ("clearance", pair(clearance="-0.01"), "the clearance"), ("ramp", pair(**{"overlap taken up at": 1.0}), "taken up over time"),

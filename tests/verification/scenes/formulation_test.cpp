@@ -109,8 +109,8 @@ TEST(PatchTest, NodeToSegmentPassesOnMatchingMeshes) {
   EXPECT_LE(outcome.quantities.at("stress_spread").get<double>(), 1e-10) << outcome.said;
 }
 
-// n_1 + n_2 conditions that no more than n_1 + n_2 - 2 of are independent: both gaps vanish for any straight motion of the flat surfaces. Newton lets
-// go of the nodes that are too many, or the system is singular, and the program says why.
+// n_1 + n_2 conditions of which at most n_1 + n_2 - 2 are independent: both gaps vanish for any straight motion of the flat surfaces. Newton lets go
+// of the nodes that are too many, or the system is singular, and the program says why.
 TEST(PatchTest, TwoPassesOverConstrainFlatSurfaces) {
   const Outcome outcome = run("paper/patch_test.xml", "two passes", {list + "type=node to segment", list + "passes=two"});
   if (outcome.code == done) return;  // the checks of the scene are met
@@ -168,7 +168,7 @@ TEST(Layers, AugmentedLagrangeFindsTheClosedFormAtEveryScale) {
     }
 }
 
-// What is not exact after so many updates is no solution, and the run says how far off it is.
+// A state that is not exact after so many updates is no solution, and the run says how far off it is.
 TEST(Layers, AugmentedLagrangeThatIsCutShortIsNotAccepted) {
   const Outcome outcome = run("hard/layers.xml", "layers cut short",
                               {"contact/lower/formulation/type=augmented lagrange", "contact/upper/formulation/type=augmented lagrange",

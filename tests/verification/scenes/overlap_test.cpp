@@ -1,4 +1,4 @@
-// Bodies that begin in one another, against the same bodies moved into one another; bodies that pass through one another are told.
+// Bodies that overlap at the start, against the same bodies moved into this overlap; bodies that pass through one another are reported.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -62,7 +62,7 @@ double force_of(const Case& one, const std::string& name, int ranks = 1) {
   return Json::parse(read_file((directory / "results" / "summary.json").string())).at("quantities").at("p").get<double>();
 }
 
-/// A hyperelastic body without friction knows no way: beginning in one another and moved into one another end in the same state.
+/// The path does not matter to a hyperelastic body without friction: overlapping at the start and moved into the overlap end in the same state.
 void expect_force_of_driven(Case one, const std::string& name, int ranks = 1, const std::string& step = "0.25") {
   const double begun = force_of(one, name, ranks);
   one.driven = true, one.step = step;
@@ -158,13 +158,13 @@ TEST(InitialOverlap, IsToldOrRefused) {
   Case one;
   const Ending told = run(files::path(SCRATCH) / "overlap_told", scene_of(one), 2);
   EXPECT_EQ(told.code, 0);
-  EXPECT_NE(told.output.find("contact joint: the surfaces begin by up to 0.24 in one another, deepest at node "), std::string::npos) << told.output;
+  EXPECT_NE(told.output.find("contact joint: the surfaces overlap by up to 0.24 at the start, deepest at node "), std::string::npos) << told.output;
   EXPECT_NE(told.output.find("That is more than the longest facet, 0.2"), std::string::npos) << told.output;
   one.pair = parameter("initial overlap", "error");
   const files::path directory = files::path(SCRATCH) / "overlap_refused";
   const Ending refused = run(directory, scene_of(one), 2);
   EXPECT_EQ(refused.code, 2);
-  EXPECT_NE(refused.output.find("contact/joint: the surfaces begin by 0.24 in one another"), std::string::npos) << refused.output;
+  EXPECT_NE(refused.output.find("contact/joint: the surfaces overlap by 0.24 at the start"), std::string::npos) << refused.output;
   EXPECT_FALSE(files::exists(directory / "results"));
 }
 

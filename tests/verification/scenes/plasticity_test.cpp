@@ -185,7 +185,7 @@ TEST(Upsetting, FreeSidesInTheSlaveChangeNothingWhereTheyDoNotTouch) {
 }
 
 // The node of the free side below the corner comes to the platen, and stays before it. A pressure of up to 5000 moves the face of the elastic platen,
-// 2 high, by no more than 2 * 5000 / 2.1e6.
+// 2 high, by at most 2 * 5000 / 2.1e6.
 TEST(Upsetting, FreeSidesFoldOntoThePlatenAndNotThroughIt) {
   const double platen = 7.0, yields = 2.0 * 5000.0 / 2.1e6;
   const Results results = run(input("verification/upsetting_plane.xml"), "upset_fold",

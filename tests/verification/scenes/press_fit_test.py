@@ -123,7 +123,7 @@ def main():
     found = run(mpirun, program, directory, "touching", scene("plane stress", "Q8", (12, 9), "clearance", "shaft", begins=refuse)[0])
     check(abs(abs(found["force"]) / B / LAME - 1) < 0.01, "round quadratic surfaces that touch are not refused as overlapping")
     text = run(mpirun, program, directory, "overlapping", scene("plane stress", "Q4", (24, 24), "drawn", "shaft", begins=refuse)[0], code=2)
-    depth = re.search(r"begin by ([0-9.e-]+) in one another", text)
+    depth = re.search(r"overlap by ([0-9.e-]+) at the start", text)
     check(depth is not None and abs(float(depth[1]) / D - 1) < 0.02, "overlaps that are real are refused where they are said to be errors")
     adjust = parameter("start", "string", "adjust") + parameter("tolerance", "double", 0.1)
     text = run(mpirun, program, directory, "adjusted", scene("plane stress", "Q8", (12, 9), "clearance", "shaft", begins=adjust)[0], code=2)

@@ -1,4 +1,4 @@
-// What depends on which side is the slave: corners of the master in slave facets, slaves that are stiffer and finer.
+// Consequences of the choice of the slave: corners of the master in slave facets, slaves that are stiffer and finer.
 
 #include <gtest/gtest.h>
 
@@ -62,7 +62,7 @@ TEST(CornerInASlaveFacet, IsNotSeenWhereThereIsNone) {
   }
 }
 
-// A corner of the slave between facets of 1/3, its sides at 30 and 60 degrees to a rigid plane: standard weights see it when it is
+// A corner of the slave between facets of 1/3, its sides at 30 and 60 degrees to a rigid plane. Standard weights see it when it is
 // 1/3 (sin 30 + sin 60)/2 h deep, 0.076; it is pressed by 0.05. Dual weights hold it off at once.
 TEST(CornerOfTheSlave, ThatStandardWeightsDoNotSeeIsNotAccepted) {
   const std::vector<std::string> coarse{"variables/n=3", "variables/steps=4"};
@@ -166,8 +166,8 @@ TEST(LeaningNormals, DoNotBearItOnAFinerSlave) {
   EXPECT_EQ(outcome.ending.code, 3) << outcome.ending.output;
 }
 
-// A roller of radius 0.5 presses a cantilever of facets of 0.25 down and is lifted again before the end, where nothing touches. Its force is a quarter too
-// high over 3 E I d/a^3 with d = 0.19: what was wrong where it pressed hardest is told at the end, and by a run that is restarted after that.
+// A roller of radius 0.5 presses a cantilever of facets of 0.25 down. It is lifted again before the end, where nothing touches. Its force is a
+// quarter too high over 3 E I d/a^3 with d = 0.19. The end of the run, and of a restarted one, reports the error where it pressed hardest.
 TEST(RollerOnCoarseFacets, ThatIsLiftedBeforeTheEndIsWarnedOf) {
   const std::vector<std::string> lifted{"bodies/b/element=Q4", "bodies/b/mesh/cells x=40", "variables/above=0.01",
                                         "output/checkpoints/every step=1", "output/checkpoints/keep=5"};

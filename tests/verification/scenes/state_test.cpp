@@ -190,7 +190,7 @@ TEST(States, AGrippedBlockIsNotThrownOut) {
   }
 }
 
-// Once the upper block has gone the middle one stays where it was left; it is free, and that is said once.
+// Once the upper block has gone the middle one stays where it was left; it is free, which is reported once.
 TEST(States, ABlockThatIsLetGoStays) {
   const Outcome result = run("let_go", between_blocks("0", "-0.05*min(1,4*t)+0.8*max(0,t-0.5)", 0.75), 1);
   EXPECT_EQ(result.code, 0) << result.output;

@@ -1,5 +1,5 @@
-// Runs a scene with several sets of settings. The Newton counts and the sizes of the active set of every iteration have to be the same in all.
-// verify_counts MORTISE SCENE DIRECTORY SETTINGS SETTINGS..., SETTINGS being path=value,path=value,...
+// Runs a scene with several sets of settings. The Newton counts and the sizes of the active set of every iteration have to be equal in all.
+// Usage: verify_counts MORTISE SCENE DIRECTORY SETTINGS SETTINGS..., SETTINGS being path=value,path=value,...
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // Runs a scene with variables/n = n, 2 n, 4 n and fits the order of an error: the mean of log2 of the ratios of successive errors.
-// verify_order MORTISE SCENE DIRECTORY N [PATH=VALUE]... QUANTITY ORDER [QUANTITY ORDER]...
+// Usage: verify_order MORTISE SCENE DIRECTORY N [PATH=VALUE]... QUANTITY ORDER [QUANTITY ORDER]...
 // Fails where a fitted order lies below the one given.
 
 #include <fmt/format.h>

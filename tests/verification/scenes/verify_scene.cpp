@@ -60,7 +60,7 @@ std::vector<std::size_t> newton_counts(const Json& summary) {
   return counts;
 }
 
-/// Whether what contact costs is there to be read, in whole and in parts.
+/// True if the cost of contact can be read, in whole and in parts.
 bool contact_is_timed(const Json& summary) {
   if (summary.at("slave_nodes") == 0) return true;
   const Json& time = summary.at("time");

@@ -62,7 +62,7 @@ TEST(Memory, IsEstimatedToAFactorOfTwo) {
   }
 }
 
-// Libraries that get no memory spin for ever or end the program: what would not fit is not begun.
+// Libraries that get no memory loop without end or end the program: a solve that would not fit is not begun.
 TEST(Memory, ALimitEndsTheRunInTime) {
   const std::string results = std::string(SCRATCH) + "/memory_limit";
   for (const int mib : {250, 350, 450, 550, 650, 750, 900, 1100, 1300}) {

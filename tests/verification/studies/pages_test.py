@@ -1,4 +1,4 @@
-"""What the scripts of the pages decide and write, on data that are known. Arguments: the directory of the scripts. Exit code 69 without matplotlib."""
+"""Decisions and texts of the scripts of the pages, on data that are known. Arguments: the directory of the scripts. Exit code 69 without matplotlib."""
 import pathlib
 import shlex
 import sys

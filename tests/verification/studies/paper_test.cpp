@@ -58,7 +58,7 @@ TEST(Paper, PageHoldsFiguresAndTheNumbersOfTheSummary) {
   EXPECT_LT(at("results of the paper are met"), at("<img"));
   EXPECT_LT(at("<img"), at("<table>"));
   EXPECT_TRUE(contains(page, "mortise run scenes/hertz_elastic.xml --set variables/mu=0.1 --set variables/n=16 -o again/hertz_elastic</pre>"));
-  // What was not asked for is not there.
+  // Examples that were not asked for are not there.
   EXPECT_FALSE(contains(page, "Hertz problem, plastic"));
 }
 

@@ -1,5 +1,5 @@
-// `mortise peer` and points of studies that CalculiX runs. What needs the program ccx is skipped where it is not installed; the others take a script
-// in its place, or nothing.
+// `mortise peer` and points of studies that CalculiX runs. Tests that need the program ccx are skipped where it is not installed; the others take a
+// script in its place, or nothing.
 
 #include <gtest/gtest.h>
 

@@ -19,7 +19,7 @@ using ::testing::IsEmpty;
 
 constexpr double grace = 5.0;  // docs/study.md
 
-/// What this process starts from now on is known by a variable of its environment.
+/// Marks the processes that this one starts from now on, by a variable of the environment.
 void mark(const std::string& name) { setenv("MORTISE_TEST_STUDY", name.c_str(), 1); }
 
 /// The processes that were started since mark(name), by their command lines; not those that have ended.

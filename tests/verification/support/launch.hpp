@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-/// How a program ended and what it said (stdout and stderr together).
+/// Ending of a program and its output (stdout and stderr together).
 struct Ending {
   int code = -1;
   std::string output;

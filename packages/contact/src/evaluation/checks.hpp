@@ -1,5 +1,5 @@
 #pragma once
-// What ContactSystem is given: refused at once where nothing right could come of it.
+// Checks of the arguments of ContactSystem, refused at once where nothing right could come of them.
 
 #include <vector>
 
@@ -9,8 +9,8 @@
 
 namespace mortise::detail {
 
-/// Collective. Throws std::invalid_argument for what does not fit together: a field with ids that are not among the dofs, components that are neither
-/// unknown nor prescribed, positions and marks of prescribed components on other nodes.
+/// Collective. Throws std::invalid_argument for arguments that do not fit together. Such are a field with ids that are not among the dofs, components
+/// that are neither unknown nor prescribed, and positions and marks of prescribed components on other nodes.
 void refuse_unfit_fields(const NodalField& displacement, const Map& dofs, const MultiVector& reference, const MultiVector& fixed);
 
 /// Collective. Throws InputError for a pair without Young's modulus, formulation or law of friction.

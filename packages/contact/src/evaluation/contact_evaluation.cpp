@@ -158,9 +158,9 @@ ContactNorms ContactLaws::norms(const ContactStates& last) const {
     const detail::PairEvaluation& of_pair = laws_->contact->pairs[p];
     const detail::Pair& pair = of_pair.pair();
     mine[floor] = std::max(mine[floor], 1e-9 * pair.definition().youngs_modulus);
-    // What the round-off of positions leaves of c g and c u; penalty weighs them with less, c eps / (c + eps). Augmented Lagrange is judged by the
-    // return map, not by its C, in which gaps count for 1 + eps/c times less. By C, multipliers would be updated from gaps that Newton's method let
-    // be.
+    // Round-off of positions in c g and c u; penalty weighs them with less, c eps / (c + eps). Augmented Lagrange is judged by the
+    // return map, not by its C, in which gaps count for 1 + eps/c times less. By C, multipliers would be updated from gaps below Newton's
+    // tolerance.
     const bool updated = pair.enforcement().updates().has_value();
     mine[round_off] = std::max(mine[round_off], updated ? of_pair.mismatch_of(model.position_round_off())
                                                         : model.position_round_off() * pair.definition().youngs_modulus / pair.size());

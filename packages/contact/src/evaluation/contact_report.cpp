@@ -1,4 +1,4 @@
-// What can be known of the pairs at an iterate: states of nodes, resultants, kinks.
+// Reports on the pairs at an iterate: states of nodes, resultants, kinks.
 
 #include "mortise/contact/contact_report.hpp"
 
@@ -30,7 +30,7 @@ CornerReport corners(const ContactEvaluation& evaluation, std::size_t pair) {
 
 namespace {
 
-/// What others do at slave nodes that carry no multiplier. The multiplier j acts at node k by D_jk = int phi_j N_k: means have the weights |D_jk|.
+/// Action of others at slave nodes that carry no multiplier. The multiplier j acts at node k by D_jk = int phi_j N_k: means have the weights |D_jk|.
 /// Corners of quadratic facets have entries of either sign.
 class ActionOfOthers {
  public:

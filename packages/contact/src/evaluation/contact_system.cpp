@@ -16,7 +16,7 @@
 namespace mortise {
 namespace {
 
-/// What to take instead of a formulation whose coupling is not made for the surfaces.
+/// The error with the formulations that may replace one whose coupling is not made for the surfaces.
 InputError with_other_formulations(const UnfitCoupling& unfit) {
   std::vector<Diagnostic> diagnostics = unfit.diagnostics();
   for (Diagnostic& one : diagnostics)

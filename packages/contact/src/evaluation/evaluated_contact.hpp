@@ -1,5 +1,5 @@
 #pragma once
-// What the values of contact hold: the pairs, their evaluations, the conditions of their nodes.
+// Data behind the values of contact: the pairs, their evaluations, the conditions of their nodes.
 
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_MultiVector.hpp>
@@ -128,7 +128,7 @@ std::optional<StepFailure> find_lost_contact(const EvaluatedContact& contact, co
 /// `accepted` with the kinks that its state calls for, and what slips are measured against there. Collective. Throws StepFailure on every rank.
 ContactHistory with_kinks_of_its_state(const std::shared_ptr<const ContactModel>& model, const ContactHistory& accepted);
 
-/// What the ties of hardly covered nodes add. Derivatives with respect to z [z x z] and to d [z x dofs].
+/// Contributions of the ties of hardly covered nodes. Derivatives with respect to z [z x z] and to d [z x dofs].
 struct TieBlocks {
   RCP<Matrix> of_multipliers, of_positions;
 };

@@ -1,4 +1,4 @@
-// What contact holds bodies with, and what friction bears where it slips: the forces of multipliers, body by body.
+// Rows by which contact holds bodies, and the shear that friction bears where it slips: the forces of multipliers, body by body.
 
 #include <Eigen/Geometry>
 #include <Tpetra_Import.hpp>

@@ -28,13 +28,13 @@ double largest_motion(const MultiVector& from, const MultiVector& to, const std:
 }  // namespace
 
 // A master facet takes part in the integrals only within the reach. A node that one Newton step carries further than that through the master has no
-// contact left that could push it back. Its D_jj is zero, it counts as open, and the bodies pass through one another. So for each node that was
-// closed and has nothing to act on any more the line x + s n is followed beyond the reach. It meets the nearest master facet that faces n (the facets
-// that integrals are taken over) at s:
+// contact left that could push it back. Its D_jj is zero, it counts as open, and the bodies pass through one another. So the line x + s n is
+// followed beyond the reach, for each node that was closed and has nothing to act on any more. It meets the nearest master facet that faces n (the
+// facets that integrals are taken over) at s:
 //   s > 0: the node has opened;   none: it has run off the edge;   -s > reach: it is lost.
 // A node that was open is lost with -s > reach as well if it was not yet in the accepted state. The surfaces have then moved by more than the reach
-// relative to one another since: it is looked for only where they have. Nodes that are covered are within reach, and a frozen geometry covers a node
-// for ever or never.
+// relative to one another since: it is looked for only where they have. Nodes that are covered are within reach. A frozen geometry covers a node
+// always or never.
 std::optional<StepFailure> find_lost_contact(const EvaluatedContact& contact, const ContactStates* last, bool failed) {
   const ContactModel& model = *contact.model;
   const std::vector<PairEvaluation>& pairs = contact.pairs;

@@ -23,7 +23,7 @@ void sort_unique(Columns& columns) {
   columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
 }
 
-/// What contact adds to the rows of nodes: columns, by node id, and the rows themselves, as global ids.
+/// Contributions of contact to the rows of nodes: columns, by node id, and the rows themselves, as global ids.
 struct NodeRows {
   std::vector<GlobalOrdinal> ids;
   Columns columns;

@@ -1,5 +1,5 @@
 #pragma once
-// Where the nodes of the interfaces stand in the rows and columns of the system, and sums into rows of other ranks.
+// Rows and columns of the system for the nodes of the interfaces, and sums into rows of other ranks.
 
 #include <vector>
 
@@ -25,17 +25,17 @@ class SystemScatter {
   /// row by condensation. Its columns are the bulk's, followed by further ones.
   SystemScatter(const Graph& bulk, const EvaluatedContact& contact);
 
-  /// Whether the candidates of these evaluations are those it was built for.
+  /// True if the candidates of these evaluations are those it was built for.
   bool fits(const std::vector<PairEvaluation>& pairs) const;
 
   const RCP<const Graph>& graph() const { return graph_; }
   const NodePositions& positions(std::size_t pair) const { return positions_[pair]; }
 
-  /// row `component` of node `node` of a pair: += values at local columns of the system. Nothing where that is no unknown; columns of -1 are left
-  /// out.
+  /// row `component` of node `node` of a pair: += values at local columns of the system. Nothing where the component has no dof; columns of -1 are
+  /// left out.
   void add(Matrix& system, const NodePositions& positions, LocalOrdinal node, int component, const std::vector<LocalOrdinal>& columns,
            const std::vector<double>& values);
-  /// The same for a right-hand side (or any vector on the dofs).
+  /// Adds to a right-hand side (or any vector on the dofs).
   void add(Vector& vector, const NodePositions& positions, LocalOrdinal node, int component, double value);
 
   /// Collective: sends what was added to rows of other ranks.

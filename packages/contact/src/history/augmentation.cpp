@@ -66,8 +66,8 @@ double PairEvaluation::mismatch_of(double resolution) const {
   return largest * resolution;
 }
 
-// Bodies give way by a gap for a traction over k. An update adds eps g to the multipliers and divides gaps by 1 + eps/k = 1/q. With the change eps g
-// that comes next, all that is still missing of the multipliers is
+// Bodies give way by a gap for a traction over k. An update adds eps g to the multipliers and divides gaps by 1 + eps/k = 1/q. The change eps g
+// comes next. All that is still missing of the multipliers is
 //   k g = eps g (q + q^2 + ...) = (k/eps) eps g,   k/eps = q / (1 - q).
 // So slow updates have small changes and large errors. Changes that do not fall are those of nodes that change their states, or round-off: then at
 // least the change itself is an error.
@@ -78,8 +78,8 @@ std::optional<double> error_of_multipliers(const Settling& settling, double chan
   return std::nullopt;
 }
 
-// Where eps/k is less than `facet`, eps times facet k/eps makes it that. A ratio of two changes may be that of nodes that change their states: no
-// more than tenfold at once. The solution does not depend on eps.
+// Where eps/k is less than `facet`, eps times facet k/eps makes it that. A ratio of two changes may be that of nodes that change their states: at
+// most tenfold at once. The solution does not depend on eps.
 Settling settled(const Settling& settling, double change, int round) {
   Settling next = settling;
   constexpr double facet = 10.0;  // the default stiffness, over that of a body that gives way by h/E for its traction

@@ -99,8 +99,8 @@ ContactHistory ContactSystem::start_step(const ContactHistory& accepted, const N
   return history;
 }
 
-// A node sticks where |z_tau + c_t u| is below the bound. Above it, its condition is  z_tau = rho y / |y|  and across y that of a spring of c_t rho /
-// |y|: with |y| = 1e6 rho it holds nothing, and bears nothing that a result can see.
+// A node sticks where |z_tau + c_t u| is below the bound. Above it, its condition is  z_tau = rho y / |y|.  Across y it is that of a spring of c_t
+// rho / |y|: with |y| = 1e6 rho it holds nothing, and bears nothing that a result can see.
 void guess_closed(const ContactLaws& laws, const BearingNode& node, Vector& z, bool slides) {
   constexpr double hardly_a_strain = 1e-15;
   const detail::EvaluatedContact& contact = *detail::evaluated(laws).contact;

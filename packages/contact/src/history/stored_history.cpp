@@ -38,7 +38,7 @@ void serialize_nodes(StateArchive& archive, const Map& nodes, const std::string&
   archive.refuse_if(wrong);
 }
 
-/// The same of vectors of `size` numbers, empty ones among them.
+/// Stores or restores vectors of `size` numbers, empty ones among them.
 template <class List>
 void serialize_vectors(StateArchive& archive, const Communicator& comm, const std::string& name, const RowIds& ids, std::size_t size,
                        std::vector<List>& vectors) {

@@ -8,7 +8,9 @@ void AugmentedLagrange::describe(Parameters& parameters) {
   Penalty::describe(parameters);
   parameters.add(
       "tolerance", tolerance,
-      Says("error of the multipliers over the largest one of the pair at which a step is done, as told from how they settle").unit("-").above(0.0));
+      Says("error of the multipliers over the largest one of the pair at which a step is done, as estimated from the changes of the last updates")
+          .unit("-")
+          .above(0.0));
   parameters.add("augmentations", augmentations, Says("updates of the multipliers after which the step is undone").at_least(1));
 }
 

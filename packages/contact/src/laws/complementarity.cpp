@@ -52,7 +52,7 @@ Landing::Landing(double depth, double start) {
   of_start = -depth / (sum * sum);
 }
 
-// With t = z_tau, and S = 1 - e for tangents that are held, 1 for others,  s = S t + (1 - S) t^old,  y = q (s + c_t u):
+// Let t = z_tau, and S = 1 - e for tangents that are held, 1 for others. Then  s = S t + (1 - S) t^old,  y = q (s + c_t u)  have the derivatives
 //   dy = q (S dt + c_t du) + (s + c_t u) dq,   dq = of_depth dp + of_start c_t dg0,   dp = dz_n - c_n dg.
 // Where the node slips, s + c_t u is along y, which does not turn by it.
 Complementarity with_friction(double c_n, double c_t, double gap, const TangentVector& slip, const Frame& frame, const SpatialVector& z,

@@ -6,7 +6,7 @@ namespace {
 /// The list "formulation" of a pair.
 struct FormulationList {
   Choice<Formulation>& formulation;
-  void describe(Parameters& parameters) { parameters.choose(formulation, formulation_registry(), "how contact is discretised and enforced"); }
+  void describe(Parameters& parameters) { parameters.choose(formulation, formulation_registry(), "discretisation and enforcement of contact"); }
 };
 /// The list "friction" of a pair.
 struct FrictionList {
@@ -19,16 +19,15 @@ void ContactOptions::describe(Parameters& parameters) {
   parameters.add("geometry", geometry, {{"current", ContactGeometry::current}, {"reference", ContactGeometry::reference}},
                  "configuration that carries the contact geometry: current, or reference for small displacements");
   parameters.add("full cover", full_cover,
-                 Says("covered share of a facet below which the multiplier of a slave node is tied to those of its neighbours, so that a sliver "
-                      "of contact bears no peak; 0: none is tied, as in most published computations; penalty ties none")
+                 Says("covered share of a facet below which the multiplier of a slave node is tied to those of its neighbours. A sliver of contact "
+                      "then bears no peak. 0: none is tied, as in most published computations; penalty ties none")
                      .unit("-")
                      .at_least(0.0)
                      .at_most(1.0));
-  parameters.add(
-      "clearance", clearance,
-      Says("added to the gap that the meshes have, of t and the reference position of a slave node: below 0 an interference, which a function of t "
-           "brings up bit by bit; needs the gap weighting \"dual\"")
-          .unit("length"));
+  parameters.add("clearance", clearance,
+                 Says("length that is added to the gap of the meshes, of t and the reference position of a slave node. Below 0 it is an "
+                      "interference, which a function of t applies bit by bit. Needs the gap weighting \"dual\"")
+                     .unit("length"));
   parameters.add("complementarity constant", complementarity_constant,
                  Says("c_n times A_j: weighs gap against pressure in the choice of the active set; changes no solution; default: Young's modulus "
                       "of the softer side over the shortest slave facet, of penalty, pressure overclosure and augmented Lagrange a tenth of that; "
@@ -37,7 +36,7 @@ void ContactOptions::describe(Parameters& parameters) {
                      .above(0.0));
   mortar.describe(parameters);
   FormulationList formulation_list{formulation};
-  parameters.list("formulation", formulation_list, "how contact is discretised and enforced");
+  parameters.list("formulation", formulation_list, "discretisation and enforcement of contact");
   FrictionList list{friction};
   parameters.list("friction", list, "shear tractions of closed nodes");
 }

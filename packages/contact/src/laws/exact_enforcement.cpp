@@ -4,8 +4,8 @@
 
 namespace mortise {
 
-// The constant of the pair chooses the active set. The rows of C take no larger one than E / (h A_j): with 1e4 times that an error of 1e-3 h of a gap
-// on Newton's way would count as a pressure of 10 E in the bound of friction, and one of a slip as ten times the bound.
+// The constant of the pair chooses the active set. The rows of C take no larger one than E / (h A_j). With 1e4 times that an error of 1e-3 h of a gap
+// on Newton's way would count as a pressure of 10 E in the bound of friction. An error of 1e-3 h of a slip would count as ten times the bound.
 Complementarity ExactEnforcement::law(const ContactNode& node) const {
   if (!is_closed(node)) return open_node(node.z);
   const Frame in = node.frame();

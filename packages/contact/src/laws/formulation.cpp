@@ -14,9 +14,9 @@ const Registry<Formulation>& formulation_registry() {
     Registry<Formulation> formulations;
     formulations.add<DualMortar>("dual mortar", "mortar integrals, dual multipliers, which are condensed");
     formulations.add<StandardMortar>("standard mortar", "mortar integrals, multipliers interpolated like displacements, saddle point system");
-    formulations.add<VariationalMortar>("variational mortar",
-                                        "standard mortar whose normal forces are the gaps' derivatives and do no work while contact lasts; in the "
-                                        "plane; saddle point system");
+    formulations.add<VariationalMortar>(
+        "variational mortar",
+        "standard mortar whose normal forces are the gaps' derivatives and do no work while contact lasts; in 2D; saddle point system");
     formulations.add<NodeToSegment>("node to segment", "multipliers at slave nodes, saddle point system");
     formulations.add<Penalty>("penalty", "tractions in proportion to penetration and slip");
     formulations.add<AugmentedLagrange>("augmented lagrange", "penalty, its multipliers updated until nothing penetrates (Uzawa)");

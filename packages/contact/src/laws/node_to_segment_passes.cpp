@@ -4,7 +4,7 @@ namespace mortise {
 
 void NodeToSegment::describe(Parameters& parameters) {
   parameters.add("passes", passes, {{"single", Passes::single}, {"two", Passes::two}},
-                 "whether only slave nodes are kept from penetrating, or master nodes in a second pass as well");
+                 "single: slave nodes are kept from penetrating; two: master nodes as well, in a second pass");
 }
 
 }  // namespace mortise

@@ -7,10 +7,12 @@ void Penalty::describe(Parameters& parameters) {
   std::vector<std::pair<std::string, SharedCoupling>> choices;
   for (const SharedCoupling& one : coupling_registry())
     if (!one->has_forces_of_gaps()) choices.emplace_back(one->name(), one);
-  parameters.add("discretisation", discretisation, choices, "what tractions act through");
+  parameters.add("discretisation", discretisation, choices, "functions through which tractions act");
   parameters.add("stiffness", normal,
                  Says("traction per penetration, over Young's modulus of the softer side over the shortest slave facet").unit("-").above(0.0));
-  parameters.add("tangential stiffness", tangential, Says("the same per slip before sliding; default: `stiffness`").unit("-").above(0.0));
+  parameters.add(
+      "tangential stiffness", tangential,
+      Says("shear traction per slip before sliding, over the modulus per length of `stiffness`; default: `stiffness`").unit("-").above(0.0));
 }
 
 SharedEnforcement Penalty::enforcement() const { return std::make_shared<const PenaltyEnforcement>(normal, tangential.value_or(normal)); }

@@ -42,9 +42,9 @@ const double of_e = std::expm1(1.0);                   // e - 1
 
 double ExponentialPressure::onset() const { return curve == Curve::from_zero ? -clearance : -clearance * (1.0 + 1.0 / growth_from_hundredth); }
 
-// With s = h / c_0 + 1, the share of the clearance that is used up,
-//   from zero:         p = p_0 s (e^s - 1) / (e - 1)    for s > 0: slope 0 at the clearance
-//   from a hundredth:  p = p_0 e^(beta h)               for s > 0;   p = p_0 / 100 (1 + beta c_0 s) below, as far as it is positive
+// Pressure p of s = h / c_0 + 1, the share of the clearance that is used up. The two curves:
+//   From zero:         p = p_0 s (e^s - 1) / (e - 1)    for s > 0: slope 0 at the clearance
+//   From a hundredth:  p = p_0 e^(beta h)               for s > 0;   p = p_0 / 100 (1 + beta c_0 s) below, as far as it is positive
 PressurePoint ExponentialPressure::at(double overclosure) const {
   const double s = overclosure / clearance + 1.0;
   if (curve == Curve::from_zero) {
@@ -67,8 +67,8 @@ double ExponentialPressure::most_at(double value) const {
                                    : clearance / growth_from_hundredth * std::log(value / pressure);
 }
 
-// f(h) = p(h) + c h - s is convex and grows: from above its root Newton's method falls to it, until round-off stops it. p >= 0 and c h >= 0 for
-// touching surfaces bound the root, so that nothing overflows.
+// f(h) = p(h) + c h - s is convex and grows. From above its root Newton's method falls to it, until round-off stops it. As p >= 0 and c h >= 0 for
+// touching surfaces, the root is bounded and nothing overflows.
 PressurePoint ExponentialPressure::on_line(double sum, double c) const {
   if (!(sum > c * onset())) return {sum / c, 0.0, 0.0};
   PressurePoint point = at(std::min(sum / c, sum < pressure ? 0.0 : most_at(sum)));

@@ -8,7 +8,7 @@ namespace {
 /// The list "law" of the formulation.
 struct PressureLawList {
   Choice<PressureLaw>& law;
-  void describe(Parameters& parameters) { parameters.choose(law, pressure_law_registry(), "how the pressure grows with the overclosure"); }
+  void describe(Parameters& parameters) { parameters.choose(law, pressure_law_registry(), "kind of the curve of pressure over overclosure"); }
 };
 }  // namespace
 
@@ -17,7 +17,7 @@ void PressureOverclosure::describe(Parameters& parameters) {
   std::vector<std::pair<std::string, SharedCoupling>> choices;
   for (const SharedCoupling& one : coupling_registry())
     if (!one->has_forces_of_gaps()) choices.emplace_back(one->name(), one);
-  parameters.add("discretisation", discretisation, choices, "what tractions act through");
+  parameters.add("discretisation", discretisation, choices, "functions through which tractions act");
   parameters.add("tangential stiffness", tangential,
                  Says("shear traction per slip before sliding; default: the stiffness of a linear law, the slope of an exponential one where the "
                       "surfaces just touch, the steepest slope of a table")
@@ -33,12 +33,12 @@ SharedEnforcement PressureOverclosure::enforcement() const {
   return std::make_shared<const PressureOverclosureEnforcement>(law.options, tangential.value_or(law.options->typical_slope()));
 }
 
-// The condition z_n = p(h) at h = -g / w. For any c > 0 a point (h, z_n) is on the curve if and only if it is where the line through it of the slope
-// -c meets the curve, as p never falls (Minty 1962):
+// The condition is z_n = p(h) at h = -g / w, where p never falls. For any c > 0 a point (h, z_n) is on the curve if and only if it is where the line
+// through it of the slope -c meets the curve (Minty 1962):
 //   C_n = z_n - P(s),   s = z_n + c h,   P = p(h*),   p(h*) + c h* = s.
 // So the solution is that of the law whatever c is. But P grows no faster than s, dP/ds = p' / (p' + c) < 1 with p' = p'(h*), however steep the law
-// is, and z_n tells a node's place on the curve as well as its gap does: no trial gap makes an exponential overflow. For a linear law this is
-// regularised(). A node that is covered in part has the c that it has there.
+// is. And z_n tells a node's place on the curve as well as its gap does: no trial gap makes an exponential overflow. For a linear law this is
+// regularised(). A node that is covered in part has the c that it has there. Derivatives:
 //   dP = p' / (p' + c) (dz_n + c dh + (h - h*) dc),   dh = -dg / w - h dw / w,   dc = c dw / w   =>   c dh + (h - h*) dc = -c / w (dg + h* dw)
 Complementarity PressureOverclosureEnforcement::law(const ContactNode& node) const {
   const Frame frame = node.frame();

@@ -32,7 +32,7 @@ void copy_row(const Matrix& matrix, LocalOrdinal row, std::vector<LocalOrdinal>&
 // The sign and the weight that turn condition a, a traction, into a force.
 double own_row_scale(int a, const SlaveNode& slave, const NodeRow& node) { return a == 0 ? -slave.weight : -node.D; }
 
-// Conditions that do not stand in the place of the momentum of a fixed component.
+// True if a condition does not replace the momentum of a fixed component.
 bool in_own_rows(const RecoveryRow& kept, int a) { return std::find(kept.condition.begin(), kept.condition.end(), a) == kept.condition.end(); }
 
 void replace_row(Matrix& matrix, LocalOrdinal row, const std::vector<LocalOrdinal>& columns, const std::vector<double>& values) {
@@ -148,7 +148,7 @@ void detail::Condensation::eliminate_by_law(std::size_t p, std::size_t s, Matrix
 //   z^{k+1} = b + S dd.
 // Rows of the nodes m it is coupled to:  A_m += c_jm S,  rhs_m -= c_jm b.   Its own rows, in the frame (n, tau), turned back to x, y:
 //   normal       -A_j c_n dg dd = A_j c_n g
-//   tangential   without friction (tau . K~_j - D z . dtau) dd = tau . rhs_j,   sticking D_jj c_t du dd = -D_jj c_t u
+//   tangential   without friction (tau . K~_j - D z . dtau) dd = tau . rhs_j,   sticking D_jj c_t du dd = -D_jj c_t u.
 // A node with a fixed component f: the tangent along f gives z_f, row f stays Dirichlet's, and the free rows hold the other conditions.
 // Open nodes: z^{k+1} = 0, their rows stay momentum rows.
 // The rows of a corner hold the multipliers of its mid-side nodes too,  D_cc z_c + sum_m D_mc z_m = rhs_c - K~_c dd. Those of a mid-side node hold
@@ -253,7 +253,7 @@ void detail::Condensation::condense_node(std::size_t p, std::size_t s, Matrix& s
   recovery.push_back(std::move(kept));
 }
 
-// What the two functions above do to the right-hand side, in the same order.
+// Does to the right-hand side what the two functions above do, in the same order.
 void detail::Condensation::add_right_hand_side(RecoveryRow& kept, const SpatialVector& z, const SpatialVector& C, Vector& rhs) {
   const PairEvaluation& pair = this->pair(kept.pair);
   const int dimension = model().dimension;

@@ -9,20 +9,20 @@
 
 namespace mortise::detail {
 
-/// The affine map z^{k+1} = b + S dd of a closed node. Rows of S stand in the local columns of the system.
+/// The affine map z^{k+1} = b + S dd of a closed node. Columns of S are the local ones of the system.
 struct RecoveryRow {
   LocalOrdinal multiplier = 0;  ///< local index of the first component in z
   SpatialVector b;
   std::vector<LocalOrdinal> columns;
   std::array<std::vector<double>, 3> S;  ///< [dim]
 
-  // What makes b, and the node's right-hand side, from residuals. Of a node that is eliminated by its law  b = z - C_z^-1 C.
+  // Data that makes b, and the node's right-hand side, from residuals. Of a node that is eliminated by its law  b = z - C_z^-1 C.
   std::size_t pair = 0, node = 0;
   bool by_law = false;
   SpatialVector z, C;            ///< of the iterate
   SpatialMatrix inverse;         ///< C_z^-1; else E^-1 of condense_node()
   SpatialMatrix C_z, axes;       ///< [conditions x dim]; rows of `axes`: n, tau_a
-  std::array<int, 3> condition;  ///< [dim] which of the conditions stands in the place of the momentum of a fixed component; -1: none
+  std::array<int, 3> condition;  ///< [dim] the condition in place of the momentum of a fixed component; -1: none
 };
 
 /// One condensed system.
@@ -48,7 +48,7 @@ struct Condensation {
   void condense_right_hand_side(const Vector* C, Vector& rhs);
 };
 
-/// What ContactLinearisation::add_stiffness() adds for a pair of variational mortar beyond what the facets' dD and dM give.
+/// Adds the stiffness of a pair of variational mortar beyond what the facets' dD and dM give, as ContactLinearisation::add_stiffness() asks.
 void add_gap_stiffness(const EvaluatedLaws& laws, std::size_t pair, SystemScatter& scatter, Matrix& system);
 
 }  // namespace mortise::detail

@@ -1,4 +1,4 @@
-// How forces that are the gaps' derivatives change with the displacements.
+// Derivatives of those forces that are themselves derivatives of the gaps.
 
 #include <Tpetra_Vector.hpp>
 #include <algorithm>

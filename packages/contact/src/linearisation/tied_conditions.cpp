@@ -1,10 +1,10 @@
-// What the ties of hardly covered nodes add to the conditions and to their linearisation.
+// Contributions of the ties of hardly covered nodes to the conditions and to their linearisation.
 //
 // The conditions of node j see g_j + n_j . q_j and u_j - (T_j q_j - T_j^old q_j^old). Here q = S(d) z of MultiplierTies, and q^old is that of the
 // start of the step. With G_j = dC_j / dq_j
 //   dC_j = ... + G_j ( sum_k S_jk dz_k + (dS z)_j ).
 // The node's own compliance sigma_j dz_j stands in C_z of its law. The rest,  L (dd, dz),  couples multipliers of different nodes, also of different
-// ranks: it is left out where each node's multiplier is condensed by itself. What a receiver has of its own of the ties of others, T^2 sigma, belongs
+// ranks: it is left out where each node's multiplier is condensed by itself. The share of a receiver in the ties of others, T^2 sigma, belongs
 // to the rest: together with the tied node's multiplier it all but cancels.
 
 #include <Tpetra_CrsMatrix.hpp>

@@ -1,5 +1,5 @@
 #pragma once
-// How a facet carries vectors along while it moves, turns and stretches within a step.
+// Motion by which a facet carries vectors along while it moves, turns and stretches within a step.
 
 #include <vector>
 

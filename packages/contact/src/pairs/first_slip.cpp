@@ -11,11 +11,11 @@
 namespace mortise::detail {
 
 // A node that was not covered has nothing to compare its couplings with. Its slip is the motion since the start of the step relative to what it faces
-// now, each facet's part in the facet's own motion: with the vector from the master at the start,  W_e = sum_m c^e_jm X_m,  carried along by the
-// facet,  V_e = B_e B_e0^-1 W_e,
+// now. Each facet's part counts in the facet's own motion. W_e is the vector from the master at the start, V_e is W_e carried along by the facet:
+//   W_e = sum_m c^e_jm X_m,   V_e = B_e B_e0^-1 W_e,
 //   u_j = T_j r,   r = sum_e ( sum_m c^e_jm x_m - V_e ),   and the gap at the start  g_j^0 = -n_j . sum_e V_e.
-// A rigid motion turns both alike. Where there is an older coupling both measures agree to second order in the step: one compares the motion with
-// what the node faces at its end, the other with what it faced at its start.
+// A rigid motion turns both alike. Where there is an older coupling both measures agree to second order in the step. One compares the motion with
+// what the node faces at its end, the other with what it faced at its start. Derivative:
 //   dr = sum_e sum_m ( dc^e_jm (x_m - B_e B_e0^-1 X_m) + c^e_jm dx_m ) - sum_e d(B_e) B_e0^-1 W_e
 void Pair::measure_first_slip(const PairHistory& history, bool derivatives, PairGeometry& geometry) const {
   const SlipReferences& start = *history.slip;

@@ -39,7 +39,7 @@ boost::container::static_vector<std::size_t, 2> neighbours(std::size_t a, std::s
   return {ends[0], ends[1]};
 }
 
-// What a facet's coupling says of a value at one of its nodes, with its derivatives in the facet's columns.
+// Value of a facet's coupling at one of its nodes, with its derivatives in the facet's columns.
 struct Slope {
   double value = 0.0;
   Eigen::RowVectorXd gradient;  // empty without derivatives

@@ -12,13 +12,13 @@
 // Forces, D and M are what they are. Where hardly anything is covered, g_b ~ 0 leaves z_b -> sum_k T_bk z_k. The node's condition goes to its
 // neighbours, whose gaps become g_k + T_bk g_b: redistribution is the limit. Equal multipliers have r = 0: patch tests stay exact.
 //
-// All of it is a function of the state, C^1 in the cover from 0 to 1:
+// The factors are functions of the state, C^1 in the cover from 0 to 1.
 //   c_b^2 = sum_e (c^e_b)^2,   w_b = s^2 (3 - 2 s),   s = min(1, c_b / c_0),   sigma_b = (1 - w_b) a_b A_b h / E,
 //   T_bk = sum_e (d^e_b / sum_e' d^e'_b) (c^e_k + eta C) / sum_k' (c^e_k' + eta C),   d^e_b = int_e phi_b,   C = sum_k' c^e_k'.
 // Here c^e is the covered share FacetCoupling::cover, and k are the neighbours of b along the edges of facet e that carry multipliers. A node that a
 // whole facet covers is not tied. One beside the aligned edge of a master is not tied either. The factor
 //   a_b = sum_e d^e_b a^e / sum_e d^e_b
-// leaves out sides that stand off at a corner. FacetCoupling::alignment a^e falls from 1 to 0 while facet e at a kink stands on the master at 10 to
+// leaves out sides that stand off at a corner. FacetCoupling::alignment a^e falls from 1 to 0 while facet e at a kink rises from the master by 10 to
 // 20 degrees. The open node at the far end of such a side has no pressure to be compared with that of the corner. References: Burman (C. R. Math.
 // 348, 2010) for the ghost penalty of cut elements.
 
@@ -57,7 +57,7 @@ class MultiplierTies {
   void measure(const std::vector<FacetCoupling>& couplings, const std::vector<SlaveNode>& owned, const std::function<bool(std::size_t)>& covered,
                const Map& local_nodes, double full_cover, double softness, int dimension, bool derivatives);
 
-  /// Whether there are any, on any rank.
+  /// True if there are any, on any rank.
   bool any() const { return any_; }
   const std::vector<MultiplierTie>& ties() const { return ties_; }
   /// Owned slave nodes, then the others of their facets, by id.

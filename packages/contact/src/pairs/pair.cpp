@@ -39,7 +39,7 @@ Pair::Pair(RCP<const Map> owned_nodes, RCP<const MultiVector> reference, RCP<con
     for (const SurfaceFacet& facet : pair_.slave) slave_ids_.insert(facet.begin(), facet.end());
 }
 
-// Newton's method finds gaps to about 1e-8 h and pressures to about 1e-8 E on its way, and pressures of 1e-4 E and gaps of 1e-4 h are to be told from
+// On its way Newton's method finds gaps to about 1e-8 h and pressures to about 1e-8 E. Pressures of 1e-4 E and gaps of 1e-4 h have to differ from
 // 0. With c_n A_j = a E / h an error of the gap weighs 1e-8 a E beside such a pressure: a <= 1e4. An error of the pressure weighs 1e-8 E beside
 // 1e-4 a E of such a gap: a >= 1e-4. Beyond, errors of the iteration would choose the active set.
 void Pair::refuse_constant_out_of_range() const {

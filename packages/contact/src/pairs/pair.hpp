@@ -25,34 +25,34 @@ class Pair {
   int dimension() const { return dimension_; }
   const ContactPair& definition() const { return pair_; }
   const Enforcement& enforcement() const { return *enforcement_; }
-  /// Whether normal forces are the gaps' derivatives; then rows hold these after each evaluation.
+  /// True if normal forces are the gaps' derivatives; then rows hold these after each evaluation.
   bool has_forces_of_gaps() const { return pair_.options.mortar.coupling->has_forces_of_gaps(); }
   /// Null: the pair has no friction.
   const FrictionLaw* friction() const { return friction_; }
   const MortarInterface& interface() const { return *interface_; }
   const std::vector<SlaveNode>& slave_nodes() const { return interface_->slave_nodes(); }
-  /// Which rule acts at kinks of the slave surface: averaged where the geometry is frozen.
+  /// Rule at kinks of the slave surface: averaged where the geometry is frozen.
   CornerRule corner_rule() const;
-  /// Whether the geometry is that of the reference configuration.
+  /// True if the geometry is that of the reference configuration.
   bool uses_reference() const { return pair_.options.geometry == ContactGeometry::reference; }
   /// Element size h of the scaling and of the start rule.
   double size() const { return size_; }
   /// c_n of slave node s: unless given E / (h A_j) times Enforcement::relative_constant().
   double complementarity_constant(std::size_t s) const;
-  /// c of exact conditions for slips and for the pressure of friction's bound: that, but no more than E / (h A_j).
+  /// c of exact conditions for slips and for the pressure of friction's bound: that, but at most E / (h A_j).
   double friction_constant(std::size_t s) const;
-  /// Whether the multiplier of slave node s is condensed before those of corners, whose momentum rows it stands in: that of a mid-side node.
+  /// True if the multiplier of slave node s acts in momentum rows of corners and is condensed before theirs: that of a mid-side node.
   bool before_corners(std::size_t s) const { return slave_nodes()[s].middle && enforcement_->needs_diagonal_coupling(); }
-  /// Whether hardly covered nodes are tied.
+  /// True if hardly covered nodes are tied.
   bool has_ties() const { return pair_.options.full_cover > 0.0 && enforcement_->takes_ties(); }
-  /// Whether slave node s has a multiplier and its function anything to act on: D_jj > 0, of standard multipliers sum_k D_jk. What is round-off of a
+  /// True if slave node s has a multiplier and its function anything to act on: D_jj > 0, of standard multipliers sum_k D_jk. Round-off of a
   /// facet that is not covered is no part of it: see FacetMoments.
   bool covered(std::size_t s, const NodeRow& row) const;
-  /// Whether conditions depend on what is covered of a node.
+  /// True if conditions depend on what is covered of a node.
   bool needs_covered() const { return enforcement_->depends_on_weight() || has_clearances(); }
-  /// Whether anything is added to the gaps that are drawn.
+  /// True if anything is added to the gaps that are drawn.
   bool has_clearances() const { return pair_.options.clearance.has_value() || pair_.facet_gaps != nullptr; }
-  /// How often slips were measured on this rank, over all calls.
+  /// Number of slip measurements on this rank, over all calls.
   long slip_evaluations() const { return slip_evaluations_; }
 
   /// The history before anything was evaluated: no reference for slips, and axes of the tangents of partly fixed nodes only.

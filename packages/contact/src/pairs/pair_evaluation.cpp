@@ -51,7 +51,7 @@ Eigen::Index PairEvaluation::held_tangents(std::size_t s) const {
   return std::count(node.fixed.begin(), node.fixed.end(), true);
 }
 
-// Of a node that was not covered the gap at the start is that of the surfaces alone. One that was covered slips from the start of the step on: where
+// Of a node that was not covered the gap at the start is that of the surfaces alone. One that was covered slips from the start of the step on. Where
 // it is about to close it holds its body along the surface from the first iterate on, when it bears no pressure yet.
 double PairEvaluation::start_gap(std::size_t s) const {
   const NodeSlip& slip = geometry_->slips[s];
@@ -144,8 +144,8 @@ double PairEvaluation::slip_path(std::size_t s, ContactState state) const {
   return start.paths[s] + geometry_->slips[s].slip.norm() / row(s).covered;
 }
 
-// Couplings of a node that is hardly covered are no measure of what it faces at the end of the next step: a slip would have next to no weight beside
-// what gaps that vary along a facet leave of sum_m c_jm x_m.
+// Couplings of a node that is hardly covered are no measure of what it faces at the end of the next step. A slip would have next to no weight beside
+// the error of sum_m c_jm x_m from gaps that vary along a facet.
 std::shared_ptr<const SlipReferences> PairEvaluation::slip_references(const std::vector<NodeMultiplier>& multipliers,
                                                                       const std::vector<ContactState>& states, std::vector<double> paths,
                                                                       const RCP<const MultiVector>& start) const {

@@ -54,7 +54,7 @@ class PairEvaluation {
   /// The sum of that force over the slave side.
   SpatialVector resultant(std::size_t s, const SpatialVector& z) const;
 
-  /// What is added to the gap at slave node s, as a mean.
+  /// Clearance that is added to the gap at slave node s, as a mean.
   double clearance(std::size_t s) const { return history().clearances.empty() ? 0.0 : history().clearances[s]; }
   /// g of slave node s, with its clearance and beyond the overlap that is allowed: g_j + c_j sum_k D_jk.
   double own_gap(std::size_t s) const {
@@ -79,8 +79,8 @@ class PairEvaluation {
   double closing_pressure(std::size_t s) const { return constant(s) * gap_to_onset(s); }
   /// The complementarity constant of the node in this step [traction / weighted gap].
   double constant(std::size_t s) const { return pair_->complementarity_constant(s) * history().constant_share; }
-  /// Whether the multiplier of node s is eliminated by its conditions and not by its momentum. So it is where the enforcement has it so, and
-  /// that of a tied node of which so little is covered, D_jj < (1 - w) A_j, that its tie is the larger pivot.
+  /// True if the multiplier of node s is eliminated by its conditions and not by its momentum. The enforcement may ask for that. It is also so for
+  /// a tied node of which so little is covered, D_jj < (1 - w) A_j, that its tie is the larger pivot.
   bool is_eliminated_by_law(std::size_t s) const {
     return !pair_->enforcement().needs_diagonal_coupling() || row(s).D * pair_->size() < ties().compliance(s) * pair_->definition().youngs_modulus;
   }
@@ -97,19 +97,19 @@ class PairEvaluation {
 
   /// Of pairs with updates, as a force over A_j: how far z of node s is from what its conditions give.
   double mismatch(std::size_t s, const NodeMultiplier& multiplier) const;
-  /// The same with lambda = z, what an update and the next solve begin with: eps g / w of a closed node, eps u / w of one that sticks. Less than
-  /// `resolution` in gap or slip [length] is none.
+  /// Mismatch with lambda = z, with which an update and the next solve begin: eps g / w of a closed node, eps u / w of one that sticks. Less
+  /// than `resolution` in gap or slip [length] is none.
   double change_of_update(std::size_t s, const NodeMultiplier& multiplier, double resolution) const;
   /// |z_j| w / A_j.
   double traction(std::size_t s, const NodeMultiplier& multiplier) const;
   /// The largest of mismatch() that a gap or slip of `resolution` [length] makes.
   double mismatch_of(double resolution) const;
-  /// What conditions start from that take over the multiplier z of node s. Where they start from multipliers.
+  /// Start of conditions that take over the multiplier z of node s, where they start from multipliers.
   NodeStart start_from(std::size_t s, const SpatialVector& z) const;
-  /// What the cover says of stiffening.
+  /// Sets the stiffening that follows from the cover.
   void set_stiffness(std::size_t s, NodeStart& start) const;
 
-  /// What later slips are measured against from this state on. Friction only.
+  /// References of later slips from this state on. Friction only.
   /// @param multipliers  [slave nodes]
   /// @param states       [slave nodes]
   /// @param paths        [slave nodes]
@@ -127,7 +127,7 @@ class PairEvaluation {
   ContactNode unloaded_node(std::size_t s) const { return node(s, SpatialVector(SpatialVector::Zero(dimension()))); }
   /// Along how many of its tangents, the first ones, the displacement of node s is prescribed.
   Eigen::Index held_tangents(std::size_t s) const;
-  /// How far z is from the return map from lambda; in all of |z - z'|.
+  /// Distance of z from the return map from lambda; in all of |z - z'|.
   double distance_to_return_map(const ContactNode& node) const;
   /// C and its linearisation at fixed q.
   Complementarity law_of(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* missing_bound) const;
@@ -138,8 +138,8 @@ class PairEvaluation {
   std::size_t index_;
 };
 
-/// What `change`, the largest change_of_update() over all ranks, and those of earlier rounds and steps say of the error of the multipliers. None:
-/// nothing yet.
+/// Error of the multipliers that follows from `change`, the largest change_of_update() over all ranks, and those of earlier rounds and steps. None:
+/// not known yet.
 std::optional<double> error_of_multipliers(const Settling& settling, double change, int round);
 /// From then on updates shall converge as fast as those of a body as stiff as its facets; before the multipliers are updated.
 Settling settled(const Settling& settling, double change, int round);

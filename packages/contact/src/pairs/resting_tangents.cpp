@@ -11,8 +11,8 @@ namespace mortise::detail {
 
 // A weighted slip is a mean over what a node stands for. On a plane of symmetry that is half of the whole: next to the plane the surfaces slide away
 // from it on either side, and on it nothing moves. So the node slips along a component that is prescribed only if the node itself moves in this step,
-// or what it faces does. The master does not where all that the node is coupled to is prescribed and stays, as a rigid body, or where a node of it
-// that is held stands on the plane. All these are prescribed: they do not change with the solution, and have no derivatives.
+// or what it faces does. The master stays where all that the node is coupled to is prescribed and stays, as a rigid body. It also stays where a
+// held node of it lies on the plane. All these are prescribed: they do not change with the solution, and have no derivatives.
 void Pair::find_resting(PairGeometry& geometry) const {
   if (!any_held_) return;
   constexpr double not_at_all = 1e-12, on_the_plane = 1e-6;  // of a facet

@@ -73,7 +73,7 @@ std::optional<unsigned long> crc_of(const Communicator& comm, const std::string&
   return crc;
 }
 
-/// What rank 0 finds at the end of a file: the bytes before the last line and their checksum; or why it is no checkpoint.
+/// End of a file, as rank 0 finds it: the bytes before the last line and their checksum; or why it is no checkpoint.
 struct LastLine {
   long long bytes = 0;
   unsigned long crc = 0;
@@ -119,7 +119,7 @@ struct CheckpointWriter::Implementation {
   RCP<const Communicator> comm;
   std::string path;
   Hdf5File file;
-  std::set<std::string> ids;  ///< that stand in the file
+  std::set<std::string> ids;  ///< in the file
 };
 
 CheckpointWriter::CheckpointWriter(RCP<const Communicator> comm, std::string path)
@@ -217,7 +217,7 @@ struct CheckpointReader::Implementation {
 
   void agree(const std::optional<std::string>& reason) const { throw_if_any_file_error(*comm, "cannot read the checkpoint", path, reason); }
 
-  /// Whether a dataset has all its values in one piece of this file, as those do that are written. No size that a file claims for more than it has
+  /// True if a dataset has all its values in one piece of this file, as all written ones do. No size that a file claims for more than it has
   /// is believed, nothing is taken from another file.
   bool lies_in_file(hid_t dataset, hsize_t rows, hsize_t columns, std::size_t value_size) const {
     const hsize_t room = bytes / value_size;

@@ -1,5 +1,5 @@
 #pragma once
-// The HDF5 files of fields: their names, and what a step's file says of itself.
+// The HDF5 files of fields: their names, and the description in a step's file.
 
 #include <optional>
 #include <string>
@@ -17,17 +17,17 @@ std::string step_file(int step);
 /// The step whose file has this name, or nothing; `name` begins with the directory.
 std::optional<int> step_of_file(const std::string& name);
 
-/// Whether a writer of fields makes a file of this name, complete or in the making.
+/// True if a writer of fields makes a file of this name, complete or in the making.
 bool is_field_file(const std::string& name);
 
-/// What a field is, without its values.
+/// A field without its values.
 struct StoredField {
   std::string name;
   Field::Center center = Field::Center::node;
   FieldKind kind = FieldKind::scalar;
 };
 
-/// What a step's file holds: attributes `step` and `time` of the file, `kind` and `center` of each dataset.
+/// Description in a step's file: attributes `step` and `time` of the file, `kind` and `center` of each dataset.
 struct StoredStep {
   int step = 0;
   double time = 0.0;

@@ -26,7 +26,7 @@ long long xdmf_cell(CellShape shape) {
   return visit_cell(shape, [](auto cell) -> long long { return decltype(cell)::xdmf_number; });
 }
 
-/// Which of a cell's nodes stands where in XDMF, whose orders are those of VTK. VTK's wedges begin with the triangle that has the others' normals
+/// Order of a cell's nodes in XDMF, whose orders are those of VTK. VTK's wedges begin with the triangle that has the others' normals
 /// turned round, outward: bottom and top change places.
 std::vector<int> xdmf_order(CellShape shape) {
   return visit_cell(shape, [](auto cell) {
@@ -164,7 +164,7 @@ struct FieldWriter::Implementation {
     file.close();
   }
 
-  /// Whether the mesh's file is there. If it is, it has to be that of this mesh.
+  /// True if the mesh's file is there. If it is, it has to be that of this mesh.
   bool has_mesh() const {
     int is_there = 0;
     std::error_code error;

@@ -1,5 +1,5 @@
 #pragma once
-// What a FieldWriter left in a directory, read back on one rank.
+// Files of a FieldWriter in a directory, read back on one rank.
 
 #include <functional>
 #include <string>
@@ -22,7 +22,7 @@ struct StoredBlock {
 /// Mesh and steps below a directory. Throws FileError for what is missing or damaged.
 class StoredRun {
  public:
-  /// Reads names, sizes and what each step's file says of itself.
+  /// Reads names, sizes and the description in each step's file.
   explicit StoredRun(std::string directory);
 
   std::string path(const std::string& name) const { return directory_ + "/" + name; }

@@ -25,7 +25,7 @@ std::string xdmf_head(const XdmfMesh& mesh);
 /// The grid of one step.
 std::string xdmf_step(const XdmfMesh& mesh, const StoredStep& step);
 
-/// Reads the names of bodies from the head of a file, which does not have to be whole. What cannot be read is left out.
+/// Reads the names of bodies from the head of a file, which does not have to be whole. Unreadable names are left out.
 void read_body_names(const std::string& path, std::vector<std::string>& names);
 
 /// The end tags of what the head opens.

@@ -21,10 +21,10 @@
 namespace mortise {
 namespace {
 
-/// Who only asks whether a lock is held holds it for an instant; a process that was killed takes a while to end.
+/// A process that only asks whether a lock is held holds it for an instant; a process that was killed takes a while to end.
 constexpr auto patience = std::chrono::milliseconds(500), pause_between_tries = std::chrono::milliseconds(20);
 
-/// What the file says of the process that holds the lock.
+/// The process that holds the lock, as its file describes it.
 struct LockHolder {
   std::string host;
   long process = 0;
@@ -70,7 +70,7 @@ std::string being_written(const std::optional<LockHolder>& holder) {
   return fmt::format("it is being written by {}; please wait, or choose another directory", by);
 }
 
-/// Whether the file system has no locks, rather than one that is held.
+/// True if the file system has no locks, rather than one that is held.
 bool has_no_locks(int error) { return error == ENOLCK || error == EOPNOTSUPP || error == ENOTSUP || error == ENOSYS; }
 
 /// Why a lock whose file names this holder is held, where the file alone is the lock.
@@ -80,7 +80,7 @@ std::optional<std::string> held_by_name(const std::optional<LockHolder>& holder,
   return fmt::format("{}. If that process has ended, please remove {}", being_written(holder), path);
 }
 
-/// Whether the path still leads to the open file: who gives a lock up removes its file.
+/// True if the path still leads to the open file: a process that gives a lock up removes its file.
 bool is_still_at(int file, const std::string& path) {
   struct stat open_file {
   }, at_path{};

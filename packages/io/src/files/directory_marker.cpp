@@ -21,7 +21,7 @@ const std::string holds_line = "# holds: ", source_line = "# of: ", unfinished =
 
 bool begins_with(const std::string& text, const std::string& begin) { return text.compare(0, begin.size(), begin) == 0; }
 
-/// What is at a path itself, without following a link.
+/// Type of the file at a path itself, without following a link.
 fs::file_type type_of(const fs::path& path) {
   std::error_code error;
   return fs::symlink_status(path, error).type();
@@ -35,7 +35,7 @@ bool is_there(const fs::path& path) {
 /// Files that belong to the marker.
 std::vector<std::string> own_files() { return {marker_name, marker_name + unfinished, lock_name}; }
 
-/// Whether nothing is in a directory but files that belong to a marker.
+/// True if a directory holds only files that belong to a marker.
 bool is_vacant(const fs::path& directory) {
   const auto own = own_files();
   std::error_code error;
@@ -44,7 +44,7 @@ bool is_vacant(const fs::path& directory) {
   return !error;
 }
 
-/// Whether a listed name is that of a file: it is the same, or has digits where the listed one has `*`.
+/// True if a listed name is that of a file: the names are equal, or the file's has digits where the listed one has `*`.
 bool is_of(const std::string& listed, const std::string& name) {
   const std::size_t star = listed.find('*');
   if (star == std::string::npos || listed == name) return listed == name;

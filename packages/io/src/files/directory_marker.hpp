@@ -1,5 +1,5 @@
 #pragma once
-// What the program made in a directory, as a file there tells it.
+// List of the files that the program made in a directory, kept in a file there.
 
 #include <optional>
 #include <string>
@@ -17,7 +17,7 @@ struct DirectoryMarker {
   std::string source;  ///< file that they are of, relative to the directory; empty: none
   std::vector<std::string> names;
 
-  /// Whether `name` is listed, or is the unfinished form ("x.part") of a name that is.
+  /// True if `name` is listed, or is the unfinished form ("x.part") of a name that is.
   bool lists(const std::string& name) const;
 };
 
@@ -28,20 +28,20 @@ std::optional<DirectoryMarker> read_marker(const std::string& directory, std::op
 /// Replaces the marker at once. Returns why it could not.
 std::optional<std::string> write_marker(const std::string& directory, const DirectoryMarker& marker);
 
-/// Whether `name` is there and nothing says that the program made it. A directory that is listed has to have a marker of its own, or to be empty.
+/// True if `name` is there and nothing says that the program made it. A directory that is listed has to have a marker of its own, or to be empty.
 bool is_foreign(const std::string& directory, const DirectoryMarker& marker, const std::string& name);
 
-/// Whether what a list calls `listed` is there; of a series any of its files.
+/// True if the file that a list calls `listed` is there; of a series any of its files.
 bool is_made(const std::string& directory, const std::string& listed);
 
 /// Why what is listed cannot be removed as a whole: someone writes below. Touches nothing.
 std::optional<std::string> busy_below(const std::string& directory, const std::vector<std::string>& names);
 
-/// Removes what is listed, and in directories what their markers list, and no more. Follows no symbolic link. Leaves in `names` those of directories
+/// Removes only what is listed, and in directories only what their markers list. Follows no symbolic link. Leaves in `names` those of directories
 /// that stay, as they hold what is not listed. Returns why something could not be removed.
 std::optional<std::string> remove_listed(const std::string& directory, std::vector<std::string>& names);
 
-/// Whether this can be the name of a file in a directory, and a line of a marker.
+/// True if this can be the name of a file in a directory, and a line of a marker.
 bool is_plain_name(const std::string& name);
 
 }  // namespace mortise

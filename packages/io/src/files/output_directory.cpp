@@ -34,7 +34,7 @@ std::optional<std::string> foreign_among(const std::string& directory, const Dir
   return {};
 }
 
-/// What a run of the program, or an earlier version of it, may have made in the directory.
+/// Files that a run of the program, or an earlier version of it, may have made in the directory.
 std::vector<std::string> run_files(const std::string& directory) {
   std::vector<std::string> names;
   std::error_code error;
@@ -113,7 +113,7 @@ bool is_run_file(const std::string& name) {
   return std::any_of(names.begin(), names.end(), [&](const char* known) { return name == known || name == std::string(known) + ".part"; });
 }
 
-/// What copies share. Only rank 0 reads and writes the marker and holds the lock.
+/// Shared state of copies. Only rank 0 reads and writes the marker and holds the lock.
 struct OutputDirectory::State {
   RCP<const Communicator> comm;
   std::string path;

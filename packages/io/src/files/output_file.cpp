@@ -21,7 +21,7 @@ OutputFile output_file(const std::string& path, const std::vector<std::string>& 
   if (!has_ending)
     throw InputError({}, fmt::format("\"{}\" cannot be the name of the file to write; please give one that ends in {}",
                                      without_control_characters(path), fmt::join(endings, " or ")));
-  // What is written first has ".part" behind its name.
+  // The unfinished file has ".part" behind its name.
   if (!is_plain_name(name + ".part") || name.find('*') != std::string::npos)
     throw InputError({}, fmt::format("\"{}\" cannot be the name of a file: it begins with #, has a * or a control character, or is too long",
                                      without_control_characters(name)));

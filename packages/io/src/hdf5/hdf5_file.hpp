@@ -17,8 +17,8 @@ namespace mortise {
 /// FileError on all ranks.
 ///
 /// The library's parallel driver waits for other ranks within its calls, as when metadata is flushed. A rank that fails there leaves the others
-/// waiting for ever. So rank 0 alone calls the library, which lays out the file. Each rank writes its rows to the place that the library chose. Ranks
-/// communicate only to agree, after what can fail is done.
+/// waiting without end. So rank 0 alone calls the library, which lays out the file. Each rank writes its rows to the place that the library chose.
+/// Ranks communicate only to agree, after what can fail is done.
 class Hdf5File {
  public:
   using Attribute = std::variant<double, long long, std::string>;

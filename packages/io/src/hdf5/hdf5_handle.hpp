@@ -24,11 +24,11 @@ class Hdf5Handle {
   herr_t (*close_)(hid_t);
 };
 
-/// How one rank opens a file by itself. The library's locks are off: files in the making have names that nobody reads, and finished ones do not
-/// change.
+/// Access of one rank that opens a file by itself. The library's locks are off: files in the making have names that nobody reads, and finished ones
+/// do not change.
 Hdf5Handle hdf5_access();
 
-/// What the HDF5 library last complained of: the words of the operating system if it said some, or else the deepest cause. To be asked before any
+/// Last error message of the HDF5 library: the words of the operating system if there are any, or else the deepest cause. To be asked before any
 /// other call of the library.
 std::string hdf5_reason();
 

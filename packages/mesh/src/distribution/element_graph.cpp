@@ -8,7 +8,7 @@
 namespace mortise {
 namespace {
 
-/// What a cut between elements that face one another costs, where one between elements with a side in common costs 1. More leaves METIS, which
+/// Cost of a cut between elements that face one another, where one between elements with a side in common costs 1. More leaves METIS, which
 /// balances two weights, with rougher parts on many ranks.
 constexpr idx_t weight_across_contact = 2;
 

@@ -1,5 +1,5 @@
 #pragma once
-// Which elements face one another across contact.
+// Elements that face one another across contact.
 
 #include <array>
 #include <vector>

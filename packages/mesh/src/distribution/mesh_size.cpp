@@ -1,4 +1,4 @@
-// How large a mesh is over all ranks.
+// Size of a mesh over all ranks.
 
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Map.hpp>

@@ -39,7 +39,7 @@ Collapsed wedge(const SweptComplex& complex, const CellNodes& nodes, CellShape s
   return {shape, {corners.begin(), corners.end()}};
 }
 
-/// What is left of a cell whose corner c is the one of corner c + n, n half of them, where on_axis[c]. None: nothing.
+/// Rest of a cell whose corner c is the one of corner c + n, n half of them, where on_axis[c]. None: nothing is left.
 std::optional<Collapsed> collapse(const SweptComplex& complex, const CellNodes& nodes, const std::vector<char>& on_axis, const Place& place) {
   const CellShape shape = complex.shape();
   const int below = topology(shape).corners / 2;  // corners of the profile's element

@@ -9,7 +9,7 @@ void describe_cells(Parameters& parameters, int& cells, GradingOptions& grading,
                      .at_least(0)
                      .at_most(most_cells)
                      .formerly(former_cells_name));
-  parameters.list(grading_name, grading, Says("how the cells are graded " + direction).formerly(former_grading_name));
+  parameters.list(grading_name, grading, Says("grading of the cells " + direction).formerly(former_grading_name));
   if (cells == 0 && !grading.smallest_cell)
     parameters.error(cells_name, "give \"" + cells_name + "\", or a \"smallest cell\" in \"" + grading_name + "\"");
   if (cells != 0 && grading.smallest_cell)

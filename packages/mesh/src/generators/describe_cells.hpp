@@ -1,5 +1,5 @@
 #pragma once
-// What generators say alike about numbers of cells.
+// Parameters for numbers of cells that generators share.
 
 #include <string>
 

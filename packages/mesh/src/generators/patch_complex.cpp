@@ -231,7 +231,7 @@ std::vector<GlobalOrdinal> PatchComplex::elements_of_node(GlobalOrdinal node) co
 std::vector<SurfaceSide> PatchComplex::surface_sides(GlobalOrdinal element) const {
   const auto [p, i, j] = cell_of(element);
   const std::array<bool, 4> at_edge{j == 0, i == 2 * cells_i(p) - 2, j == 2 * cells_j(p) - 2, i == 0};
-  // Which triangle (0 or 1) of a cut cell has the cell's side, and as which of its own: diagonal 0-2 in every second cell, else 1-3.
+  // The triangle (0 or 1) of a cut cell that has the cell's side, and its own side there: diagonal 0-2 in every second cell, else 1-3.
   constexpr std::array<std::array<int, 2>, 4> even{{{0, 0}, {0, 1}, {1, 1}, {1, 2}}}, odd{{{0, 0}, {1, 0}, {1, 1}, {0, 2}}};
   std::vector<SurfaceSide> sides;
   for (int slot = 0; slot < 4; ++slot) {

@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// How an arc of radius r rounds the corner p between a and b: it starts and ends at the distance r tan(turn / 2) from p.
+/// Arc of radius r that rounds the corner p between a and b: it starts and ends at the distance r tan(turn / 2) from p.
 struct Rounding {
   Vector2d start = Vector2d::Zero(), end = Vector2d::Zero(), center = Vector2d::Zero();
   double setback = 0.0, sweep = 0.0;

@@ -50,8 +50,8 @@ struct SideAtEdge {
   Position normal;  ///< there
 };
 
-/// Pairs of sides on this rank that share an edge with an owned node, and how they meet there: every pair is found on a rank that owns a node of its
-/// edge.
+/// Pairs of sides on this rank that share an edge with an owned node, and how they meet there. Every pair is found on a rank that owns a node of
+/// its edge.
 std::vector<std::array<SideAtEdge, 2>> neighbours(const Mesh& mesh, const SideSet& set) {
   std::map<std::array<LocalOrdinal, 2>, std::vector<SideAtEdge>> sides_of_edge;
   for (std::size_t s = 0; s < set.sides.size(); ++s) {
@@ -105,8 +105,8 @@ Position normal_of(const Mesh& mesh, const Side& side) {
   return normal;
 }
 
-// Each side begins with its own number. The least number of neighbours is taken over until nothing changes: on this rank at once, from rank to rank
-// by rounds, of which there are as many as a patch crosses ranks.
+// Each side begins with its own number. The least number of neighbours is taken over until nothing changes: on this rank at once, and from rank to
+// rank by rounds. There are as many rounds as a patch crosses ranks.
 std::vector<GlobalOrdinal> patches_of(const Mesh& mesh, const SideSet& set, double angle) {
   std::vector<GlobalOrdinal> patch;
   for (const Side& side : set.sides) patch.push_back(side_number(mesh, side));

@@ -81,7 +81,7 @@ namespace {
 /// The list "profile".
 struct ProfileList {
   Choice<PlaneMesh>& mesh;
-  void describe(Parameters& parameters) { parameters.choose(mesh, plane_mesh_registry(), "its shape in the plane"); }
+  void describe(Parameters& parameters) { parameters.choose(mesh, plane_mesh_registry(), "shape of this mesh"); }
 };
 
 }  // namespace
@@ -120,7 +120,8 @@ ShellComplex ExtrudedMesh::build_surface(const Place& place) const {
 
 void RevolvedMesh::describe_shape(Parameters& parameters) {
   describe_profile(parameters, "the mesh of the half plane z = 0, x >= 0 that is turned about the y axis; its sides keep their names");
-  parameters.add("angle", angle, Says("how far it is turned, from the x axis (\"start\") toward the z axis").unit("degrees").above(0.0).below(360.0));
+  parameters.add("angle", angle,
+                 Says("angle by which it is turned, from the x axis (\"start\") toward the z axis").unit("degrees").above(0.0).below(360.0));
   describe_cells(parameters, cells_around, grading_around, "cells around", "grading around", "from start to end (sizes where the radius is largest)");
 }
 
@@ -147,7 +148,7 @@ std::array<double, 2> reach_of(const PlaneComplex& plane, const Place& place) {
   return {least, most};
 }
 
-/// How far and in how many layers a profile is turned, by its largest x.
+/// Angle and layers by which a profile is turned, by its largest x.
 Turn turn_of(const RevolvedMesh& mesh, double most, const Place& place) {
   const double angle = mesh.angle * boost::math::constants::pi<double>() / 180.0;
   return {mesh.grading_around.spacing(most * angle, mesh.cells_around, place), {angle}};

@@ -1,5 +1,5 @@
 #pragma once
-// What a body of a mesh file has to fulfil before anything is computed with it.
+// Conditions that a body of a mesh file has to fulfil before anything is computed with it.
 
 #include <optional>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// Which cells of a mesh file make a body.
+// Cells of a mesh file that make a body.
 
 #include <string>
 #include <vector>

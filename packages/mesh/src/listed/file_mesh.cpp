@@ -19,9 +19,8 @@ void FileMesh::describe_shape(Parameters& parameters) {
                  "format of the file; by name: .exo, .e, .g and the like are Exodus II, .msh is Gmsh, .inp is Abaqus or CalculiX");
   parameters.add("blocks", blocks, "element blocks, physical groups or element sets of the file that make the body; empty: all of its cells");
   parameters.add("piece", piece,
-                 "of parts that have no node in common the one with the node nearest to this point, \"x, y\" or \"x, y, z\" in the coordinates of "
-                 "the file; empty: all, "
-                 "which have to be one piece");
+                 "a point, \"x, y\" or \"x, y, z\" in the coordinates of the file. It selects one of several parts that have no node in common: the "
+                 "one with the node nearest to it. Empty: all cells, which have to be one piece");
   if (!piece.empty() && piece.size() != 2 && piece.size() != 3) {
     parameters.error("piece", fmt::format("is \"{}\"; it needs two or three numbers", fmt::join(piece, ", ")));
     piece.clear();

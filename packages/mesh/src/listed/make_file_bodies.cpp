@@ -77,7 +77,7 @@ ListedBody header(Letter& letter) {
   return body;
 }
 
-/// Which body has each node of a file.
+/// The body of each node of a file.
 class NodesOfBodies {
  public:
   explicit NodesOfBodies(const MeshFile& file) : file_(file), first_(file.coordinates.size(), -1) {}

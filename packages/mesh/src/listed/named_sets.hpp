@@ -26,7 +26,7 @@ struct BodySets {
 /// @param sides  of the elements
 BodySets name_sets(const MeshFile& file, const FileBodyRequest& request, const ChosenCells& chosen, const SideTable& sides);
 
-/// The same of cells that are facets of a surface: each is a side, and sets of them are sets of sides.
+/// Names cells that are facets of a surface: each is a side, and sets of them are sets of sides.
 BodySets name_facets(const MeshFile& file, const FileBodyRequest& request, const ChosenCells& chosen);
 
 }  // namespace mortise

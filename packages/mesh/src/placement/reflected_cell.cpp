@@ -8,8 +8,8 @@
 namespace mortise {
 namespace {
 
-/// Where a reflection takes a place in the reference cell: cells with a right angle between the first two directions are symmetric in these; cubes,
-/// squares and lines have the first direction turned round, which keeps the plane across it.
+/// Reflection of a place in the reference cell. Cells with a right angle between the first two directions are symmetric in these. Cubes, squares and
+/// lines have the first direction turned round, which keeps the plane across it.
 template <class Cell>
 std::array<double, Cell::dimension> reflected(std::array<double, Cell::dimension> xi) {
   constexpr bool is_symmetric_in_two = Cell::dimension > 1 && Cell::centroid[0] != 0.0;

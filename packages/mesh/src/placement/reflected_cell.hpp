@@ -13,7 +13,7 @@ struct ReflectedCell {
   std::vector<int> sides;  ///< [sides] side s of the cell as it was is side sides[s] of the reflected one
 };
 
-/// One object for each shape, which lives for ever.
+/// One constant object for each shape.
 const ReflectedCell& reflected_cell(CellShape shape);
 
 }  // namespace mortise

@@ -25,7 +25,7 @@ Place place_of_line(const std::string& file, std::int64_t line) {
 }
 
 ByteStream::ByteStream(std::string path) : path_(std::move(path)), file_(nullptr, std::fclose), buffer_(buffer_bytes) {
-  // Before it is opened: to open a pipe may wait for ever.
+  // Before it is opened: to open a pipe may block without end.
   struct stat status {};
   if (stat(path_.c_str(), &status) != 0) refuse_to_read(path_, std::strerror(errno));
   if (!S_ISREG(status.st_mode)) refuse_to_read(path_, S_ISDIR(status.st_mode) ? "it is a directory" : "it is no regular file");

@@ -26,7 +26,7 @@ class ByteStream {
     if (byte == '\n') ++lines_ended_;
     return byte;
   }
-  /// The same, which stays the next one.
+  /// The next byte, which stays the next one; -1 at the end.
   int peek() { return at_ == end_ && !fill() ? -1 : static_cast<unsigned char>(buffer_[at_]); }
   /// Copies the next bytes, or returns false if there are not so many.
   bool read(void* to, std::size_t bytes);

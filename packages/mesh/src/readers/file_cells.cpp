@@ -9,7 +9,7 @@
 namespace mortise {
 namespace {
 
-constexpr std::size_t most_errors = 10;  ///< that are told together
+constexpr std::size_t most_errors = 10;  ///< that are reported together
 
 std::array<int, 2> in_order(std::array<int, 2> edge) { return {std::min(edge[0], edge[1]), std::max(edge[0], edge[1])}; }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the readers of mesh files share: cells and sets in the making, orders of nodes, numbers in text, errors.
+// Common parts of the readers of mesh files: cells and sets in the making, orders of nodes, numbers in text, errors.
 
 #include <array>
 #include <cstdint>

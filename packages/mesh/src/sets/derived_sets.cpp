@@ -21,24 +21,24 @@ namespace mortise {
 
 void SetOptions::describe(Parameters& parameters) {
   parameters.add("of", of, Says("the sets it is taken from, their union: \"body/side\", or \"body\" for all nodes of a body").required());
-  parameters.add("also in", also_in, "kept is only what is in each of these sets too");
-  parameters.add("not in", not_in, "what is in any of these sets is left out");
+  parameters.add("also in", also_in, "sets that contain each node or side that is kept");
+  parameters.add("not in", not_in, "sets that contain no node or side that is kept");
   parameters.add("where", where,
                  Says("expression of x, y and z; kept are nodes, or sides by their middle, where it is > 0 in the reference position"));
   parameters.add("box", box,
-                 Says("kept is what lies in this box: its lowest and its highest corner, \"x, y, x, y\" or \"x, y, z, x, y, z\"").unit("length"));
+                 Says("box that contains what is kept: its lowest and its highest corner, \"x, y, x, y\" or \"x, y, z, x, y, z\"").unit("length"));
   parameters.add("sphere", sphere,
-                 Says("kept is what lies in this circle or ball: its middle and radius, \"x, y, r\" or \"x, y, z, r\"").unit("length"));
-  parameters.add("normal", normal, "kept are sides whose outward normal has this direction, \"x, y\" or \"x, y, z\"");
-  parameters.add("angle", angle, Says("by how much the normal of a side may differ from \"normal\"").unit("degrees").at_least(0.0).at_most(180.0));
+                 Says("circle or ball that contains what is kept: its middle and radius, \"x, y, r\" or \"x, y, z, r\"").unit("length"));
+  parameters.add("normal", normal, "outward normal of the sides that are kept, \"x, y\" or \"x, y, z\"");
+  parameters.add("angle", angle, Says("largest angle between the normal of a side and \"normal\"").unit("degrees").at_least(0.0).at_most(180.0));
   parameters.add(
       "patch", patch,
-      Says("kept is the smooth part of the surface around the side nearest to this point, \"x, y\" or \"x, y, z\"; edges bound it").unit("length"));
+      Says("a point, \"x, y\" or \"x, y, z\": the smooth part of the surface around the side nearest to it is kept; edges bound it").unit("length"));
   parameters.add("patch angle", patch_angle,
-                 Says("an edge is where the normals of two sides differ by more").unit("degrees").at_least(0.0).at_most(180.0));
+                 Says("angle between the normals of two sides above which they meet at an edge").unit("degrees").at_least(0.0).at_most(180.0));
   parameters.add("nearest", nearest,
                  Says("of all that fulfils the rest, the one node or side nearest to this point, \"x, y\" or \"x, y, z\"").unit("length"));
-  parameters.add("kind", kind, {{"nodes", SetKind::nodes}, {"sides", SetKind::sides}}, Says("what the set is made of"));
+  parameters.add("kind", kind, {{"nodes", SetKind::nodes}, {"sides", SetKind::sides}}, Says("nodes or sides"));
   if (!normal.empty() && kind == SetKind::nodes) parameters.error("normal", "only sides have a normal; please add \"kind\" (string, sides)");
   if (!patch.empty() && kind == SetKind::nodes) parameters.error("patch", "a patch is made of sides; please add \"kind\" (string, sides)");
 }

@@ -36,7 +36,7 @@ class FacetIntegrator2d {
     LinePoints line;
     Overlap overlap;
   };
-  /// Whether there are any; with the master nodes that take part.
+  /// Finds the overlaps, with the master nodes that take part. False: there are none.
   bool find_pairs(const SlaveFacetData& slave, const std::vector<Facet<LocalOrdinal>>& masters, const FacetReach& reach, const Positions<2>& x,
                   std::vector<LocalOrdinal>& master_nodes);
   void choose_basis(const Interval& covered);

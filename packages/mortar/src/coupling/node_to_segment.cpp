@@ -58,7 +58,7 @@ std::size_t facet_hit(const SlaveNodeData& slave, const std::vector<Facet<LocalO
   return nearest;
 }
 
-// What of a facet at the node counts: at a corner what is seen along its normal. Its derivative stands in the corner's columns.
+// Part of a facet at the node that counts: at a corner the part seen along its normal. Its derivative is in the corner's columns.
 struct Seen {
   double share = 1.0;
   const Eigen::RowVectorXd* slope = nullptr;
@@ -96,7 +96,7 @@ double share_of_surface(const SlaveNodeData& slave, const Positions<2>& x, const
 
 }  // namespace
 
-// The node meets the master facet that the line along its normal n hits nearest, at most `reach` away:
+// The node meets the master facet that the line along its normal n hits nearest, at most `reach` away. There
 //   x + s n = y(eta),   D_jj = w,   M_jl = w N_l(eta),   g_j = w s.
 // The node's share of the current surface is w = share sum_facets w_f int N_j; w_f is 1 but at corners, which couple_nodes.cpp settles. The surface
 // goes on straight for 1/200 of a facet beyond its ends.

@@ -9,7 +9,7 @@
 
 namespace mortise {
 
-/// What begins the message of a facet.
+/// Header of the message of a facet.
 struct CouplingHeader {
   SurfaceFacet slave;
   std::size_t segments = 0;  ///< integrated; 0: there is no coupling
@@ -19,7 +19,7 @@ struct CouplingHeader {
 void put_coupling(WordWriter& to, const CouplingHeader& header, const FacetCoupling& coupling, const std::function<GlobalOrdinal(LocalOrdinal)>& id);
 
 CouplingHeader get_header(WordReader& from);
-/// What follows a header with segments, with ids turned into local nodes.
+/// Reads the coupling that follows a header with segments, with ids turned into local nodes.
 void get_coupling(WordReader& from, const CouplingHeader& header, const std::function<LocalOrdinal(GlobalOrdinal)>& local, FacetCoupling& coupling);
 
 }  // namespace mortise

@@ -1,5 +1,5 @@
 #pragma once
-// Which rank integrates each slave facet, whoever owns its nodes.
+// Choice of the rank that integrates each slave facet, whoever owns its nodes.
 
 #include <array>
 #include <map>

@@ -33,7 +33,7 @@ int count(void* data, int*) { return static_cast<int>(facets_of(data).size()); }
 
 int three_coordinates(void*, int*) { return 3; }
 
-// Facets are told apart by their places in the list of their rank. Their global ids only have to differ there.
+// The place of a facet in the list of its rank identifies it. Global ids only have to differ there.
 void list(void* data, int, int, ZOLTAN_ID_PTR global, ZOLTAN_ID_PTR local, int, float* weights, int*) {
   const auto& facets = facets_of(data);
   std::iota(global, global + facets.size(), ZOLTAN_ID_TYPE{0});

@@ -5,7 +5,7 @@
 namespace mortise {
 namespace {
 
-// Facets, and so columns, stand in the same order as at the node's owner: the normal is the same to the last bit.
+// Facets, and so columns, are in the same order as at the node's owner: the normal is the same to the last bit.
 NormalStencil make_stencil(LocalOrdinal node, const TravellingFacet::Stencil& from, const std::function<LocalOrdinal(GlobalOrdinal)>& local) {
   NormalStencil stencil;
   stencil.node = node;

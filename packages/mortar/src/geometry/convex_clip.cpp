@@ -35,7 +35,7 @@ struct Corner {
 };
 using Corners = boost::container::static_vector<Corner, 16>;
 
-// Whether the segments a b and l m lie within `tolerance` of one another wherever they are side by side.
+// True if the segments a b and l m lie within `tolerance` of one another wherever they are side by side.
 bool coincident(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& l, const Eigen::Vector2d& m, double tolerance) {
   constexpr double sine = 1e-3, share = 0.01;  // with less in common than this share of the shorter one they are taken as they are
   const Eigen::Vector2d along = b - a, other = m - l;

@@ -128,7 +128,7 @@ class Facing {
     return (f * N.transpose()).reshaped();
   }
 
-  // What the integrand, times the weight, changes by with the place s of a point. What it does with the nodes goes to them: with J = ds/deta,
+  // Change of the integrand, times the weight, with the place s of a point. Its dependence on the nodes goes to them. With J = ds/deta
   //   dN = N' (ds - sum N_a dX_a),   dz' = sum_l N_l' (dz_l - z' . dY_l) + J^-T (sum_l (z_l - z' . Y_l) d2N_l) J^-1 (ds - sum N_l dY_l).
   Gradients move(const OverlapPoint& point) {
     const AtPlace slave(slave_, point.xi), master(master_, point.eta);

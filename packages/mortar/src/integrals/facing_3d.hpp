@@ -1,5 +1,5 @@
 #pragma once
-// How much of the master, and of which normals, a slave facet in 3D faces.
+// Area and normals of the master that a slave facet in 3D faces.
 
 #include <Eigen/Core>
 

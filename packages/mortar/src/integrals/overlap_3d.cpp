@@ -35,7 +35,7 @@ Eigen::Vector2d invert_triangle(const FacetVectors& x, const Eigen::Vector2d& s)
   return slope.inverse() * (s - x[0].head<2>());
 }
 
-// The same of quadrilaterals, c + a xi + b eta + d xi eta, by Newton's method; it starts from what a parallelogram (d = 0) has.
+// Inverts the map of quadrilaterals, c + a xi + b eta + d xi eta, by Newton's method; it starts from the result for a parallelogram (d = 0).
 Eigen::Vector2d invert_quadrilateral(const FacetVectors& x, const Eigen::Vector2d& s) {
   const Eigen::Vector2d offset = s - 0.25 * (x[0] + x[1] + x[2] + x[3]).head<2>(), a = 0.25 * (x[1] + x[2] - x[0] - x[3]).head<2>(),
                         b = 0.25 * (x[2] + x[3] - x[0] - x[1]).head<2>(), d = 0.25 * (x[0] + x[2] - x[1] - x[3]).head<2>();
@@ -56,7 +56,7 @@ Eigen::Vector2d invert_quadrilateral(const FacetVectors& x, const Eigen::Vector2
   throw too_distorted();
 }
 
-// The same of quadratic facets by Newton's method. It starts from the map of the part that is affine and right at three of its corners.
+// Inverts the map of quadratic facets by Newton's method. It starts from the map of the part that is affine and right at three of its corners.
 template <class Shape>
 Eigen::Vector2d invert_quadratic(const FacetVectors& x, const FacetPart& part, const Eigen::Vector2d& s) {
   const auto reference = [&](int a) { return Eigen::Map<const Eigen::Vector2d>(Shape::node_positions[a].data()); };

@@ -42,8 +42,8 @@ bool line_faces(const MasterLine<double, m>& master, const Point2<double>& norma
 
 constexpr double round_off = 1e-13;  // of xi, on a matching mesh; an overlap of that length carries nothing
 
-// A master node that stands on the normal of a slave node bounds no overlap. The overlap of its other facet, on the far side of the node, is left
-// out. The ends of these two overlaps are what cancels in the derivatives.
+// A master node that lies on the normal of a slave node bounds no overlap. The overlap of its other facet, on the far side of the node, is left
+// out. The derivatives of the ends of these two overlaps cancel.
 ClippedProjection settled(const ClippedProjection& end) {
   const double corner = end.xi < 0.0 ? -1.0 : 1.0;
   return std::abs(end.xi - corner) > round_off ? end : ClippedProjection{corner, false};

@@ -44,8 +44,8 @@ Eigen::Matrix<double, 3, nodes> columns_of(const FacetVectors& vectors) {
   return result;
 }
 
-/// All integrals f at a point are functions of xi(s, X) and eta(s, Y), which obey sum N_a(xi) X_a = s and sum N_l(eta) Y_l = s. With the slopes f_S =
-/// df/dxi dxi/ds and f_M = df/deta deta/ds on the plane
+/// All integrals f at a point are functions of xi(s, X) and eta(s, Y), which obey sum N_a(xi) X_a = s and sum N_l(eta) Y_l = s. Let f_S =
+/// df/dxi dxi/ds and f_M = df/deta deta/ds be the slopes on the plane. Then
 ///   df = (f_S + f_M) . ds - f_S . sum N_a dX_a - f_M . sum N_l dY_l  (+ what g depends on directly: normals and heights).
 /// In this ds is the sum of the shares times dv of the triangle's vertices, which move as vertex_parts() says. The gradients (two components per
 /// integral) are kept one after the other, so that each of these terms is one long vector times a number.
@@ -150,7 +150,7 @@ class Integrator {
     for (int i = 0; i < n; ++i) sum[r++] += weight * L[i] * gap;
   }
 
-  // What the point adds to a triangle whose doubled area is 1, and how it moves in this one.
+  // Adds the contribution of the point to a triangle whose doubled area is 1, and its motion in this one.
   void add_point(const AtPoint<Slave>& slave, const AtPoint<Master>& master, const OverlapPoint& point, double weight_of_unit_area,
                  Eigen::Matrix<double, rows, 1>& of_unit_area) {
     const double weight = point.weight;
@@ -185,8 +185,8 @@ class Integrator {
     for (int l = 0; l < m; ++l) of_height_.col(n + l) += (weight * cosine * master.N[l]) * L;
   }
 
-  // A crossing v of edges at a small angle moves far when they move little. What it does while it slides along the first edge by ds (b - a) is to
-  // change the area beside the second one. That edge ends at the polygon's vertex e = v + k (m - l); the sign is + if the polygon leaves v along it,
+  // A crossing v of edges at a small angle moves far when they move little. While it slides along the first edge by ds (b - a) it only
+  // changes the area beside the second one. That edge ends at the polygon's vertex e = v + k (m - l); the sign is + if the polygon leaves v along it,
   // else -. The change of an integral is
   //   dI = ds (b - a) x (+-(e - v)) int_0^1 f(v + s (e - v)) (1 - s) ds,
   //   ds = -w . (dx_first - dx_second) / (w . (b - a)),   w . (b - a) = (m - l) x (b - a),

@@ -1,7 +1,7 @@
 // Slave nodes that are coupled one by one, as node to segment has it.
 //
-// A corner takes the master's normal as it does where facets are integrated, see settle_corners.cpp:
-//   n_j of m_j = -sum_f int N_j <-n_f.n_m> n_m,   w_f = <n_f.n_j>,   w = sum_f w_f int N_j.
+// A corner takes the master's normal as it does where facets are integrated, see settle_corners.cpp. The normal n_j has the direction
+//   m_j = -sum_f int N_j <-n_f.n_m> n_m,   and weights  w_f = <n_f.n_j>,   w = sum_f w_f int N_j.
 // A line along the average of a bottom's and a wall's normal would lean by 45 degrees, and the node would have the share of the wall. The integral of
 // m_j is there for its smoothness: what a line along n_f meets has a normal that jumps from one facet of the master to the next.
 

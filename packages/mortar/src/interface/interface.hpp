@@ -25,7 +25,7 @@ struct IntegratorOf<3> : FacetIntegrator3d {
   IntegratorOf(const InterfaceMeasure&, const MortarOptions& options) : FacetIntegrator3d(options) {}
 };
 
-// Candidates of a slave facet, kept from search to search: a superset of the master facets it can overlap now. Which of them take part is decided in
+// Candidates of a slave facet, kept from search to search: a superset of the master facets it can overlap now. Those that take part are chosen in
 // evaluate() from positions alone, so no result depends on when the last search was. The facet takes part if a master facet that it overlaps lies
 // within the reach. Then all within reach + its longest edge do.
 template <int dim>

@@ -280,7 +280,7 @@ bool Interface<dim>::search(const MultiVector& x) {
   free_distance_ = free_motion * least_height(slave_x, placed);
   const Motion until_next = {2.0 * free_distance_, turn_until_next};
   const Motion longer = {4.0 * free_distance_, std::asin(4.0 * free_motion)};
-  // What is needed until the next search has to stand among the candidates; only then they, and the pattern, may stay as they are.
+  // All facets needed until the next search have to be among the candidates; only then they, and the pattern, may stay as they are.
   const Candidates needed = first ? Candidates() : find(slave_x, placed, until_next);
   double missing = first, any = 0.0;
   for (std::size_t f = 0; f < needed.size(); ++f)

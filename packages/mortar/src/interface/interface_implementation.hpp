@@ -1,5 +1,5 @@
 #pragma once
-// What MortarInterface does, behind its public face: the same in 2D and in 3D.
+// Implementation of MortarInterface: the same in 2D and in 3D.
 
 #include <memory>
 #include <optional>
@@ -13,7 +13,7 @@
 
 namespace mortise {
 
-/// What makes an interface.
+/// Arguments of an interface.
 struct InterfaceInput {
   RCP<const Map> owned_nodes;
   RCP<const MultiVector> reference, fixed;
@@ -64,12 +64,12 @@ class Gathered {
   MultiVector positions_;
 };
 
-/// What motions between two searches can do to a pair of facets: ends come nearer by `approach`, facets and so nodal normals turn by `turn`.
+/// Effect of motions between two searches on a pair of facets: ends come nearer by `approach`, facets and so nodal normals turn by `turn`.
 struct Motion {
   double approach, turn;
 };
 
-/// Which master facets may lie under a slave facet after a motion, seen along its nodal normals in 2D, along its own normal in 3D.
+/// Finds master facets that may lie under a slave facet after a motion, seen along its nodal normals in 2D, along its own normal in 3D.
 template <int dim>
 class OverlapTest;
 

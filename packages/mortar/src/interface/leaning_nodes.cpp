@@ -1,11 +1,11 @@
 // Slave nodes with prescribed components whose normals lean over along them.
 //
-// Where a component of a node is prescribed the surface may end at a plane of symmetry: the average of the facet's normal and of that of its mirror
+// Where a component of a node is prescribed the surface may end at a plane of symmetry. The average of the facet's normal and of that of its mirror
 // image lies along the plane. Or it may end at a support, as a hub on a cone that stands on a table: its normal leans over, and so does its pressure.
-// What is prescribed does not tell. But on a smooth surface that goes on beyond the plane of symmetry the lean is that of half a facet, and a facet
-// on it is three times that. And on a master without a lean, as a wedge's tip on a flat face, the pressure has none. So a component stays in the
-// average if the averaged normal at the next nodes leans to the same side and no further, by a quarter, and the master's facets that the plane meets
-// lean, by half as much or more. All this is said of the reference configuration, once.
+// The prescribed components do not tell. But on a smooth surface that goes on beyond the plane of symmetry the lean is that of half a facet, and a
+// facet on it is three times that. And on a master without a lean, as a wedge's tip on a flat face, the pressure has none. A component stays in the
+// average under two conditions. The averaged normal at the next nodes leans to the same side, at most a quarter more. The master's facets that the
+// plane meets lean too, by half as much or more. This is decided once, in the reference configuration.
 
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Map.hpp>
@@ -19,7 +19,7 @@
 namespace mortise {
 namespace {
 
-constexpr double no_lean = 1e-3;  ///< what an irregular mesh of curved facets leaves at a plane of symmetry; it carries as much of the pressure
+constexpr double no_lean = 1e-3;  ///< lean of an irregular mesh of curved facets at a plane of symmetry; it carries as much of the pressure
 constexpr double on_the_plane = 1e-6, of_round_off = 1e-9;
 constexpr double bends = 1.25;        ///< lean at the next nodes, over that of the node, from which on the surface is smooth
 constexpr double master_leans = 0.5;  ///< lean of the master, over that of the node, from which on they lie on one another

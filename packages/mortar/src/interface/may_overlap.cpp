@@ -1,4 +1,4 @@
-// Which pairs of facets can come to overlap before the next search.
+// Pairs of facets that can come to overlap before the next search.
 
 #include <algorithm>
 #include <array>

@@ -8,23 +8,23 @@ void MortarOptions::describe(Parameters& parameters) {
                  "strongly curved coarse facets");
   parameters.add(
       "search reach", search_reach,
-      Says("distance up to which facets can touch; default: the length of the pair's longest facet, and more if the surfaces are known to begin "
-           "deeper in one another")
+      Says("distance up to which facets can touch; default: the length of the pair's longest facet, and more if the surfaces are known to overlap "
+           "deeper at the start")
           .unit("length")
           .above(0.0));
   parameters.add(
       "linearisation", linearisation, {{"exact", Linearisation::exact}, {"frozen normals", Linearisation::frozen_normals}},
-      "what Newton's method knows of the contact geometry: all, or all but how the nodal normals turn, as many programs have it; changes no "
-      "solution");
+      "derivatives of the contact geometry in Newton's method: all, or all but those of the nodal normals, as in many programs; changes no solution");
   parameters.add(
       "corners", corners,
       {{"master normal", CornerRule::master_normal}, {"nearest facet", CornerRule::nearest_facet}, {"averaged", CornerRule::averaged}},
-      "normals at convex edges and corners of a slave surface, where facets meet at an angle: the facets have their own, and the node that of the "
-      "master that they cover, or, in 2D, that of its facet nearest to the master; or all take the average. Variational mortar takes the nearest "
-      "facet for the master's normal, and 3D the average for the nearest facet");
+      "normals at convex edges and corners of a slave surface, where facets meet at an angle. master normal: the facets have their own, "
+      "and the node that of the master that they cover. nearest facet: the node has that of its facet nearest to the master, in 2D. "
+      "averaged: all take the average. Variational mortar takes the nearest facet for the master's normal, and 3D the average for the nearest "
+      "facet");
   parameters.add(
       "balance", balance,
-      Says("largest over mean work of the ranks, in overlaps of two facets, above which the next search hands slave facets to other ranks; "
+      Says("largest over mean work of the ranks, in overlaps of two facets, above which the next search gives slave facets to other ranks; "
            "changes no solution")
           .unit("-")
           .at_least(1.0));

@@ -1,9 +1,9 @@
 // Corners of the slave surface that take the master's normal: nodes in 2D, in 3D nodes on edges and at their ends.
 //
-// The facets f at a kink j have their own normals n_f (see split_kinks.cpp). What they cover of the master gives the node its normal. The length, or
-// area, that is seen along that normal gives the facets their weight.
-//   m_j = -sum_f int N_j <-n_f.n_m> n_m,   n_j = m_j / |m_j| but for corner_normal(),   w_f = <n_f.n_j> but for steep facets: seen_share(),
-//   D_jk = sum_f w_f int phi_j N_k,   M_jl = sum_f w_f int phi_j N_l,   g_j = n_j . sum_f w_f int phi_j (xhat - x) = sum_f w_f^2 int phi_j g.
+// The facets f at a kink j have their own normals n_f (see split_kinks.cpp). The part of the master that they cover gives the node its normal. The
+// length, or area, that is seen along that normal gives the facets their weight:
+//   m_j = -sum_f int N_j <-n_f.n_m> n_m,   n_j = m_j / |m_j| but for corner_normal(),   w_f = <n_f.n_j> but for steep facets: seen_share().
+// Then  D_jk = sum_f w_f int phi_j N_k,   M_jl = sum_f w_f int phi_j N_l,   g_j = n_j . sum_f w_f int phi_j (xhat - x) = sum_f w_f^2 int phi_j g.
 // No side is chosen: what is symmetric stays so. A facet that stands off and one that lies on the master both enter smoothly. Weights w_f are needed:
 // a steep facet that begins to be covered would change D at once. The normals n_f depend on the facets alone, what is covered on them, m_j on that,
 // so all is explicit, and exact derivatives follow.

@@ -6,11 +6,11 @@
 // The integral of phi_j g of the closed node is to see the gap at that node alone. It gets a share of what lies away from it, of the size of the
 // facet. And the node's pressure leans over by theta / 2.
 //
-// With the facet's own normal at both ends the gap is linear, and so are the positions of the projected points. Then int phi_j g = g_j int phi_j, and
-// likewise for the forces' moment. The facet that stands off does no more than give the node its weight, until its other end comes to the master. The
-// node's own normal is the master's, see settle_corners.cpp; or that of the facet that is nearest to the master, in the mean.
+// With the facet's own normal at both ends the gap is linear, and so are the positions of the projected points. Then int phi_j g = g_j int phi_j. So
+// it is with positions, and the forces' moment. The facet that stands off only gives the node its weight, until its other end comes to the master.
+// The node's own normal is the master's, see settle_corners.cpp; or that of the facet that is nearest to the master, in the mean.
 //
-// Which nodes are kinks, and which facet is nearest, jumps. So it is chosen between steps only, and with hysteresis. A corner that folds onto the
+// The set of kinks, and the nearest facet, jump. So they are chosen between steps only, and with hysteresis. A corner that folds onto the
 // master stays split until it is almost flat, since by the average its pressure would lean over again.
 //
 // In 3D the kinks are those of the undeformed surface. Around a deep punch a coarse smooth surface bends by more than 30 degrees as well. Split

@@ -27,7 +27,7 @@ Eigen::Matrix3d of_direction(const Eigen::Vector3d& v) {
   return (Eigen::Matrix3d::Identity() - unit * unit.transpose()) / v.norm();
 }
 
-/// What of a cone is nearest to a direction: a generator, or an arc between two.
+/// Part of a cone that is nearest to a direction: a generator, or an arc between two.
 struct Nearest {
   double angle;
   std::size_t a;
@@ -53,7 +53,7 @@ Nearest nearest_of_cone(const Eigen::Vector3d& direction, const std::vector<Eige
   return nearest;
 }
 
-// Whether one of the cones of three generators holds it.
+// True if one of the cones of three generators holds it.
 bool inside_cone(const Eigen::Vector3d& direction, const std::vector<Eigen::Vector3d>& generators) {
   for (std::size_t a = 0; a < generators.size(); ++a)
     for (std::size_t b = a + 1; b < generators.size(); ++b)

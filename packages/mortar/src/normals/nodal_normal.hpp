@@ -20,7 +20,7 @@ struct NodeTangents {
 template <int dim>
 NodeTangents tangents_at(const Facet<LocalOrdinal>& facet, std::size_t a);
 
-/// What shapes the normal of a node: its slave facets, by indices into positions.
+/// Facets that shape the normal of a node: its slave facets, by indices into positions.
 struct NormalStencil {
   LocalOrdinal node = 0;
   std::vector<NodeTangents> facets;
@@ -29,7 +29,7 @@ struct NormalStencil {
   std::optional<std::size_t> only;    ///< the one of the facets that shapes the normal alone, at a kink in 2D; none: all do
 };
 
-/// Whether the node lies on a line or plane of symmetry, or is held aside.
+/// True if the node lies on a line or plane of symmetry, or is held aside.
 inline bool is_projected(const NormalStencil& stencil) { return stencil.projected[0] || stencil.projected[1] || stencil.projected[2]; }
 
 /// The stencil of a facet's own normal at one of its nodes.
@@ -46,18 +46,18 @@ double mirrored_turn_at(const NormalStencil& stencil, const Positions<2>& x);
 /// convex. With projected components the edges between facets and their mirror images count too.
 double turn_at(const NormalStencil& stencil, const Positions<3>& x);
 
-/// Normalised sum of the unit normals of the node's facets at the node, without the `projected` components:
-///   s = P sum_e n_e,  n = s / |s|,   dn = (I - n n^T) P sum_e dn_e / |s|,
-///   2D:  n_e = (t_y, -t_x) / |t|,   dn_e = R (I - t t^T / |t|^2) dt / |t|,   R turns by -90 degrees,
-///   3D:  n_e = c / |c|, c = t_1 x t_2,   dn_e = (I - n_e n_e^T) dc / |c|.
+/// Normalised sum of the unit normals of the node's facets at the node, without the `projected` components. Both dimensions:
+///   s = P sum_e n_e,  n = s / |s|,   dn = (I - n n^T) P sum_e dn_e / |s|.
+/// In 2D, with R the turn by -90 degrees:  n_e = (t_y, -t_x) / |t|,   dn_e = R (I - t t^T / |t|^2) dt / |t|.
+/// In 3D:  n_e = c / |c|, c = t_1 x t_2,   dn_e = (I - n_e n_e^T) dc / |c|.
 /// Returns false where a facet has no normal or the average does not point out of each of them (then `normal` is not meant to be used).
 bool average_normal(const NormalStencil& stencil, const Positions<2>& x, bool derivatives, NodalNormal& result);
 bool average_normal(const NormalStencil& stencil, const Positions<3>& x, bool derivatives, NodalNormal& result);
 
 /// Adds the second derivatives of `along` . n, in 2D, to a matrix of the positions of `columns`, two for each. The columns hold those of the stencil.
-/// The normal n = (sin theta, -cos theta) lies at the mean of its sides' angles theta_e. So with b = dn/dtheta and the unit tangents t and their left
-/// normals v
-///   d2(along . n) = -(along . n) (dtheta)^2 + (along . b) mean_e d2theta_e,   d2theta_e = -(t v^T + v t^T) / |t_e|^2 in the tangent t_e.
+/// The normal n = (sin theta, -cos theta) lies at the mean of its sides' angles theta_e. Let b = dn/dtheta, t be the unit tangents and v their left
+/// normals. Then, with d2theta_e in the tangent t_e,
+///   d2(along . n) = -(along . n) (dtheta)^2 + (along . b) mean_e d2theta_e,   d2theta_e = -(t v^T + v t^T) / |t_e|^2.
 /// With projected components n does not turn.
 /// @param normal  with its derivative
 void add_normal_curvature(const NormalStencil& stencil, const NodalNormal& normal, const Eigen::Vector2d& along, const Positions<2>& x,

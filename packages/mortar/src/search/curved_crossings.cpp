@@ -36,7 +36,7 @@ Roots roots_on_line(const LineSegment& line, const FacetPlaces& facet) {
   return roots;
 }
 
-/// Newton's method from the middle of each linear part: a facet that is not folded meets a line at most once in each. What does not converge misses.
+/// Newton's method from the middle of each linear part: a facet that is not folded meets a line at most once in each. No convergence means no root.
 Roots roots_on_surface(const LineSegment& line, const FacetPlaces& facet) {
   constexpr int most_iterations = 20;
   constexpr double far_off = 4.0, converged = 1e-13, same = 1e-6;  // in reference coordinates

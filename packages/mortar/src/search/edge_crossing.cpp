@@ -28,7 +28,7 @@ struct Section {
   double width = 0.0, angle = 0.0;
 };
 
-// In the plane across the edge the facets run along u from the edge. They are -u.n deep below it and u.(n x t) beside it.
+// Seen along the edge the facets run along u from it. They are -u.n deep below it and u.(n x t) beside it.
 std::optional<Section> section_of(const EdgePiece& piece, const Point& outward) {
   const Point along = (piece.ends[1] - piece.ends[0]).normalized(), across = outward.cross(along);
   std::array<double, 2> place{};
@@ -104,7 +104,7 @@ std::array<int, 8> nodes_of(const EdgePair& pair, std::size_t k, std::size_t l) 
   return {slave[0], slave[1], slave[2], slave[3], master[0], master[1], master[2], master[3]};
 }
 
-/// What a crossing is made of, of a scalar type. x: 8 points.
+/// Quantities of a crossing, of a scalar type. x: 8 points.
 template <class S>
 struct Crossed {
   using Vector = std::array<S, 3>;
@@ -159,11 +159,11 @@ S mixed(const EdgePair& pair, std::size_t k, std::size_t l, const S& s, const S&
 
 }  // namespace
 
-// The overlap of two wedges that cross at the angle phi, a depth g in one another: its section across the normal is a quadrilateral with the
-// diagonals g w_1/sin phi and g w_2/sin phi along the edges, w the widths of the wedges at unit depth. So
+// Let two wedges cross at the angle phi and overlap by a depth g. The section of their overlap across the normal is a quadrilateral. Its diagonals
+// along the edges are g w_1/sin phi and g w_2/sin phi, w the widths of the wedges at unit depth. So
 //   A = g^2 w_1 w_2 / (2 sin phi).
-// Two bodies that would overlap in similar sections A ~ g^2 press on one another like a cone on a half space (Sneddon 1965), F = 2/pi E* tan(a) g^2,
-// of the same area, pi g^2 tan^2(a) = A:
+// Two bodies that would overlap in similar sections A ~ g^2 press on one another like a cone on a half space (Sneddon 1965). For a cone of the same
+// area, pi g^2 tan^2(a) = A, the force is F = 2/pi E* tan(a) g^2:
 //   F = 2/pi^(3/2) E* sqrt(A) g,   1/E* = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2.
 // Of a square pyramid this is 5 % too little (Barber and Billings 1990).
 WedgeContact wedge_contact(const EdgePiece& slave, const EdgePiece& master) {

@@ -25,7 +25,7 @@ using TreeSegment = geometry::model::segment<TreePoint>;
 
 /// Distance of surface points from nodes, over that of the centre.
 constexpr double inset = 1e-5;
-/// Of mid-side nodes from the middles of their edges, over the size of the facet, below which a quadratic facet is made of its linear parts.
+/// Bend of mid-side nodes from the mid-points of their edges, over the size of the facet, below which a facet is made of its linear parts.
 constexpr double straight = 1e-12;
 
 TreePoint tree_point(const Eigen::Vector3d& x) { return {x[0], x[1], x[2]}; }

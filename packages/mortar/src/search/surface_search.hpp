@@ -1,5 +1,5 @@
 #pragma once
-// Which master facets of any rank lie near each slave facet of this rank.
+// Master facets of any rank that lie near each slave facet of this rank.
 
 #include <Eigen/Core>
 #include <array>

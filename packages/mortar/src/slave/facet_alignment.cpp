@@ -10,8 +10,9 @@ namespace {
 /// Angle up to which a facet lies along the master, and over which it then ceases to.
 constexpr double lies_along = 10.0 * boost::math::double_constants::degree;
 
-// a = 1 - S(theta / 10 degrees - 1), S(t) = t^2 (3 - 2 t) on [0, 1]. Here theta is the angle at which the facet stands on the master in the mean:
-//   cos theta = |m| / A,   m = sum_j m_j,   A = sum_j c_j int N_j,   the covered area,
+// a = 1 - S(theta / 10 degrees - 1), S(t) = t^2 (3 - 2 t) on [0, 1]. Here theta is the angle at which the facet rises from the master in the mean.
+// With the covered area A
+//   cos theta = |m| / A,   m = sum_j m_j,   A = sum_j c_j int N_j,
 //   dcos theta = (m / |m|) . dm / A - cos theta dA / A.
 void measure_alignment(const FacetMoments& moments, int dimension, bool derivatives, FacetCoupling& coupling) {
   const Eigen::RowVectorXd m = coupling.facing.colwise().sum();

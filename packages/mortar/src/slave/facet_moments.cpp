@@ -11,8 +11,8 @@ constexpr double negligible_cover = 1e-12;
 /// A node with this share of its weight is not tied: 1 - w, of second order in what is missing, is round-off.
 constexpr double full_cover = 1.0 - 1e-7;
 
-// With N = T L the dual basis of the restricted N is
-//   phi = A L,   A = D_e T^-T M_L^-1,   M_L = int L L^T,   D_e = diag int N_j,   int N = T M_L l with l = T^T 1 (the sum of all N is 1),
+// Let N = T L, and T^T 1 = l, as the sum of all N is 1. The dual basis of the restricted N is
+//   phi = A L,   A = D_e T^-T M_L^-1,   M_L = int L L^T,   D_e = diag int N_j,   int N = T M_L l,
 //   dA = (dD_e T^-T - A dM_L) M_L^-1.
 // M_L is as well conditioned on a sliver as on the whole facet; the large entries of T^-T are the extrapolation that phi really is. Standard
 // multipliers: phi = N = T L, constant in this basis, D = T M_L T^T. Where a node has no multiplier, phi -> S phi.

@@ -24,7 +24,7 @@ struct FacetMoments {
   static Eigen::Index rows(Eigen::Index nodes, Eigen::Index masters) { return masses(nodes) + nodes * masters + nodes; }
 };
 
-/// Which multipliers a facet has.
+/// Multipliers of a facet.
 struct FacetMultipliers {
   FacetMatrix share;    ///< S: phi_j is the sum of S_jk times the facet's own function k; row of a node without multiplier: 0
   FacetVector weights;  ///< int N_j, or int Ñ_j, over the facet in the reference configuration

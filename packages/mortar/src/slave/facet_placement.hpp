@@ -1,5 +1,5 @@
 #pragma once
-// Which rank has to give which facet.
+// Facets that each rank has to give to others.
 
 #include <algorithm>
 #include <array>

@@ -16,7 +16,7 @@ struct CornerSide {
   const NodalNormal* normal = nullptr;
 };
 
-/// What a corner makes of its facets: taken from the couplings of all corners before any of these is changed.
+/// Result of a corner for its facets: taken from the couplings of all corners before any of these is changed.
 struct SettledCorner {
   std::vector<CornerSide> sides;                    ///< in 2D the one that ends at the corner first
   std::vector<double> weight;                       ///< [sides] w_f

@@ -21,12 +21,12 @@ struct SlaveFacetData {
   bool at_corner = false;  ///< one of its nodes takes the master's normal: FacetCoupling::facing is asked for
 };
 
-/// How near a master facet has to be: at least one that overlaps within `touch`, then all that do within `all` take part.
+/// Distances within which master facets take part: at least one that overlaps within `touch`, then all that do within `all`.
 struct FacetReach {
   double touch = 0.0, all = 0.0;
 };
 
-/// What may take part of a slave facet's candidates: not those that overlap it beyond `touch` where no nodes lead from them, over candidates, to one
+/// Candidates of a slave facet that may take part. Those that overlap it beyond `touch` may not if no nodes lead from them, over candidates, to one
 /// within `touch`. Such ones are of another surface, and the near one may stand between.
 /// @param distances  of the candidates that overlap; of others infinite
 /// @return none if all may

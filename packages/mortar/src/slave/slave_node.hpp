@@ -13,7 +13,7 @@ struct SlaveNodeData {
   LocalOrdinal node = 0;
   const NormalStencil* stencil = nullptr;  ///< its facets
   const NodalNormal* normal = nullptr;
-  const SettledCorner* corner = nullptr;  ///< what counts of its facets; null: all of them
+  const SettledCorner* corner = nullptr;  ///< weights of its facets; null: all of them count wholly
 };
 
 }  // namespace mortise

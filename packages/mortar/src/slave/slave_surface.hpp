@@ -22,7 +22,7 @@ struct SlaveSurface {
   std::vector<FacetMultipliers> multipliers;        ///< [facets]
   std::vector<std::vector<std::size_t>> facets_of;  ///< [owned] facets that touch the node
 
-  /// Whether a dual multiplier may act on a node of a facet: on those whose functions it has, the middle of an edge on corners too.
+  /// True if a dual multiplier may act on a node of a facet: on those whose functions it has, the middle of an edge on corners too.
   bool may_load(int dimension, std::size_t facet, LocalOrdinal multiplier, LocalOrdinal node) const;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Which nodes ties share, and what is said of ties that cannot hold.
+// Nodes that ties share, and messages about ties that cannot hold.
 
 #include <map>
 #include <string>

@@ -29,7 +29,7 @@ class TieInterface {
   std::vector<TieInterfaceRow> rows_;
 };
 
-/// What masters cover of the slave nodes of a tie.
+/// Cover of the slave nodes of a tie by masters.
 struct TieCover {
   std::vector<char> on_slave;  ///< [owned nodes]
   std::vector<double> share;   ///< [owned nodes] of a slave node's weight

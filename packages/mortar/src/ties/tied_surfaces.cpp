@@ -56,7 +56,7 @@ RCP<const Matrix> matrix_of(const RCP<const Map>& dofs, const TieRowMap& rows) {
   return T;
 }
 
-/// Whether marks differ on any rank. Collective.
+/// True if marks differ on any rank. Collective.
 bool differ(const Communicator& comm, const std::vector<char>& one, const std::vector<char>& other) {
   const int mine = one == other ? 0 : 1;
   int any = 0;

@@ -27,15 +27,15 @@ constexpr int most_refinements = 3;
 /// round-off times its condition number.
 constexpr double certain = 1e-2;
 
-/// What refinement came to.
+/// Result of refinement.
 struct Refined {
   int steps = 0;
   double backward_error = 0.0;
   double largest_correction = 0.0;  ///< over the solution it led to, of all steps
 };
 
-/// What OpenBLAS takes at its first product of matrices: 128 MiB of addresses, most of which it never touches. If it does not get them it asks for
-/// ever.
+/// Buffer of OpenBLAS at its first product of matrices: 128 MiB of addresses, most of which it never touches. If it does not get them it asks
+/// again without end.
 constexpr double blas_buffer_mib = 129.0;
 
 /// Lets the BLAS take its buffer. Kernels for small matrices (up to 100^3 products) take none.
@@ -111,7 +111,7 @@ class DirectSolver : public LinearSolver {
   }
 
  protected:
-  /// Refuses what would not fit, before it is begun: libraries that get no memory spin for ever or end the program. Collective.
+  /// Refuses what would not fit, before it is begun: libraries that get no memory loop without end or end the program. Collective.
   /// @param mine  what this rank will take [MiB]
   void check_memory(const char* what, double mine) {
     const Communicator& comm = *matrix_->getComm();
@@ -127,7 +127,7 @@ class DirectSolver : public LinearSolver {
     if (!is_warm_) warm_blas();
     is_warm_ = true;
   }
-  /// What ordering the matrix takes on this rank [MiB].
+  /// Memory for ordering the matrix on this rank [MiB].
   virtual double memory_of_analysis() const { return 0.0; }
   const RCP<const Matrix>& matrix() const { return matrix_; }
   virtual RCP<Amesos2Solver> make(const RCP<const Matrix>& matrix) = 0;
@@ -207,8 +207,8 @@ class MumpsSolver : public DirectSolver {
     return (own + graph) / mib;
   }
 
-  // Pivoting may need more work space than the analysis foresaw: ICNTL(14) is raised and the factorisation repeated. What was needed once is
-  // given from then on.
+  // Pivoting may need more work space than the analysis foresaw: ICNTL(14) is raised and the factorisation repeated. From then on this
+  // space is given at once.
   void factor_numerically(Amesos2Solver& mumps) override {
     for (;; work_space_ = std::max(50, 4 * work_space_)) {
       set_mumps_work_space(mumps, work_space_);
@@ -230,7 +230,7 @@ class MumpsSolver : public DirectSolver {
   static constexpr double default_work_space = 20.0;  ///< of MUMPS, with which analyses look ahead [percent]
   int work_space_;
   int sign_ = 0;
-  double held_ = 0.0;    ///< what the last factors take, whose place the next ones of the same analysis get [MiB]
+  double held_ = 0.0;    ///< memory of the last factors, whose place the next ones of the same analysis get [MiB]
   int held_since_ = -1;  ///< analyses until then
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// What every solve is asked before and after, whichever solver did it.
+// Checks before and after every solve, whichever solver did it.
 
 #include <string>
 

@@ -1,5 +1,5 @@
 #pragma once
-// What preconditions GMRES: a multigrid cycle, and around it what the present contact asks for.
+// Preconditioner of GMRES: a multigrid cycle, and around it what the present contact asks for.
 
 #include <memory>
 
@@ -7,7 +7,7 @@
 
 namespace mortise::detail {
 
-/// What the solves with one matrix use.
+/// Operators for the solves with one matrix.
 struct ContactPreconditioner {
   RCP<const Operator> inverse;  ///< approximately that of the matrix
   RCP<const Operator> start;    ///< the nodes in contact alone, solved for: where a solve starts; null: at 0

@@ -67,7 +67,7 @@ class DecoupledSystem {
   RCP<const Vector> contact_dofs_;
 };
 
-/// The same with a preconditioner P of C in the place of its inverse.
+/// The inverse of a DecoupledSystem with a preconditioner P of C in the place of the inverse of C.
 class DecoupledPreconditioner : public Operator {
  public:
   DecoupledPreconditioner(std::shared_ptr<const DecoupledSystem> system, RCP<const Operator> preconditioner)

@@ -11,11 +11,11 @@ namespace mortise::detail {
 /// True residuals up to so many times the tolerance do.
 constexpr double accepted_residual = 10.0;
 
-/// How iterations ended.
+/// End of iterations.
 struct GmresReport {
-  int iterations = 0;        ///< how many
+  int iterations = 0;        ///< their number
   bool converged = false;    ///< to the tolerance, or to a true residual that does
-  std::exception_ptr error;  ///< what ended them early, such as overflow; null: nothing
+  std::exception_ptr error;  ///< error that ended them early, such as overflow; null: none
 };
 
 /// GMRES, preconditioned from the right. It keeps few vectors before it restarts, and more from a system on that took many iterations.
@@ -35,7 +35,7 @@ class Gmres {
   bool has_large_basis_ = false;
 };
 
-/// What Belos does not accept in the parameters of `options`: names and types.
+/// Errors of Belos about the parameters of `options`: names and types.
 std::vector<Diagnostic> gmres_parameter_errors(const LinearSolverOptions& options);
 
 }  // namespace mortise::detail

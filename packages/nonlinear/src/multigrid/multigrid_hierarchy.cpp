@@ -8,7 +8,7 @@
 namespace mortise::detail {
 namespace {
 
-/// What stands for 0 in a rigid body mode, as a share of its largest entry.
+/// Size of an entry of a rigid body mode that counts as 0, as a share of its largest one.
 constexpr double vanishing = 1e-14;
 
 /// Moves the marked nodes, each of as many dofs as it has coordinates, away from all others, so that aggregates are made of them alone.

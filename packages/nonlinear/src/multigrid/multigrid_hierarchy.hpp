@@ -7,7 +7,7 @@
 
 namespace mortise::detail {
 
-/// What multigrid keeps of the matrix that it was set up for.
+/// Data that multigrid keeps of the matrix that it was set up for.
 struct MultigridHierarchy {
   RCP<const Operator> cycle;       ///< applies one cycle
   RCP<const Vector> contact_dofs;  ///< DecoupledSystem::contact_dofs() of that matrix; null: without contact

@@ -20,8 +20,8 @@ constexpr int rows_on_one_rank = 5000;
 
 // Smoothed aggregation. Aggregates do not cross where the coordinates say that two bodies are far apart ("cut"), whatever contact couples. The matrix
 // that smooths the prolongator is the whole one all the same. It is scaled with the sums of rows. Scaled with the diagonal, its largest eigenvalue,
-// by which the smoothing is damped everywhere, would be that of the few rows in contact. The smoother is scaled likewise, but its eigenvalue is that
-// of prescribed rows, so the prolongator's has to be estimated separately.
+// by which the smoothing is damped everywhere, would be that of the few rows in contact. The smoother is scaled with sums too, but its eigenvalue is
+// that of prescribed rows, so the prolongator's has to be estimated separately.
 Teuchos::ParameterList smoothed_aggregation(const MultigridSize& size) {
   Teuchos::ParameterList list("MueLu");
   list.set("verbosity", "none");

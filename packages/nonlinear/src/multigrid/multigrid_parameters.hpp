@@ -22,7 +22,7 @@ struct MultigridSize {
 /// all that goes with it.
 Teuchos::ParameterList multigrid_parameters(const Teuchos::ParameterList& given, Smoother smoother, const MultigridSize& size);
 
-/// What MueLu does not accept in `given`: names and types, with no matrix at hand. Collective.
+/// Errors of MueLu about `given`: names and types, with no matrix at hand. Collective.
 std::vector<Diagnostic> multigrid_parameter_errors(const Located<Teuchos::ParameterList>& given, const RCP<const Communicator>& comm);
 
 }  // namespace mortise::detail

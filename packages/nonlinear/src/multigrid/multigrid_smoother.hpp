@@ -1,5 +1,5 @@
 #pragma once
-// What smooths within a multigrid cycle, and what is tried where it fails.
+// Smoother of a multigrid cycle, and those that are tried where it fails.
 
 #include <Teuchos_ParameterList.hpp>
 #include <optional>

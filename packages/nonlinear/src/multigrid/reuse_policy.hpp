@@ -20,7 +20,7 @@ class ReusePolicy {
   /// @param digits of the residual, its decadic logarithm's fall; > 0.
   void record(int iterations, double digits);
 
-  /// Whether solves have taken more than one iteration, in sum, beyond the least average: counts are whole numbers, and one more says nothing.
+  /// True if solves have taken more than one iteration, in sum, beyond the least average: counts are whole numbers, and one more says nothing.
   bool is_stale() const { return beyond_ > 1.0; }
 
   /// Iterations of a solve of so many digits at which it had better have begun with a new hierarchy. Infinite before the first solve.

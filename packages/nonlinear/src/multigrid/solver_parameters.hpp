@@ -1,5 +1,5 @@
 #pragma once
-// What is wrong with lists that are handed on to a package of Trilinos, in a few lines.
+// Error messages, in a few lines, about lists that are passed to a package of Trilinos.
 
 #include <Teuchos_ParameterList.hpp>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// How far to go along a Newton direction.
+// Choice of the length of a step along a Newton direction.
 
 #include <NOX_LineSearch_Generic.H>
 #include <NOX_LineSearch_UserDefinedFactory.H>

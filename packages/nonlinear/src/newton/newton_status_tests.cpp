@@ -18,10 +18,10 @@ namespace {
 /// Of the increment's tolerance: a correction below it that changes states has no effect.
 constexpr double no_effect = 1e-3;
 
-// Whether what is left of the residual is a jump of the integrals of contact, and no error that a correction takes away. A rule for them is exact on
+// True if the rest of the residual is a jump of the integrals of contact, and no error that a correction takes away. A rule for them is exact on
 // no warped facet. Where edges of the two sides lie over one another the parts that it acts on change at once, and the integral with them, by 1e-9 of
 // itself and less. Newton's method then steps from one side to the other: the states stay, whole corrections are far below their tolerance, the
-// residual falls no more.
+// residual no longer falls.
 bool jumps(const IterateTest::Iterates& iterates, const NewtonOptions& options, double length) {
   constexpr std::size_t steps = 4;
   constexpr double largest = 100.0, falls = 0.5;  // of the tolerances; of the smallest before

@@ -44,7 +44,7 @@ class IterateTest : public NOX::StatusTest::Generic {
   NOX::StatusTest::StatusType status_ = NOX::StatusTest::Unevaluated;
 };
 
-/// What has to be true of the last iterate if it is a solution.
+/// Condition on the last iterate if it is a solution.
 struct ConvergenceCriterion {
   std::string name;  ///< with the tolerance, for messages
   std::function<bool(const IterateTest::Iterates&)> met;
@@ -52,11 +52,11 @@ struct ConvergenceCriterion {
 };
 
 /// All of them: momentum, prescribed displacements, gap, complementarity, increment, states of the nodes. Those of the residual are met as well where
-/// integrals of contact jump: four whole corrections in a row are negligible, and no state changes. What is left is below 100 times the tolerances,
-/// and falls no more. The criterion of states is met where no node has another
+/// integrals of contact jump: four whole corrections in a row are negligible, and no state changes. The residual is below 100 times the tolerances,
+/// and no longer falls. The criterion of states is met where no node has another
 /// state than the iterate was computed with. It is also met where states change without an effect. Then the last two iterates meet all other
 /// criteria, and between them no displacement changes by more than 1e-3 of the tolerance. F is continuous across a change of state, so both are
-/// solutions. Which of the states a node on the border between two has is up to round-off.
+/// solutions. Round-off decides on the state of a node on the border between two.
 /// @param length size of the model
 std::vector<ConvergenceCriterion> convergence_criteria(const NewtonOptions& options, double length);
 

@@ -20,7 +20,7 @@ RCP<const Vector> tpetra_vector(const NOX::Abstract::Vector& vector);
 /// A NOX vector that shares the memory of a Tpetra vector.
 NOX::Thyra::Vector nox_vector(const RCP<Vector>& vector);
 
-/// What is done with a Newton direction beyond solving for it.
+/// Treatment of a Newton direction beyond solving for it.
 struct StepControl {
   std::optional<double> largest_increment;  ///< max |du| of a direction; longer ones are scaled down as a whole
   bool trial = false;                       ///< a line search tries iterates: one that has no residual has an infinite norm instead of a failure
@@ -66,7 +66,7 @@ class SemiSmoothNewtonGroup : public NOX::Abstract::Group {
   double increment() const { return increment_; }
   /// Share of the Newton direction that led here.
   double step_length() const { return step_length_; }
-  /// Whether the Newton direction is that of SystemParts::better_start: then nothing is known of the residual on the way.
+  /// True if the Newton direction is that of SystemParts::better_start: then nothing is known of the residual on the way.
   bool starts_elsewhere() const { return starts_elsewhere_; }
   /// Of the linear solve that led here.
   const LinearSolveReport& linear_solve() const { return linear_solve_; }

@@ -11,9 +11,9 @@ namespace mortise::detail {
 /// operations and an iteration about n, so they are in proportion to n. Measured on second-order tetrahedra (docs/solvers.md): 70 at 11 400 unknowns.
 double iterations_of_factorisation(GlobalOrdinal unknowns);
 
-/// Solves by the iterative solver. Where the solves with one matrix take more than `most` iterations, or one of them fails, the direct solver takes
-/// the matrices that follow: 20 of them at first, twice as many each time that the iterative solver is found as slow again. So the time of such a
-/// trial is lost among them, and contact that is over does not decide for ever. Where the direct solver has no memory the iterative one goes on.
+/// Solves by the iterative solver. The direct solver takes the next matrices where the solves with one matrix take more than `most` iterations, or
+/// one of them fails. It takes 20 matrices at first, twice as many each time that the iterative solver is found as slow again. So the time of such a
+/// trial is lost among them, and contact that is over does not decide permanently. Where the direct solver has no memory the iterative one goes on.
 std::unique_ptr<LinearSolver> make_automatic_solver(std::unique_ptr<LinearSolver> iterative, std::unique_ptr<LinearSolver> direct, double most);
 
 }  // namespace mortise::detail

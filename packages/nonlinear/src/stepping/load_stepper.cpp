@@ -17,12 +17,10 @@ void SteppingOptions::describe(Parameters& parameters) {
   parameters.add("step", step, Says("first step, and the largest unless `maximum step` says otherwise").unit("time").above(0.0));
   parameters.add("maximum step", maximum_step, Says("largest step; default: `step`").unit("time").above(0.0));
   parameters.add("minimum step", minimum_step, Says("smallest step; the run stops if it fails; default: `step` / 1024").unit("time").above(0.0));
-  parameters.add("easy iterations", easy_iterations,
-                 Says("a step that took no more Newton iterations may be followed by one twice as long").at_least(0));
+  parameters.add("easy iterations", easy_iterations, Says("most Newton iterations of a step that may be followed by one twice as long").at_least(0));
   parameters.add("output times", output_times, Says("times that are hit exactly").unit("time"));
-  parameters.add(
-      "predictor", predictor, {{"none", Predictor::none}, {"linear", Predictor::linear}},
-      "where Newton's iterations start: at the last state, or at the line through the last two, which suits motion that goes on as before");
+  parameters.add("predictor", predictor, {{"none", Predictor::none}, {"linear", Predictor::linear}},
+                 "start of Newton's iterations: the last state, or the line through the last two, which suits motion that goes on as before");
   if (!(step >= least_step * end_time))
     parameters.error("step",
                      fmt::format("is {} of an \"end time\" of {}; allowed: >= {} of it, a thousand million steps", step, end_time, least_step));
@@ -101,7 +99,7 @@ class StepSolver {
   const std::function<void(const NewtonIteration&)>& observer_;
 };
 
-/// Whether F = 0 there to the tolerances: nothing that drives the bodies has changed. The Newton solve tests increments and states itself.
+/// True if F = 0 there to the tolerances: nothing that drives the bodies has changed. The Newton solve tests increments and states itself.
 bool is_solution(const SystemEvaluation& at, const NewtonOptions& options) {
   const ResidualNorms& norms = at.norms();
   const bool balanced = norms.momentum <= options.momentum_tolerance || norms.momentum_absolute <= norms.round_off;
@@ -115,7 +113,7 @@ constexpr double far_off = 1e3;
 /// Factor of the complementarity constants with which a try is repeated whose states of contact run in circles.
 constexpr double careful = 0.01;
 
-/// How a try starts.
+/// Options of the start of a try.
 struct TryOptions {
   bool may_predict;
   double constant_share = 1.0;  ///< SemiSmoothSystem::weigh_gaps()
@@ -157,13 +155,13 @@ Begin begin_of_try(const SemiSmoothSystem& system, const NewtonOptions& newton, 
   const std::optional<double> share = drive.continuation(system.drive(*state.x, now - from.last_step, now));
   const double length = std::min(time - now, share ? *share * from.last_step : time - now);
   if (length == 0.0) return {at_rest(), false};
-  // What drove the last step is not known, as where clearances do. Motion does not go on if the last state is a solution of this step too.
+  // The drive of the last step is not known, as where clearances changed. Motion does not go on if the last state is a solution of this step too.
   if (!share && system.prescribed_deviation(*state.x, time) <= newton.increment_tolerance && is_solution(at_rest(), newton)) return {*rest, false};
   Vector x(*state.x, Teuchos::Copy);
   x.update(length, *from.rate, 1.0);
   const StepContext context = prepared(x);
   SystemEvaluation predicted = system.evaluate(x, context);
-  // What drives the step is the least that the last state lacks.
+  // The last state lacks at least what drives the step.
   const auto is_far_off = [&](double merit) { return !(predicted.norms().merit <= far_off * merit); };
   if (drive.strength() > 0.0 && is_far_off(drive.strength()) && is_far_off(at_rest().norms().merit)) return {*rest, false};
   return {std::move(predicted), true};
@@ -245,8 +243,8 @@ bool run_steps(const SemiSmoothSystem& system, const SteppingOptions& stepping, 
         report.undone.push_back(to_string(failure.kind()) + ": " + failure.what());
         if (observer.undone) observer.undone(report, failure);
         if (in_vain || caught.kind() == FailureKind::out_of_memory) return false;
-        // What a prediction led to, and was refused, is no word on what the last state leads to. Where it led nowhere a smaller step starts at the
-        // last state, and after that with a prediction again.
+        // A refused state that a prediction led to says nothing about the state that the last one leads to. Where it led nowhere a smaller step
+        // starts at the last state, and after that with a prediction again.
         if (leaves_prediction)
           next_try.may_predict = false;
         else if (caught.kind() == FailureKind::cycling_active_set && may_be_careful) {

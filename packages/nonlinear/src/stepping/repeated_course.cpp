@@ -10,7 +10,7 @@ bool is_of_evaluation(FailureKind kind) {
   return kind != FailureKind::too_many_iterations && kind != FailureKind::cycling_active_set && kind != FailureKind::line_search;
 }
 
-/// Whether a number with decimals is among the words: it would change with the step if anything did.
+/// True if a number with decimals is among the words: it would change with the step if anything did.
 bool has_decimals(const std::string& words) {
   for (std::size_t at = 1; at + 1 < words.size(); ++at)
     if (words[at] == '.' && std::isdigit(static_cast<unsigned char>(words[at - 1])) && std::isdigit(static_cast<unsigned char>(words[at + 1])))

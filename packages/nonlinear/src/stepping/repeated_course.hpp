@@ -19,8 +19,8 @@ class RepeatedCourse {
   static constexpr int enough = 3;
 
   /// Takes the next failed try. Failures of an evaluation have reasons that depend on the size of a step: they never count.
-  /// @returns whether it and the `enough` - 1 before it ended Newton's method for the same reason after the same sequence of states of contact, in
-  /// which states have to change; or whether all of them have the same words with the same figures, decimals among them
+  /// @returns true if it and the `enough` - 1 before it ended Newton's method for the same reason after the same sequence of states of contact. The
+  /// states have to change, or all tries have the same words with the same figures, decimals among them.
   bool add(const StepFailure& failure, const NewtonReport& report);
 
  private:

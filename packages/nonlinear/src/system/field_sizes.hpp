@@ -8,7 +8,7 @@
 
 namespace mortise::detail {
 
-/// Which field a row belongs to, and what its values are compared with.
+/// The field of a row, and the size that its values are compared with.
 class FieldSizes {
  public:
   /// @throws std::invalid_argument for rows that belong to no field

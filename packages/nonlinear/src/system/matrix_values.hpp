@@ -8,7 +8,7 @@
 
 namespace mortise::detail {
 
-/// Whether two graphs have the same entries in the same order, on every rank. Collective.
+/// True if two graphs have the same entries in the same order, on every rank. Collective.
 bool same_entries(const Graph& a, const Graph& b);
 
 /// Prescribed increments in a linear system, by rows and by columns, so that what was symmetric stays so.

@@ -12,7 +12,7 @@
 
 namespace mortise::detail {
 
-/// What of a displacement d = P (q, g(q)) + p(t) is an unknown: g of followers, P and p of what is tied. The unknowns q are numbered without gaps, in
+/// Unknowns of a displacement d = P (q, g(q)) + p(t): g of followers, P and p of what is tied. The unknowns q are numbered without gaps, in
 /// the order of the dofs. Tied dofs keep their numbers, for multigrid wants whole nodes: their columns of P are empty, and their increments
 /// prescribed as 0.
 class Reduction {
@@ -30,9 +30,9 @@ class Reduction {
 
   /// v on unknowns().
   RCP<Vector> unknown_part(const Vector& v) const;
-  /// What multigrid is told of the unknowns, from what it would be told of the dofs. Every node has to follow as a whole or not at all.
+  /// Data of the unknowns for multigrid, from that of the dofs. Every node has to follow as a whole or not at all.
   NearNullSpace reduced(const NearNullSpace& of_dofs) const;
-  /// Likewise; the decoupling has to leave followers out. Collective.
+  /// Decoupling of the unknowns, from that of the dofs, which has to leave followers out. Collective.
   Decoupling reduced(const Decoupling& of_dofs) const;
 
  private:
@@ -50,8 +50,9 @@ class Reduction {
   RCP<const Matrix> constant_T_;                                      ///< where nothing follows; else null
 };
 
-/// P (q, g(q)) + p and its derivatives at a displacement. With T = dd/dq a residual r(d) = 0 becomes T^T r = 0. Its linearisation is
-///   (T^T A T + sum_i (P^T r)_i d2g_i/dq2) dq = T^T (rhs - A d0),   d0 = P (q, g(q)) + p - d,   dd = T dq + d0.
+/// P (q, g(q)) + p and its derivatives at a displacement. With T = dd/dq a residual r(d) = 0 becomes T^T r = 0. Its linearisation, with
+/// d0 = P (q, g(q)) + p - d,  is
+///   (T^T A T + sum_i (P^T r)_i d2g_i/dq2) dq = T^T (rhs - A d0),   dd = T dq + d0.
 /// d0 is 0 but on followers and tied dofs. Collective in all members.
 class FollowedDisplacements {
  public:
@@ -65,7 +66,7 @@ class FollowedDisplacements {
 
   /// r becomes T^T r on the dofs that are unknowns, 0 on those that are tied, and on followers what they bear with all that is tied to them.
   void gather(Vector& r) const;
-  /// The same, but with what supports bear at the nodes that they hold.
+  /// Forces as after gather(), but with what supports bear at the nodes that they hold.
   RCP<Vector> support_forces(const Vector& r) const;
   /// T^T r on the unknowns.
   RCP<Vector> reduced(const Vector& r) const;

@@ -159,7 +159,7 @@ AcceptedState SemiSmoothSystem::commit(const SystemEvaluation& evaluation) const
 
 namespace {
 
-/// What a state holds beside contact. `internal` is null where forces are not known.
+/// Stores or restores a state beside contact. `internal` is null where forces are not known.
 void serialize_state(StateArchive& archive, Vector& x, double& time, const RCP<Vector>& internal) {
   serialize(archive, "time", time);
   serialize(archive, "x", "unknowns", x);

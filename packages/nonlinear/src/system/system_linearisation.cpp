@@ -11,7 +11,7 @@ namespace {
 
 using detail::SystemModel;
 
-// What the linear solver says, with what it cannot know.
+// The failure of the linear solver, with what the solver cannot know.
 StepFailure explained(const SystemModel& model, const StepFailure& failure) {
   const ContactSystem* contact = model.parts().contact.get();
   bool two_passes = false;

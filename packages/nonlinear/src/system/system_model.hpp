@@ -1,5 +1,5 @@
 #pragma once
-// What the evaluations of a system share: its parts, and buffers that have no influence on any value.
+// Common data of the evaluations of a system: its parts, and buffers that have no influence on any value.
 
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_CrsGraph.hpp>
@@ -31,14 +31,14 @@ struct EvaluatedSystem {
   Vector external;                                      ///< -f_ext at d
   RCP<const Vector> of_rates;                           ///< forces of contributions with time derivatives; null without
   std::optional<DifferentiatedContact> contact;         ///< none without contact
-  std::optional<ContactLaws> laws;                      ///< likewise
+  std::optional<ContactLaws> laws;                      ///< contact conditions; none without contact
   std::shared_ptr<const FollowedDisplacements> follow;  ///< null: nothing follows
   Vector forces;                                        ///< their sum on all dofs, those of followers not gathered
   Vector residual;
   ResidualNorms norms;
 };
 
-/// What is known of an evaluation before it is made.
+/// Parts of an evaluation that are known before it is made.
 struct AtHand {
   RCP<const Vector> internal;                    ///< null: nothing
   std::optional<DifferentiatedContact> contact;  ///< of the same displacement and history
@@ -92,7 +92,7 @@ class SystemModel {
 
   /// K of an evaluation, assembled unless it is at hand. Filled.
   const RCP<Matrix>& stiffness(const std::shared_ptr<const EvaluatedSystem>& at) const;
-  /// The same, open, to be made into something else: it is at hand no more.
+  /// K of an evaluation, open, to be made into something else: then it is not at hand any more.
   RCP<Matrix> take_stiffness(const std::shared_ptr<const EvaluatedSystem>& at) const;
 
  private:

@@ -11,7 +11,7 @@
 namespace mortise {
 namespace {
 
-/// Excess of the peak from which on a word is said.
+/// Excess of the peak from which on the log mentions it.
 constexpr double noticeable = 0.2;
 /// Depth of an overlap over what it was before slave nodes were moved.
 constexpr double noticeable_rise = 1.1;
@@ -45,7 +45,7 @@ std::string what_becomes_of_overlap(const ContactPairOptions& options) {
 constexpr const char* round_advice = "\"facets\" = \"round\" takes the surfaces as smooth ones";
 
 // An arc with the sagitta s over each facet is 2/3 s from its chords on average: gaps between conforming arcs are off by 2/3 of the difference of
-// both. What is left of the larger one varies along the facet by its sagitta.
+// both. The gap of the larger one varies along the facet by its sagitta.
 void report_arcs(const Named<ContactPairOptions>& options, const PairAtStart& pair, RunLog& log) {
   constexpr double noticeable_share = 0.1;  // of the gap
   const auto& [slave, master] = pair.arcs;
@@ -75,12 +75,12 @@ void report_pair(const Named<ContactPairOptions>& options, const PairAtStart& pa
                          pair.adjusted.second));
   if (options.value.start.mesh == MeshAtStart::adjusted && pair.overlap.depth > noticeable_rise * pair.overlap_as_meshed)
     log.warning(fmt::format(
-        "contact {}: after slave nodes were moved onto the master, the surfaces lie {:.3g} deep in one another, before it {:.3g}: nodes of a "
+        "contact {}: after slave nodes were moved onto the master, the surfaces overlap by {:.3g}, before it by {:.3g}: nodes of a "
         "hollow slave are moved onto chords of the master, and its own chords cut deeper; please exchange slave and master, so that the round "
         "side is the slave, or mesh both with the same points",
         options.name, pair.overlap.depth, pair.overlap_as_meshed));
   if (pair.overlap.depth > 0.0) {
-    const std::string text = fmt::format("contact {}: the surfaces begin by up to {:.3g} in one another, deepest at {}; {}{}", options.name,
+    const std::string text = fmt::format("contact {}: the surfaces overlap by up to {:.3g} at the start, deepest at {}; {}{}", options.name,
                                          pair.overlap.depth, to_string(dimension, pair.overlap), what_becomes_of_overlap(options.value),
                                          pair.reach ? fmt::format("; the search reach is {:.3g} instead of {:.3g}", *pair.reach, pair.longest) : "");
     if (pair.overlap.depth > pair.longest)
@@ -121,8 +121,8 @@ void report_contact_at_start(const Model& model, const Scene& scene, RunLog& log
   for (const StrayOverlap& stray : start.strays)
     log.warning(fmt::format("bodies '{}' and '{}' {}, at {}, and no contact pair connects them: they pass through one another", stray.first,
                             stray.second,
-                            stray.overlap.depth > 0.0 ? fmt::format("begin by up to {:.3g} in one another", stray.overlap.depth)
-                                                      : std::string("lie wholly in one another"),
+                            stray.overlap.depth > 0.0 ? fmt::format("overlap by up to {:.3g} at the start", stray.overlap.depth)
+                                                      : std::string("lie one wholly inside the other"),
                             to_string(dimension, stray.overlap)));
   if (model.contact()) report_corners_of(model, log);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What `solid` computes, as contributions to the nonlinear system.
+// Contributions to the nonlinear system that `solid` computes.
 
 #include <memory>
 #include <string>

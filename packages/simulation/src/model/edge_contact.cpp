@@ -127,7 +127,7 @@ void EdgeContact::start_step(const Vector& displacement) {
   take(next_);
 }
 
-// What lies in one another at the end of a step without a force was not near when the step began.
+// Edges that overlap at the end of a step without a force were not near when the step began.
 void EdgeContact::examine(const Vector& displacement) {
   const PlacedBodies bodies = displaced_(displacement);
   next_ = search_.find(bodies);

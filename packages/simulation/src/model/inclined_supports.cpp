@@ -64,7 +64,7 @@ RCP<const Matrix> product(const Matrix& A, const Matrix& B) {
   return result;
 }
 
-/// What the functions of the rule share.
+/// Common data of the functions of the rule.
 struct Rule {
   RCP<const Map> dofs;
   int dimension;

@@ -357,8 +357,8 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   const std::vector<LocalOrdinal> inclined = held_dofs(supports_.inclined, mesh_->dimension);
   std::merge(motion->dofs().begin(), motion->dofs().end(), inclined.begin(), inclined.end(), std::back_inserter(supports_.dofs));
 
-  // None of the dofs that follow or are tied is prescribed. What tied nodes follow carries no multiplier of contact: momentum there has forces of
-  // ties, or of inclined supports.
+  // None of the dofs that follow or are tied is prescribed. A node that tied nodes follow carries no multiplier of contact: momentum there has forces
+  // of ties, or of inclined supports.
   const auto kept = rcp(new MultiVector(*supports_.fixed, Teuchos::Copy));
   if (parts_.dependent) kept->update(1.0, *marked_components(*mesh_, parts_.dependent->dofs(), 2.0), 1.0);
   if (parts_.tied) {

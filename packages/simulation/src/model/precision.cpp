@@ -16,7 +16,7 @@ namespace {
 /// Distance of the model from the origin over its size from which on contact measures from its middle.
 constexpr double far_away = 1e3;
 
-/// Uncertainty of tractions over the master's modulus from which on a word is said.
+/// Uncertainty of tractions over the master's modulus from which on the log mentions it.
 constexpr double uncertain = 1e-6;
 
 /// Least and largest coordinate of the reference positions in a direction, over all ranks.

@@ -39,8 +39,8 @@ void add_inclined(const Mesh& mesh, const RigidModes& modes, const NodePlaces& a
   }
 }
 
-/// What a point that turns with its followers holds of their body: the motion at the point, where prescribed. In 3D the rates of the components of
-/// the rotation vector are T^-1 times the spin.
+/// Adds what a point that turns with its followers holds of their body: the motion at the point, where prescribed. In 3D the rates of the components
+/// of the rotation vector are T^-1 times the spin.
 void add_turning_point(const Mesh& mesh, const RigidModes& modes, const NodePlaces& at, const MultiVector& fixed, std::size_t p,
                        Eigen::MatrixXd& gram) {
   const ReferencePoint& point = mesh.reference_points[p];
@@ -61,7 +61,7 @@ void add_turning_point(const Mesh& mesh, const RigidModes& modes, const NodePlac
   }
 }
 
-/// What a shared translation holds: with m_i the motion of follower i in a component, sum (m_i - mean)(m_i - mean)^T, and mean mean^T where the
+/// Adds what a shared translation holds: with m_i the motion of follower i in a component, sum (m_i - mean)(m_i - mean)^T, and mean mean^T where the
 /// point is prescribed. Collective; the result counts on the rank of the point.
 void add_shared_translation(const Mesh& mesh, const RigidModes& modes, const NodePlaces& at, const MultiVector& fixed, const ReferencePoint& point,
                             Eigen::MatrixXd& gram) {

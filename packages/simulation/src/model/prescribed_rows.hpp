@@ -1,5 +1,5 @@
 #pragma once
-// What boundary conditions and reference points hold of rigid motions.
+// Rigid motions that boundary conditions and reference points hold.
 
 #include <Eigen/Core>
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the log says of corners of slave surfaces.
+// Log of the corners of slave surfaces.
 
 #include "mortise/contact/contact_system.hpp"
 #include "mortise/simulation/model/run_log.hpp"

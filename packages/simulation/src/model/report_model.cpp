@@ -19,7 +19,7 @@ namespace {
 /// MiB over all ranks.
 struct MemoryEstimate {
   double so_far = 0.0;          ///< largest size until now, with the program and its libraries
-  double linear_systems = 0.0;  ///< what the linear systems will take at their largest, by the solver of the model: rough
+  double linear_systems = 0.0;  ///< memory of the linear systems at their largest, by the solver of the model: rough
 };
 
 /// Collective.

@@ -1,5 +1,5 @@
 #pragma once
-// What a run consists of, as people read it.
+// Report on the parts of a run, for people.
 
 #include <string>
 
@@ -11,7 +11,7 @@ namespace mortise {
 /// Effects first, then sizes. Collective.
 void report_model(const std::string& file, const Scene& scene, const Model& model, RunLog& log);
 
-/// What a run of the model will take, roughly, and a warning where that is more than there is. Collective.
+/// Reports the memory that a run of the model will take, roughly, with a warning where that is more than there is. Collective.
 void report_memory(const Model& model, RunLog& log);
 
 }  // namespace mortise

@@ -1,5 +1,5 @@
 #pragma once
-// What people call the rigid motions of bodies.
+// Names of the rigid motions of bodies, for people.
 
 #include <Eigen/Core>
 #include <utility>

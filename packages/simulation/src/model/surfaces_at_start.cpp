@@ -40,7 +40,7 @@ std::string where(const Mesh& mesh, const DeepestPoint& point, const std::string
   return to_string(mesh.dimension, place_of(point, surface));
 }
 
-/// What facets leave of the arcs of two surfaces, one of which is hollow where the other is convex.
+/// Distances that facets leave of the arcs of two surfaces, one of which is hollow where the other is convex.
 std::array<double, 2> conforming_arcs(const RoundedFacets& slave, const RoundedFacets& master, double least) {
   const bool slave_is_hollow = slave.deepest > slave.highest, master_is_hollow = master.deepest > master.highest;
   if (slave.arc() <= least || master.arc() <= least || slave_is_hollow == master_is_hollow) return {0.0, 0.0};
@@ -66,7 +66,7 @@ Examined examine(const PlacedBodies& bodies, std::size_t index, const Named<Cont
   return pair;
 }
 
-/// What is known of a pair whose surfaces belong to several bodies.
+/// Adds the findings on two bodies to those of a pair whose surfaces belong to several bodies.
 void add(PairAtStart& pair, const PairAtStart& of_bodies) {
   pair.longest = std::max(pair.longest, of_bodies.longest);
   if (of_bodies.overlap.depth > pair.overlap.depth) pair.overlap = of_bodies.overlap;
@@ -90,9 +90,9 @@ void complain_of_overlap(const PlacedBodies& bodies, Examined& pair, std::vector
   const auto say = [&, &place = place](const std::string& text) { diagnostics.push_back({place, text}); };
   const OverlapPlace& overlap = pair.result.overlap;
   const std::string what =
-      fmt::format("the surfaces begin by {:.3g} in one another, deepest at {}", overlap.depth, to_string(bodies.mesh.dimension, overlap));
+      fmt::format("the surfaces overlap by {:.3g} at the start, deepest at {}", overlap.depth, to_string(bodies.mesh.dimension, overlap));
   if (options.start.initial_overlap == InitialOverlap::error) {
-    // Facets that pass through the nodes of one smooth surface may lie in one another by what they leave of it. Of quadratic ones that is of fourth
+    // Facets that pass through the nodes of one smooth surface may overlap by what they leave of it. Of quadratic ones that is of fourth
     // order, and no pressure to speak of; linear ones have to be said to be round.
     const bool is_round = options.start.facets == FacetShape::round;
     const auto left = [&](const NamedSurface& one) { return height_of_kinks(bodies.mesh, one.set, bodies.at, is_round); };

@@ -28,7 +28,7 @@ void ContactForce::describe(Parameters& parameters) {
   PairQuantity::describe(parameters);
   parameters.add("component", component, component_names(), "direction of the force on the slave side");
   parameters.add("part", part, {{"all", Part::all}, {"normal", Part::normal}, {"tangential", Part::tangential}},
-                 "what of it: all, the pressures along the nodes' normals, or the shear tractions across them");
+                 "part of the force: all, the pressures along the nodes' normals, or the shear tractions across them");
 }
 
 std::unique_ptr<QuantityEvaluator> ContactForce::make_evaluator(const QuantityContext& context) const {

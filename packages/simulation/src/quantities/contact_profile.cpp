@@ -16,7 +16,7 @@ namespace {
 
 const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
 
-/// Which node follows which along the facets, by ids, on rank 0.
+/// The node that follows each one along the facets, by ids, on rank 0.
 std::map<GlobalOrdinal, GlobalOrdinal> links_on_root(const Mesh& mesh, const SideSet& slave) {
   std::vector<std::array<GlobalOrdinal, 2>> links;
   for (LocalOrdinal side = 0; side < slave.owned; ++side) {

@@ -23,7 +23,7 @@ void ContactTraction::describe(Parameters& parameters) {
   PairQuantity::describe(parameters);
   parameters.add("x", x, Says("position on the slave surface; left out: the traction of largest size").unit("length"));
   parameters.add("part", part, {{"pressure", Part::pressure}, {"shear", Part::shear}, {"x", Part::x}, {"y", Part::y}},
-                 "what acts along or across the normal of the slave surface as it stands, or along an axis; of the traction of slave on master");
+                 "part of the traction of slave on master: along or across the current normal of the slave surface, or along an axis");
   describe_measure(parameters, measure);
 }
 

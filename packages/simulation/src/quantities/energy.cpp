@@ -221,7 +221,7 @@ std::unique_ptr<QuantityEvaluator> Energy::make_evaluator(const QuantityContext&
   });
 }
 
-/// What is missing in the balance of works, over the largest of them:
+/// Gap in the balance of works, over the largest of them:
 ///   - internal_work: external work - internal work - friction. It is what contact pressures have done, which is nothing where surfaces touch all
 ///     over.
 ///   - stored_and_plastic: external work - stored - plastic work - friction. It counts besides what F-bar, without a potential, and the steps of the
@@ -297,7 +297,7 @@ void add_energy(Registry<Quantity>& kinds) {
 }
 
 void add_energy_error(Registry<Quantity>& kinds) {
-  kinds.add<EnergyError>("energy error", "what external work leaves after internal work and friction, relative");
+  kinds.add<EnergyError>("energy error", "relative difference of external work and the sum of internal work and friction");
 }
 
 }  // namespace mortise

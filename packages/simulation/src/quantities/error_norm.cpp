@@ -29,7 +29,7 @@ struct Squares {
   }
 };
 
-/// Whether the exact solution has what the field is compared with.
+/// True if the exact solution has what the field is compared with.
 bool is_known(const ErrorNorm& quantity, double time) {
   const ExactSolution::Point somewhere{1.0, 1.0};
   if (quantity.of == ErrorNorm::Of::contact_pressure) return quantity.exact.options->pressure(somewhere, time).has_value();
@@ -109,7 +109,7 @@ void ErrorNorm::describe(Parameters& parameters) {
   parameters.add("unit", unit, {{"length", Unit::length}, {"half width", Unit::half_width}},
                  "unit of the range: a length, or half widths of the exact contact zone, from its centre");
   ExactList list{exact};
-  parameters.list("exact", list, "what the field is compared with");
+  parameters.list("exact", list, "exact solution with which the field is compared");
   if (of != Of::contact_pressure && (from || to))
     parameters.error(from ? "from" : "to", "a range counts for the contact pressure only; please remove it");
   if (from && to && *from >= *to) parameters.error("to", fmt::format("is {:g}; it has to lie above \"from\", {:g}", *to, *from));

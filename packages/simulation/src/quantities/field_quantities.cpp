@@ -125,7 +125,7 @@ void FieldQuantity::describe(Parameters& parameters) {
 
 void Extremum::describe(Parameters& parameters) {
   FieldQuantity::describe(parameters);
-  parameters.add("which", which, names(), "which extremum");
+  parameters.add("which", which, names(), "kind of extremum");
 }
 
 const std::vector<std::pair<std::string, Extremum::Which>>& Extremum::names() {

@@ -12,7 +12,7 @@ namespace {
 
 using Values = std::vector<double>;
 
-/// A vector on the dofs as one on the nodes. What stands at a node for the rotation of a reference point is none: 0.
+/// A vector on the dofs as one on the nodes. The entry of a node for the rotation of a reference point is 0.
 Values on_nodes(const Mesh& mesh, const Vector& vector) {
   const auto view = vector.getLocalViewHost(Tpetra::Access::ReadOnly);
   Values values(view.data(), view.data() + view.extent(0));

@@ -1,4 +1,4 @@
-// How far forces are from balance.
+// Distance of forces from balance.
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
@@ -95,8 +95,6 @@ struct MomentumImbalance : Quantity {
 
 }  // namespace
 
-void add_momentum_imbalance(Registry<Quantity>& kinds) {
-  kinds.add<MomentumImbalance>("momentum imbalance", "how far forces are from balance, relative");
-}
+void add_momentum_imbalance(Registry<Quantity>& kinds) { kinds.add<MomentumImbalance>("momentum imbalance", "relative imbalance of the forces"); }
 
 }  // namespace mortise

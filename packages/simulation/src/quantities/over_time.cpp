@@ -40,7 +40,7 @@ struct OverTime : Quantity {
 
   void describe(Parameters& parameters) override {
     parameters.add("quantity", quantity, Says("name of a quantity that stands before this one").required());
-    parameters.add("which", which, Extremum::names(), "which extremum");
+    parameters.add("which", which, Extremum::names(), "kind of extremum");
   }
 
   std::unique_ptr<QuantityEvaluator> make_evaluator(const QuantityContext& context) const override {

@@ -16,10 +16,10 @@
 namespace mortise {
 namespace {
 
-/// How far outside, in reference coordinates, a point still counts as inside: round-off of points on sides and nodes.
+/// Distance outside, in reference coordinates, at which a point still counts as inside: round-off of points on sides and nodes.
 constexpr double inside_tolerance = 1e-8;
 
-/// How far sides of quadratic cells may bulge beyond the box of their nodes, over its diagonal.
+/// Bulge of sides of quadratic cells beyond the box of their nodes, at most, over its diagonal.
 constexpr double curved_margin = 0.25;
 
 /// Shares N_a of an element's nodes at the point, or nothing if it lies outside. Newton's method for X(xi) = point.

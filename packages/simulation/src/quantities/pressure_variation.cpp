@@ -1,4 +1,4 @@
-// How much the contact pressure goes up and down.
+// Variation of the contact pressure along the surface.
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// How much stresses differ.
+// Spread of stresses.
 
 #include <algorithm>
 #include <functional>

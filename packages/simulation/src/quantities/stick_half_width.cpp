@@ -47,7 +47,7 @@ struct StickHalfWidth : PairQuantity {
 }  // namespace
 
 void add_stick_half_width(Registry<Quantity>& kinds) {
-  kinds.add<StickHalfWidth>("stick half width", "half width of what sticks, from the second moment of what is left of the friction bound");
+  kinds.add<StickHalfWidth>("stick half width", "half width of the sticking zone, from the second moment of the unused part of the friction bound");
 }
 
 }  // namespace mortise

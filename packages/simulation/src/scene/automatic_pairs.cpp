@@ -23,9 +23,8 @@ namespace mortise {
 
 void AutomaticContactOptions::describe(Parameters& parameters) {
   parameters.add("pairs", pairs, {{"none", ContactSearch::none}, {"automatic", ContactSearch::automatic}},
-                 "automatic: pairs are found where surfaces of different bodies, which are not tied, face one another at the start; they and the "
-                 "choice of their sides stand in the "
-                 "log and in effective.xml");
+                 "automatic: finds pairs of surfaces of different bodies that face one another at the start and are not tied. The log and "
+                 "effective.xml list them with the choice of their sides");
   parameters.add("bodies", bodies, "bodies that may touch one another; empty: all");
   parameters.add(
       "reach", reach,
@@ -262,7 +261,7 @@ class PairMaker {
     return sets_[key] = set.name;
   }
 
-  /// An expression above 0 where a point of a part is nearer to the centre of one that faces it than to those of all others:
+  /// An expression above 0 where a point of a part is nearer to the centre of one that faces it than to those of all others. For each other one
   ///   |x - c_o|^2 - |x - c|^2 = 2 (c - c_o) . x + |c_o|^2 - |c|^2
   ScalarFunction nearer_to(int of, int facing, const Place& place) const {
     const Eigen::Vector3d c = found_.parts[static_cast<std::size_t>(facing)].centre;

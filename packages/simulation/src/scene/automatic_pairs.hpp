@@ -6,7 +6,7 @@
 
 namespace mortise {
 
-/// Adds pairs and the sets that they need to the scene if it asks for them; then the scene asks no more, so that effective.xml gives the same again.
+/// Adds pairs and the sets that they need to the scene if it asks for them. Then the request is cleared, so that effective.xml gives the same again.
 /// The sides of a pair are chosen as roles.hpp says, then the more curved one is the slave. Where a patch would be slave and master at once it is
 /// split among those that face it. Neither names nor the order of bodies count. Collective.
 /// @param mesh  of the scene, with its sets

@@ -10,7 +10,7 @@
 namespace mortise {
 namespace {
 
-/// Whether numbers that differ are written differently with so many digits, of which a value has ten at least.
+/// True if numbers that differ are written differently with so many digits, of which a value has ten at least.
 bool tells_apart(const CheckResult& check, int digits) {
   const auto differ = [&](double bound, double other, int digits_of_other) {
     return bound == other || fmt::format("{:.{}g}", bound, digits) != fmt::format("{:.{}g}", other, digits_of_other);

@@ -1,5 +1,5 @@
 #pragma once
-// Which of two surfaces is the slave, and what a slave that is stiffer and finer than its master costs.
+// Choice of the slave of two surfaces, and the cost of a slave that is stiffer and finer than its master.
 
 #include <limits>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace mortise {
 
-/// What the choice depends on.
+/// Traits on which the choice depends.
 struct SurfaceTraits {
   double modulus = std::numeric_limits<double>::infinity();  ///< Young's modulus of the stiffest body; of a rigid one infinite
   double facet = 0.0;                                        ///< shortest side of a facet
@@ -26,8 +26,8 @@ struct RoleChoice {
   std::string reason;
 };
 
-/// The deformable one; the softer one, if moduli differ by more than a factor of 2; the one that faces fewer bodies, unless its facets are twice as
-/// long or more; the finer one; the first.
+/// The deformable one; the softer one, if moduli differ by more than a factor of 2. Else the one that faces fewer bodies, unless its facets are twice
+/// as long or more; the finer one; the first.
 RoleChoice better_slave(const SurfaceTraits& first, const SurfaceTraits& second);
 
 /// By how much of itself the peak pressure may come out too high with this slave: 0, unless it is stiffer and finer.

@@ -31,11 +31,11 @@ void check_position(Parameters& parameters, const std::string& name, std::vector
 }  // namespace
 
 void BodyOptions::describe(Parameters& parameters) {
-  parameters.add("rigid", rigid, "whether the body keeps its shape: it then has no material and no elements, and moves with \"body/reference\"");
-  parameters.add(
-      "reference point", reference_point,
-      Says("of a rigid body, \"x, y\" or \"x, y, z\": what it turns about and where forces on it act; left out: the middle of the box around it")
-          .unit("length"));
+  parameters.add("rigid", rigid, "true: the body keeps its shape. It then has no material and no elements, and moves with \"body/reference\"");
+  parameters.add("reference point", reference_point,
+                 Says("of a rigid body, \"x, y\" or \"x, y, z\": the point about which it turns and at which forces on it act; left out: the middle "
+                      "of the box around it")
+                     .unit("length"));
   check_position(parameters, "reference point", reference_point);
   parameters.add("density", density, Says("of a rigid body with inertia, whose surface has to be closed").unit("mass / volume").above(0.0));
   parameters.add("mass", mass, Says("of a rigid body with inertia, in the place of a density").unit("mass").above(0.0));
@@ -57,10 +57,9 @@ void BodyOptions::describe(Parameters& parameters) {
   if (rigid.value && !materials.all.empty()) parameters.error("materials", "a rigid body has no materials; please remove one of the two");
   std::vector<std::pair<std::string, std::optional<ElementType>>> elements{{"automatic", std::nullopt}};
   for (const auto& [name, type] : element_names()) elements.emplace_back(name, type);
-  parameters.add(
-      "element", element, elements,
-      "what the body is discretised with; automatic: Q4 in 2D, H8 in 3D, and for a mesh file what its cells are. Cells of a mesh file that have "
-      "another shape than the named element get the standard one of their shape");
+  parameters.add("element", element, elements,
+                 "element of the body; automatic: Q4 in 2D, H8 in 3D, and the elements of the cells of a mesh file. Cells of a mesh file that have "
+                 "another shape than the named element get the standard one of their shape");
   MeshList list{mesh};
   parameters.list("mesh", list, "the mesh of the body; its sides become the sets \"body/side\"");
   parameters.add("mirror", mirror, {{"none", Mirror::none}, {"x", Mirror::x}, {"y", Mirror::y}, {"z", Mirror::z}},
@@ -76,7 +75,7 @@ void TieOptions::describe(Parameters& parameters) {
   parameters.add("set", set, Says("node or side set whose nodes follow the point").required());
   parameters.add("position", position, Says("\"x, y\" or \"x, y, z\"; left out: the middle of the box around the set").unit("length"));
   check_position(parameters, "position", position);
-  parameters.add("rotation", rotates, "whether the nodes turn with the point; if not, they share its translation alone");
+  parameters.add("rotation", rotates, "true: the nodes turn with the point; false: they share its translation alone");
   parameters.add("follows", follows, {{"all", Follows::all}, {"x", Follows::x}, {"y", Follows::y}, {"z", Follows::z}},
                  "components of the displacement that follow");
   if (rotates && follows != Follows::all)
@@ -86,21 +85,20 @@ void TieOptions::describe(Parameters& parameters) {
 void ContactPairOptions::describe(Parameters& parameters) {
   parameters.add("slave", slave, Says("side set that carries the multipliers: the finer, softer or shorter one").required());
   parameters.add("master", master, Says("side set that it may touch").required());
-  parameters.add(
-      "roles", roles, {{"as given", ContactRoles::as_given}, {"automatic", ContactRoles::automatic}},
-      "automatic: slave and master are exchanged if the master is the better slave: the deformable one, else the softer one if moduli differ "
-      "by more than a factor of 2, else the finer one");
+  parameters.add("roles", roles, {{"as given", ContactRoles::as_given}, {"automatic", ContactRoles::automatic}},
+                 "automatic: slave and master are exchanged if the master is the better slave. That is the deformable one, else the softer one if "
+                 "moduli differ by more than a factor of 2, else the finer one");
   start.describe(parameters);
   parameters.add("reason", reason, "words on the choice of the sides, which the program writes for pairs that it found; they change nothing");
   contact.describe(parameters);
 }
 
 void SurfaceTieOptions::describe(Parameters& parameters) {
-  parameters.add("slave", slave, Says("side set whose nodes follow the master: the finer or softer one").required());
-  parameters.add("master", master, Says("side set that they follow").required());
+  parameters.add("slave", slave, Says("side set whose nodes are constrained to the master: the finer or softer one").required());
+  parameters.add("master", master, Says("side set whose displacement constrains them").required());
   parameters.add("start", mesh, {{"as meshed", MeshAtStart::as_meshed}, {"adjust", MeshAtStart::adjusted}},
-                 "as meshed: gaps stay as they are, and a rotation strains curved surfaces and gaps; adjust: slave nodes are moved to where the "
-                 "master has them before anything is computed, which strains nothing, and rotations are exact");
+                 "as meshed: gaps stay as they are, and a rotation strains curved surfaces and gaps. adjust: slave nodes are moved onto the master "
+                 "before anything is computed. That strains nothing, and rotations are exact");
   parameters.add("tolerance", tolerance,
                  Says("distance up to which the slave is tied, and nodes are adjusted; default: a tenth of the longest facet of the tie")
                      .unit("length")
@@ -111,7 +109,7 @@ void CheckpointOptions::describe(Parameters& parameters) {
   parameters.add("every step", every_step, Says("a checkpoint is written after every so many steps, and at the end; 0: not by steps").at_least(0));
   parameters.add("every minutes", every_minutes,
                  Says("a checkpoint is written after the first step that ends so long after the last one; 0: not by time").unit("min").at_least(0.0));
-  parameters.add("keep", keep, Says("how many of the newest checkpoints stay").at_least(1));
+  parameters.add("keep", keep, Says("number of the newest checkpoints that stay").at_least(1));
 }
 
 void OutputOptions::describe(Parameters& parameters) {
@@ -125,8 +123,9 @@ void OutputOptions::describe(Parameters& parameters) {
     if (std::find(fields.begin(), field, *field) != field) parameters.error("fields", "names \"" + *field + "\" twice");
   parameters.add("every step", every_step,
                  Says("fields are written after every so many steps, and at the end; 0: at the output times and the end only").at_least(0));
-  parameters.list("checkpoints", checkpoints,
-                  "what a run can be restarted from; it also leaves one when it stops before its end, and at its end if it has left one before");
+  parameters.list(
+      "checkpoints", checkpoints,
+      "files from which a run can be restarted. A run also leaves one when it stops before its end, and at its end if it has left one before");
   parameters.add(
       "contact profiles", contact_profiles,
       "pressure, shear traction and gap along the arc length of each slave surface are written to profiles.csv at the output times and the end");
@@ -136,7 +135,7 @@ void QuantityChoice::describe(Parameters& parameters) { parameters.choose(quanti
 
 void Scene::describe(Parameters& parameters) {
   parameters.add("kinematics", kinematics, kinematics_names(),
-                 "how the third direction behaves; axisymmetric: x is the radius, y the axis; three dimensional: bodies in 3D");
+                 "strain and stress in the third direction; axisymmetric: x is the radius, y the axis; three dimensional: bodies in 3D");
   parameters.add("thickness", thickness,
                  Says("thickness of the model out of the plane; axisymmetric scenes do not use it").unit("length").at_least(1e-30).at_most(1e30));
   parameters.named("materials", materials, "the materials, by names of your choice");
@@ -145,7 +144,7 @@ void Scene::describe(Parameters& parameters) {
   parameters.named("reference points", reference_points, "sets of nodes that move like a rigid body or share a translation, by names of your choice");
   parameters.named("boundary conditions", boundary_conditions, "prescribed displacements");
   parameters.named("loads", loads, "loads, by names of your choice");
-  parameters.named("ties", ties, "surfaces that are glued together, by names of your choice");
+  parameters.named("ties", ties, "mesh ties: surfaces that are glued together, by names of your choice");
   parameters.named("contact", contact, "contact pairs, by names of your choice");
   parameters.list("automatic contact", automatic_contact, "contact pairs that the program finds");
   parameters.list("inertia", inertia, "mass of the bodies and time integration; without a scheme the scene is static");

@@ -51,7 +51,7 @@ std::vector<BodyDescription> body_descriptions(const Communicator& comm, const S
   for (const auto& body : scene.bodies) {
     is_listed.push_back(dynamic_cast<const FileMesh*>(body.value.mesh.options.get()) != nullptr ? 1 : 0);
     if (is_listed.back()) continue;
-    // Which bodies are lists does not depend on the rank; the lists themselves rank 0 needs alone.
+    // The choice of bodies that are lists does not depend on the rank; the lists themselves rank 0 needs alone.
     const MeshOptions& mesh = *body.value.mesh.options;
     const bool is_rigid = body.value.rigid.value;
     const CellShape cell = is_rigid ? rigid_shape(mesh.dimension()) : cell_shape(element_of(body.value));

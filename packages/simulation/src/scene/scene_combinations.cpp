@@ -19,7 +19,7 @@ void check_position(const Scene& scene, const std::vector<double>& position, con
                                               position.size(), to_string(scene.kinematics), numbers)});
 }
 
-/// Copies of a plane body stay in the plane.
+/// Copies of a body in 2D stay in its plane.
 void refuse_out_of_plane(const Scene& scene, const Named<BodyOptions>& body, std::vector<Diagnostic>& diagnostics) {
   if (scene.kinematics == Kinematics::three_dimensional) return;
   const PatternOptions& pattern = body.value.pattern;

@@ -1,5 +1,5 @@
 #pragma once
-// What of a scene has to go together.
+// Checks of combinations in a scene.
 
 #include <vector>
 

@@ -16,7 +16,7 @@ namespace mortise {
 namespace {
 
 constexpr double opposite = 0.5;        ///< cosine of the angle between normals that face one another
-constexpr double no_direction = 1e-10;  ///< what is left of a unit vector that is held, by round-off
+constexpr double no_direction = 1e-10;  ///< rest of a unit vector that is held, by round-off
 
 /// Unit normals of owned nodes: means over their facets, without what is held of the nodes.
 std::map<LocalOrdinal, Eigen::Vector3d> nodal_normals(const Mesh& mesh, const SideSet& slave, const HeldNodes& held) {

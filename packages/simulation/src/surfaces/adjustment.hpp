@@ -11,7 +11,7 @@
 
 namespace mortise {
 
-/// What conditions prescribe at nodes.
+/// Components and directions of nodes that conditions prescribe.
 struct HeldNodes {
   std::vector<std::array<bool, 3>> components;                            ///< [local nodes]
   std::map<LocalOrdinal, std::vector<std::array<double, 3>>> directions;  ///< of inclined supports, by local nodes: unit vectors
@@ -20,11 +20,11 @@ struct HeldNodes {
 /// v at a node without its part along what is held of it.
 Eigen::Vector3d free_part(const HeldNodes& held, LocalOrdinal node, Eigen::Vector3d v);
 
-/// What an adjustment did, over all ranks.
+/// Result of an adjustment, over all ranks.
 struct Adjustment {
   GlobalOrdinal nodes = 0;  ///< that were moved
   double largest = 0.0;     ///< by so much [length]
-  double overlap = 0.0;     ///< depth of the surfaces in one another before it [length]
+  double overlap = 0.0;     ///< depth of the overlap of the surfaces before it [length]
 };
 
 /// Moves nodes of `slave` along their normals onto `master` where it is no further away than `tolerance`, in front or behind. Nodes stay

@@ -23,7 +23,7 @@ std::vector<TaggedFacet> tagged_surface(const Mesh& mesh, std::size_t body, cons
 /// The side set that is the whole surface of a body.
 const SideSet& whole_surface(const Mesh& mesh, std::size_t body);
 
-/// Whether a body is made of a surface alone, with a solid side and no inside.
+/// True if a body is made of a surface alone, with a solid side and no inside.
 bool is_rigid(const Mesh& mesh, std::size_t body);
 
 /// The box of each body's surface, over all ranks. Collective.
@@ -38,7 +38,7 @@ struct PlacedBodies {
   double touching;          ///< shorter depths are none
 };
 
-/// What a set of sides has of one body.
+/// Sides of a set that belong to one body.
 struct SidesOfBody {
   std::size_t body = 0;
   std::shared_ptr<const SideSet> set;  ///< may be empty on this rank

@@ -1,5 +1,5 @@
 #pragma once
-// What tells a corner from facets that stand for an arc.
+// Distinction of a corner from facets that stand for an arc.
 
 #include <cmath>
 

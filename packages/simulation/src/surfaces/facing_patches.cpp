@@ -104,7 +104,7 @@ Patches find_patches(const Mesh& mesh, const std::vector<char>& bodies, double a
   return patches;
 }
 
-/// What a point of a part sees: the nearest outside of another body along its normal, with nothing between.
+/// The crossing that a point of a part sees: the nearest outside of another body along its normal, with nothing between.
 std::optional<Crossing> seen(const std::vector<Crossing>& crossings, int own_part, const std::vector<SurfacePart>& parts, double tolerance,
                              double far) {
   const int own_body = parts[static_cast<std::size_t>(own_part)].body;
@@ -119,7 +119,7 @@ std::optional<Crossing> seen(const std::vector<Crossing>& crossings, int own_par
   return nearest;
 }
 
-/// Of points that see another body behind them those that lie within it: along their normals they leave it before they would enter it, and across
+/// Keeps those points that see another body behind them and lie within it. Along their normals they leave it before they would enter it. Across
 /// them it ends no nearer than half as far as behind. So a hole's rim that lies a little in the seat of a bolt does not face the far side of its
 /// head. A line that grazes a surface may miss it, so that what lies behind it alone tells nothing. A rigid surface has no inside. Collective.
 /// @param seen  [lines] what they see; what is not within is taken back

@@ -1,5 +1,5 @@
 #pragma once
-// Which smooth parts of the bodies' surfaces face one another.
+// Smooth parts of the bodies' surfaces that face one another.
 
 #include <optional>
 #include <vector>
@@ -40,9 +40,9 @@ struct FacingSurfaces {
   std::vector<HiddenPart> hidden;   ///< as far as the longest edge of all sides, or the reach
 };
 
-/// From points on every side of the bodies' surfaces a line is drawn along the normal, both ways. What it meets first is seen if it is another body's
-/// outside, turned towards the point by less than 60 degrees, no further than `reach`, and nothing, of the own body neither, stands between: so
-/// nothing is seen through a wall.
+/// From points on every side of the bodies' surfaces a line is drawn along the normal, both ways. The first surface that it meets is seen if it is
+/// another body's outside, turned towards the point by less than 60 degrees, no further than `reach`. No surface, of the own body neither, may stand
+/// between: nothing is seen through a wall.
 /// @param bodies  for each body whether it takes part
 /// @param angle   [degrees] between sides at the edges of parts
 /// @param reach   none: as far as the longest edge of the side that looks

@@ -12,7 +12,7 @@ namespace {
 /// Depths that differ by less than this share are equal.
 constexpr double equal_depth = 1e-6;
 
-/// What a line finds of the other body, and where.
+/// Finding of a line about the other body, and its place.
 struct Finding {
   Penetration penetration;
   bool is_sure = true;                               ///< no facet is met at a grazing angle on the way
@@ -59,14 +59,14 @@ struct ProbeLines {
 
   void add(const BodiesToCompare& bodies, std::size_t p, const Eigen::Vector3d& x, const Eigen::Vector3d& d) {
     LineSegment line{x, d, -bodies.touching, bodies.own_box.diagonal() + bodies.other_box.diagonal()};
-    // What is within a solid body ends in its box. A rigid one may have no more than a surface: the line goes on to the end of its own body.
+    // A line within a solid body ends in its box. A rigid one may be only a surface: the line goes on to the end of its own body.
     if (!bodies.other_is_rigid && !bodies.other_box.widened(bodies.touching).cut(line)) return;
     lines.push_back(line);
     probe.push_back(p);
   }
 };
 
-// A rigid surface that a line enters within its own body has what lies behind it in it, as deep as the own body goes on behind the surface: along the
+// A line may enter a rigid surface within its own body. The own body then lies in it as deep as it goes on behind the surface. The depth is along the
 // surface's normal, as the line may run along the surface.
 void measure_pierced(const BodiesToCompare& bodies, const std::vector<SurfaceProbe>& probes, const std::vector<Finding>& findings,
                      std::vector<Penetration>& result) {

@@ -1,5 +1,5 @@
 #pragma once
-// How far points of one body's surface lie within another body.
+// Depth of points of one body's surface within another body.
 
 #include <optional>
 #include <vector>
@@ -25,7 +25,7 @@ struct BodiesToCompare {
   double touching = 0.0;        ///< shorter depths are none
 };
 
-/// What the line from a probe against its normal, through its own body, finds of the other one.
+/// Finding of the line from a probe against its normal, through its own body, about the other one.
 struct Penetration {
   enum class Kind {
     none,
@@ -39,11 +39,11 @@ struct Penetration {
   double depth = 0.0;
 };
 
-/// Whether the line from a probe meets the other body's box, so that penetrations() looks at it.
+/// True if the line from a probe meets the other body's box, so that penetrations() looks at it.
 bool may_penetrate(const SurfacePoint& point, const Box3& own_box, const Box3& other_box, bool other_is_rigid, double touching);
 
-/// For each probe. Collective. Only probes whose line meets the other body's box cost anything. What meets a facet at a grazing angle on its way, as
-/// lines that run within a face, finds nothing.
+/// For each probe. Collective. Only probes whose line meets the other body's box cost anything. A line that meets a facet at a grazing angle on its
+/// way, as lines that run within a face, finds nothing.
 std::vector<Penetration> penetrations(const BodiesToCompare& bodies, const std::vector<SurfaceProbe>& probes);
 
 /// The deepest overlap over all ranks, the same on each.

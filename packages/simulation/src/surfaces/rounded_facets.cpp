@@ -17,7 +17,7 @@
 namespace mortise {
 namespace {
 
-/// What the facets around a node say of the smooth surface there.
+/// Normal of the smooth surface at a node, by the facets around it.
 struct NodeNormal {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< 0: the node is a corner
   bool is_inside = false;                            ///< the surface goes on around the node
@@ -159,8 +159,8 @@ RoundedFacets round_facets(const Mesh& mesh, const SideSet& set, const PlaceOfNo
   return result;
 }
 
-// Let the facet -l <= x <= l, h = 2 l, leave the parts c (l^2 - x^2)(l^2 - y^2) of a surface, without which a quadrilateral of 8 nodes is: c l^4 in
-// its middle. At the middle of an edge its normal is off by 2 c l^3, the angle to that of the neighbour is 4 c l^3 = a: c l^4 = a l / 4 = h a / 8.
+// Let the facet -l <= x <= l, h = 2 l, leave the parts c (l^2 - x^2)(l^2 - y^2) of a surface, which a quadrilateral of 8 nodes lacks. In its middle
+// that is c l^4. At the middle of an edge its normal is off by 2 c l^3, the angle to that of the neighbour is 4 c l^3 = a: c l^4 = a l / 4 = h a / 8.
 double height_of_kinks(const Mesh& mesh, const SideSet& set, const PlaceOfNode& at, bool with_linear) {
   struct AtNode {
     Eigen::Vector3d normal;

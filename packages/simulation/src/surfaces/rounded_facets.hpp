@@ -19,14 +19,14 @@ struct RoundedFacets {
 /// Collective.
 RoundedFacets round_facets(const Mesh& mesh, const SideSet& set, const PlaceOfNode& at);
 
-/// The most by which a smooth surface through the nodes may leave the facets, over all ranks: facets of length h with normals that differ by the
-/// angle a at a node that they share leave at most h a / 8. Of lines of arcs that is the sagitta; of quadratic facets, where the angle is of third
-/// order, it is the bubble that a quadrilateral of 8 nodes does not have, and four times what lines of 3 nodes leave. Corners count for nothing.
+/// The most by which a smooth surface through the nodes may leave the facets, over all ranks. Facets of length h with normals that differ by the
+/// angle a at a node that they share leave at most h a / 8. Of lines of arcs that is the sagitta. Of quadratic facets the angle is of third order.
+/// There it is the bubble that a quadrilateral of 8 nodes does not have, and four times what lines of 3 nodes leave. Corners count for nothing.
 /// @param with_linear  of linear facets too; else these have 0
 /// Collective.
 double height_of_kinks(const Mesh& mesh, const SideSet& set, const PlaceOfNode& at, bool with_linear);
 
-/// By how much the gap between the smooth surfaces is larger than that between facets, as slave nodes see it: the mean over their facets with the
+/// Difference of the gap between the smooth surfaces and that between facets, as slave nodes see it. It is the mean over their facets with the
 /// weights of gaps, along the facets' normals. 0 of other nodes.
 /// @param dual  gaps are weighted by dual functions
 /// @return [owned nodes]

@@ -21,7 +21,7 @@ struct EdgeNode {
   std::array<LocalOrdinal, 2> next{-1, -1};  ///< both -1: edges end there, or it is a corner of the edge
 };
 
-/// What this rank has of the edges of a surface.
+/// Edges of a surface on this rank.
 struct SharpEdges {
   std::vector<SharpEdge> pieces;  ///< whose first end it owns: each on one rank
   std::vector<EdgeNode> nodes;    ///< that it owns

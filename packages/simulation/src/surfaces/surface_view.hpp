@@ -1,5 +1,5 @@
 #pragma once
-// What the points of one surface find of another body.
+// Findings of the points of one surface about another body.
 
 #include <limits>
 #include <optional>
@@ -20,7 +20,7 @@ struct NamedSurface {
   std::size_t body;
 };
 
-/// What the probes of `from` find of the body of `to`.
+/// Findings of the probes of `from` about the body of `to`.
 struct SurfaceView {
   DeepestPoint deepest;
   double probes = 0.0, swallowed = 0.0;  ///< numbers over all ranks
@@ -33,7 +33,7 @@ SurfaceView look(const PlacedBodies& bodies, const NamedSurface& from, const Nam
 /// From the deepest point on through the other body: how far its back is. No value: it has none there.
 std::optional<double> distance_to_back(const PlacedBodies& bodies, const DeepestPoint& deepest, const NamedSurface& to);
 
-/// What the slave sees along its normals.
+/// View of the slave along its normals.
 struct Outlook {
   std::optional<double> gap;
   bool backs = false;  ///< no front of the master at all, but for half of the probes or more its back

@@ -1,4 +1,4 @@
-// What can be said of a boundary condition.
+// Parameters of a boundary condition.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -33,13 +33,12 @@ void BoundaryConditionOptions::describe(Parameters& parameters) {
   parameters.add("rotation", rotation,
                  Says("of a reference point of the plane, counterclockwise, an expression of t; left out: free").unit("degrees").arguments({"t"}));
   for (int i = 0; i < 3; ++i)
-    parameters.add(
-        fmt::format("rotation {}", component_name(i)), rotation_vector[i],
-        Says(fmt::format("{} component of the rotation vector of a reference point in 3D: the point turns by its length about its direction, "
-                         "counterclockwise seen from its tip; an expression of t; left out: free",
-                         component_name(i)))
-            .unit("degrees")
-            .arguments({"t"}));
+    parameters.add(fmt::format("rotation {}", component_name(i)), rotation_vector[i],
+                   Says(fmt::format("{} component of the rotation vector of a reference point in 3D, an expression of t; left out: free. The point "
+                                    "turns by the length of the vector about its direction, counterclockwise seen from its tip",
+                                    component_name(i)))
+                       .unit("degrees")
+                       .arguments({"t"}));
   parameters.add(
       "x axis", x_axis,
       "direction of this condition's x in the axes of the model, \"x, y\" or \"x, y, z\", of any length; empty: x, y and z are those of the "

@@ -14,7 +14,7 @@ bool is_followed(const Bodies& bodies, const ReferencePoint& point, int componen
   return point.follows[component] && !(bodies.kinematics() == Kinematics::axisymmetric && component == 0);
 }
 
-/// Whether a follower's component is its own unknown.
+/// True if a follower's component is its own unknown.
 bool is_free(const Bodies& bodies, const ReferencePoint& point, LocalOrdinal node, int component) {
   if (point.follows[component]) return false;
   return !bodies.mesh()->bodies[bodies.mesh()->body_of_node[node]].is_surface;

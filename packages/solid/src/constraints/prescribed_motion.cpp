@@ -53,7 +53,7 @@ std::optional<std::string> reference_point_of(const Mesh& mesh, const std::vecto
 
 }  // namespace
 
-/// What the conditions say, node by node.
+/// The conditions, node by node.
 class PrescribedMotion::Collected {
  public:
   Collected(PrescribedMotion& motion, const Bodies& bodies, const std::vector<Named<BoundaryConditionOptions>>& conditions)

@@ -5,7 +5,7 @@
 
 namespace mortise {
 
-/// The block of elements with this cell and formulation; check_combination() has to be content with law and kinematics.
+/// The block of elements with this cell and formulation; check_combination() has to accept law and kinematics.
 template <class Cell, ElementFormulation formulation>
 std::unique_ptr<ElementBlock> make_cell_block(const BlockContext& context, const Law& law, Kinematics kinematics, double thickness);
 

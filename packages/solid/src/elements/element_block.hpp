@@ -13,7 +13,7 @@
 
 namespace mortise {
 
-/// What the loops of a block are given.
+/// Arguments of the loops of a block.
 struct BlockContext {
   const Mesh& mesh;
   const Block& block;
@@ -47,7 +47,7 @@ class ElementBlock {
   virtual std::pair<LocalOrdinal, double> smallest_reference_determinant() const = 0;
 };
 
-/// The block of elements that `body` asks for; check_combination() has to be content with it.
+/// The block of elements that `body` asks for; check_combination() has to accept it.
 std::unique_ptr<ElementBlock> make_element_block(const BlockContext& context, const BodyProperties& body, Kinematics kinematics, double thickness);
 
 }  // namespace mortise

@@ -132,7 +132,7 @@ std::unique_ptr<Load> GravityOptions::make(const std::shared_ptr<const Bodies>& 
 const Registry<LoadOptions>& load_registry() {
   static const Registry<LoadOptions> registry =
       Registry<LoadOptions>()
-          .add<NodalForceOptions>("nodal force", "the same force on each node of a set")
+          .add<NodalForceOptions>("nodal force", "one force on each node of a set")
           .add<MomentOptions>("moment", "a moment on a reference point that rotates")
           .add<DeadTractionOptions>("dead traction", "force per reference area, of fixed direction")
           .add<FollowerPressureOptions>("follower pressure", "pressure on the current surface, against its outward normal")

@@ -5,7 +5,7 @@
 namespace mortise {
 namespace {
 
-/// With t_1, t_2 the current tangents of a side (in 2D t_2 = e_z) and n dgamma = t_1 x t_2 w dxi, w = 1, thickness or 2 pi r:
+/// Let t_1, t_2 be the current tangents of a side (in 2D t_2 = e_z) and n dgamma = t_1 x t_2 w dxi, w = 1, thickness or 2 pi r. Then
 ///   r_a = integral of N_a p w t_1 x t_2 dxi
 ///   d r_a / d x_b = integral of N_a p ( w (dN_b/dxi_1 e_j x t_2 + dN_b/dxi_2 t_1 x e_j) + 2 pi N_b (t_1 x t_2) x e_r ) dxi
 /// The last term is there if axisymmetric.

@@ -1,5 +1,5 @@
 #pragma once
-// What loads and boundary conditions share.
+// Common functions of loads and boundary conditions.
 
 #include <array>
 #include <optional>

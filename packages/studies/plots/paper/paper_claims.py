@@ -1,4 +1,4 @@
-# What the paper states, number by number and finding by finding, and whether our runs meet it.
+# Statements of the paper, number by number and finding by finding, and whether our runs meet them.
 NEAR = 0.05  # of a printed number
 NOTHING = 1e-9  # of what has to vanish
 

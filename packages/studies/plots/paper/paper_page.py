@@ -37,7 +37,7 @@ Steps, tolerances and what the relative residual is relative to are given nowher
 
 
 def section(title, names, contents):
-    """What the paper says, how runs ended, figures, tables."""
+    """The page: findings of the paper, endings of runs, figures, tables."""
     asked = [runs[name] for base in names for name in (base, base + RIVAL) if name in runs]
     if not asked:
         return []

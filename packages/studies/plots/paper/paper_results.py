@@ -1,4 +1,4 @@
-# What the runs of the paper left, read once and asked for by name. argument: the directory of `mortise paper`
+# Results of the runs of the paper, read once and asked for by name. argument: the directory of `mortise paper`
 import csv
 import json
 import os
@@ -97,7 +97,7 @@ RIVAL = "_node_to_segment"
 
 
 def rivals(*names):
-    """The same runs with nodes on segments, as far as they left results; they may have stopped on their way."""
+    """The runs with nodes on segments, as far as they left results; they may have stopped on their way."""
     asked = [runs[name + RIVAL] for name in names if name + RIVAL in runs]
     return [run for run in asked if run.exit != FILES and last_step_file(run.path)]
 

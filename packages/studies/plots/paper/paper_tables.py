@@ -30,7 +30,7 @@ def comparison(found, rows, caption, reference="paper", names=name_of):
 
 
 def how_far(run):
-    """What a run that stopped on its way reached, and why it stopped."""
+    """The time that a run reached which stopped on its way, and why it stopped."""
     if run.complete:
         return "It came to its end."
     times = run.history["time"] if "time" in run.history else []
@@ -48,12 +48,12 @@ def own_checks(found):
 
 
 def friction(run):
-    """What was on, whatever the run is called."""
+    """Friction or none, whatever the run is called."""
     return "with friction" if run.summary["effects"].get("friction") else "no friction"
 
 
 def stages(run):
-    """How often Newton needed how many iterations."""
+    """Numbers of steps by Newton iterations."""
     counts = run.iterations()
     return ", ".join(f"{counts.count(k)} × {k}" for k in sorted(set(counts)))
 
@@ -79,7 +79,7 @@ def overview(all_runs):
 
 
 def commands(all_runs):
-    """What is written changes no result."""
+    """Commands of the runs, without the settings of output: these change no result."""
     of = lambda run: [setting for setting in run.settings if not setting.startswith("output/")]
     return html_commands(record["program"], directory, [
         (run.name, command(f"scenes/{run.scene}.xml", of(run), record["ranks"], f"again/{run.name}")) for run in all_runs])
@@ -92,7 +92,7 @@ def checks_of(run):
 
 
 def missed(run):
-    """What a run that did not end well said, and the checks that it missed, as expected or not."""
+    """Message of a run that did not end well, and the checks that it missed, as expected or not."""
     if run.exit == 0:
         return ""
     if run.exit == CHECK_MISSED and run.misses:

@@ -1,4 +1,4 @@
-# What is drawn of a mesh: plane cells in 2D, outer sides of solids in 3D, and how faces are cut into triangles.
+# Faces of a mesh that are drawn: plane cells in 2D, outer sides of solids in 3D, and how faces are cut into triangles.
 import numpy as np
 
 # Sides of solids, with their corners counterclockwise seen from outside, then mid-side nodes; for each the shape of the side.
@@ -81,7 +81,7 @@ def _keys(corners, count):
 
 
 def _alone(first, second):
-    """Whether no other row has the same two numbers."""
+    """True if no other row has the same two numbers."""
     order = np.lexsort((second, first))
     same = (np.diff(first[order]) == 0) & (np.diff(second[order]) == 0)
     alone = np.ones(len(first), dtype=bool)

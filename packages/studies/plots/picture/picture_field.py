@@ -1,4 +1,4 @@
-# Which field is drawn, and how it is called.
+# Choice of the field that is drawn, and its name.
 import numpy as np
 
 PREFERRED = ("von_mises", "displacement", "contact_pressure")

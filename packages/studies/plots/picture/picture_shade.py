@@ -49,7 +49,7 @@ class FaceLines:
         self.fade = ((across - 4) / 10).clip(0, 1)
 
     def dark(self, face, x, y):
-        """How dark the lines of its face make each pixel."""
+        """Darkness of each pixel by the lines of its face."""
         face = face - self.begin
         dark = np.zeros(len(face))
         for side, rim in enumerate(self.cut.rims):
@@ -100,7 +100,7 @@ def _light(corner):
 
 
 def _lines(triangles, which, x, y):
-    """How dark the lines of its triangle's face make each pixel. A pixel beside a line may lie in another triangle of the same face."""
+    """Darkness of each pixel by the lines of its triangle's face. A pixel beside a line may lie in another triangle of the same face."""
     face, dark = triangles.face[which], np.zeros(len(which))
     for lines in triangles.lines:
         here = np.flatnonzero((face >= lines.begin) & (face < lines.end))
@@ -124,7 +124,7 @@ def _silhouettes(image, body, depth, size):
 
 
 def _add_ghosts(image, ghost, depth, w, h):
-    """What is nearer than the solid bodies covers them by a third."""
+    """Faces nearer than the solid bodies cover them by a third."""
     winner, _ = nearest(ghost.corner[:, :, :2], ghost.corner[:, :, 2], w, h, depth)
     seen = winner >= 0
     y, x = np.nonzero(seen)

@@ -1,4 +1,4 @@
-# What a series of runs on growing numbers of ranks says, in words. A point is an entry of scale.json.
+# Conclusions of a series of runs on growing numbers of ranks, in words. A point is an entry of scale.json.
 MEMORY_BOUND = 0.85  # a phase whose efficiency is at least this share of the memory's uses what there is
 SHORT, ENOUGH = 1.0, 3  # seconds below which a run is within the noise of a machine, unless so many repeats tell how large that is
 
@@ -25,7 +25,7 @@ def middle(point):
 
 
 def spread(points):
-    """How much longer the middle repeat of a point takes than the fastest, which counts; one slow repeat does not matter."""
+    """Excess of the middle repeat of a point over the fastest, which counts; one slow repeat does not matter."""
     return max(middle(point) - point["seconds"] for point in points)
 
 
@@ -52,7 +52,7 @@ def why_noise(points, lost):
 
 
 def limit_words(first, last):
-    """What limits a series, as far as its times tell."""
+    """Limit of a series, as far as its times tell."""
     limit = limit_of(last)
     noise = why_noise([first, last], limit[1] if limit else np.inf)
     advice = f" {noise} Measure with a larger <code>--repeats</code>, or a larger scene, before you trust these times." if noise else ""

@@ -99,7 +99,7 @@ def meaning(name):
 
 
 def scales(name):
-    """Whether there is an efficiency to draw, of more ranks than one or of the memory alone."""
+    """True if there is an efficiency to draw, of more ranks than one or of the memory alone."""
     return len(not_grown(of(name))) < len(finished(name)) - 1 or not not_grown(of(name))
 
 

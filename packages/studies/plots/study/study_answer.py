@@ -1,4 +1,4 @@
-# What a study says in the end, in words, from what study.json holds.
+# Conclusions of a study, in words, from what study.json holds.
 ROUND_OFF = 1e-10  # relative errors up to this are what Newton's method leaves
 
 
@@ -15,7 +15,7 @@ def in_percent(error):
 
 
 def has_errors(error):
-    """Whether there is anything to draw: errors that are more than round-off."""
+    """True if there is anything to draw: errors that are more than round-off."""
     return error["exact"] is None and any(map(known, error["error"]))
 
 

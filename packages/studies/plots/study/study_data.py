@@ -1,4 +1,4 @@
-# What a study gave. argument: the directory of `mortise study`
+# Results of a study. argument: the directory of `mortise study`
 import json
 
 directory = sys.argv[1]

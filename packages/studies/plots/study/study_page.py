@@ -65,7 +65,7 @@ def all_points():
 
 
 def values():
-    """What errors are the differences of."""
+    """The values whose differences are the errors."""
     of = [(error, name) for error in errors for name in ("value", "reference") if any(map(known, error[name]))]
     if not of:
         return []

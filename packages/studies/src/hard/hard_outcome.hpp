@@ -1,5 +1,5 @@
 #pragma once
-// What a run of the ledger gave.
+// Outcome of a run of the ledger.
 
 #include <string>
 

@@ -25,7 +25,7 @@ struct HardLine {
   std::vector<HardRun> companions;  ///< in the case's order
 };
 
-/// What is to be run.
+/// Runs to be made.
 struct HardPlan {
   std::vector<Named<HardCase>> cases;
   std::vector<HardLine> lines;  ///< case by case

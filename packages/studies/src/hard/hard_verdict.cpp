@@ -22,7 +22,7 @@ std::string reason_of(const StudyRecord& record) {
   return record.said.empty() ? "it says nothing" : record.said.substr(record.said.find_last_of('\n') + 1);
 }
 
-/// What does not hold after one of the steps; empty if all is well.
+/// Condition that does not hold after one of the steps; empty if all hold.
 std::string broken_on_the_way(const HardCase& one, const HardLine& line, const HardOutcome& outcome) {
   if (one.always.value.empty()) return {};
   for (int row = 0; row < outcome.steps; ++row) {

@@ -1,5 +1,5 @@
 #pragma once
-// Whether a run of the ledger ended right.
+// Verdict on a run of the ledger.
 
 #include <limits>
 #include <string>
@@ -26,7 +26,7 @@ struct HardFigure {
   bool near = false;  ///< low and high lie about a value that is expected
 
   bool ok() const { return value >= low && value <= high; }
-  /// How far it is beyond the middle of its range, over half of the range; with one bound 0 or infinity.
+  /// Distance beyond the middle of its range, over half of the range; with one bound 0 or infinity.
   double excess() const;
   /// Half of the range; of one bound, its size.
   double room() const;

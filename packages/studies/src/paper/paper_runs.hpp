@@ -1,5 +1,5 @@
 #pragma once
-// What is run for the paper's page.
+// Runs for the paper's page.
 
 #include <string>
 #include <vector>

@@ -22,13 +22,13 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* record_name = "paper-run.json";
 
-/// What decides on the results of a run, and so whether those of an earlier one can be taken.
+/// Data that decides on the results of a run, and so whether those of an earlier one can be taken.
 Json identity(const PaperRun& run, const PaperOptions& options) {
   return {{"name", run.name},       {"scene", run.scene},       {"text", scene_of(run).text},
           {"ranks", options.ranks}, {"settings", run.settings}, {"version", options.version}};
 }
 
-/// What an earlier call wrote down at the end of the run, if it was this same run and came to its end.
+/// Record of an earlier call at the end of the run, if it was this same run and came to its end.
 std::optional<Json> earlier(const Communicator& comm, const std::string& record, const Json& wanted) {
   if (!std::filesystem::exists(record)) return {};
   Json found = Json::parse(read_text(comm, record), nullptr, false);

@@ -1,4 +1,4 @@
-// What a deck of CalculiX cannot hold.
+// Features of a scene that a deck of CalculiX cannot hold.
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a run of CalculiX leaves.
+// Files of a run of CalculiX.
 
 #include <array>
 #include <map>

@@ -20,7 +20,7 @@ bool of_displacement(PointField field) {
          field == PointField::displacement_magnitude;
 }
 
-/// Whether displacements, contact pressures, reactions and quantities before it are all that a quantity asks for.
+/// True if displacements, contact pressures, reactions and quantities before it are all that a quantity asks for.
 bool can_be_had(const Quantity& quantity) {
   const auto is = [&](auto* kind) { return dynamic_cast<std::decay_t<decltype(kind)>>(&quantity) != nullptr; };
   if (const auto* field = dynamic_cast<const FieldQuantity*>(&quantity))

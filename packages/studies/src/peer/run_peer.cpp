@@ -60,7 +60,7 @@ void write_profiles(const RCP<const Communicator>& comm, const std::string& path
       file.row({time, scene.contact[pair].name, static_cast<long long>(point.part), point.arc_length, point.x, point.y, point.pressure, point.gap});
 }
 
-/// What CalculiX may leave where it is run.
+/// Files that CalculiX may leave where it is run.
 const std::vector<std::string> files_of_calculix{"peer.sta",
                                                  "peer.cvg",
                                                  "peer.dat",

@@ -71,7 +71,7 @@ std::string content_of(const std::filesystem::path& path) {
   return content;
 }
 
-/// What a rank found, for all ranks: they throw the same, or none does.
+/// Findings of a rank, for all ranks: they throw the same, or none does.
 struct Finding {
   std::optional<std::string> wrong_input, file_error;
   bool has_python = true;

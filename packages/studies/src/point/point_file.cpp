@@ -24,7 +24,7 @@ void PointFile::describe(Parameters& parameters) {
   MaterialList materials{material};
   parameters.list("material", materials, "the material, as an entry of a scene's \"materials\"");
   PathList paths{path};
-  parameters.list("path", paths, "how the point is deformed");
+  parameters.list("path", paths, "deformation of the point");
 }
 
 PointFile read_point(const Communicator& comm, const std::string& file, const std::vector<std::string>& settings) {

@@ -1,5 +1,5 @@
 #pragma once
-// How fast this machine's memory is.
+// Bandwidth of this machine's memory.
 
 namespace mortise {
 

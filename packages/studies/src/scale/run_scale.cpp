@@ -80,7 +80,7 @@ std::string progress(std::size_t number, const std::vector<ScalePoint>& points) 
   return line;
 }
 
-/// Ranks of the weak series whose points have no more unknowns than its first one.
+/// Ranks of the weak series whose points have at most as many unknowns as its first one.
 std::vector<int> ranks_without_growth(const std::vector<ScalePoint>& points) {
   std::vector<int> ranks;
   const auto first = std::find_if(points.begin(), points.end(), [](const ScalePoint& point) { return point.series == "weak"; });

@@ -19,7 +19,7 @@
 namespace mortise {
 namespace {
 
-/// What is said of each rank: a column of plan.csv and a line of the table.
+/// Figure of each rank: a column of plan.csv and a line of the table.
 struct Column {
   std::string name;
   std::function<double(const RankPlan&)> value;

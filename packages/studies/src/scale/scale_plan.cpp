@@ -109,7 +109,7 @@ PairPlan share_out(const RCP<const Communicator>& comm, const std::vector<Planne
   return pair;
 }
 
-// What grows with the mesh: linear systems, nodes and elements with their sets and maps, couplings.
+// Memory that grows with the mesh: linear systems, nodes and elements with their sets and maps, couplings.
 double memory_mib(const RankPlan& rank, int dimension, int nodes_per_element, bool parallel) {
   constexpr double bytes_of_node = 150.0, bytes_of_element = 30.0;
   const auto& mesh = rank.mesh;

@@ -1,5 +1,5 @@
 #pragma once
-// What each of many ranks would hold and do.
+// Load of each of many ranks: what it would hold and do.
 
 #include <map>
 #include <string>

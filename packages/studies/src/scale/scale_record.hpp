@@ -10,7 +10,7 @@
 
 namespace mortise {
 
-/// What the time of a run is split into: timers of summary.json that belong together. The rest of the total is the last one, without timers.
+/// Phase of a run's time: timers of summary.json that belong together. The rest of the total is the last one, without timers.
 struct ScalePhase {
   std::string name;
   std::vector<std::string> timers;
@@ -34,12 +34,12 @@ struct ScalePoint {
 
   std::vector<double> repeats;  ///< seconds of each
 
-  /// False for a later point of a weak series with no more unknowns than its first: it shows no weak scaling.
+  /// False for a later point of a weak series with at most as many unknowns as its first: it shows no weak scaling.
   bool has_grown(const ScalePoint& first) const;
   /// 1, but for what this point has more or fewer unknowns than its share of the first point's.
   double size_ratio(const ScalePoint& first) const;
-  /// How well so many ranks are used: (t_1 / t_p) / p in the strong series; t_1 / t_p for as many unknowns per rank in the weak one. NaN if unknown,
-  /// or if the unknowns of a weak series did not grow.
+  /// Efficiency on so many ranks: (t_1 / t_p) / p in the strong series; t_1 / t_p for as many unknowns per rank in the weak one. NaN if unknown, or
+  /// if the unknowns of a weak series did not grow.
   double efficiency(const ScalePoint& first, double seconds_here, double seconds_first) const;
 };
 

@@ -10,9 +10,9 @@
 
 namespace mortise {
 
-/// How plot_style and then `script` ended, which sees `arguments` in sys.argv[1:]. Taken is the first that has matplotlib of: the python named by the
-/// environment variable MORTISE_PYTHON, alone if it is set; python3 of the path; /usr/bin/python3. It is isolated: it takes no modules of the working
-/// directory, of PYTHONPATH or of the user's own packages. None if there is none. No communication.
+/// Runs plot_style and then `script`, which sees `arguments` in sys.argv[1:]. Returns its ending; none if no python has matplotlib. The first that
+/// has it is taken of: the python named by the environment variable MORTISE_PYTHON, alone if it is set; python3 of the path; /usr/bin/python3. It is
+/// isolated: it takes no modules of the working directory, of PYTHONPATH or of the user's own packages. No communication.
 std::optional<ProcessEnding> run_script(const std::string& script, const std::vector<std::string>& arguments);
 
 /// run_script() on rank 0. Collective. Returns false on all ranks if there is no python for it. Throws FileError on all ranks if the script fails.

@@ -7,7 +7,7 @@
 
 namespace mortise {
 
-/// How a process ended, what it said and what it took.
+/// Ending of a process: exit code, output, time and memory.
 struct ProcessEnding {
   int code = -1;         ///< exit code; 128 + number of the signal that killed it; 126 or 127 if it could not be started; -1 without a process
   bool stopped = false;  ///< it ran into its limit and was ended

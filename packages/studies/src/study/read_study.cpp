@@ -32,7 +32,7 @@ const ParameterRecord* find_parameter(const ListRecord& list, const std::string&
   return found == list.parameters.end() ? nullptr : &*found;
 }
 
-/// How contact is formulated: the parameter "formulation" of the pairs, or "type" in a list of that name.
+/// Formulation of contact: the parameter "formulation" of the pairs, or "type" in a list of that name.
 std::string formulation_of(const Scene& scene) {
   const ListRecord tree = collect_parameters(scene.name, scene, CollectParameters::What::values);
   std::vector<std::string> found;

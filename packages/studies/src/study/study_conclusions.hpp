@@ -1,5 +1,5 @@
 #pragma once
-// What a study says in the end: orders, what is worth its time, the cheapest run that is good enough.
+// Conclusions of a study: orders, what is worth its time, the cheapest run that is good enough.
 
 #include <optional>
 #include <string>

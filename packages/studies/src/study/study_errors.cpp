@@ -31,7 +31,7 @@ std::string note(const Extrapolation& found, bool given) {
   if (found.order) return fmt::format("extrapolated to {:.8g} with the order {:.3g}{}", found.limit, *found.order, given ? " (given)" : " found");
   return fmt::format(
       "no order: the three finest levels agree, oscillate or rest; the reference is the finest value, {:.8g}, uncertain by {:.2g} as the last two "
-      "differ; no error is said to be smaller than that",
+      "differ; no smaller error is reported",
       found.limit, found.uncertainty);
 }
 

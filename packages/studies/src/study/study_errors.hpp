@@ -14,7 +14,7 @@ namespace mortise {
 struct StudyErrors {
   std::string name;
   std::vector<double> error, value, reference;  ///< of each point; values and references of scalars only
-  std::vector<std::string> notes;               ///< what a reader has to know: orders found, references missing
+  std::vector<std::string> notes;               ///< remarks for a reader: orders found, references missing
 };
 
 /// The runs of a study as they ended.
@@ -24,7 +24,7 @@ struct StudyResults {
   std::vector<double> h;  ///< of each point
 };
 
-/// What errors are measured on.
+/// Environment in which errors are measured.
 struct StudyMeasuring {
   const Communicator& comm;
   const StudyPlan& plan;

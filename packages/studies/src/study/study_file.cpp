@@ -27,16 +27,16 @@ std::vector<Named<AssignmentList>> StudyAxis::labelled() const {
 }
 
 void StudyQuantity::describe(Parameters& parameters) {
-  parameters.add(
-      "measure", measure,
-      {{"relative difference", StudyMeasure::relative_difference},
-       {"itself", StudyMeasure::itself},
-       {"pressure profile", StudyMeasure::pressure_profile},
-       {"shear profile", StudyMeasure::shear_profile},
-       {"displacement", StudyMeasure::displacement},
-       {"displacement gradient", StudyMeasure::displacement_gradient}},
-      "relative difference: |q - q_ref| / |q_ref|; itself: the quantity is an error, such as an \"error norm\"; the others are relative L2 norms of "
-      "differences to the finest run at the end: of contact tractions along the arc length, of displacements or their gradients over the bodies");
+  parameters.add("measure", measure,
+                 {{"relative difference", StudyMeasure::relative_difference},
+                  {"itself", StudyMeasure::itself},
+                  {"pressure profile", StudyMeasure::pressure_profile},
+                  {"shear profile", StudyMeasure::shear_profile},
+                  {"displacement", StudyMeasure::displacement},
+                  {"displacement gradient", StudyMeasure::displacement_gradient}},
+                 "relative difference: |q - q_ref| / |q_ref|; itself: the quantity is an error, such as an \"error norm\". The others are relative "
+                 "L2 norms of differences to the finest run at the end. They are taken of contact tractions along the arc length, or of "
+                 "displacements or their gradients over the bodies");
   parameters.add("quantity", quantity, "quantity of the scene; left out: the one with the name of this list");
   parameters.add("reference", reference,
                  {{"exact", StudyReference::exact}, {"finest", StudyReference::finest}, {"richardson", StudyReference::richardson}},
@@ -55,7 +55,7 @@ void StudyQuantity::describe(Parameters& parameters) {
 void StudyFile::describe(Parameters& parameters) {
   parameters.add("scene", scene, Says("path of the scene, relative to this file").required());
   parameters.list("settings", settings, "values of the scene that all runs share: a parameter \"path\", or lists as in the scene, for each");
-  parameters.named("axes", axes, Says("what is varied, by names of your choice; the runs are all combinations, the last axis first").required());
+  parameters.named("axes", axes, Says("varied values, by names of your choice; the runs are all combinations, the last axis first").required());
   parameters.named("exclude", exclude,
                    "combinations that are not run, by names of your choice; each holds parameters \"axis\" with one label or several, \"a, b\"");
   parameters.add("h", h, "mesh size of a run: an expression of the scene's variables and quantities, and of the number of unknowns `dofs`");
@@ -68,7 +68,7 @@ void StudyFile::describe(Parameters& parameters) {
                  Says("wall time after which a run is ended and its point has failed, unless its settings say another \"time limit\"; default: none")
                      .unit("s")
                      .above(0.0));
-  parameters.add("targets", targets, Says("errors that the cheapest configurations and the times are said for").above(0.0));
+  parameters.add("targets", targets, Says("errors for which the cheapest configurations and the times are reported").above(0.0));
 }
 
 }  // namespace mortise

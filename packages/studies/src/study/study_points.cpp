@@ -17,7 +17,7 @@ using Labels = std::vector<std::string>;
 /// More runs than these are a slip of the pen; to count them up takes long and much memory.
 constexpr std::size_t most_combinations = 10000;
 
-/// What an entry of "exclude" says of each axis: labels that it is about; none: all of them.
+/// Labels of each axis that an entry of "exclude" is about; none: all of them.
 std::vector<Labels> excluded(const Named<AssignmentList>& entry, const StudyFile& study, const std::vector<Labels>& labels,
                              std::vector<Diagnostic>& diagnostics) {
   std::vector<Labels> about(labels.size());

@@ -34,7 +34,7 @@ constexpr const char* study_record_name = "study-point.json";
 
 std::string record_of(const StudyPointOptions& options) { return options.directory + "/" + study_record_name; }
 
-/// What decides on the results and times of a point.
+/// Data that decides on the results and times of a point.
 Json identity(const StudyPoint& point, const StudyPointOptions& options) {
   Json identity{
       {"text", options.text}, {"settings", point.words()}, {"ranks", point.ranks}, {"repeats", options.repeats}, {"version", options.version}};
@@ -51,7 +51,7 @@ std::string processor() {
   return "unknown";
 }
 
-/// What the report takes from a summary; an empty object if there is none.
+/// Part of a summary for the report; an empty object if there is none.
 Json excerpt(const std::string& path) {
   std::ifstream file(path);
   const Json summary = Json::parse(file, nullptr, false);

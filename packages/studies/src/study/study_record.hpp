@@ -1,5 +1,5 @@
 #pragma once
-// What one point of a study gave, as it is kept from one call to the next.
+// Results of one point of a study, as kept from one call to the next.
 
 #include <map>
 #include <optional>
@@ -22,21 +22,21 @@ struct StudyRecord {
   std::optional<double> stopped_after;         ///< the time limit that it ran into [s]
   std::string interrupted;                     ///< the signal by which somebody stopped it; empty: nobody did
   double wall = 0.0, cpu = 0.0, memory = 0.0;  ///< seconds and MiB over all ranks; medians of the repeats
-  std::map<std::string, double> time;          ///< seconds by timer of the summary, likewise
+  std::map<std::string, double> time;          ///< seconds by timer of the summary; medians of the repeats
   double dofs = 0.0, steps = 0.0, newton_iterations = 0.0, cutbacks = 0.0;
   std::vector<std::string> missed_checks;  ///< checks of the scene, with value and bounds
   std::vector<double> quantities;          ///< in the order of the point's
 
-  /// Whether it came to its end: errors can be measured.
+  /// True if it came to its end: errors can be measured.
   bool finished() const;
-  /// Whether it is no fault of the study that there are no results.
+  /// True if the study is not at fault for the missing results.
   bool excused() const { return !absent.empty(); }
   /// "done", "check missed", "not converged", "stopped after 60 s: time limit of the study", "killed by signal 9", "exit code 70",
   /// "not possible by the peer", "not installed: ccx (Debian: calculix-ccx)"
   std::string status() const;
 };
 
-/// How points are run.
+/// Settings for running points.
 struct StudyPointOptions {
   std::string scene;      ///< file that is run
   std::string text;       ///< its content
@@ -45,7 +45,7 @@ struct StudyPointOptions {
   int repeats = 1;
 };
 
-/// What an earlier call kept in the directory, if it is of the same runs: scene, settings, ranks, repeats, version. Not that of runs that ended for a
+/// Record of an earlier call in the directory, if it is of the same runs: scene, settings, ranks, repeats, version. Not that of runs that ended for a
 /// reason that is none of theirs (killed, files), nor of those that have more time now than what they were stopped after.
 std::optional<StudyRecord> earlier_record(const Communicator& comm, const StudyPoint& point, const StudyPointOptions& options);
 

@@ -78,7 +78,7 @@ Json errors_json(const StudyErrors& errors, const StudyConclusions& conclusions)
   return json;
 }
 
-/// What times and results depend on besides the study.
+/// Environment of times and results besides the study.
 Json environment(const std::string& version, const StudyResults& results) {
   std::set<std::string> processors, dates;
   const auto add = [&](const StudyRecord& record) { processors.insert(record.processor), dates.insert(record.date); };

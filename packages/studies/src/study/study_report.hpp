@@ -10,7 +10,7 @@
 namespace mortise {
 
 /// One row for each point: formulation, element, h, dofs, steps, newton_iterations, wall_s, cpu_s, memory_mib, an error_<name> for each quantity,
-/// status, an axis_<name> for each axis. What there is no number for is empty. Throws FileError.
+/// status, an axis_<name> for each axis. A missing number leaves its cell empty. Throws FileError.
 void write_study_table(const RCP<const Communicator>& comm, const std::string& path, const StudyPlan& plan, const StudyResults& results,
                        const std::vector<StudyErrors>& errors);
 

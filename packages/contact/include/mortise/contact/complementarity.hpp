@@ -6,13 +6,13 @@
 
 namespace mortise {
 
-/// What a slave node does. A closed node without friction slips.
+/// State of a slave node. A closed node without friction slips.
 enum class ContactState { open = 0, stick = 1, slip = 2 };
 
-/// C of one node in its frame (n, tau_a), rows in units of traction, and its linearisation
-///   dC = C_z dz + gap_factor dg + weight_factor dw + normal_factor dn + [ 0 ; slip_factor du + start_factor dg0 ],   w = sum_k D_jk.
+/// C of one node in its frame (n, tau_a), rows in units of traction, and its linearisation with the weight w = sum_k D_jk:
+///   dC = C_z dz + gap_factor dg + weight_factor dw + normal_factor dn + [ 0 ; slip_factor du + start_factor dg0 ].
 struct Complementarity {
-  ContactState state = ContactState::open;  ///< what C takes the node to do
+  ContactState state = ContactState::open;  ///< state of the node by C
   SpatialVector C;                          ///< rows n, tau_a; 0 where the conditions are met
   SpatialMatrix C_z;                        ///< dC/dz
   SpatialVector gap_factor;                 ///< dC/dg
@@ -51,7 +51,7 @@ inline constexpr double against_the_traction = 10.0;
 /// @param bound  rho
 bool sticks(const TangentVector& t, const TangentVector& cu, double bound);
 
-/// Of the motion of a step the share q that a node makes in contact, where it began at a gap G0 > 0 before that and has come to the depth delta
+/// Share q of the motion of a step that a node makes in contact. It began at a gap G0 > 0 before that and has come to the depth delta
 /// behind it. Both move on a straight line in the step, so  q = delta / (delta + G0),  and 1 without a gap.
 struct Landing {
   double share = 1.0;     ///< q
@@ -63,17 +63,17 @@ struct Landing {
 };
 
 /// The first tangents of a node along which its displacement is prescribed. Its momentum along them holds an unknown reaction, so that the traction
-/// there has to be told by its law. What sticks is a spring, whose give is taken out of the slip.
+/// there follows from its law. A node that sticks is a spring, whose give is taken out of the slip.
 struct HeldTangents {
-  Eigen::Index count = 0;   ///< how many; 0: none
+  Eigen::Index count = 0;   ///< number of them; 0: none
   TangentVector traction;   ///< z_tau when the step began, 0 beyond the first `count`; without size if there are none
   double compliance = 1.0;  ///< e in (0, 1]: of the spring that a node that sticks has along them, in slip per traction over 1 / c_t
 };
 
-/// C of a closed node with friction (Hueber, Wohlmuth 2005; Gitterle et al. 2010, with all rows in units of traction). With y = z_tau + c_t u and the
-/// bound rho at the pressure z_n - c_n g:
-///   stick   |y| < rho   C_tau = -c_t u
-///   slip                C_tau = z_tau - rho y / |y|
+/// C of a closed node with friction (Hueber, Wohlmuth 2005; Gitterle et al. 2010, with all rows in units of traction). Let y = z_tau + c_t u and rho
+/// be the bound at the pressure z_n - c_n g. Then for the two states:
+///   Stick   |y| < rho   C_tau = -c_t u
+///   Slip                C_tau = z_tau - rho y / |y|
 /// In 3D a node whose slip is against its traction sticks too: 0 < |t| - rho < -10 c_t u . t / |t| with t = z_tau and c_t |u| < rho. Then
 /// |t| - rho < 10 |C_tau|, so C vanishes where it did. Just below the bound (at_the_bound) it is C of stick with the derivative of slip.
 ///

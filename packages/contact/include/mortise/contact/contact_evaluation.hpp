@@ -35,10 +35,10 @@ struct ContactNorms {
 };
 
 /// The mortar matrices of a pair. Let u be the values of a field at nodes. Then (D u - M u)_j is the weighted jump of the field from the master to
-/// slave node j. A flux q_j across the interface stands in the rows of the nodes as D^T q - M^T q. Rows of D and of M have the same sum.
+/// slave node j. A flux q_j across the interface enters the rows of the nodes as D^T q - M^T q. Rows of D and of M have the same sum.
 struct MortarMatrices {
   RCP<const Matrix> D;  ///< [slave nodes with a multiplier x nodes]
-  RCP<const Matrix> M;  ///< likewise
+  RCP<const Matrix> M;  ///< [slave nodes with a multiplier x nodes]
 };
 
 /// The integrals of all pairs at a displacement: D, M, gaps, normals, slips. A function of the displacement and of the history alone. Collective in
@@ -64,7 +64,7 @@ class ContactEvaluation {
   friend const detail::EvaluatedContact& detail::evaluated(const ContactEvaluation& evaluation);
   /// ContactSystem makes them.
   explicit ContactEvaluation(std::shared_ptr<const detail::EvaluatedContact> evaluated) : evaluated_(std::move(evaluated)) {}
-  std::shared_ptr<const detail::EvaluatedContact> evaluated_;  ///< what it holds
+  std::shared_ptr<const detail::EvaluatedContact> evaluated_;  ///< evaluated pairs and conditions
 };
 
 /// An evaluation that has the derivatives of its integrals with respect to the displacement.
@@ -84,7 +84,7 @@ class DifferentiatedContact : public ContactEvaluation {
 /// The conditions of all nodes at one displacement and multipliers. Collective in all members but the accessors.
 class ContactLaws {
  public:
-  /// What the nodes do.
+  /// States of the nodes.
   ContactStates states() const;
   /// C(d, z); rows in units of traction. NaN where a law of friction has no bound.
   void complementarity(Vector& C) const;
@@ -92,7 +92,7 @@ class ContactLaws {
   void add_force(Vector& r) const;
   /// Norms and counts; `changed` counts nodes whose state is another one than in `last`. Two reductions.
   ContactNorms norms(const ContactStates& last) const;
-  /// What the law of friction says at a node of this rank where it has no bound (kind input); nothing where there is none.
+  /// Error of the law of friction at a node of this rank where it has no bound (kind input); nothing where there is none.
   std::optional<StepFailure> friction_failure() const;
   const Vector& multipliers() const;            ///< z
   const ContactEvaluation& evaluation() const;  ///< whose laws they are

@@ -1,5 +1,5 @@
 #pragma once
-// What contact remembers of the last accepted state: plain data of the owned slave nodes, in the order of MortarInterface::slave_nodes().
+// Memory of contact of the last accepted state: plain data of the owned slave nodes, in the order of MortarInterface::slave_nodes().
 
 #include <memory>
 #include <optional>
@@ -12,15 +12,15 @@
 
 namespace mortise {
 
-/// What the nodes of a pair do, [owned slave nodes].
+/// States of the nodes of a pair, [owned slave nodes].
 struct PairStates {
   std::vector<ContactState> states;  ///< open, stick or slip
-  std::vector<char> covered;         ///< whether a multiplier has anything to act on
+  std::vector<char> covered;         ///< true if a multiplier has anything to act on
 };
 /// [pairs]
 using ContactStates = std::vector<PairStates>;
 
-/// What slips are measured against, [owned slave nodes]: the couplings of an accepted state.
+/// References of slips, [owned slave nodes]: the couplings of an accepted state.
 struct SlipReferences {
   RetainedNodes nodes;                            ///< nodes it was coupled to, itself among them; none: it was hardly covered, or not at all
   std::vector<std::vector<double>> coefficients;  ///< of these nodes: rows of D and -M
@@ -32,21 +32,21 @@ struct SlipReferences {
   RCP<const MultiVector> start;                   ///< [owned nodes x dim] positions in that state
 };
 
-/// What the conditions of a node start from where Enforcement::starts_from_multipliers(): fixed while they are solved, renewed by an update of the
+/// Start of the conditions of a node where Enforcement::starts_from_multipliers(): fixed while they are solved, renewed by an update of the
 /// multipliers and by a step.
 struct NodeStart {
   SpatialVector multiplier;  ///< normal, along tau_a: Enforcement::start_from()
   double stiffening = 1.0;   ///< factor of eps: Enforcement::stiffening()
 };
 
-/// What updates of the multipliers have shown of the bodies.
+/// Stiffness of the bodies as updates of the multipliers have shown it.
 struct Settling {
   double hardening = 1.0;       ///< factor of eps of all nodes: how much stiffer than facets the bodies are
   std::optional<double> ratio;  ///< their stiffness against the slowest of the changes, over eps; none: not known yet
   double last_change = 0.0;     ///< of the multipliers in the round before, at the present stiffness [stress]
 };
 
-/// What a pair remembers.
+/// History of a pair.
 struct PairHistory {
   std::vector<int> axes;                       ///< [owned slave nodes] reference axis of the tangents
   SurfaceKinks kinks;                          ///< of the slave surface
@@ -54,7 +54,7 @@ struct PairHistory {
   std::shared_ptr<const SlipReferences> slip;  ///< null without friction
   std::vector<NodeStart> starts;               ///< [owned slave nodes]; empty unless Enforcement::starts_from_multipliers()
   Settling settling;                           ///< of the updates of the multipliers
-  double allowed_overlap = 0.0;                ///< by how much the surfaces may lie in one another [length]
+  double allowed_overlap = 0.0;                ///< overlap that the surfaces may have without pressure [length]
   std::vector<double> clearances;              ///< [owned slave nodes] added to the gap [length]; empty: none
   double constant_share = 1.0;                 ///< factor of complementarity constants within the step
 };

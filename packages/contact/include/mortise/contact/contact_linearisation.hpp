@@ -22,14 +22,14 @@ struct SaddlePointBlocks {
   RCP<Matrix> C_z;  ///< [multipliers x multipliers]
 };
 
-/// What condensation leaves to be done: the multipliers of a displacement increment, and further right-hand sides. Collective in all members but the
+/// Recovery after condensation: the multipliers of a displacement increment, and further right-hand sides. Collective in all members but the
 /// accessors.
 class CondensedContact {
  public:
   /// z^{k+1} from the whole displacement increment, with that of prescribed dofs.
   void recover(const Vector& increment, Vector& z_new) const;
 
-  /// Whether hardly covered nodes that are in contact have multipliers that depend on one another's. Of these the condensed system has each node's
+  /// True if hardly covered nodes that are in contact have multipliers that depend on one another's. Of these the condensed system has each node's
   /// own alone. It leaves the rest of the linearised conditions out, L(dd, dz) of apply_left_out(). The step of the condensed system then is not
   /// Newton's; it is that of  J~ = J - L. The same on every rank.
   bool leaves_out_couplings() const;
@@ -39,7 +39,7 @@ class CondensedContact {
   /// gives dz.
   void condense_right_hand_side(const Vector& C, Vector& rhs);
 
-  /// What multigrid needs to know of the condensed system.
+  /// Data of the condensed system for multigrid.
   Decoupling decoupling() const;
 
  private:

@@ -15,7 +15,7 @@
 
 namespace mortise {
 
-/// Which configuration carries the contact geometry.
+/// Configuration that carries the contact geometry.
 enum class ContactGeometry { current, reference };
 
 /// Options of one pair that do not depend on the mesh.
@@ -36,9 +36,9 @@ struct ContactPair {
   Place place;       ///< where it is given; may be empty
   /// As MortarInterface wants them: every slave facet on each rank that owns a node of it, every master facet on one rank. Oriented as
   /// surface_facet.hpp says, with their normals out of the bodies. In 2D the body is on the left of the way along the nodes. In 3D a facet's nodes go
-  /// round anticlockwise as seen from outside. Facets turned inside out are not found out: they never touch.
+  /// round anticlockwise as seen from outside. Facets turned inside out are not detected: they never touch.
   SurfaceFacets slave;
-  SurfaceFacets master;  ///< likewise
+  SurfaceFacets master;  ///< facets of the master, oriented as those of the slave
   /// Above 0. Of the softer side: sets c_n, the start rule and the stiffness of conditions that give way.
   double youngs_modulus = 0.0;
   ContactOptions options;  ///< the rest of it

@@ -1,5 +1,5 @@
 #pragma once
-// What can be known of a pair at an iterate: states of its nodes, resultants, kinks, how its integrals are spread over the ranks.
+// Reports on a pair at an iterate: states of its nodes, resultants, kinks, distribution of its integrals over the ranks.
 
 #include <array>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace mortise {
 
-/// What can be known of an owned slave node after a solve.
+/// State of an owned slave node after a solve.
 struct ContactNodeState {
   GlobalOrdinal node = 0;                   ///< of the model
   LocalOrdinal owned_node = 0;              ///< local index in the map of owned nodes
@@ -19,7 +19,7 @@ struct ContactNodeState {
   double weight = 0.0;                      ///< A_j
   bool carries = true;                      ///< false: it has no multiplier, others act in its place
   bool closed = false;                      ///< its state is not open
-  ContactState state = ContactState::open;  ///< what it does
+  ContactState state = ContactState::open;  ///< open, stick or slip
   double covered = 0.0;                     ///< sum_k D_jk: the force on the slave side is -covered * traction
   double shear = 0.0;                       ///< z . tau, tau = n turned by +90 degrees; in 3D |z - (z . n) n|
   double shear_bound = 0.0;                 ///< rho, of closed nodes; friction only
@@ -29,7 +29,7 @@ struct ContactNodeState {
       force{};  ///< the force of this node's multiplier on the slave side is -force: sum_k D_jk z_j, with variational mortar that of the gap
 };
 
-/// How the integrals of a pair, of both passes if there are two, are spread over the ranks, in the last evaluation.
+/// Distribution of the integrals of a pair over the ranks in the last evaluation; of both passes if there are two.
 struct IntegrationLoad {
   long facets = 0;                  ///< slave facets that overlap a master facet, over all ranks
   long segments = 0;                ///< their overlaps
@@ -48,7 +48,7 @@ struct CornerReport {
 /// States of the owned slave nodes of a pair. The slip path includes the slip of the step. A node without multiplier has the mean traction of the
 /// multipliers that act at it, and is closed if most of them are. Collective.
 std::vector<ContactNodeState> node_states(const ContactLaws& laws, std::size_t pair);
-/// How deep the surfaces of a pair may lie in one another without touching: the overlap that its history allows, and its largest clearance above 0
+/// Depth by which the surfaces of a pair may overlap without touching: the overlap that its history allows, and its largest clearance above 0
 /// [length]. Collective.
 double allowed_overlap(const ContactLaws& laws, std::size_t pair);
 /// Resultant (over all ranks) of the contact forces on the slave side of a pair, of both passes if there are two. Collective.

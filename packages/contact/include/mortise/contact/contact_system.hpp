@@ -23,22 +23,22 @@ namespace detail {
 struct ContactModel;
 }  // namespace detail
 
-/// How far an augmented Lagrange update was from being needed no more, over all ranks.
+/// Outcome of an augmented Lagrange update, over all ranks: the error that is left of the multipliers.
 struct Augmentation {
   bool more = false;       ///< the multipliers have to be updated: solve again with `history`
   bool exhausted = false;  ///< more would be needed than the pair allows
   double error = 0.0;   ///< of the multipliers of the pair that is furthest from exact ones, over its largest; infinite where nothing is known of it
-  double change = 0.0;  ///< what one more update would change of them, over the same
+  double change = 0.0;  ///< their change by one more update, over the same largest one
   double tolerance = 0.0;                 ///< of `error`
   std::string pair;                       ///< where
   std::optional<ContactHistory> history;  ///< with the new multipliers; none unless `more`, and none if `exhausted`
 };
 
-/// Displacements of the owned nodes: from a vector on the dofs, and from where a host keeps those that are no unknowns.
+/// Displacements of the owned nodes: from a vector on the dofs, and from the host's vector for prescribed components.
 struct NodalDisplacement {
-  /// Components that are no unknowns do not move.
+  /// Prescribed components do not move.
   NodalDisplacement(const Vector& of_dofs) : dofs(of_dofs) {}
-  /// @param of_nodes  [owned nodes x dim], read where a component is no unknown
+  /// @param of_nodes  [owned nodes x dim], read where a component is prescribed
   NodalDisplacement(const Vector& of_dofs, const MultiVector& of_nodes) : dofs(of_dofs), nodes(&of_nodes) {}
   const Vector& dofs;                  ///< of the unknowns
   const MultiVector* nodes = nullptr;  ///< of the rest; null: it does not move
@@ -53,27 +53,27 @@ class ContactSystem {
   /// @param displacement  which dofs the displacements of the owned nodes are
   /// @param dofs          owned rows of the host's system
   /// @param reference     [owned nodes x dim] reference positions
-  /// @param fixed         [owned nodes x dim] 1 where prescribed, 2 where it follows a rigid body or a reference point, else 0; components that are
-  ///                      no unknowns are prescribed
+  /// @param fixed         [owned nodes x dim] 1 where prescribed, 2 where it follows a rigid body or a reference point, else 0; components without a
+  ///                      dof are prescribed
   /// @throws InputError (at the pair's name if it has no place) for
   ///   - a pair without Young's modulus, formulation or law of friction;
   ///   - what MortarInterface refuses.
   /// @throws std::invalid_argument for ids that are not among `dofs`, components that are neither unknown nor prescribed, and vectors on other nodes
   ContactSystem(const NodalField& displacement, RCP<const Map> dofs, RCP<const MultiVector> reference, RCP<const MultiVector> fixed,
                 const InterfaceMeasure& measure, std::vector<ContactPair> pairs, const Timers& timers);
-  /// The same with numbered_by_nodes(), whose map is make_dof_map(*owned_nodes, dim).
+  /// A system with numbered_by_nodes(), whose map is make_dof_map(*owned_nodes, dim).
   ContactSystem(const RCP<const Map>& owned_nodes, RCP<const Map> dofs, RCP<const MultiVector> reference, RCP<const MultiVector> fixed,
                 const InterfaceMeasure& measure, std::vector<ContactPair> pairs, const Timers& timers);
 
-  std::size_t pairs() const;                             ///< how many there are, second passes included
+  std::size_t pairs() const;                             ///< number of pairs, second passes included
   const std::string& pair_name(std::size_t pair) const;  ///< of ContactPair::name
   /// The pair that is the second pass of this one.
   std::optional<std::size_t> second_pass(std::size_t pair) const;
-  /// Which configuration carries the geometry of a pair: the one in which its multipliers are pressures.
+  /// Configuration that carries the geometry of a pair: the one in which its multipliers are pressures.
   ContactGeometry geometry(std::size_t pair) const;
   /// Ids of the slave nodes of a pair that this rank owns, in the order of ContactStates.
   std::vector<GlobalOrdinal> slave_ids(std::size_t pair) const;
-  /// Whether multipliers stay unknowns of the linear system: then ContactLinearisation::saddle_point_blocks() takes the place of condense().
+  /// True if multipliers stay unknowns of the linear system: then ContactLinearisation::saddle_point_blocks() takes the place of condense().
   bool keeps_multipliers() const;
   /// Map of z: ids lie above all dof ids.
   const RCP<const Map>& multiplier_map() const;
@@ -90,8 +90,8 @@ class ContactSystem {
   ///   - a node that has gone through the master and out of its reach (lost_contact): one that was closed in `history`, or stood in front of the
   ///   master.
   ContactEvaluation evaluate(const NodalDisplacement& d, const ContactHistory& history) const;
-  /// The same with derivatives.
-  /// @param last  what the nodes did at the last Newton iterate: those that were closed there must not be lost either. Null: none.
+  /// Evaluates with derivatives.
+  /// @param last  states at the last Newton iterate: nodes that were closed there must not be lost either. Null: none.
   DifferentiatedContact differentiate(const NodalDisplacement& d, const ContactHistory& history, const ContactStates* last = nullptr) const;
 
   /// Graph of the condensed system at an evaluation: the bulk's, and what the pairs couple. The same graph as long as the candidates of contact stay;
@@ -105,8 +105,8 @@ class ContactSystem {
   /// @throws StepFailure on every rank, as evaluate()
   ContactHistory start_step(const ContactHistory& accepted, const NodalDisplacement& d, Vector& z) const;
 
-  /// By how much the surfaces of a pair may lie in one another, 0 unless said: what is left of an overlap that is taken up bit by bit. Conditions of
-  /// the pair then see gaps g_j + depth A_j; node_states() tells those that there are.
+  /// Lets the surfaces of a pair overlap by `depth` without pressure, 0 by default: the rest of an overlap that is taken up bit by bit. Conditions of
+  /// the pair then see gaps g_j + depth A_j, which node_states() reports.
   ContactHistory allow_overlap(const ContactHistory& history, std::size_t pair, double depth) const;
 
   /// The history with complementarity constants times `share`, of conditions whose solution does not depend on them. A smaller one takes longer to
@@ -130,9 +130,9 @@ class ContactSystem {
   /// @throws StepFailure on every rank, as evaluate()
   ContactHistory restore(StateArchive& archive, const NodalDisplacement& d, const Vector& z) const;
 
-  /// How the integrals of a pair are spread over the ranks, in the last evaluation.
+  /// Distribution of the integrals of a pair over the ranks in the last evaluation.
   IntegrationLoad integration_load(std::size_t pair) const;
-  /// How often slips were measured, over all pairs, on this rank; 0 without friction.
+  /// Number of slip measurements, over all pairs, on this rank; 0 without friction.
   long friction_evaluations() const;
 
  private:

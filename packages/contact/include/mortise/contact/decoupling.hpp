@@ -1,5 +1,5 @@
 #pragma once
-// What multigrid needs to know of closed contact.
+// Data of closed contact for multigrid.
 
 #include "mortise/core/types.hpp"
 

@@ -40,11 +40,11 @@ struct ContactNode {
 
 /// When multipliers are updated after a Newton solve.
 struct MultiplierUpdates {
-  double tolerance = 0.0;  ///< error of the multipliers over the largest of the pair that is let be
+  double tolerance = 0.0;  ///< error of the multipliers that is accepted, over the largest one of the pair
   int most = 0;            ///< updates within a step
 };
 
-/// How contact conditions are held: the law of a node, how its multiplier leaves the linear system, and what follows a Newton solve. Immutable, and
+/// Enforcement of contact conditions: the law of a node, how its multiplier leaves the linear system, and what follows a Newton solve. Immutable, and
 /// free of what one pair or node has of its own. By default a law that gives z as a function of gap and slip, without a memory.
 class Enforcement {
  public:
@@ -52,20 +52,20 @@ class Enforcement {
 
   /// C of a node and its linearisation.
   virtual Complementarity law(const ContactNode& node) const = 0;
-  /// Whether that closes it.
+  /// True if the law closes the node.
   virtual bool is_closed(const ContactNode& node) const { return law(node).state != ContactState::open; }
 
-  /// Whether multipliers stay unknowns of the linear system: a saddle point system.
+  /// True if multipliers stay unknowns of the linear system: a saddle point system.
   virtual bool keeps_multipliers() const { return false; }
-  /// Whether multipliers leave it by the momentum rows of their slave nodes, which takes a diagonal D. Without this and the former they leave it by
+  /// True if multipliers leave it by the momentum rows of their slave nodes, which takes a diagonal D. Without this and the former they leave it by
   /// their own laws, where C_z has to be regular.
   virtual bool needs_diagonal_coupling() const { return false; }
 
-  /// Whether closed nodes have no gap and sticking ones no slip, whatever they bear.
+  /// True if closed nodes have no gap and sticking ones no slip, whatever they bear.
   virtual bool holds_exactly() const { return false; }
-  /// Whether the law depends on ContactNode::weight, so that the derivatives of this are needed.
+  /// True if the law depends on ContactNode::weight, so that its derivatives are needed.
   virtual bool depends_on_weight() const { return true; }
-  /// Whether multipliers of hardly covered nodes are tied to those of their neighbours.
+  /// True if multipliers of hardly covered nodes are tied to those of their neighbours.
   virtual bool takes_ties() const { return false; }
   /// c_n A_j over E / h where the pair gives none: the stiffness of what a node hangs on. A contact zone that gives way as a whole, or yields, is ten
   /// times softer than a facet.
@@ -75,9 +75,9 @@ class Enforcement {
   /// within the search reach.
   virtual double onset() const { return 0.0; }
 
-  /// Whether nodes remember multipliers of an accepted state or of an update: ContactNode::start.
+  /// True if nodes remember multipliers of an accepted state or of an update: ContactNode::start.
   virtual bool starts_from_multipliers() const { return false; }
-  /// What they remember of a multiplier.
+  /// The part of a multiplier that they remember.
   /// @param traction  (z_n, z_tau) in the node's frame; no z_tau without friction
   virtual SpatialVector start_from(const SpatialVector& traction) const { return traction; }
   /// NodeStart::stiffening of a node: factor of eps, so that a mean gap falls by as much in an update whatever is covered.

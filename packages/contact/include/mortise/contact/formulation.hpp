@@ -15,8 +15,8 @@ using SharedEnforcement = std::shared_ptr<const Enforcement>;
 /// The formulation of a contact pair.
 struct Formulation : Described {
   virtual SharedCoupling coupling() const = 0;        ///< functions of the multipliers, and where they act
-  virtual SharedEnforcement enforcement() const = 0;  ///< how the conditions are held, with these options
-  /// Whether both sides are slaves, one after the other: then the host gives a second ContactPair with the sides exchanged.
+  virtual SharedEnforcement enforcement() const = 0;  ///< enforcement of the conditions, with these options
+  /// True if both sides are slaves, one after the other: then the host gives a second ContactPair with the sides exchanged.
   virtual bool two_pass() const { return false; }
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// What contact holds bodies with at an iterate, what it could hold them with, and what friction bears where it slips.
+// Nodes by which contact holds bodies at an iterate, or could hold them, and the shear that friction bears where it slips.
 
 #include <array>
 #include <vector>
@@ -41,16 +41,16 @@ struct BearingNode {
   std::size_t slave = 0;        ///< its place among the owned slave nodes of the pair
   LocalOrdinal owned_node = 0;  ///< local index in the map of owned nodes
   bool closed = false;          ///< its state; open: it may close
-  double gap = 0.0;             ///< how far it is from where it bears pressure, in the mean [length]
+  double gap = 0.0;             ///< distance to where it bears pressure, in the mean [length]
   double near = 0.0;            ///< the gap up to which an open node counts as about to close: 0.1 h
-  double friction = 0.0;        ///< |z_tau| <= friction z_n whatever z_n; infinite: the law says no more
-  /// What a unit pressure does to each body, as f_c: forces on bodies are its negative.
+  double friction = 0.0;        ///< |z_tau| <= friction z_n whatever z_n; infinite: the law gives no such bound
+  /// Effect of a unit pressure on each body, as f_c: forces on bodies are its negative.
   std::vector<HoldingRow::Wrench> normal;
   /// [tangents that may bear shear] What a unit traction along tau_a does to each body; empty without friction.
   std::vector<std::vector<HoldingRow::Wrench>> along;
 };
 
-/// What it means that a node holds.
+/// Meaning of a node that holds.
 enum class Holds {
   /// Forces of contact work on the motion: along the normals of closed nodes, and the tangents of those that stick.
   by_forces,
@@ -67,7 +67,7 @@ std::vector<HoldingRow> holding_rows(const ContactLaws& laws, const MultiVector&
 /// Of the owned slave nodes of all pairs with friction that is not regularised; those that bear shear freely, without a fixed component. `places` as
 /// above. Collective.
 std::vector<SlidingNode> sliding_nodes(const ContactLaws& laws, const MultiVector& places);
-/// Which open nodes count among those that may bear something.
+/// Open nodes that count among those that may bear something.
 enum class OpenNodes {
   near,    ///< whose gap is no larger than BearingNode::near
   covered  ///< all that stand before a master within the search reach

@@ -1,5 +1,5 @@
 #pragma once
-// Pressures that are given functions of how far two surfaces are in one another. A new law: a struct here, and its line in
+// Pressures that are given functions of the overlap of two surfaces. A new law: a struct here, and its line in
 // pressure_law_registry().
 
 #include <optional>
@@ -23,9 +23,9 @@ struct PressureLaw : Described {
   virtual PressurePoint on_line(double sum, double c) const = 0;
   /// Overclosure up to which the pressure is 0 [length].
   virtual double onset() const = 0;
-  /// How stiff the surfaces are across themselves, as one number [stress / length].
+  /// Stiffness across the surfaces, as one number [stress / length].
   virtual double typical_slope() const = 0;
-  /// What is wrong with its numbers; nothing: they make a curve.
+  /// Error in its numbers; nothing: they make a curve.
   virtual std::optional<std::string> fault() const = 0;
 };
 
@@ -41,7 +41,7 @@ struct LinearPressure : PressureLaw {
 
 /// A pressure that grows exponentially from a clearance c_0 on, and is p_0 where the surfaces just touch.
 struct ExponentialPressure : PressureLaw {
-  /// Which of the two curves that programs call exponential.
+  /// One of the two curves that programs call exponential.
   enum class Curve { from_zero, from_hundredth };
   double clearance = 0.0;          ///< c_0 [length]
   double pressure = 0.0;           ///< p_0 [stress]

@@ -5,7 +5,7 @@
 
 namespace mortise {
 
-/// What a regularised condition starts from and how stiff it is.
+/// Start and stiffness of a regularised condition.
 struct RegularisedNode {
   double normal_stiffness = 0.0;      ///< eps_n [traction / length]
   double tangential_stiffness = 0.0;  ///< eps_t [traction / length]
@@ -15,7 +15,7 @@ struct RegularisedNode {
   double start = 0.0;                 ///< g0 >= 0, weighted: the gap when the step began, to where the node bears pressure; 0: it was closed
 };
 
-/// What a node's pressure grows with, beyond where it bears none: a penetration, or the pressure itself. Of a node that closed a gap.
+/// Depth with which a node's pressure grows, beyond where it bears none: a penetration, or the pressure itself. Of a node that closed a gap.
 struct NodeDepth {
   double value = 0.0;      ///< delta > 0
   double of_length = 1.0;  ///< the gap G0 = of_length g0 / w that it closed first, in the unit of delta
@@ -77,10 +77,10 @@ void add_regularised_friction(Complementarity& law, double pressure, const NodeD
   law.start_factor = landing.of_start * depth.of_length / weight * of_share;
 }
 
-/// C of a node whose tractions follow from averages over its share w = sum_k D_jk of the surface: g / w of the gap and u / w of the slip,
+/// C of a node whose tractions follow from averages over its share w = sum_k D_jk of the surface, g / w of the gap and u / w of the slip:
 ///   z_n = max(0, lambda_n - eps_n g / w),   z_tau = Pi_rho(q (lambda_tau + eps_t u / w)).
-/// Pi_rho is the projection on the ball of radius rho, the bound at z_n (Simo, Laursen 1992). What stands in max and Pi_rho tells states apart. With
-/// z itself weighed in, it does so as the exact conditions do, and the solution is the same:
+/// Pi_rho is the projection on the ball of radius rho, the bound at z_n (Simo, Laursen 1992). The arguments of max and Pi_rho decide on the state.
+/// With a share of z itself in them they do so as the exact conditions do, and the solution is the same. Then
 ///   p = (1 - theta_n) z_n + theta_n (lambda_n - eps_n g / w)         open (C = z) unless p > 0,  C_n = z_n - p
 ///   y = (1 - theta_t) z_tau + theta_t q (lambda_tau + eps_t u / w)   C_tau = z_tau - Pi_rho(y),  rho at p
 /// q = 1, but for a node that closed a gap in this step: the share of its motion from first contact on,  q = p / (p + eps_n g0 / w).

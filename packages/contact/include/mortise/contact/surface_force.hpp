@@ -1,5 +1,5 @@
 #pragma once
-// What a pair bears along its surfaces, against what its law of friction lets it bear.
+// Force of a pair along its surfaces, against the most that its law of friction lets it bear.
 
 #include "mortise/contact/contact_evaluation.hpp"
 

@@ -10,7 +10,7 @@ namespace mortise {
 /// A displacement that follows from others, d = g(q), at one state: its value and derivatives.
 struct Dependence {
   static constexpr int most = 6;                           ///< a translation and a rotation in three dimensions
-  int sources = 0;                                         ///< how many q
+  int sources = 0;                                         ///< number of q
   std::array<GlobalOrdinal, most> source{};                ///< their dof ids, the same at every state
   double value = 0.0;                                      ///< g(q) [length]
   std::array<double, most> gradient{};                     ///< dg/dq_k

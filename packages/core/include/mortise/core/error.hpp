@@ -20,13 +20,13 @@ struct Place {
 /// One thing that is wrong with the input.
 struct Diagnostic {
   Place place;          ///< where it stands
-  std::string message;  ///< what is wrong, what is allowed, what to do
+  std::string message;  ///< the error, the allowed values, the remedy
 };
 
 /// A given text as messages show it: whole, or if it is long its beginning and its length: `1 + 1 + ... (10000 characters)`.
 std::string shortened(const std::string& text);
 
-/// "block.in:14: error: contact/die: unknown parameter ...". What the message has between quotes is shortened.
+/// "block.in:14: error: contact/die: unknown parameter ...". Text of the message between quotes is shortened.
 std::string to_string(const Diagnostic& diagnostic);
 
 /// Everything that is wrong with the input, found in one go; what() is all of it, one line each.
@@ -63,7 +63,7 @@ enum class FailureKind {
   diverged,
   too_many_iterations,
   cycling_active_set,
-  out_of_memory,  ///< what is to come would not fit; no smaller step helps
+  out_of_memory,  ///< the memory needed next would not fit; no smaller step helps
   augmentation,   ///< augmented Lagrange multipliers that did not settle
   unstable,       ///< an equilibrium that is not stable, far from the last state
   step_error      ///< a step of time that is too long for its tolerances

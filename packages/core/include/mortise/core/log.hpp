@@ -13,7 +13,7 @@ enum class Verbosity { quiet, normal, verbose };
 /// Writes lines to its sinks on the rank that holds them (rank 0); on all other ranks it has no sink and does nothing.
 class Log {
  public:
-  /// Adds a sink (not owned) and how much it is told. A log without sinks is silent.
+  /// Adds a sink (not owned) and its verbosity. A log without sinks is silent.
   void add_sink(std::ostream& sink, Verbosity verbosity);
 
   void info(const std::string& line) const;     ///< reaches sinks of verbosity normal and verbose

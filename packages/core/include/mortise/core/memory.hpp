@@ -11,10 +11,10 @@ double peak_memory_mib();
 /// Memory of this machine in MiB, or what a control group leaves this process of it; 0 where the system does not say.
 double machine_memory_mib();
 
-/// What the limits of this process (`ulimit -v`, `ulimit -d`) let it take beyond what it has, in MiB; infinite without limits.
+/// Memory that the limits of this process (`ulimit -v`, `ulimit -d`) let it take beyond what it has, in MiB; infinite without limits.
 double own_memory_left_mib();
 
-/// What all processes of this machine, or of this control group, can still take without swapping, in MiB; infinite where the system does not say.
+/// Memory that all processes of this machine, or of this control group, can still take without swapping, in MiB; infinite where it is not known.
 double machine_memory_left_mib();
 
 /// Ranks of a communicator on the machine of this rank. Collective.

@@ -16,8 +16,8 @@ std::vector<std::string> names_of(const std::vector<Named<T>>& entries) {
   return names;
 }
 
-/// A name that every file system takes, of one file in a directory: what is no letter, digit or one of =,._-+ becomes an underscore, as does a point
-/// that begins it. Of a long name the end is replaced by a number that is made of all of it.
+/// A name that every file system takes, of one file in a directory. Other characters than letters, digits and =,._-+ become underscores, and so does
+/// a point that begins it. Of a long name the end is replaced by a number that is made of all of it.
 std::string name_for_files(std::string text);
 
 /// The text with "?" for each control character of ASCII and Unicode, line breaks and tabs included: a terminal would obey them.

@@ -37,7 +37,7 @@ class NodalField {
 /// A field whose ids are components * node + component, those of make_dof_map().
 NodalField numbered_by_nodes(std::string name, const RCP<const Map>& nodes, int components);
 
-/// What a field of a table is.
+/// Declaration of a field of a table.
 struct FieldDeclaration {
   std::string name;              ///< as messages say it
   int components = 1;            ///< at a node

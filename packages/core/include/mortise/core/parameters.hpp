@@ -25,13 +25,13 @@ struct Described {
   virtual void describe(Parameters& parameters) = 0;
 };
 
-/// What a parameter is: one sentence, its unit and the values it may take. Built by chaining:
+/// Description of a parameter: one sentence, its unit and the values it may take. Built by chaining:
 /// Says("relative bound on the momentum residual").unit("-").above(0.0)
 class Says {
  public:
-  /// What the parameter is, without its name, beginning with a small letter.
+  /// The sentence describes the parameter, without its name, beginning with a small letter.
   Says(std::string sentence) : sentence_(std::move(sentence)) {}
-  /// The same.
+  /// The sentence as a literal.
   Says(const char* sentence) : sentence_(sentence) {}
   /// In dimensions, as "length / time^2"; "-" has none.
   Says& unit(std::string unit) { return unit_ = std::move(unit), *this; }
@@ -45,18 +45,18 @@ class Says {
   Says& at_most(double bound) { return upper_ = bound, upper_open_ = false, *this; }
   /// It has to be given; there is no default.
   Says& required() { return required_ = true, *this; }
-  /// What a function is of, instead of t, x, y, z.
+  /// Arguments of a function, instead of t, x, y, z.
   Says& arguments(std::vector<std::string> names) { return arguments_ = std::move(names), *this; }
-  /// What it was called in earlier versions; "": nothing else. Who still says so is told its name.
+  /// The parameter's name in earlier versions; "": none. Input that still uses it is refused with the new name.
   Says& formerly(std::string name) { return former_ = std::move(name), *this; }
 
-  const std::string& sentence() const { return sentence_; }                 ///< what it is
+  const std::string& sentence() const { return sentence_; }                 ///< description of the parameter
   const std::string& unit() const { return unit_; }                         ///< empty: none was said
   const std::optional<double>& lower() const { return lower_; }             ///< none: no bound
   const std::optional<double>& upper() const { return upper_; }             ///< none: no bound
-  bool lower_open() const { return lower_open_; }                           ///< whether the bound itself is refused
-  bool upper_open() const { return upper_open_; }                           ///< whether the bound itself is refused
-  bool is_required() const { return required_; }                            ///< whether there is no default
+  bool lower_open() const { return lower_open_; }                           ///< true if the bound itself is refused
+  bool upper_open() const { return upper_open_; }                           ///< true if the bound itself is refused
+  bool is_required() const { return required_; }                            ///< true if there is no default
   const std::vector<std::string>& arguments() const { return arguments_; }  ///< empty: t, x, y, z
   const std::string& former() const { return former_; }                     ///< former name; empty: none
 
@@ -70,7 +70,7 @@ class Says {
 /// A value that remembers where it was given, for errors that are found later.
 template <class T>
 struct Located {
-  T value{};    ///< what was read, or the default
+  T value{};    ///< the value read, or the default
   Place place;  ///< where; of the list around it if it was not given
 };
 
@@ -95,8 +95,8 @@ class Registry {
  public:
   /// One of the kinds.
   struct Entry {
-    std::string name;                             ///< which is given as "type"
-    std::string sentence;                         ///< what it is
+    std::string name;                             ///< value of "type"
+    std::string sentence;                         ///< description
     std::function<std::shared_ptr<Base>()> make;  ///< new options with their defaults
   };
   /// Adds a kind, whose options have a default constructor.
@@ -112,7 +112,7 @@ class Registry {
   std::vector<Entry> entries_;
 };
 
-/// One of several kinds of options, told apart by a parameter "type" that stands in the same list as the kind's own parameters.
+/// One of several kinds of options, distinguished by a parameter "type" in the list of the kind's own parameters.
 template <class Base>
 struct Choice {
   std::string type;               ///< name in the registry; empty: not given. Set beforehand, with the options, it is the default
@@ -127,7 +127,7 @@ class Parameters {
 
   /// A number.
   virtual void add(const std::string& name, double& value, const Says& says) = 0;
-  /// A whole number, likewise.
+  /// A whole number.
   virtual void add(const std::string& name, int& value, const Says& says) = 0;
   /// "true" or "false".
   virtual void add(const std::string& name, bool& value, const Says& says) = 0;
@@ -139,7 +139,7 @@ class Parameters {
   virtual void add(const std::string& name, std::optional<double>& value,
                    const Says& says) = 0;                                                            ///< no value: chosen as the sentence says
   virtual void add(const std::string& name, std::vector<double>& value, const Says& says) = 0;       ///< any number of them
-  virtual void add(const std::string& name, std::vector<std::string>& value, const Says& says) = 0;  ///< likewise
+  virtual void add(const std::string& name, std::vector<std::string>& value, const Says& says) = 0;  ///< any number of them
 
   /// One of named values of an enumeration.
   template <class Enum>
@@ -206,13 +206,13 @@ class Parameters {
 
   /// A list handed on as it is to the package that owns its meaning (MueLu, Belos, NOX), which checks it.
   virtual void verbatim(const std::string& name, Teuchos::ParameterList& list, const Says& says) = 0;
-  /// The same, with its place.
+  /// Reads the list with its place.
   void verbatim(const std::string& name, Located<Teuchos::ParameterList>& list, const Says& says) {
     verbatim(name, list.value, says);
     locate(name, list.place);
   }
 
-  /// All that stands in the current list: values that somebody else reads and checks. Names and those of lists within make paths.
+  /// All entries of the current list: values that somebody else reads and checks. Names and those of lists within make paths.
   virtual void assignments(std::vector<Assignment>& assignments) = 0;
 
   /// Puts into `place` where the parameter or list `name` of the current list is given, or the list's own place if it is not. Leaves it
@@ -223,7 +223,7 @@ class Parameters {
   virtual void error(const std::string& name, const std::string& message) = 0;
 
  protected:
-  /// What a visitor may do with the entries of named(), whatever their type.
+  /// Access of a visitor to the entries of named(), whatever their type.
   struct NamedAccess {
     std::function<std::size_t()> size;                       ///< number of entries
     std::function<std::string(std::size_t)> name;            ///< of an entry
@@ -231,7 +231,7 @@ class Parameters {
     std::function<void(std::size_t, Parameters&)> describe;  ///< visits an entry
     std::function<void(Parameters&)> describe_prototype;     ///< visits an entry as it is before it is read
   };
-  /// What a visitor may do with a choose(), whatever its base.
+  /// Access of a visitor to a choose(), whatever its base.
   struct ChoiceAccess {
     std::vector<std::pair<std::string, std::string>> kinds;            ///< name and sentence
     std::string type;                                                  ///< the current one, or empty
@@ -244,16 +244,16 @@ class Parameters {
   virtual bool begin_list(const std::string& name, const Says& says) = 0;  ///< false: skip it
   /// After the parameters of a list for which begin_list() was true.
   virtual void end_list() = 0;
-  /// What named() asks for.
+  /// Implements named().
   virtual void named_lists(const std::string& name, const NamedAccess& access, const Says& says) = 0;
-  /// What choose() asks for, of the parameter `name`.
+  /// Implements choose(), of the parameter `name`.
   virtual void choice_of(const std::string& name, const ChoiceAccess& access, const Says& says) = 0;
 };
 
 /// A list of values that somebody else reads.
 struct AssignmentList {
   std::vector<Assignment> all;                                            ///< in the order given
-  void describe(Parameters& parameters) { parameters.assignments(all); }  ///< takes whatever stands in the list
+  void describe(Parameters& parameters) { parameters.assignments(all); }  ///< takes all entries of the list
 };
 
 }  // namespace mortise

@@ -22,7 +22,7 @@ class ScalarFunction {
   /// The constant `value`, which messages show as `source`, given at `place`.
   ScalarFunction(double value, std::string source, Place place);
 
-  /// What `body` computes, which messages show as `source`, given at `place`.
+  /// The function that `body` computes, which messages show as `source`, given at `place`.
   ScalarFunction(Body body, std::string source, Place place = {});
 
   /// Value at `arguments`; not finite where the function has none.

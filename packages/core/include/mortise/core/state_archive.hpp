@@ -1,5 +1,5 @@
 #pragma once
-// What a run remembers, stored and restored by one function.
+// Memory of a run, stored and restored by one function.
 
 #include <algorithm>
 #include <optional>
@@ -26,7 +26,7 @@ struct RowIds {
 class StateArchive {
  public:
   virtual ~StateArchive() = default;
-  /// Whether values are restored, into what is handed over; else they are stored.
+  /// True if values are restored, into the arguments; else they are stored.
   virtual bool restores() const = 0;
   /// Numbers that are the same on every rank, as many as there were.
   virtual void values(const std::string& name, std::vector<double>& values) = 0;
@@ -39,12 +39,12 @@ class StateArchive {
   virtual void refuse_if(const std::optional<std::string>& wrong) = 0;
 };
 
-/// What is wrong with a number that was stored as a whole one.
+/// Error message for a number that was stored as a whole one.
 std::string not_whole(const std::string& name, double value);
-/// What is wrong with numbers of which one is not finite; none: all are.
+/// Error message for numbers of which one is not finite; none: all are.
 std::optional<std::string> not_finite(const std::string& name, const std::vector<double>& values);
 
-/// What was restored as numbers of a kind. Throws as StateArchive does where one is not finite, or not whole where the kind is.
+/// Restored numbers of a kind. Throws as StateArchive does where one is not finite, or not whole where the kind is.
 template <class Number>
 std::vector<Number> restored_numbers(StateArchive& archive, const std::string& name, const std::vector<double>& values) {
   static_assert(std::is_arithmetic_v<Number>, "for numbers");

@@ -10,7 +10,7 @@
 
 namespace mortise {
 
-/// What expressions may name besides t, x, y, z and the usual functions: numbers by name, and tables called as `name(t)`.
+/// Symbols of expressions besides t, x, y, z and the usual functions: numbers by name, and tables called as `name(t)`.
 struct Symbols {
   std::map<std::string, double> variables;  ///< by name
   std::map<std::string, Table> tables;      ///< by name

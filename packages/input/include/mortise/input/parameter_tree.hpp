@@ -1,5 +1,5 @@
 #pragma once
-// What options consist of, as data: the source of `describe`, of the reference pages, of the schema and of effective.xml.
+// Options as data: the source of `describe`, of the reference pages, of the schema and of effective.xml.
 
 #include <string>
 #include <utility>
@@ -12,7 +12,7 @@ namespace mortise {
 
 /// A parameter and its value.
 struct ParameterRecord {
-  /// What values it may have.
+  /// Type of its values.
   enum class Kind { number, integer, boolean, text, expression, optional_expression, optional_number, numbers, texts, enumeration };
   std::string name;                  ///< in its list
   Kind kind = Kind::text;            ///< of its value
@@ -26,7 +26,7 @@ struct ParameterRecord {
   std::string kind_text() const;
   /// "> 0, <= 1"; empty if any value is allowed.
   std::string range_text() const;
-  /// Whether it may be left without a value.
+  /// True if it may be left without a value.
   bool optional() const { return kind == Kind::optional_number || kind == Kind::optional_expression; }
 };
 
@@ -35,7 +35,7 @@ struct ListRecord {
   /// list: of parameters. named: of lists whose names the user chooses. verbatim: of what another package knows.
   enum class Kind { list, named, verbatim };
   std::string name;                         ///< in the list around it
-  Says says{""};                            ///< what it is
+  Says says{""};                            ///< its description
   Kind kind = Kind::list;                   ///< named: `lists` are the entries, or one prototype "<name>"
   std::vector<ParameterRecord> parameters;  ///< in the order of their declaration
   std::vector<ListRecord> lists;            ///< in the order of their declaration
@@ -47,10 +47,10 @@ struct ListRecord {
 /// Visitor that writes down what it visits and leaves it as it is.
 class CollectParameters : public Parameters {
  public:
-  /// What is written down.
+  /// Choice of the recorded data.
   enum class What {
     declarations,  ///< all kinds of every choice, one prototype of every named list
-    values         ///< what the options hold now
+    values         ///< the present values of the options
   };
   /// `name` is that of the outermost list.
   CollectParameters(std::string name, What what);

@@ -31,7 +31,7 @@ class ReadParameters : public Parameters {
   void locate(const std::string& name, Place& place) const override { place = this->place(name); }
   void error(const std::string& name, const std::string& message) override;
 
-  /// To call after the visit: reports what stands in the outermost list but was not asked for, and returns all diagnostics in the order of lines.
+  /// To call after the visit: reports entries of the outermost list that were not asked for, and returns all diagnostics in the order of lines.
   std::vector<Diagnostic> finish();
 
  protected:

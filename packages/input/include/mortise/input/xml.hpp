@@ -38,14 +38,14 @@ std::string read_text(const Communicator& comm, const std::string& path);
 /// XML, unknown elements and attributes, missing or repeated names.
 XmlList parse_xml(const std::string& text, const std::string& file);
 
-/// What is wrong with the form of "path=value": no "=", or a path with an empty name. "" if nothing is.
+/// Error message for the form of "path=value": no "=", or a path with an empty name. "" if the form is right.
 std::string wrong_assignment(const std::string& assignment);
 
-/// Applies `--set path=value`, path being list names and a parameter's name separated by "/". Lists and parameters that do not stand in the file
+/// Applies `--set path=value`, path being list names and a parameter's name separated by "/". Lists and parameters that the file lacks
 /// are made; the reader then says whether they mean anything. Throws InputError if the form is wrong, or if the path goes on below a parameter.
 void apply_override(XmlList& root, const std::string& assignment);
 
-/// The same for a value that another file gives, at `place`, which errors then name.
+/// Applies a value that another file gives, at `place`, which errors then name.
 void apply_override(XmlList& root, const std::string& path, const std::string& value, const Place& place);
 
 /// Takes the lists "variables" (numbers, each may use the ones before it) and "tables" ({times, values}) of a scene, and appends what is wrong

@@ -14,8 +14,8 @@ namespace mortise {
 /// Writes one file, which appears whole or not at all. Members are collective and throw FileError on all ranks.
 ///
 /// The file is HDF5, with what each rank owns written in parallel.
-///   /values/<name>  [count], the same on every rank
-///   /values/text.<name>  [bytes], likewise
+/// /values/<name>  [count], equal on every rank
+/// /values/text.<name>  [bytes], equal on every rank
 ///   /rows/<name>    [rows x columns], and /ids/<name of the rows>, the id of each row
 ///
 /// Behind the end of HDF5's own data stands one line with version, length and checksum of what comes before.
@@ -59,7 +59,7 @@ class CheckpointReader final : public StateArchive {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// What is wrong with a file as a checkpoint: no such file, too short, another version, another checksum. None: it is whole. Collective.
+/// Error message for a file as a checkpoint: no such file, too short, another version, another checksum. None: it is whole. Collective.
 std::optional<std::string> checkpoint_damage(const Communicator& comm, const std::string& path);
 
 }  // namespace mortise

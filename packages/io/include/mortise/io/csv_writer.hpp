@@ -16,9 +16,9 @@ namespace mortise {
 /// One entry of a row. Numbers are written with as many digits as it takes to read the same number back.
 using CsvValue = std::variant<double, long long, std::string>;
 
-/// Writes a table on rank 0. A row is with the operating system when row() returns: it outlives the program, however that ends. sync() brings rows to
-/// the disk, so that they outlive a loss of power. A row that cannot be written whole is not written at all. Members are collective and throw
-/// FileError on all ranks.
+/// Writes a table on rank 0. A row is with the operating system when row() returns: it outlives the program, however that ends. The call sync()
+/// brings rows to the disk, so that they outlive a loss of power. A row that cannot be written whole is not written at all. Members are collective
+/// and throw FileError on all ranks.
 class CsvWriter {
  public:
   /// Replaces the file and writes its header line.
@@ -34,7 +34,7 @@ class CsvWriter {
   /// Only rank 0's values count; a number of them that is not that of the columns is a FileError too.
   void row(const std::vector<CsvValue>& values);
 
-  /// The same for many rows, written at once; other ranks may pass any number.
+  /// Writes many rows at once; other ranks may pass any number.
   void rows(const std::vector<std::vector<CsvValue>>& rows);
 
   /// Bytes of the file, the same on all ranks.

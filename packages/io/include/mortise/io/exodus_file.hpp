@@ -1,12 +1,12 @@
 #pragma once
-// What a run left of fields, as one Exodus file.
+// Fields of a run as one Exodus file.
 
 #include <functional>
 #include <string>
 
 namespace mortise {
 
-/// What an Exodus file holds.
+/// Contents of an Exodus file.
 struct ExodusContent {
   long long nodes = 0, elements = 0;
   int blocks = 0;             ///< one for each body
@@ -16,7 +16,7 @@ struct ExodusContent {
 };
 
 /// Writes mesh and fields of all steps below `run`, which a FieldWriter left, to an Exodus II file (64-bit offsets, double precision). A body is an
-/// element block with its name. A component of a field is a variable, as displacement_x and cauchy_stress_xy; plane models have those in the plane,
+/// element block with its name. A component of a field is a variable, as displacement_x and cauchy_stress_xy; models in 2D have the in-plane ones,
 /// and zz of tensors. Where a step lacks a field that another one has, its values are not numbers. Node and element ids are those of the run, plus 1.
 /// Memory does not grow with the mesh: rows are copied in chunks. The file has ".part" behind its name until it is complete. No communication.
 /// @param file  gives the path of the file; called once the run has been read and found good

@@ -37,13 +37,13 @@ struct Field {
 /// fields/step-000012.h5 holds the fields of step 12, each a dataset in `/` with attributes `kind` and `center`. Attributes of the file: `step`,
 /// `time`. fields.xdmf is the index of these files.
 ///
-/// Tensors have XDMF's order xx, xy, xz, yy, yz, zz. Nodes and elements stand in the order of their ids, whatever the number of ranks. A file gets
+/// Tensors have XDMF's order xx, xy, xz, yy, yz, zz. Nodes and elements are in the order of their ids, whatever the number of ranks. A file gets
 /// its name when it is complete and does not change any more; the index alone grows, by a step at a time. So whatever ends the program leaves all
-/// earlier steps as they are. What is written is with the operating system, not yet on the disk: sync_file() brings it there.
+/// earlier steps as they are. Written data is with the operating system, not yet on the disk: sync_file() brings it there.
 class FieldWriter {
  public:
   /// Writes the mesh and an index without steps in `directory`. Node ids and element ids have to be 0 ... number - 1: std::invalid_argument.
-  /// @param continue_after  a step of an earlier run in the directory, which is to be continued: its mesh and its steps up to this one stay, and the
+  /// @param continue_after  a step of an earlier run in the directory, which is to be continued. Its mesh and its steps up to this one stay. The
   ///                        index is made from their files. Those of later steps are removed. Without: all of them are removed.
   /// @throws FileError also if the mesh of the earlier run has other numbers of nodes or elements
   FieldWriter(RCP<const Mesh> mesh, const std::string& directory, std::optional<int> continue_after = {});

@@ -26,7 +26,7 @@ std::optional<std::string> replace_end_of_file(const std::string& path, std::uin
 /// could not.
 std::optional<std::string> sync_file(const std::string& path);
 
-/// The same for the names in a directory: files that were made, renamed or removed there. No communication. Returns why it could not.
+/// Brings the names in a directory to the disk: files that were made, renamed or removed there. No communication. Returns why it could not.
 std::optional<std::string> sync_directory(const std::string& path);
 
 /// `replace_file` for all ranks: rank 0 writes what `content` gives there. Collective. Throws FileError on all ranks.

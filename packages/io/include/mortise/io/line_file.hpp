@@ -13,8 +13,8 @@ namespace mortise {
 class FileDescriptor;
 
 /// Appends lines on rank 0. They are with the operating system when append() returns: they outlive the program, however that ends. sync() brings them
-/// to the disk, so that they outlive a loss of power. What cannot be written whole is not written at all. Members are collective and throw FileError
-/// on all ranks.
+/// to the disk, so that they outlive a loss of power. A line that cannot be written whole is not written at all. Members are collective and throw
+/// FileError on all ranks.
 class LineFile {
  public:
   /// Replaces the file.

@@ -9,7 +9,7 @@
 
 namespace mortise {
 
-/// What the files of a directory are results of.
+/// Source of the results in the files of a directory.
 struct Origin {
   std::string kind{};       ///< "run", "study" ...: a directory is not given from one kind to another; empty: any
   std::string source{};     ///< file that is run; empty: none
@@ -55,13 +55,13 @@ class OutputDirectory {
   /// Registers a directory and makes it where it does not exist. It has a list of its own, which is kept, and the same lock.
   OutputDirectory subdirectory(const std::string& name);
 
-  /// Removes a file or directory that is registered; nothing if it is not there. What is not registered in a directory stays, with the directory.
+  /// Removes a file or directory that is registered; nothing if it is not there. Unregistered contents of a directory stay, with the directory.
   void remove(const std::string& name);
 
   /// Strikes from the list what was registered and has not been made: it may become another's.
   void strike_missing();
 
-  /// Whether it has been taken, by begin_run(), continue_run() or open().
+  /// True if it has been taken, by begin_run(), continue_run() or open().
   bool is_open() const;
 
   const std::string& path() const;
@@ -76,7 +76,7 @@ class OutputDirectory {
   std::shared_ptr<State> state_;
 };
 
-/// Whether a run makes a file or directory of this name:
+/// True if a run makes a file or directory of this name:
 /// * summary.json, effective.xml, log.txt,
 /// * newton.csv, history.csv, steps.jsonl, profiles.csv,
 /// * fields.xdmf, fields, checkpoints, and fields.h5 of earlier versions,

@@ -14,8 +14,8 @@ struct OutputFile {
 
 /// Directory and name of a path. No communication; touches nothing.
 /// @param endings  that the name may have, as ".png"
-/// @throws InputError  the name has none of the endings or nothing before it, is longer than a file system takes, begins with # or has control
-///                     characters or a *, which stand for something else in the list of a directory's files
+/// @throws InputError  the name has none of the endings or nothing before it, or is longer than a file system takes. Or it begins with #, or has
+///                     control characters or a *, which have another meaning in the list of a directory's files
 OutputFile output_file(const std::string& path, const std::vector<std::string>& endings);
 
 }  // namespace mortise

@@ -9,7 +9,7 @@
 
 namespace mortise {
 
-/// W = mu/2 (I1 - 3) - mu ln J + lambda/4 (J^2 - 1 - 2 ln J)   (Ciarlet 1988; in wide use since Wriggers 2008).
+/// W = mu/2 (I1 - 3) - mu ln J + lambda/4 (J^2 - 1 - 2 ln J). Source: Ciarlet 1988; in wide use since Wriggers 2008.
 /// tau = mu (b - I) + lambda/2 (J^2 - 1) I,
 /// A_ijkl = mu delta_ik b_jl + (mu - lambda/2 (J^2 - 1)) delta_il delta_jk + lambda J^2 delta_ij delta_kl.
 struct CiarletNeoHooke {

@@ -8,10 +8,10 @@
 
 namespace mortise {
 
-/// Multiplicative plasticity F = F_e F_p with Hencky's elasticity and isotropic hardening (Simo 1992, CMAME 99; de Souza Neto, Peric, Owen 2008,
-/// chapter 14):
+/// Multiplicative plasticity F = F_e F_p with Hencky's elasticity and isotropic hardening. Sources: Simo 1992, CMAME 99; de Souza Neto, Peric, Owen
+/// 2008, chapter 14.
 ///   b_e = F C_p^-1 F^T,  C_p = F_p^T F_p,   e = 1/2 ln b_e,   tau = 2 G dev e + K tr e I,   q = sqrt(3/2) |dev tau| <= sigma_y(alpha).
-/// Plastic flow is along dev tau. Backward Euler with the exponential map keeps the axes of the trial b_e, which takes C_p^-1 of the last step:
+/// Plastic flow is along dev tau. Backward Euler with the exponential map keeps the axes of the trial b_e. The trial takes C_p^-1 of the last step:
 ///   e = e_tr - x (3/2) dev tau_tr / q_tr,   q = q_tr - 3 G x = sigma_y(alpha + x).
 struct FiniteJ2 {
   static constexpr const char* name = "j2 plasticity";
@@ -19,7 +19,7 @@ struct FiniteJ2 {
   static constexpr bool small_strain = false;
   static constexpr bool plane_stress = false;
 
-  /// What a point remembers of the last converged step.
+  /// Memory of a point: the last converged step.
   struct State {
     std::array<double, 6> inverse_plastic_metric{1.0, 1.0, 1.0, 0.0, 0.0, 0.0};  ///< C_p^-1: 11, 22, 33, 12, 23, 13
     double equivalent_plastic_strain = 0.0;                                      ///< alpha
@@ -43,7 +43,7 @@ struct FiniteJ2 {
     return state.equivalent_plastic_strain + return_to_yield_surface(F, state).increment.strain;
   }
 
-  /// What the point remembers if the step that ends at F is accepted.
+  /// Memory of the point if the step that ends at F is accepted.
   State updated(const Matrix3& F, const State& state) const {
     const Return end = return_to_yield_surface(F, state);
     if (end.increment.strain == 0.0) return state;

@@ -26,7 +26,7 @@ double yield_stress(const Hardening& hardening, double alpha);
 /// int_0^alpha sigma_y: work of plastic flow per reference volume [stress].
 double plastic_work(const Hardening& hardening, double alpha);
 
-/// What the return map finds.
+/// Result of the return map.
 struct PlasticIncrement {
   double strain = 0.0;  ///< increment of alpha; NaN: there is none
   double slope = 0.0;   ///< d sigma_y / d alpha at the end; may be infinite

@@ -22,7 +22,7 @@ struct Hencky {
   /// Stored energy per reference volume.
   double energy(const Matrix3& F) const { return energy(logarithmic_strain(spectral_decomposition(F * F.transpose()))); }
 
-  /// The same of principal logarithmic strains.
+  /// The energy of principal logarithmic strains.
   double energy(const Eigen::Vector3d& e) const {
     const double trace = e.sum();
     return shear_modulus * (e.squaredNorm() - trace * trace / 3.0) + 0.5 * bulk_modulus * trace * trace;

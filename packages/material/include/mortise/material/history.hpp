@@ -1,5 +1,5 @@
 #pragma once
-// Which laws remember something.
+// Laws with a memory.
 
 #include <type_traits>
 

@@ -60,7 +60,7 @@ inline Eigen::Matrix<double, 9, 9> logarithmic_tangent_in_space(const Spectrum& 
 /// A (see StressAndTangent) of tau_a = lambda tr e + 2 mu e_a + const with b = F B F^T for a constant B, at the Kirchhoff stress `stress`. As db = L
 /// b + b L^T, in the axes of b the normal strains change by de_a = L_aa. Off the diagonal, for an isotropic function,
 ///   d tau_ab = theta_ab (L_ab b_b + b_a L_ba),   theta_ab = (tau_a - tau_b) / (b_a - b_b) = mu (ln b_a - ln b_b) / (b_a - b_b).
-/// The slopes may be the secant ones of a law whose deviator is parallel to that of e. What its tangent has beyond them, the caller adds.
+/// The slopes may be the secant ones of a law whose deviator is parallel to that of e. The caller adds the rest of its tangent.
 template <class Components>
 Eigen::Matrix<double, Components::size, Components::size> logarithmic_tangent(const Spectrum& b, double lambda, double mu, const Matrix3& stress) {
   constexpr int size = Components::size;

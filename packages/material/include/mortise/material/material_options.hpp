@@ -1,5 +1,5 @@
 #pragma once
-// Materials by their parameters. Who only passes a material on needs no law.
+// Materials by their parameters. Code that only passes a material on needs no law.
 
 #include <variant>
 

@@ -9,7 +9,7 @@
 
 namespace mortise {
 
-/// W = c (I1 - 3) + (c / beta) (J^(-2 beta) - 1),   c = E / (4 (1 + nu)),   beta = nu / (1 - 2 nu);  nu = 0: its limit c (I1 - 3) - 2 c ln J.
+/// W = c (I1 - 3) + (c / beta) (J^(-2 beta) - 1),   c = E / (4 (1 + nu)),   beta = nu / (1 - 2 nu). For nu = 0 its limit: c (I1 - 3) - 2 c ln J.
 /// tau = 2 c (b - J^(-2 beta) I),   A_ijkl = 2 c delta_ik b_jl + 2 c J^(-2 beta) (delta_il delta_jk + 2 beta delta_ij delta_kl).
 struct NeoHooke {
   static constexpr const char* name = "neo hooke";

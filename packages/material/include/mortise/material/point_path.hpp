@@ -1,5 +1,5 @@
 #pragma once
-// How one material point is deformed in the course of pseudo-time. A new kind of path: a struct here, and its line in point_path_registry().
+// Deformation of one material point in the course of pseudo-time. A new kind of path: a struct here, and its line in point_path_registry().
 
 #include <array>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace mortise {
 
-/// What a path prescribes at one time.
+/// Values that a path prescribes at one time.
 struct PathPoint {
   double time = 0.0;
   Matrix3 F = Matrix3::Identity();  ///< deformation gradient; 1 in the place of free stretches

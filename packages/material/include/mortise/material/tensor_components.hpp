@@ -1,5 +1,5 @@
 #pragma once
-// Which components (i, j) of second order tensors a tangent is wanted for, and the tangent in these components.
+// Components (i, j) of second order tensors for which a tangent is wanted, and the tangent in these components.
 
 #include <Eigen/Core>
 
@@ -28,7 +28,7 @@ struct SolidComponents {
   static constexpr int column[size] = {0, 1, 2, 0, 1, 2, 0, 1, 2};
 };
 
-/// What a law gives for one deformation gradient F.
+/// Results of a law for one deformation gradient F.
 /// `stress`: the Kirchhoff stress tau, units of stress. `tangent(p, q)` = A_ijkl, p = (i, j), q = (k, l) of Components:
 ///   A_ijkl = d tau_ij / dF_km F_lm - tau_il delta_jk,
 /// so that for a change of F by dF = L F   A : L = d tau - tau L^T, and the virtual work tau : grad eta changes by grad eta : A : L.

@@ -1,5 +1,5 @@
 #pragma once
-// What the pure descriptions of bodies say about a cell.
+// Cells in the pure descriptions of bodies.
 
 #include <boost/container/static_vector.hpp>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Whether two meshes are the same.
+// Comparison of two meshes by a digest.
 
 #include <string>
 

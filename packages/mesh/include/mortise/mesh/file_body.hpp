@@ -30,7 +30,7 @@ struct FileBodyRequest {
 };
 
 /// The body of a file that was read. On one rank; not collective.
-/// @throws InputError: names that are none in the file, no cells, a body of several pieces, sides that do not conform, a plane mesh that is not flat
+/// @throws InputError: names that are none in the file, no cells, several pieces, sides that do not conform, a mesh in 2D that is not flat
 /// `file_nodes`: gets the indices of its nodes in the file.
 ListedBody make_file_body(const MeshFile& file, const FileBodyRequest& request, std::vector<std::int32_t>* file_nodes = nullptr);
 

@@ -9,7 +9,7 @@
 
 namespace mortise {
 
-/// What becomes of nodes that two bodies of a file have in common.
+/// Treatment of nodes that two bodies of a file have in common.
 enum class SharedNodes {
   refused,
   doubled  ///< each body gets its own
@@ -30,7 +30,7 @@ struct FileMesh : MeshOptions {
   void describe_shape(Parameters& parameters) override;
   /// Throws std::logic_error: the body stands in a file.
   BodyComplex complex(CellShape cell, const Place& place) const override;
-  /// What is asked of the file, for a body of this name. Relative paths begin at the folder of the file that names them.
+  /// The request to the file, for a body of this name. Relative paths begin at the folder of the file that names them.
   FileBodyRequest request(const std::string& body, const Place& place, int dimension, bool is_surface) const;
 
  protected:

@@ -63,8 +63,8 @@ struct PolarCells {
   Spacings spacings(const Place& place) const;
 };
 
-/// What quarter and half disks share. Each quarter has an inner patch, one between the lowest (or highest) point and 45 degrees, and one from there
-/// to the horizontal diameter.
+/// Common part of quarter and half disks. Each quarter has an inner patch, one between the lowest (or highest) point and 45 degrees, and one from
+/// there to the horizontal diameter.
 struct DiskMesh : PlaneMesh, PolarCells {
   void describe_shape(Parameters& parameters) override { PolarCells::describe(parameters); }
 
@@ -77,7 +77,7 @@ struct QuarterDiskMesh : DiskMesh {
   PatchComplex build(CellShape cell, const Place& place) const override;
 };
 
-/// Which half of a disk: y <= 0 or x >= 0.
+/// Half of a disk: y <= 0 or x >= 0.
 enum class DiskHalf { lower, right };
 
 /// Sides: diameter (y = 0) and arc for the lower half; axis (x = 0) and arc for the right half.

@@ -27,8 +27,8 @@ struct ListedBody {
   std::vector<BodyPart> parts;
   std::vector<std::string> side_names;       ///< of sets of sides on its surface
   std::vector<std::string> node_set_names;   ///< of sets of nodes
-  std::vector<std::string> notes;            ///< what was changed or left out, in words
-  std::vector<std::string> warnings;         ///< what is most likely not meant, in words
+  std::vector<std::string> notes;            ///< changes and omissions, in words
+  std::vector<std::string> warnings;         ///< things that are most likely not meant, in words
   RowStore<double> coordinates;              ///< [nodes][3]
   RowStore<std::int32_t> element_nodes;      ///< [elements][nodes of the shape]
   RowStore<std::int32_t> surface_sides;      ///< [elements][side, name, side, name, ...] -1: a side of the surface without a name
@@ -45,7 +45,7 @@ class ListedComplex {
  public:
   explicit ListedComplex(std::shared_ptr<ListedBody> body) : body_(std::move(body)) {}
 
-  /// What is fetched for others; all ranks have their own copy.
+  /// Data to be fetched for others; all ranks have their own copy.
   ListedBody& body() const { return *body_; }
   GlobalOrdinal node_count() const { return body_->nodes; }
   GlobalOrdinal element_count() const { return body_->elements(); }

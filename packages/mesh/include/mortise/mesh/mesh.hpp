@@ -65,12 +65,12 @@ struct Mesh {
   RCP<const Map> owned_nodes;                                  ///< one to one
   RCP<const Map> local_nodes;                                  ///< owned, then ghosts
   std::vector<std::array<double, 3>> coordinates;              ///< [local nodes] reference positions; z = 0 in 2D
-  std::vector<MeshBody> bodies;                                ///< the same, in the same order, on every rank
+  std::vector<MeshBody> bodies;                                ///< equal, and in the same order, on every rank
   std::vector<Block> blocks;                                   ///< in the order of their bodies; the same on every rank (possibly empty)
   std::map<std::string, SideSet> side_sets;                    ///< "body/side"; the same names on every rank
   std::map<std::string, std::vector<LocalOrdinal>> node_sets;  ///< local nodes (owned and ghosts), ascending; every side set is one too
   std::vector<int> body_of_node;                               ///< [local nodes] index of the body that the node belongs to, or whose nodes follow it
-  std::vector<ReferencePoint> reference_points;                ///< the same, in the same order, on every rank
+  std::vector<ReferencePoint> reference_points;                ///< equal, and in the same order, on every rank
 
   LocalOrdinal owned_count() const { return static_cast<LocalOrdinal>(owned_nodes->getNodeNumElements()); }
   /// Owned nodes of bodies; those of reference points come after them.

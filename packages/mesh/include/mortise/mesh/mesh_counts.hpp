@@ -1,5 +1,5 @@
 #pragma once
-// How large meshes will be, before any of them is built.
+// Sizes of meshes, before any of them is built.
 
 #include <vector>
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a mesh file says, whatever its format. Readers make it; bodies are made from it.
+// Content of a mesh file, whatever its format. Readers make it; bodies are made from it.
 
 #include <array>
 #include <cstdint>
@@ -40,13 +40,13 @@ struct FileSet {
 /// uses the file finds the sides that they lie on.
 struct MeshFile {
   std::string path;                                ///< as it was named
-  std::vector<std::array<double, 3>> coordinates;  ///< [nodes] as they stand in the file; 0 where it gives fewer than three
+  std::vector<std::array<double, 3>> coordinates;  ///< [nodes] as in the file; 0 where it gives fewer than three
   std::vector<std::int64_t> node_labels;           ///< [nodes] their numbers in the file
   std::vector<FileCells> cells;                    ///< no two with the same shape
   std::vector<FileSet<FileCellRange>> cell_sets;   ///< element blocks, physical groups, ELSETs; ranges ascend
   std::vector<FileSet<FileSide>> side_sets;        ///< given by sides of cells
   std::vector<FileSet<std::int32_t>> node_sets;    ///< given by nodes
-  std::vector<std::string> notes;                  ///< what the reader took for something else, in words for users
+  std::vector<std::string> notes;                  ///< elements that the reader replaced by others, in words for users
 };
 
 /// The formats that can be read.

@@ -1,5 +1,5 @@
 #pragma once
-// Options from which a body's mesh is described; the kinds of built-in meshes are told apart by "type" (mesh_registry).
+// Options from which a body's mesh is described; "type" selects the kind of built-in mesh (mesh_registry).
 
 #include <optional>
 #include <variant>

@@ -1,5 +1,5 @@
 #pragma once
-// How a mesh would lie on many ranks, found on one.
+// Distribution of a mesh over many ranks, found on one.
 
 #include <map>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace mortise {
 
-/// What one rank would hold.
+/// Share of one rank.
 struct MeshShare {
   GlobalOrdinal elements = 0, nodes = 0;              ///< owned
   GlobalOrdinal ghost_elements = 0, ghost_nodes = 0;  ///< of other ranks
@@ -22,7 +22,7 @@ struct MeshPlan {
   std::vector<MeshShare> shares;                    ///< [ranks]
 };
 
-/// What build_mesh() would do on so many ranks, by the same choices, on this one: not collective. Takes memory for the whole mesh's graph.
+/// The result of build_mesh() on so many ranks, by the same choices, on this one: not collective. Takes memory for the whole mesh's graph.
 /// @throws InputError as build_mesh(); std::runtime_error if METIS fails
 MeshPlan plan_mesh(const std::vector<BodyDescription>& bodies, const std::vector<std::string>& contact_sides, int ranks);
 

@@ -68,8 +68,8 @@ class ShellComplex {
   std::vector<std::string> side_names_;
 };
 
-/// What a curve sweeps, with the names of its sides; it has no ends. Bodies lie to the left of the curve. Nodes are graded by `layers` along the
-/// sweep.
+/// The surface that a curve sweeps, with the names of its sides; it has no ends. Bodies lie to the left of the curve. Nodes are graded by `layers`
+/// along the sweep.
 ShellComplex sweep_surface(const CurveComplex& curve, const Spacing& layers, const Sweep& sweep, const SpatialPlacement& placement);
 
 }  // namespace mortise

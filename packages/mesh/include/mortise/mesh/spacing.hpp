@@ -42,7 +42,7 @@ class Spacing {
 /// Where the smallest cells of a line are.
 enum class FineEnd { start, end, middle, both_ends };
 
-/// How the cells of a line are graded. Either their number and the ratio of the largest to the smallest cell are given, or the size of the smallest
+/// Grading of the cells of a line. Either their number and the ratio of the largest to the smallest cell are given, or the size of the smallest
 /// cell. In the second case cells of that size fill `refined_length` from the fine end on. Each further cell is longer by at most `growth`.
 struct GradingOptions {
   FineEnd toward = FineEnd::start;

@@ -34,7 +34,7 @@ class VolumeComplex {
   /// @throws std::logic_error otherwise, and for cells that blocks are not made of (errors of the generator)
   VolumeComplex(CellShape shape, std::vector<Block> blocks, Position position, SpatialPlacement placement);
 
-  /// Whether blocks can be made of cells of this shape.
+  /// True if blocks can be made of cells of this shape.
   static bool is_made_of(CellShape shape);
 
   CellShape shape() const { return shape_; }
@@ -53,7 +53,7 @@ class VolumeComplex {
  private:
   /// A corner, edge, face or inside of a block: in each direction at the start (0), inside (1) or at the end (2), as digits of a number of base 3.
   static constexpr int parts_of_block = 27;
-  /// What a part of a block is, and which direction of the block each of the entity's is.
+  /// Part of a block: its entity, and the direction of the block for each of the entity's.
   struct PartUse {
     int entity = 0;
     std::array<int, 3> axes{};

@@ -1,5 +1,5 @@
 #pragma once
-// What all that reads lines of Abaqus needs: where they stand, and errors.
+// Context for reading lines of Abaqus: their places, and errors.
 
 #include <optional>
 #include <string>

@@ -50,7 +50,7 @@ const std::map<std::string, std::string>& formulations() {
   return all;
 }
 
-/// Cells of surfaces in space, and of curves in the plane. No stiffness is read: they are the surfaces of rigid bodies.
+/// Cells of surfaces in 3D, and of curves in 2D. No stiffness is read: they are the surfaces of rigid bodies.
 const std::map<std::string, CellShape>& surface_types() {
   static const std::map<std::string, CellShape> all = [] {
     std::map<std::string, CellShape> types;
@@ -67,7 +67,7 @@ const std::map<std::string, CellShape>& surface_types() {
   return all;
 }
 
-/// What begins names of other elements, and what they are.
+/// Beginning of the names of other elements, and their description.
 struct OtherElements {
   const char* begin;
   const char* what;

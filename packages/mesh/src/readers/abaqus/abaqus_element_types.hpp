@@ -9,11 +9,11 @@
 
 namespace mortise {
 
-/// What an element type means here.
+/// Meaning of an element type here.
 struct AbaqusElementType {
   std::optional<CellShape> shape;  ///< none: it is not read
   bool is_surface = false;         ///< a shell, membrane or rigid surface: it has two faces, which are itself
-  std::string note;                ///< how it is taken for another one, or why it is not read; may be empty
+  std::string note;                ///< the element that replaces it, or the reason why it is not read; may be empty
 };
 
 /// The type of a name in capital letters.

@@ -14,7 +14,7 @@ namespace mortise {
 /// *NAME, PARAMETER=VALUE, FLAG
 struct AbaqusKeyword {
   std::string name;                                             ///< capital letters without blanks: ENDPART
-  std::vector<std::pair<std::string, std::string>> parameters;  ///< the same of their names; values as they were written, without quotes
+  std::vector<std::pair<std::string, std::string>> parameters;  ///< their names as `name`; values as written, without quotes
   AbaqusSpot spot;
 
   bool has(const std::string& parameter) const;

@@ -121,7 +121,7 @@ const Keywords& keywords_without_mesh() {
   return all;
 }
 
-/// Whether `name` is what is left of a keyword without its last words.
+/// True if `name` is a keyword without its last words.
 bool is_beginning(const std::string& name, std::string_view written) {
   constexpr std::size_t least_letters = 5;  // fewer are of many keywords
   if (name.size() < least_letters) return false;
@@ -147,7 +147,7 @@ bool is_refused_keyword(const std::string& name) {
 }
 
 std::string unknown_keyword(const std::string& name) {
-  // What makes the mesh stands first: of keywords that are equally near it is the one that matters.
+  // Keywords that make the mesh stand first: of keywords that are equally near it is the one that matters.
   std::vector<std::string> candidates;
   for (const std::string_view list : {read_here, refused, without_mesh})
     for (const auto& [letters, written] : keywords_of(list)) candidates.push_back("*" + written);

@@ -10,10 +10,10 @@ namespace mortise {
 /// blanks. As in CalculiX an S may stand behind it, and its last words may be missing. Nothing: there is no such keyword.
 std::optional<std::string> keyword_without_mesh(const std::string& name);
 
-/// Whether a keyword makes or moves nodes or elements in a way that is not read.
+/// True if a keyword makes or moves nodes or elements in a way that is not read.
 bool is_refused_keyword(const std::string& name);
 
-/// What to say of a keyword that is neither read nor known: what may have been meant.
+/// Message on a keyword that is neither read nor known: what may have been meant.
 std::string unknown_keyword(const std::string& name);
 
 }  // namespace mortise

@@ -1,5 +1,5 @@
 #pragma once
-// What an Abaqus input file says, part by part, with names and labels as they stand there.
+// Content of an Abaqus input file, part by part, with names and labels as they stand there.
 
 #include <array>
 #include <cstdint>
@@ -96,7 +96,7 @@ struct AbaqusModel {
   AbaqusScope outside;  ///< of parts
   std::deque<AbaqusScope> parts;
   std::vector<AbaqusInstance> instances;
-  std::map<std::string, int> passed_over;  ///< how often each keyword stands there that says nothing of the mesh
+  std::map<std::string, int> passed_over;  ///< number of uses of each keyword that says nothing of the mesh
   std::vector<std::string> notes;
 };
 

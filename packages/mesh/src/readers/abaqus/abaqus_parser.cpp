@@ -144,7 +144,7 @@ class AbaqusParser {
     }
   }
 
-  /// What was read since the last keyword is whole.
+  /// The data since the last keyword is whole.
   void end_data() {
     if (data_ == Data::mesh) mesh_lines_.end();
     data_ = Data::passed_over;

@@ -277,7 +277,7 @@ class AbaqusReader {
   AbaqusModel model_;
   std::vector<ReadScope> parts_;
   ReadScope outside_{};
-  std::vector<PlacedScope> placed_;  ///< what is outside of parts, then the instances
+  std::vector<PlacedScope> placed_;  ///< the scope outside of parts, then the instances
   std::int32_t elements_ = 0;        ///< that are placed
   MeshFile file_;
   SetsInOrder<FileCellRange> cell_sets_;

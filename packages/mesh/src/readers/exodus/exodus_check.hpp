@@ -1,5 +1,5 @@
 #pragma once
-// What the library of Exodus II takes for granted in a file.
+// Properties of a file that the library of Exodus II takes for granted.
 
 #include <string>
 

@@ -52,7 +52,7 @@ const std::vector<ExodusFamily>& exodus_families() {
   return all;
 }
 
-/// In space the first two sides of a plane cell are its faces; its edges follow.
+/// In 3D the first two sides of a plane cell are its faces; its edges follow.
 std::vector<int> sides_of(CellShape shape, const ExodusSides& corners, bool is_surface) {
   std::vector<int> sides;
   if (is_surface) sides.assign(2, the_cell_itself);

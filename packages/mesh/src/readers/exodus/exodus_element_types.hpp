@@ -9,7 +9,7 @@
 
 namespace mortise {
 
-/// What Exodus means by a name of an element type and its number of nodes.
+/// Meaning of Exodus' name of an element type and its number of nodes.
 struct ExodusElementType {
   bool is_point = false;  ///< the rest says nothing then
   CellShape shape = CellShape::line2;

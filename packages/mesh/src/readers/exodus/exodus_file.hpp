@@ -7,7 +7,7 @@
 
 namespace mortise {
 
-/// Closes itself. What the library reports is thrown as an InputError that names the file and what was read.
+/// Closes itself. An error of the library is thrown as an InputError that names the file and what was read.
 class ExodusFile {
  public:
   /// @throws FileError if it cannot be opened, InputError if it is no Exodus file or one whose variables are not as the format has them
@@ -17,7 +17,7 @@ class ExodusFile {
   ExodusFile& operator=(const ExodusFile&) = delete;
 
   int id() const { return id_; }
-  std::int64_t dimension() const { return dimension_; }  ///< of space
+  std::int64_t dimension() const { return dimension_; }  ///< number of coordinates
   std::int64_t nodes() const { return nodes_; }
   std::int64_t elements() const { return elements_; }
   std::int64_t blocks() const { return blocks_; }

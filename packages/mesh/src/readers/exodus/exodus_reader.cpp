@@ -15,7 +15,7 @@
 namespace mortise {
 namespace {
 
-/// Nodes, or elements, that are read at once. What the file has of them is not believed beyond the part that was read.
+/// Nodes, or elements, that are read at once. Counts in the file are not believed beyond the part that was read.
 constexpr std::int64_t slice = 65536;
 
 struct ExodusBlock {
@@ -150,7 +150,7 @@ class ExodusReader {
     }
   }
 
-  /// Members of a set, which are no more than the rest of the file would hold.
+  /// Members of a set, at most as many as the rest of the file would hold.
   std::int64_t entries_of(ex_entity_type kind, std::int64_t id, const std::string& what) {
     std::int64_t entries = 0, factors = 0;
     in_.require(ex_get_set_param(in_.id(), kind, id, &entries, &factors), what);

@@ -1,8 +1,8 @@
-// The header of netCDF's classic formats, entry by entry:
+// The header of netCDF's classic formats. Entry by entry:
 // header   = "CDF" version  records  dimensions  attributes  variables
 // list     = 0 0 | tag count entries
 // dimension = name length;   attribute = name type count values;   variable = name count dimensions attributes type size begin
-// name     = count characters.  Numbers are big-endian, of 4 bytes (counts of 8 bytes in CDF-5, begins of 8 bytes but in CDF-1); characters and
+// name     = count characters.  Numbers are big-endian, of 4 bytes (counts of 8 bytes in CDF-5, begins of 8 bytes but in CDF-1). Characters and
 // values are filled up to whole words of 4 bytes.
 
 #include "readers/exodus/netcdf_header.hpp"

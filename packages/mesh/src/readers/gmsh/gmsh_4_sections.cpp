@@ -9,7 +9,7 @@
 namespace mortise {
 namespace {
 
-/// What an entity of a dimension has in a file: a box or a position, groups and what bounds it. Numbers take 2 bytes at least as text.
+/// Reads an entity of a dimension: a box or a position, groups and what bounds it. Numbers take 2 bytes at least as text.
 void read_gmsh_entity(GmshNumbers& numbers, GmshMesh& mesh, int dimension, bool partitioned) {
   const std::int64_t at = numbers.spot(), tag = numbers.whole("the tag of an entity");
   numbers.about("entity", tag);
@@ -128,7 +128,7 @@ void read_gmsh_4_elements(GmshNumbers& numbers, GmshMesh& mesh) {
       const FileCellRange cell = read_gmsh_nodes_of(numbers, mesh, type, label, spot);
       if (cell.group >= 0) {
         for (const std::int64_t group : entity.physical) add_cells(mesh.physical_cells[{dimension, group}], cell);
-        // What bounds partitions is no entity of the geometry.
+        // Boundaries of partitions are no entities of the geometry.
         if (entity.parent.first == dimension) add_cells(mesh.entity_cells[entity.parent], cell);
       } else if (cell.count > 0) {
         for (const std::int64_t group : entity.physical) mesh.physical_points[{0, group}].push_back(cell.first);

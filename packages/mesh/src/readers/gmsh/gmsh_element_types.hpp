@@ -10,7 +10,7 @@
 
 namespace mortise {
 
-/// What Gmsh means by the number of an element type.
+/// Meaning of Gmsh's number of an element type.
 struct GmshElementType {
   std::optional<CellShape> shape;  ///< none: a point
   int nodes = 1;

@@ -8,7 +8,7 @@
 namespace mortise {
 namespace {
 
-/// Cells of a group that stand in the file more than once, as their entity is in several physical groups.
+/// Cells of a group that occur in the file more than once, as their entity is in several physical groups.
 std::vector<std::int32_t> cells_with_copies(const GmshMesh& mesh, std::int32_t group) {
   std::vector<std::int32_t> cells;
   for (const auto& [entity, ranges] : mesh.entity_cells) {

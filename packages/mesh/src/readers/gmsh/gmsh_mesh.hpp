@@ -22,7 +22,7 @@ struct GmshEntity {
   GmshTag parent;                      ///< in a file that is cut into partitions, the entity that this one is a part of
 };
 
-/// What the sections of a file fill.
+/// Data that the sections of a file fill.
 struct GmshMesh {
   MeshFile file;
   LabelTable nodes;                                   ///< of file.node_labels; after the section of nodes

@@ -11,24 +11,24 @@
 
 namespace mortise {
 
-/// Reads one number after the other. What is no number ends the reading with an error that says where, of what and what was expected.
+/// Reads one number after the other. Anything else ends the reading with an error that says where, of what and what was expected.
 class GmshNumbers {
  public:
   GmshNumbers(ByteStream& stream, FileErrors& errors) : stream_(stream), errors_(errors) {}
 
-  /// How numbers are written from here on.
+  /// Sets the format of numbers from here on.
   void set_encoding(bool binary, bool swapped, bool wide_labels) { binary_ = binary, swapped_ = swapped, wide_ = wide_labels; }
   bool binary() const { return binary_; }
   ByteStream& stream() { return stream_; }
 
-  /// What errors are about from here on: "node", 7. The text lives longer than this.
+  /// Sets the subject of errors from here on: "node", 7. The text lives longer than this.
   void about(const char* kind, std::int64_t label) { kind_ = kind, label_ = label; }
   /// Where the next number stands: a line of text, or a byte.
   std::int64_t spot();
   Place place_at(std::int64_t spot) const { return place_of_line(stream_.path(), binary_ ? 0 : spot); }
   /// "byte 17: ", or nothing for text.
   std::string prefix(std::int64_t spot) const;
-  /// What is wrong at a spot; reading goes on, or ends.
+  /// Reports an error at a spot; reading goes on, or ends.
   void error_at(std::int64_t spot, const std::string& message) { errors_.add(place_at(spot), prefix(spot) + message); }
   [[noreturn]] void stop_at(std::int64_t spot, const std::string& message) { errors_.stop(place_at(spot), prefix(spot) + message); }
 

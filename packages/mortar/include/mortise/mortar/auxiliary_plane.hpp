@@ -12,8 +12,8 @@ namespace mortise {
 /// Vectors at the nodes of a triangle or a quadrilateral, linear or quadratic.
 using FacetVectors = boost::container::static_vector<Eigen::Vector3d, 8>;
 
-/// The plane across the slave facet's own normal p at its centre:
-///   p = c / |c|,   c = (x_1 - x_0) x (x_2 - x_0) of triangles,   c = (x_2 - x_0) x (x_3 - x_1) of quadrilaterals.
+/// The plane across the slave facet's own normal p = c / |c| at its centre. Its direction c is
+///   of triangles  c = (x_1 - x_0) x (x_2 - x_0),   of quadrilaterals  c = (x_2 - x_0) x (x_3 - x_1).
 /// It depends on the positions of the facet's corners only, and areas on it are those of a flat facet. Everything is projected along p. In its frame
 /// (e_1, e_2, p) the first two components of a position are its projection, the third its height.
 struct AuxiliaryPlane {
@@ -36,7 +36,7 @@ struct AuxiliaryPlane {
 /// None if the projection of one of the facet's linear parts has no area, is not convex, or is turned over.
 std::optional<AuxiliaryPlane> make_auxiliary_plane(const FacetVectors& slave);
 
-/// Whether a linear facet is seen without a fold, from above the plane (side = 1) or from below (side = -1). At every corner its normal, times
+/// True if a linear facet is seen without a fold, from above the plane (side = 1) or from below (side = -1). At every corner its normal, times
 /// `side`, must have a component along p of more than `tolerance`. Then its projection is convex.
 bool shows_side(const FacetVectors& in_frame, double side, double tolerance);
 

@@ -11,7 +11,7 @@ namespace mortise {
 /// Vertices of a triangle or quadrilateral in a plane, in their order around it.
 using PlanePolygon = boost::container::static_vector<Eigen::Vector2d, 4>;
 
-/// How a vertex of the common part moves with a node of the polygons: dv = slope dx. Nodes: the first polygon's, then the second's.
+/// Motion of a vertex of the common part with a node of the polygons: dv = slope dx. Nodes: the first polygon's, then the second's.
 struct VertexPart {
   int node = 0;           ///< of both polygons, counted on
   Eigen::Matrix2d slope;  ///< dv/dx of that node
@@ -47,7 +47,7 @@ struct EdgeCrossing {
 
   /// `other` turned by +90 degrees.
   Eigen::Vector2d across() const { return {-other.y(), other.x()}; }
-  /// Whether the sine of their angle is below 1e-3.
+  /// True if the sine of their angle is below 1e-3.
   bool nearly_parallel() const;
 };
 
@@ -56,7 +56,7 @@ std::optional<int> vertex_node(const ClipVertex& vertex, const PlanePolygon& fir
 /// The edges at whose crossing a vertex stands that stands at no node.
 EdgeCrossing edge_crossing(const ClipVertex& vertex, const PlanePolygon& first, const PlanePolygon& second);
 
-/// What a crossing v depends on, with w = across():
+/// Parts of the vertices on which a crossing v depends, with w = across():
 ///   dv = P ((1 - t) dx_a + t dx_b) + (I - P) ((1 - u) dx_l + u dx_m),   P = I - (b - a) w^T / (w . (b - a)).
 std::array<VertexPart, 4> vertex_parts(const EdgeCrossing& crossing);
 

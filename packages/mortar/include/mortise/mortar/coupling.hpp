@@ -17,7 +17,7 @@ struct InterfaceMeasure;
 struct MortarOptions;
 struct SlaveNodeData;
 
-/// Which functions weight the gap.
+/// Functions that weight the gap.
 enum class GapWeighting { dual, standard };
 
 /// Normals at kinks of a slave surface: convex nodes at which it turns, in 3D those on its edges and at their ends.
@@ -27,19 +27,19 @@ enum class CornerRule {
   averaged        ///< the average of the facets' normals, as everywhere else
 };
 
-/// What a slave node's multiplier acts through, and what weights its gap: immutable, without options of its own. By default integrals over the
-/// overlaps of facets, in 2D and in 3D.
+/// Functions through which a slave node's multiplier acts, and those that weight its gap: immutable, without options of its own. By default integrals
+/// over the overlaps of facets, in 2D and in 3D.
 class Coupling {
  public:
   virtual ~Coupling() = default;
   /// As messages say it.
   virtual std::string name() const = 0;
 
-  /// Whether the functions phi_j of the multipliers are dual to N_j, so that D is diagonal; else phi_j = N_j.
+  /// True if the functions phi_j of the multipliers are dual to N_j, so that D is diagonal; else phi_j = N_j.
   virtual bool has_dual_multipliers() const = 0;
-  /// Whether the gap is weighted by the dual functions and not by N_j, where the pair asks for `asked`.
+  /// True if the gap is weighted by the dual functions and not by N_j, where the pair asks for `asked`.
   virtual bool has_dual_gap(GapWeighting asked) const = 0;
-  /// Whether normal forces are the derivatives of the weighted gaps, so that second derivatives of these are needed; else they act as the phi_j do.
+  /// True if normal forces are the derivatives of the weighted gaps, so that second derivatives of these are needed; else they act as the phi_j do.
   virtual bool has_forces_of_gaps() const { return false; }
 
   /// False: each slave node is coupled by couple_node() in the place of integrals over facets.
@@ -55,11 +55,11 @@ class Coupling {
                            const std::vector<Eigen::Vector2d>& x, const InterfaceMeasure& measure, double share, bool derivatives,
                            FacetCoupling& coupling) const;
 
-  /// Which rule acts at kinks, where the pair asks for `asked`: in 3D the average in the place of the nearest facet.
+  /// Rule at kinks, where the pair asks for `asked`: in 3D the average in the place of the nearest facet.
   virtual CornerRule corner_rule(CornerRule asked, int dimension) const;
-  /// Whether it exists in models of 2 or 3 dimensions.
+  /// True if it exists in models of 2 or 3 dimensions.
   virtual bool exists_in(int /*dimension*/) const { return true; }
-  /// Whether facets may be quadratic.
+  /// True if facets may be quadratic.
   virtual bool takes_quadratic_facets() const { return true; }
   /// Why it does not go with these options; nothing where it does.
   virtual std::optional<std::string> refusal(const MortarOptions& /*options*/) const { return std::nullopt; }

@@ -10,7 +10,7 @@
 
 namespace mortise {
 
-/// How two wedges whose edges cross press on one another.
+/// Contact of two wedges whose edges cross.
 struct WedgeContact {
   double stiffness = 0.0;  ///< K of F = K g^2 [force / length^2]; 0: the edges do not touch as edges
   double area = 0.0;       ///< of the section of the overlap, over the depth squared
@@ -37,25 +37,25 @@ struct EdgePair {
 /// Where they cross.
 struct EdgeCrossing {
   std::size_t slave = 0;                             ///< first node of the piece of the slave
-  std::size_t master = 0;                            ///< likewise
+  std::size_t master = 0;                            ///< first node of the piece of the master
   double s = 0.0;                                    ///< place along the piece of the slave, 0 to 1
-  double m = 0.0;                                    ///< likewise, of the master
-  double gap = 0.0;                                  ///< below 0: that deep in one another
+  double m = 0.0;                                    ///< place along the piece of the master, 0 to 1
+  double gap = 0.0;                                  ///< below 0: depth of the overlap
   double stiffness = 0.0;                            ///< K there
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< out of the slave
   Eigen::Vector3d on_slave;                          ///< x(s)
   Eigen::Vector3d on_master;                         ///< y(m)
 };
 
-/// All crossings, along the slave's edge. With tangents t that are linear between nodes the points x(s) and y(m) are those for which
-///   w . t_slave(s) = 0,   w . t_master(m) = 0,   w = y - x:
+/// All crossings, along the slave's edge. The tangents t are linear between nodes. The points x(s) and y(m) of a crossing, with w = y - x, fulfil
+///   w . t_slave(s) = 0,   w . t_master(m) = 0:
 /// the gap's way is across both edges. It is continuous where a crossing goes from a piece to the next, so that each is found once.
 std::vector<EdgeCrossing> crossings_of(const EdgePair& pair, const std::vector<Eigen::Vector3d>& positions);
 
 /// The force of a crossing in the rows of 8 nodes, and its derivatives by their positions.
 struct CrossingForce {
   std::array<int, 8> nodes{};             ///< places in the list of positions; the same one may stand there twice
-  Eigen::Matrix<double, 24, 1> residual;  ///< what is added to f_int - f_ext
+  Eigen::Matrix<double, 24, 1> residual;  ///< contribution to f_int - f_ext
   Eigen::Matrix<double, 24, 24> tangent;  ///< d residual / d positions
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Which rank integrates a facet: the rules that runs and plans share.
+// Choice of the rank that integrates a facet: the rules that runs and plans share.
 
 #include <array>
 #include <vector>
@@ -22,7 +22,7 @@ int home_of(const SurfaceFacet& facet, const std::vector<int>& owners);
 /// Largest over mean of what the ranks have to do; 1 where there is nothing to do.
 double largest_over_mean(const std::vector<double>& work_of_rank);
 
-/// Whether facets should move, for a bound on largest_over_mean(). The bound is missed now, and then it would hold, or at least come nearer by a
+/// True if facets should move, for a bound on largest_over_mean(). The bound is missed now, and then it would hold, or at least come nearer by a
 /// tenth. The latter keeps facets that are too few for the ranks from moving at every search.
 bool worth_moving(double now, double then, double bound);
 

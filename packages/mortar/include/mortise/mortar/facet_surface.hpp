@@ -22,7 +22,7 @@ FacetPoint facet_point(int dimension, const FacetPlaces& facet, const Eigen::Vec
 /// Reference coordinates of a node of a facet with so many nodes.
 Eigen::Vector2d facet_node(int dimension, std::size_t nodes, std::size_t node);
 
-/// The most by which mid-side nodes lie off the middles of their edges; 0 of linear facets. What is straight and evenly spaced has none.
+/// The most by which mid-side nodes lie off the mid-points of their edges; 0 of linear facets. Straight and evenly spaced edges have none.
 double bend_of(int dimension, const FacetPlaces& facet);
 
 }  // namespace mortise

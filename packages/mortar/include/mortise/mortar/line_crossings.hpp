@@ -41,7 +41,7 @@ struct Crossing {
 /// Sine of the angle between line and facet below which they are hardly told apart: that of facets that face one another.
 inline constexpr double grazing_angle = 0.05;
 
-/// What becomes of facets that a line meets at less than the grazing angle.
+/// Treatment of facets that a line meets at less than the grazing angle.
 enum class Grazing {
   left_out,  ///< the line passes them by
   counted    ///< they are crossed as others are: |along| is below grazing_angle
@@ -71,12 +71,12 @@ struct Box3 {
 
   /// Grows to hold x.
   void enclose(const Eigen::Vector3d& x) { low = low.cwiseMin(x), high = high.cwiseMax(x); }
-  bool empty() const { return low[0] > high[0]; }                          ///< whether it holds no point
+  bool empty() const { return low[0] > high[0]; }                          ///< true if it holds no point
   double diagonal() const { return empty() ? 0.0 : (high - low).norm(); }  ///< its length; 0 if it is empty
   Box3 widened(double by) const;                                           ///< a box that ends further out by that, on every side
   /// Whether x is in it or on its boundary.
   bool holds(const Eigen::Vector3d& x) const { return (x.array() >= low.array()).all() && (x.array() <= high.array()).all(); }
-  /// Whether the two have a point in common.
+  /// True if the two have a point in common.
   bool meets(const Box3& other) const { return (low.array() <= other.high.array()).all() && (high.array() >= other.low.array()).all(); }
   /// The part of a segment in the box: false if there is none.
   bool cut(LineSegment& segment) const;

@@ -25,7 +25,7 @@ class UnfitCoupling : public InputError {
   using InputError::InputError;
 };
 
-/// What Newton's method knows of the nodal normals' derivatives.
+/// Derivatives of the nodal normals in Newton's method.
 enum class Linearisation {
   exact,
   frozen_normals  ///< none: iterates converge to the same solution, linearly
@@ -34,7 +34,7 @@ enum class Linearisation {
 /// The measure on the interface in 2D: thickness t, or 2 pi r of the current slave radius. In 3D it is not used.
 struct InterfaceMeasure {
   bool axisymmetric = false;  ///< a ring: 2 pi r
-  double thickness = 1.0;     ///< t; in the plane
+  double thickness = 1.0;     ///< t of a model that is not axisymmetric
 };
 
 /// Options of the coupling of one pair.
@@ -49,9 +49,9 @@ struct MortarOptions {
   double balance = 1.5;                                ///< largest over mean work of the ranks, in overlaps, above which slave facets change rank
   /// The parameters of a pair's list that are those of the coupling.
   void describe(Parameters& parameters);
-  /// Which rule acts: Coupling::corner_rule().
+  /// The rule that acts: Coupling::corner_rule().
   CornerRule corner_rule(int dimension) const { return coupling->corner_rule(corners, dimension); }
-  /// Whether gaps are weighted by the functions of the multipliers.
+  /// True if gaps are weighted by the functions of the multipliers.
   bool weighs_gaps_as_multipliers() const { return coupling->has_dual_gap(gap_weighting) == coupling->has_dual_multipliers(); }
 };
 
@@ -75,13 +75,13 @@ using FacetVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, mo
 struct FacetCoupling {
   Facet<LocalOrdinal> slave;          ///< local nodes of the slave facet
   std::vector<LocalOrdinal> master;   ///< nodes of the master facets that the slave facet overlaps, without repeats
-  std::vector<LocalOrdinal> columns;  ///< nodes on whose positions the values depend: slave, ring (neighbours that shape the normals), master, and
-                                      ///< those of a kink's other facet
+  std::vector<LocalOrdinal> columns;  ///< nodes on whose positions the values depend: slave, ring (neighbours that shape the normals), master, nodes
+                                      ///< of a kink's other facet
   /// D(j,k) = int phi_j N_k; dual: off-diagonal only for nodes k without multiplier, and, where j is a mid-side node, for corners k
   FacetMatrix D;
   Eigen::MatrixXd M;  ///< [slave x master] M(j,l) = int phi_j N_l
   FacetVector gap;    ///< [slave] int w_j g, w the gap weighting
-  FacetVector cover;  ///< [slave] covered share of each node's weight, int N_j (Ñ_j) over the covered part by that over the whole facet; empty with
+  FacetVector cover;  ///< [slave] covered share of each node's weight, int N_j (Ñ_j) over the covered part by that over the whole facet. Empty with
                       ///< node to segment
   /// Derivatives; column dim c + i belongs to component i of columns[c]. Empty if not asked for.
   Eigen::MatrixXd dD;      ///< row slave.size() j + k
@@ -97,7 +97,7 @@ struct FacetCoupling {
   Eigen::MatrixXd dalignment;  ///< one row
 };
 
-/// What one slave facet adds to the Hessian of a weighted sum of all weighted gaps.
+/// Contribution of one slave facet to the Hessian of a weighted sum of all weighted gaps.
 struct GapCurvature {
   std::vector<LocalOrdinal> columns;  ///< local nodes, as in FacetCoupling
   Eigen::MatrixXd hessian;            ///< [dim x columns squared]
@@ -114,17 +114,17 @@ struct NodalNormal {
 struct SlaveNode {
   GlobalOrdinal id = 0;            ///< of the node in the model
   LocalOrdinal owned_node = 0;     ///< local index in the map of owned nodes
-  LocalOrdinal local_node = 0;     ///< local index in local_nodes(); the same number for ever
+  LocalOrdinal local_node = 0;     ///< local index in local_nodes(), which never changes
   std::array<bool, 3> fixed{};     ///< components with a prescribed displacement
   bool carries_multiplier = true;  ///< false: prescribed in every direction its normal could push it, or marked as a crosspoint
   bool middle = false;             ///< of an edge of quadratic facets: its dual multiplier acts on corners too
   double weight = 0.0;             ///< A_j = int N_j (Ñ_j) over the whole reference slave surface (with t or 2 pi R), times the pair's share
 
-  /// Whether any component is prescribed.
+  /// True if any component is prescribed.
   bool partly_fixed() const { return fixed[0] || fixed[1] || fixed[2]; }
 };
 
-/// What this rank integrates of an interface. With node to segment, which integrates nothing, as at first.
+/// Share of this rank in the integrals of an interface. With node to segment, which integrates nothing, as at first.
 struct InterfaceLoad {
   long facets = 0;                  ///< slave facets that overlap a master facet, in the last evaluation
   long segments = 0;                ///< their overlaps
@@ -143,10 +143,10 @@ struct SurfaceKinks {
 /// [owned slave nodes] ids of nodes.
 using RetainedNodes = std::vector<std::vector<GlobalOrdinal>>;
 
-/// Which nodes a rank needs for an interface, and which of them are coupled. The order of nodes does not depend on earlier patterns.
+/// Nodes that a rank needs for an interface, and couplings between them. The order of nodes does not depend on earlier patterns.
 struct InterfacePattern {
-  /// Owned slave nodes first, the others of their facets and those that shape normals next, then master nodes and retained ones by id, then those of
-  /// facets that this rank integrates for others.
+  /// Owned slave nodes first, the others of their facets and those that shape normals next. Then follow master nodes and retained ones by id, then
+  /// those of facets that this rank integrates for others.
   RCP<const Map> local_nodes;
   RCP<const Import> import;  ///< from the map of owned nodes to local_nodes
   /// [owned slave nodes] every local node that may appear in `master` or `columns` of the couplings of its facets, and retained ones, ascending.
@@ -168,8 +168,8 @@ class MortarInterface {
  public:
   /// @param owned_nodes    one-to-one map of all nodes of the model
   /// @param reference      [owned nodes x dim] reference positions
-  /// @param fixed          [owned nodes x dim] 1 where the displacement is prescribed, 2 where it follows a rigid body or a reference point, else 0;
-  ///                       only messages tell 1 from 2. crosspoint_mark: the node carries no multiplier here, though nothing holds it
+  /// @param fixed          [owned nodes x dim] 1 where the displacement is prescribed, 2 where it follows a rigid body or a reference point, else 0.
+  ///                       Only messages tell 1 from 2. crosspoint_mark: the node carries no multiplier here, though nothing holds it
   /// @param slave          every slave facet with a node owned by this rank (so a facet may stand on two ranks)
   /// @param master         the master facets of this rank, each on exactly one rank
   /// @throws InputError (at `place`, on every rank) for
@@ -187,29 +187,29 @@ class MortarInterface {
   /// a position is not finite; evaluate() then reports it.
   bool search(const MultiVector& x);
 
-  /// The kinks of the slave surface at positions `x`, after a choice `before`: convex nodes at which it turns by more than 30 degrees, or by 5 if the
-  /// node is a kink already. In 3D they are those of the first choice alone. The facets that meet there have their own normals, and the node what
-  /// MortarOptions::corner_rule() says. Collective.
+  /// The kinks of the slave surface at positions `x`, after a choice `before`. They are convex nodes at which it turns by more than 30 degrees, or by
+  /// 5 if the node is a kink already. In 3D they are those of the first choice alone. The facets that meet there have their own normals, and the node
+  /// what MortarOptions::corner_rule() says. Collective.
   /// @param x        [owned nodes x dim] positions that tell
   /// @param nearest  [slave_nodes()] the facet nearest to the master, by its nodes; empty where none is covered: then the node's normal stays the
   ///                 average. No other rule needs it: empty
   SurfaceKinks find_kinks(const MultiVector& x, const std::vector<Facet<LocalOrdinal>>& nearest, const SurfaceKinks& before) const;
 
-  /// Ids of the nodes that SurfaceKinks tells of, owned slave nodes first. Which facets meet at a node, and their order, does not depend on the rank.
+  /// Ids of the nodes of SurfaceKinks, owned slave nodes first. The facets that meet at a node, and their order, do not depend on the rank.
   std::vector<GlobalOrdinal> nodes_of_kinks() const;
 
   /// From now on the slave surface has these kinks. Returns, the same on every rank, whether they were others before: then the next search() rebuilds
   /// local_nodes() and the pattern. Collective.
   bool set_kinks(const SurfaceKinks& kinks);
 
-  /// How many owned slave nodes are kinks at positions `x` [owned nodes x dim], whatever rule acts. Collective.
+  /// Number of owned slave nodes that are kinks at positions `x` [owned nodes x dim], whatever rule acts. Collective.
   long kinks(const MultiVector& x) const;
 
   /// From now on each owned slave node is coupled to these nodes too: those that a slip is measured against. Null: to none. Returns, the same on
   /// every rank, whether the next search() rebuilds local_nodes() and the pattern for that: not if all stand in coupled_nodes() already. Collective.
   bool retain(const std::shared_ptr<const RetainedNodes>& nodes);
 
-  /// Who is coupled to whom; another object after each rebuild by search().
+  /// The coupled nodes; another object after each rebuild by search().
   const std::shared_ptr<const InterfacePattern>& pattern() const;
   /// InterfacePattern::local_nodes of the present pattern.
   const RCP<const Map>& local_nodes() const;
@@ -241,7 +241,7 @@ class MortarInterface {
 
   /// This rank's share of the work.
   const InterfaceLoad& load() const;
-  /// How many overlaps each coupling of the last evaluate() is the sum of [couplings]; empty with node to segment.
+  /// Number of overlaps of which each coupling of the last evaluate() is the sum [couplings]; empty with node to segment.
   const std::vector<std::size_t>& segments() const;
 
   /// Distance up to which facets can touch.
@@ -249,7 +249,7 @@ class MortarInterface {
 
   /// Length of the shortest slave facet between corners, over all ranks, in the reference configuration.
   double shortest_facet() const;
-  /// Of the longest facet of either side, likewise.
+  /// Length of the longest facet of either side between corners, over all ranks, in the reference configuration.
   double longest_facet() const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// What quadratic facets have beyond linear ones: mid-side nodes, linear parts, and the basis of their functions that is nowhere negative.
+// Parts of quadratic facets that linear ones lack: mid-side nodes, linear parts, and the basis of their functions that is nowhere negative.
 
 #include <array>
 #include <boost/container/static_vector.hpp>
@@ -20,7 +20,7 @@ using FacetPart = boost::container::static_vector<int, 4>;
 /// of a quadrilateral of 8 four triangles at the corners, and the quadrilateral of the mid-side nodes.
 const std::vector<FacetPart>& linear_parts(int dimension, std::size_t nodes);
 
-/// What belongs to the nodes of a part.
+/// Vectors at the nodes of a part.
 template <class Vectors>
 Vectors part_of(const Vectors& vectors, const FacetPart& part) {
   Vectors result;

@@ -23,8 +23,8 @@ struct Interval {
 /// from below and its first node from above, unless the slave facet ends before.
 struct Overlap {
   Interval interval;            ///< on the slave facet
-  bool low_is_master = false;   ///< whether the lower end moves with the master's second node
-  bool high_is_master = false;  ///< whether the upper end moves with the master's first node
+  bool low_is_master = false;   ///< true if the lower end moves with the master's second node
+  bool high_is_master = false;  ///< true if the upper end moves with the master's first node
 };
 
 /// Nodes of a line, linear (2) or quadratic (3).
@@ -36,7 +36,7 @@ struct SlaveCurve {
   LinePoints normal;  ///< unit normals at them
 };
 
-/// Whether the master facet's outward normal points, at both ends, against a slave normal, far enough from being perpendicular to be projected on
+/// True if the master facet's outward normal points, at both ends, against a slave normal, far enough from being perpendicular to be projected on
 /// along it.
 bool faces(const LinePoints& master, const Point2<double>& normal);
 

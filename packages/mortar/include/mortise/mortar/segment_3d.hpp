@@ -19,13 +19,13 @@ struct OverlapPoint {
   double height = 0.0;  ///< of the master over the slave along the plane's normal
 };
 
-/// What a linear part of a slave facet and one of a master facet cover of one another on the auxiliary plane. It is a convex polygon, cut into
+/// Common part of a linear part of a slave facet and one of a master facet on the auxiliary plane. It is a convex polygon, cut into
 /// triangles about the mean of its vertices (which is vertex polygon.size(); one triangle stays whole). Each triangle has the points of
 /// triangle_points().
 struct Overlap3d {
   FacetPart slave_part;                                               ///< of the slave facet
   FacetPart master_part;                                              ///< of the master facet
-  ClipPolygon polygon;                                                ///< what the two have in common
+  ClipPolygon polygon;                                                ///< common part of the two
   boost::container::static_vector<std::array<int, 3>, 16> triangles;  ///< three vertices each
   boost::container::static_vector<OverlapPoint, 12 * 16> points;      ///< triangle by triangle
   double distance = 0.0;                                              ///< least |height|
@@ -53,7 +53,7 @@ struct SegmentIntegrals3d {
 void integrate_segment(const FacetVectors& slave, const FacetVectors& normals, const FacetVectors& master, const Overlap3d& overlap,
                        const Eigen::MatrixXd& basis, bool derivatives, SegmentIntegrals3d& result);
 
-/// Whether a linear master facet, in a frame whose third axis runs along the slave's normal, faces it without a fold (see shows_side()).
+/// True if a linear master facet, in a frame whose third axis runs along the slave's normal, faces it without a fold (see shows_side()).
 bool faces(const FacetVectors& master);
 
 /// The xi at which the projection of a facet takes the place s, which lies on the given part of it.

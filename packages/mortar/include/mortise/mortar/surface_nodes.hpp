@@ -1,5 +1,5 @@
 #pragma once
-// Which nodes lie on a surface whose facets are spread over the ranks.
+// Nodes on a surface whose facets are spread over the ranks.
 
 #include <vector>
 

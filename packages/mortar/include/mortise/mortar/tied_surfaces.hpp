@@ -15,14 +15,14 @@ struct TiedPair {
   std::string name;        ///< as messages say it
   Place place;             ///< where it is given
   SurfaceFacets slave;     ///< as MortarInterface wants them
-  SurfaceFacets master;    ///< likewise
+  SurfaceFacets master;    ///< as MortarInterface wants them
   double tolerance = 0.0;  ///< distance up to which facets are tied [length]; above 0
 };
 
-/// The share of its weight that masters have to cover of a slave node that is tied. What is at the edge of a master has 1/2, at its corner 1/4.
+/// The share of its weight that masters have to cover of a slave node that is tied. A node at the edge of a master has 1/2, at its corner 1/4.
 inline constexpr double least_tied_cover = 0.2;
 
-/// What a tie holds, over all ranks.
+/// Numbers of slave nodes of a tie, over all ranks.
 struct TieCount {
   GlobalOrdinal tied = 0;  ///< slave nodes of which a component follows the masters
   GlobalOrdinal open = 0;  ///< slave nodes that no master covers, or hardly

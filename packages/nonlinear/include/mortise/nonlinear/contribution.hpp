@@ -1,5 +1,5 @@
 #pragma once
-// What may add to the residual and to its Jacobian.
+// Contributions to the residual and to its Jacobian.
 
 #include <functional>
 #include <optional>
@@ -24,7 +24,7 @@ struct Configuration {
   const Vector* local_acceleration = nullptr;  ///< on owned dofs followed by ghosts; null likewise
 };
 
-/// What a Jacobian is: alpha dr/d(acceleration) + beta dr/d(velocity) + omega dr/d(displacement), as Thyra's model evaluators have it.
+/// Weights of a Jacobian: alpha dr/d(acceleration) + beta dr/d(velocity) + omega dr/d(displacement), as Thyra's model evaluators have it.
 struct JacobianWeights {
   double acceleration = 0.0;  ///< alpha
   double velocity = 0.0;      ///< beta
@@ -44,7 +44,7 @@ struct FieldUse {
 /// Evaluation never changes committed state; failures are put into `failure` (first one kept), the caller agrees on them over the ranks.
 class Contribution {
  public:
-  /// Whether it is a part of f_int or of f_ext, or acts between bodies. What is not internal is evaluated anew at each step's start.
+  /// Part of the residual: of f_int, of f_ext, or acting between bodies. Others than internal ones are evaluated again at each step's start.
   enum class Kind { internal, external, interaction };
   virtual ~Contribution() = default;
 
@@ -97,7 +97,7 @@ class DependentDisplacements {
   virtual const std::vector<LocalOrdinal>& dofs() const = 0;
   /// Owned dofs that others may follow; none of them follows itself.
   virtual const std::vector<LocalOrdinal>& followed() const = 0;
-  /// What they are at a displacement (owned dofs, then ghosts), in the order of dofs().
+  /// Dependences at a displacement (owned dofs, then ghosts), in the order of dofs().
   virtual std::vector<Dependence> evaluate(const Vector& local_displacement) const = 0;
   /// Puts into `failure`, if that is empty, why equations of what is followed say nothing at a displacement; the caller agrees on it over the ranks.
   virtual void check(const Vector& local_displacement, std::optional<StepFailure>& failure) const = 0;

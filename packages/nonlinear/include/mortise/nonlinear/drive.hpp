@@ -1,5 +1,5 @@
 #pragma once
-// What drives a step: how its loads and prescribed displacements change.
+// Drive of a step: the changes of its loads and prescribed displacements.
 
 #include <memory>
 #include <optional>
@@ -24,7 +24,7 @@ class Drive {
   /// |(df_ext, s dp)|, a force
   double strength() const;
 
-  /// How far this drive goes on with an earlier one at the same place: the least, over loads and prescribed displacements, of
+  /// Share in which this drive continues an earlier one at the same place: the least, over loads and prescribed displacements, of
   ///
   ///     (now . before) / |before|^2,
   ///

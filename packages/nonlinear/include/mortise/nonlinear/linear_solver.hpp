@@ -12,20 +12,20 @@
 
 namespace mortise {
 
-/// What one solve did.
+/// Report of one solve.
 struct LinearSolveReport {
   int iterations = 0;              ///< 0 for a direct solver
   double relative_residual = 0.0;  ///< true one, |b - A x| / |b|
 };
 
-/// What a multigrid hierarchy is made of besides the matrix, on the current configuration.
+/// Data for a multigrid hierarchy besides the matrix, on the current configuration.
 struct NearNullSpace {
   RCP<const MultiVector> rigid_body_modes;  ///< on the dofs of the matrix
   RCP<const MultiVector> coordinates;       ///< on the nodes, `dimension` columns, with bodies moved away from one another by `separation`
   double separation = 0.0;                  ///< a length beside which bodies are points, so that no aggregate crosses contact
 };
 
-/// What an iterative solver may ask of a system, each only if it is needed; any may be empty.
+/// Data that an iterative solver may ask of a system, each only if it is needed; any may be empty.
 struct MultigridInput {
   std::function<NearNullSpace()> near_null_space;  ///< rigid body modes and coordinates
   std::function<Decoupling()> decoupling;          ///< of a condensed system with contact
@@ -37,7 +37,7 @@ class LinearSolver {
   virtual ~LinearSolver() = default;
   virtual std::string name() const = 0;  ///< as messages say it
 
-  /// How often the work that depends on the pattern alone was done (analysis of a direct solver, set-up of multigrid).
+  /// Number of times that the work that depends on the pattern alone was done (analysis of a direct solver, set-up of multigrid).
   virtual int symbolic_setups() const = 0;
 
   /// Takes the matrix of the next solves. `graph_changed`: the pattern is not that of the last call, so nothing symbolic may be reused.

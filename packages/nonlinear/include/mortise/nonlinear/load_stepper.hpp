@@ -22,7 +22,7 @@ struct SteppingOptions {
   double step = 1.0;                        ///< first step, and the largest unless `maximum_step` says otherwise
   std::optional<double> maximum_step;       ///< default: `step`
   std::optional<double> minimum_step;       ///< default: step / 1024
-  int easy_iterations = 6;                  ///< a step that took no more may be followed by one twice as long
+  int easy_iterations = 6;                  ///< most iterations of a step that may be followed by one twice as long
   std::vector<double> output_times;         ///< hit exactly
   Predictor predictor = Predictor::linear;  ///< where steps start
   void describe(Parameters& parameters);    ///< the list "stepping"
@@ -59,17 +59,17 @@ struct FailedTry {
   const StepFailure& failure;                          ///< why
   const AcceptedState& from;                           ///< from where
   double time;                                         ///< to which
-  const StepContext& context;                          ///< what held within it
+  const StepContext& context;                          ///< context of the step
   const std::optional<LinearisedIterate>& linearised;  ///< where Newton's method was linearised last; none: it was not
 };
 
-/// What lies behind a failure of Newton's method.
+/// Explanation of a failure of Newton's method.
 struct FailureExplanation {
   std::string words;         ///< they stand before the failure's message; "" without an explanation
   bool at_any_step = false;  ///< it says nothing of the size of the step: three tries in a row with it are the last
 };
 
-/// What the stepper calls.
+/// Functions that the stepper calls.
 struct StepperObserver {
   std::function<void(int step, double time, double dt)> begin;  ///< before each try
   /// Multipliers for the start of a try that may be better than those of its StepStart; null: they are not.

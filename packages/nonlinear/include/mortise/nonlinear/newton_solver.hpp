@@ -13,7 +13,7 @@
 
 namespace mortise {
 
-/// What is done with a Newton direction.
+/// Use of a Newton direction.
 enum class LineSearch {
   none,      ///< the full step
   backtrack  ///< the full step where it makes ResidualNorms::merit fall, else halved until it does
@@ -28,7 +28,7 @@ struct NewtonOptions {
   double increment_tolerance = 1e-8;               ///< |du|_max / size of the model
   double divergence = 1e8;                         ///< growth of |r| over max(|r_0|, |r_1|, s |du_1|) at which the solve is given up
   int cycle_length = 6;                            ///< longest cycle of active sets that is looked for
-  LineSearch line_search = LineSearch::backtrack;  ///< what is done with directions
+  LineSearch line_search = LineSearch::backtrack;  ///< use of directions
   std::optional<double> largest_increment;         ///< [length] of any displacement in one iteration; longer corrections are shortened
   void describe(Parameters& parameters);           ///< the list "newton"
 };
@@ -43,7 +43,7 @@ struct NewtonIteration {
   double seconds = 0.0;       ///< wall-clock time
 };
 
-/// What Newton's method did in a step.
+/// Report on Newton's method in a step.
 struct NewtonReport {
   std::vector<NewtonIteration> iterations;  ///< of all solves of a step; iteration 0 begins one
   int solves = 1;                           ///< 1 + augmentations

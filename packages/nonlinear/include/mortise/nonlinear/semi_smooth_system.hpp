@@ -22,10 +22,10 @@ namespace mortise {
 /// A field whose unknowns stand among the dofs of a system.
 struct SystemField {
   NodalField unknowns;  ///< its rows
-  double size = 1.0;    ///< what deviations and increments of it are compared with: of displacements the size of the model
+  double size = 1.0;    ///< reference of deviations and increments of it: of displacements the size of the model
 };
 
-/// What a nonlinear system is made of. Shared by all groups that NOX clones.
+/// Parts of a nonlinear system. Shared by all groups that NOX clones.
 struct SystemParts {
   RCP<const Map> dofs;                                       ///< owned
   RCP<const Map> local_dofs;                                 ///< owned then ghosts
@@ -37,9 +37,9 @@ struct SystemParts {
   std::shared_ptr<const TiedDisplacements> tied;             ///< null: none is; they may be tied to those that follow
   std::shared_ptr<ContactSystem> contact;                    ///< null: no contact
   std::shared_ptr<LinearSolver> linear_solver;               ///< of each Newton step
-  std::function<NearNullSpace(const Vector& displacement)> near_null_space;  ///< at a displacement; asked for by multigrid alone
+  std::function<NearNullSpace(const Vector& displacement)> near_null_space;  ///< at a displacement, for multigrid alone
   /// For an x at which the Jacobian is singular although the system has a solution: a better point to linearise at, or null where there is none. It
-  /// is close to x as far as Newton's method is concerned. Collective; empty: never.
+  /// is close to x: Newton's step from there counts as the step from x. Collective; empty: never.
   std::function<RCP<Vector>(const SystemEvaluation& at)> better_start;
   /// The motions that a Newton step from there leaves out. Nothing: none. Collective; empty: never any.
   std::function<std::optional<HeldMotions>(const SystemEvaluation& at)> held_motions;
@@ -49,7 +49,7 @@ struct SystemParts {
   std::vector<SystemField> fields;
 };
 
-/// F, J and the Newton step of x = (d, z). What it makes are values: functions of x, time and history. The stiffness scale s of a
+/// F, J and the Newton step of x = (d, z). Its results are values: functions of x, time and history. The stiffness scale s of a
 /// field's Dirichlet rows is the mean |diagonal| of the first stiffness that is assembled, and stays. Collective in all members but the accessors and
 /// views.
 class SemiSmoothSystem {
@@ -58,17 +58,17 @@ class SemiSmoothSystem {
   /// @throws std::invalid_argument for contributions that know fields or time derivatives which the system has not, and dofs of no field
   SemiSmoothSystem(SystemParts parts, Timers timers);
 
-  /// What it was made of.
+  /// The parts it was made of.
   const SystemParts& parts() const;
   /// Map of x: owned dofs, then owned multipliers.
   const RCP<const Map>& map() const;
   /// A view into the displacements of x, which shares its memory.
   RCP<const Vector> displacement(const Vector& x) const;
-  /// The same, to write to.
+  /// A view into the displacements of x, to write to.
   RCP<Vector> displacement(Vector& x) const;
   /// A view into the multipliers of x, which shares its memory.
   RCP<const Vector> multipliers(const Vector& x) const;
-  /// The same, to write to.
+  /// A view into the multipliers of x, to write to.
   RCP<Vector> multipliers(Vector& x) const;
   /// s of the first field, a stiffness; 0 before the first evaluation.
   double stiffness_scale() const;
@@ -84,23 +84,23 @@ class SemiSmoothSystem {
   AcceptedState initial_state(const Vector& x, const Vector& velocity, bool at_rest, double time = 0.0) const;
   /// What holds within a step that starts from a state, without a guess of multipliers.
   StepContext step_from(const AcceptedState& state, double time) const;
-  /// What holds within a step, or another try of it, that starts at displacement d from a state. Multipliers z get their guesses
+  /// Context of a step, or of another try of it, that starts at displacement d from a state. Multipliers z get their guesses
   /// (ContactSystem::start_step()). Throws StepFailure on every rank.
   StepContext start_step(const AcceptedState& state, double time, const Vector& d, Vector& z) const;
 
   /// The step with complementarity constants times `share` (ContactSystem::weigh_gaps()).
   StepContext weigh_gaps(StepContext context, double share) const;
 
-  /// F(x) = (r, C). Dirichlet rows hold s (d - prescribed), rows of followers s (d - what they follow), whose forces stand in the rows of what they
-  /// follow. Throws StepFailure on every rank, and std::invalid_argument for a context without a history where there is contact.
+  /// F(x) = (r, C). Dirichlet rows hold s (d - prescribed), rows of followers s (d - what they follow). Forces on followers are in the rows of what
+  /// they follow. Throws StepFailure on every rank, and std::invalid_argument for a context without a history where there is contact.
   SystemEvaluation evaluate(const Vector& x, const StepContext& context) const;
-  /// The same at the displacement of an accepted state, with multipliers z: internal forces that are known are taken.
+  /// Evaluates at the displacement of an accepted state, with multipliers z: internal forces that are known are taken.
   SystemEvaluation evaluate_at(const AcceptedState& state, const Vector& z, const StepContext& context) const;
   /// The same displacement with other multipliers: what is known of an evaluation is taken.
   SystemEvaluation with_multipliers(const SystemEvaluation& evaluation, const Vector& z) const;
   /// max |d - prescribed| of x at a time, relative to the size of the field; costs next to nothing.
   double prescribed_deviation(const Vector& x, double time) const;
-  /// What drives a step from x between two pseudo-times. Throws StepFailure on every rank.
+  /// Changes of loads and prescribed displacements between two pseudo-times at x. Throws StepFailure on every rank.
   Drive drive(const Vector& x, double from, double to) const;
   /// Multipliers follow what is covered since the iterate that was linearised last (ContactEvaluation::follow_cover()). Nothing if none changes.
   std::optional<SystemEvaluation> follow_cover(const SystemEvaluation& evaluation) const;

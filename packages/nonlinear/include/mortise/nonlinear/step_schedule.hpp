@@ -1,5 +1,5 @@
 #pragma once
-// Which step of pseudo-time comes next.
+// Choice of the next step of pseudo-time.
 
 #include <vector>
 
@@ -16,7 +16,7 @@ class StepSchedule {
 
   double time() const { return time_; }                       ///< of the last accepted step
   double next_step() const { return step_; }                  ///< length of the next step unless a target cuts it short
-  bool finished() const { return time_ >= targets_.back(); }  ///< whether the end was reached
+  bool finished() const { return time_ >= targets_.back(); }  ///< true if the end was reached
   double next_time() const;                                   ///< where the next try ends
   /// The try worked; the next step is to be `growth` times as long as it.
   void accept(double growth);

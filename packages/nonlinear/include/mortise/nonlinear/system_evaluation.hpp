@@ -25,7 +25,7 @@ struct ResidualNorms {
   /// |r| on free dofs relative to max(|f_int|, |f_ext|, |f_c|, |f_rate|, 1e-6 s |d|), reactions included; f_rate has inertia and damping
   double momentum = 0.0;
   double momentum_absolute = 0.0;         ///< |r| on free dofs [force]
-  double round_off = 0.0;                 ///< what round-off alone leaves of momentum_absolute
+  double round_off = 0.0;                 ///< part of momentum_absolute that round-off alone may leave
   double prescribed = 0.0;                ///< max |d - prescribed| and |d - what it follows|, relative to the size of the field
   double gap = 0.0;                       ///< ContactNorms::gap
   double complementarity = 0.0;           ///< ContactNorms::complementarity
@@ -33,11 +33,11 @@ struct ResidualNorms {
   int active = 0;                         ///< closed nodes
   int sticking = 0;                       ///< of them
   int changed = 0;                        ///< ContactNorms::changed
-  std::array<long long, 2> active_set{};  ///< two hashes of the closed nodes and what they do, independent of the partition
-  bool finite = true;                     ///< whether all of the residual is
+  std::array<long long, 2> active_set{};  ///< two hashes of the closed nodes and their states, independent of the partition
+  bool finite = true;                     ///< true if all of the residual is
 };
 
-/// What F depends on beside x within a step.
+/// Arguments of F beside x within a step.
 struct StepContext {
   double time = 0.0;                      ///< pseudo-time
   std::optional<ContactHistory> contact;  ///< the history that holds within the step; none without contact

@@ -14,7 +14,7 @@ namespace detail {
 class SystemModel;
 }  // namespace detail
 
-/// Whether a direction knows how the forces of given multipliers change with the geometry of contact, d(f_c)/dd at fixed z.
+/// Change of the forces of given multipliers with the geometry of contact, d(f_c)/dd at fixed z: included in a direction or not.
 enum class GeometricContactStiffness { included, left_out };
 
 /// J at an evaluation. Its stiffness stands in a buffer that all linearisations of a system share: the last one has it at hand, others assemble it

@@ -58,8 +58,8 @@ enum class CellShape {
 ///   - jacobian_points: of the rule where det J is looked at for inverted cells, besides the nodes; 0: the nodes are enough. Simplices of corners
 ///     alone have a constant det J and no such number;
 ///   - midpoint_directions: in how many directions of a lattice at once a node may be a midpoint;
-///   - Profile, MiddleProfile (3D): the plane cells below those that a sweep makes (void: no sweep makes them), and the plane cells whose nodes lie
-///     half way up them (void: no nodes lie there);
+///   - Profile (3D): the plane cells below those that a sweep makes (void: no sweep makes them);
+///   - MiddleProfile (3D): the plane cells whose nodes lie half way up them (void: no nodes lie there);
 ///   - xdmf_number: of the shape in a mixed topology of XDMF.
 template <CellShape name, class Type>
 struct CellEntry {
@@ -108,8 +108,8 @@ constexpr int most_nodes_of(CellList<Entries...>, int most_dimension) {
 
 }  // namespace detail
 
-/// visitor(Cell{}) for the type that describes the shape; what it returns has one type for all shapes. Call it once a block of elements and let the
-/// loop stand in the visitor.
+/// visitor(Cell{}) for the type that describes the shape; its result has one type for all shapes. Call it once a block of elements, with the
+/// loop in the visitor.
 template <class Visitor>
 decltype(auto) visit_cell(CellShape shape, Visitor&& visitor) {
   return detail::visit_cell_of(Cells{}, shape, visitor);
@@ -148,7 +148,7 @@ struct CellTopology {
   int mid_side_nodes() const { return nodes - corners; }
 };
 
-/// Nodes and sides of a shape; one object for each, which lives for ever.
+/// Nodes and sides of a shape; one constant object for each.
 const CellTopology& topology(CellShape shape);
 
 }  // namespace mortise

@@ -28,7 +28,7 @@ struct Line2 : ReferenceLine {
     return {T(-0.5), T(0.5)};
   }
 
-  /// The same, as cells of 2D and 3D have them.
+  /// Values at a point given as an array, as for cells in 2D and 3D.
   template <class T>
   static constexpr std::array<T, 2> values(const std::array<T, 1>& xi) {
     return values(xi[0]);

@@ -29,7 +29,7 @@ struct Line3 : ReferenceLine {
     return {xi - 0.5, xi + 0.5, -2.0 * xi};
   }
 
-  /// The same, as cells of 2D and 3D have them.
+  /// Values at a point given as an array, as for cells in 2D and 3D.
   template <class T>
   static constexpr std::array<T, 3> values(const std::array<T, 1>& xi) {
     return values(xi[0]);

@@ -19,12 +19,13 @@ namespace mortise {
 /// The derivatives
 ///   dN_a/dxi = xi_a (1 + eta_a v) / 4,   dN_a/deta = eta_a (1 + xi_a u) / 4,   dN_a/dzeta = (xi_a eta_a u v - 1) / 4
 /// depend on (u, v) alone. So do J, strains and stresses, also of distorted cells: they are constant along each ray. The volume is
-/// (1 - zeta)^2 du dv dzeta. Products of two derivatives have degree 2 in u and in v. 2 x 2 Gauss points with a single one along zeta, for the weight
-/// (1 - zeta)^2, integrate them exactly; more points along a ray would see the same strain again.
+/// (1 - zeta)^2 du dv dzeta. Products of two derivatives have degree 2 in u and in v. They are integrated exactly by 2 x 2 Gauss points with a single
+/// one along zeta, for the weight (1 - zeta)^2; more points along a ray would see the same strain again.
 ///
-/// With J = (a + v b, c + u b, h + u v b), where a, b, c, h are sums of positions of nodes, det J = a x c . h + u a x b . h + v b x c . h + u v
-/// a x c . b is bilinear in u and v: positive everywhere if it is so at the corners of the base. Likewise the cofactors of J times a derivative have
-/// degree 2 at most in u and in v: the patch test is exact.
+/// Let J = (a + v b, c + u b, h + u v b), where a, b, c, h are sums of positions of nodes. Then
+///   det J = a x c . h + u a x b . h + v b x c . h + u v a x c . b
+/// is bilinear in u and v: positive everywhere if it is so at the corners of the base. The cofactors of J times a derivative have degree 2 at most in
+/// u and in v too: the patch test is exact.
 ///
 /// At the apex a derivative has another limit along each ray. The one along the axis, u = v = 0, is taken there: the mean of those along the edges.
 struct Pyramid5 : ReferencePyramid {

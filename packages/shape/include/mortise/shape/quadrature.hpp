@@ -41,7 +41,8 @@ std::vector<CellPoint> hexahedron_rule(int points_per_direction);
 /// Throws std::invalid_argument for any other number.
 std::vector<CellPoint> triangle_rule(int points);
 
-/// Rule on the tetrahedron (0,0,0), (1,0,0), (0,1,0), (0,0,1), likewise: 1 point (degree 1), 4 (degree 2), 15 (degree 5).
+/// Rule on the tetrahedron (0,0,0), (1,0,0), (0,1,0), (0,0,1) with interior points and positive weights: 1 point (degree 1), 4 (degree 2), 15
+/// (degree 5). Throws std::invalid_argument for any other number.
 std::vector<CellPoint> tetrahedron_rule(int points);
 
 /// Tensor product of triangle_rule(triangle_points) and gauss_legendre(line_points), the triangle running first: on (0,0), (1,0), (0,1) times [-1,

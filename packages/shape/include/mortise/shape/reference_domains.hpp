@@ -25,7 +25,7 @@ struct ReferenceLine {
 
   /// The Gauss-Legendre rule with so many points.
   static std::vector<CellPoint> rule(int points);
-  /// Is the point inside, or outside by no more than the tolerance?
+  /// Is the point inside, or outside by at most the tolerance?
   static bool contains(const std::array<double, 1>& xi, double tolerance);
 };
 
@@ -39,7 +39,7 @@ struct ReferenceTriangle {
 
   /// triangle_rule.
   static std::vector<CellPoint> rule(int points) { return triangle_rule(points); }
-  /// Is the point inside, or outside by no more than the tolerance?
+  /// Is the point inside, or outside by at most the tolerance?
   static bool contains(const std::array<double, 2>& xi, double tolerance);
 };
 
@@ -53,7 +53,7 @@ struct ReferenceSquare {
 
   /// The tensor product rule with so many points in all. Throws std::invalid_argument if there is none.
   static std::vector<CellPoint> rule(int points);
-  /// Is the point inside, or outside by no more than the tolerance?
+  /// Is the point inside, or outside by at most the tolerance?
   static bool contains(const std::array<double, 2>& xi, double tolerance);
 };
 
@@ -68,7 +68,7 @@ struct ReferenceTetrahedron {
 
   /// tetrahedron_rule.
   static std::vector<CellPoint> rule(int points) { return tetrahedron_rule(points); }
-  /// Is the point inside, or outside by no more than the tolerance?
+  /// Is the point inside, or outside by at most the tolerance?
   static bool contains(const std::array<double, 3>& xi, double tolerance);
 };
 
@@ -84,7 +84,7 @@ struct ReferenceCube {
 
   /// The tensor product rule with so many points in all. Throws std::invalid_argument if there is none.
   static std::vector<CellPoint> rule(int points);
-  /// Is the point inside, or outside by no more than the tolerance?
+  /// Is the point inside, or outside by at most the tolerance?
   static bool contains(const std::array<double, 3>& xi, double tolerance);
 };
 
@@ -99,7 +99,7 @@ struct ReferenceWedge {
 
   /// The wedge_rule with so many points in all: 6 (3 x 2), 21 (7 x 3). Throws std::invalid_argument for any other number.
   static std::vector<CellPoint> rule(int points);
-  /// Is the point inside, or outside by no more than the tolerance?
+  /// Is the point inside, or outside by at most the tolerance?
   static bool contains(const std::array<double, 3>& xi, double tolerance);
 };
 
@@ -124,7 +124,7 @@ struct ReferencePyramid {
 
   /// The pyramid_rule with so many points in all: 8 (4 x 2), or one point along the height. Throws std::invalid_argument if there is none.
   static std::vector<CellPoint> rule(int points);
-  /// Is the point inside, or outside by no more than the tolerance?
+  /// Is the point inside, or outside by at most the tolerance?
   static bool contains(const std::array<double, 3>& xi, double tolerance);
 };
 

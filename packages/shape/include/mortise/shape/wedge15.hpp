@@ -11,11 +11,11 @@
 
 namespace mortise {
 
-/// Serendipity wedge: the corners of Wedge6, then the mid-side nodes of the bottom's edges, of the top's, of the upright ones. With L = (1 - xi -
-/// eta, xi, eta) and s = zeta_a zeta:
-///   corners                                   N_a = L_a (1 + s)(2 L_a + s - 2) / 2
-///   mid-side nodes of the bottom and the top  N_a = 2 L_b L_c (1 + s)
-///   of the upright edges                      N_a = L_b (1 - zeta^2)
+/// Serendipity wedge: the corners of Wedge6, then the mid-side nodes of the bottom's edges, of the top's, of the upright ones. Shape functions,
+/// with L = (1 - xi - eta, xi, eta) and s = zeta_a zeta:
+///   Corners                                   N_a = L_a (1 + s)(2 L_a + s - 2) / 2
+///   Mid-side nodes of the bottom and the top  N_a = 2 L_b L_c (1 + s)
+///   Of the upright edges                      N_a = L_b (1 - zeta^2)
 /// They span 1, xi, eta, zeta, all products of two of these, and xi^2 zeta, xi eta zeta, eta^2 zeta, xi zeta^2, eta zeta^2. Reference volume 1.
 ///
 /// Products of two derivatives have degree 4 in (xi, eta) and degree 4 in zeta: 7 x 3 points, exact to degree 5 in each, integrate them. The points

@@ -161,8 +161,8 @@ bool EdgeSearch::ways_are_blocked(const PlacedBodies& bodies, const Pair& pair, 
   return any != 0;
 }
 
-// Where two edges cross one another by g < 0, the way from one to the other runs within both bodies: if it meets a facet, one of them is on the other
-// side of a thin body. Two edges that do not cross may come to it from the side, if the lines that they lie on are apart.
+// Where two edges cross one another by g < 0, the way from one to the other runs within both bodies. If it meets a facet, one of them is on the
+// other side of a thin body. Two edges that do not cross may come to it from the side, if the lines that they lie on are apart.
 EdgeSpots EdgeSearch::find(const PlacedBodies& bodies) const {
   struct Found {
     std::size_t pair;

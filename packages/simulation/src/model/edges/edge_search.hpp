@@ -20,7 +20,7 @@ struct EdgeSpot {
   EdgePair edges;
 };
 
-/// All of them, the same on every rank. Edges cross at places: there are no more of them on a finer mesh.
+/// All of them, the same on every rank. Edges cross at places, whose number does not grow on a finer mesh.
 struct EdgeSpots {
   std::vector<GlobalOrdinal> nodes;  ///< ids, ascending
   std::vector<EdgeSpot> spots;
@@ -34,7 +34,7 @@ class EdgeSearch {
   /// @param reaches      [pairs of the scene] search reach
   EdgeSearch(const Mesh& mesh, const Scene& scene, const std::vector<double>& compliances, const std::vector<double>& reaches);
 
-  /// Whether some pair has edges on both sides, on whichever ranks.
+  /// True if some pair has edges on both sides, on whichever ranks.
   bool any() const { return !pairs_.empty(); }
 
   /// Edges that may touch from these positions on. Collective.

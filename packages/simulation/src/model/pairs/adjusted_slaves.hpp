@@ -9,7 +9,7 @@
 
 namespace mortise {
 
-/// What the boundary conditions of a scene prescribe at nodes.
+/// Components of nodes that the boundary conditions of a scene prescribe.
 HeldNodes held_nodes(const Mesh& mesh, const Scene& scene);
 
 /// Moves slave nodes of the pairs that ask for it. Collective.

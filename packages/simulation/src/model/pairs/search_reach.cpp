@@ -31,7 +31,7 @@ void reach_for_clearances(const Mesh& mesh, const Scene& scene, SurfacesAtStart&
 
 // The iteration that pushes surfaces apart that overlap by d leaves pressures of E d / L, L the size of the bodies, and gaps of second order, d^2 / 2
 // R. Nodes stay closed through it if c_n A < 2 E R / (L d); half of E / d is that for R = L / 4. Beside it E / h of short facets makes all nodes
-// open, and close again, for ever.
+// open, and close again, endlessly.
 void take_up(const PairAtStart& start, ContactPair& pair) {
   if (!start.reach) return;
   pair.options.mortar.search_reach = start.reach;

@@ -1,5 +1,5 @@
 #pragma once
-// How far contact pairs look for their masters.
+// Distance within which contact pairs look for their masters.
 
 #include "mortise/contact/contact_pair.hpp"
 #include "mortise/mesh/mesh.hpp"
@@ -7,7 +7,7 @@
 
 namespace mortise {
 
-/// A pair with a negative clearance c acts from a distance -c on, and has to look as far. What c becomes is asked for at so many times of the run.
+/// A pair with a negative clearance c acts from a distance -c on, and has to look as far. The function c is evaluated at many times of the run.
 /// Collective.
 void reach_for_clearances(const Mesh& mesh, const Scene& scene, SurfacesAtStart& surfaces);
 

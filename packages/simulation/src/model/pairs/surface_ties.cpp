@@ -108,7 +108,7 @@ double move_slaves(Mesh& mesh, const Scene& scene, const HeldNodes& held, const 
   return largest;
 }
 
-/// How far owned slave nodes have come from `before`, by ties. Collective.
+/// Counts how far owned slave nodes have come from `before`, by ties. Collective.
 void count_moves(const Mesh& mesh, const Scene& scene, const std::vector<std::array<double, 3>>& before, std::vector<TieAtStart>& at_start) {
   for (std::size_t t = 0; t < at_start.size(); ++t) {
     double largest = 0.0;

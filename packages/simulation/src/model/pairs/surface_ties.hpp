@@ -20,8 +20,8 @@ struct SurfaceTies {
   std::vector<TieAtStart> at_start;               ///< [ties of the scene]
 };
 
-/// Ties surfaces, and moves the slave nodes of ties that ask for it: first along their normals onto the master, then to X_s = P X_m with the P of the
-/// tie. The mesh has all its sets and reference points. Collective.
+/// Ties surfaces, and moves the slave nodes of ties that ask for it. They go first along their normals onto the master, then to X_s = P X_m with the
+/// P of the tie. The mesh has all its sets and reference points. Collective.
 /// @param held    what conditions prescribe
 /// @param origin  from where positions are measured
 /// @throws InputError at the ties' places for unknown sets, and as tie_surfaces()

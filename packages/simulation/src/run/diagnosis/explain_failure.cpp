@@ -34,7 +34,7 @@ double ratio_of_moduli(const Bodies& bodies) {
   return largest > 0.0 ? least / largest : 1.0;
 }
 
-/// A vector is kept for each of their motions: where more bodies lie loose, nothing is said.
+/// A vector is kept for each of their motions: if more bodies lie loose, nothing is reported.
 constexpr std::size_t most_loose_bodies = 10;
 
 /// The rigid body modes, with what the rotations of reference points do.

@@ -78,7 +78,7 @@ class BodyStatics {
     return true;
   }
 
-  /// Whether each motion is worked on by some force, whatever its sign.
+  /// True if each motion is worked on by some force, whatever its sign.
   bool sees_all_motions() const {
     Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(load_.size(), load_.size());
     for (const BearingCone& cone : cones_) {
@@ -170,7 +170,7 @@ class BodyStatics {
     return !(of_all > -rests);
   }
 
-  /// Whether the motion slips at a place with friction that bears the load, by more than strains make of places on an edge that turns.
+  /// True if the motion slips at a place with friction that bears the load, by more than strains make of places on an edge that turns.
   bool slips(const Eigen::VectorXd& motion) const {
     int mine = 0, all = 0;
     for (const BearingCone& cone : cones_)
@@ -268,7 +268,7 @@ std::string describe_slide(const BodyStatics& statics, const Eigen::VectorXd& mo
 }
 
 // The motion that is left says what happens: it leaves all places, slips where the load is borne, turns about places that are at rest, or goes along
-// them. What slips would not do so on rough surfaces: if these do not bear the load either, their motion is the reason.
+// them. A body that slips would not do so on rough surfaces: if these do not bear the load either, their motion is the reason.
 std::string describe_fall(const BodyStatics& statics, Eigen::VectorXd motion) {
   if (statics.slips(motion)) {
     const BorneLoad if_rough = statics.bear_with(true, statics.load());

@@ -20,7 +20,7 @@ struct FreeGroup {
   bool is_loaded() const { return load.norm() > no_load; }
 };
 
-/// How far a dof moves in each motion of its body.
+/// Motion of a dof in each motion of its body.
 using DofMotion = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 6>;
 
 /// A motion is held where a boundary condition forbids it, where it changes the gap of a closed node, or goes along its tangents if that has
@@ -42,7 +42,7 @@ class FreeBodies {
 
   /// Of a component of an owned node of one of the bodies. [modes().per_body()]
   DofMotion motion_of(LocalOrdinal node, int component) const;
-  /// Whether a dof is prescribed.
+  /// True if a dof is prescribed.
   bool is_prescribed(LocalOrdinal dof) const { return prescribed_[static_cast<std::size_t>(dof)] != 0; }
   /// Of all dofs of the bodies that are not prescribed: visit(number of the body, node, component, motion_of()).
   template <class Visit>
@@ -70,7 +70,7 @@ class FreeBodies {
   Eigen::MatrixXd held_;
   std::vector<char> prescribed_;         ///< [owned dofs]
   std::vector<int> turning_;             ///< [owned nodes] reference point whose rotation the node is, -1: none
-  bool has_loads_ = false;               ///< whether the rest has been found
+  bool has_loads_ = false;               ///< true if the rest has been found
   Eigen::MatrixXd loads_;                ///< [per_body() x bodies] work of f_ext - f_int on each motion
   std::vector<double> forces_, masses_;  ///< [bodies] |f_int|^2 + |f_ext - f_int|^2; the largest sum of squared motions of the dofs
 };

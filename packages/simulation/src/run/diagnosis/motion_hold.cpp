@@ -12,8 +12,8 @@
 namespace mortise {
 namespace {
 
-/// Of free_motions(): what a surface's tilt by a strain holds is a stiffness, however weak, and for Newton's method to use. 1e-7 is what the square
-/// roots of eigenvalues are known to.
+/// Bound of free_motions(). A surface's tilt by a strain holds by a stiffness, however weak, which is for Newton's method to use. The square
+/// roots of eigenvalues are known to 1e-7.
 constexpr double truly_free = 1e-7;
 constexpr double hardly_moves = 1e-3;  ///< of a motion of size 1: dofs that move by less do not tell it from others
 constexpr double as_far = 1.0 - 1e-6;  ///< dofs that move as far but for round-off: the first one is taken, on any number of ranks
@@ -33,8 +33,8 @@ Eigen::MatrixXd without_load(const FreeGroup& group) {
   return group.motions * basis.rightCols(n - 1);
 }
 
-/// [owned dofs] whether the linear system has an equation of momentum there that is left as it is: not of closed slave nodes, which have those of
-/// contact, nor of what follows others.
+/// [owned dofs] true if the linear system has an equation of momentum there that is left as it is. Closed slave nodes have those of contact instead,
+/// and followers have none.
 std::vector<char> have_momentum(const Model& model, const ContactLaws& laws) {
   const Mesh& mesh = *model.mesh();
   const auto d = static_cast<std::size_t>(mesh.dimension);
@@ -55,7 +55,7 @@ std::vector<char> have_momentum(const Model& model, const ContactLaws& laws) {
   return result;
 }
 
-/// How the motions of a group move a dof of one of its bodies.
+/// Motion of a dof of one of a group's bodies in the motions of the group.
 Eigen::VectorXd in_motions(const HeldGroup& group, std::size_t place, const DofMotion& motion) {
   const auto n = motion.size();
   return (motion * group.motions.middleRows(n * static_cast<Eigen::Index>(place), n)).transpose();
@@ -119,7 +119,7 @@ std::vector<LocalOrdinal> choose_dofs(const Model& model, const FreeBodies& free
       group.known.rightCols(1) = Eigen::Map<const Eigen::VectorXd>(&told[most * g], group.motions.cols());
     }
   }
-  // What no dof tells stays with the solver.
+  // Motions that no dof tells stay with the solver.
   for (HeldGroup& group : groups) group.motions = (group.motions * group.known).eval();
   return chosen;
 }

@@ -52,7 +52,7 @@ std::vector<Eigen::Vector3d> loads_on_bodies(const Model& model, const SemiSmoot
   return loads;
 }
 
-/// How far `moving` may go in the direction d until it meets `still`; none: it never does. Lines start at points of either surface. Collective.
+/// Distance that `moving` may go in the direction d until it meets `still`; none: it never does. Lines start at points of either surface. Collective.
 std::optional<double> way_to(const Mesh& mesh, const PlaceOfNode& at, const SideSet& moving, const SideSet& still, const Eigen::Vector3d& d,
                              double length) {
   double mine = std::numeric_limits<double>::max(), least = mine;

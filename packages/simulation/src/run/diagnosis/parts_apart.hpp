@@ -8,8 +8,8 @@
 
 namespace mortise {
 
-/// What to do if the first step failed and no pair of the bodies that contact alone holds touched at its start: how far the load carries each of them
-/// until they touch, as translations of their meshes. Empty: that is not so. Collective.
+/// Advice if the first step failed and no pair of the bodies that contact alone holds touched at its start. It names how far the load carries each of
+/// them until they touch, as translations of their meshes. Empty: that is not so. Collective.
 std::string advise_parts_apart(const FailedTry& failed, const Model& model, const Scene& scene, const SemiSmoothSystem& system);
 
 }  // namespace mortise

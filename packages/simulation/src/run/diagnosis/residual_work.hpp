@@ -1,5 +1,5 @@
 #pragma once
-// What a residual does to bodies as a whole.
+// Work of a residual on bodies as a whole.
 
 #include <Eigen/Core>
 

@@ -27,9 +27,9 @@ constexpr double hardly_slips = 1e-4;  ///< work of slips on a motion, over the 
 constexpr double hardly_held =
     1e-2;                       ///< of free_motions(): what tilts of the surface hold is weak next to friction, or Newton's step along it is short
 constexpr double rests = 1e-6;  ///< share of its bound that the traction of a node is below it by, if it does not slip: it moves by 700 roundings
-constexpr double round_off = 1e-13;  ///< what the forces along motions lack, over what friction bears, below which they lack nothing
+constexpr double round_off = 1e-13;  ///< forces missing along motions, over what friction bears, below which none is missing
 constexpr double same = 1e-6;        ///< change of the multipliers over the largest below which an iterate is the one before
-constexpr double in_balance = 1e-2;  ///< what the forces on a body lack along motions that are held, over the load along those that slip
+constexpr double in_balance = 1e-2;  ///< imbalance of a body along motions that are held, over the load along those that slip
 
 /// The work of sliding nodes on some motions, columns of `motions`.
 std::vector<SlidingRow> sliding_rows(const std::vector<SlidingNode>& nodes, const std::vector<TangentVector>& slips, const RigidModes& modes,
@@ -60,7 +60,7 @@ struct SlipSettlement::Sliding {
   std::vector<TangentVector> traction;  ///< of the multipliers
   std::vector<SlidingRow> rows;         ///< works on `motions`
   std::vector<PairHold> pairs;
-  Eigen::VectorXd load;      ///< what friction has to bear for the residual to vanish along the motions
+  Eigen::VectorXd load;      ///< load that friction has to bear for the residual to vanish along the motions
   double imbalance = 0.0;    ///< of the forces along all other motions
   bool is_singular = false;  ///< or Newton's step along the motions is longer than the slips, which give it its stiffness
 };
@@ -108,7 +108,7 @@ bool SlipSettlement::find_sliding(const Vector& x, const Vector& F, const Contac
   sum(gram);
   const Eigen::MatrixXd held = Eigen::Map<const Eigen::MatrixXd>(gram.data(), count, count) + hold.gram;
 
-  // What the nodes that slip would hold if they were stuck, rows of unit forces as those of `held`.
+  // Motions that slipping nodes would hold if they were stuck, rows of unit forces as those of `held`.
   found.nodes = sliding_nodes(laws, *contact_places(mesh, modes, found.at.x));
   std::vector<double> if_all_stuck(static_cast<std::size_t>(count * count), 0.0);
   Eigen::Map<Eigen::MatrixXd> stuck(if_all_stuck.data(), count, count);
@@ -204,7 +204,7 @@ std::string SlipSettlement::describe_overload(const Sliding& sliding, const Eige
                      fmt::join(bodies, ", "), load, capacity, fmt::join(slipping, ", "));
 }
 
-// Whether Newton's method came back to where it was given another start. Bricks that are about to tip are held by pressures at a few nodes close to
+// True if Newton's method came back to where it was given another start. Bricks that are about to tip are held by pressures at a few nodes close to
 // one another, a hundredth of what friction holds motions with. A node that slips then seems to be all that holds the tilt. Put to rest it bears more
 // than its bound, and slips again.
 bool SlipSettlement::has_led_back(const Vector& z) {

@@ -17,7 +17,7 @@ class SlipSettlement final : public StepGuard {
   /// Collective.
   explicit SlipSettlement(const Model& model);
 
-  /// Whether a model has bodies that contact alone holds, with friction. Collective.
+  /// True if a model has bodies that contact alone holds, with friction. Collective.
   static bool is_needed(const Model& model);
 
   /// SystemParts::better_start: x with the bodies moved to where friction bears the load, each node with the traction that it has there, and those

@@ -21,14 +21,14 @@ constexpr double works_against = 1e-3;   ///< share of a motion that closes a ga
 constexpr double as_near = 1.0 + 1e-6;   ///< nodes that are as near but for round-off close together
 constexpr double no_way = std::numeric_limits<double>::max();
 
-/// What a node hinders.
+/// Motion that a node hinders.
 struct Hindrance {
   int group = -1;       ///< -1: nothing
   bool slides = false;  ///< the motion comes from without the cone of friction: a node that stuck would not let it come
-  double way = no_way;  ///< how far the bodies of the group may move until the node bears pressure
+  double way = no_way;  ///< distance that the bodies of the group may move until the node bears pressure
 };
 
-/// The groups that bear a load, and the motion that it drives each of them along: v = V V^T f, in which the body that moves most has the size 1.
+/// The groups that bear a load, and the motion that it drives each of them along: v = V V^T f. The body that moves most in it moves by 1.
 struct DrivenBodies {
   DrivenBodies(const std::vector<FreeGroup>& groups, int per_body, std::size_t bodies) : group_of(bodies, -1), motion_of(bodies) {
     for (std::size_t g = 0; g < groups.size(); ++g) {

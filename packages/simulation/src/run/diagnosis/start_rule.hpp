@@ -1,5 +1,5 @@
 #pragma once
-// Which nodes start a step closed although they do not touch.
+// Choice of nodes that start a step closed although they do not touch.
 
 #include <functional>
 #include <string>
@@ -11,7 +11,7 @@
 namespace mortise {
 
 /// A body that bears a load along a motion that nothing holds has a singular system. Nodes that hinder the motion start closed: those of all pairs
-/// that are near to contact, at least the nearest. This changes the guess of multipliers and nothing else. What nothing drives needs no node: see
+/// that are near to contact, at least the nearest. This changes the guess of multipliers and nothing else. A motion without a load needs no node: see
 /// motions_without_load().
 class StartRule final : public StepGuard {
  public:

@@ -80,14 +80,14 @@ RCP<Vector> StateCheck::examine(const SemiSmoothSystem& system, const Vector& be
     double moved = motions.imposed;
     for (int other = 0; other < static_cast<int>(bodies_.size()); ++other)
       if (other != b) moved = std::max(moved, size_of(*modes, held, other));
-    // What touched nothing when the step began and touches nothing now stays where it was, unless it has to go out of the way.
+    // A body that touched nothing when the step began and touches nothing now stays where it was, unless it has to go out of the way.
     touches[b] = !gram.middleRows(b * modes->per_body(), modes->per_body()).isZero(0.0);
     const bool stays = round == 1 && !touches[b] && !touches_before_.empty() && !touches_before_[b];
     const double around = stays ? motions.deformation[b] : moved + deformation;
     const double allowed = allowance * (around + resolution_), length = model_.parts().length;
     went_far_ = went_far_ || size_of(*modes, motions.rigid, b) > allowed;
     const bool is_flight = size_of(*modes, motions.rigid, b) > std::max(allowed, length);
-    // What has just been let go was carried that far at most: its centre has no rim that goes farther.
+    // A body that has just been let go was carried that far at most: its centre has no rim that goes farther.
     const bool is_let_go = !touches[b] && !touches_before_.empty() && touches_before_[b];
     const double centre = loosely.segment(b * modes->per_body(), modes->per_body() - modes->rotations()).norm();
     const bool is_shot = is_let_go && centre > around + allowance * resolution_;

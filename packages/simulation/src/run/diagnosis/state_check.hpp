@@ -24,12 +24,12 @@ class StateCheck final : public StepGuard {
   /// @param warn        gets what is said of motions that are free, on every rank
   StateCheck(const Model& model, double resolution, Timers timers, std::function<void(const std::string&)> warn);
 
-  /// Whether a model has bodies that contact alone holds. Collective.
+  /// True if a model has bodies that contact alone holds. Collective.
   static bool is_needed(const Model& model);
 
   /// From the accepted state to the solution `found`. Says which motions are free, each once.
   ///
-  /// A motion that nothing holds costs nothing, so equilibrium does not say how far a body goes along it. What may have moved it within the step are
+  /// A motion that nothing holds costs nothing, so equilibrium does not say how far a body goes along it. It may have been moved within the step by
   /// the bodies that it touches: by their own motion and by deformation. Let m be the largest motion over the step of a node of bodies that boundary
   /// conditions hold, of a prescribed dof and of another body that contact moved. Let e be the largest deformation over the step. A body that is
   /// carried goes no farther than m + e, plus what Newton's method leaves undetermined. Twice that is allowed, as motions of different nodes add up:
@@ -40,14 +40,14 @@ class StateCheck final : public StepGuard {
   /// was thrown out of a gap may lie on an edge that holds it.
   ///
   /// A body that went farther may have been thrown there by an iterate on the way. In the first round of a try it is put back along its free motions,
-  /// deformed as it is: what is in one another then is closed. A body that nothing touches, neither before nor after, is put back from any distance
+  /// deformed as it is: surfaces that overlap then are closed. A body that nothing touches, neither before nor after, is put back from any distance
   /// beyond its own deformation. If it has to go out of the way, it does so again.
   /// @returns null if `found` is accepted, else another start
   /// @throws StepFailure(lost_contact), on every rank, for a body that went farther again, or, held or not, farther than the model is long; with
   /// the words of statics if no force could hold it
   RCP<Vector> verify(const SemiSmoothSystem& system, const AcceptedState& from, const SystemEvaluation& found, int round) override;
 
-  /// Whether a body, held or not, went farther than that in the state that verify() passed last. Contact that turns or levers it may take it there,
+  /// True if a body, held or not, went farther than that in the state that verify() passed last. Contact that turns or levers it may take it there,
   /// but so may a jump.
   bool went_far() const { return went_far_; }
 

@@ -26,7 +26,7 @@ class RunOutput {
   RunOutput(const RCP<const Communicator>& comm, const Scene& scene, OutputDirectory& directory, const RCP<const Mesh>& mesh,
             StepEvaluation& evaluation, RunLog& log, RunRecord& record, const Timers& timers, StateArchive* checkpoint);
 
-  /// What the stepper calls.
+  /// Functions that the stepper calls.
   StepperObserver functions();
 
   /// The steps are over: a try that was interrupted is marked as stopped.

@@ -1,5 +1,5 @@
 #pragma once
-// What a run leaves in summary.json.
+// Content of a run's summary.json.
 
 #include <map>
 #include <nlohmann/json_fwd.hpp>
@@ -24,7 +24,7 @@ struct RunRecord {
   double time = 0.0;                         ///< of the last of them
   long long newton_steps = 0;                ///< of all of them
   std::optional<std::string> reason;         ///< why a step found no solution; else what could not be written at the end
-  std::optional<std::string> stopped;        ///< what made it stop before its end: a signal, the time limit
+  std::optional<std::string> stopped;        ///< reason why it stopped before its end: a signal, the time limit
   std::vector<std::string> parts;            ///< JSON of each process that this run was made by; the last of them is this one
   std::map<std::string, double> quantities;  ///< at the end
   std::vector<std::string> quantity_order;
@@ -41,7 +41,7 @@ struct RunRecord {
 /// A finished step as one line of JSON, without its end.
 std::string step_line(const StepReport& step);
 
-/// What a process that makes a run is: from which step it starts, on how many ranks, where and when. As JSON.
+/// Description of a process that makes a run: from which step it starts, on how many ranks, where and when. As JSON.
 std::string part_text(int from_step, int ranks);
 
 /// The summary with the names that docs/output.md lists, on rank 0. Collective.

@@ -14,7 +14,7 @@
 namespace mortise {
 namespace {
 
-/// Momentum over forces up to which an iterate is close to equilibrium: what is said of its stiffness holds within that share of the load.
+/// Momentum over forces up to which an iterate is close to equilibrium: statements on its stiffness hold within that share of the load.
 constexpr double near_equilibrium = 1e-2;
 
 /// Momentum over forces from which on the step adds a load: what a converged state leaves is below.
@@ -28,8 +28,8 @@ bool newton_came_to_no_end(FailureKind kind) {
          kind == FailureKind::cycling_active_set;
 }
 
-/// u: K u = the load that the step adds, at an evaluation; `load` holds its negative, 0 on prescribed rows. The rows of a contact's conditions stand
-/// in each solve, so there u is the difference of two.
+/// u: K u = the load that the step adds, at an evaluation; `load` holds its negative, 0 on prescribed rows. Each solve has the rows of a contact's
+/// conditions, so there u is the difference of two.
 RCP<Vector> answer_to_load(const SemiSmoothSystem& system, const SystemEvaluation& at, const Vector& load) {
   const SystemLinearisation linearisation = system.linearise(at);
   const auto direction = [&](const Vector& F) {

@@ -30,7 +30,7 @@ int determinant_sign_at(const SemiSmoothSystem& system, const SystemEvaluation& 
   return 0;
 }
 
-/// Whether forces between two displacements are beyond those of both, see StabilityCheck. Internal forces alone: contact only hands them on.
+/// True if forces between two displacements are beyond those of both, see StabilityCheck. Internal forces alone: contact only transfers them.
 bool passes_a_maximum(const SemiSmoothSystem& system, const Vector& from, const Vector& to) {
   const SystemParts& parts = system.parts();
   if (parts.fields.size() > 1) return false;  // of other units
@@ -58,7 +58,7 @@ bool passes_a_maximum(const SemiSmoothSystem& system, const Vector& from, const 
                      [&, low = least, high = most](double value) { return value > high + no_work * size || value < low - no_work * size; });
 }
 
-/// How far a step moved for what drove it. Where nothing drove it that is known, it moved as long as it lasted.
+/// Motion of a step over what drove it. Without a known drive, over the length of the step.
 double rate_of(double moved, double strength, double dt, bool by_strength) {
   const double drive = by_strength ? strength : dt;
   return drive > 0.0 ? moved / drive : std::numeric_limits<double>::infinity();

@@ -8,7 +8,7 @@
 
 namespace mortise {
 
-/// Whether the load or the prescribed motion has a maximum next to the last accepted state. Then the step that failed has no
+/// Explains a failed step by a maximum of the load or the prescribed motion next to the last accepted state. Then the step that failed has no
 /// equilibrium, as where a structure snaps through (loads) or back (motions). The path of equilibria is followed past the maximum on planes across it
 /// (Riks 1979). Collective.
 /// @returns in words for people, with the share of each body's volume that flows; empty if the path does not turn back there, or is not found

@@ -19,9 +19,9 @@ class Checkpoints {
   /// @param run  where its directory is made when it writes first
   Checkpoints(RCP<const Communicator> comm, const CheckpointOptions& options, OutputDirectory run);
 
-  /// Whether the scene wants one after a step, whatever the clock.
+  /// True if the scene wants one after a step, whatever the clock.
   bool is_due_by_step(int step) const { return options_.every_step > 0 && step % options_.every_step == 0; }
-  /// The same, or by the clock.
+  /// True if the scene wants one after a step, or the clock says so.
   bool is_due(int step) const;
   /// Writes what `store` stores as that after a step, then removes the oldest beyond those that are to be kept. Returns its size in bytes.
   /// @throws FileError on all ranks; earlier checkpoints stay

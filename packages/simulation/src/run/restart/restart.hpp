@@ -1,5 +1,5 @@
 #pragma once
-// What a checkpoint of a run holds, and whether a scene can go on from it.
+// Content of a run's checkpoint, and checks that a scene can go on from it.
 
 #include <memory>
 #include <optional>

@@ -16,7 +16,7 @@ namespace {
 
 using Lines = std::map<std::string, std::string>;
 
-/// What follows an expression: the symbols that it names, with their values.
+/// Suffix of an expression: the symbols that it names, with their values.
 std::string named_symbols(const std::string& expression, const std::map<std::string, std::string>& symbols) {
   std::string result;
   std::set<std::string> named;

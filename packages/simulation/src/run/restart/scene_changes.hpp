@@ -1,5 +1,5 @@
 #pragma once
-// What of a scene may change when a run is restarted.
+// Allowed changes of a scene when a run is restarted.
 
 #include <string>
 #include <vector>
@@ -12,13 +12,13 @@ namespace mortise {
 /// followed by the variables and tables that they name.
 std::string scene_fingerprint(const Scene& scene);
 
-/// What may differ between the scene of a checkpoint and the one that goes on, in words.
+/// Allowed differences between the scene of a checkpoint and the one that goes on, in words.
 std::string what_may_change();
 
-/// The parameters that differ and may not, one sentence each. What may differ is
+/// The parameters that differ and may not, one sentence each. These may differ:
 /// * "stepping", "newton", "linear solver", "output", "checks";
 /// * "balance" of contact pairs, which changes no solution;
-/// * "loads", and the values of "boundary conditions". Whether these are the same up to the checkpoint only the model can tell.
+/// * "loads", and the values of "boundary conditions". Only the model can tell whether these are the same up to the checkpoint.
 std::vector<std::string> refused_changes(const std::string& fingerprint_before, const std::string& fingerprint_now);
 
 }  // namespace mortise

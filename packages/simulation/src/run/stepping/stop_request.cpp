@@ -14,7 +14,7 @@ struct NamedSignal {
   int number;
   const char* name;
 };
-// In the order of their weight: of several the first is told.
+// In the order of their weight: of several the first is reported.
 constexpr std::array<NamedSignal, 4> stopping{{{SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}, {SIGHUP, "SIGHUP"}, {SIGUSR1, "SIGUSR1"}}};
 constexpr int checkpointing = SIGUSR2;
 
@@ -31,7 +31,7 @@ void note_signal(int number) {
     if (stopping[n].number == number) stops[n] = 1;
 }
 
-// What whoever started the program wants to be ignored stays so: SIGINT of jobs in the background.
+// A signal that the starter of the program wants to be ignored stays so: SIGINT of jobs in the background.
 void listen(int number, const struct sigaction& action, struct sigaction& former) {
   sigaction(number, nullptr, &former);
   if (former.sa_handler != SIG_IGN) sigaction(number, &action, nullptr);

@@ -9,7 +9,7 @@
 
 namespace mortise {
 
-/// What is asked for since it was last looked at, the same on every rank.
+/// Requests since the last look, the same on every rank.
 struct Request {
   bool checkpoint = false;          ///< leave one and go on
   std::optional<std::string> stop;  ///< leave one and end: the name of the signal, or "time limit"

@@ -55,7 +55,7 @@ void* shared_memory(MPI_Comm machine, std::size_t bytes) {
 }  // namespace
 
 struct Watchdog::Implementation {
-  /// What a rank shows the others of its machine. The clock is that of the machine, the same for all processes.
+  /// Sign of life that a rank shows the others of its machine. The clock is that of the machine, the same for all processes.
   struct Sign {
     std::atomic<long long> time;  ///< nanoseconds of the steady clock
     long long process, rank;

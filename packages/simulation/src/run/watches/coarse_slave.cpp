@@ -110,7 +110,7 @@ std::optional<CoarsePlace> coarse_place(const Model& model, const ContactPairOpt
   }
   const std::vector<Place> places = on_all_ranks(*mesh.comm, mine);
 
-  // How far the master turns over all of these facets: twice the largest angle from the mean.
+  // Turn of the master over all of these facets: twice the largest angle from the mean.
   std::vector<Eigen::Vector3d> normals;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero(), mean;
   for (LocalOrdinal s = 0; s < master.owned; ++s) {
@@ -161,7 +161,7 @@ double largest_pressure(const Model& model, const std::vector<ContactNodeState>&
   return all;
 }
 
-/// What is wrong with a pair in a solution; empty: nothing. Collective.
+/// Error message on a pair in a solution; empty: nothing is wrong. Collective.
 std::string too_coarse(const Model& model, const Named<ContactPairOptions>& pair, const PlaceOfNode& at, const std::vector<ContactNodeState>& states,
                        double pressure, double time) {
   const Mesh& mesh = *model.mesh();
@@ -184,7 +184,7 @@ std::string too_coarse(const Model& model, const Named<ContactPairOptions>& pair
 CoarseSlaveWatch::CoarseSlaveWatch(const Model& model, const Scene& scene, std::function<void(const std::string&)> warn)
     : model_(model), scene_(scene), warn_(std::move(warn)), hardest_(scene.contact.size()) {}
 
-// What a facet is wrong by in the approach is the same whatever the force: it matters where the pair presses hardest. A light touch on the way there
+// The error of a facet in the approach does not depend on the force: it matters where the pair presses hardest. A light touch on the way there
 // is wrong by a part of that alone.
 void CoarseSlaveWatch::accept(const SemiSmoothSystem& system, const SystemEvaluation& accepted) {
   std::optional<PlaceOfNode> at;

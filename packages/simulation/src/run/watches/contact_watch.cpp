@@ -34,7 +34,7 @@ ContactWatch::ContactWatch(const Model& model, const Scene& scene)
     const SideSet &slave = require_side_set(mesh, options.slave), &master = require_side_set(mesh, options.master);
     const PairAtStart& start = model.surfaces_at_start().pairs[p];
     const double reach = options.contact.mortar.search_reach.value_or(start.reach.value_or(start.longest));
-    // Couplings of the reference configuration stay for ever: what they do not cover they never will.
+    // Couplings of the reference configuration do not change: what they do not cover they never will.
     const bool is_frozen = options.contact.geometry == ContactGeometry::reference;
     for (const SidesOfBody& of_slave : sides_by_body(mesh, slave))
       for (const SidesOfBody& of_master : sides_by_body(mesh, master)) {

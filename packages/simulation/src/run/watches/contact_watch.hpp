@@ -1,5 +1,5 @@
 #pragma once
-// Whether bodies have passed through one another where contact does not see it.
+// Bodies that have passed through one another where contact does not see it.
 
 #include "mortise/simulation/model/model.hpp"
 #include "surfaces/body_surfaces.hpp"

@@ -22,8 +22,8 @@
 namespace mortise {
 namespace {
 
-// A corner of the master stands in the middle of a slave facet of length h, a depth d behind it. Its sides leave the facet at the angle b: the gap is
-// x tan b - d at the distance x. With phi = (2 - 3 s) on either facet of a node the weighted gap is
+// A corner of the master lies behind the middle of a slave facet of length h, by a depth d. Its sides leave the facet at the angle b: the gap is
+// x tan b - d at the distance x. With phi = (2 - 3 s) on either facet of a node the weighted gap is, in two parts,
 //   h/2 (h tan b / 4 - d)  of the facet itself,   h/2 (h tan b / 2 - d)  of the one beside it.
 // Both nodes are open until d = 3/8 h tan b. As soon as they carry force the corner stays that deep. Facets that stand for an arc turn by less than
 // 30 degrees, so that b < 15 degrees and d < 3/8 tan(15 degrees) h = 0.1 h: arc_depth. More takes a corner.
@@ -36,7 +36,7 @@ namespace {
 // force the corner stays that deep. As above b < 15 degrees unless there is a corner.
 double allowed_of_slave(int dimension) { return std::sin(0.5 * kink_angle) / 3.0 * (dimension == 3 ? std::sqrt(2.0) : 1.0); }
 
-/// Whether gaps are weighed with the slave's shape functions.
+/// True if gaps are weighed with the slave's shape functions.
 bool has_standard_weights(const ContactOptions& options) {
   const SharedCoupling coupling = options.formulation.options->coupling();
   return coupling->integrates_facets() && !coupling->has_dual_gap(options.mortar.gap_weighting);

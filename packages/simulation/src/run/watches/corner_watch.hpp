@@ -22,9 +22,9 @@ class CornerWatch {
   void examine(const PlacedBodies& bodies, const ContactLaws& laws);
   /// The solution that was examined last is an accepted state.
   void accept();
-  /// Whether a warning of this pair of the scene has been given.
+  /// True if a warning of this pair of the scene has been given.
   bool has_warned(std::size_t pair) const;
-  /// Which corners of the accepted state lie in the other body where the slave carries no force; empty: none.
+  /// Corners of the accepted state that lie in the other body where the slave carries no force; empty: none.
   const std::string& without_force() const { return accepted_; }
   /// Stores or restores what it knows of the accepted state and has said.
   void serialize(StateArchive& archive);

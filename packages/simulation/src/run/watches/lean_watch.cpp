@@ -44,7 +44,7 @@ LeanWatch::LeanWatch(const Model& model, const Scene& scene, std::function<void(
   for (const auto& contact : scene.contact) pairs_.push_back({bodies(contact.value.slave), bodies(contact.value.master), false, ""});
 }
 
-// What acts on a body are the sums of all its pairs, which are in balance with its loads and supports. Between two others that is nothing: then the
+// The force on a body is the sum over all its pairs, in balance with its loads and supports. For a body between two others that is 0: then the
 // largest of them.
 void LeanWatch::examine(const ContactLaws& laws) {
   std::vector<std::array<double, 3>> acting(model_.mesh()->bodies.size(), std::array<double, 3>{});

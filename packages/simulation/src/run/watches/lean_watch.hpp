@@ -10,7 +10,7 @@
 namespace mortise {
 
 /// Looks at converged states. A normal force acts along the slave's normal. On a flat master the forces of all nodes have no part along it beyond
-/// what friction bears, unless the normals lean: those of a coarse round slave that has moved, or at the end of a slave surface.
+/// what friction bears, unless the normals lean. Such are those of a coarse round slave that has moved, or at the end of a slave surface.
 class LeanWatch {
  public:
   /// @param warn  called once for each pair

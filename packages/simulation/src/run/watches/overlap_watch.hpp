@@ -21,7 +21,7 @@ class OverlapWatch {
   /// The solution that was examined last is an accepted state.
   /// @param is_told  of a pair of the scene: a warning that says more has been given
   void accept(const std::function<bool(std::size_t)>& is_told);
-  /// Which pairs of the accepted state carry no force although their bodies overlap; empty: none.
+  /// Pairs of the accepted state that carry no force although their bodies overlap; empty: none.
   const std::string& without_force() const { return accepted_; }
   /// Stores or restores what it knows of the accepted state and has said.
   void serialize(StateArchive& archive);

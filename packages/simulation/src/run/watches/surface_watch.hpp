@@ -1,5 +1,5 @@
 #pragma once
-// What the surfaces of the bodies tell of a state that contact alone does not see.
+// Checks of a state by the surfaces of the bodies, for what contact alone does not see.
 
 #include <functional>
 #include <string>

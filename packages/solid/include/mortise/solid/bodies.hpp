@@ -53,7 +53,7 @@ class Bodies {
   Kinematics kinematics() const { return kinematics_; }
   /// Unknowns a node: 2 or 3.
   int dimension() const { return mortise::dimension(kinematics_); }
-  /// How many of StressComponents there are: 4 or 6.
+  /// Number of StressComponents: 4 or 6.
   int stress_components() const { return dimension() == 3 ? 6 : 4; }
   double thickness() const { return thickness_; }
   const std::vector<BodyProperties>& properties() const { return properties_; }
@@ -100,7 +100,7 @@ class Bodies {
   /// Bytes that the history of a body takes on this rank; 0 for laws without.
   std::size_t history_bytes(LocalOrdinal block) const;
 
-  /// How often the forces, the stiffness or the history of a body with a history were computed on this rank; 0 for laws without.
+  /// Number of times that the forces, the stiffness or the history of a body with a history were computed on this rank; 0 for laws without.
   long history_evaluations(LocalOrdinal block) const;
 
   /// Calls `visit` for each quadrature point of each owned element, in order.
@@ -112,7 +112,7 @@ class Bodies {
   /// Volume-weighted mean accumulated plastic strain of each owned element of a block; 0 for laws without plasticity.
   std::vector<double> element_plastic_strains(const Vector& local_displacement, LocalOrdinal block) const;
 
-  /// The same of the strain: 1/2 ln(F F^T) of the deformation gradient that the law sees; for laws of small strain the symmetric part of F - 1.
+  /// Volume-weighted mean strain of each owned element of a block: 1/2 ln(F F^T) of the law's F; for small strain the symmetric part of F - 1.
   std::vector<StressComponents> element_strains(const Vector& local_displacement, LocalOrdinal block) const;
 
   /// Cauchy stress at each owned node: stress_components() columns on mesh()->owned_nodes. It is the mean over the elements around the node of what
@@ -120,7 +120,7 @@ class Bodies {
   /// do not mix. 0 at nodes without elements.
   RCP<MultiVector> nodal_stresses(const Vector& local_displacement) const;
 
-  /// The same of the strain of element_strains().
+  /// The strain of element_strains() at each owned node, as nodal_stresses() has it.
   RCP<MultiVector> nodal_strains(const Vector& local_displacement) const;
 
   /// Stored energy of each body, summed over all ranks. Collective.

@@ -1,5 +1,5 @@
 #pragma once
-// What a body can be made of: kinematics, elements, and which of their combinations with a law have a meaning. Holds the registry of elements.
+// Composition of a body: kinematics, elements, and which of their combinations with a law have a meaning. Holds the registry of elements.
 
 #include <memory>
 #include <stdexcept>
@@ -30,13 +30,13 @@ enum class ElementType { q4, q4_f_bar, t3, q8, t6, h8, h8_f_bar, tet4, h20, tet1
 template <class Type, ElementFormulation of_element = ElementFormulation::standard>
 struct ElementEntry {
   using Cell = Type;                                             ///< its shape
-  static constexpr ElementFormulation formulation = of_element;  ///< how it takes the deformation
+  static constexpr ElementFormulation formulation = of_element;  ///< treatment of the deformation
   ElementType type;                                              ///< for run time
-  const char* name;                                              ///< what it is called
-  const char* sentence;                                          ///< what it is, for people
+  const char* name;                                              ///< its name
+  const char* sentence;                                          ///< its description, for people
 };
 
-/// All elements, in the order in which people are told of them.
+/// All elements, in the order in which people see them.
 inline constexpr std::tuple element_registry{
     ElementEntry<Quadrilateral4>{ElementType::q4, "Q4", "bilinear quadrilateral; every law, the kinematics of the plane"},
     ElementEntry<Quadrilateral4, ElementFormulation::f_bar>{ElementType::q4_f_bar, "Q4 F-bar",
@@ -82,7 +82,7 @@ ElementFormulation formulation(ElementType type);
 std::string to_string(ElementType type);
 std::string to_string(Kinematics kinematics);
 
-/// What one body is made of. The body's mesh is the block of the same index.
+/// Composition of one body. The body's mesh is the block of the same index.
 struct BodyProperties {
   std::string name;
   Place place;

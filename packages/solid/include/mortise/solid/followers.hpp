@@ -21,7 +21,7 @@ class Followers {
   /// Owned dofs of reference points: what is followed, and what is idle.
   const std::vector<LocalOrdinal>& followed() const { return followed_; }
 
-  /// What they are at a displacement (on Bodies::local_dofs()), in the same order.
+  /// Dependences at a displacement (on Bodies::local_dofs()), in the same order.
   std::vector<Dependence> evaluate(const Vector& local_displacement) const;
 
   /// Dofs of reference points (owned by this rank) that nothing follows: they have to be prescribed as 0.

@@ -24,7 +24,7 @@ class Load {
   virtual void add_jacobian(double /*time*/, const Vector& /*local_displacement*/, Matrix& /*matrix*/, std::optional<StepFailure>& /*failure*/,
                             double /*factor*/ = 1.0) const {}
 
-  /// Whether add_jacobian does something.
+  /// True if add_jacobian does something.
   virtual bool follows() const { return false; }
 };
 
@@ -34,7 +34,7 @@ struct LoadOptions : Described {
   virtual std::unique_ptr<Load> make(const std::shared_ptr<const Bodies>& bodies) const = 0;
 };
 
-/// The same force on each node of a set. Axisymmetric: the force on the whole circle. [force]
+/// One force on each node of a set. Axisymmetric: the force on the whole circle. [force]
 struct NodalForceOptions : LoadOptions {
   Located<std::string> set;
   ScalarFunction x, y;              ///< of t and the node's reference position

@@ -21,7 +21,7 @@ struct BoundaryConditionOptions {
   void describe(Parameters& parameters);
 };
 
-/// Unit vectors along the condition's x, y and z, in the model's axes. In 2D y is x turned by +90 degrees; in 3D y is "y axis" without its part along
+/// Unit vectors along the condition's x, y and z, in the model's axes. In 2D y is x turned by +90 degrees. In 3D y is "y axis" without its part along
 /// x, or any direction across x if there is none, and z = x x y.
 std::array<std::array<double, 3>, 3> axes_of(const BoundaryConditionOptions& condition);
 
@@ -36,7 +36,7 @@ std::array<double, 3> direction_of(const InclinedComponent& component, int dimen
 
 /// All prescribed dofs of this rank and their values over time: those of the conditions, and 0 for dofs of reference points that nothing follows.
 /// Conditions n_m . d = g_m(t) at a node along directions n_m that are not the axes are solved for as many components, by Gauss-Jordan elimination
-/// with complete pivoting. What then depends on no other component is prescribed, the rest is inclined.
+/// with complete pivoting. A component that then depends on no other one is prescribed, the rest is inclined.
 class PrescribedMotion {
  public:
   /// Collective.

@@ -1,5 +1,5 @@
 #pragma once
-// What sequences of ever finer runs say: orders, limits, times to an accuracy.
+// Results of sequences of ever finer runs: orders, limits, times to an accuracy.
 
 #include <optional>
 #include <string>

@@ -23,7 +23,7 @@ struct ReferencePage {
 /// All pages: index.md and one for each list of the scene, and scene.rng; a page and a schema for point files and study files.
 std::vector<ReferencePage> reference_pages();
 
-/// What `list_choices` knows: "materials", "elements", "meshes", ...
+/// Topics of `list_choices`: "materials", "elements", "meshes", ...
 const std::vector<std::string>& choice_topics();
 
 /// The names that can be chosen, each with its sentence, one a line. Throws InputError for an unknown topic.

@@ -10,9 +10,9 @@
 
 namespace mortise {
 
-/// How the ledger is run.
+/// Settings for running the ledger.
 struct HardOptions {
-  std::string ledger = "inputs/hard/ledger.xml";  ///< what it says of each case; see HardFile
+  std::string ledger = "inputs/hard/ledger.xml";  ///< file of the cases; see HardFile
   std::string directory;                          ///< where results go; empty: results/hard
   std::string only;                               ///< regular expression that names of cases have to match somewhere; empty: no choice
   std::vector<int> ranks{1};                      ///< MPI ranks; each case is run on each number of them

@@ -10,7 +10,7 @@
 
 namespace mortise {
 
-/// What a figure of a run has to be: `value` within `bound`, or between `low` and `high`. All are expressions.
+/// Expectation of a figure of a run: `value` within `bound`, or between `low` and `high`. All are expressions.
 struct HardExpectation {
   Located<std::string> figure;  ///< empty: the quantity with the name of the entry
   Located<std::string> value, bound;
@@ -22,15 +22,15 @@ struct HardExpectation {
 struct HardCompanion {
   Located<std::string> scene;  ///< empty: that of the case, with its settings below its own
   AssignmentList settings;
-  bool follows_axes = true;  ///< whether values of the case's axes are set here too
+  bool follows_axes = true;  ///< true if values of the case's axes are set here too
   void describe(Parameters& parameters);
 };
 
-/// Which stops are true.
+/// Stops that are true.
 struct HardStop {
   Located<std::string> reason;  ///< regular expression that the last failure's text has to match somewhere; empty: no stop is true
   std::vector<double> codes{3};
-  bool required = false;  ///< whether coming to the end is wrong
+  bool required = false;  ///< true if coming to the end is wrong
   void describe(Parameters& parameters);
 };
 
@@ -44,7 +44,7 @@ struct HardCase {
   std::vector<Named<HardExpectation>> expected;
   Located<std::string> always;  ///< expression of t, variables and quantities that holds after each step; empty: none
   HardStop stop;
-  bool every_ranks = true;  ///< whether it is run on all numbers of ranks that are asked for, or on the first one
+  bool every_ranks = true;  ///< true if it is run on all numbers of ranks that are asked for, not on the first one alone
   void describe(Parameters& parameters);
 };
 

@@ -10,7 +10,7 @@
 
 namespace mortise {
 
-/// How the paper is computed.
+/// Settings for computing the paper's examples.
 struct PaperOptions {
   std::string directory = "results/paper";  ///< where results go
   std::vector<std::string> only;            ///< names of the runs that are wanted; empty: all of them

@@ -19,7 +19,7 @@ enum class Peer { none, calculix_mortar, calculix_surface_to_surface, calculix_n
 /// "none", "calculix mortar", "calculix surface to surface", "calculix node to surface".
 const std::vector<std::pair<std::string, Peer>>& peer_names();
 
-/// Whether its contact presses by a penalty: all but mortar.
+/// True if its contact presses by a penalty: all but mortar.
 bool has_penalty(Peer peer);
 
 /// The penalty of a peer's contact in multiples of E/h, from an expression of the scene's variables; none if that is empty: the deck's own choice.
@@ -32,7 +32,7 @@ std::string peer_name(Peer peer);
 /// For tables: "CalculiX mortar".
 std::string peer_title(Peer peer);
 
-/// How a peer runs a scene.
+/// Settings of a peer's run of a scene.
 struct PeerOptions {
   std::string scene;                  ///< file
   std::vector<std::string> settings;  ///< "path=value" each

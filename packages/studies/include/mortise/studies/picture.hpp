@@ -8,7 +8,7 @@
 
 namespace mortise {
 
-/// What is drawn, and where it goes.
+/// Content and file of a picture.
 struct PictureOptions {
   std::string run;                   ///< directory of a run's results
   std::optional<std::string> field;  ///< "von_mises", "displacement.y", "cauchy_stress.xx", "body"; none: what the run has of stress or displacement

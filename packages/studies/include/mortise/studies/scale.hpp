@@ -1,5 +1,5 @@
 #pragma once
-// How a scene scales: runs on growing numbers of ranks, and plans for numbers that are not here.
+// Scaling of a scene: runs on growing numbers of ranks, and plans for numbers that are not here.
 
 #include <optional>
 #include <string>
@@ -17,7 +17,7 @@ struct WeakVariable {
   int multiple = 1;
 };
 
-/// How scaling is measured or planned.
+/// Settings for measuring or planning scaling.
 struct ScaleOptions {
   std::string scene;                  ///< file
   std::vector<std::string> settings;  ///< "path=value", as `--set` takes them

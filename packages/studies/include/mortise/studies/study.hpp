@@ -1,5 +1,5 @@
 #pragma once
-// What accuracy costs: the same scene under many settings, errors against times.
+// Cost of accuracy: one scene under many settings, errors against times.
 
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace mortise {
 
-/// How a study is computed.
+/// Settings for computing a study.
 struct StudyOptions {
   std::string study;                  ///< file
   std::vector<std::string> settings;  ///< "path=value" each, of the study file

@@ -9,7 +9,7 @@
 
 namespace mortise {
 
-/// What is varied: values, each with a label and the settings it makes. Either `setting` and `values`, or `choices`.
+/// Values that are varied, each with a label and the settings it makes. Either `setting` and `values`, or `choices`.
 struct StudyAxis {
   Located<std::string> setting;
   Located<std::vector<std::string>> values;
@@ -19,14 +19,14 @@ struct StudyAxis {
   std::vector<Named<AssignmentList>> labelled() const;
 };
 
-/// How far a run is from its reference.
+/// Measure of a run's distance from its reference.
 enum class StudyMeasure {
   relative_difference,   ///< |q - q_ref| / |q_ref| of a quantity of the scene
   itself,                ///< |q|: the scene's quantity is an error already
   pressure_profile,      ///< ||p - p_ref|| / ||p_ref||, L2 along the arc length of the slave surfaces, at the end
-  shear_profile,         ///< the same of the shear traction
+  shear_profile,         ///< ||t - t_ref|| / ||t_ref|| of the shear traction, as the pressure profile
   displacement,          ///< ||u - u_ref|| / ||u_ref||, L2 over the bodies, at the end
-  displacement_gradient  ///< the same of the displacement gradient: relative H1 seminorm
+  displacement_gradient  ///< ||grad u - grad u_ref|| / ||grad u_ref||, relative H1 seminorm
 };
 
 /// Where the reference comes from.

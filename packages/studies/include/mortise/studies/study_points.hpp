@@ -17,14 +17,14 @@ namespace mortise {
 struct StudyPoint {
   std::string name;                 ///< "n=4,element=Q4_F-bar": a directory
   std::vector<std::string> labels;  ///< one for each axis; none: the finest run
-  std::vector<std::string> titles;  ///< the same for people: "n = 4" where the label alone is a bare value
+  std::vector<std::string> titles;  ///< labels for people: "n = 4" where the label alone is a bare value
   std::vector<Assignment> settings;
   int ranks = 1;
   Peer peer = Peer::none;                                       ///< the program that runs it instead of this one
   Located<std::string> penalty;                                 ///< of its contact, as penalty_multiple() takes it; empty for peers without
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds of wall time of each run
 
-  // What the scene is with these settings.
+  // Properties of the scene with these settings.
   std::string formulation, element;
   bool axisymmetric = false;
   std::vector<std::string> quantities;
@@ -53,7 +53,7 @@ StudyPlan read_study(const Communicator& comm, const std::string& path, const st
 /// All combinations of the axes' values without the excluded ones; diagnostics get labels that no axis has.
 std::vector<StudyPoint> study_points(const StudyFile& study, std::vector<Diagnostic>& diagnostics);
 
-/// What the expression of a study, of variables, quantities and `dofs`, is at a point. Not a number where a quantity has no value.
+/// Value of the expression of a study, of variables, quantities and `dofs`, at a point. Not a number where a quantity has no value.
 /// @param values  of point.quantities, in their order
 /// Throws InputError at `source`'s place if it cannot be evaluated.
 double evaluate(const Located<std::string>& source, const StudyPoint& point, const std::vector<double>& values, double dofs);

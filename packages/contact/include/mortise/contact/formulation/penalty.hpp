@@ -29,7 +29,7 @@ class PenaltyEnforcement : public Enforcement {
   SpatialVector start_from(const SpatialVector& traction) const override;
 
  protected:
-  RegularisedNode regularised_node(const ContactNode& node) const;  ///< what stiffens it at this node
+  RegularisedNode regularised_node(const ContactNode& node) const;  ///< stiffness at this node
 
  private:
   double normal_, tangential_;

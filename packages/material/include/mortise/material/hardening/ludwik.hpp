@@ -19,7 +19,7 @@ struct LudwikHardening {
   void describe(Parameters& parameters) {
     parameters.add("yield stress", initial_yield_stress, Says("sigma_0, at which flow starts").unit("stress").above(0.0).required());
     parameters.add("strength coefficient", strength_coefficient,
-                   Says("k, what the yield stress gains up to alpha = 1").unit("stress").above(0.0).required());
+                   Says("k, increase of the yield stress up to alpha = 1").unit("stress").above(0.0).required());
     parameters.add("exponent", exponent, Says("n").unit("-").above(0.0).at_most(1.0).required());
   }
   double yield_stress(double alpha) const { return initial_yield_stress + strength_coefficient * std::pow(alpha, exponent); }

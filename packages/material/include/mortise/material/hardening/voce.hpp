@@ -17,8 +17,8 @@ struct VoceHardening {
 
   void describe(Parameters& parameters) {
     parameters.add("yield stress", initial_yield_stress, Says("sigma_0, at which flow starts").unit("stress").above(0.0).required());
-    parameters.add("saturation", saturation, Says("Q, what the yield stress gains in the end").unit("stress").at_least(0.0).required());
-    parameters.add("rate", rate, Says("delta, how fast it does").unit("-").above(0.0).required());
+    parameters.add("saturation", saturation, Says("Q, increase of the yield stress in the end").unit("stress").at_least(0.0).required());
+    parameters.add("rate", rate, Says("delta, rate of this increase").unit("-").above(0.0).required());
   }
   double yield_stress(double alpha) const { return initial_yield_stress - saturation * std::expm1(-rate * alpha); }
   double slope(double alpha) const { return saturation * rate * std::exp(-rate * alpha); }

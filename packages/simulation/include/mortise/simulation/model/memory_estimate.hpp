@@ -1,5 +1,5 @@
 #pragma once
-// What linear systems take, from counted entries.
+// Memory of linear systems, from counted entries.
 
 namespace mortise {
 

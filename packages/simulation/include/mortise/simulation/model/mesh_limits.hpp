@@ -11,7 +11,7 @@ namespace mortise {
 /// more memory than the machines have, whatever solver it has.
 void refuse_too_large(const Communicator& comm, const std::vector<BodyDescription>& bodies);
 
-/// The same for a plan, made on the ranks of `comm`, of a run on `ranks` others: a plan takes the mesh alone.
+/// Checks a plan, made on the ranks of `comm`, of a run on `ranks` others: a plan takes the mesh alone.
 void refuse_too_large_to_plan(const Communicator& comm, const std::vector<BodyDescription>& bodies, int ranks);
 
 /// Collective. Memory of all machines that the ranks run on, in MiB; 0 if one of them does not say.

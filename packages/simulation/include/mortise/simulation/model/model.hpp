@@ -20,17 +20,17 @@ namespace mortise {
 
 class EdgeContact;
 
-/// Which effect is on for what: ("finite strain", bodies), ("contact", pairs), ... in the order in which they are shown.
+/// Active effects and their subjects: ("finite strain", bodies), ("contact", pairs), ... in the order in which they are shown.
 using Effects = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
-/// What a body remembers between the steps, over all ranks. Ranks remember their ghost elements as well.
+/// History of a body between the steps, over all ranks. Ranks keep that of their ghost elements as well.
 struct BodyHistory {
   std::string body;
   long bytes = 0;
   long evaluations = 0;  ///< of forces, stiffness and history by code that knows of history
 };
 
-/// What is known of a tie before anything moves, over all ranks.
+/// State of a tie before anything moves, over all ranks.
 struct TieAtStart {
   GlobalOrdinal tied = 0;   ///< slave nodes that follow the master
   GlobalOrdinal open = 0;   ///< slave nodes that no master covers within the tolerance, or hardly: they are free
@@ -39,10 +39,10 @@ struct TieAtStart {
   double furthest = 0.0;    ///< by so much [length]
 };
 
-/// What is said of mesh files, in words: "body: ...".
+/// Remarks on mesh files, in words: "body: ...".
 struct MeshRemarks {
-  std::vector<std::string> notes;     ///< what was changed or left out
-  std::vector<std::string> warnings;  ///< what is most likely not meant
+  std::vector<std::string> notes;     ///< changes and omissions
+  std::vector<std::string> warnings;  ///< things that are most likely not meant
 };
 
 /// Everything that a run solves for and with.
@@ -68,9 +68,9 @@ class Model {
   /// mesh.bodies indices of the bodies on either side of each contact pair, second passes behind all pairs of the scene.
   const std::vector<std::vector<int>>& bodies_of_pairs() const { return bodies_of_pairs_; }
   const Effects& effects() const { return effects_; }
-  /// What holds bodies besides contact.
+  /// Supports of the bodies besides contact.
   const Supports& supports() const { return supports_; }
-  /// How the surfaces lie before anything moves.
+  /// Gaps and overlaps of the surfaces before anything moves.
   const SurfacesAtStart& surfaces_at_start() const { return surfaces_at_start_; }
   const MeshRemarks& mesh_remarks() const { return mesh_remarks_; }
   /// In the order of the scene.
@@ -80,10 +80,10 @@ class Model {
   /// Slave nodes that carry a multiplier, over all ranks.
   GlobalOrdinal slave_nodes() const;
 
-  /// What the nonlinear system is made of.
+  /// Parts of the nonlinear system.
   const SystemParts& parts() const { return parts_; }
 
-  /// How often each contribution has been evaluated on this rank, by its name.
+  /// Number of evaluations of each contribution on this rank, by its name.
   std::map<std::string, long> calls() const;
 
   /// Of all bodies, in the order of the scene. Collective.

@@ -10,7 +10,7 @@
 
 namespace mortise {
 
-/// Sinks on rank 0 only. What is said before the output directory is open is kept for log.txt.
+/// Sinks on rank 0 only. Lines written before the output directory is open are kept for log.txt.
 class RunLog {
  public:
   RunLog(const RCP<const Communicator>& comm, Verbosity verbosity);

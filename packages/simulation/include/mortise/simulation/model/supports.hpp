@@ -1,5 +1,5 @@
 #pragma once
-// What holds bodies besides contact.
+// Supports of bodies besides contact.
 
 #include <memory>
 #include <vector>

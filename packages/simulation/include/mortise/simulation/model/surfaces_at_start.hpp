@@ -1,5 +1,5 @@
 #pragma once
-// Before anything has moved: which surfaces and bodies lie in one another, how deep and where, and what cannot be right.
+// Surfaces and bodies before anything has moved: their overlaps with depth and place, and what cannot be right.
 
 #include <array>
 #include <optional>
@@ -23,13 +23,13 @@ struct OverlapPlace {
 /// "node 12 of "top/bottom" at (0, -0.24)".
 std::string to_string(int dimension, const OverlapPlace& overlap);
 
-/// What is known of a contact pair.
+/// State of a contact pair at the start.
 struct PairAtStart {
   OverlapPlace overlap;
   std::optional<double> gap;    ///< without overlap: least distance along the slave's normals to the master; none: the slave sees no front of it
   double longest = 0.0;         ///< facet of either surface
-  std::optional<double> reach;  ///< what the search reach has to be to cover the overlap, where that is more than the longest facet
-  std::pair<GlobalOrdinal, double> adjusted{0, 0.0};  ///< how many slave nodes were moved onto the master, and the largest distance [length]
+  std::optional<double> reach;  ///< search reach that covers the overlap, where that is more than the longest facet
+  std::pair<GlobalOrdinal, double> adjusted{0, 0.0};  ///< number of slave nodes that were moved onto the master, and the largest distance [length]
   double overlap_as_meshed = 0.0;                     ///< depth before slave nodes were moved, if they were [length]
   std::array<double, 2> arcs{0.0, 0.0};    ///< the most that linear facets leave of the slave's arcs, and of the master's, if one is hollow where the
                                            ///< other is convex; else 0 [length]
@@ -58,7 +58,7 @@ struct SurfacesAtStart {
 ///   - a master that turns its back.
 SurfacesAtStart examine_surfaces(const Mesh& mesh, const Scene& scene, double length);
 
-/// How deep the surfaces of a pair lie in one another, as examine_surfaces() sees it. Collective.
+/// Depth of the overlap of a pair's surfaces, as examine_surfaces() sees it. Collective.
 double deepest_overlap(const Mesh& mesh, const Named<ContactPairOptions>& pair, double length);
 
 }  // namespace mortise

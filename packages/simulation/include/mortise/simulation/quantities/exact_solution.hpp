@@ -14,7 +14,7 @@ struct ContactZone {
   double center = 0.0, half_width = 0.0;
 };
 
-/// An exact solution. What a solution does not know has no value.
+/// An exact solution. A function that a solution does not know has no value.
 struct ExactSolution : Described {
   using Point = std::array<double, 2>;
 
@@ -27,7 +27,7 @@ struct ExactSolution : Described {
   virtual std::optional<ContactZone> zone(double /*time*/) const { return {}; }
 };
 
-/// Hertz's line contact of two cylinders, or of a cylinder and a plane, plane strain.
+/// Hertz's line contact of two cylinders, or of a cylinder and a plane, plane strain. Formulas:
 ///   1/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2,  1/R = 1/R1 + 1/R2,  a = sqrt(4 F R / (pi E')),  p0 = 2 F / (pi a),  p = p0 sqrt(1 - (x/a)^2).
 struct HertzLineContact : ExactSolution {
   ScalarFunction load{0.0};  ///< F, of t: force per thickness on the whole contact, both halves
@@ -58,9 +58,9 @@ struct LinearDisplacement : ExactSolution {
   std::optional<Point> displacement(const Point& x, double time) const override;
 };
 
-/// Lame's thick ring, plane strain, small strain; also two concentric rings of one material that touch each other without friction.
-///   sigma_r = A - B/r^2,  sigma_theta = A + B/r^2,  sigma_z = 2 nu A,  u_r = (1 + nu)/E ((1 - 2 nu) A r + B/r),
-///   A = (p_i a^2 - p_o b^2)/(b^2 - a^2),  B = (p_i - p_o) a^2 b^2/(b^2 - a^2).
+/// Lame's thick ring, plane strain, small strain; also two concentric rings of one material that touch each other without friction. With
+/// A = (p_i a^2 - p_o b^2)/(b^2 - a^2)  and  B = (p_i - p_o) a^2 b^2/(b^2 - a^2)  the solution is
+///   sigma_r = A - B/r^2,  sigma_theta = A + B/r^2,  sigma_z = 2 nu A,  u_r = (1 + nu)/E ((1 - 2 nu) A r + B/r).
 /// The pressure between the rings at r is -sigma_r(r).
 struct LameRing : ExactSolution {
   double inner_radius = 1.0, outer_radius = 2.0, youngs_modulus = 1.0, poissons_ratio = 0.3, center_x = 0.0, center_y = 0.0;

@@ -60,7 +60,7 @@ struct QuantityContext {
   const Mesh& mesh() const { return *bodies.mesh(); }
 };
 
-/// The values of one quantity in one run. What has to be remembered from step to step is its own.
+/// The values of one quantity in one run. Its memory from step to step is its own.
 class QuantityEvaluator {
  public:
   virtual ~QuantityEvaluator() = default;

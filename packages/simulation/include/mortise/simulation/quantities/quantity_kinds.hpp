@@ -26,7 +26,7 @@ struct Reaction : Quantity {
   std::unique_ptr<QuantityEvaluator> make_evaluator(const QuantityContext& context) const override;
 };
 
-/// What quantities of one pair share. Its slave surface stands where the pair's geometry is: in the current or in the reference configuration.
+/// Common part of quantities of one pair. Its slave surface is where the pair's geometry is: in the current or in the reference configuration.
 struct PairQuantity : Quantity {
   Located<std::string> pair;  ///< empty: the only one
   void describe(Parameters& parameters) override;
@@ -59,7 +59,7 @@ enum class PointField {
   gap
 };
 
-/// What Extremum and Mean look at.
+/// The field of Extremum and Mean.
 struct FieldQuantity : Quantity {
   PointField field = PointField::von_mises;
   Located<std::string> on;  ///< a set of nodes or a body (displacement), a body (stress), a pair (contact); empty: everywhere
@@ -143,9 +143,9 @@ struct ContactArea : PairQuantity {
   std::unique_ptr<QuantityEvaluator> make_evaluator(const QuantityContext& context) const override;
 };
 
-/// Radius of a Hertzian pressure of revolution about an axis through `center`,
-///   a = sqrt(5/2 sum_j F_j r_j^2 / sum_j F_j),
-/// with the normal forces F_j and current positions of the slave nodes. It follows from int p r^2 = 2/5 a^2 int p for p = p_0 sqrt(1 - r^2 / a^2). 3D
+/// Radius of a Hertzian pressure of revolution about an axis through `center`, with the normal forces F_j and current positions of the slave nodes:
+///   a = sqrt(5/2 sum_j F_j r_j^2 / sum_j F_j).
+/// It follows from int p r^2 = 2/5 a^2 int p for p = p_0 sqrt(1 - r^2 / a^2). 3D
 /// only. [length]
 struct ContactRadius : PairQuantity {
   std::vector<double> center{0.0, 0.0, 0.0};

@@ -1,5 +1,5 @@
 #pragma once
-// What the kinds of quantities share: names of bodies and pairs, sums over ranks, the slave surface with its pressures.
+// Common functions of the kinds of quantities: names of bodies and pairs, sums over ranks, the slave surface with its pressures.
 
 #include <array>
 #include <memory>
@@ -47,7 +47,7 @@ std::optional<LocalOrdinal> find_optional_body(const QuantityContext& context, c
 
 /// Index of a pair; an empty name is the only pair. Throws InputError at the name's place.
 std::size_t find_pair(const QuantityContext& context, const Located<std::string>& name);
-/// The same, for quantities of lines: also throws in 3D.
+/// Index of a pair as find_pair(), for quantities of lines: also throws in 3D.
 std::size_t find_pair_of_plane(const QuantityContext& context, const Located<std::string>& name);
 
 /// The parameter "measure".

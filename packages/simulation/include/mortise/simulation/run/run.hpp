@@ -18,7 +18,7 @@ struct RestartOptions {
   std::optional<int> step;  ///< that of its checkpoint; none: the newest that is whole
 };
 
-/// How a scene or a point file is run.
+/// Settings for running a scene or a point file.
 struct RunOptions {
   std::string scene;                  ///< file
   std::vector<std::string> settings;  ///< "path=value", as `--set` takes them

@@ -13,14 +13,14 @@ namespace mortise {
 
 enum class ContactSearch { none, automatic };
 
-/// Which surfaces become contact pairs by themselves.
+/// Surfaces that become contact pairs by themselves.
 struct AutomaticContactOptions {
   ContactSearch pairs = ContactSearch::none;
   Located<std::vector<std::string>> bodies;  ///< that may touch one another; empty: all
   std::optional<double> reach;               ///< [length] of what is found; none: as far as the longest edge of the facet that looks
   double angle = 30.0;                       ///< [degrees] between facets at the edges of patches
   ContactStartOptions start;                 ///< of all pairs that are found
-  ContactOptions contact;                    ///< likewise
+  ContactOptions contact;                    ///< of all pairs that are found
   void describe(Parameters& parameters);
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// What is wrong with a scene before anything is built of it.
+// Errors of a scene before anything is built of it.
 
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace mortise {
 
-/// What a scene says wrongly that needs no mesh to be seen: names of materials, bodies and quantities, combinations without a meaning.
+/// Errors of a scene that need no mesh to be seen: names of materials, bodies and quantities, combinations without a meaning.
 std::vector<Diagnostic> check_scene(const Scene& scene);
 
 }  // namespace mortise

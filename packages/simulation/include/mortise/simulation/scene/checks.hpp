@@ -17,7 +17,7 @@ struct CheckOptions {
   void describe(Parameters& parameters);
 };
 
-/// What became of a check: a row of summary.json.
+/// Result of a check: a row of summary.json.
 struct CheckResult {
   std::string name, quantity;
   double value = 0.0;

@@ -1,5 +1,5 @@
 #pragma once
-// How the surfaces of a contact pair begin.
+// Start of the surfaces of a contact pair.
 
 #include <optional>
 
@@ -7,7 +7,7 @@
 
 namespace mortise {
 
-/// What becomes of surfaces that begin in one another.
+/// Treatment of surfaces that overlap at the start.
 enum class InitialOverlap {
   interference,  ///< the overlap is the load that it is
   error          ///< refused
@@ -19,7 +19,7 @@ enum class MeshAtStart {
   adjusted  ///< moved onto the master, without strain
 };
 
-/// What linear facets stand for.
+/// Surface that linear facets stand for.
 enum class FacetShape { flat, round };
 
 /// Of one pair.

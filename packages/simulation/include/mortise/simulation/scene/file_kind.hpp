@@ -1,5 +1,5 @@
 #pragma once
-// Which kind of file was given.
+// Kind of a given file.
 
 #include "mortise/input/xml.hpp"
 

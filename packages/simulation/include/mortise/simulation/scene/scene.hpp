@@ -66,7 +66,7 @@ struct LoadChoice {
   void describe(Parameters& parameters);
 };
 
-/// Which of a pair's surfaces is the slave.
+/// Choice of the slave among a pair's surfaces.
 enum class ContactRoles {
   as_given,
   automatic  ///< the better one
@@ -90,9 +90,8 @@ struct SurfaceTieOptions {
   void describe(Parameters& parameters);
 };
 
-/// What is written besides the summary.
-/// When a run leaves what it can be restarted from. It also does so when it stops before its end, and at the end if `every_step` is given or one
-/// has been written before.
+/// Checkpoints, from which a run can be restarted. A run also leaves one when it stops before its end, and at the end if `every_step` is given or
+/// one has been written before.
 struct CheckpointOptions {
   int every_step = 0;           ///< after every so many steps; 0: not by steps
   double every_minutes = 10.0;  ///< after the first step that ends so long after the last one; 0: not by time
@@ -100,7 +99,7 @@ struct CheckpointOptions {
   void describe(Parameters& parameters);
 };
 
-/// What a run leaves.
+/// Output of a run.
 struct OutputOptions {
   std::vector<std::string> fields{"displacement", "contact_pressure", "cauchy_stress"};
   int every_step = 1;             ///< fields are written after every so many steps and at the end; 0: at the output times and the end only

@@ -1,5 +1,5 @@
 #pragma once
-// What a scene says of its meshes, as build_mesh() and plan_mesh() take it, and of what the blocks of a mesh are made.
+// Meshes of a scene, as build_mesh() and plan_mesh() take them, and properties of the blocks of a mesh.
 
 #include <string>
 #include <vector>
@@ -22,7 +22,7 @@ std::string material_name(const BodyOptions& body, const std::string& part);
 /// @throws InputError for what make_file_bodies() refuses
 std::vector<BodyDescription> body_descriptions(const Communicator& comm, const Scene& scene);
 
-/// What each block of the mesh is made of.
+/// Properties of each block of the mesh.
 /// @throws InputError: elements that the body's cells have not, cells without a material
 std::vector<BodyProperties> block_properties(const Scene& scene, const Mesh& mesh);
 

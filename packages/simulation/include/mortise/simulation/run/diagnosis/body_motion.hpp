@@ -1,5 +1,5 @@
 #pragma once
-// How bodies moved from one configuration to another: as rigid bodies, and what is left.
+// Motion of bodies from one configuration to another: as rigid bodies, and the rest.
 
 #include <Eigen/Core>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-// What contact holds at one state: of rigid motions, and pair by pair.
+// Rigid motions that contact holds at one state, in all and pair by pair.
 
 #include <Eigen/Core>
 #include <string>
@@ -37,13 +37,13 @@ std::vector<int> coupled_bodies(const Eigen::MatrixXd& gram, int per_body);
 /// @param reference  Gram matrix of what else could hold the bodies: where a body has a single motion, no other one tells what counts as little
 Eigen::MatrixXd free_motions(const Eigen::MatrixXd& gram, int per_body, double hardly_held = 1e-4, const Eigen::MatrixXd& reference = {});
 
-/// What pairs did in accepted states.
+/// States of pairs in accepted states.
 class ContactRecord {
  public:
   void accept(const std::vector<PairHold>& pairs);
   /// Stores or restores it.
   void serialize(StateArchive& archive);
-  /// What pairs do now that touch any of some bodies (mesh.bodies indices), in words.
+  /// Describes in words the present states of pairs that touch any of some bodies (mesh.bodies indices).
   std::string describe(const Model& model, const std::vector<int>& bodies, const std::vector<PairHold>& now) const;
 
  private:

@@ -16,7 +16,7 @@ std::string newton_header();
 /// One line per iteration; |r|/|f| is ResidualNorms::momentum, the number that has a tolerance.
 std::string newton_line(const NewtonIteration& iteration);
 
-/// What a finished step says: iterations, time and, if it is a second or more, the time left.
+/// Line of a finished step: iterations, time and, if it is a second or more, the time left.
 std::string step_footer(const StepReport& report, double seconds_left);
 
 /// "42 s", "7 min", "2 h 5 min".

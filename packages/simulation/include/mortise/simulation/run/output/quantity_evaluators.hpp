@@ -12,7 +12,7 @@ namespace mortise {
 /// Of all quantities of a scene, in their order.
 using QuantityEvaluators = std::vector<std::unique_ptr<QuantityEvaluator>>;
 
-/// What quantities may look at before anything is solved.
+/// Context of quantities before anything is solved.
 QuantityContext quantity_context(const Scene& scene, const Model& model);
 
 /// Collective. Throws InputError, on all ranks, for sets, bodies and pairs that do not exist.

@@ -22,7 +22,7 @@ class JumpCheck {
   /// @param is_far  whether a body goes farther than what is around it carries it: see StateCheck
   /// @throws StepFailure(lost_contact), on every rank, for one that may have jumped
   void verify(const Vector& from, const Vector& to, double dt, bool is_far = false);
-  /// What verify() passed last is accepted.
+  /// The state that verify() passed last is accepted.
   void accept();
   /// Stores or restores the rate of the last step.
   void serialize(StateArchive& archive);
