@@ -16,6 +16,7 @@ KINDS = {
     "A load": ("packages/solid/src/loads/dead_loads.cpp", r"\.add<(\w+)>", "Options"),
     "A quantity": ("packages/simulation/src/quantities/*.cpp", r"Registry<Quantity>& kinds\) \{\s*kinds\.add<(\w+)>", "Quantity"),
     "A contribution to the residual": ("packages/simulation/src/model/contributions.hpp", r"class (\w+Contribution) final", "Contribution"),
+    "A time scheme": ("packages/nonlinear/include/mortise/nonlinear/time_scheme.hpp", r"\nTimeScheme (\w+)\(", ""),
     "How contact is enforced": ("packages/contact/src/laws/formulation.cpp", r"\.add<(\w+)>", ""),
     "What multipliers act through": ("packages/mortar/src/coupling/coupling.cpp", r"coupling_of<(\w+)>", "Coupling"),
     "A boundary condition": ("packages/solid/include/mortise/solid/prescribed_motion.hpp", r"struct (BoundaryConditionOptions)", "Options"),

@@ -10,6 +10,8 @@
 #include <functional>
 #include <memory>
 
+#include "mortise/nonlinear/linear_solver_factory.hpp"
+#include "mortise/nonlinear/linear_solver_options.hpp"
 #include "mortise/nonlinear/load_stepper.hpp"
 
 namespace mortise::test {
