@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <map>
 
-#include "model/widened_graph.hpp"
+#include "model/edges/widened_graph.hpp"
 
 namespace mortise {
 namespace {

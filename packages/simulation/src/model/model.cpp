@@ -13,7 +13,7 @@
 #include "model/contributions.hpp"
 #include "model/current_places.hpp"
 #include "model/edge_contact.hpp"
-#include "model/inertia.hpp"
+#include "model/motion/inertia.hpp"
 #include "model/inclined_supports.hpp"
 #include "model/pairs/adjusted_slaves.hpp"
 #include "model/pairs/search_reach.hpp"

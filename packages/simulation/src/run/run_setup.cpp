@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "model/contact_at_start.hpp"
-#include "model/initial_state.hpp"
+#include "model/motion/initial_state.hpp"
 #include "model/precision.hpp"
 #include "model/report_model.hpp"
 #include "mortise/input/parameter_tree.hpp"

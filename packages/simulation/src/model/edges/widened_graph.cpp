@@ -1,4 +1,4 @@
-#include "model/widened_graph.hpp"
+#include "model/edges/widened_graph.hpp"
 
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_CrsGraph.hpp>

@@ -1,4 +1,4 @@
-#include "model/inertia.hpp"
+#include "model/motion/inertia.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <Tpetra_Vector.hpp>
 #include <set>
 
-#include "model/widened_graph.hpp"
+#include "model/edges/widened_graph.hpp"
 #include "mortise/material/materials.hpp"
 #include "mortise/solid/rigid_mass.hpp"
 

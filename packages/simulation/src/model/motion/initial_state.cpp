@@ -1,4 +1,4 @@
-#include "model/initial_state.hpp"
+#include "model/motion/initial_state.hpp"
 
 #include <fmt/format.h>
 
