@@ -13,8 +13,8 @@
 #include "model/contributions.hpp"
 #include "model/current_places.hpp"
 #include "model/edge_contact.hpp"
-#include "model/motion/inertia.hpp"
 #include "model/inclined_supports.hpp"
+#include "model/motion/inertia.hpp"
 #include "model/pairs/adjusted_slaves.hpp"
 #include "model/pairs/search_reach.hpp"
 #include "model/pairs/surface_ties.hpp"
@@ -235,18 +235,10 @@ Effects effects_of(const Scene& scene, const Bodies& bodies) {
   }
   for (const auto& load : scene.loads) loads.push_back(load.name);
   for (const auto& condition : scene.boundary_conditions) conditions.push_back(condition.name);
-  return {{"finite strain", finite},
-          {"small strain", small},
-          {"F-bar", f_bar},
-          {"plasticity", plastic},
-          {"ties", ties},
-          {"contact", pairs},
-          {"friction", rubbing},
-          {"rigid bodies", rigid},
-          {"reference points", points},
-          {"inertia", moving},
-          {"loads", loads},
-          {"boundary conditions", conditions}};
+  return {{"finite strain", finite}, {"small strain", small}, {"F-bar", f_bar},
+          {"plasticity", plastic},   {"ties", ties},          {"contact", pairs},
+          {"friction", rubbing},     {"rigid bodies", rigid}, {"reference points", points},
+          {"inertia", moving},       {"loads", loads},        {"boundary conditions", conditions}};
 }
 
 LinearSystemTraits traits_of(const Scene& scene, const Map& dofs) {

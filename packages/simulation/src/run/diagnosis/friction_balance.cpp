@@ -10,8 +10,8 @@ namespace {
 
 constexpr double first_rounding = 1e-2, last_rounding = 1e-10;  // over `longest`
 constexpr double of_slips = 1e-6;                               // the last rounding over the mean slip, if that is less
-constexpr int most_iterations = 60;                             // of each rounding
-constexpr double settled = 1e-12;                               // of the load that friction could bear: what is left of the gradient
+constexpr int rounding_iterations = 60;                         // of each rounding
+constexpr double flat = 1e-12;                                  // of the load that friction could bear: what is left of the gradient
 
 /// W at q, rounded off: |v|_e = (|v|^2 + (e w)^2)^1/2. Its derivatives, and sum bound |work| as a measure of forces.
 struct Work {
@@ -65,7 +65,7 @@ FrictionBalance balance_friction(const std::vector<SlidingRow>& rows, const Eige
   for (bool is_last = false; !is_last;) {
     is_last = rounding <= last;
     Work at = work_at(rows, load, balance.motion, rounding, sum);
-    for (int iteration = 0; iteration < most_iterations && at.slope.norm() > settled * at.forces; ++iteration) {
+    for (int iteration = 0; iteration < rounding_iterations && at.slope.norm() > flat * at.forces; ++iteration) {
       const Eigen::VectorXd step = -at.curvature.ldlt().solve(at.slope);
       const double fall = at.slope.dot(step);
       double share = 1.0;

@@ -25,8 +25,8 @@ namespace {
 
 constexpr double hardly_slips = 1e-4;  ///< work of slips on a motion, over the most that they do on another one, below which friction does not see it
 constexpr double hardly_held =
-    1e-2;                       ///< of free_motions(): what tilts of the surface hold is weak next to friction, or Newton's step along it is short
-constexpr double rests = 1e-6;  ///< share of its bound that the traction of a node is below it by, if it does not slip: it moves by 700 roundings
+    1e-2;                         ///< of free_motions(): what tilts of the surface hold is weak next to friction, or Newton's step along it is short
+constexpr double at_rest = 1e-6;  ///< share of its bound that the traction of a node is below it by, if it does not slip: it moves by 700 roundings
 constexpr double round_off = 1e-13;  ///< forces missing along motions, over what friction bears, below which none is missing
 constexpr double same = 1e-6;        ///< change of the multipliers over the largest below which an iterate is the one before
 constexpr double in_balance = 1e-2;  ///< imbalance of a body along motions that are held, over the load along those that slip
@@ -253,7 +253,7 @@ RCP<Vector> SlipSettlement::better_start(const SystemEvaluation& at) {
     if (slip < least) least = slip, slipped_least = i;
     if (!balance.borne) continue;
     tractions[i] = balance.traction[i] + nodes[i].stiffness * (row.slip - nodes[i].slip);
-    if (balance.traction[i].norm() >= (1.0 - rests) * nodes[i].bound) continue;
+    if (balance.traction[i].norm() >= (1.0 - at_rest) * nodes[i].bound) continue;
     ++resting;
     rest(i);
   }

@@ -9,7 +9,7 @@
 
 namespace mortise {
 
-/// What guards of a static analysis need.
+/// Settings that the guards of a static analysis are made of.
 struct StaticGuardSettings {
   const Model& model;
   const Scene& scene;
@@ -17,7 +17,7 @@ struct StaticGuardSettings {
   std::function<void(const std::string&)> say, warn;  ///< get their lines, on every rank
 };
 
-/// Those that a model has a use for. An analysis with inertia has none of them. Collective.
+/// The guards that a model has a use for. An analysis with inertia has none of them. Collective.
 /// @param parts  of the system to be made, which get what holds bodies that contact alone holds: better_start and held_motions
 StepGuards static_guards(const StaticGuardSettings& settings, SystemParts& parts);
 

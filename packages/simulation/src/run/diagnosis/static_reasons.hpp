@@ -1,5 +1,5 @@
 #pragma once
-// Why a step of a static analysis failed: of several reasons, the surest one that is known.
+// Reasons of failed steps of a static analysis: of several, the surest one that is known.
 
 #include <memory>
 #include <string>

@@ -17,9 +17,6 @@ namespace {
 /// Momentum over forces up to which an iterate is close to equilibrium: statements on its stiffness hold within that share of the load.
 constexpr double near_equilibrium = 1e-2;
 
-/// Momentum over forces from which on the step adds a load: what a converged state leaves is below.
-constexpr double least_load = 1e-7;
-
 /// Stiffness over elastic stiffness up to which nothing resists: strain hardening leaves H / (E + H), in metals 1e-3 and more.
 constexpr double hardly_stiff = 1e-4;
 

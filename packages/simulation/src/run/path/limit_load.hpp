@@ -8,6 +8,9 @@
 
 namespace mortise {
 
+/// Momentum over forces from which on the step adds a load: what a converged state leaves is below.
+constexpr double least_load = 1e-7;
+
 /// Explains that a step failed because its load is more than the bodies can bear. The displacement u is the answer of the stiffness K at the failed
 /// try's last linearisation to the load that the step adds. K_e is the stiffness at the last converged state, where points that have flowed answer
 /// elastically. Along a mechanism of plastic flow u^T K u is nothing beside u^T K_e u. Beyond a limit point it is negative (Bergan et al. 1978: the

@@ -19,7 +19,7 @@ namespace {
 constexpr double much_farther = 2.5;  ///< for what drives a step than in the step before, see StabilityCheck
 constexpr int parts_of_the_line = 8;  ///< between two states, at whose ends forces are looked at
 constexpr double no_work = 1e-6;      ///< of work, in which forces of rigid motion leave differences
-constexpr double as_far = 1.5;        ///< between 1 on a path, 1.4 at a maximum of the load, and 2 of a jump in half the step
+constexpr double goes_as_far = 1.5;   ///< between 1 on a path, 1.4 at a maximum of the load, and 2 of a jump in half the step
 
 /// Sign of det J at an evaluation; 0: not known, as where J is singular.
 int determinant_sign_at(const SemiSmoothSystem& system, const SystemEvaluation& at) try {
@@ -84,7 +84,7 @@ RCP<Vector> StabilityCheck::verify(const SemiSmoothSystem& system, const Accepte
   const double now = rate_of(passed_moved_, strength, passed_dt_, by_strength);
   const double before = last_dt_ ? rate_of(*last_moved_, last_strength, *last_dt_, by_strength) : 0.0;
   if (now <= much_farther * before || passed_moved_ <= resolution_) return Teuchos::null;
-  if (refused_rate_ && passed_dt_ < 0.75 * *refused_dt_ && now <= as_far * *refused_rate_) return Teuchos::null;
+  if (refused_rate_ && passed_dt_ < 0.75 * *refused_dt_ && now <= goes_as_far * *refused_rate_) return Teuchos::null;
   if (!passed_unstable_ && !passes_a_maximum(system, *from.x, to.x())) return Teuchos::null;
   refused_rate_ = now;
   refused_dt_ = passed_dt_;

@@ -14,9 +14,6 @@ namespace {
 /// Momentum over forces, and gaps over facets, at which a state counts as one of the path.
 constexpr double on_path = 1e-6;
 
-/// Momentum over forces from which on the step adds a load: what a converged state leaves is below.
-constexpr double least_load = 1e-7;
-
 constexpr int most_iterations = 10, most_points = 8;
 
 /// The step's way from one pseudo-time to the other, mu = 0 to 1, and Newton's directions there.

@@ -1,5 +1,5 @@
 #pragma once
-// What contact is given when a step starts: crossings of edges, clearances, and the overlap that is left.
+// Contact at the start of a step: crossings of edges, clearances, and the overlap that is left.
 
 #include "mortise/nonlinear/semi_smooth_system.hpp"
 #include "mortise/simulation/model/model.hpp"

@@ -9,7 +9,7 @@
 
 namespace mortise {
 
-/// Those that a model has a use for.
+/// The guards that a model has a use for.
 /// @param warn  gets their warnings, on every rank
 StepGuards watches(const Model& model, const Scene& scene, const std::function<void(const std::string&)>& warn);
 
