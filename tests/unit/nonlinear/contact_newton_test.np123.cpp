@@ -232,9 +232,7 @@ TEST(ContactNewton, SlidesOverManyFacets) {
   StepperObserver observer;
   observer.iteration = [&](const NewtonIteration& iteration) { iterations += iteration.iteration > 0; };
   observer.accepted = [&](const StepReport& report, const SystemEvaluation&) { cutbacks += report.cutbacks; };
-  const auto start = [&](const AcceptedState& from, double time, const Vector& d, Vector& z) {
-    return problem.system->start_step(from, time, d, z);
-  };
+  const auto start = [&](const AcceptedState& from, double time, const Vector& d, Vector& z) { return problem.system->start_step(from, time, d, z); };
   SteppingState state(problem.system->initial_state(*problem.x));
   EXPECT_TRUE(run_steps(*problem.system, stepping, {}, state, start, observer, failure));
   EXPECT_EQ(cutbacks, 0);

@@ -149,9 +149,7 @@ TEST_P(ReferencePoints, JacobianAgreesWithCentralDifferences) {
   SemiSmoothSystem system(model.parts(), timers);
   SteppingState state(system.initial_state(Vector(system.map())));
   std::optional<StepFailure> failure;
-  const auto start = [&](const AcceptedState& from, double time, const Vector& d, Vector& z) {
-    return system.start_step(from, time, d, z);
-  };
+  const auto start = [&](const AcceptedState& from, double time, const Vector& d, Vector& z) { return system.start_step(from, time, d, z); };
   SteppingOptions stepping = scene.stepping;
   stepping.end_time = 0.5;
   ASSERT_TRUE(run_steps(system, stepping, scene.newton, state, start, {}, failure)) << failure->what();

@@ -227,19 +227,20 @@ Found rings(double clearance, const std::string& element, int inner, int outer, 
     const std::string plane = number("type", "ring sector") + number("inner radius", fmt::format("{:.17g}", from)) +
                               number("outer radius", fmt::format("{:.17g}", to)) + number("cells across", "2") +
                               number("cells around", std::to_string(count));
-    const std::string turned = number("type", "revolved") + number("angle", "90") + number("cells around", std::to_string(count)) + list("profile", plane);
+    const std::string turned =
+        number("type", "revolved") + number("angle", "90") + number("cells around", std::to_string(count)) + list("profile", plane);
     return list(name, number("material", "soft") + number("element", element) + list("mesh", revolved ? turned : plane));
   };
   const auto clamp = [&](const std::string& name, const std::string& set) {
     return list(name, number("set", set) + number("x", "0") + number("y", "0") + (revolved ? number("z", "0") : ""));
   };
-  const std::string text = list(
-      "rings",
-      number("kinematics", revolved ? "three dimensional" : "plane strain") +
-          list("materials", list("soft", number("type", "neo hooke") + number("young's modulus", "1000") + number("poisson's ratio", "0.3"))) +
-          list("bodies", ring("inner", 1.0, 2.0, inner) + ring("outer", 2.0 + clearance, 3.0, outer)) +
-          list("boundary conditions", clamp("i", "inner/inner") + clamp("o", "outer/outer")) +
-          list("contact", list("c", number("slave", "inner/outer") + number("master", "outer/inner") + more)));
+  const std::string text =
+      list("rings",
+           number("kinematics", revolved ? "three dimensional" : "plane strain") +
+               list("materials", list("soft", number("type", "neo hooke") + number("young's modulus", "1000") + number("poisson's ratio", "0.3"))) +
+               list("bodies", ring("inner", 1.0, 2.0, inner) + ring("outer", 2.0 + clearance, 3.0, outer)) +
+               list("boundary conditions", clamp("i", "inner/inner") + clamp("o", "outer/outer")) +
+               list("contact", list("c", number("slave", "inner/outer") + number("master", "outer/inner") + more)));
   Found found;
   try {
     found.start = Model(Tpetra::getDefaultComm(), read_text(text), Timers()).surfaces_at_start();
@@ -318,13 +319,14 @@ TEST(InitialOverlap, IsNotToldByLinesThatRunWithinAFace) {
         return list(name, number("material", "soft") + number("element", "Q4") +
                               list("mesh", number("type", "block") + number("corners", corners) + number("cells x", "4") + number("cells y", "2")));
       };
-      const std::string text = list(
-          "plates",
-          list("materials", list("soft", number("type", "neo hooke") + number("young's modulus", "1000") + number("poisson's ratio", "0.3"))) +
-              list("bodies", quadrilateral("plate", fmt::format("-1, 0, 1, 0, 1, 1, -1, {:.12g}", 1.0 - 2.0 * slope)) +
-                                 quadrilateral("beside", fmt::format("-5, {:.12g}, 1.2, {:.12g}, 1.2, 2, -5, 2", 1.0 + up - 6.0 * slope, 1.0 + up + 0.2 * slope))) +
-              list("boundary conditions", list("a", number("set", "plate/bottom") + number("x", "0") + number("y", "0")) +
-                                              list("b", number("set", "beside/top") + number("x", "0") + number("y", "0"))));
+      const std::string text =
+          list("plates",
+               list("materials", list("soft", number("type", "neo hooke") + number("young's modulus", "1000") + number("poisson's ratio", "0.3"))) +
+                   list("bodies", quadrilateral("plate", fmt::format("-1, 0, 1, 0, 1, 1, -1, {:.12g}", 1.0 - 2.0 * slope)) +
+                                      quadrilateral("beside", fmt::format("-5, {:.12g}, 1.2, {:.12g}, 1.2, 2, -5, 2", 1.0 + up - 6.0 * slope,
+                                                                          1.0 + up + 0.2 * slope))) +
+                   list("boundary conditions", list("a", number("set", "plate/bottom") + number("x", "0") + number("y", "0")) +
+                                                   list("b", number("set", "beside/top") + number("x", "0") + number("y", "0"))));
       const Model model(Tpetra::getDefaultComm(), read_text(text), Timers());
       EXPECT_THAT(model.surfaces_at_start().strays, IsEmpty()) << tilt << " " << up;
     }

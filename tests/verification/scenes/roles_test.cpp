@@ -151,8 +151,7 @@ TEST(AutomaticRoles, TakeTheSofterSideThenTheFinerOneThenTheGivenOne) {
 TEST(LeaningNormals, AreSaidWhereTheyBearALoad) {
   for (const int ranks : {1, 2}) {
     const Outcome outcome = run("disk_between_walls.xml", "leans_np" + std::to_string(ranks), {"variables/part=1.05"}, ranks);
-    EXPECT_TRUE(outcome.says("contact \"cl\" bears 0.021 along the master, where friction bears 0.020"))
-        << outcome.ending.output;
+    EXPECT_TRUE(outcome.says("contact \"cl\" bears 0.021 along the master, where friction bears 0.020")) << outcome.ending.output;
     EXPECT_TRUE(outcome.says("of what acts on body 'd'; please make the slave finer there")) << outcome.ending.output;
   }
   const Outcome light = run("disk_between_walls.xml", "does_not_lean", {"variables/part=0.9"});
@@ -169,8 +168,8 @@ TEST(LeaningNormals, DoNotBearItOnAFinerSlave) {
 // A roller of radius 0.5 presses a cantilever of facets of 0.25 down. It is lifted again before the end, where nothing touches. Its force is a
 // quarter too high over 3 E I d/a^3 with d = 0.19. The end of the run, and of a restarted one, reports the error where it pressed hardest.
 TEST(RollerOnCoarseFacets, ThatIsLiftedBeforeTheEndIsWarnedOf) {
-  const std::vector<std::string> lifted{"bodies/b/element=Q4", "bodies/b/mesh/cells x=40", "variables/above=0.01",
-                                        "output/checkpoints/every step=1", "output/checkpoints/keep=5"};
+  const std::vector<std::string> lifted{"bodies/b/element=Q4", "bodies/b/mesh/cells x=40", "variables/above=0.01", "output/checkpoints/every step=1",
+                                        "output/checkpoints/keep=5"};
   for (const int ranks : {1, 2}) {
     const std::string name = "lifted_np" + std::to_string(ranks);
     const Outcome outcome = run("roller_on_cantilever.xml", name, lifted, ranks);
@@ -178,8 +177,8 @@ TEST(RollerOnCoarseFacets, ThatIsLiftedBeforeTheEndIsWarnedOf) {
     EXPECT_EQ(outcome.quantities.at("F"), 0.0);
     EXPECT_TRUE(outcome.says("contact \"c\": at t = 1 its force acts on 1 slave node at facets of length 0.25")) << outcome.ending.output;
     if (ranks > 1) continue;
-    std::vector<std::string> again{MORTISE, "run", std::string(INPUTS) + "/hard/roller_on_cantilever.xml", "-o", std::string(SCRATCH) + "/roles/" + name,
-                                   "--restart"};
+    std::vector<std::string> again{
+        MORTISE, "run", std::string(INPUTS) + "/hard/roller_on_cantilever.xml", "-o", std::string(SCRATCH) + "/roles/" + name, "--restart"};
     const auto steps = Json::parse(read_file(std::string(SCRATCH) + "/roles/" + name + "/summary.json")).at("steps").size();
     again.push_back(std::to_string(steps - 3));
     for (const std::string& setting : lifted) again.insert(again.end(), {"--set", setting});

@@ -18,7 +18,8 @@ RCP<Vector> loads_at(const detail::SystemModel& model, const Vector& displacemen
   const Configuration configuration = model.configuration(time, displacement);
   std::optional<StepFailure> failure;
   for (const auto& contribution : model.parts().contributions)
-    if (contribution->kind() == Contribution::Kind::external && contribution->uses().time_derivatives == 0) contribution->add_residual(configuration, *loads, failure);
+    if (contribution->kind() == Contribution::Kind::external && contribution->uses().time_derivatives == 0)
+      contribution->add_residual(configuration, *loads, failure);
   throw_if_any(model.comm(), failure);
   return loads;
 }

@@ -15,7 +15,8 @@ namespace mortise {
 /// the kinetic energy is 1/2 v^T P^T M P v: total mass stays, and row sums are in proportion to integral N_s of the face where layers are alike.
 struct MasslessNodes {
   std::vector<LocalOrdinal> nodes;  ///< owned nodes without mass, ascending
-  std::vector<LocalOrdinal> kept;   ///< owned nodes of the surfaces that keep their mass, as no interior node is near, or as they follow a point; those of bodies that keep theirs are not counted
+  std::vector<LocalOrdinal> kept;   ///< owned nodes of the surfaces that keep their mass, as no interior node is near, or as they follow a point;
+                                    ///< those of bodies that keep theirs are not counted
   /// [owned nodes squared] P: the identity in rows of nodes with mass, w in rows of those without, whose columns are empty.
   RCP<const Matrix> extension;
 };
