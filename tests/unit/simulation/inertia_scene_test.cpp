@@ -18,6 +18,7 @@ const std::string text = R"xml(<ParameterList name="thrown block">
   <ParameterList name="materials"><ParameterList name="soft">
     <Parameter name="type" type="string" value="hencky"/>
     <Parameter name="young's modulus" type="double" value="1000"/>
+    <Parameter name="poisson's ratio" type="double" value="0.3"/>
     <Parameter name="density" type="double" value="2"/>
   </ParameterList></ParameterList>
   <ParameterList name="bodies">
