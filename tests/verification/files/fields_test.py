@@ -298,8 +298,8 @@ class Surviving(unittest.TestCase):
         for ranks in (1, 2):
             complete = Results(os.path.join(scratch, f"fifty_np{ranks}"))
             self.assertEqual(subprocess.run(command(scene, complete.directory, ranks), capture_output=True, check=False).returncode, 0)
-            # Beyond 3 KiB nothing is written: no step. Beyond 12 KiB: the index of some steps does not fit.
-            for limit, at_least in ((3, 0), (12, 2)):
+            # Beyond 3 KiB nothing is written: no step. Beyond 16 KiB: the index of some steps does not fit.
+            for limit, at_least in ((3, 0), (16, 2)):
                 directory = os.path.join(scratch, f"limited_np{ranks}")
                 shutil.rmtree(directory, ignore_errors=True)
                 limited = f"""bash -c 'trap "" XFSZ; ulimit -f {limit}; exec "$@"' _ {mortise} run {scene} -o {directory}"""
