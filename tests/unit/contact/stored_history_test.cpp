@@ -4,8 +4,8 @@
 
 #include <functional>
 #include <limits>
-#include <map>
 
+#include "stored_numbers.hpp"
 #include "two_surfaces.hpp"
 
 namespace mortise {
@@ -14,28 +14,9 @@ namespace {
 using test::Fixture;
 using test::TwoSurfaces;
 using ::testing::HasSubstr;
-using Numbers = std::map<std::string, std::vector<double>>;
+using Numbers = test::StoredNumbers::Numbers;
 
-/// Keeps what is stored; on one rank.
-class Memory final : public StateArchive {
- public:
-  Memory() = default;
-  explicit Memory(Numbers all) : numbers(std::move(all)), is_full_(true) {}
-  bool restores() const override { return is_full_; }
-  void values(const std::string& name, std::vector<double>& values) override {
-    (is_full_ ? values : numbers[name]) = is_full_ ? numbers[name] : values;
-  }
-  void text(const std::string&, std::string&) override {}
-  void rows(const std::string& name, const RowIds&, std::size_t, std::vector<double>& rows) override { values(name, rows); }
-  void refuse_if(const std::optional<std::string>& wrong) override {
-    if (wrong) throw FileError(*wrong);
-  }
-
-  Numbers numbers;
-
- private:
-  bool is_full_ = false;
-};
+using Memory = test::StoredNumbers;
 
 /// Pressed and sheared once.
 struct Sheared {

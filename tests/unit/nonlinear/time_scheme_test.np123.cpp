@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
-#include <map>
 
 #include "oscillators.hpp"
+#include "stored_numbers.hpp"
 
 namespace mortise {
 namespace {
@@ -134,22 +134,6 @@ TEST(TimeScheme, TheJacobianIsTheDerivativeOfTheResidual) {
   }
 }
 
-/// Keeps what is stored.
-class Memory final : public StateArchive {
- public:
-  bool restores() const override { return is_full; }
-  void values(const std::string& name, std::vector<double>& values) override {
-    (is_full ? values : numbers[name]) = is_full ? numbers[name] : values;
-  }
-  void text(const std::string&, std::string&) override {}
-  void rows(const std::string& name, const RowIds&, std::size_t, std::vector<double>& rows) override { values(name, rows); }
-  void refuse_if(const std::optional<std::string>& wrong) override {
-    if (wrong) throw FileError(*wrong);
-  }
-  std::map<std::string, std::vector<double>> numbers;
-  bool is_full = false;
-};
-
 TEST(TimeScheme, ARestartGoesOnBitByBit) {
   Oscillators::Choices choices;
   choices.cubic = 0.7;
@@ -159,9 +143,9 @@ TEST(TimeScheme, ARestartGoesOnBitByBit) {
     const TimeScheme scheme = generalised_alpha(0.7, balance);
     const Oscillators whole(scheme, choices), second(scheme, choices);
     const AcceptedState middle = whole.walk(whole.start(0.4), 1.0, 8);
-    Memory memory;
-    whole.system->store(memory, middle);
-    memory.is_full = true;
+    test::StoredNumbers stored;
+    whole.system->store(stored, middle);
+    test::StoredNumbers memory(stored.numbers);
     const AcceptedState end = whole.walk(middle, 2.0, 8), restarted = second.walk(second.system->restore(memory), 2.0, 8);
     for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(whole.dofs->getNodeNumElements()); ++row) {
       EXPECT_EQ(Oscillators::value(*end.x, row), Oscillators::value(*restarted.x, row));

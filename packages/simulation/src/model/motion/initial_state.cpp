@@ -6,9 +6,9 @@
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
-#include <limits>
 
 #include "mortise/core/names.hpp"
+#include "surfaces/body_surfaces.hpp"
 
 namespace mortise {
 namespace {
@@ -20,28 +20,10 @@ constexpr double rigid_round_off = 1e-9;
 
 Vector3 place(const Mesh& mesh, LocalOrdinal node) { return Eigen::Map<const Vector3>(mesh.coordinates[node].data()); }
 
-/// The middle of the box around each body's nodes. Collective.
-std::vector<Vector3> middles(const Mesh& mesh) {
-  const std::size_t count = mesh.bodies.size();
-  std::vector<double> mine(6 * count, -std::numeric_limits<double>::infinity()), all(mine.size());
-  for (LocalOrdinal node = 0; node < mesh.owned_body_count(); ++node)
-    for (int i = 0; i < 3; ++i) {
-      double* of_body = &mine[6 * static_cast<std::size_t>(mesh.body_of_node[node])];
-      of_body[i] = std::max(of_body[i], mesh.coordinates[node][i]);
-      of_body[3 + i] = std::max(of_body[3 + i], -mesh.coordinates[node][i]);
-    }
-  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, static_cast<int>(mine.size()), mine.data(), all.data());
-  std::vector<Vector3> result;
-  for (std::size_t body = 0; body < count; ++body)
-    result.emplace_back(0.5 * (all[6 * body] - all[6 * body + 3]), 0.5 * (all[6 * body + 1] - all[6 * body + 4]),
-                        0.5 * (all[6 * body + 2] - all[6 * body + 5]));
-  return result;
-}
-
 /// Initial conditions, put on the dofs of a model.
 class Start {
  public:
-  Start(const Scene& scene, const Model& model) : scene_(scene), model_(model), mesh_(*model.mesh()), middles_(middles(mesh_)) {}
+  Start(const Scene& scene, const Model& model) : scene_(scene), mesh_(*model.mesh()), boxes_(body_boxes(mesh_, reference_places(mesh_))) {}
 
   void put(Vector& displacement, Vector& velocity) const {
     const auto u = displacement.getLocalViewHost(Tpetra::Access::ReadWrite), v = velocity.getLocalViewHost(Tpetra::Access::ReadWrite);
@@ -110,7 +92,8 @@ class Start {
   }
 
   Vector3 centre(const InitialConditionOptions& condition, int body) const {
-    Vector3 result = middles_[static_cast<std::size_t>(body)];
+    const Box3& box = boxes_[static_cast<std::size_t>(body)];
+    Vector3 result = 0.5 * (box.low + box.high);
     if (mesh_.bodies[body].is_surface)
       for (const ReferencePoint& point : mesh_.reference_points)
         if (mesh_.body_of_node[point.node] == body) result = place(mesh_, point.node);
@@ -119,9 +102,8 @@ class Start {
   }
 
   const Scene& scene_;
-  const Model& model_;
   const Mesh& mesh_;
-  std::vector<Vector3> middles_;
+  std::vector<Box3> boxes_;
 };
 
 /// One-sided differences of what is prescribed, over a time that is short beside the first step.

@@ -11,12 +11,12 @@
 namespace mortise {
 
 /// Nodes without mass, and whose velocity they have. A contact node with mass must jump in velocity when it closes: contact forces chatter (Khenous,
-/// Laborde, Renard 2008; Hager, Hueeber, Wohlmuth 2008). With v_s = sum_i w_si v_i of interior nodes i of the same body, w_si >= 0, sum_i w_si = 1,
-/// the kinetic energy is 1/2 v^T P^T M P v: total mass stays, and row sums are in proportion to integral N_s of the face where layers are alike.
+/// Laborde, Renard 2008; Hager, Hueeber, Wohlmuth 2008). Here v_s = sum_i w_si v_i of interior nodes i of the same body, w_si >= 0, sum_i w_si = 1.
+/// The kinetic energy is 1/2 v^T P^T M P v. Total mass stays. Where layers are alike, row sums are in proportion to integral N_s of the face.
 struct MasslessNodes {
   std::vector<LocalOrdinal> nodes;  ///< owned nodes without mass, ascending
-  std::vector<LocalOrdinal> kept;   ///< owned nodes of the surfaces that keep their mass, as no interior node is near, or as they follow a point;
-                                    ///< those of bodies that keep theirs are not counted
+  /// Owned nodes of the surfaces that keep their mass: no interior node is near, or they follow a point. Bodies that keep theirs are left out.
+  std::vector<LocalOrdinal> kept;
   /// [owned nodes squared] P: the identity in rows of nodes with mass, w in rows of those without, whose columns are empty.
   RCP<const Matrix> extension;
 };
