@@ -49,6 +49,8 @@ const std::vector<Case> cases{
     {"rigid_body", "verification/rolling_disk.xml", {"variables/n=2", "stepping/end time=1.5"}},
     {"rings", "paper/conical_extrusion.xml", {"variables/steps=100", "stepping/end time=0.05"}},
     {"pile", "paper/block_pile.xml", {"stepping/end time=0.2"}},
+    {"inertia", "dynamics/block_to_rest.xml", {"stepping/end time=0.02", "stepping/output times=0.01"}},
+    {"spin", "dynamics/spinning_box.xml", {"stepping/end time=0.02"}},
     {"iterative_solver", "verification/3d/hertz_sphere.xml", {"variables/n=2", "linear solver/type=iterative"}},
     {"iterative_solver_with_friction", "verification/3d/bar_on_plane.xml", {"linear solver/type=iterative", "stepping/end time=0.5"}},
 };
