@@ -131,20 +131,21 @@ void measure(const RCP<const Communicator>& comm, int cells, ElementType element
   std::vector<Case> cases;
   for (const Material& material : materials()) {
     if (!check_combination({"body", {}, material.options, element}, kinematics).empty()) continue;
-    cases.push_back({material.name,
-                     std::make_unique<Bodies>(mesh, kinematics, 1.0, std::vector<BodyProperties>{{"body", {}, material.options, element}}),
-                     {},
-                     {},
-                     material.options->law(),
-                     {},
-                     {},
-                     {},
-                     {}});
-    cases.back().matrix = rcp(new Matrix(cases.back().bodies->graph()));
+    cases.push_back(
+        {material.name,
+         std::make_unique<Bodies>(displacement_space(mesh), kinematics, 1.0, std::vector<BodyProperties>{{"body", {}, material.options, element}}),
+         {},
+         {},
+         material.options->law(),
+         {},
+         {},
+         {},
+         {}});
+    cases.back().matrix = rcp(new Matrix(cases.back().bodies->space().graph()));
     cases.back().matrix->fillComplete();
   }
   const Bodies& any = *cases.front().bodies;
-  Vector displacement(any.local_dofs()), x(any.dofs()), y(any.dofs());
+  Vector displacement(any.space().local_dofs()), x(any.space().dofs()), y(any.space().dofs());
   deform(any, displacement);
   x.randomize();
   for (Case& one : cases)

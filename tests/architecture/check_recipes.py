@@ -16,6 +16,8 @@ KINDS = {
     "A load": ("packages/solid/src/loads/dead_loads.cpp", r"\.add<(\w+)>", "Options"),
     "A quantity": ("packages/simulation/src/quantities/*.cpp", r"Registry<Quantity>& kinds\) \{\s*kinds\.add<(\w+)>", "Quantity"),
     "A contribution to the residual": ("packages/simulation/src/model/contributions.hpp", r"class (\w+Contribution) final", "Contribution"),
+    "An integrand": ("packages/solid/src/elements/*.hpp", r"An integrand, see\s+(?:///\s+)?ElementLoop\.\ntemplate <[^>]*>\n(?:struct|class) (\w+)", ""),
+    "A mesh format": ("packages/mesh/src/readers/read_mesh_file.cpp", r"\{MeshFormat::(\w+), \"", ""),
     "A time scheme": ("packages/nonlinear/include/mortise/nonlinear/time_scheme.hpp", r"\nTimeScheme (\w+)\(", ""),
     "How contact is enforced": ("packages/contact/src/laws/formulation.cpp", r"\.add<(\w+)>", ""),
     "What multipliers act through": ("packages/mortar/src/coupling/coupling.cpp", r"coupling_of<(\w+)>", "Coupling"),

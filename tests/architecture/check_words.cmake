@@ -1,5 +1,5 @@
 # Fails on words of upper layers in the packages below: their messages and comments know no scene, no XML, no command and no file of a run. Whoever
-# has these words adds them to what a package throws.
+# has these words adds them to what a package throws. Fails as well on arithmetic of dofs.
 #   cmake -D SOURCE=... -P check_words.cmake
 cmake_minimum_required(VERSION 3.25)
 set(words "[Ss]cene" "XML|[Xx]ml" "RELAX NG" "mortise (run|check|describe|list|point|study|paper|hard|scale|peer|doctor)" "--set"
@@ -15,6 +15,21 @@ foreach(package core shape mesh material mortar contact solid nonlinear)
       file(STRINGS "${file}" found REGEX "${word}")
       if(found)
         string(APPEND wrong "${name}: a word of an upper layer (${word}): ${found}\n")
+      endif()
+    endforeach()
+  endforeach()
+endforeach()
+# Rows of unknowns come from FieldSpace::row() alone, in the packages that know a mesh.
+set(arithmetic "dimension(\\(\\))? \\* [a-z_.>()-]*(node|slave)" "[^0-9.a-z_][23] \\* [a-z_.>()-]*(node|slave)[^s]" "(dof|row)[a-z_]* [/%] [a-z_.>()-]*dimension")
+foreach(package solid simulation io)
+  file(GLOB_RECURSE files "${SOURCE}/packages/${package}/*pp")
+  list(FILTER files EXCLUDE REGEX "/elements/")  # arrays of one element
+  foreach(file IN LISTS files)
+    file(RELATIVE_PATH name "${SOURCE}" "${file}")
+    foreach(word IN LISTS arithmetic)
+      file(STRINGS "${file}" found REGEX "${word}")
+      if(found)
+        string(APPEND wrong "${name}: arithmetic of dofs; please take FieldSpace::row() or place(): ${found}\n")
       endif()
     endforeach()
   endforeach()

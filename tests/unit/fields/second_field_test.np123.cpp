@@ -14,10 +14,13 @@
 #include <set>
 
 #include "../nonlinear/spring_grid.hpp"
+#include "mortise/core/column_map.hpp"
 #include "mortise/mesh/build_mesh.hpp"
+#include "mortise/mesh/field_space.hpp"
 #include "mortise/mesh/generators.hpp"
 #include "mortise/nonlinear/newton_solver.hpp"
 #include "mortise/shape/cell.hpp"
+#include "mortise/solid/element_loop.hpp"
 
 namespace mortise {
 namespace {
@@ -73,73 +76,83 @@ MortarMatrices mortar_matrices(const Mesh& mesh) {
   return contact.evaluate(rest, contact.initial_history(rest)).mortar_matrices(0);
 }
 
-/// r = A theta, of entries that visit() tells.
-class LinearInTemperature : public Contribution {
- public:
-  /// Gets an entry of an owned row.
-  using Entry = std::function<void(GlobalOrdinal row, GlobalOrdinal column, double value)>;
-  Kind kind() const override { return Kind::internal; }
-  FieldUse uses() const override { return {{"temperature"}, {"temperature"}, 0}; }
-  virtual void visit(const Entry& entry) const = 0;
+/// r_a = integral of k grad N_a . grad theta. An integrand, see ElementLoop.
+template <class OfCells>
+struct FourierConduction {
+  using Geometry = OfCells;
+  static constexpr int nodes = Geometry::nodes, dimension = Geometry::dimension, components = 1, point_count = Geometry::stiffness_points;
+  using Reads = std::tuple<FieldGradient<1, dimension>>;
+  using Residual = std::array<double, nodes>;
+  using Tangent = NodalPairs<nodes>;
 
-  void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>&) override {
-    const auto theta = at.local_displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
-    visit([&](GlobalOrdinal row, GlobalOrdinal column, double value) {
-      residual.sumIntoGlobalValue(row, value * theta(at.local_displacement.getMap()->getLocalElement(column), 0));
-    });
-  }
-  void add_jacobian(const Configuration&, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>&) override {
-    visit([&](GlobalOrdinal row, GlobalOrdinal column, double value) {
-      const double weighted = weights.displacement * value;
-      jacobian.sumIntoGlobalValues(row, 1, &weighted, &column);
-    });
+  double conductivity;  ///< k
+
+  template <class Points, class Sums>
+  void add(const Points& points, Sums& sums) const {
+    for (int q = 0; q < point_count; ++q) {
+      const auto at = points[q];
+      const auto& gradient = std::get<0>(at.fields).gradient[0];
+      for (int a = 0; a < nodes; ++a)
+        for (int i = 0; i < dimension; ++i) {
+          const double flux = conductivity * at.weight * at.gradient[a][i];
+          if constexpr (Sums::with_residual) sums.residual[a] += flux * gradient[i];
+          if constexpr (Sums::with_tangent)
+            for (int b = 0; b < nodes; ++b) sums.tangent(a, b) += flux * at.gradient[b][i];
+        }
+    }
   }
 };
 
-/// r_a = integral of k grad N_a . grad theta.
-class Conduction : public LinearInTemperature {
+/// Conduction in all blocks of a mesh.
+class Conduction : public Contribution {
  public:
-  Conduction(RCP<const Mesh> mesh, NodalField field, std::vector<double> conductivity)
-      : mesh_(std::move(mesh)), ids_(field.ids_on(mesh_->local_nodes)), conductivity_(std::move(conductivity)) {}
-  std::string name() const override { return "conduction"; }
-
-  void visit(const Entry& visit) const override {
-    for (std::size_t n = 0; n < mesh_->blocks.size(); ++n) {
-      const Block& block = mesh_->blocks[n];
+  /// @param conductivity  [blocks]
+  Conduction(std::shared_ptr<const FieldSpace> space, const std::vector<double>& conductivity) : space_(std::move(space)) {
+    for (std::size_t n = 0; n < conductivity.size(); ++n) {
+      const Block& block = space_->mesh()->blocks[n];
       visit_cell(block.shape, [&](auto cell) {
         using Cell = decltype(cell);
-        if constexpr (Cell::dimension == 2)
-          for (LocalOrdinal element = 0; element < block.size(); ++element)
-            for (const CellPoint& point : Cell::rule(Cell::stiffness_points)) visit_point<Cell>(block.nodes(element), point, conductivity_[n], visit);
+        if constexpr (Cell::dimension == 2) blocks_.push_back(make_block<Cell>(block, conductivity[n]));
       });
     }
   }
-
- private:
-  template <class Cell>
-  void visit_point(const LocalOrdinal* nodes, const CellPoint& point, double k, const Entry& visit) const {
-    const auto gradients = Cell::gradients(point.position<2>());
-    Eigen::Matrix2d J = Eigen::Matrix2d::Zero();
-    Eigen::Matrix<double, Cell::nodes, 2> G;
-    for (int a = 0; a < Cell::nodes; ++a)
-      for (int i = 0; i < 2; ++i) {
-        G(a, i) = gradients[a][i];
-        for (int j = 0; j < 2; ++j) J(i, j) += mesh_->coordinates[nodes[a]][j] * gradients[a][i];
-      }
-    const Eigen::Matrix<double, Cell::nodes, 2> grad = G * J.inverse().transpose();
-    for (int a = 0; a < Cell::nodes; ++a)
-      for (int b = 0; b < Cell::nodes && nodes[a] < mesh_->owned_count(); ++b)
-        visit(ids_[static_cast<std::size_t>(nodes[a])], ids_[static_cast<std::size_t>(nodes[b])],
-              point.weight * J.determinant() * k * grad.row(a).dot(grad.row(b)));
+  std::string name() const override { return "conduction"; }
+  Kind kind() const override { return Kind::internal; }
+  FieldUse uses() const override { return {{"temperature"}, {"temperature"}, 0}; }
+  void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>&) override { add(at, {of(residual)}); }
+  void add_jacobian(const Configuration& at, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>&) override {
+    const NodalSparsity::Values values = space_->sparsity().open(jacobian);
+    add(at, {{}, &values, weights.displacement});
+    values.close();
   }
 
-  RCP<const Mesh> mesh_;
-  std::vector<GlobalOrdinal> ids_;  ///< [local nodes]
-  std::vector<double> conductivity_;
+ private:
+  using AddBlock = std::function<void(const FieldView<const double>& theta, const AssemblyTarget& target)>;
+
+  template <class Cell>
+  AddBlock make_block(const Block& block, double conductivity) const {
+    using Element = FourierConduction<ElementGeometry<Cell>>;
+    return [loop = ElementLoop<Cell>(*space_, block), integral = BlockIntegral<Element>(Element{conductivity}, block, 1.0)](
+               const FieldView<const double>& theta, const AssemblyTarget& target) {
+      if (target.matrix != nullptr)
+        loop.template add<true, true>(integral, typename ElementLoop<Cell>::template Fields<1>{theta}, target);
+      else
+        loop.template add<true, false>(integral, typename ElementLoop<Cell>::template Fields<1>{theta}, target);
+    };
+  }
+
+  FieldView<double> of(Vector& vector) const { return {vector.getLocalViewHost(Tpetra::Access::ReadWrite).data(), space_->rows(0)}; }
+  void add(const Configuration& at, const AssemblyTarget& target) const {
+    const auto theta = at.local_displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
+    for (const AddBlock& block : blocks_) block({theta.data(), space_->rows(0)}, target);
+  }
+
+  std::shared_ptr<const FieldSpace> space_;
+  std::vector<AddBlock> blocks_;
 };
 
 /// q_j = h [theta]_j,  [theta]_j = ((D - M) theta)_j / D_jj: flux out of the slave per area, r += (D - M)^T q.
-class Conductance : public LinearInTemperature {
+class Conductance : public Contribution {
  public:
   Conductance(const MortarMatrices& mortar, double h) {
     const RCP<const Matrix> jump =
@@ -153,8 +166,24 @@ class Conductance : public LinearInTemperature {
     operator_ = rcp(new Matrix(mortar.D->getDomainMap(), 0));
     Tpetra::MatrixMatrix::Multiply(*jump, true, flux, false, *operator_);
   }
+  /// Gets an entry of an owned row.
+  using Entry = std::function<void(GlobalOrdinal row, GlobalOrdinal column, double value)>;
   std::string name() const override { return "contact conductance"; }
-  void visit(const Entry& visit) const override {
+  Kind kind() const override { return Kind::internal; }
+  FieldUse uses() const override { return {{"temperature"}, {"temperature"}, 0}; }
+  void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>&) override {
+    const auto theta = at.local_displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
+    visit([&](GlobalOrdinal row, GlobalOrdinal column, double value) {
+      residual.sumIntoGlobalValue(row, value * theta(at.local_displacement.getMap()->getLocalElement(column), 0));
+    });
+  }
+  void add_jacobian(const Configuration&, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>&) override {
+    visit([&](GlobalOrdinal row, GlobalOrdinal column, double value) {
+      const double weighted = weights.displacement * value;
+      jacobian.sumIntoGlobalValues(row, 1, &weighted, &column);
+    });
+  }
+  void visit(const Entry& visit) const {
     for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(operator_->getNodeNumRows()); ++row) {
       Matrix::local_inds_host_view_type columns;
       Matrix::values_host_view_type values;
@@ -193,35 +222,39 @@ TEST(SecondField, ConductsThroughTwoBodiesAndTheirContact) {
   const double k_lower = 2.0, k_upper = 5.0, h = 0.7, below = 10.0, above = 30.0;
   for (const CellShape shape : {CellShape::quadrilateral4, CellShape::triangle3}) {
     const RCP<const Mesh> mesh = two_blocks(shape);
-    const FieldTable table = make_field_table(mesh->owned_nodes, {{"temperature", 1}});
-    const auto conduction = std::make_shared<Conduction>(mesh, table.fields[0], std::vector<double>{k_upper, k_lower});
+    const auto space = std::make_shared<FieldSpace>(mesh, std::vector<FieldDeclaration>{{"temperature", 1}});
+    const auto conduction = std::make_shared<Conduction>(space, std::vector<double>{k_upper, k_lower});
     const auto conductance = std::make_shared<Conductance>(mortar_matrices(*mesh), h);
 
-    std::map<GlobalOrdinal, std::set<GlobalOrdinal>> entries;
-    const auto add_entry = [&](GlobalOrdinal row, GlobalOrdinal column, double) { entries[row].insert(column); };
-    conduction->visit(add_entry);
-    conductance->visit(add_entry);
-    const auto graph = rcp(new Graph(table.dofs, 40));
-    std::set<GlobalOrdinal> ghosts;
-    for (const auto& [row, columns] : entries)
-      for (const GlobalOrdinal column : columns) {
-        graph->insertGlobalIndices(row, 1, &column);
-        if (!table.dofs->isNodeGlobalElement(column)) ghosts.insert(column);
+    // The bulk's graph, with what couples across contact behind it.
+    std::map<GlobalOrdinal, std::vector<GlobalOrdinal>> entries;
+    std::vector<GlobalOrdinal> further;
+    conductance->visit([&](GlobalOrdinal row, GlobalOrdinal column, double) {
+      entries[row].push_back(column);
+      further.push_back(column);
+    });
+    const RCP<const Graph> bulk = space->graph();
+    const RCP<const Map> columns = with_further_columns(*bulk->getColMap(), further);
+    const auto graph = rcp(new Graph(space->dofs(), columns, 40));
+    const auto narrow = bulk->getLocalGraphHost();
+    for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(bulk->getNodeNumRows()); ++row)
+      for (std::size_t k = narrow.row_map(row); k < narrow.row_map(row + 1); ++k) graph->insertLocalIndices(row, 1, &narrow.entries(k));
+    for (const auto& [row, ids] : entries)
+      for (const GlobalOrdinal id : ids) {
+        const LocalOrdinal column = columns->getLocalElement(id);
+        graph->insertLocalIndices(space->dofs()->getLocalElement(row), 1, &column);
       }
-    graph->fillComplete(table.dofs, table.dofs);
-    std::vector<GlobalOrdinal> local(table.dofs->getNodeElementList().begin(), table.dofs->getNodeElementList().end());
-    local.insert(local.end(), ghosts.begin(), ghosts.end());
-    const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
+    graph->fillComplete(space->dofs(), space->dofs());
 
     SystemParts parts;
-    parts.dofs = table.dofs;
-    parts.local_dofs = rcp(new Map(invalid, local.data(), static_cast<LocalOrdinal>(local.size()), 0, mesh->comm));
+    parts.dofs = space->dofs();
+    parts.local_dofs = columns;
     parts.bulk_graph = [graph] { return graph; };
     parts.contributions = {conduction, conductance};
     parts.prescribed = std::make_shared<EdgeTemperatures>(*mesh, below, above);
     parts.linear_solver = make_linear_solver({}, mesh->comm, Timers());
     parts.length = above;
-    parts.fields = {{table.fields[0], above}};
+    parts.fields = {{space->field(0), above}};
     const SemiSmoothSystem system(std::move(parts), Timers());
 
     NewtonReport report;

@@ -12,6 +12,7 @@
 
 #include "mortise/mesh/build_mesh.hpp"
 #include "mortise/mesh/volume_generators.hpp"
+#include "mortise/solid/bodies.hpp"
 
 namespace mortise {
 namespace {
@@ -36,7 +37,7 @@ RCP<Mesh> two_boxes() {
 }
 
 NodePlaces moved(const Mesh& mesh, const Motion& u) {
-  NodePlaces at = node_places(mesh, nullptr);
+  NodePlaces at = node_places(mesh);
   for (std::size_t node = 0; node < at.x.size(); ++node) at.x[node] += u(mesh.body_of_node[node], at.x[node]);
   return at;
 }
@@ -54,7 +55,7 @@ TEST(BodyMotions, ARigidMotionLeavesNothing) {
     const NodePlaces after =
         moved(*mesh, [&](int body, const Vector3d& X) { return body == 1 ? turned(angle, axis, shift, X) : Vector3d(0.1 + 0.01 * X.x(), 0.2, 0.0); });
     const RigidModes modes(*mesh, false, {1}, after.x);
-    const BodyMotions motions = body_motions(*mesh, modes, before, after, {});
+    const BodyMotions motions = body_motions(*displacement_space(mesh), modes, before, after, {});
     EXPECT_LE(motions.deformation.at(0), 1e-13);
     // Lower x reaches 3 in 2D, 1 in 3D.
     EXPECT_NEAR(motions.imposed, 0.01 * (dimension == 2 ? 3.0 : 1.0), 1e-13);
@@ -69,13 +70,13 @@ TEST(BodyMotions, ARigidMotionLeavesNothing) {
 
 TEST(BodyMotions, WhatIsLeftOfAStretchIsTheStretch) {
   const RCP<Mesh> mesh = two_blocks();
-  const NodePlaces before = node_places(*mesh, nullptr);
+  const NodePlaces before = node_places(*mesh);
   // About the middle of the body, (2, 1.5): 0.02 at 1.5 from it.
   const NodePlaces after = moved(*mesh, [](int body, const Vector3d& X) {
     return body == 1 ? Vector3d(0.3 + 0.02 / 1.5 * (X.x() - 2.0), 0.0, 0.0) : Vector3d(Vector3d::Zero());
   });
   const RigidModes modes(*mesh, false, {1}, after.x);
-  const BodyMotions motions = body_motions(*mesh, modes, before, after, {});
+  const BodyMotions motions = body_motions(*displacement_space(mesh), modes, before, after, {});
   EXPECT_NEAR(motions.deformation.at(0), 0.02, 1e-13);
   EXPECT_NEAR(motions.rigid[0], 0.3, 1e-13);
   EXPECT_NEAR(motions.rigid[1], 0.0, 1e-13);
@@ -84,21 +85,21 @@ TEST(BodyMotions, WhatIsLeftOfAStretchIsTheStretch) {
 
 TEST(BodyMotions, PrescribedDofsCountAsImposed) {
   const RCP<Mesh> mesh = two_blocks();
-  const NodePlaces before = node_places(*mesh, nullptr);
+  const NodePlaces before = node_places(*mesh);
   const NodePlaces after = moved(*mesh, [](int body, const Vector3d&) { return body == 1 ? Vector3d(0.3, -0.2, 0.0) : Vector3d(Vector3d::Zero()); });
   const RigidModes modes(*mesh, false, {1}, after.x);
   Supports supports;
   for (LocalOrdinal node = 0; node < mesh->owned_count(); ++node)
     if (mesh->body_of_node[node] == 1) supports.prescribed.push_back(2 * node + 1);
-  EXPECT_NEAR(body_motions(*mesh, modes, before, after, supports).imposed, 0.2, 1e-14);
+  EXPECT_NEAR(body_motions(*displacement_space(mesh), modes, before, after, supports).imposed, 0.2, 1e-14);
 }
 
 TEST(BodyMotions, AxisymmetricBodiesMoveAlongTheAxis) {
   const RCP<Mesh> mesh = two_blocks();
-  const NodePlaces before = node_places(*mesh, nullptr);
+  const NodePlaces before = node_places(*mesh);
   const NodePlaces after = moved(*mesh, [](int body, const Vector3d&) { return body == 1 ? Vector3d(0.01, -0.2, 0.0) : Vector3d(Vector3d::Zero()); });
   const RigidModes modes(*mesh, true, {1}, after.x);
-  const BodyMotions motions = body_motions(*mesh, modes, before, after, {});
+  const BodyMotions motions = body_motions(*displacement_space(mesh), modes, before, after, {});
   ASSERT_EQ(motions.rigid.size(), 1);
   EXPECT_NEAR(motions.rigid[0], -0.2, 1e-14);
   EXPECT_NEAR(motions.deformation.at(0), 0.01, 1e-14);

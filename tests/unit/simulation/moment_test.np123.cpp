@@ -86,8 +86,8 @@ class Result {
   const ReferencePoint& point(const std::string& name) const { return require_rotating_point(*model_.mesh(), {name, {}}); }
   /// Three numbers of a node of a reference point, owned by any rank.
   Vector3d at(const Vector& vector, LocalOrdinal node) const {
-    Vector local(model_.bodies()->local_dofs());
-    local.doImport(vector, *model_.bodies()->ghost_import(), Tpetra::INSERT);
+    Vector local(model_.bodies()->space().local_dofs());
+    local.doImport(vector, *model_.bodies()->space().ghost_import(), Tpetra::INSERT);
     const auto values = local.getLocalViewHost(Tpetra::Access::ReadOnly);
     return {values(3 * node, 0), values(3 * node + 1, 0), values(3 * node + 2, 0)};
   }
@@ -102,10 +102,10 @@ class Result {
   void look_at(const SystemEvaluation& at) {
     const double time = at.context().time;
     displacement_ = rcp(new Vector(*system_.displacement(at.x()), Teuchos::Copy));
-    local_ = rcp(new Vector(model_.bodies()->local_dofs()));
-    local_->doImport(*displacement_, *model_.bodies()->ghost_import(), Tpetra::INSERT);
+    local_ = rcp(new Vector(model_.bodies()->space().local_dofs()));
+    local_->doImport(*displacement_, *model_.bodies()->space().ghost_import(), Tpetra::INSERT);
     reaction_ = at.forces();
-    external_ = rcp(new Vector(model_.bodies()->dofs()));
+    external_ = rcp(new Vector(model_.bodies()->space().dofs()));
     std::optional<StepFailure> none;
     for (const auto& contribution : model_.parts().contributions)
       if (contribution->kind() == Contribution::Kind::external) contribution->add_residual({time, *displacement_, *local_}, *external_, none);

@@ -40,8 +40,9 @@ class TwoBlocks {
                       {"lower/top", "upper/bottom"});
     const std::shared_ptr<MaterialOptions> material = std::make_shared<ElasticMaterialOptions<SmallStrainLinear>>();
     material->youngs_modulus = youngs_modulus, material->poissons_ratio = poissons_ratio;
-    bodies = std::make_unique<Bodies>(
-        mesh, kinematics, thickness, std::vector<BodyProperties>{{"lower", {}, material, ElementType::q4}, {"upper", {}, material, ElementType::t3}});
+    bodies =
+        std::make_unique<Bodies>(displacement_space(mesh), kinematics, thickness,
+                                 std::vector<BodyProperties>{{"lower", {}, material, ElementType::q4}, {"upper", {}, material, ElementType::t3}});
 
     ContactPair pair;
     pair.name = "pair";
@@ -54,8 +55,8 @@ class TwoBlocks {
     for (LocalOrdinal node = 0; node < mesh->owned_count(); ++node)
       for (int i = 0; i < 2; ++i) reference->replaceLocalValue(node, i, mesh->coordinates[node][i]);
     const InterfaceMeasure measure{kinematics == Kinematics::axisymmetric, thickness};
-    contact = std::make_unique<ContactSystem>(mesh->owned_nodes, bodies->dofs(), reference, rcp(new MultiVector(mesh->owned_nodes, 2)), measure,
-                                              std::vector<ContactPair>{pair}, Timers());
+    contact = std::make_unique<ContactSystem>(mesh->owned_nodes, bodies->space().dofs(), reference, rcp(new MultiVector(mesh->owned_nodes, 2)),
+                                              measure, std::vector<ContactPair>{pair}, Timers());
     multipliers = rcp(new Vector(contact->multiplier_map()));
     displacement = nodal([](int, const Point&) { return Point{0.0, 0.0}; });
     reaction = nodal([](int, const Point&) { return Point{0.0, 0.0}; });
@@ -67,7 +68,7 @@ class TwoBlocks {
   using Function = std::function<Point(int body, const Point& X)>;
   /// A vector on the owned dofs.
   RCP<Vector> nodal(const Function& value) const {
-    const auto vector = rcp(new Vector(bodies->dofs()));
+    const auto vector = rcp(new Vector(bodies->space().dofs()));
     for (LocalOrdinal node = 0; node < mesh->owned_count(); ++node) {
       const Point at = value(mesh->body_of_node[node], {mesh->coordinates[node][0], mesh->coordinates[node][1]});
       for (int i = 0; i < 2; ++i) vector->replaceLocalValue(2 * node + i, at[i]);
@@ -77,14 +78,14 @@ class TwoBlocks {
 
   void move(const Function& u) {
     displacement = nodal(u);
-    local_displacement = rcp(new Vector(bodies->local_dofs()));
-    local_displacement->doImport(*displacement, *bodies->ghost_import(), Tpetra::INSERT);
+    local_displacement = rcp(new Vector(bodies->space().local_dofs()));
+    local_displacement->doImport(*displacement, *bodies->space().ghost_import(), Tpetra::INSERT);
     evaluation = contact->evaluate(*displacement, *history);
   }
 
   /// z = p n + (shear, 0) with n = (0, -1); p of x.
   void press(const std::function<double(double)>& pressure, double shear = 0.0) {
-    const GlobalOrdinal offset = bodies->dofs()->getMaxAllGlobalIndex() + 1;
+    const GlobalOrdinal offset = bodies->space().dofs()->getMaxAllGlobalIndex() + 1;
     for (const GlobalOrdinal id : multipliers->getMap()->getNodeElementList()) {
       const LocalOrdinal node = mesh->owned_nodes->getLocalElement((id - offset) / 2);
       multipliers->replaceGlobalValue(id, (id - offset) % 2 == 0 ? shear : -pressure(mesh->coordinates[node][0]));

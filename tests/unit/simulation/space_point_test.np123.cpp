@@ -32,8 +32,9 @@ class Brick {
     mesh_ = build_mesh(Tpetra::getDefaultComm(), {{"brick", {}, options, one.shape}}, {});
     const std::shared_ptr<MaterialOptions> material = std::make_shared<ElasticMaterialOptions<SmallStrainLinear>>();
     material->youngs_modulus = 100.0, material->poissons_ratio = 0.3;
-    bodies_ = std::make_unique<Bodies>(mesh_, Kinematics::three_dimensional, 1.0, std::vector<BodyProperties>{{"brick", {}, material, one.element}});
-    displacement_ = rcp(new Vector(bodies_->local_dofs()));
+    bodies_ = std::make_unique<Bodies>(displacement_space(mesh_), Kinematics::three_dimensional, 1.0,
+                                       std::vector<BodyProperties>{{"brick", {}, material, one.element}});
+    displacement_ = rcp(new Vector(bodies_->space().local_dofs()));
     for (LocalOrdinal node = 0; node < mesh_->local_count(); ++node)
       for (int i = 0; i < 3; ++i) displacement_->replaceLocalValue(3 * node + i, expected(mesh_->coordinates[node], i));
   }

@@ -30,7 +30,8 @@ std::shared_ptr<Bodies> make_distributed(const RCP<const Communicator>& comm, co
     X[0] += 0.02 * std::sin(3.0 * X[1] + X[2]);
     X[2] += 0.03 * std::sin(2.0 * X[0] - X[1]);
   }
-  return std::make_shared<Bodies>(mesh, setup.kinematics, 1.0, std::vector<BodyProperties>{{"body", {}, make_material(setup.law), setup.element}});
+  return std::make_shared<Bodies>(displacement_space(mesh), setup.kinematics, 1.0,
+                                  std::vector<BodyProperties>{{"body", {}, make_material(setup.law), setup.element}});
 }
 
 /// Residual (bulk and all loads), J v, nodal stresses, prescribed values: on the owned dofs, in one vector for each of them.
@@ -45,7 +46,7 @@ Assembled assemble(const RCP<const Communicator>& comm, const BodySetup& setup) 
   Assembled result;
   const auto bodies = result.bodies = make_distributed(comm, setup);
   const int dimension = bodies->dimension();
-  Vector u(bodies->dofs()), local(bodies->local_dofs());
+  Vector u(bodies->space().dofs()), local(bodies->space().local_dofs());
   {
     auto view = u.getLocalViewHost(Tpetra::Access::OverwriteAll);
     for (LocalOrdinal node = 0; node < bodies->mesh()->owned_count(); ++node) {
@@ -53,14 +54,14 @@ Assembled assemble(const RCP<const Communicator>& comm, const BodySetup& setup) 
       for (int i = 0; i < dimension; ++i) view(dimension * node + i, 0) = value[i];
     }
   }
-  local.doImport(u, *bodies->ghost_import(), Tpetra::INSERT);  // what a Newton iteration does
+  local.doImport(u, *bodies->space().ghost_import(), Tpetra::INSERT);  // what a Newton iteration does
 
-  Vector residual(bodies->dofs()), product(bodies->dofs());
-  Matrix matrix(bodies->graph());
+  Vector residual(bodies->space().dofs()), product(bodies->space().dofs());
+  Matrix matrix(bodies->space().graph());
   std::optional<StepFailure> failure;
   bodies->add_internal_force(local, residual, failure);
   bodies->add_stiffness(local, matrix, failure);
-  Matrix halved(bodies->graph());
+  Matrix halved(bodies->space().graph());
   bodies->add_stiffness(local, halved, failure, 0.5);
 
   NodalForceOptions nodal;
@@ -82,8 +83,8 @@ Assembled assemble(const RCP<const Communicator>& comm, const BodySetup& setup) 
     load->add_jacobian(0.5, local, halved, failure, 0.5);
   }
   EXPECT_FALSE(failure);
-  for (Matrix* one : {&halved, &matrix}) one->fillComplete(bodies->dofs(), bodies->dofs());
-  Vector half_product(bodies->dofs());
+  for (Matrix* one : {&halved, &matrix}) one->fillComplete(bodies->space().dofs(), bodies->space().dofs());
+  Vector half_product(bodies->space().dofs());
   halved.apply(u, half_product);
   matrix.apply(u, product);
   half_product.update(-0.5, product, 1.0);
@@ -103,7 +104,8 @@ Assembled assemble(const RCP<const Communicator>& comm, const BodySetup& setup) 
   const PrescribedMotion motion(*bodies, {left});
   const auto values = motion.values(0.3, failure);
   EXPECT_FALSE(failure);
-  for (std::size_t n = 0; n < values.size(); ++n) result.prescribed.emplace_back(bodies->dofs()->getGlobalElement(motion.dofs()[n]), values[n]);
+  for (std::size_t n = 0; n < values.size(); ++n)
+    result.prescribed.emplace_back(bodies->space().dofs()->getGlobalElement(motion.dofs()[n]), values[n]);
   result.energy = bodies->stored_energies(local)[0];
   return result;
 }
@@ -125,8 +127,8 @@ TEST_P(Assembly, AgreesWithOneRank) {
   setup.cells_x = 9;
   setup.cells_y = 7;
   const Assembled one = assemble(self(), setup), shared = assemble(world(), setup);
-  const auto& whole = *one.bodies->dofs();
-  const auto& part = *shared.bodies->dofs();
+  const auto& whole = *one.bodies->space().dofs();
+  const auto& part = *shared.bodies->space().dofs();
   ASSERT_EQ(one.columns.size(), shared.columns.size());
   for (std::size_t c = 0; c < one.columns.size(); ++c) {
     const double scale = one.columns[c].cwiseAbs().maxCoeff();
@@ -141,7 +143,7 @@ TEST_P(Assembly, AgreesWithOneRank) {
   for (const auto& entry : shared.prescribed)
     EXPECT_TRUE(std::any_of(one.prescribed.begin(), one.prescribed.end(),
                             [&](const auto& other) { return other.first == entry.first && std::abs(other.second - entry.second) < 1e-14; }));
-  EXPECT_EQ(static_cast<std::size_t>(shared.bodies->graph()->getGlobalNumEntries()), one.bodies->graph()->getGlobalNumEntries());
+  EXPECT_EQ(static_cast<std::size_t>(shared.bodies->space().graph()->getGlobalNumEntries()), one.bodies->space().graph()->getGlobalNumEntries());
 }
 
 // As contact widens it: rows of every third node hold one more column, of a dof that this rank's elements do not know on more ranks than one.
@@ -151,34 +153,34 @@ TEST(WiderGraph, GetsTheSameStiffness) {
   setup.kinematics = Kinematics::three_dimensional;
   const auto comm = Tpetra::getDefaultComm();
   const auto bodies = make_distributed(comm, setup);
-  const RCP<const Graph> narrow = bodies->graph();
-  const GlobalOrdinal first = bodies->dofs()->getMinAllGlobalIndex(), last = bodies->dofs()->getMaxAllGlobalIndex();
+  const RCP<const Graph> narrow = bodies->space().graph();
+  const GlobalOrdinal first = bodies->space().dofs()->getMinAllGlobalIndex(), last = bodies->space().dofs()->getMaxAllGlobalIndex();
   const auto known = narrow->getColMap()->getNodeElementList();
   std::vector<GlobalOrdinal> columns(known.begin(), known.end());
   for (const GlobalOrdinal id : {first, last})
     if (!narrow->getColMap()->isNodeGlobalElement(id)) columns.push_back(id);
   const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
   const auto wider_columns = rcp(new const Map(invalid, columns.data(), static_cast<LocalOrdinal>(columns.size()), 0, comm));
-  const auto wide = rcp(new Graph(bodies->dofs(), wider_columns, narrow->getNodeMaxNumRowEntries() + 2));
-  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(bodies->dofs()->getNodeNumElements()); ++row) {
+  const auto wide = rcp(new Graph(bodies->space().dofs(), wider_columns, narrow->getNodeMaxNumRowEntries() + 2));
+  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(bodies->space().dofs()->getNodeNumElements()); ++row) {
     Graph::local_inds_host_view_type of_row;
     narrow->getLocalRowView(row, of_row);
     wide->insertLocalIndices(row, static_cast<LocalOrdinal>(of_row.extent(0)), of_row.data());
     for (const GlobalOrdinal id : {first, last})
       if (const LocalOrdinal column = wider_columns->getLocalElement(id); row / 3 % 3 == 0) wide->insertLocalIndices(row, 1, &column);
   }
-  wide->fillComplete(bodies->dofs(), bodies->dofs());
+  wide->fillComplete(bodies->space().dofs(), bodies->space().dofs());
   ASSERT_GT(wide->getGlobalNumEntries(), narrow->getGlobalNumEntries());
 
-  Vector u(bodies->dofs()), local(bodies->local_dofs()), x(bodies->dofs());
-  for (const GlobalOrdinal id : bodies->dofs()->getNodeElementList()) x.replaceGlobalValue(id, std::sin(1.3 * static_cast<double>(id)));
+  Vector u(bodies->space().dofs()), local(bodies->space().local_dofs()), x(bodies->space().dofs());
+  for (const GlobalOrdinal id : bodies->space().dofs()->getNodeElementList()) x.replaceGlobalValue(id, std::sin(1.3 * static_cast<double>(id)));
   std::vector<Eigen::VectorXd> products;
   for (const RCP<const Graph>& graph : {narrow, RCP<const Graph>(wide)}) {
     Matrix matrix(graph);
     std::optional<StepFailure> failure;
     bodies->add_stiffness(local, matrix, failure);
-    matrix.fillComplete(bodies->dofs(), bodies->dofs());
-    Vector product(bodies->dofs());
+    matrix.fillComplete(bodies->space().dofs(), bodies->space().dofs());
+    Vector product(bodies->space().dofs());
     matrix.apply(x, product);
     products.push_back(to_eigen(product));
   }
@@ -191,7 +193,7 @@ TEST(Failures, OnOneRankSurfaceOnAll) {
   const auto bodies = make_test_bodies(world(), setup);
   // Only the elements at the right end are inverted.
   const Vector u = local_field(*bodies, [](double X, double) -> std::array<double, 2> { return {X > 2.99 ? -1.5 : 0.0, 0.0}; });
-  Vector residual(bodies->dofs());
+  Vector residual(bodies->space().dofs());
   std::optional<StepFailure> failure;
   bodies->add_internal_force(u, residual, failure);
   EXPECT_THROW(throw_if_any(*world(), failure), StepFailure);
@@ -199,7 +201,8 @@ TEST(Failures, OnOneRankSurfaceOnAll) {
 
 TEST(Refusals, OfABodyAreThrownOnEveryRank) {
   const auto mesh = make_test_mesh(world(), {});
-  EXPECT_THROW(Bodies(mesh, Kinematics::plane_stress, 1.0, {{"body", {}, make_material("j2 plasticity"), ElementType::q4}}), InputError);
+  EXPECT_THROW(Bodies(displacement_space(mesh), Kinematics::plane_stress, 1.0, {{"body", {}, make_material("j2 plasticity"), ElementType::q4}}),
+               InputError);
   const auto bodies = make_test_bodies(world(), {});
   const Named<BoundaryConditionOptions> missing{"left", {}, {{"body/lefd", {}}, ScalarFunction(0.0), {}, {}, {}, {}, {}, {}}};
   EXPECT_THROW(PrescribedMotion(*bodies, {missing}), InputError);

@@ -35,7 +35,8 @@ std::string refusal(const std::string& law, ElementType element, Kinematics kine
   setup.element = element;
   setup.kinematics = kinematics;
   try {
-    Bodies(make_test_mesh(self(), setup), kinematics, 1.0, {{"die", {"scene.xml", 12, "bodies/die"}, make_material(law), element}});
+    Bodies(displacement_space(make_test_mesh(self(), setup)), kinematics, 1.0,
+           {{"die", {"scene.xml", 12, "bodies/die"}, make_material(law), element}});
   } catch (const InputError& error) {
     return error.what();
   }
@@ -59,7 +60,7 @@ TEST(Bodies, RefuseAMeshWithAnInvertedElement) {
   const auto mesh = make_test_mesh(self(), {});
   mesh->coordinates[mesh->blocks[0].nodes(2)[0]] = {10.0, 10.0, 0.0};
   try {
-    Bodies(mesh, Kinematics::plane_strain, 1.0, {{"die", {"scene.xml", 12, ""}, make_material("hencky"), ElementType::q4}});
+    Bodies(displacement_space(mesh), Kinematics::plane_strain, 1.0, {{"die", {"scene.xml", 12, ""}, make_material("hencky"), ElementType::q4}});
     FAIL() << "taken";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("inverted"), std::string::npos) << error.what();
@@ -72,8 +73,8 @@ TEST(Bodies, ReportAnInvertedElementByBodyAndNumber) {
     setup.element = element;
     const auto bodies = make_test_bodies(self(), setup);
     const Vector u = local_field(*bodies, [](double X, double) -> std::array<double, 2> { return {X > 2.9 ? -1.5 : 0.0, 0.0}; });
-    Vector residual(bodies->dofs());
-    Matrix matrix(bodies->graph());
+    Vector residual(bodies->space().dofs());
+    Matrix matrix(bodies->space().graph());
     std::optional<StepFailure> of_force, of_stiffness;
     bodies->add_internal_force(u, residual, of_force);
     bodies->add_stiffness(u, matrix, of_stiffness);
@@ -96,7 +97,7 @@ TEST(Bodies, ReportARadiusThatBecomesNegative) {
   const auto bodies = make_test_bodies(self(), setup);
   // Turned inside out across the axis: the in-plane determinant and the hoop stretch are both negative, their product is positive.
   const Vector u = local_field(*bodies, [](double X, double) -> std::array<double, 2> { return {-2.0 * X, 0.0}; });
-  Vector residual(bodies->dofs());
+  Vector residual(bodies->space().dofs());
   std::optional<StepFailure> failure;
   bodies->add_internal_force(u, residual, failure);
   EXPECT_TRUE(failure);
@@ -106,7 +107,7 @@ TEST(Bodies, RefuseAMatrixOfAnotherGraph) {
   BodySetup larger;
   larger.cells_x = 3;
   const auto bodies = make_test_bodies(self(), {}), others = make_test_bodies(self(), larger);
-  Matrix matrix(others->graph());
+  Matrix matrix(others->space().graph());
   std::optional<StepFailure> failure;
   EXPECT_THROW(bodies->add_stiffness(local_field(*bodies,
                                                  [](double, double) -> std::array<double, 2> {
@@ -170,8 +171,8 @@ TEST(Bodies, DoNotAllocateInTheElementLoop) {
         if (!check_combination({"body", {}, make_material(law), element}, setup.kinematics).empty()) continue;
         const auto bodies = make_test_bodies(self(), setup);
         const Vector u = local_field(*bodies, [](double X, double Y) -> std::array<double, 2> { return {0.01 * X * Y, 0.02 * X}; });
-        Vector residual(bodies->dofs());
-        Matrix matrix(bodies->graph());
+        Vector residual(bodies->space().dofs());
+        Matrix matrix(bodies->space().graph());
         std::optional<StepFailure> failure;
         const long before = allocations;
         bodies->add_internal_force(u, residual, failure);
@@ -200,8 +201,8 @@ TEST(Bodies, DoNotAllocateInTheElementLoopInSpace) {
         const Vector u = to_local(*bodies, space_field(*bodies, [](const Point3& X) -> Point3 {
           return {0.01 * X[0] * X[1], 0.02 * X[2], 0.01 * X[0]};
         }));
-        Vector residual(bodies->dofs());
-        Matrix matrix(bodies->graph());
+        Vector residual(bodies->space().dofs());
+        Matrix matrix(bodies->space().graph());
         std::optional<StepFailure> failure;
         const long before = allocations;
         bodies->add_internal_force(u, residual, failure);

@@ -22,7 +22,7 @@ TEST_P(RotationVector, TurnsFollowersAndHasExactDerivatives) {
   const Followers followers(*bodies);
   const Eigen::Vector3d theta = GetParam(), u(0.1, 0.2, -0.3), X(mesh.coordinates[point.node].data());
   const auto at = [&](const Eigen::Vector3d& turned) {
-    Vector d(bodies->local_dofs());
+    Vector d(bodies->space().local_dofs());
     for (int i = 0; i < 3; ++i) {
       d.replaceLocalValue(3 * point.node + i, u[i]);
       d.replaceLocalValue(3 * point.rotation_node + i, point.arm * turned[i]);

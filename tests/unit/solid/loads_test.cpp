@@ -20,7 +20,7 @@ std::shared_ptr<Bodies> bodies_of(Kinematics kinematics, ElementType element = E
 
 /// f_ext at time t.
 Eigen::VectorXd force(const Bodies& bodies, const Load& load, const Eigen::VectorXd& u, double t = 1.0) {
-  Vector residual(bodies.dofs());
+  Vector residual(bodies.space().dofs());
   std::optional<StepFailure> failure;
   load.add_residual(t, to_local(bodies, u), residual, failure);
   EXPECT_FALSE(failure) << failure->what();
@@ -103,7 +103,7 @@ TEST(FollowerPressure, PushesAgainstTheOutwardNormal) {
   FollowerPressureOptions options;
   options.set.value = "body/right";
   options.pressure = 4.0;
-  const Eigen::VectorXd f = force(*bodies, *options.make(bodies), Eigen::VectorXd::Zero(bodies->local_dofs()->getNodeNumElements()));
+  const Eigen::VectorXd f = force(*bodies, *options.make(bodies), Eigen::VectorXd::Zero(bodies->space().local_dofs()->getNodeNumElements()));
   EXPECT_NEAR(sum(f, 0), -4.0 * 0.7, 1e-13);
   EXPECT_NEAR(sum(f, 1), 0.0, 1e-13);
 }
@@ -145,7 +145,7 @@ TEST(FollowerPressure, JacobianIsTheDerivativeOfItsForce) {
       const auto load = options.make(bodies);
       ASSERT_TRUE(load->follows());
       const Eigen::VectorXd u = bent(*bodies);
-      Matrix matrix(bodies->graph());
+      Matrix matrix(bodies->space().graph());
       std::optional<StepFailure> failure;
       load->add_jacobian(2.0, to_local(*bodies, u), matrix, failure);
       ASSERT_FALSE(failure);
@@ -193,9 +193,9 @@ TEST(Loads, ReportAnExpressionWithoutAValueAsFailure) {
   NodalForceOptions options;
   options.set.value = "body/top";
   options.x = parse_expression("1/(t-1)", {});
-  Vector residual(bodies->dofs());
+  Vector residual(bodies->space().dofs());
   std::optional<StepFailure> failure;
-  options.make(bodies)->add_residual(1.0, Vector(bodies->local_dofs()), residual, failure);
+  options.make(bodies)->add_residual(1.0, Vector(bodies->space().local_dofs()), residual, failure);
   ASSERT_TRUE(failure);
   EXPECT_EQ(failure->kind(), FailureKind::input);
 }

@@ -31,7 +31,8 @@ std::string case_name(const testing::TestParamInfo<Case>& info) {
 }
 
 std::shared_ptr<Bodies> make_bodies(const RCP<const Mesh>& mesh, const Case& at) {
-  return std::make_shared<Bodies>(mesh, at.kinematics, thickness, std::vector<BodyProperties>{{"body", {}, make_material("hencky"), at.element}});
+  return std::make_shared<Bodies>(displacement_space(mesh), at.kinematics, thickness,
+                                  std::vector<BodyProperties>{{"body", {}, make_material("hencky"), at.element}});
 }
 
 /// X = X0 + A s for s in the unit square or cube.
@@ -87,15 +88,15 @@ struct Parallelepiped {
 };
 
 Matrix mass_matrix(const Bodies& bodies, double factor = 1.0) {
-  Matrix matrix(bodies.graph());
+  Matrix matrix(bodies.space().graph());
   bodies.add_mass(matrix, factor);
-  matrix.fillComplete(bodies.dofs(), bodies.dofs());
+  matrix.fillComplete(bodies.space().dofs(), bodies.space().dofs());
   return matrix;
 }
 
 /// v(X) on the owned dofs.
 Vector velocity(const Bodies& bodies, const Eigen::Vector3d& c, const Matrix3& G) {
-  Vector v(bodies.dofs());
+  Vector v(bodies.space().dofs());
   const auto view = v.getLocalViewHost(Tpetra::Access::OverwriteAll);
   for (LocalOrdinal node = 0; node < bodies.mesh()->owned_count(); ++node) {
     const Eigen::Vector3d value = c + G * Eigen::Map<const Eigen::Vector3d>(bodies.mesh()->coordinates[node].data());
@@ -212,7 +213,7 @@ TEST(MassOnRanks, IsThatOfOneRank) {
     const auto one = make(self()), shared = make(world());
     EXPECT_NEAR(shared->masses()[0], one->masses()[0], 1e-13 * one->masses()[0]);
     const auto momentum = [&](const Bodies& bodies) {
-      Vector result(bodies.dofs());
+      Vector result(bodies.space().dofs());
       mass_matrix(bodies).apply(velocity(bodies, translation(bodies.dimension()), rates(bodies.dimension())), result);
       return to_eigen(result);
     };

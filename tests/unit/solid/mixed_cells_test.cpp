@@ -158,7 +158,7 @@ void expect_constant_strain(const MixedMesh& mixed, const std::string& law_name)
   std::vector<BodyProperties> properties;
   for (std::size_t b = 0; b < mixed.elements.size(); ++b)
     properties.push_back({mixed.mesh->bodies.front().name, {}, make_material(law_name), mixed.elements[b]});
-  const Bodies bodies(mixed.mesh, Kinematics::three_dimensional, 1.0, properties);
+  const Bodies bodies(displacement_space(mixed.mesh), Kinematics::three_dimensional, 1.0, properties);
   Matrix3 F;
   F << 1.1, 0.06, -0.03, -0.04, 0.92, 0.05, 0.02, -0.07, 1.05;
   const Eigen::VectorXd u = space_field(bodies, [&](const Point3& X) -> Point3 {

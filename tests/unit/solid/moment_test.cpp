@@ -34,7 +34,7 @@ Eigen::Matrix3d rotation(const Eigen::Vector3d& theta) {
 
 /// -f_ext of oblique() at t = 0.5.
 Eigen::VectorXd residual(const Bodies& bodies, const Load& load, const Eigen::VectorXd& u) {
-  Vector r(bodies.dofs());
+  Vector r(bodies.space().dofs());
   std::optional<StepFailure> failure;
   load.add_residual(0.5, to_local(bodies, u), r, failure);
   EXPECT_FALSE(failure) << failure->what();
@@ -68,7 +68,7 @@ TEST_P(MomentInSpace, JacobianIsTheDerivativeOfItsForce) {
   const auto load = oblique().make(bodies);
   ASSERT_TRUE(load->follows());
   const Eigen::VectorXd u = turned_by(*bodies, GetParam());
-  Matrix matrix(bodies->graph());
+  Matrix matrix(bodies->space().graph());
   std::optional<StepFailure> failure;
   load->add_jacobian(0.5, to_local(*bodies, u), matrix, failure);
   ASSERT_FALSE(failure);

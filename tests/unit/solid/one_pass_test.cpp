@@ -16,8 +16,8 @@ struct Passes {
 Passes passes(const Bodies& bodies, const Vector& u) {
   Passes result;
   std::optional<StepFailure> failure;
-  Vector force(bodies.dofs()), force_with_stiffness(bodies.dofs());
-  Matrix stiffness(bodies.graph()), stiffness_with_force(bodies.graph());
+  Vector force(bodies.space().dofs()), force_with_stiffness(bodies.space().dofs());
+  Matrix stiffness(bodies.space().graph()), stiffness_with_force(bodies.space().graph());
   bodies.add_internal_force(u, force, failure);
   bodies.add_stiffness(u, stiffness, failure, 0.75);
   bodies.add_internal_force_and_stiffness(u, force_with_stiffness, stiffness_with_force, failure, 0.75);

@@ -39,7 +39,7 @@ Eigen::VectorXd solved(const Bodies& bodies, const SpaceField& on_surface) {
     u.segment<3>(3 * node) = Eigen::Map<const Eigen::Vector3d>(on_surface(bodies.mesh()->coordinates[node]).data());
     std::fill_n(is_free.begin() + 3 * node, 3, char{0});
   }
-  Matrix matrix(bodies.graph());
+  Matrix matrix(bodies.space().graph());
   std::optional<StepFailure> failure;
   bodies.add_stiffness(to_local(bodies, u), matrix, failure);
   EXPECT_FALSE(failure);
@@ -75,7 +75,7 @@ Errors errors(ElementType element, int cells) {
         return {s[0] + 0.05 * std::sin(3.0 * s[1]), s[1] + 0.05 * std::sin(3.0 * s[2]), s[2] + 0.05 * std::sin(3.0 * s[0])};
       },
       true);
-  const Bodies bodies(mesh, Kinematics::three_dimensional, 1.0, {{"body", {}, make_material(setup.law), element}});
+  const Bodies bodies(displacement_space(mesh), Kinematics::three_dimensional, 1.0, {{"body", {}, make_material(setup.law), element}});
   const Eigen::VectorXd u = solved(bodies, [&](const Point3& X) { return exact.displacement(X); });
   Errors found;
   bodies.visit_points(to_local(bodies, u), [&](const MaterialPoint& point) {

@@ -15,7 +15,8 @@ inline std::shared_ptr<const Bodies> rigid_brick() {
   brick->cells_x = brick->cells_y = brick->cells_z = 2;
   const auto mesh = build_mesh(self(), {{"tool", {}, brick, rigid_shape(3)}}, {}, {{"point", {}, true, std::array<double, 3>{0.3, -0.4, 0.2}}});
   add_followers(*mesh, 0, {"tool", {}}, {true, true, true});
-  return std::make_shared<Bodies>(mesh, Kinematics::three_dimensional, 1.0, std::vector<BodyProperties>{{"tool", {}, nullptr, ElementType::h8}});
+  return std::make_shared<Bodies>(displacement_space(mesh), Kinematics::three_dimensional, 1.0,
+                                  std::vector<BodyProperties>{{"tool", {}, nullptr, ElementType::h8}});
 }
 
 /// Displacements in which the point is turned by theta.

@@ -89,7 +89,7 @@ inline RCP<Mesh> make_test_mesh(const RCP<const Communicator>& comm, const BodyS
 }
 
 inline std::shared_ptr<Bodies> make_test_bodies(const RCP<const Communicator>& comm, const BodySetup& setup) {
-  return std::make_shared<Bodies>(make_test_mesh(comm, setup), setup.kinematics, setup.thickness,
+  return std::make_shared<Bodies>(displacement_space(make_test_mesh(comm, setup)), setup.kinematics, setup.thickness,
                                   std::vector<BodyProperties>{{"body", {}, make_material(setup.law, 1000.0, setup.poissons_ratio), setup.element}});
 }
 
@@ -97,7 +97,7 @@ using Field = std::function<std::array<double, 2>(double, double)>;
 
 /// u(X) on the local dofs.
 inline Vector local_field(const Bodies& bodies, const Field& field) {
-  Vector u(bodies.local_dofs());
+  Vector u(bodies.space().local_dofs());
   auto view = u.getLocalViewHost(Tpetra::Access::OverwriteAll);
   for (LocalOrdinal node = 0; node < bodies.mesh()->local_count(); ++node) {
     const auto value = field(bodies.mesh()->coordinates[node][0], bodies.mesh()->coordinates[node][1]);
@@ -132,7 +132,7 @@ inline RCP<Mesh> make_brick_mesh(const BrickSetup& setup) {
 }
 
 inline std::shared_ptr<Bodies> make_brick(const BrickSetup& setup) {
-  return std::make_shared<Bodies>(make_brick_mesh(setup), Kinematics::three_dimensional, 1.0,
+  return std::make_shared<Bodies>(displacement_space(make_brick_mesh(setup)), Kinematics::three_dimensional, 1.0,
                                   std::vector<BodyProperties>{{"body", {}, make_material(setup.law, 1000.0, setup.poissons_ratio), setup.element}});
 }
 
@@ -157,7 +157,7 @@ inline Eigen::VectorXd to_eigen(const Vector& vector) {
 }
 
 inline Vector to_local(const Bodies& bodies, const Eigen::VectorXd& values) {
-  Vector vector(bodies.local_dofs());
+  Vector vector(bodies.space().local_dofs());
   auto view = vector.getLocalViewHost(Tpetra::Access::OverwriteAll);
   for (Eigen::Index n = 0; n < values.size(); ++n) view(n, 0) = values(n);
   return vector;
@@ -186,7 +186,7 @@ inline Eigen::MatrixXd central_differences(const std::function<Eigen::VectorXd(c
 }
 
 inline Eigen::VectorXd internal_force(const Bodies& bodies, const Eigen::VectorXd& u) {
-  Vector residual(bodies.dofs());
+  Vector residual(bodies.space().dofs());
   std::optional<StepFailure> failure;
   bodies.add_internal_force(to_local(bodies, u), residual, failure);
   if (failure) throw *failure;
@@ -194,7 +194,7 @@ inline Eigen::VectorXd internal_force(const Bodies& bodies, const Eigen::VectorX
 }
 
 inline Eigen::MatrixXd stiffness(const Bodies& bodies, const Eigen::VectorXd& u) {
-  Matrix matrix(bodies.graph());
+  Matrix matrix(bodies.space().graph());
   std::optional<StepFailure> failure;
   bodies.add_stiffness(to_local(bodies, u), matrix, failure);
   if (failure) throw *failure;

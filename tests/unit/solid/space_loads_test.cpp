@@ -21,7 +21,7 @@ std::shared_ptr<Bodies> brick_of(ElementType element, double distortion) {
 
 /// f_ext at time t.
 Eigen::VectorXd force(const Bodies& bodies, const Load& load, const Eigen::VectorXd& u, double t = 1.0) {
-  Vector residual(bodies.dofs());
+  Vector residual(bodies.space().dofs());
   std::optional<StepFailure> failure;
   load.add_residual(t, to_local(bodies, u), residual, failure);
   EXPECT_FALSE(failure) << failure->what();
@@ -139,7 +139,7 @@ void expect_follower_tangent(const std::shared_ptr<Bodies>& bodies, const std::s
   options.pressure = parse_expression(pressure, {});
   const auto load = options.make(bodies);
   ASSERT_TRUE(load->follows());
-  Matrix matrix(bodies->graph());
+  Matrix matrix(bodies->space().graph());
   std::optional<StepFailure> failure;
   load->add_jacobian(2.0, to_local(*bodies, u), matrix, failure);
   ASSERT_FALSE(failure);

@@ -251,7 +251,7 @@ TEST(OneLayerOfHexahedra, InPlaneStrainIsTheQuadrilateral) {
       for (LocalOrdinal node = 0; node < flat.owned_count(); ++node)
         if (flat.coordinates[node][0] == X[0] && flat.coordinates[node][1] == X[1]) below.push_back(node);
     ASSERT_EQ(below.size(), layer->coordinates.size());
-    Bodies bricks(layer, Kinematics::three_dimensional, 1.0, {{"body", {}, make_material(material.name), ElementType::h8}});
+    Bodies bricks(displacement_space(layer), Kinematics::three_dimensional, 1.0, {{"body", {}, make_material(material.name), ElementType::h8}});
 
     const auto field = [](double X, double Y) -> std::array<double, 2> { return {0.05 * std::sin(X + 2.0 * Y), 0.08 * std::cos(3.0 * X - Y)}; };
     const Eigen::VectorXd flat_force = internal_force(*quadrilaterals, to_eigen(local_field(*quadrilaterals, field)));
@@ -288,7 +288,7 @@ TEST(SpaceBodies, ReportAnInvertedElementByBodyAndNumber) {
     setup.element = element;
     const auto bodies = make_brick(setup);
     const Vector u = to_local(*bodies, space_field(*bodies, [](const Point3& X) -> Point3 { return {X[0] > 2.8 ? -1.5 : 0.0, 0.0, 0.0}; }));
-    Vector residual(bodies->dofs());
+    Vector residual(bodies->space().dofs());
     std::optional<StepFailure> failure;
     bodies->add_internal_force(u, residual, failure);
     ASSERT_TRUE(failure) << to_string(element);
@@ -297,7 +297,7 @@ TEST(SpaceBodies, ReportAnInvertedElementByBodyAndNumber) {
     // The reference mesh itself.
     const auto mesh = make_brick_mesh(setup);
     for (auto& X : mesh->coordinates) X[2] = -X[2];
-    EXPECT_THROW(Bodies(mesh, Kinematics::three_dimensional, 1.0, {{"body", {}, make_material("hencky"), element}}), InputError);
+    EXPECT_THROW(Bodies(displacement_space(mesh), Kinematics::three_dimensional, 1.0, {{"body", {}, make_material("hencky"), element}}), InputError);
   }
 }
 
@@ -310,14 +310,14 @@ double tip_deflection(ElementType element, double poissons_ratio) {
         return {10.0 * s[0], s[1], s[2]};
       },
       false);
-  auto bodies = std::make_shared<Bodies>(mesh, Kinematics::three_dimensional, 1.0,
+  auto bodies = std::make_shared<Bodies>(displacement_space(mesh), Kinematics::three_dimensional, 1.0,
                                          std::vector<BodyProperties>{{"body", {}, make_material("hencky", 1000.0, poissons_ratio), element}});
   const Eigen::VectorXd u = Eigen::VectorXd::Zero(3 * mesh->local_count());
   Eigen::MatrixXd K = stiffness(*bodies, u);
   DeadTractionOptions options;
   options.set.value = "body/right";
   options.z = ScalarFunction(1.0);
-  Vector residual(bodies->dofs());
+  Vector residual(bodies->space().dofs());
   std::optional<StepFailure> failure;
   options.make(bodies)->add_residual(1.0, to_local(*bodies, u), residual, failure);
   const Eigen::VectorXd f = -to_eigen(residual);

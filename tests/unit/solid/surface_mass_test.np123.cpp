@@ -32,7 +32,7 @@ std::shared_ptr<Bodies> make_box() {
   body.mesh = brick;
   body.shape = CellShape::hexahedron8;
   const RCP<const Mesh> mesh = build_mesh(Tpetra::getDefaultComm(), {body}, {});
-  return std::make_shared<Bodies>(mesh, Kinematics::three_dimensional, 1.0,
+  return std::make_shared<Bodies>(displacement_space(mesh), Kinematics::three_dimensional, 1.0,
                                   std::vector<BodyProperties>{{"box", {}, make_material("hencky"), ElementType::h8}});
 }
 

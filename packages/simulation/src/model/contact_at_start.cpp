@@ -104,7 +104,7 @@ void report_pair(const Named<ContactPairOptions>& options, const PairAtStart& pa
 
 // Collective.
 void report_corners_of(const Model& model, RunLog& log) {
-  const Vector start(model.bodies()->dofs());
+  const Vector start(model.bodies()->space().dofs());
   try {
     report_corners(*model.contact(), model.contact()->evaluate(start, model.contact()->initial_history(start)), log);
   } catch (const StepFailure&) {  // the first step says so

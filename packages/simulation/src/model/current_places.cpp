@@ -7,12 +7,12 @@
 namespace mortise {
 
 PlaceOfNode current_places(const Bodies& bodies, const Vector& displacement) {
-  const RCP<Vector> local = rcp(new Vector(bodies.local_dofs()));
-  local->doImport(displacement, *bodies.ghost_import(), Tpetra::INSERT);
+  const RCP<Vector> local = rcp(new Vector(bodies.space().local_dofs()));
+  local->doImport(displacement, *bodies.space().ghost_import(), Tpetra::INSERT);
   const auto u = local->getLocalViewHost(Tpetra::Access::ReadOnly);
-  return [mesh = bodies.mesh(), local, u](LocalOrdinal node) {
+  return [space = bodies.shared_space(), mesh = bodies.mesh(), local, u](LocalOrdinal node) {
     Eigen::Vector3d x(mesh->coordinates[static_cast<std::size_t>(node)].data());
-    for (LocalOrdinal i = 0; i < mesh->dimension; ++i) x[i] += u(mesh->dimension * node + i, 0);
+    for (LocalOrdinal i = 0; i < mesh->dimension; ++i) x[i] += u(space->row(node, i), 0);
     return x;
   };
 }

@@ -42,8 +42,8 @@ std::vector<Eigen::Vector3d> EdgeContact::places(const Vector& local_displacemen
 }
 
 RCP<Vector> EdgeContact::local(const Vector& displacement) const {
-  const RCP<Vector> local = rcp(new Vector(bodies_->local_dofs()));
-  local->doImport(displacement, *bodies_->ghost_import(), Tpetra::INSERT);
+  const RCP<Vector> local = rcp(new Vector(bodies_->space().local_dofs()));
+  local->doImport(displacement, *bodies_->space().ghost_import(), Tpetra::INSERT);
   return local;
 }
 
@@ -110,7 +110,7 @@ void EdgeContact::take(EdgeSpots spots) {
 }
 
 RCP<const Graph> EdgeContact::graph(const RCP<const Graph>& bulk) const {
-  return coupled_.empty() ? bulk : widened(*bulk, *bodies_->mesh()->owned_nodes, in_space, coupled_);
+  return coupled_.empty() ? bulk : widened(*bulk, bodies_->space(), coupled_);
 }
 
 void EdgeContact::start_step(const Vector& displacement) {

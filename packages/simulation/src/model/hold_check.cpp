@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <Eigen/Geometry>
-#include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <algorithm>
@@ -14,6 +13,7 @@
 
 #include "model/prescribed_rows.hpp"
 #include "model/rigid_mode_names.hpp"
+#include "mortise/core/over_ranks.hpp"
 #include "mortise/core/symmetric_spectrum.hpp"
 #include "mortise/simulation/model/rigid_modes.hpp"
 
@@ -35,7 +35,7 @@ Eigen::MatrixXd contact_gram(const Mesh& mesh, const RigidModes& modes, const Ho
     return nodes;
   };
   // Over all ranks: the largest facet, and of each body (x, y, z, -x, -y, -z) of its master nodes.
-  std::vector<double> mine(1 + 6 * mesh.bodies.size(), -std::numeric_limits<double>::max()), all(mine.size());
+  std::vector<double> mine(1 + 6 * mesh.bodies.size(), -std::numeric_limits<double>::max());
   const auto entry = [](std::size_t body, int i) { return 1 + 6 * body + static_cast<std::size_t>(i); };
   for (const auto* facets : {pair.slave, pair.master})
     for (const auto& facet : *facets) {
@@ -51,7 +51,7 @@ Eigen::MatrixXd contact_gram(const Mesh& mesh, const RigidModes& modes, const Ho
         mine[entry(body, 3 + i)] = std::max(mine[entry(body, 3 + i)], -x(i));
       }
     }
-  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, static_cast<int>(mine.size()), mine.data(), all.data());
+  const std::vector<double> all = most_over_ranks(*mesh.comm, mine);
   const double reach = pair.reach > 0.0 ? pair.reach : all[0];
   const auto is_near = [&](const Position& x, std::size_t body) {
     for (int i = 0; i < 3; ++i)
@@ -85,12 +85,6 @@ Eigen::MatrixXd contact_gram(const Mesh& mesh, const RigidModes& modes, const Ho
   return gram;
 }
 
-Eigen::MatrixXd sum_over_ranks(const Mesh& mesh, const Eigen::MatrixXd& gram) {
-  Eigen::MatrixXd sum(gram.rows(), gram.cols());
-  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, static_cast<int>(gram.size()), gram.data(), sum.data());
-  return sum;
-}
-
 /// Columns span the null space.
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& gram) {
   const SymmetricSpectrum spectrum = symmetric_spectrum(gram);
@@ -117,21 +111,22 @@ std::string name_of_motion(const RigidModes& modes, const Eigen::MatrixXd& free,
 
 }  // namespace
 
-std::vector<char> check_held(const Mesh& mesh, bool axisymmetric, const Supports& supports, const std::vector<HoldingPair>& pairs,
+std::vector<char> check_held(const FieldSpace& space, bool axisymmetric, const Supports& supports, const std::vector<HoldingPair>& pairs,
                              const std::vector<Place>& body_places) {
+  const Mesh& mesh = *space.mesh();
   std::vector<int> bodies(mesh.bodies.size());
   std::iota(bodies.begin(), bodies.end(), 0);
-  const NodePlaces at = node_places(mesh, nullptr);
+  const NodePlaces at = node_places(mesh);
   const RigidModes modes(mesh, axisymmetric, std::move(bodies), at.x);
   Supports without_ties = supports;
   without_ties.ties = nullptr;
-  const Eigen::MatrixXd prescribed = sum_over_ranks(mesh, prescribed_gram(mesh, modes, at, without_ties));
-  const Eigen::MatrixXd without_contact = supports.ties ? sum_over_ranks(mesh, prescribed_gram(mesh, modes, at, supports)) : prescribed;
+  const Eigen::MatrixXd prescribed = sum_over_ranks(*mesh.comm, prescribed_gram(space, modes, at, without_ties));
+  const Eigen::MatrixXd without_contact = supports.ties ? sum_over_ranks(*mesh.comm, prescribed_gram(space, modes, at, supports)) : prescribed;
   Eigen::MatrixXd contact = Eigen::MatrixXd::Zero(modes.count(), modes.count());
   for (const auto& pair : pairs) contact += contact_gram(mesh, modes, pair);
 
   std::vector<Diagnostic> diagnostics;
-  const Eigen::MatrixXd free = null_space(without_contact + sum_over_ranks(mesh, contact));
+  const Eigen::MatrixXd free = null_space(without_contact + sum_over_ranks(*mesh.comm, contact));
   for (const auto& [body, mode] : distinct_modes(free, modes.per_body()))
     diagnostics.push_back(
         {body_places[body], fmt::format("body '{}' can move: {}; neither boundary conditions nor contact hold it; contact holds where a slave "

@@ -17,11 +17,11 @@ namespace mortise {
 /// Collective; without inclined components on any rank it is `ties` itself.
 /// @param dofs  owned
 /// @param ties  null: nothing is tied
-std::shared_ptr<const TiedDisplacements> with_inclined_supports(const RCP<const Map>& dofs, int dimension,
+std::shared_ptr<const TiedDisplacements> with_inclined_supports(const std::shared_ptr<const FieldSpace>& space,
                                                                 const std::shared_ptr<const TiedDisplacements>& ties,
                                                                 const std::shared_ptr<const PrescribedMotion>& motion);
 
 /// Owned dofs in which inclined components hold their nodes, ascending.
-std::vector<LocalOrdinal> held_dofs(const std::vector<InclinedComponent>& components, int dimension);
+std::vector<LocalOrdinal> held_dofs(const FieldSpace& space, const std::vector<InclinedComponent>& components);
 
 }  // namespace mortise

@@ -32,9 +32,9 @@ void add_nodes(const Mesh& mesh, const RigidModes& modes, const NodePlaces& at, 
 void add_inclined(const Mesh& mesh, const RigidModes& modes, const NodePlaces& at, const std::vector<InclinedComponent>& inclined,
                   Eigen::MatrixXd& gram) {
   for (const InclinedComponent& component : inclined) {
-    const LocalOrdinal node = component.dof / mesh.dimension;
+    const LocalOrdinal node = component.node;
     Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(modes.count());
-    modes.add(mesh.body_of_node[node], at.x[node], Vector3d(direction_of(component, mesh.dimension).data()), row);
+    modes.add(mesh.body_of_node[node], at.x[node], Vector3d(direction_of(component).data()), row);
     gram += row.transpose() * row;
   }
 }
@@ -86,13 +86,14 @@ void add_shared_translation(const Mesh& mesh, const RigidModes& modes, const Nod
 }
 
 // A slave that stands off its master would hold rotations by its gap, as meshed: so weakly that they count as free.
-void add_ties(const Mesh& mesh, const RigidModes& modes, const NodePlaces& at, const TiedDisplacements& tied, Eigen::MatrixXd& gram) {
+void add_ties(const FieldSpace& space, const RigidModes& modes, const NodePlaces& at, const TiedDisplacements& tied, Eigen::MatrixXd& gram) {
+  const Mesh& mesh = *space.mesh();
   const Map& columns = *tied.T->getColMap();
   const auto local = tied.T->getLocalMatrixHost();
   std::vector<GlobalOrdinal> ids;  // of the nodes of columns
   for (const LocalOrdinal dof : tied.dofs)
     for (LocalOrdinal k = 0; k < local.rowConst(dof).length; ++k)
-      ids.push_back(columns.getGlobalElement(local.rowConst(dof).colidx(k)) / mesh.dimension);
+      ids.push_back(space.node_of(columns.getGlobalElement(local.rowConst(dof).colidx(k))));
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
@@ -108,24 +109,26 @@ void add_ties(const Mesh& mesh, const RigidModes& modes, const NodePlaces& at, c
   sources.doImport(owned, Import(mesh.owned_nodes, nodes), Tpetra::INSERT);
   const auto source = sources.getLocalViewHost(Tpetra::Access::ReadOnly);
   for (const LocalOrdinal dof : tied.dofs) {
-    const Vector3d direction = Vector3d::Unit(dof % mesh.dimension);
+    const FieldPlace of_slave = space.place(dof);
+    const Vector3d direction = Vector3d::Unit(of_slave.component);
     const auto of_dof = local.rowConst(dof);
     Vector3d place = Vector3d::Zero();
     Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(modes.count());
     for (LocalOrdinal k = 0; k < of_dof.length; ++k) {
-      const LocalOrdinal n = nodes->getLocalElement(columns.getGlobalElement(of_dof.colidx(k)) / mesh.dimension);
+      const LocalOrdinal n = nodes->getLocalElement(space.node_of(columns.getGlobalElement(of_dof.colidx(k))));
       const Vector3d x(source(n, 0), source(n, 1), source(n, 2));
       place += of_dof.value(k) * x;
       modes.add(static_cast<int>(source(n, 3)), x, -of_dof.value(k) * direction, row);
     }
-    modes.add(mesh.body_of_node[static_cast<std::size_t>(dof / mesh.dimension)], place, direction, row);
+    modes.add(mesh.body_of_node[static_cast<std::size_t>(of_slave.node)], place, direction, row);
     gram += row.transpose() * row;
   }
 }
 
 }  // namespace
 
-Eigen::MatrixXd prescribed_gram(const Mesh& mesh, const RigidModes& modes, const NodePlaces& at, const Supports& supports) {
+Eigen::MatrixXd prescribed_gram(const FieldSpace& space, const RigidModes& modes, const NodePlaces& at, const Supports& supports) {
+  const Mesh& mesh = *space.mesh();
   const MultiVector& fixed = *supports.fixed;
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(modes.count(), modes.count());
   add_nodes(mesh, modes, at, fixed, gram);
@@ -138,7 +141,7 @@ Eigen::MatrixXd prescribed_gram(const Mesh& mesh, const RigidModes& modes, const
     else
       add_shared_translation(mesh, modes, at, fixed, point, gram);
   }
-  if (supports.ties) add_ties(mesh, modes, at, *supports.ties, gram);
+  if (supports.ties) add_ties(space, modes, at, *supports.ties, gram);
   return gram;
 }
 

@@ -15,6 +15,6 @@ namespace mortise {
 ///   - each tied dof adds (its motion - that of what it is tied to)^2, as if the slave were where the master has it.
 /// Collective; a part of the sum over the ranks.
 /// @returns [modes.count() squared]
-Eigen::MatrixXd prescribed_gram(const Mesh& mesh, const RigidModes& modes, const NodePlaces& at, const Supports& supports);
+Eigen::MatrixXd prescribed_gram(const FieldSpace& space, const RigidModes& modes, const NodePlaces& at, const Supports& supports);
 
 }  // namespace mortise

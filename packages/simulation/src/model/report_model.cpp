@@ -30,7 +30,8 @@ MemoryEstimate estimated_memory(const Model& model) {
   Teuchos::reduceAll(comm, Teuchos::REDUCE_SUM, peak_memory_mib(), Teuchos::outArg(estimate.so_far));
   const int dimension = model.mesh()->dimension;
   const double entries = static_cast<double>(model.parts().bulk_graph()->getGlobalNumEntries());
-  const SystemSize size{dimension, static_cast<double>(model.dofs()) / dimension, entries / (dimension * dimension), comm.getSize() > 1};
+  const SystemSize size{dimension, static_cast<double>(model.mesh()->owned_nodes->getGlobalNumElements()), entries / (dimension * dimension),
+                        comm.getSize() > 1};
   const bool iterative = model.parts().linear_solver->tolerances().has_value();
   estimate.linear_systems = (iterative ? multigrid_bytes(size) : factorisation_bytes(size)) / mib;
   return estimate;
@@ -67,7 +68,7 @@ void report_inertia(const Scene& scene, const Model& model, RunLog& log) {
   int turning_here = 0, turning = 0;
   for (const ReferencePoint& point : points)
     if (point.rotation_node >= 0 && point.rotation_node < model.mesh()->owned_count() &&
-        !std::binary_search(prescribed.begin(), prescribed.end(), model.mesh()->dimension * point.rotation_node))
+        !std::binary_search(prescribed.begin(), prescribed.end(), model.space().row(point.rotation_node, 0)))
       turning_here = 1;
   Teuchos::reduceAll(*model.mesh()->comm, Teuchos::REDUCE_MAX, turning_here, Teuchos::outArg(turning));
   if (turning > 0 && is_over_step)

@@ -10,23 +10,26 @@
 
 namespace mortise {
 
-NodePlaces node_places(const Mesh& mesh, const Vector* displacement) {
+NodePlaces node_places(const Mesh& mesh) {
   NodePlaces at{std::vector<Eigen::Vector3d>(static_cast<std::size_t>(mesh.owned_count())),
                 std::vector<Eigen::Vector3d>(mesh.reference_points.size(), Eigen::Vector3d::Zero())};
   for (std::size_t node = 0; node < at.x.size(); ++node) at.x[node] = Eigen::Vector3d(mesh.coordinates[node].data());
-  if (displacement == nullptr) return at;
-  const auto u = displacement->getLocalViewHost(Tpetra::Access::ReadOnly);
-  const auto dimension = static_cast<std::size_t>(mesh.dimension);
-  for (std::size_t node = 0; node < at.x.size(); ++node)
-    for (std::size_t i = 0; i < dimension; ++i) at.x[node][static_cast<Eigen::Index>(i)] += u(dimension * node + i, 0);
+  return at;
+}
+
+NodePlaces node_places(const FieldSpace& space, const Vector& displacement) {
+  const Mesh& mesh = *space.mesh();
+  NodePlaces at = node_places(mesh);
+  const auto u = displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node)
+    for (int i = 0; i < mesh.dimension; ++i) at.x[static_cast<std::size_t>(node)][i] += u(space.row(node, i), 0);
   for (std::size_t p = 0; p < at.turned.size(); ++p) {
     const ReferencePoint& point = mesh.reference_points[p];
     if (point.rotation_node < 0 || point.rotation_node >= mesh.owned_count()) continue;
-    const auto first = dimension * static_cast<std::size_t>(point.rotation_node);
-    if (dimension == 2)
-      at.turned[p].z() = u(first, 0) / point.arm;
+    if (mesh.dimension == 2)
+      at.turned[p].z() = u(space.row(point.rotation_node, 0), 0) / point.arm;
     else
-      for (std::size_t i = 0; i < 3; ++i) at.turned[p][static_cast<Eigen::Index>(i)] = u(first + i, 0) / point.arm;
+      for (int i = 0; i < 3; ++i) at.turned[p][i] = u(space.row(point.rotation_node, i), 0) / point.arm;
   }
   return at;
 }

@@ -35,7 +35,7 @@ std::unique_ptr<QuantityEvaluator> ContactRadius::make_evaluator(const QuantityC
     double force = 0.0, moment = 0.0;
     for (const auto& state : node_states(*at.laws, of_pair)) {
       Eigen::Vector3d x(mesh.coordinates[state.owned_node].data());
-      for (int i = 0; i < 3; ++i) x[i] += moves * displacement(3 * state.owned_node + i, 0);
+      for (int i = 0; i < 3; ++i) x[i] += moves * displacement(at.space().row(state.owned_node, i), 0);
       const double normal_force = state.covered * state.pressure;
       force += normal_force;
       moment += normal_force * direction.cross(x - origin).squaredNorm();

@@ -64,7 +64,7 @@ std::unique_ptr<QuantityEvaluator> numerical_dissipation(const QuantityContext& 
 // their ways, as do all other nodes of the body. With r = f_int - f_ext + f_c the internal forces are r + f_ext - f_c, and what supports and points
 // do is r. Friction takes what its forces on both sides do not give back: f_c of the shear tractions alone.
 RCP<Vector> working_force(Energy::Of of, const QuantityContext& context) {
-  const auto result = rcp(new Vector(context.bodies.dofs()));
+  const auto result = rcp(new Vector(context.space().dofs()));
   const auto add_contact_force = [&](const Vector& multipliers) { context.laws->evaluation().add_force(multipliers, *result); };
   if (of == Energy::Of::friction) {
     add_contact_force(*context.laws->evaluation().shear_tractions(context.laws->multipliers()));
@@ -94,7 +94,7 @@ RCP<Vector> working_force(Energy::Of of, const QuantityContext& context) {
   const auto values = result->getLocalViewHost(Tpetra::Access::ReadWrite);
   for (const ReferencePoint& point : mesh.reference_points)
     for (const LocalOrdinal node : {point.node, point.rotation_node})
-      for (int i = 0; i < mesh.dimension && node >= 0 && node < mesh.owned_count(); ++i) values(mesh.dimension * node + i, 0) = 0.0;
+      for (int i = 0; i < mesh.dimension && node >= 0 && node < mesh.owned_count(); ++i) values(context.space().row(node, i), 0) = 0.0;
   return result;
 }
 
@@ -102,7 +102,7 @@ RCP<Vector> working_force(Energy::Of of, const QuantityContext& context) {
 class WorkEvaluator final : public QuantityEvaluator {
  public:
   WorkEvaluator(Energy::Of of, const QuantityContext& context)
-      : of_(of), force_(rcp(new Vector(context.bodies.dofs()))), displacement_(rcp(new Vector(context.bodies.dofs()))) {}
+      : of_(of), force_(rcp(new Vector(context.space().dofs()))), displacement_(rcp(new Vector(context.space().dofs()))) {}
 
   double evaluate(const QuantityContext& context) override {
     if ((of_ == Energy::Of::friction || of_ == Energy::Of::contact_work) && context.contact == nullptr) return 0.0;
@@ -147,8 +147,8 @@ class MechanicalEnergyChange final : public QuantityEvaluator {
   double evaluate(const QuantityContext& context) override {
     if (context.motion == nullptr) return 0.0;
     if (!has_begun_) {
-      Vector local(context.bodies.local_dofs());
-      local.doImport(context.motion->displacement_before, *context.bodies.ghost_import(), Tpetra::INSERT);
+      Vector local(context.space().local_dofs());
+      local.doImport(context.motion->displacement_before, *context.space().ghost_import(), Tpetra::INSERT);
       at_start_ = mechanical_energy(context, local, context.motion->velocity_before);
       has_begun_ = true;
     }

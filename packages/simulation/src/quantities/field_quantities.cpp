@@ -68,7 +68,7 @@ class FieldPoints {
         const auto displacement = context.displacement->getLocalViewHost(Tpetra::Access::ReadOnly);
         const auto visit_node = [&](LocalOrdinal node) {
           std::array<double, 3> u{};
-          for (int i = 0; i < mesh.dimension; ++i) u[i] = displacement(mesh.dimension * node + i, 0);
+          for (int i = 0; i < mesh.dimension; ++i) u[i] = displacement(context.space().row(node, i), 0);
           const auto component = static_cast<std::size_t>(field_) - static_cast<std::size_t>(PointField::displacement_x);
           visit(field_ == PointField::displacement_magnitude ? std::hypot(u[0], u[1], u[2]) : u[component], 1.0);
         };

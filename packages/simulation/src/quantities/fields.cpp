@@ -13,21 +13,24 @@ namespace {
 using Values = std::vector<double>;
 
 /// A vector on the dofs as one on the nodes. The entry of a node for the rotation of a reference point is 0.
-Values on_nodes(const Mesh& mesh, const Vector& vector) {
+Values on_nodes(const FieldSpace& space, const Vector& vector) {
+  const Mesh& mesh = *space.mesh();
   const auto view = vector.getLocalViewHost(Tpetra::Access::ReadOnly);
-  Values values(view.data(), view.data() + view.extent(0));
+  std::vector<char> turns(static_cast<std::size_t>(mesh.owned_count()), 0);
   for (const ReferencePoint& point : mesh.reference_points)
-    if (point.rotation_node >= 0 && point.rotation_node < mesh.owned_count())
-      std::fill_n(values.begin() + mesh.dimension * point.rotation_node, mesh.dimension, 0.0);
+    if (point.rotation_node >= 0 && point.rotation_node < mesh.owned_count()) turns[static_cast<std::size_t>(point.rotation_node)] = 1;
+  Values values;
+  for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node)
+    for (int i = 0; i < mesh.dimension; ++i) values.push_back(turns[static_cast<std::size_t>(node)] != 0 ? 0.0 : view(space.row(node, i), 0));
   return values;
 }
 
-Values displacement(const FieldState& state) { return on_nodes(*state.bodies.mesh(), state.displacement); }
+Values displacement(const FieldState& state) { return on_nodes(state.bodies.space(), state.displacement); }
 
 /// 0 where there is no such vector.
 Values on_nodes_or_none(const FieldState& state, const Vector* vector) {
   const Mesh& mesh = *state.bodies.mesh();
-  return vector != nullptr ? on_nodes(mesh, *vector) : Values(static_cast<std::size_t>(mesh.dimension) * mesh.owned_count(), 0.0);
+  return vector != nullptr ? on_nodes(state.bodies.space(), *vector) : Values(static_cast<std::size_t>(mesh.dimension) * mesh.owned_count(), 0.0);
 }
 
 Values reaction_force(const FieldState& state) { return on_nodes_or_none(state, state.reaction); }

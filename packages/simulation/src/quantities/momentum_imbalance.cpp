@@ -23,17 +23,19 @@ int first_balanced_component(const QuantityContext& context) { return context.bo
 
 double contact_imbalance(const QuantityContext& context) {
   if (context.contact == nullptr) return 0.0;
-  Vector force(context.bodies.dofs());
+  Vector force(context.space().dofs());
   context.laws->add_force(force);
   const auto values = force.getLocalViewHost(Tpetra::Access::ReadOnly);
   Sums sum{}, absolute{};
-  const int dimension = context.mesh().dimension;
-  for (std::size_t dof = 0; dof < values.extent(0); ++dof) {
-    sum[dof % dimension] += values(dof, 0);
-    absolute[dof % dimension] += std::abs(values(dof, 0));
-  }
-  sum = over_ranks(context.mesh(), sum);
-  absolute = over_ranks(context.mesh(), absolute);
+  const Mesh& mesh = context.mesh();
+  for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node)
+    for (int i = 0; i < mesh.dimension; ++i) {
+      const double value = values(context.space().row(node, i), 0);
+      sum[i] += value;
+      absolute[i] += std::abs(value);
+    }
+  sum = over_ranks(mesh, sum);
+  absolute = over_ranks(mesh, absolute);
   const double scale = 0.5 * std::max({absolute[0], absolute[1], absolute[2]});
   if (first_balanced_component(context) > 0) sum[0] = 0.0;
   return scale > 0.0 ? std::hypot(sum[0], sum[1], sum[2]) / scale : 0.0;
@@ -44,25 +46,28 @@ double total_imbalance(const QuantityContext& context) {
   const auto load = context.external_force->getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto reaction = context.reaction->getLocalViewHost(Tpetra::Access::ReadOnly);
   Sums sum{}, loads{}, reactions{};
-  const int dimension = context.mesh().dimension;
-  const auto is_rotation = [&](LocalOrdinal dof) {  // moments are no forces
-    const auto& points = context.mesh().reference_points;
-    return std::any_of(points.begin(), points.end(), [&](const ReferencePoint& point) { return point.rotation_node == dof / dimension; });
+  const Mesh& mesh = context.mesh();
+  const auto is_rotation = [&](LocalOrdinal node) {  // moments are no forces
+    const auto& points = mesh.reference_points;
+    return std::any_of(points.begin(), points.end(), [&](const ReferencePoint& point) { return point.rotation_node == node; });
   };
-  for (std::size_t dof = 0; dof < load.extent(0); ++dof) {
-    if (is_rotation(static_cast<LocalOrdinal>(dof))) continue;
-    sum[dof % dimension] += load(dof, 0);
-    loads[dof % dimension] += std::abs(load(dof, 0));
+  for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node) {
+    if (is_rotation(node)) continue;
+    for (int i = 0; i < mesh.dimension; ++i) {
+      const double value = load(context.space().row(node, i), 0);
+      sum[i] += value;
+      loads[i] += std::abs(value);
+    }
   }
   for (const LocalOrdinal dof : *context.prescribed) {
-    if (is_rotation(dof)) continue;
-    sum[dof % dimension] += reaction(dof, 0);
-    reactions[dof % dimension] += std::abs(reaction(dof, 0));
+    const FieldPlace at = context.space().place(dof);
+    if (at.field != 0 || is_rotation(at.node)) continue;
+    sum[at.component] += reaction(dof, 0);
+    reactions[at.component] += std::abs(reaction(dof, 0));
   }
-  const Mesh& mesh = context.mesh();
   sum = over_ranks(mesh, sum), loads = over_ranks(mesh, loads), reactions = over_ranks(mesh, reactions);
   double largest = 0.0, scale = 0.0;
-  for (int i = first_balanced_component(context); i < dimension; ++i) {
+  for (int i = first_balanced_component(context); i < mesh.dimension; ++i) {
     largest = std::max(largest, std::abs(sum[i]));
     scale = std::max({scale, loads[i], reactions[i]});
   }

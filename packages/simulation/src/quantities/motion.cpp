@@ -27,11 +27,10 @@ struct Momentum : Quantity {
     require_component(context, component);
     return evaluator_of([i = static_cast<int>(component), of_body = find_optional_body(context, body)](const QuantityContext& at) {
       if (at.motion == nullptr) return none;
-      Vector direction(at.bodies.dofs());
-      const int dimension = at.mesh().dimension;
+      Vector direction(at.space().dofs());
       {
         const auto values = direction.getLocalViewHost(Tpetra::Access::ReadWrite);
-        for (LocalOrdinal node = 0; node < at.mesh().owned_count(); ++node) values(dimension * node + i, 0) = 1.0;
+        for (LocalOrdinal node = 0; node < at.mesh().owned_count(); ++node) values(at.space().row(node, i), 0) = 1.0;
       }
       return sum_over_body(at, of_body, *at.mass->times(at.motion->velocity), direction);
     });
@@ -62,15 +61,15 @@ struct AngularMomentum : Quantity {
     return evaluator_of([axis = static_cast<int>(component), of_body = find_optional_body(context, body), about](const QuantityContext& at) {
       if (at.motion == nullptr) return none;
       const Mesh& mesh = at.mesh();
-      Vector arm(at.bodies.dofs());  // e x (x - c)
+      Vector arm(at.space().dofs());  // e x (x - c)
       {
         const auto values = arm.getLocalViewHost(Tpetra::Access::ReadWrite);
         const auto u = at.displacement->getLocalViewHost(Tpetra::Access::ReadOnly);
         const int j = (axis + 1) % 3, k = (axis + 2) % 3;
         for (LocalOrdinal node = 0; node < mesh.owned_body_count(); ++node) {
-          const auto from_centre = [&](int i) { return mesh.coordinates[node][i] + u(mesh.dimension * node + i, 0) - about[i]; };
-          values(mesh.dimension * node + j, 0) = -from_centre(k);
-          values(mesh.dimension * node + k, 0) = from_centre(j);
+          const auto from_centre = [&](int i) { return mesh.coordinates[node][i] + u(at.space().row(node, i), 0) - about[i]; };
+          values(at.space().row(node, j), 0) = -from_centre(k);
+          values(at.space().row(node, k), 0) = from_centre(j);
         }
       }
       return sum_over_body(at, of_body, *at.mass->times(at.motion->velocity), arm);

@@ -98,7 +98,7 @@ class PointEvaluator final : public QuantityEvaluator {
     const auto displacement = context.local_displacement->getLocalViewHost(Tpetra::Access::ReadOnly);
     double value = 0.0;
     if (context.mesh().comm->getRank() == owner_)
-      for (std::size_t a = 0; a < nodes_.size(); ++a) value += shares_[a] * displacement(context.mesh().dimension * nodes_[a] + component_, 0);
+      for (std::size_t a = 0; a < nodes_.size(); ++a) value += shares_[a] * displacement(context.space().row(nodes_[a], component_), 0);
     Teuchos::broadcast(*context.mesh().comm, owner_, Teuchos::outArg(value));
     return value;
   }

@@ -42,7 +42,7 @@ double sum_over_body(const QuantityContext& context, const std::optional<LocalOr
   double mine = 0.0;
   for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node) {
     if (body && mesh.body_of_node[node] != *body) continue;
-    for (int i = 0; i < mesh.dimension; ++i) mine += of_a(mesh.dimension * node + i, 0) * of_b(mesh.dimension * node + i, 0);
+    for (int i = 0; i < mesh.dimension; ++i) mine += of_a(context.space().row(node, i), 0) * of_b(context.space().row(node, i), 0);
   }
   return sum_over_ranks(mesh, mine);
 }
@@ -122,7 +122,7 @@ std::vector<PressedFacet> pressed_facets(const QuantityContext& context, std::si
       PressedFacet facet;
       for (int end = 0; end < 2; ++end) {
         const LocalOrdinal node = nodes[static_cast<std::size_t>(part[end])];
-        for (int i = 0; i < 2; ++i) facet.position[end][i] = mesh.coordinates[node][i] + moves * displacement(2 * node + i, 0);
+        for (int i = 0; i < 2; ++i) facet.position[end][i] = mesh.coordinates[node][i] + moves * displacement(context.space().row(node, i), 0);
         facet.pressure[end] = values(node, 0);
         facet.closed[end] = values(node, 1) != 0.0;
         facet.shear[end] = values(node, 2);

@@ -20,8 +20,9 @@ Eigen::Vector3d holding_moment(const QuantityContext& context, const ReferencePo
   const auto u = context.local_displacement->getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto r = context.reaction->getLocalViewHost(Tpetra::Access::ReadOnly),
              load = context.external_force->getLocalViewHost(Tpetra::Access::ReadOnly);
-  const auto at = [](const auto& values, LocalOrdinal node) {
-    return Eigen::Vector3d(values(3 * node, 0), values(3 * node + 1, 0), values(3 * node + 2, 0));
+  const auto at = [&](const auto& values, LocalOrdinal node) {
+    const LocalOrdinal first = context.space().row(node, 0);
+    return Eigen::Vector3d(values(first, 0), values(first + 1, 0), values(first + 2, 0));
   };
   const auto position = [&](LocalOrdinal node) { return Eigen::Vector3d(Eigen::Vector3d(mesh.coordinates[node].data()) + at(u, node)); };
   const Eigen::Vector3d x = position(point.node);
@@ -43,11 +44,11 @@ double reaction_of(const Reaction& quantity, const QuantityContext& context) {
   }
   if (quantity.component == Reaction::Of::rotation) {  // the rotation node's dof is arm * theta
     const ReferencePoint& point = require_rotating_point(mesh, quantity.set);
-    return point.rotation_node < mesh.owned_count() ? reaction(2 * point.rotation_node, 0) * point.arm : 0.0;
+    return point.rotation_node < mesh.owned_count() ? reaction(context.space().row(point.rotation_node, 0), 0) * point.arm : 0.0;
   }
   double sum = 0.0;
   for (const LocalOrdinal node : require_node_set(mesh, quantity.set))
-    if (node < mesh.owned_count()) sum += reaction(mesh.dimension * node + static_cast<int>(quantity.component), 0);
+    if (node < mesh.owned_count()) sum += reaction(context.space().row(node, static_cast<int>(quantity.component)), 0);
   return sum;
 }
 

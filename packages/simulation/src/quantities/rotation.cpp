@@ -21,7 +21,7 @@ struct Rotation : Quantity {
 
   std::unique_ptr<QuantityEvaluator> make_evaluator(const QuantityContext& context) const override {
     const ReferencePoint& turning = require_rotating_point(context.mesh(), point);
-    const LocalOrdinal dof = context.mesh().dimension * turning.rotation_node + (context.mesh().dimension == 3 ? static_cast<int>(component) : 0);
+    const LocalOrdinal dof = context.space().row(turning.rotation_node, context.mesh().dimension == 3 ? static_cast<int>(component) : 0);
     return evaluator_of([dof, arm = turning.arm](const QuantityContext& at) {
       const auto displacement = at.local_displacement->getLocalViewHost(Tpetra::Access::ReadOnly);
       return displacement(dof, 0) / arm * boost::math::constants::radian<double>();

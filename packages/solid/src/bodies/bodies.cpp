@@ -12,7 +12,6 @@
 #include "bodies/host_view.hpp"
 #include "elements/element_block.hpp"
 #include "elements/extrapolation.hpp"
-#include "mortise/core/dof_map.hpp"
 #include "mortise/material/logarithmic.hpp"
 #include "mortise/material/materials.hpp"
 
@@ -36,8 +35,13 @@ class RigidBlock final : public ElementBlock {
 
 }  // namespace
 
-Bodies::Bodies(RCP<const Mesh> mesh, Kinematics kinematics, double thickness, std::vector<BodyProperties> bodies)
-    : mesh_(std::move(mesh)), kinematics_(kinematics), thickness_(thickness), properties_(std::move(bodies)) {
+std::shared_ptr<const FieldSpace> displacement_space(RCP<const Mesh> mesh) {
+  const int dimension = mesh->dimension;
+  return std::make_shared<FieldSpace>(std::move(mesh), std::vector<FieldDeclaration>{{"displacement", dimension}});
+}
+
+Bodies::Bodies(std::shared_ptr<const FieldSpace> space, Kinematics kinematics, double thickness, std::vector<BodyProperties> bodies)
+    : space_(std::move(space)), mesh_(space_->mesh()), kinematics_(kinematics), thickness_(thickness), properties_(std::move(bodies)) {
   if (properties_.size() != mesh_->blocks.size()) throw std::logic_error("properties and blocks of the mesh do not match");
   std::vector<Diagnostic> diagnostics;
   for (std::size_t n = 0; n < properties_.size(); ++n) {
@@ -47,14 +51,11 @@ Bodies::Bodies(RCP<const Mesh> mesh, Kinematics kinematics, double thickness, st
       throw std::logic_error("a block's cells are not those of its body's element");
   }
   throw_if_any(*mesh_->comm, diagnostics);
-  if (mesh_->dimension != dimension()) throw std::logic_error("the mesh and the kinematics do not have the same dimension");
+  if (mesh_->dimension != dimension() || space_->rows(0).components != dimension())
+    throw std::logic_error("the mesh, its first field and the kinematics do not have the same dimension");
 
-  dofs_ = make_dof_map(*mesh_->owned_nodes, dimension());
-  local_dofs_ = make_dof_map(*mesh_->local_nodes, dimension());
-  ghost_import_ = rcp(new Import(dofs_, local_dofs_));
-  sparsity_ = std::make_unique<NodalSparsity>(*mesh_, dofs_, local_dofs_);
   for (std::size_t n = 0; n < properties_.size(); ++n) {
-    const BlockContext context{*mesh_, mesh_->blocks[n], static_cast<LocalOrdinal>(n), *sparsity_};
+    const BlockContext context{*space_, mesh_->blocks[n], static_cast<LocalOrdinal>(n)};
     if (properties_[n].is_rigid()) {
       blocks_.push_back(std::make_unique<RigidBlock>());
       continue;
@@ -78,13 +79,13 @@ double Bodies::depth(double radius) const {
 void Bodies::add_internal_force(const Vector& local_displacement, Vector& residual, std::optional<StepFailure>& failure) const {
   const HostReadView displacement(local_displacement);
   const HostWriteView force(residual);
-  for (const auto& block : blocks_) block->add(displacement.data(), {force.data()}, failure);
+  for (const auto& block : blocks_) block->add(displacement.data(), {{force.data(), space_->rows(0)}}, failure);
 }
 
 void Bodies::add_stiffness(const Vector& local_displacement, Matrix& matrix, std::optional<StepFailure>& failure, double factor) const {
   const HostReadView displacement(local_displacement);
-  const NodalSparsity::Values values = sparsity_->open(matrix);
-  for (const auto& block : blocks_) block->add(displacement.data(), {nullptr, &values, factor}, failure);
+  const NodalSparsity::Values values = space_->sparsity().open(matrix);
+  for (const auto& block : blocks_) block->add(displacement.data(), {{}, &values, factor}, failure);
   values.close();
 }
 
@@ -92,13 +93,13 @@ void Bodies::add_internal_force_and_stiffness(const Vector& local_displacement, 
                                               double factor) const {
   const HostReadView displacement(local_displacement);
   const HostWriteView force(residual);
-  const NodalSparsity::Values values = sparsity_->open(matrix);
-  for (const auto& block : blocks_) block->add(displacement.data(), {force.data(), &values, factor}, failure);
+  const NodalSparsity::Values values = space_->sparsity().open(matrix);
+  for (const auto& block : blocks_) block->add(displacement.data(), {{force.data(), space_->rows(0)}, &values, factor}, failure);
   values.close();
 }
 
 void Bodies::add_mass(Matrix& matrix, double factor) const {
-  const NodalSparsity::Values values = sparsity_->open(matrix);
+  const NodalSparsity::Values values = space_->sparsity().open(matrix);
   for (std::size_t n = 0; n < blocks_.size(); ++n)
     if (!properties_[n].is_rigid()) blocks_[n]->add_mass(properties_[n].material->density, values, factor);
   values.close();

@@ -58,7 +58,7 @@ std::map<LocalOrdinal, Surroundings> surroundings(const Mesh& mesh, const std::v
       for (const SidePoint& point : *side.rule)
         for (std::size_t a = 0; a < side.nodes.size(); ++a)
           if (const auto found = around.find(side.nodes[a]); found != around.end())
-            found->second.normal += point.weight * point.N[a] * side.at(point, mesh, nullptr).area;
+            found->second.normal += point.weight * point.N[a] * side.at(point, mesh, {}).area;
   for (const Block& block : mesh.blocks) {
     if (mesh.body_of(block).is_surface) continue;
     for (LocalOrdinal e = 0; e < block.size(); ++e) {

@@ -12,16 +12,19 @@ namespace mortise {
 
 RCP<Vector> NodalMass::times(const Vector& v) const {
   const auto result = rcp(new Vector(v.getMap()));
-  MultiVector by_direction(matrix_->getDomainMap(), dimension_), product(matrix_->getRangeMap(), dimension_);
+  const FieldRows& rows = space_->rows(0);
+  MultiVector by_direction(matrix_->getDomainMap(), rows.components), product(matrix_->getRangeMap(), rows.components);
   {
     const auto from = v.getLocalViewHost(Tpetra::Access::ReadOnly);
     const auto to = by_direction.getLocalViewHost(Tpetra::Access::OverwriteAll);
-    for (std::size_t row = 0; row < from.extent(0); ++row) to(row / dimension_, row % dimension_) = from(row, 0);
+    for (LocalOrdinal node = 0; node < rows.owned_nodes; ++node)
+      for (int i = 0; i < rows.components; ++i) to(node, i) = from(rows(node, i), 0);
   }
   matrix_->apply(by_direction, product);
   const auto from = product.getLocalViewHost(Tpetra::Access::ReadOnly);
-  const auto to = result->getLocalViewHost(Tpetra::Access::OverwriteAll);
-  for (std::size_t row = 0; row < to.extent(0); ++row) to(row, 0) = from(row / dimension_, row % dimension_);
+  const auto to = result->getLocalViewHost(Tpetra::Access::ReadWrite);
+  for (LocalOrdinal node = 0; node < rows.owned_nodes; ++node)
+    for (int i = 0; i < rows.components; ++i) to(rows(node, i), 0) = from(node, i);
   return result;
 }
 
@@ -30,7 +33,7 @@ void NodalMass::add_to(Matrix& jacobian, double factor) const {
   const Map &nodes = *matrix_->getColMap(), &columns = *jacobian.getColMap();
   std::vector<LocalOrdinal> first(nodes.getNodeNumElements());  // column of a node's first dof
   for (std::size_t n = 0; n < first.size(); ++n)
-    first[n] = columns.getLocalElement(dimension_ * nodes.getGlobalElement(static_cast<LocalOrdinal>(n)));
+    first[n] = columns.getLocalElement(space_->id(0, nodes.getGlobalElement(static_cast<LocalOrdinal>(n)), 0));
   std::vector<double> values;
   std::vector<LocalOrdinal> places;
   for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(matrix_->getNodeNumRows()); ++node) {
@@ -42,8 +45,8 @@ void NodalMass::add_to(Matrix& jacobian, double factor) const {
       places.push_back(first[mass.graph.entries(k)]);
     }
     const auto count = static_cast<LocalOrdinal>(values.size());
-    for (int i = 0; i < dimension_; ++i) {
-      if (jacobian.sumIntoLocalValues(dimension_ * node + i, count, values.data(), places.data()) != count)
+    for (int i = 0; i < space_->rows(0).components; ++i) {
+      if (jacobian.sumIntoLocalValues(space_->row(node, i), count, values.data(), places.data()) != count)
         throw std::logic_error("a matrix lacks entries of the mass");
       for (LocalOrdinal& place : places) ++place;
     }
@@ -52,21 +55,24 @@ void NodalMass::add_to(Matrix& jacobian, double factor) const {
 
 RCP<const Matrix> consistent_mass(const Bodies& bodies) {
   const Mesh& mesh = *bodies.mesh();
-  Matrix of_dofs(bodies.graph());
+  Matrix of_dofs(bodies.space().graph());
   of_dofs.setAllToScalar(0.0);
   bodies.add_mass(of_dofs);
   const auto local = of_dofs.getLocalMatrixHost();
-  const int dimension = mesh.dimension;
-  const auto result = rcp(new Matrix(mesh.owned_nodes, mesh.local_nodes, of_dofs.getCrsGraph()->getNodeMaxNumRowEntries() / dimension));
+  const FieldRows& rows = bodies.space().rows(0);
+  std::vector<LocalOrdinal> node_of(bodies.space().local_dofs()->getNodeNumElements(), -1);  // by columns of first components
+  for (LocalOrdinal node = 0; node < mesh.local_count(); ++node) node_of[rows(node, 0)] = node;
+  const auto result = rcp(new Matrix(mesh.owned_nodes, mesh.local_nodes, of_dofs.getCrsGraph()->getNodeMaxNumRowEntries() / rows.components));
   std::vector<double> values;
   std::vector<LocalOrdinal> columns;
   for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node) {
     values.clear();
     columns.clear();
-    for (std::size_t k = local.graph.row_map(dimension * node); k < local.graph.row_map(dimension * node + 1); ++k) {
-      if (local.graph.entries(k) % dimension != 0) continue;
+    const LocalOrdinal row = rows(node, 0);
+    for (std::size_t k = local.graph.row_map(row); k < local.graph.row_map(row + 1); ++k) {
+      if (node_of[local.graph.entries(k)] < 0) continue;
       values.push_back(local.values(k));
-      columns.push_back(local.graph.entries(k) / dimension);
+      columns.push_back(node_of[local.graph.entries(k)]);
     }
     result->insertLocalValues(node, static_cast<LocalOrdinal>(values.size()), values.data(), columns.data());
   }
@@ -92,15 +98,16 @@ RCP<const Matrix> mass_of_extension(const Matrix& M, const Matrix& P) {
   return result;
 }
 
-RCP<const Matrix> for_each_component(const Matrix& of_nodes, const RCP<const Map>& dofs, int dimension) {
+RCP<const Matrix> for_each_component(const Matrix& of_nodes, const FieldSpace& space) {
+  const RCP<const Map>& dofs = space.dofs();
   const auto local = of_nodes.getLocalMatrixHost();
   const auto result = rcp(new Matrix(dofs, of_nodes.getNodeMaxNumRowEntries()));
   for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(of_nodes.getNodeNumRows()); ++node)
     for (std::size_t k = local.graph.row_map(node); k < local.graph.row_map(node + 1); ++k)
-      for (int i = 0; i < dimension; ++i) {
-        const GlobalOrdinal column = dimension * of_nodes.getColMap()->getGlobalElement(local.graph.entries(k)) + i;
+      for (int i = 0; i < space.rows(0).components; ++i) {
+        const GlobalOrdinal column = space.id(0, of_nodes.getColMap()->getGlobalElement(local.graph.entries(k)), i);
         const double value = local.values(k);
-        result->insertGlobalValues(dofs->getGlobalElement(dimension * node + i), 1, &value, &column);
+        result->insertGlobalValues(dofs->getGlobalElement(space.row(node, i)), 1, &value, &column);
       }
   result->fillComplete(dofs, dofs);
   return result;

@@ -13,7 +13,7 @@ RCP<MultiVector> current_coordinates(const Bodies& bodies, const Vector& displac
   auto x = coordinates->getLocalViewHost(Tpetra::Access::OverwriteAll);
   const HostReadView u(displacement);
   for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node)
-    for (int i = 0; i < dimension; ++i) x(node, i) = mesh.coordinates[node][i] + u.data()[dimension * node + i];
+    for (int i = 0; i < dimension; ++i) x(node, i) = mesh.coordinates[node][i] + u.data()[bodies.space().row(node, i)];
   return coordinates;
 }
 
@@ -21,7 +21,7 @@ RCP<MultiVector> rigid_body_modes(const Bodies& bodies, const Vector& displaceme
   const Mesh& mesh = *bodies.mesh();
   const int dimension = bodies.dimension();
   const bool axisymmetric = bodies.kinematics() == Kinematics::axisymmetric;
-  auto modes = rcp(new MultiVector(bodies.dofs(), axisymmetric ? 1 : dimension == 3 ? 6 : 3));  // starts as zero
+  auto modes = rcp(new MultiVector(bodies.space().dofs(), axisymmetric ? 1 : dimension == 3 ? 6 : 3));  // starts as zero
   auto mode = modes->getLocalViewHost(Tpetra::Access::ReadWrite);
   const auto coordinates = current_coordinates(bodies, displacement);
   const auto x = coordinates->getLocalViewHost(Tpetra::Access::ReadOnly);
@@ -31,15 +31,14 @@ RCP<MultiVector> rigid_body_modes(const Bodies& bodies, const Vector& displaceme
   Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, 4, sum, total);
   for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node) {
     if (axisymmetric) {
-      mode(2 * node + 1, 0) = 1.0;
+      mode(bodies.space().row(node, 1), 0) = 1.0;
       continue;
     }
-    const LocalOrdinal dof = dimension * node;
-    for (int i = 0; i < dimension; ++i) mode(dof + i, i) = 1.0;
+    for (int i = 0; i < dimension; ++i) mode(bodies.space().row(node, i), i) = 1.0;
     // Turning about the normal to the directions i and j moves the node by (-x_j, x_i); in 3D about x, y, z.
     const auto turn = [&](int column, int i, int j) {
-      mode(dof + i, column) = -(x(node, j) - total[j] / total[3]);
-      mode(dof + j, column) = x(node, i) - total[i] / total[3];
+      mode(bodies.space().row(node, i), column) = -(x(node, j) - total[j] / total[3]);
+      mode(bodies.space().row(node, j), column) = x(node, i) - total[i] / total[3];
     };
     if (dimension == 2) {
       turn(2, 0, 1);

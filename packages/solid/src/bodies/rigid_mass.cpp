@@ -54,7 +54,7 @@ RigidMass mass_within(const Bodies& bodies, const Located<std::string>& surface,
   double of_rings = 0.0;                 // 2 integral r dr dz = integral r^2 n_r ds
   for (const LoadedSide& side : owned_sides(mesh, surface))
     for (const SidePoint& point : *side.rule) {
-      const SidePosition at = side.at(point, mesh, nullptr);
+      const SidePosition at = side.at(point, mesh, {});
       const Position x = at.position, n = point.weight * at.area;
       of_rings += n[0] * x[0] * x[0];
       for (int i = 0; i < dimension; ++i) {

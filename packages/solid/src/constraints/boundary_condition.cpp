@@ -83,8 +83,8 @@ std::array<std::array<double, 3>, 3> axes_of(const BoundaryConditionOptions& con
   return {{{x[0], x[1], x[2]}, {y[0], y[1], y[2]}, {z[0], z[1], z[2]}}};
 }
 
-std::array<double, 3> direction_of(const InclinedComponent& component, int dimension) {
-  Vector3d n = Vector3d::Unit(component.dof % dimension) - Vector3d(component.of.data());
+std::array<double, 3> direction_of(const InclinedComponent& component) {
+  Vector3d n = Vector3d::Unit(component.component) - Vector3d(component.of.data());
   n.normalize();
   return {n[0], n[1], n[2]};
 }

@@ -28,10 +28,10 @@ Followers::Followers(const Bodies& bodies) : bodies_(bodies) {
   for (std::size_t p = 0; p < mesh.reference_points.size(); ++p)
     for (const LocalOrdinal node : mesh.reference_points[p].followers)
       for (int i = 0; i < mesh.dimension; ++i)
-        if (node < mesh.owned_count() && !is_free(bodies, mesh.reference_points[p], node, i)) followers[mesh.dimension * node + i] = {node, i, p};
+        if (node < mesh.owned_count() && !is_free(bodies, mesh.reference_points[p], node, i)) followers[bodies.space().row(node, i)] = {node, i, p};
   for (const ReferencePoint& point : mesh.reference_points)
     for (const LocalOrdinal node : {point.node, point.rotation_node})
-      for (int i = 0; i < mesh.dimension && node >= 0 && node < mesh.owned_count(); ++i) followed_.push_back(mesh.dimension * node + i);
+      for (int i = 0; i < mesh.dimension && node >= 0 && node < mesh.owned_count(); ++i) followed_.push_back(bodies.space().row(node, i));
   for (const auto& [dof, follower] : followers) {
     dofs_.push_back(dof);
     followers_.push_back(follower);
@@ -40,6 +40,7 @@ Followers::Followers(const Bodies& bodies) : bodies_(bodies) {
 
 std::vector<Dependence> Followers::evaluate(const Vector& local_displacement) const {
   const Mesh& mesh = *bodies_.mesh();
+  const FieldSpace& space = bodies_.space();
   const int dimension = mesh.dimension, turns = dimension == 2 ? 1 : 3;
   const HostReadView u(local_displacement);
   std::vector<Dependence> dependences(followers_.size());
@@ -48,19 +49,19 @@ std::vector<Dependence> Followers::evaluate(const Vector& local_displacement) co
     const ReferencePoint& point = mesh.reference_points[p];
     Dependence& d = dependences[n];
     if (!is_followed(bodies_, point, i)) continue;
-    d.source[0] = dimension * mesh.local_nodes->getGlobalElement(point.node) + i;
+    d.source[0] = space.local_dofs()->getGlobalElement(space.row(point.node, i));
     d.gradient[0] = 1.0;
-    d.value = u.data()[dimension * point.node + i];
+    d.value = u.data()[space.row(point.node, i)];
     d.sources = 1;
     if (point.rotation_node < 0) continue;
     Eigen::Vector3d theta = Eigen::Vector3d::Zero();
-    for (int k = 0; k < turns; ++k) theta[dimension == 2 ? 2 : k] = u.data()[dimension * point.rotation_node + k] / point.arm;
+    for (int k = 0; k < turns; ++k) theta[dimension == 2 ? 2 : k] = u.data()[space.row(point.rotation_node, k)] / point.arm;
     const Eigen::Vector3d arm = Eigen::Vector3d(mesh.coordinates[node].data()) - Eigen::Vector3d(mesh.coordinates[point.node].data());
     const OfRotation turned = turn(theta, arm);
     d.value += turned.value[i] - arm[i];
     for (int k = 0; k < turns; ++k) {
       const int about = dimension == 2 ? 2 : k;
-      d.source[1 + k] = dimension * mesh.local_nodes->getGlobalElement(point.rotation_node) + k;
+      d.source[1 + k] = space.local_dofs()->getGlobalElement(space.row(point.rotation_node, k));
       d.gradient[1 + k] = turned.gradient[about][i] / point.arm;
       for (int l = 0; l < turns; ++l) d.curvature[1 + k][1 + l] = turned.curvature[about][dimension == 2 ? 2 : l][i] / (point.arm * point.arm);
     }
@@ -75,8 +76,8 @@ std::vector<LocalOrdinal> Followers::idle_dofs(const Bodies& bodies) {
   for (const ReferencePoint& point : mesh.reference_points) {
     if (point.node >= mesh.owned_count()) continue;
     for (int i = 0; i < mesh.dimension; ++i)
-      if (!is_followed(bodies, point, i)) dofs.push_back(mesh.dimension * point.node + i);
-    if (point.rotation_node >= 0 && mesh.dimension == 2) dofs.push_back(2 * point.rotation_node + 1);
+      if (!is_followed(bodies, point, i)) dofs.push_back(bodies.space().row(point.node, i));
+    if (point.rotation_node >= 0 && mesh.dimension == 2) dofs.push_back(bodies.space().row(point.rotation_node, 1));
   }
   return dofs;
 }

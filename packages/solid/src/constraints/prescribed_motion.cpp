@@ -38,7 +38,7 @@ bool agree(double a, double b, double length) { return a == b || std::abs(a - b)
 std::optional<std::string> follower(const Bodies& bodies, const Followers& followers, const std::vector<LocalOrdinal>& nodes, int component) {
   const Mesh& mesh = *bodies.mesh();
   for (const LocalOrdinal node : nodes)
-    if (std::binary_search(followers.dofs().begin(), followers.dofs().end(), mesh.dimension * node + component))
+    if (std::binary_search(followers.dofs().begin(), followers.dofs().end(), bodies.space().row(node, component)))
       for (const ReferencePoint& point : mesh.reference_points)
         if (std::binary_search(point.followers.begin(), point.followers.end(), node)) return point.name;
   return {};
@@ -147,7 +147,7 @@ void PrescribedMotion::Collected::add_rotations(std::size_t n) {
     motion_.functions_.push_back(*rotation);
     const Source source{static_cast<LocalOrdinal>(motion_.functions_.size() - 1), mesh_.coordinates[point.node],
                         point.arm * boost::math::constants::degree<double>()};
-    if (point.rotation_node < mesh_.owned_count()) prescribed_.insert_or_assign(mesh_.dimension * point.rotation_node + k, Prescribed{{source}, n});
+    if (point.rotation_node < mesh_.owned_count()) prescribed_.insert_or_assign(bodies_.space().row(point.rotation_node, k), Prescribed{{source}, n});
   }
 }
 
@@ -181,7 +181,7 @@ void PrescribedMotion::Collected::add_displacements(std::size_t n, const std::ve
         directed_[node].push_back({Vector3d(axes[static_cast<std::size_t>(component)].data()), source, n});
         continue;
       }
-      const auto [other, is_new] = prescribed_.try_emplace(mesh_.dimension * node + component, Prescribed{{source}, n});
+      const auto [other, is_new] = prescribed_.try_emplace(bodies_.space().row(node, component), Prescribed{{source}, n});
       if (is_new) continue;
       const bool same = std::all_of(std::begin(compared_times), std::end(compared_times),
                                     [&](double t) { return agree(value_of({source}, t), value_of(other->second.sum, t), length_); });
@@ -200,7 +200,7 @@ void PrescribedMotion::Collected::solve() {
 
 void PrescribedMotion::Collected::solve_node(LocalOrdinal node, std::vector<Directed>& directed) {
   for (int i = 0; i < mesh_.dimension; ++i) {
-    const auto along_axis = prescribed_.find(mesh_.dimension * node + i);
+    const auto along_axis = prescribed_.find(bodies_.space().row(node, i));
     if (along_axis == prescribed_.end()) continue;
     directed.push_back({Vector3d::Unit(i), along_axis->second.sum.front(), along_axis->second.condition});
     prescribed_.erase(along_axis);
@@ -235,12 +235,11 @@ void PrescribedMotion::Collected::solve_node(LocalOrdinal node, std::vector<Dire
                     fmt::join(others, ", "), to_string(directed.front().source.position, mesh_.dimension)));
   }
   for (const SolvedConditions::Component& one : solved.components) {
-    const LocalOrdinal dof = mesh_.dimension * node + one.component;
     if (one.of.isZero(0.0)) {
-      prescribed_.emplace(dof, Prescribed{weighted(one.weights), directed.front().condition});
+      prescribed_.emplace(bodies_.space().row(node, one.component), Prescribed{weighted(one.weights), directed.front().condition});
       continue;
     }
-    InclinedComponent inclined{dof, {}};
+    InclinedComponent inclined{node, one.component, {}};
     for (int i = 0; i < mesh_.dimension; ++i) inclined.of[static_cast<std::size_t>(i)] = one.of[i];
     motion_.inclined_.push_back(inclined);
     sums_of_inclined_.push_back(weighted(one.weights));
@@ -256,7 +255,7 @@ void PrescribedMotion::Collected::add_idle_dofs() {
     const bool zero = std::all_of(std::begin(compared_times), std::end(compared_times), [&, &s = sum](double t) { return value_of(s, t) == 0.0; });
     if (!zero)
       say(condition, fmt::format("boundary condition \"{}\" moves a reference point in {}, in which nothing follows it", conditions_[condition].name,
-                                 component_name(dof % mesh_.dimension)));
+                                 component_name(bodies_.space().place(dof).component)));
   }
 }
 

@@ -15,8 +15,8 @@ std::string element_place(const BlockContext& context, LocalOrdinal element) {
   const int nodes = context.block.nodes_per_element;
   std::array<double, 3> middle{};
   for (int a = 0; a < nodes; ++a)
-    for (int i = 0; i < 3; ++i) middle[i] += context.mesh.coordinates[context.block.nodes(element)[a]][i] / nodes;
-  return fmt::format("at ({:.6g}) of the reference configuration", fmt::join(middle.begin(), middle.begin() + context.mesh.dimension, ", "));
+    for (int i = 0; i < 3; ++i) middle[i] += context.space.mesh()->coordinates[context.block.nodes(element)[a]][i] / nodes;
+  return fmt::format("at ({:.6g}) of the reference configuration", fmt::join(middle.begin(), middle.begin() + context.space.mesh()->dimension, ", "));
 }
 
 std::unique_ptr<ElementBlock> make_element_block(const BlockContext& context, const BodyProperties& body, Kinematics kinematics, double thickness) {

@@ -15,10 +15,9 @@ namespace mortise {
 
 /// Arguments of the loops of a block.
 struct BlockContext {
-  const Mesh& mesh;
+  const FieldSpace& space;  ///< displacements first
   const Block& block;
   LocalOrdinal index;  ///< of the block in the mesh
-  const NodalSparsity& sparsity;
 };
 
 /// The middle of an element's nodes in the reference configuration, for people: "at (1, 0.5) of the reference configuration".

@@ -54,7 +54,7 @@ class KernelBlock final : public ReferenceBlock<Cell, kinematics == Kinematics::
   long history_evaluations() const override { return history_evaluations_; }
 
  private:
-  static std::array<const double*, 1> fields(const double* displacement) { return {displacement}; }
+  std::array<FieldView<const double>, 1> fields(const double* displacement) const { return {{{displacement, loop().rows()}}}; }
 
   auto points_of(LocalOrdinal element, const double* displacement) const {
     return loop().template points_of<Element>(element, mechanics_.rule, fields(displacement));
@@ -66,7 +66,7 @@ class KernelBlock final : public ReferenceBlock<Cell, kinematics == Kinematics::
 
   void report(LocalOrdinal element, const ElementTrouble& trouble, std::optional<StepFailure>& failure) const {
     if (failure) return;
-    const Mesh& mesh = context().mesh;
+    const Mesh& mesh = *context().space.mesh();
     const Block& block = context().block;
     const GlobalOrdinal id = block.element_ids[element];
     if (trouble.kind == ElementTrouble::Kind::inverted)

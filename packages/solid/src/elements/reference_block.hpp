@@ -15,18 +15,17 @@ class ReferenceBlock : public ElementBlock {
   using Geometry = ElementGeometry<Cell, axisymmetric>;
 
  public:
-  ReferenceBlock(const BlockContext& context, double thickness)
-      : context_(context), loop_(context.mesh, context.block, context.sparsity), thickness_(thickness) {}
+  ReferenceBlock(const BlockContext& context, double thickness) : context_(context), loop_(context.space, context.block), thickness_(thickness) {}
 
   void add_mass(double density, const NodalSparsity::Values& matrix, double factor) const override {
-    add<false, true>(Inertia<Geometry>{density}, {nullptr, &matrix, factor});
+    add<false, true>(Inertia<Geometry>{density}, {{}, &matrix, factor});
   }
 
   void add_nodal_masses(double density, std::vector<double>& masses) const override {
-    add<true, false>(LumpedInertia<Geometry>{density}, {masses.data()});
+    add<true, false>(LumpedInertia<Geometry>{density}, {{masses.data()}});
   }
 
-  void add_nodal_volumes(std::vector<double>& volumes) const override { add<true, false>(Volume<Geometry>{}, {volumes.data()}); }
+  void add_nodal_volumes(std::vector<double>& volumes) const override { add<true, false>(Volume<Geometry>{}, {{volumes.data()}}); }
 
   std::pair<LocalOrdinal, double> smallest_reference_determinant() const override {
     const ElementRule<Geometry, Geometry::stiffness_points> rule(thickness_);
@@ -48,7 +47,7 @@ class ReferenceBlock : public ElementBlock {
   template <bool residual_wanted, bool tangent_wanted, class Integrand>
   void add(const Integrand& integrand, const AssemblyTarget& target) const {
     loop_.template add<residual_wanted, tangent_wanted>(BlockIntegral<Integrand>(integrand, context_.block, thickness_),
-                                                        std::array<const double*, 0>{}, target);
+                                                        typename ElementLoop<Cell>::template Fields<0>{}, target);
   }
 
   BlockContext context_;

@@ -25,7 +25,7 @@ class NodalForce final : public Load {
     const int dimension = bodies_->dimension();
     for (LocalOrdinal node : nodes_)
       for (int i = 0; i < dimension; ++i)
-        r.data()[dimension * node + i] -= evaluate(components_[i], time, bodies_->mesh()->coordinates[node], failure);
+        r.data()[bodies_->space().row(node, i)] -= evaluate(components_[i], time, bodies_->mesh()->coordinates[node], failure);
   }
 
  private:
@@ -47,13 +47,13 @@ class DeadTraction final : public Load {
     const HostWriteView r(residual);
     for (const LoadedSide& side : sides_)
       for (const SidePoint& point : *side.rule) {
-        const SidePosition reference = side.at(point, mesh, nullptr);
+        const SidePosition reference = side.at(point, mesh, {});
         const auto& X = reference.position;
         const double area = point.weight * reference.area.norm() * bodies_->depth(X(0));
         for (int i = 0; i < mesh.dimension; ++i) {
           const double traction = evaluate(components_[i], time, {X(0), X(1), X(2)}, failure);
           for (std::size_t a = 0; a < side.nodes.size(); ++a)
-            if (side.nodes[a] < mesh.owned_count()) r.data()[mesh.dimension * side.nodes[a] + i] -= area * point.N[a] * traction;
+            if (side.nodes[a] < mesh.owned_count()) r.data()[bodies_->space().row(side.nodes[a], i)] -= area * point.N[a] * traction;
         }
       }
   }
@@ -68,7 +68,7 @@ class DeadTraction final : public Load {
 class Gravity final : public Load {
  public:
   Gravity(const std::shared_ptr<const Bodies>& bodies, const GravityOptions& options)
-      : components_(components(*bodies, options.x, options.y, options.z)), masses_(bodies->mesh()->owned_count(), 0.0) {
+      : bodies_(bodies), components_(components(*bodies, options.x, options.y, options.z)), masses_(bodies->mesh()->owned_count(), 0.0) {
     bool found = false;
     for (std::size_t n = 0; n < bodies->properties().size(); ++n) {
       const BodyProperties& body = bodies->properties()[n];
@@ -89,11 +89,13 @@ class Gravity final : public Load {
     const std::size_t dimension = components_.size();
     for (std::size_t i = 0; i < dimension; ++i) {
       const double acceleration = evaluate(components_[i], time, {}, failure);
-      for (std::size_t node = 0; node < masses_.size(); ++node) r.data()[dimension * node + i] -= masses_[node] * acceleration;
+      for (std::size_t node = 0; node < masses_.size(); ++node)
+        r.data()[bodies_->space().row(static_cast<LocalOrdinal>(node), static_cast<int>(i))] -= masses_[node] * acceleration;
     }
   }
 
  private:
+  std::shared_ptr<const Bodies> bodies_;
   std::vector<ScalarFunction> components_;
   std::vector<double> masses_;  ///< of the owned nodes
 };

@@ -15,7 +15,7 @@ class FollowerPressure final : public Load {
       : bodies_(std::move(bodies)), pressure_(options.pressure), sides_(sides_at_owned_nodes(*bodies_->mesh(), options.set)) {
     for (const LoadedSide& side : sides_)
       for (const LocalOrdinal a : side.nodes)
-        for (const LocalOrdinal b : side.nodes) positions_.push_back(bodies_->sparsity().position(a, b));
+        for (const LocalOrdinal b : side.nodes) positions_.push_back(bodies_->space().sparsity().position(a, b));
   }
 
   bool follows() const override { return true; }
@@ -26,11 +26,11 @@ class FollowerPressure final : public Load {
     const HostWriteView r(residual);
     for (const LoadedSide& side : sides_)
       for (const SidePoint& point : *side.rule) {
-        const SidePosition current = side.at(point, mesh, u.data());
+        const SidePosition current = side.at(point, mesh, {u.data(), bodies_->space().rows(0)});
         const double force = point.weight * pressure(time, side, point, failure) * bodies_->depth(current.position(0));
         for (std::size_t a = 0; a < side.nodes.size(); ++a)
           if (side.nodes[a] < mesh.owned_count())
-            for (int i = 0; i < mesh.dimension; ++i) r.data()[mesh.dimension * side.nodes[a] + i] += force * point.N[a] * current.area(i);
+            for (int i = 0; i < mesh.dimension; ++i) r.data()[bodies_->space().row(side.nodes[a], i)] += force * point.N[a] * current.area(i);
       }
   }
 
@@ -38,19 +38,19 @@ class FollowerPressure final : public Load {
                     double factor) const override {
     const Mesh& mesh = *bodies_->mesh();
     const HostReadView u(local_displacement);
-    const NodalSparsity::Values values = bodies_->sparsity().open(matrix);
+    const NodalSparsity::Values values = bodies_->space().sparsity().open(matrix);
     const LocalOrdinal* positions = positions_.data();
     for (const LoadedSide& side : sides_) {
       const std::size_t nodes = side.nodes.size();
       for (const SidePoint& point : *side.rule) {
-        const SidePosition current = side.at(point, mesh, u.data());
+        const SidePosition current = side.at(point, mesh, {u.data(), bodies_->space().rows(0)});
         const double p = factor * point.weight * pressure(time, side, point, failure);
         for (std::size_t b = 0; b < nodes; ++b) {
           const Eigen::Matrix3d change = change_of_area(point, current, b);
           for (std::size_t a = 0; a < nodes; ++a) {
             if (side.nodes[a] >= mesh.owned_count()) continue;
             for (int i = 0; i < mesh.dimension; ++i) {
-              double* entries = values.row(mesh.dimension * side.nodes[a] + i) + positions[nodes * a + b];
+              double* entries = values.row(bodies_->space().row(side.nodes[a], i)) + positions[nodes * a + b];
               for (int j = 0; j < mesh.dimension; ++j) entries[j] += p * point.N[a] * change(i, j);
             }
           }
@@ -74,7 +74,7 @@ class FollowerPressure final : public Load {
   }
 
   double pressure(double time, const LoadedSide& side, const SidePoint& point, std::optional<StepFailure>& failure) const {
-    const Eigen::Vector3d X = side.at(point, *bodies_->mesh(), nullptr).position;
+    const Eigen::Vector3d X = side.at(point, *bodies_->mesh(), {}).position;
     return evaluate(pressure_, time, {X(0), X(1), X(2)}, failure);
   }
 

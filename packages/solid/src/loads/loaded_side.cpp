@@ -36,12 +36,12 @@ const std::vector<SidePoint>& side_rule(CellShape side) {
 
 }  // namespace
 
-SidePosition LoadedSide::at(const SidePoint& point, const Mesh& mesh, const double* displacement) const {
+SidePosition LoadedSide::at(const SidePoint& point, const Mesh& mesh, const FieldView<const double>& displacement) const {
   SidePosition result;
   for (std::size_t a = 0; a < nodes.size(); ++a) {
     Eigen::Vector3d x = Eigen::Map<const Eigen::Vector3d>(mesh.coordinates[nodes[a]].data());
-    if (displacement != nullptr)
-      for (int i = 0; i < dimension; ++i) x(i) += displacement[dimension * nodes[a] + i];
+    if (displacement.values != nullptr)
+      for (int i = 0; i < dimension; ++i) x(i) += displacement(nodes[a], i);
     result.position += point.N[a] * x;
     for (int i = 0; i < dimension - 1; ++i) result.tangents[i] += point.gradient[a][i] * x;
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mortise/core/parameters.hpp"
+#include "mortise/mesh/field_rows.hpp"
 #include "mortise/mesh/mesh.hpp"
 #include "mortise/shape/surface_facet.hpp"
 
@@ -32,8 +33,8 @@ struct LoadedSide {
   int dimension;                       ///< of the mesh
   const std::vector<SidePoint>* rule;  ///< of side_points
 
-  /// `displacement`: on the local dofs; null: none.
-  SidePosition at(const SidePoint& point, const Mesh& mesh, const double* displacement) const;
+  /// `displacement`: without values none.
+  SidePosition at(const SidePoint& point, const Mesh& mesh, const FieldView<const double>& displacement) const;
 };
 
 /// The sides of the set whose elements this rank owns. Collective; throws InputError on all ranks if there is no such set.

@@ -19,7 +19,8 @@ class PlaneMoment final : public Load {
   void add_residual(double time, const Vector&, Vector& residual, std::optional<StepFailure>& failure) const override {
     const Mesh& mesh = *bodies_->mesh();
     if (point_.rotation_node >= mesh.owned_count()) return;
-    HostWriteView(residual).data()[2 * point_.rotation_node] -= evaluate(moment_, time, mesh.coordinates[point_.node], failure) / point_.arm;
+    HostWriteView(residual).data()[bodies_->space().row(point_.rotation_node, 0)] -=
+        evaluate(moment_, time, mesh.coordinates[point_.node], failure) / point_.arm;
   }
 
  private:
@@ -37,7 +38,7 @@ class SpaceMoment final : public Load {
       : bodies_(std::move(bodies)),
         point_(point),
         moment_(std::move(moment)),
-        position_(bodies_->sparsity().position(point.rotation_node, point.rotation_node)) {}
+        position_(bodies_->space().sparsity().position(point.rotation_node, point.rotation_node)) {}
 
   bool follows() const override { return true; }
 
@@ -52,7 +53,7 @@ class SpaceMoment final : public Load {
                     double factor) const override {
     if (!is_owned()) return;
     const OfRotation force = generalised(time, local_displacement, failure);
-    const NodalSparsity::Values values = bodies_->sparsity().open(matrix);
+    const NodalSparsity::Values values = bodies_->space().sparsity().open(matrix);
     for (int i = 0; i < 3; ++i)
       for (int k = 0; k < 3; ++k) values.row(first_dof() + i)[position_ + k] -= factor * force.gradient[k][i] / (point_.arm * point_.arm);
     values.close();
@@ -60,7 +61,7 @@ class SpaceMoment final : public Load {
 
  private:
   bool is_owned() const { return point_.rotation_node < bodies_->mesh()->owned_count(); }
-  LocalOrdinal first_dof() const { return 3 * point_.rotation_node; }
+  LocalOrdinal first_dof() const { return bodies_->space().row(point_.rotation_node, 0); }
 
   OfRotation generalised(double time, const Vector& local_displacement, std::optional<StepFailure>& failure) const {
     const HostReadView u(local_displacement);

@@ -49,12 +49,12 @@ class Amplitudes {
 /// External forces at the times, [dof][time]: those of loads that do not follow the bodies.
 std::vector<Values> external_forces(const Scene& scene, const Model& model, const Values& times) {
   const Bodies& bodies = *model.bodies();
-  std::vector<Values> forces(bodies.dofs()->getNodeNumElements(), Values(times.size()));
-  const Vector undeformed(bodies.local_dofs());
+  std::vector<Values> forces(bodies.space().dofs()->getNodeNumElements(), Values(times.size()));
+  const Vector undeformed(bodies.space().local_dofs());
   for (const auto& options : scene.loads) {
     const auto load = options.value.load.options->make(model.bodies());
     for (std::size_t i = 0; i < times.size(); ++i) {
-      Vector residual(bodies.dofs());
+      Vector residual(bodies.space().dofs());
       std::optional<StepFailure> failure;
       load->add_residual(times[i], undeformed, residual, failure);
       if (failure) throw *failure;

@@ -48,7 +48,7 @@ std::array<double, 6> over_layers(const CalculixResults& results, const std::str
 }  // namespace
 
 PeerEvaluation::PeerEvaluation(const Scene& scene, const Model& model, const CalculixResults& results) : scene_(scene), model_(model) {
-  const auto& dofs = model.bodies()->dofs();
+  const auto& dofs = model.bodies()->space().dofs();
   for (auto* vector : {&displacement_, &nodal_force_, &external_, &reaction_}) *vector = rcp(new Vector(dofs));
   read_displacement(results);
   read_pressure(results);
@@ -67,8 +67,8 @@ void PeerEvaluation::read_displacement(const CalculixResults& results) {
       for (int i = 0; i < numbers.dimension; ++i) values(numbers.dimension * node + i, 0) = sum[i] / numbers.layers;
     }
   }
-  local_displacement_ = rcp(new Vector(model_.bodies()->local_dofs()));
-  local_displacement_->doImport(*displacement_, *model_.bodies()->ghost_import(), Tpetra::INSERT);
+  local_displacement_ = rcp(new Vector(model_.bodies()->space().local_dofs()));
+  local_displacement_->doImport(*displacement_, *model_.bodies()->space().ghost_import(), Tpetra::INSERT);
 }
 
 /// z_j = p_j n_j.

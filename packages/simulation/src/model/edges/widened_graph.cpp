@@ -13,15 +13,16 @@
 
 namespace mortise {
 
-RCP<const Graph> widened(const Graph& bulk, const Map& owned_nodes, int dimension, const std::set<std::pair<GlobalOrdinal, GlobalOrdinal>>& coupled) {
+RCP<const Graph> widened(const Graph& bulk, const FieldSpace& space, const std::set<std::pair<GlobalOrdinal, GlobalOrdinal>>& coupled) {
   std::map<LocalOrdinal, std::vector<GlobalOrdinal>> of_row;
   std::vector<GlobalOrdinal> further;
   for (const auto& [one, other] : coupled) {
-    const LocalOrdinal node = owned_nodes.getLocalElement(one);
+    const LocalOrdinal node = space.mesh()->owned_nodes->getLocalElement(one);
     if (node < 0) continue;
-    for (int j = 0; j < dimension; ++j) {
-      further.push_back(dimension * other + j);
-      for (int i = 0; i < dimension; ++i) of_row[dimension * node + i].push_back(further.back());
+    const int components = space.rows(0).components;
+    for (int j = 0; j < components; ++j) {
+      further.push_back(space.id(0, other, j));
+      for (int i = 0; i < components; ++i) of_row[space.row(node, i)].push_back(further.back());
     }
   }
   const RCP<const Map> rows = bulk.getRowMap(), columns = with_further_columns(*bulk.getColMap(), further);
@@ -52,15 +53,16 @@ RCP<const Graph> widened(const Graph& bulk, const Map& owned_nodes, int dimensio
   return graph;
 }
 
-RCP<const Graph> with_entries_of(const RCP<const Graph>& bulk, const Matrix& of_nodes, int dimension) {
+RCP<const Graph> with_entries_of(const RCP<const Graph>& bulk, const Matrix& of_nodes, const FieldSpace& space) {
   std::set<std::pair<GlobalOrdinal, GlobalOrdinal>> coupled;
   const auto mass = of_nodes.getLocalMatrixHost();
   const auto graph = bulk->getLocalGraphHost();
   for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(of_nodes.getNodeNumRows()); ++node) {
-    const auto *first = graph.entries.data() + graph.row_map(dimension * node), *last = graph.entries.data() + graph.row_map(dimension * node + 1);
+    const LocalOrdinal row = space.row(node, 0);
+    const auto *first = graph.entries.data() + graph.row_map(row), *last = graph.entries.data() + graph.row_map(row + 1);
     for (std::size_t k = mass.graph.row_map(node); k < mass.graph.row_map(node + 1); ++k) {
       const GlobalOrdinal other = of_nodes.getColMap()->getGlobalElement(mass.graph.entries(k));
-      const LocalOrdinal column = bulk->getColMap()->getLocalElement(dimension * other);
+      const LocalOrdinal column = bulk->getColMap()->getLocalElement(space.id(0, other, 0));
       if (mass.values(k) != 0.0 && (column < 0 || !std::binary_search(first, last, column)))
         coupled.emplace(of_nodes.getRowMap()->getGlobalElement(node), other);
     }
@@ -68,7 +70,7 @@ RCP<const Graph> with_entries_of(const RCP<const Graph>& bulk, const Matrix& of_
   const int mine = coupled.empty() ? 0 : 1;
   int anywhere = 0;
   Teuchos::reduceAll(*bulk->getComm(), Teuchos::REDUCE_MAX, mine, Teuchos::outArg(anywhere));
-  return anywhere == 0 ? bulk : widened(*bulk, *of_nodes.getRowMap(), dimension, coupled);
+  return anywhere == 0 ? bulk : widened(*bulk, space, coupled);
 }
 
 }  // namespace mortise

@@ -41,11 +41,11 @@ FieldUse StiffnessDamping::uses() const {
 }
 
 StiffnessDamping::StiffnessDamping(const Bodies& bodies, double damping, const Timers& timers)
-    : CountedContribution("stiffness damping", timers), damping_(rcp(new Matrix(bodies.graph()))) {
+    : CountedContribution("stiffness damping", timers), damping_(rcp(new Matrix(bodies.space().graph()))) {
   damping_->setAllToScalar(0.0);
   std::optional<StepFailure> failure;
-  bodies.add_stiffness(Vector(bodies.local_dofs()), *damping_, failure, damping);
-  damping_->fillComplete(bodies.dofs(), bodies.dofs());
+  bodies.add_stiffness(Vector(bodies.space().local_dofs()), *damping_, failure, damping);
+  damping_->fillComplete(bodies.space().dofs(), bodies.space().dofs());
   throw_if_any(*bodies.mesh()->comm, failure);
 }
 
@@ -90,11 +90,12 @@ void refuse_without_density(const Scene& scene, const Bodies& bodies) {
 }
 
 /// Whether all dofs of a rigid body's reference point are prescribed, over all ranks. Collective.
-bool is_led(const Mesh& mesh, const ReferencePoint& point, const std::vector<LocalOrdinal>& prescribed) {
+bool is_led(const FieldSpace& space, const ReferencePoint& point, const std::vector<LocalOrdinal>& prescribed) {
+  const Mesh& mesh = *space.mesh();
   int free_here = 0, free = 0;
   const auto count = [&](LocalOrdinal node, int dofs) {
     for (int i = 0; i < dofs && node >= 0 && node < mesh.owned_count(); ++i)
-      if (!std::binary_search(prescribed.begin(), prescribed.end(), mesh.dimension * node + i)) ++free_here;
+      if (!std::binary_search(prescribed.begin(), prescribed.end(), space.row(node, i))) ++free_here;
   };
   count(point.node, mesh.dimension);
   count(point.rotation_node, mesh.dimension);
@@ -136,7 +137,7 @@ std::optional<std::vector<double>> masses_of_rigid_bodies(const Scene& scene, co
     });
     if (point == mesh.reference_points.end()) continue;
     if (!body.value.density && !body.value.mass) {
-      if (!is_led(mesh, *point, prescribed))
+      if (!is_led(bodies.space(), *point, prescribed))
         throw InputError(body.place, fmt::format("the rigid body \"{}\" moves and has no mass; please give it a \"density\", or a \"mass\" and "
                                                  "\"moments of inertia\"",
                                                  body.name));
@@ -233,16 +234,16 @@ InertiaOfModel add_inertia(const Scene& scene, const std::shared_ptr<const Bodie
       mass = mass_of_extension(*mass, *result.massless.extension);
       result.centre_shift = largest_shift(before, centres_of_mass(mesh, *mass));
       for (const LocalOrdinal node : result.massless.nodes)
-        for (int i = 0; i < mesh.dimension; ++i) integration->massless.push_back(mesh.dimension * node + i);
-      integration->extension = for_each_component(*result.massless.extension, bodies->dofs(), mesh.dimension);
+        for (int i = 0; i < mesh.dimension; ++i) integration->massless.push_back(bodies->space().row(node, i));
+      integration->extension = for_each_component(*result.massless.extension, bodies->space());
     }
   }
-  result.mass = std::make_shared<const NodalMass>(mass, mesh.dimension);
+  result.mass = std::make_shared<const NodalMass>(mass, bodies->shared_space());
   parts.time = integration;
   parts.contributions.push_back(std::make_shared<InertiaContribution>(result.mass, scene.inertia.mass_damping, timers));
   if (scene.inertia.stiffness_damping > 0.0)
     parts.contributions.push_back(std::make_shared<StiffnessDamping>(*bodies, scene.inertia.stiffness_damping, timers));
-  parts.bulk_graph = [inner = parts.bulk_graph, mass, dimension = mesh.dimension] { return with_entries_of(inner(), *mass, dimension); };
+  parts.bulk_graph = [inner = parts.bulk_graph, mass, space = bodies->shared_space()] { return with_entries_of(inner(), *mass, *space); };
   return result;
 }
 

@@ -23,7 +23,8 @@ Vector3 place(const Mesh& mesh, LocalOrdinal node) { return Eigen::Map<const Vec
 /// Initial conditions, put on the dofs of a model.
 class Start {
  public:
-  Start(const Scene& scene, const Model& model) : scene_(scene), mesh_(*model.mesh()), boxes_(body_boxes(mesh_, reference_places(mesh_))) {}
+  Start(const Scene& scene, const Model& model)
+      : scene_(scene), space_(model.space()), mesh_(*space_.mesh()), boxes_(body_boxes(mesh_, reference_places(mesh_))) {}
 
   void put(Vector& displacement, Vector& velocity) const {
     const auto u = displacement.getLocalViewHost(Tpetra::Access::ReadWrite), v = velocity.getLocalViewHost(Tpetra::Access::ReadWrite);
@@ -67,9 +68,9 @@ class Start {
       const std::array<double, 3>& X = mesh_.coordinates[node];
       const Vector3 spin = omega.cross(place(mesh_, node) - centre(condition, body));
       for (int i = 0; i < dimension; ++i) {
-        if (condition.displacement[i]) u(dimension * node + i, 0) += condition.displacement[i]->at({X[0], X[1], X[2]});
-        if (condition.velocity[i]) v(dimension * node + i, 0) += condition.velocity[i]->at({X[0], X[1], X[2]});
-        v(dimension * node + i, 0) += spin[i];
+        if (condition.displacement[i]) u(space_.row(node, i), 0) += condition.displacement[i]->at({X[0], X[1], X[2]});
+        if (condition.velocity[i]) v(space_.row(node, i), 0) += condition.velocity[i]->at({X[0], X[1], X[2]});
+        v(space_.row(node, i), 0) += spin[i];
       }
     }
     for (const ReferencePoint& point : mesh_.reference_points) {
@@ -80,14 +81,14 @@ class Start {
                          fmt::format("body \"{}\" is rigid and starts without displacement; please place its mesh there", mesh_.bodies[body].name));
       const Vector3 X = place(mesh_, point.node), spin = omega.cross(X - centre(condition, body));
       for (int i = 0; i < dimension && point.node < mesh_.owned_count(); ++i) {
-        if (condition.velocity[i]) v(dimension * point.node + i, 0) += condition.velocity[i]->at({X[0], X[1], X[2]});
-        v(dimension * point.node + i, 0) += spin[i];
+        if (condition.velocity[i]) v(space_.row(point.node, i), 0) += condition.velocity[i]->at({X[0], X[1], X[2]});
+        v(space_.row(point.node, i), 0) += spin[i];
       }
       if (point.rotation_node < 0 || point.rotation_node >= mesh_.owned_count()) continue;
       if (dimension == 2)
-        v(2 * point.rotation_node, 0) += point.arm * omega[2];
+        v(space_.row(point.rotation_node, 0), 0) += point.arm * omega[2];
       else
-        for (int i = 0; i < 3; ++i) v(3 * point.rotation_node + i, 0) += point.arm * omega[i];
+        for (int i = 0; i < 3; ++i) v(space_.row(point.rotation_node, i), 0) += point.arm * omega[i];
     }
   }
 
@@ -102,6 +103,7 @@ class Start {
   }
 
   const Scene& scene_;
+  const FieldSpace& space_;
   const Mesh& mesh_;
   std::vector<Box3> boxes_;
 };
@@ -126,7 +128,7 @@ void refuse_other_motion(const Scene& scene, const Model& model, const Vector& w
   std::vector<Diagnostic> diagnostics;
   for (const LocalOrdinal dof : model.parts().dependent->dofs()) {
     if (std::abs(of_wanted(dof, 0) - of_found(dof, 0)) <= rigid_round_off * size) continue;
-    const auto node = static_cast<std::size_t>(dof / mesh.dimension);
+    const auto node = static_cast<std::size_t>(model.space().place(dof).node);
     diagnostics.push_back(
         {scene.initial_conditions.empty() ? scene.inertia.place : scene.initial_conditions.front().place,
          fmt::format("the velocity {:.6g} of body \"{}\" at ({:.6g}, {:.6g}, {:.6g}) is none of a rigid-body motion, which would be "

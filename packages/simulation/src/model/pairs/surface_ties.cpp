@@ -22,14 +22,6 @@ constexpr double default_tolerance = 0.1;  ///< over the longest facet of a tie
 constexpr int most_rounds = 10;
 constexpr double settled = 1e-10;  ///< of moves, over the tolerance of a tie
 
-RCP<const Map> dofs_of(const Mesh& mesh) {
-  std::vector<GlobalOrdinal> ids;
-  for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node)
-    for (int i = 0; i < mesh.dimension; ++i) ids.push_back(mesh.dimension * mesh.owned_nodes->getGlobalElement(node) + i);
-  const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
-  return rcp(new Map(invalid, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, mesh.comm));
-}
-
 /// 1 where components of owned nodes are prescribed, 2 where they follow reference points.
 RCP<const MultiVector> held_marks(const Mesh& mesh, const std::vector<std::array<bool, 3>>& held) {
   const auto marks = rcp(new MultiVector(mesh.owned_nodes, static_cast<std::size_t>(mesh.dimension)));
@@ -74,28 +66,27 @@ std::vector<TiedPair> pairs_of(const Mesh& mesh, const Scene& scene) {
 bool adjusts(const Scene& scene, std::size_t tie) { return scene.ties[tie].value.mesh == MeshAtStart::adjusted; }
 
 /// X_s = P X_m in the ties that adjust, but along what inclined supports hold. Returns the largest move over its tie's tolerance, over all ranks.
-double move_slaves(Mesh& mesh, const Scene& scene, const HeldNodes& held, const std::vector<TiedPair>& pairs, const TieRows& rows,
-                   const std::array<double, 3>& origin) {
-  const auto dimension = static_cast<LocalOrdinal>(mesh.dimension);
-  const RCP<const Map> dofs = rows.T->getRowMap();
-  Vector X(dofs), moved(dofs);
+double move_slaves(Mesh& mesh, const FieldSpace& space, const Scene& scene, const HeldNodes& held, const std::vector<TiedPair>& pairs,
+                   const TieRows& rows, const std::array<double, 3>& origin) {
+  Vector X(space.dofs()), moved(space.dofs());
   {
     const auto view = X.getLocalViewHost(Tpetra::Access::OverwriteAll);
-    for (LocalOrdinal dof = 0; dof < dimension * mesh.owned_count(); ++dof)
-      view(dof, 0) = mesh.coordinates[static_cast<std::size_t>(dof / dimension)][static_cast<std::size_t>(dof % dimension)] -
-                     origin[static_cast<std::size_t>(dof % dimension)];
+    for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node)
+      for (int i = 0; i < mesh.dimension; ++i)
+        view(space.row(node, i), 0) =
+            mesh.coordinates[static_cast<std::size_t>(node)][static_cast<std::size_t>(i)] - origin[static_cast<std::size_t>(i)];
   }
   rows.T->apply(X, moved);
   double mine = 0.0, largest = 0.0;
   {
     const auto view = moved.getLocalViewHost(Tpetra::Access::ReadOnly);
     for (std::size_t n = 0; n < rows.dofs.size(); ++n) {
-      const LocalOrdinal dof = rows.dofs[n], node = dof / dimension;
-      if (!adjusts(scene, rows.tie_of[n]) || (n > 0 && rows.dofs[n - 1] / dimension == node)) continue;
+      const LocalOrdinal node = space.place(rows.dofs[n]).node;
+      if (!adjusts(scene, rows.tie_of[n]) || (n > 0 && space.place(rows.dofs[n - 1]).node == node)) continue;
       auto& x = mesh.coordinates[static_cast<std::size_t>(node)];
       Eigen::Vector3d move = Eigen::Vector3d::Zero();
-      for (std::size_t of_node = n; of_node < rows.dofs.size() && rows.dofs[of_node] / dimension == node; ++of_node) {
-        const auto i = static_cast<std::size_t>(rows.dofs[of_node] % dimension);
+      for (std::size_t of_node = n; of_node < rows.dofs.size() && space.place(rows.dofs[of_node]).node == node; ++of_node) {
+        const auto i = static_cast<std::size_t>(space.place(rows.dofs[of_node]).component);
         move[static_cast<Eigen::Index>(i)] = view(rows.dofs[of_node], 0) + origin[i] - x[i];
       }
       if (held.directions.count(node) > 0) move = free_part(held, node, move);
@@ -127,12 +118,12 @@ void count_moves(const Mesh& mesh, const Scene& scene, const std::vector<std::ar
 
 }  // namespace
 
-SurfaceTies tie_scene(Mesh& mesh, const Scene& scene, const HeldNodes& held, const InterfaceMeasure& measure, const std::array<double, 3>& origin) {
+SurfaceTies tie_scene(Mesh& mesh, const FieldSpace& space, const Scene& scene, const HeldNodes& held, const InterfaceMeasure& measure,
+                      const std::array<double, 3>& origin) {
   const std::vector<TiedPair> pairs = pairs_of(mesh, scene);
-  const RCP<const Map> dofs = dofs_of(mesh);
   const RCP<const MultiVector> marks = held_marks(mesh, held.components);
   const std::vector<std::array<double, 3>> before = mesh.coordinates;
-  const auto rows_now = [&] { return tie_surfaces(mesh.owned_nodes, dofs, positions_from(mesh, origin), marks, pairs, measure); };
+  const auto rows_now = [&] { return tie_surfaces(mesh.owned_nodes, space.dofs(), positions_from(mesh, origin), marks, pairs, measure); };
   bool any_adjusts = false;
   for (std::size_t t = 0; t < pairs.size(); ++t) {
     if (!adjusts(scene, t)) continue;
@@ -141,7 +132,8 @@ SurfaceTies tie_scene(Mesh& mesh, const Scene& scene, const HeldNodes& held, con
                        pairs[t].tolerance, held);
   }
   TieRows rows = rows_now();
-  for (int round = 1; any_adjusts && move_slaves(mesh, scene, held, pairs, rows, origin) > settled && round < most_rounds; ++round) rows = rows_now();
+  for (int round = 1; any_adjusts && move_slaves(mesh, space, scene, held, pairs, rows, origin) > settled && round < most_rounds; ++round)
+    rows = rows_now();
   SurfaceTies result;
   result.tied = std::make_shared<const TiedDisplacements>(TiedDisplacements{rows.dofs, rows.T, {}, {}});
   for (std::size_t t = 0; t < pairs.size(); ++t) result.at_start.push_back({rows.counts[t].tied, rows.counts[t].open, pairs[t].tolerance, 0, 0.0});
@@ -161,7 +153,7 @@ std::vector<int> joined_bodies(const Mesh& mesh, const Scene& scene) {
   return number;
 }
 
-std::vector<char> followed_by_ties(const Mesh& mesh, const TiedDisplacements& tied) {
+std::vector<char> followed_by_ties(const FieldSpace& space, const TiedDisplacements& tied) {
   Vector columns(tied.T->getColMap()), dofs(tied.T->getDomainMap());
   {
     const auto mark = columns.getLocalViewHost(Tpetra::Access::ReadWrite);
@@ -170,10 +162,10 @@ std::vector<char> followed_by_ties(const Mesh& mesh, const TiedDisplacements& ti
       for (LocalOrdinal k = 0; k < local.rowConst(dof).length; ++k) mark(local.rowConst(dof).colidx(k), 0) = 1.0;
   }
   dofs.doExport(columns, Export(tied.T->getColMap(), tied.T->getDomainMap()), Tpetra::ADD);
-  std::vector<char> followed(static_cast<std::size_t>(mesh.owned_count()), 0);
+  std::vector<char> followed(static_cast<std::size_t>(space.mesh()->owned_count()), 0);
   const auto mark = dofs.getLocalViewHost(Tpetra::Access::ReadOnly);
   for (std::size_t dof = 0; dof < mark.extent(0); ++dof)
-    if (mark(dof, 0) != 0.0) followed[dof / static_cast<std::size_t>(mesh.dimension)] = 1;
+    if (mark(dof, 0) != 0.0) followed[static_cast<std::size_t>(space.place(static_cast<LocalOrdinal>(dof)).node)] = 1;
   return followed;
 }
 

@@ -25,12 +25,13 @@ struct SurfaceTies {
 /// @param held    what conditions prescribe
 /// @param origin  from where positions are measured
 /// @throws InputError at the ties' places for unknown sets, and as tie_surfaces()
-SurfaceTies tie_scene(Mesh& mesh, const Scene& scene, const HeldNodes& held, const InterfaceMeasure& measure, const std::array<double, 3>& origin);
+SurfaceTies tie_scene(Mesh& mesh, const FieldSpace& space, const Scene& scene, const HeldNodes& held, const InterfaceMeasure& measure,
+                      const std::array<double, 3>& origin);
 
 /// [mesh.bodies] a number that bodies share which ties join. Collective.
 std::vector<int> joined_bodies(const Mesh& mesh, const Scene& scene);
 
 /// [owned nodes] 1 where a tied node of any rank follows the node. Collective.
-std::vector<char> followed_by_ties(const Mesh& mesh, const TiedDisplacements& tied);
+std::vector<char> followed_by_ties(const FieldSpace& space, const TiedDisplacements& tied);
 
 }  // namespace mortise

@@ -3,11 +3,11 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <cmath>
 
+#include "mortise/core/over_ranks.hpp"
 #include "mortise/solid/rotation_vector.hpp"
 
 namespace mortise {
@@ -54,13 +54,10 @@ Vector3d motion_at(const RigidModes& modes, const Eigen::VectorXd& motion, int b
   return t + rotation_of(modes, motion, b).cross(x - middle);
 }
 
-BodyMotions body_motions(const Mesh& mesh, const RigidModes& modes, const NodePlaces& before, const NodePlaces& after, const Supports& supports) {
+BodyMotions body_motions(const FieldSpace& space, const RigidModes& modes, const NodePlaces& before, const NodePlaces& after,
+                         const Supports& supports) {
+  const Mesh& mesh = *space.mesh();
   const std::size_t bodies = modes.bodies().size();
-  const auto sum = [&](const std::vector<double>& mine) {
-    std::vector<double> all(mine.size());
-    Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), all.data());
-    return all;
-  };
   const auto each_node = [&](const auto& visit) {
     for (LocalOrdinal node = 0; node < mesh.owned_body_count(); ++node)
       if (const int b = modes.number(mesh.body_of_node[node]); b >= 0)
@@ -73,7 +70,7 @@ BodyMotions body_motions(const Mesh& mesh, const RigidModes& modes, const NodePl
     means[7 * b] += 1.0;
     for (int i = 0; i < 3; ++i) means[7 * b + 1 + i] += x[i], means[7 * b + 4 + i] += u[i];
   });
-  means = sum(means);
+  means = sum_over_ranks(*mesh.comm, means);
   std::vector<Vector3d> position(bodies), translation(bodies);
   for (std::size_t b = 0; b < bodies; ++b) {
     position[b] = Vector3d(&means[7 * b + 1]) / means[7 * b];
@@ -85,7 +82,7 @@ BodyMotions body_motions(const Mesh& mesh, const RigidModes& modes, const NodePl
     Eigen::Map<Eigen::Matrix3d>(&moments[12 * b]) += arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose();
     Eigen::Map<Vector3d>(&moments[12 * b + 9]) += arm.cross(u - translation[b]);
   });
-  moments = sum(moments);
+  moments = sum_over_ranks(*mesh.comm, moments);
 
   BodyMotions result;
   result.rigid = Eigen::VectorXd::Zero(modes.count());
@@ -101,7 +98,7 @@ BodyMotions body_motions(const Mesh& mesh, const RigidModes& modes, const NodePl
     result.middle.emplace_back(modes.centre(n) - 0.5 * translation[b]);
   }
 
-  std::vector<double> mine(bodies + 1, 0.0), all(mine.size());
+  std::vector<double> mine(bodies + 1, 0.0);
   each_node([&](std::size_t b, const Vector3d& x, const Vector3d& u) {
     const Vector3d left = u - motion_at(modes, result.rigid, static_cast<int>(b), result.middle[b], x);
     mine[b] = std::max(mine[b], left.norm());
@@ -109,23 +106,24 @@ BodyMotions body_motions(const Mesh& mesh, const RigidModes& modes, const NodePl
   for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node)
     if (modes.number(mesh.body_of_node[node]) < 0) mine.back() = std::max(mine.back(), (after.x[node] - before.x[node]).norm());
   for (const LocalOrdinal dof : supports.prescribed) {
-    const LocalOrdinal node = dof / mesh.dimension, i = dof % mesh.dimension;
-    mine.back() = std::max(mine.back(), std::abs(after.x[node][i] - before.x[node][i]));
+    const FieldPlace at = space.place(dof);
+    mine.back() = std::max(mine.back(), std::abs(after.x[at.node][at.component] - before.x[at.node][at.component]));
   }
   for (const InclinedComponent& component : supports.inclined) {
-    const LocalOrdinal node = component.dof / mesh.dimension;
-    const Vector3d along(direction_of(component, mesh.dimension).data());
+    const LocalOrdinal node = component.node;
+    const Vector3d along(direction_of(component).data());
     mine.back() = std::max(mine.back(), std::abs(along.dot(after.x[node] - before.x[node])));
   }
-  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, static_cast<int>(mine.size()), mine.data(), all.data());
+  std::vector<double> all = most_over_ranks(*mesh.comm, mine);
   result.imposed = all.back();
   all.pop_back();
   result.deformation = std::move(all);
   return result;
 }
 
-void move_bodies(const Mesh& mesh, const RigidModes& modes, const Eigen::VectorXd& motion, const std::vector<Eigen::Vector3d>& middle,
+void move_bodies(const FieldSpace& space, const RigidModes& modes, const Eigen::VectorXd& motion, const std::vector<Eigen::Vector3d>& middle,
                  const NodePlaces& half_way, double factor, Vector& d) {
+  const Mesh& mesh = *space.mesh();
   const auto v = d.getLocalViewHost(Tpetra::Access::ReadWrite);
   std::vector<char> turns(static_cast<std::size_t>(mesh.owned_count()), 0);
   for (std::size_t p = 0; p < mesh.reference_points.size(); ++p) {
@@ -137,17 +135,17 @@ void move_bodies(const Mesh& mesh, const RigidModes& modes, const Eigen::VectorX
     if (b < 0) continue;
     const Vector3d rotation = factor * rotation_of(modes, motion, b);
     if (mesh.dimension == 2) {
-      v(2 * node, 0) += point.arm * rotation.z();
+      v(space.row(node, 0), 0) += point.arm * rotation.z();
       continue;
     }
     const Vector3d components = spin(half_way.turned[p]).fullPivLu().solve(rotation);
-    for (int i = 0; i < 3; ++i) v(3 * node + i, 0) += point.arm * components[i];
+    for (int i = 0; i < 3; ++i) v(space.row(node, i), 0) += point.arm * components[i];
   }
   for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node) {
     const int b = modes.number(mesh.body_of_node[node]);
     if (b < 0 || turns[node]) continue;
     const Vector3d at_node = motion_at(modes, motion, b, middle[b], half_way.x[node]);
-    for (int i = 0; i < mesh.dimension; ++i) v(mesh.dimension * node + i, 0) += factor * at_node[i];
+    for (int i = 0; i < mesh.dimension; ++i) v(space.row(node, i), 0) += factor * at_node[i];
   }
 }
 

@@ -4,12 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <Eigen/Cholesky>
-#include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <numeric>
 
+#include "mortise/core/over_ranks.hpp"
 #include "mortise/core/symmetric_spectrum.hpp"
 
 namespace mortise {
@@ -47,12 +47,26 @@ RCP<MultiVector> contact_places(const Mesh& mesh, const RigidModes& modes, const
   return result;
 }
 
+Eigen::RowVectorXd work_of(const RigidModes& modes, const std::vector<HoldingRow::Wrench>& wrenches) {
+  Eigen::RowVectorXd work = Eigen::RowVectorXd::Zero(modes.count());
+  for (const auto& wrench : wrenches)
+    modes.add_wrench(wrench.body, Eigen::Vector3d(wrench.force.data()), Eigen::Vector3d(wrench.moment.data()), work);
+  return work;
+}
+
+void add_squared_work(const RigidModes& modes, const std::vector<HoldingRow::Wrench>& wrenches, Eigen::Ref<Eigen::MatrixXd> gram) {
+  const Eigen::RowVectorXd work = work_of(modes, wrenches);
+  const int n = modes.per_body();
+  for (const auto& a : wrenches)
+    for (const auto& b : wrenches) gram.block(n * a.body, n * b.body, n, n) += work.segment(n * a.body, n).transpose() * work.segment(n * b.body, n);
+}
+
 ContactHold contact_hold(const Model& model, const RigidModes& modes, const NodePlaces& at, const ContactLaws& laws, Holds holds) {
   const Mesh& mesh = *model.mesh();
   const int size = modes.count();
   const std::size_t pairs = model.contact()->pairs();
   // The Gram matrix, then closed nodes and sticking ones of each pair.
-  std::vector<double> mine(static_cast<std::size_t>(size) * size + 2 * pairs, 0.0), all(mine.size());
+  std::vector<double> mine(static_cast<std::size_t>(size) * size + 2 * pairs, 0.0);
   Eigen::Map<Eigen::MatrixXd> gram(mine.data(), size, size);
   double* counts = mine.data() + static_cast<std::size_t>(size) * size;
   bool after_normal = false;  // tangents of a node follow its normal
@@ -60,15 +74,9 @@ ContactHold contact_hold(const Model& model, const RigidModes& modes, const Node
     if (!row.along_surface) ++counts[2 * row.pair];
     if (row.along_surface && after_normal) ++counts[2 * row.pair + 1];
     after_normal = !row.along_surface;
-    Eigen::RowVectorXd work = Eigen::RowVectorXd::Zero(size);
-    for (const auto& wrench : row.bodies)
-      modes.add_wrench(wrench.body, Eigen::Vector3d(wrench.force.data()), Eigen::Vector3d(wrench.moment.data()), work);
-    const int n = modes.per_body();
-    for (const auto& a : row.bodies)
-      for (const auto& b : row.bodies)
-        gram.block(n * a.body, n * b.body, n, n) += work.segment(n * a.body, n).transpose() * work.segment(n * b.body, n);
+    add_squared_work(modes, row.bodies, gram);
   }
-  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), all.data());
+  const std::vector<double> all = sum_over_ranks(*mesh.comm, mine);
   ContactHold hold;
   hold.gram = Eigen::Map<const Eigen::MatrixXd>(all.data(), size, size);
   for (std::size_t p = 0; p < pairs; ++p) {

@@ -1,10 +1,11 @@
 #include "mortise/simulation/run/diagnosis/contact_statics.hpp"
 
 #include <Eigen/QR>
-#include <Teuchos_CommHelpers.hpp>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "mortise/core/over_ranks.hpp"
 
 namespace mortise {
 namespace {
@@ -95,11 +96,9 @@ double resistance(const BearingCone& cone, const Eigen::VectorXd& motion) {
 std::vector<double> best_offer(const Communicator& comm, double score, const std::vector<double>& values, std::size_t size) {
   constexpr double none = std::numeric_limits<double>::lowest();
   const double mine = std::isfinite(score) ? score : none;
-  double best = none;
-  Teuchos::reduceAll(comm, Teuchos::REDUCE_MAX, mine, Teuchos::outArg(best));
+  const double best = most_over_ranks(comm, mine);
   if (best == none) return {};
-  int first = 0;
-  Teuchos::reduceAll(comm, Teuchos::REDUCE_MIN, mine == best ? comm.getRank() : comm.getSize(), Teuchos::outArg(first));
+  const int first = least_over_ranks(comm, mine == best ? comm.getRank() : comm.getSize());
   std::vector<double> offer = first == comm.getRank() ? values : std::vector<double>(size);
   Teuchos::broadcast(comm, first, static_cast<int>(size), offer.data());
   return offer;

@@ -47,15 +47,14 @@ RCP<MultiVector> modes_with_points(const Model& model, const Vector& displacemen
     if (point.rotation_node < 0 || point.rotation_node >= mesh.owned_count()) continue;
     for (int i = 0; i < dimension; ++i)
       for (int mode = 0; mode < dimension + rotations; ++mode)
-        values(dimension * point.rotation_node + i, mode) = i < rotations && mode == dimension + i ? point.arm : 0.0;
+        values(model.space().row(point.rotation_node, i), mode) = i < rotations && mode == dimension + i ? point.arm : 0.0;
   }
   return modes;
 }
 
 std::vector<PairHold> pairs_now(const std::vector<int>& bodies, const Model& model, const SystemEvaluation& evaluation) {
   const NodePlaces at = places_at(model, evaluation.x());
-  const RigidModes modes(*model.mesh(), model.bodies()->kinematics() == Kinematics::axisymmetric, bodies, at.x);
-  return contact_hold(model, modes, at, evaluation.contact_laws()).pairs;
+  return contact_hold(model, modes_at(model, bodies, at), at, evaluation.contact_laws()).pairs;
 }
 
 std::string describe_free_motions(const std::vector<int>& bodies, const Model& model, const SemiSmoothSystem& system,
@@ -74,7 +73,7 @@ std::string describe_free_motions(const std::vector<int>& bodies, const Model& m
       const auto from = modes->getVector(column % per_body)->getLocalViewHost(Tpetra::Access::ReadOnly);
       const auto to = motion.getLocalViewHost(Tpetra::Access::ReadWrite);
       for (std::size_t dof = 0; dof < from.extent(0); ++dof)
-        if (mesh.body_of_node[dof / mesh.dimension] == bodies[column / per_body]) to(dof, 0) = from(dof, 0);
+        if (mesh.body_of_node[model.space().place(static_cast<LocalOrdinal>(dof)).node] == bodies[column / per_body]) to(dof, 0) = from(dof, 0);
     }
     const RCP<Vector> force = A.getVectorNonConst(column);
     linearisation.apply(motion, *force);
@@ -116,9 +115,7 @@ std::string describe_held_bodies(const FailedTry& failed, const Model& model, co
   const std::vector<int> bodies = bodies_held_by_contact_only(model);
   if (bodies.empty() || bodies.size() > most_loose_bodies || !failed.linearised) return {};
   const SystemEvaluation evaluation = system.evaluate(*failed.linearised->x, failed.linearised->context);
-  std::vector<std::string> names;
-  for (const int body : bodies) names.push_back(fmt::format("'{}'", model.mesh()->bodies[body].name));
-  return fmt::format("nothing but contact holds {}; in the last iterate {}", fmt::join(names, ", "),
+  return fmt::format("nothing but contact holds {}; in the last iterate {}", names_of_bodies(*model.mesh(), bodies),
                      record.describe(model, bodies, pairs_now(bodies, model, evaluation)));
 }
 

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <Eigen/Geometry>
-#include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
@@ -12,13 +11,12 @@
 #include <limits>
 #include <optional>
 
-#include "model/prescribed_rows.hpp"
 #include "mortise/contact/holding_nodes.hpp"
+#include "mortise/core/over_ranks.hpp"
 #include "mortise/simulation/run/diagnosis/body_motion.hpp"
 #include "mortise/simulation/run/diagnosis/contact_hold.hpp"
 #include "mortise/simulation/run/diagnosis/contact_statics.hpp"
 #include "run/diagnosis/held_bodies.hpp"
-#include "run/diagnosis/residual_work.hpp"
 
 namespace mortise {
 namespace {
@@ -33,19 +31,14 @@ constexpr std::size_t most_bodies = 10;  ///< that are looked at together: the r
 /// Loads and contact of the bodies at one state, in the works on motions that boundary conditions leave.
 class BodyStatics {
  public:
-  BodyStatics(const Model& model, const SemiSmoothSystem& system, const SystemEvaluation& evaluation, const std::vector<int>& held)
+  BodyStatics(const Model& model, const SystemEvaluation& evaluation, const std::vector<int>& held)
       : model_(model), mesh_(*model.mesh()), at_(places_at(model, evaluation.x())) {
     const ContactLaws& laws = evaluation.contact_laws();
     find_nodes(held, laws);
     if (bodies_.empty()) return;
 
-    Vector contact(model.parts().dofs);
-    laws.add_force(contact);
-    Vector outer(*system.displacement(evaluation.residual()), Teuchos::Copy);
-    outer.update(-1.0, contact, 1.0);
-    const Eigen::RowVectorXd mine = work_of_residual(mesh_, *modes_, at_, *model_.supports().fixed, outer);
-    const Eigen::MatrixXd prescribed = prescribed_gram(mesh_, *modes_, at_, model.supports());
-    motions_ = free_motions(sum(prescribed), modes_->per_body());
+    const Eigen::RowVectorXd mine = work_of_residual(model_.space(), *modes_, at_, *model_.supports().fixed, outer_forces(model, evaluation));
+    motions_ = free_motions(held_by_supports(model, *modes_, at_), modes_->per_body());
     load_ = -motions_.transpose() * sum(mine).transpose();
     round_off_ = std::max(evaluation.norms().round_off, 100.0 * epsilon * load_.norm());
     for (const BearingNode& node : nodes_) cones_.push_back(cone_of(node));
@@ -93,15 +86,7 @@ class BodyStatics {
     Eigen::VectorXd all = motions_ * motion;
     for (std::size_t b = 0; turns && b < bodies_.size(); ++b)
       all.segment(modes_->per_body() * static_cast<int>(b), modes_->per_body() - modes_->rotations()).setZero();
-    const double largest = all.cwiseAbs().maxCoeff();
-    std::vector<std::string> bodies;
-    for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      std::vector<std::string> modes;
-      for (int m = 0; m < modes_->per_body(); ++m)
-        if (std::abs(all[modes_->per_body() * static_cast<int>(b) + m]) >= 0.5 * largest) modes.emplace_back(modes_->name(m));
-      if (!modes.empty()) bodies.push_back(fmt::format("'{}' ({})", mesh_.bodies[bodies_[b]].name, fmt::join(modes, ", ")));
-    }
-    return fmt::format("{}", fmt::join(bodies, ", "));
+    return names_of_motion(mesh_, *modes_, all);
   }
 
   /// The motion without what opens or closes places that bear the load: along them.
@@ -164,38 +149,32 @@ class BodyStatics {
   }
 
   bool leaves_all(const Eigen::VectorXd& motion) const {
-    double most = -std::numeric_limits<double>::infinity(), of_all = most;
+    double most = -std::numeric_limits<double>::infinity();
     for (const BearingCone& cone : cones_) most = std::max(most, resistance(cone, motion));
-    Teuchos::reduceAll(*mesh_.comm, Teuchos::REDUCE_MAX, most, Teuchos::outArg(of_all));
-    return !(of_all > -rests);
+    return !(most_over_ranks(*mesh_.comm, most) > -rests);
   }
 
   /// True if the motion slips at a place with friction that bears the load, by more than strains make of places on an edge that turns.
   bool slips(const Eigen::VectorXd& motion) const {
-    int mine = 0, all = 0;
+    int slipping = 0;
     for (const BearingCone& cone : cones_)
       if (cone.along.cols() > 0 && resistance(cone, motion) > -rests &&
           (cone.along.transpose() * motion).norm() > tilts * cone.along.norm() * motion.norm())
-        mine = 1;
-    Teuchos::reduceAll(*mesh_.comm, Teuchos::REDUCE_MAX, mine, Teuchos::outArg(all));
-    return all > 0;
+        slipping = 1;
+    return most_over_ranks(*mesh_.comm, slipping) > 0;
   }
 
   std::string contacts() const {
-    std::vector<int> mine(model_.contact()->pairs(), 0), all(mine.size());
-    for (const BearingNode& node : nodes_) mine[node.pair] = 1;
-    Teuchos::reduceAll(*mesh_.comm, Teuchos::REDUCE_MAX, static_cast<int>(mine.size()), mine.data(), all.data());
+    std::vector<int> bear(model_.contact()->pairs(), 0);
+    for (const BearingNode& node : nodes_) bear[node.pair] = 1;
+    bear = most_over_ranks(*mesh_.comm, bear);
     std::vector<std::string> names;
-    for (std::size_t p = 0; p < all.size(); ++p)
-      if (all[p]) names.push_back(fmt::format("\"{}\"", model_.contact()->pair_name(p)));
+    for (std::size_t p = 0; p < bear.size(); ++p)
+      if (bear[p]) names.push_back(fmt::format("\"{}\"", model_.contact()->pair_name(p)));
     return fmt::format("contact {}", fmt::join(names, ", "));
   }
 
-  std::string bodies() const {
-    std::vector<std::string> names;
-    for (const int body : bodies_) names.push_back(fmt::format("'{}'", mesh_.bodies[body].name));
-    return fmt::format("{}", fmt::join(names, ", "));
-  }
+  std::string bodies() const { return names_of_bodies(mesh_, bodies_); }
 
  private:
   /// The farthest place of contact in a direction of those that `counts` says; empty if there is none.
@@ -212,24 +191,20 @@ class BodyStatics {
 
   /// The nodes that may bear something, and of the bodies those that have any.
   void find_nodes(const std::vector<int>& held, const ContactLaws& laws) {
-    const bool axisymmetric = model_.bodies()->kinematics() == Kinematics::axisymmetric;
-    const RigidModes all_modes(mesh_, axisymmetric, held, at_.x);
-    std::vector<int> mine(held.size(), 0), reached(held.size());
+    const RigidModes all_modes = modes_at(model_, held, at_);
+    std::vector<int> reached(held.size(), 0);
     for (const BearingNode& node : bearing_nodes(laws, *contact_places(mesh_, all_modes, at_.x)))
-      for (const auto& wrench : node.normal) mine[wrench.body] = 1;
-    Teuchos::reduceAll(*mesh_.comm, Teuchos::REDUCE_MAX, static_cast<int>(mine.size()), mine.data(), reached.data());
+      for (const auto& wrench : node.normal) reached[wrench.body] = 1;
+    reached = most_over_ranks(*mesh_.comm, reached);
     for (std::size_t b = 0; b < held.size(); ++b)
       if (reached[b]) bodies_.push_back(held[b]);
     is_whole_ = bodies_.size() == held.size();
-    modes_.emplace(mesh_, axisymmetric, bodies_, at_.x);
+    modes_.emplace(modes_at(model_, bodies_, at_));
     nodes_ = bearing_nodes(laws, *contact_places(mesh_, *modes_, at_.x));
   }
 
   Eigen::VectorXd works(const std::vector<HoldingRow::Wrench>& wrenches) const {
-    Eigen::RowVectorXd work = Eigen::RowVectorXd::Zero(modes_->count());
-    for (const auto& wrench : wrenches)
-      modes_->add_wrench(wrench.body, Eigen::Vector3d(wrench.force.data()), Eigen::Vector3d(wrench.moment.data()), work);
-    return motions_.transpose() * work.transpose();
+    return motions_.transpose() * work_of(*modes_, wrenches).transpose();
   }
 
   BearingCone cone_of(const BearingNode& node) const {
@@ -238,11 +213,7 @@ class BodyStatics {
     return cone;
   }
 
-  Eigen::MatrixXd sum(const Eigen::MatrixXd& mine) const {
-    Eigen::MatrixXd all(mine.rows(), mine.cols());
-    Teuchos::reduceAll(*mesh_.comm, Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), all.data());
-    return all;
-  }
+  Eigen::MatrixXd sum(const Eigen::MatrixXd& mine) const { return sum_over_ranks(*mesh_.comm, mine); }
 
   const Model& model_;
   const Mesh& mesh_;
@@ -303,13 +274,10 @@ StaticsReason judge(const BodyStatics& statics) {
 }  // namespace
 
 StaticsReason explain_statics(const Model& model, const SemiSmoothSystem& system, const Vector& x, const StepContext& context) {
-  std::vector<int> held = bodies_held_by_contact_only(model);
-  const std::size_t all = held.size();
-  for (const ReferencePoint& point : model.mesh()->reference_points)  // their rotation is a degree of freedom of its own
-    if (point.rotation_node >= 0) held.erase(std::remove(held.begin(), held.end(), model.mesh()->body_of_node[point.node]), held.end());
-  if (held.empty() || held.size() > most_bodies || held.size() < all) return {};
+  const std::vector<int> held = bodies_held_by_contact_only(model);
+  if (held.empty() || held.size() > most_bodies || without_turning_points(*model.mesh(), held).size() < held.size()) return {};
   try {
-    return judge(BodyStatics(model, system, system.evaluate(x, context), held));
+    return judge(BodyStatics(model, system.evaluate(x, context), held));
   } catch (const StepFailure&) {  // on every rank: no state to judge by
     return {};
   }

@@ -1,42 +1,26 @@
 #include "run/diagnosis/free_bodies.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <cmath>
 
-#include "model/prescribed_rows.hpp"
+#include "mortise/core/over_ranks.hpp"
 #include "mortise/simulation/run/diagnosis/contact_hold.hpp"
 #include "mortise/solid/rotation_vector.hpp"
 #include "run/diagnosis/held_bodies.hpp"
 
 namespace mortise {
-namespace {
-
-std::vector<double> sum_of_all_ranks(const Communicator& comm, const std::vector<double>& mine) {
-  std::vector<double> all(mine.size());
-  Teuchos::reduceAll(comm, Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), all.data());
-  return all;
-}
-
-}  // namespace
-
 FreeBodies::FreeBodies(const Model& model, const SystemEvaluation& evaluation, const std::vector<int>& bodies, double momentum_tolerance)
     : model_(model),
       evaluation_(evaluation),
       tolerance_(momentum_tolerance),
       at_(places_at(model, evaluation.x())),
-      modes_(*model.mesh(), model.bodies()->kinematics() == Kinematics::axisymmetric, bodies, at_.x) {
+      modes_(modes_at(model, bodies, at_)),
+      held_(held_by_supports(model, modes_, at_)) {
   const Mesh& mesh = *model.mesh();
-  const Eigen::MatrixXd by_supports = prescribed_gram(mesh, modes_, at_, model.supports());
-  const std::vector<double> all = sum_of_all_ranks(*mesh.comm, std::vector<double>(by_supports.data(), by_supports.data() + by_supports.size()));
-  held_ = Eigen::Map<const Eigen::MatrixXd>(all.data(), by_supports.rows(), by_supports.cols());
-  prescribed_.assign(static_cast<std::size_t>(mesh.dimension * mesh.owned_count()), 0);
+  prescribed_.assign(model.space().dofs()->getNodeNumElements(), 0);
   for (const LocalOrdinal dof : model.parts().prescribed->dofs()) prescribed_[static_cast<std::size_t>(dof)] = 1;
   turning_.assign(static_cast<std::size_t>(mesh.owned_count()), -1);
   for (std::size_t p = 0; p < mesh.reference_points.size(); ++p)
@@ -74,7 +58,7 @@ std::vector<Eigen::MatrixXd> FreeBodies::masses() const {
   each_dof([&](int b, LocalOrdinal, int, const DofMotion& motion) {
     Eigen::Map<Eigen::MatrixXd>(&mine[static_cast<std::size_t>(n * n * b)], n, n) += motion.transpose() * motion;
   });
-  mine = sum_of_all_ranks(*model_.mesh()->comm, mine);
+  mine = sum_over_ranks(*model_.mesh()->comm, mine);
   std::vector<Eigen::MatrixXd> result;
   for (std::size_t b = 0; b < modes_.bodies().size(); ++b)
     result.emplace_back(Eigen::Map<const Eigen::MatrixXd>(&mine[static_cast<std::size_t>(n * n) * b], n, n));
@@ -87,10 +71,10 @@ Eigen::MatrixXd FreeBodies::works(const Vector& v) const {
   {
     const auto values = v.getLocalViewHost(Tpetra::Access::ReadOnly);
     each_dof([&](int b, LocalOrdinal node, int i, const DofMotion& motion) {
-      Eigen::Map<Eigen::VectorXd>(&mine[static_cast<std::size_t>(n * b)], n) += values(modes_.dimension() * node + i, 0) * motion.transpose();
+      Eigen::Map<Eigen::VectorXd>(&mine[static_cast<std::size_t>(n * b)], n) += values(model_.space().row(node, i), 0) * motion.transpose();
     });
   }
-  mine = sum_of_all_ranks(*model_.mesh()->comm, mine);
+  mine = sum_over_ranks(*model_.mesh()->comm, mine);
   return Eigen::Map<const Eigen::MatrixXd>(mine.data(), n, static_cast<Eigen::Index>(modes_.bodies().size()));
 }
 
@@ -105,11 +89,11 @@ void FreeBodies::find_loads() {
   const auto out = outer.getLocalViewHost(Tpetra::Access::ReadOnly), in = evaluation_.internal_forces().getLocalViewHost(Tpetra::Access::ReadOnly);
   std::vector<double> sums(2 * modes_.bodies().size(), 0.0);
   each_dof([&](int b, LocalOrdinal node, int i, const DofMotion& motion) {
-    const auto dof = static_cast<std::size_t>(modes_.dimension() * node + i);
+    const auto dof = static_cast<std::size_t>(model_.space().row(node, i));
     sums[2 * static_cast<std::size_t>(b)] += out(dof, 0) * out(dof, 0) + in(dof, 0) * in(dof, 0);
     sums[2 * static_cast<std::size_t>(b) + 1] += motion.squaredNorm();
   });
-  sums = sum_of_all_ranks(*model_.mesh()->comm, sums);
+  sums = sum_over_ranks(*model_.mesh()->comm, sums);
   for (std::size_t b = 0; b < modes_.bodies().size(); ++b) {
     forces_.push_back(sums[2 * b]);
     masses_.push_back(sums[2 * b + 1]);
@@ -152,16 +136,10 @@ std::vector<FreeGroup> FreeBodies::groups(const Eigen::MatrixXd& held, double ha
 }
 
 std::string names_of(const Model& model, const RigidModes& modes, const FreeGroup& group, const Eigen::VectorXd& motion) {
-  std::vector<std::string> bodies;
-  for (std::size_t b = 0; b < group.bodies.size(); ++b) {
-    std::vector<std::string> names;
-    for (int m = 0; m < modes.per_body(); ++m)
-      if (std::abs(motion[modes.per_body() * static_cast<Eigen::Index>(b) + m]) >= 0.5 * motion.cwiseAbs().maxCoeff())
-        names.emplace_back(modes.name(m));
-    if (!names.empty())
-      bodies.push_back(fmt::format("'{}' ({})", model.mesh()->bodies[modes.bodies()[group.bodies[b]]].name, fmt::join(names, ", ")));
-  }
-  return fmt::format("{}", fmt::join(bodies, ", "));
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(modes.count());
+  const int n = modes.per_body();
+  for (std::size_t b = 0; b < group.bodies.size(); ++b) all.segment(n * group.bodies[b], n) = motion.segment(n * static_cast<Eigen::Index>(b), n);
+  return names_of_motion(*model.mesh(), modes, all);
 }
 
 }  // namespace mortise

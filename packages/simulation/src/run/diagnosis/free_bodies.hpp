@@ -51,7 +51,7 @@ class FreeBodies {
     for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node) {
       const int b = modes_.number(mesh.body_of_node[node]);
       for (int i = 0; b >= 0 && i < mesh.dimension; ++i)
-        if (!is_prescribed(mesh.dimension * node + i)) visit(b, node, i, motion_of(node, i));
+        if (!is_prescribed(model_.space().row(node, i))) visit(b, node, i, motion_of(node, i));
     }
   }
   /// [bodies of the modes] Sums over these dofs of m^T m, [per_body() squared] each, with m = motion_of(). Collective.

@@ -2,12 +2,13 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
-#include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <limits>
 #include <memory>
+
+#include "mortise/core/over_ranks.hpp"
 
 namespace mortise {
 namespace {
@@ -76,7 +77,7 @@ std::vector<LocalOrdinal> choose_dofs(const Model& model, const FreeBodies& free
   }
   const auto each = [&](const auto& visit) {
     free.each_dof([&](int b, LocalOrdinal node, int i, const DofMotion& motion) {
-      const LocalOrdinal dof = mesh.dimension * node + i;
+      const LocalOrdinal dof = model.space().row(node, i);
       if (group_of[b] < 0 || !allowed[dof]) return;
       HeldGroup& group = groups[group_of[b]];
       if (group.known.cols() == group.motions.cols()) return;
@@ -85,23 +86,19 @@ std::vector<LocalOrdinal> choose_dofs(const Model& model, const FreeBodies& free
       visit(static_cast<std::size_t>(group_of[b]), dof, moves);
     });
   };
-  const auto reduce = [&](Teuchos::EReductionType type, auto mine) {
-    auto all = mine;
-    Teuchos::reduceAll(*mesh.comm, type, static_cast<int>(mine.size()), mine.data(), all.data());
-    return all;
-  };
+  const Communicator& comm = *mesh.comm;
   std::vector<LocalOrdinal> chosen;
   for (Eigen::Index round = 0; round < rounds; ++round) {
     std::vector<double> far(groups.size(), 0.0);
     each([&](std::size_t g, LocalOrdinal, const Eigen::VectorXd& moves) { far[g] = std::max(far[g], moves.norm()); });
-    far = reduce(Teuchos::REDUCE_MAX, far);
+    far = most_over_ranks(comm, far);
     constexpr GlobalOrdinal none = std::numeric_limits<GlobalOrdinal>::max();
     std::vector<GlobalOrdinal> first(groups.size(), none);
     const Map& dofs = *model.parts().dofs;
     each([&](std::size_t g, LocalOrdinal dof, const Eigen::VectorXd& moves) {
       if (far[g] > hardly_moves && moves.norm() >= as_far * far[g]) first[g] = std::min(first[g], dofs.getGlobalElement(dof));
     });
-    first = reduce(Teuchos::REDUCE_MIN, first);
+    first = least_over_ranks(comm, first);
     std::size_t most = 0;
     for (const HeldGroup& group : groups) most = std::max(most, static_cast<std::size_t>(group.motions.cols()));
     std::vector<double> told(most * groups.size(), 0.0);
@@ -111,7 +108,7 @@ std::vector<LocalOrdinal> choose_dofs(const Model& model, const FreeBodies& free
       const Eigen::VectorXd direction = moves.normalized();
       std::copy(direction.begin(), direction.end(), told.begin() + static_cast<std::ptrdiff_t>(most * g));
     });
-    told = reduce(Teuchos::REDUCE_SUM, told);
+    told = sum_over_ranks(comm, told);
     for (std::size_t g = 0; g < groups.size(); ++g) {
       if (first[g] == none) continue;
       HeldGroup& group = groups[g];
@@ -142,7 +139,7 @@ std::optional<HeldMotions> motions_without_load(const Model& model, const System
   std::sort(held.dofs.begin(), held.dofs.end());
   groups->erase(std::remove_if(groups->begin(), groups->end(), [](const HeldGroup& group) { return group.motions.cols() == 0; }), groups->end());
   if (groups->empty()) return std::nullopt;
-  held.take_out = [free, groups](Vector& dd) {
+  held.take_out = [free, groups, space = model.bodies()->shared_space()](Vector& dd) {
     const int n = free->modes().per_body();
     const std::vector<Eigen::MatrixXd> masses = free->masses();
     const Eigen::MatrixXd works = free->works(dd);
@@ -160,9 +157,7 @@ std::optional<HeldMotions> motions_without_load(const Model& model, const System
         taken.col(group.bodies[i]) += group.motions.middleRows(n * static_cast<Eigen::Index>(i), n) * q;
     }
     const auto values = dd.getLocalViewHost(Tpetra::Access::ReadWrite);
-    free->each_dof([&](int b, LocalOrdinal node, int i, const DofMotion& motion) {
-      values(free->modes().dimension() * node + i, 0) -= motion.dot(taken.col(b));
-    });
+    free->each_dof([&](int b, LocalOrdinal node, int i, const DofMotion& motion) { values(space->row(node, i), 0) -= motion.dot(taken.col(b)); });
   };
   return held;
 }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include <optional>
 #include <set>
 
+#include "mortise/core/over_ranks.hpp"
 #include "mortise/mesh/sets.hpp"
 #include "run/diagnosis/held_bodies.hpp"
 #include "surfaces/body_surfaces.hpp"
@@ -34,19 +34,16 @@ std::vector<Sides> sides_of_pairs(const Mesh& mesh, const Scene& scene) {
 }
 
 /// The outer force on each body along what is not prescribed. Collective.
-std::vector<Eigen::Vector3d> loads_on_bodies(const Model& model, const SemiSmoothSystem& system, const SystemEvaluation& at) {
+std::vector<Eigen::Vector3d> loads_on_bodies(const Model& model, const SystemEvaluation& at) {
   const Mesh& mesh = *model.mesh();
-  Vector contact(model.parts().dofs);
-  at.contact_laws().add_force(contact);
-  Vector outer(*system.displacement(at.residual()), Teuchos::Copy);
-  outer.update(-1.0, contact, 1.0);
+  const Vector outer = outer_forces(model, at);
   const auto forces = outer.getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto fixed = model.supports().fixed->getLocalViewHost(Tpetra::Access::ReadOnly);
-  std::vector<double> mine(3 * mesh.bodies.size(), 0.0), all(mine.size());
+  std::vector<double> mine(3 * mesh.bodies.size(), 0.0);
   for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node)
     for (int i = 0; i < mesh.dimension; ++i)
-      if (fixed(node, i) == 0.0) mine[3 * static_cast<std::size_t>(mesh.body_of_node[node]) + i] -= forces(mesh.dimension * node + i, 0);
-  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), all.data());
+      if (fixed(node, i) == 0.0) mine[3 * static_cast<std::size_t>(mesh.body_of_node[node]) + i] -= forces(model.space().row(node, i), 0);
+  const std::vector<double> all = sum_over_ranks(*mesh.comm, mine);
   std::vector<Eigen::Vector3d> loads;
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) loads.emplace_back(all[3 * b], all[3 * b + 1], all[3 * b + 2]);
   return loads;
@@ -55,7 +52,8 @@ std::vector<Eigen::Vector3d> loads_on_bodies(const Model& model, const SemiSmoot
 /// Distance that `moving` may go in the direction d until it meets `still`; none: it never does. Lines start at points of either surface. Collective.
 std::optional<double> way_to(const Mesh& mesh, const PlaceOfNode& at, const SideSet& moving, const SideSet& still, const Eigen::Vector3d& d,
                              double length) {
-  double mine = std::numeric_limits<double>::max(), least = mine;
+  constexpr double never = std::numeric_limits<double>::max();
+  double mine = never;
   for (const bool from_moving : {true, false}) {
     const SideSet &from = from_moving ? moving : still, &to = from_moving ? still : moving;
     const Eigen::Vector3d along = from_moving ? d : Eigen::Vector3d(-d);
@@ -68,8 +66,8 @@ std::optional<double> way_to(const Mesh& mesh, const PlaceOfNode& at, const Side
       for (const Crossing& crossing : found)
         if (!crossing.leaves) mine = std::min(mine, crossing.s);
   }
-  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MIN, mine, Teuchos::outArg(least));
-  return least < std::numeric_limits<double>::max() ? std::optional(least) : std::nullopt;
+  const double least = least_over_ranks(*mesh.comm, mine);
+  return least < never ? std::optional(least) : std::nullopt;
 }
 
 }  // namespace
@@ -89,7 +87,7 @@ std::string advise_parts_apart(const FailedTry& failed, const Model& model, cons
         !(start.gap.value_or(0.0) > 0.0))
       return {};
   }
-  const std::vector<Eigen::Vector3d> loads = loads_on_bodies(model, system, system.evaluate(*failed.from.x, failed.context));
+  const std::vector<Eigen::Vector3d> loads = loads_on_bodies(model, system.evaluate(*failed.from.x, failed.context));
   const auto heaviest = std::max_element(loose.begin(), loose.end(), [&](int a, int b) {
     return loads[static_cast<std::size_t>(a)].norm() < loads[static_cast<std::size_t>(b)].norm();
   });

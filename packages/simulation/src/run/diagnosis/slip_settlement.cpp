@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
@@ -11,13 +10,12 @@
 #include <limits>
 #include <optional>
 
-#include "model/prescribed_rows.hpp"
 #include "mortise/contact/holding_nodes.hpp"
+#include "mortise/core/over_ranks.hpp"
 #include "mortise/core/symmetric_spectrum.hpp"
 #include "mortise/simulation/run/diagnosis/body_motion.hpp"
 #include "mortise/simulation/run/diagnosis/contact_hold.hpp"
 #include "mortise/simulation/run/diagnosis/friction_balance.hpp"
-#include "run/diagnosis/residual_work.hpp"
 #include "run/diagnosis/state_check.hpp"
 
 namespace mortise {
@@ -39,9 +37,7 @@ std::vector<SlidingRow> sliding_rows(const std::vector<SlidingNode>& nodes, cons
     const SlidingNode& node = nodes[i];
     SlidingRow row{node.bound, node.weight, slips[i], Eigen::MatrixXd(node.along.size(), motions.cols())};
     for (std::size_t a = 0; a < node.along.size(); ++a) {
-      Eigen::RowVectorXd work = Eigen::RowVectorXd::Zero(modes.count());
-      for (const auto& wrench : node.along[a])
-        modes.add_wrench(wrench.body, Eigen::Vector3d(wrench.force.data()), Eigen::Vector3d(wrench.moment.data()), work);
+      const Eigen::RowVectorXd work = work_of(modes, node.along[a]);
       row.work.row(static_cast<Eigen::Index>(a)) = work * motions;
     }
     rows.push_back(std::move(row));
@@ -72,23 +68,15 @@ bool SlipSettlement::is_needed(const Model& model) {
 }
 
 // Bodies whose rotation is a degree of freedom of its own are left alone.
-SlipSettlement::SlipSettlement(const Model& model) : model_(model), bodies_(bodies_held_by_contact_only(model)) {
-  const Mesh& mesh = *model.mesh();
-  for (const ReferencePoint& point : mesh.reference_points) {
-    if (point.rotation_node < 0) continue;
-    bodies_.erase(std::remove(bodies_.begin(), bodies_.end(), mesh.body_of_node[point.node]), bodies_.end());
-  }
-}
+SlipSettlement::SlipSettlement(const Model& model)
+    : model_(model), bodies_(without_turning_points(*model.mesh(), bodies_held_by_contact_only(model))) {}
 
+double SlipSettlement::sum(double mine) const { return sum_over_ranks(*model_.mesh()->comm, mine); }
+
+// In place: matrices look into the values.
 void SlipSettlement::sum(std::vector<double>& values) const {
-  const std::vector<double> mine = values;
-  Teuchos::reduceAll(*model_.mesh()->comm, Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), values.data());
-}
-
-double SlipSettlement::sum(double mine) const {
-  std::vector<double> one(1, mine);
-  sum(one);
-  return one[0];
+  const std::vector<double> all = sum_over_ranks(*model_.mesh()->comm, values);
+  std::copy(all.begin(), all.end(), values.begin());
 }
 
 // Of what contact and boundary conditions leave free, the motions that slipping nodes do work on. Stiffness along them is that of tractions that turn
@@ -96,17 +84,14 @@ double SlipSettlement::sum(double mine) const {
 bool SlipSettlement::find_sliding(const Vector& x, const Vector& F, const ContactLaws& laws, Sliding& found) const {
   const Mesh& mesh = *model_.mesh();
   const RCP<const Map>& dofs = model_.parts().dofs;
-  const RCP<const Vector> d = x.offsetView(dofs, 0), z = x.offsetView(model_.contact()->multiplier_map(), dofs->getNodeNumElements());
-  found.at = node_places(mesh, d.get());
-  found.modes.emplace(mesh, model_.bodies()->kinematics() == Kinematics::axisymmetric, bodies_, found.at.x);
+  const RCP<const Vector> z = x.offsetView(model_.contact()->multiplier_map(), dofs->getNodeNumElements());
+  found.at = places_at(model_, x);
+  found.modes.emplace(modes_at(model_, bodies_, found.at));
   const RigidModes& modes = *found.modes;
   const Eigen::Index count = modes.count();
   const ContactHold hold = contact_hold(model_, modes, found.at, laws);
   found.pairs = hold.pairs;
-  const Eigen::MatrixXd prescribed = prescribed_gram(mesh, modes, found.at, model_.supports());
-  std::vector<double> gram(prescribed.data(), prescribed.data() + prescribed.size());
-  sum(gram);
-  const Eigen::MatrixXd held = Eigen::Map<const Eigen::MatrixXd>(gram.data(), count, count) + hold.gram;
+  const Eigen::MatrixXd held = held_by_supports(model_, modes, found.at) + hold.gram;
 
   // Motions that slipping nodes would hold if they were stuck, rows of unit forces as those of `held`.
   found.nodes = sliding_nodes(laws, *contact_places(mesh, modes, found.at.x));
@@ -147,7 +132,7 @@ bool SlipSettlement::find_sliding(const Vector& x, const Vector& F, const Contac
   Eigen::Map<Eigen::VectorXd> borne(sums.data() + count, n), by_law(borne.data() + n, n);
   Eigen::Map<Eigen::MatrixXd> stiffness(by_law.data() + n, n, n);
   double &if_stuck = sums[sums.size() - 3], &forces = sums[sums.size() - 2], &slipped = sums.back();
-  residual = work_of_residual(mesh, modes, found.at, *model_.supports().fixed, F);
+  residual = work_of_residual(model_.space(), modes, found.at, *model_.supports().fixed, F);
   for (std::size_t i = 0; i < found.nodes.size(); ++i) {
     const SlidingNode& node = found.nodes[i];
     const Eigen::MatrixXd& work = found.rows[i].work;
@@ -184,19 +169,14 @@ std::string SlipSettlement::describe_overload(const Sliding& sliding, const Eige
   if (!(load > capacity) || sliding.imbalance > in_balance * load) return {};
   const RigidModes& modes = *sliding.modes;
   const Eigen::VectorXd motion = sliding.motions * direction;
-  const double largest = motion.cwiseAbs().maxCoeff();
   std::vector<std::string> bodies, slipping;
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    std::vector<std::string> names;
-    for (int m = 0; m < modes.per_body(); ++m)
-      if (std::abs(motion[modes.per_body() * static_cast<int>(b) + m]) >= 0.5 * largest) names.emplace_back(modes.name(m));
-    if (names.empty()) continue;
-    bodies.push_back(fmt::format("'{}' ({})", model_.mesh()->bodies[bodies_[b]].name, fmt::join(names, ", ")));
+  for (const MainMotions& main : main_motions(modes, motion)) {
+    bodies.push_back(to_string(*model_.mesh(), modes, main));
     for (std::size_t p = 0; p < sliding.pairs.size(); ++p) {
       const auto& touched = model_.bodies_of_pairs()[p];
       const std::string pair = fmt::format("{} of {} closed nodes of contact \"{}\"", sliding.pairs[p].closed - sliding.pairs[p].sticking,
                                            sliding.pairs[p].closed, model_.contact()->pair_name(p));
-      const bool touches = std::find(touched.begin(), touched.end(), bodies_[b]) != touched.end();
+      const bool touches = std::find(touched.begin(), touched.end(), bodies_[main.body]) != touched.end();
       if (touches && sliding.pairs[p].closed > 0 && std::find(slipping.begin(), slipping.end(), pair) == slipping.end()) slipping.push_back(pair);
     }
   }
@@ -231,7 +211,7 @@ RCP<Vector> SlipSettlement::better_start(const SystemEvaluation& at) {
   if (balance.borne) {
     std::vector<Eigen::Vector3d> middles;
     for (std::size_t b = 0; b < bodies_.size(); ++b) middles.push_back(sliding.modes->centre(static_cast<int>(b)));
-    move_bodies(mesh, *sliding.modes, sliding.motions * balance.motion, middles, sliding.at, 1.0, *result->offsetViewNonConst(dofs, 0));
+    move_bodies(model_.space(), *sliding.modes, sliding.motions * balance.motion, middles, sliding.at, 1.0, *result->offsetViewNonConst(dofs, 0));
   }
   const RCP<Vector> z = result->offsetViewNonConst(model_.contact()->multiplier_map(), dofs->getNodeNumElements());
   const auto values = z->getLocalViewHost(Tpetra::Access::ReadWrite);
@@ -241,7 +221,7 @@ RCP<Vector> SlipSettlement::better_start(const SystemEvaluation& at) {
   };
   // The law says stick where |z_tau + c_t u| is below the bound.
   std::vector<TangentVector> tractions = sliding.traction;
-  double resting = 0.0, least = std::numeric_limits<double>::max(), least_of_all = 0.0;
+  double resting = 0.0, least = std::numeric_limits<double>::max();
   std::size_t slipped_least = 0;
   const auto rest = [&](std::size_t i) {
     tractions[i] = -nodes[i].stiffness * nodes[i].slip;
@@ -257,7 +237,7 @@ RCP<Vector> SlipSettlement::better_start(const SystemEvaluation& at) {
     ++resting;
     rest(i);
   }
-  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MIN, least, Teuchos::outArg(least_of_all));
+  const double least_of_all = least_over_ranks(*mesh.comm, least);
   const bool some_rest = sum(resting) > 0.0;
   if (balance.borne && !some_rest && mesh.dimension == 2) return Teuchos::null;  // W is flat there: Newton's own step is as good
   if (!balance.borne && least == least_of_all && !nodes.empty()) rest(slipped_least);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <utility>
 
 #include "mortise/contact/holding_nodes.hpp"
+#include "mortise/core/over_ranks.hpp"
 #include "mortise/simulation/run/diagnosis/contact_hold.hpp"
 #include "run/diagnosis/free_bodies.hpp"
 
@@ -101,11 +101,6 @@ RCP<Vector> StartRule::close(const SemiSmoothSystem& system, const SystemEvaluat
   if (!driven->any()) return Teuchos::null;
 
   const Communicator& comm = *model_.mesh()->comm;
-  const auto reduce = [&](Teuchos::EReductionType type, const auto& mine) {
-    auto all = mine;
-    Teuchos::reduceAll(comm, type, static_cast<int>(mine.size()), mine.data(), all.data());
-    return all;
-  };
   std::vector<BearingNode> open = bearing_nodes(start.contact_laws(), *contact_places(*model_.mesh(), modes, free.places()), OpenNodes::covered);
   open.erase(std::remove_if(open.begin(), open.end(), [](const BearingNode& node) { return node.closed; }), open.end());
 
@@ -118,28 +113,20 @@ RCP<Vector> StartRule::close(const SemiSmoothSystem& system, const SystemEvaluat
     for (const BearingNode& node : open)
       if (const Hindrance hindrance = driven->hindered_by(node, modes); hindrance.group >= 0)
         nearest[hindrance.group] = std::min(nearest[hindrance.group], hindrance.way);
-    nearest = reduce(Teuchos::REDUCE_MIN, nearest);
+    nearest = least_over_ranks(comm, nearest);
     if (std::all_of(nearest.begin(), nearest.end(), [](double way) { return way == no_way; })) break;
 
     const auto squared = static_cast<std::size_t>(modes.count() * modes.count());
     std::vector<double> works(2 * squared, 0.0), gaps(closed.size(), 0.0);  // of normals, then of tangents
     std::vector<int> counts(closed.size(), 0), of_group(closed.size(), -1);
     const auto gram_of = [&](std::size_t which) { return Eigen::Map<Eigen::MatrixXd>(&works[which * squared], modes.count(), modes.count()); };
-    const auto hold = [&](const std::vector<HoldingRow::Wrench>& wrenches, std::size_t which) {
-      Eigen::Map<Eigen::MatrixXd> gram = gram_of(which);
-      std::vector<Eigen::RowVectorXd> rows;
-      for (const auto& wrench : wrenches)
-        rows.push_back(modes.works_of_wrench(Eigen::Vector3d(wrench.force.data()), Eigen::Vector3d(wrench.moment.data())));
-      for (std::size_t a = 0; a < rows.size(); ++a)
-        for (std::size_t b = 0; b < rows.size(); ++b) gram.block(n * wrenches[a].body, n * wrenches[b].body, n, n) += rows[a].transpose() * rows[b];
-    };
     open.erase(std::remove_if(open.begin(), open.end(),
                               [&](const BearingNode& node) {
                                 const Hindrance hindrance = driven->hindered_by(node, modes);
                                 if (hindrance.group < 0 || hindrance.way > std::max(node.near, as_near * nearest[hindrance.group])) return false;
                                 guess_closed(start.contact_laws(), node, *z);
-                                hold(node.normal, 0);
-                                for (const auto& along : node.along) hold(along, 1);
+                                add_squared_work(modes, node.normal, gram_of(0));
+                                for (const auto& along : node.along) add_squared_work(modes, along, gram_of(1));
                                 started.emplace_back(node, hindrance.slides);
                                 ++counts[node.pair];
                                 gaps[node.pair] = std::max(gaps[node.pair], node.gap);
@@ -147,10 +134,10 @@ RCP<Vector> StartRule::close(const SemiSmoothSystem& system, const SystemEvaluat
                                 return true;
                               }),
                open.end());
-    works = reduce(Teuchos::REDUCE_SUM, works);
-    counts = reduce(Teuchos::REDUCE_SUM, counts);
-    gaps = reduce(Teuchos::REDUCE_MAX, gaps);
-    of_group = reduce(Teuchos::REDUCE_MAX, of_group);
+    works = sum_over_ranks(comm, works);
+    counts = sum_over_ranks(comm, counts);
+    gaps = most_over_ranks(comm, gaps);
+    of_group = most_over_ranks(comm, of_group);
     for (std::size_t p = 0; p < closed.size(); ++p) {
       if (of_group[p] < 0) continue;
       const FreeGroup& group = groups[of_group[p]];

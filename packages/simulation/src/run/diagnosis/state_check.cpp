@@ -3,13 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <cmath>
 
-#include "model/prescribed_rows.hpp"
 #include "model/rigid_mode_names.hpp"
 #include "run/diagnosis/explain_statics.hpp"
 
@@ -57,16 +55,12 @@ RCP<Vector> StateCheck::verify(const SemiSmoothSystem& system, const AcceptedSta
 RCP<Vector> StateCheck::examine(const SemiSmoothSystem& system, const Vector& before, const SystemEvaluation& found, int round) {
   const Mesh& mesh = *model_.mesh();
   const NodePlaces from = places_at(model_, before), to = places_at(model_, found.x());
-  const bool axisymmetric = model_.bodies()->kinematics() == Kinematics::axisymmetric;
-  auto modes = std::make_unique<RigidModes>(mesh, axisymmetric, bodies_, to.x);
+  auto modes = std::make_unique<RigidModes>(modes_at(model_, bodies_, to));
   const ContactHold hold = contact_hold(model_, *modes, to, found.contact_laws());
-  const Eigen::MatrixXd mine = prescribed_gram(mesh, *modes, to, model_.supports());
-  Eigen::MatrixXd gram(mine.rows(), mine.cols());
-  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), gram.data());
-  gram += hold.gram;
+  const Eigen::MatrixXd gram = held_by_supports(model_, *modes, to) + hold.gram;
 
   const Eigen::MatrixXd free = free_motions(gram, modes->per_body());
-  const BodyMotions motions = body_motions(mesh, *modes, from, to, model_.supports());
+  const BodyMotions motions = body_motions(model_.space(), *modes, from, to, model_.supports());
   const auto along = [&](const Eigen::MatrixXd& directions) { return Eigen::VectorXd(directions * (directions.transpose() * motions.rigid)); };
   const Eigen::VectorXd freely = along(free), formerly = free_before_.cols() > 0 ? along(free_before_) : freely;
   const Eigen::VectorXd loosely = formerly.norm() > freely.norm() ? formerly : freely, held = motions.rigid - loosely;
@@ -106,7 +100,7 @@ RCP<Vector> StateCheck::examine(const SemiSmoothSystem& system, const Vector& be
     NodePlaces half_way = to;
     for (std::size_t node = 0; node < to.x.size(); ++node) half_way.x[node] = 0.5 * (from.x[node] + to.x[node]);
     const auto start = rcp(new Vector(found.x(), Teuchos::Copy));
-    move_bodies(mesh, *modes, loosely, motions.middle, half_way, -1.0, *system.displacement(*start));
+    move_bodies(model_.space(), *modes, loosely, motions.middle, half_way, -1.0, *system.displacement(*start));
     warn_(fmt::format("  {}. Put back, and solved again from there", refused_));
     return start;
   }
@@ -151,9 +145,9 @@ void StateCheck::predict(const SemiSmoothSystem& system, const Vector& x, double
   {
     const auto v = velocity->getLocalViewHost(Tpetra::Access::ReadOnly);
     for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node)
-      for (int i = 0; i < mesh.dimension; ++i) half_way.x[node][i] -= 0.5 * dt * v(mesh.dimension * node + i, 0);
+      for (int i = 0; i < mesh.dimension; ++i) half_way.x[node][i] -= 0.5 * dt * v(model_.space().row(node, i), 0);
   }
-  move_bodies(mesh, *modes_, freely_, middle_, half_way, -1.0 / dt, *velocity);
+  move_bodies(model_.space(), *modes_, freely_, middle_, half_way, -1.0 / dt, *velocity);
 }
 
 void StateCheck::serialize(StateArchive& archive) {

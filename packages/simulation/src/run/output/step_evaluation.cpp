@@ -19,8 +19,8 @@ std::vector<std::string> StepEvaluation::names() const {
 }
 
 RCP<Vector> StepEvaluation::local(const Vector& displacement) const {
-  const auto values = rcp(new Vector(model_.bodies()->local_dofs()));
-  values->doImport(displacement, *model_.bodies()->ghost_import(), Tpetra::INSERT);
+  const auto values = rcp(new Vector(model_.bodies()->space().local_dofs()));
+  values->doImport(displacement, *model_.bodies()->space().ghost_import(), Tpetra::INSERT);
   return values;
 }
 
@@ -63,7 +63,7 @@ std::vector<double> StepEvaluation::quantities(const SystemEvaluation& at) {
 RCP<Vector> StepEvaluation::external_force(const Vector& x, double time) const {
   const auto displacement = system_.displacement(x);
   const auto local_displacement = local(*displacement);
-  const auto external = rcp(new Vector(model_.bodies()->dofs()));
+  const auto external = rcp(new Vector(model_.bodies()->space().dofs()));
   std::optional<StepFailure> failure;
   const Configuration configuration{time, *displacement, *local_displacement};
   for (const auto& contribution : model_.parts().contributions)

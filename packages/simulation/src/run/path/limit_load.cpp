@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Vector.hpp>
 #include <optional>
 #include <vector>
 
+#include "mortise/core/over_ranks.hpp"
 #include "mortise/solid/bodies.hpp"
 
 namespace mortise {
@@ -77,8 +77,8 @@ struct PlasticPoint {
 };
 
 std::vector<PlasticPoint> plastic_points(const Bodies& bodies, const Vector& displacement) {
-  Vector local(bodies.local_dofs());
-  local.doImport(displacement, *bodies.ghost_import(), Tpetra::INSERT);
+  Vector local(bodies.space().local_dofs());
+  local.doImport(displacement, *bodies.space().ghost_import(), Tpetra::INSERT);
   std::vector<PlasticPoint> points;
   bodies.visit_points(local, [&](const MaterialPoint& point) {
     points.push_back({bodies.mesh()->blocks[point.block].body, point.weight, point.equivalent_plastic_strain});
@@ -91,12 +91,12 @@ std::vector<PlasticPoint> plastic_points(const Bodies& bodies, const Vector& dis
 std::string describe_flow(const Model& model, const Vector& failed, const Vector& converged) {
   const Mesh& mesh = *model.mesh();
   const auto before = plastic_points(*model.bodies(), converged), after = plastic_points(*model.bodies(), failed);
-  std::vector<double> mine(2 * mesh.bodies.size(), 0.0), all(mine.size());
+  std::vector<double> mine(2 * mesh.bodies.size(), 0.0);
   for (std::size_t point = 0; point < after.size(); ++point) {
     mine[2 * after[point].block] += after[point].volume;
     if (after[point].strain > before[point].strain) mine[2 * after[point].block + 1] += after[point].volume;
   }
-  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), all.data());
+  const std::vector<double> all = sum_over_ranks(*mesh.comm, mine);
   std::vector<std::string> shares;
   for (std::size_t block = 0; block < mesh.bodies.size(); ++block)
     if (all[2 * block + 1] > 0.0)

@@ -10,9 +10,9 @@
 #include "mortise/core/error.hpp"
 #include "mortise/core/types.hpp"
 #include "mortise/material/tensor_components.hpp"
+#include "mortise/mesh/field_space.hpp"
 #include "mortise/mesh/mesh.hpp"
 #include "mortise/solid/element_type.hpp"
-#include "mortise/solid/nodal_sparsity.hpp"
 
 namespace mortise {
 
@@ -36,15 +36,19 @@ struct MaterialPoint {
 /// Stress or strain xx, yy, zz, xy, then in three dimensions yz, xz, else 0; shear strains are tensor components. Axisymmetric: rr, zz, hoop, rz.
 using StressComponents = std::array<double, 6>;
 
-/// All bodies of a model. dof id = dimension * node id + component.
+/// The space of displacements alone. Collective.
+std::shared_ptr<const FieldSpace> displacement_space(RCP<const Mesh> mesh);
+
+/// All bodies of a model.
 ///
 /// Each rank computes every element that touches one of its nodes and writes only the rows it owns: assembly does not communicate.
-/// Displacement arguments live on local_dofs(): owned, then ghosts.
+/// Displacement arguments live on the local dofs of the space: owned, then ghosts.
 class Bodies {
  public:
-  /// `thickness` [length] counts for the plane kinematics. One entry of `bodies` for each block of the mesh, in the same order.
+  /// The first field of `space` are the displacements. `thickness` [length] counts for the plane kinematics. One entry of `bodies` for each block of
+  /// the mesh, in its order.
   /// Collective. Throws InputError for combinations without meaning and for reference elements with det J <= 0, naming the body at its place.
-  Bodies(RCP<const Mesh> mesh, Kinematics kinematics, double thickness, std::vector<BodyProperties> bodies);
+  Bodies(std::shared_ptr<const FieldSpace> space, Kinematics kinematics, double thickness, std::vector<BodyProperties> bodies);
   ~Bodies();
   Bodies(const Bodies&) = delete;
   Bodies& operator=(const Bodies&) = delete;
@@ -60,19 +64,15 @@ class Bodies {
   /// Factor that makes a length in 2D at radius r an area: the thickness, or 2 pi r; 1 in 3D.
   double depth(double radius) const;
 
-  const RCP<const Map>& dofs() const { return dofs_; }
-  const RCP<const Map>& local_dofs() const { return local_dofs_; }
-  /// From dofs() to local_dofs().
-  const RCP<const Import>& ghost_import() const { return ghost_import_; }
-  const NodalSparsity& sparsity() const { return *sparsity_; }
-  /// See NodalSparsity::graph().
-  RCP<const Graph> graph() const { return sparsity_->graph(); }
+  /// Rows of the displacements and of what other fields the model has.
+  const FieldSpace& space() const { return *space_; }
+  const std::shared_ptr<const FieldSpace>& shared_space() const { return space_; }
 
   /// residual += f_int, f_int = integral of tau : grad eta dV0, on owned dofs. A det F <= 0 (or at the centre, det F0 <= 0) is put into `failure` if
   /// that is empty; the sum is then meaningless.
   void add_internal_force(const Vector& local_displacement, Vector& residual, std::optional<StepFailure>& failure) const;
 
-  /// matrix += factor d f_int / d displacement. `matrix` has graph(), or more entries and more columns after its own.
+  /// matrix += factor d f_int / d displacement. `matrix` has the graph of the space, or more entries and more columns after its own.
   void add_stiffness(const Vector& local_displacement, Matrix& matrix, std::optional<StepFailure>& failure, double factor = 1.0) const;
 
   /// Both in one pass over the elements, for the time that add_stiffness() takes.
@@ -138,13 +138,11 @@ class Bodies {
   RCP<MultiVector> nodal_means(const Vector& local_displacement, const PointTensor& tensor) const;
   PointTensor strain_of_points() const;
 
+  std::shared_ptr<const FieldSpace> space_;
   RCP<const Mesh> mesh_;
   Kinematics kinematics_;
   double thickness_;
   std::vector<BodyProperties> properties_;
-  RCP<const Map> dofs_, local_dofs_;
-  RCP<const Import> ghost_import_;
-  std::unique_ptr<NodalSparsity> sparsity_;
   std::vector<std::unique_ptr<ElementBlock>> blocks_;
 };
 

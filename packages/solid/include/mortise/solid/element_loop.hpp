@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "mortise/mesh/field_space.hpp"
 #include "mortise/mesh/mesh.hpp"
 #include "mortise/solid/element_history.hpp"
 #include "mortise/solid/element_points.hpp"
-#include "mortise/solid/nodal_sparsity.hpp"
 
 namespace mortise {
 
@@ -101,8 +101,8 @@ class BlockIntegral {
 
 /// Where sums of elements go.
 struct AssemblyTarget {
-  double* residual = nullptr;                     ///< [components * owned node + i]
-  const NodalSparsity::Values* matrix = nullptr;  ///< of the field's sparsity
+  FieldView<double> residual{};                   ///< null: not wanted
+  const NodalSparsity::Values* matrix = nullptr;  ///< of the space's sparsity; null: not wanted
   double factor = 1.0;                            ///< of what is added to the matrix
 };
 
@@ -112,22 +112,23 @@ class ElementLoop {
  public:
   static constexpr int nodes = Cell::nodes, dimension = Cell::dimension;
   using Positions = std::array<std::array<double, dimension>, nodes>;
-  /// The values of fields on the local nodes, [components * node + i], in the order of Reads.
+  /// The values of fields on the local nodes, in the order of Reads.
   template <std::size_t fields>
-  using Fields = std::array<const double*, fields>;
+  using Fields = std::array<FieldView<const double>, fields>;
 
-  /// All three have to outlive the loop. The matrices that are added to have this sparsity.
-  ElementLoop(const Mesh& mesh, const Block& block, const NodalSparsity& sparsity)
-      : mesh_(mesh), block_(block), sparsity_(sparsity), owned_nodes_(mesh.owned_count()) {
+  /// Tangents stand in the rows and the columns of one field. Space and block have to outlive the loop; the field lives on the nodes of the block.
+  ElementLoop(const FieldSpace& space, const Block& block, std::size_t field = 0)
+      : mesh_(*space.mesh()), block_(block), rows_(space.rows(field)), owned_nodes_(mesh_.owned_count()) {
     positions_.reserve(static_cast<std::size_t>(block.size()) * nodes * nodes);
     for (LocalOrdinal element = 0; element < block.size(); ++element)
       for (int a = 0; a < nodes; ++a)
-        for (int b = 0; b < nodes; ++b) positions_.push_back(sparsity.position(block.nodes(element)[a], block.nodes(element)[b]));
+        for (int b = 0; b < nodes; ++b) positions_.push_back(space.sparsity().position(block.nodes(element)[a], block.nodes(element)[b], field));
   }
 
   const Mesh& mesh() const { return mesh_; }
   const Block& block() const { return block_; }
-  LocalOrdinal owned_nodes() const { return owned_nodes_; }
+  /// Of the field in whose rows the sums stand.
+  const FieldRows& rows() const { return rows_; }
 
   /// target += the integral over each element, of its residual, its tangent or both. A wanted residual without a place in the target is left out
   /// there. report(element, what add() returned) where an integrand has no sums; the target's are then meaningless.
@@ -143,7 +144,7 @@ class ElementLoop {
       else if (const auto trouble = integral.add(element, points, sums))
         report(element, trouble);
       if constexpr (residual_wanted)
-        if (target.residual != nullptr) scatter<Integrand::components>(node, sums.residual, target.residual);
+        if (target.residual.values != nullptr) scatter<Integrand::components>(node, sums.residual, target.residual);
       if constexpr (tangent_wanted) scatter(element, sums.tangent, target);
     }
   }
@@ -185,15 +186,15 @@ class ElementLoop {
   }
 
   template <std::size_t components>
-  static void gather(const LocalOrdinal* node, const double* values, std::array<std::array<double, components>, nodes>& result) {
-    for (int a = 0; a < nodes; ++a) std::copy_n(values + static_cast<LocalOrdinal>(components) * node[a], components, result[a].begin());
+  static void gather(const LocalOrdinal* node, const FieldView<const double>& field, std::array<std::array<double, components>, nodes>& result) {
+    for (int a = 0; a < nodes; ++a) std::copy_n(&field(node[a], 0), components, result[a].begin());
   }
 
   template <int components>
-  void scatter(const LocalOrdinal* node, const std::array<double, components * nodes>& sum, double* residual) const {
+  void scatter(const LocalOrdinal* node, const std::array<double, components * nodes>& sum, const FieldView<double>& residual) const {
     for (int a = 0; a < nodes; ++a)
       if (node[a] < owned_nodes_)
-        for (int i = 0; i < components; ++i) residual[components * node[a] + i] += sum[components * a + i];
+        for (int i = 0; i < components; ++i) residual(node[a], i) += sum[components * a + i];
   }
 
   template <class Tangent>
@@ -204,7 +205,7 @@ class ElementLoop {
     for (int a = 0; a < nodes; ++a) {
       if (node[a] >= owned_nodes_) continue;
       for (int i = 0; i < components; ++i) {
-        double* row = target.matrix->row(components * node[a] + i);
+        double* row = target.matrix->row(rows_(node[a], i));
         for (int b = 0; b < nodes; ++b)
           for (int k = 0; k < components; ++k) row[position[a * nodes + b] + k] += target.factor * tangent(a, i, b, k);
       }
@@ -212,13 +213,13 @@ class ElementLoop {
   }
 
   void scatter(LocalOrdinal element, const NodalPairs<nodes>& tangent, const AssemblyTarget& target) const {
-    const int components = sparsity_.components();
+    const int components = rows_.components;
     const LocalOrdinal* node = block_.nodes(element);
     const LocalOrdinal* position = positions_.data() + static_cast<std::size_t>(element) * nodes * nodes;
     for (int a = 0; a < nodes; ++a) {
       if (node[a] >= owned_nodes_) continue;
       for (int i = 0; i < components; ++i) {
-        double* row = target.matrix->row(components * node[a] + i);
+        double* row = target.matrix->row(rows_(node[a], i));
         for (int b = 0; b < nodes; ++b) row[position[a * nodes + b] + i] += target.factor * tangent(a, b);
       }
     }
@@ -226,7 +227,7 @@ class ElementLoop {
 
   const Mesh& mesh_;
   const Block& block_;
-  const NodalSparsity& sparsity_;
+  FieldRows rows_;
   LocalOrdinal owned_nodes_;
   std::vector<LocalOrdinal> positions_;  ///< [elements x nodes x nodes] NodalSparsity::position
 };

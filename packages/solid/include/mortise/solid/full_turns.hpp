@@ -22,6 +22,7 @@ class FullTurns {
  private:
   struct FreeRotation {
     const ReferencePoint* point;
+    LocalOrdinal first_row;  ///< of the rotation vector
     std::array<bool, 3> free;
   };
   std::vector<FreeRotation> rotations_;  ///< owned

@@ -8,23 +8,23 @@
 
 namespace mortise {
 
-/// M as a matrix of nodes, for dofs that stand node by node. Collective in all members but the accessor.
+/// M of displacements, as a matrix of nodes. Collective in all members but the accessor.
 class NodalMass {
  public:
-  /// @param matrix     [owned nodes squared], filled
-  /// @param dimension  dofs of a node
-  NodalMass(RCP<const Matrix> matrix, int dimension) : matrix_(std::move(matrix)), dimension_(dimension) {}
+  /// @param matrix  [owned nodes squared], filled
+  /// @param space   displacements first
+  NodalMass(RCP<const Matrix> matrix, std::shared_ptr<const FieldSpace> space) : matrix_(std::move(matrix)), space_(std::move(space)) {}
 
   const Matrix& matrix() const { return *matrix_; }
 
-  /// M v of vectors on the owned dofs.
+  /// M v of vectors on the owned dofs; 0 in the rows of other fields.
   RCP<Vector> times(const Vector& v) const;
   /// jacobian += factor M; `jacobian` is open, and its rows hold the entries.
   void add_to(Matrix& jacobian, double factor) const;
 
  private:
   RCP<const Matrix> matrix_;
-  int dimension_;
+  std::shared_ptr<const FieldSpace> space_;
 };
 
 /// The consistent mass of all bodies, [owned nodes squared]. Collective.
@@ -35,7 +35,7 @@ RCP<const Matrix> mass_of_nodes(const RCP<const Map>& owned_nodes, const std::ve
 /// P^T M P. Collective.
 RCP<const Matrix> mass_of_extension(const Matrix& M, const Matrix& P);
 
-/// A matrix of nodes as one of dofs, the same for each component. Collective.
-RCP<const Matrix> for_each_component(const Matrix& of_nodes, const RCP<const Map>& dofs, int dimension);
+/// A matrix of nodes as one of dofs, which holds for each component of the first field. Collective.
+RCP<const Matrix> for_each_component(const Matrix& of_nodes, const FieldSpace& space);
 
 }  // namespace mortise

@@ -25,14 +25,15 @@ struct BoundaryConditionOptions {
 /// x, or any direction across x if there is none, and z = x x y.
 std::array<std::array<double, 3>, 3> axes_of(const BoundaryConditionOptions& condition);
 
-/// A component of a node that an inclined support takes away: d_dof = sum_i of_i d_(node, i) + value(t).
+/// A component of a node that an inclined support takes away: d_(node, component) = sum_i of_i d_(node, i) + value(t).
 struct InclinedComponent {
-  LocalOrdinal dof = 0;        ///< owned
+  LocalOrdinal node = 0;  ///< owned
+  int component = 0;
   std::array<double, 3> of{};  ///< coefficients of the node's other components; 0 for those that are taken away or prescribed
 };
 
 /// The unit vector along which an inclined component holds its node.
-std::array<double, 3> direction_of(const InclinedComponent& component, int dimension);
+std::array<double, 3> direction_of(const InclinedComponent& component);
 
 /// All prescribed dofs of this rank and their values over time: those of the conditions, and 0 for dofs of reference points that nothing follows.
 /// Conditions n_m . d = g_m(t) at a node along directions n_m that are not the axes are solved for as many components, by Gauss-Jordan elimination

@@ -33,7 +33,7 @@ struct HoldingPair {
 /// @param body_places  where the scene gives each body (mesh.bodies order)
 /// @returns for each body (mesh.bodies order) whether only contact holds it, or those that it is tied to
 /// @throws InputError naming body and mode for each motion that nothing holds
-std::vector<char> check_held(const Mesh& mesh, bool axisymmetric, const Supports& supports, const std::vector<HoldingPair>& pairs,
+std::vector<char> check_held(const FieldSpace& space, bool axisymmetric, const Supports& supports, const std::vector<HoldingPair>& pairs,
                              const std::vector<Place>& body_places);
 
 }  // namespace mortise

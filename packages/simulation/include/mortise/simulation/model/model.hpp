@@ -53,6 +53,7 @@ class Model {
   ~Model();
 
   const RCP<const Mesh>& mesh() const { return mesh_; }
+  const FieldSpace& space() const { return *space_; }
   const MeshSize& size() const { return size_; }
   /// mesh_digest() of the mesh as it was before ties adjusted it. Collective.
   std::string mesh_digest() const;
@@ -91,6 +92,7 @@ class Model {
 
  private:
   RCP<const Mesh> mesh_;
+  std::shared_ptr<const FieldSpace> space_;
   MeshSize size_;
   std::shared_ptr<const Bodies> bodies_;
   InertiaOfModel inertia_;

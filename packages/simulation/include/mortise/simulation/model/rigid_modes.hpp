@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mortise/core/types.hpp"
+#include "mortise/mesh/field_space.hpp"
 #include "mortise/mesh/mesh.hpp"
 
 namespace mortise {
@@ -15,8 +16,10 @@ struct NodePlaces {
   std::vector<Eigen::Vector3d> turned;  ///< [reference points] rotation vectors, of points that this rank owns; else 0
 };
 
-/// `displacement` is on the owned dofs; null: the reference configuration.
-NodePlaces node_places(const Mesh& mesh, const Vector* displacement);
+/// Of the reference configuration.
+NodePlaces node_places(const Mesh& mesh);
+/// Of the mesh displaced; `displacement` is on the owned dofs.
+NodePlaces node_places(const FieldSpace& space, const Vector& displacement);
 
 /// Rigid motions of some bodies at one configuration. Motion m of the body bodies()[b] has the number per_body() b + m. Axisymmetric: the translation
 /// along the axis; 2D: two translations and the rotation about centre(b), times size(b); 3D: three of each. So all are lengths.

@@ -58,6 +58,7 @@ struct QuantityContext {
   std::vector<double> earlier_values{};                   ///< afterwards: theirs at this time
 
   const Mesh& mesh() const { return *bodies.mesh(); }
+  const FieldSpace& space() const { return bodies.space(); }
 };
 
 /// The values of one quantity in one run. Its memory from step to step is its own.

@@ -21,7 +21,8 @@ struct BodyMotions {
 
 /// Fitted to the nodes of each body, all alike. Collective.
 /// @param modes  at `after`
-BodyMotions body_motions(const Mesh& mesh, const RigidModes& modes, const NodePlaces& before, const NodePlaces& after, const Supports& supports);
+BodyMotions body_motions(const FieldSpace& space, const RigidModes& modes, const NodePlaces& before, const NodePlaces& after,
+                         const Supports& supports);
 
 /// t + w x (x - middle) of a rigid motion of bodies()[b], numbers as in BodyMotions::rigid.
 Eigen::Vector3d motion_at(const RigidModes& modes, const Eigen::VectorXd& motion, int b, const Eigen::Vector3d& middle, const Eigen::Vector3d& x);
@@ -31,7 +32,7 @@ Eigen::Vector3d rotation_of(const RigidModes& modes, const Eigen::VectorXd& moti
 
 /// d += factor times a motion in the numbers of `modes`, at nodes and at what they follow. It is exact for a motion from one configuration to another
 /// if the positions are those half way between them. `d` is on the owned dofs.
-void move_bodies(const Mesh& mesh, const RigidModes& modes, const Eigen::VectorXd& motion, const std::vector<Eigen::Vector3d>& middle,
+void move_bodies(const FieldSpace& space, const RigidModes& modes, const Eigen::VectorXd& motion, const std::vector<Eigen::Vector3d>& middle,
                  const NodePlaces& half_way, double factor, Vector& d);
 
 }  // namespace mortise

@@ -25,6 +25,11 @@ struct ContactHold {
 /// [owned nodes x 1 + dim] body and arm for holding_rows() and sliding_nodes(); arms over the sizes of the bodies.
 RCP<MultiVector> contact_places(const Mesh& mesh, const RigidModes& modes, const std::vector<Eigen::Vector3d>& x);
 
+/// [modes.count()] Work of forces of contact on the motions. Bodies of the wrenches are those of the modes.
+Eigen::RowVectorXd work_of(const RigidModes& modes, const std::vector<HoldingRow::Wrench>& wrenches);
+/// gram += squared work of such forces on the motions.
+void add_squared_work(const RigidModes& modes, const std::vector<HoldingRow::Wrench>& wrenches, Eigen::Ref<Eigen::MatrixXd> gram);
+
 /// At the laws of contact at a state with derivatives, where nodes are `at`. Collective.
 ContactHold contact_hold(const Model& model, const RigidModes& modes, const NodePlaces& at, const ContactLaws& laws, Holds holds = Holds::by_forces);
 

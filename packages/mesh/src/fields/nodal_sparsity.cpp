@@ -1,10 +1,11 @@
-#include "mortise/solid/nodal_sparsity.hpp"
+#include "mortise/mesh/nodal_sparsity.hpp"
 
 #include <Tpetra_CrsGraph.hpp>
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Map.hpp>
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace mortise {
 
@@ -52,9 +53,9 @@ bool begins_with(const Map& columns, const Map& first) {
 
 }  // namespace
 
-NodalSparsity::NodalSparsity(const Mesh& mesh, const RCP<const Map>& dofs, const RCP<const Map>& local_dofs)
-    : dimension_(mesh.dimension), dofs_(dofs), local_dofs_(local_dofs) {
-  const LocalOrdinal owned = mesh.owned_count();
+NodalSparsity::NodalSparsity(const Mesh& mesh, std::vector<FieldRows> fields, const RCP<const Map>& dofs, const RCP<const Map>& local_dofs)
+    : fields_(std::move(fields)), owned_nodes_(mesh.owned_count()), dofs_(dofs), local_dofs_(local_dofs) {
+  const LocalOrdinal owned = owned_nodes_;
   const ElementsAroundNodes around(mesh);
   neighbour_starts_.reserve(owned + 1);
   neighbour_starts_.push_back(0);
@@ -74,15 +75,40 @@ NodalSparsity::NodalSparsity(const Mesh& mesh, const RCP<const Map>& dofs, const
   neighbours_.shrink_to_fit();
 }
 
-std::size_t NodalSparsity::row_size(std::size_t row) const {
-  const std::size_t node = row / dimension_;
-  return dimension_ * (neighbour_starts_[node + 1] - neighbour_starts_[node]);
+template <class Function>
+void NodalSparsity::for_each_row(const Function& function) const {
+  for (const FieldRows& rows : fields_)
+    for (LocalOrdinal node = 0; node < owned_nodes_; ++node)
+      for (int i = 0; i < rows.components && rows.lives(node); ++i) function(rows(node, i), node);
 }
 
-LocalOrdinal* NodalSparsity::write_columns(std::size_t row, LocalOrdinal* columns) const {
-  const std::size_t node = row / dimension_;
-  for (std::size_t n = neighbour_starts_[node]; n < neighbour_starts_[node + 1]; ++n)
-    for (int of = 0; of < dimension_; ++of) *columns++ = dimension_ * neighbours_[n] + of;
+std::size_t NodalSparsity::living(std::size_t field, std::size_t first, std::size_t last) const {
+  if (fields_[field].rows == nullptr) return last - first;
+  return std::count_if(neighbours_.begin() + first, neighbours_.begin() + last, [&](LocalOrdinal node) { return fields_[field].lives(node); });
+}
+
+std::size_t NodalSparsity::first_ghost(std::size_t node) const {
+  const auto first = neighbours_.begin() + neighbour_starts_[node], last = neighbours_.begin() + neighbour_starts_[node + 1];
+  return std::lower_bound(first, last, owned_nodes_) - neighbours_.begin();
+}
+
+std::size_t NodalSparsity::row_size(std::size_t node) const {
+  std::size_t size = 0;
+  for (std::size_t field = 0; field < fields_.size(); ++field)
+    size += fields_[field].components * living(field, neighbour_starts_[node], neighbour_starts_[node + 1]);
+  return size;
+}
+
+// Local dofs are ascending as: owned ones field by field, then ghosts field by field.
+LocalOrdinal* NodalSparsity::write_columns(std::size_t node, LocalOrdinal* columns) const {
+  const auto write = [&](std::size_t first, std::size_t last) {
+    for (const FieldRows& rows : fields_)
+      for (std::size_t n = first; n < last; ++n)
+        for (int i = 0; i < rows.components && rows.lives(neighbours_[n]); ++i) *columns++ = rows(neighbours_[n], i);
+  };
+  const std::size_t ghosts = first_ghost(node);
+  write(neighbour_starts_[node], ghosts);
+  write(ghosts, neighbour_starts_[node + 1]);
   return columns;
 }
 
@@ -90,20 +116,28 @@ LocalOrdinal* NodalSparsity::write_columns(std::size_t row, LocalOrdinal* column
 RCP<const Graph> NodalSparsity::graph() const {
   const std::size_t rows = dofs_->getNodeNumElements();
   Graph::local_graph_device_type::row_map_type::non_const_type starts("starts", rows + 1);
-  for (std::size_t row = 0; row < rows; ++row) starts(row + 1) = starts(row) + row_size(row);
+  for_each_row([&](LocalOrdinal row, LocalOrdinal node) { starts(row + 1) = starts(row) + row_size(node); });
   Graph::local_graph_device_type::entries_type::non_const_type columns(Kokkos::view_alloc(Kokkos::WithoutInitializing, "columns"), starts(rows));
   LocalOrdinal* next = columns.data();
-  for (std::size_t row = 0; row < rows; ++row) next = write_columns(row, next);
+  for_each_row([&](LocalOrdinal, LocalOrdinal node) { next = write_columns(node, next); });
   const auto graph = rcp(new Graph(dofs_, local_dofs_, starts, columns));
   graph->expertStaticFillComplete(dofs_, dofs_);
   return graph;
 }
 
-LocalOrdinal NodalSparsity::position(LocalOrdinal row, LocalOrdinal column) const {
-  if (row + 1 >= static_cast<LocalOrdinal>(neighbour_starts_.size())) return -1;
-  const auto first = neighbours_.begin() + neighbour_starts_[row], last = neighbours_.begin() + neighbour_starts_[row + 1];
-  const auto found = std::lower_bound(first, last, column);
-  return found != last && *found == column ? static_cast<LocalOrdinal>(dimension_ * (found - first)) : -1;
+LocalOrdinal NodalSparsity::position(LocalOrdinal row, LocalOrdinal column, std::size_t field) const {
+  if (row >= owned_nodes_ || !fields_[field].lives(column)) return -1;
+  const std::size_t first = neighbour_starts_[row], last = neighbour_starts_[row + 1];
+  const auto found = std::lower_bound(neighbours_.begin() + first, neighbours_.begin() + last, column);
+  if (found == neighbours_.begin() + last || *found != column) return -1;
+  const std::size_t ghosts = first_ghost(row), place = found - neighbours_.begin(), begin = column < owned_nodes_ ? first : ghosts,
+                    end = column < owned_nodes_ ? ghosts : last;
+  std::size_t before = fields_[field].components * living(field, begin, place);
+  for (std::size_t other = 0; other < fields_.size(); ++other) {
+    if (begin == ghosts) before += fields_[other].components * living(other, first, ghosts);
+    if (other < field) before += fields_[other].components * living(other, begin, end);
+  }
+  return static_cast<LocalOrdinal>(before);
 }
 
 NodalSparsity::Values NodalSparsity::open(Matrix& matrix) const {
@@ -115,29 +149,29 @@ NodalSparsity::Values NodalSparsity::open(Matrix& matrix) const {
   Values values(matrix, *this);
   // Sorted rows of the same size have the same entries, as no row lacks one of the bulk's.
   std::size_t gathered = 0;
-  for (std::size_t row = 0; row < rows; ++row) {
-    const std::size_t size = row_size(row), entries = local.graph.row_map(row + 1) - local.graph.row_map(row);
+  for_each_row([&](LocalOrdinal row, LocalOrdinal node) {
+    const std::size_t size = row_size(node), entries = local.graph.row_map(row + 1) - local.graph.row_map(row);
     if (entries < size) throw std::logic_error("a matrix was handed to the bulk that lacks entries of the bulk's graph");
-    if (entries == size) continue;
-    values.wider_.push_back(static_cast<LocalOrdinal>(row));
+    if (entries == size) return;
+    values.wider_.push_back({row, node});
     gathered += size;
-  }
+  });
   values.gathered_.assign(gathered, 0.0);
   values.rows_.resize(rows);
   for (std::size_t row = 0; row < rows; ++row) values.rows_[row] = local.values.data() + local.graph.row_map(row);
   double* next = values.gathered_.data();
-  for (const LocalOrdinal row : values.wider_) {
-    values.rows_[row] = next;
-    next += row_size(row);
+  for (const auto& wider : values.wider_) {
+    values.rows_[wider.row] = next;
+    next += row_size(wider.node);
   }
   return values;
 }
 
 void NodalSparsity::Values::close() const {
   std::vector<LocalOrdinal> columns;
-  for (const LocalOrdinal row : wider_) {
-    columns.resize(sparsity_.row_size(row));
-    sparsity_.write_columns(row, columns.data());
+  for (const auto& [row, node] : wider_) {
+    columns.resize(sparsity_.row_size(node));
+    sparsity_.write_columns(node, columns.data());
     const auto count = static_cast<LocalOrdinal>(columns.size());
     if (matrix_.sumIntoLocalValues(row, count, rows_[row], columns.data()) != count)
       throw std::logic_error("a matrix was handed to the bulk that lacks entries of the bulk's graph");

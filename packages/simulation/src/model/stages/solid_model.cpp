@@ -1,0 +1,72 @@
+#include "model/stages/solid_model.hpp"
+
+#include <Tpetra_CrsGraph.hpp>
+#include <Tpetra_MultiVector.hpp>
+#include <Tpetra_Vector.hpp>
+#include <algorithm>
+
+#include "model/contributions.hpp"
+#include "model/inclined_supports.hpp"
+#include "model/motion/inertia.hpp"
+#include "model/pairs/surface_ties.hpp"
+#include "mortise/simulation/scene/scene_bodies.hpp"
+
+namespace mortise {
+namespace {
+
+std::function<NearNullSpace(const Vector&)> near_null_space_of(const std::shared_ptr<const Bodies>& bodies, const MeshedScene& meshed,
+                                                               const Scene& scene) {
+  return [bodies, apart = 1e6 * meshed.size.length, joined = joined_bodies(*meshed.mesh, scene)](const Vector& displacement) {
+    const RCP<MultiVector> coordinates = current_coordinates(*bodies, displacement);
+    const auto x = coordinates->getLocalViewHost(Tpetra::Access::ReadWrite);
+    for (std::size_t node = 0; node < x.extent(0); ++node) x(node, 0) += apart * joined[bodies->mesh()->body_of_node[node]];
+    return NearNullSpace{rigid_body_modes(*bodies, displacement), coordinates, apart};
+  };
+}
+
+}  // namespace
+
+SolidModel make_solid(const MeshedScene& meshed, const Scene& scene, const Timers& timers, Collector& collect) {
+  SolidModel solid;
+  const auto bodies = std::make_shared<Bodies>(meshed.space, scene.kinematics, scene.thickness, block_properties(scene, *meshed.mesh));
+  solid.bodies = bodies;
+  SystemParts& parts = solid.parts;
+  parts.dofs = meshed.space->dofs();
+  parts.local_dofs = meshed.space->local_dofs();
+  parts.bulk_graph = [space = meshed.space] { return space->graph(); };
+  parts.length = meshed.size.length;
+  parts.near_null_space = near_null_space_of(bodies, meshed, scene);
+  parts.contributions.push_back(std::make_shared<BulkContribution>(bodies, timers));
+  for (const auto& load : scene.loads)
+    collect(
+        [&] { parts.contributions.push_back(std::make_shared<LoadContribution>(load.name, load.value.load.options->make(solid.bodies), timers)); });
+  collect([&] {
+    solid.motion = std::make_shared<const PrescribedMotion>(*bodies, scene.boundary_conditions);
+    parts.prescribed = std::make_shared<PrescribedBoundary>(solid.motion);
+  });
+  solid.supports.ties = meshed.ties.tied;
+  return solid;
+}
+
+void add_supports(const MeshedScene& meshed, const Scene& scene, const Timers& timers, SolidModel& solid) {
+  const PrescribedMotion& motion = *solid.motion;
+  if (!meshed.mesh->reference_points.empty()) solid.parts.dependent = std::make_shared<TiedNodes>(*solid.bodies, solid.parts.prescribed->dofs());
+  solid.parts.tied = with_inclined_supports(meshed.space, solid.supports.ties, solid.motion);
+  Supports& supports = solid.supports;
+  supports.prescribed = motion.dofs();
+  supports.fixed = marked_components(*meshed.space, motion.dofs(), 1.0);
+  supports.inclined = motion.inclined();
+  const std::vector<LocalOrdinal> inclined = held_dofs(*meshed.space, supports.inclined);
+  std::merge(motion.dofs().begin(), motion.dofs().end(), inclined.begin(), inclined.end(), std::back_inserter(supports.dofs));
+  solid.inertia = add_inertia(scene, solid.bodies, motion.dofs(), timers, solid.parts);
+}
+
+RCP<MultiVector> marked_components(const FieldSpace& space, const std::vector<LocalOrdinal>& dofs, double mark) {
+  const auto marks = rcp(new MultiVector(space.mesh()->owned_nodes, static_cast<std::size_t>(space.rows(0).components)));
+  const auto view = marks->getLocalViewHost(Tpetra::Access::ReadWrite);
+  for (const LocalOrdinal dof : dofs)
+    if (const FieldPlace at = space.place(dof); at.field == 0) view(at.node, at.component) = mark;
+  return marks;
+}
+
+}  // namespace mortise
