@@ -60,7 +60,8 @@ SystemEvaluation solve_newton(const SemiSmoothSystem& system, SystemEvaluation s
   using NOX::StatusTest::Combo;
   detail::NewtonHistory history(report);
   const bool backtrack = options.line_search == LineSearch::backtrack;
-  const detail::StepControl control{options.largest_increment, backtrack, options.momentum_tolerance};
+  const detail::StepControl control{options.largest_increment, backtrack, options.momentum_tolerance,
+                                    options.increment_tolerance * system.parts().length};
   const auto group = rcp(new detail::SemiSmoothNewtonGroup(system, std::move(start), control));
   const auto keep_linearised = [&] {
     if (linearised != nullptr && group->linearised()) *linearised = group->linearised();

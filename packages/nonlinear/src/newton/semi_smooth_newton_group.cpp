@@ -121,7 +121,9 @@ NOX::Abstract::Group::ReturnType SemiSmoothNewtonGroup::computeF() {
 }
 
 const SystemEvaluation& SemiSmoothNewtonGroup::evaluation() {
-  if (!evaluation_) evaluation_ = system_->evaluate(*tpetra_vector(static_cast<const NOX::Abstract::Vector&>(*x_)), shared_->context);
+  // Nothing has converged as long as corrections are large.
+  const auto stiffness = increment_ > shared_->control.increment_tolerance ? StiffnessIs::needed_next : StiffnessIs::not_known_to_be_needed;
+  if (!evaluation_) evaluation_ = system_->evaluate(*tpetra_vector(static_cast<const NOX::Abstract::Vector&>(*x_)), shared_->context, stiffness);
   if (auto followed = has_F_ ? std::nullopt : system_->follow_cover(*evaluation_)) {
     evaluation_ = std::move(followed);
     Tpetra::deep_copy(*tpetra_vector(*x_), evaluation_->x());
@@ -173,7 +175,7 @@ NOX::Abstract::Group::ReturnType SemiSmoothNewtonGroup::computeNewton(Teuchos::P
   if (const RCP<Vector> start = better_start ? better_start(here) : Teuchos::null; !start.is_null()) {
     // x + direction is where Newton's method gets to from there.
     starts_elsewhere_ = true;
-    const SystemEvaluation there = system_->evaluate(*start, shared_->context);
+    const SystemEvaluation there = system_->evaluate(*start, shared_->context, StiffnessIs::needed_next);
     const SystemLinearisation& at_start = linearise(there);
     const std::optional<HeldMotions> held = held_at(there);
     newton_solve_ = at_start.newton_direction(there.residual(), *direction, tolerance, geometric_stiffness, held ? &*held : nullptr);

@@ -25,6 +25,7 @@ struct StepControl {
   std::optional<double> largest_increment;  ///< max |du| of a direction; longer ones are scaled down as a whole
   bool trial = false;                       ///< a line search tries iterates: one that has no residual has an infinite norm instead of a failure
   double momentum_tolerance = 0.0;          ///< of ResidualNorms::momentum: a linear solve does not go far below it
+  double increment_tolerance = 0.0;         ///< [size of the first field] nothing has converged after a larger correction
 };
 
 /// An iterate x = (d, z) with its evaluation and, once computed, the Newton direction. All clones share one system and the last linearisation; each

@@ -149,7 +149,7 @@ Begin begin_of_try(const SemiSmoothSystem& system, const NewtonOptions& newton, 
     Vector x(*state.x, Teuchos::Copy);
     Tpetra::deep_copy(*system.displacement(x), *predicted_unknowns(*system.step_from(state, time).step));
     const StepContext context = prepared(x);
-    return {system.evaluate(x, context), true};
+    return {system.evaluate(x, context, StiffnessIs::needed_next), true};
   }
   const Drive drive = system.drive(*state.x, now, time);
   const std::optional<double> share = drive.continuation(system.drive(*state.x, now - from.last_step, now));
@@ -160,7 +160,7 @@ Begin begin_of_try(const SemiSmoothSystem& system, const NewtonOptions& newton, 
   Vector x(*state.x, Teuchos::Copy);
   x.update(length, *from.rate, 1.0);
   const StepContext context = prepared(x);
-  SystemEvaluation predicted = system.evaluate(x, context);
+  SystemEvaluation predicted = system.evaluate(x, context, StiffnessIs::needed_next);
   // The last state lacks at least what drives the step.
   const auto is_far_off = [&](double merit) { return !(predicted.norms().merit <= far_off * merit); };
   if (drive.strength() > 0.0 && is_far_off(drive.strength()) && is_far_off(at_rest().norms().merit)) return {*rest, false};

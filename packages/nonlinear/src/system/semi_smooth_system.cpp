@@ -68,8 +68,8 @@ StepContext SemiSmoothSystem::weigh_gaps(StepContext context, double share) cons
   return context;
 }
 
-SystemEvaluation SemiSmoothSystem::evaluate(const Vector& x, const StepContext& context) const {
-  return SystemEvaluation(model_->evaluate(x, context, {}));
+SystemEvaluation SemiSmoothSystem::evaluate(const Vector& x, const StepContext& context, StiffnessIs stiffness) const {
+  return SystemEvaluation(model_->evaluate(x, context, {}, stiffness));
 }
 
 SystemEvaluation SemiSmoothSystem::evaluate_at(const AcceptedState& state, const Vector& z, const StepContext& context) const {
@@ -148,6 +148,7 @@ AcceptedState SemiSmoothSystem::commit(const SystemEvaluation& evaluation) const
   const TimeStep* step = at.context.step.get();
   const Configuration configuration = model_->configuration(at.context.time, *at.d, step);
   for (const auto& contribution : parts().contributions) contribution->commit(configuration);
+  model_->forget_stiffness();
   AcceptedState state{rcp(new Vector(at.x, Teuchos::Copy)), at.context, at.internal, std::nullopt};
   if (step != nullptr) state.rates = rates_at_end(*step, *at.d, at.external);
   state.context.step = nullptr;  // it holds the state before

@@ -101,6 +101,7 @@ void SystemModel::serialize(StateArchive& archive) const {
   if (stiffness_scales_.size() != fields)
     throw FileError(fmt::format("a stored state has {} fields; expected are {}", stiffness_scales_.size(), fields));
   for (const auto& contribution : parts_.contributions) contribution->serialize(archive);
+  forget_stiffness();
 }
 
 std::shared_ptr<EvaluatedSystem> SystemModel::begin_evaluation(const Vector& x, const StepContext& context) const {
@@ -120,14 +121,18 @@ std::shared_ptr<EvaluatedSystem> SystemModel::begin_evaluation(const Vector& x, 
                                                            {}});
 }
 
-std::shared_ptr<const EvaluatedSystem> SystemModel::evaluate(const Vector& x, const StepContext& context, AtHand at_hand) const {
+std::shared_ptr<const EvaluatedSystem> SystemModel::evaluate(const Vector& x, const StepContext& context, AtHand at_hand,
+                                                             StiffnessIs stiffness) const {
   if (parts_.contact && !context.contact)
     throw std::invalid_argument("SemiSmoothSystem: a context without a history of contact; take step_from() or start_step() of an initial_state()");
   const std::shared_ptr<EvaluatedSystem> result = begin_evaluation(x, context);
   result->internal = std::move(at_hand.internal);
   result->contact = std::move(at_hand.contact);
   EvaluatedSystem& at = *result;
-  add_forces(at);
+  // Internal forces come first, as they fail more often than contact, which says later which entries the matrix has.
+  const bool at_once = stiffness == StiffnessIs::needed_next && at.internal.is_null() && !matrix_.is_null();
+  if (at_once) open_matrix(matrix_->getCrsGraph());
+  add_forces(at, at_once ? matrix_.get() : nullptr);
   if (parts_.contact) {
     if (!at.contact) at.contact = parts_.contact->differentiate(*at.d, *context.contact, &context.states);
     at.laws = at.contact->laws(*at.z);
@@ -135,17 +140,21 @@ std::shared_ptr<const EvaluatedSystem> SystemModel::evaluate(const Vector& x, co
     at.laws->add_force(contact_force);
     at.forces.update(1.0, contact_force, 1.0);
   }
+  if (at_once) {
+    if (const RCP<const Graph> graph = graph_of(at); graph != matrix_->getCrsGraph()) widen_matrix(graph);
+    internal_forces_of_matrix_ = at.internal;
+  }
   if (reduction_) {
     configuration(context.time, *at.d);
     at.follow = std::make_shared<const FollowedDisplacements>(reduction_, context.time, local_displacement_);
   }
-  if (stiffness_scale() == 0.0) stiffness(result);
+  if (stiffness_scale() == 0.0) this->stiffness(result);
   add_norms(at);
   return result;
 }
 
 // What acts between bodies has the weight 1 of contact in any scheme.
-void SystemModel::add_forces(EvaluatedSystem& at) const {
+void SystemModel::add_forces(EvaluatedSystem& at, Matrix* stiffness) const {
   const TimeStep* step = at.context.step.get();
   const Configuration configuration = this->configuration(at.context.time, *at.d, step);
   RCP<Vector> internal, of_rates, between;
@@ -157,7 +166,10 @@ void SystemModel::add_forces(EvaluatedSystem& at) const {
     if (contribution->uses().time_derivatives > 0) {
       if (step != nullptr) contribution->add_residual(configuration, *of_rates, failure);
     } else if (contribution->kind() == Contribution::Kind::internal) {
-      if (!internal.is_null()) contribution->add_residual(configuration, *internal, failure);
+      if (stiffness != nullptr)
+        contribution->add_residual_and_jacobian(configuration, weights_of_forces(step), *internal, *stiffness, failure);
+      else if (!internal.is_null())
+        contribution->add_residual(configuration, *internal, failure);
     } else {
       const bool is_between = contribution->kind() == Contribution::Kind::interaction && !between.is_null();
       contribution->add_residual(configuration, is_between ? *between : at.external, failure);
@@ -263,18 +275,12 @@ double SystemModel::weight(std::size_t field) const {
 const RCP<Matrix>& SystemModel::stiffness(const std::shared_ptr<const EvaluatedSystem>& at) const {
   if (!matrix_of_.owner_before(at) && !at.owner_before(matrix_of_)) return matrix_;
   matrix_of_.reset();
-  // The bulk's graph, or the larger one that the present candidates of contact ask for.
-  const long version = parts_.bulk_version ? parts_.bulk_version() : 0;
-  const RCP<const Graph> graph = at->contact         ? parts_.contact->graph(*at->contact, parts_.bulk_graph, version)
-                                 : matrix_.is_null() ? parts_.bulk_graph()
-                                                     : matrix_->getCrsGraph();
-  if (matrix_.is_null() || matrix_->getCrsGraph() != graph)
-    matrix_ = rcp(new Matrix(graph));
-  else
-    matrix_->resumeFill();
-  matrix_->setAllToScalar(0.0);
+  const RCP<const Graph> graph = graph_of(*at);
+  const bool has_internal = !internal_forces_of_matrix_.is_null() && internal_forces_of_matrix_ == at->internal && matrix_->getCrsGraph() == graph;
+  if (!has_internal) open_matrix(graph);
+  internal_forces_of_matrix_ = Teuchos::null;
   std::optional<StepFailure> failure;
-  add_jacobians(*at, failure);
+  add_jacobians(*at, !has_internal, failure);
   matrix_->fillComplete(parts_.dofs, parts_.dofs);
   throw_if_any(comm(), failure);
   matrix_of_ = at;
@@ -282,13 +288,53 @@ const RCP<Matrix>& SystemModel::stiffness(const std::shared_ptr<const EvaluatedS
   return matrix_;
 }
 
-void SystemModel::add_jacobians(const EvaluatedSystem& at, std::optional<StepFailure>& failure) const {
+// The bulk's graph, or the larger one that the present candidates of contact ask for.
+RCP<const Graph> SystemModel::graph_of(const EvaluatedSystem& at) const {
+  const long version = parts_.bulk_version ? parts_.bulk_version() : 0;
+  if (at.contact) return parts_.contact->graph(*at.contact, parts_.bulk_graph, version);
+  return matrix_.is_null() ? parts_.bulk_graph() : matrix_->getCrsGraph();
+}
+
+// Entries of internal forces are in any graph, in columns that any begins with.
+void SystemModel::widen_matrix(const RCP<const Graph>& graph) const {
+  const RCP<Matrix> narrow = matrix_;
+  matrix_ = rcp(new Matrix(graph));
+  const auto from = narrow->getLocalMatrixHost();
+  const auto shared = static_cast<LocalOrdinal>(parts_.local_dofs->getNodeNumElements());
+  std::vector<LocalOrdinal> columns;
+  std::vector<double> values;
+  for (LocalOrdinal row = 0; row < from.numRows(); ++row) {
+    columns.clear(), values.clear();
+    for (std::size_t k = from.graph.row_map(row); k < from.graph.row_map(row + 1); ++k) {
+      if (from.graph.entries(k) >= shared) continue;
+      columns.push_back(from.graph.entries(k));
+      values.push_back(from.values(k));
+    }
+    matrix_->sumIntoLocalValues(row, static_cast<LocalOrdinal>(columns.size()), values.data(), columns.data());
+  }
+}
+
+void SystemModel::open_matrix(const RCP<const Graph>& graph) const {
+  forget_stiffness();
+  if (matrix_.is_null() || matrix_->getCrsGraph() != graph)
+    matrix_ = rcp(new Matrix(graph));
+  else if (matrix_->isFillComplete())
+    matrix_->resumeFill();
+  matrix_->setAllToScalar(0.0);
+}
+
+JacobianWeights SystemModel::weights_of_forces(const TimeStep* step) const {
+  JacobianWeights weights;
+  if (step != nullptr) weights.displacement = step->integration->scheme.force_share();
+  return weights;
+}
+
+void SystemModel::add_jacobians(const EvaluatedSystem& at, bool with_internal, std::optional<StepFailure>& failure) const {
   const TimeStep* step = at.context.step.get();
   const Configuration configuration = this->configuration(at.context.time, *at.d, step);
-  JacobianWeights of_forces;
-  if (step != nullptr) of_forces.displacement = step->integration->scheme.force_share();
+  const JacobianWeights of_forces = weights_of_forces(step);
   for (const auto& contribution : parts_.contributions)
-    if (contribution->uses().time_derivatives == 0)
+    if (contribution->uses().time_derivatives == 0 && (with_internal || contribution->kind() != Contribution::Kind::internal))
       contribution->add_jacobian(configuration, contribution->kind() == Contribution::Kind::interaction ? JacobianWeights{} : of_forces, *matrix_,
                                  failure);
   if (step == nullptr) return;

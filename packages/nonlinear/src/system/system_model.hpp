@@ -86,21 +86,36 @@ class SystemModel {
   /// An evaluation of which x and the context are known.
   std::shared_ptr<EvaluatedSystem> begin_evaluation(const Vector& x, const StepContext& context) const;
   /// Forces of contributions at `at`, and their sum.
-  void add_forces(EvaluatedSystem& at) const;
+  /// @param stiffness  null, or an open matrix to which the stiffness of internal forces is added with them
+  void add_forces(EvaluatedSystem& at, Matrix* stiffness = nullptr) const;
 
-  std::shared_ptr<const EvaluatedSystem> evaluate(const Vector& x, const StepContext& context, AtHand at_hand) const;
+  std::shared_ptr<const EvaluatedSystem> evaluate(const Vector& x, const StepContext& context, AtHand at_hand,
+                                                  StiffnessIs stiffness = StiffnessIs::not_known_to_be_needed) const;
 
   /// K of an evaluation, assembled unless it is at hand. Filled.
   const RCP<Matrix>& stiffness(const std::shared_ptr<const EvaluatedSystem>& at) const;
   /// K of an evaluation, open, to be made into something else: then it is not at hand any more.
   RCP<Matrix> take_stiffness(const std::shared_ptr<const EvaluatedSystem>& at) const;
 
+  /// Histories have changed: what is at hand is of states that are no more.
+  void forget_stiffness() const {
+    matrix_of_.reset();
+    internal_forces_of_matrix_ = Teuchos::null;
+  }
+
  private:
   /// Throws std::invalid_argument for contributions that know what the system has not.
   void check_contributions() const;
   void add_norms(EvaluatedSystem& at) const;
-  /// Jacobians of all contributions.
-  void add_jacobians(const EvaluatedSystem& at, std::optional<StepFailure>& failure) const;
+  /// What the matrix of an evaluation has to hold, whose contact is known.
+  RCP<const Graph> graph_of(const EvaluatedSystem& at) const;
+  /// The matrix, open and 0.
+  void open_matrix(const RCP<const Graph>& graph) const;
+  /// Puts what the matrix holds of internal forces into one with another graph.
+  void widen_matrix(const RCP<const Graph>& graph) const;
+  /// Jacobians of all contributions, or of those that the matrix does not hold yet.
+  void add_jacobians(const EvaluatedSystem& at, bool with_internal, std::optional<StepFailure>& failure) const;
+  JacobianWeights weights_of_forces(const TimeStep* step) const;
   /// Mean |diagonal| of the matrix, of each field. Collective.
   std::vector<double> scales_of_diagonal() const;
 
@@ -125,6 +140,7 @@ class SystemModel {
   mutable std::vector<double> static_scales_, mass_scales_;  ///< [fields] of the first Jacobian; empty in a system without time derivatives
   mutable RCP<Matrix> matrix_;
   mutable std::weak_ptr<const EvaluatedSystem> matrix_of_;  ///< of which it is the stiffness
+  mutable RCP<const Vector> internal_forces_of_matrix_;     ///< whose derivatives alone it holds, and is open; null: it does not
 };
 
 }  // namespace mortise::detail

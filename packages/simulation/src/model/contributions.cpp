@@ -15,6 +15,12 @@ void BulkContribution::add_jacobian(const Configuration& at, const JacobianWeigh
   bodies_->add_stiffness(at.local_displacement, jacobian, failure, weights.displacement);
 }
 
+void BulkContribution::add_residual_and_jacobian(const Configuration& at, const JacobianWeights& weights, Vector& residual, Matrix& jacobian,
+                                                 std::optional<StepFailure>& failure) {
+  const auto timer = count("bulk");
+  bodies_->add_internal_force_and_stiffness(at.local_displacement, residual, jacobian, failure, weights.displacement);
+}
+
 LoadContribution::LoadContribution(std::string name, std::unique_ptr<Load> load, const Timers& timers)
     : CountedContribution(std::move(name), timers), load_(std::move(load)) {}
 

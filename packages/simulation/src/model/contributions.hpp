@@ -41,6 +41,8 @@ class BulkContribution final : public CountedContribution {
   Kind kind() const override { return Kind::internal; }
   void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) override;
   void add_jacobian(const Configuration& at, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>& failure) override;
+  void add_residual_and_jacobian(const Configuration& at, const JacobianWeights& weights, Vector& residual, Matrix& jacobian,
+                                 std::optional<StepFailure>& failure) override;
   void commit(const Configuration& at) override { bodies_->commit(at.local_displacement); }
   void serialize(StateArchive& archive) override { bodies_->serialize(archive); }
 

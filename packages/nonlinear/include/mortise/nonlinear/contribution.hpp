@@ -61,6 +61,13 @@ class Contribution {
   /// (further columns come after its own), and is open for local sums.
   virtual void add_jacobian(const Configuration& at, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>& failure) = 0;
 
+  /// Both, where one pass is cheaper than two. Collective.
+  virtual void add_residual_and_jacobian(const Configuration& at, const JacobianWeights& weights, Vector& residual, Matrix& jacobian,
+                                         std::optional<StepFailure>& failure) {
+    add_residual(at, residual, failure);
+    add_jacobian(at, weights, jacobian, failure);
+  }
+
   /// The step that ended at `at` is accepted.
   virtual void commit(const Configuration&) {}
 

@@ -81,7 +81,8 @@ struct StepperObserver {
   std::function<RCP<Vector>(const AcceptedState& from, const SystemEvaluation& solution, int round)> verify;
   /// May change the rate of the step of length dt that was accepted in x: the line that the next step starts at.
   std::function<void(const Vector& x, double dt, Vector& rate)> predict;
-  /// Length of the next step over that of the step that was verified last, the same on every rank; nothing, or empty: twice as long after an easy step.
+  /// Length of the next step over that of the step that was verified last, the same on every rank; nothing, or empty: twice as long after an easy
+  /// step.
   std::function<std::optional<double>()> growth;
   std::function<void(const StepReport&, const SystemEvaluation&)> accepted;  ///< after commit
   /// Between two steps, the last of which has been accepted. True: the run ends here. The same on every rank.

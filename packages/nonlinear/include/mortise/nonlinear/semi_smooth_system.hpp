@@ -93,7 +93,7 @@ class SemiSmoothSystem {
 
   /// F(x) = (r, C). Dirichlet rows hold s (d - prescribed), rows of followers s (d - what they follow). Forces on followers are in the rows of what
   /// they follow. Throws StepFailure on every rank, and std::invalid_argument for a context without a history where there is contact.
-  SystemEvaluation evaluate(const Vector& x, const StepContext& context) const;
+  SystemEvaluation evaluate(const Vector& x, const StepContext& context, StiffnessIs stiffness = StiffnessIs::not_known_to_be_needed) const;
   /// Evaluates at the displacement of an accepted state, with multipliers z: internal forces that are known are taken.
   SystemEvaluation evaluate_at(const AcceptedState& state, const Vector& z, const StepContext& context) const;
   /// The same displacement with other multipliers: what is known of an evaluation is taken.

@@ -53,6 +53,9 @@ struct AcceptedState {
   std::optional<AcceptedRates> rates;  ///< time derivatives of d; none in a system without
 };
 
+/// What follows an evaluation. Where it is linearised, internal forces and their stiffness come from one pass over the elements.
+enum class StiffnessIs { not_known_to_be_needed, needed_next };
+
 /// F at one x: residual, norms and contact conditions. A value that is cheap to copy and does not change.
 class SystemEvaluation {
  public:
