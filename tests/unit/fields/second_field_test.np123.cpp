@@ -122,7 +122,7 @@ class Conduction : public Contribution {
   void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>&) override { add(at, {of(residual)}); }
   void add_jacobian(const Configuration& at, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>&) override {
     const NodalSparsity::Values values = space_->sparsity().open(jacobian);
-    add(at, {{}, &values, weights.displacement});
+    add(at, {{}, &values, weights.unknowns});
     values.close();
   }
 
@@ -143,7 +143,7 @@ class Conduction : public Contribution {
 
   FieldView<double> of(Vector& vector) const { return {vector.getLocalViewHost(Tpetra::Access::ReadWrite).data(), space_->rows(0)}; }
   void add(const Configuration& at, const AssemblyTarget& target) const {
-    const auto theta = at.local_displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
+    const auto theta = at.local_unknowns.getLocalViewHost(Tpetra::Access::ReadOnly);
     for (const AddBlock& block : blocks_) block({theta.data(), space_->rows(0)}, target);
   }
 
@@ -172,14 +172,14 @@ class Conductance : public Contribution {
   Kind kind() const override { return Kind::internal; }
   FieldUse uses() const override { return {{"temperature"}, {"temperature"}, 0}; }
   void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>&) override {
-    const auto theta = at.local_displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
+    const auto theta = at.local_unknowns.getLocalViewHost(Tpetra::Access::ReadOnly);
     visit([&](GlobalOrdinal row, GlobalOrdinal column, double value) {
-      residual.sumIntoGlobalValue(row, value * theta(at.local_displacement.getMap()->getLocalElement(column), 0));
+      residual.sumIntoGlobalValue(row, value * theta(at.local_unknowns.getMap()->getLocalElement(column), 0));
     });
   }
   void add_jacobian(const Configuration&, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>&) override {
     visit([&](GlobalOrdinal row, GlobalOrdinal column, double value) {
-      const double weighted = weights.displacement * value;
+      const double weighted = weights.unknowns * value;
       jacobian.sumIntoGlobalValues(row, 1, &weighted, &column);
     });
   }
@@ -198,23 +198,16 @@ class Conductance : public Contribution {
 };
 
 /// The temperatures of the lower edge of the lower body and of the upper edge of the upper one.
-class EdgeTemperatures : public PrescribedDisplacements {
- public:
-  EdgeTemperatures(const Mesh& mesh, double below, double above) {
-    for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node) {
-      const double y = mesh.coordinates[node][1];
-      if (y > 1e-12 && y < lower_height + upper_height - 1e-12) continue;
-      dofs_.push_back(node);
-      values_.push_back(y < lower_height ? below : above);
-    }
+std::shared_ptr<const AffineConstraints> edge_temperatures(const FieldSpace& space, double below, double above) {
+  std::vector<AffineConstraints::Line> lines;
+  for (LocalOrdinal node = 0; node < space.mesh()->owned_count(); ++node) {
+    const double y = space.mesh()->coordinates[node][1];
+    if (y < 1e-12) lines.push_back({space.row(node, 0), {}, {{0, below}}});
+    if (y > lower_height + upper_height - 1e-12) lines.push_back({space.row(node, 0), {}, {{0, above}}});
   }
-  const std::vector<LocalOrdinal>& dofs() const override { return dofs_; }
-  std::vector<double> values(double, std::optional<StepFailure>&) const override { return values_; }
-
- private:
-  std::vector<LocalOrdinal> dofs_;
-  std::vector<double> values_;
-};
+  return std::make_shared<const AffineConstraints>(space.dofs(), std::move(lines),
+                                                   [](double, std::optional<StepFailure>&) { return std::vector<double>{1.0}; });
+}
 
 // One-dimensional conduction through two layers and the resistance 1/h between them is linear in each body, so the elements have it exactly. Nodes of
 // the two surfaces do not match.
@@ -251,7 +244,7 @@ TEST(SecondField, ConductsThroughTwoBodiesAndTheirContact) {
     parts.local_dofs = columns;
     parts.bulk_graph = [graph] { return graph; };
     parts.contributions = {conduction, conductance};
-    parts.prescribed = std::make_shared<EdgeTemperatures>(*mesh, below, above);
+    parts.constraints = edge_temperatures(*space, below, above);
     parts.linear_solver = make_linear_solver({}, mesh->comm, Timers());
     parts.length = above;
     parts.fields = {{space->field(0), above}};
@@ -285,13 +278,13 @@ class GridConduction : public Contribution {
   Kind kind() const override { return Kind::internal; }
   FieldUse uses() const override { return {{"temperature"}, {"temperature"}, 0}; }
   void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>&) override {
-    const auto x = at.local_displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
-    const auto value = [&](int node) { return x(at.local_displacement.getMap()->getLocalElement(id_(node)), 0); };
+    const auto x = at.local_unknowns.getLocalViewHost(Tpetra::Access::ReadOnly);
+    const auto value = [&](int node) { return x(at.local_unknowns.getMap()->getLocalElement(id_(node)), 0); };
     visit([&](int a, int b) { residual.sumIntoGlobalValue(id_(a), k_ * (value(a) - value(b))); });
   }
   void add_jacobian(const Configuration&, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>&) override {
     visit([&](int a, int b) {
-      const double plus = weights.displacement * k_, minus = -plus;
+      const double plus = weights.unknowns * k_, minus = -plus;
       const GlobalOrdinal own = id_(a), other = id_(b);
       jacobian.sumIntoGlobalValues(own, 1, &plus, &own);
       jacobian.sumIntoGlobalValues(own, 1, &minus, &other);
@@ -327,13 +320,13 @@ class Swelling : public Contribution {
   Kind kind() const override { return Kind::internal; }
   FieldUse uses() const override { return {{"temperature"}, {"displacement"}, 0}; }
   void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>&) override {
-    const auto x = at.local_displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
-    const auto value = [&](int node) { return x(at.local_displacement.getMap()->getLocalElement(id_(node)), 0); };
+    const auto x = at.local_unknowns.getLocalViewHost(Tpetra::Access::ReadOnly);
+    const auto value = [&](int node) { return x(at.local_unknowns.getMap()->getLocalElement(id_(node)), 0); };
     visit([&](int a, int b, int i, double D) { residual.sumIntoGlobalValue(grid_->dof(a, i), 0.5 * pressure_ * D * (value(a) + value(b))); });
   }
   void add_jacobian(const Configuration&, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>&) override {
     visit([&](int a, int b, int i, double D) {
-      const double slope = weights.displacement * 0.5 * pressure_ * D;
+      const double slope = weights.unknowns * 0.5 * pressure_ * D;
       for (const GlobalOrdinal column : {id_(a), id_(b)}) jacobian.sumIntoGlobalValues(grid_->dof(a, i), 1, &slope, &column);
     });
   }
@@ -354,30 +347,18 @@ class Swelling : public Contribution {
 };
 
 /// The edges of the grid, and theta on the upper body's upper and lower edge.
-class HeatedEdges : public PrescribedDisplacements {
- public:
-  HeatedEdges(const test::SpringGrid& grid, const Map& dofs, const std::function<GlobalOrdinal(int)>& id, std::array<double, 2> motion, double hot)
-      : edges_(grid, motion) {
-    dofs_ = edges_.dofs();
-    for (const int node : grid.owned_nodes()) {
-      const int row = node / grid.nx();
-      if (row != grid.cut() && row != grid.ny() - 1) continue;
-      dofs_.push_back(dofs.getLocalElement(id(node)));
-      temperatures_.push_back(row == grid.cut() ? 0.2 * hot : hot);
-    }
+std::shared_ptr<const AffineConstraints> heated_edges(const test::SpringGrid& grid, const RCP<const Map>& dofs,
+                                                      const std::function<GlobalOrdinal(int)>& id, std::array<double, 2> motion, double hot) {
+  std::vector<AffineConstraints::Line> lines = test::edge_lines(grid, *dofs, motion);
+  for (const int node : grid.owned_nodes()) {
+    const int row = node / grid.nx();
+    if (row != grid.cut() && row != grid.ny() - 1) continue;
+    lines.push_back({dofs->getLocalElement(id(node)), {}, {{1, row == grid.cut() ? 0.2 * hot : hot}}});
   }
-  const std::vector<LocalOrdinal>& dofs() const override { return dofs_; }
-  std::vector<double> values(double time, std::optional<StepFailure>& failure) const override {
-    std::vector<double> all = edges_.values(time, failure);
-    for (const double value : temperatures_) all.push_back(time * value);
-    return all;
-  }
-
- private:
-  test::Edges edges_;
-  std::vector<LocalOrdinal> dofs_;
-  std::vector<double> temperatures_;
-};
+  return std::make_shared<const AffineConstraints>(dofs, std::move(lines), [](double time, std::optional<StepFailure>&) {
+    return std::vector<double>{test::steadily(time), time};
+  });
+}
 
 /// Springs in contact whose upper body is hot. Temperatures have values of `hot`, in whatever unit.
 struct HotGrid {
@@ -420,8 +401,7 @@ struct HotGrid {
     parts.local_dofs = rcp(new Map(invalid, local.data(), static_cast<LocalOrdinal>(local.size()), 0, comm));
     parts.bulk_graph = [graph] { return graph; };
     parts.contributions = {std::make_shared<GlobalSprings>(grid), conduction, swelling};
-    const auto prescribed = std::make_shared<HeatedEdges>(*grid, *table.dofs, temperature, std::array<double, 2>{0.1, -0.2}, hot);
-    parts.prescribed = prescribed;
+    parts.constraints = heated_edges(*grid, table.dofs, temperature, {0.1, -0.2}, hot);
     parts.linear_solver = make_linear_solver({}, comm, Timers());
     parts.length = grid->ny();
     parts.fields = {{table.fields[0], 8.0}, {table.fields[1], hot}};
@@ -453,19 +433,19 @@ struct HotGrid {
     explicit GlobalSprings(std::shared_ptr<const test::SpringGrid> grid) : Springs(grid, 1.0), grid_(std::move(grid)) {}
     void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) override {
       const Vector own = displacements(at);
-      Springs::add_residual({at.time, at.displacement, own}, residual, failure);
+      Springs::add_residual({at.time, at.unknowns, own}, residual, failure);
     }
     void add_jacobian(const Configuration& at, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>& failure) override {
       const Vector own = displacements(at);
-      Springs::add_jacobian({at.time, at.displacement, own}, weights, jacobian, failure);
+      Springs::add_jacobian({at.time, at.unknowns, own}, weights, jacobian, failure);
     }
 
    private:
     Vector displacements(const Configuration& at) const {
       Vector own(grid_->local_dofs);
-      const auto view = at.local_displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
+      const auto view = at.local_unknowns.getLocalViewHost(Tpetra::Access::ReadOnly);
       for (const GlobalOrdinal id : grid_->local_dofs->getNodeElementList())
-        own.replaceGlobalValue(id, view(at.local_displacement.getMap()->getLocalElement(id), 0));
+        own.replaceGlobalValue(id, view(at.local_unknowns.getMap()->getLocalElement(id), 0));
       return own;
     }
     std::shared_ptr<const test::SpringGrid> grid_;
@@ -516,7 +496,7 @@ TEST(SecondField, AgreesWithOneRank) {
     return solve_newton(*at.system, at.system->evaluate(*rest.x, at.system->step_from(rest, 1.0)), {}, report, {});
   };
   const SystemEvaluation mine = solve(problem), whole = solve(alone);
-  const auto x = problem.system->displacement(mine.x()), y = alone.system->displacement(whole.x());
+  const auto x = problem.system->unknowns(mine.x()), y = alone.system->unknowns(whole.x());
   for (std::size_t k = 0; k < x->getLocalLength(); ++k) {
     const GlobalOrdinal id = x->getMap()->getGlobalElement(static_cast<LocalOrdinal>(k));
     EXPECT_NEAR(x->getData()[k], y->getData()[y->getMap()->getLocalElement(id)], 1e-10);

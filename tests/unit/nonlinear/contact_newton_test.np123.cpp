@@ -26,7 +26,7 @@ Problem::Choices pressed(double down, double sideways = 0.0, double stiffness = 
 
 // An iterate with closed and open nodes: the upper body is pushed in unevenly, multipliers are of either sign.
 void mix_states(Problem& problem) {
-  const auto d = problem.system->displacement(*problem.x), z = problem.system->multipliers(*problem.x);
+  const auto d = problem.system->unknowns(*problem.x), z = problem.system->multipliers(*problem.x);
   for (const GlobalOrdinal id : d->getMap()->getNodeElementList()) {
     const bool upper = id / 2 >= problem.grid->cut() * problem.grid->nx();
     d->replaceGlobalValue(id, 0.02 * std::sin(0.7 * id) - (upper && id % 2 == 1 ? 0.05 : 0.0));
@@ -80,9 +80,9 @@ TEST_P(ContactFormulation, JacobianAgreesWithCentralDifferences) {
   EXPECT_GT(at.norms().changed, 0);
   EXPECT_EQ(system.evaluate(*problem.x, context).norms().changed, 0);
   system.linearise(at).apply(v, J_v);
-  const double size = system.displacement(J_v)->norm2(), law_size = system.multipliers(J_v)->norm2();
+  const double size = system.unknowns(J_v)->norm2(), law_size = system.multipliers(J_v)->norm2();
   difference.update(-1.0, J_v, 1.0);
-  EXPECT_LE(system.displacement(difference)->norm2(), 1e-6 * size);
+  EXPECT_LE(system.unknowns(difference)->norm2(), 1e-6 * size);
   EXPECT_LE(system.multipliers(difference)->norm2(), 1e-6 * law_size);
 }
 
@@ -114,8 +114,8 @@ TEST_P(ContactFormulation, DirectionWithoutGeometricStiffnessLeavesThatAlone) {
   J_dx.update(1.0, F, 1.0);
 
   const ContactSystem& contact = *system.parts().contact;
-  const RCP<const Vector> d = system.displacement(std::as_const(*problem.x)), z = system.multipliers(std::as_const(*problem.x)),
-                          dd = system.displacement(std::as_const(direction));
+  const RCP<const Vector> d = system.unknowns(std::as_const(*problem.x)), z = system.multipliers(std::as_const(*problem.x)),
+                          dd = system.unknowns(std::as_const(direction));
   Vector change(d->getMap());
   const double h = 1e-6 / dd->normInf();
   for (const double sign : {1.0, -1.0}) {
@@ -126,9 +126,9 @@ TEST_P(ContactFormulation, DirectionWithoutGeometricStiffnessLeavesThatAlone) {
   }
   const double size = change.norm2();
   EXPECT_GT(size, 1e-3 * F.norm2());
-  Vector left(*system.displacement(std::as_const(J_dx)), Teuchos::Copy);
+  Vector left(*system.unknowns(std::as_const(J_dx)), Teuchos::Copy);
   EXPECT_LE(system.multipliers(std::as_const(J_dx))->norm2(), 1e-11 * F.norm2());
-  for (const LocalOrdinal dof : system.parts().prescribed->dofs()) change.replaceLocalValue(dof, 0.0);  // their rows are not momentum
+  for (const LocalOrdinal dof : system.parts().constraints->prescribed()) change.replaceLocalValue(dof, 0.0);  // their rows are not momentum
   left.update(-1.0, change, 1.0);
   EXPECT_LE(left.norm2(), 1e-6 * size);
 }
@@ -307,7 +307,7 @@ TEST(ContactSystem, ContactLostSinceTheAcceptedStateIsAFailureOnAllRanks) {
   Problem problem(Tpetra::getDefaultComm(), pressed(0.2));
   SemiSmoothSystem& system = *problem.system;
   const auto place = [&](double depth) {
-    const auto d = system.displacement(*problem.x);
+    const auto d = system.unknowns(*problem.x);
     for (const GlobalOrdinal id : d->getMap()->getNodeElementList())
       d->replaceGlobalValue(id, id / 2 >= problem.grid->cut() * problem.grid->nx() && id % 2 == 1 ? -depth : 0.0);
   };

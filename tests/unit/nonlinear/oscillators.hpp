@@ -40,11 +40,11 @@ class DofForce final : public Contribution {
     for (std::size_t i = 0; i < rows.extent(0); ++i) rows(i, 0) += response(at, i).force;
   }
   void add_jacobian(const Configuration& at, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>&) override {
-    for (std::size_t i = 0; i < at.displacement.getLocalLength(); ++i) {
+    for (std::size_t i = 0; i < at.unknowns.getLocalLength(); ++i) {
       const Response of = response(at, i);
       const double share = weights.local_velocity_shares != nullptr ? value(*weights.local_velocity_shares, i) : 1.0;
       const double entry =
-          weights.displacement * of.by_displacement + share * weights.velocity * of.by_velocity + weights.acceleration * of.by_acceleration;
+          weights.unknowns * of.by_displacement + share * weights.velocity * of.by_velocity + weights.acceleration * of.by_acceleration;
       const auto column = static_cast<LocalOrdinal>(i);
       jacobian.sumIntoLocalValues(column, 1, &entry, &column);
     }
@@ -53,22 +53,13 @@ class DofForce final : public Contribution {
  private:
   static double value(const Vector& v, std::size_t i) { return v.getLocalViewHost(Tpetra::Access::ReadOnly)(i, 0); }
   Response response(const Configuration& at, std::size_t i) const {
-    return law_({at.displacement.getMap()->getGlobalElement(static_cast<LocalOrdinal>(i)), value(at.displacement, i),
+    return law_({at.unknowns.getMap()->getGlobalElement(static_cast<LocalOrdinal>(i)), value(at.unknowns, i),
                  at.velocity != nullptr ? value(*at.velocity, i) : 0.0, at.acceleration != nullptr ? value(*at.acceleration, i) : 0.0, at.time});
   }
   std::string name_;
   Kind kind_;
   int derivatives_;
   std::function<Response(const State&)> law_;
-};
-
-class NothingPrescribed final : public PrescribedDisplacements {
- public:
-  const std::vector<LocalOrdinal>& dofs() const override { return none_; }
-  std::vector<double> values(double, std::optional<StepFailure>&) const override { return {}; }
-
- private:
-  std::vector<LocalOrdinal> none_;
 };
 
 /// Masses 1 + i/8, springs k (1 + i) u + cubic u^3, dashpots c v, loads f(t) for dofs i = 0, 1, ...
@@ -105,7 +96,6 @@ struct Oscillators {
       if (is_massless(s.dof)) return Response{choices.damping * s.v, 0.0, choices.damping, 0.0};
       return Response{mass(s.dof) * s.a + choices.damping * s.v, 0.0, choices.damping, mass(s.dof)};
     }));
-    parts.prescribed = std::make_shared<NothingPrescribed>();
     LinearSolverOptions solver;
     solver.kind.value = LinearSolverOptions::Kind::mumps;
     parts.linear_solver = make_linear_solver(solver, comm, timers);

@@ -26,7 +26,7 @@ TEST(System, WithoutContactItsMapIsThatOfTheDofs) {
   Problem problem(Tpetra::getDefaultComm(), pulled());
   EXPECT_TRUE(problem.system->map()->isSameAs(*problem.grid->dofs));
   EXPECT_EQ(problem.system->multipliers(*problem.x)->getGlobalLength(), 0u);
-  problem.system->displacement(*problem.x)->putScalar(2.0);
+  problem.system->unknowns(*problem.x)->putScalar(2.0);
   EXPECT_EQ(problem.x->normInf(), 2.0);
 }
 

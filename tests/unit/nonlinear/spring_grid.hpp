@@ -127,7 +127,7 @@ class Springs : public Contribution {
     for_each(at, failure, [&](int a, int b, const auto& D, double e, double L2) {
       for (int i = 0; i < 2; ++i)
         for (int j = 0; j < 2; ++j) {
-          const double value = weights.displacement * stiffness_ * ((i == j ? e : 0.0) + D[i] * D[j] / L2), minus = -value;
+          const double value = weights.unknowns * stiffness_ * ((i == j ? e : 0.0) + D[i] * D[j] / L2), minus = -value;
           const GlobalOrdinal own = grid_->dof(a, j), other = grid_->dof(b, j);
           jacobian.sumIntoGlobalValues(grid_->dof(a, i), 1, &value, &own);
           jacobian.sumIntoGlobalValues(grid_->dof(a, i), 1, &minus, &other);
@@ -138,7 +138,7 @@ class Springs : public Contribution {
  private:
   template <class Visit>
   void for_each(const Configuration& at, std::optional<StepFailure>& failure, const Visit& visit) const {
-    const auto u = at.local_displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
+    const auto u = at.local_unknowns.getLocalViewHost(Tpetra::Access::ReadOnly);
     const auto position = [&](int node) {
       auto x = grid_->position(node);
       for (int i = 0; i < 2; ++i) x[i] += u(grid_->local_dofs->getLocalElement(grid_->dof(node, i)), 0);
@@ -189,7 +189,7 @@ class Brittle : public Contribution {
   std::string name() const override { return "brittle"; }
   Kind kind() const override { return Kind::internal; }
   void add_residual(const Configuration& at, Vector&, std::optional<StepFailure>& failure) override {
-    const auto now = at.displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
+    const auto now = at.unknowns.getLocalViewHost(Tpetra::Access::ReadOnly);
     const auto then = committed.getLocalViewHost(Tpetra::Access::ReadOnly);
     for (std::size_t i = 0; i < now.extent(0); ++i)
       if ((std::abs(now(i, 0) - then(i, 0)) > reach_ || std::abs(now(i, 0)) > limit_) && !failure)
@@ -197,7 +197,7 @@ class Brittle : public Contribution {
   }
   void add_jacobian(const Configuration&, const JacobianWeights&, Matrix&, std::optional<StepFailure>&) override {}
   void commit(const Configuration& at) override {
-    Tpetra::deep_copy(committed, at.displacement);
+    Tpetra::deep_copy(committed, at.unknowns);
     times.push_back(at.time);
   }
 
@@ -209,30 +209,21 @@ class Brittle : public Contribution {
 };
 
 /// The lower edge is fixed; the upper one, if `motion` is given, moves by course(time) * motion.
-class Edges : public PrescribedDisplacements {
- public:
-  Edges(const SpringGrid& grid, std::optional<std::array<double, 2>> motion, Course course = steadily) : course_(std::move(course)) {
-    for (const int node : grid.owned_nodes()) {
-      const bool lower = node < grid.nx(), upper = node / grid.nx() == grid.ny() - 1;
-      if (!lower && !(upper && motion)) continue;
-      for (int i = 0; i < 2; ++i) {
-        dofs_.push_back(grid.dofs->getLocalElement(grid.dof(node, i)));
-        rates_.push_back(lower ? 0.0 : (*motion)[i]);
-      }
-    }
+/// @param dofs  those of the system
+inline std::vector<AffineConstraints::Line> edge_lines(const SpringGrid& grid, const Map& dofs, std::optional<std::array<double, 2>> motion) {
+  std::vector<AffineConstraints::Line> lines;
+  for (const int node : grid.owned_nodes()) {
+    const bool lower = node < grid.nx(), upper = node / grid.nx() == grid.ny() - 1;
+    if (!lower && !(upper && motion)) continue;
+    for (int i = 0; i < 2; ++i) lines.push_back({dofs.getLocalElement(grid.dof(node, i)), {}, {{0, lower ? 0.0 : (*motion)[i]}}});
   }
-  const std::vector<LocalOrdinal>& dofs() const override { return dofs_; }
-  std::vector<double> values(double time, std::optional<StepFailure>&) const override {
-    std::vector<double> result = rates_;
-    for (double& value : result) value *= course_(time);
-    return result;
-  }
+  return lines;
+}
 
- private:
-  std::vector<LocalOrdinal> dofs_;
-  std::vector<double> rates_;
-  Course course_;
-};
+inline std::shared_ptr<const AffineConstraints> edges(const SpringGrid& grid, std::optional<std::array<double, 2>> motion, Course course = steadily) {
+  return std::make_shared<const AffineConstraints>(grid.dofs, edge_lines(grid, *grid.dofs, motion),
+                                                   [course](double time, std::optional<StepFailure>&) { return std::vector<double>{course(time)}; });
+}
 
 /// A grid with its lower edge fixed, pulled at its upper edge by forces or by a motion.
 struct Problem {
@@ -260,12 +251,12 @@ struct Problem {
   };
 
   /// The lower edge of the upper body (slave) on the upper edge of the lower one.
-  static std::shared_ptr<ContactSystem> contact(const SpringGrid& grid, const PrescribedDisplacements& prescribed, double stiffness,
+  static std::shared_ptr<ContactSystem> contact(const SpringGrid& grid, const AffineConstraints& constraints, double stiffness,
                                                 const std::shared_ptr<Formulation>& formulation, Linearisation linearisation) {
     const auto reference = rcp(new MultiVector(grid.node_map, 2)), fixed = rcp(new MultiVector(grid.node_map, 2));
     for (std::size_t n = 0; n < grid.owned_nodes().size(); ++n)
       for (int i = 0; i < 2; ++i) reference->replaceLocalValue(static_cast<LocalOrdinal>(n), i, grid.position(grid.owned_nodes()[n])[i]);
-    for (const LocalOrdinal dof : prescribed.dofs()) fixed->replaceLocalValue(dof / 2, dof % 2, 1.0);
+    for (const LocalOrdinal dof : constraints.prescribed()) fixed->replaceLocalValue(dof / 2, dof % 2, 1.0);
     ContactPair pair;
     pair.name = "pair";
     pair.youngs_modulus = stiffness;
@@ -289,8 +280,8 @@ struct Problem {
     parts.bulk_graph = [graph = grid->graph] { return graph; };
     parts.contributions = {std::make_shared<Springs>(grid, choices.stiffness), brittle};
     if (choices.force) parts.contributions.push_back(std::make_shared<EdgeLoad>(grid, *choices.force, choices.course));
-    parts.prescribed = std::make_shared<Edges>(*grid, choices.motion, choices.course);
-    if (choices.cut > 0) parts.contact = contact(*grid, *parts.prescribed, choices.stiffness, choices.formulation, choices.linearisation);
+    parts.constraints = edges(*grid, choices.motion, choices.course);
+    if (choices.cut > 0) parts.contact = contact(*grid, *parts.constraints, choices.stiffness, choices.formulation, choices.linearisation);
     parts.linear_solver = make_linear_solver(choices.linear_solver, comm, Timers());
     parts.near_null_space = [grid = grid](const Vector&) { return grid->near_null_space(); };
     parts.length = choices.ny;

@@ -101,7 +101,7 @@ class Result {
  private:
   void look_at(const SystemEvaluation& at) {
     const double time = at.context().time;
-    displacement_ = rcp(new Vector(*system_.displacement(at.x()), Teuchos::Copy));
+    displacement_ = rcp(new Vector(*system_.unknowns(at.x()), Teuchos::Copy));
     local_ = rcp(new Vector(model_.bodies()->space().local_dofs()));
     local_->doImport(*displacement_, *model_.bodies()->space().ghost_import(), Tpetra::INSERT);
     reaction_ = at.forces();
@@ -118,8 +118,8 @@ class Result {
     context.local_displacement = local_.get();
     context.reaction = reaction_.get();
     context.external_force = external_.get();
-    context.prescribed = &model_.parts().prescribed->dofs();
-    context.following = &model_.parts().dependent->dofs();
+    context.prescribed = &model_.parts().constraints->prescribed();
+    context.following = &model_.parts().rigid->dofs();
     return context;
   }
 

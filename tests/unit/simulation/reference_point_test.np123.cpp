@@ -154,7 +154,7 @@ TEST_P(ReferencePoints, JacobianAgreesWithCentralDifferences) {
   stepping.end_time = 0.5;
   ASSERT_TRUE(run_steps(system, stepping, scene.newton, state, start, {}, failure)) << failure->what();
   Vector x(*state.accepted.x, Teuchos::Copy);
-  const StepContext context = start(state.accepted, 0.75, *system.displacement(std::as_const(x)), *system.multipliers(x));
+  const StepContext context = start(state.accepted, 0.75, *system.unknowns(std::as_const(x)), *system.multipliers(x));
   Vector v(system.map()), J_v(system.map()), difference(system.map()), direction(system.map()), J_dx(system.map());
   for (const GlobalOrdinal id : x.getMap()->getNodeElementList()) {
     x.sumIntoGlobalValue(id, 2e-3 * std::sin(0.37 * id + 0.4));

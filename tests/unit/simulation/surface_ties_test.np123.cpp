@@ -113,7 +113,7 @@ TEST_P(SurfaceTies, SlavesFollowLinearFieldsAndNoTiedNode) {
   const Scene scene = read_text(text_of(GetParam()));
   const Model model(Tpetra::getDefaultComm(), scene, Timers());
   const Mesh& mesh = *model.mesh();
-  const TiedDisplacements& tied = *model.parts().tied;
+  const AffineConstraints& tied = *model.parts().constraints;
   EXPECT_GT(model.ties_at_start()[0].tied, 0);
   Vector field(model.parts().dofs), followed(model.parts().dofs), marks(model.parts().dofs), seen(model.parts().dofs);
   {
@@ -123,12 +123,12 @@ TEST_P(SurfaceTies, SlavesFollowLinearFieldsAndNoTiedNode) {
         const auto& x = mesh.coordinates[static_cast<std::size_t>(node)];
         values(mesh.dimension * node + i, 0) = 3.0 + i + 2.0 * x[0] - (1.0 + i) * x[1] + 0.7 * x[2];
       }
-    for (const LocalOrdinal dof : tied.dofs) mark(dof, 0) = 1.0 + dof % 7;
+    for (const LocalOrdinal dof : tied.dependent()) mark(dof, 0) = 1.0 + dof % 7;
   }
-  tied.T->apply(field, followed);
+  tied.T()->apply(field, followed);
   followed.update(-1.0, field, 1.0);
   EXPECT_LE(followed.normInf(), 1e-12 * field.normInf());
-  tied.T->apply(marks, seen);
+  tied.T()->apply(marks, seen);
   EXPECT_EQ(seen.normInf(), 0.0) << "a tied dof follows a tied one";
 }
 
@@ -140,14 +140,12 @@ struct Reached {
 Reached run_to(const Scene& scene, const SemiSmoothSystem& system, double time) {
   SteppingState state(system.initial_state(Vector(system.map())));
   std::optional<StepFailure> failure;
-  const auto start = [&](const AcceptedState& from, double to, const Vector& d, Vector& z) {
-    return system.start_step(from, to, d, z);
-  };
+  const auto start = [&](const AcceptedState& from, double to, const Vector& d, Vector& z) { return system.start_step(from, to, d, z); };
   SteppingOptions stepping = scene.stepping;
   stepping.end_time = time;
   EXPECT_TRUE(run_steps(system, stepping, scene.newton, state, start, {}, failure)) << failure->what();
   Vector x(*state.accepted.x, Teuchos::Copy);
-  const StepContext context = start(state.accepted, time + 0.25, *system.displacement(std::as_const(x)), *system.multipliers(x));
+  const StepContext context = start(state.accepted, time + 0.25, *system.unknowns(std::as_const(x)), *system.multipliers(x));
   return {x, context};
 }
 
@@ -200,9 +198,9 @@ TEST_P(DeformableTies, GatheredForcesKeepTheirResultants) {
   const RCP<const Vector> gathered = at.forces();
   Vector internal(model.parts().dofs), on_tied(model.parts().dofs);
   Vector local(model.parts().local_dofs);
-  local.doImport(*system.displacement(x), Import(model.parts().dofs, model.parts().local_dofs), Tpetra::INSERT);
+  local.doImport(*system.unknowns(x), Import(model.parts().dofs, model.parts().local_dofs), Tpetra::INSERT);
   std::optional<StepFailure> failure;
-  for (const auto& one : model.parts().contributions) one->add_residual({context.time, *system.displacement(x), local}, internal, failure);
+  for (const auto& one : model.parts().contributions) one->add_residual({context.time, *system.unknowns(x), local}, internal, failure);
   if (model.contact()) at.contact_laws().add_force(internal);
   const Mesh& mesh = *model.mesh();
   std::vector<double> mine(4, 0.0), all(4, 0.0);  // three components and the moment about z, in the reference configuration
@@ -215,7 +213,7 @@ TEST_P(DeformableTies, GatheredForcesKeepTheirResultants) {
         mine[static_cast<std::size_t>(i)] += change;
         mine[3] += i == 0 ? -X[1] * change : i == 1 ? X[0] * change : 0.0;
       }
-    for (const LocalOrdinal dof : model.parts().tied->dofs) EXPECT_EQ(after(dof, 0), 0.0);
+    for (const LocalOrdinal dof : model.parts().constraints->dependent()) EXPECT_EQ(after(dof, 0), 0.0);
   }
   Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, 4, mine.data(), all.data());
   const double size = internal.norm1();

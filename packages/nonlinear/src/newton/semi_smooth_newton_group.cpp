@@ -99,7 +99,7 @@ void SemiSmoothNewtonGroup::computeX(const NOX::Abstract::Group& group, const NO
   const double shortened = from.shortened_;
   become_new_iterate();
   x_->update(1.0, *from.x_, step, direction);
-  increment_ = step * system_->largest_displacement(*tpetra_vector(direction));
+  increment_ = step * system_->largest_unknown(*tpetra_vector(direction));
   step_length_ = step * shortened;
   linear_solve_ = solve;
 }
@@ -187,7 +187,7 @@ NOX::Abstract::Group::ReturnType SemiSmoothNewtonGroup::computeNewton(Teuchos::P
   shared_->jacobian.reset();  // contact at an iterate takes memory
   shortened_ = 1.0;
   if (const auto& limit = shared_->control.largest_increment) {
-    const double increment = system_->largest_displacement(*tpetra_vector(static_cast<const NOX::Abstract::Vector&>(*newton_)));
+    const double increment = system_->largest_unknown(*tpetra_vector(static_cast<const NOX::Abstract::Vector&>(*newton_)));
     if (increment > *limit) {
       shortened_ = *limit / increment;
       newton_->scale(shortened_);

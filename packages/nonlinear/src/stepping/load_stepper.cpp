@@ -131,7 +131,7 @@ Begin begin_of_try(const SemiSmoothSystem& system, const NewtonOptions& newton, 
   const AcceptedState& state = from.accepted;
   const double now = state.context.time;
   const auto prepared = [&](Vector& x) {
-    const RCP<const Vector> d = system.displacement(std::as_const(x));
+    const RCP<const Vector> d = system.unknowns(std::as_const(x));
     StepContext context = start ? start(state, time, *d, *system.multipliers(x)) : system.step_from(state, time);
     return options.constant_share == 1.0 ? context : system.weigh_gaps(std::move(context), options.constant_share);
   };
@@ -147,7 +147,7 @@ Begin begin_of_try(const SemiSmoothSystem& system, const NewtonOptions& newton, 
   if (!options.may_predict) return {at_rest(), false};
   if (system.parts().time) {
     Vector x(*state.x, Teuchos::Copy);
-    Tpetra::deep_copy(*system.displacement(x), *predicted_unknowns(*system.step_from(state, time).step));
+    Tpetra::deep_copy(*system.unknowns(x), *predicted_unknowns(*system.step_from(state, time).step));
     const StepContext context = prepared(x);
     return {system.evaluate(x, context, StiffnessIs::needed_next), true};
   }

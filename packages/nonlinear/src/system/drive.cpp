@@ -29,9 +29,9 @@ RCP<Vector> motions_at(const detail::SystemModel& model, double time) {
   const SystemParts& parts = model.parts();
   auto motions = rcp(new Vector(parts.dofs));
   std::optional<StepFailure> failure;
-  if (parts.tied && parts.tied->offset) Tpetra::deep_copy(*motions, *parts.tied->offset(time, failure));
-  if (parts.prescribed) {
-    const std::vector<double> values = parts.prescribed->values(time, failure);
+  if (parts.constraints) {
+    if (const RCP<Vector> offset = parts.constraints->offset(time, failure); !offset.is_null()) Tpetra::deep_copy(*motions, *offset);
+    const std::vector<double> values = parts.constraints->prescribed_values(time, failure);
     const auto rows = motions->getLocalViewHost(Tpetra::Access::ReadWrite);
     for (std::size_t i = 0; i < model.prescribed().size(); ++i) rows(model.prescribed()[i], 0) = values[i];
   }

@@ -64,7 +64,7 @@ void begin_motion(const SystemModel& model, const Vector& velocity, bool at_rest
   state.internal_forces = at->internal;
   if (model.reduction() != nullptr) {
     const Configuration configuration = model.configuration(state.context.time, *at->d);
-    at->follow = std::make_shared<const FollowedDisplacements>(model.shared_reduction(), state.context.time, configuration.local_displacement);
+    at->follow = std::make_shared<const FollowedUnknowns>(model.shared_reduction(), state.context.time, configuration.local_unknowns);
   }
   RCP<Vector> v = rcp(new Vector(velocity, Teuchos::Copy));
   const auto a = rcp(new Vector(model.parts().dofs));

@@ -7,7 +7,7 @@ namespace mortise::detail {
 
 class SystemModel;
 
-/// Gives a state its rates and internal forces. Velocities of followers are T v_q, see FollowedDisplacements. Accelerations are 0 at rest, else
+/// Gives a state its rates and internal forces. Velocities of followers are T v_q, see FollowedUnknowns. Accelerations are 0 at rest, else
 ///
 ///     T^T M (T a_q + c) = -T^T (f_int - f_ext + C v),   a = T a_q + c,   c = d2g/dq2 : v_q x v_q
 ///

@@ -65,7 +65,7 @@ LinearSystem with_contact(const SystemModel& model, const EvaluatedSystem& at, c
 
 LinearSystem reduced(const SystemModel& model, const EvaluatedSystem& at, LinearSystem system) {
   if (!at.follow) return system;
-  const FollowedDisplacements& follow = *at.follow;
+  const FollowedUnknowns& follow = *at.follow;
   const Reduction& reduction = *model.reduction();
   close(*system.matrix);
   const auto start = rcp(new Vector(model.parts().dofs));  // d0

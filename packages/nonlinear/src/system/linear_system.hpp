@@ -47,7 +47,7 @@ LinearSystem assembled(const SystemModel& model, const std::shared_ptr<const Eva
 LinearSystem with_contact(const SystemModel& model, const EvaluatedSystem& at, const Vector& F, GeometricContactStiffness geometric_stiffness,
                           LinearSystem system);
 
-/// With dd = T dq + d0 for what follows: see FollowedDisplacements.
+/// With dd = T dq + d0 for what follows: see FollowedUnknowns.
 LinearSystem reduced(const SystemModel& model, const EvaluatedSystem& at, LinearSystem system);
 
 /// Blocks of kept multipliers in one matrix.

@@ -21,12 +21,12 @@ RCP<const Matrix> product(const Matrix& A, const Matrix& B) {
 
 }  // namespace
 
-Reduction::Reduction(std::shared_ptr<const DependentDisplacements> followers, std::shared_ptr<const TiedDisplacements> tied,
-                     const RCP<const Map>& dofs, const RCP<const Map>& local_dofs)
-    : followers_(std::move(followers)), tied_(std::move(tied)), dofs_(dofs) {
+Reduction::Reduction(std::shared_ptr<const RigidConstraints> followers, std::shared_ptr<const AffineConstraints> constraints,
+                     std::function<void(const Vector&, Vector&)> put_support_forces, const RCP<const Map>& dofs, const RCP<const Map>& local_dofs)
+    : followers_(std::move(followers)), constraints_(std::move(constraints)), put_support_forces_(std::move(put_support_forces)), dofs_(dofs) {
   if (followers_) following_ = followers_->dofs();
   dependents_ = following_;
-  if (tied_) dependents_.insert(dependents_.end(), tied_->dofs.begin(), tied_->dofs.end());
+  if (constraints_) dependents_.insert(dependents_.end(), constraints_->dependent().begin(), constraints_->dependent().end());
   std::sort(dependents_.begin(), dependents_.end());
   place_of_.assign(dofs->getNodeNumElements(), 0);
   for (const LocalOrdinal dof : following_) place_of_[dof] = -1;
@@ -69,25 +69,25 @@ Reduction::Reduction(std::shared_ptr<const DependentDisplacements> followers, st
   const auto renumbered = rcp(new Matrix(graph_));
   renumbered->setAllToScalar(1.0);
   renumbered->fillComplete(unknowns_, dofs_);
-  constant_T_ = product(*tied_->T, *renumbered);
+  constant_T_ = product(*constraints_->T(), *renumbered);
 }
 
 std::vector<LocalOrdinal> Reduction::held_places(const std::vector<LocalOrdinal>& prescribed) const {
   std::vector<LocalOrdinal> places;
   for (const LocalOrdinal dof : prescribed) places.push_back(place_of_.at(dof));
-  if (!tied_) return places;
-  for (const LocalOrdinal dof : tied_->dofs) places.push_back(place_of_.at(dof));
+  if (!constraints_) return places;
+  for (const LocalOrdinal dof : constraints_->dependent()) places.push_back(place_of_.at(dof));
   std::sort(places.begin(), places.end());
   return places;
 }
 
-std::vector<Dependence> Reduction::evaluate(const Vector& local_displacement) const {
-  return followers_ ? followers_->evaluate(local_displacement) : std::vector<Dependence>{};
+std::vector<Dependence> Reduction::evaluate(const Vector& local_unknowns) const {
+  return followers_ ? followers_->evaluate(local_unknowns) : std::vector<Dependence>{};
 }
 
-FollowedDisplacements::FollowedDisplacements(std::shared_ptr<const Reduction> reduction, double time, const Vector& local_displacement)
-    : reduction_(std::move(reduction)), dependences_(reduction_->evaluate(local_displacement)), T_(reduction_->constant_T_) {
-  if (reduction_->tied_ && reduction_->tied_->offset) offset_ = reduction_->tied_->offset(time, failure_);
+FollowedUnknowns::FollowedUnknowns(std::shared_ptr<const Reduction> reduction, double time, const Vector& local_unknowns)
+    : reduction_(std::move(reduction)), dependences_(reduction_->evaluate(local_unknowns)), T_(reduction_->constant_T_) {
+  if (reduction_->constraints_) offset_ = reduction_->constraints_->offset(time, failure_);
   if (!T_.is_null()) return;
   const Map& dofs = *reduction_->dofs_;
   const auto of_followers = rcp(new Matrix(reduction_->graph_));
@@ -97,28 +97,28 @@ FollowedDisplacements::FollowedDisplacements(std::shared_ptr<const Reduction> re
                                       reduction_->sources_[n].data());
   of_followers->fillComplete(reduction_->unknowns_, reduction_->dofs_);
   T_ = of_followers;
-  if (reduction_->tied_) T_ = product(*reduction_->tied_->T, *of_followers);
+  if (reduction_->constraints_) T_ = product(*reduction_->constraints_->T(), *of_followers);
 }
 
-RCP<const Vector> FollowedDisplacements::untied(const Vector& r) const {
-  if (!reduction_->tied_) return Teuchos::rcpFromRef(r);
+RCP<const Vector> FollowedUnknowns::untied(const Vector& r) const {
+  if (!reduction_->constraints_) return Teuchos::rcpFromRef(r);
   const auto gathered = rcp(new Vector(reduction_->dofs_));
-  reduction_->tied_->T->apply(r, *gathered, Teuchos::TRANS);
+  reduction_->constraints_->T()->apply(r, *gathered, Teuchos::TRANS);
   return gathered;
 }
 
-double FollowedDisplacements::deviation(const Vector& displacement, double factor, Vector& deviation) const {
-  Vector follows(displacement, Teuchos::Copy);  // P (q, g(q)) + p
+double FollowedUnknowns::deviation(const Vector& unknowns, double factor, Vector& deviation) const {
+  Vector follows(unknowns, Teuchos::Copy);  // P (q, g(q)) + p
   {
     const auto value = follows.getLocalViewHost(Tpetra::Access::ReadWrite);
     for (std::size_t n = 0; n < dependences_.size(); ++n) value(reduction_->following_[n], 0) = dependences_[n].value;
   }
-  if (reduction_->tied_) {
+  if (reduction_->constraints_) {
     const Vector of_followers(follows, Teuchos::Copy);
-    reduction_->tied_->T->apply(of_followers, follows);
+    reduction_->constraints_->T()->apply(of_followers, follows);
     if (!offset_.is_null()) follows.update(1.0, *offset_, 1.0);
   }
-  const auto d = displacement.getLocalViewHost(Tpetra::Access::ReadOnly), value = follows.getLocalViewHost(Tpetra::Access::ReadOnly);
+  const auto d = unknowns.getLocalViewHost(Tpetra::Access::ReadOnly), value = follows.getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto result = deviation.getLocalViewHost(Tpetra::Access::ReadWrite);
   double largest = 0.0;
   for (const LocalOrdinal dof : reduction_->dependents_) {
@@ -187,19 +187,19 @@ Decoupling Reduction::reduced(const Decoupling& of_dofs) const {
   return {part(*of_dofs.trial), part(*of_dofs.test), part(*of_dofs.eliminated), of_dofs.dimension};
 }
 
-RCP<Vector> FollowedDisplacements::reduced(const Vector& r) const {
+RCP<Vector> FollowedUnknowns::reduced(const Vector& r) const {
   const auto q = rcp(new Vector(reduction_->unknowns_));
   T_->apply(r, *q, Teuchos::TRANS);
   return q;
 }
 
-RCP<Vector> FollowedDisplacements::expanded(const Vector& dq) const {
+RCP<Vector> FollowedUnknowns::expanded(const Vector& dq) const {
   const auto d = rcp(new Vector(reduction_->dofs_));
   T_->apply(dq, *d);
   return d;
 }
 
-RCP<Vector> FollowedDisplacements::convected(const Vector& rate) const {
+RCP<Vector> FollowedUnknowns::convected(const Vector& rate) const {
   const Map& columns = *reduction_->graph_->getColMap();
   Vector sources(reduction_->graph_->getColMap());
   const RCP<const Import> importer = reduction_->graph_->getImporter();
@@ -217,30 +217,30 @@ RCP<Vector> FollowedDisplacements::convected(const Vector& rate) const {
         for (int l = 0; l < dependences_[n].sources; ++l)
           to(reduction_->following_[n], 0) += dependences_[n].curvature[k][l] * rate_of(n, k) * rate_of(n, l);
   }
-  if (!reduction_->tied_) return result;
+  if (!reduction_->constraints_) return result;
   const auto untied = rcp(new Vector(reduction_->dofs_));
-  reduction_->tied_->T->apply(*result, *untied);
+  reduction_->constraints_->T()->apply(*result, *untied);
   return untied;
 }
 
-void FollowedDisplacements::gather(Vector& r) const {
+void FollowedUnknowns::gather(Vector& r) const {
   const RCP<Vector> q = reduced(r);
-  if (reduction_->tied_) r.assign(*untied(r));
+  if (reduction_->constraints_) r.assign(*untied(r));
   const auto from = q->getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto to = r.getLocalViewHost(Tpetra::Access::ReadWrite);
   for (std::size_t dof = 0; dof < reduction_->place_of_.size(); ++dof)
     if (reduction_->place_of_[dof] >= 0) to(dof, 0) = from(reduction_->place_of_[dof], 0);
 }
 
-RCP<Vector> FollowedDisplacements::support_forces(const Vector& r) const {
+RCP<Vector> FollowedUnknowns::support_forces(const Vector& r) const {
   const auto gathered = rcp(new Vector(r, Teuchos::Copy));
   gather(*gathered);
-  if (reduction_->tied_ && reduction_->tied_->put_support_forces) reduction_->tied_->put_support_forces(r, *gathered);
+  if (reduction_->constraints_ && reduction_->put_support_forces_) reduction_->put_support_forces_(r, *gathered);
   return gathered;
 }
 
 // A matrix of the few rows that are followed or tied; its diagonal is there even where nothing is curved.
-RCP<Matrix> FollowedDisplacements::curvature(const Vector& r) const {
+RCP<Matrix> FollowedUnknowns::curvature(const Vector& r) const {
   const auto matrix = rcp(new Matrix(reduction_->unknowns_, Dependence::most));
   const RCP<const Vector> gathered = untied(r);
   const auto force = gathered->getLocalViewHost(Tpetra::Access::ReadOnly);
@@ -260,30 +260,30 @@ RCP<Matrix> FollowedDisplacements::curvature(const Vector& r) const {
     }
   };
   if (reduction_->followers_) add_diagonal(reduction_->followers_->followed());
-  if (reduction_->tied_) add_diagonal(reduction_->tied_->dofs);
+  if (reduction_->constraints_) add_diagonal(reduction_->constraints_->dependent());
   matrix->fillComplete(reduction_->unknowns_, reduction_->unknowns_);
   return matrix;
 }
 
-RCP<Matrix> FollowedDisplacements::reduced(const Matrix& A, const Vector& r) const {
+RCP<Matrix> FollowedUnknowns::reduced(const Matrix& A, const Vector& r) const {
   Matrix product(reduction_->unknowns_, 0);
   Tpetra::TripleMatrixMultiply::MultiplyRAP(*T_, true, A, false, *T_, false, product);
   return Tpetra::MatrixMatrix::add(1.0, false, product, 1.0, false, *curvature(r), reduction_->unknowns_, reduction_->unknowns_);
 }
 
-RCP<Matrix> FollowedDisplacements::reduced_rows(const Matrix& B) const {
+RCP<Matrix> FollowedUnknowns::reduced_rows(const Matrix& B) const {
   const auto product = rcp(new Matrix(reduction_->unknowns_, 0));
   Tpetra::MatrixMatrix::Multiply(*T_, true, B, false, *product);
   return product;
 }
 
-RCP<Matrix> FollowedDisplacements::reduced_columns(const Matrix& C) const {
+RCP<Matrix> FollowedUnknowns::reduced_columns(const Matrix& C) const {
   const auto product = rcp(new Matrix(C.getRowMap(), 0));
   Tpetra::MatrixMatrix::Multiply(C, false, *T_, false, *product);
   return product;
 }
 
-void FollowedDisplacements::add_curvature(const Vector& r, const Vector& v, Vector& y) const {
+void FollowedUnknowns::add_curvature(const Vector& r, const Vector& v, Vector& y) const {
   Vector result(reduction_->unknowns_);
   curvature(r)->apply(*reduction_->unknown_part(v), result);
   const auto from = result.getLocalViewHost(Tpetra::Access::ReadOnly);

@@ -1,25 +1,28 @@
 #pragma once
-// Elimination of displacements that follow from others.
+// Elimination of unknowns that follow from others.
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "mortise/core/dependence.hpp"
 #include "mortise/core/types.hpp"
+#include "mortise/nonlinear/affine_constraints.hpp"
 #include "mortise/nonlinear/contribution.hpp"
 #include "mortise/nonlinear/linear_solver.hpp"
 
 namespace mortise::detail {
 
-/// Unknowns of a displacement d = P (q, g(q)) + p(t): g of followers, P and p of what is tied. The unknowns q are numbered without gaps, in
+/// Independent unknowns q of d = P (q, g(q)) + p(t): g of rigid constraints, P and p of affine ones. The unknowns q are numbered without gaps, in
 /// the order of the dofs. Tied dofs keep their numbers, for multigrid wants whole nodes: their columns of P are empty, and their increments
 /// prescribed as 0.
 class Reduction {
  public:
-  /// `local_dofs`: owned dofs, then ghosts, as the followers want their displacement. One of `followers` and `tied` may be null. Collective.
-  Reduction(std::shared_ptr<const DependentDisplacements> followers, std::shared_ptr<const TiedDisplacements> tied, const RCP<const Map>& dofs,
-            const RCP<const Map>& local_dofs);
+  /// `local_dofs`: owned dofs, then ghosts, as rigid constraints want them. One of `followers` and `constraints` may be null; the latter
+  /// have a T. Collective.
+  Reduction(std::shared_ptr<const RigidConstraints> followers, std::shared_ptr<const AffineConstraints> constraints,
+            std::function<void(const Vector&, Vector&)> put_support_forces, const RCP<const Map>& dofs, const RCP<const Map>& local_dofs);
 
   /// Map of q.
   const RCP<const Map>& unknowns() const { return unknowns_; }
@@ -36,12 +39,13 @@ class Reduction {
   Decoupling reduced(const Decoupling& of_dofs) const;
 
  private:
-  friend class FollowedDisplacements;
+  friend class FollowedUnknowns;
   RCP<MultiVector> unknown_rows(const MultiVector& v) const;
-  std::vector<Dependence> evaluate(const Vector& local_displacement) const;
+  std::vector<Dependence> evaluate(const Vector& local_unknowns) const;
 
-  std::shared_ptr<const DependentDisplacements> followers_;
-  std::shared_ptr<const TiedDisplacements> tied_;
+  std::shared_ptr<const RigidConstraints> followers_;
+  std::shared_ptr<const AffineConstraints> constraints_;
+  std::function<void(const Vector&, Vector&)> put_support_forces_;  ///< SystemParts::put_support_forces
   std::vector<LocalOrdinal> following_, dependents_;
   RCP<const Map> dofs_, unknowns_;
   std::vector<LocalOrdinal> place_of_;                                ///< [owned dofs] in unknowns(), -1: follows
@@ -50,19 +54,19 @@ class Reduction {
   RCP<const Matrix> constant_T_;                                      ///< where nothing follows; else null
 };
 
-/// P (q, g(q)) + p and its derivatives at a displacement. With T = dd/dq a residual r(d) = 0 becomes T^T r = 0. Its linearisation, with
+/// P (q, g(q)) + p and its derivatives at some unknowns. With T = dd/dq a residual r(d) = 0 becomes T^T r = 0. Its linearisation, with
 /// d0 = P (q, g(q)) + p - d,  is
 ///   (T^T A T + sum_i (P^T r)_i d2g_i/dq2) dq = T^T (rhs - A d0),   dd = T dq + d0.
 /// d0 is 0 but on followers and tied dofs. Collective in all members.
-class FollowedDisplacements {
+class FollowedUnknowns {
  public:
   /// Where p has no value it is NaN, and so are deviations; failure() says why.
-  FollowedDisplacements(std::shared_ptr<const Reduction> reduction, double time, const Vector& local_displacement);
+  FollowedUnknowns(std::shared_ptr<const Reduction> reduction, double time, const Vector& local_unknowns);
 
   const std::optional<StepFailure>& failure() const { return failure_; }
 
   /// Largest |d0| over this rank, and `deviation`_i = -factor d0_i on followers and tied dofs. `deviation` keeps its other entries.
-  double deviation(const Vector& displacement, double factor, Vector& deviation) const;
+  double deviation(const Vector& unknowns, double factor, Vector& deviation) const;
 
   /// r becomes T^T r on the dofs that are unknowns, 0 on those that are tied, and on followers what they bear with all that is tied to them.
   void gather(Vector& r) const;

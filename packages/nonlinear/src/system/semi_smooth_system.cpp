@@ -14,18 +14,18 @@ SemiSmoothSystem::SemiSmoothSystem(SystemParts parts, Timers timers)
 
 const SystemParts& SemiSmoothSystem::parts() const { return model_->parts(); }
 const RCP<const Map>& SemiSmoothSystem::map() const { return model_->map(); }
-RCP<const Vector> SemiSmoothSystem::displacement(const Vector& x) const { return model_->d(x); }
-RCP<Vector> SemiSmoothSystem::displacement(Vector& x) const { return model_->d(x); }
+RCP<const Vector> SemiSmoothSystem::unknowns(const Vector& x) const { return model_->d(x); }
+RCP<Vector> SemiSmoothSystem::unknowns(Vector& x) const { return model_->d(x); }
 RCP<const Vector> SemiSmoothSystem::multipliers(const Vector& x) const { return model_->z(x); }
 RCP<Vector> SemiSmoothSystem::multipliers(Vector& x) const { return model_->z(x); }
 double SemiSmoothSystem::stiffness_scale() const { return model_->stiffness_scale(); }
 
-double SemiSmoothSystem::largest_displacement(const Vector& x) const { return model_->sizes().largest(*displacement(x)); }
+double SemiSmoothSystem::largest_unknown(const Vector& x) const { return model_->sizes().largest(*unknowns(x)); }
 
 AcceptedState SemiSmoothSystem::initial_state(const Vector& x, double time) const {
   AcceptedState state{rcp(new Vector(x, Teuchos::Copy)), {time, std::nullopt, {}, nullptr}, {}, std::nullopt};
   if (!parts().contact) return state;
-  state.context.contact = parts().contact->initial_history(*displacement(x));
+  state.context.contact = parts().contact->initial_history(*unknowns(x));
   state.context.states = (*state.context.contact)->states;
   return state;
 }
@@ -88,23 +88,21 @@ SystemEvaluation SemiSmoothSystem::with_multipliers(const SystemEvaluation& eval
 double SemiSmoothSystem::prescribed_deviation(const Vector& x, double time) const {
   double mine = 0.0, largest = 0.0;
   std::optional<StepFailure> failure;  // evaluate() says it
-  if (parts().tied && parts().tied->offset) {
-    const RCP<const Vector> d = displacement(x);
-    const RCP<Vector> deviation = parts().tied->offset(time, failure);
-    parts().tied->T->apply(*d, *deviation, Teuchos::NO_TRANS, 1.0, 1.0);
+  if (!parts().constraints) return 0.0;
+  const AffineConstraints& constraints = *parts().constraints;
+  if (const RCP<Vector> deviation = constraints.offset(time, failure); !deviation.is_null()) {
+    const RCP<const Vector> d = unknowns(x);
+    constraints.T()->apply(*d, *deviation, Teuchos::NO_TRANS, 1.0, 1.0);
     deviation->update(-1.0, *d, 1.0);
     const auto view = deviation->getLocalViewHost(Tpetra::Access::ReadOnly);
-    for (const LocalOrdinal dof : parts().tied->dofs) mine = std::max(mine, std::abs(view(dof, 0)) / parts().length);
+    for (const LocalOrdinal dof : constraints.dependent()) mine = std::max(mine, std::abs(view(dof, 0)) / parts().length);
   }
-  if (parts().prescribed) {
-    const std::vector<double> values = parts().prescribed->values(time, failure);
-    const std::vector<LocalOrdinal>& rows = model_->prescribed();
-    const detail::FieldSizes& sizes = model_->sizes();
-    const RCP<const Vector> d = displacement(x);
-    const auto displacements = d->getLocalViewHost(Tpetra::Access::ReadOnly);
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      mine = std::max(mine, std::abs(displacements(rows[i], 0) - values[i]) / sizes.size(sizes.field(rows[i])));
-  }
+  const std::vector<double> values = constraints.prescribed_values(time, failure);
+  const std::vector<LocalOrdinal>& rows = constraints.prescribed();
+  const detail::FieldSizes& sizes = model_->sizes();
+  const RCP<const Vector> d = unknowns(x);
+  const auto values_of = d->getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (std::size_t i = 0; i < rows.size(); ++i) mine = std::max(mine, std::abs(values_of(rows[i], 0) - values[i]) / sizes.size(sizes.field(rows[i])));
   Teuchos::reduceAll(model_->comm(), Teuchos::REDUCE_MAX, mine, Teuchos::outArg(largest));
   return largest;
 }
@@ -209,7 +207,7 @@ AcceptedState SemiSmoothSystem::restore(StateArchive& archive) const {
   if (parts().time) serialize_rates(archive, parts().time->scheme, parts().dofs, state.rates.emplace());
   model_->serialize(archive);
   if (!parts().contact) return state;
-  state.context.contact = parts().contact->restore(archive, *displacement(std::as_const(*x)), *multipliers(std::as_const(*x)));
+  state.context.contact = parts().contact->restore(archive, *unknowns(std::as_const(*x)), *multipliers(std::as_const(*x)));
   state.context.states = (*state.context.contact)->states;
   return state;
 }

@@ -34,7 +34,7 @@ SystemModel::SystemModel(SystemParts parts, Timers timers)
       sizes_(parts_),
       timers_(std::move(timers)),
       to_local_(parts_.dofs, parts_.local_dofs),
-      local_displacement_(parts_.local_dofs),
+      local_unknowns_(parts_.local_dofs),
       stiffness_scales_(sizes_.fields(), 0.0) {
   check_contributions();
   multipliers_ = rcp(new Map(0, 0, parts_.dofs->getComm()));
@@ -43,8 +43,11 @@ SystemModel::SystemModel(SystemParts parts, Timers timers)
     multipliers_ = parts_.contact->multiplier_map();
     map_ = map_of_both(*parts_.dofs, *multipliers_);
   }
-  if (parts_.prescribed) prescribed_ = parts_.prescribed->dofs();
-  if (parts_.dependent || parts_.tied) reduction_ = std::make_shared<const Reduction>(parts_.dependent, parts_.tied, parts_.dofs, parts_.local_dofs);
+  if (parts_.constraints) prescribed_ = parts_.constraints->prescribed();
+  const bool depends = parts_.constraints && !parts_.constraints->T().is_null();
+  if (parts_.rigid || depends)
+    reduction_ = std::make_shared<const Reduction>(parts_.rigid, depends ? parts_.constraints : nullptr, parts_.put_support_forces, parts_.dofs,
+                                                   parts_.local_dofs);
   if (parts_.contact && parts_.contact->keeps_multipliers())
     saddle_point_ = std::make_unique<SaddlePointMatrix>(reduction_ ? reduction_->unknowns() : parts_.dofs, multipliers_);
 }
@@ -66,17 +69,17 @@ void SystemModel::check_contributions() const {
   }
 }
 
-Configuration SystemModel::configuration(double time, const Vector& displacement) const {
-  local_displacement_.doImport(displacement, to_local_, Tpetra::REPLACE);
-  return {time, displacement, local_displacement_};
+Configuration SystemModel::configuration(double time, const Vector& unknowns) const {
+  local_unknowns_.doImport(unknowns, to_local_, Tpetra::REPLACE);
+  return {time, unknowns, local_unknowns_};
 }
 
-Configuration SystemModel::configuration(double time, const Vector& displacement, const TimeStep* step) const {
-  return step == nullptr ? configuration(time, displacement) : configuration(time, displacement, blended_rates(*step, displacement));
+Configuration SystemModel::configuration(double time, const Vector& unknowns, const TimeStep* step) const {
+  return step == nullptr ? configuration(time, unknowns) : configuration(time, unknowns, blended_rates(*step, unknowns));
 }
 
-Configuration SystemModel::configuration(double time, const Vector& displacement, BlendedRates rates) const {
-  Configuration result = configuration(time, displacement);
+Configuration SystemModel::configuration(double time, const Vector& unknowns, BlendedRates rates) const {
+  Configuration result = configuration(time, unknowns);
   if (rates_.local_velocity.is_null()) {
     rates_.local_velocity = rcp(new Vector(parts_.local_dofs));
     rates_.local_acceleration = rcp(new Vector(parts_.local_dofs));
@@ -146,7 +149,7 @@ std::shared_ptr<const EvaluatedSystem> SystemModel::evaluate(const Vector& x, co
   }
   if (reduction_) {
     configuration(context.time, *at.d);
-    at.follow = std::make_shared<const FollowedDisplacements>(reduction_, context.time, local_displacement_);
+    at.follow = std::make_shared<const FollowedUnknowns>(reduction_, context.time, local_unknowns_);
   }
   if (stiffness_scale() == 0.0) this->stiffness(result);
   add_norms(at);
@@ -175,7 +178,7 @@ void SystemModel::add_forces(EvaluatedSystem& at, Matrix* stiffness) const {
       contribution->add_residual(configuration, is_between ? *between : at.external, failure);
     }
   }
-  if (parts_.dependent) parts_.dependent->check(local_displacement_, failure);
+  if (parts_.rigid) parts_.rigid->check(local_unknowns_, failure);
   throw_if_any(comm(), failure);
   at.forces.update(1.0, *at.internal, 1.0, at.external, 0.0);
   if (step == nullptr) return;
@@ -221,14 +224,14 @@ void SystemModel::add_norms(EvaluatedSystem& at) const {
   if (at.follow) at.follow->gather(*r);
   std::vector<double> deviation;  // d - prescribed
   double largest = 0.0;
-  if (parts_.prescribed) deviation = parts_.prescribed->values(at.context.time, failure);
+  if (parts_.constraints) deviation = parts_.constraints->prescribed_values(at.context.time, failure);
   if (at.follow && !failure) failure = at.follow->failure();
   {
     if (at.follow) largest = at.follow->deviation(*at.d, 0.0, *r);
-    const auto displacements = at.d->getLocalViewHost(Tpetra::Access::ReadOnly);
+    const auto unknowns = at.d->getLocalViewHost(Tpetra::Access::ReadOnly);
     const auto rows = r->getLocalViewHost(Tpetra::Access::ReadWrite);
     for (std::size_t i = 0; i < prescribed_.size(); ++i) {
-      deviation[i] = displacements(prescribed_[i], 0) - deviation[i];
+      deviation[i] = unknowns(prescribed_[i], 0) - deviation[i];
       largest = std::max(largest, std::abs(deviation[i]) * parts_.length / sizes_.size(sizes_.field(prescribed_[i])));
       rows(prescribed_[i], 0) = 0.0;
     }
@@ -325,7 +328,7 @@ void SystemModel::open_matrix(const RCP<const Graph>& graph) const {
 
 JacobianWeights SystemModel::weights_of_forces(const TimeStep* step) const {
   JacobianWeights weights;
-  if (step != nullptr) weights.displacement = step->integration->scheme.force_share();
+  if (step != nullptr) weights.unknowns = step->integration->scheme.force_share();
   return weights;
 }
 
@@ -349,7 +352,7 @@ void SystemModel::add_jacobians(const EvaluatedSystem& at, bool with_internal, s
   if (of_statics.empty()) return;
   const std::vector<double> of_all = scales_of_diagonal();
   for (std::size_t field = 0; field < of_all.size(); ++field) {
-    static_scales_.push_back(of_statics[field] / of_forces.displacement);
+    static_scales_.push_back(of_statics[field] / of_forces.unknowns);
     mass_scales_.push_back(std::max(0.0, of_all[field] - of_statics[field]) / weights.acceleration);
   }
 }

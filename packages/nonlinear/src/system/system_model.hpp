@@ -27,13 +27,13 @@ struct EvaluatedSystem {
   Vector x;
   RCP<const Vector> d, z;  ///< views into x
   StepContext context;
-  RCP<const Vector> internal;                           ///< f_int at d
-  Vector external;                                      ///< -f_ext at d
-  RCP<const Vector> of_rates;                           ///< forces of contributions with time derivatives; null without
-  std::optional<DifferentiatedContact> contact;         ///< none without contact
-  std::optional<ContactLaws> laws;                      ///< contact conditions; none without contact
-  std::shared_ptr<const FollowedDisplacements> follow;  ///< null: nothing follows
-  Vector forces;                                        ///< their sum on all dofs, those of followers not gathered
+  RCP<const Vector> internal;                      ///< f_int at d
+  Vector external;                                 ///< -f_ext at d
+  RCP<const Vector> of_rates;                      ///< forces of contributions with time derivatives; null without
+  std::optional<DifferentiatedContact> contact;    ///< none without contact
+  std::optional<ContactLaws> laws;                 ///< contact conditions; none without contact
+  std::shared_ptr<const FollowedUnknowns> follow;  ///< null: nothing follows
+  Vector forces;                                   ///< their sum on all dofs, those of followers not gathered
   Vector residual;
   ResidualNorms norms;
 };
@@ -77,12 +77,12 @@ class SystemModel {
   /// Stores or restores stiffness scales and the histories of the contributions.
   void serialize(StateArchive& archive) const;
 
-  /// A displacement with its ghosts. The buffer is that of the next call too.
-  Configuration configuration(double time, const Vector& displacement) const;
+  /// Unknowns with their ghosts. The buffer is that of the next call too.
+  Configuration configuration(double time, const Vector& unknowns) const;
   /// The same with the rates of a step, if there is one.
-  Configuration configuration(double time, const Vector& displacement, const TimeStep* step) const;
+  Configuration configuration(double time, const Vector& unknowns, const TimeStep* step) const;
   /// The same with rates on the owned dofs.
-  Configuration configuration(double time, const Vector& displacement, BlendedRates rates) const;
+  Configuration configuration(double time, const Vector& unknowns, BlendedRates rates) const;
   /// An evaluation of which x and the context are known.
   std::shared_ptr<EvaluatedSystem> begin_evaluation(const Vector& x, const StepContext& context) const;
   /// Forces of contributions at `at`, and their sum.
@@ -134,7 +134,7 @@ class SystemModel {
     RCP<Vector> local_velocity, local_acceleration, local_shares;
   };
 
-  mutable Vector local_displacement_;
+  mutable Vector local_unknowns_;
   mutable RateBuffers rates_;                                ///< null in a system without time derivatives
   mutable std::vector<double> stiffness_scales_;             ///< [fields]
   mutable std::vector<double> static_scales_, mass_scales_;  ///< [fields] of the first Jacobian; empty in a system without time derivatives

@@ -7,18 +7,18 @@ BulkContribution::BulkContribution(std::shared_ptr<Bodies> bodies, const Timers&
 
 void BulkContribution::add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) {
   const auto timer = count("bulk");
-  bodies_->add_internal_force(at.local_displacement, residual, failure);
+  bodies_->add_internal_force(at.local_unknowns, residual, failure);
 }
 
 void BulkContribution::add_jacobian(const Configuration& at, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>& failure) {
   const auto timer = count("bulk");
-  bodies_->add_stiffness(at.local_displacement, jacobian, failure, weights.displacement);
+  bodies_->add_stiffness(at.local_unknowns, jacobian, failure, weights.unknowns);
 }
 
 void BulkContribution::add_residual_and_jacobian(const Configuration& at, const JacobianWeights& weights, Vector& residual, Matrix& jacobian,
                                                  std::optional<StepFailure>& failure) {
   const auto timer = count("bulk");
-  bodies_->add_internal_force_and_stiffness(at.local_displacement, residual, jacobian, failure, weights.displacement);
+  bodies_->add_internal_force_and_stiffness(at.local_unknowns, residual, jacobian, failure, weights.unknowns);
 }
 
 LoadContribution::LoadContribution(std::string name, std::unique_ptr<Load> load, const Timers& timers)
@@ -26,13 +26,13 @@ LoadContribution::LoadContribution(std::string name, std::unique_ptr<Load> load,
 
 void LoadContribution::add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) {
   const auto timer = count("loads");
-  load_->add_residual(at.time, at.local_displacement, residual, failure);
+  load_->add_residual(at.time, at.local_unknowns, residual, failure);
 }
 
 void LoadContribution::add_jacobian(const Configuration& at, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>& failure) {
   if (!load_->follows()) return;
   const auto timer = count("loads");
-  load_->add_jacobian(at.time, at.local_displacement, jacobian, failure, weights.displacement);
+  load_->add_jacobian(at.time, at.local_unknowns, jacobian, failure, weights.unknowns);
 }
 
 }  // namespace mortise

@@ -43,7 +43,7 @@ class BulkContribution final : public CountedContribution {
   void add_jacobian(const Configuration& at, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>& failure) override;
   void add_residual_and_jacobian(const Configuration& at, const JacobianWeights& weights, Vector& residual, Matrix& jacobian,
                                  std::optional<StepFailure>& failure) override;
-  void commit(const Configuration& at) override { bodies_->commit(at.local_displacement); }
+  void commit(const Configuration& at) override { bodies_->commit(at.local_unknowns); }
   void serialize(StateArchive& archive) override { bodies_->serialize(archive); }
 
  private:
@@ -62,22 +62,11 @@ class LoadContribution final : public CountedContribution {
   std::unique_ptr<Load> load_;
 };
 
-/// Boundary conditions.
-class PrescribedBoundary final : public PrescribedDisplacements {
- public:
-  explicit PrescribedBoundary(std::shared_ptr<const PrescribedMotion> motion) : motion_(std::move(motion)) {}
-  const std::vector<LocalOrdinal>& dofs() const override { return motion_->dofs(); }
-  std::vector<double> values(double time, std::optional<StepFailure>& failure) const override { return motion_->values(time, failure); }
-
- private:
-  std::shared_ptr<const PrescribedMotion> motion_;
-};
-
-/// Rigid bodies and tied sets.
-class TiedNodes final : public DependentDisplacements {
+/// Rigid bodies, and kinematic couplings of sets to reference points.
+class FollowingNodes final : public RigidConstraints {
  public:
   /// `prescribed`: owned dofs, ascending.
-  TiedNodes(const Bodies& bodies, const std::vector<LocalOrdinal>& prescribed) : followers_(bodies), full_turns_(bodies, prescribed) {}
+  FollowingNodes(const Bodies& bodies, const std::vector<LocalOrdinal>& prescribed) : followers_(bodies), full_turns_(bodies, prescribed) {}
   const std::vector<LocalOrdinal>& dofs() const override { return followers_.dofs(); }
   const std::vector<LocalOrdinal>& followed() const override { return followers_.followed(); }
   std::vector<Dependence> evaluate(const Vector& local_displacement) const override { return followers_.evaluate(local_displacement); }

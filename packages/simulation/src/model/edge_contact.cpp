@@ -60,7 +60,7 @@ void EdgeContact::add_residual(const Configuration& at, Vector& residual, std::o
   if (active_.spots.empty()) return;
   const auto timer = count("crossing edges");
   const Mesh& mesh = *bodies_->mesh();
-  visit_forces(at.local_displacement, [&](const EdgeSpot&, const EdgeCrossing&, const CrossingForce& force) {
+  visit_forces(at.local_unknowns, [&](const EdgeSpot&, const EdgeCrossing&, const CrossingForce& force) {
     for (std::size_t n = 0; n < force.nodes.size(); ++n) {
       const LocalOrdinal node = mesh.owned_nodes->getLocalElement(active_.nodes[static_cast<std::size_t>(force.nodes[n])]);
       for (int i = 0; i < in_space && node >= 0; ++i)
@@ -73,7 +73,7 @@ void EdgeContact::add_jacobian(const Configuration& at, const JacobianWeights& w
   if (active_.spots.empty()) return;
   const auto timer = count("crossing edges");
   const Mesh& mesh = *bodies_->mesh();
-  visit_forces(at.local_displacement, [&](const EdgeSpot&, const EdgeCrossing&, const CrossingForce& force) {
+  visit_forces(at.local_unknowns, [&](const EdgeSpot&, const EdgeCrossing&, const CrossingForce& force) {
     for (std::size_t n = 0; n < force.nodes.size(); ++n) {
       const LocalOrdinal node = mesh.owned_nodes->getLocalElement(active_.nodes[static_cast<std::size_t>(force.nodes[n])]);
       if (node < 0) continue;
@@ -82,7 +82,7 @@ void EdgeContact::add_jacobian(const Configuration& at, const JacobianWeights& w
           const LocalOrdinal column = jacobian.getColMap()->getLocalElement(in_space * active_.nodes[static_cast<std::size_t>(force.nodes[m])] + j);
           for (int i = 0; i < in_space; ++i) {
             const double value =
-                weights.displacement * force.tangent(in_space * static_cast<Eigen::Index>(n) + i, in_space * static_cast<Eigen::Index>(m) + j);
+                weights.unknowns * force.tangent(in_space * static_cast<Eigen::Index>(n) + i, in_space * static_cast<Eigen::Index>(m) + j);
             if (value != 0.0) jacobian.sumIntoLocalValues(in_space * node + i, 1, &value, &column);
           }
         }

@@ -86,7 +86,7 @@ void add_shared_translation(const Mesh& mesh, const RigidModes& modes, const Nod
 }
 
 // A slave that stands off its master would hold rotations by its gap, as meshed: so weakly that they count as free.
-void add_ties(const FieldSpace& space, const RigidModes& modes, const NodePlaces& at, const TiedDisplacements& tied, Eigen::MatrixXd& gram) {
+void add_ties(const FieldSpace& space, const RigidModes& modes, const NodePlaces& at, const TieRows& tied, Eigen::MatrixXd& gram) {
   const Mesh& mesh = *space.mesh();
   const Map& columns = *tied.T->getColMap();
   const auto local = tied.T->getLocalMatrixHost();

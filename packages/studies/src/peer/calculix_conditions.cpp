@@ -66,11 +66,11 @@ std::vector<Values> external_forces(const Scene& scene, const Model& model, cons
 }
 
 std::vector<Values> prescribed_values(const Model& model, const Values& times) {
-  const auto& prescribed = *model.parts().prescribed;
-  std::vector<Values> values(prescribed.dofs().size(), Values(times.size()));
+  const AffineConstraints& constraints = *model.parts().constraints;
+  std::vector<Values> values(constraints.prescribed().size(), Values(times.size()));
   for (std::size_t i = 0; i < times.size(); ++i) {
     std::optional<StepFailure> failure;
-    const Values now = prescribed.values(times[i], failure);
+    const Values now = constraints.prescribed_values(times[i], failure);
     if (failure) throw *failure;
     for (std::size_t n = 0; n < now.size(); ++n) values[n][i] = now[n];
   }
@@ -102,7 +102,7 @@ DeckConditions deck_conditions(const Scene& scene, const Model& model) {
 
   fmt::format_to(fixed, "*BOUNDARY\n");
   if (numbers.dimension == 2) fmt::format_to(fixed, "ALL,3,3\n");
-  const auto& prescribed = model.parts().prescribed->dofs();
+  const auto& prescribed = model.parts().constraints->prescribed();
   const auto motions = prescribed_values(model, times);
   for (std::size_t n = 0; n < prescribed.size(); ++n) {
     const int component = 1 + prescribed[n] % numbers.dimension;

@@ -1,7 +1,6 @@
 #pragma once
 // Contributions to the residual and to its Jacobian.
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,22 +12,22 @@
 
 namespace mortise {
 
-/// Where a residual is evaluated. The dofs are the unknowns of all fields, of which displacement is the first.
+/// Where a residual is evaluated: the unknowns of all fields.
 struct Configuration {
   double time;                                 ///< pseudo-time
-  const Vector& displacement;                  ///< on the owned dofs
-  const Vector& local_displacement;            ///< on owned dofs followed by ghosts
+  const Vector& unknowns;                      ///< on the owned dofs
+  const Vector& local_unknowns;                ///< on owned dofs followed by ghosts
   const Vector* velocity = nullptr;            ///< on the owned dofs; null in a system without time derivatives
   const Vector* local_velocity = nullptr;      ///< on owned dofs followed by ghosts; null likewise
   const Vector* acceleration = nullptr;        ///< on the owned dofs; null likewise
   const Vector* local_acceleration = nullptr;  ///< on owned dofs followed by ghosts; null likewise
 };
 
-/// Weights of a Jacobian: alpha dr/d(acceleration) + beta dr/d(velocity) + omega dr/d(displacement), as Thyra's model evaluators have it.
+/// Weights of a Jacobian: alpha dr/d(acceleration) + beta dr/d(velocity) + omega dr/d(unknowns), as Thyra's model evaluators have it.
 struct JacobianWeights {
   double acceleration = 0.0;  ///< alpha
   double velocity = 0.0;      ///< beta
-  double displacement = 1.0;  ///< omega
+  double unknowns = 1.0;      ///< omega
   /// On owned dofs followed by ghosts: factors of beta, as dofs without mass take their velocity by another formula. Null: 1
   const Vector* local_velocity_shares = nullptr;
 };
@@ -54,7 +53,7 @@ class Contribution {
   virtual FieldUse uses() const { return {}; }
 
   /// residual += this contribution with its sign in r (external forces enter with a minus). Owned dofs. Collective.
-  /// Internal forces without time derivatives depend on displacement and committed state, not on time. commit(at) does not change those at `at`.
+  /// Internal forces without time derivatives depend on unknowns and committed state, not on time. commit(at) does not change those at `at`.
   virtual void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) = 0;
 
   /// jacobian += the derivatives of the residual with their weights. `jacobian` has the graph that the system was built with, or that and more
@@ -75,39 +74,19 @@ class Contribution {
   virtual void serialize(StateArchive&) {}
 };
 
-/// Prescribed displacements of owned dofs.
-class PrescribedDisplacements {
+/// Constraints of what turns: unknowns of owned dofs that follow from others by a nonlinear function, as nodes of rigid bodies and of kinematic
+/// couplings follow reference points.
+class RigidConstraints {
  public:
-  virtual ~PrescribedDisplacements() = default;
-  /// Owned dofs (local indices in the map of owned dofs), ascending; constant in time.
-  virtual const std::vector<LocalOrdinal>& dofs() const = 0;
-  /// Their values at pseudo-time `time`, in the same order. Local failures go to `failure` if that is empty; values are not finite there.
-  virtual std::vector<double> values(double time, std::optional<StepFailure>& failure) const = 0;
-};
-
-/// Displacements that are constant combinations of others: nodes of surfaces that are glued to others, and nodes that inclined supports hold.
-struct TiedDisplacements {
-  std::vector<LocalOrdinal> dofs;  ///< owned dofs that are tied, ascending; none of them is prescribed, or among DependentDisplacements::dofs().
-  /// [owned dofs squared] d = T d + offset. Rows of dofs that are not tied are those of the identity, columns of tied ones empty
-  RCP<const Matrix> T;
-  /// [owned dofs] at a pseudo-time, 0 at dofs that are not tied; empty: always 0. Failures as in PrescribedDisplacements. Collective.
-  std::function<RCP<Vector>(double time, std::optional<StepFailure>& failure)> offset;
-  /// Puts what supports bear of forces on all dofs into `gathered`, at the dofs of the nodes that they hold; empty: there are none. Collective.
-  std::function<void(const Vector& forces, Vector& gathered)> put_support_forces;
-};
-
-/// Displacements of owned dofs that follow from others: nodes of rigid bodies and tied sets, which follow reference points.
-class DependentDisplacements {
- public:
-  virtual ~DependentDisplacements() = default;
+  virtual ~RigidConstraints() = default;
   /// Owned dofs that follow, ascending; none of them is prescribed.
   virtual const std::vector<LocalOrdinal>& dofs() const = 0;
   /// Owned dofs that others may follow; none of them follows itself.
   virtual const std::vector<LocalOrdinal>& followed() const = 0;
-  /// Dependences at a displacement (owned dofs, then ghosts), in the order of dofs().
-  virtual std::vector<Dependence> evaluate(const Vector& local_displacement) const = 0;
-  /// Puts into `failure`, if that is empty, why equations of what is followed say nothing at a displacement; the caller agrees on it over the ranks.
-  virtual void check(const Vector& local_displacement, std::optional<StepFailure>& failure) const = 0;
+  /// Dependences at unknowns (owned dofs, then ghosts), in the order of dofs().
+  virtual std::vector<Dependence> evaluate(const Vector& local_unknowns) const = 0;
+  /// Puts into `failure`, if that is empty, why equations of what is followed say nothing at unknowns; the caller agrees on it over the ranks.
+  virtual void check(const Vector& local_unknowns, std::optional<StepFailure>& failure) const = 0;
 };
 
 }  // namespace mortise

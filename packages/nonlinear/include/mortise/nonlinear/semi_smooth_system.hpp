@@ -10,6 +10,7 @@
 #include "mortise/core/nodal_field.hpp"
 #include "mortise/core/timers.hpp"
 #include "mortise/core/types.hpp"
+#include "mortise/nonlinear/affine_constraints.hpp"
 #include "mortise/nonlinear/contribution.hpp"
 #include "mortise/nonlinear/drive.hpp"
 #include "mortise/nonlinear/held_motions.hpp"
@@ -32,11 +33,13 @@ struct SystemParts {
   std::function<RCP<const Graph>()> bulk_graph;              ///< makes it: rows `dofs`; what the contributions' Jacobians write into
   std::function<long()> bulk_version;                        ///< another number for another bulk_graph(); empty: it stays. Read with contact alone
   std::vector<std::shared_ptr<Contribution>> contributions;  ///< f_int - f_ext, as their sum
-  std::shared_ptr<PrescribedDisplacements> prescribed;       ///< never null; may have no dofs
-  std::shared_ptr<DependentDisplacements> dependent;         ///< null: every displacement is an unknown, prescribed or tied
-  std::shared_ptr<const TiedDisplacements> tied;             ///< null: none is; they may be tied to those that follow
-  std::shared_ptr<ContactSystem> contact;                    ///< null: no contact
-  std::shared_ptr<LinearSolver> linear_solver;               ///< of each Newton step
+  std::shared_ptr<const AffineConstraints> constraints;      ///< null: none; dependent rows may depend on those of `rigid`
+  std::shared_ptr<RigidConstraints> rigid;                   ///< null: none
+  /// Puts what inclined supports bear of forces on all dofs into `gathered`, at the dofs of the nodes that they hold. Collective; empty: there are
+  /// none.
+  std::function<void(const Vector& forces, Vector& gathered)> put_support_forces;
+  std::shared_ptr<ContactSystem> contact;                                    ///< null: no contact
+  std::shared_ptr<LinearSolver> linear_solver;                               ///< of each Newton step
   std::function<NearNullSpace(const Vector& displacement)> near_null_space;  ///< at a displacement, for multigrid alone
   /// For an x at which the Jacobian is singular although the system has a solution: a better point to linearise at, or null where there is none. It
   /// is close to x: Newton's step from there counts as the step from x. Collective; empty: never.
@@ -62,10 +65,10 @@ class SemiSmoothSystem {
   const SystemParts& parts() const;
   /// Map of x: owned dofs, then owned multipliers.
   const RCP<const Map>& map() const;
-  /// A view into the displacements of x, which shares its memory.
-  RCP<const Vector> displacement(const Vector& x) const;
-  /// A view into the displacements of x, to write to.
-  RCP<Vector> displacement(Vector& x) const;
+  /// A view into the unknowns of x but the multipliers, which shares its memory.
+  RCP<const Vector> unknowns(const Vector& x) const;
+  /// A view into the unknowns of x but the multipliers, to write to.
+  RCP<Vector> unknowns(Vector& x) const;
   /// A view into the multipliers of x, which shares its memory.
   RCP<const Vector> multipliers(const Vector& x) const;
   /// A view into the multipliers of x, to write to.
@@ -73,7 +76,7 @@ class SemiSmoothSystem {
   /// s of the first field, a stiffness; 0 before the first evaluation.
   double stiffness_scale() const;
   /// The largest displacement of x, or value of another field as if its size were that of the first.
-  double largest_displacement(const Vector& x) const;
+  double largest_unknown(const Vector& x) const;
 
   /// A state in which nothing has happened yet: no node is closed, slips are measured from x on. Throws StepFailure on every rank.
   AcceptedState initial_state(const Vector& x, double time = 0.0) const;

@@ -110,23 +110,24 @@ class Start {
 
 /// One-sided differences of what is prescribed, over a time that is short beside the first step.
 void put_prescribed(const Scene& scene, const Model& model, Vector& velocity) {
-  const auto& prescribed = *model.parts().prescribed;
+  const AffineConstraints& constraints = *model.parts().constraints;
   const double h = short_time * scene.stepping.step;
   std::optional<StepFailure> failure;
-  const std::vector<double> now = prescribed.values(0.0, failure), next = prescribed.values(h, failure), after = prescribed.values(2.0 * h, failure);
+  const std::vector<double> now = constraints.prescribed_values(0.0, failure), next = constraints.prescribed_values(h, failure),
+                            after = constraints.prescribed_values(2.0 * h, failure);
   throw_if_any(*model.mesh()->comm, failure);
   const auto v = velocity.getLocalViewHost(Tpetra::Access::ReadWrite);
-  for (std::size_t i = 0; i < now.size(); ++i) v(prescribed.dofs()[i], 0) = (4.0 * next[i] - 3.0 * now[i] - after[i]) / (2.0 * h);
+  for (std::size_t i = 0; i < now.size(); ++i) v(constraints.prescribed()[i], 0) = (4.0 * next[i] - 3.0 * now[i] - after[i]) / (2.0 * h);
 }
 
 /// Velocities of what follows have to be those that were asked for.
 void refuse_other_motion(const Scene& scene, const Model& model, const Vector& wanted, const Vector& found) {
-  if (!model.parts().dependent) return;
+  if (!model.parts().rigid) return;
   const Mesh& mesh = *model.mesh();
   const double size = wanted.normInf();
   const auto of_wanted = wanted.getLocalViewHost(Tpetra::Access::ReadOnly), of_found = found.getLocalViewHost(Tpetra::Access::ReadOnly);
   std::vector<Diagnostic> diagnostics;
-  for (const LocalOrdinal dof : model.parts().dependent->dofs()) {
+  for (const LocalOrdinal dof : model.parts().rigid->dofs()) {
     if (std::abs(of_wanted(dof, 0) - of_found(dof, 0)) <= rigid_round_off * size) continue;
     const auto node = static_cast<std::size_t>(model.space().place(dof).node);
     diagnostics.push_back(
@@ -146,7 +147,7 @@ AcceptedState initial_state(const Scene& scene, const Model& model, const SemiSm
   Vector x(system.map());
   if (!scene.inertia.acts()) return system.initial_state(x);
   Vector velocity(model.parts().dofs);
-  Start(scene, model).put(*system.displacement(x), velocity);
+  Start(scene, model).put(*system.unknowns(x), velocity);
   put_prescribed(scene, model, velocity);
   const AcceptedState state = system.initial_state(x, velocity, scene.inertia.start == InertiaOptions::Start::at_rest);
   refuse_other_motion(scene, model, velocity, *state.rates->velocity);

@@ -135,7 +135,7 @@ SurfaceTies tie_scene(Mesh& mesh, const FieldSpace& space, const Scene& scene, c
   for (int round = 1; any_adjusts && move_slaves(mesh, space, scene, held, pairs, rows, origin) > settled && round < most_rounds; ++round)
     rows = rows_now();
   SurfaceTies result;
-  result.tied = std::make_shared<const TiedDisplacements>(TiedDisplacements{rows.dofs, rows.T, {}, {}});
+  result.tied = std::make_shared<const TieRows>(rows);
   for (std::size_t t = 0; t < pairs.size(); ++t) result.at_start.push_back({rows.counts[t].tied, rows.counts[t].open, pairs[t].tolerance, 0, 0.0});
   if (any_adjusts) count_moves(mesh, scene, before, result.at_start);
   return result;
@@ -153,15 +153,16 @@ std::vector<int> joined_bodies(const Mesh& mesh, const Scene& scene) {
   return number;
 }
 
-std::vector<char> followed_by_ties(const FieldSpace& space, const TiedDisplacements& tied) {
-  Vector columns(tied.T->getColMap()), dofs(tied.T->getDomainMap());
+std::vector<char> followed_by_dependents(const FieldSpace& space, const AffineConstraints& constraints) {
+  const Matrix& T = *constraints.T();
+  Vector columns(T.getColMap()), dofs(T.getDomainMap());
   {
     const auto mark = columns.getLocalViewHost(Tpetra::Access::ReadWrite);
-    const auto local = tied.T->getLocalMatrixHost();
-    for (const LocalOrdinal dof : tied.dofs)
+    const auto local = T.getLocalMatrixHost();
+    for (const LocalOrdinal dof : constraints.dependent())
       for (LocalOrdinal k = 0; k < local.rowConst(dof).length; ++k) mark(local.rowConst(dof).colidx(k), 0) = 1.0;
   }
-  dofs.doExport(columns, Export(tied.T->getColMap(), tied.T->getDomainMap()), Tpetra::ADD);
+  dofs.doExport(columns, Export(T.getColMap(), T.getDomainMap()), Tpetra::ADD);
   std::vector<char> followed(static_cast<std::size_t>(space.mesh()->owned_count()), 0);
   const auto mark = dofs.getLocalViewHost(Tpetra::Access::ReadOnly);
   for (std::size_t dof = 0; dof < mark.extent(0); ++dof)

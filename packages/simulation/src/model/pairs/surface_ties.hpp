@@ -7,7 +7,7 @@
 
 #include "mortise/mesh/mesh.hpp"
 #include "mortise/mortar/tied_surfaces.hpp"
-#include "mortise/nonlinear/contribution.hpp"
+#include "mortise/nonlinear/affine_constraints.hpp"
 #include "mortise/simulation/model/model.hpp"
 #include "mortise/simulation/scene/scene.hpp"
 #include "surfaces/adjustment.hpp"
@@ -16,8 +16,8 @@ namespace mortise {
 
 /// The ties of a scene.
 struct SurfaceTies {
-  std::shared_ptr<const TiedDisplacements> tied;  ///< null: the scene has none
-  std::vector<TieAtStart> at_start;               ///< [ties of the scene]
+  std::shared_ptr<const TieRows> tied;  ///< null: the scene has none
+  std::vector<TieAtStart> at_start;     ///< [ties of the scene]
 };
 
 /// Ties surfaces, and moves the slave nodes of ties that ask for it. They go first along their normals onto the master, then to X_s = P X_m with the
@@ -31,7 +31,7 @@ SurfaceTies tie_scene(Mesh& mesh, const FieldSpace& space, const Scene& scene, c
 /// [mesh.bodies] a number that bodies share which ties join. Collective.
 std::vector<int> joined_bodies(const Mesh& mesh, const Scene& scene);
 
-/// [owned nodes] 1 where a tied node of any rank follows the node. Collective.
-std::vector<char> followed_by_ties(const FieldSpace& space, const TiedDisplacements& tied);
+/// [owned nodes] 1 where a dependent unknown of any rank follows the node. Collective.
+std::vector<char> followed_by_dependents(const FieldSpace& space, const AffineConstraints& constraints);
 
 }  // namespace mortise

@@ -125,10 +125,10 @@ std::shared_ptr<EdgeContact> make_edge_contact(const std::shared_ptr<const Bodie
 /// multiplier of contact: momentum there has forces of ties, or of inclined supports.
 RCP<const MultiVector> kept_components(const FieldSpace& space, const SolidModel& solid) {
   const auto kept = rcp(new MultiVector(*solid.supports.fixed, Teuchos::Copy));
-  if (solid.parts.dependent) kept->update(1.0, *marked_components(space, solid.parts.dependent->dofs(), 2.0), 1.0);
-  if (solid.parts.tied) {
-    kept->update(1.0, *marked_components(space, solid.parts.tied->dofs, 2.0), 1.0);
-    mark_crosspoints(followed_by_ties(space, *solid.parts.tied), *kept);
+  if (solid.parts.rigid) kept->update(1.0, *marked_components(space, solid.parts.rigid->dofs(), 2.0), 1.0);
+  if (const AffineConstraints& constraints = *solid.parts.constraints; !constraints.T().is_null()) {
+    kept->update(1.0, *marked_components(space, constraints.dependent(), 2.0), 1.0);
+    mark_crosspoints(followed_by_dependents(space, constraints), *kept);
   }
   return kept;
 }

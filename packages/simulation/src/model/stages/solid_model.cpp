@@ -6,9 +6,9 @@
 #include <algorithm>
 
 #include "model/contributions.hpp"
-#include "model/inclined_supports.hpp"
 #include "model/motion/inertia.hpp"
 #include "model/pairs/surface_ties.hpp"
+#include "model/support_constraints.hpp"
 #include "mortise/simulation/scene/scene_bodies.hpp"
 
 namespace mortise {
@@ -40,18 +40,17 @@ SolidModel make_solid(const MeshedScene& meshed, const Scene& scene, const Timer
   for (const auto& load : scene.loads)
     collect(
         [&] { parts.contributions.push_back(std::make_shared<LoadContribution>(load.name, load.value.load.options->make(solid.bodies), timers)); });
-  collect([&] {
-    solid.motion = std::make_shared<const PrescribedMotion>(*bodies, scene.boundary_conditions);
-    parts.prescribed = std::make_shared<PrescribedBoundary>(solid.motion);
-  });
+  collect([&] { solid.motion = std::make_shared<const PrescribedMotion>(*bodies, scene.boundary_conditions); });
   solid.supports.ties = meshed.ties.tied;
   return solid;
 }
 
 void add_supports(const MeshedScene& meshed, const Scene& scene, const Timers& timers, SolidModel& solid) {
   const PrescribedMotion& motion = *solid.motion;
-  if (!meshed.mesh->reference_points.empty()) solid.parts.dependent = std::make_shared<TiedNodes>(*solid.bodies, solid.parts.prescribed->dofs());
-  solid.parts.tied = with_inclined_supports(meshed.space, solid.supports.ties, solid.motion);
+  if (!meshed.mesh->reference_points.empty()) solid.parts.rigid = std::make_shared<FollowingNodes>(*solid.bodies, motion.dofs());
+  const SupportConstraints supported = support_constraints(meshed.space, solid.supports.ties, solid.motion);
+  solid.parts.constraints = supported.lines;
+  solid.parts.put_support_forces = supported.put_support_forces;
   Supports& supports = solid.supports;
   supports.prescribed = motion.dofs();
   supports.fixed = marked_components(*meshed.space, motion.dofs(), 1.0);

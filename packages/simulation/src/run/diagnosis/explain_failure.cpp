@@ -60,7 +60,7 @@ std::vector<PairHold> pairs_now(const std::vector<int>& bodies, const Model& mod
 std::string describe_free_motions(const std::vector<int>& bodies, const Model& model, const SemiSmoothSystem& system,
                                   const SystemEvaluation& evaluation, const ContactRecord& record) {
   const Mesh& mesh = *model.mesh();
-  const RCP<MultiVector> modes = modes_with_points(model, *system.displacement(evaluation.x()));
+  const RCP<MultiVector> modes = modes_with_points(model, *system.unknowns(evaluation.x()));
   const int per_body = static_cast<int>(modes->getNumVectors()), count = per_body * static_cast<int>(bodies.size());
 
   // Columns of A; rows of C as forces.

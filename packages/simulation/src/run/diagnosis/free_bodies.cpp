@@ -21,7 +21,7 @@ FreeBodies::FreeBodies(const Model& model, const SystemEvaluation& evaluation, c
       held_(held_by_supports(model, modes_, at_)) {
   const Mesh& mesh = *model.mesh();
   prescribed_.assign(model.space().dofs()->getNodeNumElements(), 0);
-  for (const LocalOrdinal dof : model.parts().prescribed->dofs()) prescribed_[static_cast<std::size_t>(dof)] = 1;
+  for (const LocalOrdinal dof : model.parts().constraints->prescribed()) prescribed_[static_cast<std::size_t>(dof)] = 1;
   turning_.assign(static_cast<std::size_t>(mesh.owned_count()), -1);
   for (std::size_t p = 0; p < mesh.reference_points.size(); ++p)
     if (const LocalOrdinal node = mesh.reference_points[p].rotation_node; node >= 0 && node < mesh.owned_count())

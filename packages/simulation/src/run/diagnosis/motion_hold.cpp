@@ -40,10 +40,9 @@ std::vector<char> have_momentum(const Model& model, const ContactLaws& laws) {
   const Mesh& mesh = *model.mesh();
   const auto d = static_cast<std::size_t>(mesh.dimension);
   std::vector<char> result(d * static_cast<std::size_t>(mesh.owned_count()), 1);
-  if (model.parts().dependent)
-    for (const LocalOrdinal dof : model.parts().dependent->dofs()) result[dof] = 0;
-  if (model.parts().tied)
-    for (const LocalOrdinal dof : model.parts().tied->dofs) result[dof] = 0;
+  if (model.parts().rigid)
+    for (const LocalOrdinal dof : model.parts().rigid->dofs()) result[dof] = 0;
+  for (const LocalOrdinal dof : model.parts().constraints->dependent()) result[dof] = 0;
   const ContactStates states = laws.states();
   for (std::size_t p = 0; p < states.size(); ++p) {
     const std::vector<GlobalOrdinal> ids = model.contact()->slave_ids(p);

@@ -100,7 +100,7 @@ RCP<Vector> StateCheck::examine(const SemiSmoothSystem& system, const Vector& be
     NodePlaces half_way = to;
     for (std::size_t node = 0; node < to.x.size(); ++node) half_way.x[node] = 0.5 * (from.x[node] + to.x[node]);
     const auto start = rcp(new Vector(found.x(), Teuchos::Copy));
-    move_bodies(model_.space(), *modes, loosely, motions.middle, half_way, -1.0, *system.displacement(*start));
+    move_bodies(model_.space(), *modes, loosely, motions.middle, half_way, -1.0, *system.unknowns(*start));
     warn_(fmt::format("  {}. Put back, and solved again from there", refused_));
     return start;
   }
@@ -141,7 +141,7 @@ void StateCheck::predict(const SemiSmoothSystem& system, const Vector& x, double
   if (!modes_ || freely_.isZero(0.0)) return;
   const Mesh& mesh = *model_.mesh();
   NodePlaces half_way = places_at(model_, x);
-  const RCP<Vector> velocity = system.displacement(rate);
+  const RCP<Vector> velocity = system.unknowns(rate);
   {
     const auto v = velocity->getLocalViewHost(Tpetra::Access::ReadOnly);
     for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node)

@@ -32,8 +32,7 @@ class JumpGuard final : public StepGuard {
   JumpGuard(double length, std::shared_ptr<const StateCheck> carried) : jump_(length), carried_(std::move(carried)) {}
 
   RCP<Vector> verify(const SemiSmoothSystem& system, const AcceptedState& from, const SystemEvaluation& found, int) override {
-    jump_.verify(*system.displacement(*from.x), *system.displacement(found.x()), found.context().time - from.context.time,
-                 carried_ && carried_->went_far());
+    jump_.verify(*system.unknowns(*from.x), *system.unknowns(found.x()), found.context().time - from.context.time, carried_ && carried_->went_far());
     return Teuchos::null;
   }
   void accept(const SemiSmoothSystem&, const SystemEvaluation&) override { jump_.accept(); }

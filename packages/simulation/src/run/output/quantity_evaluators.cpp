@@ -7,7 +7,7 @@ QuantityContext quantity_context(const Scene& scene, const Model& model) {
   context.contact = model.contact().get();
   for (const auto& pair : scene.contact) context.pairs.push_back({pair.name, pair.value.slave.value, pair.value.master.value});
   context.prescribed = &model.supports().dofs;
-  if (model.parts().dependent) context.following = &model.parts().dependent->dofs();
+  if (model.parts().rigid) context.following = &model.parts().rigid->dofs();
   context.symbols = &scene.symbols;
   context.mass = model.inertia().mass.get();
   return context;

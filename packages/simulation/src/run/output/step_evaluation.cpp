@@ -33,7 +33,7 @@ double StepEvaluation::force_round_off(const Vector& displacement) const {
 
 std::vector<double> StepEvaluation::quantities(const SystemEvaluation& at) {
   if (scene_.quantities.empty()) return {};
-  const auto displacement = system_.displacement(at.x());
+  const auto displacement = system_.unknowns(at.x());
   const auto local_displacement = local(*displacement);
   const double time = at.context().time;
   const RCP<const Vector> reaction = at.forces();
@@ -61,7 +61,7 @@ std::vector<double> StepEvaluation::quantities(const SystemEvaluation& at) {
 }
 
 RCP<Vector> StepEvaluation::external_force(const Vector& x, double time) const {
-  const auto displacement = system_.displacement(x);
+  const auto displacement = system_.unknowns(x);
   const auto local_displacement = local(*displacement);
   const auto external = rcp(new Vector(model_.bodies()->space().dofs()));
   std::optional<StepFailure> failure;
@@ -78,7 +78,7 @@ void StepEvaluation::serialize(StateArchive& archive) {
 }
 
 std::vector<Field> StepEvaluation::fields(const SystemEvaluation& at, const std::vector<std::string>& names) {
-  const auto displacement = system_.displacement(at.x());
+  const auto displacement = system_.unknowns(at.x());
   const auto local_displacement = local(*displacement);
   std::vector<Field> fields;
   const RCP<const Vector> forces = at.forces();
@@ -104,7 +104,7 @@ std::vector<std::vector<ProfilePoint>> StepEvaluation::profiles(const SystemEval
   if (!model_.contact()) return profiles;
   const auto pairs = quantity_context(scene_, model_).pairs;
   for (std::size_t pair = profiles_.size(); pair < pairs.size(); ++pair) profiles_.emplace_back(*model_.mesh(), pairs[pair], pair);
-  const auto displacement = system_.displacement(at.x());
+  const auto displacement = system_.unknowns(at.x());
   const auto local_displacement = local(*displacement);
   const FieldState state{*model_.bodies(), model_.contact().get(), *displacement, *local_displacement, contact_laws(at)};
   for (const ContactProfile& profile : profiles_) profiles.push_back(profile.points(state));

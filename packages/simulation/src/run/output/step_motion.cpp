@@ -12,7 +12,7 @@ MotionOfStep StepMotion::of_quantities() const {
 std::optional<StepMotion> step_motion(const Model& model, const SemiSmoothSystem& system, const SystemEvaluation& at) {
   const TimeStep* step = at.context().step.get();
   if (step == nullptr) return std::nullopt;
-  const RCP<const Vector> d = system.displacement(at.x());
+  const RCP<const Vector> d = system.unknowns(at.x());
   const AcceptedRates rates = rates_at_end(*step, *d, at.external_forces());
   const RCP<const Vector> acceleration = rates.balanced_acceleration.is_null() ? rates.acceleration : rates.balanced_acceleration;
   StepMotion motion;

@@ -12,10 +12,10 @@ RCP<Vector> ImpactLossGuard::verify(const SemiSmoothSystem& system, const Accept
   const ContactLaws& laws = found.contact_laws();
   Vector pressures(laws.multipliers(), Teuchos::Copy);
   pressures.update(-1.0, *laws.evaluation().shear_tractions(laws.multipliers()), 1.0);
-  const RCP<const Vector> d = system.displacement(found.x());
+  const RCP<const Vector> d = system.unknowns(found.x());
   Vector force(d->getMap()), change(*d, Teuchos::Copy);
   laws.evaluation().add_force(pressures, force);
-  change.update(-1.0, *system.displacement(*from.x), 1.0);
+  change.update(-1.0, *system.unknowns(*from.x), 1.0);
   const double loss = force.dot(change);
   if (loss > tolerance_ * largest_)
     throw StepFailure(

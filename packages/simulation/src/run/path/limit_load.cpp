@@ -51,13 +51,10 @@ std::optional<double> remaining_stiffness(const SemiSmoothSystem& system, const 
   const SystemEvaluation converged = system.evaluate(*tried.from.x, tried.context);
   if (!(converged.norms().momentum >= least_load)) return std::nullopt;
   Vector load(converged.residual(), Teuchos::Copy);
-  if (const auto& prescribed = system.parts().prescribed) {
+  if (const auto& constraints = system.parts().constraints) {  // supports that move are no loads
     const auto rows = load.getLocalViewHost(Tpetra::Access::ReadWrite);
-    for (const LocalOrdinal dof : prescribed->dofs()) rows(dof, 0) = 0.0;
-  }
-  if (const auto& tied = system.parts().tied) {  // inclined supports that move are no loads either
-    const auto rows = load.getLocalViewHost(Tpetra::Access::ReadWrite);
-    for (const LocalOrdinal dof : tied->dofs) rows(dof, 0) = 0.0;
+    for (const auto* dofs : {&constraints->prescribed(), &constraints->dependent()})
+      for (const LocalOrdinal dof : *dofs) rows(dof, 0) = 0.0;
   }
   system.multipliers(load)->putScalar(0.0);
   const RCP<Vector> u = answer_to_load(system, failed, load);
@@ -65,7 +62,7 @@ std::optional<double> remaining_stiffness(const SemiSmoothSystem& system, const 
   const double work = -u->dot(load);
   Vector force(system.map());
   system.linearise(converged).apply(*u, force);
-  const double elastic = system.displacement(*u)->dot(*system.displacement(force));
+  const double elastic = system.unknowns(*u)->dot(*system.unknowns(force));
   if (!(elastic > 0.0)) return std::nullopt;
   return work / elastic;
 }
@@ -114,7 +111,7 @@ std::string explain_limit_load(const FailedTry& failed, const Model& model, cons
   }
   if (!stiffness || !(*stiffness < hardly_stiff)) return {};
   return fmt::format("no equilibrium beyond this load: against more of it the stiffness is {:.1e} of the elastic one; {}", *stiffness,
-                     describe_flow(model, *system.displacement(*failed.linearised->x), *system.displacement(*failed.from.x)));
+                     describe_flow(model, *system.unknowns(*failed.linearised->x), *system.unknowns(*failed.from.x)));
 }
 
 }  // namespace mortise

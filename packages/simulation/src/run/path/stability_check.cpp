@@ -34,8 +34,8 @@ int determinant_sign_at(const SemiSmoothSystem& system, const SystemEvaluation& 
 bool passes_a_maximum(const SemiSmoothSystem& system, const Vector& from, const Vector& to) {
   const SystemParts& parts = system.parts();
   if (parts.fields.size() > 1) return false;  // of other units
-  const RCP<const Vector> u = system.displacement(from);
-  Vector change(*system.displacement(to), Teuchos::Copy);
+  const RCP<const Vector> u = system.unknowns(from);
+  Vector change(*system.unknowns(to), Teuchos::Copy);
   change.update(-1.0, *u, 1.0);
   const Import to_local(parts.dofs, parts.local_dofs);
   std::array<double, parts_of_the_line + 1> g{};
@@ -68,8 +68,8 @@ double rate_of(double moved, double strength, double dt, bool by_strength) {
 
 RCP<Vector> StabilityCheck::verify(const SemiSmoothSystem& system, const AcceptedState& from, const SystemEvaluation& to, int) {
   {
-    Vector change(*system.displacement(to.x()), Teuchos::Copy);
-    change.update(-1.0, *system.displacement(*from.x), 1.0);
+    Vector change(*system.unknowns(to.x()), Teuchos::Copy);
+    change.update(-1.0, *system.unknowns(*from.x), 1.0);
     passed_moved_ = change.normInf();
   }
   const double begin = from.context.time, end = to.context().time;

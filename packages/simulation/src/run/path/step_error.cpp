@@ -10,7 +10,7 @@ namespace mortise {
 
 RCP<Vector> StepErrorGuard::verify(const SemiSmoothSystem& system, const AcceptedState&, const SystemEvaluation& found, int) {
   const TimeStep& step = *found.context().step;
-  const RCP<const Vector> d = system.displacement(found.x());
+  const RCP<const Vector> d = system.unknowns(found.x());
   Vector change(*rates_at_end(step, *d, found.external_forces()).acceleration, Teuchos::Copy);
   change.update(-1.0, *step.start.acceleration, 1.0);
   {
@@ -29,7 +29,7 @@ RCP<Vector> StepErrorGuard::verify(const SemiSmoothSystem& system, const Accepte
 }
 
 void StepErrorGuard::accept(const SemiSmoothSystem& system, const SystemEvaluation& at) {
-  largest_ = std::max(largest_, system.displacement(at.x())->normInf());
+  largest_ = std::max(largest_, system.unknowns(at.x())->normInf());
 }
 
 void StepErrorGuard::serialize(StateArchive& archive) { mortise::serialize(archive, "step_error.largest", largest_); }

@@ -48,7 +48,7 @@ struct PathPoint {
   RCP<Vector> tangent;
 };
 
-double product(const SemiSmoothSystem& system, const Vector& a, const Vector& b) { return system.displacement(a)->dot(*system.displacement(b)); }
+double product(const SemiSmoothSystem& system, const Vector& a, const Vector& b) { return system.unknowns(a)->dot(*system.unknowns(b)); }
 
 /// The state of the path on the plane t . (x - x_p - s t) = 0 across its tangent t at p. Newton's method with mu as one more unknown; none if it
 /// fails.
@@ -98,7 +98,7 @@ std::string explain_turning_point(const FailedTry& failed, const Model& model, c
   }
   if (!turns) return {};
   return fmt::format("no equilibrium beyond this {0}: the {0} has a maximum here, and equilibrium goes on with less of it; {1}",
-                     loads ? "load" : "motion", describe_flow(model, *system.displacement(*failed.linearised->x), *system.displacement(converged)));
+                     loads ? "load" : "motion", describe_flow(model, *system.unknowns(*failed.linearised->x), *system.unknowns(converged)));
 }
 
 }  // namespace mortise

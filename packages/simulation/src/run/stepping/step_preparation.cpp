@@ -14,7 +14,7 @@ StepPreparation::StepPreparation(const Model& model, const Scene& scene, const S
 }
 
 AcceptedState StepPreparation::prepared(AcceptedState state, double time) const {
-  if (model_.edges() != nullptr) model_.edges()->start_step(*system_.displacement(*state.x));
+  if (model_.edges() != nullptr) model_.edges()->start_step(*system_.unknowns(*state.x));
   if (auto& contact = state.context.contact) contact = model_.contact()->with_clearances(*contact, time);
   return state;
 }

@@ -17,7 +17,7 @@ constexpr double pieces = 2.0;  ///< fewer of them across the contact do not res
 }  // namespace
 
 RCP<Vector> CrossingExamination::verify(const SemiSmoothSystem& system, const AcceptedState&, const SystemEvaluation& found, int) {
-  model_.edges()->examine(*system.displacement(found.x()));
+  model_.edges()->examine(*system.unknowns(found.x()));
   return Teuchos::null;
 }
 
@@ -28,7 +28,7 @@ RCP<Vector> CrossingExamination::verify(const SemiSmoothSystem& system, const Ac
 std::optional<StepFailure> CoarseCrossingWatch::end(const SemiSmoothSystem& system, const EndOfSteps& end) {
   if (!end.is_converged || end.last == nullptr) return std::nullopt;
   const Mesh& mesh = *model_.mesh();
-  const PlaceOfNode at = current_places(*model_.bodies(), *system.displacement(end.last->x()));
+  const PlaceOfNode at = current_places(*model_.bodies(), *system.unknowns(end.last->x()));
   for (const CrossingEdges& crossing : model_.edges()->crossings()) {
     double mine = 0.0, of_nodes = 0.0, reached = 0.0, reached_of_all = 0.0;
     for (const ContactNodeState& node : node_states(end.last->contact_laws(), crossing.contact))

@@ -193,14 +193,14 @@ void CoarseSlaveWatch::accept(const SemiSmoothSystem& system, const SystemEvalua
     const std::vector<ContactNodeState> states = node_states(accepted.contact_laws(), p);
     const double pressure = largest_pressure(model_, states);
     if (!(pressure > hardest_[p].pressure)) continue;
-    if (!at) at = current_places(*model_.bodies(), *system.displacement(accepted.x()));
+    if (!at) at = current_places(*model_.bodies(), *system.unknowns(accepted.x()));
     hardest_[p] = {pressure, too_coarse(model_, scene_.contact[p], *at, states, pressure, accepted.context().time)};
   }
 }
 
 std::optional<StepFailure> CoarseSlaveWatch::end(const SemiSmoothSystem& system, const EndOfSteps& end) {
   if (end.last == nullptr) return std::nullopt;
-  const PlaceOfNode at = current_places(*model_.bodies(), *system.displacement(end.last->x()));
+  const PlaceOfNode at = current_places(*model_.bodies(), *system.unknowns(end.last->x()));
   for (std::size_t p = 0; p < hardest_.size(); ++p) {
     if (!has_weighted_gaps(model_, scene_.contact[p].value)) continue;
     std::string line = hardest_[p].words;
@@ -230,7 +230,7 @@ FailureExplanation CoarseSlaveWatch::explain(const SemiSmoothSystem& system, con
   if (!failed.linearised || (kind != FailureKind::cycling_active_set && kind != FailureKind::too_many_iterations)) return {};
   const Mesh& mesh = *model_.mesh();
   const SystemEvaluation evaluation = system.evaluate(*failed.linearised->x, failed.linearised->context);
-  const PlaceOfNode at = current_places(*model_.bodies(), *system.displacement(evaluation.x()));
+  const PlaceOfNode at = current_places(*model_.bodies(), *system.unknowns(evaluation.x()));
   for (std::size_t p = 0; p < scene_.contact.size(); ++p) {
     const auto& pair = scene_.contact[p];
     if (!has_weighted_gaps(model_, pair.value)) continue;

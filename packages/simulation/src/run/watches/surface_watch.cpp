@@ -8,7 +8,7 @@ SurfaceWatch::SurfaceWatch(const Model& model, const Scene& scene, const std::fu
     : model_(model), passages_(model, scene), corners_(model, scene, warn), overlaps_(model, scene, warn), leans_(model, scene, warn) {}
 
 RCP<Vector> SurfaceWatch::verify(const SemiSmoothSystem& system, const AcceptedState&, const SystemEvaluation& found, int) {
-  const PlacedBodies bodies = placed_bodies(model_, *system.displacement(found.x()));
+  const PlacedBodies bodies = placed_bodies(model_, *system.unknowns(found.x()));
   const ContactLaws& laws = found.contact_laws();
   passages_.examine(bodies, laws);
   corners_.examine(bodies, laws);

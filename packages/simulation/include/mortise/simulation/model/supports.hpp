@@ -4,16 +4,16 @@
 #include <memory>
 #include <vector>
 
-#include "mortise/nonlinear/contribution.hpp"
+#include "mortise/mortar/tied_surfaces.hpp"
 #include "mortise/solid/prescribed_motion.hpp"
 
 namespace mortise {
 
 struct Supports {
-  std::vector<LocalOrdinal> prescribed;           ///< owned dofs, ascending
-  RCP<const MultiVector> fixed;                   ///< [owned nodes x dim] 1 where the displacement is prescribed, else 0
-  std::vector<InclinedComponent> inclined;        ///< of owned nodes
-  std::shared_ptr<const TiedDisplacements> ties;  ///< of surfaces; null: nothing is tied
+  std::vector<LocalOrdinal> prescribed;     ///< owned dofs, ascending
+  RCP<const MultiVector> fixed;             ///< [owned nodes x dim] 1 where the displacement is prescribed, else 0
+  std::vector<InclinedComponent> inclined;  ///< of owned nodes
+  std::shared_ptr<const TieRows> ties;      ///< of surfaces; null: nothing is tied
   std::vector<LocalOrdinal> dofs;  ///< owned dofs on which supports act: those that are prescribed, and those of inclined supports, ascending
 };
 
