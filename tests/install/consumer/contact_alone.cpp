@@ -18,7 +18,7 @@ bool near(const char* what, double value, double expected) {
 int run() {
   constexpr double depth = 0.01, pressure = 7.0;
   const auto coefficient = [](double p) { return 0.2 + 0.1 * std::exp(-p / 10.0); };
-  const Blocks blocks;
+  const Blocks blocks(2);
   ContactPair pair = blocks.pair(0.0);
   const auto coulomb = std::make_shared<CoulombFriction>();
   coulomb->coefficient = ScalarFunction([coefficient](const std::vector<double>& of) { return coefficient(of[0]); }, "0.2 + 0.1 exp(-p / 10)");
@@ -28,7 +28,7 @@ int run() {
   Vector d(blocks.dofs), z(contact.multiplier_map());
   const ContactHistory history = contact.initial_history(d);
   for (const GlobalOrdinal id : blocks.dofs->getNodeElementList())
-    if (id % 2 == 1 && Blocks::block_of(id / 2) == 1) d.replaceGlobalValue(id, -depth);
+    if (id % 2 == 1 && blocks.block_of(id / 2) == 1) d.replaceGlobalValue(id, -depth);
   for (const GlobalOrdinal id : contact.multiplier_map()->getNodeElementList())
     if (id % 2 == 1) z.replaceGlobalValue(id, -pressure);  // ids follow those of the dofs, of which there are two a node
 

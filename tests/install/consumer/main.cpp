@@ -1,116 +1,28 @@
 // An application of its own that embeds contact: two blocks that do not match, pressed, then drawn along one another with friction.
 
-#include <Teuchos_CommHelpers.hpp>
 #include <cmath>
 #include <cstdio>
 #include <optional>
 #include <stdexcept>
 
-#include "blocks.hpp"
 #include "mortise/core/error.hpp"
 #include "mortise/nonlinear/linear_solver_factory.hpp"
+#include "solve_step.hpp"
 
 namespace host {
 
-constexpr double friction = 0.3, tolerance = 1e-10;
+constexpr double friction = 0.3;
 
-double sum_over_ranks(const Blocks& blocks, double mine) {
-  double all = 0.0;
-  Teuchos::reduceAll(*blocks.comm, Teuchos::REDUCE_SUM, mine, Teuchos::outArg(all));
-  return all;
-}
-
-// Rows of prescribed dofs: s dd = s (prescribed - d). They are the application's, and replaced after condense().
-void prescribe(const Blocks& blocks, const Vector& target, const Vector& d, Matrix& A, Vector& rhs) {
-  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(blocks.dofs->getNodeNumElements()); ++row) {
-    const GlobalOrdinal id = blocks.dofs->getGlobalElement(row);
-    if (!Blocks::held(id / 2)) continue;
-    Matrix::local_inds_host_view_type columns;
-    Matrix::values_host_view_type values;
-    A.getLocalRowView(row, columns, values);
-    std::vector<double> replaced(columns.extent(0), 0.0);
-    for (std::size_t k = 0; k < replaced.size(); ++k)
-      if (A.getColMap()->getGlobalElement(columns(k)) == id) replaced[k] = E;
-    A.replaceLocalValues(row, Teuchos::ArrayView<const LocalOrdinal>(columns.data(), columns.extent(0)), Teuchos::arrayViewFromVector(replaced));
-    rhs.replaceLocalValue(row, E * (target.getData()[row] - d.getData()[row]));
-  }
-}
-
-// |r| of free dofs, and by how much prescribed dofs are off.
-std::array<double, 2> residuals(const Blocks& blocks, const Vector& r, const Vector& target, const Vector& d) {
-  double free = 0.0, off = 0.0;
-  for (std::size_t row = 0; row < blocks.dofs->getNodeNumElements(); ++row)
-    if (Blocks::held(blocks.dofs->getGlobalElement(static_cast<LocalOrdinal>(row)) / 2))
-      off += std::abs(target.getData()[row] - d.getData()[row]);
-    else
-      free += r.getData()[row] * r.getData()[row];
-  return {std::sqrt(sum_over_ranks(blocks, free)), sum_over_ranks(blocks, off)};
-}
-
-/// Result of a Newton solve beside d and z.
-struct Solved {
-  bool converged = false;
-  Vector r;                         ///< forces that are not balanced: the reactions of prescribed dofs
-  std::optional<ContactLaws> laws;  ///< contact at d and z; none unless `converged`
-};
-
-Solved solve_step(const Blocks& blocks, const ContactSystem& contact, const ContactHistory& accepted, const Matrix& K, LinearSolver& solver,
-                  const Vector& target, Vector& d, Vector& z) {
-  const ContactHistory history = contact.start_step(accepted, d, z);
-  ContactStates last = history->states;
-  RCP<Matrix> A;
-  Solved solved{false, Vector(blocks.dofs), {}};
-  Vector internal(blocks.dofs), rhs(blocks.dofs), increment(blocks.dofs), z_new(contact.multiplier_map());
-  for (int iteration = 0; iteration < 30; ++iteration) {
-    // A StepFailure comes on every rank: undo the step, take a smaller one.
-    const DifferentiatedContact at = contact.differentiate(d, history, &last);
-    const ContactLaws laws = at.laws(z);
-
-    K.apply(d, internal);
-    Tpetra::deep_copy(solved.r, internal);
-    laws.add_force(solved.r);
-    const ContactNorms norms = laws.norms(last);
-    const auto [unbalanced, off] = residuals(blocks, solved.r, target, d);
-    solved.converged = unbalanced <= tolerance * internal.norm2() && off <= tolerance && norms.gap <= tolerance &&
-                       norms.complementarity <= tolerance && norms.changed == 0;
-    if (solved.converged && iteration > 0) {
-      solved.laws = laws;
-      return solved;
-    }
-    last = laws.states();
-
-    const RCP<const Graph> graph = contact.graph(at, [&] { return blocks.graph(); });
-    const bool changed = A.is_null() || A->getCrsGraph() != graph;
-    if (changed)
-      A = rcp(new Matrix(graph));
-    else
-      A->resumeFill();
-    A->setAllToScalar(0.0);
-    blocks.assemble(*A);
-    const ContactLinearisation linearised = at.linearise(laws);
-    linearised.add_stiffness(*A);
-    rhs.update(-1.0, internal, 0.0);  // without the forces of contact
-    const CondensedContact condensed = linearised.condense(*A, rhs);
-    prescribe(blocks, target, d, *A, rhs);
-    A->fillComplete(blocks.dofs, blocks.dofs);
-
-    solver.set_matrix(A, changed, {});
-    solver.solve(rhs, increment);
-    condensed.recover(increment, z_new);
-    d.update(1.0, increment, 1.0);
-    Tpetra::deep_copy(z, z_new);
-  }
-  return solved;
-}
-
-// The sum of the reactions of the lower (0) or upper (1) edge.
-std::array<double, 2> reaction(const Blocks& blocks, const Vector& r, int block) {
-  std::array<double, 2> mine{};
+// The sum of the reactions of the lower (0) or upper (1) face.
+std::array<double, 3> reaction(const Blocks& blocks, const Vector& r, int block) {
+  std::array<double, 3> mine{};
   for (std::size_t row = 0; row < blocks.dofs->getNodeNumElements(); ++row) {
     const GlobalOrdinal id = blocks.dofs->getGlobalElement(static_cast<LocalOrdinal>(row));
-    if (Blocks::held(id / 2) && Blocks::block_of(id / 2) == block) mine[id % 2] += r.getData()[row];
+    const GlobalOrdinal node = id / blocks.dimension;
+    if (blocks.held(node) && blocks.block_of(node) == block) mine[id % blocks.dimension] += r.getData()[row];
   }
-  return {sum_over_ranks(blocks, mine[0]), sum_over_ranks(blocks, mine[1])};
+  for (double& sum : mine) sum = sum_over_ranks(blocks, sum);
+  return mine;
 }
 
 bool near(const char* what, double value, double expected, double scale) {
@@ -120,9 +32,10 @@ bool near(const char* what, double value, double expected, double scale) {
 }
 
 // Presses by `down` until time 1, then draws to the right by `right` until time 2.
-int run() {
+bool run(int dimension) {
   constexpr double down = 0.02, right = 0.12, force = E * down * width / height;
-  const Blocks blocks;
+  const Blocks blocks(dimension);
+  const int up = dimension - 1;
   const ContactSystem contact(blocks.nodes, blocks.dofs, blocks.reference, blocks.fixed, {}, {blocks.pair(friction)}, Timers());
   Matrix K(blocks.graph());
   blocks.assemble(K);
@@ -138,10 +51,10 @@ int run() {
   double time = 0.0, step = 0.25;
   while (time < 2.0) {
     for (const GlobalOrdinal id : blocks.dofs->getNodeElementList())
-      if (Blocks::held(id / 2) && Blocks::block_of(id / 2) == 1)
-        target.replaceGlobalValue(id, id % 2 == 0 ? right * std::max(0.0, time + step - 1.0) : -down * std::min(1.0, time + step));
+      if (const GlobalOrdinal node = id / dimension, i = id % dimension; blocks.held(node) && blocks.block_of(node) == 1)
+        target.replaceGlobalValue(id, i == 0 ? right * std::max(0.0, time + step - 1.0) : i == up ? -down * std::min(1.0, time + step) : 0.0);
     const Vector d_start(d, Teuchos::Copy), z_start(z, Teuchos::Copy);
-    Solved solved{false, Vector(blocks.dofs), {}};
+    Solved solved{false, Vector(blocks.dofs), {}, {}};
     try {
       solved = solve_step(blocks, contact, history, K, *solver, target, d, z);
     } catch (const StepFailure&) {
@@ -157,10 +70,10 @@ int run() {
     history = contact.commit(*laws);
     time += step;
     const auto below = reaction(blocks, solved.r, 0), above = reaction(blocks, solved.r, 1);
-    // Poisson's ratio 0: one column of height 2, whatever the meshes. Then: forces balance, and so does each body.
-    if (time == 1.0) all_right &= near("the pressing force", -above[1], force, force) && near("the shear force", above[0], 0.0, force);
+    // Poisson's ratio 0: one column of height 2 and section 1, whatever the meshes. Then: forces balance, and so does each body.
+    if (time == 1.0) all_right &= near("the pressing force", -above[up], force, force) && near("the shear force", above[0], 0.0, force);
     const auto on_slave = resultant(*laws, 0);
-    for (int i = 0; i < 2; ++i)
+    for (int i = 0; i < dimension; ++i)
       all_right &= near("the sum of both reactions", below[i] + above[i], 0.0, force) &&
                    near("the contact force", std::abs(on_slave[i]), std::abs(above[i]), force);
   }
@@ -168,7 +81,7 @@ int run() {
   for (const ContactNodeState& node : node_states(*laws, 0))
     if (node.closed)
       all_right &= node.state == ContactState::slip && near("the shear traction", std::abs(node.shear), friction * node.pressure, force);
-  return all_right && laws->norms(history->states).active > 0 ? 0 : 1;
+  return all_right && laws->norms(history->states).active > 0;
 }
 
 }  // namespace host
@@ -176,7 +89,8 @@ int run() {
 int main(int argc, char** argv) {
   Tpetra::ScopeGuard scope(&argc, &argv);
   try {
-    return host::run();
+    const bool in_plane = host::run(2), in_space = host::run(3);
+    return in_plane && in_space ? 0 : 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

@@ -69,7 +69,7 @@ Decoupled decoupled(const TwoSurfaces& surfaces, const std::function<double(doub
 
   const RCP<const Graph> graph = contact.graph(at, [&] { return fixture.bulk; });
   const RCP<Matrix> A = symmetric_springs(surfaces, fixture.bulk, graph);
-  const CondensedContact condensed = at.linearise(laws).condense(*A, rhs);
+  const NodeElimination condensed = at.linearise(laws).condense(*A, rhs);
   A->fillComplete(fixture.dofs, fixture.dofs);
   const Decoupling decoupling = condensed.decoupling();
 

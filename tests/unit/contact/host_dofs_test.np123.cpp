@@ -94,7 +94,7 @@ TEST_P(HostDofs, GetTheSystemOfTheUsualNumbering) {
 
   const auto r = Fixture::vector(usual.fixture.dofs, [](GlobalOrdinal id) { return 5.0 * wiggle(7 * id + 3); });
   Vector usual_rhs(*r, Teuchos::Copy), host_rhs(*host.fixture.numbered(*r), Teuchos::Copy);
-  const CondensedContact usual_condensed = usual_linear.condense(*usual_K, usual_rhs), host_condensed = host_linear.condense(*host_K, host_rhs);
+  const NodeElimination usual_condensed = usual_linear.condense(*usual_K, usual_rhs), host_condensed = host_linear.condense(*host_K, host_rhs);
   expect_equal(block(*usual_K, usual_ids, usual_ids), block(*host_K, host_ids, host_ids), "condensed K");
   expect_equal(Fixture::dense(usual_rhs, usual_ids), Fixture::dense(host_rhs, host_ids), "condensed rhs");
 

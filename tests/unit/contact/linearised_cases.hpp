@@ -279,6 +279,20 @@ inline ContactHistory start(const Fixture& fixture) {
   return contact.with_clearances(updated(contact, contact.evaluate(*before, history).laws(*pressed), history), 0.5);
 }
 
+/// The solution of A x = b. Corrections with residuals of more digits make up for what a badly scaled A takes of them.
+inline Eigen::VectorXd refined_solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
+  using Exact = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+  const Eigen::FullPivLU<Eigen::MatrixXd> factors(A);
+  const Exact of_A = A.cast<long double>(), of_b = b.cast<long double>();
+  Exact x = Exact::Zero(b.size(), 1);
+  for (int refinement = 0; refinement < 3; ++refinement) {
+    const Exact left = of_b - of_A * x;
+    const Eigen::VectorXd residual = left.col(0).cast<double>();
+    x += factors.solve(residual).cast<long double>();
+  }
+  return x.col(0).cast<double>();
+}
+
 // Some nodes pressed, some open (in 3D those further on too); the tangential part is not zero, as it is before Newton has converged.
 inline double pressure(std::size_t node) {
   return node == 1 || node == 2 || node == 3 || node == 4 ? 3.0 + node : (node == 0 ? 2.0 : node > 5 && node % 3 != 0 ? 2.5 : 0.0);

@@ -157,7 +157,7 @@ static_assert(!std::is_constructible_v<DifferentiatedContact, ContactEvaluation>
 static_assert(!std::is_default_constructible_v<ContactHistory>, "there is no step without a history");
 static_assert(!std::is_default_constructible_v<ContactEvaluation> && !std::is_default_constructible_v<DifferentiatedContact>);
 static_assert(!std::is_default_constructible_v<ContactLaws>, "there are no conditions without an evaluation");
-static_assert(!std::is_default_constructible_v<CondensedContact>, "nothing is recovered before condense()");
+static_assert(!std::is_default_constructible_v<NodeElimination>, "nothing is recovered before condense()");
 
 /// A model, and a step from where it starts.
 struct Started {

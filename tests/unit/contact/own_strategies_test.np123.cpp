@@ -149,7 +149,7 @@ struct PressedBlocks {
       }
       const ContactLinearisation linearised = at.linearise(laws);
       linearised.add_stiffness(*matrix);
-      CondensedContact condensed = linearised.condense(*matrix, *springs);
+      NodeElimination condensed = linearised.condense(*matrix, *springs);
       const Eigen::VectorXd change = Fixture::dense(*matrix, ids, ids).fullPivLu().solve(Fixture::dense(*springs, ids));
       const auto increment = Fixture::vector(fixture.dofs, [&](GlobalOrdinal dof) { return change[dof]; });
       condensed.recover(*increment, *z);

@@ -70,6 +70,16 @@ std::shared_ptr<const InterfaceDofs> ContactModel::dofs_of(std::size_t pair, con
   return kept = result;
 }
 
+RCP<Vector> ContactModel::weights() const {
+  const auto result = rcp(new Vector(multipliers));
+  const auto view = result->getLocalViewHost(Tpetra::Access::OverwriteAll);
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    for (std::size_t s = 0; s < multiplier_of[p].size(); ++s)
+      for (int i = 0; i < dimension; ++i)
+        if (const LocalOrdinal first = multiplier_of[p][s]; first >= 0) view(first + i, 0) = pairs[p]->slave_nodes()[s].weight;
+  return result;
+}
+
 double ContactModel::sum(double value) const {
   double all = 0.0;
   Teuchos::reduceAll(comm(), Teuchos::REDUCE_SUM, value, Teuchos::outArg(all));
@@ -184,21 +194,12 @@ std::optional<std::size_t> ContactSystem::second_pass(std::size_t pair) const { 
 ContactGeometry ContactSystem::geometry(std::size_t pair) const { return model_->pairs[pair]->definition().options.geometry; }
 bool ContactSystem::keeps_multipliers() const { return model_->keeps_multipliers(); }
 const RCP<const Map>& ContactSystem::multiplier_map() const { return model_->multipliers; }
+RCP<Vector> ContactSystem::weights() const { return model_->weights(); }
 
 std::vector<GlobalOrdinal> ContactSystem::slave_ids(std::size_t pair) const {
   std::vector<GlobalOrdinal> ids;
   for (const SlaveNode& node : model_->pairs[pair]->slave_nodes()) ids.push_back(node.id);
   return ids;
-}
-
-RCP<Vector> ContactSystem::weights() const {
-  const auto result = rcp(new Vector(model_->multipliers));
-  const auto view = result->getLocalViewHost(Tpetra::Access::OverwriteAll);
-  for (std::size_t p = 0; p < model_->pairs.size(); ++p)
-    for (std::size_t s = 0; s < model_->multiplier_of[p].size(); ++s)
-      for (int i = 0; i < model_->dimension; ++i)
-        if (const LocalOrdinal first = model_->multiplier_of[p][s]; first >= 0) view(first + i, 0) = model_->pairs[p]->slave_nodes()[s].weight;
-  return result;
 }
 
 ContactEvaluation ContactSystem::evaluate(const NodalDisplacement& d, const ContactHistory& history) const {

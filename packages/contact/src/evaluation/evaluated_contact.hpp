@@ -76,6 +76,8 @@ struct ContactModel {
     }
     return result;
   }
+  /// ContactSystem::weights().
+  RCP<Vector> weights() const;
   /// Sums and largest values over ranks.
   double sum(double value) const;
   double maximum(double value) const;

@@ -1,10 +1,9 @@
-// The linearised contact: C~, condensation of the multipliers, their recovery.
+// The linearised contact: C~, condensation of the multipliers.
 
 #include "linearisation/condensation.hpp"
 
 #include <Eigen/LU>
 #include <Tpetra_CrsMatrix.hpp>
-#include <Tpetra_Import.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
@@ -15,10 +14,10 @@
 namespace mortise {
 namespace {
 
+using detail::EliminatedNode;
 using detail::NodePositions;
 using detail::NodeRow;
 using detail::PairEvaluation;
-using detail::RecoveryRow;
 
 // A local row of a filled matrix, copied.
 void copy_row(const Matrix& matrix, LocalOrdinal row, std::vector<LocalOrdinal>& columns, std::vector<double>& values) {
@@ -33,7 +32,7 @@ void copy_row(const Matrix& matrix, LocalOrdinal row, std::vector<LocalOrdinal>&
 double own_row_scale(int a, const SlaveNode& slave, const NodeRow& node) { return a == 0 ? -slave.weight : -node.D; }
 
 // True if a condition does not replace the momentum of a fixed component.
-bool in_own_rows(const RecoveryRow& kept, int a) { return std::find(kept.condition.begin(), kept.condition.end(), a) == kept.condition.end(); }
+bool in_own_rows(const EliminatedNode& kept, int a) { return std::find(kept.condition.begin(), kept.condition.end(), a) == kept.condition.end(); }
 
 void replace_row(Matrix& matrix, LocalOrdinal row, const std::vector<LocalOrdinal>& columns, const std::vector<double>& values) {
   matrix.replaceLocalValues(row, static_cast<LocalOrdinal>(columns.size()), values.data(), columns.data());
@@ -115,14 +114,12 @@ void detail::Condensation::eliminate_by_law(std::size_t p, std::size_t s, Matrix
   const NodeRow& node = pair.row(s);
   const std::vector<LocalOrdinal>& coupled = pair.coupled_nodes(s);
 
-  RecoveryRow row;
+  EliminatedNode row;
   row.multiplier = model().multiplier_of[p][s];
   row.pair = p;
   row.node = s;
   row.by_law = true;
   row.columns = columns_of(positions, coupled, dimension);
-  row.z = multiplier.z;
-  row.C = law.C;
   row.inverse = law.C_z.inverse();
   for (std::size_t c = 0; c < dimension * coupled.size(); ++c) {
     if (positions.column[dimension * coupled[c / dimension] + c % dimension] < 0) continue;
@@ -140,7 +137,7 @@ void detail::Condensation::eliminate_by_law(std::size_t p, std::size_t s, Matrix
   };
   add(pair.slave_nodes()[s].local_node, node.D);
   for (std::size_t c = 0; c < coupled.size(); ++c) add(coupled[c], node.coefficients[c]);
-  recovery.push_back(std::move(row));
+  nodes.push_back(std::move(row));
 }
 
 // For a closed node j take the linearised momentum rows  D z = rhs_j - K~_j dd  (rhs = -r without f_c, free components) and the linearised C_tau = 0
@@ -166,7 +163,7 @@ void detail::Condensation::condense_node(std::size_t p, std::size_t s, Matrix& s
   const std::vector<LocalOrdinal>& coupled = pair.coupled_nodes(s);
   const LocalOrdinal* own_rows = own_rows_of(slave);
 
-  RecoveryRow kept;
+  EliminatedNode kept;
   kept.multiplier = model().multiplier_of[p][s];
   kept.pair = p;
   kept.node = s;
@@ -188,8 +185,6 @@ void detail::Condensation::condense_node(std::size_t p, std::size_t s, Matrix& s
       const SpatialVector gradient = pair.constraint_gradient(law, s, dimension * c + i, multiplier);
       for (int a = 0; a < dimension; ++a) constraint[a][found - columns.begin()] += gradient[a];
     }
-  kept.z = multiplier.z;
-  kept.C = law.C;
   kept.C_z = law.C_z;
 
   // E z^{k+1} = e - L dd, one row for each component: momentum where free, where fixed the condition along the tangent that is this component.
@@ -250,11 +245,12 @@ void detail::Condensation::condense_node(std::size_t p, std::size_t s, Matrix& s
     }
     replace_row(system, own_rows[i], columns, values);
   }
-  recovery.push_back(std::move(kept));
+  nodes.push_back(std::move(kept));
 }
 
 // Does to the right-hand side what the two functions above do, in the same order.
-void detail::Condensation::add_right_hand_side(RecoveryRow& kept, const SpatialVector& z, const SpatialVector& C, Vector& rhs) {
+SpatialVector detail::Condensation::condense_right_hand_side(const EliminatedNode& kept, const SpatialVector& z, const SpatialVector& C,
+                                                             Vector& rhs) const {
   const PairEvaluation& pair = this->pair(kept.pair);
   const int dimension = model().dimension;
   const NodePositions& positions = scatter->positions(kept.pair);
@@ -262,16 +258,15 @@ void detail::Condensation::add_right_hand_side(RecoveryRow& kept, const SpatialV
   const NodeRow& node = pair.row(kept.node);
   const std::vector<LocalOrdinal>& coupled = pair.coupled_nodes(kept.node);
   const LocalOrdinal* own_rows = own_rows_of(slave);
-  const auto add_to_coupled = [&] {
+  const auto add_to_coupled = [&](const SpatialVector& b) {
     for (std::size_t c = 0; c < coupled.size(); ++c)
-      for (int i = 0; i < dimension && node.coefficients[c] != 0.0; ++i)
-        scatter->add(rhs, positions, coupled[c], i, -node.coefficients[c] * kept.b[i]);
+      for (int i = 0; i < dimension && node.coefficients[c] != 0.0; ++i) scatter->add(rhs, positions, coupled[c], i, -node.coefficients[c] * b[i]);
   };
   if (kept.by_law) {
-    kept.b = z - kept.inverse * C;
-    for (int i = 0; i < dimension && node.D != 0.0; ++i) scatter->add(rhs, positions, slave.local_node, i, -node.D * kept.b[i]);
-    add_to_coupled();
-    return;
+    const SpatialVector b = z - kept.inverse * C;
+    for (int i = 0; i < dimension && node.D != 0.0; ++i) scatter->add(rhs, positions, slave.local_node, i, -node.D * b[i]);
+    add_to_coupled(b);
+    return b;
   }
   const SpatialVector constant = C - kept.C_z * z;
   SpatialVector e(dimension), right(dimension);
@@ -279,9 +274,9 @@ void detail::Condensation::add_right_hand_side(RecoveryRow& kept, const SpatialV
     const auto view = rhs.getLocalViewHost(Tpetra::Access::ReadOnly);
     for (int i = 0; i < dimension; ++i) e[i] = kept.condition[i] < 0 ? view(own_rows[i], 0) : -constant[kept.condition[i]];
   }
-  kept.b = kept.inverse * e;
-  add_to_coupled();
-  for (int a = 0; a < dimension; ++a) right[a] = -own_row_scale(a, slave, node) * (constant[a] + kept.C_z.row(a).dot(kept.b));
+  const SpatialVector b = kept.inverse * e;
+  add_to_coupled(b);
+  for (int a = 0; a < dimension; ++a) right[a] = -own_row_scale(a, slave, node) * (constant[a] + kept.C_z.row(a).dot(b));
   const auto out = rhs.getLocalViewHost(Tpetra::Access::ReadWrite);
   for (int i = 0; i < dimension; ++i) {
     if (slave.fixed[i]) continue;
@@ -290,30 +285,55 @@ void detail::Condensation::add_right_hand_side(RecoveryRow& kept, const SpatialV
       if (in_own_rows(kept, a)) value += kept.axes(a, i) * right[a];
     out(own_rows[i], 0) = value;
   }
+  return b;
 }
 
-void detail::Condensation::condense_right_hand_side(const Vector* C, Vector& rhs) {
-  const SpatialVector none = SpatialVector::Zero(model().dimension);
-  const auto part = [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      RecoveryRow& row = recovery[k];
-      if (C == nullptr)
-        add_right_hand_side(row, row.z, row.C, rhs);
-      else
-        add_right_hand_side(row, none, model().z_of(C->getLocalViewHost(Tpetra::Access::ReadOnly), row.pair, row.node), rhs);
+// Open nodes have z^{k+1} = 0. Their rows of any other C are  dz = -C,  as of a law with C_z = I.
+std::vector<EliminatedNode> detail::Condensation::open_nodes(const Vector& C) const {
+  const auto view = C.getLocalViewHost(Tpetra::Access::ReadOnly);
+  std::vector<EliminatedNode> result;
+  for (std::size_t p = 0; p < model().pairs.size(); ++p)
+    for (std::size_t s = 0; s < model().multiplier_of[p].size(); ++s) {
+      const LocalOrdinal multiplier = model().multiplier_of[p][s];
+      if (multiplier < 0 || at().state(p, s) != ContactState::open || model().z_of(view, p, s).isZero(0.0)) continue;
+      EliminatedNode& node = result.emplace_back();
+      node.multiplier = multiplier;
+      node.pair = p;
+      node.node = s;
+      node.by_law = true;
+      node.inverse = SpatialMatrix::Identity(model().dimension, model().dimension);
     }
-    scatter->finish(rhs);
-  };
-  if (model().middles_first) part(0, middles_condensed);
-  part(model().middles_first ? middles_condensed : 0, recovery.size());
+  return result;
 }
 
-CondensedContact ContactLinearisation::condense(Matrix& system, Vector& rhs) const {
+RCP<Vector> detail::Condensation::condense_right_hand_side(const Vector* C, Vector& rhs) const {
+  const SpatialVector none = SpatialVector::Zero(model().dimension);
+  const std::vector<EliminatedNode> open = C == nullptr ? std::vector<EliminatedNode>{} : open_nodes(*C);
+  const auto b = rcp(new Vector(model().multipliers));
+  const auto b_of_nodes = b->getLocalViewHost(Tpetra::Access::ReadWrite);
+  const auto condense = [&](const EliminatedNode& node) {
+    const SpatialVector& z = C == nullptr ? at().multipliers[node.pair][node.node].z : none;
+    const SpatialVector C_j =
+        C == nullptr ? at().laws[node.pair][node.node].C : model().z_of(C->getLocalViewHost(Tpetra::Access::ReadOnly), node.pair, node.node);
+    const SpatialVector b_j = condense_right_hand_side(node, z, C_j, rhs);
+    for (int i = 0; i < model().dimension; ++i) b_of_nodes(node.multiplier + i, 0) = b_j[i];
+  };
+  for (const bool middles : {true, false}) {
+    if (middles && !model().middles_first) continue;
+    for (const auto* some : {&nodes, &open})
+      for (const EliminatedNode& node : *some)
+        if (pair(node.pair).pair().before_corners(node.node) == middles) condense(node);
+    scatter->finish(rhs);
+  }
+  return b;
+}
+
+NodeElimination ContactLinearisation::condense(Matrix& system, Vector& rhs) const {
   const detail::EvaluatedLaws& laws = detail::evaluated(laws_);
   const detail::ContactModel& model = *laws.contact->model;
   if (model.keeps_multipliers())
     throw std::logic_error("contact: condense() where a formulation keeps its multipliers as unknowns: solve with saddle_point_blocks()");
-  const auto condensation = std::make_shared<detail::Condensation>(detail::Condensation{laws_, scatter_into(*laws.contact, system), {}, 0, {}});
+  const auto condensation = std::make_shared<detail::Condensation>(detail::Condensation{laws_, scatter_into(*laws.contact, system), {}, {}});
   const auto scope = model.timers.scope("condensation");
   for (const bool middles : {true, false}) {
     if (middles && !model.middles_first) continue;
@@ -328,48 +348,10 @@ CondensedContact ContactLinearisation::condense(Matrix& system, Vector& rhs) con
       }
     }
     condensation->scatter->finish(system);
-    if (middles) condensation->middles_condensed = condensation->recovery.size();
   }
-  condensation->condense_right_hand_side(nullptr, rhs);
+  const RCP<const Vector> b = condensation->condense_right_hand_side(nullptr, rhs);
   condensation->left_out = detail::tied_conditions(laws);
-  return CondensedContact(condensation);
-}
-
-void CondensedContact::condense_right_hand_side(const Vector& C, Vector& rhs) {
-  const auto scope = condensation_->model().timers.scope("condensation");
-  condensation_->condense_right_hand_side(&C, rhs);
-}
-
-void CondensedContact::recover(const Vector& increment, Vector& z_new) const {
-  const auto scope = condensation_->model().timers.scope("condensation");
-  const Graph& graph = *condensation_->scatter->graph();
-  Vector on_columns(graph.getColMap());
-  if (graph.getImporter().is_null())
-    Tpetra::deep_copy(on_columns, increment);
-  else
-    on_columns.doImport(increment, *graph.getImporter(), Tpetra::REPLACE);
-  const auto d = on_columns.getLocalViewHost(Tpetra::Access::ReadOnly);
-  z_new.putScalar(0.0);
-  const auto z = z_new.getLocalViewHost(Tpetra::Access::ReadWrite);
-  for (const RecoveryRow& row : condensation_->recovery)
-    for (int i = 0; i < condensation_->model().dimension; ++i) {
-      double value = row.b[i];
-      for (std::size_t k = 0; k < row.columns.size(); ++k) value += row.S[i][k] * d(row.columns[k], 0);
-      z(row.multiplier + i, 0) = value;
-    }
-}
-
-bool CondensedContact::leaves_out_couplings() const { return !condensation_->left_out.of_multipliers.is_null(); }
-
-void CondensedContact::apply_left_out(const Vector& dd, const Vector& dz, Vector& y) const {
-  const detail::TieBlocks& left_out = condensation_->left_out;
-  if (left_out.of_multipliers.is_null()) {
-    y.putScalar(0.0);
-    return;
-  }
-  const auto scope = condensation_->model().timers.scope("condensation");
-  left_out.of_multipliers->apply(dz, y);
-  left_out.of_positions->apply(dd, y, Teuchos::NO_TRANS, 1.0, 1.0);
+  return NodeElimination(condensation, b, laws.z);
 }
 
 ContactLinearisation DifferentiatedContact::linearise(const ContactLaws& laws) const {

@@ -1,5 +1,5 @@
 #pragma once
-// Multipliers condensed into the bodies' system, and what is kept to find them again.
+// Multipliers condensed into the bodies' system, and the data that recovers them.
 
 #include <array>
 #include <memory>
@@ -9,28 +9,25 @@
 
 namespace mortise::detail {
 
-/// The affine map z^{k+1} = b + S dd of a closed node. Columns of S are the local ones of the system.
-struct RecoveryRow {
+/// The affine map z = b + S dd of a closed node. Columns of S are the local ones of the system.
+struct EliminatedNode {
   LocalOrdinal multiplier = 0;  ///< local index of the first component in z
-  SpatialVector b;
   std::vector<LocalOrdinal> columns;
   std::array<std::vector<double>, 3> S;  ///< [dim]
 
   // Data that makes b, and the node's right-hand side, from residuals. Of a node that is eliminated by its law  b = z - C_z^-1 C.
   std::size_t pair = 0, node = 0;
   bool by_law = false;
-  SpatialVector z, C;            ///< of the iterate
   SpatialMatrix inverse;         ///< C_z^-1; else E^-1 of condense_node()
   SpatialMatrix C_z, axes;       ///< [conditions x dim]; rows of `axes`: n, tau_a
   std::array<int, 3> condition;  ///< [dim] the condition in place of the momentum of a fixed component; -1: none
 };
 
-/// One condensed system.
+/// The elimination of all nodes from one matrix.
 struct Condensation {
   ContactLaws laws;
   std::shared_ptr<SystemScatter> scatter;
-  std::vector<RecoveryRow> recovery;
-  std::size_t middles_condensed = 0;  ///< the first of them
+  std::vector<EliminatedNode> nodes;  ///< closed ones
   TieBlocks left_out;                 ///< L; null: nothing is
 
   const EvaluatedLaws& at() const { return evaluated(laws); }
@@ -43,9 +40,15 @@ struct Condensation {
 
   void condense_node(std::size_t pair, std::size_t s, Matrix& system);
   void eliminate_by_law(std::size_t pair, std::size_t s, Matrix& system);
-  void add_right_hand_side(RecoveryRow& row, const SpatialVector& z, const SpatialVector& C, Vector& rhs);
+  /// b of a node with the multiplier z and the conditions C. Changes the node's part of the right-hand side.
+  SpatialVector condense_right_hand_side(const EliminatedNode& node, const SpatialVector& z, const SpatialVector& C, Vector& rhs) const;
+  /// Open nodes in whose rows C is not 0.
+  std::vector<EliminatedNode> open_nodes(const Vector& C) const;
+  /// b of all nodes. Condenses the right-hand side.
   /// @param C  null: that of the iterate, for z^{k+1}; else for an increment of z
-  void condense_right_hand_side(const Vector* C, Vector& rhs);
+  RCP<Vector> condense_right_hand_side(const Vector* C, Vector& rhs) const;
+  /// S [multipliers x dofs].
+  RCP<Matrix> slopes() const;
 };
 
 /// Adds the stiffness of a pair of variational mortar beyond what the facets' dD and dM give, as ContactLinearisation::add_stiffness() asks.

@@ -51,7 +51,7 @@ class SlaveRows {
 };
 
 /// The linearised momentum of a condensed node, as its own motion changes it, of the z = b + S dd that was kept.
-SpatialMatrix own_stiffness(const detail::RecoveryRow& kept, const detail::NodePositions& positions, LocalOrdinal node, double D, int dimension) {
+SpatialMatrix own_stiffness(const detail::EliminatedNode& kept, const detail::NodePositions& positions, LocalOrdinal node, double D, int dimension) {
   SpatialMatrix K(dimension, dimension);
   for (int k = 0; k < dimension; ++k) {
     const LocalOrdinal own = positions.column[dimension * node + k];
@@ -109,7 +109,7 @@ Directions directions(const SpatialMatrix& free, const detail::NodeRow& row, con
 
 }  // namespace
 
-Decoupling CondensedContact::decoupling() const {
+Decoupling NodeElimination::decoupling() const {
   const detail::EvaluatedLaws& laws = condensation_->at();
   const detail::ContactModel& self = *laws.contact->model;
   const int dimension = self.dimension;
@@ -124,7 +124,7 @@ Decoupling CondensedContact::decoupling() const {
       }
     }
   std::vector<std::size_t> kept_of(laws.z->getLocalLength());
-  for (std::size_t k = 0; k < condensation_->recovery.size(); ++k) kept_of[static_cast<std::size_t>(condensation_->recovery[k].multiplier)] = k;
+  for (std::size_t k = 0; k < condensation_->nodes.size(); ++k) kept_of[static_cast<std::size_t>(condensation_->nodes[k].multiplier)] = k;
   SlaveRows trial(self.dofs, sizes, self.middles_first), test(self.dofs, sizes, self.middles_first);
   Decoupling result;
   std::vector<std::pair<const LocalOrdinal*, SpatialMatrix>> eliminated;  // own rows, N_j
@@ -143,7 +143,7 @@ Decoupling CondensedContact::decoupling() const {
       SpatialMatrix free = SpatialMatrix::Zero(dimension, dimension);  // I - F
       for (int i = 0; i < dimension; ++i) free(i, i) = slave.fixed[i] ? 0.0 : 1.0;
       const auto stiffness_of_node = [&] {
-        const detail::RecoveryRow& kept = condensation_->recovery[kept_of[static_cast<std::size_t>(self.multiplier_of[p][s])]];
+        const detail::EliminatedNode& kept = condensation_->nodes[kept_of[static_cast<std::size_t>(self.multiplier_of[p][s])]];
         return own_stiffness(kept, condensation_->scatter->positions(p), slave.local_node, row.D, dimension);
       };
       const auto [N, P, Q] = directions(free, row, pair.frame(s), laws.laws[p][s], stiffness_of_node);

@@ -51,15 +51,9 @@ LinearSystem with_contact(const SystemModel& model, const EvaluatedSystem& at, c
   Vector contact_force(model.parts().dofs);
   at.laws->add_force(contact_force);
   system.rhs->update(1.0, contact_force, 1.0);  // -r without f_c
-  system.condensed = std::make_shared<CondensedContact>(linearised.condense(*system.matrix, *system.rhs));
+  system.condensed = std::make_shared<const NodeElimination>(linearised.condense(*system.matrix, *system.rhs));
   // The linear solver keeps the function until its next matrix, but what it asks must not stay as long.
-  system.multigrid.decoupling = [condensed = std::weak_ptr<CondensedContact>(system.condensed)] { return condensed.lock()->decoupling(); };
-  system.recover = [&model, &at, condensed = system.condensed, inner = system.recover](const Vector& u, Vector& dd, Vector& dz) {
-    inner(u, dd, dz);
-    Vector z_new(model.multipliers());
-    condensed->recover(dd, z_new);
-    dz.update(1.0, z_new, -1.0, *at.z, 0.0);
-  };
+  system.multigrid.decoupling = [condensed = std::weak_ptr<const NodeElimination>(system.condensed)] { return condensed.lock()->decoupling(); };
   return system;
 }
 

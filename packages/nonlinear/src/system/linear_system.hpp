@@ -23,12 +23,12 @@ struct LinearSystem {
   RCP<Matrix> matrix;
   bool has_new_pattern = true;  ///< once it is constrained: its entries are not those of the system before
   RCP<Vector> rhs;
-  std::vector<LocalOrdinal> prescribed;         ///< owned rows of the matrix
-  RCP<Vector> increment;                        ///< [rows of the matrix] of what is prescribed
-  MultigridInput multigrid;                     ///< of this matrix
-  std::optional<KeptMultipliers> kept;          ///< none: multipliers are condensed, or already merged
-  std::shared_ptr<CondensedContact> condensed;  ///< null: they are kept, or there are none
-  /// The way back: (dd, dz) from u.
+  std::vector<LocalOrdinal> prescribed;              ///< owned rows of the matrix
+  RCP<Vector> increment;                             ///< [rows of the matrix] of what is prescribed
+  MultigridInput multigrid;                          ///< of this matrix
+  std::optional<KeptMultipliers> kept;               ///< none: multipliers are condensed, or already merged
+  std::shared_ptr<const NodeElimination> condensed;  ///< null: they are kept, or there are none
+  /// The way back: dd from u, and dz of kept multipliers. Those that are condensed follow by NodeElimination::complete().
   std::function<void(const Vector& u, Vector& dd, Vector& dz)> recover;
   /// Both ways for further right-hand sides, where nothing is prescribed and followers are where they follow: b from rows of the dofs, dd from u.
   std::function<RCP<Vector>(const Vector& rows)> restricted;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <string>
 
-#include "system/left_out_couplings.hpp"
 #include "system/linear_system.hpp"
 
 namespace mortise {
@@ -20,25 +19,6 @@ StepFailure explained(const SystemModel& model, const StepFailure& failure) {
   return StepFailure(failure.kind(), std::string(failure.what()) +
                                          "; two passes ask for contact at the nodes of both sides, which over-constrains surfaces that touch over "
                                          "more than a facet: take \"passes\" \"single\", or a mortar formulation");
-}
-
-// From the step of J~ to that of J = J~ + L, see left_out_couplings.hpp. With J~ (dd, dz) = -(0, C) displacements that are prescribed or follow
-// others do not change, and neither do multipliers of open nodes.
-void correct(const SystemModel& model, const detail::LinearSystem& system, double tolerance, LinearSolveReport& report, Vector& dd, Vector& dz) {
-  const auto scope = model.timers().scope("tied multipliers");
-  CondensedContact& condensed = *system.condensed;
-  const auto solve = [&](const Vector& C, Vector& change_d, Vector& change_z) {
-    Vector rhs(model.parts().dofs);
-    condensed.condense_right_hand_side(C, rhs);
-    const RCP<Vector> b = system.restricted(rhs);
-    Vector u(b->getMap());
-    report.iterations += model.parts().linear_solver->solve(*b, u, tolerance).iterations;
-    Tpetra::deep_copy(change_d, *system.prolonged(u));
-    condensed.recover(change_d, change_z);
-  };
-  detail::correct_step(
-      *model.parts().contact->weights(), std::max(tolerance, 1e-10), solve,
-      [&](const Vector& change_d, const Vector& change_z, Vector& y) { condensed.apply_left_out(change_d, change_z, y); }, dd, dz);
 }
 
 }  // namespace
@@ -98,7 +78,16 @@ LinearSolveReport SystemLinearisation::newton_direction(const Vector& F, Vector&
   }
   const RCP<Vector> dd = model.d(direction), dz = model.z(direction);
   system.recover(u, *dd, *dz);
-  if (system.condensed && system.condensed->leaves_out_couplings()) correct(model, system, tolerance, report, *dd, *dz);
+  if (system.condensed) {
+    // Where only C differs nothing prescribed moves, nor does what follows or is tied by itself.
+    const auto solve = [&](const Vector& right, Vector& change) {
+      const RCP<Vector> b = system.restricted(right);
+      Vector q(b->getMap());
+      report.iterations += solver.solve(*b, q, tolerance).iterations;
+      Tpetra::deep_copy(change, *system.prolonged(q));
+    };
+    system.condensed->complete(solve, *dd, *dz, nullptr, std::max(tolerance, 1e-10));
+  }
   if (held != nullptr) held->take_out(*dd);
   return report;
 }

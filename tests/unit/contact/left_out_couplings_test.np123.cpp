@@ -1,5 +1,5 @@
 // Newton's step where condensation leaves couplings out, against the solution of the whole system.
-#include "system/left_out_couplings.hpp"
+#include "linearisation/left_out_couplings.hpp"
 
 #include <gtest/gtest.h>
 

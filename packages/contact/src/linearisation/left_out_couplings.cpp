@@ -1,4 +1,4 @@
-#include "system/left_out_couplings.hpp"
+#include "linearisation/left_out_couplings.hpp"
 
 #include <BelosConfigDefs.hpp>
 #include <BelosLinearProblem.hpp>

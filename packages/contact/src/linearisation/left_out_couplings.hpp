@@ -7,7 +7,7 @@
 
 namespace mortise::detail {
 
-/// The Jacobian is J = J~ + L, where J~ is what is condensed and L has rows of C only (CondensedContact::leaves_out_couplings()). The step of J
+/// The Jacobian is J = J~ + L, where J~ is what is condensed and L has rows of C only (tied_conditions.cpp). The step of J
 /// follows from that of J~, J~ dx_0 = -F. With s(w) = -J~^-1 (0, w) it is
 ///   dx = dx_0 + s(w),   w - L s(w) = L dx_0,
 /// since then J dx = -F + L dx_0 - (0, w) + L s(w) = -F. The equations in w, which has entries at few nodes, are solved by GMRES with rows that are
