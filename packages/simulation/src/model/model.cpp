@@ -388,8 +388,10 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
     parts_.bulk_version = [edges] { return edges->graph_version(); };
   }
   const std::array<double, 3> origin = contact_origin(*mesh_, size_.length, axisymmetric);
-  for (ContactPair& pair : pairs)
+  for (ContactPair& pair : pairs) {
+    pair.has_conditions_on_rate = scene.inertia.contact_condition == InertiaOptions::ContactCondition::gap_rate;
     if (pair.options.clearance) pair.options.clearance = seen_from(*pair.options.clearance, origin);
+  }
   parts_.contact = std::make_shared<ContactSystem>(mesh_->owned_nodes, bodies_->dofs(), reference_positions(*mesh_, origin), kept, measure,
                                                    std::move(pairs), timers);
 }
