@@ -313,8 +313,10 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   parts_.contributions.push_back(std::make_shared<BulkContribution>(bodies, timers));
 
   Collector collect;
+  std::vector<std::shared_ptr<LoadContribution>> loads;
   for (const auto& load : scene.loads)
-    collect([&] { parts_.contributions.push_back(std::make_shared<LoadContribution>(load.name, load.value.load.options->make(bodies_), timers)); });
+    collect([&] { loads.push_back(std::make_shared<LoadContribution>(load.name, load.value.load.options->make(bodies_), timers)); });
+  parts_.contributions.insert(parts_.contributions.end(), loads.begin(), loads.end());
   std::shared_ptr<const PrescribedMotion> motion;
   collect([&] {
     motion = std::make_shared<const PrescribedMotion>(*bodies_, scene.boundary_conditions);
@@ -358,6 +360,8 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
     mark_crosspoints(followed_by_ties(*mesh_, *parts_.tied), *kept);
   }
   inertia_ = add_inertia(scene, bodies_, motion->dofs(), timers, parts_);
+  if (inertia_.mass)
+    for (const auto& load : loads) load->weigh_by(inertia_.mass);
   surfaces_at_start_ = examine_surfaces(*mesh_, scene, size_.length);
   for (std::size_t p = 0; p < scene.contact.size(); ++p)
     if (pairs[p].facet_gaps) surfaces_at_start_.pairs[p].facet_gaps = range_over_ranks(*comm, *pairs[p].facet_gaps);
