@@ -206,6 +206,13 @@ inline std::vector<Case> cases() {
     all.push_back({"clearance, " + without->name, without->surfaces});
     all.back().surfaces.options.clearance = clearance;
   }
+  for (const auto& name : {"current", "axisymmetric", "reference", "coulomb, mixed", "hardly covered, coulomb", "space, coulomb, mixed",
+                           "quadratic, plane", "clearance, current"}) {
+    const auto on_gaps = std::find_if(all.begin(), all.end(), [&](const Case& one) { return one.name == name; });
+    if (on_gaps == all.end()) throw std::logic_error(name);
+    all.push_back({"gap rate, " + on_gaps->name, on_gaps->surfaces});
+    all.back().surfaces.has_conditions_on_rate = true;
+  }
   for (const NamedFormulation& formulation : other_formulations()) {
     if (formulation.options->coupling()->has_forces_of_gaps() || !formulation.options->coupling()->integrates_facets()) continue;
     add_friction("clearance, " + formulation.name, 0.12)->options.formulation.options = formulation.options;

@@ -29,6 +29,7 @@ struct Sheared {
 
   static TwoSurfaces surfaces() {
     TwoSurfaces surfaces = test::arch_on_ground();
+    surfaces.has_conditions_on_rate = true;
     auto coulomb = std::make_shared<CoulombFriction>();
     coulomb->coefficient = ScalarFunction(0.3);
     surfaces.options.friction.options = coulomb;

@@ -33,7 +33,8 @@ struct TwoSurfaces {
   std::vector<std::array<bool, 3>> fixed;     ///< [all nodes]
   ContactOptions options;
   InterfaceMeasure measure;
-  bool zeros_dropped = false;  ///< the bulk couples components of different nodes only with their likes, and its graph has nothing else
+  bool has_conditions_on_rate = false;  ///< ContactPair::has_conditions_on_rate
+  bool zeros_dropped = false;           ///< the bulk couples components of different nodes only with their likes, and its graph has nothing else
 
   std::size_t size() const { return slave.size() + master.size(); }
 };
@@ -315,6 +316,7 @@ class Fixture {
     pair.name = "pair";
     pair.youngs_modulus = 100.0;
     pair.options = surfaces_.options;
+    pair.has_conditions_on_rate = surfaces_.has_conditions_on_rate;
     const auto mine = [&](GlobalOrdinal node) { return nodes->isNodeGlobalElement(node); };
     std::copy_if(slave.begin(), slave.end(), std::back_inserter(pair.slave),
                  [&](const SurfaceFacet& facet) { return std::any_of(facet.begin(), facet.end(), mine); });

@@ -27,6 +27,7 @@ AcceptedContact accepted_state(const EvaluatedContact& contact, const RCP<const 
     if (pair.pair().friction() != nullptr)
       history.slip = pair.slip_references(multipliers[p], result.states[p].states, std::move(paths[p]), contact.positions);
     if (pair.pair().corner_rule() == CornerRule::nearest_facet) history.nearest_facets = pair.nearest_facets();
+    if (pair.pair().definition().has_conditions_on_rate) history.start_gaps = pair.mean_gaps();
   }
   return result;
 }

@@ -11,7 +11,6 @@
 namespace mortise {
 namespace {
 
-constexpr double touching = 1e-8;      // |g_j| / (A_j h) below which a node touches: then the sign of g is round-off
 constexpr double small_strain = 1e-6;  // the pressure it starts with, over Young's modulus
 /// Sets z_n of slave node s of a pair, and nothing along the surface.
 template <class View>
@@ -87,12 +86,12 @@ ContactHistory ContactSystem::start_step(const ContactHistory& accepted, const N
     const detail::PairEvaluation& pair = contact.pairs[p];
     const std::vector<detail::NodeMultiplier> multipliers = contact.multipliers_of(z, p);
     for (std::size_t s = 0; s < pair.slave_nodes().size(); ++s) {
-      if (!pair.covered(s)) {
+      if (!pair.covered(s) || !pair.may_close(s)) {
         if (self.multiplier_of[p][s] >= 0) set_pressure(self, pair, p, s, 0.0, values);
         continue;
       }
       const double gap = pair.gap_to_onset(s) / pair.slave_nodes()[s].weight;
-      if (std::abs(gap) < touching * pair.pair().size() && !pair.closed(s, multipliers[s]))
+      if (std::abs(gap) < detail::touching * pair.pair().size() && !pair.closed(s, multipliers[s]))
         set_pressure(self, pair, p, s, first_pressure(pair), values);
     }
   }

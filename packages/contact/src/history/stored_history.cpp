@@ -133,6 +133,7 @@ void serialize_accepted(StateArchive& archive, const ContactModel& model, Accept
     serialize(archive, name + ".ratio", history.settling.ratio);
     serialize(archive, name + ".last_change", history.settling.last_change);
     serialize(archive, name + ".allowed_overlap", history.allowed_overlap);
+    if (pair.definition().has_conditions_on_rate) serialize(archive, name + ".start_gaps", slaves, history.start_gaps);
     std::vector<int> states;
     for (const ContactState state : accepted.states[p].states) states.push_back(static_cast<int>(state));
     serialize(archive, name + ".states", slaves, states);

@@ -49,7 +49,7 @@ class Pair {
   /// facet that is not covered is no part of it: see FacetMoments.
   bool covered(std::size_t s, const NodeRow& row) const;
   /// True if conditions depend on what is covered of a node.
-  bool needs_covered() const { return enforcement_->depends_on_weight() || has_clearances(); }
+  bool needs_covered() const { return enforcement_->depends_on_weight() || has_clearances() || pair_.has_conditions_on_rate; }
   /// True if anything is added to the gaps that are drawn.
   bool has_clearances() const { return pair_.options.clearance.has_value() || pair_.facet_gaps != nullptr; }
   /// Number of slip measurements on this rank, over all calls.

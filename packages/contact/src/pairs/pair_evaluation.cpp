@@ -13,7 +13,7 @@ SpatialVector PairEvaluation::resultant(std::size_t s, const SpatialVector& z) c
 }
 
 bool PairEvaluation::closed(std::size_t s, const NodeMultiplier& multiplier) const {
-  return covered(s) && pair_->enforcement().is_closed(node(s, multiplier));
+  return covered(s) && may_close(s) && pair_->enforcement().is_closed(node(s, multiplier));
 }
 
 double PairEvaluation::gap(std::size_t s, const NodeMultiplier& multiplier) const {
@@ -28,6 +28,13 @@ TangentVector PairEvaluation::slip(std::size_t s, const NodeMultiplier& multipli
   if (multiplier.shift.size() > 0) slip -= frame(s).tangents * multiplier.shift;
   if (const TangentVector& tie = history().slip->ties[s]; tie.size() > 0) slip += tie;
   return slip;
+}
+
+std::vector<double> PairEvaluation::mean_gaps() const {
+  std::vector<double> gaps(slave_nodes().size(), 0.0);
+  for (std::size_t s = 0; s < gaps.size(); ++s)
+    if (covered(s)) gaps[s] = own_gap(s) / row(s).covered + gap_at_start(s);
+  return gaps;
 }
 
 TangentVector PairEvaluation::slip_in_contact(std::size_t s, const NodeMultiplier& multiplier) const {
@@ -100,7 +107,7 @@ ContactNode PairEvaluation::node(std::size_t s, const NodeMultiplier& multiplier
 }
 
 Complementarity PairEvaluation::law_of(std::size_t s, const NodeMultiplier& multiplier, std::optional<Diagnostic>* missing_bound) const {
-  if (!covered(s)) return open_node(multiplier.z);
+  if (!covered(s) || !may_close(s)) return open_node(multiplier.z);
   const ContactNode node = this->node(s, multiplier, missing_bound);
   Complementarity law = pair_->enforcement().law(node);
   for (Eigen::Index a = 0; a < node.held.count && law.slip_factor.size() > 0; ++a)
@@ -121,7 +128,7 @@ SpatialVector PairEvaluation::constraint_gradient(const Complementarity& law, st
   const auto column = static_cast<Eigen::Index>(entry);
   SpatialVector gradient = law.gap_factor * row.dgap[entry] + law.normal_factor * row.dnormal.col(column);
   if (law.slip_factor.size() > 0) gradient.tail(dimension() - 1) += law.slip_factor * geometry_->slips[s].dslip.col(column);
-  if (!row.dcovered.empty()) gradient += (law.weight_factor + clearance(s) * law.gap_factor) * row.dcovered[entry];
+  if (!row.dcovered.empty()) gradient += (law.weight_factor + offset(s) * law.gap_factor) * row.dcovered[entry];
   if (law.start_factor.size() > 0 && !geometry_->slips[s].dstart_gap.empty()) {
     double slope = geometry_->slips[s].dstart_gap[entry];
     if (!row.dcovered.empty()) slope += (clearance(s) + pair_->enforcement().onset()) * row.dcovered[entry];

@@ -12,6 +12,9 @@
 
 namespace mortise::detail {
 
+/// |g_j| / (A_j h) below which a node touches: then the sign of g is round-off.
+constexpr double touching = 1e-8;
+
 /// The multiplier of a slave node as its conditions see it.
 struct NodeMultiplier {
   SpatialVector z;
@@ -56,10 +59,18 @@ class PairEvaluation {
 
   /// Clearance that is added to the gap at slave node s, as a mean.
   double clearance(std::size_t s) const { return history().clearances.empty() ? 0.0 : history().clearances[s]; }
-  /// g of slave node s, with its clearance and beyond the overlap that is allowed: g_j + c_j sum_k D_jk.
+  /// The mean gap at the start of the step where conditions are on the gap's rate; else 0.
+  double gap_at_start(std::size_t s) const { return history().start_gaps.empty() ? 0.0 : history().start_gaps[s]; }
+  /// False in a step with conditions on the gap's rate that began with node s open.
+  bool may_close(std::size_t s) const { return gap_at_start(s) <= touching * pair_->size(); }
+  /// What conditions add to the mean gap.
+  double offset(std::size_t s) const { return clearance(s) - gap_at_start(s); }
+  /// g of slave node s as conditions see it, beyond the overlap that is allowed: g_j + c_j sum_k D_jk.
   double own_gap(std::size_t s) const {
-    return geometry_->gaps[s] + clearance(s) * row(s).covered + history().allowed_overlap * slave_nodes()[s].weight;
+    return geometry_->gaps[s] + offset(s) * row(s).covered + history().allowed_overlap * slave_nodes()[s].weight;
   }
+  /// [slave nodes] PairHistory::start_gaps of a step that starts here.
+  std::vector<double> mean_gaps() const;
   /// That and n . q.
   double gap(std::size_t s, const NodeMultiplier& multiplier) const;
   /// u - (T q - T^old q^old); 0 without friction.

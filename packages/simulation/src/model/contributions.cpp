@@ -1,5 +1,7 @@
 #include "model/contributions.hpp"
 
+#include <Tpetra_Vector.hpp>
+
 namespace mortise {
 
 BulkContribution::BulkContribution(std::shared_ptr<Bodies> bodies, const Timers& timers)
@@ -26,6 +28,12 @@ LoadContribution::LoadContribution(std::string name, std::unique_ptr<Load> load,
 
 void LoadContribution::add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) {
   const auto timer = count("loads");
+  if (mass_ && load_->is_weight()) {
+    Vector acceleration(residual.getMap());
+    load_->add_acceleration(at.time, acceleration, failure);
+    residual.update(-1.0, *mass_->times(acceleration), 1.0);
+    return;
+  }
   load_->add_residual(at.time, at.local_unknowns, residual, failure);
 }
 

@@ -11,6 +11,7 @@
 #include "mortise/solid/followers.hpp"
 #include "mortise/solid/full_turns.hpp"
 #include "mortise/solid/loads.hpp"
+#include "mortise/solid/nodal_mass.hpp"
 #include "mortise/solid/prescribed_motion.hpp"
 
 namespace mortise {
@@ -54,12 +55,15 @@ class BulkContribution final : public CountedContribution {
 class LoadContribution final : public CountedContribution {
  public:
   LoadContribution(std::string name, std::unique_ptr<Load> load, const Timers& timers);
+  /// Weight is then that of a scene's mass: rigid bodies have it too, and nodes without mass have none.
+  void weigh_by(std::shared_ptr<const NodalMass> mass) { mass_ = std::move(mass); }
   Kind kind() const override { return Kind::external; }
   void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) override;
   void add_jacobian(const Configuration& at, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>& failure) override;
 
  private:
   std::unique_ptr<Load> load_;
+  std::shared_ptr<const NodalMass> mass_;  ///< null: the scene has no inertia
 };
 
 /// Rigid bodies, and kinematic couplings of sets to reference points.

@@ -59,7 +59,8 @@ void report_inertia(const Scene& scene, const Model& model, RunLog& log) {
   if (mass.kept > 0)
     log.info(
         fmt::format("  {} nodes of contact surfaces keep their mass: they follow reference points, or have no interior node beside them", mass.kept));
-  if (!scene.contact.empty() && inertia.scheme == InertiaOptions::Scheme::generalised_alpha && inertia.spectral_radius > 0.95)
+  const bool keeps_energy = inertia.contact_condition == InertiaOptions::ContactCondition::gap_rate;  // for which it has to be 1
+  if (!scene.contact.empty() && inertia.scheme == InertiaOptions::Scheme::generalised_alpha && inertia.spectral_radius > 0.95 && !keeps_energy)
     log.warning(
         fmt::format("a \"spectral radius\" of {:g} hardly damps high frequencies, so that contact forces ring; please take 0.8, or at most 0.95",
                     inertia.spectral_radius));

@@ -36,6 +36,15 @@ void InertiaOptions::describe(Parameters& parameters) {
                  {{"automatic", ContactMass::automatic}, {"removed", ContactMass::removed}, {"kept", ContactMass::kept}},
                  "removed: nodes of contact surfaces give their mass to interior nodes of their body, so that contact forces do not chatter; "
                  "automatic: kept in bodies that yield, where a layer without mass would flow at once, else removed");
+  parameters.add(
+      "contact condition", contact_condition, {{"gap", ContactCondition::gap}, {"gap rate", ContactCondition::gap_rate}},
+      "gap: closed nodes have no gap at the end of a step; gap rate: nodes that touch at the start of a step do not come closer in it, and "
+      "others bear nothing (persistency condition). Contact then takes no energy, and surfaces overlap by up to a step's motion");
+  const bool keeps_energy = scheme == Scheme::generalised_alpha && spectral_radius == 1.0 && balance == Balance::over_step;
+  if (contact_condition == ContactCondition::gap_rate && !keeps_energy)
+    parameters.error("contact condition",
+                     "is \"gap rate\", which keeps energy with the scheme \"generalised alpha\", a \"spectral radius\" of 1 and the balance \"over "
+                     "the step\" alone; please take these, or the condition \"gap\"");
   parameters.add("start", start, {{"in balance", Start::in_balance}, {"at rest", Start::at_rest}},
                  "accelerations of the first state: in balance with loads and stresses, or 0");
   parameters.add("mass damping", mass_damping, Says("a of the damping a M + b K, K the stiffness at the start").unit("1 / time").at_least(0.0));

@@ -42,6 +42,12 @@ std::vector<Diagnostic> wrong_combinations(const Scene& scene) {
   if (scene.inertia.scheme == InertiaOptions::Scheme::generalised_alpha && scene.inertia.spectral_radius == 1.0 && has_points)
     diagnostics.push_back({scene.inertia.place,
                            "a \"spectral radius\" of 1 lets forces of rigid bodies and reference points ring without end; please take one below 1"});
+  if (scene.inertia.contact_condition == InertiaOptions::ContactCondition::gap_rate)
+    for (const auto& pair : scene.contact)
+      if (const auto& formulation = pair.value.contact.formulation; formulation.options && !formulation.options->enforcement()->holds_exactly())
+        diagnostics.push_back({pair.place, fmt::format("the \"contact condition\" \"gap rate\" is for conditions that hold exactly, and \"{}\" gives "
+                                                       "way; please take another formulation, or the condition \"gap\"",
+                                                       formulation.type)});
   for (const auto& body : scene.bodies) {
     check_position(scene, body.value.reference_point, body.place, diagnostics);
     if (body.value.rigid.value && !body.value.reference_point.empty() && scene.kinematics == Kinematics::axisymmetric &&

@@ -68,13 +68,19 @@ class DeadTraction final : public Load {
 class Gravity final : public Load {
  public:
   Gravity(const std::shared_ptr<const Bodies>& bodies, const GravityOptions& options)
-      : bodies_(bodies), components_(components(*bodies, options.x, options.y, options.z)), masses_(bodies->mesh()->owned_count(), 0.0) {
+      : bodies_(bodies),
+        components_(components(*bodies, options.x, options.y, options.z)),
+        masses_(bodies->mesh()->owned_count(), 0.0),
+        weighs_(masses_.size(), 0.0) {
+    const Mesh& mesh = *bodies->mesh();
+    for (LocalOrdinal node = 0; node < mesh.owned_body_count(); ++node)
+      if (options.body.value.empty() || mesh.bodies[mesh.body_of_node[node]].name == options.body.value) weighs_[node] = 1.0;
     bool found = false;
     for (std::size_t n = 0; n < bodies->properties().size(); ++n) {
       const BodyProperties& body = bodies->properties()[n];
       if (!options.body.value.empty() && options.body.value != body.name) continue;
       found = true;
-      if (body.is_rigid()) continue;  // it has no mass; a force on its reference point will do
+      if (body.is_rigid()) continue;  // without inertia it has no mass; a force on its reference point will do
       const std::vector<double> volumes = bodies->nodal_volumes(static_cast<LocalOrdinal>(n));
       for (std::size_t node = 0; node < masses_.size(); ++node) masses_[node] += body.material->density * volumes[node];
     }
@@ -85,19 +91,29 @@ class Gravity final : public Load {
   }
 
   void add_residual(double time, const Vector&, Vector& residual, std::optional<StepFailure>& failure) const override {
-    const HostWriteView r(residual);
-    const std::size_t dimension = components_.size();
-    for (std::size_t i = 0; i < dimension; ++i) {
-      const double acceleration = evaluate(components_[i], time, {}, failure);
-      for (std::size_t node = 0; node < masses_.size(); ++node)
-        r.data()[bodies_->space().row(static_cast<LocalOrdinal>(node), static_cast<int>(i))] -= masses_[node] * acceleration;
-    }
+    add(time, -1.0, masses_, residual, failure);
+  }
+  bool is_weight() const override { return true; }
+  void add_acceleration(double time, Vector& acceleration, std::optional<StepFailure>& failure) const override {
+    add(time, 1.0, weighs_, acceleration, failure);
   }
 
  private:
+  /// to += sign factors[node] g
+  void add(double time, double sign, const std::vector<double>& factors, Vector& to, std::optional<StepFailure>& failure) const {
+    const HostWriteView r(to);
+    const std::size_t dimension = components_.size();
+    for (std::size_t i = 0; i < dimension; ++i) {
+      const double acceleration = sign * evaluate(components_[i], time, {}, failure);
+      for (std::size_t node = 0; node < factors.size(); ++node)
+        r.data()[bodies_->space().row(static_cast<LocalOrdinal>(node), static_cast<int>(i))] += factors[node] * acceleration;
+    }
+  }
+
   std::shared_ptr<const Bodies> bodies_;
   std::vector<ScalarFunction> components_;
   std::vector<double> masses_;  ///< of the owned nodes
+  std::vector<double> weighs_;  ///< likewise, 1 on bodies that have weight, else 0
 };
 
 }  // namespace

@@ -56,7 +56,8 @@ struct PairHistory {
   Settling settling;                           ///< of the updates of the multipliers
   double allowed_overlap = 0.0;                ///< overlap that the surfaces may have without pressure [length]
   std::vector<double> clearances;              ///< [owned slave nodes] added to the gap [length]; empty: none
-  double constant_share = 1.0;                 ///< factor of complementarity constants within the step
+  std::vector<double> start_gaps;  ///< [owned slave nodes] mean gaps at the start of a step, 0: not covered; empty: conditions are on gaps
+  double constant_share = 1.0;     ///< factor of complementarity constants within the step
 };
 
 /// An accepted state, as the next step needs it.

@@ -44,6 +44,9 @@ struct ContactPair {
   ContactOptions options;  ///< the rest of it
   /// [owned nodes] added to the gap that is drawn, beside the clearance [length]: what facets leave of round surfaces. Null: nothing.
   std::shared_ptr<const std::vector<double>> facet_gaps;
+  /// Conditions of a node that touched at the start of a step are on the change of its gap, 0 <= z_n _|_ g - g_start >= 0; others stay open in it
+  /// (Laursen, Chawla 1997). Contact whose forces are constant over a step then does no work. Exact conditions only.
+  bool has_conditions_on_rate = false;
   std::optional<std::size_t> second_pass_of;  ///< an earlier pair of a two-pass formulation, with the sides exchanged
 };
 

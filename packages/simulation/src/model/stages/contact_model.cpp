@@ -200,8 +200,10 @@ ContactModel make_contact(const MeshedScene& meshed, const SolidModel& solid, co
     reaches.push_back(pairs[p].options.mortar.search_reach.value_or(contact.at_start.pairs[p].longest));
   contact.edges = make_edge_contact(solid.bodies, scene, reaches, meshed.size.length, timers);
   const std::array<double, 3> origin = contact_origin(mesh, meshed.size.length, scene.kinematics == Kinematics::axisymmetric);
-  for (ContactPair& pair : pairs)
+  for (ContactPair& pair : pairs) {
+    pair.has_conditions_on_rate = scene.inertia.contact_condition == InertiaOptions::ContactCondition::gap_rate;
     if (pair.options.clearance) pair.options.clearance = seen_from(*pair.options.clearance, origin);
+  }
   contact.system = std::make_shared<ContactSystem>(mesh.owned_nodes, meshed.space->dofs(), reference_positions(mesh, origin), kept, measure_of(scene),
                                                    std::move(pairs), timers);
   return contact;

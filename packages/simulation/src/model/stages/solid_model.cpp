@@ -38,8 +38,8 @@ SolidModel make_solid(const MeshedScene& meshed, const Scene& scene, const Timer
   parts.near_null_space = near_null_space_of(bodies, meshed, scene);
   parts.contributions.push_back(std::make_shared<BulkContribution>(bodies, timers));
   for (const auto& load : scene.loads)
-    collect(
-        [&] { parts.contributions.push_back(std::make_shared<LoadContribution>(load.name, load.value.load.options->make(solid.bodies), timers)); });
+    collect([&] { solid.loads.push_back(std::make_shared<LoadContribution>(load.name, load.value.load.options->make(solid.bodies), timers)); });
+  parts.contributions.insert(parts.contributions.end(), solid.loads.begin(), solid.loads.end());
   collect([&] { solid.motion = std::make_shared<const PrescribedMotion>(*bodies, scene.boundary_conditions); });
   solid.supports.ties = meshed.ties.tied;
   return solid;
@@ -58,6 +58,8 @@ void add_supports(const MeshedScene& meshed, const Scene& scene, const Timers& t
   const std::vector<LocalOrdinal> inclined = held_dofs(*meshed.space, supports.inclined);
   std::merge(motion.dofs().begin(), motion.dofs().end(), inclined.begin(), inclined.end(), std::back_inserter(supports.dofs));
   solid.inertia = add_inertia(scene, solid.bodies, motion.dofs(), timers, solid.parts);
+  if (solid.inertia.mass)
+    for (const auto& load : solid.loads) load->weigh_by(solid.inertia.mass);
 }
 
 RCP<MultiVector> marked_components(const FieldSpace& space, const std::vector<LocalOrdinal>& dofs, double mark) {

@@ -13,11 +13,14 @@
 
 namespace mortise {
 
+class LoadContribution;
+
 /// Objects of the scene but those of contact.
 struct SolidModel {
   std::shared_ptr<const Bodies> bodies;
   std::shared_ptr<const PrescribedMotion> motion;
   Supports supports;
+  std::vector<std::shared_ptr<LoadContribution>> loads;  ///< of parts.contributions
   InertiaOfModel inertia;
   SystemParts parts;  ///< without contact
 };

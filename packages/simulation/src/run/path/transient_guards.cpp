@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "run/path/impact_loss.hpp"
+#include "run/path/prescribed_velocity.hpp"
 #include "run/path/step_error.hpp"
 
 namespace mortise {
@@ -43,6 +44,7 @@ class SpeedGuard final : public StepGuard {
 
 StepGuards transient_guards(const Model& model, const Scene& scene, std::function<void(const std::string&)> warn) {
   StepGuards guards;
+  guards.push_back(std::make_shared<PrescribedVelocityGuard>(model, scene, warn));
   if (!scene.contact.empty()) {
     double reach = std::numeric_limits<double>::infinity();
     for (std::size_t pair = 0; pair < scene.contact.size(); ++pair)

@@ -26,6 +26,12 @@ class Load {
 
   /// True if add_jacobian does something.
   virtual bool follows() const { return false; }
+
+  /// True if the load is weight. Without inertia it is that of what has a density. With inertia it is mass times add_acceleration(), so that a body
+  /// in free fall bears no stress, whichever of its nodes have mass.
+  virtual bool is_weight() const { return false; }
+  /// acceleration += that of the weight on the owned dofs, at pseudo-time `time`.
+  virtual void add_acceleration(double /*time*/, Vector& /*acceleration*/, std::optional<StepFailure>& /*failure*/) const {}
 };
 
 /// A load by its parameters; each kind declares its parameters.

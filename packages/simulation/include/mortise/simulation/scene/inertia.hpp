@@ -16,6 +16,7 @@ struct InertiaOptions {
   enum class Scheme { none, generalised_alpha, newmark, backward_euler };
   enum class Mass { consistent, lumped };
   enum class ContactMass { automatic, removed, kept };
+  enum class ContactCondition { gap, gap_rate };
   enum class Start { in_balance, at_rest };
   Scheme scheme = Scheme::none;  ///< none: the scene has no inertia
   double spectral_radius = 0.8;  ///< of generalised-alpha at infinite frequency
@@ -23,6 +24,7 @@ struct InertiaOptions {
   double beta = 0.25, gamma = 0.5;  ///< of Newmark's method
   Mass mass = Mass::consistent;
   ContactMass contact_mass = ContactMass::automatic;
+  ContactCondition contact_condition = ContactCondition::gap;
   Start start = Start::in_balance;
   double mass_damping = 0.0;              ///< [1 / time] a of C = a M + b K_0
   double stiffness_damping = 0.0;         ///< [time] b
