@@ -16,10 +16,10 @@ constexpr int samples_of_run = 64;
 constexpr double jump = 0.4;
 
 /// [times][dofs]; a function without a value there is reported by the step itself.
-std::vector<std::vector<double>> values_at(const PrescribedDisplacements& prescribed, const std::vector<double>& times) {
+std::vector<std::vector<double>> values_at(const AffineConstraints& constraints, const std::vector<double>& times) {
   std::vector<std::vector<double>> values;
   std::optional<StepFailure> failure;
-  for (const double time : times) values.push_back(prescribed.values(time, failure));
+  for (const double time : times) values.push_back(constraints.prescribed_values(time, failure));
   return values;
 }
 
@@ -30,7 +30,7 @@ PrescribedVelocityGuard::PrescribedVelocityGuard(const Model& model, const Scene
   const double dt = scene.stepping.end_time / samples_of_run;
   std::vector<double> times;
   for (int n = 0; n <= samples_of_run; ++n) times.push_back(n * dt);
-  const auto values = values_at(*model.parts().prescribed, times);
+  const auto values = values_at(*model.parts().constraints, times);
   double mine = 0.0;
   for (std::size_t n = 1; n < values.size(); ++n)
     for (std::size_t i = 0; i < values[n].size(); ++i) mine = std::max(mine, std::abs(values[n][i] - values[n - 1][i]) / dt);
@@ -42,7 +42,7 @@ RCP<Vector> PrescribedVelocityGuard::verify(const SemiSmoothSystem&, const Accep
   const double start = from.context.time, quarter = 0.25 * found.context().step->dt;
   std::vector<double> times;
   for (int n = start >= quarter ? -1 : 0; n <= 4; ++n) times.push_back(start + n * quarter);
-  const auto values = values_at(*model_.parts().prescribed, times);
+  const auto values = values_at(*model_.parts().constraints, times);
   struct Jump {
     double size = 0.0, time = 0.0;
   } mine;
