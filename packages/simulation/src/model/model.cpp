@@ -10,6 +10,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/connectors/connector_contributions.hpp"
+#include "model/connectors/connectors_of_scene.hpp"
+#include "model/connectors/stabilisation.hpp"
 #include "model/contributions.hpp"
 #include "model/current_places.hpp"
 #include "model/edge_contact.hpp"
@@ -19,6 +22,7 @@
 #include "model/pairs/search_reach.hpp"
 #include "model/pairs/surface_ties.hpp"
 #include "model/precision.hpp"
+#include "mortise/core/names.hpp"
 #include "mortise/material/materials.hpp"
 #include "mortise/mesh/digest.hpp"
 #include "mortise/nonlinear/linear_solver_factory.hpp"
@@ -235,10 +239,17 @@ Effects effects_of(const Scene& scene, const Bodies& bodies) {
   }
   for (const auto& load : scene.loads) loads.push_back(load.name);
   for (const auto& condition : scene.boundary_conditions) conditions.push_back(condition.name);
-  return {{"finite strain", finite}, {"small strain", small}, {"F-bar", f_bar},
-          {"plasticity", plastic},   {"ties", ties},          {"contact", pairs},
-          {"friction", rubbing},     {"rigid bodies", rigid}, {"reference points", points},
-          {"inertia", moving},       {"loads", loads},        {"boundary conditions", conditions}};
+  Effects effects{{"finite strain", finite}, {"small strain", small}, {"F-bar", f_bar},
+                  {"plasticity", plastic},   {"ties", ties},          {"contact", pairs},
+                  {"friction", rubbing},     {"rigid bodies", rigid}, {"reference points", points},
+                  {"inertia", moving},       {"loads", loads},        {"boundary conditions", conditions}};
+  const auto add_named = [&](const char* effect, const auto& members) {
+    if (!members.empty()) effects.emplace_back(effect, names_of(members));
+  };
+  add_named("springs", scene.springs);
+  add_named("dashpots", scene.dashpots);
+  add_named("point masses", scene.point_masses);
+  return effects;
 }
 
 LinearSystemTraits traits_of(const Scene& scene, const Map& dofs) {
@@ -315,6 +326,7 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   Collector collect;
   for (const auto& load : scene.loads)
     collect([&] { parts_.contributions.push_back(std::make_shared<LoadContribution>(load.name, load.value.load.options->make(bodies_), timers)); });
+  collect([&] { connectors_ = add_connectors(scene, bodies_, timers, parts_); });
   std::shared_ptr<const PrescribedMotion> motion;
   collect([&] {
     motion = std::make_shared<const PrescribedMotion>(*bodies_, scene.boundary_conditions);
@@ -358,6 +370,9 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
     mark_crosspoints(followed_by_ties(*mesh_, *parts_.tied), *kept);
   }
   inertia_ = add_inertia(scene, bodies_, motion->dofs(), timers, parts_);
+  if (const std::vector<double> weighing = weighing_masses_of(scene, *bodies_, inertia_); !weighing.empty()) bodies->set_point_masses(weighing);
+  if (connectors_.springs) supports_.connectors.push_back(connectors_.springs);
+  if (connectors_.dashpots && !scene.inertia.acts()) supports_.connectors.push_back(connectors_.dashpots);
   surfaces_at_start_ = examine_surfaces(*mesh_, scene, size_.length);
   for (std::size_t p = 0; p < scene.contact.size(); ++p)
     if (pairs[p].facet_gaps) surfaces_at_start_.pairs[p].facet_gaps = range_over_ranks(*comm, *pairs[p].facet_gaps);
@@ -372,8 +387,11 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
     holding.push_back({&pair.slave, &pair.master, pair.options.mortar.search_reach.value_or(0.0), pair.options.friction.options->acts()});
   held_by_contact_only_.assign(mesh_->owned_count(), false);
   if (!scene.inertia.acts()) {  // mass balances what nothing holds
-    const auto only_contact = check_held(*mesh_, axisymmetric, supports_, holding, places);
-    for (LocalOrdinal node = 0; node < mesh_->owned_count(); ++node) held_by_contact_only_[node] = only_contact[mesh_->body_of_node[node]];
+    const bool is_stabilised = scene.stabilisation.acts();
+    const auto only_contact = check_held(*mesh_, axisymmetric, supports_, holding, places, is_stabilised);
+    if (is_stabilised) stabilise(scene, only_contact, timers);
+    for (LocalOrdinal node = 0; node < mesh_->owned_count() && !is_stabilised; ++node)
+      held_by_contact_only_[node] = only_contact[mesh_->body_of_node[node]];
   }
 
   if (pairs.empty()) return;
@@ -395,6 +413,16 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
 }
 
 Model::~Model() = default;
+
+void Model::stabilise(const Scene& scene, const std::vector<char>& loose, const Timers& timers) {
+  std::vector<std::string> names;
+  for (std::size_t body = 0; body < loose.size(); ++body)
+    if (loose[body]) names.push_back(mesh_->bodies[body].name);
+  effects_.emplace_back("stabilisation", names);
+  if (names.empty()) return;
+  connectors_.stabilisation = std::make_shared<Stabilisation>(bodies_, loose, scene.stabilisation, scene.stepping.end_time, size_.length, timers);
+  parts_.contributions.push_back(connectors_.stabilisation);
+}
 
 std::string Model::mesh_digest() const { return mesh_digest_.empty() ? mortise::mesh_digest(*mesh_) : mesh_digest_; }
 

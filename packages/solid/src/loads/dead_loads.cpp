@@ -64,17 +64,20 @@ class DeadTraction final : public Load {
   std::vector<LoadedSide> sides_;
 };
 
-/// f_a = integral of rho g N_a dV0.
+/// f_a = integral of rho g N_a dV0, and m_a g of point masses.
 class Gravity final : public Load {
  public:
   Gravity(const std::shared_ptr<const Bodies>& bodies, const GravityOptions& options)
-      : components_(components(*bodies, options.x, options.y, options.z)), masses_(bodies->mesh()->owned_count(), 0.0) {
+      : bodies_(bodies),
+        body_(options.body.value),
+        components_(components(*bodies, options.x, options.y, options.z)),
+        masses_(bodies->mesh()->owned_count(), 0.0) {
     bool found = false;
     for (std::size_t n = 0; n < bodies->properties().size(); ++n) {
       const BodyProperties& body = bodies->properties()[n];
       if (!options.body.value.empty() && options.body.value != body.name) continue;
       found = true;
-      if (body.is_rigid()) continue;  // it has no mass; a force on its reference point will do
+      if (body.is_rigid()) continue;  // it has no elements
       const std::vector<double> volumes = bodies->nodal_volumes(static_cast<LocalOrdinal>(n));
       for (std::size_t node = 0; node < masses_.size(); ++node) masses_[node] += body.material->density * volumes[node];
     }
@@ -90,10 +93,21 @@ class Gravity final : public Load {
     for (std::size_t i = 0; i < dimension; ++i) {
       const double acceleration = evaluate(components_[i], time, {}, failure);
       for (std::size_t node = 0; node < masses_.size(); ++node) r.data()[dimension * node + i] -= masses_[node] * acceleration;
+      add_weight_of_points(i, acceleration, r);
     }
   }
 
  private:
+  void add_weight_of_points(std::size_t i, double acceleration, const HostWriteView& r) const {
+    const Mesh& mesh = *bodies_->mesh();
+    const std::vector<double>& masses = bodies_->point_masses();
+    for (std::size_t node = 0; node < masses.size(); ++node)
+      if (masses[node] != 0.0 && (body_.empty() || mesh.bodies[mesh.body_of_node[node]].name == body_))
+        r.data()[components_.size() * node + i] -= masses[node] * acceleration;
+  }
+
+  std::shared_ptr<const Bodies> bodies_;
+  std::string body_;  ///< empty: all
   std::vector<ScalarFunction> components_;
   std::vector<double> masses_;  ///< of the owned nodes
 };

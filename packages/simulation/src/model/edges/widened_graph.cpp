@@ -52,6 +52,22 @@ RCP<const Graph> widened(const Graph& bulk, const Map& owned_nodes, int dimensio
   return graph;
 }
 
+RCP<const Graph> with_couplings(const RCP<const Graph>& bulk, const Map& owned_nodes, int dimension,
+                                const std::set<std::pair<GlobalOrdinal, GlobalOrdinal>>& coupled) {
+  std::set<std::pair<GlobalOrdinal, GlobalOrdinal>> missing;
+  const auto graph = bulk->getLocalGraphHost();
+  for (const auto& [one, other] : coupled) {
+    const LocalOrdinal node = owned_nodes.getLocalElement(one), column = bulk->getColMap()->getLocalElement(dimension * other);
+    if (node < 0) continue;
+    const auto *first = graph.entries.data() + graph.row_map(dimension * node), *last = graph.entries.data() + graph.row_map(dimension * node + 1);
+    if (column < 0 || std::find(first, last, column) == last) missing.emplace(one, other);
+  }
+  const int mine = missing.empty() ? 0 : 1;
+  int anywhere = 0;
+  Teuchos::reduceAll(*bulk->getComm(), Teuchos::REDUCE_MAX, mine, Teuchos::outArg(anywhere));
+  return anywhere == 0 ? bulk : widened(*bulk, owned_nodes, dimension, missing);
+}
+
 RCP<const Graph> with_entries_of(const RCP<const Graph>& bulk, const Matrix& of_nodes, int dimension) {
   std::set<std::pair<GlobalOrdinal, GlobalOrdinal>> coupled;
   const auto mass = of_nodes.getLocalMatrixHost();

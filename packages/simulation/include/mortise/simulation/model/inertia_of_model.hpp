@@ -12,6 +12,7 @@ namespace mortise {
 /// Mass of all bodies of a scene with inertia.
 struct InertiaOfModel {
   std::shared_ptr<const NodalMass> mass;  ///< null: the scene has no inertia
+  std::vector<double> of_rigid_bodies;    ///< [owned nodes] masses of rigid bodies; empty: there are none
   MasslessNodes massless;                 ///< of contact surfaces; without an extension where all nodes keep their mass
   GlobalOrdinal without_mass = 0;         ///< nodes, over all ranks
   GlobalOrdinal kept = 0;                 ///< nodes of contact surfaces that keep their mass, over all ranks
