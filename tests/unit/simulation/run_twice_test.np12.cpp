@@ -51,6 +51,9 @@ const std::vector<Case> cases{
     {"pile", "paper/block_pile.xml", {"stepping/end time=0.2"}},
     {"inertia", "dynamics/block_to_rest.xml", {"stepping/end time=0.02", "stepping/output times=0.01"}},
     {"spin", "dynamics/spinning_box.xml", {"stepping/end time=0.02"}},
+    {"springs_and_dashpots", "verification/spring_bed.xml", {"stepping/end time=1"}},
+    {"stabilisation", "verification/stabilised_block.xml", {}},
+    {"oscillator", "dynamics/damped_oscillator.xml", {"stepping/end time=0.1"}},
     {"iterative_solver", "verification/3d/hertz_sphere.xml", {"variables/n=2", "linear solver/type=iterative"}},
     {"iterative_solver_with_friction", "verification/3d/bar_on_plane.xml", {"linear solver/type=iterative", "stepping/end time=0.5"}},
 };

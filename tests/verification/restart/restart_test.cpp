@@ -141,6 +141,9 @@ TEST(Restart, QuadraticFacets) {
                    {"bodies/base/element=H20", "variables/n=2", "boundary conditions/press/rotation x=0", "boundary conditions/press/rotation y=0",
                     "boundary conditions/press/rotation z=0", "stepping/end time=0.75"}});
 }
+TEST(Restart, SpringsAndDashpots) { expect_seamless({"springs", "verification/spring_bed.xml", {}}); }
+TEST(Restart, DashpotsWithInertia) { expect_seamless({"oscillator", "dynamics/damped_oscillator.xml", {"variables/steps=40"}}); }
+TEST(Restart, Stabilisation) { expect_seamless({"stabilisation", "verification/stabilised_block.xml", {}}); }
 TEST(Restart, KinksOfTheNearestFacet) { expect_seamless({"kinks", "verification/dragged_corner.xml", {}}); }
 TEST(Restart, BodiesHeldByContact) { expect_seamless({"held", "hard/dwell.xml", {}}); }
 // Data that the iterative solver keeps of earlier steps changes results within its tolerance alone.

@@ -298,19 +298,21 @@ RCP<const Graph> SystemModel::graph_of(const EvaluatedSystem& at) const {
   return matrix_.is_null() ? parts_.bulk_graph() : matrix_->getCrsGraph();
 }
 
-// Entries of internal forces are in any graph, in columns that any begins with.
+// Entries of internal forces are in any graph.
 void SystemModel::widen_matrix(const RCP<const Graph>& graph) const {
   const RCP<Matrix> narrow = matrix_;
   matrix_ = rcp(new Matrix(graph));
   const auto from = narrow->getLocalMatrixHost();
-  const auto shared = static_cast<LocalOrdinal>(parts_.local_dofs->getNodeNumElements());
+  std::vector<LocalOrdinal> place(narrow->getColMap()->getNodeNumElements());
+  for (std::size_t column = 0; column < place.size(); ++column)
+    place[column] = matrix_->getColMap()->getLocalElement(narrow->getColMap()->getGlobalElement(static_cast<LocalOrdinal>(column)));
   std::vector<LocalOrdinal> columns;
   std::vector<double> values;
   for (LocalOrdinal row = 0; row < from.numRows(); ++row) {
     columns.clear(), values.clear();
     for (std::size_t k = from.graph.row_map(row); k < from.graph.row_map(row + 1); ++k) {
-      if (from.graph.entries(k) >= shared) continue;
-      columns.push_back(from.graph.entries(k));
+      if (from.values(k) == 0.0) continue;  // of contact
+      columns.push_back(place[static_cast<std::size_t>(from.graph.entries(k))]);
       values.push_back(from.values(k));
     }
     matrix_->sumIntoLocalValues(row, static_cast<LocalOrdinal>(columns.size()), values.data(), columns.data());

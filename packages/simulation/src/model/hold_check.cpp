@@ -112,16 +112,18 @@ std::string name_of_motion(const RigidModes& modes, const Eigen::MatrixXd& free,
 }  // namespace
 
 std::vector<char> check_held(const FieldSpace& space, bool axisymmetric, const Supports& supports, const std::vector<HoldingPair>& pairs,
-                             const std::vector<Place>& body_places) {
+                             const std::vector<Place>& body_places, bool may_move) {
   const Mesh& mesh = *space.mesh();
   std::vector<int> bodies(mesh.bodies.size());
   std::iota(bodies.begin(), bodies.end(), 0);
   const NodePlaces at = node_places(mesh);
   const RigidModes modes(mesh, axisymmetric, std::move(bodies), at.x);
-  Supports without_ties = supports;
-  without_ties.ties = nullptr;
-  const Eigen::MatrixXd prescribed = sum_over_ranks(*mesh.comm, prescribed_gram(space, modes, at, without_ties));
-  const Eigen::MatrixXd without_contact = supports.ties ? sum_over_ranks(*mesh.comm, prescribed_gram(space, modes, at, supports)) : prescribed;
+  const bool has_links = supports.ties || !supports.connectors.empty();  // between bodies
+  Supports without_links = supports;
+  without_links.ties = nullptr;
+  without_links.connectors.clear();
+  const Eigen::MatrixXd prescribed = sum_over_ranks(*mesh.comm, prescribed_gram(space, modes, at, without_links));
+  const Eigen::MatrixXd without_contact = has_links ? sum_over_ranks(*mesh.comm, prescribed_gram(space, modes, at, supports)) : prescribed;
   Eigen::MatrixXd contact = Eigen::MatrixXd::Zero(modes.count(), modes.count());
   for (const auto& pair : pairs) contact += contact_gram(mesh, modes, pair);
 
@@ -132,14 +134,14 @@ std::vector<char> check_held(const FieldSpace& space, bool axisymmetric, const S
         {body_places[body], fmt::format("body '{}' can move: {}; neither boundary conditions nor contact hold it; contact holds where a slave "
                                         "facet is within reach at the start, along its normal, and with friction along the surface",
                                         mesh.bodies[body].name, name_of_motion(modes, free, body, mode, axisymmetric ? 1 : mesh.dimension))});
-  if (!diagnostics.empty()) throw InputError(diagnostics);
+  if (!diagnostics.empty() && !may_move) throw InputError(diagnostics);
 
   std::vector<char> only_contact;
-  const Eigen::MatrixXd loose = supports.ties ? null_space(without_contact) : Eigen::MatrixXd();
+  const Eigen::MatrixXd loose = has_links ? null_space(without_contact) : Eigen::MatrixXd();
   constexpr double moves = 1e-6;  // in a motion of size 1 of all bodies
   for (Eigen::Index body = 0; body < static_cast<Eigen::Index>(mesh.bodies.size()); ++body) {
     const auto block = prescribed.block(modes.per_body() * body, modes.per_body() * body, modes.per_body(), modes.per_body());
-    const bool is_tied_down = supports.ties && loose.middleRows(modes.per_body() * body, modes.per_body()).norm() < moves;
+    const bool is_tied_down = has_links && loose.middleRows(modes.per_body() * body, modes.per_body()).norm() < moves;
     only_contact.push_back(null_space(block).cols() > 0 && !is_tied_down);
   }
   return only_contact;

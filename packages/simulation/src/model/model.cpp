@@ -6,9 +6,12 @@
 #include <Tpetra_CrsGraph.hpp>
 #include <Tpetra_Map.hpp>
 
+#include "model/connectors/connector_contributions.hpp"
+#include "model/connectors/stabilisation.hpp"
 #include "model/contributions.hpp"
 #include "model/edge_contact.hpp"
 #include "model/stages/contact_model.hpp"
+#include "mortise/core/names.hpp"
 #include "mortise/material/materials.hpp"
 #include "mortise/mesh/digest.hpp"
 #include "mortise/nonlinear/linear_solver_factory.hpp"
@@ -43,10 +46,17 @@ Effects effects_of(const Scene& scene, const Bodies& bodies) {
   }
   for (const auto& load : scene.loads) loads.push_back(load.name);
   for (const auto& condition : scene.boundary_conditions) conditions.push_back(condition.name);
-  return {{"finite strain", finite}, {"small strain", small}, {"F-bar", f_bar},
-          {"plasticity", plastic},   {"ties", ties},          {"contact", pairs},
-          {"friction", rubbing},     {"rigid bodies", rigid}, {"reference points", points},
-          {"inertia", moving},       {"loads", loads},        {"boundary conditions", conditions}};
+  Effects effects{{"finite strain", finite}, {"small strain", small}, {"F-bar", f_bar},
+                  {"plasticity", plastic},   {"ties", ties},          {"contact", pairs},
+                  {"friction", rubbing},     {"rigid bodies", rigid}, {"reference points", points},
+                  {"inertia", moving},       {"loads", loads},        {"boundary conditions", conditions}};
+  const auto add_named = [&](const char* effect, const auto& members) {
+    if (!members.empty()) effects.emplace_back(effect, names_of(members));
+  };
+  add_named("springs", scene.springs);
+  add_named("dashpots", scene.dashpots);
+  add_named("point masses", scene.point_masses);
+  return effects;
 }
 
 LinearSystemTraits traits_of(const Scene& scene, const Map& dofs) {
@@ -88,7 +98,13 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   inertia_ = std::move(solid.inertia);
   parts_ = std::move(solid.parts);
   surfaces_at_start_ = std::move(contact.at_start);
-  held_by_contact_only_ = std::move(contact.held_by_contact_only);
+  connectors_ = std::move(solid.connectors);
+  held_by_contact_only_.assign(static_cast<std::size_t>(mesh_->owned_count()), 0);
+  if (scene.stabilisation.acts() && !scene.inertia.acts())
+    stabilise(scene, contact.held_by_contact_only, timers);
+  else
+    for (LocalOrdinal node = 0; node < mesh_->owned_count(); ++node)
+      held_by_contact_only_[node] = contact.held_by_contact_only[mesh_->body_of_node[node]];
   bodies_of_pairs_ = std::move(contact.bodies_of_pairs);
   parts_.contact = std::move(contact.system);
   if (!contact.edges) return;
@@ -99,6 +115,16 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
 }
 
 Model::~Model() = default;
+
+void Model::stabilise(const Scene& scene, const std::vector<char>& loose, const Timers& timers) {
+  std::vector<std::string> names;
+  for (std::size_t body = 0; body < loose.size(); ++body)
+    if (loose[body]) names.push_back(mesh_->bodies[body].name);
+  effects_.emplace_back("stabilisation", names);
+  if (names.empty()) return;
+  connectors_.stabilisation = std::make_shared<Stabilisation>(bodies_, loose, scene.stabilisation, scene.stepping.end_time, size_.length, timers);
+  parts_.contributions.push_back(connectors_.stabilisation);
+}
 
 std::string Model::mesh_digest() const { return mesh_digest_.empty() ? mortise::mesh_digest(*mesh_) : mesh_digest_; }
 

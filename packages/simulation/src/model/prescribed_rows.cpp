@@ -7,6 +7,7 @@
 #include <Tpetra_MultiVector.hpp>
 #include <algorithm>
 
+#include "model/connectors/connector_holds.hpp"
 #include "mortise/solid/rotation_vector.hpp"
 
 namespace mortise {
@@ -142,6 +143,7 @@ Eigen::MatrixXd prescribed_gram(const FieldSpace& space, const RigidModes& modes
       add_shared_translation(mesh, modes, at, fixed, point, gram);
   }
   if (supports.ties) add_ties(space, modes, at, *supports.ties, gram);
+  for (const auto& connectors : supports.connectors) add_connectors(*connectors, modes, at, gram);
   return gram;
 }
 

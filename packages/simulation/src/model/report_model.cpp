@@ -106,6 +106,8 @@ void report_model(const std::string& file, const Scene& scene, const Model& mode
     log.info(fmt::format("  tie {}: {} slave nodes follow the master{}{}", scene.ties[t].name, tie.tied, open, moved));
   }
   report_inertia(scene, model, log);
+  if (scene.stabilisation.acts() && !model.connectors().stabilisation)
+    log.warning("supports, ties and springs hold all bodies, so that stabilisation has no effect; please remove the list \"stabilisation\"");
   log.info(fmt::format("  {} dofs, {} slave nodes, {} on {} rank(s)", model.dofs(), model.slave_nodes(), model.parts().linear_solver->name(),
                        model.mesh()->comm->getSize()));
 }

@@ -20,15 +20,18 @@ namespace {
 /// holds to the tolerance of momentum, whatever the step. [work]
 struct Energy : Quantity {
   enum class Of {
-    stored,                ///< int W dV0
-    plastic_work,          ///< int int_0^alpha sigma_y dalpha dV0
-    friction,              ///< of the shear tractions of all pairs with friction
-    external_work,         ///< of loads and supports
-    internal_work,         ///< of the internal forces
-    kinetic,               ///< 1/2 v . M v
-    contact_work,          ///< of all contact forces on the bodies, friction included: what contact takes is negative
-    damping,               ///< taken by damping
-    numerical_dissipation  ///< external + contact work - change of stored and kinetic energy - plastic work - damping: what time integration takes
+    stored,                 ///< int W dV0
+    plastic_work,           ///< int int_0^alpha sigma_y dalpha dV0
+    friction,               ///< of the shear tractions of all pairs with friction
+    external_work,          ///< of loads and supports
+    internal_work,          ///< of the internal forces
+    kinetic,                ///< 1/2 v . M v
+    contact_work,           ///< of all contact forces on the bodies, friction included: what contact takes is negative
+    damping,                ///< taken by damping
+    numerical_dissipation,  ///< external + contact work - change of stored and kinetic energy - plastic work - damping: what time integration takes
+    springs,                ///< stored in springs
+    dashpots,               ///< taken by dashpots; with inertia part of damping
+    stabilisation           ///< taken by viscous stabilisation
   };
   Of of = Of::stored;
   Located<std::string> body;  ///< stored energy and plastic work only; empty: all
@@ -44,11 +47,14 @@ struct Energy : Quantity {
          {"kinetic", Of::kinetic},
          {"contact work", Of::contact_work},
          {"damping", Of::damping},
-         {"numerical dissipation", Of::numerical_dissipation}},
+         {"numerical dissipation", Of::numerical_dissipation},
+         {"springs", Of::springs},
+         {"dashpots", Of::dashpots},
+         {"stabilisation", Of::stabilisation}},
         "stored in the bodies, spent on plastic flow, dissipated by friction of all pairs (of first order in the step where slip begins or "
         "turns round), or the work since the start of loads and supports, "
         "or of the internal forces; with inertia kinetic energy, the work of all contact forces on the bodies (negative where contact takes energy), "
-        "what damping takes, or what time integration takes besides");
+        "what damping takes (dashpots included), or what time integration takes besides; stored in springs; taken by dashpots, or by stabilisation");
     parameters.add("body", body, "body whose stored or kinetic energy or plastic work is meant; empty: all");
     if (of != Of::stored && of != Of::plastic_work && of != Of::kinetic && !body.value.empty())
       parameters.error("body", "only stored energy, kinetic energy and plastic work are those of a body; please remove \"body\"");
@@ -58,6 +64,18 @@ struct Energy : Quantity {
 };
 
 std::unique_ptr<QuantityEvaluator> numerical_dissipation(const QuantityContext& context);
+
+/// Adds the forces of dashpots, as the residual has them.
+void add_dashpots(const QuantityContext& context, Vector& force) {
+  const ConnectorsOfStep& connectors = context.connectors;
+  if (connectors.dashpots == nullptr) return;
+  std::optional<StepFailure> failure;  // a converged state has none
+  connectors.dashpots->add_forces(*context.local_displacement, connectors.dashpot_velocity, force, failure);
+}
+
+void add_stabilisation(const QuantityContext& context, Vector& force) {
+  if (context.connectors.stabilisation_force != nullptr) force.update(1.0, *context.connectors.stabilisation_force, 1.0);
+}
 
 // What a work is done by, on all owned dofs. From outside act loads, and supports on prescribed dofs. Reference points act on their followers, and
 // there their work is counted. A point that is carried round by an angle a with a moment M would do M a. Its followers do M sin a along the chords of
@@ -74,6 +92,14 @@ RCP<Vector> working_force(Energy::Of of, const QuantityContext& context) {
     if (context.motion != nullptr) result->assign(context.motion->damping_force);
     return result;
   }
+  if (of == Energy::Of::dashpots) {
+    add_dashpots(context, *result);
+    return result;
+  }
+  if (of == Energy::Of::stabilisation) {
+    add_stabilisation(context, *result);
+    return result;
+  }
   if (of == Energy::Of::contact_work) {
     add_contact_force(context.laws->multipliers());
     result->scale(-1.0);
@@ -81,6 +107,10 @@ RCP<Vector> working_force(Energy::Of of, const QuantityContext& context) {
   }
   if (of == Energy::Of::internal_work) {
     if (context.contact != nullptr) add_contact_force(context.laws->multipliers());
+    if (context.motion == nullptr) {  // viscous forces of statics are no internal ones
+      add_dashpots(context, *result);
+      add_stabilisation(context, *result);
+    }
     result->update(1.0, *context.reaction, 1.0, *context.external_force, -1.0);
     if (context.motion != nullptr) result->update(-1.0, context.motion->rate_force, 1.0);
   } else {
@@ -141,7 +171,20 @@ std::unique_ptr<QuantityEvaluator> energy(Energy::Of of, const QuantityContext& 
   return energy.make_evaluator(context);
 }
 
-/// Stored and kinetic energy since the start.
+double energy_of_springs(const QuantityContext& context, const Vector& local_displacement) {
+  return context.connectors.springs == nullptr ? 0.0 : context.connectors.springs->energy(local_displacement);
+}
+
+/// Energy of springs in statics since the start, where nothing has moved.
+class SpringEnergyChange final : public QuantityEvaluator {
+ public:
+  double evaluate(const QuantityContext& context) override {
+    if (context.connectors.springs == nullptr) return 0.0;
+    return energy_of_springs(context, *context.local_displacement) - energy_of_springs(context, Vector(context.space().local_dofs()));
+  }
+};
+
+/// Stored energy, that of springs included, and kinetic energy since the start.
 class MechanicalEnergyChange final : public QuantityEvaluator {
  public:
   double evaluate(const QuantityContext& context) override {
@@ -167,7 +210,8 @@ class MechanicalEnergyChange final : public QuantityEvaluator {
  private:
   static double mechanical_energy(const QuantityContext& context, const Vector& local_displacement, const Vector& velocity) {
     const std::vector<double> stored = context.bodies.stored_energies(local_displacement);
-    return std::accumulate(stored.begin(), stored.end(), 0.5 * sum_over_body(context, std::nullopt, *context.mass->times(velocity), velocity));
+    return energy_of_springs(context, local_displacement) +
+           std::accumulate(stored.begin(), stored.end(), 0.5 * sum_over_body(context, std::nullopt, *context.mass->times(velocity), velocity));
   }
 
   bool has_begun_ = false;
@@ -214,6 +258,14 @@ std::unique_ptr<QuantityEvaluator> Energy::make_evaluator(const QuantityContext&
       if (at.motion == nullptr) return std::numeric_limits<double>::quiet_NaN();
       return 0.5 * sum_over_body(at, of_body, *at.mass->times(at.motion->velocity), at.motion->velocity);
     });
+  if (of == Of::springs) {
+    if (context.connectors.springs == nullptr) throw InputError(Place{}, "there are no springs; please give the list \"springs\"");
+    return evaluator_of([](const QuantityContext& at) { return energy_of_springs(at, *at.local_displacement); });
+  }
+  if (of == Of::dashpots && context.connectors.dashpots == nullptr)
+    throw InputError(Place{}, "there are no dashpots; please give the list \"dashpots\"");
+  if (of == Of::stabilisation && !context.connectors.are_stabilised)
+    throw InputError(Place{}, "there is no stabilisation; please give the list \"stabilisation\" a \"type\"");
   if (of != Of::stored && of != Of::plastic_work) return std::make_unique<WorkEvaluator>(of, context);
   return evaluator_of([of = of, of_body](const QuantityContext& at) {
     const auto energies = of == Of::stored ? at.bodies.stored_energies(*at.local_displacement) : at.bodies.plastic_works(*at.local_displacement);
@@ -222,9 +274,11 @@ std::unique_ptr<QuantityEvaluator> Energy::make_evaluator(const QuantityContext&
 }
 
 /// Gap in the balance of works, over the largest of them:
-///   - internal_work: external work - internal work - friction. It is what contact pressures have done, which is nothing where surfaces touch all
+///   - internal_work: external work - internal work - friction - what dashpots and stabilisation take. It is what contact pressures have done, which
+///   is nothing where surfaces touch all
 ///     over.
-///   - stored_and_plastic: external work - stored - plastic work - friction. It counts besides what F-bar, without a potential, and the steps of the
+///   - stored_and_plastic: external work - stored (in bodies and springs) - plastic work - friction - what dashpots and stabilisation take. It counts
+///   besides what F-bar, without a potential, and the steps of the
 ///     flow rule make of internal work.
 ///   - mechanical: with inertia, external work - change of stored and kinetic energy - plastic work - friction - damping, over the largest of these
 ///     and of the energy at the start: what impacts and time integration take. Below 0 energy was gained.
@@ -238,7 +292,7 @@ struct EnergyError : Quantity {
         "against", against,
         {{"internal work", Against::internal_work}, {"stored and plastic", Against::stored_and_plastic}, {"mechanical", Against::mechanical}},
         "what external work less friction is compared with: work of the internal forces, stored energy and plastic work, or with inertia "
-        "stored and kinetic energy, plastic work and damping: a result below 0 is a gain of energy");
+        "stored and kinetic energy, plastic work and damping: a result below 0 is a gain of energy; springs, dashpots and stabilisation count");
   }
 
   std::unique_ptr<QuantityEvaluator> make_evaluator(const QuantityContext& context) const override;
@@ -250,6 +304,7 @@ class EnergyErrorEvaluator final : public QuantityEvaluator {
   EnergyErrorEvaluator(const std::vector<Energy::Of>& spent, const QuantityContext& context) : external_(energy(Energy::Of::external_work, context)) {
     for (const Energy::Of of : spent) spent_.push_back(energy(of, context));
   }
+  void add(std::unique_ptr<QuantityEvaluator> energy) { spent_.push_back(std::move(energy)); }
   void add_mechanical_energy() { mechanical_ = std::make_unique<MechanicalEnergyChange>(); }
 
   double evaluate(const QuantityContext& context) override {
@@ -281,9 +336,19 @@ class EnergyErrorEvaluator final : public QuantityEvaluator {
 
 std::unique_ptr<QuantityEvaluator> EnergyError::make_evaluator(const QuantityContext& context) const {
   using Of = Energy::Of;
-  if (against == Against::internal_work) return std::make_unique<EnergyErrorEvaluator>(std::vector<Of>{Of::friction, Of::internal_work}, context);
-  if (against == Against::stored_and_plastic)
-    return std::make_unique<EnergyErrorEvaluator>(std::vector<Of>{Of::friction, Of::stored, Of::plastic_work}, context);
+  std::vector<Of> viscous;
+  if (context.connectors.dashpots != nullptr && context.mass == nullptr) viscous.push_back(Of::dashpots);
+  if (context.connectors.are_stabilised) viscous.push_back(Of::stabilisation);
+  const auto with_viscous = [&](std::vector<Of> spent) {
+    spent.insert(spent.end(), viscous.begin(), viscous.end());
+    return std::make_unique<EnergyErrorEvaluator>(spent, context);
+  };
+  if (against == Against::internal_work) return with_viscous({Of::friction, Of::internal_work});
+  if (against == Against::stored_and_plastic) {
+    auto result = with_viscous({Of::friction, Of::stored, Of::plastic_work});
+    if (context.connectors.springs != nullptr) result->add(std::make_unique<SpringEnergyChange>());
+    return result;
+  }
   require_inertia(context);
   auto result = std::make_unique<EnergyErrorEvaluator>(std::vector<Of>{Of::friction, Of::plastic_work, Of::damping}, context);
   result->add_mechanical_energy();

@@ -41,6 +41,19 @@ double contact_imbalance(const QuantityContext& context) {
   return scale > 0.0 ? std::hypot(sum[0], sum[1], sum[2]) / scale : 0.0;
 }
 
+/// Forces of springs, dashpots and stabilisation on the bodies: what does not come from the ground has the sum 0. Null: there are none.
+RCP<const Vector> forces_of_ground(const QuantityContext& context) {
+  const ConnectorsOfStep& connectors = context.connectors;
+  if (connectors.springs == nullptr && connectors.dashpots == nullptr && connectors.stabilisation_force == nullptr) return Teuchos::null;
+  const auto result = rcp(new Vector(context.space().dofs()));
+  std::optional<StepFailure> failure;  // a converged state has none
+  if (connectors.springs != nullptr) connectors.springs->add_forces(*context.local_displacement, nullptr, *result, failure);
+  if (connectors.dashpots != nullptr) connectors.dashpots->add_forces(*context.local_displacement, connectors.dashpot_velocity, *result, failure);
+  if (connectors.stabilisation_force != nullptr) result->update(1.0, *connectors.stabilisation_force, 1.0);
+  result->scale(-1.0);
+  return result;
+}
+
 /// Forces no larger than round-off are none, and none are in balance.
 double total_imbalance(const QuantityContext& context) {
   const auto load = context.external_force->getLocalViewHost(Tpetra::Access::ReadOnly);
@@ -64,6 +77,17 @@ double total_imbalance(const QuantityContext& context) {
     if (at.field != 0 || is_rotation(at.node)) continue;
     sum[at.component] += reaction(dof, 0);
     reactions[at.component] += std::abs(reaction(dof, 0));
+  }
+  if (const RCP<const Vector> ground = forces_of_ground(context); !ground.is_null()) {
+    const auto values = ground->getLocalViewHost(Tpetra::Access::ReadOnly);
+    for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node) {
+      if (is_rotation(node)) continue;
+      for (int i = 0; i < mesh.dimension; ++i) {
+        const double value = values(context.space().row(node, i), 0);
+        sum[i] += value;
+        reactions[i] += std::abs(value);
+      }
+    }
   }
   sum = over_ranks(mesh, sum), loads = over_ranks(mesh, loads), reactions = over_ranks(mesh, reactions);
   double largest = 0.0, scale = 0.0;

@@ -31,6 +31,8 @@ struct Momentum : Quantity {
       {
         const auto values = direction.getLocalViewHost(Tpetra::Access::ReadWrite);
         for (LocalOrdinal node = 0; node < at.mesh().owned_count(); ++node) values(at.space().row(node, i), 0) = 1.0;
+        for (const ReferencePoint& point : at.mesh().reference_points)
+          if (point.rotation_node >= 0 && point.rotation_node < at.mesh().owned_count()) values(at.space().row(point.rotation_node, i), 0) = 0.0;
       }
       return sum_over_body(at, of_body, *at.mass->times(at.motion->velocity), direction);
     });
@@ -66,10 +68,16 @@ struct AngularMomentum : Quantity {
         const auto values = arm.getLocalViewHost(Tpetra::Access::ReadWrite);
         const auto u = at.displacement->getLocalViewHost(Tpetra::Access::ReadOnly);
         const int j = (axis + 1) % 3, k = (axis + 2) % 3;
-        for (LocalOrdinal node = 0; node < mesh.owned_body_count(); ++node) {
+        const auto add = [&](LocalOrdinal node) {
           const auto from_centre = [&](int i) { return mesh.coordinates[node][i] + u(at.space().row(node, i), 0) - about[i]; };
           values(at.space().row(node, j), 0) = -from_centre(k);
           values(at.space().row(node, k), 0) = from_centre(j);
+        };
+        for (LocalOrdinal node = 0; node < mesh.owned_body_count(); ++node) add(node);
+        for (const ReferencePoint& point : mesh.reference_points) {  // point masses
+          if (point.node < mesh.owned_count()) add(point.node);
+          if (mesh.dimension == 2 && point.rotation_node >= 0 && point.rotation_node < mesh.owned_count())
+            values(at.space().row(point.rotation_node, 0), 0) = point.arm;
         }
       }
       return sum_over_body(at, of_body, *at.mass->times(at.motion->velocity), arm);

@@ -144,6 +144,10 @@ void Scene::describe(Parameters& parameters) {
   parameters.named("reference points", reference_points, "sets of nodes that move like a rigid body or share a translation, by names of your choice");
   parameters.named("boundary conditions", boundary_conditions, "prescribed displacements");
   parameters.named("loads", loads, "loads, by names of your choice");
+  parameters.named("springs", springs, "springs, by names of your choice: against the ground, between two sets, or along a line");
+  parameters.named("dashpots", dashpots, "dashpots, by names of your choice; without inertia velocities are changes over a step by its length");
+  parameters.named("point masses", point_masses,
+                   "masses of nodes, sets and reference points, by names of your choice; without inertia they have weight alone");
   parameters.named("ties", ties, "mesh ties: surfaces that are glued together, by names of your choice");
   parameters.named("contact", contact, "contact pairs, by names of your choice");
   parameters.list("automatic contact", automatic_contact, "contact pairs that the program finds");
@@ -152,6 +156,8 @@ void Scene::describe(Parameters& parameters) {
   parameters.named("initial conditions", initial_conditions, "displacements and velocities at the start, with inertia");
   if (!inertia.acts() && !initial_conditions.empty())
     parameters.error("initial conditions", "need inertia; please give the list \"inertia\" a \"scheme\"");
+  parameters.list("stabilisation", stabilisation, "viscous forces on loose bodies, which vanish to the end; of static scenes");
+  parameters.locate("stabilisation", stabilisation.place);
   parameters.list("stepping", stepping, "pseudo-time and its steps; with inertia time");
   parameters.list("newton", newton, "when a Newton solve is done, and when it is given up");
   parameters.list("linear solver", linear_solver, "how linear systems are solved");

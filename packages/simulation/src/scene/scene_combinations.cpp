@@ -33,6 +33,21 @@ void refuse_out_of_plane(const Scene& scene, const Named<BodyOptions>& body, std
                      body.name)});
 }
 
+/// Stabilisation is of statics, and the last state has none.
+void check_stabilisation(const Scene& scene, std::vector<Diagnostic>& diagnostics) {
+  const StabilisationOptions& options = scene.stabilisation;
+  if (!options.acts()) return;
+  const auto refuse = [&](const std::string& words) { diagnostics.push_back({options.place, words}); };
+  if (scene.inertia.acts()) refuse("a scene with inertia needs no stabilisation: mass holds bodies; please remove the list \"stabilisation\"");
+  const double until = options.until.value_or(scene.stepping.end_time);
+  if (until > scene.stepping.end_time)
+    refuse(
+        fmt::format("\"until\" is {}, after the \"end time\" {}: the last state would not be in balance without it", until, scene.stepping.end_time));
+  if (scene.stepping.step >= until)
+    refuse(fmt::format("the \"step\" of {} ends when stabilisation has vanished, at {}; please take steps that are shorter, as a tenth of that",
+                       scene.stepping.step, until));
+}
+
 }  // namespace
 
 std::vector<Diagnostic> wrong_combinations(const Scene& scene) {
@@ -63,6 +78,7 @@ std::vector<Diagnostic> wrong_combinations(const Scene& scene) {
         {body.name, body.place, material->value.law.options, is_generated ? element_of(body.value) : *body.value.element.value}, scene.kinematics);
     diagnostics.insert(diagnostics.end(), wrong.begin(), wrong.end());
   }
+  check_stabilisation(scene, diagnostics);
   for (const auto& tie : scene.reference_points) check_position(scene, tie.value.position, tie.place, diagnostics);
   return diagnostics;
 }

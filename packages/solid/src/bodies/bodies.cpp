@@ -144,6 +144,12 @@ std::vector<double> Bodies::nodal_volumes(LocalOrdinal block) const {
   return volumes;
 }
 
+std::vector<double> Bodies::lumped_volumes(LocalOrdinal block) const {
+  std::vector<double> volumes(mesh_->owned_count(), 0.0);
+  blocks_.at(block)->add_nodal_masses(1.0, volumes);
+  return volumes;
+}
+
 std::vector<double> Bodies::stored_energies(const Vector& local_displacement) const {
   std::vector<double> mine(mesh_->bodies.size(), 0.0), all(mine.size(), 0.0);
   visit_points(local_displacement, [&](const MaterialPoint& point) { mine[mesh_->blocks[point.block].body] += point.weight * point.energy; });

@@ -64,23 +64,26 @@ class DeadTraction final : public Load {
   std::vector<LoadedSide> sides_;
 };
 
-/// f_a = integral of rho g N_a dV0.
+/// f_a = integral of rho g N_a dV0, and m_a g of point masses.
 class Gravity final : public Load {
  public:
   Gravity(const std::shared_ptr<const Bodies>& bodies, const GravityOptions& options)
       : bodies_(bodies),
+        body_(options.body.value),
         components_(components(*bodies, options.x, options.y, options.z)),
         masses_(bodies->mesh()->owned_count(), 0.0),
         weighs_(masses_.size(), 0.0) {
     const Mesh& mesh = *bodies->mesh();
     for (LocalOrdinal node = 0; node < mesh.owned_body_count(); ++node)
       if (options.body.value.empty() || mesh.bodies[mesh.body_of_node[node]].name == options.body.value) weighs_[node] = 1.0;
+    for (const ReferencePoint& point : mesh.reference_points)  // point masses
+      if (point.node < mesh.owned_count() && (body_.empty() || mesh.bodies[mesh.body_of_node[point.node]].name == body_)) weighs_[point.node] = 1.0;
     bool found = false;
     for (std::size_t n = 0; n < bodies->properties().size(); ++n) {
       const BodyProperties& body = bodies->properties()[n];
       if (!options.body.value.empty() && options.body.value != body.name) continue;
       found = true;
-      if (body.is_rigid()) continue;  // without inertia it has no mass; a force on its reference point will do
+      if (body.is_rigid()) continue;  // it has no elements
       const std::vector<double> volumes = bodies->nodal_volumes(static_cast<LocalOrdinal>(n));
       for (std::size_t node = 0; node < masses_.size(); ++node) masses_[node] += body.material->density * volumes[node];
     }
@@ -92,6 +95,7 @@ class Gravity final : public Load {
 
   void add_residual(double time, const Vector&, Vector& residual, std::optional<StepFailure>& failure) const override {
     add(time, -1.0, masses_, residual, failure);
+    add_weight_of_points(time, residual, failure);
   }
   bool is_weight() const override { return true; }
   void add_acceleration(double time, Vector& acceleration, std::optional<StepFailure>& failure) const override {
@@ -110,7 +114,21 @@ class Gravity final : public Load {
     }
   }
 
+  void add_weight_of_points(double time, Vector& residual, std::optional<StepFailure>& failure) const {
+    const Mesh& mesh = *bodies_->mesh();
+    const std::vector<double>& masses = bodies_->point_masses();
+    if (masses.empty()) return;
+    const HostWriteView r(residual);
+    for (std::size_t i = 0; i < components_.size(); ++i) {
+      const double acceleration = evaluate(components_[i], time, {}, failure);
+      for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(masses.size()); ++node)
+        if (masses[node] != 0.0 && (body_.empty() || mesh.bodies[mesh.body_of_node[node]].name == body_))
+          r.data()[bodies_->space().row(node, static_cast<int>(i))] -= masses[node] * acceleration;
+    }
+  }
+
   std::shared_ptr<const Bodies> bodies_;
+  std::string body_;  ///< empty: all
   std::vector<ScalarFunction> components_;
   std::vector<double> masses_;  ///< of the owned nodes
   std::vector<double> weighs_;  ///< likewise, 1 on bodies that have weight, else 0

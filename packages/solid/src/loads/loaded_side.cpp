@@ -50,14 +50,16 @@ SidePosition LoadedSide::at(const SidePoint& point, const Mesh& mesh, const Fiel
   return result;
 }
 
+LoadedSide side_of(const Mesh& mesh, const Side& side) {
+  const auto nodes = mesh.side_nodes(side);
+  return {{nodes.begin(), nodes.end()}, mesh.dimension, &side_rule(mesh.side_shape(side))};
+}
+
 std::vector<LoadedSide> owned_sides(const Mesh& mesh, const Located<std::string>& set) {
   std::vector<LoadedSide> sides;
   look_up(mesh, [&] {
     const SideSet& all = require_side_set(mesh, set);
-    for (LocalOrdinal n = 0; n < all.owned; ++n) {
-      const auto nodes = mesh.side_nodes(all.sides[n]);
-      sides.push_back({{nodes.begin(), nodes.end()}, mesh.dimension, &side_rule(mesh.side_shape(all.sides[n]))});
-    }
+    for (LocalOrdinal n = 0; n < all.owned; ++n) sides.push_back(side_of(mesh, all.sides[n]));
   });
   return sides;
 }
@@ -66,9 +68,9 @@ std::vector<LoadedSide> sides_at_owned_nodes(const Mesh& mesh, const Located<std
   std::vector<LoadedSide> sides;
   look_up(mesh, [&] {
     for (const Side& side : require_side_set(mesh, set).sides) {
-      const auto nodes = mesh.side_nodes(side);
-      if (std::none_of(nodes.begin(), nodes.end(), [&](LocalOrdinal node) { return node < mesh.owned_count(); })) continue;
-      sides.push_back({{nodes.begin(), nodes.end()}, mesh.dimension, &side_rule(mesh.side_shape(side))});
+      LoadedSide one = side_of(mesh, side);
+      if (std::none_of(one.nodes.begin(), one.nodes.end(), [&](LocalOrdinal node) { return node < mesh.owned_count(); })) continue;
+      sides.push_back(std::move(one));
     }
   });
   return sides;

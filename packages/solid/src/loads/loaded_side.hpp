@@ -37,6 +37,9 @@ struct LoadedSide {
   SidePosition at(const SidePoint& point, const Mesh& mesh, const FieldView<const double>& displacement) const;
 };
 
+/// A side as it stands in a set.
+LoadedSide side_of(const Mesh& mesh, const Side& side);
+
 /// The sides of the set whose elements this rank owns. Collective; throws InputError on all ranks if there is no such set.
 std::vector<LoadedSide> owned_sides(const Mesh& mesh, const Located<std::string>& set);
 

@@ -43,6 +43,10 @@ std::vector<Diagnostic> calculix_obstacles(const Scene& scene, const Model& mode
   }
   for (const auto& point : scene.reference_points) say(point.place, fmt::format("the reference point \"{}\"", point.name));
   for (const auto& tie : scene.ties) say(tie.place, fmt::format("the tie \"{}\"", tie.name));
+  for (const auto& spring : scene.springs) say(spring.place, fmt::format("the spring \"{}\"", spring.name));
+  for (const auto& dashpot : scene.dashpots) say(dashpot.place, fmt::format("the dashpot \"{}\"", dashpot.name));
+  for (const auto& mass : scene.point_masses) say(mass.place, fmt::format("the point mass \"{}\"", mass.name));
+  if (scene.stabilisation.acts()) say(scene.stabilisation.place, "stabilisation");
   for (const auto& condition : scene.boundary_conditions)
     if (!condition.value.x_axis.empty()) say(condition.place, fmt::format("the axes of boundary condition \"{}\"", condition.name));
   for (const auto& load : scene.loads)

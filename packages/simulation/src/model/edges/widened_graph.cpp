@@ -53,6 +53,23 @@ RCP<const Graph> widened(const Graph& bulk, const FieldSpace& space, const std::
   return graph;
 }
 
+RCP<const Graph> with_couplings(const RCP<const Graph>& bulk, const FieldSpace& space,
+                                const std::set<std::pair<GlobalOrdinal, GlobalOrdinal>>& coupled) {
+  std::set<std::pair<GlobalOrdinal, GlobalOrdinal>> missing;
+  const auto graph = bulk->getLocalGraphHost();
+  for (const auto& [one, other] : coupled) {
+    const LocalOrdinal node = space.mesh()->owned_nodes->getLocalElement(one), column = bulk->getColMap()->getLocalElement(space.id(0, other, 0));
+    if (node < 0) continue;
+    const LocalOrdinal row = space.row(node, 0);
+    const auto *first = graph.entries.data() + graph.row_map(row), *last = graph.entries.data() + graph.row_map(row + 1);
+    if (column < 0 || std::find(first, last, column) == last) missing.emplace(one, other);
+  }
+  const int mine = missing.empty() ? 0 : 1;
+  int anywhere = 0;
+  Teuchos::reduceAll(*bulk->getComm(), Teuchos::REDUCE_MAX, mine, Teuchos::outArg(anywhere));
+  return anywhere == 0 ? bulk : widened(*bulk, space, missing);
+}
+
 RCP<const Graph> with_entries_of(const RCP<const Graph>& bulk, const Matrix& of_nodes, const FieldSpace& space) {
   std::set<std::pair<GlobalOrdinal, GlobalOrdinal>> coupled;
   const auto mass = of_nodes.getLocalMatrixHost();

@@ -12,6 +12,10 @@ namespace mortise {
 /// those of `bulk`.
 RCP<const Graph> widened(const Graph& bulk, const FieldSpace& space, const std::set<std::pair<GlobalOrdinal, GlobalOrdinal>>& coupled);
 
+/// The graph itself if it holds the pairs in rows of owned nodes, else one that does. Collective.
+RCP<const Graph> with_couplings(const RCP<const Graph>& bulk, const FieldSpace& space,
+                                const std::set<std::pair<GlobalOrdinal, GlobalOrdinal>>& coupled);
+
 /// The graph itself if it holds all entries of a matrix of nodes that are not 0, else one that does. Collective.
 RCP<const Graph> with_entries_of(const RCP<const Graph>& bulk, const Matrix& of_nodes, const FieldSpace& space);
 

@@ -125,6 +125,10 @@ RigidMass mass_of(const Scene& scene, const Bodies& bodies, const Named<BodyOpti
   return rigid_mass(*options.mass, centre, moments);
 }
 
+bool has_point_mass(const Scene& scene, const std::string& set) {
+  return std::any_of(scene.point_masses.begin(), scene.point_masses.end(), [&](const auto& mass) { return mass.value.set.value == set; });
+}
+
 /// [owned nodes]; nothing without rigid bodies that have mass. Collective.
 std::optional<std::vector<double>> masses_of_rigid_bodies(const Scene& scene, const Bodies& bodies, const std::vector<LocalOrdinal>& prescribed) {
   const Mesh& mesh = *bodies.mesh();
@@ -137,7 +141,7 @@ std::optional<std::vector<double>> masses_of_rigid_bodies(const Scene& scene, co
     });
     if (point == mesh.reference_points.end()) continue;
     if (!body.value.density && !body.value.mass) {
-      if (!is_led(bodies.space(), *point, prescribed))
+      if (!is_led(bodies.space(), *point, prescribed) && !has_point_mass(scene, point->name))
         throw InputError(body.place, fmt::format("the rigid body \"{}\" moves and has no mass; please give it a \"density\", or a \"mass\" and "
                                                  "\"moments of inertia\"",
                                                  body.name));
@@ -220,6 +224,9 @@ InertiaOfModel add_inertia(const Scene& scene, const std::shared_ptr<const Bodie
     const RCP<const Matrix> diagonal = mass_of_nodes(mesh.owned_nodes, *rigid);
     mass = Tpetra::MatrixMatrix::add(1.0, false, *mass, 1.0, false, *diagonal, mass->getDomainMap(), mass->getRangeMap());
   }
+  if (!scene.point_masses.empty())
+    mass = Tpetra::MatrixMatrix::add(1.0, false, *mass, 1.0, false, *matrix_of_point_masses(*bodies, scene.point_masses), mass->getDomainMap(),
+                                     mass->getRangeMap());
   const auto integration = std::make_shared<TimeIntegration>();
   integration->scheme = scene.inertia.time_scheme();
   if (scene.inertia.contact_mass != InertiaOptions::ContactMass::kept && !scene.contact.empty()) {

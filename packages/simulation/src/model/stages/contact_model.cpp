@@ -148,17 +148,14 @@ SurfacesAtStart surfaces_of(const MeshedScene& meshed, const Scene& scene, std::
   return at_start;
 }
 
-/// [owned nodes] Whether nothing but contact holds its body. Throws InputError for bodies that nothing holds. Collective.
+/// [mesh.bodies] Whether nothing but contact holds them. Throws InputError for bodies that nothing holds and nothing stabilises. Collective.
 std::vector<char> held_by_contact_only(const MeshedScene& meshed, const Scene& scene, const Supports& supports,
                                        const std::vector<ContactPair>& pairs) {
-  std::vector<char> of_nodes(static_cast<std::size_t>(meshed.mesh->owned_count()), 0);
-  if (scene.inertia.acts()) return of_nodes;  // mass balances what nothing holds
+  if (scene.inertia.acts()) return std::vector<char>(meshed.mesh->bodies.size(), 0);  // mass balances what nothing holds
   std::vector<HoldingPair> holding;
   for (const auto& pair : pairs)
     holding.push_back({&pair.slave, &pair.master, pair.options.mortar.search_reach.value_or(0.0), pair.options.friction.options->acts()});
-  const auto of_bodies = check_held(*meshed.space, scene.kinematics == Kinematics::axisymmetric, supports, holding, meshed.places);
-  for (LocalOrdinal node = 0; node < meshed.mesh->owned_count(); ++node) of_nodes[node] = of_bodies[meshed.mesh->body_of_node[node]];
-  return of_nodes;
+  return check_held(*meshed.space, scene.kinematics == Kinematics::axisymmetric, supports, holding, meshed.places, scene.stabilisation.acts());
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ class EdgeContact;
 struct ContactModel {
   SurfacesAtStart at_start;
   std::vector<std::vector<int>> bodies_of_pairs;
-  std::vector<char> held_by_contact_only;  ///< [owned nodes]
+  std::vector<char> held_by_contact_only;  ///< [mesh.bodies]; of a stabilised scene those that nothing but contact holds, or nothing
   std::shared_ptr<EdgeContact> edges;
   std::shared_ptr<ContactSystem> system;
 };

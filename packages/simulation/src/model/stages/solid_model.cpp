@@ -5,6 +5,7 @@
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 
+#include "model/connectors/connectors_of_scene.hpp"
 #include "model/contributions.hpp"
 #include "model/motion/inertia.hpp"
 #include "model/pairs/surface_ties.hpp"
@@ -40,6 +41,7 @@ SolidModel make_solid(const MeshedScene& meshed, const Scene& scene, const Timer
   for (const auto& load : scene.loads)
     collect([&] { solid.loads.push_back(std::make_shared<LoadContribution>(load.name, load.value.load.options->make(solid.bodies), timers)); });
   parts.contributions.insert(parts.contributions.end(), solid.loads.begin(), solid.loads.end());
+  collect([&] { solid.connectors = add_connectors(scene, solid.bodies, timers, parts); });
   collect([&] { solid.motion = std::make_shared<const PrescribedMotion>(*bodies, scene.boundary_conditions); });
   solid.supports.ties = meshed.ties.tied;
   return solid;
@@ -60,6 +62,10 @@ void add_supports(const MeshedScene& meshed, const Scene& scene, const Timers& t
   solid.inertia = add_inertia(scene, solid.bodies, motion.dofs(), timers, solid.parts);
   if (solid.inertia.mass)
     for (const auto& load : solid.loads) load->weigh_by(solid.inertia.mass);
+  else if (std::vector<double> points = weights_of_points(scene, *solid.bodies); !points.empty())
+    solid.bodies->set_point_masses(std::move(points));
+  if (solid.connectors.springs) supports.connectors.push_back(solid.connectors.springs);
+  if (solid.connectors.dashpots && !scene.inertia.acts()) supports.connectors.push_back(solid.connectors.dashpots);
 }
 
 RCP<MultiVector> marked_components(const FieldSpace& space, const std::vector<LocalOrdinal>& dofs, double mark) {

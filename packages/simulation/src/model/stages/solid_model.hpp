@@ -17,10 +17,11 @@ class LoadContribution;
 
 /// Objects of the scene but those of contact.
 struct SolidModel {
-  std::shared_ptr<const Bodies> bodies;
+  std::shared_ptr<Bodies> bodies;
   std::shared_ptr<const PrescribedMotion> motion;
   Supports supports;
   std::vector<std::shared_ptr<LoadContribution>> loads;  ///< of parts.contributions
+  ConnectorsOfModel connectors;
   InertiaOfModel inertia;
   SystemParts parts;  ///< without contact
 };

@@ -4,6 +4,7 @@
 #include "run/diagnosis/motion_hold.hpp"
 #include "run/diagnosis/parts_apart.hpp"
 #include "run/diagnosis/slip_settlement.hpp"
+#include "run/diagnosis/stabilisation_watch.hpp"
 #include "run/diagnosis/start_rule.hpp"
 #include "run/diagnosis/state_check.hpp"
 #include "run/diagnosis/static_reasons.hpp"
@@ -72,7 +73,10 @@ StepGuards static_guards(const StaticGuardSettings& settings, SystemParts& parts
               std::make_shared<StartRule>(model, loose, scene.newton.momentum_tolerance, settings.say), check};
     if (settlement) guards.push_back(settlement);
   }
-  guards.push_back(std::make_shared<JumpGuard>(model.parts().length, check));
+  if (model.connectors().stabilisation)  // viscous paths have no jumps
+    guards.push_back(std::make_shared<StabilisationWatch>(model, settings.say, settings.warn));
+  else
+    guards.push_back(std::make_shared<JumpGuard>(model.parts().length, check));
   guards.push_back(std::make_shared<StabilityCheck>(resolution, settings.warn));
   guards.push_back(std::make_shared<StaticReasons>(model, scene.stepping, check, settlement));
   return guards;

@@ -10,6 +10,9 @@ QuantityContext quantity_context(const Scene& scene, const Model& model) {
   if (model.parts().rigid) context.following = &model.parts().rigid->dofs();
   context.symbols = &scene.symbols;
   context.mass = model.inertia().mass.get();
+  context.connectors.springs = model.connectors().springs.get();
+  context.connectors.dashpots = model.connectors().dashpots.get();
+  context.connectors.are_stabilised = scene.stabilisation.acts();
   return context;
 }
 

@@ -4,6 +4,8 @@
 #include <Tpetra_Vector.hpp>
 #include <limits>
 
+#include "model/connectors/connector_contributions.hpp"
+#include "model/connectors/stabilisation.hpp"
 #include "model/edge_contact.hpp"
 #include "run/output/step_motion.hpp"
 
@@ -51,6 +53,8 @@ std::vector<double> StepEvaluation::quantities(const SystemEvaluation& at) {
   context.laws = contact_laws(at);
   if (const EdgeContact* edges = model_.edges())
     context.edge_force = [edges, local_displacement](std::size_t pair) { return edges->resultant(pair, *local_displacement); };
+  if (model_.connectors().dashpot_forces) context.connectors.dashpot_velocity = &model_.connectors().dashpot_forces->last_velocity();
+  if (model_.connectors().stabilisation) context.connectors.stabilisation_force = &model_.connectors().stabilisation->force();
   context.reaction = reaction.get();
   context.external_force = external.get();
   const std::optional<MotionOfStep> of_step = motion ? std::optional(motion->of_quantities()) : std::nullopt;

@@ -87,6 +87,10 @@ class Bodies {
   /// scaled to their mass.
   std::vector<double> nodal_masses() const;
 
+  /// Masses that stand at owned nodes besides those of elements: they have weight. Empty: none.
+  const std::vector<double>& point_masses() const { return point_masses_; }
+  void set_point_masses(std::vector<double> masses) { point_masses_ = std::move(masses); }
+
   /// Mass of each body of the mesh, summed over all ranks; 0 for rigid ones. Collective.
   std::vector<double> masses() const;
 
@@ -132,6 +136,9 @@ class Bodies {
   /// Integral of N_a dV0 over the body `block`, for each owned node a.
   std::vector<double> nodal_volumes(LocalOrdinal block) const;
 
+  /// Volumes of the owned nodes in a block that are above 0 in any element, with the volume as their sum: see nodal_masses().
+  std::vector<double> lumped_volumes(LocalOrdinal block) const;
+
  private:
   using PointTensor = std::function<Matrix3(const MaterialPoint&)>;
   std::vector<StressComponents> element_means(const Vector& local_displacement, LocalOrdinal block, const PointTensor& tensor) const;
@@ -144,6 +151,7 @@ class Bodies {
   double thickness_;
   std::vector<BodyProperties> properties_;
   std::vector<std::unique_ptr<ElementBlock>> blocks_;
+  std::vector<double> point_masses_;
 };
 
 /// The rigid body modes about the current configuration, on the owned dofs. Collective.

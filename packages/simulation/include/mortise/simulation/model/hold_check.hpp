@@ -28,12 +28,14 @@ struct HoldingPair {
 ///   - every prescribed dof adds (mode at the dof)^2, every inclined support (mode along its direction)^2;
 ///   - a set that follows a reference point adds what deviates from the motion that it may share;
 ///   - every tied dof adds (mode - modes of what it is tied to)^2;
+///   - every spring, and in statics every dashpot, adds (its elongation in a motion)^2;
 ///   - every corner of a slave facet in reach of its master adds (n . (mode_slave - mode_master))^2, with friction |mode_slave - mode_master|^2.
 /// A null vector of the matrix is a motion that nothing holds.
 /// @param body_places  where the scene gives each body (mesh.bodies order)
-/// @returns for each body (mesh.bodies order) whether only contact holds it, or those that it is tied to
+/// @param may_move     motions that nothing holds are allowed
+/// @returns for each body (mesh.bodies order) whether only contact holds it, or those that it is tied to, or nothing
 /// @throws InputError naming body and mode for each motion that nothing holds
 std::vector<char> check_held(const FieldSpace& space, bool axisymmetric, const Supports& supports, const std::vector<HoldingPair>& pairs,
-                             const std::vector<Place>& body_places);
+                             const std::vector<Place>& body_places, bool may_move = false);
 
 }  // namespace mortise

@@ -18,7 +18,16 @@
 
 namespace mortise {
 
+class DashpotForces;
 class EdgeContact;
+class Stabilisation;
+
+/// Springs, dashpots and stabilisation of a model; null where the scene has none.
+struct ConnectorsOfModel {
+  std::shared_ptr<const Connectors> springs, dashpots;
+  std::shared_ptr<DashpotForces> dashpot_forces;
+  std::shared_ptr<Stabilisation> stabilisation;
+};
 
 /// Active effects and their subjects: ("finite strain", bodies), ("contact", pairs), ... in the order in which they are shown.
 using Effects = std::vector<std::pair<std::string, std::vector<std::string>>>;
@@ -64,6 +73,7 @@ class Model {
   const InertiaOfModel& inertia() const { return inertia_; }
   /// Null if no edges of the scene's pairs may cross.
   EdgeContact* edges() const { return edges_.get(); }
+  const ConnectorsOfModel& connectors() const { return connectors_; }
   /// For each owned node whether it belongs to a body that nothing but contact holds.
   const std::vector<char>& held_by_contact_only() const { return held_by_contact_only_; }
   /// mesh.bodies indices of the bodies on either side of each contact pair, second passes behind all pairs of the scene.
@@ -91,6 +101,9 @@ class Model {
   std::vector<BodyHistory> histories() const;
 
  private:
+  /// @param loose  [mesh.bodies]
+  void stabilise(const Scene& scene, const std::vector<char>& loose, const Timers& timers);
+
   RCP<const Mesh> mesh_;
   std::shared_ptr<const FieldSpace> space_;
   MeshSize size_;
@@ -106,6 +119,7 @@ class Model {
   std::string mesh_digest_;  ///< empty: that of the mesh as it is
   SystemParts parts_;
   std::shared_ptr<EdgeContact> edges_;
+  ConnectorsOfModel connectors_;
 };
 
 }  // namespace mortise

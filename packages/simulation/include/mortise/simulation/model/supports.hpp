@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mortise/mortar/tied_surfaces.hpp"
+#include "mortise/solid/connectors.hpp"
 #include "mortise/solid/prescribed_motion.hpp"
 
 namespace mortise {
@@ -15,6 +16,7 @@ struct Supports {
   std::vector<InclinedComponent> inclined;  ///< of owned nodes
   std::shared_ptr<const TieRows> ties;      ///< of surfaces; null: nothing is tied
   std::vector<LocalOrdinal> dofs;  ///< owned dofs on which supports act: those that are prescribed, and those of inclined supports, ascending
+  std::vector<std::shared_ptr<const Connectors>> connectors = {};  ///< springs, and in statics dashpots
 };
 
 }  // namespace mortise

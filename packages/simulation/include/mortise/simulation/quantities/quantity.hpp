@@ -12,6 +12,7 @@
 #include "mortise/core/state_archive.hpp"
 #include "mortise/input/expression.hpp"
 #include "mortise/solid/bodies.hpp"
+#include "mortise/solid/connectors.hpp"
 #include "mortise/solid/nodal_mass.hpp"
 
 namespace mortise {
@@ -34,6 +35,15 @@ struct MotionOfStep {
   bool is_over_step;                  ///< forces are constant over the step: works are f . (d - d_old), else those of the trapezoidal rule
 };
 
+/// Springs, dashpots and stabilisation of a scene; null where it has none.
+struct ConnectorsOfStep {
+  const Connectors* springs = nullptr;
+  const Connectors* dashpots = nullptr;
+  const Vector* dashpot_velocity = nullptr;     ///< on owned dofs and ghosts, as it is in balance; null while evaluators are made
+  const Vector* stabilisation_force = nullptr;  ///< on owned dofs, as the residual has it; null while evaluators are made
+  bool are_stabilised = false;                  ///< the scene has a stabilisation
+};
+
 /// What a quantity may look at. The vectors are null while evaluators are made.
 struct QuantityContext {
   const Bodies& bodies;
@@ -47,8 +57,9 @@ struct QuantityContext {
   std::function<std::array<double, 3>(std::size_t pair)> edge_force{};
   /// f_int - f_ext + f_c on owned dofs: on prescribed ones the force of the support on the body, on followers that of their reference point
   const Vector* reaction = nullptr;
-  const Vector* external_force = nullptr;                 ///< f_ext on owned dofs, as it is in balance
-  const NodalMass* mass = nullptr;                        ///< null: the scene has no inertia
+  const Vector* external_force = nullptr;  ///< f_ext on owned dofs, as it is in balance
+  const NodalMass* mass = nullptr;         ///< null: the scene has no inertia
+  ConnectorsOfStep connectors{};
   const MotionOfStep* motion = nullptr;                   ///< null at the first state, and without inertia
   double force_round_off = 0.0;                           ///< what round-off of positions and stresses may leave of a sum of |forces|, over all ranks
   const std::vector<LocalOrdinal>* prescribed = nullptr;  ///< prescribed owned dofs

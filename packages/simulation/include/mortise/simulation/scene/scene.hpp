@@ -20,8 +20,11 @@
 #include "mortise/simulation/scene/contact_start.hpp"
 #include "mortise/simulation/scene/inertia.hpp"
 #include "mortise/simulation/scene/pattern.hpp"
+#include "mortise/simulation/scene/stabilisation.hpp"
+#include "mortise/solid/connectors.hpp"
 #include "mortise/solid/element_type.hpp"
 #include "mortise/solid/loads.hpp"
+#include "mortise/solid/point_masses.hpp"
 #include "mortise/solid/prescribed_motion.hpp"
 
 namespace mortise {
@@ -127,11 +130,15 @@ struct Scene {
   std::vector<Named<TieOptions>> reference_points;
   std::vector<Named<BoundaryConditionOptions>> boundary_conditions;
   std::vector<Named<LoadChoice>> loads;
+  std::vector<Named<SpringOptions>> springs;
+  std::vector<Named<DashpotOptions>> dashpots;
+  std::vector<Named<PointMassOptions>> point_masses;
   std::vector<Named<SurfaceTieOptions>> ties;
   std::vector<Named<ContactPairOptions>> contact;
   AutomaticContactOptions automatic_contact;
   InertiaOptions inertia;
   std::vector<Named<InitialConditionOptions>> initial_conditions;
+  StabilisationOptions stabilisation;
   SteppingOptions stepping;
   NewtonOptions newton;
   LinearSolverOptions linear_solver;
