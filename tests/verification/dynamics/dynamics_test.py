@@ -1,0 +1,98 @@
+"""Impacts against theory: what contact may do with energy, momentum, impulses, limits of small mass and small steps.
+
+usage: dynamics_test.py MORTISE INPUTS DIRECTORY
+
+dynamics_study.py has the long sweeps of docs/results/dynamics.md.
+"""
+import math
+import os
+import re
+import subprocess
+import sys
+from xml.etree import ElementTree
+
+from impacts import Runs, change_of_spin, disc_on_floor, largest_gain, one_layer, pair_of_blocks, pressed_bar, random_pair
+
+
+def without_motion(scene, path):
+    """Writes a scene without inertia, and without the quantities and checks of motion."""
+    tree = ElementTree.parse(scene)
+    root = tree.getroot()
+    for entry in list(root):
+        if entry.get("name") in ("inertia", "checks"):
+            root.remove(entry)
+        elif entry.get("name") == "quantities":
+            for quantity in list(entry):
+                words = [parameter.get("value") for parameter in quantity]
+                if any(word in words for word in ("kinetic", "contact work", "energy error")):
+                    entry.remove(quantity)
+    tree.write(path)
+    return path
+
+
+def main():
+    mortise, inputs, directory = sys.argv[1:4]
+    runs, failures = Runs(mortise, directory), 0
+
+    def check(holds, text):
+        nonlocal failures
+        failures += not holds
+        print(("ok      " if holds else "FAILED  ") + text, flush=True)
+
+    # Contact takes energy and gives none, whichever side is the slave: z >= 0, g = 0 where z > 0 and g >= 0 before.
+    for seed in (0, 2, 7, 8):
+        _, columns = runs.scene(f"pair_{seed}", pair_of_blocks(**random_pair(seed)))
+        gain = largest_gain(columns)
+        check(gain < 1e-12, f"random pair {seed}: contact work rises by at most {gain:.1e} of the energy in a step")
+        drift = max(abs(p - columns["momentum y"][0]) for p in columns["momentum y"])
+        size = max(abs(p) for title in ("momentum x", "momentum y") for p in columns[title])
+        check(drift < 1e-12 * size, f"random pair {seed}: momentum across drifts by {drift / size:.1e}")
+
+    # A disc that slips throughout: J_t = mu J_n, and the angular momentum changes by R J_t. Its depth of 3 % of the radius shortens the arm.
+    quantities, columns = runs.scene("disc", disc_on_floor(0.1, 0.02, 0.1, 0.0, 0.25))
+    share = abs(quantities["impulse x"] / quantities["impulse y"])
+    check(abs(share / 0.1 - 1) < 0.02, f"slipping disc: impulses along and across are {share:.4f} to 1, by Coulomb 0.1")
+    turn = change_of_spin(columns, 0.0) / quantities["impulse x"]
+    check(abs(turn - 1) < 0.05, f"slipping disc: angular momentum changes by {turn:.4f} R J_t")
+
+    # Contact that lasts: both balances agree to the square of the step.
+    def end(balance, steps, density=1.0):
+        return runs.scene(f"pressed_{balance.replace(' ', '_')}_{steps}_{density:g}", pressed_bar(balance, density, steps))[0]["end"]
+    apart = [abs(end("over the step", steps) - end("at the end", steps)) for steps in (100, 200)]
+    order = math.log2(apart[0] / apart[1])
+    check(1.7 < order < 2.5, f"lasting contact: the two balances differ by {apart[0]:.2e} and {apart[1]:.2e}, of order {order:.2f} in the step")
+
+    # Without mass the static solution, E = 1: -0.01 (1 - 0.5 (1 - cos(pi t)) / 2) at t = 4.
+    away = [abs(end("at the end", 40, density) + 0.01) for density in (1e-3, 1e-4)]
+    check(away[1] < 0.2 * away[0] and away[1] < 1e-5, f"small mass: the end is {away[0]:.1e} and {away[1]:.1e} away from the static one for densities of 1e-3 and 1e-4")
+
+    # Statics ends where the edge of the collar begins, at the largest force, which a thin ring needs at t = 1; the compliance of contact takes some of it.
+    scene = without_motion(os.path.join(inputs, "dynamics", "snap_fit.xml"), os.path.join(directory, "static_snap_fit.xml"))
+    done = subprocess.run([mortise, "run", scene, "-o", os.path.join(directory, "static_snap_fit"), "--quiet", "--set", "stepping/step=0.02"],
+                          capture_output=True, text=True)
+    times = [float(time) for time in re.findall(r"last converged state is that of time ([0-9.]+)", done.stdout + done.stderr)]
+    check(done.returncode != 0 and times != [] and 0.8 < times[0] < 1.0, f"snap fit without inertia: exit code {done.returncode}, ends at {times} of the time of a thin ring's largest force")
+    # Advice, each with its numbers.
+    def said(name, scene, *settings):
+        words = [word for setting in settings for word in ("--set", setting)]
+        done = subprocess.run([mortise, "run", scene, "-o", os.path.join(directory, name), *words], capture_output=True, text=True)
+        return done.stdout + done.stderr
+
+    impedance = os.path.join(inputs, "dynamics", "matched_impedance.xml")
+    bar = os.path.join(inputs, "dynamics", "bouncing_bar.xml")
+    text = said("tolerance", bar, "inertia/contact condition=gap", "inertia/spectral radius=0.8", "inertia/impact tolerance=1e-3", "variables/n=10", "variables/courant=0.9",
+                "variables/steps=50")
+    check('of the kinetic energy, ' in text and 'above the "impact tolerance" of 0.001' in text, "a step in which closing takes too much is halved")
+    text = said("speed", impedance, "variables/n=10", "stepping/step=1.5")
+    check("the step of 1.5 is longer than" in text and "crosses the search reach of" in text, "a step that is longer than the way through the search reach is told")
+    check("accelerations and forces of supports ring" not in text, "motion that is not prescribed does not jump")
+    whole = runs.write("layer", one_layer())
+    text = said("layer", whole)
+    check("4 nodes of contact surfaces keep their mass" in text, "contact nodes without interior nodes keep their mass")
+    check("a prescribed velocity jumps by about 1 at t = 0.5" in text, "a kink of prescribed motion is told")
+    print(f"{failures} failed")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,148 @@
+"""Scenes of impacts that tests and studies of dynamics write, and their runs."""
+import csv
+import json
+import os
+import random
+import subprocess
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "scenes"))
+from scene_writer import named, numbers  # noqa: E402
+
+
+class Runs:
+    """Runs scenes below a directory. A result is (quantities of the end, columns of the history)."""
+
+    def __init__(self, mortise, directory):
+        self.mortise, self.directory = os.path.abspath(mortise), os.path.abspath(directory)
+        os.makedirs(self.directory, exist_ok=True)
+
+    def file(self, name, path, settings=()):
+        output = os.path.join(self.directory, name)
+        words = [word for setting in settings for word in ("--set", setting)]
+        done = subprocess.run([self.mortise, "run", path, "-o", output, "--quiet", *words], capture_output=True, text=True)
+        if not os.path.exists(os.path.join(output, "summary.json")):
+            sys.exit(f"{name}: exit code {done.returncode}\n{done.stdout[-1000:]}{done.stderr[-1000:]}")
+        with open(os.path.join(output, "summary.json"), encoding="utf-8") as file:
+            quantities = json.load(file)["quantities"]
+        with open(os.path.join(output, "history.csv"), encoding="utf-8") as file:
+            rows = list(csv.reader(file))
+        columns = {title: [float(row[k]) for row in rows[1:]] for k, title in enumerate(rows[0])}
+        return quantities, columns
+
+    def write(self, name, content):
+        path = os.path.join(self.directory, name + ".xml")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(named(name, *content))
+        return path
+
+    def scene(self, name, content, settings=()):
+        return self.file(name, self.write(name, content), settings)
+
+
+def energies(*names):
+    kinds = {"kinetic energy": "kinetic", "stored energy": "stored", "contact work": "contact work", "friction": "friction"}
+    return "".join(named(name, type="energy", of=kinds[name]) for name in names)
+
+
+def material(name, modulus, density, ratio=0.0, law="small strain linear"):
+    return named(name, **{"type": law, "young's modulus": modulus, "poisson's ratio": ratio, "density": density})
+
+
+def block(dimension, name, substance, length, start, cells, across, shift=0.0):
+    """A block along x from `start` on, 1 wide."""
+    if dimension == 2:
+        mesh = named("mesh", type="block", width=length, height=1.0, cells_x=cells, cells_y=across, translation=numbers(start, shift))
+    else:
+        mesh = named("mesh", type="brick", width=length, depth=1.0, height=1.0, cells_x=cells, cells_y=across, cells_z=across,
+                     translation=numbers(start, shift, shift))
+    return named(name, mesh, material=substance)
+
+
+def pair_of_blocks(dimension, moduli, densities, across, cells, speeds, friction=0.0, second_is_slave=False, inertia=None, courant=0.9, waves=3.0,
+                   ratio=0.0):
+    """A block strikes another one at rest with `speeds` along x and across. The run lasts for `waves` ways of a wave through the slower one."""
+    celerity = [(modulus / density) ** 0.5 for modulus, density in zip(moduli, densities)]
+    step = courant * min(1.0 / (cells * c) for c in celerity)
+    end = waves / max(min(celerity), 0.2 * max(celerity))
+    surfaces = ("second/left", "first/right") if second_is_slave else ("first/right", "second/left")
+    law = named("friction", type="coulomb", coefficient=friction) if friction else ""
+    fields = ("",)
+    return [
+        f'<Parameter name="kinematics" type="string" value="{"plane strain" if dimension == 2 else "three dimensional"}"/>',
+        named("materials", material("one", moduli[0], densities[0], ratio), material("other", moduli[1], densities[1], ratio)),
+        named("bodies", block(dimension, "first", "one", 1.0, 0.0, cells, across[0]), block(dimension, "second", "other", 1.0, 1.0, cells, across[1])),
+        named("inertia", **{"scheme": "generalised alpha", **(inertia or {})}),
+        named("initial conditions", named("throw", body="first", velocity_x=speeds[0], velocity_y=speeds[1])),
+        named("contact", named("joint", law, slave=surfaces[0], master=surfaces[1], geometry="reference")),
+        named("stepping", end_time=end, step=step), named("output", fields=fields[0], every_step=0),
+        named("quantities", named("force", type="contact force", component="x"), named("impulse", type="impulse", component="x"), named("peak", type="peak pressure"),
+              *[named(f"momentum {c}", type="momentum", component=c) for c in "xyz"[:dimension]],
+              energies("kinetic energy", "stored energy", "contact work"), named("energy error", type="energy error", against="mechanical"))]
+
+
+def random_pair(seed):
+    """Arguments of pair_of_blocks(): moduli and densities over three decades, either side as slave, in 2D and 3D, with and without friction."""
+    draw = random.Random(seed)
+    def decades():
+        return 10.0 ** draw.uniform(-1.5, 1.5)
+    dimension = 3 if seed % 10 == 0 else 2
+    return {"dimension": dimension, "moduli": (decades(), decades()), "densities": (decades(), decades()), "across": draw.choice([(2, 3), (3, 4), (4, 3), (1, 1)]) if dimension == 2 else (1, 2),
+            "cells": 8 if dimension == 2 else 4, "speeds": (0.01, draw.uniform(-0.01, 0.01)), "friction": draw.choice([0.0, 0.1, 0.3, 0.5]),
+            "second_is_slave": draw.random() < 0.5, "ratio": draw.choice([0.0, 0.3]), "courant": draw.choice([0.4, 0.9, 2.0])}
+
+
+def largest_gain(columns):
+    """Largest rise of the contact work within a step, over the kinetic energy of the first step."""
+    works = [0.0] + columns["contact work"]
+    return max(after - before for before, after in zip(works, works[1:])) / max(columns["kinetic energy"])
+
+
+def disc_on_floor(friction, across, along, spin, step=0.5, cells=12, radius=1.0):
+    """A disc of E = rho = 1 flies obliquely, and turns, onto a rigid floor that its lowest point touches."""
+    return [
+        '<Parameter name="kinematics" type="string" value="plane strain"/>', named("materials", material("elastic", 1.0, 1.0, 0.3, "hencky")),
+        named("bodies", named("disc", named("mesh", type="disk", radius=radius, cells_around=cells, cells_across=4), material="elastic"),
+              named("floor", named("mesh", type="block", width=6.0, height=1.0, cells_x=1, cells_y=1, translation=numbers(-3.0, -2.0 * radius)), rigid=True)),
+        named("boundary conditions", named("floor", set="floor/reference", x=0.0, y=0.0, rotation=0.0)),
+        named("inertia", scheme="generalised alpha"),
+        named("initial conditions", named("throw", body="disc", velocity_x=along, velocity_y=-across, spin=spin)),
+        named("contact", named("floor", named("friction", type="coulomb", coefficient=friction), slave="disc/arc", master="floor/top")),
+        named("stepping", end_time=24.0, step=step), named("output", fields="", every_step=0),
+        named("quantities", *[named(f"momentum {c}", type="momentum", component=c) for c in "xy"],
+              *[named(f"impulse {c}", type="impulse", component=c) for c in "xy"], named("angular momentum", type="angular momentum"),
+              *[named(f"way {c}", type="displacement", x=0.0, y=0.0, component=c) for c in "xy"], named("force", type="contact force"),
+              energies("kinetic energy", "stored energy", "contact work", "friction"), named("energy error", type="energy error", against="mechanical"))]
+
+
+def change_of_spin(columns, before):
+    """Change of the angular momentum about the disc's centre, from the first step to the last, where nothing touches; `before`: that of the first."""
+    def about_centre(k):
+        return columns["angular momentum"][k] - columns["way x"][k] * columns["momentum y"][k] + columns["way y"][k] * columns["momentum x"][k]
+    return about_centre(-1) - before
+
+
+def one_layer():
+    """A body of one layer, all of whose nodes lie on contact surfaces, before one that moves until t = 0.5 and stops there."""
+    return [
+        '<Parameter name="kinematics" type="string" value="plane strain"/>', named("materials", material("elastic", 1.0, 1.0)),
+        named("bodies", block(2, "layer", "elastic", 0.2, 1.5, 1, 1), block(2, "mover", "elastic", 1.0, 0.0, 4, 1)),
+        named("boundary conditions", named("mover", set="mover/left", x="min(t, 0.5)", y=0.0)),
+        named("inertia", scheme="generalised alpha"),
+        named("contact", named("front", slave="layer/left", master="mover/right"), named("back", slave="layer/right", master="mover/top")),
+        named("stepping", end_time=0.8, step=0.04), named("output", fields="", every_step=0)]
+
+
+def pressed_bar(balance, density, steps, end=4.0, cells=10, radius=0.8):
+    """A bar of E = 1 on a rigid wall, pressed by a force that starts smoothly and goes up and down, so that contact lasts."""
+    return [
+        '<Parameter name="kinematics" type="string" value="plane strain"/>', named("materials", material("elastic", 1.0, density)),
+        named("bodies", block(2, "bar", "elastic", 1.0, 0.0, cells, 1),
+              named("wall", named("mesh", type="block", width=0.5, height=2.0, cells_x=1, cells_y=1, translation=numbers(-0.5, -0.5)), rigid=True)),
+        named("boundary conditions", named("wall", set="wall/reference", x=0.0, y=0.0, rotation=0.0)),
+        named("loads", named("push", type="dead traction", set="bar/right", x="-0.01*(1 - 0.5*(1 - cos(pi*t))/2)*(t &lt; 1 ? sin(pi*t/2)^2 : 1)")),
+        named("inertia", **{"scheme": "generalised alpha", "balance": balance, "spectral radius": radius}),
+        named("contact", named("wall", slave="bar/left", master="wall/right", geometry="reference")),
+        named("stepping", end_time=end, step=end / steps), named("output", fields="", every_step=0),
+        named("quantities", named("end", type="displacement", x=1.0, y=0.5, component="x"), named("force", type="contact force", component="x"),
+              energies("kinetic energy", "stored energy"))]
