@@ -7,7 +7,9 @@
 #include <Tpetra_Vector.hpp>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
+#include "mortise/nonlinear/semi_smooth_system.hpp"
 #include "mortise/simulation/model/model.hpp"
 #include "mortise/simulation/scene/read_scene.hpp"
 
@@ -117,6 +119,18 @@ TEST_F(InertiaScene, WithoutASchemeNothingOfItExists) {
   EXPECT_FALSE(model.parts().time);
   EXPECT_FALSE(model.inertia().mass);
   for (const auto& contribution : model.parts().contributions) EXPECT_EQ(contribution->uses().time_derivatives, 0);
+  const Timers timers;
+  const SemiSmoothSystem system(model.parts(), timers);
+  const Vector x(system.map());
+  const AcceptedState state = system.initial_state(x);
+  EXPECT_FALSE(state.rates);
+  const StepContext context = system.step_from(state, 1.0);
+  EXPECT_FALSE(context.step);
+  system.commit(system.evaluate(x, context));
+  std::ostringstream times;
+  timers.stacked().stopBaseTimer();
+  timers.stacked().report(times, model.mesh()->comm);
+  EXPECT_EQ(times.str().find("inertia"), std::string::npos) << times.str();
 }
 
 TEST_F(InertiaScene, RefusesWhatMakesNoSense) {
@@ -130,7 +144,45 @@ TEST_F(InertiaScene, RefusesWhatMakesNoSense) {
   expect_refusal(replaced(number("density", "3"), ""), "moves and has no mass");
   expect_refusal(replaced(number("density", "3"), number("mass", "3")), "moments of inertia");
   expect_refusal(replaced("generalised alpha", "none"), "need inertia");
+  expect_refusal(with("inertia", "<Parameter name=\"contact condition\" type=\"string\" value=\"gap rate\"/>"), "a \"spectral radius\" of 1");
+  expect_refusal(replaced(number("density", "2"), number("density", "-2")), "density");
+  expect_refusal(with("inertia", number("stiffness damping", "-1")), "stiffness damping");
+  expect_refusal(with("inertia", number("error tolerance", "0")), "error tolerance");
+  expect_refusal(with("inertia", number("beta", "0")), "beta");
   expect_refusal(with("throw", "<Parameter name=\"axis\" type=\"string\" value=\"0, 0, 0\"/>"), "no direction");
+}
+
+TEST_F(InertiaScene, ConditionsOnTheGapRateAreExact) {
+  std::string content =
+      with("inertia", number("spectral radius", "1") + "<Parameter name=\"contact condition\" type=\"string\" value=\"gap rate\"/>");
+  const std::string pair = R"xml(<ParameterList name="contact"><ParameterList name="pair">
+    <Parameter name="slave" type="string" value="block/right"/><Parameter name="master" type="string" value="tool/left"/>
+    <ParameterList name="formulation"><Parameter name="type" type="string" value="penalty"/></ParameterList>
+  </ParameterList></ParameterList>)xml";
+  content.insert(content.rfind("</ParameterList>"), pair);
+  expect_refusal(content, "\"penalty\" gives way");
+}
+
+// A rigid body has the weight of its mass, and nodes without mass have none: bodies fall alike.
+TEST_F(InertiaScene, WeightIsThatOfTheMass) {
+  std::string content = text;
+  const std::string more = R"xml(<ParameterList name="loads"><ParameterList name="weight">
+    <Parameter name="type" type="string" value="gravity"/><Parameter name="y" type="double" value="-10"/>
+  </ParameterList></ParameterList>
+  <ParameterList name="contact"><ParameterList name="pair">
+    <Parameter name="slave" type="string" value="block/right"/><Parameter name="master" type="string" value="tool/left"/>
+  </ParameterList></ParameterList>)xml";
+  content.insert(content.rfind("</ParameterList>"), more);
+  const Model model(comm_, read(content), Timers());
+  EXPECT_GT(model.inertia().without_mass, 0);
+  const SemiSmoothSystem system(model.parts(), Timers());
+  const AcceptedState state = system.initial_state(Vector(system.map()), Vector(model.parts().dofs), false);
+  const auto a = state.rates->acceleration->getLocalViewHost(Tpetra::Access::ReadOnly);
+  const Mesh& mesh = *model.mesh();
+  for (LocalOrdinal node = 0; node < mesh.owned_body_count(); ++node) {
+    EXPECT_NEAR(a(2 * node, 0), 0.0, 1e-10);
+    EXPECT_NEAR(a(2 * node + 1, 0), -10.0, 1e-10);
+  }
 }
 
 TEST_F(InertiaScene, ABodyMayBeMassless) {

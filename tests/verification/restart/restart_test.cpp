@@ -134,6 +134,11 @@ TEST(Restart, AugmentedLagrange) {
                    "verification/sliding_block.xml",
                    {"contact/joint/formulation/type=augmented lagrange", "checks/work/low=-1", "checks/work/high=1"}});
 }
+// In the middle of an impact, to the last bit.
+TEST(Restart, Inertia) {
+  expect_seamless({"impact", "dynamics/matched_impedance.xml", {"variables/n=10", "stepping/end time=0.5"}, 1, 1, 0.0});
+  expect_seamless({"gap_rate", "dynamics/bouncing_bar.xml", {"variables/n=20", "variables/steps=40"}, 1, 1, 0.0});
+}
 TEST(Restart, RigidBodies) { expect_seamless({"rigid", "verification/rolling_disk.xml", {"variables/n=3"}}); }
 TEST(Restart, QuadraticFacets) {
   expect_seamless({"quadratic",
