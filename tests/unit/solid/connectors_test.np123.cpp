@@ -28,7 +28,7 @@ std::shared_ptr<const Bodies> two_blocks(Kinematics kinematics = Kinematics::pla
                                {}, {{"point", {}, true, std::array<double, 3>{4.5, 0.5, 0.0}}});
   add_followers(*mesh, 0, {"tool", {}}, {true, true, true});
   return std::make_shared<Bodies>(
-      mesh, kinematics, 0.5,
+      displacement_space(mesh), kinematics, 0.5,
       std::vector<BodyProperties>{{"block", {}, make_material("hencky"), ElementType::q4}, {"tool", {}, nullptr, ElementType::q4}});
 }
 
@@ -74,9 +74,9 @@ std::vector<Named<Options>> one_of_each() {
 
 /// On owned dofs and ghosts, by the ids of dofs.
 Vector field(const Bodies& bodies, double size, double phase) {
-  Vector result(bodies.local_dofs());
+  Vector result(bodies.space().local_dofs());
   for (std::size_t dof = 0; dof < result.getLocalLength(); ++dof) {
-    const auto id = static_cast<double>(bodies.local_dofs()->getGlobalElement(static_cast<LocalOrdinal>(dof)));
+    const auto id = static_cast<double>(bodies.space().local_dofs()->getGlobalElement(static_cast<LocalOrdinal>(dof)));
     result.replaceLocalValue(static_cast<LocalOrdinal>(dof), size * std::sin(0.37 * id + phase));
   }
   return result;
@@ -84,10 +84,10 @@ Vector field(const Bodies& bodies, double size, double phase) {
 
 /// Open, with all couplings there can be.
 RCP<Matrix> full_matrix(const Bodies& bodies) {
-  const RCP<const Map>& rows = bodies.dofs();
+  const RCP<const Map>& rows = bodies.space().dofs();
   std::vector<GlobalOrdinal> ids(rows->getGlobalNumElements());
   for (std::size_t id = 0; id < ids.size(); ++id) ids[id] = static_cast<GlobalOrdinal>(id);
-  const RCP<const Map> columns = with_further_columns(*bodies.local_dofs(), ids);
+  const RCP<const Map> columns = with_further_columns(*bodies.space().local_dofs(), ids);
   const auto graph = rcp(new Graph(rows, columns, ids.size()));
   for (const GlobalOrdinal row : rows->getNodeElementList()) graph->insertGlobalIndices(row, static_cast<LocalOrdinal>(ids.size()), ids.data());
   graph->fillComplete(rows, rows);
@@ -96,10 +96,10 @@ RCP<Matrix> full_matrix(const Bodies& bodies) {
   return matrix;
 }
 
-Vector owned(const Bodies& bodies, const Vector& local) { return Vector(*local.offsetView(bodies.dofs(), 0), Teuchos::Copy); }
+Vector owned(const Bodies& bodies, const Vector& local) { return Vector(*local.offsetView(bodies.space().dofs(), 0), Teuchos::Copy); }
 
 Vector forces(const Connectors& all, const Vector& u, const Vector* v) {
-  Vector result(all.bodies()->dofs());
+  Vector result(all.bodies()->space().dofs());
   std::optional<StepFailure> failure;
   all.add_forces(u, v, result, failure);
   EXPECT_FALSE(failure);
@@ -113,8 +113,8 @@ void expect_derivatives(const Connectors& all, const Vector& u, const Vector* v,
   const Vector direction = field(bodies, 1.0, 1.1);
   const RCP<Matrix> K = full_matrix(bodies);
   all.add_derivatives(u, v, by_velocity ? 0.0 : 1.0, by_velocity ? 1.0 : 0.0, nullptr, *K);
-  K->fillComplete(bodies.dofs(), bodies.dofs());
-  Vector found(bodies.dofs()), quotient(bodies.dofs());
+  K->fillComplete(bodies.space().dofs(), bodies.space().dofs());
+  Vector found(bodies.space().dofs()), quotient(bodies.space().dofs());
   K->apply(owned(bodies, direction), found);
   for (const double sign : {1.0, -1.0}) {
     Vector at(by_velocity ? *v : u, Teuchos::Copy);
@@ -152,7 +152,7 @@ TEST(Connectors, ForcesOfSpringsAreTheGradientOfTheirEnergy) {
 TEST(Connectors, ASetHasItsWholeStiffnessWhateverItsMesh) {
   const auto bodies = two_blocks();
   const Connectors springs(bodies, one_of_each<SpringOptions>());
-  Vector u(bodies->local_dofs());
+  Vector u(bodies->space().local_dofs());
   u.putScalar(0.1);
   EXPECT_NEAR(springs.state(0, u, nullptr).force[0], -0.4, 1e-14);
   EXPECT_NEAR(springs.state(0, u, nullptr).force[1], -0.3, 1e-14);
@@ -181,18 +181,18 @@ TEST(Connectors, ColumnsOfVelocitiesHaveTheirShares) {
   const auto bodies = two_blocks();
   const Connectors dashpots(bodies, one_of_each<DashpotOptions>());
   const Vector u = field(*bodies, 0.5, 0.2), v = field(*bodies, 0.8, 0.7), direction = field(*bodies, 1.0, 1.1);
-  Vector shares(bodies->local_dofs()), scaled(direction, Teuchos::Copy);
+  Vector shares(bodies->space().local_dofs()), scaled(direction, Teuchos::Copy);
   for (std::size_t dof = 0; dof < shares.getLocalLength(); ++dof) {  // of nodes
-    const GlobalOrdinal id = bodies->local_dofs()->getGlobalElement(static_cast<LocalOrdinal>(dof)) / 2;
+    const GlobalOrdinal id = bodies->space().local_dofs()->getGlobalElement(static_cast<LocalOrdinal>(dof)) / 2;
     shares.replaceLocalValue(static_cast<LocalOrdinal>(dof), 1.0 + static_cast<double>(id % 3));
   }
   scaled.elementWiseMultiply(1.0, shares, direction, 0.0);
-  Vector with(bodies->dofs()), without(bodies->dofs());
+  Vector with(bodies->space().dofs()), without(bodies->space().dofs());
   const RCP<Matrix> weighted = full_matrix(*bodies), plain = full_matrix(*bodies);
   dashpots.add_derivatives(u, &v, 0.0, 1.0, &shares, *weighted);
   dashpots.add_derivatives(u, &v, 0.0, 1.0, nullptr, *plain);
-  weighted->fillComplete(bodies->dofs(), bodies->dofs());
-  plain->fillComplete(bodies->dofs(), bodies->dofs());
+  weighted->fillComplete(bodies->space().dofs(), bodies->space().dofs());
+  plain->fillComplete(bodies->space().dofs(), bodies->space().dofs());
   weighted->apply(owned(*bodies, direction), with);
   plain->apply(owned(*bodies, scaled), without);
   const double size = without.norm2();
