@@ -137,7 +137,10 @@ class WorkEvaluator final : public QuantityEvaluator {
   double evaluate(const QuantityContext& context) override {
     if ((of_ == Energy::Of::friction || of_ == Energy::Of::contact_work) && context.contact == nullptr) return 0.0;
     const RCP<Vector> now = working_force(of_, context);
-    if (!has_begun_ && context.motion != nullptr) displacement_->assign(context.motion->displacement_before);
+    if (!has_begun_ && context.motion != nullptr) {
+      displacement_->assign(context.motion->displacement_before);
+      if (const Vector* start = force_at_start(*context.motion)) force_->assign(*start);
+    }
     has_begun_ = true;
     Vector change(*context.displacement, Teuchos::Copy);
     change.update(-1.0, *displacement_, 1.0);
@@ -159,6 +162,12 @@ class WorkEvaluator final : public QuantityEvaluator {
   }
 
  private:
+  /// Null: 0, or not known. Contact and supports have none.
+  const Vector* force_at_start(const MotionOfStep& motion) const {
+    if (of_ == Energy::Of::external_work) return motion.external_force_before;
+    return of_ == Energy::Of::damping || of_ == Energy::Of::dashpots ? motion.damping_force_before : nullptr;
+  }
+
   Energy::Of of_;
   double work_ = 0.0;
   bool has_begun_ = false;

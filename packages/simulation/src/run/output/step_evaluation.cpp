@@ -40,7 +40,9 @@ std::vector<double> StepEvaluation::quantities(const SystemEvaluation& at) {
   const double time = at.context().time;
   const RCP<const Vector> reaction = at.forces();
   const RCP<Vector> external = external_force(at.x(), time);
-  const std::optional<StepMotion> motion = step_motion(model_, system_, at);
+  std::optional<StepMotion> motion = step_motion(model_, system_, at);
+  if (motion && !has_begun_ && !motion->is_over_step) add_forces_at_start(model_, at, *motion);
+  has_begun_ = true;
   if (const TimeStep* step = at.context().step.get(); step != nullptr && step->integration->scheme.blends_forces()) {
     const double before = step->integration->scheme.alpha_f;
     external->update(-before, *step->start.external_forces, 1.0 - before);

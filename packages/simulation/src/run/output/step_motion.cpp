@@ -6,7 +6,16 @@
 namespace mortise {
 
 MotionOfStep StepMotion::of_quantities() const {
-  return {*velocity, *acceleration, *rate_force, *damping_force, *displacement_before, *velocity_before, dt, is_over_step};
+  return {*velocity,
+          *acceleration,
+          *rate_force,
+          *damping_force,
+          *displacement_before,
+          *velocity_before,
+          dt,
+          is_over_step,
+          external_force_before.get(),
+          damping_force_before.get()};
 }
 
 std::optional<StepMotion> step_motion(const Model& model, const SemiSmoothSystem& system, const SystemEvaluation& at) {
@@ -32,6 +41,29 @@ std::optional<StepMotion> step_motion(const Model& model, const SemiSmoothSystem
   motion.dt = step->dt;
   motion.is_over_step = step->integration->scheme.balance == TimeScheme::Balance::over_step;
   return motion;
+}
+
+void add_forces_at_start(const Model& model, const SystemEvaluation& at, StepMotion& motion) {
+  const FieldSpace& space = model.space();
+  const auto with_ghosts = [&](const Vector& v) {
+    const auto local = rcp(new Vector(space.local_dofs()));
+    local->doImport(v, *space.ghost_import(), Tpetra::INSERT);
+    return local;
+  };
+  const RCP<const Vector> u = motion.displacement_before, v = motion.velocity_before;
+  const RCP<const Vector> local_u = with_ghosts(*u), local_v = with_ghosts(*v);
+  const Vector a(space.dofs()), local_a(space.local_dofs());
+  const Configuration start{at.context().time - motion.dt, *u, *local_u, v.get(), local_v.get(), &a, &local_a};
+  const auto external = rcp(new Vector(space.dofs())), damping = rcp(new Vector(space.dofs()));
+  std::optional<StepFailure> failure;
+  for (const auto& contribution : model.parts().contributions) {
+    if (contribution->kind() == Contribution::Kind::external) contribution->add_residual(start, *external, failure);
+    if (contribution->uses().time_derivatives > 0) contribution->add_residual(start, *damping, failure);
+  }
+  throw_if_any(*model.mesh()->comm, failure);
+  external->scale(-1.0);
+  motion.external_force_before = external;
+  motion.damping_force_before = damping;
 }
 
 }  // namespace mortise

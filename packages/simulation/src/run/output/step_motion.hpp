@@ -14,6 +14,7 @@ struct StepMotion {
   RCP<const Vector> velocity, acceleration, rate_force, damping_force, displacement_before, velocity_before;
   double dt = 0.0;
   bool is_over_step = false;
+  RCP<const Vector> external_force_before, damping_force_before;  ///< see MotionOfStep; null: not known
 
   /// A view, valid while this lives.
   MotionOfStep of_quantities() const;
@@ -21,5 +22,8 @@ struct StepMotion {
 
 /// Of the step that ends there; none in a scene without inertia, and of an evaluation that ends no step. Collective.
 std::optional<StepMotion> step_motion(const Model& model, const SemiSmoothSystem& system, const SystemEvaluation& at);
+
+/// Gives the motion of a first step the forces at its start, which the trapezoidal rule of works needs. Collective.
+void add_forces_at_start(const Model& model, const SystemEvaluation& at, StepMotion& motion);
 
 }  // namespace mortise

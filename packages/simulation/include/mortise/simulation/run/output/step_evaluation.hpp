@@ -40,6 +40,7 @@ class StepEvaluation {
   const SemiSmoothSystem& system_;
   QuantityEvaluators evaluators_;
   std::vector<ContactProfile> profiles_;
+  bool has_begun_ = false;  ///< quantities of a step were evaluated
 };
 
 }  // namespace mortise
