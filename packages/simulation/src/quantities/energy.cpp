@@ -77,6 +77,20 @@ void add_stabilisation(const QuantityContext& context, Vector& force) {
   if (context.connectors.stabilisation_force != nullptr) force.update(1.0, *context.connectors.stabilisation_force, 1.0);
 }
 
+/// What counts at reference points themselves. Followers bear what is left of loads and supports after springs, dashpots and inertia at the point, so
+/// that external work lacks these there.
+RCP<const Vector> forces_at_points(Energy::Of of, const QuantityContext& context) {
+  const auto result = rcp(new Vector(context.space().dofs()));
+  std::optional<StepFailure> failure;  // a converged state has none
+  if (context.connectors.springs != nullptr) context.connectors.springs->add_forces(*context.local_displacement, nullptr, *result, failure);
+  if (of == Energy::Of::internal_work) return result;
+  if (context.motion != nullptr)
+    result->update(1.0, context.motion->rate_force, 1.0);
+  else
+    add_dashpots(context, *result);
+  return result;
+}
+
 // What a work is done by, on all owned dofs. From outside act loads, and supports on prescribed dofs. Reference points act on their followers, and
 // there their work is counted. A point that is carried round by an angle a with a moment M would do M a. Its followers do M sin a along the chords of
 // their ways, as do all other nodes of the body. With r = f_int - f_ext + f_c the internal forces are r + f_ext - f_c, and what supports and points
@@ -121,10 +135,15 @@ RCP<Vector> working_force(Energy::Of of, const QuantityContext& context) {
       for (std::size_t n = 0; dofs != nullptr && n < dofs->size(); ++n) values((*dofs)[n], 0) += reaction((*dofs)[n], 0);
   }
   const Mesh& mesh = context.mesh();
+  const RCP<const Vector> own = forces_at_points(of, context);
+  const auto at_points = own->getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto values = result->getLocalViewHost(Tpetra::Access::ReadWrite);
   for (const ReferencePoint& point : mesh.reference_points)
     for (const LocalOrdinal node : {point.node, point.rotation_node})
-      for (int i = 0; i < mesh.dimension && node >= 0 && node < mesh.owned_count(); ++i) values(context.space().row(node, i), 0) = 0.0;
+      for (int i = 0; i < mesh.dimension && node >= 0 && node < mesh.owned_count(); ++i) {
+        const LocalOrdinal row = context.space().row(node, i);
+        values(row, 0) = at_points(row, 0);
+      }
   return result;
 }
 
