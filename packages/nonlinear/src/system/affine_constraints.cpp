@@ -43,15 +43,16 @@ RCP<const Matrix> matrix_of(const RCP<const Map>& dofs, const std::vector<Affine
   return result;
 }
 
-/// The id of a column of any rank that is marked; -1: none is. Collective.
+/// The id of a column of any rank that is marked and has an entry; -1: none is. Products have columns without entries. Collective.
 GlobalOrdinal marked_column(const Matrix& T, const Vector& marks) {
   const RCP<const Map> columns = T.getColMap();
   Vector of_columns(columns);
   of_columns.doImport(marks, Import(marks.getMap(), columns), Tpetra::INSERT);
   const auto view = of_columns.getLocalViewHost(Tpetra::Access::ReadOnly);
+  const auto entries = T.getLocalMatrixHost().graph.entries;
   GlobalOrdinal found = -1;
-  for (std::size_t column = 0; column < view.extent(0); ++column)
-    if (view(column, 0) != 0.0) found = std::max(found, columns->getGlobalElement(static_cast<LocalOrdinal>(column)));
+  for (std::size_t k = 0; k < entries.extent(0); ++k)
+    if (view(entries(k), 0) != 0.0) found = std::max(found, columns->getGlobalElement(entries(k)));
   return largest(*columns->getComm(), found);
 }
 
