@@ -99,6 +99,8 @@ void expect_same_but_for_round_off(const std::string& first, const std::string& 
   ASSERT_EQ(a.size(), b.size());
   ASSERT_EQ(a.at(0), b.at(0));
   for (std::size_t column = 0; column < a[0].size(); ++column) {
+    // A predicted state may solve the next step to round-off: then round-off says whether an iteration is made.
+    if (a[0][column] == "newton_iterations") continue;
     double scale = 1.0;
     for (std::size_t row = 1; row < a.size(); ++row) scale = std::fmax(scale, std::abs(std::stod(a[row].at(column))));
     for (std::size_t row = 1; row < a.size(); ++row) {
