@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -72,9 +73,16 @@ bool contact_is_timed(const Json& summary) {
   return time.value("condensation", 0.0) > 0.0 && time.value("contact", 0.0) >= (1.0 - tolerance) * parts;
 }
 
+/// Round-off says whether a predicted state that solves its step needs an iteration.
+template <class Counts>
+bool are_alike(const Counts& a, const Counts& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const auto& x, const auto& y) { return std::max<std::size_t>(x, 1) == std::max<std::size_t>(y, 1); });
+}
+
 int compare(const Json& reference, const Json& other, const std::string& ranks, const Arguments& arguments, bool iterative) {
   int failures = 0;
-  if (!iterative && newton_counts(reference) != newton_counts(other)) {
+  if (!iterative && !are_alike(newton_counts(reference), newton_counts(other))) {
     fmt::print("{} ranks: other Newton counts\n", ranks);
     ++failures;
   }
