@@ -135,6 +135,7 @@ RCP<Vector> working_force(Energy::Of of, const QuantityContext& context) {
       for (std::size_t n = 0; dofs != nullptr && n < dofs->size(); ++n) values((*dofs)[n], 0) += reaction((*dofs)[n], 0);
   }
   const Mesh& mesh = context.mesh();
+  if (mesh.reference_points.empty()) return result;
   const RCP<const Vector> own = forces_at_points(of, context);
   const auto at_points = own->getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto values = result->getLocalViewHost(Tpetra::Access::ReadWrite);

@@ -39,17 +39,13 @@ double sum_over_ranks(const Mesh& mesh, double mine) {
 
 void add_over_sides(const Bodies& bodies, const PointMassOptions& options, Rows& rows) {
   const Mesh& mesh = *bodies.mesh();
-  const auto area_at = [&](const LoadedSide& side, const SidePoint& point) {
-    const SidePosition at = side.at(point, mesh, {});
-    return point.weight * at.area.norm() * bodies.depth(at.position[0]);
-  };
   double mine = 0.0;
   for (const LoadedSide& side : owned_sides(mesh, options.set))
-    for (const SidePoint& point : *side.rule) mine += area_at(side, point);
+    for (const SidePoint& point : *side.rule) mine += reference_area(bodies, side, point);
   const double area = sum_over_ranks(mesh, mine);
   for (const LoadedSide& side : sides_at_owned_nodes(mesh, options.set))
     for (const SidePoint& point : *side.rule) {
-      const double share = options.mass * area_at(side, point) / area;
+      const double share = options.mass * reference_area(bodies, side, point) / area;
       for (std::size_t a = 0; a < side.nodes.size(); ++a)
         for (std::size_t b = 0; b < side.nodes.size() && side.nodes[a] < mesh.owned_count(); ++b)
           rows[static_cast<std::size_t>(side.nodes[a])][mesh.local_nodes->getGlobalElement(side.nodes[b])] += share * point.N[a] * point.N[b];

@@ -106,20 +106,16 @@ void LinkMaker::add_components(const ConnectorOptions& options) {
 
 // W = 1/2 integral of u . (K/A) u dGamma by the rule of the sides: a spring at each of its points, with the share w dGamma / A.
 void LinkMaker::add_over_sides(const ConnectorOptions& options, const ConnectorLaw& law) {
-  const auto area_at = [&](const LoadedSide& side, const SidePoint& point) {
-    const SidePosition at = side.at(point, mesh_, {});
-    return point.weight * at.area.norm() * bodies_.depth(at.position[0]);
-  };
   double mine = 0.0;
   for (const LoadedSide& side : owned_sides(mesh_, options.set))
-    for (const SidePoint& point : *side.rule) mine += area_at(side, point);
+    for (const SidePoint& point : *side.rule) mine += reference_area(bodies_, side, point);
   const double area = sum_over_ranks(mesh_, mine);
   const SideSet& set = mesh_.side_sets.at(options.set.value);
   const auto add = [&](const LoadedSide& side, bool is_owned) {
     for (const SidePoint& point : *side.rule) {
       ConnectorLink link;
       link.connector = number_;
-      link.part = area_at(side, point) / area;
+      link.part = reference_area(bodies_, side, point) / area;
       link.law = law;
       link.law.components *= link.part;
       link.counts = is_owned;
@@ -156,8 +152,7 @@ void LinkMaker::add_mean(const Located<std::string>& set, double sign, Connector
   if (mesh_.side_sets.count(set.value) > 0) {
     for (const LoadedSide& side : sides_at_owned_nodes(mesh_, set))
       for (const SidePoint& point : *side.rule) {
-        const SidePosition at = side.at(point, mesh_, {});
-        const double area = point.weight * at.area.norm() * bodies_.depth(at.position[0]);
+        const double area = reference_area(bodies_, side, point);
         for (std::size_t a = 0; a < side.nodes.size(); ++a)
           if (side.nodes[a] < mesh_.owned_count()) weights[static_cast<std::size_t>(side.nodes[a])] += area * point.N[a];
       }

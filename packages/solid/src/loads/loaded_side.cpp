@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "loads/load_support.hpp"
+#include "mortise/solid/bodies.hpp"
 
 namespace mortise {
 namespace {
@@ -48,6 +49,11 @@ SidePosition LoadedSide::at(const SidePoint& point, const Mesh& mesh, const Fiel
   if (dimension == 2) result.tangents[1] = Eigen::Vector3d::UnitZ();
   result.area = result.tangents[0].cross(result.tangents[1]);
   return result;
+}
+
+double reference_area(const Bodies& bodies, const LoadedSide& side, const SidePoint& point) {
+  const SidePosition at = side.at(point, *bodies.mesh(), {});
+  return point.weight * at.area.norm() * bodies.depth(at.position[0]);
 }
 
 LoadedSide side_of(const Mesh& mesh, const Side& side) {

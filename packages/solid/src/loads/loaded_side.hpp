@@ -37,6 +37,11 @@ struct LoadedSide {
   SidePosition at(const SidePoint& point, const Mesh& mesh, const FieldView<const double>& displacement) const;
 };
 
+class Bodies;
+
+/// The weight of a point in integrals over the reference surface: area, in 2D length times thickness or 2 pi R. [area]
+double reference_area(const Bodies& bodies, const LoadedSide& side, const SidePoint& point);
+
 /// A side as it stands in a set.
 LoadedSide side_of(const Mesh& mesh, const Side& side);
 

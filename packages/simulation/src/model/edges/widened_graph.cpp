@@ -53,6 +53,19 @@ RCP<const Graph> widened(const Graph& bulk, const FieldSpace& space, const std::
   return graph;
 }
 
+namespace {
+
+/// The graph itself if no rank lacks pairs. Collective.
+RCP<const Graph> with_missing(const RCP<const Graph>& bulk, const FieldSpace& space,
+                              const std::set<std::pair<GlobalOrdinal, GlobalOrdinal>>& missing) {
+  const int mine = missing.empty() ? 0 : 1;
+  int anywhere = 0;
+  Teuchos::reduceAll(*bulk->getComm(), Teuchos::REDUCE_MAX, mine, Teuchos::outArg(anywhere));
+  return anywhere == 0 ? bulk : widened(*bulk, space, missing);
+}
+
+}  // namespace
+
 RCP<const Graph> with_couplings(const RCP<const Graph>& bulk, const FieldSpace& space,
                                 const std::set<std::pair<GlobalOrdinal, GlobalOrdinal>>& coupled) {
   std::set<std::pair<GlobalOrdinal, GlobalOrdinal>> missing;
@@ -64,10 +77,7 @@ RCP<const Graph> with_couplings(const RCP<const Graph>& bulk, const FieldSpace& 
     const auto *first = graph.entries.data() + graph.row_map(row), *last = graph.entries.data() + graph.row_map(row + 1);
     if (column < 0 || std::find(first, last, column) == last) missing.emplace(one, other);
   }
-  const int mine = missing.empty() ? 0 : 1;
-  int anywhere = 0;
-  Teuchos::reduceAll(*bulk->getComm(), Teuchos::REDUCE_MAX, mine, Teuchos::outArg(anywhere));
-  return anywhere == 0 ? bulk : widened(*bulk, space, missing);
+  return with_missing(bulk, space, missing);
 }
 
 RCP<const Graph> with_entries_of(const RCP<const Graph>& bulk, const Matrix& of_nodes, const FieldSpace& space) {
@@ -84,10 +94,7 @@ RCP<const Graph> with_entries_of(const RCP<const Graph>& bulk, const Matrix& of_
         coupled.emplace(of_nodes.getRowMap()->getGlobalElement(node), other);
     }
   }
-  const int mine = coupled.empty() ? 0 : 1;
-  int anywhere = 0;
-  Teuchos::reduceAll(*bulk->getComm(), Teuchos::REDUCE_MAX, mine, Teuchos::outArg(anywhere));
-  return anywhere == 0 ? bulk : widened(*bulk, space, coupled);
+  return with_missing(bulk, space, coupled);
 }
 
 }  // namespace mortise
