@@ -81,8 +81,7 @@ void add_stabilisation(const QuantityContext& context, Vector& force) {
 /// that external work lacks these there.
 RCP<const Vector> forces_at_points(Energy::Of of, const QuantityContext& context) {
   const auto result = rcp(new Vector(context.space().dofs()));
-  std::optional<StepFailure> failure;  // a converged state has none
-  if (context.connectors.springs != nullptr) context.connectors.springs->add_forces(*context.local_displacement, nullptr, *result, failure);
+  if (context.connectors.spring_force != nullptr) result->assign(*context.connectors.spring_force);
   if (of == Energy::Of::internal_work) return result;
   if (context.motion != nullptr)
     result->update(1.0, context.motion->rate_force, 1.0);

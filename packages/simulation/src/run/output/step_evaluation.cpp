@@ -33,6 +33,20 @@ double StepEvaluation::force_round_off(const Vector& displacement) const {
   return std::numeric_limits<double>::epsilon() * sum_of_diagonal * (model_.size().length + displacement.normInf());
 }
 
+RCP<Vector> StepEvaluation::spring_force(const SystemEvaluation& at) const {
+  const Connectors* springs = model_.connectors().springs.get();
+  if (springs == nullptr) return Teuchos::null;
+  const auto force = rcp(new Vector(model_.space().dofs()));
+  std::optional<StepFailure> failure;  // converged states have none
+  springs->add_forces(*local(*system_.unknowns(at.x())), nullptr, *force, failure);
+  if (const TimeStep* step = at.context().step.get(); step != nullptr && step->integration->scheme.blends_forces()) {
+    Vector before(model_.space().dofs());
+    springs->add_forces(*local(*step->unknowns), nullptr, before, failure);
+    force->update(step->integration->scheme.alpha_f, before, step->integration->scheme.force_share());
+  }
+  return force;
+}
+
 std::vector<double> StepEvaluation::quantities(const SystemEvaluation& at) {
   if (scene_.quantities.empty()) return {};
   const auto displacement = system_.unknowns(at.x());
@@ -55,6 +69,8 @@ std::vector<double> StepEvaluation::quantities(const SystemEvaluation& at) {
   context.laws = contact_laws(at);
   if (const EdgeContact* edges = model_.edges())
     context.edge_force = [edges, local_displacement](std::size_t pair) { return edges->resultant(pair, *local_displacement); };
+  const RCP<const Vector> springs = spring_force(at);
+  context.connectors.spring_force = springs.get();
   if (model_.connectors().dashpot_forces) context.connectors.dashpot_velocity = &model_.connectors().dashpot_forces->last_velocity();
   if (model_.connectors().stabilisation) context.connectors.stabilisation_force = &model_.connectors().stabilisation->force();
   context.reaction = reaction.get();

@@ -40,6 +40,7 @@ struct MotionOfStep {
 /// Springs, dashpots and stabilisation of a scene; null where it has none.
 struct ConnectorsOfStep {
   const Connectors* springs = nullptr;
+  const Vector* spring_force = nullptr;  ///< on owned dofs, as it is in balance; null while evaluators are made, and without springs
   const Connectors* dashpots = nullptr;
   const Vector* dashpot_velocity = nullptr;     ///< on owned dofs and ghosts, as it is in balance; null while evaluators are made
   const Vector* stabilisation_force = nullptr;  ///< on owned dofs, as the residual has it; null while evaluators are made

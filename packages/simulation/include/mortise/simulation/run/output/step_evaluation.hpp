@@ -34,6 +34,8 @@ class StepEvaluation {
   double force_round_off(const Vector& displacement) const;
   const ContactLaws* contact_laws(const SystemEvaluation& at) const;
   RCP<Vector> local(const Vector& displacement) const;
+  /// Of springs on owned dofs, as it is in balance; null: there are none.
+  RCP<Vector> spring_force(const SystemEvaluation& at) const;
 
   const Scene& scene_;
   const Model& model_;
