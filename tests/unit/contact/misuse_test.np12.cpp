@@ -246,5 +246,111 @@ TEST(Misuse, LawsOfAnotherEvaluation) {
   EXPECT_THAT(refusal(model.contact.evaluate(model.d, model.history).laws(model.z)), HasSubstr("laws of another evaluation"));
 }
 
+TEST(Misuse, VectorsOnOtherMaps) {
+  const Started model;
+  const ContactSystem& contact = model.contact;
+  const Vector& z = model.z;
+  Vector on_dofs(model.fixture.dofs), on_multipliers(contact.multiplier_map());
+  const auto refused = [](const auto& call) { return thrown<std::invalid_argument>(call); };
+  EXPECT_THAT(refused([&] { contact.evaluate(z, model.history); }), HasSubstr("evaluate(): `d` has "));
+  EXPECT_THAT(refused([&] { contact.differentiate(z, model.history); }), HasSubstr("differentiate(): `d` has "));
+  EXPECT_THAT(refused([&] { contact.initial_history(z); }), HasSubstr("initial_history(): `d` has "));
+  Vector guess(model.fixture.dofs);
+  EXPECT_THAT(refused([&] { contact.start_step(model.history, model.d, guess); }), HasSubstr("start_step(): `z` has "));
+  const MultiVector of_nodes(model.fixture.dofs, 2);
+  EXPECT_THAT(refused([&] { contact.evaluate({model.d, of_nodes}, model.history); }), HasSubstr("`NodalDisplacement::nodes` has "));
+  const DifferentiatedContact at = model.differentiate();
+  EXPECT_THAT(refused([&] { at.laws(on_dofs); }), HasSubstr("laws(): `z` has "));
+  EXPECT_THAT(refused([&] { at.add_force(on_dofs, on_dofs); }), HasSubstr("add_force(): `z` has "));
+  EXPECT_THAT(refused([&] { at.add_force(z, on_multipliers); }), HasSubstr("add_force(): `r` has "));
+  const ContactLaws laws = at.laws(z);
+  EXPECT_THAT(refused([&] { laws.complementarity(on_dofs); }), HasSubstr("complementarity(): `C` has "));
+  EXPECT_THAT(refused([&] { laws.add_force(on_multipliers); }), HasSubstr("add_force(): `r` has "));
+  const RCP<Matrix> matrix = model.matrix_for(at);
+  EXPECT_THAT(refused([&] { at.linearise(laws).condense(*matrix, on_multipliers); }), HasSubstr("condense(): `rhs` has "));
+  const NodeElimination condensed = at.linearise(laws).condense(*matrix, on_dofs);
+  EXPECT_THAT(refused([&] { condensed.recover(z, on_multipliers); }), HasSubstr("recover(): `dd` has "));
+  EXPECT_THAT(refused([&] { condensed.recover(on_dofs, on_dofs); }), HasSubstr("recover(): `z` has "));
+  EXPECT_THAT(refused([&] { condensed.apply(on_multipliers); }), HasSubstr("apply(): `rhs` has "));
+}
+
+TEST(Misuse, HistoriesAndValuesOfOtherSystems) {
+  const Started model;
+  test::TwoSurfaces surfaces = test::arch_on_ground();
+  const Fixture frictionless(surfaces, Tpetra::getDefaultComm());
+  surfaces.slave.pop_back();
+  surfaces.fixed.assign(surfaces.size(), {});
+  const Fixture smaller(surfaces, Tpetra::getDefaultComm());
+  const auto refused = [&](const ContactHistory& history) {
+    return thrown<std::invalid_argument>([&] { model.contact.evaluate(model.d, history); });
+  };
+  Vector d(smaller.dofs);
+  EXPECT_THAT(refused(smaller.contact->initial_history(d)), HasSubstr("the history is that of another system"));
+  Vector same(frictionless.dofs);
+  EXPECT_THAT(refused(frictionless.contact->initial_history(same)), HasSubstr("is with friction, in the history without"));
+  AcceptedContact two = *model.history;
+  two.pairs.push_back(two.pairs.front());
+  two.states.push_back(two.states.front());
+  EXPECT_THAT(refused(ContactHistory(two)), HasSubstr("it has 2 pairs, this one 1"));
+  AcceptedContact unplaced = *model.history;
+  unplaced.positions = Teuchos::null;
+  EXPECT_THAT(refused(ContactHistory(unplaced)), HasSubstr("it has no positions"));
+  EXPECT_EQ(refused(model.history), "");
+
+  const Started other;
+  const ContactLaws foreign = other.differentiate().laws(other.z);
+  EXPECT_THAT(thrown<std::logic_error>([&] { model.contact.commit(foreign); }), HasSubstr("commit() with a value of another system"));
+  EXPECT_THAT(thrown<std::logic_error>([&] { model.contact.augment(foreign, 1); }), HasSubstr("augment() with a value of another system"));
+  EXPECT_THAT(thrown<std::logic_error>([&] { model.matrix_for(other.differentiate()); }), HasSubstr("graph() with a value of another system"));
+  const ContactStates states;
+  EXPECT_THAT(thrown<std::invalid_argument>([&] { model.differentiate().laws(model.z).norms(states); }), HasSubstr("states are those of another"));
+  EXPECT_THAT(thrown<std::invalid_argument>([&] { model.contact.differentiate(model.d, model.history, &states); }), HasSubstr("states are those"));
+  EXPECT_THAT(thrown<std::out_of_range>([&] { model.contact.slave_ids(1); }), HasSubstr("there is no pair 1; the system has 1"));
+  EXPECT_THAT(thrown<std::out_of_range>([&] { node_states(foreign, 1); }), HasSubstr("there is no pair 1"));
+}
+
+TEST(Misuse, NumbersThatAreNotFinite) {
+  const Started model;
+  for (const double value : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    const auto d = Fixture::vector(model.fixture.dofs, [&](GlobalOrdinal id) { return id == 5 ? value : 0.0; });
+    EXPECT_THAT(thrown<StepFailure>([&] { model.contact.differentiate(*d, model.history); }), HasSubstr("node 2 is not finite"));
+    const GlobalOrdinal first = model.contact.multiplier_map()->getMinAllGlobalIndex();
+    const auto z = Fixture::vector(model.contact.multiplier_map(), [&](GlobalOrdinal id) { return id == first ? value : 0.0; });
+    EXPECT_THAT(thrown<StepFailure>([&] { model.differentiate().laws(*z); }), HasSubstr("the multiplier of pair"));
+  }
+}
+
+TEST(Misuse, MatricesThatWereChangedBefore) {
+  Started model;
+  model.z.putScalar(1.0);
+  const auto down = Fixture::vector(model.fixture.dofs, [&](GlobalOrdinal id) { return id < 12 && id % 2 == 1 ? -0.5 : 0.0; });
+  const DifferentiatedContact at = model.contact.differentiate(*down, model.history);
+  const RCP<Matrix> matrix = model.matrix_for(at);
+  ASSERT_GT(at.laws(model.z).norms(model.history->states).active, 0);
+  EXPECT_EQ(model.condense(at, *matrix), "");
+  EXPECT_THAT(model.condense(at, *matrix), HasSubstr("condensed already"));
+  EXPECT_EQ(model.condense(at, *model.matrix_for(at)), "");
+}
+
+TEST(Misuse, FacetsInsideOut) {
+  const auto orientation = [](bool slave, bool master) {
+    test::TwoSurfaces surfaces = test::arch_on_ground();
+    if (slave) std::reverse(surfaces.slave.begin(), surfaces.slave.end());
+    if (master) std::reverse(surfaces.master.begin(), surfaces.master.end());
+    const Fixture fixture(surfaces, Tpetra::getDefaultComm());
+    Vector d(fixture.dofs);
+    return facet_orientation(fixture.contact->evaluate(d, fixture.contact->initial_history(d)), 0);
+  };
+  EXPECT_FALSE(orientation(false, false).is_inside_out());
+  EXPECT_GT(orientation(false, false).facing, 0);
+  EXPECT_TRUE(orientation(true, false).is_inside_out());
+  EXPECT_TRUE(orientation(false, true).is_inside_out());
+  EXPECT_THAT(thrown<std::out_of_range>([] {
+                const Started model;
+                facet_orientation(model.differentiate(), 7);
+              }),
+              HasSubstr("there is no pair 7"));
+}
+
 }  // namespace
 }  // namespace mortise

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "two_surfaces.hpp"
 
 namespace mortise {
@@ -140,6 +142,54 @@ TEST(HeldTangents, SlipAlongTheTraction) {
         EXPECT_NEAR((at.slip_factor.col(k) - difference.tail(2)).norm(), 0.0, 1e-7) << angle;
       }
     }
+}
+
+/// Tractions, states, slips and slipped paths of the slave nodes, by node.
+std::map<GlobalOrdinal, std::array<double, 5>> memory_of(const ContactSystem& contact, const ContactHistory& history, const Vector& d) {
+  std::map<GlobalOrdinal, std::array<double, 5>> result;
+  for (const auto& node : node_states(contact.evaluate(d, history).laws(*history->multipliers), 0))
+    result[node.node] = {node.traction[0], node.traction[1], node.closed ? 1.0 : 0.0, node.slip, node.slip_path};
+  return result;
+}
+
+// A host releases a support: it makes a new system, which goes on from where the old one was.
+TEST(ReleasedSupport, KeepsWhatOtherNodesHad) {
+  TwoSurfaces surfaces = test::arch_on_ground();
+  auto coulomb = std::make_shared<CoulombFriction>();
+  coulomb->coefficient = ScalarFunction(0.3);
+  surfaces.options.friction.options = coulomb;
+  TwoSurfaces held = surfaces;
+  held.fixed[0] = {true, true, false};
+  const Fixture before(held, Tpetra::getDefaultComm()), after(surfaces, Tpetra::getDefaultComm());
+  ASSERT_LT(before.contact->multiplier_map()->getGlobalNumElements(), after.contact->multiplier_map()->getGlobalNumElements());
+  Vector none(before.dofs), z(before.contact->multiplier_map());
+  const ContactHistory start = before.first_step(none, z);
+  const auto d = Fixture::vector(before.dofs, [&](GlobalOrdinal id) { return id < 12 ? (id % 2 == 0 ? 0.1 : -0.04) : 0.0; });
+  const GlobalOrdinal offset = before.dofs->getMaxAllGlobalIndex() + 1;
+  const auto pressed = Fixture::vector(before.contact->multiplier_map(), [&](GlobalOrdinal id) { return (id - offset) % 2 == 0 ? 0.2 : -10.0; });
+  const ContactHistory accepted = before.contact->commit(before.contact->evaluate(*d, start).laws(*pressed));
+  const ContactHistory carried = after.contact->carry_over(*before.contact, accepted);
+  EXPECT_TRUE(carried->multipliers->getMap()->isSameAs(*after.contact->multiplier_map()));
+  const auto had = memory_of(*before.contact, accepted, *d), has = memory_of(*after.contact, carried, *d);
+  int compared = 0, closed = 0;
+  for (const auto& [node, values] : has) {
+    if (node == 0) {
+      EXPECT_EQ(std::hypot(values[0], values[1]), 0.0) << "had no multiplier";
+      continue;
+    }
+    ++compared;
+    closed += values[2] > 0.0;
+    for (std::size_t k = 0; k < values.size(); ++k) EXPECT_NEAR(values[k], had.at(node)[k], 1e-14) << node << " " << k;
+  }
+  int mine[2] = {compared, closed}, all[2];
+  Teuchos::reduceAll(*Tpetra::getDefaultComm(), Teuchos::REDUCE_SUM, 2, mine, all);
+  EXPECT_EQ(all[0], 5);
+  EXPECT_GT(all[1], 0);
+
+  surfaces.slave.pop_back();
+  surfaces.fixed.assign(surfaces.size(), {});
+  const Fixture other(surfaces, Tpetra::getDefaultComm());
+  EXPECT_THROW(other.contact->carry_over(*before.contact, accepted), std::invalid_argument);
 }
 
 }  // namespace

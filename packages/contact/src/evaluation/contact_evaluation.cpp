@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "evaluation/arguments.hpp"
 #include "evaluation/evaluated_contact.hpp"
 #include "mortise/core/dof_map.hpp"
 
@@ -86,10 +87,29 @@ void EvaluatedContact::add_force(const Vector& z, Vector& r) const {
 
 }  // namespace detail
 
+namespace {
+
+/// Collective. Throws StepFailure for multipliers that are no numbers.
+void refuse_not_finite(const detail::ContactModel& model, const Vector& z) {
+  std::optional<StepFailure> failure;
+  const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (std::size_t p = 0; p < model.pairs.size() && !failure; ++p)
+    for (std::size_t s = 0; s < model.multiplier_of[p].size() && !failure; ++s)
+      if (const SpatialVector zs = model.z_of(values, p, s); !zs.allFinite())
+        failure = StepFailure(FailureKind::not_finite,
+                              fmt::format("the multiplier of pair '{}' at node {} is not finite: ({:g})", model.pairs[p]->definition().name,
+                                          model.pairs[p]->slave_nodes()[s].id, fmt::join(zs.data(), zs.data() + zs.size(), ", ")));
+  throw_if_any(model.comm(), failure);
+}
+
+}  // namespace
+
 ContactLaws ContactEvaluation::laws(const Vector& z) const {
   const detail::ContactModel& model = *evaluated_->model;
+  detail::Arguments(model, "laws").on_multipliers(z, "z").agree();
   const auto scope = model.timers.scope("contact");
   const auto part = model.timers.scope("contact residual");
+  refuse_not_finite(model, z);
   const auto result = std::make_shared<detail::EvaluatedLaws>(detail::EvaluatedLaws{*this, evaluated_, rcp(new Vector(z, Teuchos::Copy)), {}, {}});
   for (std::size_t p = 0; p < evaluated_->pairs.size(); ++p) {
     result->multipliers.push_back(evaluated_->multipliers_of(z, p));
@@ -100,13 +120,23 @@ ContactLaws ContactEvaluation::laws(const Vector& z) const {
   return ContactLaws(result);
 }
 
-void ContactEvaluation::add_force(const Vector& z, Vector& r) const { evaluated_->add_force(z, r); }
+void ContactEvaluation::add_force(const Vector& z, Vector& r) const {
+  detail::Arguments(*evaluated_->model, "add_force").on_multipliers(z, "z").on_dofs(r, "r").agree();
+  evaluated_->add_force(z, r);
+}
 
-ContactEvaluation ContactEvaluation::with(const ContactHistory& history) const { return ContactEvaluation(evaluated_->with(history)); }
-DifferentiatedContact DifferentiatedContact::with(const ContactHistory& history) const { return DifferentiatedContact(evaluated_->with(history)); }
+ContactEvaluation ContactEvaluation::with(const ContactHistory& history) const {
+  detail::Arguments(*evaluated_->model, "with").history(history).agree();
+  return ContactEvaluation(evaluated_->with(history));
+}
+DifferentiatedContact DifferentiatedContact::with(const ContactHistory& history) const {
+  detail::Arguments(*evaluated_->model, "with").history(history).agree();
+  return DifferentiatedContact(evaluated_->with(history));
+}
 
 RCP<Vector> ContactEvaluation::shear_tractions(const Vector& z) const {
   const detail::ContactModel& model = *evaluated_->model;
+  detail::Arguments(model, "shear_tractions").on_multipliers(z, "z").agree();
   const auto shear = rcp(new Vector(model.multipliers));
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto result = shear->getLocalViewHost(Tpetra::Access::ReadWrite);
@@ -136,18 +166,23 @@ ContactStates ContactLaws::states() const {
 
 void ContactLaws::complementarity(Vector& C) const {
   const detail::ContactModel& model = *laws_->contact->model;
+  detail::Arguments(model, "complementarity").on_multipliers(C, "C").agree();
   const auto result = C.getLocalViewHost(Tpetra::Access::OverwriteAll);
   for (std::size_t p = 0; p < laws_->laws.size(); ++p)
     for (std::size_t s = 0; s < laws_->laws[p].size(); ++s)
       for (int i = 0; i < model.dimension && model.multiplier_of[p][s] >= 0; ++i) result(model.multiplier_of[p][s] + i, 0) = laws_->laws[p][s].C[i];
 }
 
-void ContactLaws::add_force(Vector& r) const { laws_->contact->add_force(*laws_->z, r); }
+void ContactLaws::add_force(Vector& r) const {
+  detail::Arguments(*laws_->contact->model, "add_force").on_dofs(r, "r").agree();
+  laws_->contact->add_force(*laws_->z, r);
+}
 const Vector& ContactLaws::multipliers() const { return *laws_->z; }
 const ContactEvaluation& ContactLaws::evaluation() const { return laws_->evaluation; }
 
 ContactNorms ContactLaws::norms(const ContactStates& last) const {
   const detail::ContactModel& model = *laws_->contact->model;
+  detail::Arguments(model, "norms").states(last).agree();
   const auto scope = model.timers.scope("contact");
   const auto part = model.timers.scope("contact residual");
   enum Largest { gap, violation, traction, floor, round_off, count_of_largest };
@@ -184,7 +219,7 @@ ContactNorms ContactLaws::norms(const ContactStates& last) const {
     }
   }
   Vector forces(model.dofs);
-  add_force(forces);
+  laws_->contact->add_force(*laws_->z, forces);
   {
     const auto values = forces.getLocalViewHost(Tpetra::Access::ReadOnly);
     for (std::size_t i = 0; i < values.extent(0); ++i) own[force] += values(i, 0) * values(i, 0);

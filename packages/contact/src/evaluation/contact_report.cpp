@@ -12,6 +12,7 @@
 #include <tuple>
 #include <utility>
 
+#include "evaluation/arguments.hpp"
 #include "evaluation/evaluated_contact.hpp"
 
 namespace mortise {
@@ -19,6 +20,7 @@ namespace mortise {
 CornerReport corners(const ContactEvaluation& evaluation, std::size_t pair) {
   const detail::EvaluatedContact& contact = detail::evaluated(evaluation);
   const detail::ContactModel& model = *contact.model;
+  detail::require_pair(model, pair);
   CornerReport report;
   report.rule = model.pairs[pair]->corner_rule();
   report.as_asked = report.rule == model.pairs[pair]->definition().options.mortar.corners;
@@ -26,6 +28,31 @@ CornerReport corners(const ContactEvaluation& evaluation, std::size_t pair) {
   if (const auto other = model.second_pass(pair)) mine += model.pairs[*other]->interface().kinks(*contact.positions);
   report.kinks = static_cast<long>(model.sum(static_cast<double>(mine)));
   return report;
+}
+
+FacetOrientation facet_orientation(const ContactEvaluation& evaluation, std::size_t pair) {
+  const detail::EvaluatedContact& contact = detail::evaluated(evaluation);
+  detail::require_pair(*contact.model, pair);
+  const detail::PairEvaluation& of_pair = contact.pairs[pair];
+  std::vector<std::size_t> nodes;
+  std::vector<SpatialVector> out, in;
+  for (std::size_t s = 0; s < of_pair.slave_nodes().size(); ++s) {
+    nodes.push_back(s);
+    out.push_back(of_pair.row(s).normal);
+    in.push_back(-out.back());
+  }
+  const MortarInterface& interface = of_pair.pair().interface();
+  const auto ahead = interface.distances_to_master(*contact.positions, nodes, out),
+             behind = interface.distances_to_master(*contact.positions, nodes, in);
+  const auto is_near = [&](const std::optional<double>& distance) { return distance && std::abs(*distance) <= interface.reach(); };
+  double facing = 0.0, turned = 0.0;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    if (is_near(ahead[n]))
+      facing += 1.0;
+    else if (is_near(behind[n]))
+      turned += 1.0;
+  }
+  return {static_cast<long>(contact.model->sum(facing)), static_cast<long>(contact.model->sum(turned))};
 }
 
 namespace {
@@ -86,6 +113,7 @@ class ActionOfOthers {
 
 std::vector<ContactNodeState> node_states(const ContactLaws& laws, std::size_t pair) {
   const detail::EvaluatedLaws& at = detail::evaluated(laws);
+  detail::require_pair(*at.contact->model, pair);
   const detail::PairEvaluation& of_pair = at.contact->pairs[pair];
   const FrictionLaw* friction = of_pair.pair().friction();
   std::vector<ContactNodeState> states;
@@ -126,6 +154,7 @@ std::vector<ContactNodeState> node_states(const ContactLaws& laws, std::size_t p
 
 double allowed_overlap(const ContactLaws& laws, std::size_t pair) {
   const detail::EvaluatedContact& contact = *detail::evaluated(laws).contact;
+  detail::require_pair(*contact.model, pair);
   const detail::PairEvaluation& of_pair = contact.pairs[pair];
   double clearance = 0.0;
   for (std::size_t s = 0; s < of_pair.slave_nodes().size(); ++s) clearance = std::max(clearance, of_pair.clearance(s));
@@ -135,6 +164,7 @@ double allowed_overlap(const ContactLaws& laws, std::size_t pair) {
 std::array<double, 3> resultant(const ContactLaws& laws, std::size_t pair) {
   const detail::EvaluatedLaws& at = detail::evaluated(laws);
   const detail::ContactModel& model = *at.contact->model;
+  detail::require_pair(model, pair);
   SpatialVector mine = SpatialVector::Zero(model.dimension);
   const auto subtract = [&](std::size_t p, double sign) {
     for (std::size_t s = 0; s < at.multipliers[p].size(); ++s) mine -= sign * at.contact->pairs[p].resultant(s, at.multipliers[p][s].z);

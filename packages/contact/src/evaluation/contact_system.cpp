@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <set>
 
+#include "evaluation/arguments.hpp"
 #include "evaluation/checks.hpp"
 #include "evaluation/crosspoints.hpp"
 #include "evaluation/evaluated_contact.hpp"
@@ -185,33 +186,50 @@ ContactSystem::ContactSystem(const NodalField& displacement, RCP<const Map> dofs
   self.middles_first = self.maximum(self.middles_first) > 0.0;
   const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
   self.multipliers = rcp(new Map(invalid, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, self.dofs->getComm()));
+  self.layout = detail::layout_of(self);
   model_ = model;
 }
 
 std::size_t ContactSystem::pairs() const { return model_->pairs.size(); }
-const std::string& ContactSystem::pair_name(std::size_t pair) const { return model_->pairs[pair]->definition().name; }
-std::optional<std::size_t> ContactSystem::second_pass(std::size_t pair) const { return model_->second_pass(pair); }
-ContactGeometry ContactSystem::geometry(std::size_t pair) const { return model_->pairs[pair]->definition().options.geometry; }
+const std::string& ContactSystem::pair_name(std::size_t pair) const {
+  detail::require_pair(*model_, pair);
+  return model_->pairs[pair]->definition().name;
+}
+std::optional<std::size_t> ContactSystem::second_pass(std::size_t pair) const {
+  detail::require_pair(*model_, pair);
+  return model_->second_pass(pair);
+}
+ContactGeometry ContactSystem::geometry(std::size_t pair) const {
+  detail::require_pair(*model_, pair);
+  return model_->pairs[pair]->definition().options.geometry;
+}
 bool ContactSystem::keeps_multipliers() const { return model_->keeps_multipliers(); }
 const RCP<const Map>& ContactSystem::multiplier_map() const { return model_->multipliers; }
 RCP<Vector> ContactSystem::weights() const { return model_->weights(); }
 
 std::vector<GlobalOrdinal> ContactSystem::slave_ids(std::size_t pair) const {
+  detail::require_pair(*model_, pair);
   std::vector<GlobalOrdinal> ids;
   for (const SlaveNode& node : model_->pairs[pair]->slave_nodes()) ids.push_back(node.id);
   return ids;
 }
 
 ContactEvaluation ContactSystem::evaluate(const NodalDisplacement& d, const ContactHistory& history) const {
+  detail::Arguments(*model_, "evaluate").displacement(d).history(history).agree();
   return ContactEvaluation(model_->evaluate(model_, model_->positions(d), history, nullptr, false));
 }
 
 DifferentiatedContact ContactSystem::differentiate(const NodalDisplacement& d, const ContactHistory& history, const ContactStates* last) const {
+  detail::Arguments arguments(*model_, "differentiate");
+  arguments.displacement(d).history(history);
+  if (last != nullptr) arguments.states(*last);
+  arguments.agree();
   return DifferentiatedContact(model_->evaluate(model_, model_->positions(d), history, last, true));
 }
 
 RCP<const Graph> ContactSystem::graph(const ContactEvaluation& evaluation, const std::function<RCP<const Graph>()>& bulk, long bulk_version) const {
   const detail::EvaluatedContact& contact = detail::evaluated(evaluation);
+  detail::require_own(*model_, *contact.model, "graph");
   if (!model_->scatter || !model_->scatter->fits(contact.pairs) || model_->bulk_version != bulk_version) {
     const auto scope = model_->timers.scope("contact");
     const auto part = model_->timers.scope("contact graph");
@@ -228,6 +246,7 @@ long ContactSystem::friction_evaluations() const {
 }
 
 IntegrationLoad ContactSystem::integration_load(std::size_t pair) const {
+  detail::require_pair(*model_, pair);
   IntegrationLoad load;
   const auto add = [&](std::size_t p) {
     const InterfaceLoad& mine = model_->pairs[p]->interface().load();

@@ -27,6 +27,13 @@ struct InterfaceDofs {
   std::vector<LocalOrdinal> places;  ///< [dim nodes] in `map`, -1: no unknown
 };
 
+/// A row that condensation has replaced, with its values.
+struct CondensedRow {
+  const Matrix* system = nullptr;  ///< to be compared alone: it may be gone
+  LocalOrdinal row = -1;           ///< -1: none on this rank
+  std::vector<double> values;
+};
+
 /// All pairs, without anything that depends on a displacement; and the graph of the condensed system, kept as long as candidates stay.
 struct ContactModel {
   explicit ContactModel(NodalField field) : displacement(std::move(field)), owned_nodes(displacement.nodes()) {}
@@ -42,9 +49,11 @@ struct ContactModel {
   std::vector<std::vector<LocalOrdinal>> multiplier_of;                      ///< [pair][slave node] local index of the first component in z, -1: none
   std::vector<char> leaves_out;                                              ///< [pair] a slave node carries no multiplier, on any rank
   std::vector<std::vector<LocalOrdinal>> master_nodes;                       ///< [pair] local indices in owned_nodes
+  std::size_t layout = 0;                                                    ///< layout_of()
   bool middles_first = false;                                                ///< there are multipliers that are condensed before others, on any rank
   mutable std::shared_ptr<SystemScatter> scatter;                            ///< of the last evaluation that was asked for a graph; null: none yet
   mutable long bulk_version = 0;                                             ///< of the bulk's graph that it was built from
+  mutable CondensedRow condensed_row;                                        ///< of the last condensation: to tell that it is done twice
   mutable std::vector<std::shared_ptr<const InterfaceDofs>> interface_dofs;  ///< [pairs] the last of dofs_of()
 
   const Communicator& comm() const { return *dofs->getComm(); }

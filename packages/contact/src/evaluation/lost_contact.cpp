@@ -25,6 +25,29 @@ double largest_motion(const MultiVector& from, const MultiVector& to, const std:
   return std::sqrt(largest);
 }
 
+/// How far nodes have gone on beyond the master since `start`, along straight ways, past where these met it there; no value: they did not.
+std::vector<std::optional<double>> ways_beyond_master(const ContactModel& model, const PairEvaluation& pair, const std::vector<std::size_t>& nodes,
+                                                      const MultiVector& start, const MultiVector& x) {
+  const auto from = start.getLocalViewHost(Tpetra::Access::ReadOnly), to = x.getLocalViewHost(Tpetra::Access::ReadOnly);
+  std::vector<SpatialVector> directions;
+  std::vector<double> lengths;
+  for (const std::size_t s : nodes) {
+    const LocalOrdinal node = pair.slave_nodes()[s].owned_node;
+    SpatialVector way(model.dimension);
+    for (int i = 0; i < model.dimension; ++i) way[i] = to(node, i) - from(node, i);
+    lengths.push_back(way.norm());
+    directions.push_back(lengths.back() > 0.0 ? SpatialVector(way / lengths.back()) : pair.row(s).normal);
+  }
+  auto distances = pair.pair().interface().distances_to_master(start, nodes, directions);
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    if (distances[n] && *distances[n] >= 0.0 && *distances[n] < lengths[n])
+      distances[n] = lengths[n] - *distances[n];
+    else
+      distances[n].reset();
+  }
+  return distances;
+}
+
 }  // namespace
 
 // A master facet takes part in the integrals only within the reach. A node that one Newton step carries further than that through the master has no
@@ -32,9 +55,10 @@ double largest_motion(const MultiVector& from, const MultiVector& to, const std:
 // followed beyond the reach, for each node that was closed and has nothing to act on any more. It meets the nearest master facet that faces n (the
 // facets that integrals are taken over) at s:
 //   s > 0: the node has opened;   none: it has run off the edge;   -s > reach: it is lost.
-// A node that was open is lost with -s > reach as well if it was not yet in the accepted state. The surfaces have then moved by more than the reach
-// relative to one another since: it is looked for only where they have. Nodes that are covered are within reach. A frozen geometry covers a node
-// always or never.
+// A node that was open is lost with -s > reach as well if it was not yet in the accepted state. So is one whose line meets nothing, if the straight
+// way from there has gone through the master: far away lines miss it, as normals that turn by little do. The surfaces have then moved by more than
+// the reach relative to one another since: it is looked for only where they have. Nodes that are covered are within reach. A frozen geometry covers a
+// node always or never.
 std::optional<StepFailure> find_lost_contact(const EvaluatedContact& contact, const ContactStates* last, bool failed) {
   const ContactModel& model = *contact.model;
   const std::vector<PairEvaluation>& pairs = contact.pairs;
@@ -70,10 +94,12 @@ std::optional<StepFailure> find_lost_contact(const EvaluatedContact& contact, co
       for (const std::size_t s : nodes) normals.push_back(pair.row(s).normal);
       const auto distances = interface.distances_to_master(x, nodes, normals);
       const auto at_start = start == nullptr ? distances : interface.distances_to_master(*start, nodes, normals);
+      const auto on_way = start == nullptr ? distances : ways_beyond_master(model, pair, nodes, *start, x);
       for (std::size_t n = 0; n < nodes.size(); ++n) {
-        if (!distances[n] || -*distances[n] <= deepest) continue;
         if (start != nullptr && (!at_start[n] || -*at_start[n] > interface.reach())) continue;
-        deepest = -*distances[n];
+        const double depth = distances[n] ? -*distances[n] : start == nullptr ? 0.0 : on_way[n].value_or(0.0);
+        if (depth <= deepest) continue;
+        deepest = depth;
         const SlaveNode& node = pair.slave_nodes()[nodes[n]];
         std::vector<double> place;
         for (int i = 0; i < model.dimension; ++i) place.push_back(positions(node.owned_node, i));

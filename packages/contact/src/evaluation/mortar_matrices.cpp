@@ -6,12 +6,14 @@
 #include <set>
 #include <vector>
 
+#include "evaluation/arguments.hpp"
 #include "evaluation/evaluated_contact.hpp"
 
 namespace mortise {
 
 MortarMatrices ContactEvaluation::mortar_matrices(std::size_t p) const {
   const detail::ContactModel& model = *evaluated_->model;
+  detail::require_pair(model, p);
   const detail::PairEvaluation& pair = evaluated_->pairs[p];
   const Map& nodes = pair.local_nodes();
   std::set<GlobalOrdinal> slaves;  // among the nodes that this rank's slave nodes are coupled to

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "evaluation/arguments.hpp"
 #include "evaluation/evaluated_contact.hpp"
 
 namespace mortise {
@@ -100,6 +101,7 @@ Settling settled(const Settling& settling, double change, int round) {
 // Pairs act on one another through their bodies: if one goes on all do.
 Augmentation ContactSystem::augment(const ContactLaws& laws, int round) const {
   const detail::EvaluatedLaws& at = detail::evaluated(laws);
+  detail::require_own(*model_, *at.contact->model, "augment");
   const double resolution = model_->position_round_off();
   constexpr double known_to = 1e-9;  // of the largest multiplier of all pairs: to what Newton's method by default finds those of any pair
   std::vector<std::pair<std::size_t, double>> changes;  // of the pairs with updates

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "evaluation/arguments.hpp"
 #include "evaluation/evaluated_contact.hpp"
 
 namespace mortise {
@@ -20,7 +21,7 @@ namespace {
 AcceptedContact accepted_state(const EvaluatedContact& contact, const RCP<const Vector>& z,
                                const std::vector<std::vector<NodeMultiplier>>& multipliers, ContactStates states,
                                std::vector<std::vector<double>> paths) {
-  AcceptedContact result{contact.history->pairs, std::move(states), contact.positions, z};
+  AcceptedContact result{contact.history->pairs, std::move(states), contact.positions, z, contact.model->layout};
   for (std::size_t p = 0; p < contact.pairs.size(); ++p) {
     const PairEvaluation& pair = contact.pairs[p];
     PairHistory& history = result.pairs[p];
@@ -64,6 +65,7 @@ ContactHistory with_kinks_of_its_state(const std::shared_ptr<const ContactModel>
 
 ContactHistory ContactSystem::initial_history(const NodalDisplacement& d) const {
   const detail::ContactModel& model = *model_;
+  detail::Arguments(model, "initial_history").displacement(d).agree();
   AcceptedContact blank;
   for (const auto& pair : model.pairs) blank.pairs.push_back(pair->blank_history());
   const auto x = model.positions(d);
@@ -87,8 +89,45 @@ ContactHistory ContactSystem::initial_history(const NodalDisplacement& d) const 
   return ContactHistory(std::move(result));
 }
 
+ContactHistory ContactSystem::carry_over(const ContactSystem& before, const ContactHistory& accepted) const {
+  const detail::ContactModel &model = *model_, &other = *before.model_;
+  detail::Arguments(other, "carry_over").history(accepted).agree();
+  const double differs = model.layout != other.layout || !model.owned_nodes->locallySameAs(*other.owned_nodes) ? 1.0 : 0.0;
+  if (model.maximum(differs) > 0.0)
+    throw std::invalid_argument(
+        "contact: carry_over() from a system with other slave nodes, or nodes on other ranks; take store() and restore(), which go by ids");
+  AcceptedContact carried = *accepted;
+  const auto z = rcp(new Vector(model.multipliers));
+  const auto to = z->getLocalViewHost(Tpetra::Access::ReadWrite);
+  const auto from = accepted->multipliers->getLocalViewHost(Tpetra::Access::ReadOnly);
+  std::vector<std::vector<double>> paths;
+  for (std::size_t p = 0; p < model.pairs.size(); ++p) {
+    carried.pairs[p].axes = model.pairs[p]->blank_history().axes;
+    carried.pairs[p].slip.reset();
+    paths.push_back(accepted->pairs[p].slip ? accepted->pairs[p].slip->paths : std::vector<double>());
+    for (std::size_t s = 0; s < model.multiplier_of[p].size(); ++s) {
+      const LocalOrdinal first = model.multiplier_of[p][s];
+      if (first < 0) carried.states[p].states[s] = ContactState::open;
+      const SpatialVector of_node = other.z_of(from, p, s);
+      for (int i = 0; i < model.dimension && first >= 0; ++i) to(first + i, 0) = of_node[i];
+    }
+  }
+  carried.multipliers = z;
+  carried.layout = model.layout;
+  const auto normals = model.evaluate(model_, accepted->positions, ContactHistory(carried), nullptr, false);
+  for (std::size_t p = 0; p < model.pairs.size(); ++p) carried.pairs[p].axes = normals->pairs[p].choose_axes();
+  const auto contact = normals->with(ContactHistory(carried));
+  std::vector<std::vector<detail::NodeMultiplier>> multipliers;
+  for (std::size_t p = 0; p < model.pairs.size(); ++p) {
+    multipliers.push_back(contact->multipliers_of(*z, p));
+    for (std::size_t s = 0; s < carried.states[p].covered.size(); ++s) carried.states[p].covered[s] = contact->pairs[p].covered(s);
+  }
+  return ContactHistory(detail::accepted_state(*contact, z, multipliers, carried.states, std::move(paths)));
+}
+
 ContactHistory ContactSystem::commit(const ContactLaws& laws) const {
   const detail::EvaluatedLaws& at = detail::evaluated(laws);
+  detail::require_own(*model_, *at.contact->model, "commit");
   const ContactStates states = laws.states();
   AcceptedContact turned = *at.contact->history;
   std::vector<std::vector<double>> paths(at.contact->pairs.size());
@@ -108,6 +147,8 @@ ContactHistory ContactSystem::commit(const ContactLaws& laws) const {
 }
 
 ContactHistory ContactSystem::allow_overlap(const ContactHistory& history, std::size_t pair, double depth) const {
+  detail::require_pair(*model_, pair);
+  detail::Arguments(*model_, "allow_overlap").history(history).agree();
   AcceptedContact changed = *history;
   changed.pairs[pair].allowed_overlap = depth;
   if (const auto other = second_pass(pair)) changed.pairs[*other].allowed_overlap = depth;
@@ -115,6 +156,7 @@ ContactHistory ContactSystem::allow_overlap(const ContactHistory& history, std::
 }
 
 ContactHistory ContactSystem::weigh_gaps(const ContactHistory& history, double share) const {
+  detail::Arguments(*model_, "weigh_gaps").history(history).agree();
   AcceptedContact changed = *history;
   for (std::size_t p = 0; p < model_->pairs.size(); ++p)
     if (model_->pairs[p]->enforcement().holds_exactly()) changed.pairs[p].constant_share = share;
@@ -122,6 +164,7 @@ ContactHistory ContactSystem::weigh_gaps(const ContactHistory& history, double s
 }
 
 ContactHistory ContactSystem::with_clearances(const ContactHistory& history, double time) const {
+  detail::Arguments(*model_, "with_clearances").history(history).agree();
   const auto has_one = [](const auto& pair) { return pair->has_clearances(); };
   if (std::none_of(model_->pairs.begin(), model_->pairs.end(), has_one)) return history;
   AcceptedContact changed = *history;

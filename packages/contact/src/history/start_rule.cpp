@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "evaluation/arguments.hpp"
 #include "evaluation/evaluated_contact.hpp"
 #include "mortise/contact/holding_nodes.hpp"
 
@@ -32,6 +33,7 @@ bool ContactEvaluation::follow_cover(const ContactStates& last, Vector& z) const
   constexpr double settled = 1e-8;  // change of a sweep over the largest multiplier
   bool tied = false, changed = false;
   const detail::ContactModel& self = *evaluated_->model;
+  detail::Arguments(self, "follow_cover").states(last).on_multipliers(z, "z").agree();
   const auto values = z.getLocalViewHost(Tpetra::Access::ReadWrite);
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {
     const detail::PairEvaluation& pair = evaluated_->pairs[p];
@@ -76,6 +78,7 @@ bool ContactEvaluation::follow_cover(const ContactStates& last, Vector& z) const
 // A node whose gap is zero up to round-off would be open or closed at random: it starts closed, at a pressure that no result can see.
 ContactHistory ContactSystem::start_step(const ContactHistory& accepted, const NodalDisplacement& d, Vector& z) const {
   const detail::ContactModel& self = *model_;
+  detail::Arguments(self, "start_step").history(accepted).displacement(d).on_multipliers(z, "z").agree();
   const ContactHistory history = detail::with_kinks_of_its_state(model_, accepted);
   const ContactEvaluation evaluation = evaluate(d, history);
   const detail::EvaluatedContact& contact = detail::evaluated(evaluation);

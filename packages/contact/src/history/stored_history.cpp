@@ -5,6 +5,7 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 
+#include "evaluation/arguments.hpp"
 #include "evaluation/evaluated_contact.hpp"
 
 namespace mortise {
@@ -148,11 +149,13 @@ void serialize_accepted(StateArchive& archive, const ContactModel& model, Accept
 }  // namespace detail
 
 void ContactSystem::store(StateArchive& archive, const ContactHistory& history) const {
+  detail::Arguments(*model_, "store").history(history).agree();
   AcceptedContact accepted = *history;
   detail::serialize_accepted(archive, *model_, accepted);
 }
 
 ContactHistory ContactSystem::restore(StateArchive& archive, const NodalDisplacement& d, const Vector& z) const {
+  detail::Arguments(*model_, "restore").displacement(d).on_multipliers(z, "z").agree();
   AcceptedContact accepted = *initial_history(d);
   detail::serialize_accepted(archive, *model_, accepted);
   accepted.multipliers = rcp(new Vector(z, Teuchos::Copy));

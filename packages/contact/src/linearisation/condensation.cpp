@@ -11,6 +11,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "evaluation/arguments.hpp"
+#include "linearisation/assembled_rows.hpp"
+
 namespace mortise {
 namespace {
 
@@ -334,7 +337,9 @@ NodeElimination ContactLinearisation::condense(Matrix& system, Vector& rhs) cons
   if (model.keeps_multipliers())
     throw std::logic_error("contact: condense() where a formulation keeps its multipliers as unknowns: solve with saddle_point_blocks()");
   const auto condensation = std::make_shared<detail::Condensation>(detail::Condensation{laws_, scatter_into(*laws.contact, system), {}, {}});
+  detail::Arguments(model, "condense").on_dofs(rhs, "rhs").agree();
   const auto scope = model.timers.scope("condensation");
+  detail::refuse_changed_rows(model, system);
   for (const bool middles : {true, false}) {
     if (middles && !model.middles_first) continue;
     for (std::size_t p = 0; p < model.pairs.size(); ++p) {
@@ -349,6 +354,9 @@ NodeElimination ContactLinearisation::condense(Matrix& system, Vector& rhs) cons
     }
     condensation->scatter->finish(system);
   }
+  const auto replaces_rows = [&](const EliminatedNode& node) { return !node.by_law && condensation->free_row(node) >= 0; };
+  const auto replaced = std::find_if(condensation->nodes.begin(), condensation->nodes.end(), replaces_rows);
+  detail::keep_condensed_row(model, system, replaced == condensation->nodes.end() ? -1 : condensation->free_row(*replaced));
   const RCP<const Vector> b = condensation->condense_right_hand_side(nullptr, rhs);
   condensation->left_out = detail::tied_conditions(laws);
   return NodeElimination(condensation, b, laws.z);

@@ -38,6 +38,14 @@ struct Condensation {
     return &model().rows[static_cast<std::size_t>(model().dimension * slave.owned_node)];
   }
 
+  /// A row of an owned slave node that holds a condition; -1: none of its components is free.
+  LocalOrdinal free_row(const EliminatedNode& node) const {
+    const SlaveNode& slave = pair(node.pair).slave_nodes()[node.node];
+    for (int i = 0; i < model().dimension; ++i)
+      if (!slave.fixed[i]) return own_rows_of(slave)[i];
+    return -1;
+  }
+
   void condense_node(std::size_t pair, std::size_t s, Matrix& system);
   void eliminate_by_law(std::size_t pair, std::size_t s, Matrix& system);
   /// b of a node with the multiplier z and the conditions C. Changes the node's part of the right-hand side.

@@ -10,6 +10,7 @@
 #include <Tpetra_Vector.hpp>
 #include <stdexcept>
 
+#include "evaluation/arguments.hpp"
 #include "linearisation/condensation.hpp"
 #include "linearisation/left_out_couplings.hpp"
 
@@ -43,16 +44,19 @@ RCP<Matrix> detail::Condensation::slopes() const {
 }
 
 NodeElimination NodeElimination::apply(Vector& rhs) const {
+  detail::Arguments(condensation_->model(), "apply").on_dofs(rhs, "rhs").agree();
   const auto scope = condensation_->model().timers.scope("condensation");
   return {condensation_, condensation_->condense_right_hand_side(nullptr, rhs), condensation_->at().z};
 }
 
 NodeElimination NodeElimination::apply(Vector& rhs, const Vector& C) const {
+  detail::Arguments(condensation_->model(), "apply").on_dofs(rhs, "rhs").on_multipliers(C, "C").agree();
   const auto scope = condensation_->model().timers.scope("condensation");
   return {condensation_, condensation_->condense_right_hand_side(&C, rhs), Teuchos::null};
 }
 
 void NodeElimination::recover(const Vector& dd, Vector& z) const {
+  detail::Arguments(condensation_->model(), "recover").on_dofs(dd, "dd").on_multipliers(z, "z").agree();
   const auto scope = condensation_->model().timers.scope("condensation");
   const Graph& graph = *condensation_->scatter->graph();
   Vector on_columns(graph.getColMap());
@@ -83,6 +87,7 @@ SubstitutedRows NodeElimination::substitute(const Matrix& G) const {
 }
 
 void NodeElimination::solve(const Vector& right, const Solve& solve, Vector& dd, Vector& dz, const Matrix* further, double tolerance) const {
+  detail::Arguments(condensation_->model(), "solve").on_dofs(right, "right").on_dofs(dd, "dd").on_multipliers(dz, "dz").agree();
   solve(right, dd);
   complete(solve, dd, dz, further, tolerance);
 }

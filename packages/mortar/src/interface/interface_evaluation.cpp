@@ -111,6 +111,11 @@ template <int dim>
 void Interface<dim>::evaluate(const MultiVector& x, bool derivatives, std::vector<FacetCoupling>& couplings, std::vector<NodalNormal>& normals,
                               std::optional<StepFailure>& failure) {
   const Positions<dim> positions = positions_of<dim>(x.getLocalViewHost(Tpetra::Access::ReadOnly));
+  for (std::size_t n = 0; n < positions.size() && !failure; ++n)
+    if (!positions[n].allFinite())
+      failure = StepFailure(FailureKind::not_finite,
+                            fmt::format("the position of node {} is not finite: ({:g})", local_nodes->getGlobalElement(static_cast<LocalOrdinal>(n)),
+                                        fmt::join(positions[n].data(), positions[n].data() + dim, ", ")));
   normals.resize(slave.stencils.size() + guests_.stencils.size());
   for (std::size_t n = 0; n < normals.size(); ++n) {
     const NormalStencil& stencil = n < slave.stencils.size() ? slave.stencils[n] : guests_.stencils[n - slave.stencils.size()];
@@ -128,8 +133,6 @@ void Interface<dim>::evaluate(const MultiVector& x, bool derivatives, std::vecto
   }
   if (derivatives && options_.linearisation == Linearisation::frozen_normals)
     for (NodalNormal& normal : normals) normal.derivative.setZero();
-  for (std::size_t n = 0; n < positions.size() && !failure; ++n)
-    if (!positions[n].allFinite()) failure = StepFailure(FailureKind::not_finite, "a position on the contact surfaces is not a number");
   if (options_.coupling->integrates_facets())
     couple_facets(positions, derivatives, normals, couplings, failure);
   else

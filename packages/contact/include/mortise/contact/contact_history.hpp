@@ -66,6 +66,7 @@ struct AcceptedContact {
   ContactStates states;              ///< of their nodes
   RCP<const MultiVector> positions;  ///< [owned nodes x dim]
   RCP<const Vector> multipliers;     ///< z
+  std::size_t layout = 0;            ///< digest of the slave nodes on this rank, by which another system's is known; 0: not known
 };
 
 /// The history of contact: an immutable value, cheap to copy. ContactSystem makes new ones: at the start, by commit(), and within a step by

@@ -45,6 +45,16 @@ struct CornerReport {
   bool as_asked = true;                    ///< the rule is the pair's option; false: something else of the pair calls for this one
 };
 
+/// Sides on which the master stands, as the slave nodes of a pair see it, over all ranks.
+struct FacetOrientation {
+  long facing = 0;  ///< nodes with a master facet within reach along their normals that faces them
+  long turned = 0;  ///< others with a master facet within reach that faces away, as where facets of one surface are given inside out
+  /// Surfaces of bodies that can meet have few turned ones, as where a thin body stands behind its own surface.
+  bool is_inside_out() const { return turned > facing; }
+};
+/// Collective. For a check by hosts, once at the start: facets of one surface that are given inside out never touch.
+FacetOrientation facet_orientation(const ContactEvaluation& evaluation, std::size_t pair);
+
 /// States of the owned slave nodes of a pair. The slip path includes the slip of the step. A node without multiplier has the mean traction of the
 /// multipliers that act at it, and is closed if most of them are. Collective.
 std::vector<ContactNodeState> node_states(const ContactLaws& laws, std::size_t pair);

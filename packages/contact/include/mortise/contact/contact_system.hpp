@@ -48,6 +48,9 @@ struct NodalDisplacement {
 /// Displacements are given on the owned dofs. These may be any numbering that a host has, with other fields among them, and without the components
 /// that it prescribes. Histories and evaluations depend on the arguments of a call alone, not on earlier calls. Collective in
 /// all members but the accessors.
+///
+/// What a host hands over is checked. Vectors on other maps, and histories and states of another system, throw std::invalid_argument on every rank.
+/// Values of another system throw std::logic_error, numbers of pairs that do not exist std::out_of_range.
 class ContactSystem {
  public:
   /// @param displacement  which dofs the displacements of the owned nodes are
@@ -123,6 +126,12 @@ class ContactSystem {
 
   /// The history after a step that ended in the state of `laws`: the next step starts from there; slip paths grow.
   ContactHistory commit(const ContactLaws& laws) const;
+
+  /// The history of another system, which has the same nodes on the same ranks and the same pairs, and prescribes other components or has other rows:
+  /// as of a host that releases a support. Nodes keep their multipliers, states and slipped paths; those that had no multiplier begin open. The
+  /// multipliers of the result are on this system's map.
+  /// @throws std::invalid_argument on every rank for other slave nodes; StepFailure on every rank, as evaluate()
+  ContactHistory carry_over(const ContactSystem& before, const ContactHistory& accepted) const;
 
   /// Stores a history, by the ids of the nodes.
   void store(StateArchive& archive, const ContactHistory& history) const;
