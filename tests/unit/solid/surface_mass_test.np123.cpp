@@ -18,7 +18,7 @@ namespace {
 constexpr double density = 2.0;  // of make_material
 
 /// 2 x 1 x 3 with a corner at (0.5, -1, 0.25).
-std::shared_ptr<Bodies> make_box() {
+std::shared_ptr<Bodies> make_box(CellShape shape = CellShape::hexahedron8, int cells = 0) {
   const auto brick = std::make_shared<BrickMesh>();
   brick->width = 2.0;
   brick->depth = 1.0;
@@ -26,14 +26,16 @@ std::shared_ptr<Bodies> make_box() {
   brick->cells_x = 4;
   brick->cells_y = 3;
   brick->cells_z = 5;
+  if (cells > 0) brick->cells_x = brick->cells_y = brick->cells_z = cells;
   brick->translation = {0.5, -1.0, 0.25};
   BodyDescription body;
   body.name = "box";
   body.mesh = brick;
-  body.shape = CellShape::hexahedron8;
+  body.shape = shape;
   const RCP<const Mesh> mesh = build_mesh(Tpetra::getDefaultComm(), {body}, {});
-  return std::make_shared<Bodies>(displacement_space(mesh), Kinematics::three_dimensional, 1.0,
-                                  std::vector<BodyProperties>{{"box", {}, make_material("hencky"), ElementType::h8}});
+  return std::make_shared<Bodies>(
+      displacement_space(mesh), Kinematics::three_dimensional, 1.0,
+      std::vector<BodyProperties>{{"box", {}, make_material("hencky"), shape == CellShape::hexahedron8 ? ElementType::h8 : ElementType::tet10}});
 }
 
 double over_ranks(const Mesh& mesh, double mine) {
@@ -99,24 +101,53 @@ TEST(RigidMass, WithinASurfaceIsThatOfTheBox) {
   EXPECT_THROW(mass_within(*bodies, {"box/top", {}}, 0.5), InputError);
 }
 
-TEST(RigidMass, MassesOfNodesHaveItsMoments) {
-  const auto bodies = make_box();
+// Nodes of tetrahedra have many neighbours.
+TEST(MasslessNodes, OfTetrahedra) {
+  const auto bodies = make_box(CellShape::tetrahedron10);
+  const Mesh& mesh = *bodies->mesh();
+  const MasslessNodes massless = massless_nodes(mesh, {{"box/top", {}}}, {false});
+  Vector ones(mesh.owned_nodes), sums(mesh.owned_nodes);
+  ones.putScalar(1.0);
+  massless.extension->apply(ones, sums);
+  sums.update(-1.0, ones, 1.0);
+  EXPECT_LE(sums.normInf(), 1e-14);
+  EXPECT_EQ(over_ranks(mesh, static_cast<double>(massless.nodes.size())), 9.0 * 7.0);
+}
+
+/// Down to the corners of one cell.
+class MassOfABox : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Cells, MassOfABox, ::testing::Values(1, 2, 3));
+
+TEST_P(MassOfABox, IsThatOfTheBody) {
+  const auto bodies = make_box(CellShape::hexahedron8, GetParam());
   const Mesh& mesh = *bodies->mesh();
   std::vector<LocalOrdinal> nodes;
   for (const LocalOrdinal node : mesh.node_sets.at("box/surface"))
     if (node < mesh.owned_count()) nodes.push_back(node);
   const RigidMass wanted = rigid_mass(1.7, {1.2, -0.4, 2.0}, {0.5, 0.8, 0.9});
-  const auto masses = masses_of_nodes(mesh, nodes, wanted);
-  ASSERT_TRUE(masses);
+  const auto block = mass_on_nodes(mesh, nodes, wanted);
+  ASSERT_TRUE(block);
+  EXPECT_EQ(block->nodes.size(), 4u);
+  EXPECT_GE(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(block->mass).eigenvalues().minCoeff(), -1e-12);
   double mass = 0.0;
   Eigen::Vector3d first = Eigen::Vector3d::Zero();
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    const Eigen::Vector3d arm = Eigen::Map<const Eigen::Vector3d>(mesh.coordinates[nodes[n]].data()) - wanted.centre;
-    mass += (*masses)[n];
-    first += (*masses)[n] * arm;
-    second += (*masses)[n] * arm * arm.transpose();
+  MassRows rows(static_cast<std::size_t>(mesh.owned_count()));
+  add_block(mesh, *block, rows);
+  std::map<GlobalOrdinal, Eigen::Vector3d> arms;  // of all nodes of the block, on each rank
+  for (const GlobalOrdinal id : block->nodes) {
+    const LocalOrdinal node = mesh.owned_nodes->getLocalElement(id);
+    Eigen::Vector3d arm = Eigen::Vector3d::Zero();
+    if (node >= 0) arm = Eigen::Map<const Eigen::Vector3d>(mesh.coordinates[node].data()) - wanted.centre;
+    for (int i = 0; i < 3; ++i) arms[id][i] = over_ranks(mesh, arm[i]);
   }
+  for (std::size_t node = 0; node < rows.size(); ++node)
+    for (const auto& [other, value] : rows[node]) {
+      const Eigen::Vector3d &arm = arms.at(mesh.owned_nodes->getGlobalElement(static_cast<LocalOrdinal>(node))), &of_other = arms.at(other);
+      mass += value;
+      first += value * arm;
+      second += value * arm * of_other.transpose();
+    }
   EXPECT_NEAR(over_ranks(mesh, mass), 1.7, 1e-12);
   for (int i = 0; i < 3; ++i) {
     EXPECT_NEAR(over_ranks(mesh, first[i]), 0.0, 1e-12);
@@ -131,7 +162,7 @@ TEST(RigidMass, NodesInAPlaneCarryNoMomentAcross) {
   std::vector<LocalOrdinal> nodes;
   for (const LocalOrdinal node : mesh.node_sets.at("box/top"))
     if (node < mesh.owned_count()) nodes.push_back(node);
-  EXPECT_FALSE(masses_of_nodes(mesh, nodes, rigid_mass(1.0, {1.5, -0.5, 3.25}, {0.5, 0.8, 0.9})));
+  EXPECT_FALSE(mass_on_nodes(mesh, nodes, rigid_mass(1.0, {1.5, -0.5, 3.25}, {0.5, 0.8, 0.9})));
 }
 
 }  // namespace

@@ -120,7 +120,9 @@ MasslessNodes massless_nodes(const Mesh& mesh, const std::vector<Located<std::st
   for (const auto& set : sides)
     for (const LoadedSide& side : set) on_surface.insert(side.nodes.begin(), side.nodes.end());
   MasslessNodes result;
-  const auto P = rcp(new Matrix(mesh.owned_nodes, 8));
+  std::size_t most = 1;
+  for (const auto& [node, of] : around) most = std::max({most, of.interior.size(), of.surface.size()});
+  const auto P = rcp(new Matrix(mesh.owned_nodes, most));
   bool any_by_neighbours = false;
   const auto insert = [&](LocalOrdinal row, LocalOrdinal column, double weight) {
     const GlobalOrdinal id = mesh.local_nodes->getGlobalElement(column);

@@ -5,6 +5,7 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
+#include <algorithm>
 #include <stdexcept>
 #include <vector>
 
@@ -87,6 +88,17 @@ RCP<const Matrix> mass_of_nodes(const RCP<const Map>& owned_nodes, const std::ve
     result->insertGlobalValues(id, 1, &masses[n], &id);
   }
   result->fillComplete();
+  return result;
+}
+
+RCP<const Matrix> mass_of_rows(const RCP<const Map>& owned_nodes, const MassRows& rows) {
+  std::size_t most = 1;
+  for (const auto& row : rows) most = std::max(most, row.size());
+  const auto result = rcp(new Matrix(owned_nodes, most));
+  for (std::size_t node = 0; node < rows.size(); ++node)
+    for (const auto& [column, value] : rows[node])
+      result->insertGlobalValues(owned_nodes->getGlobalElement(static_cast<LocalOrdinal>(node)), 1, &value, &column);
+  result->fillComplete(owned_nodes, owned_nodes);
   return result;
 }
 

@@ -29,15 +29,13 @@ void PointMassOptions::describe(Parameters& parameters) {
 
 namespace {
 
-using Rows = std::vector<std::map<GlobalOrdinal, double>>;  ///< [owned nodes]
-
 double sum_over_ranks(const Mesh& mesh, double mine) {
   double all = 0.0;
   Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, mine, Teuchos::outArg(all));
   return all;
 }
 
-void add_over_sides(const Bodies& bodies, const PointMassOptions& options, Rows& rows) {
+void add_over_sides(const Bodies& bodies, const PointMassOptions& options, MassRows& rows) {
   const Mesh& mesh = *bodies.mesh();
   double mine = 0.0;
   for (const LoadedSide& side : owned_sides(mesh, options.set))
@@ -52,11 +50,11 @@ void add_over_sides(const Bodies& bodies, const PointMassOptions& options, Rows&
     }
 }
 
-void add_to_diagonal(const Mesh& mesh, LocalOrdinal node, double mass, Rows& rows) {
+void add_to_diagonal(const Mesh& mesh, LocalOrdinal node, double mass, MassRows& rows) {
   rows[static_cast<std::size_t>(node)][mesh.local_nodes->getGlobalElement(node)] += mass;
 }
 
-void add_at_nodes(const Mesh& mesh, const PointMassOptions& options, Rows& rows) {
+void add_at_nodes(const Mesh& mesh, const PointMassOptions& options, MassRows& rows) {
   std::vector<LocalOrdinal> nodes;
   for (const LocalOrdinal node : require_node_set(mesh, options.set))
     if (node < mesh.owned_count()) nodes.push_back(node);
@@ -64,7 +62,7 @@ void add_at_nodes(const Mesh& mesh, const PointMassOptions& options, Rows& rows)
   for (const LocalOrdinal node : nodes) add_to_diagonal(mesh, node, options.mass / count, rows);
 }
 
-void add_moments(const Bodies& bodies, const Named<PointMassOptions>& mass, const ReferencePoint& point, Rows& rows) {
+void add_moments(const Bodies& bodies, const Named<PointMassOptions>& mass, const ReferencePoint& point, MassRows& rows) {
   const Mesh& mesh = *bodies.mesh();
   const std::vector<double>& J = mass.value.moments_of_inertia;
   if (mesh.dimension == 2) {
@@ -75,12 +73,12 @@ void add_moments(const Bodies& bodies, const Named<PointMassOptions>& mass, cons
   for (const LocalOrdinal node : point.followers)
     if (node < mesh.owned_count()) nodes.push_back(node);
   const Eigen::Vector3d at(mesh.coordinates[point.node].data());
-  const auto found = masses_of_nodes(mesh, nodes, rigid_mass(0.0, at, Eigen::Vector3d(J[0], J[1], J[2])));
+  const auto found = mass_on_nodes(mesh, nodes, rigid_mass(0.0, at, Eigen::Vector3d(J[0], J[1], J[2])));
   if (!found)
     throw InputError(mass.place, fmt::format("the nodes that follow \"{}\" do not span the space, so that they cannot carry its moments of inertia; "
                                              "please let more nodes follow it",
                                              mass.value.set.value));
-  for (std::size_t n = 0; n < nodes.size(); ++n) add_to_diagonal(mesh, nodes[n], (*found)[n], rows);
+  add_block(mesh, *found, rows);
 }
 
 /// Null without moments of inertia.
@@ -102,7 +100,7 @@ const ReferencePoint* turning_point(const Mesh& mesh, const Named<PointMassOptio
 
 RCP<const Matrix> matrix_of_point_masses(const Bodies& bodies, const std::vector<Named<PointMassOptions>>& masses) {
   const Mesh& mesh = *bodies.mesh();
-  Rows rows(static_cast<std::size_t>(mesh.owned_count()));
+  MassRows rows(static_cast<std::size_t>(mesh.owned_count()));
   std::vector<Diagnostic> diagnostics;
   for (const auto& mass : masses) {
     try {  // what is thrown here is the same on all ranks
@@ -120,14 +118,7 @@ RCP<const Matrix> matrix_of_point_masses(const Bodies& bodies, const std::vector
     }
   }
   throw_if_any(*mesh.comm, diagnostics);
-  std::size_t most = 1;
-  for (const auto& row : rows) most = std::max(most, row.size());
-  const auto result = rcp(new Matrix(mesh.owned_nodes, most));
-  for (std::size_t node = 0; node < rows.size(); ++node)
-    for (const auto& [column, value] : rows[node])
-      result->insertGlobalValues(mesh.owned_nodes->getGlobalElement(static_cast<LocalOrdinal>(node)), 1, &value, &column);
-  result->fillComplete(mesh.owned_nodes, mesh.owned_nodes);
-  return result;
+  return mass_of_rows(mesh.owned_nodes, rows);
 }
 
 std::vector<double> weighing_masses(const Mesh& mesh, const Matrix& of_nodes) {

@@ -4,37 +4,73 @@
 
 #include <Eigen/Dense>
 #include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_Map.hpp>
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "loads/loaded_side.hpp"
+#include "mortise/core/over_ranks.hpp"
 
 namespace mortise {
 namespace {
 
 constexpr double open_surface = 1e-9;  ///< of |integral n dA| over the area: a surface with more is not closed
 constexpr double round_off = 1e-9;     ///< of moments that nodes have, over those that they should have
+constexpr double flat = 1e-6;          ///< extent of nodes in a direction over their largest one, below which they have none
 
-using Moments = Eigen::Matrix<double, 10, 1>;  // 1; x, y, z; xx, yy, zz, xy, yz, xz
 using Position = Eigen::Vector3d;
 
-Moments monomials(const Position& x) {
-  Moments result;
-  result << 1.0, x[0], x[1], x[2], x[0] * x[0], x[1] * x[1], x[2] * x[2], x[0] * x[1], x[1] * x[2], x[0] * x[2];
+Position position_of(const Mesh& mesh, LocalOrdinal node) { return Eigen::Map<const Position>(mesh.coordinates[node].data()); }
+
+/// The node of all ranks with the largest value, the first by id of those that are alike.
+struct Furthest {
+  double value = 0.0;
+  GlobalOrdinal node = -1;
+  Position at = Position::Zero();
+};
+template <class Value>
+Furthest furthest(const Mesh& mesh, const std::vector<LocalOrdinal>& nodes, const Value& value) {
+  double mine = 0.0;
+  for (const LocalOrdinal node : nodes) mine = std::max(mine, value(position_of(mesh, node)));
+  Furthest result;
+  result.value = most_over_ranks(*mesh.comm, mine);
+  constexpr double alike = 1.0 - 1e-9;
+  GlobalOrdinal first = std::numeric_limits<GlobalOrdinal>::max();
+  LocalOrdinal of_first = -1;
+  for (const LocalOrdinal node : nodes)
+    if (const GlobalOrdinal id = mesh.local_nodes->getGlobalElement(node); id < first && value(position_of(mesh, node)) >= alike * result.value) {
+      first = id;
+      of_first = node;
+    }
+  result.node = least_over_ranks(*mesh.comm, first);
+  result.at = sum_over_ranks(*mesh.comm, result.node == first ? position_of(mesh, of_first) : Position(Position::Zero()));
   return result;
 }
 
-/// Those that count: in 2D 1, x, y and xx + yy.
-Eigen::VectorXd counted(const Moments& moments, int dimension) {
-  if (dimension == 3) return moments;
-  return Eigen::Vector4d(moments[0], moments[1], moments[2], moments[4] + moments[5]);
-}
-
-Moments moments_of(const RigidMass& mass, const Position& about) {
-  const Position c = mass.centre - about;
-  const Eigen::Matrix3d E = mass.second_moments + mass.mass * c * c.transpose();
-  Moments result;
-  result << mass.mass, mass.mass * c, E(0, 0), E(1, 1), E(2, 2), E(0, 1), E(1, 2), E(0, 2);
+/// Nodes far apart that span what all nodes span, [1 to dimension + 1].
+std::vector<Furthest> spanning_nodes(const Mesh& mesh, const std::vector<LocalOrdinal>& nodes) {
+  std::vector<Furthest> result;
+  if (sum_over_ranks(*mesh.comm, static_cast<double>(nodes.size())) == 0.0) return result;
+  Eigen::Vector4d mine = Eigen::Vector4d::Zero();
+  for (const LocalOrdinal node : nodes) mine += (Eigen::Vector4d() << position_of(mesh, node), 1.0).finished();
+  const Eigen::Vector4d sums = sum_over_ranks(*mesh.comm, mine);
+  const Position middle = sums.head<3>() / sums[3];
+  const auto from_middle = [&](const Position& x) { return (x - middle).norm(); };
+  result.push_back(furthest(mesh, nodes, from_middle));
+  std::vector<Position> along;  // orthonormal
+  const auto beside = [&](const Position& x) {
+    Position arm = x - result.front().at;
+    for (const Position& direction : along) arm -= arm.dot(direction) * direction;
+    return arm;
+  };
+  while (along.size() < static_cast<std::size_t>(mesh.dimension)) {
+    const Furthest next = furthest(mesh, nodes, [&](const Position& x) { return beside(x).norm(); });
+    if (!(next.value > flat * result.front().value)) break;
+    along.push_back(beside(next.at).normalized());
+    result.push_back(next);
+  }
   return result;
 }
 
@@ -90,41 +126,43 @@ RigidMass mass_within(const Bodies& bodies, const Located<std::string>& surface,
   return result;
 }
 
-std::optional<std::vector<double>> masses_of_nodes(const Mesh& mesh, const std::vector<LocalOrdinal>& nodes, const RigidMass& mass) {
-  const int dimension = mesh.dimension;
-  // Centred and scaled, so that moments are alike.
-  std::array<double, 4> mine{}, sums{};
-  for (const LocalOrdinal node : nodes) {
-    for (int i = 0; i < 3; ++i) mine[i] += mesh.coordinates[node][i];
-    mine[3] += 1.0;
+std::optional<MassBlock> mass_on_nodes(const Mesh& mesh, const std::vector<LocalOrdinal>& nodes, const RigidMass& mass) {
+  const std::vector<Furthest> spanning = spanning_nodes(mesh, nodes);
+  if (spanning.empty()) return std::nullopt;
+  // About a node and scaled, so that moments are alike.
+  const Eigen::Index dimension = mesh.dimension, count = static_cast<Eigen::Index>(spanning.size());
+  const Position about = spanning.front().at;
+  const double size = std::max(spanning.size() > 1 ? spanning[1].value : 0.0, (mass.centre - about).norm());
+  MassBlock block;
+  Eigen::MatrixXd P = Eigen::MatrixXd::Ones(1 + dimension, count), Q(1 + dimension, 1 + dimension);
+  for (Eigen::Index n = 0; n < count; ++n) {
+    block.nodes.push_back(spanning[static_cast<std::size_t>(n)].node);
+    if (size > 0.0) P.col(n).tail(dimension) = (spanning[static_cast<std::size_t>(n)].at - about).head(dimension) / size;
   }
-  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, 4, mine.data(), sums.data());
-  const Position about(sums[0] / sums[3], sums[1] / sums[3], sums[2] / sums[3]);
-  const auto arm = [&](LocalOrdinal node) -> Position { return Eigen::Map<const Position>(mesh.coordinates[node].data()) - about; };
-  double largest_here = 0.0, size = 0.0;
-  for (const LocalOrdinal node : nodes) largest_here = std::max(largest_here, arm(node).norm());
-  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, largest_here, Teuchos::outArg(size));
-  if (!(size > 0.0)) return std::nullopt;
-  const auto of_node = [&](LocalOrdinal node) { return counted(monomials(arm(node) / size), dimension); };
+  const Position c = size > 0.0 ? Position((mass.centre - about) / size) : Position(Position::Zero());
+  Eigen::Matrix3d about_centre = mass.second_moments;
+  if (dimension == 2 && count == 2) {  // turns about z see the trace alone: nodes on a line bear it
+    const Position along = (spanning[1].at - about).normalized();
+    about_centre = mass.second_moments.topLeftCorner<2, 2>().trace() * along * along.transpose();
+  }
+  Eigen::Matrix3d E = Eigen::Matrix3d::Zero();
+  if (size > 0.0) E = about_centre / (size * size) + mass.mass * c * c.transpose();
+  Q(0, 0) = mass.mass;
+  Q.bottomLeftCorner(dimension, 1) = mass.mass * c.head(dimension);
+  Q.topRightCorner(1, dimension) = Q.bottomLeftCorner(dimension, 1).transpose();
+  Q.bottomRightCorner(dimension, dimension) = E.topLeftCorner(dimension, dimension);
+  const Eigen::MatrixXd inverse = P.completeOrthogonalDecomposition().pseudoInverse();
+  block.mass = inverse * Q * inverse.transpose();
+  if ((P * block.mass * P.transpose() - Q).norm() > round_off * Q.norm()) return std::nullopt;
+  return block;
+}
 
-  RigidMass scaled = mass;
-  scaled.centre = (mass.centre - about) / size;
-  scaled.second_moments /= size * size;
-  const Eigen::VectorXd wanted = counted(moments_of(scaled, Position::Zero()), dimension);
-  const Eigen::Index count = wanted.size();
-  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(count, count), product_sums(count, count);
-  for (const LocalOrdinal node : nodes) {
-    const Eigen::VectorXd p = of_node(node);
-    products += p * p.transpose();
+void add_block(const Mesh& mesh, const MassBlock& block, MassRows& rows) {
+  for (std::size_t a = 0; a < block.nodes.size(); ++a) {
+    const LocalOrdinal row = mesh.owned_nodes->getLocalElement(block.nodes[a]);
+    for (std::size_t b = 0; b < block.nodes.size() && row >= 0; ++b)
+      rows[static_cast<std::size_t>(row)][block.nodes[b]] += block.mass(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
   }
-  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, static_cast<int>(products.size()), products.data(), product_sums.data());
-  // Directions in which the nodes have no extent, as in a plane, carry no moments.
-  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition(product_sums);
-  const Eigen::VectorXd coefficients = decomposition.solve(wanted);
-  if ((product_sums * coefficients - wanted).norm() > round_off * wanted.norm()) return std::nullopt;
-  std::vector<double> masses;
-  for (const LocalOrdinal node : nodes) masses.push_back(of_node(node).dot(coefficients));
-  return masses;
 }
 
 }  // namespace mortise

@@ -1,6 +1,7 @@
 #pragma once
 // Mass that couples nodes, the same in each direction.
 
+#include <map>
 #include <vector>
 
 #include "mortise/core/types.hpp"
@@ -31,6 +32,11 @@ class NodalMass {
 RCP<const Matrix> consistent_mass(const Bodies& bodies);
 /// A diagonal matrix of nodes. Collective.
 RCP<const Matrix> mass_of_nodes(const RCP<const Map>& owned_nodes, const std::vector<double>& masses);
+
+/// Rows of a mass matrix of nodes while it is made: [owned nodes] by the id of the other node.
+using MassRows = std::vector<std::map<GlobalOrdinal, double>>;
+/// A matrix of nodes. Collective.
+RCP<const Matrix> mass_of_rows(const RCP<const Map>& owned_nodes, const MassRows& rows);
 
 /// P^T M P. Collective.
 RCP<const Matrix> mass_of_extension(const Matrix& M, const Matrix& P);

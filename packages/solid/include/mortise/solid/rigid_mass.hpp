@@ -1,5 +1,5 @@
 #pragma once
-// Mass of rigid bodies, as masses of their nodes.
+// Mass of rigid bodies, as a mass matrix on some of their nodes.
 
 #include <Eigen/Core>
 #include <string>
@@ -7,6 +7,7 @@
 
 #include "mortise/core/parameters.hpp"
 #include "mortise/solid/bodies.hpp"
+#include "mortise/solid/nodal_mass.hpp"
 
 namespace mortise {
 
@@ -24,11 +25,18 @@ RigidMass rigid_mass(double mass, const Eigen::Vector3d& centre, const Eigen::Ve
 /// @throws InputError on all ranks for a surface that is not closed
 RigidMass mass_within(const Bodies& bodies, const Located<std::string>& surface, double density);
 
-/// Masses of nodes with the same mass, centre and second moments: m_i = p(x_i), p the quadratic polynomial with these moments (in 2D of 1, x, y,
-/// r^2). As the nodes move like a rigid body, that is the mass of the body; single ones may be negative. Nothing for nodes that do not span the
-/// space.
-/// @param nodes  of this rank, each on one rank
-/// @returns [nodes]. Collective.
-std::optional<std::vector<double>> masses_of_nodes(const Mesh& mesh, const std::vector<LocalOrdinal>& nodes, const RigidMass& mass);
+/// A mass matrix on a few nodes, for each direction alike.
+struct MassBlock {
+  std::vector<GlobalOrdinal> nodes;
+  Eigen::MatrixXd mass;  ///< [nodes x nodes], symmetric, no eigenvalue below 0
+};
+
+/// The mass of a rigid body on nodes that move with it. Points of the body are affine in the nodes that span it: with P = [1; x_i] and the moments
+/// Q = [m, m c^T; m c, E + m c c^T] the matrix M with P M P^T = Q has the body's mass, centre and second moments (in 2D of E the trace alone counts).
+/// Nothing for nodes that do not span the space in which the body has extent. Collective.
+/// @param nodes  of this rank, each on one rank; those furthest apart are taken
+std::optional<MassBlock> mass_on_nodes(const Mesh& mesh, const std::vector<LocalOrdinal>& nodes, const RigidMass& mass);
+/// Adds the rows of the nodes that this rank owns.
+void add_block(const Mesh& mesh, const MassBlock& block, MassRows& rows);
 
 }  // namespace mortise
