@@ -60,10 +60,13 @@ void report_inertia(const Scene& scene, const Model& model, RunLog& log) {
     log.info(
         fmt::format("  {} nodes of contact surfaces keep their mass: they follow reference points, or have no interior node beside them", mass.kept));
   const bool keeps_energy = inertia.contact_condition == InertiaOptions::ContactCondition::gap_rate;  // for which it has to be 1
-  if (!scene.contact.empty() && inertia.scheme == InertiaOptions::Scheme::generalised_alpha && inertia.spectral_radius > 0.95 && !keeps_energy)
+  if (!scene.contact.empty() && inertia.radius_at_infinity() > 0.95 && !keeps_energy)
     log.warning(
-        fmt::format("a \"spectral radius\" of {:g} hardly damps high frequencies, so that contact forces ring; please take 0.8, or at most 0.95",
-                    inertia.spectral_radius));
+        fmt::format("time integration with a spectral radius of {:.3g} hardly damps high frequencies, so that contact forces ring; please take "
+                    "\"generalised alpha\" with a \"spectral radius\" of 0.8, or at most 0.95",
+                    inertia.radius_at_infinity()));
+  for (const std::string& name : inertia.idle_parameters())
+    log.warning(fmt::format("\"{}\" has no effect with this \"scheme\"; please remove it, or take its scheme", name));
   const auto& points = model.mesh()->reference_points;
   const auto& prescribed = model.supports().prescribed;
   int turning_here = 0, turning = 0;

@@ -27,7 +27,9 @@ struct Connector : Quantity {
         "the ground that of \"set\", of a rotation the angle in radians; energy: stored in a spring; power: what a dashpot takes");
     parameters.add("component", part, {{"line", Part::line}, {"x", Part::x}, {"y", Part::y}, {"z", Part::z}, {"rotation", Part::rotation}},
                    "of the force or elongation: along the line between its ends, in a component, or of the rotation, in 3D its size");
-    if (spring.value.empty() == dashpot.value.empty()) parameters.error("spring", "or \"dashpot\" is needed: please give one of the two");
+    if (spring.value.empty() == dashpot.value.empty())
+      parameters.error("spring",
+                       fmt::format("{} given; please give one of \"spring\" and \"dashpot\"", spring.value.empty() ? "none is" : "both are"));
     if (of == Of::energy && spring.value.empty()) parameters.error("of", "a dashpot stores no energy; please take \"power\"");
     if (of == Of::power && dashpot.value.empty()) parameters.error("of", "a spring takes no power; please take \"energy\"");
   }

@@ -150,8 +150,13 @@ RCP<Vector> working_force(Energy::Of of, const QuantityContext& context) {
 /// A work, summed up over the steps.
 class WorkEvaluator final : public QuantityEvaluator {
  public:
-  WorkEvaluator(Energy::Of of, const QuantityContext& context)
-      : of_(of), force_(rcp(new Vector(context.space().dofs()))), displacement_(rcp(new Vector(context.space().dofs()))) {}
+  /// Which force does the work of a step.
+  ///   - trapezoidal: the mean of those at its ends. Over the step, with inertia: the one that is in balance, f_n at t_(n+1) - alpha_f h.
+  ///   - central: with inertia over the step, f_n + (1/2 - alpha_f)(f_(n-1) - f_n), the force in its middle: of second order. Else trapezoidal.
+  ///   - at_end: in statics that at its end, which viscous forces have throughout it (velocity dd / dt).
+  enum class Rule { trapezoidal, central, at_end };
+  WorkEvaluator(Energy::Of of, const QuantityContext& context, Rule rule = Rule::trapezoidal)
+      : of_(of), rule_(rule), force_(rcp(new Vector(context.space().dofs()))), displacement_(rcp(new Vector(context.space().dofs()))) {}
 
   double evaluate(const QuantityContext& context) override {
     if ((of_ == Energy::Of::friction || of_ == Energy::Of::contact_work) && context.contact == nullptr) return 0.0;
@@ -163,9 +168,9 @@ class WorkEvaluator final : public QuantityEvaluator {
     has_begun_ = true;
     Vector change(*context.displacement, Teuchos::Copy);
     change.update(-1.0, *displacement_, 1.0);
-    const bool is_constant = context.motion != nullptr && context.motion->is_over_step;
-    force_->update(is_constant ? 1.0 : 0.5, *now, is_constant ? 0.0 : 0.5);
+    force_->update(1.0 - share_before(context), *now, share_before(context));
     work_ += force_->dot(change);
+    has_force_ = true;
     force_ = now;
     displacement_->assign(*context.displacement);
     return work_;
@@ -175,12 +180,20 @@ class WorkEvaluator final : public QuantityEvaluator {
     int has_begun = has_begun_ ? 1 : 0;
     mortise::serialize(archive, name + ".has_begun", has_begun);
     has_begun_ = has_begun != 0;
+    has_force_ = has_begun_;
     mortise::serialize(archive, name + ".work", work_);
     mortise::serialize(archive, name + ".force", "dofs", *force_);
     mortise::serialize(archive, name + ".displacement", "dofs", *displacement_);
   }
 
  private:
+  /// Of the force before in the work of a step.
+  double share_before(const QuantityContext& context) const {
+    if (context.motion == nullptr) return rule_ == Rule::at_end ? 0.0 : 0.5;
+    if (!context.motion->is_over_step) return 0.5;
+    return rule_ == Rule::central && has_force_ ? 0.5 - context.motion->alpha_f : 0.0;
+  }
+
   /// Null: 0, or not known. Contact and supports have none.
   const Vector* force_at_start(const MotionOfStep& motion) const {
     if (of_ == Energy::Of::external_work) return motion.external_force_before;
@@ -188,8 +201,10 @@ class WorkEvaluator final : public QuantityEvaluator {
   }
 
   Energy::Of of_;
+  Rule rule_;
   double work_ = 0.0;
   bool has_begun_ = false;
+  bool has_force_ = false;            ///< `force_` is that of a step before
   RCP<Vector> force_, displacement_;  ///< at the last step
 };
 
@@ -294,7 +309,14 @@ std::unique_ptr<QuantityEvaluator> Energy::make_evaluator(const QuantityContext&
     throw InputError(Place{}, "there are no dashpots; please give the list \"dashpots\"");
   if (of == Of::stabilisation && !context.connectors.are_stabilised)
     throw InputError(Place{}, "there is no stabilisation; please give the list \"stabilisation\" a \"type\"");
-  if (of != Of::stored && of != Of::plastic_work) return std::make_unique<WorkEvaluator>(of, context);
+  if (of != Of::stored && of != Of::plastic_work) {
+    const bool is_viscous = context.mass == nullptr && (of == Of::dashpots || of == Of::stabilisation);
+    const bool varies = of == Of::external_work || of == Of::damping || of == Of::dashpots;
+    return std::make_unique<WorkEvaluator>(of, context,
+                                           is_viscous ? WorkEvaluator::Rule::at_end
+                                           : varies   ? WorkEvaluator::Rule::central
+                                                      : WorkEvaluator::Rule::trapezoidal);
+  }
   return evaluator_of([of = of, of_body](const QuantityContext& at) {
     const auto energies = of == Of::stored ? at.bodies.stored_energies(*at.local_displacement) : at.bodies.plastic_works(*at.local_displacement);
     return of_body ? energies[*of_body] : std::accumulate(energies.begin(), energies.end(), 0.0);
@@ -329,9 +351,13 @@ struct EnergyError : Quantity {
 class EnergyErrorEvaluator final : public QuantityEvaluator {
  public:
   /// @param spent  what external work is spent on
-  EnergyErrorEvaluator(const std::vector<Energy::Of>& spent, const QuantityContext& context) : external_(energy(Energy::Of::external_work, context)) {
+  /// @param external  the work that is spent
+  EnergyErrorEvaluator(std::unique_ptr<QuantityEvaluator> external, const std::vector<Energy::Of>& spent, const QuantityContext& context)
+      : external_(std::move(external)) {
     for (const Energy::Of of : spent) spent_.push_back(energy(of, context));
   }
+  /// Works by the same rule as the external work, with which they are in balance.
+  void add_work(Energy::Of of, const QuantityContext& context) { spent_.push_back(std::make_unique<WorkEvaluator>(of, context)); }
   void add(std::unique_ptr<QuantityEvaluator> energy) { spent_.push_back(std::move(energy)); }
   void add_mechanical_energy() { mechanical_ = std::make_unique<MechanicalEnergyChange>(); }
 
@@ -367,9 +393,10 @@ std::unique_ptr<QuantityEvaluator> EnergyError::make_evaluator(const QuantityCon
   std::vector<Of> viscous;
   if (context.connectors.dashpots != nullptr && context.mass == nullptr) viscous.push_back(Of::dashpots);
   if (context.connectors.are_stabilised) viscous.push_back(Of::stabilisation);
-  const auto with_viscous = [&](std::vector<Of> spent) {
-    spent.insert(spent.end(), viscous.begin(), viscous.end());
-    return std::make_unique<EnergyErrorEvaluator>(spent, context);
+  const auto with_viscous = [&](const std::vector<Of>& spent) {
+    auto result = std::make_unique<EnergyErrorEvaluator>(std::make_unique<WorkEvaluator>(Of::external_work, context), spent, context);
+    for (const Of of : viscous) result->add_work(of, context);
+    return result;
   };
   if (against == Against::internal_work) return with_viscous({Of::friction, Of::internal_work});
   if (against == Against::stored_and_plastic) {
@@ -378,7 +405,8 @@ std::unique_ptr<QuantityEvaluator> EnergyError::make_evaluator(const QuantityCon
     return result;
   }
   require_inertia(context);
-  auto result = std::make_unique<EnergyErrorEvaluator>(std::vector<Of>{Of::friction, Of::plastic_work, Of::damping}, context);
+  auto result = std::make_unique<EnergyErrorEvaluator>(energy(Of::external_work, context),
+                                                       std::vector<Of>{Of::friction, Of::plastic_work, Of::damping}, context);
   result->add_mechanical_energy();
   return result;
 }

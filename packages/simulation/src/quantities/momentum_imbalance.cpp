@@ -54,6 +54,15 @@ RCP<const Vector> forces_of_ground(const QuantityContext& context) {
   return result;
 }
 
+/// Springs, dashpots and stabilisation on the bodies, and what inertia and damping take. Null: there are none.
+RCP<const Vector> further_forces(const QuantityContext& context) {
+  if (context.motion == nullptr) return forces_of_ground(context);
+  const auto result = rcp(new Vector(context.motion->rate_force, Teuchos::Copy));  // contains dashpots
+  result->scale(-1.0);
+  if (context.connectors.spring_force != nullptr) result->update(-1.0, *context.connectors.spring_force, 1.0);
+  return result;
+}
+
 /// Forces no larger than round-off are none, and none are in balance.
 double total_imbalance(const QuantityContext& context) {
   const auto load = context.external_force->getLocalViewHost(Tpetra::Access::ReadOnly);
@@ -78,7 +87,7 @@ double total_imbalance(const QuantityContext& context) {
     sum[at.component] += reaction(dof, 0);
     reactions[at.component] += std::abs(reaction(dof, 0));
   }
-  if (const RCP<const Vector> ground = forces_of_ground(context); !ground.is_null()) {
+  if (const RCP<const Vector> ground = further_forces(context); !ground.is_null()) {
     const auto values = ground->getLocalViewHost(Tpetra::Access::ReadOnly);
     for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node) {
       if (is_rotation(node)) continue;
@@ -100,7 +109,7 @@ double total_imbalance(const QuantityContext& context) {
 
 /// With f_c the contact forces on all nodes:
 ///   - contact: |sum f_c| / (1/2 sum |f_c|);
-///   - total: |sum of loads + sum of reactions on prescribed dofs| / the larger sum of absolute values;
+///   - total: |sum of loads + sum of reactions on prescribed dofs - inertia and damping| / the largest sum of absolute values;
 ///   - both: the larger of the two.
 /// Components in which bodies balance: both, axisymmetric the axial one (total).
 struct MomentumImbalance : Quantity {
@@ -109,7 +118,7 @@ struct MomentumImbalance : Quantity {
 
   void describe(Parameters& parameters) override {
     parameters.add("of", of, {{"both", Of::both}, {"contact", Of::contact}, {"total", Of::total}},
-                   "contact: forces on slave against those on master; total: loads against reactions; both: the larger one");
+                   "contact: forces on slave against those on master; total: loads against reactions, with inertia less M a; both: the larger one");
   }
 
   std::unique_ptr<QuantityEvaluator> make_evaluator(const QuantityContext&) const override {

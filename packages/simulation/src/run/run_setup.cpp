@@ -108,7 +108,10 @@ void Run::report_start() {
 }
 
 void Run::begin_steps() {
-  if (!state_) state_.emplace(initial_state(scene_, model_, system_));
+  if (!state_) {
+    for (const std::string& warning : jumps_at_start(scene_, model_)) log_.warning(warning);
+    state_.emplace(initial_state(scene_, model_, system_));
+  }
   const double time = state_->accepted.context.time;
   state_->accepted = preparation_.prepared(std::move(state_->accepted), time);
   requests_.emplace(options_.supervised, options_.time_limit, begin_);

@@ -26,10 +26,10 @@ void InertiaOptions::describe(Parameters& parameters) {
                  "are those of the end of the step");
   parameters.add("beta", beta, Says("of Newmark's method").unit("-").above(0.0));
   parameters.add("gamma", gamma, Says("of Newmark's method; above 0.5 it damps, and is of first order").unit("-").at_least(0.5));
-  if (2.0 * beta < gamma)
+  if (scheme == Scheme::newmark && 2.0 * beta < gamma)
     parameters.error(
-        "beta", fmt::format("is {}, and \"gamma\" {}; Newmark's method is unstable for 2 beta < gamma, please take a \"beta\" of {} or more", beta,
-                            gamma, 0.5 * gamma));
+        "beta", fmt::format("\"beta\" is {}, and \"gamma\" {}; Newmark's method is unstable for 2 beta < gamma, please take a \"beta\" of {} or more",
+                            beta, gamma, 0.5 * gamma));
   parameters.add("mass", mass, {{"consistent", Mass::consistent}, {"lumped", Mass::lumped}},
                  "consistent: integrals of products of shape functions; lumped: at the nodes alone");
   parameters.add("contact mass", contact_mass,
@@ -42,9 +42,10 @@ void InertiaOptions::describe(Parameters& parameters) {
       "others bear nothing (persistency condition). Contact then takes no energy, and surfaces overlap by up to a step's motion");
   const bool keeps_energy = scheme == Scheme::generalised_alpha && spectral_radius == 1.0 && balance == Balance::over_step;
   if (contact_condition == ContactCondition::gap_rate && !keeps_energy)
-    parameters.error("contact condition",
-                     "is \"gap rate\", which keeps energy with the scheme \"generalised alpha\", a \"spectral radius\" of 1 and the balance \"over "
-                     "the step\" alone; please take these, or the condition \"gap\"");
+    parameters.error(
+        "contact condition",
+        "the condition \"gap rate\" keeps energy with the scheme \"generalised alpha\", a \"spectral radius\" of 1 and the balance \"over "
+        "the step\" alone; please take these, or the condition \"gap\"");
   parameters.add("start", start, {{"in balance", Start::in_balance}, {"at rest", Start::at_rest}},
                  "accelerations of the first state: in balance with loads and stresses, or 0");
   parameters.add("mass damping", mass_damping, Says("a of the damping a M + b K, K the stiffness at the start").unit("1 / time").at_least(0.0));
@@ -59,6 +60,23 @@ void InertiaOptions::describe(Parameters& parameters) {
                       "halved; default: none")
                      .unit("-")
                      .above(0.0));
+}
+
+// Newmark's method without stiffness terms beside those of the step: beta l^2 + (1/2 + gamma - 2 beta) l + 1/2 - gamma + beta = 0.
+double InertiaOptions::radius_at_infinity() const {
+  if (scheme == Scheme::generalised_alpha) return spectral_radius;
+  if (scheme == Scheme::backward_euler) return 0.0;
+  const double b = (0.5 + gamma - 2.0 * beta) / beta, c = (0.5 - gamma + beta) / beta, discriminant = 0.25 * b * b - c;
+  return discriminant < 0.0 ? std::sqrt(c) : 0.5 * std::abs(b) + std::sqrt(discriminant);
+}
+
+std::vector<std::string> InertiaOptions::idle_parameters() const {
+  const InertiaOptions standard;
+  std::vector<std::string> idle;
+  if (scheme != Scheme::generalised_alpha && spectral_radius != standard.spectral_radius) idle.push_back("spectral radius");
+  if (scheme != Scheme::newmark && beta != standard.beta) idle.push_back("beta");
+  if (scheme != Scheme::newmark && gamma != standard.gamma) idle.push_back("gamma");
+  return idle;
 }
 
 TimeScheme InertiaOptions::time_scheme() const {

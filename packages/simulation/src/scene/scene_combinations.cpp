@@ -52,11 +52,6 @@ void check_stabilisation(const Scene& scene, std::vector<Diagnostic>& diagnostic
 
 std::vector<Diagnostic> wrong_combinations(const Scene& scene) {
   std::vector<Diagnostic> diagnostics;
-  const bool has_points = !scene.reference_points.empty() ||
-                          std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const auto& body) { return body.value.rigid.value; });
-  if (scene.inertia.scheme == InertiaOptions::Scheme::generalised_alpha && scene.inertia.spectral_radius == 1.0 && has_points)
-    diagnostics.push_back({scene.inertia.place,
-                           "a \"spectral radius\" of 1 lets forces of rigid bodies and reference points ring without end; please take one below 1"});
   if (scene.inertia.contact_condition == InertiaOptions::ContactCondition::gap_rate)
     for (const auto& pair : scene.contact)
       if (const auto& formulation = pair.value.contact.formulation; formulation.options && !formulation.options->enforcement()->holds_exactly())

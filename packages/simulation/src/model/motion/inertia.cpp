@@ -103,6 +103,19 @@ bool is_led(const FieldSpace& space, const ReferencePoint& point, const std::vec
   return free == 0;
 }
 
+// Forces of constraints obey f_(n+1) = -rho f_n + ..., rho the spectral radius at infinite frequency.
+void refuse_ringing(const Scene& scene, const FieldSpace& space, const std::vector<LocalOrdinal>& prescribed) {
+  if (scene.inertia.radius_at_infinity() < 1.0) return;
+  for (const ReferencePoint& point : space.mesh()->reference_points)
+    if (!is_led(space, point, prescribed))
+      throw InputError(
+          scene.inertia.place,
+          fmt::format("time integration with a spectral radius of 1 at infinite frequency lets the forces of \"{}\" ring without end, as of "
+                      "any rigid body and reference point that moves; please take \"generalised alpha\" with a \"spectral radius\" below "
+                      "1, or for Newmark's method a \"gamma\" above 0.5 and \"beta\" of (gamma + 0.5)^2 / 4",
+                      point.name));
+}
+
 RigidMass mass_of(const Scene& scene, const Bodies& bodies, const Named<BodyOptions>& body, const ReferencePoint& point) {
   const BodyOptions& options = body.value;
   const int dimension = bodies.dimension();
@@ -129,10 +142,10 @@ bool has_point_mass(const Scene& scene, const std::string& set) {
   return std::any_of(scene.point_masses.begin(), scene.point_masses.end(), [&](const auto& mass) { return mass.value.set.value == set; });
 }
 
-/// [owned nodes]; nothing without rigid bodies that have mass. Collective.
-std::optional<std::vector<double>> masses_of_rigid_bodies(const Scene& scene, const Bodies& bodies, const std::vector<LocalOrdinal>& prescribed) {
+/// Null without rigid bodies that have mass. Collective.
+RCP<const Matrix> mass_of_rigid_bodies(const Scene& scene, const Bodies& bodies, const std::vector<LocalOrdinal>& prescribed) {
   const Mesh& mesh = *bodies.mesh();
-  std::vector<double> masses(static_cast<std::size_t>(mesh.owned_count()), 0.0);
+  MassRows rows(static_cast<std::size_t>(mesh.owned_count()));
   bool any = false;
   for (const auto& body : scene.bodies) {
     if (!body.value.rigid.value) continue;
@@ -150,16 +163,15 @@ std::optional<std::vector<double>> masses_of_rigid_bodies(const Scene& scene, co
     std::vector<LocalOrdinal> nodes;
     for (const LocalOrdinal node : point->followers)
       if (node < mesh.owned_count()) nodes.push_back(node);
-    const auto found = masses_of_nodes(mesh, nodes, mass_of(scene, bodies, body, *point));
+    const auto found = mass_on_nodes(mesh, nodes, mass_of(scene, bodies, body, *point));
     if (!found)
       throw InputError(body.place, fmt::format("the nodes of the rigid body \"{}\" do not span the space, so that they cannot carry its moments of "
                                                "inertia; please give it a mesh with some depth",
                                                body.name));
-    for (std::size_t n = 0; n < nodes.size(); ++n) masses[static_cast<std::size_t>(nodes[n])] = (*found)[n];
+    add_block(mesh, *found, rows);
     any = true;
   }
-  if (any) return masses;
-  return std::nullopt;
+  return any ? mass_of_rows(mesh.owned_nodes, rows) : Teuchos::null;
 }
 
 GlobalOrdinal count_over_ranks(const Communicator& comm, std::size_t mine) {
@@ -217,13 +229,12 @@ InertiaOfModel add_inertia(const Scene& scene, const std::shared_ptr<const Bodie
   InertiaOfModel result;
   if (!scene.inertia.acts()) return result;
   refuse_without_density(scene, *bodies);
+  refuse_ringing(scene, bodies->space(), prescribed);
   const Mesh& mesh = *bodies->mesh();
   RCP<const Matrix> mass =
       scene.inertia.mass == InertiaOptions::Mass::lumped ? mass_of_nodes(mesh.owned_nodes, bodies->nodal_masses()) : consistent_mass(*bodies);
-  if (const auto rigid = masses_of_rigid_bodies(scene, *bodies, prescribed)) {
-    const RCP<const Matrix> diagonal = mass_of_nodes(mesh.owned_nodes, *rigid);
-    mass = Tpetra::MatrixMatrix::add(1.0, false, *mass, 1.0, false, *diagonal, mass->getDomainMap(), mass->getRangeMap());
-  }
+  if (const auto rigid = mass_of_rigid_bodies(scene, *bodies, prescribed); !rigid.is_null())
+    mass = Tpetra::MatrixMatrix::add(1.0, false, *mass, 1.0, false, *rigid, mass->getDomainMap(), mass->getRangeMap());
   if (!scene.point_masses.empty())
     mass = Tpetra::MatrixMatrix::add(1.0, false, *mass, 1.0, false, *matrix_of_point_masses(*bodies, scene.point_masses), mass->getDomainMap(),
                                      mass->getRangeMap());
@@ -248,8 +259,11 @@ InertiaOfModel add_inertia(const Scene& scene, const std::shared_ptr<const Bodie
   result.mass = std::make_shared<const NodalMass>(mass, bodies->shared_space());
   parts.time = integration;
   parts.contributions.push_back(std::make_shared<InertiaContribution>(result.mass, scene.inertia.mass_damping, timers));
-  if (scene.inertia.stiffness_damping > 0.0)
-    parts.contributions.push_back(std::make_shared<StiffnessDamping>(*bodies, scene.inertia.stiffness_damping, timers));
+  if (scene.inertia.stiffness_damping > 0.0) {
+    const auto damping = std::make_shared<StiffnessDamping>(*bodies, scene.inertia.stiffness_damping, timers);
+    result.stiffness_damping = damping->matrix();
+    parts.contributions.push_back(damping);
+  }
   parts.bulk_graph = [inner = parts.bulk_graph, mass, space = bodies->shared_space()] { return with_entries_of(inner(), *mass, *space); };
   return result;
 }

@@ -33,6 +33,8 @@ class StiffnessDamping final : public CountedContribution {
   void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) override;
   void add_jacobian(const Configuration& at, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>& failure) override;
 
+  RCP<const Matrix> matrix() const { return damping_; }
+
  private:
   RCP<Matrix> damping_;  ///< b K_0
 };

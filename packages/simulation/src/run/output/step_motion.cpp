@@ -14,6 +14,7 @@ MotionOfStep StepMotion::of_quantities() const {
           *velocity_before,
           dt,
           is_over_step,
+          alpha_f,
           external_force_before.get(),
           damping_force_before.get()};
 }
@@ -39,6 +40,7 @@ std::optional<StepMotion> step_motion(const Model& model, const SemiSmoothSystem
   motion.displacement_before = step->unknowns;
   motion.velocity_before = step->start.velocity;
   motion.dt = step->dt;
+  motion.alpha_f = step->integration->scheme.alpha_f;
   motion.is_over_step = step->integration->scheme.balance == TimeScheme::Balance::over_step;
   return motion;
 }

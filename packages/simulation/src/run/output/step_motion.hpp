@@ -14,6 +14,7 @@ struct StepMotion {
   RCP<const Vector> velocity, acceleration, rate_force, damping_force, displacement_before, velocity_before;
   double dt = 0.0;
   bool is_over_step = false;
+  double alpha_f = 0.0;
   RCP<const Vector> external_force_before, damping_force_before;  ///< see MotionOfStep; null: not known
 
   /// A view, valid while this lives.

@@ -33,6 +33,7 @@ struct MotionOfStep {
   const Vector& velocity_before;      ///< likewise
   double dt;                          ///< length of the step
   bool is_over_step;                  ///< forces are constant over the step: works are f . (d - d_old), else those of the trapezoidal rule
+  double alpha_f;                     ///< over the step: forces are those at its end less this share of it
   const Vector* external_force_before = nullptr;  ///< f_ext at the start of the first step that quantities see; null in others
   const Vector* damping_force_before = nullptr;   ///< likewise, dashpots included
 };

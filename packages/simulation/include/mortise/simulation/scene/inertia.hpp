@@ -36,6 +36,10 @@ struct InertiaOptions {
 
   bool acts() const { return scheme != Scheme::none; }
   TimeScheme time_scheme() const;
+  /// Spectral radius at infinite frequency.
+  double radius_at_infinity() const;
+  /// Names of parameters that differ from their defaults and belong to another scheme.
+  std::vector<std::string> idle_parameters() const;
 };
 
 /// Displacements and velocities of a body at the start. Functions are of the reference position x, y, z.
