@@ -10,6 +10,7 @@
 #include <set>
 
 #include "model/edges/widened_graph.hpp"
+#include "mortise/core/over_ranks.hpp"
 #include "mortise/material/materials.hpp"
 #include "mortise/solid/rigid_mass.hpp"
 
@@ -89,29 +90,30 @@ void refuse_without_density(const Scene& scene, const Bodies& bodies) {
   throw_if_any(*bodies.mesh()->comm, diagnostics);
 }
 
-/// Whether all dofs of a rigid body's reference point are prescribed, over all ranks. Collective.
-bool is_led(const FieldSpace& space, const ReferencePoint& point, const std::vector<LocalOrdinal>& prescribed) {
+/// Number of dofs of a node that are not prescribed, over all ranks; 0 for no node. Collective.
+int free_dofs(const FieldSpace& space, LocalOrdinal node, const std::vector<LocalOrdinal>& prescribed) {
   const Mesh& mesh = *space.mesh();
-  int free_here = 0, free = 0;
-  const auto count = [&](LocalOrdinal node, int dofs) {
-    for (int i = 0; i < dofs && node >= 0 && node < mesh.owned_count(); ++i)
-      if (!std::binary_search(prescribed.begin(), prescribed.end(), space.row(node, i))) ++free_here;
-  };
-  count(point.node, mesh.dimension);
-  count(point.rotation_node, mesh.dimension);
-  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, free_here, Teuchos::outArg(free));
-  return free == 0;
+  int mine = 0;
+  for (int i = 0; i < mesh.dimension && node >= 0 && node < mesh.owned_count(); ++i)
+    if (space.row(node, i) >= 0 && !std::binary_search(prescribed.begin(), prescribed.end(), space.row(node, i))) ++mine;
+  return mortise::sum_over_ranks(*mesh.comm, mine);
 }
 
-// Forces of constraints obey f_(n+1) = -rho f_n + ..., rho the spectral radius at infinite frequency.
+/// Whether all dofs of a rigid body's reference point are prescribed. Collective.
+bool is_led(const FieldSpace& space, const ReferencePoint& point, const std::vector<LocalOrdinal>& prescribed) {
+  return free_dofs(space, point.node, prescribed) + free_dofs(space, point.rotation_node, prescribed) == 0;
+}
+
+// Forces that keep nodes of a body that turns at their distances obey f_(n+1) = -rho f_n + ..., rho the spectral radius at infinite frequency. Those
+// of a body that does not turn are eliminated by linear constraints.
 void refuse_ringing(const Scene& scene, const FieldSpace& space, const std::vector<LocalOrdinal>& prescribed) {
   if (scene.inertia.radius_at_infinity() < 1.0) return;
   for (const ReferencePoint& point : space.mesh()->reference_points)
-    if (!is_led(space, point, prescribed))
+    if (free_dofs(space, point.rotation_node, prescribed) > 0)
       throw InputError(
           scene.inertia.place,
           fmt::format("time integration with a spectral radius of 1 at infinite frequency lets the forces of \"{}\" ring without end, as of "
-                      "any rigid body and reference point that moves; please take \"generalised alpha\" with a \"spectral radius\" below "
+                      "any rigid body and reference point that turns; please take \"generalised alpha\" with a \"spectral radius\" below "
                       "1, or for Newmark's method a \"gamma\" above 0.5 and \"beta\" of (gamma + 0.5)^2 / 4",
                       point.name));
 }
