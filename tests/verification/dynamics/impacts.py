@@ -142,11 +142,12 @@ class DiscBalance:
         impulses = [[0.0] + columns[f"impulse {c}"] for c in "xy"]
         assert max(abs(impulses[i][2]) for i in (0, 1)) == 0, "the disc has to be free in its first steps"
         mass, height = -momenta[1][0] / across, 1.0 + 2.5 * times[1] * across
-        centre, self.before, self.about, of_friction = [0.0, 0.0], None, [], 0.0
+        centre, self.about, self.centres, of_friction = [0.0, 0.0], [], [0.0], 0.0
         for k in range(1, len(times)):
             step, before = times[k] - times[k - 1], list(centre)
             for i in (0, 1):
                 centre[i] += step * 0.5 * (momenta[i][k - 1] + momenta[i][k]) / mass
+            self.centres.append(centre[0])
             self.about.append(columns["angular momentum"][k - 1] - centre[0] * momenta[1][k] + centre[1] * momenta[0][k])
             of_friction += (height + 0.5 * (before[1] + centre[1])) * (impulses[0][k] - impulses[0][k - 1])
         along_floor, self.normal = impulses[0][-1], impulses[1][-1]
@@ -159,6 +160,21 @@ class DiscBalance:
         # after the impact it should not change
         last = self.about[-len(self.about) // 5:]
         self.drift = (max(last) - min(last)) / abs(along_floor)
+
+    def ahead_by_profiles(self, path):
+        """The same distance from the pressures at the nodes, which are constant over a step, and the nodes' places in the middle of it."""
+        with open(path, encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        nodes = len(rows) // (len(self.centres) - 1)
+        states = [[(float(row["x"]), float(row["y"]), float(row["pressure"])) for row in rows[k:k + nodes]] for k in range(0, len(rows), nodes)]
+        force = moment = 0.0
+        for k in range(1, len(states)):
+            for i, (x, y, pressure) in enumerate(states[k]):
+                beside = [states[k][(i + turn) % nodes] for turn in (-1, 1)]
+                share = pressure * 0.5 * sum(math.hypot(x - other[0], y - other[1]) for other in beside)
+                force += share
+                moment += share * 0.5 * (x + states[k - 1][i][0] - self.centres[k] - self.centres[k + 1])
+        return moment / force
 
 
 def one_layer():
@@ -192,15 +208,21 @@ def frequency_of_bar(cells=10):
 
 
 def pressed_bar(balance, density, steps, end=4.0, cells=10, radius=0.8):
-    """A bar of E = 1 on a rigid wall, pressed by a force that starts smoothly and goes up and down, so that contact lasts."""
+    """A bar of E = 1 on a rigid wall, pressed by 0.01 from the start on, which goes down by a fifth and up again smoothly, so that contact lasts."""
     return [
         '<Parameter name="kinematics" type="string" value="plane strain"/>', named("materials", material("elastic", 1.0, density)),
         named("bodies", block(2, "bar", "elastic", 1.0, 0.0, cells, 1),
               named("wall", named("mesh", type="block", width=0.5, height=2.0, cells_x=1, cells_y=1, translation=numbers(-0.5, -0.5)), rigid=True)),
         named("boundary conditions", named("wall", set="wall/reference", x=0.0, y=0.0, rotation=0.0)),
-        named("loads", named("push", type="dead traction", set="bar/right", x="-0.01*(1 - 0.5*(1 - cos(pi*t))/2)*(t &lt; 1 ? sin(pi*t/2)^2 : 1)")),
+        named("loads", named("push", type="dead traction", set="bar/right", x="-0.01*(1 - 0.2*sin(pi*t/2)^4)")),
+        named("initial conditions", named("pressed", body="bar", displacement_x="-0.01*x")),
         named("inertia", **{"scheme": "generalised alpha", "balance": balance, "spectral radius": radius}),
         named("contact", named("wall", slave="bar/left", master="wall/right", geometry="reference")),
         named("stepping", end_time=end, step=end / steps), named("output", fields="", every_step=0),
         named("quantities", named("end", type="displacement", x=1.0, y=0.5, component="x"), named("force", type="contact force", component="x"),
               energies("kinetic energy", "stored energy"))]
+
+
+def from_static(ends, end=4.0):
+    """Largest distance of the end of pressed_bar() from its static place, over the largest displacement."""
+    return max(abs(place + 0.01 * (1 - 0.2 * math.sin(math.pi / 2 * end * (k + 1) / len(ends)) ** 4)) for k, place in enumerate(ends)) / 0.01
