@@ -121,31 +121,34 @@ def noise(runs):
             print(f"| {dimension} | {across[0]} : {across[1]} | {mass} | {radius} | {errors[0]:.4f} | {errors[1]:.4f} |", flush=True)
 
 
-# elements around, rings, step, friction, speed across, spin; the speed along is 5 times that across
-DISCS = ((48, 4, 0.1, 0.1, 0.02, 0), (48, 4, 0.1, 0.1, 0.01, 0), (48, 4, 0.1, 0.1, 0.005, 0), (48, 4, 0.1, 0.1, 0.0025, 0),
-         (48, 4, 0.1, 0.1, 0.02, -1), (48, 4, 0.1, 0.1, 0.01, -1), (48, 4, 0.1, 0.1, 0.005, -1), (48, 4, 0.1, 0.1, 0.0025, -1), (48, 4, 0.1, 0.1, 0.005, 1),
-         (48, 4, 0.1, 0.05, 0.005, -1), (48, 4, 0.1, 0.2, 0.005, -1), (48, 4, 0.1, 0.4, 0.005, -1),
-         (96, 8, 0.1, 0.1, 0.005, 0), (96, 8, 0.1, 0.1, 0.005, -1), (48, 4, 0.05, 0.1, 0.005, -1))
-
-
-def snap(runs, inputs):
-    """Contact work of its own, where normals turn: a ring on a collar, over the largest stored energy."""
-    print("| facets around the section | largest stored energy over that of a thin ring | contact work at the end over the largest stored energy | largest rise of it |\n|---|---|---|---|")
-    for cells in (8, 16, 32):
-        quantities, columns = runs.file(f"snap_{cells}", os.path.join(inputs, "dynamics", "snap_fit.xml"), [f"bodies/ring/mesh/cells around={cells}"])
-        stored, work = max(columns["stored"]), [0.0] + columns["contact work"]
-        print(f"| {4 * cells} | {quantities['largest stored over that on the collar']:.4f} | {work[-1] / stored:.4f} | {largest_rise(work) / stored:.4f} |", flush=True)
+# Elements around, rings, step, friction, speed across, spin over it; the speed along is 5 times that across. The half width of contact goes with the
+# square root of the depth, which goes with the speed: by the mesh, the depth at one mesh, the depth with as many elements in contact, friction, the step.
+DISCS = (*[(around, around // 12, 0.1, 0.1, across, ratio) for ratio in (0, -1) for around, across in (
+             (48, 0.02), (96, 0.02), (192, 0.02), (48, 0.01), (48, 0.005), (48, 0.0025), (96, 0.005), (192, 0.005), (192, 0.00125))],
+         (48, 4, 0.1, 0.1, 0.005, 1), (48, 4, 0.1, 0.05, 0.005, -1), (48, 4, 0.1, 0.2, 0.005, -1), (48, 4, 0.1, 0.4, 0.005, -1), (48, 4, 0.05, 0.1, 0.005, -1))
 
 
 def disc(runs):
     """A disc that slips throughout: impulses, and the change of the angular momentum about its centre of mass, of friction and of pressures."""
-    print("| elements around, rings | step | mu | speed across | spin | J_t / (mu J_n) | change of angular momentum over R J_t | of friction | of pressures | pressures act ahead by |\n"
-          "|---|---|---|---|---|---|---|---|---|---|")
+    print("| elements around | step | mu | speed across | spin | J_t / (mu J_n) | change of angular momentum over R J_t | of friction | of pressures | pressures act ahead by | the same by the fields | change over mu R J_n |\n"
+          "|---|---|---|---|---|---|---|---|---|---|---|---|")
     for around, rings, step, friction, across, ratio in DISCS:
         spin = ratio * across
-        _, columns = runs.scene(f"disc_{around}_{step}_{friction}_{across}_{ratio}", disc_on_floor(friction, across, 5 * across, spin, step, around // 4, rings))
+        name = f"disc_{around}_{step}_{friction}_{across}_{ratio}"
+        _, columns = runs.scene(name, disc_on_floor(friction, across, 5 * across, spin, step, around // 4, rings, profiles=True))
         found = DiscBalance(columns, across, 5 * across)
-        print(f"| {around}, {rings} | {step} | {friction} | {across} | {spin:g} | {found.share / friction:.4f} | {found.change:.4f} | {found.friction:.4f} | {found.pressure:+.4f} | {found.ahead:+.1e} |", flush=True)
+        share = found.share / friction
+        print(f"| {around} | {step} | {friction} | {across} | {spin:g} | {share:.4f} | {found.change:.4f} | {found.friction:.4f} | {found.pressure:+.4f} | {found.ahead:+.1e} | {found.ahead_by_profiles(os.path.join(runs.directory, name, 'profiles.csv')):+.1e} | {found.change * share:.4f} |", flush=True)
+
+
+def snap(runs, inputs):
+    """Contact work of its own, where normals turn: a ring on a collar, by facets around its section and by the step. Over the largest stored energy."""
+    print("| facets around the section | cell size of the shaft | step | largest stored energy over that of a thin ring | contact work at the end | largest rise of it | energy gained |\n|---|---|---|---|---|---|---|")
+    for cells, size, step in ((8, 0.01, 0.0065), (8, 0.01, 0.00325), (16, 0.01, 0.0065), (16, 0.01, 0.00325), (16, 0.01, 0.001625), (16, 0.005, 0.0065), (32, 0.005, 0.0065), (32, 0.005, 0.00325)):
+        quantities, columns = runs.file(f"snap_{cells}_{size}_{step}", os.path.join(inputs, "dynamics", "snap_fit.xml"),
+                                        [f"bodies/ring/mesh/cells around={cells}", f"bodies/shaft/mesh/cell size={size}", f"variables/step={step}"])
+        stored, work = max(columns["stored"]), [0.0] + columns["contact work"]
+        print(f"| {4 * cells} | {size} | {step} | {quantities['largest stored over that on the collar']:.4f} | {work[-1] / stored:.4f} | {largest_rise(work) / stored:.4f} | {-min(columns['energy error']):.4f} |", flush=True)
 
 
 def main():
