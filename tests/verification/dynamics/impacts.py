@@ -1,6 +1,7 @@
 """Scenes of impacts that tests and studies of dynamics write, and their runs."""
 import csv
 import json
+import math
 import os
 import random
 import subprocess
@@ -21,7 +22,7 @@ class Runs:
         output = os.path.join(self.directory, name)
         words = [word for setting in settings for word in ("--set", setting)]
         done = subprocess.run([self.mortise, "run", path, "-o", output, "--quiet", *words], capture_output=True, text=True)
-        if not os.path.exists(os.path.join(output, "summary.json")):
+        if done.returncode not in (0, 3, 4):  # 3: it ended early, with fewer rows than asked for; 4: a check was missed
             sys.exit(f"{name}: exit code {done.returncode}\n{done.stdout[-1000:]}{done.stderr[-1000:]}")
         with open(os.path.join(output, "summary.json"), encoding="utf-8") as file:
             quantities = json.load(file)["quantities"]
@@ -92,34 +93,88 @@ def random_pair(seed):
             "second_is_slave": draw.random() < 0.5, "ratio": draw.choice([0.0, 0.3]), "courant": draw.choice([0.4, 0.9, 2.0])}
 
 
-def largest_gain(columns):
-    """Largest rise of the contact work within a step, over the kinetic energy of the first step."""
-    works = [0.0] + columns["contact work"]
-    return max(after - before for before, after in zip(works, works[1:])) / max(columns["kinetic energy"])
+def start_energy(densities, speeds, **_):
+    """Kinetic energy at the start of pair_of_blocks(), of a block of the volume 1."""
+    return 0.5 * densities[0] * sum(speed**2 for speed in speeds)
 
 
-def disc_on_floor(friction, across, along, spin, step=0.5, cells=12, radius=1.0):
-    """A disc of E = rho = 1 flies obliquely, and turns, onto a rigid floor that its lowest point touches."""
+def largest_rise(values):
+    """Largest rise from any value to a later one."""
+    lowest, rise = values[0], 0.0
+    for value in values:
+        lowest = min(lowest, value)
+        rise = max(rise, value - lowest)
+    return rise
+
+
+def largest_gain(columns, start):
+    """Largest rise of the contact work from the start or any step to a later one, over the energy at the start."""
+    return largest_rise([0.0] + columns["contact work"]) / start
+
+
+def disc_on_floor(friction, across, along, spin, step=0.25, cells=12, rings=4, profiles=False):
+    """A disc of E = rho = R = 1 flies obliquely, and turns, onto a rigid floor. It is free for two steps and a half before its lowest point touches."""
+    end = 12.0
+    times = {"output_times": numbers(*[step * k for k in range(1, round(end / step))])} if profiles else {}
     return [
         '<Parameter name="kinematics" type="string" value="plane strain"/>', named("materials", material("elastic", 1.0, 1.0, 0.3, "hencky")),
-        named("bodies", named("disc", named("mesh", type="disk", radius=radius, cells_around=cells, cells_across=4), material="elastic"),
-              named("floor", named("mesh", type="block", width=6.0, height=1.0, cells_x=1, cells_y=1, translation=numbers(-3.0, -2.0 * radius)), rigid=True)),
+        named("bodies", named("disc", named("mesh", type="disk", radius=1.0, cells_around=cells, cells_across=rings), material="elastic"),
+              named("floor", named("mesh", type="block", width=6.0, height=1.0, cells_x=1, cells_y=1, translation=numbers(-3.0, -2.0 - 2.5 * step * across)), rigid=True)),
         named("boundary conditions", named("floor", set="floor/reference", x=0.0, y=0.0, rotation=0.0)),
         named("inertia", scheme="generalised alpha"),
         named("initial conditions", named("throw", body="disc", velocity_x=along, velocity_y=-across, spin=spin)),
         named("contact", named("floor", named("friction", type="coulomb", coefficient=friction), slave="disc/arc", master="floor/top")),
-        named("stepping", end_time=24.0, step=step), named("output", fields="", every_step=0),
+        named("stepping", end_time=end, step=step, **times), named("output", fields="", every_step=0, contact_profiles=profiles),
         named("quantities", *[named(f"momentum {c}", type="momentum", component=c) for c in "xy"],
-              *[named(f"impulse {c}", type="impulse", component=c) for c in "xy"], named("angular momentum", type="angular momentum"),
-              *[named(f"way {c}", type="displacement", x=0.0, y=0.0, component=c) for c in "xy"], named("force", type="contact force"),
+              *[named(f"impulse {c}", type="impulse", component=c) for c in "xy"], named("angular momentum", type="angular momentum"), named("force", type="contact force"),
               energies("kinetic energy", "stored energy", "contact work", "friction"), named("energy error", type="energy error", against="mechanical"))]
 
 
-def change_of_spin(columns, before):
-    """Change of the angular momentum about the disc's centre, from the first step to the last, where nothing touches; `before`: that of the first."""
-    def about_centre(k):
-        return columns["angular momentum"][k] - columns["way x"][k] * columns["momentum y"][k] + columns["way y"][k] * columns["momentum x"][k]
-    return about_centre(-1) - before
+class DiscBalance:
+    """Angular momentum about the centre of mass of disc_on_floor(). What is free in the first step has all of its momenta there.
+
+    The centre of mass moves by the integral of momentum over mass. Its angular momentum changes by that of the friction forces, whose arm is its height
+    over the floor, and by that of the pressures, whose arm is their distance ahead of it.
+    """
+
+    def __init__(self, columns, across, along):
+        times, momenta = [0.0] + columns["time"], [[columns[f"momentum {c}"][0]] + columns[f"momentum {c}"] for c in "xy"]
+        impulses = [[0.0] + columns[f"impulse {c}"] for c in "xy"]
+        assert max(abs(impulses[i][2]) for i in (0, 1)) == 0, "the disc has to be free in its first steps"
+        mass, height = -momenta[1][0] / across, 1.0 + 2.5 * times[1] * across
+        centre, self.about, self.centres, of_friction = [0.0, 0.0], [], [0.0], 0.0
+        for k in range(1, len(times)):
+            step, before = times[k] - times[k - 1], list(centre)
+            for i in (0, 1):
+                centre[i] += step * 0.5 * (momenta[i][k - 1] + momenta[i][k]) / mass
+            self.centres.append(centre[0])
+            self.about.append(columns["angular momentum"][k - 1] - centre[0] * momenta[1][k] + centre[1] * momenta[0][k])
+            of_friction += (height + 0.5 * (before[1] + centre[1])) * (impulses[0][k] - impulses[0][k - 1])
+        along_floor, self.normal = impulses[0][-1], impulses[1][-1]
+        self.share = abs(along_floor) / self.normal
+        # shares of R J_t: all of the change, that of friction, that of the pressures; how far pressures act ahead of the centre in the mean
+        self.change = (self.about[-1] - self.about[0]) / along_floor
+        self.friction = of_friction / along_floor
+        self.pressure = self.change - self.friction
+        self.ahead = self.pressure * along_floor / self.normal
+        # after the impact it should not change
+        last = self.about[-len(self.about) // 5:]
+        self.drift = (max(last) - min(last)) / abs(along_floor)
+
+    def ahead_by_profiles(self, path):
+        """The same distance from the pressures at the nodes, which are constant over a step, and the nodes' places in the middle of it."""
+        with open(path, encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        nodes = len(rows) // (len(self.centres) - 1)
+        states = [[(float(row["x"]), float(row["y"]), float(row["pressure"])) for row in rows[k:k + nodes]] for k in range(0, len(rows), nodes)]
+        force = moment = 0.0
+        for k in range(1, len(states)):
+            for i, (x, y, pressure) in enumerate(states[k]):
+                beside = [states[k][(i + turn) % nodes] for turn in (-1, 1)]
+                share = pressure * 0.5 * sum(math.hypot(x - other[0], y - other[1]) for other in beside)
+                force += share
+                moment += share * 0.5 * (x + states[k - 1][i][0] - self.centres[k] - self.centres[k + 1])
+        return moment / force
 
 
 def one_layer():
@@ -133,16 +188,41 @@ def one_layer():
         named("stepping", end_time=0.8, step=0.04), named("output", fields="", every_step=0)]
 
 
+def vibrating_bar(steps, balance, radius, cells=10, end=2.5):
+    """A bar of E = rho = L = 1 that is held at the left vibrates in its first mode, which the mesh has too: see frequency_of_bar()."""
+    return [
+        '<Parameter name="kinematics" type="string" value="plane strain"/>', named("materials", material("elastic", 1.0, 1.0)),
+        named("bodies", block(2, "bar", "elastic", 1.0, 0.0, cells, 1)),
+        named("boundary conditions", named("wall", set="bar/left", x=0.0, y=0.0)),
+        named("inertia", **{"scheme": "generalised alpha", "balance": balance, "spectral radius": radius}),
+        named("initial conditions", named("throw", body="bar", velocity_x="0.01*sin(pi*x/2)")),
+        named("stepping", end_time=end, step=end / steps), named("output", fields="", every_step=0),
+        named("quantities", named("end", type="displacement", x=1.0, y=0.5, component="x"))]
+
+
+def frequency_of_bar(cells=10):
+    """Linear elements with consistent mass have sin(k x) as a mode, w^2 = 6 (1 - cos(k h)) / (h^2 (2 + cos(k h)))."""
+    h = 1.0 / cells
+    turn = math.cos(math.pi / 2 * h)
+    return math.sqrt(6 * (1 - turn) / (2 + turn)) / h
+
+
 def pressed_bar(balance, density, steps, end=4.0, cells=10, radius=0.8):
-    """A bar of E = 1 on a rigid wall, pressed by a force that starts smoothly and goes up and down, so that contact lasts."""
+    """A bar of E = 1 on a rigid wall, pressed by 0.01 from the start on, which goes down by a fifth and up again smoothly, so that contact lasts."""
     return [
         '<Parameter name="kinematics" type="string" value="plane strain"/>', named("materials", material("elastic", 1.0, density)),
         named("bodies", block(2, "bar", "elastic", 1.0, 0.0, cells, 1),
               named("wall", named("mesh", type="block", width=0.5, height=2.0, cells_x=1, cells_y=1, translation=numbers(-0.5, -0.5)), rigid=True)),
         named("boundary conditions", named("wall", set="wall/reference", x=0.0, y=0.0, rotation=0.0)),
-        named("loads", named("push", type="dead traction", set="bar/right", x="-0.01*(1 - 0.5*(1 - cos(pi*t))/2)*(t &lt; 1 ? sin(pi*t/2)^2 : 1)")),
+        named("loads", named("push", type="dead traction", set="bar/right", x="-0.01*(1 - 0.2*sin(pi*t/2)^4)")),
+        named("initial conditions", named("pressed", body="bar", displacement_x="-0.01*x")),
         named("inertia", **{"scheme": "generalised alpha", "balance": balance, "spectral radius": radius}),
         named("contact", named("wall", slave="bar/left", master="wall/right", geometry="reference")),
         named("stepping", end_time=end, step=end / steps), named("output", fields="", every_step=0),
         named("quantities", named("end", type="displacement", x=1.0, y=0.5, component="x"), named("force", type="contact force", component="x"),
               energies("kinetic energy", "stored energy"))]
+
+
+def from_static(ends, end=4.0):
+    """Largest distance of the end of pressed_bar() from its static place, over the largest displacement."""
+    return max(abs(place + 0.01 * (1 - 0.2 * math.sin(math.pi / 2 * end * (k + 1) / len(ends)) ** 4)) for k, place in enumerate(ends)) / 0.01
