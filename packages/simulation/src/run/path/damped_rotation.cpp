@@ -15,7 +15,7 @@ namespace {
 
 using Vector3 = Eigen::Vector3d;
 
-constexpr double noticeable = 0.01;  ///< of the largest kinetic energy
+constexpr double noticeable_turn = 0.01;  ///< of the largest kinetic energy
 
 /// The velocity v_c + w x (x - x_c) next to that of the nodes of each deformable body, in the mean over its nodes. Collective.
 Vector rigid_part(const Model& model, const Vector& displacement, const Vector& velocity) {
@@ -73,7 +73,7 @@ void DampedRotationGuard::accept(const SemiSmoothSystem& system, const SystemEva
   Vector force(rigid.getMap());
   model_.inertia().stiffness_damping->apply(rigid, force);
   taken_ += step->dt * force.dot(rigid);
-  if (!(taken_ > noticeable * largest_)) return;
+  if (!(taken_ > noticeable_turn * largest_)) return;
   is_said_ = true;
   warn_(
       fmt::format("\"stiffness damping\" has taken {:.3g} from rigid-body motions, {:.2g} of the largest kinetic energy: it is that of the reference "

@@ -5,6 +5,7 @@
 #include <Tpetra_Vector.hpp>
 #include <limits>
 
+#include "run/path/contact_work.hpp"
 #include "run/path/damped_rotation.hpp"
 #include "run/path/impact_loss.hpp"
 #include "run/path/prescribed_velocity.hpp"
@@ -51,6 +52,7 @@ StepGuards transient_guards(const Model& model, const Scene& scene, std::functio
     for (std::size_t pair = 0; pair < scene.contact.size(); ++pair)
       reach = std::min(reach, scene.contact[pair].value.contact.mortar.search_reach.value_or(model.surfaces_at_start().pairs[pair].longest));
     guards.push_back(std::make_shared<SpeedGuard>(reach, warn));
+    guards.push_back(std::make_shared<ContactWorkGuard>(model, warn));
     if (scene.inertia.impact_tolerance) guards.push_back(std::make_shared<ImpactLossGuard>(model.inertia().mass, *scene.inertia.impact_tolerance));
   }
   if (scene.inertia.stiffness_damping > 0.0) guards.push_back(std::make_shared<DampedRotationGuard>(model, warn));
