@@ -17,12 +17,14 @@ def fitted_order(sizes, errors):
 
 def row(what, by, sizes, errors, theory):
     last = math.log(errors[-2] / errors[-1]) / math.log(sizes[-2] / sizes[-1])
-    print(f"| {what} | {by} | {sizes[0]:.4g} to {sizes[-1]:.4g} | {errors[0]:.2e} to {errors[-1]:.2e} | {fitted_order(sizes, errors):.2f} | {last:.2f} | {theory} |", flush=True)
+    print(f"| {what} | {by} | {sizes[0]:.4g} to {sizes[-1]:.4g} | {errors[0]:.2e} to {errors[-1]:.2e} | {fitted_order(sizes, errors):.2f} | {last:.2f} "
+          f"| {theory} |", flush=True)
 
 
 def impedance(runs, inputs, cells, courant):
     """Momentum that the striker keeps, and the integral of |force - 1| while 1 is exact and |force| afterwards."""
-    quantities, columns = runs.file(f"impedance_{cells}_{courant}", os.path.join(inputs, "dynamics", "matched_impedance.xml"), [f"variables/n={cells}", f"variables/courant={courant}"])
+    quantities, columns = runs.file(f"impedance_{cells}_{courant}", os.path.join(inputs, "dynamics", "matched_impedance.xml"),
+                                    [f"variables/n={cells}", f"variables/courant={courant}"])
     times = [0.0] + columns["time"]
     away = 0.0
     for before, after, force in zip(times, times[1:], columns["force"]):
@@ -75,7 +77,8 @@ def precession(runs, inputs, balance, steps):
 
 def all_impedance(runs, inputs):
     cells, courants = (10, 20, 40, 80, 160), (3.6, 1.8, 0.9, 0.45)
-    for by, sizes, pairs in (("h at Courant number 0.9", [1 / n for n in cells], [(n, 0.9) for n in cells]), ("step, 40 elements", [0.5 * courant / 40 for courant in courants], [(40, courant) for courant in courants])):
+    for by, sizes, pairs in (("h at Courant number 0.9", [1 / n for n in cells], [(n, 0.9) for n in cells]),
+                             ("step, 40 elements", [0.5 * courant / 40 for courant in courants], [(40, courant) for courant in courants])):
         kept, away = zip(*[impedance(runs, inputs, *pair) for pair in pairs])
         row("matched impedance: momentum that is kept", by, sizes, kept, "")
         row("matched impedance: force, integral of the error", by, sizes, away, "")
@@ -95,7 +98,8 @@ def all_smooth(runs, inputs):
             row(f"vibrating bar, {balance}, radius {radius:g}", "step", [2.5 / n for n in counts], [vibration(runs, n, balance, radius) for n in counts], "2")
     counts = (100, 200, 400, 800)
     scene = os.path.join(inputs, "dynamics", "damped_oscillator.xml")
-    row("damped oscillator, Newmark", "step", [4 / n for n in counts], [runs.file(f"oscillator_{n}", scene, [f"variables/steps={n}"])[0]["largest error"] for n in counts], "2")
+    errors = [runs.file(f"oscillator_{n}", scene, [f"variables/steps={n}"])[0]["largest error"] for n in counts]
+    row("damped oscillator, Newmark", "step", [4 / n for n in counts], errors, "2")
 
 
 def all_lasting(runs, inputs):

@@ -41,7 +41,8 @@ def energy(runs, inputs, steps=10000):
         impacts = sum(1 for k in range(20, len(forces)) if forces[k] > 0 and max(forces[k - 20:k]) == 0)
         curves[name] = ([0.0] + columns["time"], total)
         ended = "" if len(total) == steps + 1 else f" after {len(total) - 1} steps"
-        print(f"| {name} | {total[-1]:.6g}{ended} | {max(total) - 1:.1e} | {largest_rise(total):.1e} | {largest_rise([0.0] + columns['contact work']) / start:.1e} | {impacts} |", flush=True)
+        rises = f"{max(total) - 1:.1e} | {largest_rise(total):.1e} | {largest_rise([0.0] + columns['contact work']) / start:.1e}"
+        print(f"| {name} | {total[-1]:.6g}{ended} | {rises} | {impacts} |", flush=True)
     return curves
 
 
@@ -81,7 +82,8 @@ def draw(curves, stem):
 
 def pairs(runs, count=200):
     """Random pairs, each with either side as slave. Over the energy at the start: rise of the contact work, and of the printed energy."""
-    print("| slave | runs | steps | pairs whose contact work rises by more than 1e-10 | largest rise of contact work | of the printed energy | of that above the start |\n|---|---|---|---|---|---|---|")
+    print("| slave | runs | steps | pairs whose contact work rises by more than 1e-10 | largest rise of contact work | of the printed energy "
+          "| of that above the start |\n|---|---|---|---|---|---|---|")
     for second in (False, True):
         works, totals, above, steps = [], [], [], 0
         for seed in range(count):
@@ -93,7 +95,8 @@ def pairs(runs, count=200):
             totals.append((largest_rise(total), seed))
             above.append((max(total) - 1, seed))
             steps += len(total) - 1
-        print(f"| {'second' if second else 'first'} | {count} | {steps} | {sum(gain > 1e-10 for gain, _ in works)} | {' | '.join('%.1e (pair %d)' % max(rises) for rises in (works, totals, above))} |", flush=True)
+        largest = " | ".join(f"{rise:.1e} (pair {seed})" for rise, seed in (max(works), max(totals), max(above)))
+        print(f"| {'second' if second else 'first'} | {count} | {steps} | {sum(gain > 1e-10 for gain, _ in works)} | {largest} |", flush=True)
 
 
 def impedance(runs, inputs):
@@ -130,25 +133,30 @@ DISCS = (*[(around, around // 12, 0.1, 0.1, across, ratio) for ratio in (0, -1) 
 
 def disc(runs):
     """A disc that slips throughout: impulses, and the change of the angular momentum about its centre of mass, of friction and of pressures."""
-    print("| elements around | step | mu | speed across | spin | J_t / (mu J_n) | change of angular momentum over R J_t | of friction | of pressures | pressures act ahead by | the same by the fields | change over mu R J_n |\n"
+    print("| elements around | step | mu | speed across | spin | J_t / (mu J_n) | change of angular momentum over R J_t | of friction | of pressures "
+          "| pressures act ahead by | the same by the fields | change over mu R J_n |\n"
           "|---|---|---|---|---|---|---|---|---|---|---|---|")
     for around, rings, step, friction, across, ratio in DISCS:
         spin = ratio * across
         name = f"disc_{around}_{step}_{friction}_{across}_{ratio}"
         _, columns = runs.scene(name, disc_on_floor(friction, across, 5 * across, spin, step, around // 4, rings, profiles=True))
         found = DiscBalance(columns, across, 5 * across)
-        share = found.share / friction
-        print(f"| {around} | {step} | {friction} | {across} | {spin:g} | {share:.4f} | {found.change:.4f} | {found.friction:.4f} | {found.pressure:+.4f} | {found.ahead:+.1e} | {found.ahead_by_profiles(os.path.join(runs.directory, name, 'profiles.csv')):+.1e} | {found.change * share:.4f} |", flush=True)
+        share, by_fields = found.share / friction, found.ahead_by_profiles(os.path.join(runs.directory, name, "profiles.csv"))
+        print(f"| {around} | {step} | {friction} | {across} | {spin:g} | {share:.4f} | {found.change:.4f} | {found.friction:.4f} | {found.pressure:+.4f} "
+              f"| {found.ahead:+.1e} | {by_fields:+.1e} | {found.change * share:.4f} |", flush=True)
 
 
 def snap(runs, inputs):
     """Contact work of its own, where normals turn: a ring on a collar, by facets around its section and by the step. Over the largest stored energy."""
-    print("| facets around the section | cell size of the shaft | step | largest stored energy over that of a thin ring | contact work at the end | largest rise of it | energy gained |\n|---|---|---|---|---|---|---|")
-    for cells, size, step in ((8, 0.01, 0.0065), (8, 0.01, 0.00325), (16, 0.01, 0.0065), (16, 0.01, 0.00325), (16, 0.005, 0.0065), (32, 0.005, 0.0065), (32, 0.005, 0.00325)):
+    print("| facets around the section | cell size of the shaft | step | largest stored energy over that of a thin ring | contact work at the end "
+          "| largest rise of it | energy gained |\n|---|---|---|---|---|---|---|")
+    for cells, size, step in ((8, 0.01, 0.0065), (8, 0.01, 0.00325), (16, 0.01, 0.0065), (16, 0.01, 0.00325), (16, 0.005, 0.0065), (32, 0.005, 0.0065),
+                              (32, 0.005, 0.00325)):
         quantities, columns = runs.file(f"snap_{cells}_{size}_{step}", os.path.join(inputs, "dynamics", "snap_fit.xml"),
                                         [f"bodies/ring/mesh/cells around={cells}", f"bodies/shaft/mesh/cell size={size}", f"variables/step={step}"])
         stored, work = max(columns["stored"]), [0.0] + columns["contact work"]
-        print(f"| {4 * cells} | {size} | {step} | {quantities['largest stored over that on the collar']:.4f} | {work[-1] / stored:.4f} | {largest_rise(work) / stored:.4f} | {-min(columns['energy error']):.4f} |", flush=True)
+        print(f"| {4 * cells} | {size} | {step} | {quantities['largest stored over that on the collar']:.4f} | {work[-1] / stored:.4f} "
+              f"| {largest_rise(work) / stored:.4f} | {-min(columns['energy error']):.4f} |", flush=True)
 
 
 def main():
