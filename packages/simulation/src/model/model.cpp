@@ -39,7 +39,7 @@ Effects effects_of(const Scene& scene, const Bodies& bodies) {
   }
   if (scene.inertia.acts())
     for (const auto& body : scene.bodies)
-      if (!body.value.rigid.value) moving.push_back(body.name);
+      if (!body.value.rigid.value || body.value.density || body.value.mass) moving.push_back(body.name);
   for (const auto& pair : scene.contact) {
     pairs.push_back(pair.name);
     if (pair.value.contact.friction.options->acts()) rubbing.push_back(pair.name);

@@ -45,8 +45,6 @@ Json check_json(const CheckResult& check) {
 Json effects_json(const Effects& effects) {
   Json json = Json::object();
   for (const auto& [effect, members] : effects) json[effect] = members;
-  // Says what this program leaves out, so that a reader of summaries need not know its version.
-  json["inertia"] = false;
   return json;
 }
 
