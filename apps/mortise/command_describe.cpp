@@ -18,7 +18,7 @@ void add_describe_command(CLI::App& app, Program& program) {
   const auto options = std::make_shared<Options>();
   command
       ->add_option("PATH", options->path,
-                   "a list of the scene, e.g. contact or stepping, or point, study, hard: those files; default: the whole scene")
+                   "a list of the scene, e.g. contact or stepping, or point, study, hard, machine: those files; default: the whole scene")
       ->type_name(list_value);
   const std::map<std::string, DescriptionFormat> formats{{"text", DescriptionFormat::text},
                                                          {"md", DescriptionFormat::markdown},

@@ -55,6 +55,7 @@ void add_hard_command(CLI::App& app, Program& program) {
       ->check(above_zero())
       ->type_name("N,...")
       ->allow_extra_args(false);
+  add_launcher(*command, options->launcher);
   command->add_flag("--sweeps", options->sweeps, "run sweeps as well, cases with axes");
   command->add_flag("--fresh", options->fresh,
                     "forget what DIR holds; otherwise runs that this program finished in an earlier call are not repeated");

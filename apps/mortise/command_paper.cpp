@@ -18,6 +18,7 @@ void add_paper_command(CLI::App& app, Program& program) {
       ->type_name("NAME,...")
       ->allow_extra_args(false);
   command->add_option("-n,--ranks", options->ranks, "MPI ranks of each run; default: 1")->check(above_zero())->type_name("N");
+  add_launcher(*command, options->launcher);
   command->add_flag("--reuse", options->reuse, "take results that an earlier call left in DIR for the same scene, settings, ranks and version");
   command->add_flag_callback(
       "--quiet", [options] { options->verbosity = Verbosity::quiet; }, "say nothing but warnings and errors");

@@ -15,6 +15,7 @@ void add_study_command(CLI::App& app, Program& program) {
   add_directory(*command, options->directory, "directory for the report and the results of all runs; default: results/<name of the file STUDY>");
   add_settings(*command, options->settings,
                "replace a value of the study: path=value, e.g. axes/n/values='4, 8', settings/variables/mu=0.2; may be repeated");
+  add_launcher(*command, options->launcher);
   command->add_flag("--fresh", options->fresh, "forget what DIR holds; otherwise runs that an earlier call finished are not repeated");
   command->add_flag_callback(
       "--quiet", [options] { options->verbosity = Verbosity::quiet; }, "say nothing but warnings and errors");

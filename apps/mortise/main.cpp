@@ -86,11 +86,24 @@ int run_alone(mortise::Program& program) {
   return mortise::agree_on_exit(program, run_program(program));
 }
 
+/// Ends a process that was started with others but not joined to them by MPI: one of them answers.
+int refuse_alone(const mortise::StartedTogether& together) {
+  if (!mortise::is_first_process()) return others_code;
+  std::cerr << mortise::not_joined(together) << std::endl;
+  return static_cast<int>(mortise::ExitCode::invalid_input);
+}
+
 /// With MPI, on every rank.
 int run_with_mpi(char** argv, mortise::Program& program) {
   int first_word = 1;  // Kokkos would answer to --help as well
   Tpetra::ScopeGuard scope(&first_word, &argv);
   program.comm = Tpetra::getDefaultComm();
+  if (program.comm->getSize() == 1)
+    if (const auto together = mortise::started_together()) {
+      program.read = program.action = nullptr;
+      program.comm = Teuchos::null;
+      return refuse_alone(*together);
+    }
   program.exit_comm = program.comm->duplicate();
   const int code = mortise::agree_on_exit(program, run_program(program));
   program.read = program.action = nullptr;  // they hold what must not outlive MPI
@@ -150,10 +163,12 @@ int main(int argc, char** argv) {
   }
   if (program.launches && mortise::started_by_mpirun()) {
     if (!mortise::is_first_process()) return others_code;
-    std::cerr << "this command starts runs by itself, with mpirun if more ranks are asked for (-n): please call it without mpirun" << std::endl;
+    std::cerr << "this command starts runs by itself, with --launcher or mpirun where it needs more ranks: please call it without mpirun or srun"
+              << std::endl;
     return static_cast<int>(mortise::ExitCode::usage);
   }
   if (program.launches) return run_alone(program);
+  if (const auto together = mortise::started_together(); together && !mortise::mpi_may_join()) return refuse_alone(*together);
   const bool alone = !mortise::started_by_mpirun();
   if (alone && !program.uses_mpi) return run_alone(program);
   if (alone && program.read)

@@ -15,6 +15,7 @@ class App;
 
 namespace mortise {
 
+struct Launcher;
 struct RunOptions;
 
 /// One run of the program: the command line selects the action, main runs it.
@@ -63,6 +64,9 @@ void add_directory(CLI::App& command, std::string& directory, const std::string&
 /// --set, whose form is checked. `settings` has to live as long as the command.
 void add_settings(CLI::App& command, std::vector<std::string>& settings,
                   const std::string& meaning = "replace a value of the file: path=value, e.g. variables/n=16; may be repeated");
+
+/// --launcher, whose default is MORTISE_LAUNCHER in the environment. `launcher` has to live as long as the command.
+void add_launcher(CLI::App& command, Launcher& launcher);
 
 /// Arguments of the commands that run an input file: the file itself, called `file`, and --set; -o, --keep, --quiet, --verbose. The options have to
 /// live as long as the command.

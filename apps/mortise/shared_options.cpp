@@ -7,6 +7,7 @@
 
 #include "declarations.hpp"
 #include "mortise/input/xml.hpp"
+#include "mortise/studies/launcher.hpp"
 #include "program.hpp"
 
 namespace mortise {
@@ -42,6 +43,25 @@ void add_directory(CLI::App& command, std::string& directory, const std::string&
 
 void add_settings(CLI::App& command, std::vector<std::string>& settings, const std::string& meaning) {
   command.add_option("--set", settings, meaning)->check(CLI::Validator(wrong_assignment, ""))->type_name("PATH=VALUE")->allow_extra_args(false);
+}
+
+void add_launcher(CLI::App& command, Launcher& launcher) {
+  const auto wrong = [](const std::string& text) -> std::string {
+    try {
+      read_launcher(text);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  command
+      .add_option_function<std::string>(
+          "--launcher", [&launcher](const std::string& text) { launcher = read_launcher(text); },
+          "command that starts each run, e.g. \"srun --mpi=pmix\"; {ranks} in it is the number of ranks, by default -n {ranks}.\n"
+          "Default: MORTISE_LAUNCHER in the environment, or mpirun for more than one rank")
+      ->envname("MORTISE_LAUNCHER")
+      ->check(CLI::Validator(wrong, ""))
+      ->type_name("COMMAND");
 }
 
 }  // namespace mortise

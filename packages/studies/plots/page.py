@@ -169,9 +169,10 @@ def figures(images):
     return f'<div class="{"figures" if len(images) > 1 else "alone"}">' + "\n".join(images) + "</div>" if images else ""
 
 
-def command(scene, settings, ranks, output, peer="none", penalty=""):
-    """A run by itself, as it is typed in a shell."""
-    words = ["mpirun", "-n", str(ranks)] if ranks > 1 else []
+def command(launcher, scene, settings, ranks, output, peer="none", penalty=""):
+    """A run by itself, as it is typed in a shell. launcher: its words; none: mpirun for more than one rank."""
+    words = launcher or (["mpirun", "-n", "{ranks}"] if ranks > 1 else [])
+    words = [word.replace("{ranks}", str(ranks)) for word in words] if peer == "none" else []
     words += ["mortise", "run", scene] if peer == "none" else ["mortise", "peer", scene, "--by", peer]
     words += ["--penalty", penalty] if peer != "none" and penalty else []
     for setting in settings:

@@ -13,6 +13,7 @@
 #include "mortise/simulation/quantities/fields.hpp"
 #include "mortise/simulation/scene/scene.hpp"
 #include "mortise/studies/hard_file.hpp"
+#include "mortise/studies/machine_file.hpp"
 #include "mortise/studies/point_file.hpp"
 #include "mortise/studies/study_file.hpp"
 
@@ -37,6 +38,11 @@ ListRecord study_tree() {
 ListRecord hard_tree() {
   HardFile ledger;
   return collect_parameters("hard", ledger, CollectParameters::What::declarations);
+}
+
+ListRecord machine_tree() {
+  MachineFile machine;
+  return collect_parameters("machine", machine, CollectParameters::What::declarations);
 }
 
 /// Lists that a user names to use them in expressions; read apart from the other lists, before them.
@@ -75,7 +81,8 @@ const std::vector<OtherFile>& other_files() {
   static const std::vector<OtherFile> kinds{
       {"point", "input of `mortise point`: a material and the path of one point of it", point_tree, true},
       {"study", "input of `mortise study`: a scene, its varied values, and the references of errors", study_tree, false},
-      {"hard", "input of `mortise hard`: hard cases and their expected results", hard_tree, false}};
+      {"hard", "input of `mortise hard`: hard cases and their expected results", hard_tree, false},
+      {"machine", "input of `mortise scale --machine`: nodes and network of a cluster, and how fast runs were there", machine_tree, false}};
   return kinds;
 }
 

@@ -25,10 +25,12 @@ paper = load("style", "page", "paper_claims")
 class Page(unittest.TestCase):
     def test_commands_are_what_a_shell_reads(self):
         settings = ["contact/first/formulation/type=node to segment", "variables/a=$HOME `x` \"y\" 'z'", "stepping/step=1/200"]
-        words = shlex.split(page["command"]("scenes/my scene.xml", settings, 2, "again/x;y"))
+        words = shlex.split(page["command"]([], "scenes/my scene.xml", settings, 2, "again/x;y"))
         given = [word for setting in settings for word in ("--set", setting)]
         self.assertEqual(words, ["mpirun", "-n", "2", "mortise", "run", "scenes/my scene.xml", *given, "-o", "again/x;y"])
-        words = shlex.split(page["command"]("scene.xml", [], 1, "again", "calculix node to surface", "10"))
+        words = shlex.split(page["command"](["srun", "--mpi=pmix", "-n", "{ranks}"], "scene.xml", [], 1, "again"))
+        self.assertEqual(words[:5], ["srun", "--mpi=pmix", "-n", "1", "mortise"])
+        words = shlex.split(page["command"](["srun", "-n", "{ranks}"], "scene.xml", [], 1, "again", "calculix node to surface", "10"))
         self.assertEqual(words, ["mortise", "peer", "scene.xml", "--by", "calculix node to surface", "--penalty", "10", "-o", "again"])
 
     def test_no_column_says_the_same_twice(self):

@@ -82,7 +82,7 @@ def commands(all_runs):
     """Commands of the runs, without the settings of output: these change no result."""
     of = lambda run: [setting for setting in run.settings if not setting.startswith("output/")]
     return html_commands(record["program"], directory, [
-        (run.name, command(f"scenes/{run.scene}.xml", of(run), record["ranks"], f"again/{run.name}")) for run in all_runs])
+        (run.name, command(record["launcher"], f"scenes/{run.scene}.xml", of(run), record["ranks"], f"again/{run.name}")) for run in all_runs])
 
 
 def checks_of(run):

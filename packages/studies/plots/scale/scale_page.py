@@ -64,7 +64,7 @@ def efficiencies(name):
 
 def table(name):
     whole = lambda key, digits: [value(p.get(key), digits) for p in of(name)]
-    columns = [("ranks", [str(p["ranks"]) for p in of(name)]), ("ended", ["well" if p["finished"] else "<b>failed</b>" for p in of(name)]),
+    columns = [("ranks", [str(p["ranks"]) for p in of(name)]), ("ended", ["well" if p["finished"] else f"<b>{p['state']}</b>" for p in of(name)]),
                ("unknowns", whole("dofs", 9)), ("Newton iterations", whole("newton_iterations", 9)), ("linear iterations", whole("linear_iterations", 9)),
                ("memory / MiB", whole("memory_mib", 3)), ("contact, largest over mean work", whole("contact_imbalance", 3)), ("wall / s", whole("seconds", 3)),
                ("middle repeat / s", [value(middle(p)) if p["finished"] else "–" for p in of(name)]),
@@ -103,10 +103,14 @@ def scales(name):
     return len(not_grown(of(name))) < len(finished(name)) - 1 or not not_grown(of(name))
 
 
-failed = [point for point in points if not point["finished"]]
+failed = [point for point in points if point["state"] == "failed"]
+absent = [point for point in points if point["state"] in ("running", "waiting", "missing")]
 parts = ['<section class="answer">', *[paragraph(*series_words(of(name))) for name in series]]
 if failed:
     parts.append(paragraph(f"{len(failed)} of {len(points)} runs failed: see <i>What failed</i>."))
+if absent:
+    parts.append(paragraph(f"{len(absent)} of {len(points)} runs have not ended: "
+                           + ", ".join(f"{p['series']} on {p['ranks']} rank(s) is {p['state']}" for p in absent) + "."))
 parts.append("</section>")
 if finished(series[0]):
     parts.append(figures([html_figure(times(series[0]), f"{series[0].capitalize()} scaling", "wall time by phase; the line is what full efficiency would take")]))
@@ -119,13 +123,14 @@ for name in series:
         images.append(html_figure(times(name), f"{name.capitalize()} scaling", "wall time by phase; the line is what full efficiency would take"))
     parts += [f"<section><h2>{name.capitalize()} scaling</h2>", paragraph(meaning(name)), figures(images), "</section>"]
 parts += ["<section><h2>Tables</h2>", *[part for name in series for part in (table(name), phases(name))], "</section>"]
-parts += ["<section><h2>What failed</h2>", *([] if failed else [paragraph("All runs came to their end.")]),
+parts += ["<section><h2>What failed</h2>", *([] if failed else [paragraph("All runs came to their end." if not absent else "No run so far.")]),
           *[f'<div class="failed"><b>{p["series"]}, {p["ranks"]} rank(s)</b><pre class="said">{escaped(p["said"])}</pre></div>' for p in failed], "</section>"]
-runs = [(f"{p['series']}, {p['ranks']} rank(s)", command(os.path.abspath(scale["scene"]), p["settings"], p["ranks"], f"again/{p['series']}_{p['ranks']}"))
+MEMORY = ("Phases that stream matrices through memory, the solution above all, cannot use ranks better than the memory serves them: its efficiency was "
+          "measured on this machine beforehand, by a triad on as many processes.")
+runs = [(f"{p['series']}, {p['ranks']} rank(s)", command(scale["launcher"], os.path.abspath(scale["scene"]), p["settings"], p["ranks"], f"again/{p['series']}_{p['ranks']}"))
         for p in points]
 parts += ["<section><h2>How it was measured</h2>",
           paragraph(f"Scene <code>{escaped(scale['scene'])}</code>, Mortise {escaped(scale['version'])}; the fastest of {scale['repeats']} run(s), times "
-                    "are means over the ranks. Phases that stream matrices through memory, the solution above all, cannot use ranks better than the "
-                    "memory serves them: its efficiency was measured on this machine beforehand, by a triad on as many processes."),
+                    f"are means over the ranks. {MEMORY if any(p['bandwidth_gb_s'] for p in points) else ''}"),
           html_commands(scale["program"], directory, runs), "</section>"]
 write_page(os.path.join(directory, "report.html"), html_page(f"Scaling of {os.path.basename(scale['scene'])}", parts))

@@ -119,7 +119,7 @@ def environment():
     rows = [["Mortise", escaped(here["version"])], ["processor", escaped("; ".join(here["processors"]))],
             ["first run", escaped(here["first_run"])], ["last run", escaped(here["last_run"])],
             ["scene", escaped(study["scene"])]]
-    of = lambda point: command("scene.xml", point["settings"], point["ranks"], os.path.join("again", point["name"]), point["peer"], point["peer_penalty"])
+    of = lambda point: command(study["launcher"], "scene.xml", point["settings"], point["ranks"], os.path.join("again", point["name"]), point["peer"], point["peer_penalty"])
     return [html_table(["what", "which"], rows, "Environment", [1]),
             html_commands(study["program"], directory, [(point["label"], of(point)) for point in points])]
 

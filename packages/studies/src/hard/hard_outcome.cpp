@@ -23,11 +23,12 @@ void HardOutcome::name_figures(const HardRun& run, const std::string& prefix, Ha
   }
 }
 
-HardOutcome run_hard_line(const Communicator& comm, const HardRun& run, int ranks, const std::string& directory, const std::string& version) {
+HardOutcome run_hard_line(const Communicator& comm, const HardRun& run, int ranks, const std::string& directory, const std::string& version,
+                          const Launcher& launcher) {
   StudyPoint point = run.point;
   point.ranks = ranks;
   point.time_limit *= ranks;  // there may be more ranks than cores
-  const StudyPointOptions options{run.scene, run.text, directory, version, 1};
+  const StudyPointOptions options{run.scene, run.text, directory, version, 1, launcher};
   const auto earlier = earlier_record(comm, point, options);
   HardOutcome outcome;
   // One that ran into its time limit is run again: the machine may have been busy.

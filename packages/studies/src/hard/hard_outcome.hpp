@@ -23,6 +23,7 @@ struct HardOutcome {
 };
 
 /// Runs it on so many ranks, unless an earlier call finished the same with the same program. `version`: of the program, its build included.
-HardOutcome run_hard_line(const Communicator& comm, const HardRun& run, int ranks, const std::string& directory, const std::string& version);
+HardOutcome run_hard_line(const Communicator& comm, const HardRun& run, int ranks, const std::string& directory, const std::string& version,
+                          const Launcher& launcher);
 
 }  // namespace mortise

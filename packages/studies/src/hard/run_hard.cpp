@@ -46,7 +46,7 @@ class Runner {
     for (const auto& word : run.point.words()) key += "\n" + word;
     const auto known = outcomes_.find(key);
     if (known != outcomes_.end()) return known->second;
-    return outcomes_[key] = run_hard_line(*comm_, run, ranks, folder.subdirectory(name).path(), build_);
+    return outcomes_[key] = run_hard_line(*comm_, run, ranks, folder.subdirectory(name).path(), build_, options_.launcher);
   }
 
   RCP<const Communicator> comm_;
@@ -78,6 +78,7 @@ std::string list_hard(const RCP<const Communicator>& comm, const HardOptions& op
 ExitCode run_hard(const RCP<const Communicator>& comm, const HardOptions& options) {
   RunLog log(comm, options.verbosity);
   const HardPlan plan = read_hard(*comm, options);
+  require_launcher(options.launcher);
   OutputDirectory directory(comm, options.directory.empty() ? "results/hard" : options.directory,
                             {"hard cases", options.ledger, options.directory.empty()});
   std::vector<std::string> cases, names = hard_pages();

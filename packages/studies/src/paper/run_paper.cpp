@@ -55,10 +55,11 @@ Json run_one(const RCP<const Communicator>& comm, const PaperRun& run, const Pap
     json["said"] = error.what();
     return json;
   }
-  const ProcessEnding ending = run_process(command_of_run(scene, run.settings, options.ranks, results));
+  const std::vector<std::string> command = command_of_run(options.launcher, scene, run.settings, options.ranks, results);
+  const ProcessEnding ending = run_process(command);
   json["exit"] = ending.code;
   json["seconds"] = ending.wall_seconds;
-  json["said"] = ending.output;
+  json["said"] = said_at_end(command, ending);
   OutputDirectory left(comm, results, origin);
   left.continue_run();
   write_json(*comm, left.claim(record_name), json);
@@ -89,6 +90,7 @@ ExitCode exit_of(const Json& runs) {
 
 ExitCode run_paper(const RCP<const Communicator>& comm, const PaperOptions& options) {
   RunLog log(comm, options.verbosity);
+  require_launcher(options.launcher);
   OutputDirectory directory(comm, options.directory, {"paper"});
   const std::string page = directory.file("paper.html");
   require_page_python(*comm, page);
@@ -102,7 +104,11 @@ ExitCode run_paper(const RCP<const Communicator>& comm, const PaperOptions& opti
   OutputDirectory scenes = directory.subdirectory("scenes");
   for (const auto& run : wanted) directory.subdirectory(run.name);
 
-  Json record{{"version", options.version}, {"program", this_program()}, {"ranks", options.ranks}, {"runs", Json::array()}};
+  Json record{{"version", options.version},
+              {"program", this_program()},
+              {"ranks", options.ranks},
+              {"launcher", options.launcher.words},
+              {"runs", Json::array()}};
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const PaperRun& run = wanted[i];
     write_file(*comm, scenes.claim(run.scene + ".xml"), [&] { return scene_of(run).text; });

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 
-#include "mortise/core/names.hpp"
+#include "mortise/core/memory.hpp"
 #include "mortise/io/files.hpp"
 #include "mortise/io/output_directory.hpp"
 #include "mortise/simulation/model/run_log.hpp"
@@ -13,59 +12,13 @@
 #include "mortise/simulation/scene/read_scene.hpp"
 #include "mortise/studies/scale.hpp"
 #include "scale/memory_bandwidth.hpp"
+#include "scale/scale_rates.hpp"
 #include "scale/scale_record.hpp"
+#include "scale/scale_report.hpp"
 #include "shared/draw_plot.hpp"
-#include "shared/plot_scripts.hpp"
 
 namespace mortise {
 namespace {
-
-/// 1, 2, 4 ... and the most.
-std::vector<int> rank_counts(int most) {
-  std::vector<int> counts;
-  for (int ranks = 1; ranks < most; ranks *= 2) counts.push_back(ranks);
-  counts.push_back(most);
-  return counts;
-}
-
-/// The variable at so many ranks: value p^(1/dimension) to the nearest multiple, and at least one of it.
-std::string grown(const WeakVariable& variable, double value, int dimension, int ranks) {
-  const double exact = value * std::pow(ranks, 1.0 / dimension);
-  return fmt::format("variables/{}={}", variable.name, std::max(1L, std::lround(exact / variable.multiple)) * variable.multiple);
-}
-
-double value_of(const Scene& scene, const ScaleOptions& options) {
-  const auto& variables = scene.symbols.variables;
-  const auto found = variables.find(options.weak->name);
-  if (found == variables.end()) {
-    std::vector<std::string> known;
-    for (const auto& variable : variables) known.push_back(variable.first);
-    const std::string hint = did_you_mean(options.weak->name, known);
-    const std::string all = known.empty() ? "t has none" : "t has: " + quoted_list(known);
-    throw InputError(Place{},
-                     fmt::format("--weak {0}: the scene has no variable \"{0}\"{1}{2}", options.weak->name, hint.empty() ? "; i" : hint + " I", all));
-  }
-  return found->second;
-}
-
-/// Points of both series, without their directories.
-std::vector<ScalePoint> planned_points(const Scene& scene, const ScaleOptions& options) {
-  std::vector<ScalePoint> points;
-  const auto add = [&](const std::string& series, int ranks) {
-    ScalePoint& point = points.emplace_back();
-    point.series = series;
-    point.ranks = ranks;
-    point.settings = options.settings;
-  };
-  for (const int ranks : rank_counts(options.ranks)) add("strong", ranks);
-  if (!options.weak) return points;
-  const double value = value_of(scene, options);
-  for (const int ranks : rank_counts(options.ranks)) {
-    add("weak", ranks);
-    points.back().settings.push_back(grown(*options.weak, value, dimension(scene.kinematics), ranks));
-  }
-  return points;
-}
 
 std::string progress(std::size_t number, const std::vector<ScalePoint>& points) {
   const ScalePoint& point = points[number];
@@ -80,16 +33,6 @@ std::string progress(std::size_t number, const std::vector<ScalePoint>& points) 
   return line;
 }
 
-/// Ranks of the weak series whose points have at most as many unknowns as its first one.
-std::vector<int> ranks_without_growth(const std::vector<ScalePoint>& points) {
-  std::vector<int> ranks;
-  const auto first = std::find_if(points.begin(), points.end(), [](const ScalePoint& point) { return point.series == "weak"; });
-  if (first == points.end() || !first->finished) return ranks;
-  for (auto point = first; point != points.end(); ++point)
-    if (point->finished && !point->has_grown(*first)) ranks.push_back(point->ranks);
-  return ranks;
-}
-
 }  // namespace
 
 ExitCode run_scale(const RCP<const Communicator>& comm, const ScaleOptions& options) {
@@ -97,17 +40,18 @@ ExitCode run_scale(const RCP<const Communicator>& comm, const ScaleOptions& opti
   const Scene scene = read_scene(*comm, options.scene, options.settings);
   OutputDirectory directory(comm, options.directory.empty() ? default_directory(options.scene) + "-scale" : options.directory,
                             {"scale", options.scene, options.directory.empty()});
-  const std::string page = directory.file("report.html");
-  require_page_python(*comm, page);
+  require_launcher(options.launcher);
+  require_page_python(*comm, directory.file("report.html"));
   std::vector<ScalePoint> points = planned_points(scene, options);
-  const std::vector<std::string> names{"scale.csv", "scale.json", "scale.svg", "scale_weak.svg", "report.html", "runs"};
+  const std::vector<std::string> names{"scale.csv", "scale.json", "scale.svg", "scale_weak.svg", "report.html", "machine.xml", "plans", "runs"};
   directory.open(names);
   for (const auto& old : names) directory.remove(old);
   OutputDirectory runs = directory.subdirectory("runs");
   for (ScalePoint& point : points) point.directory = runs.subdirectory(fmt::format("{}_{}", point.series, point.ranks)).path();
 
   std::map<int, double> bandwidth;
-  for (const int ranks : rank_counts(options.ranks)) {
+  // Runs of another launcher may be on other nodes than this one.
+  for (const int ranks : options.launcher.words.empty() ? rank_counts(options.ranks) : std::vector<int>()) {
     bandwidth[ranks] = triad_bandwidth(ranks);
     log.info(fmt::format("memory bandwidth of {} process(es): {:.1f} GB/s", ranks, 1e-9 * bandwidth[ranks]));
   }
@@ -117,17 +61,18 @@ ExitCode run_scale(const RCP<const Communicator>& comm, const ScaleOptions& opti
     log.info(progress(i, points));
     if (!points[i].finished) log.warning(points[i].said.substr(points[i].said.find_last_of('\n') + 1));
   }
-  if (const std::vector<int> flat = ranks_without_growth(points); !flat.empty())
-    log.warning(
-        fmt::format("--weak {}: the number of unknowns did not grow with the ranks on {} ranks. This is no weak scaling; no efficiency is given",
-                    options.weak->name, fmt::join(flat, ", ")));
-  write_scale_table(comm, directory.claim("scale.csv"), points);
-  write_json(*comm, directory.claim("scale.json"), scale_json(options, points));
-  for (const char* name : {"scale.svg", "scale_weak.svg", "report.html"}) directory.claim(name);
-  draw_plot(*comm, std::string(page_needs) + scale_page, {directory.path()}, page);
+  const ExitCode code = report_scale(comm, options, points, directory, log);
+  MachineFile here;
+  here.name = fmt::format("node of {}", options.scene);
+  here.cores_per_node = options.cores;
+  here.memory_per_node = std::floor(machine_memory_mib());
+  if (options.launcher.words.empty() && bandwidth[1] > 0.0 && bandwidth[options.ranks] > 0.0) {
+    here.core_bandwidth = 1e-9 * bandwidth[1];
+    here.node_bandwidth = std::max(1e-9 * bandwidth[options.ranks], *here.core_bandwidth);
+  }
+  write_measured_machine(comm, options, points, here, directory, log);
   directory.strike_missing();
-  log.info("the page: " + page);
-  return std::all_of(points.begin(), points.end(), [](const ScalePoint& point) { return point.finished; }) ? ExitCode::done : ExitCode::not_converged;
+  return code;
 }
 
 }  // namespace mortise

@@ -12,7 +12,9 @@
 #include "mortise/simulation/run/run.hpp"
 #include "mortise/simulation/scene/read_scene.hpp"
 #include "mortise/studies/scale.hpp"
+#include "scale/scale_phases.hpp"
 #include "scale/scale_plan.hpp"
+#include "scale/scale_prediction.hpp"
 #include "shared/draw_plot.hpp"
 #include "shared/plot_scripts.hpp"
 
@@ -81,6 +83,9 @@ nlohmann::ordered_json plan_json(const ScaleOptions& options, const ScalePlan& p
     json["per_rank"][column.name] = {
         {"min", spread.least}, {"mean", spread.mean}, {"max", spread.most}, {"total", spread.total}, {"max_over_mean", over_mean(spread)}};
   }
+  const std::vector<PhaseWork> work = work_of(plan);
+  json["work"] = Json::object();
+  for (std::size_t p = 0; p < work.size(); ++p) json["work"][scale_phases()[p].name] = {{"most", work[p].most}, {"whole", work[p].whole}};
   return json;
 }
 
@@ -114,7 +119,14 @@ ExitCode plan_scale(const RCP<const Communicator>& comm, const ScaleOptions& opt
   if (comm->getSize() > 1) throw InputError(Place{}, "a plan is made on one rank; please call it without mpirun");
   RunLog log(comm, options.verbosity);
   const Scene scene = read_scene(*comm, options.scene, options.settings);
-  const ScalePlan plan = make_scale_plan(comm, scene, options.plan);
+  std::optional<MachineFile> machine;
+  if (!options.machine.empty()) machine = read_machine(*comm, options.machine);
+  const ScalePlanner planner(comm, scene, options.plan);
+  const ScalePlan plan = planner.plan(options.plan);
+  std::vector<ScalePrediction> predictions;
+  if (machine)
+    for (const int ranks : candidate_ranks(*machine, options.plan))
+      predictions.push_back(predict(*machine, ranks == options.plan ? plan : planner.plan(ranks)));
   OutputDirectory directory(comm, options.directory.empty() ? default_directory(options.scene) + "-scale" : options.directory,
                             {"scale", options.scene, options.directory.empty()});
   const std::vector<std::string> names_of_plan{"plan.csv", "plan.json", "plan.svg", "plan.png"};
@@ -131,8 +143,12 @@ ExitCode plan_scale(const RCP<const Communicator>& comm, const ScaleOptions& opt
     }
     table.rows(rows);
   }
-  write_json(*comm, directory.file("plan.json"), plan_json(options, plan));
+  nlohmann::ordered_json json = plan_json(options, plan);
+  if (machine) json["prediction"] = prediction_json(*machine, predictions);
+  write_json(*comm, directory.file("plan.json"), json);
   say(options, plan, log);
+  if (machine)
+    for (const std::string& line : prediction_lines(*machine, predictions)) log.info(line);
   const std::string title = fmt::format("{} on {} ranks", scene.name, options.plan);
   if (!draw_plot(*comm, scale_plan_plot, {directory.file("plan.csv"), directory.file("plan"), title}, directory.file("plan.svg")))
     log.warning("nothing is drawn without matplotlib; please install python3-matplotlib (Debian)");

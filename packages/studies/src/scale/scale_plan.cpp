@@ -14,19 +14,18 @@
 #include "mortise/simulation/scene/scene_bodies.hpp"
 
 namespace mortise {
-namespace {
-
 /// A slave facet of the plan.
 struct PlannedFacet {
-  std::vector<int> owners;  ///< of its nodes, ascending
-  int home = 0;
+  SurfaceFacet nodes;
   long segments = 0;
   double bytes = 0.0;  ///< of the message in which its coupling travels
   PartitionedFacet place;
 };
 
+namespace {
+
 /// The facets that overlap a master facet in the reference configuration, by the search and the integrals of runs.
-std::vector<PlannedFacet> slave_facets(const Mesh& mesh, const MeshPlan& plan, const Scene& scene, const Named<ContactPairOptions>& pair,
+std::vector<PlannedFacet> slave_facets(const Mesh& mesh, const Scene& scene, const Named<ContactPairOptions>& pair,
                                        const Located<std::string>& slave_set, const Located<std::string>& master_set) {
   const int dim = mesh.dimension;
   const auto reference = rcp(new MultiVector(mesh.owned_nodes, static_cast<std::size_t>(dim)));
@@ -52,23 +51,27 @@ std::vector<PlannedFacet> slave_facets(const Mesh& mesh, const MeshPlan& plan, c
   for (std::size_t c = 0; c < interface.segments().size(); ++c) {
     const FacetCoupling& coupling = couplings[c];
     PlannedFacet& facet = facets.emplace_back();
-    SurfaceFacet ids;
     std::set<LocalOrdinal> columns(coupling.master.begin(), coupling.master.end());
     for (const LocalOrdinal node : coupling.slave) {
-      ids.push_back(interface.local_nodes()->getGlobalElement(node));
-      facet.owners.push_back(plan.owner_of_node[ids.back()]);
+      facet.nodes.push_back(interface.local_nodes()->getGlobalElement(node));
       columns.insert(normals[node].columns.begin(), normals[node].columns.end());
-      const auto& X = mesh.coordinates[mesh.local_nodes->getLocalElement(ids.back())];
+      const auto& X = mesh.coordinates[mesh.local_nodes->getLocalElement(facet.nodes.back())];
       for (int i = 0; i < dim; ++i) facet.place.centre[i] += X[i] / static_cast<double>(coupling.slave.size());
     }
-    std::sort(facet.owners.begin(), facet.owners.end());
-    facet.owners.erase(std::unique(facet.owners.begin(), facet.owners.end()), facet.owners.end());
-    facet.home = home_of(ids, facet.owners);
     facet.segments = static_cast<long>(interface.segments()[c]);
     facet.place.work = static_cast<double>(facet.segments);
     facet.bytes = static_cast<double>(coupling_bytes(coupling.slave.size(), coupling.master.size(), columns.size(), dim));
   }
   return facets;
+}
+
+/// Ranks that own nodes of a facet, ascending.
+std::vector<int> owners_of(const PlannedFacet& facet, const MeshPlan& plan) {
+  std::vector<int> owners;
+  for (const GlobalOrdinal node : facet.nodes) owners.push_back(plan.owner_of_node[node]);
+  std::sort(owners.begin(), owners.end());
+  owners.erase(std::unique(owners.begin(), owners.end()), owners.end());
+  return owners;
 }
 
 double imbalance(const std::vector<PlannedFacet>& facets, const std::vector<int>& rank_of, int ranks) {
@@ -78,13 +81,14 @@ double imbalance(const std::vector<PlannedFacet>& facets, const std::vector<int>
 }
 
 /// Gives the facets of a pair to the ranks, as FacetDistribution does.
-PairPlan share_out(const RCP<const Communicator>& comm, const std::vector<PlannedFacet>& facets, double bound, std::vector<RankPlan>& ranks) {
+PairPlan share_out(const RCP<const Communicator>& comm, const std::vector<PlannedFacet>& facets, const MeshPlan& meshes, double bound,
+                   std::vector<RankPlan>& ranks) {
   const auto count = static_cast<int>(ranks.size());
   PairPlan pair;
   std::vector<int> rank_of;
   std::vector<PartitionedFacet> places;
   for (const PlannedFacet& facet : facets) {
-    rank_of.push_back(facet.home);
+    rank_of.push_back(home_of(facet.nodes, owners_of(facet, meshes)));
     places.push_back(facet.place);
     ++pair.facets;
     pair.segments += facet.segments;
@@ -103,7 +107,7 @@ PairPlan share_out(const RCP<const Communicator>& comm, const std::vector<Planne
   for (std::size_t f = 0; f < facets.size(); ++f) {
     ++ranks[rank_of[f]].facets;
     ranks[rank_of[f]].segments += facets[f].segments;
-    for (const int owner : facets[f].owners)
+    for (const int owner : owners_of(facets[f], meshes))
       if (owner != rank_of[f]) ranks[owner].coupling_bytes[rank_of[f]] += facets[f].bytes;
   }
   return pair;
@@ -133,32 +137,57 @@ double PairPlan::least_imbalance(int ranks) const {
   return segments > 0 ? std::max(1.0, static_cast<double>(most_segments) * ranks / static_cast<double>(segments)) : 1.0;
 }
 
-ScalePlan make_scale_plan(const RCP<const Communicator>& comm, const Scene& scene, int ranks) {
-  const std::vector<BodyDescription> bodies = body_descriptions(*comm, scene);
-  refuse_too_large_to_plan(*comm, bodies, ranks);
-  const std::vector<std::string> sides = contact_sides(scene);
-  ScalePlan plan;
-  const MeshPlan meshes = plan_mesh(bodies, sides, ranks);
-  const RCP<Mesh> mesh = build_mesh(comm, bodies, sides);
+/// A contact pair's slave facets, and what their distribution is asked for.
+struct PlannedPair {
+  std::string name;
+  double balance = 1.0;
+  std::vector<PlannedFacet> facets;
+};
+
+struct ScalePlanner::Model {
+  RCP<const Communicator> comm;
+  std::vector<BodyDescription> bodies;
+  std::vector<std::string> sides;
+  int dimension = 0, nodes_per_element = 0;
+  std::vector<PlannedPair> pairs;
+};
+
+ScalePlanner::ScalePlanner(const RCP<const Communicator>& comm, const Scene& scene, int most_ranks) {
+  auto model = std::make_unique<Model>();
+  model->comm = comm;
+  model->bodies = body_descriptions(*comm, scene);
+  refuse_too_large_to_plan(*comm, model->bodies, most_ranks);
+  model->sides = contact_sides(scene);
+  const RCP<Mesh> mesh = build_mesh(comm, model->bodies, model->sides);
   for (const auto& set : scene.sets) add_set(*mesh, set);
-  plan.dimension = mesh->dimension;
+  model->dimension = mesh->dimension;
+  for (const Block& block : mesh->blocks) model->nodes_per_element = std::max(model->nodes_per_element, block.nodes_per_element);
+  for (const auto& pair : scene.contact) {
+    const auto add_pass = [&](const std::string& name, const Located<std::string>& slave, const Located<std::string>& master) {
+      model->pairs.push_back({name, pair.value.contact.mortar.balance, slave_facets(*mesh, scene, pair, slave, master)});
+    };
+    add_pass(pair.name, pair.value.slave, pair.value.master);
+    if (pair.value.contact.formulation.options->two_pass()) add_pass(pair.name + ", second pass", pair.value.master, pair.value.slave);
+  }
+  model_ = std::move(model);
+}
+
+ScalePlanner::~ScalePlanner() = default;
+
+ScalePlan ScalePlanner::plan(int ranks) const {
+  ScalePlan plan;
+  plan.dimension = model_->dimension;
+  const MeshPlan meshes = plan_mesh(model_->bodies, model_->sides, ranks);
   for (const MeshShare& share : meshes.shares) {
     RankPlan& rank = plan.ranks.emplace_back();
     rank.mesh = share;
     for (const auto& [owner, nodes] : share.ghosts_from) rank.vector_bytes[owner] = static_cast<double>(sizeof(double) * plan.dimension * nodes);
   }
-  for (const auto& pair : scene.contact) {
-    const auto add_pass = [&](const std::string& name, const Located<std::string>& slave, const Located<std::string>& master) {
-      const std::vector<PlannedFacet> facets = slave_facets(*mesh, meshes, scene, pair, slave, master);
-      plan.pairs.push_back(share_out(comm, facets, pair.value.contact.mortar.balance, plan.ranks));
-      plan.pairs.back().name = name;
-    };
-    add_pass(pair.name, pair.value.slave, pair.value.master);
-    if (pair.value.contact.formulation.options->two_pass()) add_pass(pair.name + ", second pass", pair.value.master, pair.value.slave);
+  for (const PlannedPair& pair : model_->pairs) {
+    plan.pairs.push_back(share_out(model_->comm, pair.facets, meshes, pair.balance, plan.ranks));
+    plan.pairs.back().name = pair.name;
   }
-  int nodes_per_element = 0;
-  for (const Block& block : mesh->blocks) nodes_per_element = std::max(nodes_per_element, block.nodes_per_element);
-  for (RankPlan& rank : plan.ranks) rank.memory_mib = memory_mib(rank, plan.dimension, nodes_per_element, ranks > 1);
+  for (RankPlan& rank : plan.ranks) rank.memory_mib = memory_mib(rank, plan.dimension, model_->nodes_per_element, ranks > 1);
   return plan;
 }
 

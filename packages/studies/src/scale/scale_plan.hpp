@@ -2,6 +2,7 @@
 // Load of each of many ranks: what it would hold and do.
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -41,7 +42,20 @@ struct ScalePlan {
   std::vector<PairPlan> pairs;
 };
 
-/// Shares the scene out to so many ranks. `comm` has one rank. Throws InputError for what is wrong with the scene's meshes and contact pairs.
-ScalePlan make_scale_plan(const RCP<const Communicator>& comm, const Scene& scene, int ranks);
+/// Makes plans of one scene: mesh, search and integrals are done once for all numbers of ranks.
+class ScalePlanner {
+ public:
+  /// `comm` has one rank. Throws InputError for what is wrong with the scene's meshes and contact pairs, and for a mesh that `most_ranks` cannot
+  /// number.
+  ScalePlanner(const RCP<const Communicator>& comm, const Scene& scene, int most_ranks);
+  ~ScalePlanner();
+
+  /// Shares the scene out to so many ranks.
+  ScalePlan plan(int ranks) const;
+
+ private:
+  struct Model;
+  std::unique_ptr<const Model> model_;
+};
 
 }  // namespace mortise

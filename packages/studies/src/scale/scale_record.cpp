@@ -51,19 +51,6 @@ void take(const Json& summary, ScalePoint& point) {
 
 }  // namespace
 
-const std::vector<ScalePhase>& scale_phases() {
-  static const std::vector<ScalePhase> phases{{"mesh", {"mesh"}},
-                                              {"search", {"search"}},
-                                              {"integrals", {"contact_integrals"}},
-                                              {"condensation", {"condensation", "contact_graph", "contact_residual"}},
-                                              {"bulk", {"bulk", "loads"}},
-                                              {"solver set-up", {"linear_setup"}},
-                                              {"solution", {"linear_solve"}},
-                                              {"output", {"output"}},
-                                              {"rest", {}}};
-  return phases;
-}
-
 bool ScalePoint::has_grown(const ScalePoint& first) const { return series != "weak" || ranks == first.ranks || dofs > first.dofs; }
 
 double ScalePoint::size_ratio(const ScalePoint& first) const { return series == "weak" ? dofs / (ranks * first.dofs) : 1.0; }
@@ -74,33 +61,41 @@ double ScalePoint::efficiency(const ScalePoint& first, double seconds_here, doub
   return series == "weak" ? size_ratio(first) * seconds_first / seconds_here : seconds_first / (ranks * seconds_here);
 }
 
+bool take_run(ScalePoint& point, const std::string& directory, int code, const std::string& said) {
+  // A check that is missed is the scene's affair: the times count.
+  const bool well = code == static_cast<int>(ExitCode::done) || code == static_cast<int>(ExitCode::check_missed);
+  std::ifstream file(directory + "/summary.json");
+  const Json summary = Json::parse(file, nullptr, false);
+  if (well && !summary.is_discarded()) {
+    take(summary, point);
+    point.state = "finished";
+    return true;
+  }
+  point.finished = false;
+  point.state = "failed";
+  point.said = said.empty() ? "it ended with code " + std::to_string(code) : said;
+  return false;
+}
+
 void run_scale_point(const RCP<const Communicator>& comm, const ScaleOptions& options, ScalePoint& point) {
   for (int repeat = 0; repeat < options.repeats; ++repeat) {
     OutputDirectory(comm, point.directory, {"run"}).begin_run();  // nothing of an earlier repeat may pass for results of one that fails
-    const ProcessEnding ending = run_process(command_of_run(options.scene, point.settings, point.ranks, point.directory));
-    // A check that is missed is the scene's affair: the times count.
-    const bool well = ending.code == static_cast<int>(ExitCode::done) || ending.code == static_cast<int>(ExitCode::check_missed);
-    std::ifstream file(point.directory + "/summary.json");
-    const Json summary = Json::parse(file, nullptr, false);
-    if (well && !summary.is_discarded()) {
-      take(summary, point);
-    } else {
-      point.finished = false;
-      point.said = ending.output.empty() ? "it ended with code " + std::to_string(ending.code) : ending.output;
-      return;
-    }
+    const std::vector<std::string> command = command_of_run(options.launcher, options.scene, point.settings, point.ranks, point.directory);
+    const ProcessEnding ending = run_process(command);
+    if (!take_run(point, point.directory, ending.code, said_at_end(command, ending))) return;
   }
 }
 
 Json scale_json(const ScaleOptions& options, const std::vector<ScalePoint>& points) {
-  Json json{{"scene", options.scene},    {"settings", options.settings}, {"version", options.version},
-            {"program", this_program()}, {"repeats", options.repeats},   {"times", "mean over the ranks"}};
+  Json json{{"scene", options.scene},     {"settings", options.settings},   {"version", options.version},        {"program", this_program()},
+            {"repeats", options.repeats}, {"times", "mean over the ranks"}, {"launcher", options.launcher.words}};
   json["phases"] = Json::array();
   for (const ScalePhase& phase : scale_phases()) json["phases"].push_back(phase.name);
   json["points"] = Json::array();
   for (const ScalePoint& point : points) {
     const ScalePoint& first = first_of(points, point);
-    Json one{{"series", point.series}, {"ranks", point.ranks}, {"settings", point.settings}, {"finished", point.finished}, {"said", point.said}};
+    Json one{{"series", point.series},     {"ranks", point.ranks}, {"settings", point.settings},
+             {"finished", point.finished}, {"state", point.state}, {"said", point.said}};
     one["bandwidth_gb_s"] = point.bandwidth > 0.0 ? Json(1e-9 * point.bandwidth) : Json(nullptr);
     one["bandwidth_efficiency"] =
         first.bandwidth > 0.0 && point.bandwidth > 0.0 ? Json(point.bandwidth / (point.ranks * first.bandwidth)) : Json(nullptr);

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <poll.h>
 #include <signal.h>
 #include <sys/prctl.h>
@@ -17,6 +18,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+
+#include "mortise/simulation/run/output/exit_code.hpp"
 
 namespace mortise {
 namespace {
@@ -149,12 +152,20 @@ std::vector<std::string> command_of_peer(const std::string& scene, const std::ve
   return command;
 }
 
-std::vector<std::string> command_of_run(const std::string& scene, const std::vector<std::string>& settings, int ranks, const std::string& directory) {
-  std::vector<std::string> command{this_program()};
-  if (ranks > 1) command = {"mpirun", "-n", std::to_string(ranks), command.front()};
-  command.insert(command.end(), {"run", scene});
-  add_settings(command, settings, directory);
-  return command;
+std::vector<std::string> command_of_run(const Launcher& launcher, const std::string& scene, const std::vector<std::string>& settings, int ranks,
+                                        const std::string& directory) {
+  std::vector<std::string> run{this_program(), "run", scene};
+  add_settings(run, settings, directory);
+  return launcher.command(ranks, run);
+}
+
+std::string said_at_end(const std::vector<std::string>& words, const ProcessEnding& ending) {
+  const auto of_run = {ExitCode::done,  ExitCode::invalid_input, ExitCode::not_converged, ExitCode::check_missed,
+                       ExitCode::files, ExitCode::memory,        ExitCode::internal};
+  const bool is_of_run = std::any_of(of_run.begin(), of_run.end(), [&](ExitCode code) { return ending.code == static_cast<int>(code); });
+  if (words.front() == this_program() || ending.stopped || is_of_run) return ending.output;
+  const std::string how = ending.code == 127 ? "could not be started" : fmt::format("ended with code {}", ending.code);
+  return fmt::format("{} {}{}", fmt::join(words, " "), how, ending.output.empty() ? " and printed nothing" : ":\n" + ending.output);
 }
 
 }  // namespace mortise

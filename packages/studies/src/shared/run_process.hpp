@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "mortise/studies/launcher.hpp"
+
 namespace mortise {
 
 /// Ending of a process: exit code, output, time and memory.
@@ -31,8 +33,12 @@ std::string this_program();
 std::vector<std::string> command_of_peer(const std::string& scene, const std::vector<std::string>& settings, const std::string& peer,
                                          const std::string& penalty, const std::string& directory);
 
-/// The words that start `mortise run` of this same program, quietly, with mpirun for more than one rank.
+/// The words that start `mortise run` of this same program, quietly, on so many ranks.
 /// @param settings  "path=value" each
-std::vector<std::string> command_of_run(const std::string& scene, const std::vector<std::string>& settings, int ranks, const std::string& directory);
+std::vector<std::string> command_of_run(const Launcher& launcher, const std::string& scene, const std::vector<std::string>& settings, int ranks,
+                                        const std::string& directory);
+
+/// All that was said at the end of these words. A launcher that ended with a code that no run has is quoted before what it printed.
+std::string said_at_end(const std::vector<std::string>& words, const ProcessEnding& ending);
 
 }  // namespace mortise

@@ -31,6 +31,7 @@ void claim_plots(OutputDirectory& plots, const StudyFile& study) {
 ExitCode run_study(const RCP<const Communicator>& comm, const StudyOptions& options) {
   RunLog log(comm, options.verbosity);
   const StudyPlan plan = read_study(*comm, options.study, options.settings);
+  require_launcher(options.launcher);
   OutputDirectory directory(comm, options.directory.empty() ? default_directory(options.study) : options.directory,
                             {"study", options.study, options.directory.empty()});
   const std::string page = directory.file("report.html"), scene = directory.file("scene.xml");
@@ -48,7 +49,7 @@ ExitCode run_study(const RCP<const Communicator>& comm, const StudyOptions& opti
   std::vector<StudyPoint> runs = plan.points;
   if (plan.finest) runs.insert(runs.begin(), *plan.finest);
   const auto how = [&](const StudyPoint& point) {
-    return StudyPointOptions{scene, plan.scene_text, measuring.directory_of(point), options.version, plan.file.repeats};
+    return StudyPointOptions{scene, plan.scene_text, measuring.directory_of(point), options.version, plan.file.repeats, options.launcher};
   };
   std::vector<std::optional<StudyRecord>> records;
   for (const StudyPoint& point : runs) records.push_back(earlier_record(*comm, point, how(point)));
@@ -69,7 +70,7 @@ ExitCode run_study(const RCP<const Communicator>& comm, const StudyOptions& opti
   std::vector<StudyConclusions> conclusions;
   for (const auto& one : errors) conclusions.push_back(conclude(plan, results, curves, one));
   write_study_table(comm, directory.claim("study.csv"), plan, results, errors);
-  write_json(*comm, directory.claim("study.json"), study_json(options.version, plan, results, curves, errors, conclusions));
+  write_json(*comm, directory.claim("study.json"), study_json(options, plan, results, curves, errors, conclusions));
   draw_plot(*comm, std::string(page_needs) + study_page, {directory.path()}, page);
   plots.strike_missing();
   for (std::size_t q = 0; q < errors.size(); ++q) log.info(sentence(plan, results, errors[q], conclusions[q]));

@@ -80,7 +80,7 @@ Json excerpt(const std::string& path) {
 std::string stopped_status(double limit) { return fmt::format("stopped after {:g} s: time limit of the study", limit); }
 
 std::vector<std::string> command_of(const StudyPoint& point, const StudyPointOptions& options) {
-  if (point.peer == Peer::none) return command_of_run(options.scene, point.words(), point.ranks, options.directory);
+  if (point.peer == Peer::none) return command_of_run(options.launcher, options.scene, point.words(), point.ranks, options.directory);
   return command_of_peer(options.scene, point.words(), peer_name(point.peer), point.penalty.value, options.directory);
 }
 
@@ -119,9 +119,10 @@ void run_all(const Communicator& comm, const StudyPoint& point, const StudyPoint
   }
   for (int repeat = 0; repeat < options.repeats; ++repeat) {
     if (repeat > 0) directory_of_run(comm, options).begin_run();
-    const ProcessEnding ending = run_process(command_of(point, options), point.time_limit);
+    const std::vector<std::string> command = command_of(point, options);
+    const ProcessEnding ending = run_process(command, point.time_limit);
     record["exit"] = ending.code;
-    record["said"] = ending.output;
+    record["said"] = said_at_end(command, ending);
     if (ending.stopped) {
       record["stopped_after"] = point.time_limit;
       record["said"] = boost::trim_left_copy(ending.output + "\n" + stopped_status(point.time_limit) + "; with a larger one it is run again");

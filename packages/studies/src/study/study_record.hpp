@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mortise/core/types.hpp"
+#include "mortise/studies/launcher.hpp"
 #include "mortise/studies/study_points.hpp"
 
 namespace mortise {
@@ -43,6 +44,7 @@ struct StudyPointOptions {
   std::string directory;  ///< of the results
   std::string version;
   int repeats = 1;
+  Launcher launcher;
 };
 
 /// Record of an earlier call in the directory, if it is of the same runs: scene, settings, ranks, repeats, version. Not that of runs that ended for a

@@ -118,12 +118,13 @@ void write_study_table(const RCP<const Communicator>& comm, const std::string& p
   CsvWriter(comm, path, columns).rows(rows);
 }
 
-Json study_json(const std::string& version, const StudyPlan& plan, const StudyResults& results, const std::vector<StudyCurve>& curves,
+Json study_json(const StudyOptions& options, const StudyPlan& plan, const StudyResults& results, const std::vector<StudyCurve>& curves,
                 const std::vector<StudyErrors>& errors, const std::vector<StudyConclusions>& conclusions) {
   Json json{{"study", plan.file.name},
             {"program", this_program()},
+            {"launcher", options.launcher.words},
             {"scene", plan.file.scene.value},
-            {"environment", environment(version, results)},
+            {"environment", environment(options.version, results)},
             {"axes", Json::array()}};
   for (std::size_t a = 0; a < plan.file.axes.size(); ++a) json["axes"].push_back({{"name", plan.file.axes[a].name}, {"values", plan.labels[a]}});
   json["series"] = plan.series;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "mortise/studies/study.hpp"
 #include "study/study_conclusions.hpp"
 
 namespace mortise {
@@ -15,7 +16,7 @@ void write_study_table(const RCP<const Communicator>& comm, const std::string& p
                        const std::vector<StudyErrors>& errors);
 
 /// All that the page is drawn from; docs/study.md lists its names.
-nlohmann::ordered_json study_json(const std::string& version, const StudyPlan& plan, const StudyResults& results,
+nlohmann::ordered_json study_json(const StudyOptions& options, const StudyPlan& plan, const StudyResults& results,
                                   const std::vector<StudyCurve>& curves, const std::vector<StudyErrors>& errors,
                                   const std::vector<StudyConclusions>& conclusions);
 

@@ -7,6 +7,7 @@
 #include "mortise/core/log.hpp"
 #include "mortise/core/types.hpp"
 #include "mortise/simulation/run/output/exit_code.hpp"
+#include "mortise/studies/launcher.hpp"
 
 namespace mortise {
 
@@ -18,6 +19,7 @@ struct HardOptions {
   std::vector<int> ranks{1};                      ///< MPI ranks; each case is run on each number of them
   bool sweeps = false;                            ///< run cases with axes as well; those that `only` chooses are always run
   bool fresh = false;                             ///< forget the results of an earlier call
+  Launcher launcher;                              ///< of the runs
   Verbosity verbosity = Verbosity::normal;
   std::string version;  ///< of the program
 };

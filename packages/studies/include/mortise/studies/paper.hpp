@@ -7,6 +7,7 @@
 #include "mortise/core/log.hpp"
 #include "mortise/core/types.hpp"
 #include "mortise/simulation/run/output/exit_code.hpp"
+#include "mortise/studies/launcher.hpp"
 
 namespace mortise {
 
@@ -16,6 +17,7 @@ struct PaperOptions {
   std::vector<std::string> only;            ///< names of the runs that are wanted; empty: all of them
   int ranks = 1;                            ///< MPI ranks of each run
   bool reuse = false;                       ///< take results that an earlier call left, if scene, settings, ranks and version are the same
+  Launcher launcher;                        ///< of the runs
   Verbosity verbosity = Verbosity::normal;
   std::string version;  ///< of the program
 };

@@ -7,6 +7,7 @@
 #include "mortise/core/log.hpp"
 #include "mortise/core/types.hpp"
 #include "mortise/simulation/run/output/exit_code.hpp"
+#include "mortise/studies/launcher.hpp"
 
 namespace mortise {
 
@@ -16,6 +17,7 @@ struct StudyOptions {
   std::vector<std::string> settings;  ///< "path=value" each, of the study file
   std::string directory;              ///< where results go; empty: default_directory(study)
   bool fresh = false;                 ///< forget what the directory holds; else points that are there are not run again
+  Launcher launcher;                  ///< of the runs
   Verbosity verbosity = Verbosity::normal;
   std::string version;  ///< of the program
 };
