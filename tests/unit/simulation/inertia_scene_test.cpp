@@ -135,7 +135,17 @@ TEST_F(InertiaScene, WithoutASchemeNothingOfItExists) {
 
 TEST_F(InertiaScene, RefusesWhatMakesNoSense) {
   expect_refusal(with("inertia", number("spectral radius", "1.5")), "spectral radius");
-  expect_refusal(with("inertia", number("beta", "0.2") + number("gamma", "0.6")), "unstable for 2 beta < gamma");
+  const auto newmark = [&](const std::string& parameters) {
+    std::string content = with("inertia", parameters);
+    return content.replace(content.find("generalised alpha"), 17, "newmark");
+  };
+  expect_refusal(newmark(number("beta", "0.2") + number("gamma", "0.6")), "unstable for 2 beta < gamma");
+  expect_refusal(newmark(""), "ring without end");
+  EXPECT_EQ(refusal(newmark(number("beta", "0.3025") + number("gamma", "0.6"))), "");
+  EXPECT_EQ(refusal(with("inertia", number("beta", "0.2") + number("gamma", "0.6"))), "") << "they are Newmark's";
+  expect_refusal(
+      replaced("<Parameter name=\"velocity x\" type=\"double\" value=\"1\"/>", "<Parameter name=\"velocity x\" type=\"string\" value=\"1/(x-x)\"/>"),
+      "\"1/(x-x)\" is inf at x = 0, y = 0, z = 0");
   expect_refusal(with("inertia", number("gamma", "0.4")), "gamma");
   expect_refusal(with("inertia", number("mass damping", "-1")), "mass damping");
   expect_refusal(with("inertia", number("impact tolerance", "0")), "impact tolerance");
@@ -183,6 +193,15 @@ TEST_F(InertiaScene, WeightIsThatOfTheMass) {
     EXPECT_NEAR(a(2 * node, 0), 0.0, 1e-10);
     EXPECT_NEAR(a(2 * node + 1, 0), -10.0, 1e-10);
   }
+}
+
+// A body that does not turn has no forces that could ring.
+TEST_F(InertiaScene, RigidBodiesThatDoNotTurnTakeAnyScheme) {
+  std::string content = with("inertia", number("spectral radius", "1"));
+  content.insert(content.rfind("</ParameterList>"), R"xml(<ParameterList name="boundary conditions"><ParameterList name="guide">
+    <Parameter name="set" type="string" value="tool/reference"/><Parameter name="rotation" type="double" value="0"/>
+  </ParameterList></ParameterList>)xml");
+  EXPECT_EQ(refusal(content), "");
 }
 
 TEST_F(InertiaScene, ABodyMayBeMassless) {

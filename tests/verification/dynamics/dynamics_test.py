@@ -11,7 +11,7 @@ import subprocess
 import sys
 from xml.etree import ElementTree
 
-from impacts import DiscBalance, Runs, disc_on_floor, from_static, largest_gain, one_layer, pair_of_blocks, pressed_bar, random_pair, start_energy
+from impacts import DiscBalance, Runs, block, disc_on_floor, from_static, largest_gain, material, named, one_layer, pair_of_blocks, pressed_bar, random_pair, start_energy
 
 
 def without_motion(scene, path):
@@ -63,6 +63,26 @@ def main():
     errors = [max(abs(one - other) for one, other in zip(coarse, fine[1::2])) for coarse, fine in ((end, finer), (finer, finest))]
     order = math.log2(errors[0] / errors[1])
     check(1.8 < order < 2.2, f"lasting contact: half the step changes the end by {errors[0]:.2e} and {errors[1]:.2e}, of order {order:.2f}")
+
+    # A bar that is thrown with a velocity of 1: supports may begin with it, and are reported where they do not.
+    def warnings(of_support):
+        support = named("boundary conditions", named("drive", set="bar/left", x=of_support))
+        bar = named("bodies", block(2, "bar", "soft", 1.0, 0.0, 4, 1))
+        start = named("initial conditions", named("throw", **{"body": "bar", "velocity x": 1}))
+        path = runs.write("start", [named("materials", material("soft", 1.0, 1.0)), bar, support, start, named("inertia", scheme="generalised alpha"),
+                                    named("stepping", **{"end time": 0.1, "step": 0.05})])
+        done = subprocess.run([mortise, "run", path, "-o", os.path.join(directory, "start")], capture_output=True, text=True)
+        return done.returncode, [text for text in ("prescribes the displacement", "the velocity") if text in done.stdout + done.stderr]
+    for support, said in (("t", []), ("2*t", ["the velocity"]), ("0.1 + t", ["prescribes the displacement"])):
+        found = warnings(support)
+        check(found == (0, said), f"a support x = {support} of a bar with a velocity of 1 gives {found}")
+
+    # Balance at the end with massive contact nodes multiplies the energy in an impact: no such end state is accepted.
+    bar = os.path.join(inputs, "dynamics", "bouncing_bar.xml")
+    settings = [f"inertia/{one}" for one in ("balance=at the end", "contact mass=kept", "contact condition=gap")]
+    command = [mortise, "run", bar, "-o", os.path.join(directory, "gain")] + [word for one in settings for word in ("--set", one)]
+    gain = subprocess.run(command, capture_output=True, text=True)
+    check(gain.returncode == 3 and "contact has given the energy" in gain.stdout + gain.stderr, f"contact that gives energy ends with exit code {gain.returncode}")
 
     # Without mass the static solution, E = 1, of first order in the density.
     away = [from_static(ends("at the end", 200, density)) for density in (1e-3, 1e-4)]
