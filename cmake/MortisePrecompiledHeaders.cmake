@@ -1,4 +1,5 @@
-# Precompiled headers: what many files include and what is slow to parse. One set is for the program, one, with GoogleTest, for tests.
+# Precompiled headers: what many files include and what is slow to parse. One set is for the program, one, with GoogleTest, for tests. That of
+# position independent code has the headers of the program: a compiler takes no header that was precompiled without it.
 # Headers with much static data are left out (CLI11, nlohmann json): each source that loads them would compile that data.
 # A source must still include what it uses: -DMORTISE_PRECOMPILED_HEADERS=OFF shows what is missing.
 option(MORTISE_PRECOMPILED_HEADERS "Precompile the headers of Tpetra, Eigen, fmt, GoogleTest and the standard library" ON)
@@ -9,10 +10,19 @@ set(mortise_program_headers <algorithm> <array> <cmath> <filesystem> <fstream> <
 
 set(mortise_program_libraries Mortise::trilinos Eigen3::Eigen fmt::fmt)
 
+set(mortise_position_independent_headers ${mortise_program_headers})
+set(mortise_position_independent_libraries ${mortise_program_libraries})
+
 set(mortise_test_headers ${mortise_program_headers} <gmock/gmock.h> <gtest/gtest.h>)
 set(mortise_test_libraries ${mortise_program_libraries} GTest::gmock GTest::gtest)
 
-# Lets the sources of a target compile with a set, program or test, which is built once.
+# Code that may become part of a shared library. Its functions call one another directly, as in a program.
+function(mortise_position_independent target)
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_compile_options(${target} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>")
+endfunction()
+
+# Lets the sources of a target compile with a set, program, position_independent or test, which is built once.
 function(mortise_use_precompiled_headers target set)
   if(NOT MORTISE_PRECOMPILED_HEADERS)
     return()
@@ -27,6 +37,9 @@ function(mortise_use_precompiled_headers target set)
     add_library(${owner} OBJECT "${PROJECT_BINARY_DIR}/precompiled_for_${set}.cpp")
     target_link_libraries(${owner} PRIVATE ${mortise_${set}_libraries})
     target_precompile_headers(${owner} PRIVATE ${mortise_${set}_headers})
+    if(set STREQUAL "position_independent")
+      mortise_position_independent(${owner})
+    endif()
   endif()
   target_precompile_headers(${target} REUSE_FROM ${owner})
 endfunction()

@@ -34,7 +34,7 @@ function(refuse_reader file)
     message(FATAL_ERROR "${file} has symbols of what reads input: ${found}")
   endif()
 endfunction()
-foreach(package core shape mesh material mortar contact solid nonlinear)
+foreach(package core shape mesh material mortar contact plain solid nonlinear)
   file(GLOB library "${SCRATCH}/prefix/lib*/libmortise_${package}.a" "${SCRATCH}/prefix/lib/*/libmortise_${package}.a")
   if(library)
     refuse_reader("${library}")
@@ -50,7 +50,22 @@ foreach(program consumer contact_alone)
   endif()
 endforeach()
 
-foreach(file share/mortise/schema/scene.rng share/mortise/inputs/paper/patch_test.xml share/doc/Mortise/LICENSE
+# A program in C, with what pkg-config says. The library shows the functions of mortise.h alone.
+file(GLOB library "${SCRATCH}/prefix/lib*/libmortise.so" "${SCRATCH}/prefix/lib/*/libmortise.so")
+get_filename_component(libraries "${library}" DIRECTORY)
+run("${CMAKE_COMMAND}" -E env "PKG_CONFIG_PATH=${libraries}/pkgconfig" sh -c
+  "mpicc -std=c99 '${CONSUMER}/../plain_hosts/c_host.c' $(pkg-config --cflags --libs mortise) -lm -o '${SCRATCH}/c_host'")
+run("${CMAKE_COMMAND}" -E env "LD_LIBRARY_PATH=${libraries}" "${MPIEXEC}" -n 2 "${SCRATCH}/c_host" 2)
+execute_process(COMMAND "${NM}" -D --defined-only "${library}" OUTPUT_FILE "${SCRATCH}/symbols")
+file(STRINGS "${SCRATCH}/symbols" shown REGEX " T mortise_")
+file(STRINGS "${SCRATCH}/symbols" others REGEX "^[0-9a-f]+ [A-Zu] ")
+list(FILTER others EXCLUDE REGEX " mortise_")
+list(LENGTH shown functions)
+if(functions LESS 20 OR others)
+  message(FATAL_ERROR "libmortise shows ${functions} functions of mortise.h, and these: ${others}")
+endif()
+
+foreach(file share/mortise/schema/scene.rng share/mortise/inputs/paper/patch_test.xml share/doc/Mortise/LICENSE share/mortise/fortran/mortise.f90
     share/bash-completion/completions/mortise share/man/man1/mortise.1 share/mortise/python/mortise_results.py)
   if(NOT EXISTS "${SCRATCH}/prefix/${file}")
     message(FATAL_ERROR "not installed: ${file}")
