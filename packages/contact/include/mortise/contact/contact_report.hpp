@@ -48,7 +48,7 @@ struct CornerReport {
 /// Sides on which the master stands, as the slave nodes of a pair see it, over all ranks.
 struct FacetOrientation {
   long facing = 0;  ///< nodes with a master facet within reach along their normals that faces them
-  long turned = 0;  ///< others with a master facet within reach that faces away, as where facets of one surface are given inside out
+  long turned = 0;  ///< others with a master facet within reach that faces away
   /// Surfaces of bodies that can meet have few turned ones, as where a thin body stands behind its own surface.
   bool is_inside_out() const { return turned > facing; }
 };

@@ -127,8 +127,8 @@ class ContactSystem {
   /// The history after a step that ended in the state of `laws`: the next step starts from there; slip paths grow.
   ContactHistory commit(const ContactLaws& laws) const;
 
-  /// The history of another system, which has the same nodes on the same ranks and the same pairs, and prescribes other components or has other rows:
-  /// as of a host that releases a support. Nodes keep their multipliers, states and slipped paths; those that had no multiplier begin open. The
+  /// The history of another system with the same pairs, and the same nodes on the same ranks. Prescribed components and rows may differ, as in a host
+  /// that releases a support. Nodes keep their multipliers, states and slipped paths; those that had no multiplier begin open. The
   /// multipliers of the result are on this system's map.
   /// @throws std::invalid_argument on every rank for other slave nodes; StepFailure on every rank, as evaluate()
   ContactHistory carry_over(const ContactSystem& before, const ContactHistory& accepted) const;

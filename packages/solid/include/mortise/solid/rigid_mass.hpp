@@ -31,8 +31,8 @@ struct MassBlock {
   Eigen::MatrixXd mass;  ///< [nodes x nodes], symmetric, no eigenvalue below 0
 };
 
-/// The mass of a rigid body on nodes that move with it. Points of the body are affine in the nodes that span it: with P = [1; x_i] and the moments
-/// Q = [m, m c^T; m c, E + m c c^T] the matrix M with P M P^T = Q has the body's mass, centre and second moments (in 2D of E the trace alone counts).
+/// The mass of a rigid body on nodes that move with it. Points of the body are affine in the nodes that span it. Let P = [1; x_i] and
+/// Q = [m, m c^T; m c, E + m c c^T]. Then M with P M P^T = Q has the body's mass, centre and second moments (in 2D of E the trace alone counts).
 /// Nothing for nodes that do not span the space in which the body has extent. Collective.
 /// @param nodes  of this rank, each on one rank; those furthest apart are taken
 std::optional<MassBlock> mass_on_nodes(const Mesh& mesh, const std::vector<LocalOrdinal>& nodes, const RigidMass& mass);
