@@ -162,6 +162,7 @@ class CondensedModel : public ModelWithContact {
     Base::OutArgsSetup<Scalar> result;
     result.setModelEvalDescription("contact in " + getUnderlyingModel()->description());
     result.setSupports(of_model);
+    result.setSupports(Base::OUT_ARG_W, false);  // the base class makes W of W_op and the factory
     result.setSupports(Base::OUT_ARG_W_prec, false);
     for (int l = 0; l < of_model.Np(); ++l) {  // condensed column by column
       const bool has_columns = !memory().displacements.prescribed && of_model.supports(Base::OUT_ARG_DfDp, l).supports(Base::DERIV_MV_JACOBIAN_FORM);
@@ -176,7 +177,7 @@ class CondensedModel : public ModelWithContact {
       memory().failure.reset();
     } catch (const StepFailure& failure) {  // on every rank
       memory().failure = failure;
-      out.setFailed();
+      tell_failure(out);
     }
   }
 

@@ -20,7 +20,8 @@ ModelWithContact::~ModelWithContact() = default;
 void ModelWithContact::start(const Vector& d, std::optional<double> time) {
   detail::StepMemory& memory = *memory_;
   const auto z = rcp(new Vector(*memory.accepted_multipliers, Teuchos::Copy));
-  const ContactHistory from = time ? memory.contact.with_clearances(memory.accepted, *time) : memory.accepted;
+  if (time) memory.time = *time;
+  const ContactHistory from = memory.contact.with_clearances(memory.accepted, memory.time);
   memory.history = memory.contact.start_step(from, memory.displacement(d, memory.of_nodes), *z);
   memory.multipliers = z;
   memory.updates = 0;

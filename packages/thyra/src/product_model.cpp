@@ -70,6 +70,7 @@ class ProductModel : public ModelWithContact {
     Base::OutArgsSetup<Scalar> result;
     result.setModelEvalDescription("contact in " + getUnderlyingModel()->description());
     result.setSupports(of_model);
+    result.setSupports(Base::OUT_ARG_W, false);  // the base class makes W of W_op and the factory
     result.setSupports(Base::OUT_ARG_W_prec, false);
     for (int l = 0; l < of_model.Np(); ++l) result.setSupports(Base::OUT_ARG_DfDp, l, Base::DerivativeSupport());
     for (int j = 0; j < of_model.Ng(); ++j) {
@@ -85,7 +86,7 @@ class ProductModel : public ModelWithContact {
       memory().failure.reset();
     } catch (const StepFailure& failure) {  // on every rank
       memory().failure = failure;
-      out.setFailed();
+      tell_failure(out);
     }
   }
 

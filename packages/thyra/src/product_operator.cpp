@@ -42,6 +42,14 @@ void add_row(const Matrix& from, LocalOrdinal row, double factor, GlobalOrdinal 
   to.insertGlobalValues(to_row, static_cast<LocalOrdinal>(ids.size()), scaled.data(), ids.data());
 }
 
+// Between matrices on one graph.
+void copy_row(const Matrix& from, LocalOrdinal row, Matrix& to) {
+  Matrix::local_inds_host_view_type columns;
+  Matrix::values_host_view_type values;
+  from.getLocalRowView(row, columns, values);
+  to.replaceLocalValues(row, static_cast<LocalOrdinal>(columns.extent(0)), values.data(), columns.data());
+}
+
 RCP<const ::Thyra::LinearOpBase<Scalar>> as_operator(const RCP<Matrix>& matrix) {
   return ::Thyra::constTpetraLinearOp<Scalar, LocalOrdinal, GlobalOrdinal, NodeType>(space_of(matrix->getRangeMap()),
                                                                                      space_of(matrix->getDomainMap()), matrix);
@@ -71,15 +79,10 @@ RCP<const ::Thyra::LinearOpBase<Scalar>> ProductOperator::condensed() const {
     solved_ = rcp(new Matrix(graph));
   else
     solved_->resumeFill();
-  Kokkos::deep_copy(solved_->getLocalMatrixHost().values, whole_.matrix()->getLocalMatrixHost().values);
+  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(graph->getNodeNumRows()); ++row) copy_row(*whole_.matrix(), row, *solved_);
   Vector none(memory_->dofs);
   elimination_ = linearised_->condense(*solved_, none);
-  for (const LocalOrdinal row : memory_->prescribed) {
-    Matrix::local_inds_host_view_type columns;
-    Matrix::values_host_view_type values;
-    whole_.matrix()->getLocalRowView(row, columns, values);
-    solved_->replaceLocalValues(row, static_cast<LocalOrdinal>(columns.extent(0)), values.data(), columns.data());
-  }
+  for (const LocalOrdinal row : memory_->prescribed) copy_row(*whole_.matrix(), row, *solved_);
   solved_->fillComplete(memory_->dofs, memory_->dofs);
   return as_operator(solved_);
 }

@@ -1,11 +1,13 @@
 #include "step_memory.hpp"
 
+#include <Thyra_VectorStdOps.hpp>
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 
 #include "mortise/core/over_ranks.hpp"
@@ -84,8 +86,16 @@ void evaluate_host(const ThyraModel& model, const ThyraInArgs& in, const ThyraOu
   if (of_model.supports(::Thyra::ModelEvaluatorBase::OUT_ARG_W_op)) of_model.set_W_op(W);
   model.evalModel(in, of_model);
   const RCP<const Map> map = tpetra(*in.get_x())->getMap();
-  if (most_over_ranks(*map->getComm(), of_model.isFailed() ? 1 : 0) == 1)
-    throw StepFailure(FailureKind::material, "the application's model says that it failed");
+  if (most_over_ranks(*map->getComm(), of_model.isFailed() ? 1 : 0) == 0) return;
+  out.setFailed();
+  throw StepFailure(FailureKind::material, "the application's model says that it failed");
+}
+
+void tell_failure(const ThyraOutArgs& out) {
+  if (out.get_f().is_null())
+    out.setFailed();
+  else
+    ::Thyra::assign(out.get_f().ptr(), std::numeric_limits<Scalar>::quiet_NaN());
 }
 
 RCP<Matrix> matrix_of(const RCP<::Thyra::LinearOpBase<Scalar>>& W) {

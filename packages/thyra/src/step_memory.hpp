@@ -33,6 +33,7 @@ struct StepMemory {
   std::optional<ContactLaws> accepted_laws;
   ContactHistory history;              ///< that holds within the step
   RCP<const Vector> multipliers;       ///< at its start, or at the last update of multipliers
+  double time = 0.0;                   ///< of clearances
   int updates = 0;                     ///< of multipliers in the step
   std::optional<StepFailure> failure;  ///< of the last evaluation
 
@@ -50,9 +51,13 @@ struct StepMemory {
 double weight_of_displacements(const ThyraInArgs& at);
 
 /// Calls the model with what of `out` is its own, f and W_op apart.
-/// @throws StepFailure on every rank, where the model says that it failed
+/// @throws StepFailure on every rank, where the model says that it failed, and marks `out` so
 void evaluate_host(const ThyraModel& model, const ThyraInArgs& in, const ThyraOutArgs& out, const RCP<ThyraVector>& f,
                    const RCP<::Thyra::LinearOpBase<Scalar>>& W);
+
+/// Tells that an evaluation failed: by NaN in f, which ends a solve of NOX. Without f it is marked as failed. With f it is not, as line searches of
+/// NOX throw there.
+void tell_failure(const ThyraOutArgs& out);
 
 /// The matrix in a W_op.
 /// @throws std::invalid_argument for anything but a Tpetra::CrsMatrix on a complete graph

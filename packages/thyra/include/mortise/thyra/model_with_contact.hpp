@@ -64,7 +64,7 @@ class ModelWithContact : public ::Thyra::ModelEvaluatorDelegatorBase<Scalar> {
 
   /// Starts a step at x, whose displacement need not be the accepted one: sets multipliers of nodes that touch. accept_step() does so at its own x.
   /// So this is called where a step starts elsewhere, or where clearances depend on time.
-  /// @param time  at the end of the step, for clearances
+  /// @param time  at the end of the step, for clearances; none: as before, at first 0
   /// @throws StepFailure on every rank, as ContactSystem::evaluate()
   void start_step(const ThyraVector& x, std::optional<double> time = std::nullopt);
   /// Updates multipliers of augmented Lagrange at a solution x. True: solve again, beginning at x, before the step is accepted.
