@@ -1,10 +1,10 @@
 #pragma once
 // Acceptance of steps by NOX.
 
+#include <NOX_Abstract_Group.H>
 #include <NOX_Solver_Generic.H>
 #include <NOX_Thyra_Vector.H>
 
-#include <NOX_Abstract_Group.H>
 #include <NOX_Observer.hpp>
 
 #include "mortise/thyra/model_with_contact.hpp"
