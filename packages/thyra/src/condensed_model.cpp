@@ -159,9 +159,8 @@ class CondensedModel : public ModelWithContact {
  private:
   ThyraOutArgs createOutArgsImpl() const override {
     const ThyraOutArgs of_model = getUnderlyingModel()->createOutArgs();
-    Base::OutArgsSetup<Scalar> result;
+    Base::OutArgsSetup<Scalar> result = of_model;
     result.setModelEvalDescription("contact in " + getUnderlyingModel()->description());
-    result.setSupports(of_model);
     result.setSupports(Base::OUT_ARG_W, false);  // the base class makes W of W_op and the factory
     result.setSupports(Base::OUT_ARG_W_prec, false);
     for (int l = 0; l < of_model.Np(); ++l) {  // condensed column by column
