@@ -1,0 +1,66 @@
+#pragma once
+// The memory of a model with contact: what was accepted last, and the start of the step that is under way.
+
+#include <optional>
+#include <vector>
+
+#include "mortise/thyra/model_with_contact.hpp"
+
+namespace mortise::detail {
+
+/// Contact at an iterate.
+struct ContactIterate {
+  RCP<const Vector> d;              ///< a copy
+  RCP<const MultiVector> of_nodes;  ///< displacements of components without unknown; null: none
+  DifferentiatedContact at;
+  ContactLaws laws;
+  const Vector& z() const { return laws.multipliers(); }
+};
+
+struct StepMemory {
+  StepMemory(HostDisplacements displacements, const RCP<const Map>& dofs, std::vector<ContactPair> pairs, const WithContactOptions& options,
+             const ThyraInArgs& nominal, const Vector& d);
+
+  HostDisplacements displacements;
+  RCP<const Map> dofs;
+  ContactSystem contact;
+  std::vector<LocalOrdinal> prescribed;  ///< rows of unknowns that are marked as prescribed
+  double stiffness = 0.0;                ///< E h^(dim - 2), of the rows that replace them
+  RCP<const MultiVector> of_nodes;       ///< of the last evaluation; null: none
+
+  ContactHistory accepted;
+  RCP<const Vector> accepted_multipliers;
+  std::optional<ContactLaws> accepted_laws;
+  ContactHistory history;              ///< that holds within the step
+  RCP<const Vector> multipliers;       ///< at its start, or at the last update of multipliers
+  double time = 0.0;                   ///< of clearances
+  int updates = 0;                     ///< of multipliers in the step
+  std::optional<StepFailure> failure;  ///< of the last evaluation
+
+  /// The displacement of an evaluation.
+  NodalDisplacement displacement(const Vector& d, const RCP<const MultiVector>& at_nodes) const;
+  /// Displacements of components without unknown; null if there are none.
+  RCP<const MultiVector> eliminated(const ThyraInArgs& at) const;
+  /// Values of prescribed rows; null where they are the model's.
+  RCP<const Vector> prescribed_values(const ThyraInArgs& at) const;
+  /// Laws of an evaluation, with a bound of friction at all nodes.
+  ContactLaws laws(const ContactEvaluation& at, const Vector& z) const;
+};
+
+/// Weight of df/dx in W: beta, and 1 of a model without time derivatives, for which solvers do not set it.
+double weight_of_displacements(const ThyraInArgs& at);
+
+/// Calls the model with what of `out` is its own, f and W_op apart.
+/// @throws StepFailure on every rank, where the model says that it failed, and marks `out` so
+void evaluate_host(const ThyraModel& model, const ThyraInArgs& in, const ThyraOutArgs& out, const RCP<ThyraVector>& f,
+                   const RCP<::Thyra::LinearOpBase<Scalar>>& W);
+
+/// Tells that an evaluation failed: by NaN in f, which ends a solve of NOX. Without f it is marked as failed. With f it is not, as line searches of
+/// NOX throw there.
+void tell_failure(const ThyraOutArgs& out);
+
+/// The matrix in a W_op.
+/// @throws std::invalid_argument for anything but a Tpetra::CrsMatrix on a complete graph
+RCP<Matrix> matrix_of(const RCP<::Thyra::LinearOpBase<Scalar>>& W);
+
+}  // namespace mortise::detail
