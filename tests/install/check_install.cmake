@@ -50,19 +50,18 @@ foreach(program consumer contact_alone)
   endif()
 endforeach()
 
-# A program in C, with what pkg-config says. The library shows the functions of mortise.h alone.
+# A program in C, with what pkg-config says. Of Mortise the library shows the functions of mortise.h alone.
 file(GLOB library "${SCRATCH}/prefix/lib*/libmortise.so" "${SCRATCH}/prefix/lib/*/libmortise.so")
 get_filename_component(libraries "${library}" DIRECTORY)
 run("${CMAKE_COMMAND}" -E env "PKG_CONFIG_PATH=${libraries}/pkgconfig" sh -c
   "mpicc -std=c99 '${CONSUMER}/../plain_hosts/c_host.c' $(pkg-config --cflags --libs mortise) -lm -o '${SCRATCH}/c_host'")
 run("${CMAKE_COMMAND}" -E env "LD_LIBRARY_PATH=${libraries}" "${MPIEXEC}" -n 2 "${SCRATCH}/c_host" 2)
-execute_process(COMMAND "${NM}" -D --defined-only "${library}" OUTPUT_FILE "${SCRATCH}/symbols")
+execute_process(COMMAND "${NM}" -DC --defined-only "${library}" OUTPUT_FILE "${SCRATCH}/symbols")
 file(STRINGS "${SCRATCH}/symbols" shown REGEX " T mortise_")
-file(STRINGS "${SCRATCH}/symbols" others REGEX "^[0-9a-f]+ [A-Zu] ")
-list(FILTER others EXCLUDE REGEX " mortise_")
+file(STRINGS "${SCRATCH}/symbols" others REGEX "^[0-9a-f]+ T mortise::" LIMIT_COUNT 3)
 list(LENGTH shown functions)
 if(functions LESS 20 OR others)
-  message(FATAL_ERROR "libmortise shows ${functions} functions of mortise.h, and these: ${others}")
+  message(FATAL_ERROR "libmortise shows ${functions} functions of mortise.h, and these of C++: ${others}")
 endif()
 
 foreach(file share/mortise/schema/scene.rng share/mortise/inputs/paper/patch_test.xml share/doc/Mortise/LICENSE share/mortise/fortran/mortise.f90

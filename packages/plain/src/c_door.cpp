@@ -249,7 +249,8 @@ int mortise_store(mortise_contact* contact, int64_t capacity, void* bytes, int64
 int mortise_restore(mortise_contact* contact, int64_t size, const void* bytes, int64_t rows, int64_t multipliers, const double* d,
                     const double* prescribed, const double* z) {
   return guarded(contact, [&](mortise::PlainContact& self) {
-    self.restore(span(static_cast<const unsigned char*>(bytes), size), state_of(self, rows, multipliers, d, prescribed, z));
+    self.restore(span(static_cast<const unsigned char*>(bytes), std::max(size, std::int64_t{0})),
+                 state_of(self, rows, multipliers, d, prescribed, z));
   });
 }
 

@@ -22,7 +22,7 @@ rows, K = x.size, np.zeros((x.size, x.size))
 for nodes in elements:
     dofs = (2 * np.array(nodes)[:, None] + [0, 1]).ravel()
     K[np.ix_(dofs, dofs)] += k
-starts, columns, values = np.append(0, (K != 0).sum(1).cumsum()), np.nonzero(K)[1], K[K != 0]
+starts, columns, values = np.append(0, (K != 0).sum(1).cumsum()), np.nonzero(K)[1].copy(), K[K != 0]
 held, ids, pair, size, message = np.repeat(x[:, 1] % 2 == 0, 2), np.arange(rows), c.c_int32(), i64(), c.create_string_buffer(1000)
 call("create", -1, 2, i64(len(x)), of(ids), of(x), of(ids), of(held.astype(np.int32)), i64(rows), of(ids), None, c.byref(contact), message, i64(1000))
 call("add_pair", contact, b"joint", c.c_double(E), b"friction/type = coulomb; friction/coefficient = 0.3", c.byref(pair))

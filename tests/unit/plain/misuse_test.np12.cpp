@@ -387,7 +387,6 @@ TEST(PlainMisuse, OfStoredBytes) {
   EXPECT_EQ(on_every_rank(mortise_restore(other.contact, size, bytes.data(), other.rows, other.multipliers, begun.d.data(), nullptr, begun.z.data())),
             MORTISE_OK)
       << "it needs less: " << other.error();
-  Begun frictionless;
   EXPECT_EQ(restore(bytes.data(), size), MORTISE_OK) << begun.error();
   PlainHost stiff(arch());
   stiff.set_up("formulation/type = penalty");

@@ -47,7 +47,7 @@ std::vector<PlainCase> cases() {
   const auto stiff = std::make_shared<Penalty>();
   stiff->normal = 4.0;
   penalty.options.formulation = {"penalty", stiff, {}};
-  all.push_back({"Penalty", penalty, "formulation/type = penalty\nformulation/normal = 4"});
+  all.push_back({"Penalty", penalty, "formulation/type = penalty\nformulation/stiffness = 4"});
   TwoSurfaces kept = arch_on_ground();
   kept.options.formulation = {"standard mortar", std::make_shared<StandardMortar>(), {}};
   all.push_back({"Kept", kept, "formulation/type = standard mortar"});
