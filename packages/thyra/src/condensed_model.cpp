@@ -232,8 +232,8 @@ class CondensedModel : public ModelWithContact {
       Vector condensed(memory().dofs);
       condensed.update(-1.0, *column, 0.0);
       elimination.apply(condensed, none);
-      const auto from = condensed.getLocalViewHost(Tpetra::Access::ReadWrite);
       {
+        const auto from = condensed.getLocalViewHost(Tpetra::Access::ReadWrite);
         const auto before = column->getLocalViewHost(Tpetra::Access::ReadOnly);
         for (const LocalOrdinal row : memory().prescribed) from(row, 0) = -before(row, 0);
       }
