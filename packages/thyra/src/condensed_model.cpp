@@ -2,10 +2,12 @@
 
 #include <Thyra_DefaultLinearOpSource.hpp>
 #include <Thyra_TpetraLinearOp.hpp>
+#include <Thyra_VectorStdOps.hpp>
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 
@@ -176,7 +178,8 @@ class CondensedModel : public ModelWithContact {
       memory().failure.reset();
     } catch (const StepFailure& failure) {  // on every rank
       memory().failure = failure;
-      tell_failure(out);
+      if (out.get_f().is_null()) throw;
+      ::Thyra::assign(out.get_f().ptr(), std::numeric_limits<Scalar>::quiet_NaN());
     }
   }
 
@@ -229,8 +232,8 @@ class CondensedModel : public ModelWithContact {
       Vector condensed(memory().dofs);
       condensed.update(-1.0, *column, 0.0);
       elimination.apply(condensed, none);
-      const auto from = condensed.getLocalViewHost(Tpetra::Access::ReadWrite);
       {
+        const auto from = condensed.getLocalViewHost(Tpetra::Access::ReadWrite);
         const auto before = column->getLocalViewHost(Tpetra::Access::ReadOnly);
         for (const LocalOrdinal row : memory().prescribed) from(row, 0) = -before(row, 0);
       }

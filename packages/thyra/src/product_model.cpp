@@ -2,9 +2,11 @@
 
 #include <Thyra_DefaultProductVector.hpp>
 #include <Thyra_DefaultProductVectorSpace.hpp>
+#include <Thyra_VectorStdOps.hpp>
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
+#include <limits>
 #include <stdexcept>
 
 #include "product_operator.hpp"
@@ -85,7 +87,8 @@ class ProductModel : public ModelWithContact {
       memory().failure.reset();
     } catch (const StepFailure& failure) {  // on every rank
       memory().failure = failure;
-      tell_failure(out);
+      if (out.get_f().is_null()) throw;
+      ::Thyra::assign(out.get_f().ptr(), std::numeric_limits<Scalar>::quiet_NaN());
     }
   }
 

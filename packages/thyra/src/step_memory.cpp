@@ -7,7 +7,6 @@
 #include <Tpetra_Vector.hpp>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <stdexcept>
 
 #include "mortise/core/over_ranks.hpp"
@@ -85,17 +84,7 @@ void evaluate_host(const ThyraModel& model, const ThyraInArgs& in, const ThyraOu
   if (of_model.supports(::Thyra::ModelEvaluatorBase::OUT_ARG_f)) of_model.set_f(f);
   if (of_model.supports(::Thyra::ModelEvaluatorBase::OUT_ARG_W_op)) of_model.set_W_op(W);
   model.evalModel(in, of_model);
-  const RCP<const Map> map = tpetra(*in.get_x())->getMap();
-  if (most_over_ranks(*map->getComm(), of_model.isFailed() ? 1 : 0) == 0) return;
-  out.setFailed();
-  throw StepFailure(FailureKind::material, "the application's model says that it failed");
-}
-
-void tell_failure(const ThyraOutArgs& out) {
-  if (out.get_f().is_null())
-    out.setFailed();
-  else
-    ::Thyra::assign(out.get_f().ptr(), std::numeric_limits<Scalar>::quiet_NaN());
+  if (!f.is_null() && !std::isfinite(::Thyra::norm_2(*f))) throw StepFailure(FailureKind::not_finite, "f of the application's model is not a number");
 }
 
 RCP<Matrix> matrix_of(const RCP<::Thyra::LinearOpBase<Scalar>>& W) {

@@ -51,13 +51,9 @@ struct StepMemory {
 double weight_of_displacements(const ThyraInArgs& at);
 
 /// Calls the model with what of `out` is its own, f and W_op apart.
-/// @throws StepFailure on every rank, where the model says that it failed, and marks `out` so
+/// @throws StepFailure on every rank, where its f is no number: so Thyra's models say that they failed
 void evaluate_host(const ThyraModel& model, const ThyraInArgs& in, const ThyraOutArgs& out, const RCP<ThyraVector>& f,
                    const RCP<::Thyra::LinearOpBase<Scalar>>& W);
-
-/// Tells that an evaluation failed: by NaN in f, which ends a solve of NOX. Without f it is marked as failed. With f it is not, as line searches of
-/// NOX throw there.
-void tell_failure(const ThyraOutArgs& out);
 
 /// The matrix in a W_op.
 /// @throws std::invalid_argument for anything but a Tpetra::CrsMatrix on a complete graph

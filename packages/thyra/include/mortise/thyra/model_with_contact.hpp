@@ -80,7 +80,7 @@ class ModelWithContact : public ::Thyra::ModelEvaluatorDelegatorBase<Scalar> {
   RCP<const Vector> multipliers(const ThyraVector& x) const;
   /// Laws at the end of the last accepted step, for reports on it; none before the first one.
   const std::optional<ContactLaws>& accepted_laws() const;
-  /// Reason why the last evaluation of f or W failed, whose f is NaN; none where it did not.
+  /// Reason why the last evaluation failed: its f is NaN. None where it did not. W without f throws the reason, a StepFailure, on every rank.
   const std::optional<StepFailure>& failure() const;
 
   /// Memory of the last accepted step, which resume() takes: also that of another model of the same surfaces, as where a support is released.
