@@ -7,6 +7,7 @@
 #include <Piro_config.hpp>
 #undef HAVE_PIRO_ROL
 #include <Piro_NOXSolver.hpp>
+#include <Piro_NOXSolver_Def.hpp>  // Debian's library has no instance of it
 
 // The rest in any order.
 #include <Ifpack2_AdditiveSchwarz.hpp>
@@ -89,7 +90,7 @@ RCP<Teuchos::ParameterList> piroParameters(int maxIterations) {
           <ParameterList name="Test 0">
             <Parameter name="Test Type" type="string" value="NormF"/>
             <Parameter name="Scale Type" type="string" value="Unscaled"/>
-            <Parameter name="Tolerance" type="double" value="1e-9"/>
+            <Parameter name="Tolerance" type="double" value="1e-11"/>
           </ParameterList>
           <ParameterList name="Test 1"><Parameter name="Test Type" type="string" value="MaxIters"/></ParameterList>
           <ParameterList name="Test 2"><Parameter name="Test Type" type="string" value="FiniteValue"/></ParameterList>

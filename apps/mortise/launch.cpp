@@ -74,13 +74,23 @@ std::string not_joined(const StartedTogether& together) {
       together.launcher, together.processes, together.variable, together.advice);
 }
 
-bool is_first_process() {
+namespace {
+
+bool has_first_rank() {
   for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"})
     if (const char* rank = std::getenv(name)) return std::strcmp(rank, "0") == 0;
   const std::optional<StartedTogether> together = started_together();
   if (!together) return true;
   const auto* one = std::find_if(launchers.begin(), launchers.end(), [&](const LauncherVariables& v) { return together->variable == v.processes; });
   return number_in(one->rank).value_or(0) == 0;
+}
+
+}  // namespace
+
+// Open MPI gives a process that starts alone the rank 0, in its environment.
+bool is_first_process() {
+  static const bool first = has_first_rank();
+  return first;
 }
 
 namespace {

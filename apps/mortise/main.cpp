@@ -125,6 +125,7 @@ std::optional<int> read_alone(mortise::Program& program) {
 
 int main(int argc, char** argv) {
   mortise::set_up_blas(argv);
+  mortise::is_first_process();  // before MPI writes ranks of its own
   mortise::open_closed_streams();
   // A write that a limit on file sizes or a closed pipe stops fails with an error, which is reported, and does not end the process silently.
   for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);

@@ -64,8 +64,8 @@ class CondensedOperator : public TpetraOp, public SolvedByCondensing {
       elimination_ = linearised.condense(A, none);
       matrix_.replace_rows(memory.prescribed, K, share, memory.displacements.prescribed ? memory.stiffness : 0.0);
     }
-    A.fillComplete(memory.dofs, memory.dofs);
     if (has_contact && weight != 1.0) A.scale(weight);
+    A.fillComplete(memory.dofs, memory.dofs);
     weight_ = weight;
     lines_ = lines;
     d_ = iterate.d;
