@@ -17,7 +17,11 @@ RCP<Vector> first_answer(const StepGuards& guards, const Ask& ask) {
 FailureExplanation explain_all(const StepGuards& guards, const SemiSmoothSystem& system, const FailedTry& failed) {
   FailureExplanation all;
   for (const auto& guard : guards) {
-    const FailureExplanation one = guard->explain(system, failed);
+    FailureExplanation one;
+    try {
+      one = guard->explain(system, failed);
+    } catch (const StepFailure&) {  // on every rank: an iterate that cannot be evaluated explains nothing
+    }
     if (!one.words.empty()) all.words += (all.words.empty() ? "" : "; ") + one.words;
     all.at_any_step = all.at_any_step || one.at_any_step;
   }
