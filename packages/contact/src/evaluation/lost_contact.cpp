@@ -25,7 +25,9 @@ double largest_motion(const MultiVector& from, const MultiVector& to, const std:
   return std::sqrt(largest);
 }
 
-/// How far nodes have gone on beyond the master since `start`, along straight ways, past where these met it there; no value: they did not.
+constexpr double far = 100.0;  ///< over the reach: nodes that slide off an edge, or around a corner, go less far beyond it
+
+/// How far nodes have gone on beyond the master since `start`, along straight ways, past where these met it there; no value: not far.
 std::vector<std::optional<double>> ways_beyond_master(const ContactModel& model, const PairEvaluation& pair, const std::vector<std::size_t>& nodes,
                                                       const MultiVector& start, const MultiVector& x) {
   const auto from = start.getLocalViewHost(Tpetra::Access::ReadOnly), to = x.getLocalViewHost(Tpetra::Access::ReadOnly);
@@ -40,7 +42,7 @@ std::vector<std::optional<double>> ways_beyond_master(const ContactModel& model,
   }
   auto distances = pair.pair().interface().distances_to_master(start, nodes, directions);
   for (std::size_t n = 0; n < nodes.size(); ++n) {
-    if (distances[n] && *distances[n] >= 0.0 && *distances[n] < lengths[n])
+    if (distances[n] && *distances[n] >= 0.0 && lengths[n] - *distances[n] > far * pair.pair().interface().reach())
       distances[n] = lengths[n] - *distances[n];
     else
       distances[n].reset();

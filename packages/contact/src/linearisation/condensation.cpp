@@ -339,7 +339,7 @@ NodeElimination ContactLinearisation::condense(Matrix& system, Vector& rhs) cons
   const auto condensation = std::make_shared<detail::Condensation>(detail::Condensation{laws_, scatter_into(*laws.contact, system), {}, {}});
   detail::Arguments(model, "condense").on_dofs(rhs, "rhs").agree();
   const auto scope = model.timers.scope("condensation");
-  detail::refuse_changed_rows(model, system);
+  detail::refuse_condensed(model, system);
   for (const bool middles : {true, false}) {
     if (middles && !model.middles_first) continue;
     for (std::size_t p = 0; p < model.pairs.size(); ++p) {
