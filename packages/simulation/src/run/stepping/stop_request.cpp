@@ -62,15 +62,16 @@ StopRequest::~StopRequest() {
 }
 
 Request StopRequest::after_step(const Communicator& comm) {
-  longest_ = std::max(forgetting * longest_, seconds_since(last_));
-  last_ = last_iteration_ = Clock::now();
+  const auto now = Clock::now();
+  longest_ = std::max(forgetting * longest_, std::chrono::duration<double>(now - last_).count());
+  last_ = now;
   std::array<int, stopping.size() + 2> mine{}, any{};
   if (watches_) {
     for (std::size_t n = 0; n < stopping.size(); ++n) mine[n] = stops[n];
     mine[stopping.size()] = wants_checkpoint;
     wants_checkpoint = 0;
   }
-  if (limit_) mine.back() = seconds_since(begin_) + margin * longest_ + reserved_ > *limit_ ? 1 : 0;
+  if (limit_) mine.back() = std::chrono::duration<double>(now - begin_).count() + margin * longest_ + reserved_ > *limit_ ? 1 : 0;
   Teuchos::reduceAll(comm, Teuchos::REDUCE_MAX, static_cast<int>(mine.size()), mine.data(), any.data());
   Request request;
   request.checkpoint = any[stopping.size()] != 0;
@@ -80,20 +81,14 @@ Request StopRequest::after_step(const Communicator& comm) {
   return request;
 }
 
-std::optional<std::string> StopRequest::within_step(const Communicator& comm) {
-  if (!watches_ && !limit_) return std::nullopt;
-  longest_iteration_ = std::max(longest_iteration_, seconds_since(last_iteration_));
-  last_iteration_ = Clock::now();
-  std::array<int, stopping.size() + 1> mine{}, any{};
-  for (std::size_t n = 0; n < stopping.size() && watches_; ++n) mine[n] = stops[n];
-  if (limit_) mine.back() = seconds_since(begin_) + margin * longest_iteration_ + reserved_ > *limit_ ? 1 : 0;
+std::optional<std::string> StopRequest::within_step(const Communicator& comm) const {
+  if (!watches_) return std::nullopt;
+  std::array<int, stopping.size()> mine{}, any{};
+  for (std::size_t n = 0; n < stopping.size(); ++n) mine[n] = stops[n];
   Teuchos::reduceAll(comm, Teuchos::REDUCE_MAX, static_cast<int>(mine.size()), mine.data(), any.data());
   for (std::size_t n = 0; n < stopping.size(); ++n)
     if (any[n] != 0) return stopping[n].name;
-  if (any.back() != 0) return "time limit";
   return std::nullopt;
 }
-
-double StopRequest::seconds_since(Clock::time_point then) const { return std::chrono::duration<double>(Clock::now() - then).count(); }
 
 }  // namespace mortise

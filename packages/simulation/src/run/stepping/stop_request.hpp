@@ -32,9 +32,8 @@ class StopRequest {
   /// checkpoint, would not fit. Collective.
   Request after_step(const Communicator& comm);
 
-  /// After a Newton iteration: a signal, or the time limit where another iteration like the longest one, and the checkpoint, would not fit.
-  /// Collective.
-  std::optional<std::string> within_step(const Communicator& comm);
+  /// After a Newton iteration: a signal, which does not wait for the end of the step as a time limit does. Collective.
+  std::optional<std::string> within_step(const Communicator& comm) const;
 
   /// Seconds that a checkpoint took, to be kept free before the time limit.
   void reserve(double seconds) { reserved_ = seconds; }
@@ -43,10 +42,8 @@ class StopRequest {
   using Clock = std::chrono::steady_clock;
   bool watches_;
   std::optional<double> limit_;
-  double seconds_since(std::chrono::steady_clock::time_point then) const;
-
-  double reserved_ = 0.0, longest_ = 0.0, longest_iteration_ = 0.0;
-  Clock::time_point begin_, last_ = Clock::now(), last_iteration_ = last_;
+  double reserved_ = 0.0, longest_ = 0.0;
+  Clock::time_point begin_, last_ = Clock::now();
 };
 
 }  // namespace mortise
