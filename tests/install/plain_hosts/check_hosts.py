@@ -4,23 +4,40 @@
 usage: check_hosts.py MPIEXEC TPETRA_HOST C_HOST FORTRAN_HOST PYTHON NUMPY_HOST LIBRARY
 "" for the Fortran host: there is no compiler; "" for Python: there is no numpy."""
 
+import os
+import pathlib
 import subprocess
 import sys
+import tempfile
 
 mpiexec, tpetra_host, c_host, fortran_host, python, numpy_host, library = sys.argv[1:]
 
 
-def output(*command):
-    """Values by kind and place, from lines "d ROW VALUE" and "z COMPONENT VALUE"."""
+def printed(command):
     run = subprocess.run([part for part in command if part], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if run.returncode != 0:
         sys.exit(f"{' '.join(command)} ends with {run.returncode}:\n{run.stdout}")
-    lines = [line.split() for line in run.stdout.splitlines()]
+    return run.stdout
+
+
+def values_in(text):
+    """Values by kind and place, from lines "d ROW VALUE" and "z COMPONENT VALUE"."""
+    lines = [line.split() for line in text.splitlines()]
     return {(kind, int(place)): float(value) for kind, place, value in lines}
 
 
+def output(*command):
+    return values_in(printed(command))
+
+
 def on_ranks(ranks, *command):
-    return output(mpiexec, "-n", str(ranks), *command) if ranks > 1 else output(*command)
+    """Each rank prints to a file of its own: mpirun joins what they print anywhere within lines."""
+    if ranks == 1:
+        return output(*command)
+    with tempfile.TemporaryDirectory() as directory:
+        to_file = 'exec "$@" > "$0.${OMPI_COMM_WORLD_RANK:-$PMI_RANK}"'
+        printed([mpiexec, "-n", str(ranks), "sh", "-c", to_file, os.path.join(directory, "rank"), *command])
+        return values_in("".join(path.read_text() for path in sorted(pathlib.Path(directory).iterdir())))
 
 
 def off_by(values, reference):
