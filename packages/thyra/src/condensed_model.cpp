@@ -7,7 +7,6 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <stdexcept>
 
@@ -161,10 +160,7 @@ class CondensedModel : public ModelWithContact {
  private:
   ThyraOutArgs createOutArgsImpl() const override {
     const ThyraOutArgs of_model = getUnderlyingModel()->createOutArgs();
-    Base::OutArgsSetup<Scalar> result = of_model;
-    result.setModelEvalDescription("contact in " + getUnderlyingModel()->description());
-    result.setSupports(Base::OUT_ARG_W, false);  // the base class makes W of W_op and the factory
-    result.setSupports(Base::OUT_ARG_W_prec, false);
+    Base::OutArgsSetup<Scalar> result = out_args_with_contact(*getUnderlyingModel());
     for (int l = 0; l < of_model.Np(); ++l) {  // condensed column by column
       const bool has_columns = !memory().displacements.prescribed && of_model.supports(Base::OUT_ARG_DfDp, l).supports(Base::DERIV_MV_JACOBIAN_FORM);
       result.setSupports(Base::OUT_ARG_DfDp, l, has_columns ? Base::DerivativeSupport(Base::DERIV_MV_JACOBIAN_FORM) : Base::DerivativeSupport());
@@ -173,14 +169,7 @@ class CondensedModel : public ModelWithContact {
   }
 
   void evalModelImpl(const ThyraInArgs& in, const ThyraOutArgs& out) const override {
-    try {
-      evaluate(in, out);
-      memory().failure.reset();
-    } catch (const StepFailure& failure) {  // on every rank
-      memory().failure = failure;
-      if (out.get_f().is_null()) throw;
-      ::Thyra::assign(out.get_f().ptr(), std::numeric_limits<Scalar>::quiet_NaN());
-    }
+    evaluate_or_fail(memory(), out, [&] { evaluate(in, out); });
   }
 
   void evaluate(const ThyraInArgs& in, const ThyraOutArgs& out) const {

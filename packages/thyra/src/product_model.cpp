@@ -6,7 +6,6 @@
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
-#include <limits>
 #include <stdexcept>
 
 #include "product_operator.hpp"
@@ -69,10 +68,7 @@ class ProductModel : public ModelWithContact {
 
   ThyraOutArgs createOutArgsImpl() const override {
     const ThyraOutArgs of_model = getUnderlyingModel()->createOutArgs();
-    Base::OutArgsSetup<Scalar> result = of_model;
-    result.setModelEvalDescription("contact in " + getUnderlyingModel()->description());
-    result.setSupports(Base::OUT_ARG_W, false);  // the base class makes W of W_op and the factory
-    result.setSupports(Base::OUT_ARG_W_prec, false);
+    Base::OutArgsSetup<Scalar> result = out_args_with_contact(*getUnderlyingModel());
     for (int l = 0; l < of_model.Np(); ++l) result.setSupports(Base::OUT_ARG_DfDp, l, Base::DerivativeSupport());
     for (int j = 0; j < of_model.Ng(); ++j) {
       result.setSupports(Base::OUT_ARG_DgDx, j, Base::DerivativeSupport());
@@ -82,14 +78,7 @@ class ProductModel : public ModelWithContact {
   }
 
   void evalModelImpl(const ThyraInArgs& in, const ThyraOutArgs& out) const override {
-    try {
-      evaluate(in, out);
-      memory().failure.reset();
-    } catch (const StepFailure& failure) {  // on every rank
-      memory().failure = failure;
-      if (out.get_f().is_null()) throw;
-      ::Thyra::assign(out.get_f().ptr(), std::numeric_limits<Scalar>::quiet_NaN());
-    }
+    evaluate_or_fail(memory(), out, [&] { evaluate(in, out); });
   }
 
   void evaluate(const ThyraInArgs& in, const ThyraOutArgs& out) const {

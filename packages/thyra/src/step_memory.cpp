@@ -7,6 +7,7 @@
 #include <Tpetra_Vector.hpp>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 
 #include "mortise/core/over_ranks.hpp"
@@ -85,6 +86,26 @@ void evaluate_host(const ThyraModel& model, const ThyraInArgs& in, const ThyraOu
   if (of_model.supports(::Thyra::ModelEvaluatorBase::OUT_ARG_W_op)) of_model.set_W_op(W);
   model.evalModel(in, of_model);
   if (!f.is_null() && !std::isfinite(::Thyra::norm_2(*f))) throw StepFailure(FailureKind::not_finite, "f of the application's model is not a number");
+}
+
+::Thyra::ModelEvaluatorBase::OutArgsSetup<Scalar> out_args_with_contact(const ThyraModel& model) {
+  using Base = ::Thyra::ModelEvaluatorBase;
+  Base::OutArgsSetup<Scalar> result = model.createOutArgs();
+  result.setModelEvalDescription("contact in " + model.description());
+  result.setSupports(Base::OUT_ARG_W, false);
+  result.setSupports(Base::OUT_ARG_W_prec, false);
+  return result;
+}
+
+void evaluate_or_fail(StepMemory& memory, const ThyraOutArgs& out, const std::function<void()>& evaluate) {
+  try {
+    evaluate();
+    memory.failure.reset();
+  } catch (const StepFailure& failure) {  // on every rank
+    memory.failure = failure;
+    if (out.get_f().is_null()) throw;
+    ::Thyra::assign(out.get_f().ptr(), std::numeric_limits<Scalar>::quiet_NaN());
+  }
 }
 
 RCP<Matrix> matrix_of(const RCP<::Thyra::LinearOpBase<Scalar>>& W) {

@@ -1,6 +1,7 @@
 #pragma once
 // The memory of a model with contact: what was accepted last, and the start of the step that is under way.
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -54,6 +55,13 @@ double weight_of_displacements(const ThyraInArgs& at);
 /// @throws StepFailure on every rank, where its f is no number: so Thyra's models say that they failed
 void evaluate_host(const ThyraModel& model, const ThyraInArgs& in, const ThyraOutArgs& out, const RCP<ThyraVector>& f,
                    const RCP<::Thyra::LinearOpBase<Scalar>>& W);
+
+/// What a model with contact gives: what the application's gives, with W made of W_op and the factory by the base class.
+::Thyra::ModelEvaluatorBase::OutArgsSetup<Scalar> out_args_with_contact(const ThyraModel& model);
+
+/// Evaluates, on all ranks. A failure is kept, and is NaN in f; without an f it is thrown.
+/// @throws StepFailure on every rank
+void evaluate_or_fail(StepMemory& memory, const ThyraOutArgs& out, const std::function<void()>& evaluate);
 
 /// The matrix in a W_op.
 /// @throws std::invalid_argument for anything but a Tpetra::CrsMatrix on a complete graph

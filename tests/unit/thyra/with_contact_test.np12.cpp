@@ -147,8 +147,9 @@ void expect_host_follows_embedded_loop(const Case& of) {
     host.model->accept_step(*x);
     EXPECT_LE(apart(*host.d(*x), d), 1e-10) << step;
     EXPECT_LE(apart(host.model->accepted_multipliers(), z), 1e-10) << step;
-    // Both have tolerances of their own: in 3D NOX goes on for one or two iterations until its norm is below 1e-10.
-    if (of.dimension == 2) EXPECT_NEAR(*iterations, solver.matrices, 1) << step;
+    // The loop adds the geometric stiffness at once. W leaves it out while many states change, as Mortise's own runs do: the first iterate is worse
+    // by what the surfaces turn in it, and quadratic convergence begins up to two iterations later.
+    EXPECT_LE(std::abs(*iterations - solver.matrices), of.dimension == 2 ? 1 : 2) << step;
     int closed = 0;
     for (const ContactNodeState& node : node_states(*host.model->accepted_laws(), 0)) closed += node.closed;
     EXPECT_GT(host::sum_over_ranks(blocks, closed), 0.0);
