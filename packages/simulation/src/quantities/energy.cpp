@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "mortise/simulation/quantities/quantity_support.hpp"
+#include "quantities/work.hpp"
 
 namespace mortise {
 namespace {
@@ -19,20 +20,7 @@ namespace {
 ///   external work = internal work + friction - (work of contact pressures on both sides)
 /// holds to the tolerance of momentum, whatever the step. [work]
 struct Energy : Quantity {
-  enum class Of {
-    stored,                 ///< int W dV0
-    plastic_work,           ///< int int_0^alpha sigma_y dalpha dV0
-    friction,               ///< of the shear tractions of all pairs with friction
-    external_work,          ///< of loads and supports
-    internal_work,          ///< of the internal forces
-    kinetic,                ///< 1/2 v . M v
-    contact_work,           ///< of all contact forces on the bodies, friction included: what contact takes is negative
-    damping,                ///< taken by damping
-    numerical_dissipation,  ///< external + contact work - change of stored and kinetic energy - plastic work - damping: what time integration takes
-    springs,                ///< stored in springs
-    dashpots,               ///< taken by dashpots; with inertia part of damping
-    stabilisation           ///< taken by viscous stabilisation
-  };
+  using Of = EnergyOf;
   Of of = Of::stored;
   Located<std::string> body;  ///< stored energy and plastic work only; empty: all
 
@@ -64,149 +52,6 @@ struct Energy : Quantity {
 };
 
 std::unique_ptr<QuantityEvaluator> numerical_dissipation(const QuantityContext& context);
-
-/// Adds the forces of dashpots, as the residual has them.
-void add_dashpots(const QuantityContext& context, Vector& force) {
-  const ConnectorsOfStep& connectors = context.connectors;
-  if (connectors.dashpots == nullptr) return;
-  std::optional<StepFailure> failure;  // a converged state has none
-  connectors.dashpots->add_forces(*context.local_displacement, connectors.dashpot_velocity, force, failure);
-}
-
-void add_stabilisation(const QuantityContext& context, Vector& force) {
-  if (context.connectors.stabilisation_force != nullptr) force.update(1.0, *context.connectors.stabilisation_force, 1.0);
-}
-
-/// What counts at reference points themselves. Followers bear what is left of loads and supports after springs, dashpots and inertia at the point, so
-/// that external work lacks these there.
-RCP<const Vector> forces_at_points(Energy::Of of, const QuantityContext& context) {
-  const auto result = rcp(new Vector(context.space().dofs()));
-  if (context.connectors.spring_force != nullptr) result->assign(*context.connectors.spring_force);
-  if (of == Energy::Of::internal_work) return result;
-  if (context.motion != nullptr)
-    result->update(1.0, context.motion->rate_force, 1.0);
-  else
-    add_dashpots(context, *result);
-  return result;
-}
-
-// What a work is done by, on all owned dofs. From outside act loads, and supports on prescribed dofs. Reference points act on their followers, and
-// there their work is counted. A point that is carried round by an angle a with a moment M would do M a. Its followers do M sin a along the chords of
-// their ways, as do all other nodes of the body. With r = f_int - f_ext + f_c the internal forces are r + f_ext - f_c, and what supports and points
-// do is r. Friction takes what its forces on both sides do not give back: f_c of the shear tractions alone.
-RCP<Vector> working_force(Energy::Of of, const QuantityContext& context) {
-  const auto result = rcp(new Vector(context.space().dofs()));
-  const auto add_contact_force = [&](const Vector& multipliers) { context.laws->evaluation().add_force(multipliers, *result); };
-  if (of == Energy::Of::friction) {
-    add_contact_force(*context.laws->evaluation().shear_tractions(context.laws->multipliers()));
-    return result;
-  }
-  if (of == Energy::Of::damping) {
-    if (context.motion != nullptr) result->assign(context.motion->damping_force);
-    return result;
-  }
-  if (of == Energy::Of::dashpots) {
-    add_dashpots(context, *result);
-    return result;
-  }
-  if (of == Energy::Of::stabilisation) {
-    add_stabilisation(context, *result);
-    return result;
-  }
-  if (of == Energy::Of::contact_work) {
-    add_contact_force(context.laws->multipliers());
-    result->scale(-1.0);
-    return result;
-  }
-  if (of == Energy::Of::internal_work) {
-    if (context.contact != nullptr) add_contact_force(context.laws->multipliers());
-    if (context.motion == nullptr) {  // viscous forces of statics are no internal ones
-      add_dashpots(context, *result);
-      add_stabilisation(context, *result);
-    }
-    result->update(1.0, *context.reaction, 1.0, *context.external_force, -1.0);
-    if (context.motion != nullptr) result->update(-1.0, context.motion->rate_force, 1.0);
-  } else {
-    result->assign(*context.external_force);
-    const auto reaction = context.reaction->getLocalViewHost(Tpetra::Access::ReadOnly);
-    const auto values = result->getLocalViewHost(Tpetra::Access::ReadWrite);
-    for (const auto* dofs : {context.prescribed, context.following})
-      for (std::size_t n = 0; dofs != nullptr && n < dofs->size(); ++n) values((*dofs)[n], 0) += reaction((*dofs)[n], 0);
-  }
-  const Mesh& mesh = context.mesh();
-  if (mesh.reference_points.empty()) return result;
-  const RCP<const Vector> own = forces_at_points(of, context);
-  const auto at_points = own->getLocalViewHost(Tpetra::Access::ReadOnly);
-  const auto values = result->getLocalViewHost(Tpetra::Access::ReadWrite);
-  for (const ReferencePoint& point : mesh.reference_points)
-    for (const LocalOrdinal node : {point.node, point.rotation_node})
-      for (int i = 0; i < mesh.dimension && node >= 0 && node < mesh.owned_count(); ++i) {
-        const LocalOrdinal row = context.space().row(node, i);
-        values(row, 0) = at_points(row, 0);
-      }
-  return result;
-}
-
-/// A work, summed up over the steps.
-class WorkEvaluator final : public QuantityEvaluator {
- public:
-  /// Which force does the work of a step.
-  ///   - trapezoidal: the mean of those at its ends. Over the step, with inertia: the one that is in balance, f_n at t_(n+1) - alpha_f h.
-  ///   - central: with inertia over the step, f_n + (1/2 - alpha_f)(f_(n-1) - f_n), the force in its middle: of second order. Else trapezoidal.
-  ///   - at_end: in statics that at its end, which viscous forces have throughout it (velocity dd / dt).
-  enum class Rule { trapezoidal, central, at_end };
-  WorkEvaluator(Energy::Of of, const QuantityContext& context, Rule rule = Rule::trapezoidal)
-      : of_(of), rule_(rule), force_(rcp(new Vector(context.space().dofs()))), displacement_(rcp(new Vector(context.space().dofs()))) {}
-
-  double evaluate(const QuantityContext& context) override {
-    if ((of_ == Energy::Of::friction || of_ == Energy::Of::contact_work) && context.contact == nullptr) return 0.0;
-    const RCP<Vector> now = working_force(of_, context);
-    if (!has_begun_ && context.motion != nullptr) {
-      displacement_->assign(context.motion->displacement_before);
-      if (const Vector* start = force_at_start(*context.motion)) force_->assign(*start);
-    }
-    has_begun_ = true;
-    Vector change(*context.displacement, Teuchos::Copy);
-    change.update(-1.0, *displacement_, 1.0);
-    force_->update(1.0 - share_before(context), *now, share_before(context));
-    work_ += force_->dot(change);
-    has_force_ = true;
-    force_ = now;
-    displacement_->assign(*context.displacement);
-    return work_;
-  }
-
-  void serialize(StateArchive& archive, const std::string& name) override {
-    int has_begun = has_begun_ ? 1 : 0;
-    mortise::serialize(archive, name + ".has_begun", has_begun);
-    has_begun_ = has_begun != 0;
-    has_force_ = has_begun_;
-    mortise::serialize(archive, name + ".work", work_);
-    mortise::serialize(archive, name + ".force", "dofs", *force_);
-    mortise::serialize(archive, name + ".displacement", "dofs", *displacement_);
-  }
-
- private:
-  /// Of the force before in the work of a step.
-  double share_before(const QuantityContext& context) const {
-    if (context.motion == nullptr) return rule_ == Rule::at_end ? 0.0 : 0.5;
-    if (!context.motion->is_over_step) return 0.5;
-    return rule_ == Rule::central && has_force_ ? 0.5 - context.motion->alpha_f : 0.0;
-  }
-
-  /// Null: 0, or not known. Contact and supports have none.
-  const Vector* force_at_start(const MotionOfStep& motion) const {
-    if (of_ == Energy::Of::external_work) return motion.external_force_before;
-    return of_ == Energy::Of::damping || of_ == Energy::Of::dashpots ? motion.damping_force_before : nullptr;
-  }
-
-  Energy::Of of_;
-  Rule rule_;
-  double work_ = 0.0;
-  bool has_begun_ = false;
-  bool has_force_ = false;            ///< `force_` is that of a step before
-  RCP<Vector> force_, displacement_;  ///< at the last step
-};
 
 std::unique_ptr<QuantityEvaluator> energy(Energy::Of of, const QuantityContext& context) {
   Energy energy;
@@ -312,10 +157,7 @@ std::unique_ptr<QuantityEvaluator> Energy::make_evaluator(const QuantityContext&
   if (of != Of::stored && of != Of::plastic_work) {
     const bool is_viscous = context.mass == nullptr && (of == Of::dashpots || of == Of::stabilisation);
     const bool varies = of == Of::external_work || of == Of::damping || of == Of::dashpots;
-    return std::make_unique<WorkEvaluator>(of, context,
-                                           is_viscous ? WorkEvaluator::Rule::at_end
-                                           : varies   ? WorkEvaluator::Rule::central
-                                                      : WorkEvaluator::Rule::trapezoidal);
+    return work(of, context, is_viscous ? WorkRule::at_end : varies ? WorkRule::central : WorkRule::trapezoidal);
   }
   return evaluator_of([of = of, of_body](const QuantityContext& at) {
     const auto energies = of == Of::stored ? at.bodies.stored_energies(*at.local_displacement) : at.bodies.plastic_works(*at.local_displacement);
@@ -357,7 +199,7 @@ class EnergyErrorEvaluator final : public QuantityEvaluator {
     for (const Energy::Of of : spent) spent_.push_back(energy(of, context));
   }
   /// Works by the same rule as the external work, with which they are in balance.
-  void add_work(Energy::Of of, const QuantityContext& context) { spent_.push_back(std::make_unique<WorkEvaluator>(of, context)); }
+  void add_work(Energy::Of of, const QuantityContext& context) { spent_.push_back(work(of, context)); }
   void add(std::unique_ptr<QuantityEvaluator> energy) { spent_.push_back(std::move(energy)); }
   void add_mechanical_energy() { mechanical_ = std::make_unique<MechanicalEnergyChange>(); }
 
@@ -394,7 +236,7 @@ std::unique_ptr<QuantityEvaluator> EnergyError::make_evaluator(const QuantityCon
   if (context.connectors.dashpots != nullptr && context.mass == nullptr) viscous.push_back(Of::dashpots);
   if (context.connectors.are_stabilised) viscous.push_back(Of::stabilisation);
   const auto with_viscous = [&](const std::vector<Of>& spent) {
-    auto result = std::make_unique<EnergyErrorEvaluator>(std::make_unique<WorkEvaluator>(Of::external_work, context), spent, context);
+    auto result = std::make_unique<EnergyErrorEvaluator>(work(Of::external_work, context), spent, context);
     for (const Of of : viscous) result->add_work(of, context);
     return result;
   };
