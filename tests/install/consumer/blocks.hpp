@@ -13,6 +13,7 @@
 
 #include "mortise/contact/contact_system.hpp"
 #include "mortise/core/dof_map.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 
 namespace host {
 

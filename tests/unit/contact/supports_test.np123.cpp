@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mortise/contact/complementarity.hpp"
 #include "two_surfaces.hpp"
 
 namespace mortise {

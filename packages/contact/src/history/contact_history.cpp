@@ -10,8 +10,11 @@
 #include <utility>
 
 #include "evaluation/evaluated_contact.hpp"
+#include "pairs/pair_history.hpp"
 
 namespace mortise {
+
+ContactHistory::ContactHistory(AcceptedContact accepted) : accepted_(std::make_shared<const AcceptedContact>(std::move(accepted))) {}
 
 namespace detail {
 namespace {
