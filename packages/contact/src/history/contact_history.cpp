@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "evaluation/evaluated_contact.hpp"
-#include "pairs/pair_history.hpp"
 
 namespace mortise {
 

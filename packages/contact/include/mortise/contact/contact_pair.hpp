@@ -12,7 +12,6 @@
 #include "mortise/core/parameters.hpp"
 #include "mortise/core/scalar_function.hpp"
 #include "mortise/mortar/mortar_options.hpp"
-#include "mortise/shape/surface_facet.hpp"
 
 namespace mortise {
 
