@@ -7,7 +7,7 @@ function(mortise_compile_together target)
 endfunction()
 
 # mortise_add_package(<name> [POSITION_INDEPENDENT] USES <packages and libraries> [PRIVATE_USES <libraries>]
-#   [FINDS <what find_package finds of these>])
+#   [FINDS <what mortise_find finds of these>])
 # A library Mortise::<name> from the sources below packages/<name>/src with the public headers below packages/<name>/include/mortise/<name>.
 # Large packages have rooms: folders of src and of include/mortise/<name>. MORTISE_FINDS_<name> is all that has to be found to link it.
 # A shared library can hold those that are POSITION_INDEPENDENT.
@@ -15,7 +15,7 @@ function(mortise_add_package name)
   cmake_parse_arguments(PARSE_ARGV 1 package "POSITION_INDEPENDENT" "" "USES;PRIVATE_USES;FINDS")
   set(finds ${package_FINDS})
   foreach(found IN LISTS package_FINDS)
-    find_package(${found} REQUIRED)
+    mortise_require(${found})
   endforeach()
   foreach(used IN LISTS package_USES)
     if(used MATCHES "^Mortise::(.*)$")
@@ -30,6 +30,8 @@ function(mortise_add_package name)
   set(link_type PUBLIC)
   if(sources)
     add_library(mortise_${name} ${sources})
+    # Where libraries are shared. Before 1.0 each second number may change interfaces.
+    set_target_properties(mortise_${name} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
     if(package_POSITION_INDEPENDENT)
       mortise_position_independent(mortise_${name})
       mortise_use_precompiled_headers(mortise_${name} position_independent)
@@ -47,6 +49,14 @@ function(mortise_add_package name)
     target_link_libraries(mortise_${name} PRIVATE ${package_PRIVATE_USES})
   endif()
   set_target_properties(mortise_${name} PROPERTIES EXPORT_NAME ${name})
-  install(TARGETS mortise_${name} EXPORT MortiseTargets)
-  install(DIRECTORY include/mortise DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  install(TARGETS mortise_${name} EXPORT MortiseTargets COMPONENT development)
+  install(DIRECTORY include/mortise DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 endfunction()
+
+# Finds it, or ends with a message that says what is missing and where it comes from.
+macro(mortise_require what)
+  mortise_find(${what})
+  if(mortise_missing)
+    message(FATAL_ERROR "Mortise needs ${mortise_missing}")
+  endif()
+endmacro()

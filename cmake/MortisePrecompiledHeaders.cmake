@@ -8,7 +8,7 @@ set(mortise_program_headers <algorithm> <array> <cmath> <filesystem> <fstream> <
   <fmt/format.h> <fmt/ranges.h> <Eigen/Dense> <Teuchos_CommHelpers.hpp> <Teuchos_ParameterList.hpp>
   <Tpetra_Core.hpp> <Tpetra_CrsGraph.hpp> <Tpetra_CrsMatrix.hpp> <Tpetra_Import.hpp> <Tpetra_Map.hpp> <Tpetra_MultiVector.hpp> <Tpetra_Vector.hpp>)
 
-set(mortise_program_libraries Mortise::trilinos Eigen3::Eigen fmt::fmt)
+set(mortise_program_libraries Mortise::trilinos_Tpetra Eigen3::Eigen fmt::fmt)
 
 set(mortise_position_independent_headers ${mortise_program_headers})
 set(mortise_position_independent_libraries ${mortise_program_libraries})

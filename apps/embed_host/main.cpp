@@ -1,5 +1,7 @@
 // Two boxes pressed onto one another and drawn along, by Piro. The line that gives the model contact is marked.
-//   embed_host steps FILE      equal steps; writes positions, displacements and multipliers of this rank's nodes to FILE.<rank>
+//   embed_host steps FILE [FORMULATION [OFFSET]]
+//                              equal steps; writes positions, displacements and multipliers of this rank's nodes to FILE.<rank>. FORMULATION is dual,
+//                              penalty or augmented; the upper box reaches over the lower one by OFFSET, 0.28 if it is not given
 //   embed_host rejects         steps of time, some of which fail and are taken again; compares with the steps that were accepted alone
 //   embed_host cost N...       the cost of W with contact, over that of W without it, at N cells along an edge
 
@@ -121,10 +123,18 @@ mortise::HostDisplacements displacements(const embed::Elasticity& elasticity) {
   return {mortise::NodalField("displacement", map, 3, ids), reference, fixed, {}, {}};
 }
 
-std::vector<mortise::ContactPair> pairs(const embed::Elasticity& elasticity) {
+mortise::Choice<mortise::Formulation> formulation(const std::string& name) {
+  if (name == "penalty") return {name, std::make_shared<mortise::Penalty>(), {}};
+  if (name == "augmented") return {name, std::make_shared<mortise::AugmentedLagrange>(), {}};
+  if (name == "dual") return {name, std::make_shared<mortise::DualMortar>(), {}};
+  throw std::invalid_argument("there is no formulation " + name);
+}
+
+std::vector<mortise::ContactPair> pairs(const embed::Elasticity& elasticity, const std::string& name) {
   mortise::ContactPair pair;
   pair.name = "joint";
   pair.youngs_modulus = 1000.0;
+  pair.options.formulation = formulation(name);
   const auto coulomb = std::make_shared<mortise::CoulombFriction>();
   coulomb->coefficient = mortise::ScalarFunction(0.3);
   pair.options.friction = {"coulomb", coulomb, {}};
@@ -147,18 +157,28 @@ struct Solution : Piro::ObserverBase<double> {
 };
 
 struct Application {
-  Application(int nLower, int nUpper, int maxIterations) {
-    const auto mesh = std::make_shared<embed::Mesh>(nLower, nUpper, 0.28);
+  Application(int nLower, int nUpper, int maxIterations, const std::string& name = "dual", double offset = 0.28) {
+    const auto mesh = std::make_shared<embed::Mesh>(nLower, nUpper, offset);
     elasticity = Teuchos::rcp(new embed::Elasticity(mesh, Tpetra::getDefaultComm(), linearSolver()));
     RCP<Thyra::ModelEvaluator<double>> model = elasticity;
-    model = contact = mortise::with_contact(model, displacements(*elasticity), pairs(*elasticity));  // the line
-    const RCP<Piro::ObserverBase<double>> observer = Teuchos::rcp(new mortise::PiroObserver(contact, solution));
+    model = contact = mortise::with_contact(model, displacements(*elasticity), pairs(*elasticity, name));  // the line
+    // Multipliers of augmented Lagrange are updated until they are exact, before a step is accepted.
+    const RCP<Piro::ObserverBase<double>> accepts = Teuchos::rcp(new mortise::PiroObserver(contact, solution));
+    const RCP<Piro::ObserverBase<double>> observer = name == "augmented" ? solution : accepts;
+    updates = name == "augmented";
     solver = Teuchos::rcp(new Piro::NOXSolver<double>(piroParameters(maxIterations), model, observer));
   }
 
   // Pressed until t = 1, drawn until t = 2.
   bool solve(double t) {
     elasticity->setMotion(0.005 * std::min(1.0, t), 0.02 * std::max(0.0, t - 1.0));
+    if (!solveOnce()) return false;
+    while (updates && contact->update_multipliers(*solution->x))
+      if (!solveOnce()) return false;
+    if (updates) contact->accept_step(*solution->x);
+    return true;
+  }
+  bool solveOnce() {
     solution->x = Teuchos::null;
     auto out = solver->createOutArgs();
     const auto x = Thyra::createMember(*elasticity->get_x_space());
@@ -176,10 +196,11 @@ struct Application {
   RCP<Solution> solution = Teuchos::rcp(new Solution);
   RCP<Piro::NOXSolver<double>> solver;
   int iterations = 0;
+  bool updates = false;
 };
 
-int runSteps(const std::string& file) {
-  Application app(4, 3, 20);
+int runSteps(const std::string& file, const std::string& name, double offset) {
+  Application app(4, 3, 20, name, offset);
   for (int step = 1; step <= 8; ++step)
     if (!app.solve(0.25 * step)) {
       std::fprintf(stderr, "step %d does not converge: %s\n", step, app.contact->failure() ? app.contact->failure()->what() : "");
@@ -275,7 +296,7 @@ int main(int argc, char** argv) {
   Tpetra::ScopeGuard scope(&argc, &argv);
   const std::string mode = argc > 1 ? argv[1] : "";
   try {
-    if (mode == "steps" && argc == 3) return runSteps(argv[2]);
+    if (mode == "steps" && argc >= 3) return runSteps(argv[2], argc > 3 ? argv[3] : "dual", argc > 4 ? std::stod(argv[4]) : 0.28);
     if (mode == "rejects") return runRejects();
     int result = mode == "cost" ? 0 : 2;
     for (int i = 2; mode == "cost" && i < argc; ++i) result |= runCost(std::stoi(argv[i]));

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "declarations.hpp"
+#include "launch.hpp"
 #include "mortise/simulation/run/run.hpp"
 #include "mortise/simulation/scene/read_scene.hpp"
 #include "mortise/simulation/scene/scene.hpp"
@@ -105,6 +106,7 @@ void add_run_command(CLI::App& app, Program& program) {
   const auto options = std::make_shared<RunOptions>();
   options->version = version();
   options->supervised = true;
+  if (const auto together = started_together()) options->launcher = together->launcher;
   add_input_arguments(*command, "SCENE", "scene file", *options);
   add_output_arguments(*command, "SCENE", *options);
   add_restart_arguments(*command, *options);

@@ -27,7 +27,7 @@ constexpr std::array<LauncherVariables, 5> launchers{{
     {"mpiexec", "PMI_SIZE", "PMI_RANK", "the mpirun of the MPI which this program was built with"},
     {"srun", "SLURM_STEP_NUM_TASKS", "SLURM_PROCID", "srun --mpi=pmix (srun --mpi=list says what there is), or mpirun within the job"},
     {"flux run", "FLUX_JOB_SIZE", "FLUX_TASK_RANK", "flux run -o pmi=pmix, or mpirun within the job"},
-    {"PALS", "PALS_LOCAL_SIZE", "PALS_RANKID", "mpiexec --pmi=pmix, or the mpirun of the MPI which this program was built with"},
+    {"mpiexec", "PALS_LOCAL_SIZE", "PALS_RANKID", "mpiexec --pmi=pmix, or the mpirun of the MPI which this program was built with"},
 }};
 
 /// A number in the environment.

@@ -17,7 +17,7 @@ run("${CMAKE_COMMAND}" -S "${CONSUMER}" -B "${SCRATCH}/build" -G "${GENERATOR}" 
   -DCMAKE_DISABLE_FIND_PACKAGE_LibXml2=ON -DCMAKE_DISABLE_FIND_PACKAGE_muparser=ON -DCMAKE_DISABLE_FIND_PACKAGE_nlohmann_json=ON
   -DCMAKE_DISABLE_FIND_PACKAGE_PkgConfig=ON)
 run("${CMAKE_COMMAND}" --build "${SCRATCH}/build")
-foreach(program consumer contact_alone)
+foreach(program first_contact consumer contact_alone)
   run("${SCRATCH}/build/${program}")
   run("${MPIEXEC}" -n 2 "${SCRATCH}/build/${program}")
 endforeach()

@@ -3,10 +3,12 @@
 #include <Tpetra_Map.hpp>
 #include <vector>
 
+#include "mortise/core/trilinos_versions.hpp"
+
 namespace mortise {
 
 RCP<const Map> make_dof_map(const Map& nodes, int dimension) {
-  const auto node_ids = nodes.getNodeElementList();
+  const auto node_ids = local_ids(nodes);
   std::vector<GlobalOrdinal> ids;
   ids.reserve(dimension * node_ids.size());
   for (const GlobalOrdinal node : node_ids)

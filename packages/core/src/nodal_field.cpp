@@ -9,13 +9,15 @@
 #include <stdexcept>
 #include <utility>
 
+#include "mortise/core/trilinos_versions.hpp"
+
 namespace mortise {
 
 NodalField::NodalField(std::string name, RCP<const Map> nodes, int components, std::vector<GlobalOrdinal> ids)
     : name_(std::move(name)), nodes_(std::move(nodes)), components_(components), ids_(std::move(ids)) {
-  if (ids_.size() != nodes_->getNodeNumElements() * static_cast<std::size_t>(components_))
+  if (ids_.size() != local_id_count(*nodes_) * static_cast<std::size_t>(components_))
     throw std::invalid_argument(
-        fmt::format("field '{}': {} ids for {} nodes of {} components", name_, ids_.size(), nodes_->getNodeNumElements(), components_));
+        fmt::format("field '{}': {} ids for {} nodes of {} components", name_, ids_.size(), local_id_count(*nodes_), components_));
   const auto wrong = std::find_if(ids_.begin(), ids_.end(), [](GlobalOrdinal id) { return id < none; });
   if (wrong != ids_.end())
     throw std::invalid_argument(
@@ -33,7 +35,7 @@ std::vector<GlobalOrdinal> NodalField::ids_on(const RCP<const Map>& nodes) const
   }
   result.doImport(owned, Import(nodes_, nodes), Tpetra::INSERT);
   std::vector<GlobalOrdinal> ids;
-  ids.reserve(columns * nodes->getNodeNumElements());
+  ids.reserve(columns * local_id_count(*nodes));
   const auto view = result.getLocalViewHost(Tpetra::Access::ReadOnly);
   for (std::size_t node = 0; node < view.extent(0); ++node)
     for (std::size_t i = 0; i < columns; ++i) ids.push_back(static_cast<GlobalOrdinal>(view(node, i)));
@@ -42,8 +44,8 @@ std::vector<GlobalOrdinal> NodalField::ids_on(const RCP<const Map>& nodes) const
 
 NodalField numbered_by_nodes(std::string name, const RCP<const Map>& nodes, int components) {
   std::vector<GlobalOrdinal> ids;
-  ids.reserve(nodes->getNodeNumElements() * static_cast<std::size_t>(components));
-  for (const GlobalOrdinal node : nodes->getNodeElementList())
+  ids.reserve(local_id_count(*nodes) * static_cast<std::size_t>(components));
+  for (const GlobalOrdinal node : local_ids(*nodes))
     for (int i = 0; i < components; ++i) ids.push_back(components * node + i);
   return {std::move(name), nodes, components, std::move(ids)};
 }
@@ -55,11 +57,11 @@ FieldTable make_field_table(const RCP<const Map>& nodes, const std::vector<Field
   std::vector<GlobalOrdinal> dofs;
   for (const FieldDeclaration& field : declarations) {
     if (field.components < 1) throw std::invalid_argument(fmt::format("field '{}' has {} components", field.name, field.components));
-    if (!field.lives.empty() && field.lives.size() != nodes->getNodeNumElements())
+    if (!field.lives.empty() && field.lives.size() != local_id_count(*nodes))
       throw std::invalid_argument(
-          fmt::format("field '{}': {} marks of where it lives for {} owned nodes", field.name, field.lives.size(), nodes->getNodeNumElements()));
+          fmt::format("field '{}': {} marks of where it lives for {} owned nodes", field.name, field.lives.size(), local_id_count(*nodes)));
     std::vector<GlobalOrdinal> ids;
-    for (std::size_t node = 0; node < nodes->getNodeNumElements(); ++node)
+    for (std::size_t node = 0; node < local_id_count(*nodes); ++node)
       for (int i = 0; i < field.components; ++i) {
         const bool lives = field.lives.empty() || field.lives[node] != 0;
         ids.push_back(lives ? first + field.components * nodes->getGlobalElement(static_cast<LocalOrdinal>(node)) + i : NodalField::none);

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mortise/core/trilinos_versions.hpp"
+
 namespace mortise {
 
 std::string not_whole(const std::string& name, double value) {
@@ -29,7 +31,7 @@ void serialize(StateArchive& archive, const std::string& name, std::optional<dou
 }
 
 void serialize(StateArchive& archive, const std::string& name, const std::string& rows, Vector& vector) {
-  const auto ids = vector.getMap()->getNodeElementList();
+  const auto ids = local_ids(*vector.getMap());
   std::vector<double> values(static_cast<std::size_t>(ids.size()));
   if (!archive.restores()) {
     const auto view = vector.getLocalViewHost(Tpetra::Access::ReadOnly);

@@ -3,13 +3,15 @@
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Map.hpp>
 
+#include "mortise/core/trilinos_versions.hpp"
+
 namespace mortise {
 
 mortise_matrix CompressedRows::view() const { return {static_cast<std::int64_t>(starts.size()) - 1, starts.data(), columns.data(), values.data()}; }
 
 CompressedRows compressed_rows(const Matrix& matrix) {
   CompressedRows result{{0}, {}, {}};
-  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(matrix.getNodeNumRows()); ++row) {
+  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(local_row_count(matrix)); ++row) {
     Matrix::local_inds_host_view_type columns;
     Matrix::values_host_view_type values;
     matrix.getLocalRowView(row, columns, values);

@@ -5,6 +5,7 @@
 #include <Tpetra_Vector.hpp>
 
 #include "mortise/core/over_ranks.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 #include "options.hpp"
 
 namespace mortise {
@@ -74,7 +75,7 @@ void PlainContact::Implementation::set_up() {
                                                     pairs[p].name));
   contact.emplace(*field, rows, reference, fixed, measure.measure, pairs, Timers());
   const GlobalOrdinal first = rows->getMaxAllGlobalIndex() + 1;
-  for (const GlobalOrdinal id : contact->multiplier_map()->getNodeElementList()) {
+  for (const GlobalOrdinal id : local_ids(*contact->multiplier_map())) {
     multiplier_ids.push_back(id);
     multiplier_nodes.push_back((id - first) / dimension);
   }
@@ -90,7 +91,7 @@ void PlainContact::Implementation::forget_iterates() {
 
 mortise_norms PlainContact::Implementation::evaluate(const PlainState& state, Span<double> f, Span<double> C, bool derivatives) {
   check(derivatives ? "mortise_differentiate" : "mortise_evaluate",
-        first_of({in_step(), wrong_state(state), wrong_numbers("z", state.z, multipliers()), wrong_optional("f", f, rows->getNodeNumElements()),
+        first_of({in_step(), wrong_state(state), wrong_numbers("z", state.z, multipliers()), wrong_optional("f", f, local_id_count(*rows)),
                   wrong_optional("C", C, multipliers())}));
   laws.reset();
   if (derivatives) differentiated.reset();
@@ -123,7 +124,7 @@ ContactLinearisation PlainContact::Implementation::linearise() {
 
 NodeElimination::Solve PlainContact::Implementation::guarded(const Solve& solver, std::optional<Problem>& problem, bool& failed) const {
   return [&solver, &problem, &failed, this](const Vector& right, Vector& dd) {
-    std::vector<double> solution(rows->getNodeNumElements(), 0.0);
+    std::vector<double> solution(local_id_count(*rows), 0.0);
     const auto view = right.getLocalViewHost(Tpetra::Access::ReadOnly);
     if (!failed) {
       try {

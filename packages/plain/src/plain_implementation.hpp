@@ -13,6 +13,7 @@
 #include "compressed_rows.hpp"
 #include "host_system.hpp"
 #include "mortise/contact/contact_system.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 #include "mortise/plain/plain_contact.hpp"
 
 namespace mortise {
@@ -71,8 +72,8 @@ struct PlainContact::Implementation {
   }
   std::size_t multipliers() const { return multiplier_ids.size(); }
   std::optional<Problem> wrong_state(const PlainState& state) const {
-    const std::size_t of_nodes = static_cast<std::size_t>(dimension) * nodes->getNodeNumElements();
-    return first_of({wrong_numbers("d", state.d, rows->getNodeNumElements()), wrong_optional("prescribed", state.prescribed, of_nodes),
+    const std::size_t of_nodes = static_cast<std::size_t>(dimension) * local_id_count(*nodes);
+    return first_of({wrong_numbers("d", state.d, local_id_count(*rows)), wrong_optional("prescribed", state.prescribed, of_nodes),
                      unless_finite("prescribed", state.prescribed)});
   }
 

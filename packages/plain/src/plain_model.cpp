@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "communicator.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 #include "options.hpp"
 #include "plain_implementation.hpp"
 
@@ -79,8 +80,8 @@ void PlainContact::ready() {
   self.agreement.run([&] { self.set_up(); });
 }
 
-std::size_t PlainContact::rows() const { return implementation_->rows->getNodeNumElements(); }
-std::size_t PlainContact::nodes() const { return implementation_->nodes->getNodeNumElements(); }
+std::size_t PlainContact::rows() const { return local_id_count(*implementation_->rows); }
+std::size_t PlainContact::nodes() const { return local_id_count(*implementation_->nodes); }
 int PlainContact::dimension() const { return implementation_->dimension; }
 const std::vector<std::int64_t>& PlainContact::multiplier_ids() const { return implementation_->multiplier_ids; }
 const std::vector<std::int64_t>& PlainContact::multiplier_nodes() const { return implementation_->multiplier_nodes; }

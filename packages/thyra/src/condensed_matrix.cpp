@@ -5,6 +5,8 @@
 #include <Tpetra_Map.hpp>
 #include <algorithm>
 
+#include "mortise/core/trilinos_versions.hpp"
+
 namespace mortise::detail {
 
 bool CondensedMatrix::open(const ContactSystem& contact, const ContactEvaluation& at, const Matrix& bulk) {
@@ -15,7 +17,7 @@ bool CondensedMatrix::open(const ContactSystem& contact, const ContactEvaluation
   const bool is_new = matrix_.is_null() || matrix_->getCrsGraph() != graph;
   if (is_new || bulk_graph_ != bulk_graph) {
     columns_.clear();
-    for (const GlobalOrdinal id : bulk_graph->getColMap()->getNodeElementList()) columns_.push_back(graph->getColMap()->getLocalElement(id));
+    for (const GlobalOrdinal id : local_ids(*bulk_graph->getColMap())) columns_.push_back(graph->getColMap()->getLocalElement(id));
   }
   bulk_graph_ = bulk_graph;
   if (is_new)
@@ -29,7 +31,7 @@ bool CondensedMatrix::open(const ContactSystem& contact, const ContactEvaluation
 void CondensedMatrix::add(const Matrix& bulk, double weight) {
   std::vector<LocalOrdinal> to;
   std::vector<double> scaled;
-  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(bulk.getNodeNumRows()); ++row) {
+  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(local_row_count(bulk)); ++row) {
     Matrix::local_inds_host_view_type columns;
     Matrix::values_host_view_type values;
     bulk.getLocalRowView(row, columns, values);

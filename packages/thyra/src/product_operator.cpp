@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "mortise/core/trilinos_versions.hpp"
 #include "tpetra_of_thyra.hpp"
 
 namespace mortise::detail {
@@ -79,7 +80,7 @@ RCP<const ::Thyra::LinearOpBase<Scalar>> ProductOperator::condensed() const {
     solved_ = rcp(new Matrix(graph));
   else
     solved_->resumeFill();
-  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(graph->getNodeNumRows()); ++row) copy_row(*whole_.matrix(), row, *solved_);
+  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(local_row_count(*graph)); ++row) copy_row(*whole_.matrix(), row, *solved_);
   Vector none(memory_->dofs);
   elimination_ = linearised_->condense(*solved_, none);
   for (const LocalOrdinal row : memory_->prescribed) copy_row(*whole_.matrix(), row, *solved_);
@@ -92,24 +93,24 @@ RCP<const ::Thyra::LinearOpBase<Scalar>> ProductOperator::merged() const {
   const RCP<const Map>&dofs = memory_->dofs, &multipliers = memory_->contact.multiplier_map();
   std::vector<GlobalOrdinal> ids;  // those of multipliers lie above those of dofs
   for (const auto& map : {dofs, multipliers})
-    for (const GlobalOrdinal id : map->getNodeElementList()) ids.push_back(id);
+    for (const GlobalOrdinal id : local_ids(*map)) ids.push_back(id);
   std::vector<std::size_t> sizes;
-  for (std::size_t row = 0; row < dofs->getNodeNumElements(); ++row)
+  for (std::size_t row = 0; row < local_id_count(*dofs); ++row)
     sizes.push_back(K.getNumEntriesInLocalRow(static_cast<LocalOrdinal>(row)) + blocks_.B->getNumEntriesInLocalRow(static_cast<LocalOrdinal>(row)));
-  for (std::size_t row = 0; row < multipliers->getNodeNumElements(); ++row)
+  for (std::size_t row = 0; row < local_id_count(*multipliers); ++row)
     sizes.push_back(blocks_.C_d->getNumEntriesInLocalRow(static_cast<LocalOrdinal>(row)) +
                     blocks_.C_z->getNumEntriesInLocalRow(static_cast<LocalOrdinal>(row)));
   const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
   const auto map = rcp(new Map(invalid, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, dofs->getComm()));
   solved_ = rcp(new Matrix(map, Teuchos::arrayViewFromVector(sizes)));
-  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(dofs->getNodeNumElements()); ++row) {
+  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(local_id_count(*dofs)); ++row) {
     const GlobalOrdinal id = dofs->getGlobalElement(row);
     add_row(K, row, 1.0, id, *solved_);
     if (std::find(memory_->prescribed.begin(), memory_->prescribed.end(), row) == memory_->prescribed.end())
       add_row(*blocks_.B, row, 1.0, id, *solved_);
   }
   const RCP<const Vector> weights = memory_->contact.weights();
-  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(multipliers->getNodeNumElements()); ++row) {
+  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(local_id_count(*multipliers)); ++row) {
     const GlobalOrdinal id = multipliers->getGlobalElement(row);
     const double area = weights->getData()[row];
     add_row(*blocks_.C_d, row, area, id, *solved_);

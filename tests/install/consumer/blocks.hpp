@@ -13,6 +13,7 @@
 
 #include "mortise/contact/contact_system.hpp"
 #include "mortise/core/dof_map.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 
 namespace host {
 
@@ -59,27 +60,41 @@ struct Blocks {
     return up == 0.0 || up == height;
   }
 
-  /// The upper block's lower face (slave) on the lower block's upper face. In the plane bodies are on the left of the way along the nodes, in space
-  /// nodes go round the outward normal.
+  /// Prescribed displacements: the upper block's upper face goes down.
+  Vector pressed(double down) const {
+    Vector target(dofs);
+    for (const GlobalOrdinal id : local_ids(*dofs))
+      if (block_of(id / dimension) == 1 && held(id / dimension) && id % dimension == dimension - 1) target.replaceGlobalValue(id, -down);
+    return target;
+  }
+
+  /// Facets of the lower block's upper face (block 0), each on one rank, or of the upper block's lower face (1), each on the ranks that own a node of
+  /// it. In the plane bodies are on the left of the way along the nodes, in space nodes go round the outward normal.
+  SurfaceFacets face(int block) const {
+    SurfaceFacets facets;
+    for (int k = 0; k < count(cells[block]) / cells[block]; ++k) {
+      Place at = place(k, cells[block]);
+      at[dimension - 1] = block == 0 ? cells[0] : 0;
+      std::vector<GlobalOrdinal> around = corners(block, at, dimension - 1);
+      if (dimension == 3) std::swap(around[2], around[3]);  // against the clock, seen from above
+      if ((dimension == 3) == (block == 1)) std::reverse(around.begin(), around.end());
+      const SurfaceFacet facet(around.begin(), around.end());
+      const bool any_mine = std::any_of(facet.begin(), facet.end(), [&](GlobalOrdinal one) { return mine(one); });
+      if (block == 1 ? any_mine : mine(facet[0])) facets.push_back(facet);
+    }
+    return facets;
+  }
+
+  /// The upper block's lower face (slave) on the lower block's upper face, with Coulomb friction.
   ContactPair pair(double coefficient) const {
-    ContactPair pair;
-    pair.name = "joint";
-    pair.youngs_modulus = E;
     const auto coulomb = std::make_shared<CoulombFriction>();
     coulomb->coefficient = ScalarFunction(coefficient);
+    ContactPair pair;
+    pair.name = "joint";
+    pair.slave = face(1);
+    pair.master = face(0);
+    pair.youngs_modulus = E;
     pair.options.friction = {"coulomb", coulomb, {}};
-    for (const int block : {0, 1})
-      for (int k = 0; k < count(cells[block]) / cells[block]; ++k) {
-        Place at = place(k, cells[block]);
-        at[dimension - 1] = block == 0 ? cells[0] : 0;
-        std::vector<GlobalOrdinal> around = corners(block, at, dimension - 1);
-        if (dimension == 3) std::swap(around[2], around[3]);  // against the clock, seen from above
-        if ((dimension == 3) == (block == 1)) std::reverse(around.begin(), around.end());
-        const SurfaceFacet facet(around.begin(), around.end());
-        const bool any_mine = std::any_of(facet.begin(), facet.end(), [&](GlobalOrdinal one) { return mine(one); });
-        if (block == 1 && any_mine) pair.slave.push_back(facet);
-        if (block == 0 && mine(facet[0])) pair.master.push_back(facet);
-      }
     return pair;
   }
 

@@ -27,9 +27,9 @@ int run() {
 
   Vector d(blocks.dofs), z(contact.multiplier_map());
   const ContactHistory history = contact.initial_history(d);
-  for (const GlobalOrdinal id : blocks.dofs->getNodeElementList())
+  for (const GlobalOrdinal id : local_ids(*blocks.dofs))
     if (id % 2 == 1 && blocks.block_of(id / 2) == 1) d.replaceGlobalValue(id, -depth);
-  for (const GlobalOrdinal id : contact.multiplier_map()->getNodeElementList())
+  for (const GlobalOrdinal id : local_ids(*contact.multiplier_map()))
     if (id % 2 == 1) z.replaceGlobalValue(id, -pressure);  // ids follow those of the dofs, of which there are two a node
 
   const ContactLaws laws = contact.evaluate(d, history).laws(z);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "mortise/core/error.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 #include "mortise/nonlinear/linear_solver_factory.hpp"
 #include "solve_step.hpp"
 
@@ -16,7 +17,7 @@ constexpr double friction = 0.3;
 // The sum of the reactions of the lower (0) or upper (1) face.
 std::array<double, 3> reaction(const Blocks& blocks, const Vector& r, int block) {
   std::array<double, 3> mine{};
-  for (std::size_t row = 0; row < blocks.dofs->getNodeNumElements(); ++row) {
+  for (std::size_t row = 0; row < local_id_count(*blocks.dofs); ++row) {
     const GlobalOrdinal id = blocks.dofs->getGlobalElement(static_cast<LocalOrdinal>(row));
     const GlobalOrdinal node = id / blocks.dimension;
     if (blocks.held(node) && blocks.block_of(node) == block) mine[id % blocks.dimension] += r.getData()[row];
@@ -50,7 +51,7 @@ bool run(int dimension) {
   bool all_right = true;
   double time = 0.0, step = 0.25;
   while (time < 2.0) {
-    for (const GlobalOrdinal id : blocks.dofs->getNodeElementList())
+    for (const GlobalOrdinal id : local_ids(*blocks.dofs))
       if (const GlobalOrdinal node = id / dimension, i = id % dimension; blocks.held(node) && blocks.block_of(node) == 1)
         target.replaceGlobalValue(id, i == 0 ? right * std::max(0.0, time + step - 1.0) : i == up ? -down * std::min(1.0, time + step) : 0.0);
     const Vector d_start(d, Teuchos::Copy), z_start(z, Teuchos::Copy);

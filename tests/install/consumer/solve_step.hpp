@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "blocks.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 #include "mortise/nonlinear/linear_solver.hpp"
 
 namespace host {
@@ -21,7 +22,7 @@ inline double sum_over_ranks(const Blocks& blocks, double mine) {
 
 // Rows of prescribed dofs: s dd = s (prescribed - d). They are the application's, and replaced after condense().
 inline void prescribe(const Blocks& blocks, const Vector& target, const Vector& d, Matrix& A, Vector& rhs) {
-  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(blocks.dofs->getNodeNumElements()); ++row) {
+  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(local_id_count(*blocks.dofs)); ++row) {
     const GlobalOrdinal id = blocks.dofs->getGlobalElement(row);
     if (!blocks.held(id / blocks.dimension)) continue;
     Matrix::local_inds_host_view_type columns;
@@ -38,7 +39,7 @@ inline void prescribe(const Blocks& blocks, const Vector& target, const Vector& 
 // |r| of free dofs, and by how much prescribed dofs are off.
 inline std::array<double, 2> residuals(const Blocks& blocks, const Vector& r, const Vector& target, const Vector& d) {
   double free = 0.0, off = 0.0;
-  for (std::size_t row = 0; row < blocks.dofs->getNodeNumElements(); ++row)
+  for (std::size_t row = 0; row < local_id_count(*blocks.dofs); ++row)
     if (blocks.held(blocks.dofs->getGlobalElement(static_cast<LocalOrdinal>(row)) / blocks.dimension))
       off += std::abs(target.getData()[row] - d.getData()[row]);
     else

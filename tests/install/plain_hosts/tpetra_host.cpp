@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "../consumer/solve_step.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 #include "mortise/nonlinear/linear_solver_factory.hpp"
 
 namespace host {
@@ -25,17 +26,17 @@ int run(int dimension) {
   ContactHistory history = contact.initial_history(d);
   for (int step = 1; step <= 8; ++step) {
     const double time = 0.25 * step;
-    for (const GlobalOrdinal id : blocks.dofs->getNodeElementList())
+    for (const GlobalOrdinal id : mortise::local_ids(*blocks.dofs))
       if (const GlobalOrdinal node = id / dimension, i = id % dimension; blocks.held(node) && blocks.block_of(node) == 1)
         target.replaceGlobalValue(id, i == 0 ? right * std::max(0.0, time - 1.0) : i == dimension - 1 ? -down * std::min(1.0, time) : 0.0);
     const Solved solved = solve_step(blocks, contact, history, K, *solver, target, d, z);
     if (!solved.converged) return 1;
     history = contact.commit(*solved.laws);
   }
-  for (std::size_t k = 0; k < blocks.dofs->getNodeNumElements(); ++k)
+  for (std::size_t k = 0; k < mortise::local_id_count(*blocks.dofs); ++k)
     std::printf("d %lld %.17g\n", blocks.dofs->getGlobalElement(static_cast<LocalOrdinal>(k)), d.getData()[k]);
   const GlobalOrdinal first = blocks.dofs->getMaxAllGlobalIndex() + 1;
-  for (std::size_t k = 0; k < contact.multiplier_map()->getNodeNumElements(); ++k)
+  for (std::size_t k = 0; k < mortise::local_id_count(*contact.multiplier_map()); ++k)
     std::printf("z %lld %.17g\n", contact.multiplier_map()->getGlobalElement(static_cast<LocalOrdinal>(k)) - first, z.getData()[k]);
   return 0;
 }

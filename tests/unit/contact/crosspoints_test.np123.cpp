@@ -6,6 +6,7 @@
 #include <Teuchos_CommHelpers.hpp>
 
 #include "mortise/contact/formulation/standard_mortar.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 #include "two_surfaces.hpp"
 
 namespace mortise {
@@ -22,7 +23,7 @@ class Crosspoints : public ::testing::Test {
         reference_(rcp(new MultiVector(nodes_, 2))),
         fixed_(rcp(new MultiVector(nodes_, 2))) {
     const auto x = reference_->getLocalViewHost(Tpetra::Access::ReadWrite);
-    for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(nodes_->getNodeNumElements()); ++node)
+    for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(local_id_count(*nodes_)); ++node)
       x(node, 0) = static_cast<double>(nodes_->getGlobalElement(node) % 6);
   }
 
@@ -44,7 +45,7 @@ class Crosspoints : public ::testing::Test {
   std::vector<int> carriers(std::vector<ContactPair> pairs) const {
     const ContactSystem contact(nodes_, make_dof_map(*nodes_, 2), reference_, fixed_, {}, std::move(pairs), Timers());
     std::vector<int> mine(12, 0), all(12);
-    for (const GlobalOrdinal id : contact.multiplier_map()->getNodeElementList()) mine[static_cast<std::size_t>((id - 24) / 2)] = 1;
+    for (const GlobalOrdinal id : local_ids(*contact.multiplier_map())) mine[static_cast<std::size_t>((id - 24) / 2)] = 1;
     Teuchos::reduceAll(*nodes_->getComm(), Teuchos::REDUCE_MAX, 12, mine.data(), all.data());
     std::vector<int> result;
     for (int node = 0; node < 12; ++node)

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mortise/core/trilinos_versions.hpp"
 #include "two_surfaces.hpp"
 
 namespace mortise {
@@ -28,7 +29,7 @@ TwoSurfaces flat(double largest_shear) {
 RCP<Matrix> symmetric_springs(const TwoSurfaces& surfaces, const RCP<const Graph>& bulk, const RCP<const Graph>& graph) {
   const auto K = rcp(new Matrix(graph));
   const auto is_fixed = [&](GlobalOrdinal dof) { return surfaces.fixed[static_cast<std::size_t>(dof / 3)][dof % 3]; };
-  for (const GlobalOrdinal row : bulk->getRowMap()->getNodeElementList()) {
+  for (const GlobalOrdinal row : local_ids(*bulk->getRowMap())) {
     Teuchos::Array<GlobalOrdinal> columns(bulk->getNumEntriesInGlobalRow(row));
     std::size_t count = 0;
     Graph::nonconst_global_inds_host_view_type view("columns", columns.size());

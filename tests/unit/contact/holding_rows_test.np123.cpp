@@ -6,6 +6,7 @@
 
 #include "formulations.hpp"
 #include "mortise/contact/holding_nodes.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 #include "two_surfaces.hpp"
 
 namespace mortise {
@@ -45,7 +46,7 @@ Wrenches of_force(const Fixture& fixture, const TwoSurfaces& surfaces, const Con
   at.add_force(z, force);
   const auto values = force.getLocalViewHost(Tpetra::Access::ReadOnly);
   Wrenches mine = Wrenches::Zero(), all = mine;
-  for (std::size_t n = 0; n < fixture.nodes->getNodeNumElements(); ++n) {
+  for (std::size_t n = 0; n < local_id_count(*fixture.nodes); ++n) {
     const GlobalOrdinal node = fixture.nodes->getGlobalElement(static_cast<LocalOrdinal>(n));
     const int body = node < static_cast<GlobalOrdinal>(surfaces.slave.size()) ? 0 : 1;
     Eigen::Vector3d f = Eigen::Vector3d::Zero();
@@ -62,7 +63,7 @@ Wrenches of_force(const Fixture& fixture, const TwoSurfaces& surfaces, const Con
 /// The slave is body 0, the master body 1.
 MultiVector places_in(const Fixture& fixture, const TwoSurfaces& surfaces) {
   MultiVector places(fixture.nodes, static_cast<std::size_t>(1 + surfaces.dimension));
-  for (std::size_t n = 0; n < fixture.nodes->getNodeNumElements(); ++n) {
+  for (std::size_t n = 0; n < local_id_count(*fixture.nodes); ++n) {
     const GlobalOrdinal node = fixture.nodes->getGlobalElement(static_cast<LocalOrdinal>(n));
     const int body = node < static_cast<GlobalOrdinal>(surfaces.slave.size()) ? 0 : 1;
     places.replaceLocalValue(n, 0, body);
@@ -149,7 +150,7 @@ TEST(HoldingRows, OpenNodesHoldNothingAndNodesWithoutABodyAreLeftOut) {
   MultiVector places(fixture.nodes, 3);
   const auto pulled = fixture.multipliers([](std::size_t) { return -1e6; }), pressed = fixture.multipliers([](std::size_t) { return 1e6; });
   EXPECT_TRUE(holding_rows(at.laws(*pulled), places).empty());
-  for (std::size_t n = 0; n < fixture.nodes->getNodeNumElements(); ++n) places.replaceLocalValue(n, 0, -1.0);
+  for (std::size_t n = 0; n < local_id_count(*fixture.nodes); ++n) places.replaceLocalValue(n, 0, -1.0);
   EXPECT_TRUE(holding_rows(at.laws(*pressed), places).empty());
 }
 
@@ -200,7 +201,7 @@ void compare_sliding(const TwoSurfaces& surfaces) {
   const Eigen::Vector3d motion = distance * (dim == 2 ? Eigen::Vector3d(1.0, 0.0, 0.0) : Eigen::Vector3d(0.8, -0.6, 0.0));
   Vector d(fixture.dofs), none(contact.multiplier_map());
   const ContactHistory history = fixture.first_step(d, none);
-  for (std::size_t n = 0; n < fixture.nodes->getNodeNumElements(); ++n)
+  for (std::size_t n = 0; n < local_id_count(*fixture.nodes); ++n)
     for (int i = 0; i < dim; ++i)
       if (fixture.nodes->getGlobalElement(static_cast<LocalOrdinal>(n)) < slaves) d.replaceLocalValue(dim * n + i, motion[i]);
   const DifferentiatedContact at = contact.differentiate(d, history);
@@ -222,7 +223,7 @@ void compare_sliding(const TwoSurfaces& surfaces) {
       Vector one(contact.multiplier_map());
       if (mine) {
         const SlidingNode& node = nodes[static_cast<std::size_t>(k / (dim - 1))];
-        for (int i = 0; i < dim; ++i) one.replaceLocalValue(node.multiplier + i, node.frame.tangents(static_cast<Eigen::Index>(a), i));
+        for (int i = 0; i < dim; ++i) one.replaceLocalValue(node.multiplier + i, node.tangents[a][static_cast<std::size_t>(i)]);
       }
       const Wrenches expected = of_force(fixture, surfaces, at, one);
       if (!mine) continue;
@@ -232,7 +233,7 @@ void compare_sliding(const TwoSurfaces& surfaces) {
       const Wrenches found = of_row(row);
       EXPECT_LE(std::min((found - expected).norm(), (found + expected).norm()), 1e-11 * expected.norm());
       // Where the surfaces stand apart, a slip also sees the normal turn: gap over radius.
-      EXPECT_NEAR(std::abs(node.slip[static_cast<Eigen::Index>(a)]), std::abs(found.col(0).head<3>().dot(motion)), 1e-2 * distance * node.weight);
+      EXPECT_NEAR(std::abs(node.slip[a]), std::abs(found.col(0).head<3>().dot(motion)), 1e-2 * distance * node.weight);
       EXPECT_GT(node.bound, 0.0);
     }
   }

@@ -11,6 +11,8 @@
 #include <Tpetra_Vector.hpp>
 #include <cmath>
 
+#include "mortise/core/trilinos_versions.hpp"
+
 namespace mortise::detail {
 namespace {
 
@@ -28,7 +30,7 @@ struct LeftOut {
   explicit LeftOut(const RCP<const Map>& map, double size) {
     of_multipliers = rcp(new Matrix(map, 2));
     of_positions = rcp(new Matrix(map, 1));
-    for (const GlobalOrdinal row : map->getNodeElementList()) {
+    for (const GlobalOrdinal row : local_ids(*map)) {
       if (row % 3 != 0) continue;
       const std::array<GlobalOrdinal, 2> others = {(row + 1) % count, (row + 9) % count};
       const std::array<double, 2> values = {-0.7 * size, 0.2 * size};
@@ -66,7 +68,7 @@ struct System {
   int solves = 0;
 
   explicit System(double size, double spread = 1.0) : left_out(map, size) {
-    for (const GlobalOrdinal i : map->getNodeElementList()) {
+    for (const GlobalOrdinal i : local_ids(*map)) {
       r.replaceGlobalValue(i, std::cos(1.7 * static_cast<double>(i)));
       C.replaceGlobalValue(i, std::sin(0.6 * static_cast<double>(i) + 0.2));
       weights.replaceGlobalValue(i, std::pow(spread, std::sin(5.0 * static_cast<double>(i))));

@@ -7,6 +7,7 @@
 
 #include "formulations.hpp"
 #include "mortise/mortar/coupling/node_to_segment.hpp"
+#include "pairs/pair_history.hpp"
 #include "two_surfaces.hpp"
 
 namespace mortise::test {

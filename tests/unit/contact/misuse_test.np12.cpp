@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "mortise/contact/formulation/standard_mortar.hpp"
+#include "mortise/core/trilinos_versions.hpp"
+#include "pairs/pair_history.hpp"
 #include "two_surfaces.hpp"
 
 namespace mortise {
@@ -42,7 +44,7 @@ struct Host {
     pair.name = "joint";
     pair.youngs_modulus = 1.0;
     const double x[4] = {0.0, 1.0, 1.0, 0.0};
-    for (const GlobalOrdinal node : nodes->getNodeElementList()) reference->replaceGlobalValue(node, 0, x[node]);
+    for (const GlobalOrdinal node : local_ids(*nodes)) reference->replaceGlobalValue(node, 0, x[node]);
     const auto mine = [&](GlobalOrdinal node) { return nodes->isNodeGlobalElement(node); };
     if (mine(0) || mine(1)) pair.slave = {{0, 1}};
     if (mine(2)) pair.master = {{2, 3}};
@@ -91,7 +93,7 @@ TEST(Misuse, AComplementarityConstantThatLeavesTheChoiceToErrorsOfTheIteration) 
 TEST(Misuse, MapsThatDoNotFit) {
   Host shifted;
   std::vector<GlobalOrdinal> ids;
-  for (const GlobalOrdinal node : shifted.nodes->getNodeElementList())
+  for (const GlobalOrdinal node : local_ids(*shifted.nodes))
     for (int i = 0; i < 2; ++i) ids.push_back(2 * node + i + 8);
   shifted.dofs = rcp(new Map(8, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, shifted.comm));
   EXPECT_THAT(shifted.refused<std::invalid_argument>(), HasSubstr("which is no owned row of the system"));
@@ -99,7 +101,7 @@ TEST(Misuse, MapsThatDoNotFit) {
   Host eliminated;
   const auto contact_of = [&] {
     std::vector<GlobalOrdinal> field;
-    for (const GlobalOrdinal node : eliminated.nodes->getNodeElementList())
+    for (const GlobalOrdinal node : local_ids(*eliminated.nodes))
       for (int i = 0; i < 2; ++i) field.push_back(node == 1 && i == 0 ? NodalField::none : 2 * node + i);
     ContactSystem(NodalField("displacement", eliminated.nodes, 2, field), eliminated.dofs, eliminated.reference, eliminated.fixed, {},
                   {eliminated.pair}, Timers());

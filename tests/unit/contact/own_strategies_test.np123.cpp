@@ -6,6 +6,7 @@
 #include "linearised_cases.hpp"
 #include "mortise/contact/contact_report.hpp"
 #include "mortise/contact/enforcement/exact.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 
 namespace mortise {
 namespace {
@@ -143,7 +144,7 @@ struct PressedBlocks {
       laws.complementarity(C);
       if (step > 0 && residual.norm2() < 1e-12 && C.norm2() < 1e-12) return step;
       const auto matrix = rcp(new Matrix(contact.graph(at, [&] { return fixture.bulk; })));
-      for (const GlobalOrdinal dof : fixture.dofs->getNodeElementList()) {
+      for (const GlobalOrdinal dof : local_ids(*fixture.dofs)) {
         const double value = stiffness(dof);
         matrix->sumIntoGlobalValues(dof, 1, &value, &dof);
       }

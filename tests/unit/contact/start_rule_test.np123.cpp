@@ -4,6 +4,7 @@
 
 #include "formulations.hpp"
 #include "mortise/contact/holding_nodes.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 #include "two_surfaces.hpp"
 
 namespace mortise {
@@ -19,7 +20,7 @@ INSTANTIATE_TEST_SUITE_P(All, StartRule, ::testing::Range(-1, static_cast<int>(t
 /// Places of all nodes. The body of a node does not matter here: the slave is body 0, the master body 1.
 MultiVector places_of(const Fixture& fixture, const TwoSurfaces& surfaces) {
   MultiVector places(fixture.nodes, static_cast<std::size_t>(1 + surfaces.dimension));
-  for (std::size_t n = 0; n < fixture.nodes->getNodeNumElements(); ++n)
+  for (std::size_t n = 0; n < local_id_count(*fixture.nodes); ++n)
     places.replaceLocalValue(
         static_cast<LocalOrdinal>(n), 0,
         fixture.nodes->getGlobalElement(static_cast<LocalOrdinal>(n)) < static_cast<GlobalOrdinal>(surfaces.slave.size()) ? 0 : 1);

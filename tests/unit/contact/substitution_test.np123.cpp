@@ -2,6 +2,7 @@
 #include <TpetraExt_MatrixMatrix.hpp>
 
 #include "linearised_cases.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 
 namespace mortise {
 namespace {
@@ -41,7 +42,7 @@ struct Host {
 RCP<Matrix> rows_of_multipliers(const RCP<const Map>& rows, const Map& multipliers, const std::function<bool(GlobalOrdinal)>& has_entries) {
   const std::vector<GlobalOrdinal> columns = Fixture::all_ids(multipliers);
   const auto G = rcp(new Matrix(rows, columns.size()));
-  for (const GlobalOrdinal row : rows->getNodeElementList())
+  for (const GlobalOrdinal row : local_ids(*rows))
     for (const GlobalOrdinal column : columns) {
       const double value = 0.2 * wiggle(17 * row + 29 * column);
       if (has_entries(row) && (row + column) % 3 == 0) G->insertGlobalValues(row, 1, &value, &column);

@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "mortise/contact/complementarity.hpp"
 #include "two_surfaces.hpp"
 
 namespace mortise {

@@ -19,6 +19,7 @@
 #include "facets_with_middles.hpp"
 #include "mortise/contact/contact_system.hpp"
 #include "mortise/core/dof_map.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 
 namespace mortise::test {
 
@@ -198,7 +199,7 @@ class Fixture {
   /// A vector on `map` from a function of the global id; the same on any number of ranks.
   static RCP<Vector> vector(const RCP<const Map>& map, const std::function<double(GlobalOrdinal)>& value) {
     const auto result = rcp(new Vector(map));
-    for (const GlobalOrdinal id : map->getNodeElementList()) result->replaceGlobalValue(id, value(id));
+    for (const GlobalOrdinal id : local_ids(*map)) result->replaceGlobalValue(id, value(id));
     return result;
   }
 
@@ -253,7 +254,7 @@ class Fixture {
   /// All ids of a one-to-one map, ascending, on every rank.
   static std::vector<GlobalOrdinal> all_ids(const Map& map) {
     std::vector<int> mine(map.getMaxAllGlobalIndex() + 1, 0), all = mine;
-    for (const GlobalOrdinal id : map.getNodeElementList()) mine[id] = 1;
+    for (const GlobalOrdinal id : local_ids(map)) mine[id] = 1;
     Teuchos::reduceAll(*map.getComm(), Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), all.data());
     std::vector<GlobalOrdinal> ids;
     for (std::size_t id = 0; id < all.size(); ++id)
@@ -289,7 +290,7 @@ class Fixture {
   template <class Visit>
   void visit_springs(const Visit& visit) const {
     const GlobalOrdinal dim = surfaces_.dimension;
-    for (const GlobalOrdinal node : nodes->getNodeElementList()) {
+    for (const GlobalOrdinal node : local_ids(*nodes)) {
       if (numbering_ == HostNumbering::interleaved) visit(scalar(node), scalar(node), 3.0);
       for (GlobalOrdinal row = dim * node; row < dim * (node + 1); ++row) {
         if (number(row) == NodalField::none) continue;

@@ -7,6 +7,8 @@
 #include <Tpetra_Core.hpp>
 #include <Tpetra_Map.hpp>
 
+#include "mortise/core/trilinos_versions.hpp"
+
 namespace mortise {
 namespace {
 
@@ -17,7 +19,7 @@ TEST(ColumnMap, KeepsItsColumnsAndAppendsOthersOnceInOrder) {
   const std::vector<GlobalOrdinal> own{first + 5, first + 2};
   const Map columns(unknown, own.data(), 2, 0, comm);
   const auto more = with_further_columns(columns, {first + 9, first + 2, first + 7, first + 9});
-  const auto ids = more->getNodeElementList();
+  const auto ids = local_ids(*more);
   EXPECT_EQ(std::vector<GlobalOrdinal>(ids.begin(), ids.end()), (std::vector<GlobalOrdinal>{first + 5, first + 2, first + 7, first + 9}));
   const auto same = with_further_columns(columns, {});
   EXPECT_TRUE(same->isSameAs(columns));

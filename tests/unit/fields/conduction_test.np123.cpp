@@ -13,6 +13,7 @@
 #include <map>
 
 #include "mortise/core/column_map.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 #include "mortise/mesh/build_mesh.hpp"
 #include "mortise/mesh/field_space.hpp"
 #include "mortise/mesh/generators.hpp"
@@ -184,7 +185,7 @@ class Conductance : public Contribution {
     });
   }
   void visit(const Entry& visit) const {
-    for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(operator_->getNodeNumRows()); ++row) {
+    for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(local_row_count(*operator_)); ++row) {
       Matrix::local_inds_host_view_type columns;
       Matrix::values_host_view_type values;
       operator_->getLocalRowView(row, columns, values);
@@ -230,7 +231,7 @@ TEST(SecondField, ConductsThroughTwoBodiesAndTheirContact) {
     const RCP<const Map> columns = with_further_columns(*bulk->getColMap(), further);
     const auto graph = rcp(new Graph(space->dofs(), columns, 40));
     const auto narrow = bulk->getLocalGraphHost();
-    for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(bulk->getNodeNumRows()); ++row)
+    for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(local_row_count(*bulk)); ++row)
       for (std::size_t k = narrow.row_map(row); k < narrow.row_map(row + 1); ++k) graph->insertLocalIndices(row, 1, &narrow.entries(k));
     for (const auto& [row, ids] : entries)
       for (const GlobalOrdinal id : ids) {

@@ -12,6 +12,7 @@
 #include <set>
 
 #include "../nonlinear/spring_grid.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 #include "mortise/nonlinear/newton_solver.hpp"
 
 namespace mortise {
@@ -140,7 +141,7 @@ struct HotGrid {
         if (!table.dofs->isNodeGlobalElement(column)) ghosts.insert(column);
     }
     graph->fillComplete(table.dofs, table.dofs);
-    std::vector<GlobalOrdinal> local(table.dofs->getNodeElementList().begin(), table.dofs->getNodeElementList().end());
+    std::vector<GlobalOrdinal> local(local_ids(*table.dofs).begin(), local_ids(*table.dofs).end());
     local.insert(local.end(), ghosts.begin(), ghosts.end());
     const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
 
@@ -192,7 +193,7 @@ struct HotGrid {
     Vector displacements(const Configuration& at) const {
       Vector own(grid_->local_dofs);
       const auto view = at.local_unknowns.getLocalViewHost(Tpetra::Access::ReadOnly);
-      for (const GlobalOrdinal id : grid_->local_dofs->getNodeElementList())
+      for (const GlobalOrdinal id : local_ids(*grid_->local_dofs))
         own.replaceGlobalValue(id, view(at.local_unknowns.getMap()->getLocalElement(id), 0));
       return own;
     }
@@ -215,7 +216,7 @@ TEST(SecondField, StandsBesideDisplacementsInContact) {
     for (const auto& iteration : report.iterations) paths.back().push_back(iteration.norms.momentum);
 
     Vector v(system.map()), J_v(system.map()), difference(system.map());
-    for (const GlobalOrdinal id : system.map()->getNodeElementList()) {
+    for (const GlobalOrdinal id : local_ids(*system.map())) {
       const bool is_temperature = id >= problem.temperature(0) && id < problem.temperature(64);
       v.replaceGlobalValue(id, (is_temperature ? hot : 1.0) * std::sin(0.91 * static_cast<double>(id)));
     }

@@ -13,6 +13,7 @@
 #include <numeric>
 #include <set>
 
+#include "mortise/core/trilinos_versions.hpp"
 #include "mortise/mesh/volume_generators.hpp"
 
 namespace mortise {
@@ -54,7 +55,7 @@ TEST(MeshPlan, IsWhatRunsDo) {
     EXPECT_EQ(share.ghost_elements, ghosts);
     EXPECT_EQ(share.nodes, mesh->owned_count());
     EXPECT_EQ(share.ghost_nodes, mesh->local_count() - mesh->owned_count());
-    for (const GlobalOrdinal node : mesh->owned_nodes->getNodeElementList()) EXPECT_EQ(plan.owner_of_node[node], comm->getRank());
+    for (const GlobalOrdinal node : local_ids(*mesh->owned_nodes)) EXPECT_EQ(plan.owner_of_node[node], comm->getRank());
 
     std::vector<std::set<LocalOrdinal>> around(mesh->local_count());
     for (const Block& block : mesh->blocks)

@@ -6,6 +6,7 @@
 #include <Tpetra_Core.hpp>
 
 #include "../contact/formulations.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 #include "mortise/nonlinear/load_stepper.hpp"
 #include "spring_grid.hpp"
 
@@ -27,11 +28,11 @@ Problem::Choices pressed(double down, double sideways = 0.0, double stiffness = 
 // An iterate with closed and open nodes: the upper body is pushed in unevenly, multipliers are of either sign.
 void mix_states(Problem& problem) {
   const auto d = problem.system->unknowns(*problem.x), z = problem.system->multipliers(*problem.x);
-  for (const GlobalOrdinal id : d->getMap()->getNodeElementList()) {
+  for (const GlobalOrdinal id : local_ids(*d->getMap())) {
     const bool upper = id / 2 >= problem.grid->cut() * problem.grid->nx();
     d->replaceGlobalValue(id, 0.02 * std::sin(0.7 * id) - (upper && id % 2 == 1 ? 0.05 : 0.0));
   }
-  for (const GlobalOrdinal id : z->getMap()->getNodeElementList()) z->replaceGlobalValue(id, 0.05 * std::cos(1.1 * (id / 2)) - 0.01 * (id % 2));
+  for (const GlobalOrdinal id : local_ids(*z->getMap())) z->replaceGlobalValue(id, 0.05 * std::cos(1.1 * (id / 2)) - 0.01 * (id % 2));
 }
 
 // F and J at such an iterate.
@@ -66,7 +67,7 @@ TEST_P(ContactFormulation, JacobianAgreesWithCentralDifferences) {
   StepContext context = problem.context(1.0);
   mix_states(problem);
   Vector v(system.map()), J_v(system.map()), difference(system.map());
-  for (const GlobalOrdinal id : system.map()->getNodeElementList()) v.replaceGlobalValue(id, std::sin(0.91 * id));
+  for (const GlobalOrdinal id : local_ids(*system.map())) v.replaceGlobalValue(id, std::sin(0.91 * id));
   const SystemEvaluation at = system.evaluate(*problem.x, context);
   EXPECT_GT(at.norms().active, 0);
   EXPECT_LT(at.norms().active, 8);
@@ -308,7 +309,7 @@ TEST(ContactSystem, ContactLostSinceTheAcceptedStateIsAFailureOnAllRanks) {
   SemiSmoothSystem& system = *problem.system;
   const auto place = [&](double depth) {
     const auto d = system.unknowns(*problem.x);
-    for (const GlobalOrdinal id : d->getMap()->getNodeElementList())
+    for (const GlobalOrdinal id : local_ids(*d->getMap()))
       d->replaceGlobalValue(id, id / 2 >= problem.grid->cut() * problem.grid->nx() && id % 2 == 1 ? -depth : 0.0);
   };
   place(3.0);

@@ -7,6 +7,7 @@
 #include <Tpetra_Core.hpp>
 #include <algorithm>
 
+#include "mortise/core/trilinos_versions.hpp"
 #include "multigrid/interface_correction.hpp"
 #include "multigrid/sparse_parts.hpp"
 #include "spring_grid.hpp"
@@ -124,7 +125,7 @@ struct Solved {
 
 Vector wavy(const RCP<const Map>& map) {
   Vector result(map);
-  for (const GlobalOrdinal id : map->getNodeElementList()) result.replaceGlobalValue(id, std::sin(0.7 * static_cast<double>(id)) + 0.3);
+  for (const GlobalOrdinal id : local_ids(*map)) result.replaceGlobalValue(id, std::sin(0.7 * static_cast<double>(id)) + 0.3);
   return result;
 }
 
@@ -249,14 +250,14 @@ TEST_F(Contact, SolutionAloneLeavesNoResidualThere) {
   C->apply(y, residual, Teuchos::NO_TRANS, -1.0, 1.0);
   EXPECT_LE(part(residual, contact_dofs).normInf(), 1e-12 * x.normInf());
   EXPECT_GT(part(y, contact_dofs).normInf(), 0.1);
-  for (const GlobalOrdinal id : contact_dofs->getNodeElementList()) y.replaceGlobalValue(id, 0.0);
+  for (const GlobalOrdinal id : local_ids(*contact_dofs)) y.replaceGlobalValue(id, 0.0);
   EXPECT_EQ(y.normInf(), 0.0);
 }
 
 // Whatever went before: nothing is left of the residual where it corrects, and nothing is changed elsewhere.
 TEST_F(Contact, CorrectionLeavesNoResidualThere) {
   const auto diagonal = rcp(new Matrix(C->getRowMap(), 1));
-  for (const GlobalOrdinal id : C->getRowMap()->getNodeElementList()) add(*diagonal, id, id, 0.1 + 0.01 * static_cast<double>(id % 7));
+  for (const GlobalOrdinal id : local_ids(*C->getRowMap())) add(*diagonal, id, id, 0.1 + 0.01 * static_cast<double>(id % 7));
   diagonal->fillComplete(C->getDomainMap(), C->getRangeMap());
   const auto rows = rcp(new detail::RowsOfDecoupled(system.rows(contact_dofs)));
   const detail::InterfaceCorrection correction(rows, rcp(new detail::InterfaceSolution(rows->block(), C->getRowMap())), diagonal);
@@ -268,7 +269,7 @@ TEST_F(Contact, CorrectionLeavesNoResidualThere) {
   EXPECT_LE(part(residual, contact_dofs).normInf(), 1e-12 * x.normInf());
   y.update(-1.0, before, 1.0);
   EXPECT_GT(part(y, contact_dofs).normInf(), 0.1);
-  for (const GlobalOrdinal id : contact_dofs->getNodeElementList()) y.replaceGlobalValue(id, 0.0);
+  for (const GlobalOrdinal id : local_ids(*contact_dofs)) y.replaceGlobalValue(id, 0.0);
   EXPECT_EQ(y.normInf(), 0.0);
 }
 

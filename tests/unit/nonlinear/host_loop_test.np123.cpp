@@ -3,6 +3,7 @@
 
 #include "../../install/consumer/solve_step.hpp"
 #include "mortise/contact/contact_report.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 #include "mortise/nonlinear/linear_solver_factory.hpp"
 
 namespace mortise {
@@ -23,7 +24,7 @@ void expect_quadratic_convergence(int dimension) {
   ContactHistory history = contact.initial_history(d);
   int hardly_covered = 0, sticking = 0, slipping = 0;
   for (int step = 1; step <= 4; ++step) {
-    for (const GlobalOrdinal id : blocks.dofs->getNodeElementList())
+    for (const GlobalOrdinal id : local_ids(*blocks.dofs))
       if (const GlobalOrdinal node = id / dimension, i = id % dimension; blocks.held(node) && blocks.block_of(node) == 1)
         target.replaceGlobalValue(id, i == 0 ? right * std::max(0, step - 2) : i == dimension - 1 ? -down * std::min(step, 2) : 0.0);
     const host::Solved solved = host::solve_step(blocks, contact, history, K, *solver, target, d, z);

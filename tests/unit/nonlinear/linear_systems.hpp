@@ -6,6 +6,7 @@
 #include <Tpetra_Core.hpp>
 #include <string>
 
+#include "mortise/core/trilinos_versions.hpp"
 #include "spring_grid.hpp"
 
 namespace mortise::test {
@@ -42,7 +43,7 @@ inline RCP<Matrix> stiffness(const std::shared_ptr<SpringGrid>& grid, bool held,
 
 inline RCP<Vector> loads(const SpringGrid& grid) {
   const auto b = rcp(new Vector(grid.dofs));
-  for (const GlobalOrdinal id : grid.dofs->getNodeElementList()) b->replaceGlobalValue(id, std::sin(0.7 * id) + 0.3);
+  for (const GlobalOrdinal id : local_ids(*grid.dofs)) b->replaceGlobalValue(id, std::sin(0.7 * id) + 0.3);
   return b;
 }
 

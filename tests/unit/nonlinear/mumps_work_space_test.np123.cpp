@@ -11,6 +11,7 @@
 #include <random>
 
 #include "linear/direct_solver.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 
 namespace mortise {
 namespace {
@@ -19,7 +20,7 @@ namespace {
 RCP<Matrix> hard_to_pivot(GlobalOrdinal size) {
   const auto map = rcp(new Map(size, 0, Tpetra::getDefaultComm()));
   const auto matrix = rcp(new Matrix(map, 13));
-  for (const GlobalOrdinal row : map->getNodeElementList()) {
+  for (const GlobalOrdinal row : local_ids(*map)) {
     std::mt19937 random(static_cast<unsigned>(row));
     const auto uniform = [&] { return 2.0 * static_cast<double>(random()) / 4294967295.0 - 1.0; };
     for (const GlobalOrdinal offset : {-62, -61, -60, -3, -2, -1, 0, 1, 2, 3, 60, 61, 62}) {

@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 
+#include "mortise/core/trilinos_versions.hpp"
 #include "mortise/nonlinear/linear_solver_factory.hpp"
 #include "mortise/nonlinear/linear_solver_options.hpp"
 #include "mortise/nonlinear/load_stepper.hpp"
@@ -77,7 +78,7 @@ struct Oscillators {
     const auto comm = Tpetra::getDefaultComm();
     dofs = rcp(new Map(choices.dofs, 0, comm));
     const auto graph = rcp(new Graph(dofs, 1));
-    for (const GlobalOrdinal dof : dofs->getNodeElementList()) graph->insertGlobalIndices(dof, 1, &dof);
+    for (const GlobalOrdinal dof : local_ids(*dofs)) graph->insertGlobalIndices(dof, 1, &dof);
     graph->fillComplete();
     SystemParts parts;
     parts.dofs = parts.local_dofs = dofs;

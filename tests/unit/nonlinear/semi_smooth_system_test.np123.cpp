@@ -4,6 +4,7 @@
 
 #include <Tpetra_Core.hpp>
 
+#include "mortise/core/trilinos_versions.hpp"
 #include "spring_grid.hpp"
 
 namespace mortise {
@@ -19,7 +20,7 @@ Problem::Choices pulled() {
 }
 
 void fill(Vector& x, double amplitude, double frequency) {
-  for (const GlobalOrdinal id : x.getMap()->getNodeElementList()) x.replaceGlobalValue(id, amplitude * std::sin(frequency * id + 0.4));
+  for (const GlobalOrdinal id : local_ids(*x.getMap())) x.replaceGlobalValue(id, amplitude * std::sin(frequency * id + 0.4));
 }
 
 TEST(System, WithoutContactItsMapIsThatOfTheDofs) {

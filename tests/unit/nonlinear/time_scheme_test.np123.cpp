@@ -6,6 +6,7 @@
 
 #include <Eigen/Dense>
 
+#include "mortise/core/trilinos_versions.hpp"
 #include "oscillators.hpp"
 #include "stored_numbers.hpp"
 
@@ -36,7 +37,7 @@ TEST(TimeScheme, StepsAreThoseOfChungAndHulbertsAmplificationMatrix) {
         AcceptedState state = oscillators.start(0.5);
         const int steps = 4;
         state = oscillators.walk(state, steps * h, steps);
-        for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(oscillators.dofs->getNodeNumElements()); ++row) {
+        for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(local_id_count(*oscillators.dofs)); ++row) {
           const GlobalOrdinal dof = oscillators.dofs->getGlobalElement(row);
           const double omega2 = oscillators.stiffness(dof) / Oscillators::mass(dof);
           Eigen::Vector3d expected(1.0, 0.5 * h, -omega2 * h * h);
@@ -94,7 +95,7 @@ TEST(TimeScheme, TheMidpointRuleKeepsTheEnergyOfLinearOscillators) {
   const Oscillators oscillators(generalised_alpha(1.0, Balance::over_step), {});
   const auto energies = [&](const AcceptedState& state) {
     std::vector<double> result;
-    for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(oscillators.dofs->getNodeNumElements()); ++row) {
+    for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(local_id_count(*oscillators.dofs)); ++row) {
       const GlobalOrdinal dof = oscillators.dofs->getGlobalElement(row);
       const double u = Oscillators::value(*state.x, row), v = Oscillators::value(*state.rates->velocity, row);
       result.push_back(0.5 * Oscillators::mass(dof) * v * v + 0.5 * oscillators.stiffness(dof) * u * u);
@@ -147,7 +148,7 @@ TEST(TimeScheme, ARestartGoesOnBitByBit) {
     whole.system->store(stored, middle);
     test::StoredNumbers memory(stored.numbers);
     const AcceptedState end = whole.walk(middle, 2.0, 8), restarted = second.walk(second.system->restore(memory), 2.0, 8);
-    for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(whole.dofs->getNodeNumElements()); ++row) {
+    for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(local_id_count(*whole.dofs)); ++row) {
       EXPECT_EQ(Oscillators::value(*end.x, row), Oscillators::value(*restarted.x, row));
       EXPECT_EQ(Oscillators::value(*end.rates->acceleration, row), Oscillators::value(*restarted.rates->acceleration, row));
     }

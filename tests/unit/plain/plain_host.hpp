@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "mortise/core/trilinos_versions.hpp"
 #include "mortise/plain/mortise.h"
 #include "two_surfaces.hpp"
 
@@ -21,7 +22,7 @@ struct PlainArrays {
 
   PlainArrays(const TwoSurfaces& surfaces, const Fixture& fixture) : dimension(surfaces.dimension) {
     const auto slaves = static_cast<GlobalOrdinal>(surfaces.slave.size());
-    for (const GlobalOrdinal node : fixture.nodes->getNodeElementList()) {
+    for (const GlobalOrdinal node : local_ids(*fixture.nodes)) {
       const Point& x = node < slaves ? surfaces.slave[static_cast<std::size_t>(node)] : surfaces.master[static_cast<std::size_t>(node - slaves)];
       node_ids.push_back(node);
       for (int i = 0; i < dimension; ++i) {
@@ -30,7 +31,7 @@ struct PlainArrays {
         marks.push_back(surfaces.fixed[static_cast<std::size_t>(node)][static_cast<std::size_t>(i)] ? 1 : 0);
       }
     }
-    for (const GlobalOrdinal row : fixture.dofs->getNodeElementList()) row_ids.push_back(row);
+    for (const GlobalOrdinal row : local_ids(*fixture.dofs)) row_ids.push_back(row);
     const auto mine = [&](GlobalOrdinal node) { return fixture.nodes->isNodeGlobalElement(node); };
     const auto polyline = [](GlobalOrdinal first, GlobalOrdinal end) {
       SurfaceFacets facets;
@@ -98,7 +99,7 @@ struct Compressed {
   std::vector<double> values;
 
   explicit Compressed(const Matrix& matrix) {
-    for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(matrix.getNodeNumRows()); ++row) {
+    for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(local_row_count(matrix)); ++row) {
       Matrix::local_inds_host_view_type indices;
       Matrix::values_host_view_type of_row;
       matrix.getLocalRowView(row, indices, of_row);

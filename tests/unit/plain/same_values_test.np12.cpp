@@ -10,6 +10,7 @@
 #include "mortise/contact/formulation/augmented_lagrange.hpp"
 #include "mortise/contact/formulation/penalty.hpp"
 #include "mortise/contact/formulation/standard_mortar.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 #include "plain_host.hpp"
 
 namespace mortise {
@@ -67,7 +68,7 @@ TEST_P(SameValues, InAStep) {
   PlainHost host(PlainArrays(one.surfaces, fixture));
   host.set_up(one.options);
   const std::int64_t rows = host.rows, multipliers = host.multipliers;
-  ASSERT_EQ(multipliers, static_cast<std::int64_t>(contact.multiplier_map()->getNodeNumElements()));
+  ASSERT_EQ(multipliers, static_cast<std::int64_t>(local_id_count(*contact.multiplier_map())));
 
   std::vector<std::int64_t> ids(static_cast<std::size_t>(multipliers));
   std::vector<double> weights(ids.size());
@@ -78,7 +79,7 @@ TEST_P(SameValues, InAStep) {
   // Displacements of what is prescribed and no unknown.
   MultiVector elsewhere(fixture.nodes, static_cast<std::size_t>(one.surfaces.dimension));
   std::vector<double> prescribed;
-  for (const GlobalOrdinal node : fixture.nodes->getNodeElementList())
+  for (const GlobalOrdinal node : local_ids(*fixture.nodes))
     for (int i = 0; i < one.surfaces.dimension; ++i) {
       prescribed.push_back(0.003 * wiggle(one.surfaces.dimension * node + i));
       elsewhere.replaceGlobalValue(node, static_cast<std::size_t>(i), prescribed.back());

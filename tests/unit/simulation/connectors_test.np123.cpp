@@ -9,6 +9,7 @@
 #include <Tpetra_Vector.hpp>
 #include <cmath>
 
+#include "mortise/core/trilinos_versions.hpp"
 #include "mortise/simulation/model/model.hpp"
 #include "scene_text.hpp"
 
@@ -107,7 +108,7 @@ TEST_P(ConnectorScenes, JacobianAgreesWithCentralDifferences) {
   ASSERT_TRUE(run_steps(system, stepping, scene.newton, state, start, {}, failure)) << (failure ? failure->what() : "");
   const StepContext context = system.step_from(state.accepted, 0.75);
   Vector x(*state.accepted.x, Teuchos::Copy), v(system.map()), J_v(system.map()), difference(system.map());
-  for (const GlobalOrdinal id : x.getMap()->getNodeElementList()) {
+  for (const GlobalOrdinal id : local_ids(*x.getMap())) {
     x.sumIntoGlobalValue(id, 2e-2 * std::sin(0.37 * id + 0.4));
     v.replaceGlobalValue(id, std::sin(0.91 * id + 0.4));
   }

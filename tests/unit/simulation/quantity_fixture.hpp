@@ -8,6 +8,7 @@
 #include <Tpetra_Vector.hpp>
 #include <functional>
 
+#include "mortise/core/trilinos_versions.hpp"
 #include "mortise/material/materials.hpp"
 #include "mortise/mesh/build_mesh.hpp"
 #include "mortise/mesh/generators.hpp"
@@ -86,7 +87,7 @@ class TwoBlocks {
   /// z = p n + (shear, 0) with n = (0, -1); p of x.
   void press(const std::function<double(double)>& pressure, double shear = 0.0) {
     const GlobalOrdinal offset = bodies->space().dofs()->getMaxAllGlobalIndex() + 1;
-    for (const GlobalOrdinal id : multipliers->getMap()->getNodeElementList()) {
+    for (const GlobalOrdinal id : local_ids(*multipliers->getMap())) {
       const LocalOrdinal node = mesh->owned_nodes->getLocalElement((id - offset) / 2);
       multipliers->replaceGlobalValue(id, (id - offset) % 2 == 0 ? shear : -pressure(mesh->coordinates[node][0]));
     }

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "mortise/core/trilinos_versions.hpp"
 #include "mortise/simulation/model/model.hpp"
 #include "scene_text.hpp"
 
@@ -156,7 +157,7 @@ TEST_P(SurfaceTies, JacobianAgreesWithCentralDifferences) {
   SemiSmoothSystem system(model.parts(), timers);
   auto [x, context] = run_to(scene, system, 0.5);
   Vector v(system.map()), J_v(system.map()), difference(system.map()), direction(system.map()), J_dx(system.map());
-  for (const GlobalOrdinal id : x.getMap()->getNodeElementList()) {
+  for (const GlobalOrdinal id : local_ids(*x.getMap())) {
     x.sumIntoGlobalValue(id, 2e-3 * std::sin(0.37 * id + 0.4));
     v.replaceGlobalValue(id, std::sin(0.91 * id + 0.4));
   }

@@ -5,6 +5,7 @@
 #include <Tpetra_Core.hpp>
 #include <Tpetra_CrsGraph.hpp>
 
+#include "mortise/core/trilinos_versions.hpp"
 #include "mortise/input/expression.hpp"
 #include "mortise/mesh/volume_generators.hpp"
 #include "mortise/solid/loads.hpp"
@@ -132,7 +133,7 @@ TEST_P(Assembly, AgreesWithOneRank) {
   ASSERT_EQ(one.columns.size(), shared.columns.size());
   for (std::size_t c = 0; c < one.columns.size(); ++c) {
     const double scale = one.columns[c].cwiseAbs().maxCoeff();
-    for (LocalOrdinal dof = 0; dof < static_cast<LocalOrdinal>(part.getNodeNumElements()); ++dof)
+    for (LocalOrdinal dof = 0; dof < static_cast<LocalOrdinal>(local_id_count(part)); ++dof)
       EXPECT_NEAR(shared.columns[c](dof), one.columns[c](whole.getLocalElement(part.getGlobalElement(dof))), 1e-12 * scale) << "column " << c;
   }
   EXPECT_NEAR(shared.energy, one.energy, 1e-13 * one.energy);
@@ -155,14 +156,14 @@ TEST(WiderGraph, GetsTheSameStiffness) {
   const auto bodies = make_distributed(comm, setup);
   const RCP<const Graph> narrow = bodies->space().graph();
   const GlobalOrdinal first = bodies->space().dofs()->getMinAllGlobalIndex(), last = bodies->space().dofs()->getMaxAllGlobalIndex();
-  const auto known = narrow->getColMap()->getNodeElementList();
+  const auto known = local_ids(*narrow->getColMap());
   std::vector<GlobalOrdinal> columns(known.begin(), known.end());
   for (const GlobalOrdinal id : {first, last})
     if (!narrow->getColMap()->isNodeGlobalElement(id)) columns.push_back(id);
   const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
   const auto wider_columns = rcp(new const Map(invalid, columns.data(), static_cast<LocalOrdinal>(columns.size()), 0, comm));
-  const auto wide = rcp(new Graph(bodies->space().dofs(), wider_columns, narrow->getNodeMaxNumRowEntries() + 2));
-  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(bodies->space().dofs()->getNodeNumElements()); ++row) {
+  const auto wide = rcp(new Graph(bodies->space().dofs(), wider_columns, longest_local_row(*narrow) + 2));
+  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(local_id_count(*bodies->space().dofs())); ++row) {
     Graph::local_inds_host_view_type of_row;
     narrow->getLocalRowView(row, of_row);
     wide->insertLocalIndices(row, static_cast<LocalOrdinal>(of_row.extent(0)), of_row.data());
@@ -173,7 +174,7 @@ TEST(WiderGraph, GetsTheSameStiffness) {
   ASSERT_GT(wide->getGlobalNumEntries(), narrow->getGlobalNumEntries());
 
   Vector u(bodies->space().dofs()), local(bodies->space().local_dofs()), x(bodies->space().dofs());
-  for (const GlobalOrdinal id : bodies->space().dofs()->getNodeElementList()) x.replaceGlobalValue(id, std::sin(1.3 * static_cast<double>(id)));
+  for (const GlobalOrdinal id : local_ids(*bodies->space().dofs())) x.replaceGlobalValue(id, std::sin(1.3 * static_cast<double>(id)));
   std::vector<Eigen::VectorXd> products;
   for (const RCP<const Graph>& graph : {narrow, RCP<const Graph>(wide)}) {
     Matrix matrix(graph);

@@ -8,6 +8,7 @@
 #include <Tpetra_CrsGraph.hpp>
 
 #include "mortise/core/column_map.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 #include "mortise/mesh/reference_point.hpp"
 #include "mortise/solid/point_masses.hpp"
 #include "solid_test_support.hpp"
@@ -89,7 +90,7 @@ RCP<Matrix> full_matrix(const Bodies& bodies) {
   for (std::size_t id = 0; id < ids.size(); ++id) ids[id] = static_cast<GlobalOrdinal>(id);
   const RCP<const Map> columns = with_further_columns(*bodies.space().local_dofs(), ids);
   const auto graph = rcp(new Graph(rows, columns, ids.size()));
-  for (const GlobalOrdinal row : rows->getNodeElementList()) graph->insertGlobalIndices(row, static_cast<LocalOrdinal>(ids.size()), ids.data());
+  for (const GlobalOrdinal row : local_ids(*rows)) graph->insertGlobalIndices(row, static_cast<LocalOrdinal>(ids.size()), ids.data());
   graph->fillComplete(rows, rows);
   const auto matrix = rcp(new Matrix(graph));
   matrix->setAllToScalar(0.0);

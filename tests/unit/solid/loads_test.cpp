@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mortise/core/trilinos_versions.hpp"
 #include "mortise/input/expression.hpp"
 #include "solid_test_support.hpp"
 
@@ -103,7 +104,7 @@ TEST(FollowerPressure, PushesAgainstTheOutwardNormal) {
   FollowerPressureOptions options;
   options.set.value = "body/right";
   options.pressure = 4.0;
-  const Eigen::VectorXd f = force(*bodies, *options.make(bodies), Eigen::VectorXd::Zero(bodies->space().local_dofs()->getNodeNumElements()));
+  const Eigen::VectorXd f = force(*bodies, *options.make(bodies), Eigen::VectorXd::Zero(local_id_count(*bodies->space().local_dofs())));
   EXPECT_NEAR(sum(f, 0), -4.0 * 0.7, 1e-13);
   EXPECT_NEAR(sum(f, 1), 0.0, 1e-13);
 }

@@ -7,6 +7,7 @@
 
 #include "../../install/consumer/blocks.hpp"
 #include "direct_solver.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 #include "mortise/thyra/model_with_contact.hpp"
 
 namespace mortise::test {
@@ -48,7 +49,7 @@ class BlocksModel : public ::Thyra::StateFuncModelEvaluatorBase<Scalar> {
   /// Displacements that `at` prescribes.
   void prescribe(const ThyraInArgs& at, Vector& values) const {
     const auto p = TpetraOf::getConstTpetraVector(at.get_p(0))->getData();
-    for (const GlobalOrdinal id : blocks_->dofs->getNodeElementList()) {
+    for (const GlobalOrdinal id : local_ids(*blocks_->dofs)) {
       const GlobalOrdinal node = id / blocks_->dimension, i = id % blocks_->dimension;
       if (blocks_->held(node))
         values.replaceGlobalValue(id, blocks_->block_of(node) == 0 ? 0.0 : i == 0 ? p[1] : i == blocks_->dimension - 1 ? -p[0] : 0.0);
@@ -123,7 +124,7 @@ class BlocksModel : public ::Thyra::StateFuncModelEvaluatorBase<Scalar> {
       W->setAllToScalar(0.0);
       blocks_->assemble(*W);
       if (moves) W->scale(in.get_beta());
-      for (const GlobalOrdinal id : blocks_->dofs->getNodeElementList()) {
+      for (const GlobalOrdinal id : local_ids(*blocks_->dofs)) {
         const double value = moves ? in.get_W_x_dot_dot_coeff() * mass_ : 0.0;
         W->sumIntoGlobalValues(id, 1, &value, &id);
       }
@@ -147,7 +148,7 @@ class BlocksModel : public ::Thyra::StateFuncModelEvaluatorBase<Scalar> {
   template <class Take>
   void for_supports(const Take& take) const {
     if (supports_ == Supports::none) return;
-    for (const GlobalOrdinal id : blocks_->dofs->getNodeElementList())
+    for (const GlobalOrdinal id : local_ids(*blocks_->dofs))
       if (blocks_->held(id / blocks_->dimension)) take(id);
   }
 

@@ -8,6 +8,7 @@
 #include <Thyra_TpetraThyraWrappers.hpp>
 
 #include "mortise/core/over_ranks.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 #include "mortise/core/types.hpp"
 
 namespace mortise::test {
@@ -23,7 +24,7 @@ class DirectSolve : public ::Thyra::LinearOpWithSolveBase<Scalar> {
     const auto size = static_cast<Eigen::Index>(rows_->getMaxAllGlobalIndex() + 1);
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, size);
     Eigen::VectorXd there = Eigen::VectorXd::Zero(size);
-    for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(rows_->getNodeNumElements()); ++row) {
+    for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(local_id_count(*rows_)); ++row) {
       Matrix::local_inds_host_view_type columns;
       Matrix::values_host_view_type values;
       matrix->getLocalRowView(row, columns, values);

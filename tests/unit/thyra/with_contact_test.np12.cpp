@@ -12,6 +12,7 @@
 #include "mortise/contact/formulation/augmented_lagrange.hpp"
 #include "mortise/contact/formulation/penalty.hpp"
 #include "mortise/contact/formulation/standard_mortar.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 #include "mortise/nonlinear/linear_solver_factory.hpp"
 #include "mortise/thyra/model_with_contact.hpp"
 #include "mortise/thyra/nox_observer.hpp"
@@ -357,7 +358,7 @@ TEST(WithContact, AnotherModelResumes) {
   const Host other({2});
   HostDisplacements released = other.plain->displacements();
   const auto marks = rcp(new MultiVector(*other.blocks->fixed, Teuchos::Copy));
-  for (const GlobalOrdinal node : other.blocks->nodes->getNodeElementList())
+  for (const GlobalOrdinal node : local_ids(*other.blocks->nodes))
     if (other.blocks->held(node) && other.blocks->block_of(node) == 1) marks->replaceGlobalValue(node, 0, 0.0);  // free to slide
   released.fixed = marks;
   const auto model = with_contact(other.plain, released, {other.pair({2})});

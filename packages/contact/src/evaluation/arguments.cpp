@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "mortise/core/over_ranks.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 
 namespace mortise::detail {
 
@@ -17,9 +18,9 @@ void Arguments::refuse(const std::string& what) {
 // Nearly always it is the map itself. Other maps are compared without communication: agree() has it.
 void Arguments::on_map(const Map& map, const Map& wanted, const char* name, const char* of_what) {
   if (&map == &wanted || map.locallySameAs(wanted)) return;
-  refuse(fmt::format("`{}` has {} rows on this rank, and {} has {}; give a vector on that map", name, map.getNodeNumElements(), of_what,
-                     wanted.getNodeNumElements()) +
-         (map.getNodeNumElements() == wanted.getNodeNumElements() ? ". Their ids differ" : ""));
+  refuse(fmt::format("`{}` has {} rows on this rank, and {} has {}; give a vector on that map", name, local_id_count(map), of_what,
+                     local_id_count(wanted)) +
+         (local_id_count(map) == local_id_count(wanted) ? ". Their ids differ" : ""));
 }
 
 Arguments& Arguments::on_dofs(const Vector& vector, const char* name) {

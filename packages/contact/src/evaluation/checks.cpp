@@ -10,6 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "mortise/contact/enforcement.hpp"
+#include "mortise/core/trilinos_versions.hpp"
+
 namespace mortise::detail {
 
 void refuse_unfit_fields(const NodalField& displacement, const Map& dofs, const MultiVector& reference, const MultiVector& fixed) {
@@ -29,7 +32,7 @@ void refuse_unfit_fields(const NodalField& displacement, const Map& dofs, const 
         fmt::format("contact: field '{}' has {} components, the reference positions {}", displacement.name(), displacement.components(), dimension));
   std::string mine;
   const auto marks = fixed.getLocalViewHost(Tpetra::Access::ReadOnly);
-  for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(owned_nodes.getNodeNumElements()) && mine.empty(); ++node)
+  for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(local_id_count(owned_nodes)) && mine.empty(); ++node)
     for (int i = 0; i < displacement.components(); ++i) {
       const GlobalOrdinal id = displacement.id(node, i);
       const auto say = [&](const std::string& what) {

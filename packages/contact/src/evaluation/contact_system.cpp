@@ -13,6 +13,7 @@
 #include "evaluation/checks.hpp"
 #include "evaluation/crosspoints.hpp"
 #include "evaluation/evaluated_contact.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 
 namespace mortise {
 namespace {
@@ -153,7 +154,7 @@ ContactSystem::ContactSystem(const NodalField& displacement, RCP<const Map> dofs
     }
   }
   self.interface_dofs.resize(self.pairs.size());
-  for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(self.owned_nodes->getNodeNumElements()); ++node)
+  for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(local_id_count(*self.owned_nodes)); ++node)
     for (int i = 0; i < self.dimension; ++i) {
       const GlobalOrdinal id = displacement.id(node, i);
       self.rows.push_back(id == NodalField::none ? -1 : self.dofs->getLocalElement(id));

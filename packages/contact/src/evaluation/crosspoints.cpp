@@ -5,6 +5,7 @@
 #include <Tpetra_MultiVector.hpp>
 #include <algorithm>
 
+#include "mortise/contact/enforcement.hpp"
 #include "mortise/mortar/surface_nodes.hpp"
 
 namespace mortise::detail {

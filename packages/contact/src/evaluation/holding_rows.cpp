@@ -113,15 +113,19 @@ std::vector<SlidingNode> sliding_nodes(const ContactLaws& laws, const MultiVecto
       if (self.multiplier_of[p][s] < 0 || pair.slave_nodes()[s].partly_fixed()) continue;
       const Complementarity& law = evaluated.laws[p][s];
       if (law.state != ContactState::slip) continue;
-      SlidingNode node{p, self.multiplier_of[p][s], pair.frame(s), 0.0, pair.pair().friction_constant(s), pair.row(s).covered, {}, {}};
-      for (Eigen::Index a = 0; a < node.frame.tangents.rows(); ++a)  // C_tau = z_tau - rho y / |y|
-        node.bound = std::hypot(node.bound, node.frame.tangents.row(a).dot(multipliers[s].z) - law.C[1 + a]);
+      SlidingNode node{p, self.multiplier_of[p][s], {}, 0.0, pair.pair().friction_constant(s), pair.row(s).covered, {}, {}};
+      const Frame frame = pair.frame(s);
+      for (Eigen::Index a = 0; a < frame.tangents.rows(); ++a)  // C_tau = z_tau - rho y / |y|
+        node.bound = std::hypot(node.bound, frame.tangents.row(a).dot(multipliers[s].z) - law.C[1 + a]);
       if (!(node.bound > 0.0)) continue;
-      node.slip = pair.slip_in_contact(s, multipliers[s]);
+      const TangentVector slip = pair.slip_in_contact(s, multipliers[s]);
+      node.slip.assign(slip.data(), slip.data() + slip.size());
       const std::vector<LocalOrdinal>& coupled = pair.coupled_nodes(s);
       const LocalOrdinal own = pair.slave_nodes()[s].local_node;
-      for (Eigen::Index a = 0; a < node.frame.tangents.rows(); ++a) {
-        const SpatialVector tangent = node.frame.tangents.row(a).transpose();
+      for (Eigen::Index a = 0; a < frame.tangents.rows(); ++a) {
+        const SpatialVector tangent = frame.tangents.row(a).transpose();
+        node.tangents.push_back({});
+        std::copy(tangent.data(), tangent.data() + tangent.size(), node.tangents.back().begin());
         double largest = 0.0;
         node.along.push_back(wrenches(
             coupled, at, self.dimension,

@@ -12,6 +12,7 @@
 
 #include "evaluation/evaluated_contact.hpp"
 #include "mortise/core/column_map.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 
 namespace mortise::detail {
 namespace {
@@ -99,7 +100,7 @@ void receive(const Graph& remote, const Export& exporter, const ContactModel& mo
   const RCP<const Map>& dofs = model.dofs;
   Graph incoming(dofs, 0);
   incoming.doExport(remote, exporter, Tpetra::INSERT);
-  for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(model.owned_nodes->getNodeNumElements()); ++node) {
+  for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(local_id_count(*model.owned_nodes)); ++node) {
     // all rows of a node got the same columns
     const auto first = model.rows.begin() + static_cast<std::ptrdiff_t>(model.dimension) * node;
     const auto row = std::find_if(first, first + model.dimension, [](LocalOrdinal local) { return local >= 0; });
@@ -126,7 +127,7 @@ RCP<const Map> widened_columns(const Graph& bulk, const NodeRowMap& rows_of_node
 // The bulk's graph with `rows_of_node` in the rows of owned nodes. Rows are given whole and ascending, those of other nodes as they are.
 RCP<const Graph> widened(const Graph& bulk, const NodeRowMap& rows_of_node, const ContactModel& model) {
   const RCP<const Map> dofs = bulk.getRowMap(), columns = widened_columns(bulk, rows_of_node, *model.owned_nodes);
-  const auto rows = static_cast<LocalOrdinal>(dofs->getNodeNumElements());
+  const auto rows = static_cast<LocalOrdinal>(local_id_count(*dofs));
   const auto narrow = bulk.getLocalGraphHost();
   std::map<LocalOrdinal, std::vector<LocalOrdinal>> wide;  // by row
   for (const auto& [node, more] : rows_of_node) {
@@ -187,7 +188,7 @@ SystemScatter::SystemScatter(const Graph& bulk, const EvaluatedContact& contact)
 
   const RCP<const Map> columns = graph_->getColMap();
   if (parallel_) {
-    remote_column_of_.resize(columns->getNodeNumElements());
+    remote_column_of_.resize(local_id_count(*columns));
     for (std::size_t c = 0; c < remote_column_of_.size(); ++c)
       remote_column_of_[c] = remote_matrix_->getColMap()->getLocalElement(columns->getGlobalElement(static_cast<LocalOrdinal>(c)));
   }

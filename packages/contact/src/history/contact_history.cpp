@@ -14,6 +14,8 @@
 
 namespace mortise {
 
+ContactHistory::ContactHistory(AcceptedContact accepted) : accepted_(std::make_shared<const AcceptedContact>(std::move(accepted))) {}
+
 namespace detail {
 namespace {
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "mortise/contact/enforcement/augmented_lagrange.hpp"
+
 namespace mortise {
 
 void AugmentedLagrange::describe(Parameters& parameters) {

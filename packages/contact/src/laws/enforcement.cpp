@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "mortise/contact/friction.hpp"
+
 namespace mortise {
 
 FrictionBound NodeFriction::operator()(double pressure) const {

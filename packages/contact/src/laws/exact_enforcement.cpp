@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "mortise/contact/enforcement/exact.hpp"
+#include "mortise/contact/formulation.hpp"
 
 namespace mortise {
 
@@ -16,5 +17,9 @@ Complementarity ExactEnforcement::law(const ContactNode& node) const {
   if (pressure < 0.0) bound.slope = 0.0;
   return with_friction(c, c, node.gap, node.slip, in, node.z, bound, node.start_gap, node.held);
 }
+
+SharedEnforcement condensed_multipliers() { return std::make_shared<const CondensedMultipliers>(); }
+
+SharedEnforcement kept_multipliers() { return std::make_shared<const KeptMultipliers>(); }
 
 }  // namespace mortise

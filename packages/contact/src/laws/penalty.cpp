@@ -1,5 +1,7 @@
 #include "mortise/contact/formulation/penalty.hpp"
 
+#include "mortise/contact/enforcement/penalty.hpp"
+
 namespace mortise {
 
 // Where forces are the gaps' derivatives, a law in the place of the multipliers would need these at all nodes that gaps depend on.

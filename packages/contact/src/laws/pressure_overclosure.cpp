@@ -2,6 +2,9 @@
 
 #include <stdexcept>
 
+#include "mortise/contact/enforcement/pressure_overclosure.hpp"
+#include "mortise/contact/regularised.hpp"
+
 namespace mortise {
 
 namespace {
@@ -71,5 +74,7 @@ SpatialVector PressureOverclosureEnforcement::start_from(const SpatialVector& tr
   shear[0] = 0.0;
   return shear;
 }
+
+double PressureOverclosureEnforcement::onset() const { return law_->onset(); }
 
 }  // namespace mortise

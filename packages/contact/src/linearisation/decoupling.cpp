@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "linearisation/condensation.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 
 namespace mortise {
 
@@ -113,7 +114,7 @@ Decoupling NodeElimination::decoupling() const {
   const detail::EvaluatedLaws& laws = condensation_->at();
   const detail::ContactModel& self = *laws.contact->model;
   const int dimension = self.dimension;
-  std::vector<std::size_t> sizes(self.dofs->getNodeNumElements(), 0), sizes_of_blocks(sizes);
+  std::vector<std::size_t> sizes(local_id_count(*self.dofs), 0), sizes_of_blocks(sizes);
   for (const detail::PairEvaluation& pair : laws.contact->pairs)
     for (std::size_t s = 0; s < pair.rows().size(); ++s) {
       for (int i = 0; i < dimension; ++i) {

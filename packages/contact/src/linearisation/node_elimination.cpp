@@ -13,6 +13,7 @@
 #include "evaluation/arguments.hpp"
 #include "linearisation/condensation.hpp"
 #include "linearisation/left_out_couplings.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 
 namespace mortise {
 namespace {
@@ -31,7 +32,7 @@ void hold_prescribed(const detail::ContactModel& model, Vector& rhs) {
 RCP<Matrix> detail::Condensation::slopes() const {
   const auto dimension = static_cast<std::size_t>(model().dimension);
   const RCP<const Graph>& graph = scatter->graph();
-  std::vector<std::size_t> sizes(model().multipliers->getNodeNumElements(), 0);
+  std::vector<std::size_t> sizes(local_id_count(*model().multipliers), 0);
   for (const EliminatedNode& node : nodes)
     for (std::size_t i = 0; i < dimension; ++i) sizes[static_cast<std::size_t>(node.multiplier) + i] = node.columns.size();
   const auto S = rcp(new Matrix(model().multipliers, graph->getColMap(), Teuchos::arrayViewFromVector(sizes)));

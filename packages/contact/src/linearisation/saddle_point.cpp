@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "evaluation/evaluated_contact.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 
 namespace mortise {
 
@@ -20,7 +21,7 @@ bool loads(const detail::PairEvaluation& pair, std::size_t s, LocalOrdinal node)
 // to += from, which may be null; neither is read before.
 void add_rows(const RCP<const Matrix>& from, Matrix& to) {
   if (from.is_null()) return;
-  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(from->getNodeNumRows()); ++row) {
+  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(local_row_count(*from)); ++row) {
     Matrix::local_inds_host_view_type columns;
     Matrix::values_host_view_type values;
     from->getLocalRowView(row, columns, values);
@@ -63,8 +64,8 @@ SaddlePointBlocks ContactLinearisation::saddle_point_blocks() const {
   }
   Matrix B(row_map, Teuchos::arrayViewFromVector(sizes));
   SaddlePointBlocks blocks;
-  const std::size_t wider_d = tied.of_positions.is_null() ? 0 : tied.of_positions->getNodeMaxNumRowEntries(),
-                    wider_z = tied.of_multipliers.is_null() ? 0 : tied.of_multipliers->getNodeMaxNumRowEntries();
+  const std::size_t wider_d = tied.of_positions.is_null() ? 0 : longest_local_row(*tied.of_positions),
+                    wider_z = tied.of_multipliers.is_null() ? 0 : longest_local_row(*tied.of_multipliers);
   blocks.C_d = rcp(new Matrix(self.multipliers, widest + wider_d));
   blocks.C_z = rcp(new Matrix(self.multipliers, static_cast<std::size_t>(dimension) + wider_z));
   for (std::size_t p = 0; p < self.pairs.size(); ++p) {

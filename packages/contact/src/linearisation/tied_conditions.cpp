@@ -16,6 +16,7 @@
 #include <map>
 
 #include "linearisation/condensation.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 
 namespace mortise::detail {
 namespace {
@@ -127,7 +128,7 @@ TieBlocks tied_conditions(const EvaluatedLaws& laws) {
   if (model.maximum(factors.empty() ? 0.0 : 1.0) == 0.0) return {};
   const TieBlocks blocks = tie_blocks(contact, *laws.z);
   const auto multiplied = [&](const Matrix& block, const RCP<const Map>& domain, bool of_multipliers) {
-    std::vector<std::size_t> sizes(multipliers->getNodeNumElements(), 0);
+    std::vector<std::size_t> sizes(local_id_count(*multipliers), 0);
     const auto each_row = [&](const auto& act) {
       for (const Factor& factor : factors)
         for (int m = 0; m < dimension; ++m) {

@@ -9,6 +9,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "mortise/core/trilinos_versions.hpp"
+
 namespace mortise::detail {
 
 Pair::Pair(RCP<const Map> owned_nodes, RCP<const MultiVector> reference, RCP<const MultiVector> fixed, const InterfaceMeasure& measure,
@@ -148,7 +150,7 @@ std::vector<NodeRow> Pair::rows_of(const InterfacePattern& pattern, const std::v
   const std::size_t slaves = slave_nodes().size();
   std::vector<NodeRow> rows(slaves);
   gaps.assign(slaves, 0.0);
-  std::vector<LocalOrdinal> position_in_row(pattern.local_nodes->getNodeNumElements(), -1);
+  std::vector<LocalOrdinal> position_in_row(local_id_count(*pattern.local_nodes), -1);
   std::vector<std::vector<std::pair<const FacetCoupling*, int>>> facets_of(slaves);
   for (const FacetCoupling& facet : couplings)
     for (std::size_t j = 0; j < facet.slave.size(); ++j)

@@ -8,7 +8,9 @@
 
 #include "mortise/contact/contact_history.hpp"
 #include "mortise/contact/contact_pair.hpp"
+#include "mortise/contact/enforcement.hpp"
 #include "pairs/pair_geometry.hpp"
+#include "pairs/pair_history.hpp"
 
 namespace mortise::detail {
 

@@ -5,13 +5,15 @@
 #include <Tpetra_MultiVector.hpp>
 #include <stdexcept>
 
+#include "mortise/core/trilinos_versions.hpp"
+
 namespace mortise {
 
 IdOrder::IdOrder(const RCP<const Map>& owned) : owned_(owned), size_(static_cast<GlobalOrdinal>(owned->getGlobalNumElements())) {
   if (size_ > 0 && (owned->getMinAllGlobalIndex() != 0 || owned->getMaxAllGlobalIndex() != size_ - 1 || !owned->isOneToOne()))
     throw std::invalid_argument("ids of nodes and elements have to be 0 ... number - 1");
   rows_ = rcp(new Map(static_cast<Tpetra::global_size_t>(size_), 0, owned->getComm()));
-  local_size_ = static_cast<LocalOrdinal>(rows_->getNodeNumElements());
+  local_size_ = static_cast<LocalOrdinal>(local_id_count(*rows_));
   first_ = local_size_ > 0 ? rows_->getMinGlobalIndex() : 0;
   import_ = rcp(new Import(owned_, rows_));
 }

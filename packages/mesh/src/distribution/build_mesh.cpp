@@ -13,6 +13,7 @@
 #include "distribution/body_set.hpp"
 #include "distribution/inverted_elements.hpp"
 #include "distribution/partition.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 
 namespace mortise {
 
@@ -44,7 +45,7 @@ namespace {
 std::vector<GlobalOrdinal> ghost_elements(const BodySet& bodies, const Map& owned_nodes, const std::vector<GlobalOrdinal>& owned_elements) {
   std::vector<GlobalOrdinal> ghosts;
   if (owned_nodes.getComm()->getSize() == 1) return ghosts;
-  for (const GlobalOrdinal node : owned_nodes.getNodeElementList()) {
+  for (const GlobalOrdinal node : local_ids(owned_nodes)) {
     if (node >= bodies.node_count()) continue;  // a reference point
     for (const GlobalOrdinal element : bodies.elements_of_node(node))
       if (!std::binary_search(owned_elements.begin(), owned_elements.end(), element)) ghosts.push_back(element);
@@ -56,7 +57,7 @@ std::vector<GlobalOrdinal> ghost_elements(const BodySet& bodies, const Map& owne
 
 /// Owned nodes, then all other nodes of the local elements and the reference points, ascending.
 RCP<const Map> local_node_map(const BodySet& bodies, const RCP<const Map>& owned_nodes, const std::vector<Block>& blocks) {
-  const auto owned = owned_nodes->getNodeElementList();
+  const auto owned = local_ids(*owned_nodes);
   std::vector<GlobalOrdinal> ids(owned.begin(), owned.end()), ghosts;
   for (const Block& block : blocks)
     for (const GlobalOrdinal element : block.element_ids)
@@ -71,7 +72,7 @@ RCP<const Map> local_node_map(const BodySet& bodies, const RCP<const Map>& owned
 }
 
 void fill_blocks(Mesh& mesh, const BodySet& set, const std::vector<BodyDescription>& bodies, const std::vector<GlobalOrdinal>& owned_elements) {
-  const auto owned_nodes = mesh.owned_nodes->getNodeElementList();
+  const auto owned_nodes = local_ids(*mesh.owned_nodes);
   set.fetch_elements_around(*mesh.comm, {owned_nodes.begin(), owned_nodes.end()});
   const auto ghosts = ghost_elements(set, *mesh.owned_nodes, owned_elements);
   std::vector<GlobalOrdinal> all;
@@ -102,11 +103,11 @@ void fill_blocks(Mesh& mesh, const BodySet& set, const std::vector<BodyDescripti
 }
 
 void fill_nodes(Mesh& mesh, const BodySet& set) {
-  const auto local = mesh.local_nodes->getNodeElementList();
+  const auto local = local_ids(*mesh.local_nodes);
   std::vector<GlobalOrdinal> ids(local.begin(), local.end());
   std::sort(ids.begin(), ids.end());
   set.fetch_nodes(*mesh.comm, ids);
-  for (const GlobalOrdinal node : mesh.local_nodes->getNodeElementList()) {
+  for (const GlobalOrdinal node : local_ids(*mesh.local_nodes)) {
     if (node >= set.node_count()) {  // a reference point, placed with its followers
       mesh.coordinates.push_back({});
       mesh.body_of_node.push_back(-1);

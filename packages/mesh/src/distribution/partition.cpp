@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "distribution/element_graph.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 
 namespace mortise {
 namespace {
@@ -150,7 +151,7 @@ RCP<const Map> share_out_nodes(const RCP<const Communicator>& comm, const BodySe
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   const auto overlapping = map_of(comm, ids);
   const auto one_to_one = Tpetra::createOneToOne(overlapping, AlternatingOwner());
-  const auto view = one_to_one->getNodeElementList();
+  const auto view = local_ids(*one_to_one);
   ids.assign(view.begin(), view.end());
   std::sort(ids.begin(), ids.end());
   return map_of(comm, ids);

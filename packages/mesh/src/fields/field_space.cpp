@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "mortise/core/trilinos_versions.hpp"
+
 namespace mortise {
 
 FieldSpace::FieldSpace(RCP<const Mesh> mesh, const std::vector<FieldDeclaration>& fields) : mesh_(std::move(mesh)) {
@@ -13,8 +15,8 @@ FieldSpace::FieldSpace(RCP<const Mesh> mesh, const std::vector<FieldDeclaration>
   dofs_ = table.dofs;
   fields_ = std::move(table.fields);
 
-  const LocalOrdinal owned = mesh_->owned_count(), nodes = static_cast<LocalOrdinal>(mesh_->local_nodes->getNodeNumElements());
-  std::vector<GlobalOrdinal> local(dofs_->getNodeElementList().begin(), dofs_->getNodeElementList().end());
+  const LocalOrdinal owned = mesh_->owned_count(), nodes = static_cast<LocalOrdinal>(local_id_count(*mesh_->local_nodes));
+  std::vector<GlobalOrdinal> local(local_ids(*dofs_).begin(), local_ids(*dofs_).end());
   LocalOrdinal next_owned = 0;
   const GlobalOrdinal all = mesh_->owned_nodes->getMaxAllGlobalIndex() + 1;
   for (std::size_t f = 0; f < fields.size(); ++f) {

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "mortise/core/trilinos_versions.hpp"
+
 namespace mortise {
 
 namespace {
@@ -45,8 +47,8 @@ struct ElementsAroundNodes {
 bool begins_with(const Map& columns, const Map& first) {
   if (&columns == &first) return true;
   const auto local = columns.getLocalMap(), local_first = first.getLocalMap();
-  if (local.getNodeNumElements() < local_first.getNodeNumElements()) return false;
-  for (LocalOrdinal c = 0; c < static_cast<LocalOrdinal>(local_first.getNodeNumElements()); ++c)
+  if (local_id_count(local) < local_id_count(local_first)) return false;
+  for (LocalOrdinal c = 0; c < static_cast<LocalOrdinal>(local_id_count(local_first)); ++c)
     if (local.getGlobalElement(c) != local_first.getGlobalElement(c)) return false;
   return true;
 }
@@ -114,7 +116,7 @@ LocalOrdinal* NodalSparsity::write_columns(std::size_t node, LocalOrdinal* colum
 
 // The rows as the graph holds them, ascending: entries given one by one would each be searched for in what the row has already.
 RCP<const Graph> NodalSparsity::graph() const {
-  const std::size_t rows = dofs_->getNodeNumElements();
+  const std::size_t rows = local_id_count(*dofs_);
   Graph::local_graph_device_type::row_map_type::non_const_type starts("starts", rows + 1);
   for_each_row([&](LocalOrdinal row, LocalOrdinal node) { starts(row + 1) = starts(row) + row_size(node); });
   Graph::local_graph_device_type::entries_type::non_const_type columns(Kokkos::view_alloc(Kokkos::WithoutInitializing, "columns"), starts(rows));
@@ -142,8 +144,8 @@ LocalOrdinal NodalSparsity::position(LocalOrdinal row, LocalOrdinal column, std:
 
 NodalSparsity::Values NodalSparsity::open(Matrix& matrix) const {
   const auto graph = matrix.getCrsGraph();
-  const std::size_t rows = dofs_->getNodeNumElements();
-  if (graph->getNodeNumRows() != rows || !graph->isSorted() || !begins_with(*graph->getColMap(), *local_dofs_))
+  const std::size_t rows = local_id_count(*dofs_);
+  if (local_row_count(*graph) != rows || !graph->isSorted() || !begins_with(*graph->getColMap(), *local_dofs_))
     throw std::logic_error("a matrix was handed to the bulk that does not have the bulk's rows and columns");
   const auto local = matrix.getLocalMatrixHost();
   Values values(matrix, *this);

@@ -15,7 +15,7 @@ const std::vector<SharedCoupling>& coupling_registry() {
   return registry;
 }
 
-bool Coupling::couple_node(const SlaveNodeData&, const std::vector<Facet<LocalOrdinal>>&, double, const std::vector<Eigen::Vector2d>&,
+bool Coupling::couple_node(const SlaveNodeData&, const std::vector<Facet<LocalOrdinal>>&, double, const std::vector<PlaneVector>&,
                            const InterfaceMeasure&, double, bool, FacetCoupling&) const {
   throw std::logic_error("contact: \"" + name() + "\" integrates facets: it couples no node by itself");
 }

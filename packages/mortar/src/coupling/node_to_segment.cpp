@@ -106,7 +106,7 @@ bool NodeToSegmentCoupling::couple_node(const SlaveNodeData& slave, const std::v
   std::size_t hit = facet_hit(slave, masters, reach, x, 1.0 + end_tolerance);
   if (hit == masters.size()) hit = facet_hit(slave, masters, reach, x, 1.0 + extension);
   if (hit == masters.size()) return false;
-  coupling.slave.assign(1, slave.node);
+  coupling.slave = {slave.node};
   coupling.master.assign(masters[hit].begin(), masters[hit].end());
   // A corner's normal depends on masters too.
   coupling.columns = slave.stencil->columns;

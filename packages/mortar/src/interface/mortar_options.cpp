@@ -1,4 +1,6 @@
-#include "mortise/mortar/mortar_interface.hpp"
+#include "mortise/mortar/mortar_options.hpp"
+
+#include "mortise/core/parameters.hpp"
 
 namespace mortise {
 

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "exchange/exchange.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 #include "mortise/mortar/surface_nodes.hpp"
 
 namespace mortise {
@@ -56,7 +57,7 @@ int TieMarks::other(std::size_t t, std::size_t node) const {
 
 void refuse_shared_facets(const RCP<const Map>& owned_nodes, const MultiVector& reference, const TieMarks& marks, const std::vector<TiedPair>& ties,
                           std::size_t t) {
-  std::vector<char> shared(owned_nodes->getNodeNumElements());
+  std::vector<char> shared(local_id_count(*owned_nodes));
   for (std::size_t node = 0; node < shared.size(); ++node) shared[node] = marks.meets(t, node);
   const NodeMarks of_facets(owned_nodes, ties[t].slave, shared);
   std::vector<std::string> texts;

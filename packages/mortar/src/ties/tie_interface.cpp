@@ -12,6 +12,7 @@
 #include <map>
 #include <memory>
 
+#include "mortise/core/trilinos_versions.hpp"
 #include "mortise/mortar/quadratic_facet.hpp"
 #include "ties/tie_checks.hpp"
 
@@ -130,7 +131,7 @@ TieInterface::TieInterface(const RCP<const Map>& owned_nodes, const RCP<const Mu
 
 TieCover measure_cover(const RCP<const Map>& owned_nodes, const RCP<const MultiVector>& reference, const TiedPair& tie,
                        const InterfaceMeasure& measure) {
-  const std::size_t count = owned_nodes->getNodeNumElements();
+  const std::size_t count = local_id_count(*owned_nodes);
   const Integrated of = integrate(owned_nodes, reference, tie, tie.slave, std::vector<char>(count, 0), measure);
   const std::vector<SlaveNode>& slaves = of.interface->slave_nodes();
   TieCover cover{std::vector<char>(count, 0), std::vector<double>(count, 0.0), 0};

@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 
+#include "mortise/core/trilinos_versions.hpp"
 #include "ties/tie_checks.hpp"
 #include "ties/tie_interface.hpp"
 
@@ -38,7 +39,7 @@ void add_rows(const TieInterface& interface, std::size_t tie, int dimension, int
 }
 
 RCP<const Matrix> matrix_of(const RCP<const Map>& dofs, const TieRowMap& rows) {
-  std::vector<std::size_t> sizes(dofs->getNodeNumElements(), 1);
+  std::vector<std::size_t> sizes(local_id_count(*dofs), 1);
   for (const auto& [dof, row] : rows) sizes[static_cast<std::size_t>(dof)] = row.columns.size();
   const auto R = rcp(new Matrix(dofs, Teuchos::arrayViewFromVector(sizes)));
   for (LocalOrdinal dof = 0; dof < static_cast<LocalOrdinal>(sizes.size()); ++dof) {
@@ -90,7 +91,7 @@ TieRows tie_surfaces(const RCP<const Map>& owned_nodes, const RCP<const Map>& do
   for (std::size_t t = 0; t < ties.size(); ++t) {
     refuse_shared_facets(owned_nodes, *reference, shared, ties, t);
     const TieCover cover = measure_cover(owned_nodes, reference, ties[t], measure);
-    std::vector<char> without(owned_nodes->getNodeNumElements()), last;
+    std::vector<char> without(local_id_count(*owned_nodes)), last;
     std::optional<TieInterface> interface;
     for (int i = 0; i < dimension; ++i) {
       for (std::size_t node = 0; node < without.size(); ++node)

@@ -14,6 +14,7 @@
 
 #include "linear/linear_system_checks.hpp"
 #include "mortise/core/memory.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 
 namespace mortise::detail {
 namespace {
@@ -202,7 +203,7 @@ class MumpsSolver : public DirectSolver {
   // PORD's multisection take as much again. Entries with their rows and columns are on each rank.
   double memory_of_analysis() const override {
     constexpr double mib = 1024.0 * 1024.0, integers = 8.0;
-    const double own = static_cast<double>(matrix()->getNodeNumEntries()) * (sizeof(double) + 2 * sizeof(int));
+    const double own = static_cast<double>(local_entry_count(*matrix())) * (sizeof(double) + 2 * sizeof(int));
     const double graph = matrix()->getComm()->getRank() == 0 ? static_cast<double>(matrix()->getGlobalNumEntries()) * integers * sizeof(int) : 0.0;
     return (own + graph) / mib;
   }

@@ -1,10 +1,17 @@
 #include "mortise/nonlinear/linear_solver_options.hpp"
 
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace mortise {
 
 void LinearSolverOptions::describe(Parameters& parameters) {
+  // With its type: in C++20 the pairs could be of Located<Kind> too.
+  const std::vector<std::pair<std::string, Kind>> kinds = {
+      {"automatic", Kind::automatic}, {"mumps", Kind::mumps}, {"klu2", Kind::klu2}, {"iterative", Kind::iterative}};
   parameters.add(
-      "type", kind, {{"automatic", Kind::automatic}, {"mumps", Kind::mumps}, {"klu2", Kind::klu2}, {"iterative", Kind::iterative}},
+      "type", kind, kinds,
       "automatic: iterative in 3D from 10000 unknowns on, and mumps where that is slow, otherwise mumps; mumps: direct, on any number of ranks; "
       "klu2: direct, on one rank; iterative: GMRES with algebraic multigrid");
   parameters.add(

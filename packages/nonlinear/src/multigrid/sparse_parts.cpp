@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mortise/core/column_map.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 
 namespace mortise::detail {
 
@@ -26,7 +27,7 @@ template <class ColumnOf>
 RCP<const Matrix> part(const Matrix& A, const RCP<const Map>& rows, const RCP<const Map>& columns, const RCP<const Map>& domain,
                        const RCP<const Import>& importer, const ColumnOf& column_of) {
   const auto local = A.getLocalMatrixHost();
-  const std::size_t count = rows->getNodeNumElements();
+  const std::size_t count = local_id_count(*rows);
   Teuchos::ArrayRCP<std::size_t> starts(count + 1, 0);
   std::vector<LocalOrdinal> indices;
   std::vector<double> values;
@@ -50,10 +51,10 @@ RCP<const Matrix> part(const Matrix& A, const RCP<const Map>& rows, const RCP<co
 RCP<const Matrix> columns_of_identity_plus(const Matrix& A, const RCP<const Map>& chosen) {
   const RCP<const Map> domain = A.getDomainMap();
   Vector marks(domain);
-  std::vector<std::size_t> sizes(A.getNodeNumRows(), 0);
+  std::vector<std::size_t> sizes(local_row_count(A), 0);
   const auto local = A.getLocalMatrixHost();
   for (LocalOrdinal row = 0; row < local.numRows(); ++row) sizes[row] = local.rowConst(row).length;
-  for (const GlobalOrdinal id : chosen->getNodeElementList()) {
+  for (const GlobalOrdinal id : local_ids(*chosen)) {
     marks.replaceGlobalValue(id, 1.0);
     ++sizes[A.getRowMap()->getLocalElement(id)];
   }
@@ -71,7 +72,7 @@ RCP<const Matrix> columns_of_identity_plus(const Matrix& A, const RCP<const Map>
     }
   }
   const double one = 1.0;
-  for (const GlobalOrdinal id : chosen->getNodeElementList()) result.insertGlobalValues(id, 1, &one, &id);
+  for (const GlobalOrdinal id : local_ids(*chosen)) result.insertGlobalValues(id, 1, &one, &id);
   result.fillComplete(chosen, A.getRangeMap());
   return rcp(new const Matrix(std::move(result)));
 }
@@ -79,11 +80,11 @@ RCP<const Matrix> columns_of_identity_plus(const Matrix& A, const RCP<const Map>
 RCP<Matrix> sum(const Matrix& A, const Matrix& B) { return Tpetra::MatrixMatrix::add(1.0, false, A, 1.0, false, B); }
 
 RCP<Matrix> sum_without_zeros(const Matrix& A, const Matrix& B) {
-  const auto of_b_ids = B.getColMap()->getNodeElementList();
+  const auto of_b_ids = local_ids(*B.getColMap());
   const RCP<const Map> columns =
       A.getComm()->getSize() == 1 ? A.getColMap() : with_further_columns(*A.getColMap(), {of_b_ids.begin(), of_b_ids.end()});
   const auto a = A.getLocalMatrixHost(), b = B.getLocalMatrixHost();
-  std::vector<LocalOrdinal> column_of_b(B.getColMap()->getNodeNumElements());
+  std::vector<LocalOrdinal> column_of_b(local_id_count(*B.getColMap()));
   for (std::size_t c = 0; c < column_of_b.size(); ++c)
     column_of_b[c] = columns->getLocalElement(B.getColMap()->getGlobalElement(static_cast<LocalOrdinal>(c)));
   std::map<LocalOrdinal, double> both;

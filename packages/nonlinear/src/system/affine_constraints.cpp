@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "mortise/core/trilinos_versions.hpp"
+
 namespace mortise {
 namespace {
 
@@ -29,7 +31,7 @@ RCP<const Matrix> matrix_of(const RCP<const Map>& dofs, const std::vector<Affine
   for (const auto& line : lines) most = std::max(most, line.terms.size());
   const auto result = rcp(new Matrix(dofs, most));
   auto line = lines.begin();
-  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(dofs->getNodeNumElements()); ++row) {
+  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(local_id_count(*dofs)); ++row) {
     const GlobalOrdinal id = dofs->getGlobalElement(row);
     if (line == lines.end() || line->row != row) {
       const double one = 1.0;

@@ -10,15 +10,17 @@
 #include <limits>
 #include <stdexcept>
 
+#include "mortise/core/trilinos_versions.hpp"
+
 namespace mortise::detail {
 
 FieldSizes::FieldSizes(const SystemParts& parts) : sizes_{parts.length} {
   if (parts.fields.size() < 2) return;
   sizes_.clear();
-  field_of_row_.assign(parts.dofs->getNodeNumElements(), parts.fields.size());
+  field_of_row_.assign(local_id_count(*parts.dofs), parts.fields.size());
   for (const SystemField& of : parts.fields) {
     const NodalField& field = of.unknowns;
-    for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(field.nodes()->getNodeNumElements()); ++node)
+    for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(local_id_count(*field.nodes())); ++node)
       for (int i = 0; i < field.components(); ++i)
         if (const GlobalOrdinal id = field.id(node, i); id != NodalField::none)
           field_of_row_.at(static_cast<std::size_t>(parts.dofs->getLocalElement(id))) = sizes_.size();

@@ -23,7 +23,7 @@ RCP<Matrix> mass_matrix(const SystemModel& model, const Configuration& at) {
 /// A with a diagonal, 0 where there was none.
 RCP<Matrix> with_diagonal(const Matrix& A) {
   Matrix zeros(A.getRowMap(), 1);
-  for (const GlobalOrdinal id : A.getRowMap()->getNodeElementList()) {
+  for (const GlobalOrdinal id : local_ids(*A.getRowMap())) {
     const double zero = 0.0;
     zeros.insertGlobalValues(id, 1, &zero, &id);
   }

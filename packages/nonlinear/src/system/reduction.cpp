@@ -10,6 +10,8 @@
 #include <cmath>
 #include <utility>
 
+#include "mortise/core/trilinos_versions.hpp"
+
 namespace mortise::detail {
 namespace {
 
@@ -28,7 +30,7 @@ Reduction::Reduction(std::shared_ptr<const RigidConstraints> followers, std::sha
   dependents_ = following_;
   if (constraints_) dependents_.insert(dependents_.end(), constraints_->dependent().begin(), constraints_->dependent().end());
   std::sort(dependents_.begin(), dependents_.end());
-  place_of_.assign(dofs->getNodeNumElements(), 0);
+  place_of_.assign(local_id_count(*dofs), 0);
   for (const LocalOrdinal dof : following_) place_of_[dof] = -1;
   LocalOrdinal count = 0;
   for (LocalOrdinal& place : place_of_)
@@ -152,7 +154,7 @@ NearNullSpace Reduction::reduced(const NearNullSpace& of_dofs) const {
   if (of_dofs.coordinates.is_null()) return result;
   const auto dimension = static_cast<LocalOrdinal>(of_dofs.coordinates->getNumVectors());
   const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
-  const auto nodes = rcp(new const Map(invalid, unknowns_->getNodeNumElements() / dimension, 0, dofs_->getComm()));
+  const auto nodes = rcp(new const Map(invalid, local_id_count(*unknowns_) / dimension, 0, dofs_->getComm()));
   const auto coordinates = rcp(new MultiVector(nodes, of_dofs.coordinates->getNumVectors()));
   {
     const auto from = of_dofs.coordinates->getLocalViewHost(Tpetra::Access::ReadOnly);

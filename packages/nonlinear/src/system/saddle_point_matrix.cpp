@@ -6,13 +6,14 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 
+#include "mortise/core/trilinos_versions.hpp"
 #include "system/matrix_values.hpp"
 
 namespace mortise::detail {
 
 SaddlePointMatrix::SaddlePointMatrix(RCP<const Map> first, RCP<const Map> second) : first_(std::move(first)), second_(std::move(second)) {
-  const std::size_t count = first_->getNodeNumElements();
-  both_ = rcp(new const Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(), count + second_->getNodeNumElements(), 0, first_->getComm()));
+  const std::size_t count = local_id_count(*first_);
+  both_ = rcp(new const Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(), count + local_id_count(*second_), 0, first_->getComm()));
   const auto numbered = [&](const RCP<const Map>& map, std::size_t begin) {
     const auto ids = rcp(new Vector(map));
     const auto view = ids->getLocalViewHost(Tpetra::Access::OverwriteAll);
@@ -39,8 +40,8 @@ void SaddlePointMatrix::build(const Blocks& blocks) {
     ids[b] = column_ids(*blocks[b], b % 2 == 0 ? *first_ids_ : *second_ids_);
     graphs_[b] = blocks[b]->getCrsGraph();
   }
-  const auto count = static_cast<LocalOrdinal>(first_->getNodeNumElements());
-  const auto rows = static_cast<LocalOrdinal>(both_->getNodeNumElements());
+  const auto count = static_cast<LocalOrdinal>(local_id_count(*first_));
+  const auto rows = static_cast<LocalOrdinal>(local_id_count(*both_));
   std::vector<std::size_t> sizes(rows);
   std::vector<std::vector<GlobalOrdinal>> columns(rows);
   for (std::size_t b = 0; b < 4; ++b) {
@@ -58,7 +59,7 @@ void SaddlePointMatrix::build(const Blocks& blocks) {
   matrix_->fillComplete(both_, both_);
 
   const auto target = graph->getLocalGraphHost();
-  std::vector<std::size_t> place(graph->getColMap()->getNodeNumElements());
+  std::vector<std::size_t> place(local_id_count(*graph->getColMap()));
   for (std::size_t b = 0; b < 4; ++b) {
     const auto entries = graphs_[b]->getLocalGraphHost();
     const LocalOrdinal begin = b < 2 ? 0 : count;
@@ -91,13 +92,13 @@ RCP<Matrix> SaddlePointMatrix::merged(const Matrix& A, const Matrix& B, const Ma
 RCP<Vector> SaddlePointMatrix::merged(const Vector& first, const Vector& second) const {
   const auto both = rcp(new Vector(both_));
   Tpetra::deep_copy(*both->offsetViewNonConst(first_, 0), first);
-  Tpetra::deep_copy(*both->offsetViewNonConst(second_, first_->getNodeNumElements()), second);
+  Tpetra::deep_copy(*both->offsetViewNonConst(second_, local_id_count(*first_)), second);
   return both;
 }
 
 void SaddlePointMatrix::split(const Vector& both, Vector& first, Vector& second) const {
   Tpetra::deep_copy(first, *both.offsetView(first_, 0));
-  Tpetra::deep_copy(second, *both.offsetView(second_, first_->getNodeNumElements()));
+  Tpetra::deep_copy(second, *both.offsetView(second_, local_id_count(*first_)));
 }
 
 }  // namespace mortise::detail

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "mortise/core/trilinos_versions.hpp"
 #include "system/active_set_hash.hpp"
 
 namespace mortise::detail {
@@ -22,7 +23,7 @@ constexpr double round_off_floor = 1e-6;
 RCP<const Map> map_of_both(const Map& first, const Map& second) {
   std::vector<GlobalOrdinal> ids;
   for (const Map* map : {&first, &second})
-    for (const GlobalOrdinal id : map->getNodeElementList()) ids.push_back(id);
+    for (const GlobalOrdinal id : local_ids(*map)) ids.push_back(id);
   const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
   return rcp(new Map(invalid, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, first.getComm()));
 }
@@ -303,7 +304,7 @@ void SystemModel::widen_matrix(const RCP<const Graph>& graph) const {
   const RCP<Matrix> narrow = matrix_;
   matrix_ = rcp(new Matrix(graph));
   const auto from = narrow->getLocalMatrixHost();
-  std::vector<LocalOrdinal> place(narrow->getColMap()->getNodeNumElements());
+  std::vector<LocalOrdinal> place(local_id_count(*narrow->getColMap()));
   for (std::size_t column = 0; column < place.size(); ++column)
     place[column] = matrix_->getColMap()->getLocalElement(narrow->getColMap()->getGlobalElement(static_cast<LocalOrdinal>(column)));
   std::vector<LocalOrdinal> columns;

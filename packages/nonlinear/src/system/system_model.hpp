@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "mortise/core/timers.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 #include "mortise/nonlinear/semi_smooth_system.hpp"
 #include "system/constraints.hpp"
 #include "system/field_sizes.hpp"
@@ -71,8 +72,8 @@ class SystemModel {
 
   RCP<const Vector> d(const Vector& x) const { return x.offsetView(parts_.dofs, 0); }
   RCP<Vector> d(Vector& x) const { return x.offsetViewNonConst(parts_.dofs, 0); }
-  RCP<const Vector> z(const Vector& x) const { return x.offsetView(multipliers_, parts_.dofs->getNodeNumElements()); }
-  RCP<Vector> z(Vector& x) const { return x.offsetViewNonConst(multipliers_, parts_.dofs->getNodeNumElements()); }
+  RCP<const Vector> z(const Vector& x) const { return x.offsetView(multipliers_, local_id_count(*parts_.dofs)); }
+  RCP<Vector> z(Vector& x) const { return x.offsetViewNonConst(multipliers_, local_id_count(*parts_.dofs)); }
 
   /// Stores or restores stiffness scales and the histories of the contributions.
   void serialize(StateArchive& archive) const;

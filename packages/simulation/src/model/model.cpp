@@ -11,6 +11,7 @@
 #include "model/contributions.hpp"
 #include "model/edge_contact.hpp"
 #include "model/stages/contact_model.hpp"
+#include "mortise/contact/enforcement.hpp"
 #include "mortise/core/names.hpp"
 #include "mortise/material/materials.hpp"
 #include "mortise/mesh/digest.hpp"

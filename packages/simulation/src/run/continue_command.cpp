@@ -16,7 +16,7 @@ std::string quoted_for_shell(const std::string& word) {
 }  // namespace
 
 std::string command_to_continue(const RunOptions& options, const std::string& directory, int ranks) {
-  std::string command = ranks > 1 ? fmt::format("mpirun -n {} ", ranks) : "";
+  std::string command = ranks > 1 ? fmt::format("{} -n {} ", options.launcher, ranks) : "";
   command += "mortise run " + quoted_for_shell(options.scene);
   for (const std::string& setting : options.settings) command += " --set " + quoted_for_shell(setting);
   return command + " -o " + quoted_for_shell(directory) + " --restart";

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "mortise/contact/enforcement.hpp"
 #include "mortise/mesh/file_mesh.hpp"
 #include "mortise/simulation/scene/scene_bodies.hpp"
 #include "mortise/solid/element_type.hpp"

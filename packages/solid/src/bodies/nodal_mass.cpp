@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "mortise/core/trilinos_versions.hpp"
+
 namespace mortise {
 
 RCP<Vector> NodalMass::times(const Vector& v) const {
@@ -32,12 +34,12 @@ RCP<Vector> NodalMass::times(const Vector& v) const {
 void NodalMass::add_to(Matrix& jacobian, double factor) const {
   const auto mass = matrix_->getLocalMatrixHost();
   const Map &nodes = *matrix_->getColMap(), &columns = *jacobian.getColMap();
-  std::vector<LocalOrdinal> first(nodes.getNodeNumElements());  // column of a node's first dof
+  std::vector<LocalOrdinal> first(local_id_count(nodes));  // column of a node's first dof
   for (std::size_t n = 0; n < first.size(); ++n)
     first[n] = columns.getLocalElement(space_->id(0, nodes.getGlobalElement(static_cast<LocalOrdinal>(n)), 0));
   std::vector<double> values;
   std::vector<LocalOrdinal> places;
-  for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(matrix_->getNodeNumRows()); ++node) {
+  for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(local_row_count(*matrix_)); ++node) {
     values.clear();
     places.clear();
     for (std::size_t k = mass.graph.row_map(node); k < mass.graph.row_map(node + 1); ++k) {
@@ -61,9 +63,9 @@ RCP<const Matrix> consistent_mass(const Bodies& bodies) {
   bodies.add_mass(of_dofs);
   const auto local = of_dofs.getLocalMatrixHost();
   const FieldRows& rows = bodies.space().rows(0);
-  std::vector<LocalOrdinal> node_of(bodies.space().local_dofs()->getNodeNumElements(), -1);  // by columns of first components
+  std::vector<LocalOrdinal> node_of(local_id_count(*bodies.space().local_dofs()), -1);  // by columns of first components
   for (LocalOrdinal node = 0; node < mesh.local_count(); ++node) node_of[rows(node, 0)] = node;
-  const auto result = rcp(new Matrix(mesh.owned_nodes, mesh.local_nodes, of_dofs.getCrsGraph()->getNodeMaxNumRowEntries() / rows.components));
+  const auto result = rcp(new Matrix(mesh.owned_nodes, mesh.local_nodes, longest_local_row(*of_dofs.getCrsGraph()) / rows.components));
   std::vector<double> values;
   std::vector<LocalOrdinal> columns;
   for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node) {
@@ -113,8 +115,8 @@ RCP<const Matrix> mass_of_extension(const Matrix& M, const Matrix& P) {
 RCP<const Matrix> for_each_component(const Matrix& of_nodes, const FieldSpace& space) {
   const RCP<const Map>& dofs = space.dofs();
   const auto local = of_nodes.getLocalMatrixHost();
-  const auto result = rcp(new Matrix(dofs, of_nodes.getNodeMaxNumRowEntries()));
-  for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(of_nodes.getNodeNumRows()); ++node)
+  const auto result = rcp(new Matrix(dofs, longest_local_row(of_nodes)));
+  for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(local_row_count(of_nodes)); ++node)
     for (std::size_t k = local.graph.row_map(node); k < local.graph.row_map(node + 1); ++k)
       for (int i = 0; i < space.rows(0).components; ++i) {
         const GlobalOrdinal column = space.id(0, of_nodes.getColMap()->getGlobalElement(local.graph.entries(k)), i);

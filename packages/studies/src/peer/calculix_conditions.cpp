@@ -9,6 +9,7 @@
 #include <iterator>
 #include <map>
 
+#include "mortise/core/trilinos_versions.hpp"
 #include "peer/calculix_deck.hpp"
 
 namespace mortise {
@@ -49,7 +50,7 @@ class Amplitudes {
 /// External forces at the times, [dof][time]: those of loads that do not follow the bodies.
 std::vector<Values> external_forces(const Scene& scene, const Model& model, const Values& times) {
   const Bodies& bodies = *model.bodies();
-  std::vector<Values> forces(bodies.space().dofs()->getNodeNumElements(), Values(times.size()));
+  std::vector<Values> forces(local_id_count(*bodies.space().dofs()), Values(times.size()));
   const Vector undeformed(bodies.space().local_dofs());
   for (const auto& options : scene.loads) {
     const auto load = options.value.load.options->make(model.bodies());

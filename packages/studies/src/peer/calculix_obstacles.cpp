@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "mortise/contact/formulation/pressure_overclosure.hpp"
+#include "mortise/contact/enforcement/pressure_overclosure.hpp"
 #include "mortise/material/materials.hpp"
 #include "peer/calculix_deck.hpp"
 

@@ -1,13 +1,11 @@
 #pragma once
 // The complementarity function of a slave node, with and without friction, and its derivatives.
 
+#include "mortise/contact/contact_state.hpp"
 #include "mortise/contact/frame.hpp"
-#include "mortise/contact/friction.hpp"
+#include "mortise/contact/friction_bound.hpp"
 
 namespace mortise {
-
-/// State of a slave node. A closed node without friction slips.
-enum class ContactState { open = 0, stick = 1, slip = 2 };
 
 /// C of one node in its frame (n, tau_a), rows in units of traction, and its linearisation with the weight w = sum_k D_jk:
 ///   dC = C_z dz + gap_factor dg + weight_factor dw + normal_factor dn + [ 0 ; slip_factor du + start_factor dg0 ].

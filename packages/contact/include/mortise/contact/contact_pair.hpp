@@ -11,7 +11,7 @@
 #include "mortise/core/error.hpp"
 #include "mortise/core/parameters.hpp"
 #include "mortise/core/scalar_function.hpp"
-#include "mortise/mortar/mortar_interface.hpp"
+#include "mortise/mortar/mortar_options.hpp"
 
 namespace mortise {
 

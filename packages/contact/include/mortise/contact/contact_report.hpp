@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mortise/contact/contact_evaluation.hpp"
+#include "mortise/mortar/coupling.hpp"
 
 namespace mortise {
 

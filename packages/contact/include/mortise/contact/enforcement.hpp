@@ -1,12 +1,21 @@
 #pragma once
-// Enforcements: how contact conditions are held at the slave nodes of a pair. A new one stands beside the formulation that makes it, in formulation/.
+// Enforcements: how contact conditions are held at the slave nodes of a pair. A new one stands in enforcement/.
 
 #include <optional>
 
-#include "mortise/contact/contact_history.hpp"
-#include "mortise/contact/friction.hpp"
+#include "mortise/contact/complementarity.hpp"
 
 namespace mortise {
+
+struct Diagnostic;
+struct FrictionLaw;
+
+/// Start of the conditions of a node where Enforcement::starts_from_multipliers(): fixed while they are solved, renewed by an update of the
+/// multipliers and by a step.
+struct NodeStart {
+  SpatialVector multiplier;  ///< normal, along tau_a: Enforcement::start_from()
+  double stiffening = 1.0;   ///< factor of eps: Enforcement::stiffening()
+};
 
 /// The law of friction at one slave node.
 struct NodeFriction {

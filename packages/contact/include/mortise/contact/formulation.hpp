@@ -3,14 +3,19 @@
 
 #include <memory>
 
-#include "mortise/contact/enforcement.hpp"
 #include "mortise/core/parameters.hpp"
 #include "mortise/mortar/coupling.hpp"
 
 namespace mortise {
 
+class Enforcement;
+
 /// An enforcement as a pair holds it.
 using SharedEnforcement = std::shared_ptr<const Enforcement>;
+/// Conditions that hold exactly, with multipliers that leave the system by the momentum rows of their slave nodes.
+SharedEnforcement condensed_multipliers();
+/// Conditions that hold exactly, with multipliers that stay unknowns.
+SharedEnforcement kept_multipliers();
 
 /// The formulation of a contact pair.
 struct Formulation : Described {

@@ -4,15 +4,10 @@
 #include <limits>
 #include <optional>
 
+#include "mortise/contact/friction_bound.hpp"
 #include "mortise/core/parameters.hpp"
 
 namespace mortise {
-
-/// Largest shear traction of a node.
-struct FrictionBound {
-  double value = 0.0;  ///< rho [stress]
-  double slope = 0.0;  ///< d rho / d pressure
-};
 
 /// The friction of a contact pair.
 struct FrictionLaw : Described {

@@ -24,13 +24,13 @@ struct HoldingRow {
 
 /// A closed slave node that slips against friction: the shear traction rho y / |y| at y = z_tau + c_t u.
 struct SlidingNode {
-  std::size_t pair = 0;         ///< its contact pair
-  LocalOrdinal multiplier = 0;  ///< local index of the first component of its z
-  Frame frame;                  ///< its normal and tangents
-  double bound = 0.0;           ///< rho, above 0
-  double stiffness = 0.0;       ///< c_t
-  double weight = 0.0;          ///< sum_k D_jk: u / weight is a length
-  TangentVector slip;           ///< weighted slip u of the step
+  std::size_t pair = 0;                         ///< its contact pair
+  LocalOrdinal multiplier = 0;                  ///< local index of the first component of its z
+  std::vector<std::array<double, 3>> tangents;  ///< tau_a: one in 2D, two in 3D; third component 0 in 2D
+  double bound = 0.0;                           ///< rho, above 0
+  double stiffness = 0.0;                       ///< c_t
+  double weight = 0.0;                          ///< sum_k D_jk: u / weight is a length
+  std::vector<double> slip;                     ///< [tangents] weighted slip u of the step
   /// [tangents] What a unit traction along tau_a does to each body: forces are areas. A rigid motion changes u_a by its work on them.
   std::vector<std::vector<HoldingRow::Wrench>> along;
 };

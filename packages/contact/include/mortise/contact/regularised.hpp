@@ -17,11 +17,12 @@ struct RegularisedNode {
 
 /// Depth with which a node's pressure grows, beyond where it bears none: a penetration, or the pressure itself. Of a node that closed a gap.
 struct NodeDepth {
-  double value = 0.0;      ///< delta > 0
-  double of_length = 1.0;  ///< the gap G0 = of_length g0 / w that it closed first, in the unit of delta
-  SpatialVector of_z;      ///< its derivatives
-  SpatialVector of_normal;
-  double of_gap = 0.0, of_weight = 0.0;
+  double value = 0.0;       ///< delta > 0
+  double of_length = 1.0;   ///< the gap G0 = of_length g0 / w that it closed first, in the unit of delta
+  SpatialVector of_z;       ///< its derivative with respect to z
+  SpatialVector of_normal;  ///< with respect to the node's normal
+  double of_gap = 0.0;      ///< with respect to g
+  double of_weight = 0.0;   ///< with respect to w
 };
 
 /// The pressure of `law`, C_n = z_n - p:  dp = dz_n - dC_n,  G0 = eps_n g0 / w.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mortise/core/trilinos_versions.hpp"
 #include "mortise/core/types.hpp"
 #include "mortise/shape/cell.hpp"
 
@@ -72,7 +73,7 @@ struct Mesh {
   std::vector<int> body_of_node;                               ///< [local nodes] index of the body that the node belongs to, or whose nodes follow it
   std::vector<ReferencePoint> reference_points;                ///< equal, and in the same order, on every rank
 
-  LocalOrdinal owned_count() const { return static_cast<LocalOrdinal>(owned_nodes->getNodeNumElements()); }
+  LocalOrdinal owned_count() const { return static_cast<LocalOrdinal>(local_id_count(*owned_nodes)); }
   /// Owned nodes of bodies; those of reference points come after them.
   LocalOrdinal owned_body_count() const {
     LocalOrdinal count = owned_count();
@@ -80,7 +81,7 @@ struct Mesh {
       if (point.node < owned_count()) count -= point.rotation_node < 0 ? 1 : 2;
     return count;
   }
-  LocalOrdinal local_count() const { return static_cast<LocalOrdinal>(local_nodes->getNodeNumElements()); }
+  LocalOrdinal local_count() const { return static_cast<LocalOrdinal>(local_id_count(*local_nodes)); }
 
   /// The body that a block is part of.
   const MeshBody& body_of(const Block& block) const { return bodies[block.body]; }

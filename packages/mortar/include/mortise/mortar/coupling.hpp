@@ -1,7 +1,6 @@
 #pragma once
 // Couplings: what the multipliers of slave nodes act through. A new one: a struct in coupling/, and its line in coupling_registry().
 
-#include <Eigen/Core>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,7 +9,15 @@
 #include "mortise/core/types.hpp"
 #include "mortise/shape/surface_facet.hpp"
 
+namespace Eigen {
+template <class Scalar, int rows, int columns, int options, int most_rows, int most_columns>
+class Matrix;
+}  // namespace Eigen
+
 namespace mortise {
+
+/// Eigen::Vector2d, which needs Eigen only where a coupling is written.
+using PlaneVector = Eigen::Matrix<double, 2, 1, 0, 2, 1>;
 
 struct FacetCoupling;
 struct InterfaceMeasure;
@@ -52,7 +59,7 @@ class Coupling {
   /// @param derivatives whether `coupling` gets them
   /// @return false if none is met; then `coupling` has no meaning
   virtual bool couple_node(const SlaveNodeData& slave, const std::vector<Facet<LocalOrdinal>>& masters, double reach,
-                           const std::vector<Eigen::Vector2d>& x, const InterfaceMeasure& measure, double share, bool derivatives,
+                           const std::vector<PlaneVector>& x, const InterfaceMeasure& measure, double share, bool derivatives,
                            FacetCoupling& coupling) const;
 
   /// Rule at kinks, where the pair asks for `asked`: in 3D the average in the place of the nearest facet.

@@ -26,7 +26,7 @@ struct TimeScheme {
     /// (Arnold, Bruels 2007).
     at_end
   };
-  Balance balance = Balance::over_step;
+  Balance balance = Balance::over_step;                 ///< of momentum
   double alpha_m = 0.0;                                 ///< of the acceleration
   double alpha_f = 0.0;                                 ///< of forces and the velocity
   std::array<double, 3> velocity{2.0, -1.0, 0.0};       ///< coefficients of D / h, v_n, h a_n
@@ -58,7 +58,7 @@ struct AcceptedRates {
 
 /// Time integration of a system.
 struct TimeIntegration {
-  TimeScheme scheme;
+  TimeScheme scheme;  ///< its coefficients
   /// Owned dofs without mass, ascending: their velocity is the mean over a step, D / h.
   std::vector<LocalOrdinal> massless;
   /// [owned dofs squared] v = P v gives dofs without mass the value of those with mass around them: the identity in rows of others, columns of dofs
@@ -80,7 +80,8 @@ struct TimeStep {
 
 /// Rates at which contributions are evaluated.
 struct BlendedRates {
-  RCP<Vector> velocity, acceleration;
+  RCP<Vector> velocity;      ///< [owned dofs]
+  RCP<Vector> acceleration;  ///< [owned dofs]
 };
 BlendedRates blended_rates(const TimeStep& step, const Vector& unknowns);
 /// What a step that ended at these unknowns leaves. `external_forces`: -f_ext at its end.

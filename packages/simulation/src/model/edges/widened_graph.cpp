@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mortise/core/column_map.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 
 namespace mortise {
 
@@ -27,7 +28,7 @@ RCP<const Graph> widened(const Graph& bulk, const FieldSpace& space, const std::
   }
   const RCP<const Map> rows = bulk.getRowMap(), columns = with_further_columns(*bulk.getColMap(), further);
   const auto narrow = bulk.getLocalGraphHost();
-  const auto count = static_cast<LocalOrdinal>(rows->getNodeNumElements());
+  const auto count = static_cast<LocalOrdinal>(local_id_count(*rows));
   std::map<LocalOrdinal, std::vector<LocalOrdinal>> wide;
   for (const auto& [row, ids] : of_row) {
     std::vector<LocalOrdinal>& all = wide[row];
@@ -84,7 +85,7 @@ RCP<const Graph> with_entries_of(const RCP<const Graph>& bulk, const Matrix& of_
   std::set<std::pair<GlobalOrdinal, GlobalOrdinal>> coupled;
   const auto mass = of_nodes.getLocalMatrixHost();
   const auto graph = bulk->getLocalGraphHost();
-  for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(of_nodes.getNodeNumRows()); ++node) {
+  for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(local_row_count(of_nodes)); ++node) {
     const LocalOrdinal row = space.row(node, 0);
     const auto *first = graph.entries.data() + graph.row_map(row), *last = graph.entries.data() + graph.row_map(row + 1);
     for (std::size_t k = mass.graph.row_map(node); k < mass.graph.row_map(node + 1); ++k) {

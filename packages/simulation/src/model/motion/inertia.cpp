@@ -11,6 +11,7 @@
 
 #include "model/edges/widened_graph.hpp"
 #include "mortise/core/over_ranks.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 #include "mortise/material/materials.hpp"
 #include "mortise/solid/rigid_mass.hpp"
 
@@ -62,7 +63,7 @@ void StiffnessDamping::add_jacobian(const Configuration&, const JacobianWeights&
   std::vector<double> values;
   std::vector<LocalOrdinal> columns;
   const auto shares = weights.local_velocity_shares->getLocalViewHost(Tpetra::Access::ReadOnly);
-  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(damping_->getNodeNumRows()); ++row) {
+  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(local_row_count(*damping_)); ++row) {
     values.clear();
     columns.clear();
     for (std::size_t k = local.graph.row_map(row); k < local.graph.row_map(row + 1); ++k) {

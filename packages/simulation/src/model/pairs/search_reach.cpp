@@ -3,6 +3,7 @@
 #include <Teuchos_CommHelpers.hpp>
 #include <algorithm>
 
+#include "mortise/contact/enforcement.hpp"
 #include "mortise/mesh/sets.hpp"
 
 namespace mortise {

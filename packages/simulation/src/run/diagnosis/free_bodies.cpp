@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "mortise/core/over_ranks.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 #include "mortise/simulation/run/diagnosis/contact_hold.hpp"
 #include "mortise/solid/rotation_vector.hpp"
 #include "run/diagnosis/held_bodies.hpp"
@@ -20,7 +21,7 @@ FreeBodies::FreeBodies(const Model& model, const SystemEvaluation& evaluation, c
       modes_(modes_at(model, bodies, at_)),
       held_(held_by_supports(model, modes_, at_)) {
   const Mesh& mesh = *model.mesh();
-  prescribed_.assign(model.space().dofs()->getNodeNumElements(), 0);
+  prescribed_.assign(local_id_count(*model.space().dofs()), 0);
   for (const LocalOrdinal dof : model.parts().constraints->prescribed()) prescribed_[static_cast<std::size_t>(dof)] = 1;
   turning_.assign(static_cast<std::size_t>(mesh.owned_count()), -1);
   for (std::size_t p = 0; p < mesh.reference_points.size(); ++p)

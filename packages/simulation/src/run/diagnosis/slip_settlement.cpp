@@ -13,6 +13,7 @@
 #include "mortise/contact/holding_nodes.hpp"
 #include "mortise/core/over_ranks.hpp"
 #include "mortise/core/symmetric_spectrum.hpp"
+#include "mortise/core/trilinos_versions.hpp"
 #include "mortise/simulation/run/diagnosis/body_motion.hpp"
 #include "mortise/simulation/run/diagnosis/contact_hold.hpp"
 #include "mortise/simulation/run/diagnosis/friction_balance.hpp"
@@ -28,6 +29,18 @@ constexpr double at_rest = 1e-6;  ///< share of its bound that the traction of a
 constexpr double round_off = 1e-13;  ///< forces missing along motions, over what friction bears, below which none is missing
 constexpr double same = 1e-6;        ///< change of the multipliers over the largest below which an iterate is the one before
 constexpr double in_balance = 1e-2;  ///< imbalance of a body along motions that are held, over the load along those that slip
+
+TangentVector slip_of(const SlidingNode& node) {
+  return Eigen::Map<const Eigen::VectorXd>(node.slip.data(), static_cast<Eigen::Index>(node.slip.size()));
+}
+
+/// Rows tau_a in `dimension` dimensions.
+Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 2, 3> tangents_of(const SlidingNode& node, int dimension) {
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 2, 3> tangents(node.tangents.size(), dimension);
+  for (Eigen::Index a = 0; a < tangents.rows(); ++a)
+    for (Eigen::Index i = 0; i < tangents.cols(); ++i) tangents(a, i) = node.tangents[static_cast<std::size_t>(a)][static_cast<std::size_t>(i)];
+  return tangents;
+}
 
 /// The work of sliding nodes on some motions, columns of `motions`.
 std::vector<SlidingRow> sliding_rows(const std::vector<SlidingNode>& nodes, const std::vector<TangentVector>& slips, const RigidModes& modes,
@@ -84,7 +97,7 @@ void SlipSettlement::sum(std::vector<double>& values) const {
 bool SlipSettlement::find_sliding(const Vector& x, const Vector& F, const ContactLaws& laws, Sliding& found) const {
   const Mesh& mesh = *model_.mesh();
   const RCP<const Map>& dofs = model_.parts().dofs;
-  const RCP<const Vector> z = x.offsetView(model_.contact()->multiplier_map(), dofs->getNodeNumElements());
+  const RCP<const Vector> z = x.offsetView(model_.contact()->multiplier_map(), local_id_count(*dofs));
   found.at = places_at(model_, x);
   found.modes.emplace(modes_at(model_, bodies_, found.at));
   const RigidModes& modes = *found.modes;
@@ -110,8 +123,8 @@ bool SlipSettlement::find_sliding(const Vector& x, const Vector& F, const Contac
   for (const SlidingNode& node : found.nodes) {
     SpatialVector of_node(mesh.dimension);
     for (int c = 0; c < mesh.dimension; ++c) of_node[c] = multipliers(node.multiplier + c, 0);
-    found.traction.emplace_back(node.frame.tangents * of_node);
-    const TangentVector y = found.traction.back() + node.stiffness * node.slip;
+    found.traction.emplace_back(tangents_of(node, mesh.dimension) * of_node);
+    const TangentVector y = found.traction.back() + node.stiffness * slip_of(node);
     directions.emplace_back(y / y.norm());
     slips.emplace_back((y.norm() - node.bound) / node.stiffness * directions.back());
   }
@@ -137,7 +150,7 @@ bool SlipSettlement::find_sliding(const Vector& x, const Vector& F, const Contac
     const SlidingNode& node = found.nodes[i];
     const Eigen::MatrixXd& work = found.rows[i].work;
     const TangentVector &t = found.traction[i], &e = directions[i];
-    const double length = (t + node.stiffness * node.slip).norm();
+    const double length = (t + node.stiffness * slip_of(node)).norm();
     borne += work.transpose() * t;
     by_law += node.bound * work.transpose() * e;
     const TangentMatrix turning = TangentMatrix::Identity(e.size(), e.size()) - e * e.transpose();
@@ -213,10 +226,10 @@ RCP<Vector> SlipSettlement::better_start(const SystemEvaluation& at) {
     for (std::size_t b = 0; b < bodies_.size(); ++b) middles.push_back(sliding.modes->centre(static_cast<int>(b)));
     move_bodies(model_.space(), *sliding.modes, sliding.motions * balance.motion, middles, sliding.at, 1.0, *result->offsetViewNonConst(dofs, 0));
   }
-  const RCP<Vector> z = result->offsetViewNonConst(model_.contact()->multiplier_map(), dofs->getNodeNumElements());
+  const RCP<Vector> z = result->offsetViewNonConst(model_.contact()->multiplier_map(), local_id_count(*dofs));
   const auto values = z->getLocalViewHost(Tpetra::Access::ReadWrite);
   const auto change_shear = [&](std::size_t i, const TangentVector& change) {
-    const SpatialVector dz = nodes[i].frame.tangents.transpose() * change;
+    const SpatialVector dz = tangents_of(nodes[i], mesh.dimension).transpose() * change;
     for (int c = 0; c < mesh.dimension; ++c) values(nodes[i].multiplier + c, 0) += dz[c];
   };
   // The law says stick where |z_tau + c_t u| is below the bound.
@@ -224,7 +237,7 @@ RCP<Vector> SlipSettlement::better_start(const SystemEvaluation& at) {
   double resting = 0.0, least = std::numeric_limits<double>::max();
   std::size_t slipped_least = 0;
   const auto rest = [&](std::size_t i) {
-    tractions[i] = -nodes[i].stiffness * nodes[i].slip;
+    tractions[i] = -nodes[i].stiffness * slip_of(nodes[i]);
     if (balance.borne) tractions[i] -= nodes[i].stiffness * sliding.rows[i].work * balance.motion;
   };
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -232,7 +245,7 @@ RCP<Vector> SlipSettlement::better_start(const SystemEvaluation& at) {
     const double slip = (balance.borne ? TangentVector(row.slip + row.work * balance.motion) : row.slip).norm() / row.weight;
     if (slip < least) least = slip, slipped_least = i;
     if (!balance.borne) continue;
-    tractions[i] = balance.traction[i] + nodes[i].stiffness * (row.slip - nodes[i].slip);
+    tractions[i] = balance.traction[i] + nodes[i].stiffness * (row.slip - slip_of(nodes[i]));
     if (balance.traction[i].norm() >= (1.0 - at_rest) * nodes[i].bound) continue;
     ++resting;
     rest(i);

@@ -15,7 +15,9 @@ namespace mortise {
 /// rejected, as by an error of the time scheme, call accept_step() itself, or let Piro observe.
 class NoxObserver : public NOX::Observer {
  public:
+  /// Accepts steps of `model`.
   explicit NoxObserver(RCP<ModelWithContact> model) : model_(std::move(model)) {}
+  /// Accepts the solution of a solve that converged.
   void runPostSolve(const NOX::Solver::Generic& solver) override {
     if (solver.getStatus() == NOX::StatusTest::Converged)
       model_->accept_step(dynamic_cast<const NOX::Thyra::Vector&>(solver.getSolutionGroup().getX()).getThyraVector());

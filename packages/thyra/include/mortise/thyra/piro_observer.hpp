@@ -14,18 +14,22 @@ class PiroObserver : public Piro::ObserverBase<Scalar> {
   explicit PiroObserver(RCP<ModelWithContact> model, RCP<Piro::ObserverBase<Scalar>> next = Teuchos::null)
       : model_(std::move(model)), next_(std::move(next)) {}
   using Piro::ObserverBase<Scalar>::observeSolution;
+  /// Accepts x.
   void observeSolution(const ThyraVector& x) override {
     model_->accept_step(x);
     if (!next_.is_null()) next_->observeSolution(x);
   }
+  /// Accepts x.
   void observeSolution(const ThyraVector& x, const Scalar stamp) override {
     model_->accept_step(x);
     if (!next_.is_null()) next_->observeSolution(x, stamp);
   }
+  /// Accepts x.
   void observeSolution(const ThyraVector& x, const ThyraVector& x_dot, const Scalar stamp) override {
     model_->accept_step(x);
     if (!next_.is_null()) next_->observeSolution(x, x_dot, stamp);
   }
+  /// Accepts x.
   void observeSolution(const ThyraVector& x, const ThyraVector& x_dot, const ThyraVector& x_dot_dot, const Scalar stamp) override {
     model_->accept_step(x);
     if (!next_.is_null()) next_->observeSolution(x, x_dot, x_dot_dot, stamp);

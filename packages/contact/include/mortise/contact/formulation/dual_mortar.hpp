@@ -1,6 +1,5 @@
 #pragma once
 
-#include "mortise/contact/enforcement/exact.hpp"
 #include "mortise/contact/formulation.hpp"
 #include "mortise/mortar/coupling/dual_mortar.hpp"
 
@@ -10,7 +9,7 @@ namespace mortise {
 struct DualMortar : Formulation {
   void describe(Parameters&) override {}  ///< no parameters
   SharedCoupling coupling() const override { return coupling_of<DualMortarCoupling>(); }
-  SharedEnforcement enforcement() const override { return std::make_shared<const CondensedMultipliers>(); }
+  SharedEnforcement enforcement() const override { return condensed_multipliers(); }
 };
 
 }  // namespace mortise

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "mortise/contact/enforcement/exact.hpp"
 #include "mortise/contact/formulation.hpp"
 #include "mortise/mortar/coupling/node_to_segment.hpp"
 
@@ -13,7 +12,7 @@ struct NodeToSegment : Formulation {
   Passes passes = Passes::single;  ///< number of passes
   void describe(Parameters& parameters) override;
   SharedCoupling coupling() const override { return coupling_of<NodeToSegmentCoupling>(); }
-  SharedEnforcement enforcement() const override { return std::make_shared<const KeptMultipliers>(); }
+  SharedEnforcement enforcement() const override { return kept_multipliers(); }
   bool two_pass() const override { return passes == Passes::two; }
 };
 

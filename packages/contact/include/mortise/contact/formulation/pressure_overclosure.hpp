@@ -4,7 +4,6 @@
 
 #include "mortise/contact/formulation.hpp"
 #include "mortise/contact/pressure_law.hpp"
-#include "mortise/contact/regularised.hpp"
 #include "mortise/mortar/coupling/dual_mortar.hpp"
 
 namespace mortise {
@@ -17,23 +16,6 @@ struct PressureOverclosure : Formulation {
   void describe(Parameters& parameters) override;
   SharedCoupling coupling() const override { return discretisation; }
   SharedEnforcement enforcement() const override;
-};
-
-/// The pressure of a law at the mean overclosure -g / w, and friction with a stiffness from the shear traction of the last accepted state. Hardly
-/// covered nodes are tied: their force does not push their gap back, and of an exponential law they would bear any pressure.
-class PressureOverclosureEnforcement final : public Enforcement {
- public:
-  /// @param tangential  shear traction per mean slip before sliding [stress / length]
-  PressureOverclosureEnforcement(std::shared_ptr<const PressureLaw> law, double tangential) : law_(std::move(law)), tangential_(tangential) {}
-  Complementarity law(const ContactNode& node) const override;
-  bool takes_ties() const override { return true; }
-  bool starts_from_multipliers() const override { return true; }
-  SpatialVector start_from(const SpatialVector& traction) const override;
-  double onset() const override { return law_->onset(); }
-
- private:
-  std::shared_ptr<const PressureLaw> law_;
-  double tangential_;
 };
 
 }  // namespace mortise

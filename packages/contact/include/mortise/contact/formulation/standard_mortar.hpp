@@ -1,6 +1,5 @@
 #pragma once
 
-#include "mortise/contact/enforcement/exact.hpp"
 #include "mortise/contact/formulation.hpp"
 #include "mortise/mortar/coupling/standard_mortar.hpp"
 
@@ -10,7 +9,7 @@ namespace mortise {
 struct StandardMortar : Formulation {
   void describe(Parameters&) override {}  ///< no parameters
   SharedCoupling coupling() const override { return coupling_of<StandardMortarCoupling>(); }
-  SharedEnforcement enforcement() const override { return std::make_shared<const KeptMultipliers>(); }
+  SharedEnforcement enforcement() const override { return kept_multipliers(); }
 };
 
 }  // namespace mortise

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "mortise/contact/enforcement/exact.hpp"
 #include "mortise/contact/formulation.hpp"
 #include "mortise/mortar/coupling/variational_mortar.hpp"
 
@@ -11,7 +10,7 @@ namespace mortise {
 struct VariationalMortar : Formulation {
   void describe(Parameters&) override {}  ///< no parameters
   SharedCoupling coupling() const override { return coupling_of<VariationalMortarCoupling>(); }
-  SharedEnforcement enforcement() const override { return std::make_shared<const KeptMultipliers>(); }
+  SharedEnforcement enforcement() const override { return kept_multipliers(); }
 };
 
 }  // namespace mortise

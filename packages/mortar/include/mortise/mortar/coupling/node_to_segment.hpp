@@ -10,7 +10,7 @@ struct NodeToSegmentCoupling final : Coupling {
   bool has_dual_multipliers() const override { return false; }
   bool has_dual_gap(GapWeighting) const override { return false; }
   bool integrates_facets() const override { return false; }
-  bool couple_node(const SlaveNodeData& slave, const std::vector<Facet<LocalOrdinal>>& masters, double reach, const std::vector<Eigen::Vector2d>& x,
+  bool couple_node(const SlaveNodeData& slave, const std::vector<Facet<LocalOrdinal>>& masters, double reach, const std::vector<PlaneVector>& x,
                    const InterfaceMeasure& measure, double share, bool derivatives, FacetCoupling& coupling) const override;
   /// Takes the master's normal in the place of that of the nearest facet.
   CornerRule corner_rule(CornerRule asked, int) const override { return asked == CornerRule::averaged ? asked : CornerRule::master_normal; }

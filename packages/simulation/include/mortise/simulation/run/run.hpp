@@ -28,6 +28,7 @@ struct RunOptions {
   std::optional<RestartOptions> restart;  ///< go on with the run in the directory; none: a new run
   std::optional<double> time_limit;       ///< stop in time before so many seconds have passed
   bool supervised = false;                ///< signals stop the run or ask for a checkpoint (StopRequest); a Watchdog looks at the ranks
+  std::string launcher = "mpirun";        ///< that starts it on several ranks, for the command to go on with
   std::string version;                    ///< of the program, for the summary
 };
 

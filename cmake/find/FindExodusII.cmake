@@ -1,0 +1,22 @@
+# ExodusII::ExodusII: SEACAS' package of CMake, or the library by its name.
+include(FindPackageHandleStandardArgs)
+set(ExodusII_NOT_FOUND_MESSAGE "Debian: libexodusii-dev. Elsewhere: SEACAS with netCDF for MPI, or exodusII.h and libexodus below ExodusII_ROOT")
+find_package(SEACASExodus QUIET CONFIG)
+if(SEACASExodus_FOUND)
+  find_package_handle_standard_args(ExodusII REQUIRED_VARS SEACASExodus_DIR)
+  if(NOT TARGET ExodusII::ExodusII)
+    add_library(ExodusII::ExodusII INTERFACE IMPORTED)
+    target_link_libraries(ExodusII::ExodusII INTERFACE ${SEACASExodus_LIBRARIES})
+  endif()
+  return()
+endif()
+find_path(ExodusII_INCLUDE_DIR exodusII.h)
+find_library(ExodusII_LIBRARY NAMES exodus exoIIv2c exoIIv2)
+find_package_handle_standard_args(ExodusII REQUIRED_VARS ExodusII_LIBRARY ExodusII_INCLUDE_DIR
+  REASON_FAILURE_MESSAGE "${ExodusII_NOT_FOUND_MESSAGE}")
+mark_as_advanced(ExodusII_INCLUDE_DIR ExodusII_LIBRARY)
+if(ExodusII_FOUND AND NOT TARGET ExodusII::ExodusII)
+  add_library(ExodusII::ExodusII UNKNOWN IMPORTED)
+  set_target_properties(ExodusII::ExodusII PROPERTIES IMPORTED_LOCATION "${ExodusII_LIBRARY}"
+    INTERFACE_INCLUDE_DIRECTORIES "${ExodusII_INCLUDE_DIR}")
+endif()
