@@ -18,6 +18,9 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/inputs" DESTINATION "${CMAKE_INSTALL_DA
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs/reference/" DESTINATION "${CMAKE_INSTALL_DATADIR}/mortise/schema" COMPONENT program FILES_MATCHING PATTERN "*.rng")
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/CHANGELOG.md" DESTINATION "${CMAKE_INSTALL_DOCDIR}"
   COMPONENT program)
+file(GLOB pages "${PROJECT_SOURCE_DIR}/docs/*.md")
+install(FILES ${pages} DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs" COMPONENT program)
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/tests/install/consumer/" DESTINATION "${CMAKE_INSTALL_DATADIR}/mortise/examples/host" COMPONENT development)
 install(EXPORT MortiseTargets NAMESPACE Mortise:: DESTINATION "${config_directory}" COMPONENT development)
 # The build itself can be found as well as what is installed from it.
 export(EXPORT MortiseTargets NAMESPACE Mortise:: FILE "${PROJECT_BINARY_DIR}/MortiseTargets.cmake")

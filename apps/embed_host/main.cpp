@@ -30,6 +30,9 @@
 
 #include "Elasticity.hpp"
 #include "mortise/contact/contact_report.hpp"
+#include "mortise/contact/formulation/augmented_lagrange.hpp"
+#include "mortise/contact/formulation/dual_mortar.hpp"
+#include "mortise/contact/formulation/penalty.hpp"
 #include "mortise/thyra/piro_observer.hpp"
 
 namespace {
@@ -164,7 +167,7 @@ struct Application {
     model = contact = mortise::with_contact(model, displacements(*elasticity), pairs(*elasticity, name));  // the line
     // Multipliers of augmented Lagrange are updated until they are exact, before a step is accepted.
     const RCP<Piro::ObserverBase<double>> accepts = Teuchos::rcp(new mortise::PiroObserver(contact, solution));
-    const RCP<Piro::ObserverBase<double>> observer = name == "augmented" ? solution : accepts;
+    const RCP<Piro::ObserverBase<double>> observer = name == "augmented" ? RCP<Piro::ObserverBase<double>>(solution) : accepts;
     updates = name == "augmented";
     solver = Teuchos::rcp(new Piro::NOXSolver<double>(piroParameters(maxIterations), model, observer));
   }

@@ -23,7 +23,7 @@ inline FacetsWithMiddles with_middles(const SurfaceFacets& facets, GlobalOrdinal
     SurfaceFacet quadratic = facet;
     const std::size_t edges = facet.size() == 2 ? 1 : facet.size();
     for (std::size_t e = 0; e < edges; ++e) {
-      const auto edge = std::minmax(facet[e], facet[(e + 1) % facet.size()]);
+      const std::pair<GlobalOrdinal, GlobalOrdinal> edge = std::minmax(facet[e], facet[(e + 1) % facet.size()]);
       const auto [found, is_new] = middles.insert({edge, first + static_cast<GlobalOrdinal>(result.edges.size())});
       if (is_new) result.edges.push_back(edge);
       quadratic.push_back(found->second);

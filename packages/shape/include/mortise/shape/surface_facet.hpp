@@ -37,19 +37,19 @@ class Facet {
     for (; first != last; ++first) push_back(*first);
   }
 
-  std::size_t size() const { return size_; }                           ///< number of nodes
-  static constexpr std::size_t max_size() { return most_side_nodes; }  ///< highest number of nodes
-  bool empty() const { return size_ == 0; }                            ///< true of a facet without nodes
-  iterator begin() { return nodes_.data(); }                           ///< the first node
-  iterator end() { return nodes_.data() + size_; }                     ///< behind the last node
-  const_iterator begin() const { return nodes_.data(); }               ///< the first node
-  const_iterator end() const { return nodes_.data() + size_; }         ///< behind the last node
-  Ordinal* data() { return nodes_.data(); }                            ///< all nodes
-  const Ordinal* data() const { return nodes_.data(); }                ///< all nodes
-  Ordinal& operator[](std::size_t node) { return nodes_[node]; }       ///< by its place
-  Ordinal operator[](std::size_t node) const { return nodes_[node]; }  ///< by its place
-  Ordinal front() const { return nodes_[0]; }                          ///< the first node
-  Ordinal back() const { return nodes_[size_ - 1]; }                   ///< the last node
+  std::size_t size() const { return size_; }                                  ///< number of nodes
+  static constexpr std::size_t max_size() { return most_side_nodes; }         ///< highest number of nodes
+  bool empty() const { return size_ == 0; }                                   ///< true of a facet without nodes
+  iterator begin() { return nodes_.data(); }                                  ///< the first node
+  iterator end() { return nodes_.data() + size_; }                            ///< behind the last node
+  const_iterator begin() const { return nodes_.data(); }                      ///< the first node
+  const_iterator end() const { return nodes_.data() + size_; }                ///< behind the last node
+  Ordinal* data() { return nodes_.data(); }                                   ///< all nodes
+  const Ordinal* data() const { return nodes_.data(); }                       ///< all nodes
+  Ordinal& operator[](std::size_t node) { return nodes_[node]; }              ///< by its place
+  const Ordinal& operator[](std::size_t node) const { return nodes_[node]; }  ///< by its place
+  const Ordinal& front() const { return nodes_[0]; }                          ///< the first node
+  const Ordinal& back() const { return nodes_[size_ - 1]; }                   ///< the last node
 
   /// Adds a node at the end.
   void push_back(Ordinal node) {
