@@ -22,8 +22,9 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-matplotlib, python3-h5py, pyt
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libmortise-dev)
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Finite elements with dual mortar contact and friction: libraries for applications")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS ON)  # of libmortise.so
 set(of_contact libopenmpi-dev libtrilinos-tpetra-dev libtrilinos-epetra-dev libtrilinos-kokkos-dev libtrilinos-kokkos-kernels-dev libtrilinos-teuchos-dev
-  libtrilinos-sacado-dev libeigen3-dev libfmt-dev libboost-dev)
+  libtrilinos-sacado-dev libtrilinos-zoltan-dev libptscotch-dev libeigen3-dev libfmt-dev libboost-dev)
 file(STRINGS "${CMAKE_CURRENT_LIST_DIR}/apt-packages.txt" of_all REGEX "-dev$")
 list(REMOVE_ITEM of_all ${of_contact} libcli11-dev libgtest-dev libgmock-dev)
 list(JOIN of_contact ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS)

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <stdexcept>
 
 namespace mortise {
 
@@ -19,7 +20,9 @@ ScalarFunction::ScalarFunction(double value, std::string source, Place place)
     : content_(std::make_shared<const Content>(Content{value, {}, std::move(source), std::move(place)})) {}
 
 ScalarFunction::ScalarFunction(Body body, std::string source, Place place)
-    : content_(std::make_shared<const Content>(Content{0.0, std::move(body), std::move(source), std::move(place)})) {}
+    : content_(std::make_shared<const Content>(Content{0.0, std::move(body), std::move(source), std::move(place)})) {
+  if (!content_->body) throw std::invalid_argument(fmt::format("the function \"{}\" has no body", content_->source));
+}
 
 double ScalarFunction::at(const std::vector<double>& arguments) const { return is_constant() ? content_->value : content_->body(arguments); }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "mortise/core/names.hpp"
+#include "mortise/core/parameter_range.hpp"
 #include "mortise/core/whole_number.hpp"
 #include "mortise/input/expression.hpp"
 #include "split.hpp"
@@ -15,19 +16,6 @@ namespace mortise {
 namespace {
 
 std::string joined_path(const std::string& path, const std::string& name) { return path.empty() ? name : path + "/" + name; }
-
-std::string range_text(const Says& says) {
-  std::string text;
-  if (says.lower()) text = fmt::format("{} {}", says.lower_open() ? ">" : ">=", *says.lower());
-  if (says.upper()) text += fmt::format("{}{} {}", text.empty() ? "" : " and ", says.upper_open() ? "<" : "<=", *says.upper());
-  return text;
-}
-
-bool in_range(double value, const Says& says) {
-  if (says.lower() && (says.lower_open() ? value <= *says.lower() : value < *says.lower())) return false;
-  if (says.upper() && (says.upper_open() ? value >= *says.upper() : value > *says.upper())) return false;
-  return true;
-}
 
 /// True if all of the text is a number of this type.
 template <class Number>
@@ -147,7 +135,7 @@ const XmlParameter* ReadParameters::find(const std::string& name, const Says& sa
 std::optional<double> ReadParameters::number(const XmlParameter& parameter, const std::string& text, const Says& says) {
   try {
     const double value = parse_expression({}, text, symbols_, parameter.place)();
-    if (in_range(value, says)) return value;
+    if (is_in_range(value, says)) return value;
     refuse(parameter.name, parameter.place, fmt::format("\"{}\" is {}; allowed: {}", parameter.name, value, range_text(says)));
   } catch (const InputError& error) {
     refuse(parameter.name, error);
@@ -199,7 +187,7 @@ void ReadParameters::add(const std::string& name, ScalarFunction& value, const S
     const bool usual = says.arguments().empty();
     ScalarFunction read = usual ? parse_expression(parameter->value, symbols_, parameter->place)
                                 : parse_expression(says.arguments(), parameter->value, symbols_, parameter->place);
-    if (read.is_constant() && !in_range(read(), says))
+    if (read.is_constant() && !is_in_range(read(), says))
       refuse(name, parameter->place, fmt::format("\"{}\" is {}; allowed: {}", name, read(), range_text(says)));
     else
       value = std::move(read);

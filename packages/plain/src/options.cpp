@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "mortise/core/names.hpp"
+#include "mortise/core/parameter_range.hpp"
 
 namespace mortise {
 namespace {
@@ -33,19 +34,6 @@ std::optional<Number> read(const std::string& text) {
   const char* end = text.data() + text.size();
   const auto [last, error] = std::from_chars(text.data(), end, value);
   return error == std::errc() && last == end ? std::optional(value) : std::nullopt;
-}
-
-bool in_range(double value, const Says& says) {
-  if (!std::isfinite(value)) return false;
-  if (says.lower() && (says.lower_open() ? value <= *says.lower() : value < *says.lower())) return false;
-  return !says.upper() || (says.upper_open() ? value < *says.upper() : value <= *says.upper());
-}
-
-std::string range_text(const Says& says) {
-  std::string text = "finite numbers";
-  if (says.lower()) text += fmt::format(" {} {}", says.lower_open() ? ">" : ">=", *says.lower());
-  if (says.upper()) text += fmt::format(" {} {}", says.upper_open() ? "<" : "<=", *says.upper());
-  return text;
 }
 
 }  // namespace
@@ -85,8 +73,8 @@ std::optional<double> ReadOptions::number(const std::string& name, const std::st
   const auto value = read<double>(text);
   if (!value)
     say(fmt::format("\"{}\" is \"{}\", which is no number", path(name), text));
-  else if (!in_range(*value, says))
-    say(fmt::format("\"{}\" is {}; allowed: {}", path(name), *value, range_text(says)));
+  else if (!std::isfinite(*value) || !is_in_range(*value, says))
+    say(fmt::format("\"{}\" is {}; allowed: finite numbers {}", path(name), *value, range_text(says)));
   else
     return value;
   return std::nullopt;

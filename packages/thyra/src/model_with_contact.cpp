@@ -39,10 +39,10 @@ bool ModelWithContact::update_multipliers(const ThyraVector& x) {
   detail::StepMemory& memory = *memory_;
   const ContactLaws laws = laws_at(x);
   const Augmentation update = memory.contact.augment(laws, memory.updates + 1);
-  if (!update.more) return false;
-  if (update.exhausted || !update.history)
+  if (update.exhausted)
     throw StepFailure(FailureKind::augmentation, "contact: multipliers of pair \"" + update.pair + "\" are not exact to their tolerance after " +
                                                      std::to_string(memory.updates) + " updates");
+  if (!update.more) return false;
   ++memory.updates;
   memory.history = *update.history;
   memory.multipliers = rcp(new Vector(laws.multipliers(), Teuchos::Copy));

@@ -4,6 +4,7 @@
 
 #include <Tpetra_Map.hpp>
 #include <boost/container_hash/hash.hpp>
+#include <cmath>
 #include <stdexcept>
 
 #include "mortise/core/over_ranks.hpp"
@@ -81,6 +82,11 @@ Arguments& Arguments::states(const ContactStates& states) {
   for (std::size_t p = 0; p < model_.pairs.size() && fits; ++p)
     fits = states[p].states.size() == model_.pairs[p]->slave_nodes().size() && states[p].covered.size() == states[p].states.size();
   if (!fits) refuse("the states are those of another system; take ContactLaws::states() of laws that this one gave");
+  return *this;
+}
+
+Arguments& Arguments::number(double value, const char* name, bool allowed, const char* range) {
+  if (!allowed || !std::isfinite(value)) refuse(fmt::format("`{}` is {}; give a finite number, {}", name, value, range));
   return *this;
 }
 

@@ -24,6 +24,8 @@ class Arguments {
   Arguments& history(const ContactHistory& history);
   /// States of the nodes of this system.
   Arguments& states(const ContactStates& states);
+  /// A finite number that is `allowed`, within a range that messages name.
+  Arguments& number(double value, const char* name, bool allowed, const char* range);
 
   /// Collective. Throws std::invalid_argument on every rank if anything did not fit on any rank.
   void agree() const;

@@ -6,8 +6,12 @@
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mortise/contact/enforcement.hpp"
@@ -31,13 +35,18 @@ void refuse_unfit_fields(const NodalField& displacement, const Map& dofs, const 
     throw std::invalid_argument(
         fmt::format("contact: field '{}' has {} components, the reference positions {}", displacement.name(), displacement.components(), dimension));
   std::string mine;
-  const auto marks = fixed.getLocalViewHost(Tpetra::Access::ReadOnly);
+  const auto marks = fixed.getLocalViewHost(Tpetra::Access::ReadOnly), places = reference.getLocalViewHost(Tpetra::Access::ReadOnly);
+  std::vector<std::pair<GlobalOrdinal, LocalOrdinal>> rows;
   for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(local_id_count(owned_nodes)) && mine.empty(); ++node)
     for (int i = 0; i < displacement.components(); ++i) {
       const GlobalOrdinal id = displacement.id(node, i);
       const auto say = [&](const std::string& what) {
         mine = fmt::format("contact: field '{}': component {} at node {} {}", displacement.name(), i, owned_nodes.getGlobalElement(node), what);
       };
+      if (!std::isfinite(places(node, i))) say(fmt::format("stands at the reference position {}, which is not finite", std::abs(places(node, i))));
+      if (marks(node, i) != 0.0 && marks(node, i) != 1.0 && marks(node, i) != 2.0)
+        say(fmt::format("has the mark {} in `fixed`; allowed: 0 unknown, 1 prescribed, 2 follows a rigid body or a reference point", marks(node, i)));
+      if (id != NodalField::none) rows.emplace_back(id, node);
       if (id == NodalField::none && marks(node, i) == 0.0) say("is neither an unknown nor marked as prescribed");
       if (id != NodalField::none && !dofs.isNodeGlobalElement(id))
         say(
@@ -45,6 +54,12 @@ void refuse_unfit_fields(const NodalField& displacement, const Map& dofs, const 
                         "make_dof_map() of mortise/core/dof_map.hpp for numbered_by_nodes()",
                         id));
     }
+  std::sort(rows.begin(), rows.end());
+  const auto twice = std::adjacent_find(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.first == b.first; });
+  if (mine.empty() && twice != rows.end())
+    mine = fmt::format("contact: field '{}': row {} is given to node {} and to node {}, or twice to one; each component needs a row of its own",
+                       displacement.name(), twice->first, owned_nodes.getGlobalElement(twice->second),
+                       owned_nodes.getGlobalElement(std::next(twice)->second));
   int any_here = mine.empty() ? 0 : 1, any = 0;
   Teuchos::reduceAll(*owned_nodes.getComm(), Teuchos::REDUCE_MAX, any_here, Teuchos::outArg(any));
   if (any != 0) throw std::invalid_argument(mine.empty() ? "contact: the field of displacements does not fit the system on another rank" : mine);
@@ -85,7 +100,7 @@ void refuse_misfit(const ContactPair& pair, std::vector<Diagnostic>& diagnostics
 
 }  // namespace
 
-void refuse_incomplete_pairs(const Communicator& comm, const std::vector<ContactPair>& pairs) {
+void refuse_incomplete_pairs(const Map& owned_nodes, const std::vector<ContactPair>& pairs) {
   std::vector<Diagnostic> diagnostics;
   for (const ContactPair& pair : pairs) {
     if (!(pair.youngs_modulus > 0.0))
@@ -97,9 +112,17 @@ void refuse_incomplete_pairs(const Communicator& comm, const std::vector<Contact
       refuse_misfit(pair, diagnostics);
     else
       diagnostics.push_back({pair.place, "the formulation is null; give a Formulation, as DualMortar"});
+    if (pair.facet_gaps && pair.facet_gaps->size() != local_id_count(owned_nodes))
+      diagnostics.push_back({pair.place, fmt::format("`facet_gaps` has {} entries on rank {}, which owns {} nodes; give one for each", pair.facet_gaps->size(),
+                                                     owned_nodes.getComm()->getRank(), local_id_count(owned_nodes))});
+    for (const auto* surface : {&pair.slave, &pair.master})
+      for (const SurfaceFacet& facet : *surface)
+        if (const auto negative = std::find_if(facet.begin(), facet.end(), [](GlobalOrdinal node) { return node < 0; }); negative != facet.end())
+          diagnostics.push_back({pair.place, fmt::format("a facet of the {} names node {}; ids are 0 or more",
+                                                         surface == &pair.slave ? "slave" : "master", *negative)});
     if (!pair.options.friction.options) diagnostics.push_back({pair.place, "the law of friction is null; give NoFriction for none"});
   }
-  throw_if_any(comm, diagnostics);
+  throw_if_any(*owned_nodes.getComm(), diagnostics);
 }
 
 }  // namespace mortise::detail

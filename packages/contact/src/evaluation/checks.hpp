@@ -1,6 +1,8 @@
 #pragma once
 // Checks of the arguments of ContactSystem, refused at once where nothing right could come of them.
 
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "mortise/contact/contact_pair.hpp"
@@ -9,11 +11,20 @@
 
 namespace mortise::detail {
 
-/// Collective. Throws std::invalid_argument for arguments that do not fit together. Such are a field with ids that are not among the dofs, components
-/// that are neither unknown nor prescribed, and positions and marks of prescribed components on other nodes.
+/// An argument that must not be null.
+template <class T>
+const RCP<T>& given(const RCP<T>& argument, const char* name) {
+  if (argument.is_null()) throw std::invalid_argument(std::string("contact: `") + name + "` is null");
+  return argument;
+}
+
+/// Collective. Throws std::invalid_argument for arguments that do not fit together. Such are a field with ids that are not among the dofs, or with
+/// one row twice, components that are neither unknown nor prescribed, positions that are not finite, other marks than 0, 1 and 2, and positions and
+/// marks of prescribed components on other nodes.
 void refuse_unfit_fields(const NodalField& displacement, const Map& dofs, const MultiVector& reference, const MultiVector& fixed);
 
-/// Collective. Throws InputError for a pair without Young's modulus, formulation or law of friction.
-void refuse_incomplete_pairs(const Communicator& comm, const std::vector<ContactPair>& pairs);
+/// Collective. Throws InputError for a pair without Young's modulus, formulation or law of friction, with negative ids, or with other than one of
+/// `facet_gaps` for each owned node.
+void refuse_incomplete_pairs(const Map& owned_nodes, const std::vector<ContactPair>& pairs);
 
 }  // namespace mortise::detail

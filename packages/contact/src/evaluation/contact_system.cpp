@@ -13,6 +13,7 @@
 #include "evaluation/checks.hpp"
 #include "evaluation/crosspoints.hpp"
 #include "evaluation/evaluated_contact.hpp"
+#include "evaluation/option_checks.hpp"
 #include "mortise/core/trilinos_versions.hpp"
 
 namespace mortise {
@@ -124,15 +125,17 @@ std::shared_ptr<const EvaluatedContact> ContactModel::evaluate(const std::shared
 
 ContactSystem::ContactSystem(const RCP<const Map>& owned_nodes, RCP<const Map> dofs, RCP<const MultiVector> reference, RCP<const MultiVector> fixed,
                              const InterfaceMeasure& measure, std::vector<ContactPair> pairs, const Timers& timers)
-    : ContactSystem(numbered_by_nodes("displacement", owned_nodes, static_cast<int>(reference->getNumVectors())), std::move(dofs), reference,
-                    std::move(fixed), measure, std::move(pairs), timers) {}
+    : ContactSystem(numbered_by_nodes("displacement", detail::given(owned_nodes, "owned_nodes"),
+                                      static_cast<int>(detail::given(reference, "reference")->getNumVectors())),
+                    std::move(dofs), reference, std::move(fixed), measure, std::move(pairs), timers) {}
 
 ContactSystem::ContactSystem(const NodalField& displacement, RCP<const Map> dofs, RCP<const MultiVector> reference, RCP<const MultiVector> fixed,
                              const InterfaceMeasure& measure, std::vector<ContactPair> pairs, const Timers& timers) {
-  detail::refuse_unfit_fields(displacement, *dofs, *reference, *fixed);
+  detail::refuse_unfit_fields(displacement, *detail::given(dofs, "dofs"), *detail::given(reference, "reference"), *detail::given(fixed, "fixed"));
   for (ContactPair& pair : pairs)
     if (pair.place.path.empty()) pair.place.path = "contact/" + pair.name;
-  detail::refuse_incomplete_pairs(*dofs->getComm(), pairs);
+  detail::refuse_incomplete_pairs(*displacement.nodes(), pairs);
+  detail::refuse_wrong_options(*dofs->getComm(), pairs);
   const auto model = std::make_shared<detail::ContactModel>(displacement);
   detail::ContactModel& self = *model;
   self.dofs = std::move(dofs);
@@ -234,7 +237,9 @@ RCP<const Graph> ContactSystem::graph(const ContactEvaluation& evaluation, const
   if (!model_->scatter || !model_->scatter->fits(contact.pairs) || model_->bulk_version != bulk_version) {
     const auto scope = model_->timers.scope("contact");
     const auto part = model_->timers.scope("contact graph");
-    model_->scatter = std::make_shared<detail::SystemScatter>(*bulk(), contact);
+    const RCP<const Graph> own = detail::given(bulk(), "bulk(), the graph of the application's own system,");
+    if (!own->isFillComplete()) throw std::invalid_argument("contact: graph(): the graph that bulk() gives is not complete; call its fillComplete()");
+    model_->scatter = std::make_shared<detail::SystemScatter>(*own, contact);
     model_->bulk_version = bulk_version;
   }
   return model_->scatter->graph();

@@ -134,7 +134,8 @@ Augmentation ContactSystem::augment(const ContactLaws& laws, int round) const {
     }
     result.more = true;
   }
-  if (!result.more || result.exhausted) return result;
+  result.more = result.more && !result.exhausted;
+  if (!result.more) return result;
   AcceptedContact updated = *at.contact->history;
   for (const auto& [p, change] : changes) {
     updated.pairs[p].settling = detail::settled(updated.pairs[p].settling, change, round);

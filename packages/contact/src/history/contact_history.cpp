@@ -150,7 +150,7 @@ ContactHistory ContactSystem::commit(const ContactLaws& laws) const {
 
 ContactHistory ContactSystem::allow_overlap(const ContactHistory& history, std::size_t pair, double depth) const {
   detail::require_pair(*model_, pair);
-  detail::Arguments(*model_, "allow_overlap").history(history).agree();
+  detail::Arguments(*model_, "allow_overlap").history(history).number(depth, "depth", depth >= 0.0, "0 or more").agree();
   AcceptedContact changed = *history;
   changed.pairs[pair].allowed_overlap = depth;
   if (const auto other = second_pass(pair)) changed.pairs[*other].allowed_overlap = depth;
@@ -158,7 +158,7 @@ ContactHistory ContactSystem::allow_overlap(const ContactHistory& history, std::
 }
 
 ContactHistory ContactSystem::weigh_gaps(const ContactHistory& history, double share) const {
-  detail::Arguments(*model_, "weigh_gaps").history(history).agree();
+  detail::Arguments(*model_, "weigh_gaps").history(history).number(share, "share", share > 0.0, "above 0").agree();
   AcceptedContact changed = *history;
   for (std::size_t p = 0; p < model_->pairs.size(); ++p)
     if (model_->pairs[p]->enforcement().holds_exactly()) changed.pairs[p].constant_share = share;

@@ -365,6 +365,12 @@ NodeElimination ContactLinearisation::condense(Matrix& system, Vector& rhs) cons
 ContactLinearisation DifferentiatedContact::linearise(const ContactLaws& laws) const {
   if (detail::evaluated(laws).contact != evaluated_)
     throw std::logic_error("contact: linearise() with laws of another evaluation: take laws(z) of this one");
+  // A law of friction without bound leaves conditions that are no numbers.
+  const auto& all = detail::evaluated(laws).laws;
+  const bool finite = std::all_of(all.begin(), all.end(), [](const auto& of_pair) {
+    return std::all_of(of_pair.begin(), of_pair.end(), [](const Complementarity& law) { return law.C.allFinite(); });
+  });
+  throw_if_any(evaluated_->model->comm(), finite ? std::nullopt : laws.friction_failure());
   return ContactLinearisation(laws);
 }
 

@@ -20,8 +20,8 @@ void refuse_unknown_facets(const InterfaceInput& input, int dimension) {
       const std::size_t size = facet.size();
       const bool is_linear = dimension == 2 ? size == 2 : size == 3 || size == 4, is_quadratic = dimension == 2 ? size == 3 : size == 6 || size == 8;
       if (!is_linear && !is_quadratic && unknown.empty())
-        unknown.push_back({input.place, fmt::format("a contact surface has facets of {} nodes (one starts at node {}); {} are available", size,
-                                                    facet.empty() ? -1 : facet.front(),
+        unknown.push_back({input.place, fmt::format("a contact surface has facets of {} nodes{}; {} are available", size,
+                                                    facet.empty() ? "" : fmt::format(" (one starts at node {})", facet.front()),
                                                     dimension == 2 ? "lines of 2 or 3" : "triangles of 3 or 6, quadrilaterals of 4 or 8")});
       if (is_quadratic && quadratic.empty())
         quadratic.push_back({input.place, fmt::format("{} needs linear facets, as linear elements have, but a surface of the pair has "

@@ -33,6 +33,26 @@ void find_unknown_node(const Owners& owners, const char* side, const Place& plac
     diagnostics.push_back({place, fmt::format("the {} surface names node {}, which the model does not have", side, unknown->first)});
 }
 
+std::string ids_of(const SurfaceFacet& facet) { return fmt::format("{}", fmt::join(facet, ", ")); }
+
+// Slave facets of this rank of which it owns no node, and those that it gives twice.
+void find_needless_slave_facet(int rank, const SurfaceFacets& slave, const Owners& owners, const Place& place, std::vector<Diagnostic>& diagnostics) {
+  std::set<SurfaceFacet> seen;
+  for (const SurfaceFacet& facet : slave) {
+    if (std::none_of(facet.begin(), facet.end(), [&](GlobalOrdinal node) { return owners.at(node) == rank; })) {
+      diagnostics.push_back({place, fmt::format("the slave facet of nodes {} is given on rank {}, which owns none of them; give every slave facet on "
+                                                "each rank that owns a node of it, and on no other",
+                                                ids_of(facet), rank)});
+      return;
+    }
+    SurfaceFacet sorted = facet;
+    std::sort(sorted.begin(), sorted.end());
+    if (seen.insert(sorted).second) continue;
+    diagnostics.push_back({place, fmt::format("the slave facet of nodes {} is given twice on rank {}", ids_of(facet), rank)});
+    return;
+  }
+}
+
 // Every facet goes to the owners of its nodes, which look whether they have it.
 void find_missing_slave_facet(const Communicator& comm, const SurfaceFacets& slave, const Owners& owners, const Place& place,
                               std::vector<Diagnostic>& diagnostics) {
@@ -51,7 +71,7 @@ void find_missing_slave_facet(const Communicator& comm, const SurfaceFacets& sla
         diagnostics.push_back(
             {place, fmt::format("the slave facet of nodes {}, as rank {} gives it, is not given on rank {}, which owns a node of it; "
                                 "give every slave facet, its nodes in one order, on each rank that owns a node of it",
-                                fmt::join(facet, ", "), rank, comm.getRank())});
+                                ids_of(facet), rank, comm.getRank())});
         return;
       }
 }
@@ -73,7 +93,7 @@ void find_repeated_master_facet(const Communicator& comm, const SurfaceFacets& m
       diagnostics.push_back(
           {place, fmt::format("the master facet of nodes {} is given on rank {} and again on rank {}; give every master facet once, on one "
                               "rank",
-                              fmt::join(first->first, ", "), first->second, rank)});
+                              ids_of(first->first), first->second, rank)});
       return;
     }
 }
@@ -87,6 +107,7 @@ void refuse_misplaced_facets(const Map& owned_nodes, const SurfaceFacets& slave,
   find_unknown_node(slave_owners, "slave", place, diagnostics);
   find_unknown_node(master_owners, "master", place, diagnostics);
   throw_if_any(comm, diagnostics);
+  find_needless_slave_facet(comm.getRank(), slave, slave_owners, place, diagnostics);
   find_missing_slave_facet(comm, slave, slave_owners, place, diagnostics);
   find_repeated_master_facet(comm, master, master_owners, place, diagnostics);
   throw_if_any(comm, diagnostics);

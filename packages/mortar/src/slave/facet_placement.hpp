@@ -22,7 +22,7 @@ struct FacetIds {
 
 /// Collective. Throws InputError at `place` for
 ///   - facets with nodes that the model does not have;
-///   - a slave facet that is not given on each rank that owns a node of it;
+///   - a slave facet that is not given on each rank that owns a node of it, is given on another, or twice;
 ///   - a master facet that is given more than once.
 void refuse_misplaced_facets(const Map& owned_nodes, const SurfaceFacets& slave, const SurfaceFacets& master, const Place& place);
 

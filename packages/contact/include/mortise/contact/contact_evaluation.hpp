@@ -71,7 +71,7 @@ class ContactEvaluation {
 class DifferentiatedContact : public ContactEvaluation {
  public:
   /// The linearised contact at the multipliers of `laws`, which are laws of this evaluation.
-  /// @throws std::logic_error for laws of another one
+  /// @throws std::logic_error for laws of another one; StepFailure on every rank where a law of friction has no bound
   ContactLinearisation linearise(const ContactLaws& laws) const;
   /// As ContactEvaluation::with().
   DifferentiatedContact with(const ContactHistory& history) const;

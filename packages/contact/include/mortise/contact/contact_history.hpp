@@ -25,7 +25,7 @@ struct AcceptedContact {
 /// start_step(), augment() and allow_overlap(). Whoever keeps an old one can go back to it.
 class ContactHistory {
  public:
-  /// @param accepted  as an earlier history had it, with nodes on the same ranks
+  /// The library makes them.
   explicit ContactHistory(AcceptedContact accepted);
   const AcceptedContact& operator*() const { return *accepted_; }    ///< its data
   const AcceptedContact* operator->() const { return &*accepted_; }  ///< its data

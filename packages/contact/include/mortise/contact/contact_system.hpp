@@ -26,12 +26,12 @@ struct ContactModel;
 /// Outcome of an augmented Lagrange update, over all ranks: the error that is left of the multipliers.
 struct Augmentation {
   bool more = false;       ///< the multipliers have to be updated: solve again with `history`
-  bool exhausted = false;  ///< more would be needed than the pair allows
+  bool exhausted = false;  ///< not exact, and more would be needed than the pair allows: undo the step; `more` is false then
   double error = 0.0;   ///< of the multipliers of the pair that is furthest from exact ones, over its largest; infinite where nothing is known of it
   double change = 0.0;  ///< their change by one more update, over the same largest one
   double tolerance = 0.0;                 ///< of `error`
   std::string pair;                       ///< where
-  std::optional<ContactHistory> history;  ///< with the new multipliers; none unless `more`, and none if `exhausted`
+  std::optional<ContactHistory> history;  ///< with the new multipliers; none unless `more`
 };
 
 /// Displacements of the owned nodes: from a vector on the dofs, and from the host's vector for prescribed components.
