@@ -153,6 +153,28 @@ TEST(MisuseOfOptions, DepthsAndSharesOutOfRange) {
     EXPECT_THAT(thrown<std::invalid_argument>([&] { contact.weigh_gaps(history, share); }), HasSubstr("`share` is"));
 }
 
+/// A node that is on no surface.
+TEST(MisuseOfOptions, DisplacementsThatAreNoNumbersAwayFromContact) {
+  const auto failure = [](double value) {
+    const RCP<const Communicator> comm = Tpetra::getDefaultComm();
+    Host host;
+    const auto own = local_ids(*host.nodes);
+    std::vector<GlobalOrdinal> ids(own.begin(), own.end());
+    if (comm->getRank() == 0) ids.push_back(4);
+    host.nodes = rcp(new Map(5, ids.data(), static_cast<LocalOrdinal>(ids.size()), 0, comm));
+    host.dofs = make_dof_map(*host.nodes, 2);
+    const auto reference = rcp(new MultiVector(host.nodes, 2));
+    for (const GlobalOrdinal node : ids) reference->replaceGlobalValue(node, 0, node == 1 || node == 2 ? 1.0 : 0.0);
+    const ContactSystem contact(host.nodes, host.dofs, reference, rcp(new MultiVector(host.nodes, 2)), {}, {host.pair}, Timers());
+    Vector d(host.dofs);
+    const ContactHistory history = contact.initial_history(d);
+    if (comm->getRank() == 0) d.replaceGlobalValue(8, value);
+    return thrown<StepFailure>([&] { contact.evaluate(d, history); });
+  };
+  EXPECT_EQ(failure(1.0), "");
+  EXPECT_NE(failure(nan), "");
+}
+
 /// The surfaces lie on one another: nodes are closed at any pressure.
 TEST(MisuseOfOptions, CoefficientsWithoutValueFailTheStepOnEveryRank) {
   const auto failure = [](const ScalarFunction::Body& body) {

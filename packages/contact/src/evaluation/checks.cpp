@@ -44,7 +44,7 @@ void refuse_unfit_fields(const NodalField& displacement, const Map& dofs, const 
         mine = fmt::format("contact: field '{}': component {} at node {} {}", displacement.name(), i, owned_nodes.getGlobalElement(node), what);
       };
       if (!std::isfinite(places(node, i))) say(fmt::format("stands at the reference position {}, which is not finite", std::abs(places(node, i))));
-      if (marks(node, i) != 0.0 && marks(node, i) != 1.0 && marks(node, i) != 2.0)
+      if (marks(node, i) != 0.0 && marks(node, i) != 1.0 && marks(node, i) != 2.0 && marks(node, i) != crosspoint_mark)
         say(fmt::format("has the mark {} in `fixed`; allowed: 0 unknown, 1 prescribed, 2 follows a rigid body or a reference point", marks(node, i)));
       if (id != NodalField::none) rows.emplace_back(id, node);
       if (id == NodalField::none && marks(node, i) == 0.0) say("is neither an unknown nor marked as prescribed");

@@ -12,6 +12,7 @@
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "evaluation/arguments.hpp"
 #include "evaluation/evaluated_contact.hpp"
@@ -207,6 +208,7 @@ ContactNorms ContactLaws::norms(const ContactStates& last) const {
       const SpatialVector& C = law.C;
       const double weight = pair.slave_nodes()[s].weight;
       own[squares] += std::pow(weight, 2) * C.squaredNorm();
+      if (!C.allFinite()) mine[violation] = std::numeric_limits<double>::infinity();  // largest values leave out what is no number
       mine[traction] = std::max(mine[traction], multiplier.z.norm());
       const bool exactly_closed = closed && pair.enforcement().holds_exactly();  // then C_n is the gap
       mine[violation] = std::max(mine[violation], updated          ? std::max(of_pair.mismatch(s, multiplier), C.norm())

@@ -1,5 +1,7 @@
 #include "mortise/contact/contact_system.hpp"
 
+#include <fmt/format.h>
+
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_CrsGraph.hpp>
 #include <Tpetra_Export.hpp>
@@ -7,6 +9,7 @@
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "evaluation/arguments.hpp"
@@ -95,6 +98,21 @@ double ContactModel::maximum(double value) const {
   return all;
 }
 
+namespace {
+
+/// A node of this rank whose position is no number, also away from all surfaces: a search is left out by how far all nodes have moved.
+std::optional<StepFailure> find_lost_position(const Map& owned_nodes, const MultiVector& x) {
+  const auto places = x.getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (std::size_t i = 0; i < places.extent(1); ++i)
+    for (std::size_t node = 0; node < places.extent(0); ++node)
+      if (!std::isfinite(places(node, i)))
+        return StepFailure(FailureKind::not_finite,
+                           fmt::format("the position of node {} is not finite", owned_nodes.getGlobalElement(static_cast<LocalOrdinal>(node))));
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::shared_ptr<const EvaluatedContact> ContactModel::evaluate(const std::shared_ptr<const ContactModel>& self, const RCP<const MultiVector>& x,
                                                                const ContactHistory& history, const ContactStates* last, bool derivatives) const {
   const auto scope = timers.scope("contact");
@@ -117,6 +135,7 @@ std::shared_ptr<const EvaluatedContact> ContactModel::evaluate(const std::shared
       if (lost) failure = lost;
     }
   }
+  if (!failure) failure = find_lost_position(*owned_nodes, *x);
   throw_if_any(comm(), failure);
   return result;
 }
@@ -132,6 +151,8 @@ ContactSystem::ContactSystem(const RCP<const Map>& owned_nodes, RCP<const Map> d
 ContactSystem::ContactSystem(const NodalField& displacement, RCP<const Map> dofs, RCP<const MultiVector> reference, RCP<const MultiVector> fixed,
                              const InterfaceMeasure& measure, std::vector<ContactPair> pairs, const Timers& timers) {
   detail::refuse_unfit_fields(displacement, *detail::given(dofs, "dofs"), *detail::given(reference, "reference"), *detail::given(fixed, "fixed"));
+  if (!(measure.thickness > 0.0) || !std::isfinite(measure.thickness))
+    throw std::invalid_argument(fmt::format("contact: the thickness of `measure` is {}; give a finite number above 0", measure.thickness));
   for (ContactPair& pair : pairs)
     if (pair.place.path.empty()) pair.place.path = "contact/" + pair.name;
   detail::refuse_incomplete_pairs(*displacement.nodes(), pairs);

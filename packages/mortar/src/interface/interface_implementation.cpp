@@ -13,7 +13,6 @@
 #include <set>
 
 #include "interface/interface.hpp"
-#include "mortise/core/over_ranks.hpp"
 #include "search/yielding_sides.hpp"
 
 namespace mortise {
@@ -95,15 +94,11 @@ void Interface<dim>::measure_facets(const MultiVector& reference, const Place& p
 template <int dim>
 bool Interface<dim>::moved(const MultiVector& x) const {
   if (searched_at_.is_null()) return true;
-  // What is no number counts as far away: norms of Tpetra may drop it.
-  Eigen::Matrix<double, dim, 1> mine = Eigen::Matrix<double, dim, 1>::Zero();
-  const auto now = x.getLocalViewHost(Tpetra::Access::ReadOnly), before = searched_at_->getLocalViewHost(Tpetra::Access::ReadOnly);
-  for (int i = 0; i < dim; ++i)
-    for (std::size_t node = 0; node < now.extent(0); ++node) {
-      const double moved = std::abs(now(node, i) - before(node, i));
-      if (!(moved <= mine[i])) mine[i] = std::isnan(moved) ? std::numeric_limits<double>::infinity() : moved;
-    }
-  return most_over_ranks(*owned_nodes_->getComm(), mine).norm() > free_distance_;
+  MultiVector difference(x, Teuchos::Copy);
+  difference.update(-1.0, *searched_at_, 1.0);
+  Teuchos::Array<double> largest(dim);
+  difference.normInf(largest());
+  return Eigen::Map<const Eigen::Matrix<double, dim, 1>>(largest.getRawPtr()).norm() > free_distance_;
 }
 
 // The master facets of this rank. Collective.
