@@ -12,6 +12,8 @@ namespace mortise::detail {
 /// Collective. Throws std::invalid_argument for arguments that do not fit together. Such are a field with ids that are not among the dofs, components
 /// that are neither unknown nor prescribed, and positions and marks of prescribed components on other nodes.
 void refuse_unfit_fields(const NodalField& displacement, const Map& dofs, const MultiVector& reference, const MultiVector& fixed);
+/// Collective. Throws std::invalid_argument for a further field on other nodes, or with ids that are not among the dofs.
+void refuse_unfit_field(const NodalField& field, const Map& owned_nodes, const Map& dofs);
 
 /// Collective. Throws InputError for a pair without Young's modulus, formulation or law of friction.
 void refuse_incomplete_pairs(const Communicator& comm, const std::vector<ContactPair>& pairs);
