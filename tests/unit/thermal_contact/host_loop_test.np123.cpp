@@ -54,11 +54,14 @@ ThermalPair with_friction() {
 }
 
 /// The upper block is pressed on the lower one, then drawn along it, in equal steps of time. Far faces keep their temperatures.
-void expect_quadratic_convergence(int dimension) {
+/// @param insulated  they keep none, and nothing is conducted from block to block: each stores its share of the heat of friction
+void expect_quadratic_convergence(int dimension, bool insulated) {
   const TwoBodies bodies = blocks(dimension, 0.28);  // a part of the slave is not covered
   const ContactSystem& contact = *bodies.contact;
   const RCP<const Map>& dofs = bodies.table->dofs;
-  const ThermalContact thermal(contact, bodies.table->fields[1], dofs, {with_friction()});
+  ThermalPair pair = with_friction();
+  if (insulated) pair.conductance.reset(), pair.gap.reset();
+  const ThermalContact thermal(contact, bodies.table->fields[1], dofs, {pair});
   constexpr double time_step = 0.002, warm = 0.1, down = 0.005, right = 0.01;
   const std::vector<GlobalOrdinal> ids = bodies.all_ids();
   Matrix K(bodies.graph());
@@ -67,7 +70,20 @@ void expect_quadratic_convergence(int dimension) {
 
   const auto is_prescribed = [&](GlobalOrdinal id) {
     const GlobalOrdinal first = bodies.temperature(0), node = id < first ? id / dimension : id - first;
-    return bodies.is_far(node);
+    return bodies.is_far(node) && !(insulated && id >= first);
+  };
+  // What temperatures store, over the step of time: the matrix with capacity less that without.
+  const auto storage = [&](const Vector& of) {
+    Vector temperatures(of, Teuchos::Copy), result(dofs), product(dofs);
+    for (const GlobalOrdinal id : local_ids(*dofs))
+      if (id < bodies.temperature(0)) temperatures.replaceGlobalValue(id, 0.0);
+    K.apply(temperatures, result);
+    Matrix without(bodies.graph());
+    bodies.assemble(1e300, without);
+    without.fillComplete(dofs, dofs);
+    without.apply(temperatures, product);
+    result.update(-1.0, product, 1.0);
+    return result;
   };
   Vector x(dofs), z(contact.multiplier_map()), dx(dofs), dz(contact.multiplier_map()), target(dofs);
   ContactHistory accepted = contact.initial_history(x);
@@ -81,18 +97,7 @@ void expect_quadratic_convergence(int dimension) {
       target.replaceGlobalValue(bodies.displacement(node, dimension - 1), -down * std::min(step, 2));
       target.replaceGlobalValue(bodies.temperature(node), warm);
     }
-    const Vector start(x, Teuchos::Copy);
-    Vector stored(dofs);  // of the temperatures when the step began
-    for (std::size_t n = 0; n < 2; ++n) {
-      Matrix without(bodies.graph());
-      bodies.assemble(n == 0 ? time_step : 1e300, without);
-      without.fillComplete(dofs, dofs);
-      Vector of_start(start, Teuchos::Copy), product(dofs);
-      for (const GlobalOrdinal id : local_ids(*dofs))
-        if (id < bodies.temperature(0)) of_start.replaceGlobalValue(id, 0.0);
-      without.apply(of_start, product);
-      stored.update(n == 0 ? 1.0 : -1.0, product, 1.0);
-    }
+    const Vector stored = storage(x);  // when the step began
     const ContactHistory history = contact.start_step(accepted, x, z);
     ContactStates last = history->states;
     std::vector<double> residuals;
@@ -168,13 +173,24 @@ void expect_quadratic_convergence(int dimension) {
       hottest = std::max(hottest, x.getData()[dofs->getLocalElement(bodies.temperature(node))]);
   }
   EXPECT_GT(friction, 0.0);
-  EXPECT_GT(most_over_ranks(*bodies.comm, hottest), warm);  // warmer than any face that is held: by friction
+  if (insulated) {
+    std::vector<double> of_block(2, 0.0);
+    const Vector stored = storage(x);
+    for (const GlobalOrdinal node : local_ids(*bodies.nodes))
+      of_block[bodies.body_of[node]] += time_step * stored.getData()[dofs->getLocalElement(bodies.temperature(node))];
+    const std::vector<double> all = sum_over_ranks(*bodies.comm, of_block);
+    EXPECT_NEAR(all[1], *pair.slave_share * friction, 1e-9 * friction);
+    EXPECT_NEAR(all[0], (1.0 - *pair.slave_share) * friction, 1e-9 * friction);
+  } else {
+    EXPECT_GT(most_over_ranks(*bodies.comm, hottest), warm);  // warmer than any face that is held: by friction
+  }
   EXPECT_GT(sum_over_ranks(*bodies.comm, slipping), 0);
   EXPECT_GT(sum_over_ranks(*bodies.comm, sticking), 0);
 }
 
-TEST(HostWithTemperatures, ConvergesQuadraticallyInThePlane) { expect_quadratic_convergence(2); }
-TEST(HostWithTemperatures, ConvergesQuadraticallyInSpace) { expect_quadratic_convergence(3); }
+TEST(HostWithTemperatures, ConvergesQuadraticallyInThePlane) { expect_quadratic_convergence(2, false); }
+TEST(HostWithTemperatures, ConvergesQuadraticallyInSpace) { expect_quadratic_convergence(3, false); }
+TEST(HostWithTemperatures, KeepsTheHeatOfFrictionWhereInsulated) { expect_quadratic_convergence(2, true); }
 
 }  // namespace
 }  // namespace mortise
