@@ -6,7 +6,7 @@ set(words "[Ss]cene" "XML|[Xx]ml" "RELAX NG" "mortise (run|check|describe|list|p
   "command line" "(newton|history|profiles|point)\\.csv" "(summary|effective)\\.(json|xml)" "fields\\.xdmf|step-[0-9*]+\\.h5")
 set(wrong "")
 set(seen 0)
-foreach(package core shape mesh material mortar contact plain solid nonlinear thyra)
+foreach(package core shape mesh material mortar contact thermal_contact plain solid nonlinear thyra)
   file(GLOB_RECURSE files "${SOURCE}/packages/${package}/*pp")
   foreach(file IN LISTS files)
     math(EXPR seen "${seen} + 1")

@@ -154,7 +154,8 @@ enum class HostNumbering {
 /// Everything that is made from TwoSurfaces on `comm`. Node n belongs to rank n mod size.
 class Fixture {
  public:
-  Fixture(const TwoSurfaces& surfaces, RCP<const Communicator> comm, HostNumbering numbering = HostNumbering::by_nodes)
+  /// @param transfers  the scalar field of the interleaved numbering gets what crosses the interface
+  Fixture(const TwoSurfaces& surfaces, RCP<const Communicator> comm, HostNumbering numbering = HostNumbering::by_nodes, bool transfers = false)
       : surfaces_(surfaces), numbering_(numbering) {
     std::vector<GlobalOrdinal> ids;
     for (std::size_t n = 0; n < surfaces.size(); ++n)
@@ -188,7 +189,7 @@ class Fixture {
       pairs.back().second_pass_of = 0;
     }
     contact = std::make_unique<ContactSystem>(NodalField("displacement", nodes, dim, displacements), dofs, reference, fixed, surfaces.measure, pairs,
-                                              Timers());
+                                              Timers(), transfers ? std::vector<NodalField>{scalar_field()} : std::vector<NodalField>{});
 
     const auto graph = rcp(new Graph(dofs, 7 * dim + 1));
     visit_springs([&](GlobalOrdinal row, GlobalOrdinal column, double) { graph->insertGlobalIndices(row, 1, &column); });
@@ -270,6 +271,14 @@ class Fixture {
     if (surfaces_.fixed[node][static_cast<std::size_t>(by_nodes % dim)]) return NodalField::none;
     return scalar(by_nodes / dim) + 1 + by_nodes % dim;
   }
+  /// The scalar field of the interleaved numbering.
+  NodalField scalar_field() const {
+    std::vector<GlobalOrdinal> ids;
+    for (const GlobalOrdinal node : local_ids(*nodes)) ids.push_back(scalar(node));
+    return {"scalar", nodes, 1, ids};
+  }
+  /// True for the id of a value of that field.
+  bool is_scalar(GlobalOrdinal id) const { return id % (surfaces_.dimension + 1) == 0; }
   /// Displacements in the numbering of this host, by the ids dim * node + component.
   RCP<Vector> numbered(const Vector& by_nodes) const {
     const auto result = rcp(new Vector(dofs));

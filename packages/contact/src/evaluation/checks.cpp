@@ -65,6 +65,21 @@ void refuse_unfit_fields(const NodalField& displacement, const Map& dofs, const 
   if (any != 0) throw std::invalid_argument(mine.empty() ? "contact: the field of displacements does not fit the system on another rank" : mine);
 }
 
+void refuse_unfit_field(const NodalField& field, const Map& owned_nodes, const Map& dofs) {
+  if (!field.nodes()->isSameAs(owned_nodes))
+    throw std::invalid_argument(fmt::format("contact: field '{}' is on other nodes than the displacements", field.name()));
+  std::string mine;
+  for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(local_id_count(owned_nodes)) && mine.empty(); ++node)
+    for (int i = 0; i < field.components(); ++i)
+      if (const GlobalOrdinal id = field.id(node, i); id != NodalField::none && !dofs.isNodeGlobalElement(id))
+        mine = fmt::format("contact: field '{}': component {} at node {} has the id {}, which is no owned row of the system", field.name(), i,
+                           owned_nodes.getGlobalElement(node), id);
+  int any_here = mine.empty() ? 0 : 1, any = 0;
+  Teuchos::reduceAll(*owned_nodes.getComm(), Teuchos::REDUCE_MAX, any_here, Teuchos::outArg(any));
+  if (any != 0)
+    throw std::invalid_argument(mine.empty() ? fmt::format("contact: field '{}' does not fit the system on another rank", field.name()) : mine);
+}
+
 namespace {
 
 // A coupling and an enforcement that do not go together.

@@ -22,6 +22,8 @@ const RCP<T>& given(const RCP<T>& argument, const char* name) {
 /// one row twice, components that are neither unknown nor prescribed, positions that are not finite, other marks than 0, 1 and 2, and positions and
 /// marks of prescribed components on other nodes.
 void refuse_unfit_fields(const NodalField& displacement, const Map& dofs, const MultiVector& reference, const MultiVector& fixed);
+/// Collective. Throws std::invalid_argument for a further field on other nodes, or with ids that are not among the dofs.
+void refuse_unfit_field(const NodalField& field, const Map& owned_nodes, const Map& dofs);
 
 /// Collective. Throws InputError for a pair without Young's modulus, formulation or law of friction, with negative ids, or with other than one of
 /// `facet_gaps` for each owned node.

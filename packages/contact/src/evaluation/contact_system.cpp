@@ -73,6 +73,7 @@ std::shared_ptr<const InterfaceDofs> ContactModel::dofs_of(std::size_t pair, con
   const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
   result->map = rcp(new Map(invalid, unknowns.data(), static_cast<LocalOrdinal>(unknowns.size()), 0, dofs->getComm()));
   result->to_owners = rcp(new Export(result->map, dofs));
+  for (const NodalField& field : further) result->further.push_back(field.ids_on(pattern->local_nodes));
   return kept = result;
 }
 
@@ -143,16 +144,17 @@ std::shared_ptr<const EvaluatedContact> ContactModel::evaluate(const std::shared
 }  // namespace detail
 
 ContactSystem::ContactSystem(const RCP<const Map>& owned_nodes, RCP<const Map> dofs, RCP<const MultiVector> reference, RCP<const MultiVector> fixed,
-                             const InterfaceMeasure& measure, std::vector<ContactPair> pairs, const Timers& timers)
+                             const InterfaceMeasure& measure, std::vector<ContactPair> pairs, const Timers& timers, std::vector<NodalField> further)
     : ContactSystem(numbered_by_nodes("displacement", detail::given(owned_nodes, "owned_nodes"),
                                       static_cast<int>(detail::given(reference, "reference")->getNumVectors())),
-                    std::move(dofs), reference, std::move(fixed), measure, std::move(pairs), timers) {}
+                    std::move(dofs), reference, std::move(fixed), measure, std::move(pairs), timers, std::move(further)) {}
 
 ContactSystem::ContactSystem(const NodalField& displacement, RCP<const Map> dofs, RCP<const MultiVector> reference, RCP<const MultiVector> fixed,
-                             const InterfaceMeasure& measure, std::vector<ContactPair> pairs, const Timers& timers) {
+                             const InterfaceMeasure& measure, std::vector<ContactPair> pairs, const Timers& timers, std::vector<NodalField> further) {
   detail::refuse_unfit_fields(displacement, *detail::given(dofs, "dofs"), *detail::given(reference, "reference"), *detail::given(fixed, "fixed"));
   if (!(measure.thickness > 0.0) || !std::isfinite(measure.thickness))
     throw std::invalid_argument(fmt::format("contact: the thickness of `measure` is {}; give a finite number above 0", measure.thickness));
+  for (const NodalField& field : further) detail::refuse_unfit_field(field, *displacement.nodes(), *dofs);
   for (ContactPair& pair : pairs)
     if (pair.place.path.empty()) pair.place.path = "contact/" + pair.name;
   detail::refuse_incomplete_pairs(*displacement.nodes(), pairs);
@@ -183,6 +185,7 @@ ContactSystem::ContactSystem(const NodalField& displacement, RCP<const Map> dofs
       const GlobalOrdinal id = displacement.id(node, i);
       self.rows.push_back(id == NodalField::none ? -1 : self.dofs->getLocalElement(id));
     }
+  self.further = std::move(further);
 
   // Ids of z: those of the nodes' dofs, beyond all dofs.
   const GlobalOrdinal offset = self.dofs->getMaxAllGlobalIndex() + 1;
@@ -215,6 +218,7 @@ ContactSystem::ContactSystem(const NodalField& displacement, RCP<const Map> dofs
   model_ = model;
 }
 
+int ContactSystem::dimension() const { return model_->dimension; }
 std::size_t ContactSystem::pairs() const { return model_->pairs.size(); }
 const std::string& ContactSystem::pair_name(std::size_t pair) const {
   detail::require_pair(*model_, pair);

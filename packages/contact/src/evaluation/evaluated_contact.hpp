@@ -21,10 +21,11 @@ struct EvaluatedContact;
 /// The displacements of an interface's local nodes among the dofs of the host's system.
 struct InterfaceDofs {
   std::shared_ptr<const InterfacePattern> pattern;
-  std::vector<GlobalOrdinal> ids;    ///< [dim nodes] NodalField::none: no unknown
-  RCP<const Map> map;                ///< of those that are unknowns
-  RCP<const Export> to_owners;       ///< from `map` to the dofs
-  std::vector<LocalOrdinal> places;  ///< [dim nodes] in `map`, -1: no unknown
+  std::vector<GlobalOrdinal> ids;                   ///< [dim nodes] NodalField::none: no unknown
+  RCP<const Map> map;                               ///< of those that are unknowns
+  RCP<const Export> to_owners;                      ///< from `map` to the dofs
+  std::vector<LocalOrdinal> places;                 ///< [dim nodes] in `map`, -1: no unknown
+  std::vector<std::vector<GlobalOrdinal>> further;  ///< [further fields][components nodes]
 };
 
 /// A row that condensation has replaced, with its values.
@@ -40,7 +41,8 @@ struct ContactModel {
 
   NodalField displacement;
   RCP<const Map> owned_nodes, dofs, multipliers;
-  std::vector<LocalOrdinal> rows;  ///< [dim owned nodes] local indices in `dofs`, -1: no unknown
+  std::vector<LocalOrdinal> rows;   ///< [dim owned nodes] local indices in `dofs`, -1: no unknown
+  std::vector<NodalField> further;  ///< fields beside the displacement whose rows get what crosses the interfaces
   RCP<const MultiVector> reference, fixed;
   Timers timers;
   int dimension = 2;

@@ -31,12 +31,33 @@ struct NodeRows {
 };
 using NodeRowMap = std::map<GlobalOrdinal, NodeRows>;
 
+// Local rows of the components of all fields at an owned node, those that there are.
+std::vector<LocalOrdinal> rows_of(const ContactModel& model, LocalOrdinal node) {
+  std::vector<LocalOrdinal> rows;
+  for (int i = 0; i < model.dimension; ++i)
+    if (const LocalOrdinal row = model.rows[static_cast<std::size_t>(model.dimension * node + i)]; row >= 0) rows.push_back(row);
+  for (const NodalField& field : model.further)
+    for (int i = 0; i < field.components(); ++i)
+      if (const GlobalOrdinal id = field.id(node, i); id != NodalField::none) rows.push_back(model.dofs->getLocalElement(id));
+  return rows;
+}
+
+// Ids of the components of all fields at a local node of a pair, those that there are.
+void add_ids(const EvaluatedContact& contact, std::size_t pair, LocalOrdinal node, Columns& ids) {
+  for (int i = 0; i < contact.model->dimension; ++i)
+    if (const GlobalOrdinal id = contact.id(pair, node, i); id != NodalField::none) ids.push_back(id);
+  for (std::size_t f = 0; f < contact.model->further.size(); ++f) {
+    const int components = contact.model->further[f].components();
+    for (int i = 0; i < components; ++i)
+      if (const GlobalOrdinal id = contact.dofs[pair]->further[f][static_cast<std::size_t>(components * node + i)]; id != NodalField::none)
+        ids.push_back(id);
+  }
+}
+
 // Of the rows of all components of a node together: hosts that leave out zeros give them different columns, and condensation combines the rows.
 Columns bulk_columns(const Graph& bulk, const ContactModel& model, LocalOrdinal node) {
   Columns columns;
-  for (int i = 0; i < model.dimension; ++i) {
-    const LocalOrdinal row = model.rows[static_cast<std::size_t>(model.dimension * node + i)];
-    if (row < 0) continue;
+  for (const LocalOrdinal row : rows_of(model, node)) {
     Graph::local_inds_host_view_type local;
     bulk.getLocalRowView(row, local);
     for (std::size_t k = 0; k < local.extent(0); ++k) columns.push_back(bulk.getColMap()->getGlobalElement(local(k)));
@@ -48,7 +69,6 @@ Columns bulk_columns(const Graph& bulk, const ContactModel& model, LocalOrdinal 
 // Adds the columns that condensation brings to a node's rows: the same for all components of the node. The multipliers are those that are condensed
 // before corners, or the others, in whose rows the former's columns `of_middles` stand by then.
 void add_columns(const Graph& bulk, const EvaluatedContact& contact, bool before_corners, const NodeRowMap& of_middles, NodeRowMap& rows_of_node) {
-  const int dimension = contact.model->dimension;
   for (std::size_t p = 0; p < contact.pairs.size(); ++p) {
     const PairEvaluation& pair = contact.pairs[p];
     const Map& nodes = pair.local_nodes();
@@ -56,18 +76,14 @@ void add_columns(const Graph& bulk, const EvaluatedContact& contact, bool before
       const SlaveNode& slave = pair.slave_nodes()[s];
       if (!slave.carries_multiplier || pair.pair().before_corners(s) != before_corners) continue;
       Columns columns = bulk_columns(bulk, *contact.model, slave.owned_node);
-      for (const LocalOrdinal node : pair.coupled_nodes(s))
-        for (int i = 0; i < dimension; ++i)
-          if (const GlobalOrdinal id = contact.id(p, node, i); id != NodalField::none) columns.push_back(id);
+      for (const LocalOrdinal node : pair.coupled_nodes(s)) add_ids(contact, p, node, columns);
       if (const auto found = of_middles.find(slave.id); found != of_middles.end())
         columns.insert(columns.end(), found->second.columns.begin(), found->second.columns.end());
       sort_unique(columns);
       for (const LocalOrdinal node : pair.loaded_nodes(s)) {
         NodeRows& into = rows_of_node[nodes.getGlobalElement(node)];
         into.columns.insert(into.columns.end(), columns.begin(), columns.end());
-        if (into.ids.empty())
-          for (int i = 0; i < dimension; ++i)
-            if (const GlobalOrdinal id = contact.id(p, node, i); id != NodalField::none) into.ids.push_back(id);
+        if (into.ids.empty()) add_ids(contact, p, node, into.ids);
       }
     }
   }
@@ -101,11 +117,9 @@ void receive(const Graph& remote, const Export& exporter, const ContactModel& mo
   Graph incoming(dofs, 0);
   incoming.doExport(remote, exporter, Tpetra::INSERT);
   for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(local_id_count(*model.owned_nodes)); ++node) {
-    // all rows of a node got the same columns
-    const auto first = model.rows.begin() + static_cast<std::ptrdiff_t>(model.dimension) * node;
-    const auto row = std::find_if(first, first + model.dimension, [](LocalOrdinal local) { return local >= 0; });
-    if (row == first + model.dimension) continue;
-    const GlobalOrdinal id = dofs->getGlobalElement(*row);
+    const std::vector<LocalOrdinal> rows = rows_of(model, node);  // all of them got the same columns
+    if (rows.empty()) continue;
+    const GlobalOrdinal id = dofs->getGlobalElement(rows.front());
     std::size_t count = incoming.getNumEntriesInGlobalRow(id);
     if (count == 0 || count == Teuchos::OrdinalTraits<std::size_t>::invalid()) continue;
     Graph::nonconst_global_inds_host_view_type columns("columns", count);
@@ -133,9 +147,7 @@ RCP<const Graph> widened(const Graph& bulk, const NodeRowMap& rows_of_node, cons
   for (const auto& [node, more] : rows_of_node) {
     const LocalOrdinal owned = model.owned_nodes->getLocalElement(node);
     if (owned < 0) continue;
-    for (int i = 0; i < model.dimension; ++i) {
-      const LocalOrdinal row = model.rows[static_cast<std::size_t>(model.dimension * owned + i)];
-      if (row < 0) continue;
+    for (const LocalOrdinal row : rows_of(model, owned)) {
       std::vector<LocalOrdinal>& all = wide[row];
       for (std::size_t k = narrow.row_map(row); k < narrow.row_map(row + 1); ++k) all.push_back(narrow.entries(k));
       for (const GlobalOrdinal id : more.columns) all.push_back(columns->getLocalElement(id));

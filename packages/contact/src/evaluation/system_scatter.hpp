@@ -22,7 +22,8 @@ class SystemScatter {
  public:
   /// Builds the graph of the condensed system from the bulk's rows. The rows of each slave node s get the columns of its own bulk rows, the same in
   /// all of them, and of the nodes it is coupled to. The same columns are in the rows of the nodes its multiplier loads, as they receive the slave's
-  /// row by condensation. Its columns are the bulk's, followed by further ones.
+  /// row by condensation. So are they in the rows that further fields have at these nodes, and all of them get the columns of these fields at the
+  /// nodes that s is coupled to. Its columns are the bulk's, followed by further ones.
   SystemScatter(const Graph& bulk, const EvaluatedContact& contact);
 
   /// True if the candidates of these evaluations are those it was built for.

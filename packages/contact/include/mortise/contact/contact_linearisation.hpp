@@ -33,6 +33,8 @@ class ContactLinearisation {
   /// Rebuilt at each call.
   SaddlePointBlocks saddle_point_blocks() const;
 
+  const ContactLaws& laws() const { return laws_; }  ///< that are linearised
+
  private:
   friend class DifferentiatedContact;
   explicit ContactLinearisation(ContactLaws laws) : laws_(std::move(laws)) {}

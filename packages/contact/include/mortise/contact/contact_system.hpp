@@ -58,16 +58,19 @@ class ContactSystem {
   /// @param reference     [owned nodes x dim] reference positions
   /// @param fixed         [owned nodes x dim] 1 where prescribed, 2 where it follows a rigid body or a reference point, else 0; components without a
   ///                      dof are prescribed
+  /// @param further       other fields of the host whose rows get what crosses the interface, as a temperature's: graph() has place in the rows of
+  ///                      their components for what condensation brings to the rows of the displacement
   /// @throws InputError (at the pair's name if it has no place) for
   ///   - a pair without Young's modulus, formulation or law of friction;
   ///   - what MortarInterface refuses.
   /// @throws std::invalid_argument for ids that are not among `dofs`, components that are neither unknown nor prescribed, and vectors on other nodes
   ContactSystem(const NodalField& displacement, RCP<const Map> dofs, RCP<const MultiVector> reference, RCP<const MultiVector> fixed,
-                const InterfaceMeasure& measure, std::vector<ContactPair> pairs, const Timers& timers);
+                const InterfaceMeasure& measure, std::vector<ContactPair> pairs, const Timers& timers, std::vector<NodalField> further = {});
   /// A system with numbered_by_nodes(), whose map is make_dof_map(*owned_nodes, dim).
   ContactSystem(const RCP<const Map>& owned_nodes, RCP<const Map> dofs, RCP<const MultiVector> reference, RCP<const MultiVector> fixed,
-                const InterfaceMeasure& measure, std::vector<ContactPair> pairs, const Timers& timers);
+                const InterfaceMeasure& measure, std::vector<ContactPair> pairs, const Timers& timers, std::vector<NodalField> further = {});
 
+  int dimension() const;                                 ///< 2 or 3
   std::size_t pairs() const;                             ///< number of pairs, second passes included
   const std::string& pair_name(std::size_t pair) const;  ///< of ContactPair::name
   /// The pair that is the second pass of this one.
