@@ -16,6 +16,7 @@
 
 #include "mortise/contact/enforcement.hpp"
 #include "mortise/core/trilinos_versions.hpp"
+#include "mortise/mortar/mortar_interface.hpp"
 
 namespace mortise::detail {
 
@@ -128,8 +129,8 @@ void refuse_incomplete_pairs(const Map& owned_nodes, const std::vector<ContactPa
     else
       diagnostics.push_back({pair.place, "the formulation is null; give a Formulation, as DualMortar"});
     if (pair.facet_gaps && pair.facet_gaps->size() != local_id_count(owned_nodes))
-      diagnostics.push_back({pair.place, fmt::format("`facet_gaps` has {} entries on rank {}, which owns {} nodes; give one for each", pair.facet_gaps->size(),
-                                                     owned_nodes.getComm()->getRank(), local_id_count(owned_nodes))});
+      diagnostics.push_back({pair.place, fmt::format("`facet_gaps` has {} entries on rank {}, which owns {} nodes; give one for each",
+                                                     pair.facet_gaps->size(), owned_nodes.getComm()->getRank(), local_id_count(owned_nodes))});
     for (const auto* surface : {&pair.slave, &pair.master})
       for (const SurfaceFacet& facet : *surface)
         if (const auto negative = std::find_if(facet.begin(), facet.end(), [](GlobalOrdinal node) { return node < 0; }); negative != facet.end())
