@@ -12,7 +12,7 @@
 
 namespace host {
 
-constexpr double tolerance = 1e-12;
+constexpr double tolerance = 1e-11;
 
 inline double sum_over_ranks(const Blocks& blocks, double mine) {
   double all = 0.0;

@@ -70,7 +70,7 @@ struct Host {
     list->sublist("Printing").set("Output Information", 0);
     auto& tests = list->sublist("Status Tests");
     tests.set("Test Type", "Combo").set("Combo Type", "OR").set("Number of Tests", 3);
-    tests.sublist("Test 0").set("Test Type", "NormF").set("Tolerance", 1e-12).set("Scale Type", "Unscaled");
+    tests.sublist("Test 0").set("Test Type", "NormF").set("Tolerance", 1e-11).set("Scale Type", "Unscaled");
     tests.sublist("Test 1").set("Test Type", "MaxIters").set("Maximum Iterations", 30);
     tests.sublist("Test 2").set("Test Type", "FiniteValue");
     if (!observer.is_null()) list->sublist("Solver Options").set("User Defined Pre/Post Operator", observer);
