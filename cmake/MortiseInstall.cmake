@@ -6,6 +6,10 @@ foreach(package IN LISTS mortise_packages)
   get_property(finds GLOBAL PROPERTY MORTISE_FINDS_${package})
   string(APPEND mortise_finds "set(mortise_finds_${package} ${finds})\n")
 endforeach()
+# libmortise needs nothing else at configuration.
+string(APPEND mortise_finds "set(mortise_finds_shared \"\")\n")
+list(JOIN mortise_packages ", " mortise_component_names)
+string(APPEND mortise_component_names ", shared")
 set(config_directory "${CMAKE_INSTALL_LIBDIR}/cmake/Mortise")
 configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/MortiseConfig.cmake.in" "${PROJECT_BINARY_DIR}/MortiseConfig.cmake"
   INSTALL_DESTINATION "${config_directory}")

@@ -16,10 +16,11 @@ set(mortise_position_independent_libraries ${mortise_program_libraries})
 set(mortise_test_headers ${mortise_program_headers} <gmock/gmock.h> <gtest/gtest.h>)
 set(mortise_test_libraries ${mortise_program_libraries} GTest::gmock GTest::gtest)
 
-# Code that may become part of a shared library. Its functions call one another directly, as in a program.
+# Code that may become part of a shared library. Its functions call one another directly, as in a program. Static data of templates and inline functions
+# are those of each library: two of them in one process may hold different copies of this code, and of Boost's and Eigen's.
 function(mortise_position_independent target)
   set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
-  target_compile_options(${target} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>")
+  target_compile_options(${target} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition;-fno-gnu-unique>")
 endfunction()
 
 # Lets the sources of a target compile with a set, program, position_independent or test, which is built once.

@@ -1,6 +1,7 @@
 // mortise.h over PlainContact: exceptions become a status and a text.
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <limits>
 #include <memory>
@@ -14,6 +15,7 @@
 struct mortise_contact {
   std::unique_ptr<mortise::PlainContact> contact;
   std::string error{};
+  std::atomic<bool> is_busy{false};  ///< within a call
 };
 
 namespace {
@@ -57,7 +59,10 @@ int guarded(std::string& message, const Work& work) noexcept {
 template <class Work>
 int guarded(mortise_contact* contact, const Work& work) noexcept {
   if (contact == nullptr) return MORTISE_NULL_POINTER;
-  return guarded(contact->error, [&] { work(*contact->contact); });
+  if (contact->is_busy.exchange(true)) return MORTISE_WRONG_ORDER;  // its text belongs to the call that is under way
+  const int status = guarded(contact->error, [&] { work(*contact->contact); });
+  contact->is_busy = false;
+  return status;
 }
 
 /// A result that has to be there: if it is not, the next collective call fails on every rank.
@@ -130,6 +135,11 @@ int mortise_add_second_pass(mortise_contact* contact, int32_t of, int32_t* pair)
 
 int mortise_add_facets(mortise_contact* contact, int32_t pair, int side, int64_t facets, int nodes_per_facet, const int64_t* nodes) {
   return guarded(contact, [&](mortise::PlainContact& self) {
+    if (facets < 0) {
+      const std::string message = "mortise_add_facets: the number of facets is " + std::to_string(facets);
+      self.refuse_next(MORTISE_WRONG_LENGTH, message);
+      throw PlainError(MORTISE_WRONG_LENGTH, message);
+    }
     const bool is_kind = nodes_per_facet > 0 && nodes_per_facet <= 8;
     const bool is_count = facets >= 0 && facets < std::numeric_limits<std::int32_t>::max();
     self.add_facets(pair, static_cast<mortise_side>(side), nodes_per_facet, span(nodes, is_kind && is_count ? facets * nodes_per_facet : -1));
@@ -257,7 +267,7 @@ int mortise_restore(mortise_contact* contact, int64_t size, const void* bytes, i
 const char* mortise_last_error(const mortise_contact* contact) { return contact == nullptr ? "the contact is null" : contact->error.c_str(); }
 
 void mortise_destroy(mortise_contact** contact) {
-  if (contact == nullptr) return;
+  if (contact == nullptr || (*contact != nullptr && (*contact)->is_busy)) return;
   delete *contact;
   *contact = nullptr;
 }

@@ -92,6 +92,8 @@ void ModelWithContact::restore(StateArchive& archive, const ThyraVector& x) {
 RCP<ModelWithContact> with_contact(const RCP<ThyraModel>& model, const HostDisplacements& displacements, std::vector<ContactPair> pairs,
                                    const WithContactOptions& options) {
   if (model.is_null()) throw std::invalid_argument("contact: with_contact() of a null model");
+  if (Teuchos::rcp_dynamic_cast<ModelWithContact>(model) != Teuchos::null)
+    throw std::invalid_argument("contact: with_contact() of a model that has contact already; give all pairs at once");
   const auto space = Teuchos::rcp_dynamic_cast<const ::Thyra::TpetraVectorSpace<Scalar, LocalOrdinal, GlobalOrdinal, NodeType>>(model->get_x_space());
   if (space.is_null()) throw std::invalid_argument("contact: x_space of the model is no Thyra::TpetraVectorSpace");
   const RCP<const ThyraSolverFactory> solver = options.linear_solver.is_null() ? model->get_W_factory() : options.linear_solver;

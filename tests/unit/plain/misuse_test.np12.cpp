@@ -345,6 +345,23 @@ TEST(PlainMisuse, SolversThatFail) {
   EXPECT_EQ(begun.solve(), MORTISE_OK) << begun.error();
 }
 
+TEST(PlainMisuse, CallsWithinTheSolver) {
+  static mortise_contact* under_way = nullptr;
+  Begun begun;
+  ASSERT_EQ(begun.start(), MORTISE_OK);
+  ASSERT_EQ(begun.differentiate(), MORTISE_OK);
+  ASSERT_EQ(begun.condense(), MORTISE_OK);
+  under_way = begun.contact;
+  const int status = begun.solve([](void*, std::int64_t, const double*, double*) {
+    mortise_contact* same = under_way;
+    mortise_destroy(&same);
+    return same == under_way && mortise_accept(under_way) == MORTISE_WRONG_ORDER ? 5 : 0;
+  });
+  EXPECT_EQ(status, MORTISE_SOLVE_FAILED);
+  EXPECT_THAT(begun.error(), HasSubstr("it returns 5"));
+  EXPECT_EQ(begun.solve(), MORTISE_OK) << begun.error();
+}
+
 TEST(PlainMisuse, StatesThatCannotBeEvaluated) {
   Begun begun;
   ASSERT_EQ(begun.start(), MORTISE_OK);

@@ -441,6 +441,7 @@ TEST(WithContact, MisuseIsTold) {
   const auto blocks = host.blocks;
   const auto plain = rcp(new BlocksModel(blocks, Supports::none));
   EXPECT_THAT(refusal([&] { with_contact(Teuchos::null, plain->displacements(), {host.pair({2})}); }), HasSubstr("null model"));
+  EXPECT_THAT(refusal([&] { with_contact(host.model, plain->displacements(), {host.pair({2})}); }), HasSubstr("give all pairs at once"));
   plain->has_solver = false;
   EXPECT_THAT(refusal([&] { with_contact(plain, plain->displacements(), {host.pair({2})}); }), HasSubstr("no get_W_factory()"));
   plain->has_solver = true;

@@ -345,6 +345,41 @@ class Jobs(Cluster):
         self.assertEqual(self.states(), ["running", "failed"])
         self.assertIn("Unable to create step", ending.stdout)
 
+    def test_a_run_without_results_is_run_again(self):
+        self.assertEqual(self.batch().returncode, 0)
+        self.submit()
+        for left in (None, "{ cut"):
+            summary = self.path("jobs/runs/strong_2/repeat_1/summary.json")
+            if left is None:
+                os.remove(summary)
+            else:
+                self.write("jobs/runs/strong_2/repeat_1/summary.json", left)
+            ending = self.mortise("scale", "--harvest", "jobs")
+            self.assertEqual(self.states(), ["finished", "failed"])
+            self.assertIn("summary.json is not there or cannot be read", ending.stdout)
+            self.submit()
+            self.mortise("scale", "--harvest", "jobs")
+            self.assertEqual(self.states(), ["finished", "finished"])
+        self.write("jobs/jobs/strong_1.1.exit", "")
+        self.mortise("scale", "--harvest", "jobs")
+        self.assertEqual(self.states(), ["failed", "finished"])
+
+    def test_a_scene_that_was_edited_meanwhile_is_not_run(self):
+        text = pathlib.Path(BLOCKS).read_text()
+        self.write("own.xml", text)
+        machine = self.write("machine.xml", MACHINE.format(memory=4000))
+        words = ["scale", "own.xml", *SMALL, "--ranks", "2", "--batch", "slurm", "--machine", machine, "-o", "jobs"]
+        self.assertEqual(self.mortise(*words).returncode, 0)
+        self.write("own.xml", text + "<!-- edited -->\n")
+        self.submit()
+        ending = self.mortise("scale", "--harvest", "jobs")
+        self.assertEqual(self.states(), ["failed", "failed"])
+        self.assertIn("is another one than when the jobs were written", ending.stdout)
+        self.write("own.xml", text)
+        self.submit()
+        self.mortise("scale", "--harvest", "jobs")
+        self.assertEqual(self.states(), ["finished", "finished"])
+
     def test_jobs_that_do_not_fit_are_refused(self):
         machine = self.write("small.xml", MACHINE.format(memory=20))
         ending = self.mortise("scale", BLOCKS, *SMALL, "--batch", "slurm", "--machine", machine, "-o", "jobs")

@@ -123,6 +123,7 @@ ExitCode write_scale_jobs(const RCP<const Communicator>& comm, const ScaleOption
   OutputDirectory jobs = directory.subdirectory("jobs"), runs = directory.subdirectory("runs");
   claim_job_files(jobs, options, points);
   const JobFiles files(path);
+  write_file(*comm, jobs.claim("scene"), [&] { return wanted.at("text").get<std::string>(); });
   for (std::size_t i = 0; i < points.size(); ++i) {
     runs.subdirectory(points[i].name());
     write_file(*comm, files.script(points[i]), [&] { return job_script(options, points[i], predictions[i], machine, files); });

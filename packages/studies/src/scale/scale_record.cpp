@@ -73,7 +73,10 @@ bool take_run(ScalePoint& point, const std::string& directory, int code, const s
   }
   point.finished = false;
   point.state = "failed";
-  point.said = said.empty() ? "it ended with code " + std::to_string(code) : said;
+  if (well)
+    point.said = "it ended with code " + std::to_string(code) + ", but " + directory + "/summary.json is not there or cannot be read";
+  else
+    point.said = said.empty() ? "it ended with code " + std::to_string(code) : said;
   return false;
 }
 

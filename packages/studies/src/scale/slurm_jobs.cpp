@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <boost/algorithm/string.hpp>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -47,6 +48,14 @@ std::optional<std::string> line_of(const std::string& path) {
   return boost::algorithm::trim_copy(line);
 }
 
+/// The number that a file holds; none if there is no such file, or no number in it.
+std::optional<int> exit_code(const std::string& path) {
+  const auto line = line_of(path);
+  int code = 0;
+  if (!line || std::from_chars(line->data(), line->data() + line->size(), code).ec != std::errc()) return std::nullopt;
+  return code;
+}
+
 /// The end of what a file holds.
 std::string end_of(const std::string& path) {
   constexpr std::size_t most = 2000;
@@ -86,9 +95,15 @@ std::string job_script(const ScaleOptions& options, const ScalePoint& point, con
   set("--exclusive");
   set(fmt::format("--mem={}M", static_cast<long>(std::ceil(std::min(memory_margin * prediction.memory_per_node, machine.memory_per_node)))));
   if (!prediction.phases.empty()) set("--time=" + duration(start_seconds + time_margin * options.repeats * prediction.seconds));
-  set("--output=\"" + files.log(point) + "\"");
+  set("--output=\"" + boost::algorithm::replace_all_copy(files.log(point), "%", "%%") + "\"");  // Slurm puts values in the place of %x
   set("--open-mode=append");
   text += "export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1\n";
+  // A scene that is edited while jobs wait would be another one in some points of a series.
+  text += fmt::format("if ! cmp -s {} {}; then\n  echo {} | tee {} >&2\n  echo {} > {}\n  exit {}\nfi\n", in_quotes(options.scene),
+                      in_quotes(files.scene()),
+                      in_quotes(options.scene + " is another one than when the jobs were written; call mortise scale --batch again"),
+                      in_quotes(files.of_repeat(point, 1, "said")), static_cast<int>(ExitCode::invalid_input),
+                      in_quotes(files.of_repeat(point, 1, "exit")), static_cast<int>(ExitCode::invalid_input));
   for (int repeat = 1; repeat <= options.repeats; ++repeat) {
     const auto file = [&](const std::string& what) { return in_quotes(files.of_repeat(point, repeat, what)); };
     const std::vector<std::string> run = command_of_run(options.launcher, options.scene, point.settings, point.ranks, files.results(point, repeat));
@@ -154,10 +169,15 @@ submit() {{
 
 void take_jobs(const ScaleOptions& options, ScalePoint& point, const JobFiles& files) {
   for (int repeat = 1; repeat <= options.repeats; ++repeat) {
-    if (const auto code = line_of(files.of_repeat(point, repeat, "exit"))) {
-      const std::string said = end_of(files.of_repeat(point, repeat, "said"));
-      if (!take_run(point, files.results(point, repeat), std::atoi(code->c_str()), said)) return;
-      continue;
+    if (const auto code = exit_code(files.of_repeat(point, repeat, "exit"))) {
+      std::string said = end_of(files.of_repeat(point, repeat, "said"));
+      const std::string log = end_of(files.log(point));
+      if (!log.empty()) said += (said.empty() ? "" : "\n") + std::string("Its log:\n") + log;  // what Slurm itself says of a job that it ended
+      if (take_run(point, files.results(point, repeat), *code, said)) continue;
+      // A run that ended well and left nothing has to be run again: submit.sh goes by this file.
+      std::error_code ignored;
+      std::filesystem::remove(files.of_repeat(point, repeat, "exit"), ignored);
+      return;
     }
     point.finished = false;
     const bool started = line_of(files.of_repeat(point, repeat, "started")).has_value();

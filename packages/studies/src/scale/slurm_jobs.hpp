@@ -14,6 +14,7 @@ struct JobFiles {
   explicit JobFiles(std::string directory) : directory_(std::move(directory)) {}
 
   std::string jobs() const { return directory_ + "/jobs"; }
+  std::string scene() const { return jobs() + "/scene"; }  ///< copy of the scene for which they were written
   std::string script(const ScalePoint& point) const { return jobs() + "/" + point.name() + ".sh"; }
   std::string log(const ScalePoint& point) const { return jobs() + "/" + point.name() + ".log"; }
   std::string id(const ScalePoint& point) const { return jobs() + "/" + point.name() + ".id"; }  ///< number of the job that was submitted last

@@ -24,7 +24,8 @@ typedef enum mortise_status {
   MORTISE_NULL_POINTER = 1, /**< an array or a result that has to be given is not */
   MORTISE_WRONG_LENGTH = 2, /**< an array is not as long as the model says */
   MORTISE_NOT_FINITE = 3,   /**< NaN or Inf is given: an iterate has diverged, or an array was not filled */
-  MORTISE_WRONG_ORDER = 4,  /**< something has to be called before; or ranks are in different calls */
+  MORTISE_WRONG_ORDER = 4,  /**< something has to be called before; ranks are in different calls; or a call of this contact is under way, in another
+                               thread or in the linear solver that it calls: then without a text */
   MORTISE_REFUSED = 5,      /**< the model or an option is wrong: ids, facets, ranks, names, ranges */
   MORTISE_STEP_FAILED = 6,  /**< contact cannot be evaluated there: undo the step, take a smaller one */
   MORTISE_SOLVE_FAILED = 7, /**< the caller's linear solver said so */
@@ -85,7 +86,7 @@ typedef struct mortise_node {
   double shear_bound; /**< largest shear traction, of closed nodes with friction */
   double slip;        /**< since the start of the step [length] */
   double slip_path;   /**< over all accepted steps and this one [length] */
-  double weight;      /**< area that the node stands for; in 2D its length times the thickness */
+  double weight;      /**< area in the reference configuration that the node stands for; in 2D its length times the thickness */
   double traction[3]; /**< z: the force on the slave side is -z times the area that is covered; third component 0 in 2D */
   double normal[3];   /**< out of the slave */
 } mortise_node;
@@ -215,7 +216,8 @@ int mortise_restore(mortise_contact* contact, int64_t size, const void* bytes, i
 /** Why the last call failed; "" if it did not. Valid until the next call. Local. */
 const char* mortise_last_error(const mortise_contact* contact);
 
-/** Frees the contact and sets the pointer to NULL. NULL is left as it is. Before MPI_Finalize() if MPI is used. */
+/** Frees the contact and sets the pointer to NULL. NULL is left as it is, and so is one of which a call is under way. Before
+ * MPI_Finalize() if MPI is used. */
 void mortise_destroy(mortise_contact** contact);
 
 #ifdef __cplusplus
