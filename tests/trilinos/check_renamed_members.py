@@ -75,7 +75,8 @@ def check(name, files, private=()):
     flags = ["-std=c++17", "-DOMPI_SKIP_MPICXX", "-fsyntax-only"]
     flags += [f"-I{directory}" for directory in private]
     known = {pathlib.Path("/usr/include"), installed.resolve()}
-    for directory in [str(include)] + [d for d in directories if pathlib.Path(d).resolve() not in known]:
+    own = [str(one) for one in sorted((source / "packages").glob("*/include"))]
+    for directory in [str(include), *own] + [d for d in directories if pathlib.Path(d).resolve() not in known]:
         flags += ["-isystem", directory]
     run = subprocess.run([compiler, *flags, str(all_in_one)], capture_output=True, text=True, check=False)
     if run.returncode != 0:
