@@ -45,8 +45,10 @@ std::vector<double> quantities(const NodeTransfer& node) {
 TEST_P(Transfer, HasTheDerivativesOfDifferences) {
   const Case one = cases()[GetParam()];
   SCOPED_TRACE(one.name);
-  // Dual functions of six nodes over a sliver are ill-conditioned: single entries of dD and dM lose digits there, whose sums are right.
-  if (one.name == "quadratic, space, hardly covered, triangles") GTEST_SKIP();
+  // Edges that cross at a small angle: derivatives there are those of the exact integral (segment_3d_kernel.hpp), differences those of the sum over
+  // points. On curved triangles of 6 nodes single entries differ by the error of the rule of 7 points; with 12 points they pass. Their sums are
+  // exact.
+  const bool has_error_of_rule = one.name == "quadratic, space, hardly covered, triangles";
   const Host host(one.surfaces);
   const ContactSystem& contact = host.contact;
   const auto d = Fixture::vector(host.fixture.dofs, [](GlobalOrdinal id) { return 0.01 * wiggle(id); });
@@ -92,7 +94,9 @@ TEST_P(Transfer, HasTheDerivativesOfDifferences) {
       }
       std::array<double, 4> values;
       for (std::size_t n = 0; n < values.size(); ++n) values[n] = beside[n].coefficients[c];
-      EXPECT_NEAR(along(node.coefficient_slopes, c), difference(values), 1e-6) << node.node;
+      if (!has_error_of_rule) {
+        EXPECT_NEAR(along(node.coefficient_slopes, c), difference(values), 1e-6) << node.node;
+      }
     }
     EXPECT_NEAR(of_slave, node.weight.value, 1e-14 * largest * static_cast<double>(node.nodes.size()));
     EXPECT_NEAR(of_master, -node.weight.value, 1e-12 * largest * static_cast<double>(node.nodes.size()));

@@ -59,8 +59,8 @@ class RowsOfHeat : public ::testing::TestWithParam<int> {};
 TEST_P(RowsOfHeat, HaveTheDerivativesOfDifferences) {
   const Case one = cases()[GetParam()];
   SCOPED_TRACE(one.name);
-  // Dual functions of six nodes over a sliver are ill-conditioned: single entries of dD and dM lose digits there, whose sums are right.
-  if (one.name == "quadratic, space, hardly covered, triangles") GTEST_SKIP();
+  // Derivatives by displacements at edges that cross at a small angle have the error of the rule (field_transfer_test).
+  const bool has_error_of_rule = one.name == "quadratic, space, hardly covered, triangles";
   const Host host(one.surfaces, with_everything());
   const RCP<Vector> x = host.state(), z = host.fixture.multipliers(pressing);
   const ContactHistory history = host.history(*x, *z);
@@ -96,6 +96,7 @@ TEST_P(RowsOfHeat, HaveTheDerivativesOfDifferences) {
     if (block == 0 || one.surfaces.options.geometry == ContactGeometry::current) {
       EXPECT_GT(size, 0.0);
     }
+    if (block == 1 && has_error_of_rule) continue;
     EXPECT_LE(difference.norm2(), 1e-6 * size);
   }
 }
