@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "mortise/core/guarded_value.hpp"
+#include "mortise/core/piecewise_linear.hpp"
 #include "straight_lines.hpp"
 
 namespace mortise {
@@ -61,7 +63,7 @@ void TabulatedConductance::describe(Parameters& parameters) {
 }
 
 Conductance TabulatedConductance::at(const TouchingPoint& point) const {
-  const auto [value, slope] = detail::on_straight_lines(pressures, conductances, point.pressure);
+  const auto [value, slope] = piecewise_linear(pressures, conductances, point.pressure);
   return {value, slope, 0.0, 0.0};
 }
 
@@ -83,7 +85,7 @@ Conductance ConductanceFunction::at(const TouchingPoint& point) const {
   const auto value_at = [&](std::size_t changed, double by) {
     std::vector<double> arguments(at.begin(), at.end());
     arguments[changed] += by;
-    return conductance.at(arguments);
+    return value_or_nan(conductance, arguments);
   };
   Conductance result;
   result.value = value_at(0, 0.0);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "mortise/core/piecewise_linear.hpp"
 #include "straight_lines.hpp"
 
 namespace mortise {
@@ -33,7 +34,7 @@ void TabulatedGapConductance::describe(Parameters& parameters) {
 }
 
 ConductanceOfGap TabulatedGapConductance::at(double gap) const {
-  const auto [value, slope] = detail::on_straight_lines(gaps, conductances, gap);
+  const auto [value, slope] = piecewise_linear(gaps, conductances, gap);
   return {value, slope};
 }
 

@@ -2,18 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace mortise::detail {
-
-std::pair<double, double> on_straight_lines(const std::vector<double>& points, const std::vector<double>& values, double x) {
-  if (x < points.front()) return {values.front(), 0.0};
-  if (x >= points.back()) return {values.back(), 0.0};
-  const auto next = static_cast<std::size_t>(std::upper_bound(points.begin(), points.end(), x) - points.begin());
-  const double slope = (values[next] - values[next - 1]) / (points[next] - points[next - 1]);
-  return {values[next - 1] + slope * (x - points[next - 1]), slope};
-}
 
 std::optional<std::string> fault_of_straight_lines(const std::vector<double>& points, const std::vector<double>& values, const char* of_points,
                                                    const char* of_values) {

@@ -110,6 +110,12 @@ TEST(HeatAcrossContact, FailsWhereAConductanceIsNone) {
   const auto evaluated = [&](const ScalarFunction::Body& h) { host.thermal({0, function(h), {}, {}}).evaluate(*host.laws, *host.x, 0.0); };
   EXPECT_THROW(evaluated([](const std::vector<double>&) { return -1.0; }), StepFailure);
   EXPECT_THROW(evaluated([](const std::vector<double>&) { return std::nan(""); }), StepFailure);
+  // On one rank alone: the other one does not wait.
+  EXPECT_THROW(evaluated([](const std::vector<double>&) -> double {
+                 if (Tpetra::getDefaultComm()->getRank() == 0) throw std::runtime_error("no value");
+                 return 1.0;
+               }),
+               StepFailure);
   EXPECT_NO_THROW(evaluated([](const std::vector<double>&) { return 1.0; }));
 }
 

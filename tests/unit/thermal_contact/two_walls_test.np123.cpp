@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "mortise/core/over_ranks.hpp"
@@ -180,10 +181,13 @@ TEST(HeatThatVariesAlongTheInterface, ConvergesInSecondOrder) {
         fluxes.push_back(std::sqrt(sum_over_ranks(*bodies.comm, of_flux)));
       }
       SCOPED_TRACE(testing::Message() << "h " << h << ", slave " << slave);
-      // Multipliers of one order below the temperatures, to which fluxes tend as h grows, have the order 3/2 in L2. Where h is small, fluxes are h
-      // times a jump of temperatures, and of their order.
-      EXPECT_NEAR(std::log2(errors[1] / errors[2]), 2.0, 0.2);
-      EXPECT_GT(std::log2(fluxes[1] / fluxes[2]), h == 1.0 ? 1.8 : 1.5);
+      // Where h is small fluxes are h times a jump of temperatures, and of their order. As h grows they tend to multipliers, which lose half an order
+      // in L2 against the dual norm of traces, by the inverse inequality.
+      const double of_temperatures = std::log2(errors[1] / errors[2]), of_fluxes = std::log2(fluxes[1] / fluxes[2]);
+      if (Tpetra::getDefaultComm()->getRank() == 0)
+        std::printf("h %g, slave %d: order of temperatures %.2f, of fluxes at nodes %.2f\n", h, slave, of_temperatures, of_fluxes);
+      EXPECT_NEAR(of_temperatures, 2.0, 0.2);
+      EXPECT_GT(of_fluxes, h == 1.0 ? 1.8 : 1.5);
     }
 }
 

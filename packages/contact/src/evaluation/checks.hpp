@@ -18,9 +18,10 @@ const RCP<T>& given(const RCP<T>& argument, const char* name) {
   return argument;
 }
 
-/// Collective. Throws std::invalid_argument for arguments that do not fit together. Such are a field with ids that are not among the dofs, or with
-/// one row twice, components that are neither unknown nor prescribed, positions that are not finite, other marks than 0, 1 and 2, and positions and
-/// marks of prescribed components on other nodes.
+/// Collective. Throws std::invalid_argument for arguments that do not fit together. Such are
+///   - a field with ids that are not among the dofs, or with one row twice;
+///   - components that are neither unknown nor prescribed;
+///   - positions that are not finite, other marks than those of prescribed components, and either of them on other nodes.
 void refuse_unfit_fields(const NodalField& displacement, const Map& dofs, const MultiVector& reference, const MultiVector& fixed);
 /// Collective. Throws std::invalid_argument for a further field on other nodes, or with ids that are not among the dofs.
 void refuse_unfit_field(const NodalField& field, const Map& owned_nodes, const Map& dofs);

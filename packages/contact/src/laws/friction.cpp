@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <exception>
 #include <limits>
 #include <string>
+
+#include "mortise/core/guarded_value.hpp"
 
 namespace mortise {
 
@@ -24,21 +25,11 @@ void CoulombFriction::describe(Parameters& parameters) {
 
 namespace {
 bool is_coefficient(double value) { return value >= 0.0 && std::isfinite(value); }
-
-/// NaN where the function throws: other ranks go on, and wait for this one. `what` gets the reason.
-double value_or_nan(const ScalarFunction& coefficient, double pressure, double slip_path, std::string* what = nullptr) {
-  try {
-    return coefficient.at({pressure, slip_path});
-  } catch (const std::exception& error) {
-    if (what != nullptr) *what = error.what();
-    return std::numeric_limits<double>::quiet_NaN();
-  }
-}
 }  // namespace
 
 std::optional<Diagnostic> CoulombFriction::missing_bound(double pressure, double slip_path) const {
   std::string thrown;
-  const double value = value_or_nan(coefficient, pressure, slip_path, &thrown);
+  const double value = value_or_nan(coefficient, {pressure, slip_path}, &thrown);
   if (is_coefficient(value)) return {};
   const double shown = std::isnan(value) ? std::abs(value) : value;  // some operations give a sign to what is not a number
   return Diagnostic{coefficient.place(),
@@ -48,13 +39,13 @@ std::optional<Diagnostic> CoulombFriction::missing_bound(double pressure, double
 
 // d(mu p)/dp of a function by central differences: exact to 1e-10 of mu, which no Newton step notices.
 FrictionBound CoulombFriction::bound(double pressure, double slip_path) const {
-  const auto at = [&](double p) { return value_or_nan(coefficient, p, slip_path) * p; };
-  if (!is_coefficient(value_or_nan(coefficient, pressure, slip_path))) return {std::numeric_limits<double>::quiet_NaN(), 0.0};
+  const auto at = [&](double p) { return value_or_nan(coefficient, {p, slip_path}) * p; };
+  if (!is_coefficient(value_or_nan(coefficient, {pressure, slip_path}))) return {std::numeric_limits<double>::quiet_NaN(), 0.0};
   FrictionBound result{at(pressure), 0.0};
   if (largest_traction && result.value >= *largest_traction) return {*largest_traction, 0.0};
   if (coefficient.is_constant()) return {result.value, coefficient.at({0.0, 0.0})};
   const double step = std::cbrt(std::numeric_limits<double>::epsilon()) * pressure;
-  result.slope = step > 0.0 ? (at(pressure + step) - at(pressure - step)) / (2.0 * step) : value_or_nan(coefficient, 0.0, slip_path);
+  result.slope = step > 0.0 ? (at(pressure + step) - at(pressure - step)) / (2.0 * step) : value_or_nan(coefficient, {0.0, slip_path});
   return result;
 }
 

@@ -366,6 +366,8 @@ ContactLinearisation DifferentiatedContact::linearise(const ContactLaws& laws) c
   if (detail::evaluated(laws).contact != evaluated_)
     throw std::logic_error("contact: linearise() with laws of another evaluation: take laws(z) of this one");
   // A law of friction without bound leaves conditions that are no numbers.
+  const auto& pairs = evaluated_->model->pairs;
+  if (std::none_of(pairs.begin(), pairs.end(), [](const auto& pair) { return pair->friction() != nullptr; })) return ContactLinearisation(laws);
   const auto& all = detail::evaluated(laws).laws;
   const bool finite = std::all_of(all.begin(), all.end(), [](const auto& of_pair) {
     return std::all_of(of_pair.begin(), of_pair.end(), [](const Complementarity& law) { return law.C.allFinite(); });
