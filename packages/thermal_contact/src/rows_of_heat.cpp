@@ -122,8 +122,8 @@ std::optional<RowsOfHeat> rows_of_heat(const FieldTransfer& transfer, std::size_
     const auto theta_of = [&](Eigen::Index m) { return theta[static_cast<std::size_t>(node.nodes[static_cast<std::size_t>(m)])]; };
     for (Eigen::Index m = 0; m < of_node.nodes(); ++m)
       if (node.loaded[static_cast<std::size_t>(m)] != 0 && node.coefficients[static_cast<std::size_t>(m)] != 0.0 && !std::isfinite(theta_of(m))) {
-        if (!faults.untold)
-          faults.untold = fmt::format(
+        if (!faults.without_temperature)
+          faults.without_temperature = fmt::format(
               "pair '{}' conducts heat at slave node {}, and node {} has no temperature that is finite; give it a row of heat, give its "
               "temperature in NodalTemperature::nodes, or leave out the conductance of the pair",
               pair_name, node.node, transfer.nodes()->getGlobalElement(node.nodes[static_cast<std::size_t>(m)]));

@@ -34,9 +34,9 @@ struct HeatLaws {
 
 /// What is wrong at a node, on this rank.
 struct HeatFaults {
-  std::optional<StepFailure> failure;  ///< a conductance that is none
-  std::optional<std::string> untold;   ///< a node that conducts and has no temperature
-  std::vector<Diagnostic> of_laws;     ///< laws that do not join
+  std::optional<StepFailure> failure;              ///< a conductance that is none
+  std::optional<std::string> without_temperature;  ///< a node that conducts and has no temperature
+  std::vector<Diagnostic> of_laws;                 ///< laws that do not join
 };
 
 /// The rows of a slave node; nothing where nothing flows.

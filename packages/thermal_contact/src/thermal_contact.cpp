@@ -93,7 +93,7 @@ EvaluatedHeat evaluated_heat(const std::shared_ptr<const ThermalModel>& model, c
   }
   throw_if_any(comm, faults.failure);
   throw_if_any(comm, faults.of_laws);
-  refuse_if_any(comm, faults.untold);
+  refuse_if_any(comm, faults.without_temperature);
   return heat;
 }
 
