@@ -1,8 +1,11 @@
-#include "elements/extrapolation.hpp"
+#include "mortise/solid/nodal_means.hpp"
 
 #include <Eigen/QR>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
+#include <stdexcept>
 #include <type_traits>
-#include <vector>
+#include <utility>
 
 #include "mortise/solid/element_points.hpp"
 
@@ -49,17 +52,45 @@ int quadrature_points([[maybe_unused]] Kinematics kinematics) {
 
 }  // namespace
 
-Eigen::MatrixXd extrapolation_to_nodes(ElementType element, Kinematics kinematics) {
-  return visit_element(element, [&](const auto& entry) -> Eigen::MatrixXd {
-    using Cell = typename std::decay_t<decltype(entry)>::Cell;
-    const auto rule = Cell::rule(quadrature_points<Cell>(kinematics));
-    const Eigen::Index functions = fitted_functions<Cell>(Cell::centroid).size();
-    Eigen::MatrixXd at_points(rule.size(), functions), at_nodes(Cell::nodes, functions);
-    for (std::size_t q = 0; q < rule.size(); ++q)
-      at_points.row(static_cast<Eigen::Index>(q)) = fitted_functions<Cell>(rule[q].template position<Cell::dimension>());
-    for (int a = 0; a < Cell::nodes; ++a) at_nodes.row(a) = fitted_functions<Cell>(Cell::node_positions[a]);
-    return at_nodes * at_points.completeOrthogonalDecomposition().pseudoInverse();
+Eigen::MatrixXd extrapolation_to_nodes(CellShape shape, Kinematics kinematics) {
+  return visit_cell(shape, [&](auto cell) -> Eigen::MatrixXd {
+    using Cell = decltype(cell);
+    if constexpr (Cell::dimension == 1) {
+      throw std::logic_error("a line is no element");
+    } else {
+      const auto rule = Cell::rule(quadrature_points<Cell>(kinematics));
+      const Eigen::Index functions = fitted_functions<Cell>(Cell::centroid).size();
+      Eigen::MatrixXd at_points(rule.size(), functions), at_nodes(Cell::nodes, functions);
+      for (std::size_t q = 0; q < rule.size(); ++q)
+        at_points.row(static_cast<Eigen::Index>(q)) = fitted_functions<Cell>(rule[q].template position<Cell::dimension>());
+      for (int a = 0; a < Cell::nodes; ++a) at_nodes.row(a) = fitted_functions<Cell>(Cell::node_positions[a]);
+      return at_nodes * at_points.completeOrthogonalDecomposition().pseudoInverse();
+    }
   });
+}
+
+NodalMeans::NodalMeans(RCP<const Mesh> mesh, int components)
+    : mesh_(std::move(mesh)),
+      components_(components),
+      sums_(static_cast<std::size_t>(components) * mesh_->owned_count(), 0.0),
+      elements_(mesh_->owned_count(), 0) {}
+
+void NodalMeans::add(const Block& block, LocalOrdinal element, int point, const Eigen::MatrixXd& extrapolation, const double* values) {
+  const LocalOrdinal* nodes = block.nodes(element);
+  for (int a = 0; a < block.nodes_per_element; ++a) {
+    if (nodes[a] >= mesh_->owned_count()) continue;
+    if (point == 0) ++elements_[nodes[a]];
+    double* sum = sums_.data() + static_cast<std::size_t>(components_) * nodes[a];
+    for (int c = 0; c < components_; ++c) sum[c] += extrapolation(a, point) * values[c];
+  }
+}
+
+RCP<MultiVector> NodalMeans::result() const {
+  const auto result = rcp(new MultiVector(mesh_->owned_nodes, components_));
+  const auto view = result->getLocalViewHost(Tpetra::Access::OverwriteAll);
+  for (std::size_t node = 0; node < elements_.size(); ++node)
+    for (int c = 0; c < components_; ++c) view(node, c) = elements_[node] > 0 ? sums_[components_ * node + c] / elements_[node] : 0.0;
+  return result;
 }
 
 }  // namespace mortise
