@@ -11,9 +11,10 @@
 
 #include "bodies/host_view.hpp"
 #include "elements/element_block.hpp"
-#include "elements/extrapolation.hpp"
 #include "mortise/material/logarithmic.hpp"
 #include "mortise/material/materials.hpp"
+#include "mortise/solid/loaded_side.hpp"
+#include "mortise/solid/nodal_means.hpp"
 
 namespace mortise {
 namespace {
@@ -71,10 +72,7 @@ Bodies::Bodies(std::shared_ptr<const FieldSpace> space, Kinematics kinematics, d
 
 Bodies::~Bodies() = default;
 
-double Bodies::depth(double radius) const {
-  if (kinematics_ == Kinematics::three_dimensional) return 1.0;
-  return kinematics_ == Kinematics::axisymmetric ? 2.0 * EIGEN_PI * radius : thickness_;
-}
+double Bodies::depth(double radius) const { return mortise::depth(kinematics_, thickness_, radius); }
 
 void Bodies::add_internal_force(const Vector& local_displacement, Vector& residual, std::optional<StepFailure>& failure) const {
   const HostReadView displacement(local_displacement);
@@ -194,30 +192,19 @@ std::vector<StressComponents> Bodies::element_means(const Vector& local_displace
 }
 
 RCP<MultiVector> Bodies::nodal_means(const Vector& local_displacement, const PointTensor& tensor) const {
-  const LocalOrdinal owned = mesh_->owned_count();
-  std::vector<StressComponents> sums(owned, StressComponents{});
-  std::vector<int> elements(owned, 0);
+  NodalMeans means(mesh_, stress_components());
   const HostReadView displacement(local_displacement);
   for (std::size_t n = 0; n < blocks_.size(); ++n) {
     if (properties_[n].is_rigid()) continue;
     const Block& block = mesh_->blocks[n];
-    const Eigen::MatrixXd extrapolation = extrapolation_to_nodes(properties_[n].element, kinematics_);
+    const Eigen::MatrixXd extrapolation = extrapolation_to_nodes(block.shape, kinematics_);
     // Ghost elements too: every element around an owned node counts.
     blocks_[n]->visit_points(displacement.data(), block.size(), [&](const MaterialPoint& point) {
-      const LocalOrdinal* nodes = block.nodes(point.element);
       const StressComponents components = components_of(tensor(point));
-      for (int a = 0; a < block.nodes_per_element; ++a) {
-        if (nodes[a] >= owned) continue;
-        if (point.point == 0) ++elements[nodes[a]];
-        for (std::size_t c = 0; c < components.size(); ++c) sums[nodes[a]][c] += extrapolation(a, point.point) * components[c];
-      }
+      means.add(block, point.element, point.point, extrapolation, components.data());
     });
   }
-  auto result = rcp(new MultiVector(mesh_->owned_nodes, stress_components()));
-  auto view = result->getLocalViewHost(Tpetra::Access::OverwriteAll);
-  for (LocalOrdinal node = 0; node < owned; ++node)
-    for (int c = 0; c < stress_components(); ++c) view(node, c) = elements[node] > 0 ? sums[node][c] / elements[node] : 0.0;
-  return result;
+  return means.result();
 }
 
 Bodies::PointTensor Bodies::strain_of_points() const {

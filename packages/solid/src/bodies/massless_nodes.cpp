@@ -10,7 +10,7 @@
 #include <map>
 #include <set>
 
-#include "loads/loaded_side.hpp"
+#include "mortise/solid/loaded_side.hpp"
 
 namespace mortise {
 namespace {

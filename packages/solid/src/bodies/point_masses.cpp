@@ -8,9 +8,9 @@
 #include <map>
 
 #include "loads/load_support.hpp"
-#include "loads/loaded_side.hpp"
 #include "mortise/mesh/reference_point.hpp"
 #include "mortise/mesh/sets.hpp"
+#include "mortise/solid/loaded_side.hpp"
 #include "mortise/solid/rigid_mass.hpp"
 
 namespace mortise {

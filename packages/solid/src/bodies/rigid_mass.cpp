@@ -10,8 +10,8 @@
 #include <cmath>
 #include <limits>
 
-#include "loads/loaded_side.hpp"
 #include "mortise/core/over_ranks.hpp"
+#include "mortise/solid/loaded_side.hpp"
 
 namespace mortise {
 namespace {

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <numeric>
 
-#include "loads/loaded_side.hpp"
 #include "mortise/mesh/reference_point.hpp"
 #include "mortise/mesh/sets.hpp"
+#include "mortise/solid/loaded_side.hpp"
 
 namespace mortise {
 

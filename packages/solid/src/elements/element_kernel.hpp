@@ -6,7 +6,7 @@
 #include <tuple>
 #include <type_traits>
 
-#include "elements/element_geometry.hpp"
+#include "mortise/solid/deformation.hpp"
 #include "elements/element_tangent.hpp"
 #include "mortise/material/plane_stress.hpp"
 #include "mortise/solid/bodies.hpp"

@@ -4,7 +4,7 @@
 #include <array>
 #include <type_traits>
 
-#include "elements/element_geometry.hpp"
+#include "mortise/solid/deformation.hpp"
 #include "elements/space_products.hpp"
 #include "mortise/material/tensor_components.hpp"
 #include "mortise/solid/element_points.hpp"

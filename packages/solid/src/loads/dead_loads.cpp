@@ -4,7 +4,7 @@
 
 #include "bodies/host_view.hpp"
 #include "loads/load_support.hpp"
-#include "loads/loaded_side.hpp"
+#include "mortise/solid/loaded_side.hpp"
 
 namespace mortise {
 namespace {

@@ -1,6 +1,6 @@
 #include "bodies/host_view.hpp"
 #include "loads/load_support.hpp"
-#include "loads/loaded_side.hpp"
+#include "mortise/solid/loaded_side.hpp"
 
 namespace mortise {
 namespace {

@@ -1,4 +1,4 @@
-#include "loads/loaded_side.hpp"
+#include "mortise/solid/loaded_side.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -49,6 +49,11 @@ SidePosition LoadedSide::at(const SidePoint& point, const Mesh& mesh, const Fiel
   if (dimension == 2) result.tangents[1] = Eigen::Vector3d::UnitZ();
   result.area = result.tangents[0].cross(result.tangents[1]);
   return result;
+}
+
+double depth(Kinematics kinematics, double thickness, double radius) {
+  if (kinematics == Kinematics::three_dimensional) return 1.0;
+  return kinematics == Kinematics::axisymmetric ? 2.0 * EIGEN_PI * radius : thickness;
 }
 
 double reference_area(const Bodies& bodies, const LoadedSide& side, const SidePoint& point) {

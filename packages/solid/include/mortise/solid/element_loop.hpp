@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -33,6 +34,21 @@ struct NodalPairs {
   double operator()(int a, int b) const { return entries[a][b]; }
 };
 
+/// A coupling of an element: the derivative of the component i at node a with respect to the component k of another field at node b.
+template <int nodes, int row_components, int column_components>
+struct FieldCoupling {
+  static constexpr int rows = row_components, columns = column_components;
+  std::array<std::array<double, columns * nodes>, rows * nodes> entries{};
+  double& operator()(int a, int i, int b, int k) { return entries[rows * a + i][columns * b + k]; }
+  double operator()(int a, int i, int b, int k) const { return entries[rows * a + i][columns * b + k]; }
+};
+
+/// True of integrands with a Coupling.
+template <class Integrand, class = void>
+inline constexpr bool has_coupling = false;
+template <class Integrand>
+inline constexpr bool has_coupling<Integrand, std::void_t<typename Integrand::Coupling>> = true;
+
 /// What is absent is no member.
 template <class Integrand, bool wanted>
 struct ResidualSum {};
@@ -46,10 +62,18 @@ template <class Integrand>
 struct TangentSum<Integrand, true> {
   typename Integrand::Tangent tangent{};
 };
+template <class Integrand, bool wanted>
+struct CouplingSum {};
+template <class Integrand>
+struct CouplingSum<Integrand, true> {
+  typename Integrand::Coupling coupling{};
+};
 
-/// What an integrand's points are summed into: `residual`, `tangent` or both.
+/// What an integrand's points are summed into: `residual`, `tangent` or both; with the tangent also `coupling`, of integrands that have one.
 template <class Integrand, bool residual_wanted, bool tangent_wanted>
-struct ElementSums : ResidualSum<Integrand, residual_wanted>, TangentSum<Integrand, tangent_wanted> {
+struct ElementSums : ResidualSum<Integrand, residual_wanted>,
+                     TangentSum<Integrand, tangent_wanted>,
+                     CouplingSum<Integrand, tangent_wanted && has_coupling<Integrand>> {
   static constexpr bool with_residual = residual_wanted, with_tangent = tangent_wanted;
 };
 
@@ -58,9 +82,10 @@ struct ElementSums : ResidualSum<Integrand, residual_wanted>, TangentSum<Integra
 ///   - Reads, a tuple of what it takes of fields at the points: FieldValue, FieldGradient, or a type of its own made like them;
 ///   - Residual, an array [components * node + i] of the field in whose rows it stands, and `components`; or no such type;
 ///   - Tangent, NodalBlocks or a type that is called like it, or NodalPairs; or no such type;
+///   - Coupling, FieldCoupling with the columns of another field; or no such type;
 ///   - State, what a point remembers; or no such type;
-///   - add(points, sums), with a State add(points, states, sums): adds to sums.residual if Sums::with_residual, to sums.tangent if
-///   Sums::with_tangent.
+///   - add(points, sums), with a State add(points, states, sums): adds to sums.residual if Sums::with_residual, to sums.tangent and sums.coupling
+///   if Sums::with_tangent.
 ///     It returns nothing, or what converts to true where the element has no such sums.
 /// `points` are ElementPoints.
 ///
@@ -116,13 +141,11 @@ class ElementLoop {
   template <std::size_t fields>
   using Fields = std::array<FieldView<const double>, fields>;
 
-  /// Tangents stand in the rows and the columns of one field. Space and block have to outlive the loop; the field lives on the nodes of the block.
-  ElementLoop(const FieldSpace& space, const Block& block, std::size_t field = 0)
-      : mesh_(*space.mesh()), block_(block), rows_(space.rows(field)), owned_nodes_(mesh_.owned_count()) {
-    positions_.reserve(static_cast<std::size_t>(block.size()) * nodes * nodes);
-    for (LocalOrdinal element = 0; element < block.size(); ++element)
-      for (int a = 0; a < nodes; ++a)
-        for (int b = 0; b < nodes; ++b) positions_.push_back(space.sparsity().position(block.nodes(element)[a], block.nodes(element)[b], field));
+  /// Tangents stand in the rows and the columns of one field, couplings in its rows and the columns of the coupled one. Space and block have to
+  /// outlive the loop; the fields live on the nodes of the block.
+  ElementLoop(const FieldSpace& space, const Block& block, std::size_t field = 0, std::optional<std::size_t> coupled = std::nullopt)
+      : mesh_(*space.mesh()), block_(block), rows_(space.rows(field)), owned_nodes_(mesh_.owned_count()), positions_(positions(space, block, field)) {
+    if (coupled) coupled_positions_ = positions(space, block, *coupled);
   }
 
   const Mesh& mesh() const { return mesh_; }
@@ -130,8 +153,8 @@ class ElementLoop {
   /// Of the field in whose rows the sums stand.
   const FieldRows& rows() const { return rows_; }
 
-  /// target += the integral over each element, of its residual, its tangent or both. A wanted residual without a place in the target is left out
-  /// there. report(element, what add() returned) where an integrand has no sums; the target's are then meaningless.
+  /// target += the integral over each element, of its residual, its tangent (with its coupling) or both. A wanted residual without a place in the
+  /// target is left out there. report(element, what add() returned) where an integrand has no sums; the target's are then meaningless.
   template <bool residual_wanted, bool tangent_wanted, class Integrand, std::size_t fields, class Report>
   void add(const BlockIntegral<Integrand>& integral, const Fields<fields>& values, const AssemblyTarget& target, const Report& report) const {
     for (LocalOrdinal element = 0; element < block_.size(); ++element) {
@@ -146,6 +169,7 @@ class ElementLoop {
       if constexpr (residual_wanted)
         if (target.residual.values != nullptr) scatter<Integrand::components>(node, sums.residual, target.residual);
       if constexpr (tangent_wanted) scatter(element, sums.tangent, target);
+      if constexpr (tangent_wanted && has_coupling<Integrand>) scatter(element, sums.coupling, target);
     }
   }
 
@@ -176,6 +200,16 @@ class ElementLoop {
     for (int a = 0; a < nodes; ++a)
       if (node[a] < owned_nodes_) return true;
     return false;
+  }
+
+  /// Of the columns of a field, [elements x nodes x nodes].
+  static std::vector<LocalOrdinal> positions(const FieldSpace& space, const Block& block, std::size_t field) {
+    std::vector<LocalOrdinal> result;
+    result.reserve(static_cast<std::size_t>(block.size()) * nodes * nodes);
+    for (LocalOrdinal element = 0; element < block.size(); ++element)
+      for (int a = 0; a < nodes; ++a)
+        for (int b = 0; b < nodes; ++b) result.push_back(space.sparsity().position(block.nodes(element)[a], block.nodes(element)[b], field));
+    return result;
   }
 
   template <class NodalValues, std::size_t fields, std::size_t... n>
@@ -225,11 +259,26 @@ class ElementLoop {
     }
   }
 
+  template <int row_components, int column_components>
+  void scatter(LocalOrdinal element, const FieldCoupling<nodes, row_components, column_components>& coupling, const AssemblyTarget& target) const {
+    const LocalOrdinal* node = block_.nodes(element);
+    const LocalOrdinal* position = coupled_positions_.data() + static_cast<std::size_t>(element) * nodes * nodes;
+    for (int a = 0; a < nodes; ++a) {
+      if (node[a] >= owned_nodes_) continue;
+      for (int i = 0; i < row_components; ++i) {
+        double* row = target.matrix->row(rows_(node[a], i));
+        for (int b = 0; b < nodes; ++b)
+          for (int k = 0; k < column_components; ++k) row[position[a * nodes + b] + k] += target.factor * coupling(a, i, b, k);
+      }
+    }
+  }
+
   const Mesh& mesh_;
   const Block& block_;
   FieldRows rows_;
   LocalOrdinal owned_nodes_;
-  std::vector<LocalOrdinal> positions_;  ///< [elements x nodes x nodes] NodalSparsity::position
+  std::vector<LocalOrdinal> positions_;          ///< [elements x nodes x nodes] NodalSparsity::position
+  std::vector<LocalOrdinal> coupled_positions_;  ///< the same of the coupled field; empty: there is none
 };
 
 }  // namespace mortise

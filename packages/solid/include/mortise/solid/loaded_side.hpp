@@ -10,6 +10,7 @@
 #include "mortise/mesh/field_rows.hpp"
 #include "mortise/mesh/mesh.hpp"
 #include "mortise/shape/surface_facet.hpp"
+#include "mortise/solid/element_type.hpp"
 
 namespace mortise {
 
@@ -36,6 +37,9 @@ struct LoadedSide {
   /// `displacement`: without values none.
   SidePosition at(const SidePoint& point, const Mesh& mesh, const FieldView<const double>& displacement) const;
 };
+
+/// Factor that makes a length in 2D at radius r an area: the thickness, or 2 pi r; 1 in 3D.
+double depth(Kinematics kinematics, double thickness, double radius);
 
 class Bodies;
 
