@@ -6,10 +6,10 @@
 #include <tuple>
 #include <type_traits>
 
-#include "mortise/solid/deformation.hpp"
 #include "elements/element_tangent.hpp"
 #include "mortise/material/plane_stress.hpp"
 #include "mortise/solid/bodies.hpp"
+#include "mortise/solid/deformation.hpp"
 
 namespace mortise {
 

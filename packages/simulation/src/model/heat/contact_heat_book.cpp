@@ -20,7 +20,7 @@ namespace {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// What is known of one side of a pair, over all ranks.
-struct Side {
+struct SideHeat {
   bool has_rows = false;     ///< some node has a temperature among the unknowns
   bool lacks = false;        ///< some node has no temperature at all
   double effusivity = none;  ///< mean of its bodies, at the first temperature; NaN: of none
@@ -42,10 +42,10 @@ double effusivity(const HeatOfModel& heat, const Scene& scene, const Mesh& mesh,
   return none;
 }
 
-Side side_of(const MeshedScene& meshed, const Scene& scene, const HeatOfModel& heat, const Located<std::string>& set) {
+SideHeat side_of(const MeshedScene& meshed, const Scene& scene, const HeatOfModel& heat, const Located<std::string>& set) {
   const Mesh& mesh = *meshed.mesh;
   const FieldRows& rows = meshed.space->rows(heat.bodies->temperature());
-  Side side;
+  SideHeat side;
   double sum = 0.0;
   int count = 0;
   for (const SidesOfBody& sides : sides_by_body(mesh, require_side_set(mesh, set))) {
@@ -71,7 +71,7 @@ Side side_of(const MeshedScene& meshed, const Scene& scene, const HeatOfModel& h
 }
 
 /// Of the heat of friction: all heats the side with a temperature where only one has rows.
-double share_of(const ContactHeatOptions& options, const Side& slave, const Side& master) {
+double share_of(const ContactHeatOptions& options, const SideHeat& slave, const SideHeat& master) {
   if (options.slave_share) return *options.slave_share;
   if (!master.has_rows) return 1.0;
   if (!slave.has_rows) return 0.0;
@@ -90,19 +90,21 @@ std::vector<ThermalPair> thermal_pairs(const MeshedScene& meshed, const Scene& s
     const auto refuse = [&](const std::string& words) { diagnostics.push_back({pair.place, words}); };
     if (!heat.bodies) {
       if (options.conducts() || options.crosses_gaps())
-        refuse(fmt::format("pair \"{}\" has a law of conductance, but the scene no temperature; please give the list \"heat\" of the scene an \"analysis\"",
-                           pair.name));
+        refuse(fmt::format(
+            "pair \"{}\" has a law of conductance, but the scene no temperature; please give the list \"heat\" of the scene an \"analysis\"",
+            pair.name));
       continue;
     }
-    const Side slave = side_of(meshed, scene, heat, pair.value.slave), master = side_of(meshed, scene, heat, pair.value.master);
+    const SideHeat slave = side_of(meshed, scene, heat, pair.value.slave), master = side_of(meshed, scene, heat, pair.value.master);
     ThermalPair thermal;
     thermal.pair = p;
     if (options.conducts()) thermal.conductance = options.conductance.law.options;
     if (options.crosses_gaps()) thermal.gap = options.gap.law.options;
     if ((thermal.conductance || thermal.gap) && (slave.lacks || master.lacks))
-      refuse(fmt::format("pair \"{}\" conducts heat, but {} has no temperature; please give its materials a list \"heat\" with a \"conductivity\", or, of a "
-                         "rigid body, a \"temperature\"",
-                         pair.name, slave.lacks ? "its slave" : "its master"));
+      refuse(fmt::format(
+          "pair \"{}\" conducts heat, but {} has no temperature; please give its materials a list \"heat\" with a \"conductivity\", or, of a "
+          "rigid body, a \"temperature\"",
+          pair.name, slave.lacks ? "its slave" : "its master"));
     if (thermal.conductance)
       if (const auto fault = thermal.conductance->fault()) refuse(fmt::format("conductance of pair \"{}\": {}", pair.name, *fault));
     if (thermal.gap)
@@ -219,8 +221,9 @@ void ContactHeatBook::serialize(StateArchive& archive) {
       numbers.insert(numbers.end(), {flow->conducted, flow->friction, flow->to_slave_without_rows, flow->to_master_without_rows});
   const std::size_t count = numbers.size();
   mortise::serialize(archive, "contact_heat.sums", numbers);
-  archive.refuse_if(numbers.size() == count ? std::nullopt
-                                            : std::optional(fmt::format("\"contact_heat.sums\" has {} numbers; expected are {}", numbers.size(), count)));
+  archive.refuse_if(numbers.size() == count
+                        ? std::nullopt
+                        : std::optional(fmt::format("\"contact_heat.sums\" has {} numbers; expected are {}", numbers.size(), count)));
   std::size_t n = 0;
   for (Sums& sums : sums_)
     for (HeatFlow* flow : {&sums.power, &sums.energy}) {
