@@ -6,7 +6,7 @@ set(words "[Ss]cene" "XML|[Xx]ml" "RELAX NG" "mortise (run|check|describe|list|p
   "command line" "(newton|history|profiles|point)\\.csv" "(summary|effective)\\.(json|xml)" "fields\\.xdmf|step-[0-9*]+\\.h5")
 set(wrong "")
 set(seen 0)
-foreach(package core shape mesh material mortar contact thermal_contact plain solid nonlinear thyra)
+foreach(package core shape mesh material mortar contact thermal_contact plain solid nonlinear thermal thyra)
   file(GLOB_RECURSE files "${SOURCE}/packages/${package}/*pp")
   foreach(file IN LISTS files)
     math(EXPR seen "${seen} + 1")
@@ -21,7 +21,7 @@ foreach(package core shape mesh material mortar contact thermal_contact plain so
 endforeach()
 # Rows of unknowns come from FieldSpace::row() alone, in the packages that know a mesh.
 set(arithmetic "dimension(\\(\\))? \\* [a-z_.>()-]*(node|slave)" "[^0-9.a-z_][23] \\* [a-z_.>()-]*(node|slave)[^s]" "(dof|row)[a-z_]* [/%] [a-z_.>()-]*dimension")
-foreach(package solid simulation io)
+foreach(package solid thermal simulation io)
   file(GLOB_RECURSE files "${SOURCE}/packages/${package}/*pp")
   list(FILTER files EXCLUDE REGEX "/elements/")  # arrays of one element
   foreach(file IN LISTS files)
