@@ -84,7 +84,7 @@ SystemEvaluation SemiSmoothSystem::evaluate(const Vector& x, const StepContext& 
 SystemEvaluation SemiSmoothSystem::evaluate_at(const AcceptedState& state, const Vector& z, const StepContext& context) const {
   Vector x(*state.x, Teuchos::Copy);
   Tpetra::deep_copy(*multipliers(x), z);
-  return SystemEvaluation(model_->evaluate(x, context, {state.internal_forces, std::nullopt}));
+  return SystemEvaluation(model_->evaluate(x, context, {model_->depends_on_time() ? Teuchos::null : state.internal_forces, std::nullopt}));
 }
 
 SystemEvaluation SemiSmoothSystem::with_multipliers(const SystemEvaluation& evaluation, const Vector& z) const {

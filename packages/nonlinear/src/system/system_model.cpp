@@ -71,7 +71,8 @@ void SystemModel::check_contributions() const {
   for (const auto& contribution : parts_.contributions) check(contribution->name(), contribution->uses());
   for (const auto& contribution : parts_.contact_contributions) check(contribution->name(), contribution->uses());
   if (!parts_.contact && !parts_.contact_contributions.empty())
-    throw std::invalid_argument(fmt::format("contribution \"{}\" depends on contact, which the system has not", parts_.contact_contributions[0]->name()));
+    throw std::invalid_argument(
+        fmt::format("contribution \"{}\" depends on contact, which the system has not", parts_.contact_contributions[0]->name()));
 }
 
 Configuration SystemModel::configuration(double time, const Vector& unknowns) const {
@@ -97,6 +98,10 @@ Configuration SystemModel::configuration(double time, const Vector& unknowns, Bl
   result.acceleration = rates_.of_dofs.acceleration.get();
   result.local_acceleration = rates_.local_acceleration.get();
   return result;
+}
+
+bool SystemModel::depends_on_time() const {
+  return std::any_of(parts_.contributions.begin(), parts_.contributions.end(), [](const auto& one) { return one->depends_on_time(); });
 }
 
 void SystemModel::serialize(StateArchive& archive) const {
@@ -217,8 +222,9 @@ ContactContribution::Derivatives SystemModel::derivatives_of_contact_contributio
   std::optional<StepFailure> failure;
   const auto add = [&](RCP<const Matrix>& to, const RCP<const Matrix>& matrix) {
     if (matrix.is_null()) return;
-    to = to.is_null() ? matrix
-                      : RCP<const Matrix>(Tpetra::MatrixMatrix::add(1.0, false, *to, 1.0, false, *matrix, matrix->getDomainMap(), matrix->getRangeMap()));
+    to = to.is_null()
+             ? matrix
+             : RCP<const Matrix>(Tpetra::MatrixMatrix::add(1.0, false, *to, 1.0, false, *matrix, matrix->getDomainMap(), matrix->getRangeMap()));
   };
   for (const auto& contribution : parts_.contact_contributions) {
     const ContactContribution::Derivatives derivatives = contribution->differentiate(linearised, configuration, failure);

@@ -76,6 +76,9 @@ class SystemModel {
   RCP<const Vector> z(const Vector& x) const { return x.offsetView(multipliers_, local_id_count(*parts_.dofs)); }
   RCP<Vector> z(Vector& x) const { return x.offsetViewNonConst(multipliers_, local_id_count(*parts_.dofs)); }
 
+  /// True if internal forces at the end of a step differ from those at the start of the next one.
+  bool depends_on_time() const;
+
   /// Stores or restores stiffness scales and the histories of the contributions.
   void serialize(StateArchive& archive) const;
 

@@ -18,7 +18,7 @@ void HeatOptions::describe(Parameters& parameters) {
   parameters.add("analysis", analysis, {{"none", Analysis::none}, {"steady", Analysis::steady}, {"transient", Analysis::transient}},
                  "none: the scene has no temperature. steady: bodies store no heat, and t is a pseudo-time. transient: bodies store heat, and t is a "
                  "time. Bodies have a temperature whose materials have a list \"heat\" with a conductivity");
-  parameters.add("integration", integration, {{"backward euler", Integration::backward_euler}, {"trapezoidal", Integration::trapezoidal}},
+  parameters.add("integration", integration, {{"backward euler", Integration::at_end}, {"trapezoidal", Integration::trapezoidal}},
                  "of a transient analysis. backward euler: of first order, damps all; trapezoidal: of second order, lets sudden changes ring");
   parameters.add("initial temperature", initial_temperature,
                  Says("temperature of all bodies at the start, of the reference position").unit("temperature").arguments(of_position));

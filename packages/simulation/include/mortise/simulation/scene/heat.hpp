@@ -34,11 +34,11 @@ struct HeatOptions {
     transient  ///< rates are those of time
   };
   enum class Integration {
-    backward_euler,  ///< first order, damps all
+    at_end,          ///< first order, damps all
     trapezoidal      ///< second order, damps nothing
   };
   Analysis analysis = Analysis::none;
-  Integration integration = Integration::backward_euler;
+  Integration integration = Integration::at_end;
   std::optional<ScalarFunction> initial_temperature;  ///< of x, y, z (reference position); no value: none was given
   std::vector<Named<InitialTemperatureOptions>> initial_temperatures;
   std::vector<Named<PrescribedTemperatureOptions>> temperatures;
