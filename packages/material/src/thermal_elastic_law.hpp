@@ -30,6 +30,7 @@ class ThermalElasticLaw final : public ThermalLaw {
     const Kind law(constants.elastic());
     const Matrix3 F = elastic(law, constants, at.F);
     result.stress = law.stress(F);
+    result.thickness = thickness(F, constants);
     if (heats()) {
       const Matrix3 start = start_of(constants, state);
       result.heat = at.temperature / at.time_step * (slope_value(law, constants, F) - slope_value(law, constants, start));
@@ -46,6 +47,7 @@ class ThermalElasticLaw final : public ThermalLaw {
     const auto response = law.template stress_and_tangent<SolidComponents>(F);
     const PropertyRates rates = property_rates(law, constants, F);
     result.stress = response.stress;
+    result.thickness = thickness(F, constants);
     result.tangent = response.tangent;
     result.stress_by_expansion = constants.expansion.slope * stress_by_expansion_exponent<small>(response);
     result.stress_by_temperature = rates.stress;
@@ -79,6 +81,10 @@ class ThermalElasticLaw final : public ThermalLaw {
   }
 
  private:
+  static double thickness([[maybe_unused]] const Matrix3& F_e, [[maybe_unused]] const ConstantsAtTemperature& constants) {
+    return plane_stress ? total_deformation<small>(F_e, constants.expansion.value)(2, 2) : 1.0;
+  }
+
   static Matrix3 elastic(const Kind& law, const ConstantsAtTemperature& constants, const Matrix3& F) {
     const Matrix3 F_e = elastic_deformation<small>(F, constants.expansion.value);
     if constexpr (plane_stress)

@@ -22,7 +22,8 @@ struct ThermalPoint {
 /// Stress and heat. Where a law has none, `stress` is not finite.
 struct ThermalForces {
   Matrix3 stress = Matrix3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< Kirchhoff stress tau
-  double heat = 0.0;  ///< H, power that becomes heat per reference volume: plastic and thermoelastic
+  double heat = 0.0;       ///< H, power that becomes heat per reference volume: plastic and thermoelastic
+  double thickness = 1.0;  ///< F_33 that plane stress finds; 1 otherwise
 };
 
 /// With the derivatives. For a change of F by dF = L F (small strain: dF = L)
