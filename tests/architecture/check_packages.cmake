@@ -18,8 +18,8 @@ set(allowed_nonlinear contact mortar core)
 set(allowed_thermal solid nonlinear mesh shape core)
 set(allowed_thyra contact mortar core)
 set(allowed_io mesh core shape)
-set(allowed_simulation core input shape mesh material mortar contact solid nonlinear thermal io)
-set(allowed_studies core input shape mesh material mortar contact solid nonlinear thermal io simulation)
+set(allowed_simulation core input shape mesh material mortar contact thermal_contact solid nonlinear thermal io)
+set(allowed_studies core input shape mesh material mortar contact thermal_contact solid nonlinear thermal io simulation)
 set(packages core input shape mesh material mortar contact thermal_contact plain solid nonlinear thermal thyra io simulation studies)
 # Rooms are folders of src. A header belongs to the room whose folder it is in. A public header that is in none belongs to the room that has its source,
 # except for those of values that all rooms of the package see.

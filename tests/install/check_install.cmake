@@ -60,9 +60,29 @@ execute_process(COMMAND "${NM}" -DC --defined-only "${library}" OUTPUT_FILE "${S
 file(STRINGS "${SCRATCH}/symbols" shown REGEX " T mortise_")
 file(STRINGS "${SCRATCH}/symbols" others REGEX "^[0-9a-f]+ T mortise::" LIMIT_COUNT 3)
 list(LENGTH shown functions)
+# Static data that the loader would share with another copy of this code in the process.
+file(STRINGS "${SCRATCH}/symbols" unique REGEX "^[0-9a-f]+ u " LIMIT_COUNT 3)
+if(unique)
+  message(FATAL_ERROR "libmortise shows static data of its own: ${unique}")
+endif()
 if(functions LESS 20 OR others)
   message(FATAL_ERROR "libmortise shows ${functions} functions of mortise.h, and these of C++: ${others}")
 endif()
+
+# What find_package says of components that cannot be had.
+function(expect_refusal languages component said)
+  file(WRITE "${SCRATCH}/refused/CMakeLists.txt" "cmake_minimum_required(VERSION 3.25)\nproject(refused LANGUAGES ${languages})\n"
+    "find_package(Mortise REQUIRED COMPONENTS ${component})\n")
+  file(REMOVE_RECURSE "${SCRATCH}/refused/build")
+  execute_process(COMMAND "${CMAKE_COMMAND}" -S "${SCRATCH}/refused" -B "${SCRATCH}/refused/build" -G "${GENERATOR}"
+    "-DCMAKE_PREFIX_PATH=${SCRATCH}/prefix" RESULT_VARIABLE code OUTPUT_QUIET ERROR_VARIABLE error)
+  string(REGEX REPLACE "[ \n]+" " " error "${error}")
+  if(NOT code OR NOT error MATCHES "${said}")
+    message(FATAL_ERROR "find_package of ${component} with ${languages} ends with ${code} and says: ${error}")
+  endif()
+endfunction()
+expect_refusal(CXX contakt "there is no component \"contakt\"; there are core, ")
+expect_refusal(C plain "enable_language.CXX. before find_package")
 
 foreach(file share/mortise/schema/scene.rng share/mortise/inputs/paper/patch_test.xml share/doc/Mortise/LICENSE share/mortise/fortran/mortise.f90
     share/bash-completion/completions/mortise share/man/man1/mortise.1 share/mortise/python/mortise_results.py)

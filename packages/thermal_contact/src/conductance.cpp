@@ -101,6 +101,7 @@ Conductance ConductanceFunction::at(const TouchingPoint& point) const {
 const Registry<ConductanceLaw>& conductance_registry() {
   static const Registry<ConductanceLaw> registry = [] {
     Registry<ConductanceLaw> laws;
+    laws.add<NoConductance>("none", "nothing flows");
     laws.add<ConstantConductance>("constant", "the same at any pressure");
     laws.add<PowerConductance>("power", "a power of the pressure over the hardness, as of rough surfaces");
     laws.add<TabulatedConductance>("table", "straight lines between given pressures");

@@ -45,6 +45,7 @@ std::optional<std::string> TabulatedGapConductance::fault() const {
 const Registry<GapConductance>& gap_conductance_registry() {
   static const Registry<GapConductance> registry = [] {
     Registry<GapConductance> laws;
+    laws.add<NoGapConductance>("none", "nothing flows");
     laws.add<MediumConductance>("medium", "a medium at rest: its conductivity over the distance");
     laws.add<TabulatedGapConductance>("table", "straight lines between given gaps");
     return laws;

@@ -6,6 +6,7 @@
 #include <Tpetra_Map.hpp>
 #include <stdexcept>
 
+#include "mortise/core/matrix_sum.hpp"
 #include "mortise/core/trilinos_versions.hpp"
 
 namespace mortise::detail {
@@ -73,20 +74,10 @@ void add_matrices(const ThermalModel& model, const FieldTransfer& transfer, Eval
 }
 
 void add_rows(const Matrix& rows, Matrix& system) {
-  std::vector<GlobalOrdinal> ids;
-  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(local_row_count(rows)); ++row) {
-    Matrix::local_inds_host_view_type columns;
-    Matrix::values_host_view_type values;
-    rows.getLocalRowView(row, columns, values);
-    if (columns.extent(0) == 0) continue;
-    ids.clear();
-    for (std::size_t k = 0; k < columns.extent(0); ++k) ids.push_back(rows.getColMap()->getGlobalElement(columns(k)));
-    const auto count = static_cast<LocalOrdinal>(ids.size());
-    if (system.sumIntoGlobalValues(rows.getRowMap()->getGlobalElement(row), count, values.data(), ids.data()) != count)
-      throw std::logic_error(
-          "thermal contact: an entry of the rows of heat has no place in the matrix; make it on the graph of a ContactSystem that knows of the "
-          "temperature among its further fields");
-  }
+  if (!add_entries(rows, system))
+    throw std::logic_error(
+        "thermal contact: an entry of the rows of heat has no place in the matrix; make it on the graph of a ContactSystem that knows of the "
+        "temperature among its further fields");
 }
 
 }  // namespace mortise::detail

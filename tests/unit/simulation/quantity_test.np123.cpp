@@ -104,7 +104,7 @@ TEST(Quantity, DisplacementOfAPoint) {
   blocks.move([](int body, const Point& X) { return body == 0 ? uniform_strain(X) : Point{0.1, 0.2 * X[0]}; });
   const auto at = [](double x, double y, Component component, const std::string& body = "") {
     PointDisplacement point;
-    point.x.value = x, point.y.value = y, point.component = component, point.body.value = body;
+    point.point.x.value = x, point.point.y.value = y, point.component = component, point.point.body.value = body;
     return point;
   };
   for (const Point& X : {Point{0.0, 0.0}, {1.3, 0.2}, {3.999, 0.71}, {2.0, 0.5}}) {

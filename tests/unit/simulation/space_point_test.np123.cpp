@@ -46,8 +46,8 @@ class Brick {
 
   double at(const Position& X, int component, bool with_z = true) const {
     PointDisplacement point;
-    point.x.value = X[0], point.y.value = X[1];
-    if (with_z) point.z = X[2];
+    point.point.x.value = X[0], point.point.y.value = X[1];
+    if (with_z) point.point.z = X[2];
     point.component = static_cast<Component>(component);
     QuantityContext context{*bodies_};
     const auto evaluator = point.make_evaluator(context);

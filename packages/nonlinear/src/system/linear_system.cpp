@@ -1,12 +1,25 @@
 #include "system/linear_system.hpp"
 
+#include <TpetraExt_MatrixMatrix.hpp>
 #include <algorithm>
+#include <stdexcept>
+
+#include "mortise/core/matrix_sum.hpp"
 
 namespace mortise::detail {
 namespace {
 
 void close(Matrix& matrix) {
   if (matrix.isFillActive()) matrix.fillComplete(matrix.getRowMap(), matrix.getRowMap());
+}
+
+void add_further(const Matrix& rows, Matrix& matrix) {
+  if (!add_entries(rows, matrix))
+    throw std::logic_error("a contact contribution has an entry without place in the graph of the system; contact has to know its field");
+}
+
+RCP<Matrix> with_further_rows(const Matrix& B, const Matrix& further) {
+  return Tpetra::MatrixMatrix::add(1.0, false, B, 1.0, false, further, B.getDomainMap(), B.getRangeMap());
 }
 
 }  // namespace
@@ -41,10 +54,13 @@ LinearSystem with_contact(const SystemModel& model, const EvaluatedSystem& at, c
   if (!at.contact) return system;
   const ContactLinearisation linearised = at.contact->linearise(*at.laws);
   if (geometric_stiffness == GeometricContactStiffness::included) linearised.add_stiffness(*system.matrix);
+  const ContactContribution::Derivatives further = model.derivatives_of_contact_contributions(at, linearised);
+  if (!further.of_unknowns.is_null()) add_further(*further.of_unknowns, *system.matrix);
   if (model.parts().contact->keeps_multipliers()) {
     const auto rhs = rcp(new Vector(*model.z(F), Teuchos::Copy));
     rhs->elementWiseMultiply(-1.0, *model.parts().contact->weights(), *model.z(F), 0.0);
     system.kept = KeptMultipliers{linearised.saddle_point_blocks(), rhs};
+    if (!further.of_multipliers.is_null()) system.kept->blocks.B = with_further_rows(*system.kept->blocks.B, *further.of_multipliers);
     system.multigrid = {};
     return system;
   }
@@ -52,6 +68,13 @@ LinearSystem with_contact(const SystemModel& model, const EvaluatedSystem& at, c
   at.laws->add_force(contact_force);
   system.rhs->update(1.0, contact_force, 1.0);  // -r without f_c
   system.condensed = std::make_shared<const NodeElimination>(linearised.condense(*system.matrix, *system.rhs));
+  if (!further.of_multipliers.is_null()) {  // G z = G (b + S dd), beside G z^k in r
+    system.further = further.of_multipliers;
+    const SubstitutedRows substituted = system.condensed->substitute(*system.further);
+    add_further(*substituted.of_dofs, *system.matrix);
+    system.further->apply(*at.z, *system.rhs, Teuchos::NO_TRANS, 1.0, 1.0);
+    system.rhs->update(-1.0, *substituted.constant, 1.0);
+  }
   // The linear solver keeps the function until its next matrix, but what it asks must not stay as long.
   system.multigrid.decoupling = [condensed = std::weak_ptr<const NodeElimination>(system.condensed)] { return condensed.lock()->decoupling(); };
   return system;

@@ -28,6 +28,7 @@ struct LinearSystem {
   MultigridInput multigrid;                          ///< of this matrix
   std::optional<KeptMultipliers> kept;               ///< none: multipliers are condensed, or already merged
   std::shared_ptr<const NodeElimination> condensed;  ///< null: they are kept, or there are none
+  RCP<const Matrix> further;                         ///< [dofs x multipliers] of contact contributions; null: none
   /// The way back: dd from u, and dz of kept multipliers. Those that are condensed follow by NodeElimination::complete().
   std::function<void(const Vector& u, Vector& dd, Vector& dz)> recover;
   /// Both ways for further right-hand sides, where nothing is prescribed and followers are where they follow: b from rows of the dofs, dd from u.

@@ -20,6 +20,15 @@ RCP<const Vector> SemiSmoothSystem::multipliers(const Vector& x) const { return 
 RCP<Vector> SemiSmoothSystem::multipliers(Vector& x) const { return model_->z(x); }
 double SemiSmoothSystem::stiffness_scale() const { return model_->stiffness_scale(); }
 
+RCP<const Vector> SemiSmoothSystem::first_field(const Vector& of_dofs) const {
+  if (model_->sizes().fields() == 1) return rcp(&of_dofs, false);
+  const auto part = rcp(new Vector(of_dofs, Teuchos::Copy));
+  const auto view = part->getLocalViewHost(Tpetra::Access::ReadWrite);
+  for (std::size_t row = 0; row < view.extent(0); ++row)
+    if (model_->sizes().field(static_cast<LocalOrdinal>(row)) != 0) view(row, 0) = 0.0;
+  return part;
+}
+
 double SemiSmoothSystem::largest_unknown(const Vector& x) const { return model_->sizes().largest(*unknowns(x)); }
 
 AcceptedState SemiSmoothSystem::initial_state(const Vector& x, double time) const {
@@ -75,7 +84,7 @@ SystemEvaluation SemiSmoothSystem::evaluate(const Vector& x, const StepContext& 
 SystemEvaluation SemiSmoothSystem::evaluate_at(const AcceptedState& state, const Vector& z, const StepContext& context) const {
   Vector x(*state.x, Teuchos::Copy);
   Tpetra::deep_copy(*multipliers(x), z);
-  return SystemEvaluation(model_->evaluate(x, context, {state.internal_forces, std::nullopt}));
+  return SystemEvaluation(model_->evaluate(x, context, {model_->depends_on_time() ? Teuchos::null : state.internal_forces, std::nullopt}));
 }
 
 SystemEvaluation SemiSmoothSystem::with_multipliers(const SystemEvaluation& evaluation, const Vector& z) const {
@@ -146,6 +155,7 @@ AcceptedState SemiSmoothSystem::commit(const SystemEvaluation& evaluation) const
   const TimeStep* step = at.context.step.get();
   const Configuration configuration = model_->configuration(at.context.time, *at.d, step);
   for (const auto& contribution : parts().contributions) contribution->commit(configuration);
+  for (const auto& contribution : parts().contact_contributions) contribution->commit(*at.laws, configuration);
   model_->forget_stiffness();
   AcceptedState state{rcp(new Vector(at.x, Teuchos::Copy)), at.context, at.internal, std::nullopt};
   if (step != nullptr) state.rates = rates_at_end(*step, *at.d, at.external);

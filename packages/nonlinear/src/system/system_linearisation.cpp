@@ -33,11 +33,14 @@ void SystemLinearisation::apply(const Vector& v, Vector& y) const {
     const RCP<Matrix> matrix = model.take_stiffness(evaluation_.evaluated_);
     const ContactLinearisation linearised = at.contact->linearise(*at.laws);
     linearised.add_stiffness(*matrix);
+    const ContactContribution::Derivatives further = model.derivatives_of_contact_contributions(at, linearised);
     matrix->fillComplete(matrix->getRowMap(), matrix->getRowMap());
     const SaddlePointBlocks blocks = linearised.saddle_point_blocks();
     const RCP<Vector> y_z = model.z(y);
     matrix->apply(*v_d, *y_d);
     blocks.B->apply(*v_z, *y_d, Teuchos::NO_TRANS, 1.0, 1.0);
+    if (!further.of_unknowns.is_null()) further.of_unknowns->apply(*v_d, *y_d, Teuchos::NO_TRANS, 1.0, 1.0);
+    if (!further.of_multipliers.is_null()) further.of_multipliers->apply(*v_z, *y_d, Teuchos::NO_TRANS, 1.0, 1.0);
     blocks.C_d->apply(*v_d, *y_z);
     blocks.C_z->apply(*v_z, *y_z, Teuchos::NO_TRANS, 1.0, 1.0);
   } else {
@@ -86,7 +89,7 @@ LinearSolveReport SystemLinearisation::newton_direction(const Vector& F, Vector&
       report.iterations += solver.solve(*b, q, tolerance).iterations;
       Tpetra::deep_copy(change, *system.prolonged(q));
     };
-    system.condensed->complete(solve, *dd, *dz, nullptr, std::max(tolerance, 1e-10));
+    system.condensed->complete(solve, *dd, *dz, system.further.get(), std::max(tolerance, 1e-10));
   }
   if (held != nullptr) held->take_out(*dd);
   return report;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <TpetraExt_MatrixMatrix.hpp>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -57,17 +58,21 @@ void SystemModel::check_contributions() const {
   std::vector<std::string> known;
   for (const SystemField& field : parts_.fields) known.push_back(field.unknowns.name());
   if (known.empty()) known.push_back("displacement");
-  for (const auto& contribution : parts_.contributions) {
-    const FieldUse uses = contribution->uses();
+  const auto check = [&](const std::string& contribution, const FieldUse& uses) {
     for (const auto* names : {&uses.reads, &uses.writes})
       for (const std::string& name : *names)
         if (std::find(known.begin(), known.end(), name) == known.end())
           throw std::invalid_argument(
-              fmt::format("contribution \"{}\" knows a field '{}'; the system's fields are: {}", contribution->name(), name, fmt::join(known, ", ")));
+              fmt::format("contribution \"{}\" knows a field '{}'; the system's fields are: {}", contribution, name, fmt::join(known, ", ")));
     if (uses.time_derivatives > 0 && !parts_.time)
       throw std::invalid_argument(
-          fmt::format("contribution \"{}\" reads time derivatives of order {}; this system has none", contribution->name(), uses.time_derivatives));
-  }
+          fmt::format("contribution \"{}\" reads time derivatives of order {}; this system has none", contribution, uses.time_derivatives));
+  };
+  for (const auto& contribution : parts_.contributions) check(contribution->name(), contribution->uses());
+  for (const auto& contribution : parts_.contact_contributions) check(contribution->name(), contribution->uses());
+  if (!parts_.contact && !parts_.contact_contributions.empty())
+    throw std::invalid_argument(
+        fmt::format("contribution \"{}\" depends on contact, which the system has not", parts_.contact_contributions[0]->name()));
 }
 
 Configuration SystemModel::configuration(double time, const Vector& unknowns) const {
@@ -95,6 +100,10 @@ Configuration SystemModel::configuration(double time, const Vector& unknowns, Bl
   return result;
 }
 
+bool SystemModel::depends_on_time() const {
+  return std::any_of(parts_.contributions.begin(), parts_.contributions.end(), [](const auto& one) { return one->depends_on_time(); });
+}
+
 void SystemModel::serialize(StateArchive& archive) const {
   const std::size_t fields = stiffness_scales_.size();
   mortise::serialize(archive, "stiffness_scales", stiffness_scales_);
@@ -105,6 +114,7 @@ void SystemModel::serialize(StateArchive& archive) const {
   if (stiffness_scales_.size() != fields)
     throw FileError(fmt::format("a stored state has {} fields; expected are {}", stiffness_scales_.size(), fields));
   for (const auto& contribution : parts_.contributions) contribution->serialize(archive);
+  for (const auto& contribution : parts_.contact_contributions) contribution->serialize(archive);
   forget_stiffness();
 }
 
@@ -116,6 +126,7 @@ std::shared_ptr<EvaluatedSystem> SystemModel::begin_evaluation(const Vector& x, 
                                                            context,
                                                            Teuchos::null,
                                                            Vector(parts_.dofs),
+                                                           Teuchos::null,
                                                            Teuchos::null,
                                                            std::nullopt,
                                                            std::nullopt,
@@ -143,6 +154,7 @@ std::shared_ptr<const EvaluatedSystem> SystemModel::evaluate(const Vector& x, co
     Vector contact_force(parts_.dofs);
     at.laws->add_force(contact_force);
     at.forces.update(1.0, contact_force, 1.0);
+    add_contact_contributions(at);
   }
   if (at_once) {
     if (const RCP<const Graph> graph = graph_of(at); graph != matrix_->getCrsGraph()) widen_matrix(graph);
@@ -191,6 +203,38 @@ void SystemModel::add_forces(EvaluatedSystem& at, Matrix* stiffness) const {
   at.forces.update(1.0, *of_rates, 1.0);
 }
 
+void SystemModel::add_contact_contributions(EvaluatedSystem& at) const {
+  if (parts_.contact_contributions.empty()) return;
+  const Configuration configuration = this->configuration(at.context.time, *at.d, at.context.step.get());
+  const auto sum = rcp(new Vector(parts_.dofs));
+  std::optional<StepFailure> failure;
+  for (const auto& contribution : parts_.contact_contributions) contribution->add_residual(*at.laws, configuration, *sum, failure);
+  throw_if_any(comm(), failure);
+  at.forces.update(1.0, *sum, 1.0);
+  at.of_contact = sum;
+}
+
+ContactContribution::Derivatives SystemModel::derivatives_of_contact_contributions(const EvaluatedSystem& at,
+                                                                                   const ContactLinearisation& linearised) const {
+  ContactContribution::Derivatives sum;
+  if (parts_.contact_contributions.empty()) return sum;
+  const Configuration configuration = this->configuration(at.context.time, *at.d, at.context.step.get());
+  std::optional<StepFailure> failure;
+  const auto add = [&](RCP<const Matrix>& to, const RCP<const Matrix>& matrix) {
+    if (matrix.is_null()) return;
+    to = to.is_null()
+             ? matrix
+             : RCP<const Matrix>(Tpetra::MatrixMatrix::add(1.0, false, *to, 1.0, false, *matrix, matrix->getDomainMap(), matrix->getRangeMap()));
+  };
+  for (const auto& contribution : parts_.contact_contributions) {
+    const ContactContribution::Derivatives derivatives = contribution->differentiate(linearised, configuration, failure);
+    throw_if_any(comm(), failure);
+    add(sum.of_unknowns, derivatives.of_unknowns);
+    add(sum.of_multipliers, derivatives.of_multipliers);
+  }
+  return sum;
+}
+
 // F: r = f_int - f_ext + f_c; rows of prescribed dofs: s (d - prescribed); C.
 void SystemModel::add_norms(EvaluatedSystem& at) const {
   const RCP<Vector> r = d(at.residual);
@@ -202,6 +246,10 @@ void SystemModel::add_norms(EvaluatedSystem& at) const {
   if (!at.of_rates.is_null()) {
     const std::vector<double> rate_force = sizes_.norms(*at.of_rates);
     for (std::size_t field = 0; field < force.size(); ++field) force[field] = std::max(force[field], rate_force[field]);
+  }
+  if (!at.of_contact.is_null()) {
+    const std::vector<double> contact_flow = sizes_.norms(*at.of_contact);
+    for (std::size_t field = 0; field < force.size(); ++field) force[field] = std::max(force[field], contact_flow[field]);
   }
   double other = 0.0, violation = 0.0;
   std::optional<StepFailure> failure;  // why something is not finite

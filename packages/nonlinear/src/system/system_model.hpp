@@ -31,6 +31,7 @@ struct EvaluatedSystem {
   RCP<const Vector> internal;                      ///< f_int at d
   Vector external;                                 ///< -f_ext at d
   RCP<const Vector> of_rates;                      ///< forces of contributions with time derivatives; null without
+  RCP<const Vector> of_contact;                    ///< what contact contributions give; null without
   std::optional<DifferentiatedContact> contact;    ///< none without contact
   std::optional<ContactLaws> laws;                 ///< contact conditions; none without contact
   std::shared_ptr<const FollowedUnknowns> follow;  ///< null: nothing follows
@@ -75,6 +76,9 @@ class SystemModel {
   RCP<const Vector> z(const Vector& x) const { return x.offsetView(multipliers_, local_id_count(*parts_.dofs)); }
   RCP<Vector> z(Vector& x) const { return x.offsetViewNonConst(multipliers_, local_id_count(*parts_.dofs)); }
 
+  /// True if internal forces at the end of a step differ from those at the start of the next one.
+  bool depends_on_time() const;
+
   /// Stores or restores stiffness scales and the histories of the contributions.
   void serialize(StateArchive& archive) const;
 
@@ -98,6 +102,9 @@ class SystemModel {
   /// K of an evaluation, open, to be made into something else: then it is not at hand any more.
   RCP<Matrix> take_stiffness(const std::shared_ptr<const EvaluatedSystem>& at) const;
 
+  /// Sums of the derivatives of all contact contributions; null: there are none. Collective.
+  ContactContribution::Derivatives derivatives_of_contact_contributions(const EvaluatedSystem& at, const ContactLinearisation& linearised) const;
+
   /// Histories have changed: what is at hand is of states that are no more.
   void forget_stiffness() const {
     matrix_of_.reset();
@@ -108,6 +115,8 @@ class SystemModel {
   /// Throws std::invalid_argument for contributions that know what the system has not.
   void check_contributions() const;
   void add_norms(EvaluatedSystem& at) const;
+  /// Of an evaluation whose contact is known.
+  void add_contact_contributions(EvaluatedSystem& at) const;
   /// What the matrix of an evaluation has to hold, whose contact is known.
   RCP<const Graph> graph_of(const EvaluatedSystem& at) const;
   /// The matrix, open and 0.

@@ -10,6 +10,8 @@
 #include "model/connectors/stabilisation.hpp"
 #include "model/contributions.hpp"
 #include "model/edge_contact.hpp"
+#include "model/heat/contact_heat_book.hpp"
+#include "model/heat/heat_of_scene.hpp"
 #include "model/stages/contact_model.hpp"
 #include "mortise/contact/enforcement.hpp"
 #include "mortise/core/names.hpp"
@@ -20,7 +22,7 @@
 namespace mortise {
 namespace {
 
-Effects effects_of(const Scene& scene, const Bodies& bodies) {
+Effects effects_of(const Scene& scene, const Bodies& bodies, const HeatOfModel& heat) {
   std::vector<std::string> finite, small, f_bar, plastic, pairs, rubbing, loads, conditions;
   std::vector<std::string> rigid, points, ties, moving;
   for (const auto& point : scene.reference_points) points.push_back(point.name);
@@ -54,6 +56,14 @@ Effects effects_of(const Scene& scene, const Bodies& bodies) {
   const auto add_named = [&](const char* effect, const auto& members) {
     if (!members.empty()) effects.emplace_back(effect, names_of(members));
   };
+  if (scene.heat.acts()) {
+    std::vector<std::string> conducting;
+    for (std::size_t block = 0; block < bodies.properties().size(); ++block)
+      if (heat.bodies->bodies()[block].properties) add(conducting, bodies.properties()[block].name);
+    effects.emplace_back(scene.heat.is_transient() ? "transient heat" : "steady heat", conducting);
+    add_named("thermal loads", scene.heat.loads);
+    add_named("prescribed temperatures", scene.heat.temperatures);
+  }
   add_named("springs", scene.springs);
   add_named("dashpots", scene.dashpots);
   add_named("point masses", scene.point_masses);
@@ -68,6 +78,7 @@ LinearSystemTraits traits_of(const Scene& scene, const Map& dofs) {
     if (tie.value.follows != TieOptions::Follows::all)
       traits.not_iterative = fmt::format(
           "the iterative solver needs all components of a node as unknowns, but nodes follow \"{}\" in one component; take \"mumps\"", tie.name);
+  if (scene.heat.acts()) traits.not_iterative = "the iterative solver does not know temperatures; take \"mumps\"";
   for (const auto& pair : scene.contact)
     if (pair.value.contact.formulation.options->enforcement()->keeps_multipliers())
       traits.not_iterative =
@@ -85,7 +96,16 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   collect([&] { solid.parts.linear_solver = make_linear_solver(scene.linear_solver, comm, timers, traits_of(scene, *solid.parts.dofs)); });
   collect.throw_found(*comm);
   add_supports(meshed, scene, timers, solid);
+  const std::vector<ThermalPair> conducting = thermal_pairs(meshed, scene, solid.heat);
+  refuse_undetermined(meshed, scene, solid.heat, bodies_that_conduct(meshed, scene, conducting));
   ContactModel contact = make_contact(meshed, solid, scene, std::move(pairs), timers);
+  if (!conducting.empty()) {
+    solid.heat.contact = std::make_shared<ContactHeatBook>(meshed, scene, solid.heat, *contact.system, conducting, timers);
+    solid.parts.contact_contributions.push_back(solid.heat.contact);
+  }
+  if (solid.heat.bodies)
+    solid.parts.fields = {{meshed.space->field(0), meshed.size.length},
+                          {meshed.space->field(solid.heat.bodies->temperature()), size_of_temperatures(scene, meshed, solid.heat)}};
 
   mesh_ = meshed.mesh;
   space_ = meshed.space;
@@ -94,9 +114,10 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   mesh_digest_ = std::move(meshed.digest);
   ties_at_start_ = std::move(meshed.ties.at_start);
   bodies_ = solid.bodies;
-  effects_ = effects_of(scene, *bodies_);
   supports_ = std::move(solid.supports);
   inertia_ = std::move(solid.inertia);
+  heat_ = std::move(solid.heat);
+  effects_ = effects_of(scene, *bodies_, heat_);
   parts_ = std::move(solid.parts);
   surfaces_at_start_ = std::move(contact.at_start);
   connectors_ = std::move(solid.connectors);
@@ -138,6 +159,7 @@ GlobalOrdinal Model::slave_nodes() const {
 std::map<std::string, long> Model::calls() const {
   std::map<std::string, long> calls;
   for (const auto& contribution : parts_.contributions) calls[contribution->name()] += static_cast<const CountedContribution&>(*contribution).calls();
+  if (heat_.contact) calls[heat_.contact->name()] = heat_.contact->calls();
   return calls;
 }
 

@@ -38,12 +38,13 @@ HeldSlave held_slave(LocalOrdinal node, const std::vector<std::size_t>& which, c
   return slave;
 }
 
-/// Prescribed values, then those of inclined components.
-AffineConstraints::Values values_of(const std::shared_ptr<const PrescribedMotion>& motion) {
-  return [motion](double time, std::optional<StepFailure>& failure) {
+/// Prescribed values, then those of inclined components, then those of other fields.
+AffineConstraints::Values values_of(const std::shared_ptr<const PrescribedMotion>& motion, const AffineConstraints::Values& further) {
+  return [motion, further](double time, std::optional<StepFailure>& failure) {
     std::vector<double> values = motion->values(time, failure);
-    const std::vector<double> inclined = motion->inclined_values(time, failure);
-    values.insert(values.end(), inclined.begin(), inclined.end());
+    const auto append = [&](const std::vector<double>& more) { values.insert(values.end(), more.begin(), more.end()); };
+    append(motion->inclined_values(time, failure));
+    if (further) append(further(time, failure));
     return values;
   };
 }
@@ -133,7 +134,7 @@ std::vector<LocalOrdinal> held_dofs(const FieldSpace& space, const std::vector<I
 }
 
 SupportConstraints support_constraints(const std::shared_ptr<const FieldSpace>& space, const std::shared_ptr<const TieRows>& ties,
-                                       const std::shared_ptr<const PrescribedMotion>& motion) {
+                                       const std::shared_ptr<const PrescribedMotion>& motion, const FurtherConstraints& further) {
   const std::vector<InclinedComponent>& components = motion->inclined();
   const std::size_t first_inclined = motion->dofs().size();
   InclinedNodes inclined = inclined_nodes(*space, ties.get(), components);
@@ -152,10 +153,14 @@ SupportConstraints support_constraints(const std::shared_ptr<const FieldSpace>& 
         line.terms.emplace_back(space->dofs()->getGlobalElement(space->row(component.node, i)), of);
     lines.push_back(std::move(line));
   }
-  SupportConstraints result{std::make_shared<const AffineConstraints>(space->dofs(), std::move(lines), values_of(motion)), {}};
+  for (AffineConstraints::Line line : further.lines) {
+    for (auto& share : line.shares) share.first += first_inclined + components.size();
+    lines.push_back(std::move(line));
+  }
+  SupportConstraints result{std::make_shared<const AffineConstraints>(space->dofs(), std::move(lines), values_of(motion, further.values)), {}};
   if (!anywhere(*space->mesh()->comm, !components.empty())) return result;
   RCP<const Matrix> T;
-  if (ties) T = AffineConstraints(space->dofs(), std::move(of_ties), values_of(motion)).T();
+  if (ties) T = AffineConstraints(space->dofs(), std::move(of_ties), values_of(motion, {})).T();
   const auto forces =
       std::make_shared<const SupportForces>(SupportForces{space, held_dofs(*space, of_others), std::move(inclined.slaves), std::move(T)});
   result.put_support_forces = [forces](const Vector& r, Vector& gathered) { forces->put(r, gathered); };

@@ -16,7 +16,7 @@ namespace {
 enum class Carrier { nodes, points, slave_nodes };
 
 Carrier carrier(PointField field) {
-  if (field <= PointField::displacement_magnitude) return Carrier::nodes;
+  if (field <= PointField::temperature) return Carrier::nodes;
   return field <= PointField::equivalent_plastic_strain ? Carrier::points : Carrier::slave_nodes;
 }
 
@@ -54,6 +54,7 @@ class FieldPoints {
   FieldPoints(const FieldQuantity& quantity, const QuantityContext& context) : field_(quantity.field), on_(quantity.on) {
     const Carrier kind = carrier(field_);
     if (kind == Carrier::slave_nodes && context.pairs.empty()) throw InputError(on_.place, "the scene has no contact");
+    if (field_ == PointField::temperature) require_temperature(context);
     if (on_.value.empty()) return;
     if (kind == Carrier::nodes) require_node_set(context.mesh(), on_);
     if (kind == Carrier::points) body_ = find_body(context, on_);
@@ -67,6 +68,11 @@ class FieldPoints {
       case Carrier::nodes: {
         const auto displacement = context.displacement->getLocalViewHost(Tpetra::Access::ReadOnly);
         const auto visit_node = [&](LocalOrdinal node) {
+          if (field_ == PointField::temperature) {
+            const FieldRows& rows = context.space().rows(context.heat.bodies->temperature());
+            if (rows.lives(node)) visit(displacement(rows(node, 0), 0), 1.0);
+            return;
+          }
           std::array<double, 3> u{};
           for (int i = 0; i < mesh.dimension; ++i) u[i] = displacement(context.space().row(node, i), 0);
           const auto component = static_cast<std::size_t>(field_) - static_cast<std::size_t>(PointField::displacement_x);
@@ -108,6 +114,7 @@ void FieldQuantity::describe(Parameters& parameters) {
                   {"displacement y", PointField::displacement_y},
                   {"displacement z", PointField::displacement_z},
                   {"displacement magnitude", PointField::displacement_magnitude},
+                  {"temperature", PointField::temperature},
                   {"stress xx", PointField::stress_xx},
                   {"stress yy", PointField::stress_yy},
                   {"stress zz", PointField::stress_zz},
@@ -118,9 +125,9 @@ void FieldQuantity::describe(Parameters& parameters) {
                   {"equivalent plastic strain", PointField::equivalent_plastic_strain},
                   {"contact pressure", PointField::contact_pressure},
                   {"gap", PointField::gap}},
-                 "displacement at nodes, Cauchy stress and accumulated plastic strain at quadrature points, pressure and gap at slave nodes");
+                 "displacement and temperature at nodes, Cauchy stress and accumulated plastic strain at quadrature points, pressure and gap at slave nodes");
   parameters.add("on", on,
-                 "a set of nodes or a body (displacement), a body (stress, plastic strain), a contact pair (pressure, gap); empty: everywhere");
+                 "a set of nodes or a body (displacement, temperature), a body (stress, plastic strain), a contact pair (pressure, gap); empty: everywhere");
 }
 
 void Extremum::describe(Parameters& parameters) {

@@ -1,5 +1,6 @@
 #include "mortise/simulation/quantities/fields.hpp"
 
+#include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
@@ -94,6 +95,44 @@ Values plastic_strains(const FieldState& state) {
   return values;
 }
 
+bool has_heat(const FieldState& state) { return state.heat != nullptr && state.heat->bodies != nullptr; }
+
+/// 0 at nodes without a temperature.
+Values temperature(const FieldState& state) {
+  const Mesh& mesh = *state.bodies.mesh();
+  Values values(static_cast<std::size_t>(mesh.owned_count()), 0.0);
+  if (!has_heat(state)) return values;
+  const FieldRows& rows = state.bodies.space().rows(state.heat->bodies->temperature());
+  const auto unknowns = state.displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node)
+    if (rows.lives(node)) values[static_cast<std::size_t>(node)] = unknowns(rows(node, 0), 0);
+  return values;
+}
+
+Values heat_flux(const FieldState& state) {
+  const Mesh& mesh = *state.bodies.mesh();
+  Values values;
+  for (LocalOrdinal block = 0; block < static_cast<LocalOrdinal>(mesh.blocks.size()); ++block) {
+    if (!has_heat(state)) {
+      values.insert(values.end(), static_cast<std::size_t>(mesh.dimension) * static_cast<std::size_t>(mesh.blocks[static_cast<std::size_t>(block)].owned), 0.0);
+      continue;
+    }
+    for (const std::array<double, 3>& flux : state.heat->bodies->element_heat_fluxes(state.local_displacement, block))
+      values.insert(values.end(), flux.begin(), flux.begin() + mesh.dimension);
+  }
+  return values;
+}
+
+/// A number of the slave nodes across which heat flows; 0 on all others.
+Values on_heated_nodes(const FieldState& state, const std::function<double(const NodeHeat&)>& number) {
+  const Mesh& mesh = *state.bodies.mesh();
+  Values values(static_cast<std::size_t>(mesh.owned_count()), 0.0);
+  if (!has_heat(state)) return values;
+  for (const HeatOfStep::PairFlow& pair : state.heat->pairs)
+    for (const NodeHeat& node : *pair.nodes) values[static_cast<std::size_t>(mesh.owned_nodes->getLocalElement(node.node))] = number(node);
+  return values;
+}
+
 struct Kind {
   std::string name, sentence;
   Field::Center center;
@@ -137,6 +176,17 @@ const std::vector<Kind>& kinds() {
        nodal_strains},
       {"reaction_force", "force of the supports on each node, in prescribed directions; 0 in all others", Center::node, FieldKind::vector, 2, 3,
        reaction_force},
+      {"temperature", "temperature of the nodes; 0 where there is none", Center::node, FieldKind::scalar, 1, 1, temperature},
+      {"heat_flux", "volume mean of the heat flux of each element, per current area; 0 in bodies without a temperature", Center::cell, FieldKind::vector, 2,
+       3, heat_flux},
+      {"contact_heat_flux", "heat that flows from the slave nodes to the master, per area; 0 on all others", Center::node, FieldKind::scalar, 1, 1,
+       [](const FieldState& state) { return on_heated_nodes(state, [](const NodeHeat& node) { return node.flux; }); }},
+      {"conductance", "conductance of the pair at the slave nodes; 0 on all others", Center::node, FieldKind::scalar, 1, 1,
+       [](const FieldState& state) { return on_heated_nodes(state, [](const NodeHeat& node) { return node.conductance; }); }},
+      {"friction_heat", "power that friction takes at the slave nodes, per area; 0 on all others", Center::node, FieldKind::scalar, 1, 1,
+       [](const FieldState& state) {
+         return on_heated_nodes(state, [](const NodeHeat& node) { return node.weight > 0.0 ? node.friction / node.weight : 0.0; });
+       }},
       {"velocity", "velocity of the nodes; 0 without inertia", Center::node, FieldKind::vector, 2, 3, velocity},
       {"acceleration", "acceleration of the nodes, of contact nodes without mass that of their neighbours; 0 without inertia", Center::node,
        FieldKind::vector, 2, 3, acceleration}};

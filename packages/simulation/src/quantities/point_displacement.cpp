@@ -1,4 +1,4 @@
-// The displacement of a point.
+// Displacement and temperature of a point.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mortise/core/over_ranks.hpp"
 #include "mortise/simulation/quantities/quantity_support.hpp"
 
 namespace mortise {
@@ -56,18 +57,19 @@ std::vector<double> shares_at(CellShape shape, const Mesh& mesh, const LocalOrdi
   return visit_cell(shape, [&](auto cell) { return shares_at<decltype(cell)>(mesh, nodes, position); });
 }
 
-/// The displacement of the point that an element holds.
+/// A component of a field at the point that an element holds.
 class PointEvaluator final : public QuantityEvaluator {
  public:
-  PointEvaluator(const PointDisplacement& quantity, const QuantityContext& context) : component_(static_cast<int>(quantity.component)) {
+  PointEvaluator(const PointOptions& quantity, std::size_t field, int component, const QuantityContext& context)
+      : field_(field), component_(component) {
     const Mesh& mesh = context.mesh();
-    require_component(context, quantity.component);
     if (quantity.z.has_value() != (mesh.dimension == 3))
       throw InputError(quantity.x.place,
                        mesh.dimension == 3 ? "a point in 3D needs \"z\"; please add it" : "a point in 2D has no \"z\"; please remove it");
     const auto wanted = find_optional_body(context, quantity.body);
     const std::array<double, 3> point{quantity.x.value, quantity.y.value, quantity.z.value_or(0.0)};
     // The body first, then the element of the lowest id: the same one on any number of ranks.
+    int lacks = 0;
     const GlobalOrdinal none = std::numeric_limits<GlobalOrdinal>::max();
     GlobalOrdinal mine = none;
     for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
@@ -90,20 +92,24 @@ class PointEvaluator final : public QuantityEvaluator {
       throw InputError(quantity.x.place,
                        fmt::format("the point ({:g}) lies {}", fmt::join(point.begin(), point.begin() + mesh.dimension, ", "), where));
     }
+    if (mine == first && !context.space().rows(field_).lives(nodes_.front())) lacks = 1;
+    if (most_over_ranks(*mesh.comm, lacks) != 0)
+      throw InputError(quantity.x.place, "the body at this point has no temperature; please give its material a list \"heat\" with a \"conductivity\"");
     const int candidate = mine == first ? mesh.comm->getRank() : mesh.comm->getSize();
     Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MIN, candidate, Teuchos::outArg(owner_));
   }
 
   double evaluate(const QuantityContext& context) override {
-    const auto displacement = context.local_displacement->getLocalViewHost(Tpetra::Access::ReadOnly);
+    const auto values = context.local_displacement->getLocalViewHost(Tpetra::Access::ReadOnly);
     double value = 0.0;
     if (context.mesh().comm->getRank() == owner_)
-      for (std::size_t a = 0; a < nodes_.size(); ++a) value += shares_[a] * displacement(context.space().row(nodes_[a], component_), 0);
+      for (std::size_t a = 0; a < nodes_.size(); ++a) value += shares_[a] * values(context.space().row(field_, nodes_[a], component_), 0);
     Teuchos::broadcast(*context.mesh().comm, owner_, Teuchos::outArg(value));
     return value;
   }
 
  private:
+  std::size_t field_;
   int component_;
   int owner_ = 0;                    ///< rank whose element holds the point
   std::vector<LocalOrdinal> nodes_;  ///< of the element, on that rank
@@ -112,18 +118,32 @@ class PointEvaluator final : public QuantityEvaluator {
 
 }  // namespace
 
-void PointDisplacement::describe(Parameters& parameters) {
+void PointOptions::describe(Parameters& parameters) {
   parameters.add("x", x, Says("reference position of the point").unit("length").required());
   parameters.add("y", y, Says("reference position of the point").unit("length").required());
   parameters.add("z", z, Says("reference position of the point, in three dimensions").unit("length"));
   parameters.add("body", body, "deformable body that the point belongs to; empty: the first one that holds it");
+}
+
+void PointDisplacement::describe(Parameters& parameters) {
+  point.describe(parameters);
   parameters.add("component", component, component_names(), "component of the displacement");
 }
 
 std::unique_ptr<QuantityEvaluator> PointDisplacement::make_evaluator(const QuantityContext& context) const {
-  return std::make_unique<PointEvaluator>(*this, context);
+  require_component(context, component);
+  return std::make_unique<PointEvaluator>(point, 0, static_cast<int>(component), context);
+}
+
+void PointTemperature::describe(Parameters& parameters) { point.describe(parameters); }
+
+std::unique_ptr<QuantityEvaluator> PointTemperature::make_evaluator(const QuantityContext& context) const {
+  require_temperature(context);
+  return std::make_unique<PointEvaluator>(point, context.heat.bodies->temperature(), 0, context);
 }
 
 void add_point_displacement(Registry<Quantity>& kinds) { kinds.add<PointDisplacement>("displacement", "displacement of a point"); }
+
+void add_point_temperature(Registry<Quantity>& kinds) { kinds.add<PointTemperature>("temperature", "temperature of a point"); }
 
 }  // namespace mortise

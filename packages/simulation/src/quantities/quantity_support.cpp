@@ -36,6 +36,11 @@ void require_inertia(const QuantityContext& context) {
     throw InputError(Place{}, "this quantity is one of motion; the scene has no inertia: please give the list \"inertia\"");
 }
 
+void require_temperature(const QuantityContext& context) {
+  if (context.heat.bodies == nullptr)
+    throw InputError(Place{}, "this quantity is one of heat; the scene has no temperature: please give the list \"heat\" an \"analysis\"");
+}
+
 double sum_over_body(const QuantityContext& context, const std::optional<LocalOrdinal>& body, const Vector& a, const Vector& b) {
   const Mesh& mesh = context.mesh();
   const auto of_a = a.getLocalViewHost(Tpetra::Access::ReadOnly), of_b = b.getLocalViewHost(Tpetra::Access::ReadOnly);

@@ -11,7 +11,10 @@
 
 namespace mortise {
 
-void MaterialChoice::describe(Parameters& parameters) { parameters.choose(law, material_registry(), "the law"); }
+void MaterialChoice::describe(Parameters& parameters) {
+  parameters.choose(law, material_registry(), "the law");
+  parameters.list("heat", heat, "conduction and storage of heat, in a scene with temperatures; without a conductivity bodies have no temperature");
+}
 
 namespace {
 /// The list "mesh" of a body.
@@ -44,6 +47,10 @@ void BodyOptions::describe(Parameters& parameters) {
       Says("of a rigid body with a mass, about its centre of mass: in 2D one number, in 3D three, about x, y and z").unit("mass length^2"));
   parameters.add("centre of mass", centre_of_mass, Says("of a rigid body with a mass; left out: its reference point").unit("length"));
   check_position(parameters, "centre of mass", centre_of_mass);
+  parameters.add("temperature", temperature,
+                 Says("of a rigid body, over t: pairs conduct heat to it; left out: it has none").unit("temperature").arguments({"t"}));
+  if (temperature && !rigid.value)
+    parameters.error("temperature", "the temperature of a deformable body is unknown; please prescribe it in \"heat/temperatures\", or give an initial one");
   parameters.add("massless", massless, "with inertia: a body without density has no mass; it follows loads and contact at once");
   if (density && mass) parameters.error("mass", "is given beside \"density\"; please remove one of the two");
   if (!rigid.value && (density || mass || !moments_of_inertia.empty()))
@@ -91,6 +98,7 @@ void ContactPairOptions::describe(Parameters& parameters) {
   start.describe(parameters);
   parameters.add("reason", reason, "words on the choice of the sides, which the program writes for pairs that it found; they change nothing");
   contact.describe(parameters);
+  parameters.list("heat", heat, "heat across the pair, in a scene with temperatures");
 }
 
 void SurfaceTieOptions::describe(Parameters& parameters) {
@@ -156,6 +164,8 @@ void Scene::describe(Parameters& parameters) {
   parameters.named("initial conditions", initial_conditions, "displacements and velocities at the start, with inertia");
   if (!inertia.acts() && !initial_conditions.empty())
     parameters.error("initial conditions", "need inertia; please give the list \"inertia\" a \"scheme\"");
+  parameters.list("heat", heat, "temperatures of the bodies; without an analysis the scene has none");
+  parameters.locate("heat", heat.place);
   parameters.list("stabilisation", stabilisation, "viscous forces on loose bodies, which vanish to the end; of static scenes");
   parameters.locate("stabilisation", stabilisation.place);
   parameters.list("stepping", stepping, "pseudo-time and its steps; with inertia time");

@@ -6,6 +6,7 @@
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Vector.hpp>
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
@@ -22,7 +23,7 @@ namespace {
 /// A rigid body has no elements: nothing is computed, nothing remembered.
 class RigidBlock final : public ElementBlock {
  public:
-  void add(const double*, const AssemblyTarget&, std::optional<StepFailure>&) const override {}
+  void add(const double*, double, const AssemblyTarget&, std::optional<StepFailure>&) const override {}
   void visit_points(const double*, LocalOrdinal, const std::function<void(const MaterialPoint&)>&) const override {}
   void commit(const double*) override {}
   void serialize(StateArchive&, const std::string&) override {}
@@ -33,6 +34,26 @@ class RigidBlock final : public ElementBlock {
   void add_nodal_volumes(std::vector<double>&) const override {}
   std::pair<LocalOrdinal, double> smallest_reference_determinant() const override { return {-1, std::numeric_limits<double>::infinity()}; }
 };
+
+/// The temperature that each body's law takes, if its material has properties that depend on it: a field "temperature" that lives on all its nodes,
+/// on all ranks. Collective.
+std::vector<std::optional<std::size_t>> temperatures_of(const FieldSpace& space, const std::vector<BodyProperties>& bodies) {
+  std::vector<std::optional<std::size_t>> result(bodies.size());
+  std::size_t field = 1;
+  while (field < space.field_count() && space.field(field).name() != "temperature") ++field;
+  if (field >= space.field_count()) return result;
+  std::vector<int> mine(bodies.size(), 0), all(bodies.size(), 0);
+  for (std::size_t n = 0; n < bodies.size(); ++n) {
+    const Block& block = space.mesh()->blocks[n];
+    const LocalOrdinal *first = block.nodes(0), *last = block.nodes(block.size());
+    const bool lives = std::all_of(first, last, [&](LocalOrdinal node) { return space.rows(field).lives(node); });
+    mine[n] = !bodies[n].is_rigid() && bodies[n].material->thermal.given() && lives ? 1 : 0;
+  }
+  Teuchos::reduceAll(*space.mesh()->comm, Teuchos::REDUCE_MIN, static_cast<int>(mine.size()), mine.data(), all.data());
+  for (std::size_t n = 0; n < bodies.size(); ++n)
+    if (all[n] != 0) result[n] = field;
+  return result;
+}
 
 }  // namespace
 
@@ -55,13 +76,15 @@ Bodies::Bodies(std::shared_ptr<const FieldSpace> space, Kinematics kinematics, d
   if (mesh_->dimension != dimension() || space_->rows(0).components != dimension())
     throw std::logic_error("the mesh, its first field and the kinematics do not have the same dimension");
 
+  const std::vector<std::optional<std::size_t>> temperatures = temperatures_of(*space_, properties_);
   for (std::size_t n = 0; n < properties_.size(); ++n) {
     const BlockContext context{*space_, mesh_->blocks[n], static_cast<LocalOrdinal>(n)};
     if (properties_[n].is_rigid()) {
       blocks_.push_back(std::make_unique<RigidBlock>());
       continue;
     }
-    blocks_.push_back(make_element_block(context, properties_[n], kinematics_, thickness_));
+    blocks_.push_back(make_element_block(context, properties_[n], kinematics_, thickness_, temperatures[n]));
+    know_temperature_ = know_temperature_ || temperatures[n];
     const auto [element, determinant] = blocks_.back()->smallest_reference_determinant();
     if (!(determinant > 0.0))
       diagnostics.push_back({properties_[n].place, fmt::format("body \"{}\": element {} {} is inverted, det J = {:.3g}", properties_[n].name,
@@ -74,25 +97,26 @@ Bodies::~Bodies() = default;
 
 double Bodies::depth(double radius) const { return mortise::depth(kinematics_, thickness_, radius); }
 
-void Bodies::add_internal_force(const Vector& local_displacement, Vector& residual, std::optional<StepFailure>& failure) const {
+void Bodies::add_internal_force(const Vector& local_displacement, Vector& residual, std::optional<StepFailure>& failure, double time_step) const {
   const HostReadView displacement(local_displacement);
   const HostWriteView force(residual);
-  for (const auto& block : blocks_) block->add(displacement.data(), {{force.data(), space_->rows(0)}}, failure);
+  for (const auto& block : blocks_) block->add(displacement.data(), time_step, {{force.data(), space_->rows(0)}}, failure);
 }
 
-void Bodies::add_stiffness(const Vector& local_displacement, Matrix& matrix, std::optional<StepFailure>& failure, double factor) const {
+void Bodies::add_stiffness(const Vector& local_displacement, Matrix& matrix, std::optional<StepFailure>& failure, double factor,
+                           double time_step) const {
   const HostReadView displacement(local_displacement);
   const NodalSparsity::Values values = space_->sparsity().open(matrix);
-  for (const auto& block : blocks_) block->add(displacement.data(), {{}, &values, factor}, failure);
+  for (const auto& block : blocks_) block->add(displacement.data(), time_step, {{}, &values, factor}, failure);
   values.close();
 }
 
 void Bodies::add_internal_force_and_stiffness(const Vector& local_displacement, Vector& residual, Matrix& matrix, std::optional<StepFailure>& failure,
-                                              double factor) const {
+                                              double factor, double time_step) const {
   const HostReadView displacement(local_displacement);
   const HostWriteView force(residual);
   const NodalSparsity::Values values = space_->sparsity().open(matrix);
-  for (const auto& block : blocks_) block->add(displacement.data(), {{force.data(), space_->rows(0)}, &values, factor}, failure);
+  for (const auto& block : blocks_) block->add(displacement.data(), time_step, {{force.data(), space_->rows(0)}, &values, factor}, failure);
   values.close();
 }
 
@@ -151,6 +175,19 @@ std::vector<double> Bodies::lumped_volumes(LocalOrdinal block) const {
 std::vector<double> Bodies::stored_energies(const Vector& local_displacement) const {
   std::vector<double> mine(mesh_->bodies.size(), 0.0), all(mine.size(), 0.0);
   visit_points(local_displacement, [&](const MaterialPoint& point) { mine[mesh_->blocks[point.block].body] += point.weight * point.energy; });
+  Teuchos::reduceAll(*mesh_->comm, Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), all.data());
+  return all;
+}
+
+bool Bodies::heat() const {
+  return std::any_of(blocks_.begin(), blocks_.end(), [](const auto& block) { return block->heats(); });
+}
+
+std::vector<double> Bodies::heat_powers(const Vector& local_unknowns, double time_step) const {
+  std::vector<double> mine(mesh_->bodies.size(), 0.0), all(mine.size(), 0.0);
+  const HostReadView unknowns(local_unknowns);
+  for (std::size_t n = 0; n < blocks_.size(); ++n)
+    mine[mesh_->blocks[n].body] += blocks_[n]->heat(unknowns.data(), time_step, mesh_->blocks[n].owned);
   Teuchos::reduceAll(*mesh_->comm, Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), all.data());
   return all;
 }

@@ -8,6 +8,7 @@
 
 #include "elements/cell_block.hpp"
 #include "mortise/material/materials.hpp"
+#include "thermal/thermal_block.hpp"
 
 namespace mortise {
 
@@ -19,9 +20,24 @@ std::string element_place(const BlockContext& context, LocalOrdinal element) {
   return fmt::format("at ({:.6g}) of the reference configuration", fmt::join(middle.begin(), middle.begin() + context.space.mesh()->dimension, ", "));
 }
 
-std::unique_ptr<ElementBlock> make_element_block(const BlockContext& context, const BodyProperties& body, Kinematics kinematics, double thickness) {
+StepFailure inverted(const BlockContext& context, LocalOrdinal element, double determinant) {
+  return {FailureKind::inverted_element,
+          fmt::format("body \"{}\": element {} {} is turned inside out, det F = {:.3g}", context.space.mesh()->body_of(context.block).name,
+                      context.block.element_ids[element], element_place(context, element), determinant)};
+}
+
+StepFailure without_stress(const BlockContext& context, LocalOrdinal element, int point, double determinant, const std::string& why) {
+  return {FailureKind::material,
+          fmt::format("body \"{}\": {} at point {} of element {} {}, where det F = {:.3g}", context.space.mesh()->body_of(context.block).name, why,
+                      point, context.block.element_ids[element], element_place(context, element), determinant)};
+}
+
+std::unique_ptr<ElementBlock> make_element_block(const BlockContext& context, const BodyProperties& body, Kinematics kinematics, double thickness,
+                                                 std::optional<std::size_t> temperature) {
   return visit_element(body.element, [&](const auto& entry) {
     using Entry = std::decay_t<decltype(entry)>;
+    if (temperature)
+      return make_thermal_block<typename Entry::Cell, Entry::formulation>(context, *temperature, *body.material, kinematics, thickness);
     return make_cell_block<typename Entry::Cell, Entry::formulation>(context, body.material->law(), kinematics, thickness);
   });
 }

@@ -6,10 +6,10 @@
 #include <tuple>
 #include <type_traits>
 
-#include "mortise/solid/deformation.hpp"
 #include "elements/element_tangent.hpp"
 #include "mortise/material/plane_stress.hpp"
 #include "mortise/solid/bodies.hpp"
+#include "mortise/solid/deformation.hpp"
 
 namespace mortise {
 
@@ -17,6 +17,35 @@ namespace mortise {
 template <Kinematics kinematics>
 using ComponentsOf = std::conditional_t<kinematics == Kinematics::three_dimensional, SolidComponents,
                                         std::conditional_t<kinematics == Kinematics::axisymmetric, AxisymmetricComponents, PlaneComponents>>;
+
+/// F that the law sees; of F-bar (det F0 / det F)^(1/n) F: the in-plane gradient with n = 2 in plane strain, the full one with n = 3 otherwise.
+/// `centre` is the element's centre for F-bar.
+template <Kinematics kinematics, bool f_bar, class Motion, class Centre>
+Matrix3 deformation_gradient_of_law(const Motion& motion, [[maybe_unused]] const Centre& centre) {
+  if constexpr (!f_bar) {
+    return motion.F;
+  } else if constexpr (kinematics == Kinematics::plane_strain) {
+    Matrix3 F = motion.F;
+    F.topLeftCorner<2, 2>() *= std::sqrt(std::get<0>(centre.fields).determinant / motion.determinant);
+    return F;
+  } else {
+    return std::cbrt(std::get<0>(centre.fields).determinant / motion.determinant) * motion.F;
+  }
+}
+
+/// Puts positions and weight of point q into `result`. The displacement is the first field of `points`.
+template <class Points>
+void set_place(int q, const Points& points, MaterialPoint& result) {
+  const auto at = points[q];
+  const auto &X = points.positions(), &u = std::get<0>(points.values());
+  result.point = q;
+  for (std::size_t a = 0; a < X.size(); ++a)
+    for (std::size_t i = 0; i < X[a].size(); ++i) {
+      result.reference_position[i] += at.N[a] * X[a][i];
+      result.position[i] += at.N[a] * (X[a][i] + u[a][i]);
+    }
+  result.weight = at.weight;
+}
 
 /// Why an element has no residual.
 struct ElementTrouble {
@@ -73,7 +102,7 @@ class Mechanics {
       // f = integral of sigma(F_law) : grad eta det F dV0; sigma = tau / det F_law, det F_law = det F0 for F-bar.
       double weight = at.weight;
       if constexpr (f_bar) weight *= motion.determinant / std::get<0>(centre.fields).determinant;
-      const Matrix3 F = deformation_gradient_of_law(motion, centre);
+      const Matrix3 F = deformation_gradient_of_law<kinematics, f_bar>(motion, centre);
       if constexpr (Sums::with_tangent) {
         const auto response = law_.template stress_and_tangent<Components>(F, states[q]);
         if (!has_stress(response.stress)) return {ElementTrouble::Kind::no_stress, q, motion.determinant};
@@ -93,7 +122,8 @@ class Mechanics {
   template <class Points>
   void commit(const Points& points, States& states) const {
     const auto centre = centre_of(points);
-    for (int q = 0; q < point_count; ++q) states[q] = law_.law.updated(deformation_gradient_of_law(std::get<0>(points[q].fields), centre), states[q]);
+    for (int q = 0; q < point_count; ++q)
+      states[q] = law_.law.updated(deformation_gradient_of_law<kinematics, f_bar>(std::get<0>(points[q].fields), centre), states[q]);
   }
 
   /// Point q for output.
@@ -102,16 +132,9 @@ class Mechanics {
     const auto centre = centre_of(points);
     const auto at = points[q];
     const Motion& motion = std::get<0>(at.fields);
-    const auto &X = points.positions(), &u = std::get<0>(points.values());
     MaterialPoint result;
-    result.point = q;
-    for (int a = 0; a < nodes; ++a)
-      for (int i = 0; i < dimension; ++i) {
-        result.reference_position[i] += at.N[a] * X[a][i];
-        result.position[i] += at.N[a] * (X[a][i] + u[a][i]);
-      }
-    result.weight = at.weight;
-    const Matrix3 F = deformation_gradient_of_law(motion, centre);
+    set_place(q, points, result);
+    const Matrix3 F = deformation_gradient_of_law<kinematics, f_bar>(motion, centre);
     result.deformation_gradient = law_.deformation(F);
     result.volume_ratio = small_strain ? 1.0 : determinant_of_law(motion);
     double law_volume_ratio = result.volume_ratio;
@@ -148,20 +171,6 @@ class Mechanics {
       return motion.determinant > 0.0 ? motion.determinant * law_.deformation(motion.F)(2, 2) : motion.determinant;
     else
       return motion.determinant;
-  }
-
-  /// F, or of F-bar (det F0 / det F)^(1/n) F: the in-plane gradient with n = 2 in plane strain, the full one with n = 3 otherwise.
-  template <class Centre>
-  static Matrix3 deformation_gradient_of_law(const Motion& motion, [[maybe_unused]] const Centre& centre) {
-    if constexpr (!f_bar) {
-      return motion.F;
-    } else if constexpr (kinematics == Kinematics::plane_strain) {
-      Matrix3 F = motion.F;
-      F.topLeftCorner<2, 2>() *= std::sqrt(std::get<0>(centre.fields).determinant / motion.determinant);
-      return F;
-    } else {
-      return std::cbrt(std::get<0>(centre.fields).determinant / motion.determinant) * motion.F;
-    }
   }
 
   AnyLaw law_;

@@ -4,9 +4,9 @@
 #include <array>
 #include <type_traits>
 
-#include "mortise/solid/deformation.hpp"
 #include "elements/space_products.hpp"
 #include "mortise/material/tensor_components.hpp"
+#include "mortise/solid/deformation.hpp"
 #include "mortise/solid/element_points.hpp"
 
 namespace mortise {

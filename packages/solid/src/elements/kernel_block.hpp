@@ -21,7 +21,7 @@ class KernelBlock final : public ReferenceBlock<Cell, kinematics == Kinematics::
       : Base(of_block, thickness), mechanics_(Element(law), of_block.block, thickness) {}
 
   // The tangent's loop has the forces at hand, and is compiled once with them.
-  void add(const double* displacement, const AssemblyTarget& target, std::optional<StepFailure>& failure) const override {
+  void add(const double* displacement, double /*time_step*/, const AssemblyTarget& target, std::optional<StepFailure>& failure) const override {
     count_history_evaluation();
     const auto report = [&](LocalOrdinal element, const ElementTrouble& trouble) { this->report(element, trouble, failure); };
     if (target.matrix != nullptr)
@@ -66,18 +66,11 @@ class KernelBlock final : public ReferenceBlock<Cell, kinematics == Kinematics::
 
   void report(LocalOrdinal element, const ElementTrouble& trouble, std::optional<StepFailure>& failure) const {
     if (failure) return;
-    const Mesh& mesh = *context().space.mesh();
-    const Block& block = context().block;
-    const GlobalOrdinal id = block.element_ids[element];
     if (trouble.kind == ElementTrouble::Kind::inverted)
-      failure.emplace(FailureKind::inverted_element,
-                      fmt::format("body \"{}\": element {} {} is turned inside out, det F = {:.3g}", mesh.body_of(block).name, id,
-                                  element_place(context(), element), trouble.determinant));
+      failure.emplace(inverted(context(), element, trouble.determinant));
     else
       failure.emplace(
-          FailureKind::material,
-          fmt::format("body \"{}\": the law \"{}\" finds no stress at point {} of element {} {}, where det F = {:.3g}", mesh.body_of(block).name,
-                      PlainLaw::name, trouble.point, id, element_place(context(), element), trouble.determinant));
+          without_stress(context(), element, trouble.point, trouble.determinant, fmt::format("the law \"{}\" finds no stress", PlainLaw::name)));
   }
 
   BlockIntegral<Element> mechanics_;

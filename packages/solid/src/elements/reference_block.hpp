@@ -15,7 +15,9 @@ class ReferenceBlock : public ElementBlock {
   using Geometry = ElementGeometry<Cell, axisymmetric>;
 
  public:
-  ReferenceBlock(const BlockContext& context, double thickness) : context_(context), loop_(context.space, context.block), thickness_(thickness) {}
+  /// `coupled`: a field whose columns the rows of displacements have entries in.
+  ReferenceBlock(const BlockContext& context, double thickness, std::optional<std::size_t> coupled = std::nullopt)
+      : context_(context), loop_(context.space, context.block, 0, coupled), thickness_(thickness) {}
 
   void add_mass(double density, const NodalSparsity::Values& matrix, double factor) const override {
     add<false, true>(Inertia<Geometry>{density}, {{}, &matrix, factor});

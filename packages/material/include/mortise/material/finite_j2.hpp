@@ -27,6 +27,7 @@ struct FiniteJ2 {
 
   Hencky elastic;
   Hardening hardening;
+  double yield_factor = 1.0;  ///< sigma_y is that of the hardening law times this factor, > 0; with it heat softens
   FiniteJ2(const ElasticConstants& constants, Hardening law) : elastic(constants), hardening(std::move(law)) {}
 
   /// Kirchhoff stress; NaN where no stress is found (b_e not positive definite to round-off, overflow).
@@ -58,7 +59,51 @@ struct FiniteJ2 {
   ///   D = K 1 x 1 + 2 G (1 - 3 G x / q_tr) (I - 1/3 1 x 1) + 2 G (3 G x / q_tr - 3 G / (3 G + sigma_y')) N x N.
   template <class Components>
   StressAndTangent<Components> stress_and_tangent(const Matrix3& F, const State& state) const {
-    const Return end = return_to_yield_surface(F, state);
+    return stress_and_tangent<Components>(return_to_yield_surface(F, state));
+  }
+
+  /// End of a step.
+  struct Return {
+    Spectrum trial;              ///< b_e of the trial
+    Eigen::Vector3d deviator;    ///< of the trial strain, in the axes of b_e
+    double volumetric = 0.0;     ///< tr e, which flow does not change
+    PlasticIncrement increment;  ///< x, and d sigma_y / d alpha with the yield factor
+    double scale = 1.0;          ///< dev e / dev e_tr = 1 - 3 G x / q_tr
+  };
+
+  /// The step from `state` that ends at F. Its increment is NaN where no stress is found.
+  Return return_to_yield_surface(const Matrix3& F, const State& state) const {
+    const auto& c = state.inverse_plastic_metric;
+    Matrix3 metric;
+    metric << c[0], c[3], c[5], c[3], c[1], c[4], c[5], c[4], c[2];
+    Return end;
+    end.trial = spectral_decomposition(F * metric * F.transpose());
+    const Eigen::Vector3d strain = logarithmic_strain(end.trial);
+    end.volumetric = strain.sum();
+    end.deviator = strain.array() - end.volumetric / 3.0;
+    const double q = std::sqrt(6.0) * elastic.shear_modulus * end.deviator.norm();
+    const double yield = yield_factor * yield_stress(hardening, state.equivalent_plastic_strain);
+    // A point left on the yield surface comes back with round-off of C_p^-1 and of e; it is elastic until it flows for good.
+    const double round_off = 1e-12 * yield + 64.0 * std::numeric_limits<double>::epsilon() * elastic.shear_modulus;
+    if (q - yield <= round_off) return end;
+    // q - 3 G x = s sigma_y(alpha + x), over the yield factor s.
+    end.increment = return_map(hardening, q / yield_factor, state.equivalent_plastic_strain, 3.0 * elastic.shear_modulus / yield_factor);
+    end.increment.slope *= yield_factor;
+    end.scale = 1.0 - 3.0 * elastic.shear_modulus * end.increment.strain / q;
+    return end;
+  }
+
+  /// Principal elastic strains at the end, in the axes of the trial b_e.
+  static Eigen::Vector3d elastic_strain(const Return& end) { return end.scale * end.deviator + end.volumetric / 3.0 * Eigen::Vector3d::Ones(); }
+
+  /// Kirchhoff stress at the end.
+  Matrix3 kirchhoff(const Return& end) const {
+    return in_axes_of(end.trial,
+                      2.0 * elastic.shear_modulus * end.scale * end.deviator + elastic.bulk_modulus * end.volumetric * Eigen::Vector3d::Ones());
+  }
+
+  template <class Components>
+  StressAndTangent<Components> stress_and_tangent(const Return& end) const {
     const double shear = end.scale * elastic.shear_modulus;
     StressAndTangent<Components> result;
     result.stress = kirchhoff(end);
@@ -72,40 +117,6 @@ struct FiniteJ2 {
       result.tangent.noalias() += 2.0 * elastic.shear_modulus * slope * N * N.transpose();
     }
     return result;
-  }
-
- private:
-  struct Return {
-    Spectrum trial;            ///< b_e
-    Eigen::Vector3d deviator;  ///< of the trial strain
-    double volumetric = 0.0;   ///< tr e, which flow does not change
-    PlasticIncrement increment;
-    double scale = 1.0;  ///< dev e / dev e_tr = 1 - 3 G x / q_tr
-  };
-
-  Return return_to_yield_surface(const Matrix3& F, const State& state) const {
-    const auto& c = state.inverse_plastic_metric;
-    Matrix3 metric;
-    metric << c[0], c[3], c[5], c[3], c[1], c[4], c[5], c[4], c[2];
-    Return end;
-    end.trial = spectral_decomposition(F * metric * F.transpose());
-    const Eigen::Vector3d strain = logarithmic_strain(end.trial);
-    end.volumetric = strain.sum();
-    end.deviator = strain.array() - end.volumetric / 3.0;
-    const double q = std::sqrt(6.0) * elastic.shear_modulus * end.deviator.norm(), yield = yield_stress(hardening, state.equivalent_plastic_strain);
-    // A point left on the yield surface comes back with round-off of C_p^-1 and of e; it is elastic until it flows for good.
-    const double round_off = 1e-12 * yield + 64.0 * std::numeric_limits<double>::epsilon() * elastic.shear_modulus;
-    if (q - yield <= round_off) return end;
-    end.increment = return_map(hardening, q, state.equivalent_plastic_strain, 3.0 * elastic.shear_modulus);
-    end.scale = 1.0 - 3.0 * elastic.shear_modulus * end.increment.strain / q;
-    return end;
-  }
-
-  static Eigen::Vector3d elastic_strain(const Return& end) { return end.scale * end.deviator + end.volumetric / 3.0 * Eigen::Vector3d::Ones(); }
-
-  Matrix3 kirchhoff(const Return& end) const {
-    return in_axes_of(end.trial,
-                      2.0 * elastic.shear_modulus * end.scale * end.deviator + elastic.bulk_modulus * end.volumetric * Eigen::Vector3d::Ones());
   }
 };
 

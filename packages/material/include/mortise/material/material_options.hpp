@@ -5,6 +5,7 @@
 
 #include "mortise/core/parameters.hpp"
 #include "mortise/material/elastic_constants.hpp"
+#include "mortise/material/thermal_properties.hpp"
 
 namespace mortise {
 
@@ -23,9 +24,13 @@ struct MaterialOptions : Described {
   double youngs_modulus = 1.0;  ///< [stress]
   double poissons_ratio = 0.3;
   double density = 0.0;  ///< [mass / volume] of the reference configuration
+  ThermalProperties thermal;
 
-  /// Declares "young's modulus", "poisson's ratio", "density".
+  /// Declares "young's modulus", "poisson's ratio", "density" and the list "thermal".
   void describe(Parameters& parameters) override;
+
+  /// Declares the entries of the list "thermal".
+  virtual void describe_thermal(Parameters& parameters);
 
   ElasticConstants elastic_constants() const { return {youngs_modulus, poissons_ratio}; }
 

@@ -52,8 +52,13 @@ class Contribution {
   /// What it reads and writes. A system refuses what it does not have.
   virtual FieldUse uses() const { return {}; }
 
+  /// Of internal forces without time derivatives: true if they depend on time beside unknowns and committed state, as heat of plastic flow does on
+  /// the length of a step. Those of a step's end are then not those of the next one's start.
+  virtual bool depends_on_time() const { return false; }
+
   /// residual += this contribution with its sign in r (external forces enter with a minus). Owned dofs. Collective.
-  /// Internal forces without time derivatives depend on unknowns and committed state, not on time. commit(at) does not change those at `at`.
+  /// Internal forces without time derivatives depend on unknowns and committed state, and on time where depends_on_time(). Else commit(at) does not
+  /// change those at `at`.
   virtual void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) = 0;
 
   /// jacobian += the derivatives of the residual with their weights. `jacobian` has the graph that the system was built with, or that and more

@@ -11,6 +11,7 @@
 #include "mortise/core/timers.hpp"
 #include "mortise/core/types.hpp"
 #include "mortise/nonlinear/affine_constraints.hpp"
+#include "mortise/nonlinear/contact_contribution.hpp"
 #include "mortise/nonlinear/contribution.hpp"
 #include "mortise/nonlinear/drive.hpp"
 #include "mortise/nonlinear/held_motions.hpp"
@@ -39,6 +40,7 @@ struct SystemParts {
   /// none.
   std::function<void(const Vector& forces, Vector& gathered)> put_support_forces;
   std::shared_ptr<ContactSystem> contact;                                    ///< null: no contact
+  std::vector<std::shared_ptr<ContactContribution>> contact_contributions;   ///< with contact alone; its further fields are those that they write
   std::shared_ptr<LinearSolver> linear_solver;                               ///< of each Newton step
   std::function<NearNullSpace(const Vector& displacement)> near_null_space;  ///< at a displacement, for multigrid alone
   /// For an x at which the Jacobian is singular although the system has a solution: a better point to linearise at, or null where there is none. It
@@ -75,6 +77,8 @@ class SemiSmoothSystem {
   RCP<Vector> multipliers(Vector& x) const;
   /// s of the first field, a stiffness; 0 before the first evaluation.
   double stiffness_scale() const;
+  /// A vector on the dofs with 0 for all fields but the first; with one field a view of the vector itself.
+  RCP<const Vector> first_field(const Vector& of_dofs) const;
   /// The largest displacement of x, or value of another field as if its size were that of the first.
   double largest_unknown(const Vector& x) const;
 

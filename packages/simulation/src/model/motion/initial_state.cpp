@@ -4,10 +4,13 @@
 
 #include <Eigen/Geometry>
 #include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_Import.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <cmath>
 
+#include "model/heat/booked_heat.hpp"
+#include "model/heat/heat_of_scene.hpp"
 #include "mortise/core/names.hpp"
 #include "mortise/core/over_ranks.hpp"
 #include "surfaces/body_surfaces.hpp"
@@ -154,6 +157,7 @@ StartJump largest_jump(const Model& model, const std::vector<double>& prescribed
   StartJump mine;
   for (std::size_t i = 0; i < prescribed.size(); ++i) {
     const LocalOrdinal dof = model.parts().constraints->prescribed()[i], node = model.space().place(dof).node;
+    if (model.space().place(dof).field != 0) continue;  // a temperature may jump
     if (node >= mesh.owned_body_count() || mesh.bodies[mesh.body_of_node[node]].is_surface) continue;
     const double size = std::abs(prescribed[i] - values(dof, 0));
     if (size > mine.size) mine = {size, prescribed[i], values(dof, 0), dof};
@@ -198,8 +202,26 @@ void refuse_other_motion(const Scene& scene, const Model& model, const Vector& w
 
 }  // namespace
 
+namespace {
+
+/// Heat that is stored and flows at the start.
+void begin_heat(const Model& model, const Vector& unknowns) {
+  const HeatOfModel& heat = model.heat();
+  if (!heat.bodies) return;
+  Vector local(model.space().local_dofs());
+  local.doImport(unknowns, *model.space().ghost_import(), Tpetra::INSERT);
+  const Configuration start{0.0, unknowns, local};
+  if (heat.stored) heat.stored->begin(start);
+  heat.conduction->begin(start);
+  for (const auto& source : heat.sources) source->begin(start);
+}
+
+}  // namespace
+
 AcceptedState initial_state(const Scene& scene, const Model& model, const SemiSmoothSystem& system) {
   Vector x(system.map());
+  put_initial_temperatures(scene, model.space(), *system.unknowns(x));
+  begin_heat(model, *system.unknowns(std::as_const(x)));
   if (!scene.inertia.acts()) return system.initial_state(x);
   Vector velocity(model.parts().dofs);
   Start(scene, model).put(*system.unknowns(x), velocity);

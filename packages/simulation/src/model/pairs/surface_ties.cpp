@@ -10,6 +10,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "model/precision.hpp"
+#include "model/stages/meshed_scene.hpp"
+#include "mortise/core/over_ranks.hpp"
 #include "mortise/mesh/sets.hpp"
 #include "surfaces/body_surfaces.hpp"
 
@@ -141,6 +144,30 @@ SurfaceTies tie_scene(Mesh& mesh, const FieldSpace& space, const Scene& scene, c
   return result;
 }
 
+std::shared_ptr<const TieRows> tie_temperatures(const MeshedScene& meshed, const Scene& scene, const FieldRows& rows, const std::vector<char>& held) {
+  const Mesh& mesh = *meshed.mesh;
+  const auto marks = rcp(new MultiVector(mesh.owned_nodes, static_cast<std::size_t>(mesh.dimension)));
+  {
+    const auto view = marks->getLocalViewHost(Tpetra::Access::ReadWrite);
+    for (std::size_t node = 0; node < held.size(); ++node) view(node, 0) = held[node];
+  }
+  const std::vector<TiedPair> all = pairs_of(mesh, scene);
+  std::vector<TiedPair> conducting;
+  for (std::size_t t = 0; t < all.size(); ++t) {
+    int without = 0, free = 0;
+    const std::vector<LocalOrdinal>& slaves = require_node_set(mesh, scene.ties[t].value.slave);
+    for (const auto* nodes : {&slaves, &require_node_set(mesh, scene.ties[t].value.master)})
+      for (const LocalOrdinal node : *nodes) without |= node < mesh.owned_count() && !rows.lives(node) ? 1 : 0;
+    for (const LocalOrdinal node : slaves) free |= node < mesh.owned_count() && held[static_cast<std::size_t>(node)] == 0 ? 1 : 0;
+    const std::vector<int> any = most_over_ranks(*mesh.comm, std::vector<int>{without, free});
+    if (any[0] == 0 && any[1] != 0) conducting.push_back(all[t]);
+  }
+  if (conducting.empty()) return nullptr;
+  const std::array<double, 3> origin = contact_origin(mesh, meshed.size.length, scene.kinematics == Kinematics::axisymmetric);
+  return std::make_shared<const TieRows>(
+      tie_surfaces(mesh.owned_nodes, meshed.space->dofs(), positions_from(mesh, origin), marks, conducting, measure_of(scene)));
+}
+
 std::vector<int> joined_bodies(const Mesh& mesh, const Scene& scene) {
   std::vector<int> number(mesh.bodies.size());
   std::iota(number.begin(), number.end(), 0);
@@ -159,8 +186,10 @@ std::vector<char> followed_by_dependents(const FieldSpace& space, const AffineCo
   {
     const auto mark = columns.getLocalViewHost(Tpetra::Access::ReadWrite);
     const auto local = T.getLocalMatrixHost();
-    for (const LocalOrdinal dof : constraints.dependent())
+    for (const LocalOrdinal dof : constraints.dependent()) {
+      if (space.place(dof).field != 0) continue;
       for (LocalOrdinal k = 0; k < local.rowConst(dof).length; ++k) mark(local.rowConst(dof).colidx(k), 0) = 1.0;
+    }
   }
   dofs.doExport(columns, Export(T.getColMap(), T.getDomainMap()), Tpetra::ADD);
   std::vector<char> followed(static_cast<std::size_t>(space.mesh()->owned_count()), 0);

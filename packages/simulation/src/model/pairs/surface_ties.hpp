@@ -14,6 +14,8 @@
 
 namespace mortise {
 
+struct MeshedScene;
+
 /// The ties of a scene.
 struct SurfaceTies {
   std::shared_ptr<const TieRows> tied;  ///< null: the scene has none
@@ -27,6 +29,13 @@ struct SurfaceTies {
 /// @throws InputError at the ties' places for unknown sets, and as tie_surfaces()
 SurfaceTies tie_scene(Mesh& mesh, const FieldSpace& space, const Scene& scene, const HeldNodes& held, const InterfaceMeasure& measure,
                       const std::array<double, 3>& origin);
+
+/// Rows of ties of temperatures, in the component 0 of the displacement's; null: none conducts. A tie conducts if all nodes of both surfaces have a
+/// temperature. Its slave nodes whose temperature is prescribed are not tied. Collective.
+/// @param rows  of the temperature
+/// @param held  [owned nodes] whether the temperature is prescribed, or there is none
+/// @throws InputError as tie_surfaces()
+std::shared_ptr<const TieRows> tie_temperatures(const MeshedScene& meshed, const Scene& scene, const FieldRows& rows, const std::vector<char>& held);
 
 /// [mesh.bodies] a number that bodies share which ties join. Collective.
 std::vector<int> joined_bodies(const Mesh& mesh, const Scene& scene);

@@ -201,8 +201,10 @@ ContactModel make_contact(const MeshedScene& meshed, const SolidModel& solid, co
     pair.has_conditions_on_rate = scene.inertia.contact_condition == InertiaOptions::ContactCondition::gap_rate;
     if (pair.options.clearance) pair.options.clearance = seen_from(*pair.options.clearance, origin);
   }
-  contact.system = std::make_shared<ContactSystem>(mesh.owned_nodes, meshed.space->dofs(), reference_positions(mesh, origin), kept, measure_of(scene),
-                                                   std::move(pairs), timers);
+  std::vector<NodalField> further;
+  for (std::size_t field = 1; field < meshed.space->field_count(); ++field) further.push_back(meshed.space->field(field));
+  contact.system = std::make_shared<ContactSystem>(meshed.space->field(0), meshed.space->dofs(), reference_positions(mesh, origin), kept,
+                                                   measure_of(scene), std::move(pairs), timers, std::move(further));
   return contact;
 }
 

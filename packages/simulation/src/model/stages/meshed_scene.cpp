@@ -5,6 +5,7 @@
 #include <Teuchos_CommHelpers.hpp>
 #include <algorithm>
 
+#include "model/heat/heat_of_scene.hpp"
 #include "model/precision.hpp"
 #include "model/stages/collector.hpp"
 #include "mortise/mesh/build_mesh.hpp"
@@ -95,7 +96,7 @@ MeshedScene mesh_scene(const RCP<const Communicator>& comm, const Scene& scene, 
   {
     const auto timer = timers.scope("mesh");
     const RCP<Mesh> mesh = make_mesh(comm, scene, meshed.remarks);
-    meshed.space = displacement_space(mesh);
+    meshed.space = space_of_scene(mesh, scene);
     // Ties move nodes by what is summed up over ranks, so that digits differ with their number.
     if (!scene.ties.empty()) meshed.digest = mesh_digest(*mesh);
     meshed.adjustments = adjust_slaves(*mesh, scene);

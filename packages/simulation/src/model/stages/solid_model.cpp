@@ -7,6 +7,7 @@
 
 #include "model/connectors/connectors_of_scene.hpp"
 #include "model/contributions.hpp"
+#include "model/heat/heat_of_scene.hpp"
 #include "model/motion/inertia.hpp"
 #include "model/pairs/surface_ties.hpp"
 #include "model/support_constraints.hpp"
@@ -42,6 +43,7 @@ SolidModel make_solid(const MeshedScene& meshed, const Scene& scene, const Timer
     collect([&] { solid.loads.push_back(std::make_shared<LoadContribution>(load.name, load.value.load.options->make(solid.bodies), timers)); });
   parts.contributions.insert(parts.contributions.end(), solid.loads.begin(), solid.loads.end());
   collect([&] { solid.connectors = add_connectors(scene, solid.bodies, timers, parts); });
+  collect([&] { solid.heat = add_heat(meshed, scene, timers, parts); });
   collect([&] { solid.motion = std::make_shared<const PrescribedMotion>(*bodies, scene.boundary_conditions); });
   solid.supports.ties = meshed.ties.tied;
   return solid;
@@ -50,7 +52,7 @@ SolidModel make_solid(const MeshedScene& meshed, const Scene& scene, const Timer
 void add_supports(const MeshedScene& meshed, const Scene& scene, const Timers& timers, SolidModel& solid) {
   const PrescribedMotion& motion = *solid.motion;
   if (!meshed.mesh->reference_points.empty()) solid.parts.rigid = std::make_shared<FollowingNodes>(*solid.bodies, motion.dofs());
-  const SupportConstraints supported = support_constraints(meshed.space, solid.supports.ties, solid.motion);
+  const SupportConstraints supported = support_constraints(meshed.space, solid.supports.ties, solid.motion, temperature_constraints(meshed, scene, solid.heat));
   solid.parts.constraints = supported.lines;
   solid.parts.put_support_forces = supported.put_support_forces;
   Supports& supports = solid.supports;

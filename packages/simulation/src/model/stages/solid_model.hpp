@@ -7,6 +7,7 @@
 #include "model/stages/collector.hpp"
 #include "model/stages/meshed_scene.hpp"
 #include "mortise/nonlinear/semi_smooth_system.hpp"
+#include "mortise/simulation/model/heat_of_model.hpp"
 #include "mortise/simulation/model/inertia_of_model.hpp"
 #include "mortise/simulation/model/supports.hpp"
 #include "mortise/solid/bodies.hpp"
@@ -23,6 +24,7 @@ struct SolidModel {
   std::vector<std::shared_ptr<LoadContribution>> loads;  ///< of parts.contributions
   ConnectorsOfModel connectors;
   InertiaOfModel inertia;
+  HeatOfModel heat;
   SystemParts parts;  ///< without contact
 };
 

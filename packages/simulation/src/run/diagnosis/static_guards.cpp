@@ -33,7 +33,8 @@ class JumpGuard final : public StepGuard {
   JumpGuard(double length, std::shared_ptr<const StateCheck> carried) : jump_(length), carried_(std::move(carried)) {}
 
   RCP<Vector> verify(const SemiSmoothSystem& system, const AcceptedState& from, const SystemEvaluation& found, int) override {
-    jump_.verify(*system.unknowns(*from.x), *system.unknowns(found.x()), found.context().time - from.context.time, carried_ && carried_->went_far());
+    const RCP<const Vector> before = system.unknowns(*from.x), now = system.unknowns(found.x());
+    jump_.verify(*system.first_field(*before), *system.first_field(*now), found.context().time - from.context.time, carried_ && carried_->went_far());
     return Teuchos::null;
   }
   void accept(const SemiSmoothSystem&, const SystemEvaluation&) override { jump_.accept(); }

@@ -1,5 +1,7 @@
 #include "mortise/simulation/run/output/quantity_evaluators.hpp"
 
+#include "model/heat/heat_of_step.hpp"
+
 namespace mortise {
 
 QuantityContext quantity_context(const Scene& scene, const Model& model) {
@@ -10,6 +12,7 @@ QuantityContext quantity_context(const Scene& scene, const Model& model) {
   if (model.parts().rigid) context.following = &model.parts().rigid->dofs();
   context.symbols = &scene.symbols;
   context.mass = model.inertia().mass.get();
+  context.heat = heat_of_step(scene, model);
   context.connectors.springs = model.connectors().springs.get();
   context.connectors.dashpots = model.connectors().dashpots.get();
   context.connectors.are_stabilised = scene.stabilisation.acts();

@@ -7,6 +7,7 @@
 #include "model/connectors/connector_contributions.hpp"
 #include "model/connectors/stabilisation.hpp"
 #include "model/edge_contact.hpp"
+#include "model/heat/heat_of_step.hpp"
 #include "run/output/step_motion.hpp"
 
 namespace mortise {
@@ -30,7 +31,7 @@ RCP<Vector> StepEvaluation::local(const Vector& displacement) const {
 // diagonal.
 double StepEvaluation::force_round_off(const Vector& displacement) const {
   const double sum_of_diagonal = system_.stiffness_scale() * static_cast<double>(model_.dofs());
-  return std::numeric_limits<double>::epsilon() * sum_of_diagonal * (model_.size().length + displacement.normInf());
+  return std::numeric_limits<double>::epsilon() * sum_of_diagonal * (model_.size().length + system_.first_field(displacement)->normInf());
 }
 
 RCP<Vector> StepEvaluation::spring_force(const SystemEvaluation& at) const {
@@ -52,8 +53,9 @@ std::vector<double> StepEvaluation::quantities(const SystemEvaluation& at) {
   const auto displacement = system_.unknowns(at.x());
   const auto local_displacement = local(*displacement);
   const double time = at.context().time;
-  const RCP<const Vector> reaction = at.forces();
-  const RCP<Vector> external = external_force(at.x(), time);
+  const RCP<const Vector> all_forces = at.forces(), reaction = system_.first_field(*all_forces);
+  const RCP<const Vector> all_external = external_force(at.x(), time);
+  const auto external = rcp(new Vector(*system_.first_field(*all_external), Teuchos::Copy));
   std::optional<StepMotion> motion = step_motion(model_, system_, at);
   if (motion && !has_begun_ && !motion->is_over_step) add_forces_at_start(model_, at, *motion);
   has_begun_ = true;
@@ -74,6 +76,8 @@ std::vector<double> StepEvaluation::quantities(const SystemEvaluation& at) {
   if (model_.connectors().dashpot_forces) context.connectors.dashpot_velocity = &model_.connectors().dashpot_forces->last_velocity();
   if (model_.connectors().stabilisation) context.connectors.stabilisation_force = &model_.connectors().stabilisation->force();
   context.reaction = reaction.get();
+  if (model_.heat().bodies) context.heat = heat_of_step(scene_, model_, *all_forces, time - last_time_);
+  last_time_ = time;
   context.external_force = external.get();
   const std::optional<MotionOfStep> of_step = motion ? std::optional(motion->of_quantities()) : std::nullopt;
   context.motion = of_step ? &*of_step : nullptr;
@@ -96,6 +100,7 @@ RCP<Vector> StepEvaluation::external_force(const Vector& x, double time) const {
 }
 
 void StepEvaluation::serialize(StateArchive& archive) {
+  mortise::serialize(archive, "quantities.last_time", last_time_);
   for (std::size_t n = 0; n < evaluators_.size(); ++n) evaluators_[n]->serialize(archive, "quantity." + scene_.quantities[n].name);
 }
 
@@ -112,6 +117,8 @@ std::vector<Field> StepEvaluation::fields(const SystemEvaluation& at, const std:
     for (const LocalOrdinal dof : model_.supports().dofs) supports(dof, 0) = all(dof, 0);
   }
   FieldState state{*model_.bodies(), model_.contact().get(), *displacement, *local_displacement, contact_laws(at), &reaction};
+  const HeatOfStep heat = heat_of_step(scene_, model_);
+  state.heat = &heat;
   const std::optional<StepMotion> motion = step_motion(model_, system_, at);
   if (motion) {
     state.velocity = motion->velocity.get();

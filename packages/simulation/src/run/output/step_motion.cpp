@@ -2,6 +2,7 @@
 
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Vector.hpp>
+#include <algorithm>
 
 namespace mortise {
 
@@ -59,6 +60,8 @@ void add_forces_at_start(const Model& model, const SystemEvaluation& at, StepMot
   const auto external = rcp(new Vector(space.dofs())), damping = rcp(new Vector(space.dofs()));
   std::optional<StepFailure> failure;
   for (const auto& contribution : model.parts().contributions) {
+    const std::vector<std::string> writes = contribution->uses().writes;
+    if (std::find(writes.begin(), writes.end(), "displacement") == writes.end()) continue;
     if (contribution->kind() == Contribution::Kind::external) contribution->add_residual(start, *external, failure);
     if (contribution->uses().time_derivatives > 0) contribution->add_residual(start, *damping, failure);
   }

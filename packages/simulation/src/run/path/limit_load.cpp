@@ -103,6 +103,7 @@ std::string describe_flow(const Model& model, const Vector& failed, const Vector
 
 std::string explain_limit_load(const FailedTry& failed, const Model& model, const SemiSmoothSystem& system) {
   if (!newton_came_to_no_end(failed.failure.kind()) || !failed.linearised) return {};
+  if (system.parts().fields.size() > 1) return {};  // of other units
   std::optional<double> stiffness;
   try {
     stiffness = remaining_stiffness(system, failed);

@@ -70,7 +70,7 @@ RCP<Vector> StabilityCheck::verify(const SemiSmoothSystem& system, const Accepte
   {
     Vector change(*system.unknowns(to.x()), Teuchos::Copy);
     change.update(-1.0, *system.unknowns(*from.x), 1.0);
-    passed_moved_ = change.normInf();
+    passed_moved_ = system.first_field(change)->normInf();
   }
   const double begin = from.context.time, end = to.context().time;
   passed_dt_ = end - begin;

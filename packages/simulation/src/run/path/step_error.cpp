@@ -17,9 +17,9 @@ RCP<Vector> StepErrorGuard::verify(const SemiSmoothSystem& system, const Accepte
     const auto rows = change.getLocalViewHost(Tpetra::Access::ReadWrite);
     for (const LocalOrdinal dof : step.integration->massless) rows(dof, 0) = 0.0;
   }
-  const double size = std::max(largest_, d->normInf());
+  const double size = std::max(largest_, system.first_field(*d)->normInf());
   const double beta = 1.0 / step.integration->scheme.acceleration[0];
-  const double error = std::abs(beta - 1.0 / 6.0) * step.dt * step.dt * change.normInf();
+  const double error = std::abs(beta - 1.0 / 6.0) * step.dt * step.dt * system.first_field(change)->normInf();
   growth_ = error > 0.0 ? std::clamp(0.9 * std::cbrt(tolerance_ * size / error), 0.5, 2.0) : 2.0;
   if (error > tolerance_ * size)
     throw StepFailure(FailureKind::step_error,
@@ -29,7 +29,7 @@ RCP<Vector> StepErrorGuard::verify(const SemiSmoothSystem& system, const Accepte
 }
 
 void StepErrorGuard::accept(const SemiSmoothSystem& system, const SystemEvaluation& at) {
-  largest_ = std::max(largest_, system.unknowns(at.x())->normInf());
+  largest_ = std::max(largest_, system.first_field(*system.unknowns(at.x()))->normInf());
 }
 
 void StepErrorGuard::serialize(StateArchive& archive) { mortise::serialize(archive, "step_error.largest", largest_); }

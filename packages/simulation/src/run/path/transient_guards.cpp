@@ -19,9 +19,9 @@ class SpeedGuard final : public StepGuard {
  public:
   SpeedGuard(double reach, std::function<void(const std::string&)> warn) : reach_(reach), warn_(std::move(warn)) {}
 
-  RCP<Vector> verify(const SemiSmoothSystem&, const AcceptedState& from, const SystemEvaluation& found, int) override {
+  RCP<Vector> verify(const SemiSmoothSystem& system, const AcceptedState& from, const SystemEvaluation& found, int) override {
     if (is_said_) return Teuchos::null;
-    const double speed = from.rates->velocity->normInf(), dt = found.context().step->dt;
+    const double speed = system.first_field(*from.rates->velocity)->normInf(), dt = found.context().step->dt;
     if (speed * dt <= reach_) return Teuchos::null;
     is_said_ = true;
     warn_(fmt::format(

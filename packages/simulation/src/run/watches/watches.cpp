@@ -2,6 +2,7 @@
 
 #include "run/watches/coarse_crossing.hpp"
 #include "run/watches/coarse_slave.hpp"
+#include "run/watches/heat_watch.hpp"
 #include "run/watches/surface_watch.hpp"
 
 namespace mortise {
@@ -12,6 +13,7 @@ StepGuards watches(const Model& model, const Scene& scene, const std::function<v
   if (model.contact()) guards.push_back(std::make_shared<SurfaceWatch>(model, scene, warn));
   if (model.contact()) guards.push_back(std::make_shared<CoarseSlaveWatch>(model, scene, warn));
   if (model.edges() != nullptr) guards.push_back(std::make_shared<CoarseCrossingWatch>(model, scene, warn));
+  if (model.heat().bodies) guards.push_back(std::make_shared<HeatWatch>(model, scene, warn));
   return guards;
 }
 

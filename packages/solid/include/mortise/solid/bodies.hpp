@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -42,9 +43,13 @@ std::shared_ptr<const FieldSpace> displacement_space(RCP<const Mesh> mesh);
 /// All bodies of a model.
 ///
 /// Each rank computes every element that touches one of its nodes and writes only the rows it owns: assembly does not communicate.
-/// Displacement arguments live on the local dofs of the space: owned, then ghosts.
+/// Displacement arguments live on the local dofs of the space: owned, then ghosts. They hold the other fields too, of which bodies that know the
+/// temperature read that.
 class Bodies {
  public:
+  /// A step so long that no rate is left.
+  static constexpr double without_rates = std::numeric_limits<double>::infinity();
+
   /// The first field of `space` are the displacements. `thickness` [length] counts for the plane kinematics. One entry of `bodies` for each block of
   /// the mesh, in its order.
   /// Collective. Throws InputError for combinations without meaning and for reference elements with det J <= 0, naming the body at its place.
@@ -68,16 +73,30 @@ class Bodies {
   const FieldSpace& space() const { return *space_; }
   const std::shared_ptr<const FieldSpace>& shared_space() const { return space_; }
 
-  /// residual += f_int, f_int = integral of tau : grad eta dV0, on owned dofs. A det F <= 0 (or at the centre, det F0 <= 0) is put into `failure` if
-  /// that is empty; the sum is then meaningless.
-  void add_internal_force(const Vector& local_displacement, Vector& residual, std::optional<StepFailure>& failure) const;
+  /// True if the law of a body takes the temperature: its material has ThermalProperties, and a field "temperature" of the space lives on its nodes.
+  /// Forces of such bodies depend on that field. The same on all ranks.
+  bool know_temperature() const { return know_temperature_; }
 
-  /// matrix += factor d f_int / d displacement. `matrix` has the graph of the space, or more entries and more columns after its own.
-  void add_stiffness(const Vector& local_displacement, Matrix& matrix, std::optional<StepFailure>& failure, double factor = 1.0) const;
+  /// True if bodies add their heat to the rows of the temperature. The same on all ranks.
+  bool heat() const;
+
+  /// residual += f_int, f_int = integral of tau : grad eta dV0, on owned dofs. A det F <= 0 (or at the centre, det F0 <= 0) is put into `failure` if
+  /// that is empty; the sum is then meaningless. Bodies that heat add -integral of N_a H dV0 to the rows of the temperature, with the power H of
+  /// ThermalLaw for a step of length `time_step`.
+  void add_internal_force(const Vector& local_displacement, Vector& residual, std::optional<StepFailure>& failure,
+                          double time_step = without_rates) const;
+
+  /// matrix += factor d f_int / d displacement, of bodies that know the temperature also by it, and the derivatives of their heat. `matrix` has the
+  /// graph of the space, or more entries and more columns after its own.
+  void add_stiffness(const Vector& local_displacement, Matrix& matrix, std::optional<StepFailure>& failure, double factor = 1.0,
+                     double time_step = without_rates) const;
 
   /// Both in one pass over the elements, for the time that add_stiffness() takes.
   void add_internal_force_and_stiffness(const Vector& local_displacement, Vector& residual, Matrix& matrix, std::optional<StepFailure>& failure,
-                                        double factor = 1.0) const;
+                                        double factor = 1.0, double time_step = without_rates) const;
+
+  /// Power of each body that becomes heat, plastic and thermoelastic, summed over all ranks. Collective.
+  std::vector<double> heat_powers(const Vector& local_unknowns, double time_step) const;
 
   /// matrix += factor M, the consistent mass matrix: M_ab = integral of rho0 N_a N_b dV0 for each component. Rigid bodies have no elements and add
   /// nothing. `matrix` is as for add_stiffness().
@@ -152,6 +171,7 @@ class Bodies {
   std::vector<BodyProperties> properties_;
   std::vector<std::unique_ptr<ElementBlock>> blocks_;
   std::vector<double> point_masses_;
+  bool know_temperature_ = false;
 };
 
 /// The rigid body modes about the current configuration, on the owned dofs. Collective.

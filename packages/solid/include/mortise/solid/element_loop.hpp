@@ -158,18 +158,14 @@ class ElementLoop {
   template <bool residual_wanted, bool tangent_wanted, class Integrand, std::size_t fields, class Report>
   void add(const BlockIntegral<Integrand>& integral, const Fields<fields>& values, const AssemblyTarget& target, const Report& report) const {
     for (LocalOrdinal element = 0; element < block_.size(); ++element) {
-      const LocalOrdinal* node = block_.nodes(element);
-      if (!touches_owned(node)) continue;
+      if (!touches_owned(element)) continue;
       ElementSums<Integrand, residual_wanted, tangent_wanted> sums;
       const auto points = points_of<Integrand>(element, integral.rule, values);
       if constexpr (std::is_void_v<decltype(integral.add(element, points, sums))>)
         integral.add(element, points, sums);
       else if (const auto trouble = integral.add(element, points, sums))
         report(element, trouble);
-      if constexpr (residual_wanted)
-        if (target.residual.values != nullptr) scatter<Integrand::components>(node, sums.residual, target.residual);
-      if constexpr (tangent_wanted) scatter(element, sums.tangent, target);
-      if constexpr (tangent_wanted && has_coupling<Integrand>) scatter(element, sums.coupling, target);
+      add_sums(element, sums, target);
     }
   }
 
@@ -188,6 +184,23 @@ class ElementLoop {
     return Points(rule, reference(node), gather<typename Points::NodalValues>(node, values, std::make_index_sequence<fields>{}));
   }
 
+  /// Whether rows of the element are this rank's.
+  bool touches_owned(LocalOrdinal element) const {
+    const LocalOrdinal* node = block_.nodes(element);
+    for (int a = 0; a < nodes; ++a)
+      if (node[a] < owned_nodes_) return true;
+    return false;
+  }
+
+  /// target += the sums of one element, for who has a loop of his own: see add().
+  template <class Integrand, bool residual_wanted, bool tangent_wanted>
+  void add_sums(LocalOrdinal element, const ElementSums<Integrand, residual_wanted, tangent_wanted>& sums, const AssemblyTarget& target) const {
+    if constexpr (residual_wanted)
+      if (target.residual.values != nullptr) scatter<Integrand::components>(block_.nodes(element), sums.residual, target.residual);
+    if constexpr (tangent_wanted) scatter(element, sums.tangent, target);
+    if constexpr (tangent_wanted && has_coupling<Integrand>) scatter(element, sums.coupling, target);
+  }
+
   /// Reference positions of nodes.
   Positions reference(const LocalOrdinal* node) const {
     Positions X;
@@ -196,12 +209,6 @@ class ElementLoop {
   }
 
  private:
-  bool touches_owned(const LocalOrdinal* node) const {
-    for (int a = 0; a < nodes; ++a)
-      if (node[a] < owned_nodes_) return true;
-    return false;
-  }
-
   /// Of the columns of a field, [elements x nodes x nodes].
   static std::vector<LocalOrdinal> positions(const FieldSpace& space, const Block& block, std::size_t field) {
     std::vector<LocalOrdinal> result;

@@ -37,6 +37,13 @@ struct ConductanceLaw : Described {
   virtual std::optional<std::string> fault() const = 0;
 };
 
+/// h = 0: nothing flows.
+struct NoConductance : ConductanceLaw {
+  void describe(Parameters&) override {}
+  Conductance at(const TouchingPoint&) const override { return {}; }
+  std::optional<std::string> fault() const override { return std::nullopt; }
+};
+
 /// h whatever the pressure.
 struct ConstantConductance : ConductanceLaw {
   double value = 0.0;  ///< h

@@ -23,6 +23,13 @@ struct GapConductance : Described {
   virtual std::optional<std::string> fault() const = 0;
 };
 
+/// h = 0: nothing flows.
+struct NoGapConductance : GapConductance {
+  void describe(Parameters&) override {}
+  ConductanceOfGap at(double) const override { return {}; }
+  std::optional<std::string> fault() const override { return std::nullopt; }
+};
+
 /// h = k / (g + g_0), of a medium at rest in the gap.
 struct MediumConductance : GapConductance {
   double conductivity = 0.0;  ///< k [power / (length temperature)]

@@ -10,6 +10,7 @@
 #include "mortise/core/timers.hpp"
 #include "mortise/mesh/build_mesh.hpp"
 #include "mortise/nonlinear/semi_smooth_system.hpp"
+#include "mortise/simulation/model/heat_of_model.hpp"
 #include "mortise/simulation/model/inertia_of_model.hpp"
 #include "mortise/simulation/model/supports.hpp"
 #include "mortise/simulation/model/surfaces_at_start.hpp"
@@ -71,6 +72,8 @@ class Model {
   const std::shared_ptr<ContactSystem>& contact() const { return parts_.contact; }
   /// Without mass if the scene has no inertia.
   const InertiaOfModel& inertia() const { return inertia_; }
+  /// Without bodies if the scene has no temperature.
+  const HeatOfModel& heat() const { return heat_; }
   /// Null if no edges of the scene's pairs may cross.
   EdgeContact* edges() const { return edges_.get(); }
   const ConnectorsOfModel& connectors() const { return connectors_; }
@@ -109,6 +112,7 @@ class Model {
   MeshSize size_;
   std::shared_ptr<const Bodies> bodies_;
   InertiaOfModel inertia_;
+  HeatOfModel heat_;
   std::vector<char> held_by_contact_only_;
   std::vector<std::vector<int>> bodies_of_pairs_;
   Effects effects_;

@@ -6,6 +6,7 @@
 
 #include "mortise/contact/contact_system.hpp"
 #include "mortise/io/field_writer.hpp"
+#include "mortise/simulation/quantities/quantity.hpp"
 #include "mortise/solid/bodies.hpp"
 
 namespace mortise {
@@ -21,6 +22,7 @@ struct FieldState {
   const Vector& local_displacement;      ///< owned dofs, then ghosts
   const ContactLaws* laws;               ///< of it at this state; null without contact
   const Vector* reaction = nullptr;      ///< owned dofs: forces of the supports, 0 where nothing is prescribed; null: all are 0
+  const HeatOfStep* heat = nullptr;      ///< null, or without bodies: temperatures and fluxes are zero
   const Vector* velocity = nullptr;      ///< owned dofs; null without inertia
   const Vector* acceleration = nullptr;  ///< owned dofs; null likewise
 };

@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,8 @@
 #include "mortise/solid/bodies.hpp"
 #include "mortise/solid/connectors.hpp"
 #include "mortise/solid/nodal_mass.hpp"
+#include "mortise/thermal/thermal_bodies.hpp"
+#include "mortise/thermal_contact/contact_heat.hpp"
 
 namespace mortise {
 
@@ -48,6 +51,29 @@ struct ConnectorsOfStep {
   bool are_stabilised = false;                  ///< the scene has a stabilisation
 };
 
+/// Heat of a step. Powers are means over the step, energies sums since the start.
+struct HeatOfStep {
+  /// What flows into bodies.
+  struct Flow {
+    std::string name;
+    std::vector<double> power, energy;  ///< [mesh bodies]
+  };
+  /// What flows across a pair.
+  struct PairFlow {
+    std::string pair;
+    HeatFlow power, energy;
+    const std::vector<NodeHeat>* nodes = nullptr;  ///< owned slave nodes where anything flows
+  };
+  const ThermalBodies* bodies = nullptr;  ///< null: the scene has no temperature
+  std::vector<Flow> sources{};            ///< of volumes and of loads
+  std::optional<Flow> stored{};           ///< what bodies store; none: a steady analysis
+  std::optional<Flow> dissipated{};       ///< heat of plastic flow and of elastic strain; none: there is none
+  std::vector<PairFlow> pairs{};          ///< of pairs that conduct or that friction heats
+  const Vector* reaction = nullptr;       ///< on owned dofs: at prescribed temperatures the power into the bodies; null while evaluators are made
+  const std::vector<LocalOrdinal>* prescribed = nullptr;  ///< rows of prescribed temperatures
+  double time_step = 0.0;                 ///< length of the step
+};
+
 /// What a quantity may look at. The vectors are null while evaluators are made.
 struct QuantityContext {
   const Bodies& bodies;
@@ -63,6 +89,7 @@ struct QuantityContext {
   const Vector* reaction = nullptr;
   const Vector* external_force = nullptr;  ///< f_ext on owned dofs, as it is in balance
   const NodalMass* mass = nullptr;         ///< null: the scene has no inertia
+  HeatOfStep heat{};
   ConnectorsOfStep connectors{};
   const MotionOfStep* motion = nullptr;                   ///< null at the first state, and without inertia
   double force_round_off = 0.0;                           ///< what round-off of positions and stresses may leave of a sum of |forces|, over all ranks

@@ -47,6 +47,7 @@ enum class PointField {
   displacement_y,
   displacement_z,
   displacement_magnitude,
+  temperature,
   stress_xx,
   stress_yy,
   stress_zz,
@@ -79,12 +80,25 @@ struct Mean : FieldQuantity {
   std::unique_ptr<QuantityEvaluator> make_evaluator(const QuantityContext& context) const override;
 };
 
-/// Displacement of a point, given by its reference position, interpolated in the element that holds it. [length]
-struct PointDisplacement : Quantity {
+/// A point of a body, given by its reference position.
+struct PointOptions {
   Located<double> x, y;
   std::optional<double> z;    ///< in three dimensions
   Located<std::string> body;  ///< empty: any
+  void describe(Parameters& parameters);
+};
+
+/// Displacement of a point, interpolated in the element that holds it. [length]
+struct PointDisplacement : Quantity {
+  PointOptions point;
   Component component = Component::y;
+  void describe(Parameters& parameters) override;
+  std::unique_ptr<QuantityEvaluator> make_evaluator(const QuantityContext& context) const override;
+};
+
+/// Temperature of a point, in the same way. [temperature]
+struct PointTemperature : Quantity {
+  PointOptions point;
   void describe(Parameters& parameters) override;
   std::unique_ptr<QuantityEvaluator> make_evaluator(const QuantityContext& context) const override;
 };

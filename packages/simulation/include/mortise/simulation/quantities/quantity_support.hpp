@@ -31,6 +31,9 @@ std::unique_ptr<QuantityEvaluator> evaluator_of(Function function) {
 /// Throws InputError for a scene without inertia.
 void require_inertia(const QuantityContext& context);
 
+/// Throws InputError for a scene without temperature.
+void require_temperature(const QuantityContext& context);
+
 /// a . b over the nodes of a body, or of all. Collective.
 double sum_over_body(const QuantityContext& context, const std::optional<LocalOrdinal>& body, const Vector& a, const Vector& b);
 

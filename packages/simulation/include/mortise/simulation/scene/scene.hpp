@@ -18,6 +18,7 @@
 #include "mortise/simulation/scene/automatic_contact.hpp"
 #include "mortise/simulation/scene/checks.hpp"
 #include "mortise/simulation/scene/contact_start.hpp"
+#include "mortise/simulation/scene/heat.hpp"
 #include "mortise/simulation/scene/inertia.hpp"
 #include "mortise/simulation/scene/pattern.hpp"
 #include "mortise/simulation/scene/stabilisation.hpp"
@@ -26,6 +27,7 @@
 #include "mortise/solid/loads.hpp"
 #include "mortise/solid/point_masses.hpp"
 #include "mortise/solid/prescribed_motion.hpp"
+#include "mortise/thermal/thermal_properties.hpp"
 
 namespace mortise {
 
@@ -37,6 +39,7 @@ struct BodyOptions {
   std::optional<double> mass;              ///< of a rigid body with inertia
   std::vector<double> moments_of_inertia;  ///< about its centre of mass: in 2D one, in 3D about x, y, z; with `mass`
   std::vector<double> centre_of_mass;      ///< empty: the reference point; with `mass`
+  std::optional<ScalarFunction> temperature;  ///< of a rigid body, over t; no value: it has none
   bool massless = false;                   ///< with inertia: a body without density has no mass
   Located<std::string> material;
   AssignmentList materials;                     ///< of blocks of a mesh file: name of the block, name of the material
@@ -60,6 +63,7 @@ struct TieOptions {
 /// A material by name; the kind of law stands behind "type".
 struct MaterialChoice {
   Choice<MaterialOptions> law;
+  ThermalProperties heat;  ///< without a conductivity: bodies of it have no temperature
   void describe(Parameters& parameters);
 };
 
@@ -82,6 +86,7 @@ struct ContactPairOptions {
   ContactStartOptions start;
   std::string reason;  ///< why the slave is the slave, of pairs that the program found
   ContactOptions contact;
+  ContactHeatOptions heat;
   void describe(Parameters& parameters);
 };
 
@@ -137,6 +142,7 @@ struct Scene {
   std::vector<Named<ContactPairOptions>> contact;
   AutomaticContactOptions automatic_contact;
   InertiaOptions inertia;
+  HeatOptions heat;
   std::vector<Named<InitialConditionOptions>> initial_conditions;
   StabilisationOptions stabilisation;
   SteppingOptions stepping;

@@ -42,6 +42,7 @@ class StepEvaluation {
   const SemiSmoothSystem& system_;
   QuantityEvaluators evaluators_;
   std::vector<ContactProfile> profiles_;
+  double last_time_ = 0.0;  ///< at which quantities were evaluated
   bool has_begun_ = false;  ///< quantities of a step were evaluated
 };
 

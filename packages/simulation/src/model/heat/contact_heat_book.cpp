@@ -1,0 +1,235 @@
+#include "model/heat/contact_heat_book.hpp"
+
+#include <fmt/format.h>
+
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "model/pairs/surface_ties.hpp"
+#include "mortise/core/guarded_value.hpp"
+#include "mortise/core/over_ranks.hpp"
+#include "mortise/mesh/sets.hpp"
+#include "surfaces/body_surfaces.hpp"
+
+namespace mortise {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// What is known of one side of a pair, over all ranks.
+struct SideHeat {
+  bool has_rows = false;     ///< some node has a temperature among the unknowns
+  bool lacks = false;        ///< some node has no temperature at all
+  double effusivity = none;  ///< mean of its bodies, at the first temperature; NaN: of none
+};
+
+const BodyOptions& body_of(const Scene& scene, const Mesh& mesh, std::size_t body) {
+  const auto found = std::find_if(scene.bodies.begin(), scene.bodies.end(), [&](const auto& one) { return one.name == mesh.bodies[body].name; });
+  return found->value;
+}
+
+/// sqrt(k rho c) of a body's first block with a temperature, at the temperature at the start in the origin. NaN where it has none.
+double effusivity(const HeatOfModel& heat, const Scene& scene, const Mesh& mesh, std::size_t body) {
+  const double start = value_or_nan(*scene.heat.initial_temperature, {0.0, 0.0, 0.0});
+  for (std::size_t block = 0; block < mesh.blocks.size(); ++block) {
+    const ThermalBody& of_block = heat.bodies->bodies()[block];
+    if (static_cast<std::size_t>(mesh.blocks[block].body) != body || !of_block.properties || !of_block.properties->specific_heat.is_given()) continue;
+    return std::sqrt(of_block.properties->conductivity.at(start) * of_block.density * of_block.properties->specific_heat.at(start));
+  }
+  return none;
+}
+
+SideHeat side_of(const MeshedScene& meshed, const Scene& scene, const HeatOfModel& heat, const Located<std::string>& set) {
+  const Mesh& mesh = *meshed.mesh;
+  const FieldRows& rows = meshed.space->rows(heat.bodies->temperature());
+  SideHeat side;
+  double sum = 0.0;
+  int count = 0;
+  for (const SidesOfBody& sides : sides_by_body(mesh, require_side_set(mesh, set))) {
+    if (mesh.bodies[sides.body].is_surface) {
+      if (!body_of(scene, mesh, sides.body).temperature) side.lacks = true;
+      continue;
+    }
+    if (const double e = effusivity(heat, scene, mesh, sides.body); std::isfinite(e)) sum += e, ++count;
+  }
+  int lives = 0, lacks = 0;
+  for (const LocalOrdinal node : require_node_set(mesh, set)) {
+    if (node >= mesh.owned_count()) continue;
+    if (rows.lives(node))
+      lives = 1;
+    else if (!mesh.bodies[static_cast<std::size_t>(mesh.body_of_node[static_cast<std::size_t>(node)])].is_surface)
+      lacks = 1;
+  }
+  const std::vector<int> all = most_over_ranks(*mesh.comm, std::vector<int>{lives, lacks, side.lacks ? 1 : 0});
+  side.has_rows = all[0] != 0;
+  side.lacks = all[1] != 0 || all[2] != 0;
+  if (count > 0) side.effusivity = sum / count;
+  return side;
+}
+
+/// Of the heat of friction: all heats the side with a temperature where only one has rows.
+double share_of(const ContactHeatOptions& options, const SideHeat& slave, const SideHeat& master) {
+  if (options.slave_share) return *options.slave_share;
+  if (!master.has_rows) return 1.0;
+  if (!slave.has_rows) return 0.0;
+  if (!std::isfinite(slave.effusivity) || !std::isfinite(master.effusivity)) return 0.5;
+  return share_of_slave(slave.effusivity, master.effusivity);
+}
+
+}  // namespace
+
+std::vector<ThermalPair> thermal_pairs(const MeshedScene& meshed, const Scene& scene, const HeatOfModel& heat) {
+  std::vector<ThermalPair> pairs;
+  std::vector<Diagnostic> diagnostics;
+  for (std::size_t p = 0; p < scene.contact.size(); ++p) {
+    const auto& pair = scene.contact[p];
+    const ContactHeatOptions& options = pair.value.heat;
+    const auto refuse = [&](const std::string& words) { diagnostics.push_back({pair.place, words}); };
+    if (!heat.bodies) {
+      if (options.conducts() || options.crosses_gaps())
+        refuse(fmt::format(
+            "pair \"{}\" has a law of conductance, but the scene no temperature; please give the list \"heat\" of the scene an \"analysis\"",
+            pair.name));
+      continue;
+    }
+    const SideHeat slave = side_of(meshed, scene, heat, pair.value.slave), master = side_of(meshed, scene, heat, pair.value.master);
+    ThermalPair thermal;
+    thermal.pair = p;
+    if (options.conducts()) thermal.conductance = options.conductance.law.options;
+    if (options.crosses_gaps()) thermal.gap = options.gap.law.options;
+    if ((thermal.conductance || thermal.gap) && (slave.lacks || master.lacks))
+      refuse(fmt::format(
+          "pair \"{}\" conducts heat, but {} has no temperature; please give its materials a list \"heat\" with a \"conductivity\", or, of a "
+          "rigid body, a \"temperature\"",
+          pair.name, slave.lacks ? "its slave" : "its master"));
+    if (thermal.conductance)
+      if (const auto fault = thermal.conductance->fault()) refuse(fmt::format("conductance of pair \"{}\": {}", pair.name, *fault));
+    if (thermal.gap)
+      if (const auto fault = thermal.gap->fault()) refuse(fmt::format("gap conductance of pair \"{}\": {}", pair.name, *fault));
+    const bool rubs = pair.value.contact.friction.options && pair.value.contact.friction.options->acts();
+    if (rubs && options.friction_heats && scene.heat.is_transient() && (slave.has_rows || master.has_rows))
+      thermal.slave_share = share_of(options, slave, master);
+    if (thermal.conductance || thermal.gap || thermal.slave_share) pairs.push_back(std::move(thermal));
+  }
+  throw_if_any(*meshed.mesh->comm, diagnostics);
+  return pairs;
+}
+
+std::vector<int> bodies_that_conduct(const MeshedScene& meshed, const Scene& scene, const std::vector<ThermalPair>& pairs) {
+  const Mesh& mesh = *meshed.mesh;
+  std::vector<int> number = joined_bodies(mesh, scene);
+  for (const ThermalPair& pair : pairs) {
+    if (!pair.conductance && !pair.gap) continue;
+    std::vector<std::size_t> bodies;
+    for (const auto* set : {&scene.contact[pair.pair].value.slave, &scene.contact[pair.pair].value.master})
+      for (const SidesOfBody& sides : sides_by_body(mesh, require_side_set(mesh, *set))) bodies.push_back(sides.body);
+    for (const std::size_t body : bodies) std::replace(number.begin(), number.end(), number[body], number[bodies.front()]);
+  }
+  return number;
+}
+
+ContactHeatBook::ContactHeatBook(const MeshedScene& meshed, const Scene& scene, const HeatOfModel& heat, const ContactSystem& contact,
+                                 std::vector<ThermalPair> pairs, Timers timers)
+    : mesh_(meshed.mesh),
+      rigid_(mesh_->bodies.size()),
+      pairs_(std::move(pairs)),
+      heat_(contact, meshed.space->field(heat.bodies->temperature()), meshed.space->dofs(), pairs_),
+      timers_(std::move(timers)),
+      sums_(pairs_.size()),
+      nodes_(pairs_.size()) {
+  for (const ThermalPair& pair : pairs_) pairs_of_scene_.push_back(pair.pair);
+  for (std::size_t body = 0; body < mesh_->bodies.size(); ++body) {
+    if (!mesh_->bodies[body].is_surface) continue;
+    rigid_[body] = body_of(scene, *mesh_, body).temperature;
+    any_rigid_ = any_rigid_ || rigid_[body];
+  }
+}
+
+std::optional<std::size_t> ContactHeatBook::index(std::size_t pair_of_scene) const {
+  const auto found = std::find(pairs_of_scene_.begin(), pairs_of_scene_.end(), pair_of_scene);
+  if (found == pairs_of_scene_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - pairs_of_scene_.begin());
+}
+
+RCP<const Vector> ContactHeatBook::of_rigid_bodies(double time, std::optional<StepFailure>& failure) const {
+  if (!any_rigid_) return Teuchos::null;
+  std::vector<double> of_body(rigid_.size(), none);
+  for (std::size_t body = 0; body < rigid_.size(); ++body) {
+    if (!rigid_[body]) continue;
+    of_body[body] = value_or_nan(*rigid_[body], {time});
+    if (!std::isfinite(of_body[body]) && !failure)
+      failure.emplace(FailureKind::input, fmt::format("the temperature of the rigid body \"{}\", \"{}\", is {} at t = {:g}", mesh_->bodies[body].name,
+                                                      rigid_[body]->source(), of_body[body], time));
+  }
+  const auto result = rcp(new Vector(mesh_->owned_nodes));
+  const auto view = result->getLocalViewHost(Tpetra::Access::OverwriteAll);
+  for (LocalOrdinal node = 0; node < mesh_->owned_count(); ++node)
+    view(node, 0) = of_body[static_cast<std::size_t>(mesh_->body_of_node[static_cast<std::size_t>(node)])];
+  return result;
+}
+
+template <class Function>
+auto ContactHeatBook::with_temperatures(const Configuration& at, std::optional<StepFailure>& failure, const Function& function) const {
+  const RCP<const Vector> rigid = of_rigid_bodies(at.time, failure);
+  throw_if_any(*mesh_->comm, failure);
+  return function(rigid.is_null() ? NodalTemperature(at.unknowns) : NodalTemperature(at.unknowns, *rigid));
+}
+
+void ContactHeatBook::add_residual(const ContactLaws& laws, const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) {
+  const auto timer = timers_.scope("contact heat");
+  ++calls_;
+  with_temperatures(at, failure, [&](const NodalTemperature& theta) { heat_.evaluate(laws, theta, time_step(at)).add_to(residual); });
+}
+
+ContactContribution::Derivatives ContactHeatBook::differentiate(const ContactLinearisation& linearised, const Configuration& at,
+                                                                std::optional<StepFailure>& failure) {
+  const auto timer = timers_.scope("contact heat");
+  ++calls_;
+  return with_temperatures(at, failure, [&](const NodalTemperature& theta) {
+    const DifferentiatedHeat heat = heat_.differentiate(linearised, theta, time_step(at));
+    return Derivatives{heat.of_dofs(), heat.of_multipliers()};
+  });
+}
+
+void ContactHeatBook::commit(const ContactLaws& laws, const Configuration& at) {
+  std::optional<StepFailure> failure;  // a converged state has none
+  with_temperatures(at, failure, [&](const NodalTemperature& theta) {
+    const ContactHeat heat = heat_.evaluate(laws, theta, time_step(at));
+    const double dt = at.time - time_;
+    for (std::size_t pair = 0; pair < pairs_.size(); ++pair) {
+      Sums& sums = sums_[pair];
+      sums.power = heat.flow(pair);
+      const auto add = [&](double HeatFlow::*member) { sums.energy.*member += dt * sums.power.*member; };
+      for (const auto member : {&HeatFlow::conducted, &HeatFlow::friction, &HeatFlow::to_slave_without_rows, &HeatFlow::to_master_without_rows})
+        add(member);
+      nodes_[pair] = heat.nodes(pair);
+    }
+  });
+  if (at.time > time_) last_step_ = at.time - time_;
+  time_ = at.time;
+}
+
+void ContactHeatBook::serialize(StateArchive& archive) {
+  mortise::serialize(archive, "contact_heat.time", time_);
+  mortise::serialize(archive, "contact_heat.last_step", last_step_);
+  std::vector<double> numbers;
+  for (const Sums& sums : sums_)
+    for (const HeatFlow* flow : {&sums.power, &sums.energy})
+      numbers.insert(numbers.end(), {flow->conducted, flow->friction, flow->to_slave_without_rows, flow->to_master_without_rows});
+  const std::size_t count = numbers.size();
+  mortise::serialize(archive, "contact_heat.sums", numbers);
+  archive.refuse_if(numbers.size() == count
+                        ? std::nullopt
+                        : std::optional(fmt::format("\"contact_heat.sums\" has {} numbers; expected are {}", numbers.size(), count)));
+  std::size_t n = 0;
+  for (Sums& sums : sums_)
+    for (HeatFlow* flow : {&sums.power, &sums.energy}) {
+      *flow = {numbers[n], numbers[n + 1], numbers[n + 2], numbers[n + 3]};
+      n += 4;
+    }
+}
+
+}  // namespace mortise

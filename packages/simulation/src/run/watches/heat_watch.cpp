@@ -1,0 +1,113 @@
+#include "run/watches/heat_watch.hpp"
+
+#include <fmt/format.h>
+
+#include <Tpetra_Vector.hpp>
+#include <algorithm>
+#include <cmath>
+
+#include "model/heat/heat_of_scene.hpp"
+#include "mortise/core/over_ranks.hpp"
+#include "mortise/simulation/quantities/heat_balance.hpp"
+#include "model/heat/heat_of_step.hpp"
+
+namespace mortise {
+namespace {
+
+/// Residuals of heat are 1e-9 of the flows; sums of N rows leave sqrt(N) times as much, with 1e6 rows.
+constexpr double balanced = 1e-6;
+/// Of the range of temperatures that anything causes, by which others may fall below it.
+constexpr double noticeable = 0.01;
+
+}  // namespace
+
+HeatWatch::HeatWatch(const Model& model, const Scene& scene, std::function<void(const std::string&)> warn)
+    : model_(model), scene_(scene), warn_(std::move(warn)) {
+  Vector start(model.space().dofs());
+  put_initial_temperatures(scene, model.space(), start);
+  {
+    const FieldRows& rows = model.space().rows(model.heat().bodies->temperature());
+    const auto theta = start.getLocalViewHost(Tpetra::Access::ReadOnly);
+    for (LocalOrdinal node = 0; node < model.mesh()->owned_count(); ++node)
+      if (rows.lives(node)) lowest_ = std::min(lowest_, theta(rows(node, 0), 0)), highest_ = std::max(highest_, theta(rows(node, 0), 0));
+  }
+  // What takes heat away at any temperature lowers it without a bound that is known.
+  bool is_known = true;
+  const auto see = [&](const ScalarFunction& function, double time) {
+    if (!function.is_constant()) is_known = false;
+    if (const double value = function.is_constant() ? function.at({time, 0.0, 0.0, 0.0}) : 0.0; is_known)
+      lowest_ = std::min(lowest_, value), highest_ = std::max(highest_, value);
+  };
+  for (const auto& load : scene.heat.loads) {
+    const ThermalLoadOptions* options = load.value.load.options.get();
+    if (const auto* convection = dynamic_cast<const ConvectionOptions*>(options))
+      see(convection->surroundings, 0.0);
+    else if (const auto* radiation = dynamic_cast<const RadiationOptions*>(options))
+      see(radiation->surroundings, 0.0);
+    else
+      is_known = false;
+  }
+  if (model.heat().bodies->has_source()) is_known = false;
+  for (const auto& body : scene.bodies)
+    if (body.value.temperature) see(*body.value.temperature, 0.0);
+  if (!is_known) lowest_ = -std::numeric_limits<double>::infinity();
+}
+
+void HeatWatch::look_for_undershoot(const SemiSmoothSystem& system, const SystemEvaluation& at) {
+  const Mesh& mesh = *model_.mesh();
+  const FieldRows& rows = model_.space().rows(model_.heat().bodies->temperature());
+  const RCP<const Vector> unknowns = system.unknowns(at.x());
+  const auto theta = unknowns->getLocalViewHost(Tpetra::Access::ReadOnly);
+  std::optional<StepFailure> failure;  // the step has passed with it
+  for (const double value : model_.heat().prescribed->values(at.context().time, failure))
+    lowest_ = std::min(lowest_, value), highest_ = std::max(highest_, value);
+  lowest_ = least_over_ranks(*mesh.comm, lowest_);
+  highest_ = most_over_ranks(*mesh.comm, highest_);
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  LocalOrdinal where = -1;
+  for (LocalOrdinal node = 0; node < mesh.owned_count(); ++node) {
+    if (!rows.lives(node)) continue;
+    most = std::max(most, theta(rows(node, 0), 0));
+    if (theta(rows(node, 0), 0) < least) least = theta(rows(node, 0), 0), where = node;
+  }
+  const double least_of_all = least_over_ranks(*mesh.comm, least), range = std::max(highest_, most_over_ranks(*mesh.comm, most)) - lowest_;
+  if (is_said_ || !(least_of_all < lowest_ - noticeable * range)) return;
+  is_said_ = true;
+  const int rank = least_over_ranks(*mesh.comm, least == least_of_all ? mesh.comm->getRank() : mesh.comm->getSize());
+  std::array<double, 3> x{};
+  if (mesh.comm->getRank() == rank) x = mesh.coordinates[static_cast<std::size_t>(where)];
+  x = {sum_over_ranks(*mesh.comm, x[0]), sum_over_ranks(*mesh.comm, x[1]), sum_over_ranks(*mesh.comm, x[2])};
+  warn_(fmt::format("  the temperature {:.6g} at ({:.6g}, {:.6g}, {:.6g}) is below {:.6g}, the lowest of the start and of all that is prescribed: "
+                    "steps are too short for the mesh, or elements too large; please take a \"lumped capacity\", longer steps, or a finer mesh there",
+                    least_of_all, x[0], x[1], x[2], lowest_));
+}
+
+void HeatWatch::accept(const SemiSmoothSystem& system, const SystemEvaluation& at) {
+  const double time = at.context().time;
+  const RCP<const Vector> forces = at.forces();
+  const double imbalance = heat_balance(*model_.mesh(), heat_of_step(scene_, model_, *forces, time - last_time_)).imbalance();
+  last_time_ = time;
+  if (imbalance > worst_) worst_ = imbalance, time_of_worst_ = time;
+  look_for_undershoot(system, at);
+}
+
+std::optional<StepFailure> HeatWatch::end(const SemiSmoothSystem&, const EndOfSteps&) {
+  if (!(worst_ > balanced)) return std::nullopt;
+  return StepFailure(FailureKind::step_error,
+                     fmt::format("heat is not in balance: in the step to t = {:g} {:.2e} of its largest power is missing; allowed: {:.0e}. Please take a "
+                                 "smaller \"momentum tolerance\"",
+                                 time_of_worst_, worst_, balanced));
+}
+
+void HeatWatch::serialize(StateArchive& archive) {
+  mortise::serialize(archive, "heat_watch.worst", worst_);
+  mortise::serialize(archive, "heat_watch.time_of_worst", time_of_worst_);
+  mortise::serialize(archive, "heat_watch.last_time", last_time_);
+  mortise::serialize(archive, "heat_watch.lowest", lowest_);
+  mortise::serialize(archive, "heat_watch.highest", highest_);
+  int is_said = is_said_ ? 1 : 0;
+  mortise::serialize(archive, "heat_watch.is_said", is_said);
+  is_said_ = is_said != 0;
+}
+
+}  // namespace mortise

@@ -1,0 +1,34 @@
+#pragma once
+// Checks of the heat of each step: balance, temperatures below all that cause them.
+
+#include <functional>
+#include <limits>
+#include <string>
+
+#include "mortise/simulation/model/model.hpp"
+#include "mortise/simulation/scene/scene.hpp"
+#include "run/stepping/step_guard.hpp"
+
+namespace mortise {
+
+/// Ends a run whose heat is not in balance, and warns once of temperatures that undershoot.
+class HeatWatch final : public StepGuard {
+ public:
+  HeatWatch(const Model& model, const Scene& scene, std::function<void(const std::string&)> warn);
+  void accept(const SemiSmoothSystem& system, const SystemEvaluation& at) override;
+  std::optional<StepFailure> end(const SemiSmoothSystem& system, const EndOfSteps& steps) override;
+  void serialize(StateArchive& archive) override;
+
+ private:
+  void look_for_undershoot(const SemiSmoothSystem& system, const SystemEvaluation& at);
+
+  const Model& model_;
+  const Scene& scene_;
+  std::function<void(const std::string&)> warn_;
+  double worst_ = 0.0, time_of_worst_ = 0.0;  ///< imbalance over the largest power
+  double last_time_ = 0.0;
+  bool is_said_ = false;
+  double lowest_ = std::numeric_limits<double>::infinity(), highest_ = -lowest_;  ///< of what causes temperatures; infinite: not known
+};
+
+}  // namespace mortise
