@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "heat_model.hpp"
 #include "mortise/input/read_parameters.hpp"
 #include "mortise/input/xml.hpp"
@@ -48,10 +50,12 @@ TEST(ThermalProperties, AreReadAsNumbersExpressionsAndTables) {
 TEST(ThermalProperties, RefuseWhatHasNoMeaning) {
   ThermalProperties none, both, negative;
   EXPECT_THAT(read(none, ""), HasSubstr("there is no conductivity"));
-  EXPECT_THAT(read(both, parameter("conductivity", "2") + "<ParameterList name=\"conductivity table\">\n"
-                                                          "<Parameter name=\"temperatures\" type=\"string\" value=\"0\"/>\n"
-                                                          "<Parameter name=\"values\" type=\"string\" value=\"1\"/>\n</ParameterList>\n"),
-              HasSubstr("an expression and a table are given; give one of them"));
+  const std::string said = read(both, parameter("conductivity", "2") +
+                                          "<ParameterList name=\"conductivity table\">\n"
+                                          "<Parameter name=\"temperatures\" type=\"string\" value=\"0\"/>\n"
+                                          "<Parameter name=\"values\" type=\"string\" value=\"1\"/>\n</ParameterList>\n");
+  EXPECT_THAT(said, HasSubstr("an expression and a table are given; give one of them"));
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
   EXPECT_THAT(read(negative, parameter("conductivity", "-2")), HasSubstr("the conductivity is -2; allowed: >= 0 and finite"));
 }
 
