@@ -14,6 +14,7 @@ KINDS = {
     "A material": ("packages/material/include/mortise/material/material_options.hpp", r"using Law = std::variant<(.*?)>;", ""),
     "An element": ("packages/solid/include/mortise/solid/element_type.hpp", r"ElementEntry<(\w+)[,>]", ""),
     "A load": ("packages/solid/src/loads/dead_loads.cpp", r"\.add<(\w+)>", "Options"),
+    "A load of heat": ("packages/thermal/src/loads/thermal_loads.cpp", r"\.add<(\w+)>", "Options"),
     "A quantity": ("packages/simulation/src/quantities/*.cpp", r"Registry<Quantity>& kinds\) \{\s*kinds\.add<(\w+)>", "Quantity"),
     "A contribution to the residual": ("packages/simulation/src/model/contributions.hpp", r"class (\w+Contribution) final", "Contribution"),
     "An integrand": ("packages/solid/src/elements/*.hpp", r"An integrand, see\s+(?:///\s+)?ElementLoop\.\ntemplate <[^>]*>\n(?:struct|class) (\w+)", ""),

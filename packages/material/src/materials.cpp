@@ -24,14 +24,14 @@ Registry<MaterialOptions> make_registry(const std::variant<Laws...>*) {
   return registry;
 }
 
-/// The list "thermal" of a material.
+/// The list "thermomechanics" of a material.
 struct ThermalList {
   MaterialOptions& material;
-  void describe(Parameters& parameters) { material.describe_thermal(parameters); }
+  void describe(Parameters& parameters) { material.describe_thermomechanics(parameters); }
 };
 
 /// A function of the temperature has to agree at the reference temperature with the number that it stands for.
-void check_at_reference(Parameters& parameters, const ThermalProperties& thermal, const TemperatureFunction& function, const std::string& name,
+void check_at_reference(Parameters& parameters, const ThermomechanicalProperties& thermal, const TemperatureFunction& function, const std::string& name,
                         double expected) {
   if (!function.is_given() || function.fault() || !thermal.reference_temperature) return;
   constexpr double round_off_of_input = 1e-6;  // numbers are written with a few digits
@@ -48,10 +48,10 @@ void MaterialOptions::describe(Parameters& parameters) {
   parameters.add("poisson's ratio", poissons_ratio, Says("Poisson's ratio at zero strain").unit("-").above(-1.0).below(0.5).required());
   parameters.add("density", density, Says("mass per reference volume").unit("mass / volume").at_least(0.0));
   ThermalList list{*this};
-  parameters.list("thermal", list, "properties that depend on the temperature, thermal expansion, heat; for models with a field of temperature");
+  parameters.list("thermomechanics", list, "thermal expansion, properties that depend on the temperature, heat of deformation; for models with a temperature");
 }
 
-void MaterialOptions::describe_thermal(Parameters& parameters) {
+void MaterialOptions::describe_thermomechanics(Parameters& parameters) {
   parameters.add("reference temperature", thermal.reference_temperature,
                  Says("without thermal strain; left out: nothing else of this list is given").unit("temperature"));
   thermal.expansion.describe(
@@ -81,7 +81,7 @@ struct HardeningList {
 };
 }  // namespace
 
-void FiniteJ2Options::describe_thermal(Parameters& parameters) {
+void FiniteJ2Options::describe_thermomechanics(Parameters& parameters) {
   thermal.yield_stress_factor.describe(
       parameters, "yield stress factor",
       Says("an expression of `temperature` by which the yield stress is multiplied; 1 at the reference temperature; left out: 1").unit("-"));
@@ -90,7 +90,7 @@ void FiniteJ2Options::describe_thermal(Parameters& parameters) {
                      .unit("-")
                      .at_least(0.0)
                      .at_most(1.0));
-  MaterialOptions::describe_thermal(parameters);
+  MaterialOptions::describe_thermomechanics(parameters);
   check_at_reference(parameters, thermal, thermal.yield_stress_factor, "yield stress factor", 1.0);
 }
 

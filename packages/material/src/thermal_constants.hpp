@@ -37,7 +37,7 @@ class ThermalConstants {
 
  private:
   ElasticConstants constants_;  ///< where no function is given
-  ThermalProperties properties_;
+  ThermomechanicalProperties properties_;
 };
 
 }  // namespace mortise

@@ -42,7 +42,7 @@ const double root = std::sqrt(1.5);
 ThermalJ2Law::ThermalJ2Law(const MaterialOptions& material)
     : constants_(material),
       hardening_(std::get<FiniteJ2>(material.law()).hardening),
-      heat_share_(material.thermal.plastic_heat_share.value_or(ThermalProperties::usual_plastic_heat_share)),
+      heat_share_(material.thermal.plastic_heat_share.value_or(ThermomechanicalProperties::usual_plastic_heat_share)),
       softens_(material.thermal.yield_stress_factor.is_given()) {}
 
 FiniteJ2 ThermalJ2Law::law_at(const ConstantsAtTemperature& constants) const {

@@ -1,4 +1,4 @@
-// Conduction of heat from public headers alone: a temperature in two bodies, and across contact through D and M of the pair.
+// Conduction of heat in two bodies, and by a contribution of the host, from public headers alone, across contact through D and M of the pair.
 
 #include <gtest/gtest.h>
 
@@ -20,8 +20,7 @@
 #include "mortise/nonlinear/linear_solver_factory.hpp"
 #include "mortise/nonlinear/newton_solver.hpp"
 #include "mortise/nonlinear/semi_smooth_system.hpp"
-#include "mortise/shape/cell.hpp"
-#include "mortise/solid/element_loop.hpp"
+#include "mortise/thermal/heat_contributions.hpp"
 
 namespace mortise {
 namespace {
@@ -77,81 +76,6 @@ MortarMatrices mortar_matrices(const Mesh& mesh) {
   return contact.evaluate(rest, contact.initial_history(rest)).mortar_matrices(0);
 }
 
-/// r_a = integral of k grad N_a . grad theta. An integrand, see ElementLoop.
-template <class OfCells>
-struct FourierConduction {
-  using Geometry = OfCells;
-  static constexpr int nodes = Geometry::nodes, dimension = Geometry::dimension, components = 1, point_count = Geometry::stiffness_points;
-  using Reads = std::tuple<FieldGradient<1, dimension>>;
-  using Residual = std::array<double, nodes>;
-  using Tangent = NodalPairs<nodes>;
-
-  double conductivity;  ///< k
-
-  template <class Points, class Sums>
-  void add(const Points& points, Sums& sums) const {
-    for (int q = 0; q < point_count; ++q) {
-      const auto at = points[q];
-      const auto& gradient = std::get<0>(at.fields).gradient[0];
-      for (int a = 0; a < nodes; ++a)
-        for (int i = 0; i < dimension; ++i) {
-          const double flux = conductivity * at.weight * at.gradient[a][i];
-          if constexpr (Sums::with_residual) sums.residual[a] += flux * gradient[i];
-          if constexpr (Sums::with_tangent)
-            for (int b = 0; b < nodes; ++b) sums.tangent(a, b) += flux * at.gradient[b][i];
-        }
-    }
-  }
-};
-
-/// Conduction in all blocks of a mesh.
-class Conduction : public Contribution {
- public:
-  /// @param conductivity  [blocks]
-  Conduction(std::shared_ptr<const FieldSpace> space, const std::vector<double>& conductivity) : space_(std::move(space)) {
-    for (std::size_t n = 0; n < conductivity.size(); ++n) {
-      const Block& block = space_->mesh()->blocks[n];
-      visit_cell(block.shape, [&](auto cell) {
-        using Cell = decltype(cell);
-        if constexpr (Cell::dimension == 2) blocks_.push_back(make_block<Cell>(block, conductivity[n]));
-      });
-    }
-  }
-  std::string name() const override { return "conduction"; }
-  Kind kind() const override { return Kind::internal; }
-  FieldUse uses() const override { return {{"temperature"}, {"temperature"}, 0}; }
-  void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>&) override { add(at, {of(residual)}); }
-  void add_jacobian(const Configuration& at, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>&) override {
-    const NodalSparsity::Values values = space_->sparsity().open(jacobian);
-    add(at, {{}, &values, weights.unknowns});
-    values.close();
-  }
-
- private:
-  using AddBlock = std::function<void(const FieldView<const double>& theta, const AssemblyTarget& target)>;
-
-  template <class Cell>
-  AddBlock make_block(const Block& block, double conductivity) const {
-    using Element = FourierConduction<ElementGeometry<Cell>>;
-    return [loop = ElementLoop<Cell>(*space_, block), integral = BlockIntegral<Element>(Element{conductivity}, block, 1.0)](
-               const FieldView<const double>& theta, const AssemblyTarget& target) {
-      if (target.matrix != nullptr)
-        loop.template add<true, true>(integral, typename ElementLoop<Cell>::template Fields<1>{theta}, target);
-      else
-        loop.template add<true, false>(integral, typename ElementLoop<Cell>::template Fields<1>{theta}, target);
-    };
-  }
-
-  FieldView<double> of(Vector& vector) const { return {vector.getLocalViewHost(Tpetra::Access::ReadWrite).data(), space_->rows(0)}; }
-  void add(const Configuration& at, const AssemblyTarget& target) const {
-    const auto theta = at.local_unknowns.getLocalViewHost(Tpetra::Access::ReadOnly);
-    for (const AddBlock& block : blocks_) block({theta.data(), space_->rows(0)}, target);
-  }
-
-  std::shared_ptr<const FieldSpace> space_;
-  std::vector<AddBlock> blocks_;
-};
-
 /// q_j = h [theta]_j,  [theta]_j = ((D - M) theta)_j / D_jj: flux out of the slave per area, r += (D - M)^T q.
 class Conductance : public Contribution {
  public:
@@ -198,6 +122,12 @@ class Conductance : public Contribution {
   RCP<Matrix> operator_;
 };
 
+ThermalBody conductor(double conductivity) {
+  const auto properties = std::make_shared<ThermalProperties>();
+  properties->conductivity = conductivity;
+  return {{}, properties};
+}
+
 /// The temperatures of the lower edge of the lower body and of the upper edge of the upper one.
 std::shared_ptr<const AffineConstraints> edge_temperatures(const FieldSpace& space, double below, double above) {
   std::vector<AffineConstraints::Line> lines;
@@ -217,7 +147,8 @@ TEST(SecondField, ConductsThroughTwoBodiesAndTheirContact) {
   for (const CellShape shape : {CellShape::quadrilateral4, CellShape::triangle3}) {
     const RCP<const Mesh> mesh = two_blocks(shape);
     const auto space = std::make_shared<FieldSpace>(mesh, std::vector<FieldDeclaration>{{"temperature", 1}});
-    const auto conduction = std::make_shared<Conduction>(space, std::vector<double>{k_upper, k_lower});
+    const auto conduction = std::make_shared<HeatConduction>(
+        std::make_shared<ThermalBodies>(space, Kinematics::plane_strain, 1.0, std::vector<ThermalBody>{conductor(k_upper), conductor(k_lower)}));
     const auto conductance = std::make_shared<Conductance>(mortar_matrices(*mesh), h);
 
     // The bulk's graph, with what couples across contact behind it.

@@ -27,7 +27,7 @@ inline ScalarFunction of_temperature(std::function<double(double)> function) {
 inline void set_properties(MaterialOptions& material, const std::string& kind) {
   const double nu = material.poissons_ratio;
   material.youngs_modulus = modulus;
-  ThermalProperties& thermal = material.thermal;
+  ThermomechanicalProperties& thermal = material.thermal;
   thermal.reference_temperature = reference_temperature;
   thermal.expansion = 2e-4;
   if (kind == "expansion") return;

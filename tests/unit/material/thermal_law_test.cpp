@@ -285,7 +285,7 @@ TEST(ThermalLaw, SaysWhatHasNoMeaning) {
   EXPECT_THROW(make_thermal_law(*material, false), std::invalid_argument);
 }
 
-/// Messages on reading a material with these entries of its list "thermal"; it ends up in `material`.
+/// Messages on reading a material with these entries of its list "thermomechanics"; it ends up in `material`.
 std::string refused(MaterialOptions& material, const std::string& entries) {
   const auto number = [](const std::string& name, const std::string& value) {
     return "<Parameter name=\"" + name + "\" type=\"double\" value=\"" + value + "\"/>\n";

@@ -18,7 +18,7 @@ inline ScalarFunction of_temperature(std::function<double(double)> function) {
 /// Gives a material expansion alone, or everything: E, nu, the yield stress and heat depend on the temperature.
 inline std::shared_ptr<const MaterialOptions> make_thermal_material(const std::string& law, bool everything, double poissons_ratio = 0.3) {
   const auto material = std::const_pointer_cast<MaterialOptions>(make_material(law, 1000.0, poissons_ratio));
-  ThermalProperties& thermal = material->thermal;
+  ThermomechanicalProperties& thermal = material->thermal;
   thermal.reference_temperature = reference_temperature;
   thermal.expansion = 2e-4;
   if (!everything) return material;

@@ -71,23 +71,24 @@ inline RCP<Mesh> distorted_mesh(CellShape shape, int cells, double distortion, b
       curved);
 }
 
-/// [left, left + width] x [0, 1] on all ranks.
-inline RCP<Mesh> strip(int cells_x, int cells_y, double width, CellShape shape = CellShape::quadrilateral4, double left = 0.0) {
+/// [left, left + width] x [0, 1].
+inline RCP<Mesh> strip(int cells_x, int cells_y, double width, CellShape shape = CellShape::quadrilateral4, double left = 0.0,
+                       const RCP<const Communicator>& comm = world()) {
   auto block = std::make_shared<BlockMesh>();
   block->width = width;
   block->height = 1.0;
   block->cells_x = cells_x;
   block->cells_y = cells_y;
   block->translation = {left, 0.0};
-  return build_mesh(world(), {{"body", {}, block, shape}}, {});
+  return build_mesh(comm, {{"body", {}, block, shape}}, {});
 }
-/// [0, width] x [0, 1] x [0, 1] on all ranks.
-inline RCP<Mesh> bar(int cells_x, double width, CellShape shape = CellShape::hexahedron8) {
+/// [0, width] x [0, 1] x [0, 1].
+inline RCP<Mesh> bar(int cells_x, double width, CellShape shape = CellShape::hexahedron8, const RCP<const Communicator>& comm = world()) {
   auto brick = std::make_shared<BrickMesh>();
   brick->width = width;
   brick->cells_x = cells_x;
   brick->cells_y = brick->cells_z = 2;
-  return build_mesh(world(), {{"body", {}, brick, shape}}, {});
+  return build_mesh(comm, {{"body", {}, brick, shape}}, {});
 }
 
 struct HeatSetup {

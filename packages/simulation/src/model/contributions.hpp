@@ -35,20 +35,34 @@ class CountedContribution : public Contribution {
   long calls_ = 0;
 };
 
-/// f_int of all bodies.
+/// f_int of all bodies, and the heat of those that heat: power over the step from the last committed state.
 class BulkContribution final : public CountedContribution {
  public:
-  BulkContribution(std::shared_ptr<Bodies> bodies, const Timers& timers);
+  /// @param share_at_start  of the power at the start of a step in what is in balance over it
+  BulkContribution(std::shared_ptr<Bodies> bodies, double share_at_start, const Timers& timers);
   Kind kind() const override { return Kind::internal; }
+  FieldUse uses() const override;
+  bool depends_on_time() const override { return bodies_->heat(); }
   void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) override;
   void add_jacobian(const Configuration& at, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>& failure) override;
   void add_residual_and_jacobian(const Configuration& at, const JacobianWeights& weights, Vector& residual, Matrix& jacobian,
                                  std::optional<StepFailure>& failure) override;
-  void commit(const Configuration& at) override { bodies_->commit(at.local_unknowns); }
-  void serialize(StateArchive& archive) override { bodies_->serialize(archive); }
+  void commit(const Configuration& at) override;
+  void serialize(StateArchive& archive) override;
+
+  /// Mean power of the last step that became heat [mesh bodies]; empty: bodies do not heat.
+  const std::vector<double>& heat_power() const { return power_; }
+  /// Since the start.
+  const std::vector<double>& heat_energy() const { return energy_; }
 
  private:
+  /// Length of the step that ends at `at`.
+  double time_step(const Configuration& at) const;
+
   std::shared_ptr<Bodies> bodies_;
+  double share_at_start_;
+  double time_ = 0.0;  ///< of the last committed state
+  std::vector<double> power_, energy_, power_at_end_;
 };
 
 /// - f_ext of one load.

@@ -7,6 +7,7 @@
 #include <Tpetra_CrsGraph.hpp>
 #include <algorithm>
 
+#include "model/heat/heat_warnings.hpp"
 #include "mortise/core/memory.hpp"
 #include "mortise/mesh/file_mesh.hpp"
 #include "mortise/simulation/model/memory_estimate.hpp"
@@ -109,6 +110,7 @@ void report_model(const std::string& file, const Scene& scene, const Model& mode
     log.info(fmt::format("  tie {}: {} slave nodes follow the master{}{}", scene.ties[t].name, tie.tied, open, moved));
   }
   report_inertia(scene, model, log);
+  for (const std::string& warning : heat_warnings(scene, model)) log.warning(warning);
   if (scene.stabilisation.acts() && !model.connectors().stabilisation)
     log.warning("supports, ties and springs hold all bodies, so that stabilisation has no effect; please remove the list \"stabilisation\"");
   log.info(fmt::format("  {} dofs, {} slave nodes, {} on {} rank(s)", model.dofs(), model.slave_nodes(), model.parts().linear_solver->name(),

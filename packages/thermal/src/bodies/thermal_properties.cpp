@@ -46,6 +46,7 @@ void ThermalProperties::describe(Parameters& parameters) {
                  Says("heat per reference volume and time, an expression of t, x, y, z and `temperature`; left out: none")
                      .unit("power / volume")
                      .arguments({"t", "x", "y", "z", "temperature"}));
+  if (conductivity.fault() || specific_heat.fault()) return;  // of tables, which they have said
   if (const auto wrong = fault()) parameters.error("conductivity", *wrong);
 }
 

@@ -5,7 +5,7 @@
 
 #include "mortise/core/parameters.hpp"
 #include "mortise/material/elastic_constants.hpp"
-#include "mortise/material/thermal_properties.hpp"
+#include "mortise/material/thermomechanical_properties.hpp"
 
 namespace mortise {
 
@@ -24,13 +24,13 @@ struct MaterialOptions : Described {
   double youngs_modulus = 1.0;  ///< [stress]
   double poissons_ratio = 0.3;
   double density = 0.0;  ///< [mass / volume] of the reference configuration
-  ThermalProperties thermal;
+  ThermomechanicalProperties thermal;
 
-  /// Declares "young's modulus", "poisson's ratio", "density" and the list "thermal".
+  /// Declares "young's modulus", "poisson's ratio", "density" and the list "thermomechanics".
   void describe(Parameters& parameters) override;
 
-  /// Declares the entries of the list "thermal".
-  virtual void describe_thermal(Parameters& parameters);
+  /// Declares the entries of the list "thermomechanics".
+  virtual void describe_thermomechanics(Parameters& parameters);
 
   ElasticConstants elastic_constants() const { return {youngs_modulus, poissons_ratio}; }
 

@@ -22,7 +22,7 @@ struct ElasticMaterialOptions : MaterialOptions {
 struct FiniteJ2Options : MaterialOptions {
   Choice<HardeningOptions> hardening;
   void describe(Parameters& parameters) override;
-  void describe_thermal(Parameters& parameters) override;
+  void describe_thermomechanics(Parameters& parameters) override;
   /// Without a valid hardening law, which reading has reported, that of perfect plasticity.
   Law law() const override { return FiniteJ2(elastic_constants(), hardening.options ? hardening.options->hardening() : Hardening()); }
 };

@@ -88,7 +88,7 @@ class ThermalLaw {
   virtual std::optional<std::string> fault(const ThermalPoint& at) const = 0;
 };
 
-/// The law of a material whose ThermalProperties::given().
+/// The law of a material whose ThermomechanicalProperties::given().
 /// @param plane_stress  the law finds F_33 from tau_33 = 0; it needs a law with a plane stress form
 /// @throws std::invalid_argument without a reference temperature, or for plane stress of a law that has no such form
 std::unique_ptr<const ThermalLaw> make_thermal_law(const MaterialOptions& material, bool plane_stress);

@@ -64,8 +64,7 @@ void BookedHeat::commit(const Configuration& at) {
   power_ = sums(*now);
   if (!before_.is_null()) {
     const std::vector<double> before = sums(*before_);
-    for (std::size_t body = 0; body < power_.size(); ++body)
-      power_[body] = (1.0 - at_start_.share) * power_[body] + at_start_.share * before[body];
+    for (std::size_t body = 0; body < power_.size(); ++body) power_[body] = (1.0 - at_start_.share) * power_[body] + at_start_.share * before[body];
     before_ = now;
   }
   for (std::size_t body = 0; body < power_.size(); ++body) energy_[body] += (at.time - time_) * power_[body];

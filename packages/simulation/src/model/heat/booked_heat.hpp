@@ -51,13 +51,13 @@ class BookedHeat : public CountedContribution {
   std::shared_ptr<Contribution> flow_;
   std::shared_ptr<const ThermalBodies> bodies_;
   FlowsAtStart at_start_;
-  double time_ = 0.0;                    ///< t_n
-  RCP<Vector> before_;                   ///< f_n on the owned dofs; null: it has no weight
-  std::vector<double> power_, energy_;   ///< [mesh bodies]
+  double time_ = 0.0;                   ///< t_n
+  RCP<Vector> before_;                  ///< f_n on the owned dofs; null: it has no weight
+  std::vector<double> power_, energy_;  ///< [mesh bodies]
 };
 
-/// Heat that bodies store: rho c dtheta/dt with the rate (theta - theta_n) / (t - t_n), whatever integrates motion. Between two steps, at t_n, the rate
-/// is that of the last one.
+/// Heat that bodies store: rho c dtheta/dt with the rate (theta - theta_n) / (t - t_n), whatever integrates motion. Between two steps, at t_n, the
+/// rate is that of the last one.
 class StoredHeat final : public BookedHeat {
  public:
   StoredHeat(std::shared_ptr<const ThermalBodies> bodies, const Timers& timers);

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/heat/booked_heat.hpp"
 #include "model/stages/collector.hpp"
 #include "mortise/core/guarded_value.hpp"
 #include "mortise/core/names.hpp"
@@ -38,7 +37,8 @@ ThermalBody thermal_body(const Scene& scene, const Mesh& mesh, const Block& bloc
   return body;
 }
 
-/// Powers at the start of a step have this share in what is in balance over it.
+}  // namespace
+
 FlowsAtStart flows_at_start(const Scene& scene) {
   if (scene.inertia.acts()) {
     const TimeScheme scheme = scene.inertia.time_scheme();
@@ -47,8 +47,6 @@ FlowsAtStart flows_at_start(const Scene& scene) {
   const bool is_trapezoidal = scene.heat.is_transient() && scene.heat.integration == HeatOptions::Integration::trapezoidal;
   return is_trapezoidal ? FlowsAtStart{0.5, false} : FlowsAtStart{};
 }
-
-}  // namespace
 
 std::shared_ptr<const FieldSpace> space_of_scene(const RCP<const Mesh>& mesh, const Scene& scene) {
   if (!scene.heat.acts()) return displacement_space(mesh);
@@ -67,9 +65,26 @@ std::shared_ptr<const FieldSpace> space_of_scene(const RCP<const Mesh>& mesh, co
   return std::make_shared<FieldSpace>(mesh, std::vector<FieldDeclaration>{{"displacement", mesh->dimension}, {"temperature", 1, std::move(lives)}});
 }
 
+namespace {
+
+/// Laws that need a temperature which their bodies have not.
+void refuse_without_temperature(const Scene& scene) {
+  std::vector<Diagnostic> diagnostics;
+  for (const auto& material : scene.materials)
+    if (material.value.law.options->thermal.given() && !material.value.heat.conductivity.is_given())
+      diagnostics.push_back(
+          {material.place, fmt::format("material \"{}\" has a list \"thermomechanics\", but no temperature; please give it a list \"heat\" "
+                                       "with a \"conductivity\"",
+                                       material.name)});
+  if (!diagnostics.empty()) throw InputError(diagnostics);
+}
+
+}  // namespace
+
 HeatOfModel add_heat(const MeshedScene& meshed, const Scene& scene, const Timers& timers, SystemParts& parts) {
   HeatOfModel heat;
   if (!scene.heat.acts()) return heat;
+  refuse_without_temperature(scene);
   std::vector<ThermalBody> blocks;
   for (const Block& block : meshed.mesh->blocks) blocks.push_back(thermal_body(scene, *meshed.mesh, block));
   heat.bodies = std::make_shared<const ThermalBodies>(meshed.space, scene.kinematics, scene.thickness, std::move(blocks));
@@ -202,9 +217,10 @@ void refuse_undetermined(const MeshedScene& meshed, const Scene& scene, const He
     for (std::size_t other = 0; other < mesh.bodies.size(); ++other) is_determined |= joined[other] == joined[body] && determined[other] != 0;
     if (needs[body] && !is_determined)
       diagnostics.push_back(
-          {meshed.places[body], fmt::format("nothing determines the temperature of body \"{}\", which stores no heat: please prescribe a temperature on a part of "
-                                            "it, or give it convection, radiation, or a pair or tie that conducts to a body with one",
-                                            mesh.bodies[body].name)});
+          {meshed.places[body],
+           fmt::format("nothing determines the temperature of body \"{}\", which stores no heat: please prescribe a temperature on a part of "
+                       "it, or give it convection, radiation, or a pair or tie that conducts to a body with one",
+                       mesh.bodies[body].name)});
   }
   throw_if_any(*mesh.comm, diagnostics);
 }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "model/heat/booked_heat.hpp"
 #include "model/stages/meshed_scene.hpp"
 #include "model/support_constraints.hpp"
 #include "mortise/nonlinear/semi_smooth_system.hpp"
@@ -15,6 +16,9 @@ namespace mortise {
 /// The fields of a scene: the displacement, and with heat the temperature on the nodes of bodies whose materials conduct. Collective.
 /// @throws InputError on all ranks if the scene has an analysis of heat and no body has a temperature
 std::shared_ptr<const FieldSpace> space_of_scene(const RCP<const Mesh>& mesh, const Scene& scene);
+
+/// Weight of flows at the start of a step in what is in balance over it.
+FlowsAtStart flows_at_start(const Scene& scene);
 
 /// Adds conduction, storage, sources and loads of heat. Without an analysis nothing is made. Collective.
 /// @throws InputError on all ranks for sets that do not exist and properties without meaning

@@ -24,6 +24,7 @@ HeatOfStep heat_of_step(const Scene& scene, const Model& model) {
   result.prescribed = &heat.prescribed->rows();
   for (const auto& source : heat.sources) result.sources.push_back(into_bodies(*source));
   if (heat.stored) result.stored = HeatOfStep::Flow{heat.stored->name(), heat.stored->power(), heat.stored->energy()};
+  if (heat.bulk) result.dissipated = HeatOfStep::Flow{"deformation", heat.bulk->heat_power(), heat.bulk->heat_energy()};
   for (std::size_t pair = 0; heat.contact && pair < scene.contact.size(); ++pair)
     if (const auto index = heat.contact->index(pair))
       result.pairs.push_back(

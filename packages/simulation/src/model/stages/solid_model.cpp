@@ -38,12 +38,15 @@ SolidModel make_solid(const MeshedScene& meshed, const Scene& scene, const Timer
   parts.bulk_graph = [space = meshed.space] { return space->graph(); };
   parts.length = meshed.size.length;
   parts.near_null_space = near_null_space_of(bodies, meshed, scene);
-  parts.contributions.push_back(std::make_shared<BulkContribution>(bodies, timers));
+  const FlowsAtStart at_start = flows_at_start(scene);
+  const auto bulk = std::make_shared<BulkContribution>(bodies, at_start.is_of_system ? at_start.share : 0.0, timers);
+  parts.contributions.push_back(bulk);
   for (const auto& load : scene.loads)
     collect([&] { solid.loads.push_back(std::make_shared<LoadContribution>(load.name, load.value.load.options->make(solid.bodies), timers)); });
   parts.contributions.insert(parts.contributions.end(), solid.loads.begin(), solid.loads.end());
   collect([&] { solid.connectors = add_connectors(scene, solid.bodies, timers, parts); });
   collect([&] { solid.heat = add_heat(meshed, scene, timers, parts); });
+  if (bodies->heat()) solid.heat.bulk = bulk;
   collect([&] { solid.motion = std::make_shared<const PrescribedMotion>(*bodies, scene.boundary_conditions); });
   solid.supports.ties = meshed.ties.tied;
   return solid;

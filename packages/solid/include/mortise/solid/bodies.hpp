@@ -73,7 +73,7 @@ class Bodies {
   const FieldSpace& space() const { return *space_; }
   const std::shared_ptr<const FieldSpace>& shared_space() const { return space_; }
 
-  /// True if the law of a body takes the temperature: its material has ThermalProperties, and a field "temperature" of the space lives on its nodes.
+  /// True if the law of a body takes the temperature: its material has ThermomechanicalProperties, and a field "temperature" of the space lives on its nodes.
   /// Forces of such bodies depend on that field. The same on all ranks.
   bool know_temperature() const { return know_temperature_; }
 

@@ -8,7 +8,7 @@
 namespace mortise {
 
 /// Properties that depend on the temperature are functions of it alone. Those that are absent stay as the material has them.
-struct ThermalProperties {
+struct ThermomechanicalProperties {
   std::optional<double> reference_temperature;  ///< theta_0, without thermal strain; needed by all that is given
   /// alpha(theta), the secant coefficient [1 / temperature]: the thermal strain is alpha(theta) (theta - theta_0)
   TemperatureFunction expansion;
