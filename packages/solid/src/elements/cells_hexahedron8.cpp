@@ -2,11 +2,16 @@
 
 #include "elements/kernel_block.hpp"
 #include "mortise/shape/hexahedron8.hpp"
+#include "thermal/coupled_block.hpp"
 
 namespace mortise {
 
 template std::unique_ptr<ElementBlock> make_cell_block<Hexahedron8, ElementFormulation::standard>(const BlockContext&, const Law&, Kinematics,
                                                                                                   double);
 template std::unique_ptr<ElementBlock> make_cell_block<Hexahedron8, ElementFormulation::f_bar>(const BlockContext&, const Law&, Kinematics, double);
+template std::unique_ptr<ElementBlock> make_thermal_block<Hexahedron8, ElementFormulation::standard>(const BlockContext&, std::size_t,
+                                                                                                     const MaterialOptions&, Kinematics, double);
+template std::unique_ptr<ElementBlock> make_thermal_block<Hexahedron8, ElementFormulation::f_bar>(const BlockContext&, std::size_t,
+                                                                                                  const MaterialOptions&, Kinematics, double);
 
 }  // namespace mortise

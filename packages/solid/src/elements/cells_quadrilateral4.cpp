@@ -2,6 +2,7 @@
 
 #include "elements/kernel_block.hpp"
 #include "mortise/shape/quadrilateral4.hpp"
+#include "thermal/coupled_block.hpp"
 
 namespace mortise {
 
@@ -9,5 +10,9 @@ template std::unique_ptr<ElementBlock> make_cell_block<Quadrilateral4, ElementFo
                                                                                                      double);
 template std::unique_ptr<ElementBlock> make_cell_block<Quadrilateral4, ElementFormulation::f_bar>(const BlockContext&, const Law&, Kinematics,
                                                                                                   double);
+template std::unique_ptr<ElementBlock> make_thermal_block<Quadrilateral4, ElementFormulation::standard>(const BlockContext&, std::size_t,
+                                                                                                        const MaterialOptions&, Kinematics, double);
+template std::unique_ptr<ElementBlock> make_thermal_block<Quadrilateral4, ElementFormulation::f_bar>(const BlockContext&, std::size_t,
+                                                                                                     const MaterialOptions&, Kinematics, double);
 
 }  // namespace mortise

@@ -2,10 +2,13 @@
 
 #include "elements/kernel_block.hpp"
 #include "mortise/shape/tetrahedron4.hpp"
+#include "thermal/coupled_block.hpp"
 
 namespace mortise {
 
 template std::unique_ptr<ElementBlock> make_cell_block<Tetrahedron4, ElementFormulation::standard>(const BlockContext&, const Law&, Kinematics,
                                                                                                    double);
+template std::unique_ptr<ElementBlock> make_thermal_block<Tetrahedron4, ElementFormulation::standard>(const BlockContext&, std::size_t,
+                                                                                                      const MaterialOptions&, Kinematics, double);
 
 }  // namespace mortise

@@ -2,9 +2,12 @@
 
 #include "elements/kernel_block.hpp"
 #include "mortise/shape/wedge6.hpp"
+#include "thermal/coupled_block.hpp"
 
 namespace mortise {
 
 template std::unique_ptr<ElementBlock> make_cell_block<Wedge6, ElementFormulation::standard>(const BlockContext&, const Law&, Kinematics, double);
+template std::unique_ptr<ElementBlock> make_thermal_block<Wedge6, ElementFormulation::standard>(const BlockContext&, std::size_t,
+                                                                                                const MaterialOptions&, Kinematics, double);
 
 }  // namespace mortise

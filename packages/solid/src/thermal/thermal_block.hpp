@@ -1,5 +1,5 @@
 #pragma once
-// Blocks of elements whose law knows the temperature. They are compiled in sources of their own: cells_*.cpp.
+// Blocks of elements whose law knows the temperature. Each kind of cell is compiled beside its other blocks: elements/cells_<cell>.cpp.
 
 #include "elements/element_block.hpp"
 

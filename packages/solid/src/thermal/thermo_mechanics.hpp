@@ -33,7 +33,7 @@ class ThermoMechanics {
   /// Sums in the rows of displacements, for ElementSums.
   struct Forces {
     static constexpr int components = dimension;
-    using Residual = std::array<double, dimension * nodes>;
+    using Residual = std::array<double, components * nodes>;
     using Tangent = typename StiffnessSum::Stiffness;
     using Coupling = FieldCoupling<nodes, dimension, 1>;
   };
@@ -172,7 +172,7 @@ class ThermoMechanics {
     add_point_force<Geometry>(at, response.stress_by_expansion, weight, by_expansion);
     add_point_force<Geometry>(at, response.stress_by_temperature, weight, by_temperature);
     const auto& N = shape_of_expansion(at, centre);
-    for (int row = 0; row < dimension * nodes; ++row)
+    for (std::size_t row = 0; row < by_expansion.size(); ++row)
       for (int b = 0; b < nodes; ++b) coupling.entries[row][b] += by_expansion[row] * N[b] + by_temperature[row] * at.N[b];
   }
 
@@ -200,8 +200,8 @@ class ThermoMechanics {
       const double share = -at.weight * at.N[a];
       heat.residual[a] += share * response.heat;
       for (int b = 0; b < nodes; ++b) {
-        heat.tangent.entries[a][b] += share * (response.heat_by_expansion * N[b] + response.heat_by_temperature * at.N[b]);
-        for (int k = 0; k < dimension; ++k) heat.coupling.entries[a][dimension * b + k] += share * by_displacement[b][k];
+        heat.tangent(a, 0, b, 0) += share * (response.heat_by_expansion * N[b] + response.heat_by_temperature * at.N[b]);
+        for (int k = 0; k < dimension; ++k) heat.coupling(a, 0, b, k) += share * by_displacement[b][k];
       }
     }
   }
