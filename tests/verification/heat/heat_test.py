@@ -21,7 +21,7 @@ def orders(runs, check):
                  "bodies": {"bar": {"material": "a", "element": "Q8", "mesh": block(1, 0.1, 40, 1)}},
                  "boundary conditions": {"foot": {"set": "bar/bottom", "x": 0, "y": 0}},
                  "heat": {"analysis": "transient", "integration": integration, "initial temperature": "300 + 10*cos(pi*x)"},
-                 "stepping": {"step": 0.2 / steps, "end time": 0.2}, "newton": {"momentum tolerance": 1e-11}, "output": {"fields": ""},
+                 "stepping": {"step": 0.2 / steps, "end time": 0.2}, "output": {"fields": ""},
                  "quantities": {"end": {"type": "temperature", "x": 0, "y": 0.05}}}
         return runs.run(f"decay_{integration.replace(' ', '_')}_{steps}", scene)[2]["end"] - 300
     exact = 10 * math.exp(-rate * 0.2)
@@ -86,7 +86,8 @@ def bad_input(runs, check):
         ({"materials/a/heat/conductivity": "50*(temperature - 400)"}, "conductivity"),
         ({"materials/a/density": None}, "density"),
         ({"materials/a/heat": None, "materials/a/thermomechanics": None}, "has no temperature"),
-        ({"materials/a/heat": None}, "thermomechanics"),
+        ({"materials/a/heat": None, "quantities": {}}, "thermomechanics"),
+        ({"materials/a/heat/conductivity": None}, "there is no conductivity"),
         ({"materials/a/thermomechanics/reference temperature": None}, "reference temperature"),
         ({"contact/joint/heat/slave share": 1.2}, "slave share"),
         ({"contact/joint/heat/conductance/factor": -1}, "factor"),
