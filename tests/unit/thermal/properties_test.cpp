@@ -48,8 +48,9 @@ TEST(ThermalProperties, AreReadAsNumbersExpressionsAndTables) {
 }
 
 TEST(ThermalProperties, RefuseWhatHasNoMeaning) {
-  ThermalProperties none, both, negative;
-  EXPECT_THAT(read(none, ""), HasSubstr("there is no conductivity"));
+  ThermalProperties none, half, both, negative;
+  EXPECT_EQ(read(none, ""), "") << "nothing is said of heat";
+  EXPECT_THAT(read(half, parameter("specific heat", "2")), HasSubstr("there is no conductivity"));
   const std::string said = read(both, parameter("conductivity", "2") +
                                           "<ParameterList name=\"conductivity table\">\n"
                                           "<Parameter name=\"temperatures\" type=\"string\" value=\"0\"/>\n"

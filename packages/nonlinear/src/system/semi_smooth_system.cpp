@@ -18,7 +18,7 @@ RCP<const Vector> SemiSmoothSystem::unknowns(const Vector& x) const { return mod
 RCP<Vector> SemiSmoothSystem::unknowns(Vector& x) const { return model_->d(x); }
 RCP<const Vector> SemiSmoothSystem::multipliers(const Vector& x) const { return model_->z(x); }
 RCP<Vector> SemiSmoothSystem::multipliers(Vector& x) const { return model_->z(x); }
-double SemiSmoothSystem::stiffness_scale() const { return model_->stiffness_scale(); }
+double SemiSmoothSystem::stiffness_scale(std::size_t field) const { return model_->stiffness_scale(field); }
 
 RCP<const Vector> SemiSmoothSystem::first_field(const Vector& of_dofs) const {
   if (model_->sizes().fields() == 1) return rcp(&of_dofs, false);

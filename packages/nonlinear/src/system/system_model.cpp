@@ -20,6 +20,9 @@ namespace {
 // against it instead of against nothing.
 constexpr double round_off_floor = 1e-6;
 
+// Of a row sum K_ij x_j with some tens of terms, over the diagonal times x.
+constexpr double row_round_off = 16.0 * std::numeric_limits<double>::epsilon();
+
 /// Ids of the first map, then those of the second.
 RCP<const Map> map_of_both(const Map& first, const Map& second) {
   std::vector<GlobalOrdinal> ids;
@@ -297,7 +300,10 @@ void SystemModel::add_norms(EvaluatedSystem& at) const {
   for (std::size_t field = 0; field < force.size(); ++field) {
     force[field] = std::max(force[field], round_off_floor * diagonal_scale(field, at.context.step.get()) * displacement[field]);
     finite = finite && std::isfinite(force[field]);
-    if (out_of_balance[field] != 0.0) norms.momentum = std::max(norms.momentum, out_of_balance[field] / force[field]);
+    // Rows of further fields sum up to nothing where the field is uniform, however large: of a temperature of 300 K and 1 mK of difference, round-off
+    // of its value is left.
+    const double round_off = field == 0 ? 0.0 : row_round_off * diagonal_scale(field, at.context.step.get()) * displacement[field];
+    if (out_of_balance[field] > round_off) norms.momentum = std::max(norms.momentum, out_of_balance[field] / force[field]);
   }
   if (!std::isfinite(norms.momentum_absolute)) norms.momentum = norms.momentum_absolute;  // a maximum passes over what is no number
   // F = I + grad u is known to eps, and so are stresses, to eps E; contact forces come from positions, known to eps |x| at each closed node.

@@ -171,23 +171,33 @@ struct FrictionHeatQuantity : Quantity {
   }
 };
 
-/// What is missing in the balance of heat of the last step, over its largest power. [-]
+class BalanceEvaluator final : public QuantityEvaluator {
+ public:
+  double evaluate(const QuantityContext& context) override { return balance_.imbalance(context.mesh(), context.heat); }
+  void serialize(StateArchive& archive, const std::string& name) override { balance_.serialize(archive, name); }
+
+ private:
+  HeatBalance balance_;
+};
+
+/// What is missing in the balance of heat of the last step, over the largest power so far. [-]
 struct HeatBalanceQuantity : Quantity {
   void describe(Parameters&) override {}
   std::unique_ptr<QuantityEvaluator> make_evaluator(const QuantityContext& context) const override {
     require_temperature(context);
-    return evaluator_of([](const QuantityContext& at) { return heat_balance(at.mesh(), at.heat).imbalance(); });
+    return std::make_unique<BalanceEvaluator>();
   }
 };
 
 }  // namespace
 
 // Rows of all nodes sum up to 0 but for prescribed temperatures, where they are what supports give.
-HeatBalance heat_balance(const Mesh& mesh, const HeatOfStep& heat) {
-  HeatBalance balance;
+double HeatBalance::imbalance(const Mesh& mesh, const HeatOfStep& heat) {
+  constexpr double far_above_round_off = 1e8;
+  double sum = 0.0, largest = far_above_round_off * heat.round_off;
   const auto add = [&](double into) {
-    balance.sum += into;
-    balance.largest = std::max(balance.largest, std::abs(into));
+    sum += into;
+    largest = std::max(largest, std::abs(into));
   };
   for (const HeatOfStep::Flow& source : heat.sources)
     for (const double power : source.power) add(power);
@@ -199,14 +209,14 @@ HeatBalance heat_balance(const Mesh& mesh, const HeatOfStep& heat) {
     add(pair.power.friction);
     add(-pair.power.to_slave_without_rows);
     add(-pair.power.to_master_without_rows);
-    balance.largest = std::max(balance.largest, std::abs(pair.power.conducted));
+    largest = std::max(largest, std::abs(pair.power.conducted));
   }
   const auto reaction = heat.reaction->getLocalViewHost(Tpetra::Access::ReadOnly);
   double into = 0.0, both = 0.0;
   for (const LocalOrdinal row : *heat.prescribed) into += reaction(row, 0), both += std::abs(reaction(row, 0));
   add(sum_over_ranks(mesh, into));
-  balance.largest = std::max(balance.largest, sum_over_ranks(mesh, both));
-  return balance;
+  largest_ = std::max({largest_, largest, sum_over_ranks(mesh, both)});
+  return largest_ > 0.0 ? std::abs(sum) / largest_ : 0.0;
 }
 
 void add_heat_flow(Registry<Quantity>& kinds) {
@@ -218,7 +228,7 @@ void add_dissipated_heat(Registry<Quantity>& kinds) {
   kinds.add<DissipatedHeatQuantity>("deformation heat", "heat of plastic flow and of elastic strain");
 }
 void add_heat_balance(Registry<Quantity>& kinds) {
-  kinds.add<HeatBalanceQuantity>("heat balance", "what is missing in the balance of heat of the last step, over its largest power");
+  kinds.add<HeatBalanceQuantity>("heat balance", "what is missing in the balance of heat of the last step, over the largest power so far");
 }
 
 }  // namespace mortise

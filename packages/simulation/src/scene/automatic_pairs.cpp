@@ -34,6 +34,7 @@ void AutomaticContactOptions::describe(Parameters& parameters) {
       Says("surfaces are split into patches at edges where the normals of facets differ by more").unit("degrees").at_least(0.0).at_most(180.0));
   start.describe(parameters);
   contact.describe(parameters);
+  parameters.list("heat", heat, "heat across the pairs, in a scene with temperatures");
 }
 
 namespace {
@@ -313,6 +314,7 @@ class PairMaker {
     pair.value.master = {set_of_all(masters, "masters of " + pair.name, pair.place), pair.place};
     pair.value.start = scene_.automatic_contact.start;
     pair.value.contact = scene_.automatic_contact.contact;
+    pair.value.heat = scene_.automatic_contact.heat;
     pair.value.reason = reason(slaves, masters);
     if (const auto behind = hidden_master(slaves, masters)) {
       auto& reach = pair.value.contact.mortar.search_reach;

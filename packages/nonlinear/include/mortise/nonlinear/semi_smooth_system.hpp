@@ -75,8 +75,8 @@ class SemiSmoothSystem {
   RCP<const Vector> multipliers(const Vector& x) const;
   /// A view into the multipliers of x, to write to.
   RCP<Vector> multipliers(Vector& x) const;
-  /// s of the first field, a stiffness; 0 before the first evaluation.
-  double stiffness_scale() const;
+  /// s of a field, of the first one a stiffness; 0 before the first evaluation.
+  double stiffness_scale(std::size_t field = 0) const;
   /// A vector on the dofs with 0 for all fields but the first; with one field a view of the vector itself.
   RCP<const Vector> first_field(const Vector& of_dofs) const;
   /// The largest displacement of x, or value of another field as if its size were that of the first.

@@ -1,7 +1,12 @@
 #include "model/heat/heat_of_step.hpp"
 
+#include <Tpetra_Vector.hpp>
+#include <cmath>
+#include <limits>
+
 #include "model/heat/booked_heat.hpp"
 #include "model/heat/contact_heat_book.hpp"
+#include "mortise/core/over_ranks.hpp"
 
 namespace mortise {
 namespace {
@@ -32,8 +37,19 @@ HeatOfStep heat_of_step(const Scene& scene, const Model& model) {
   return result;
 }
 
-HeatOfStep heat_of_step(const Scene& scene, const Model& model, const Vector& reaction, double time_step) {
+// A power is a conductance times a temperature, and that is known to eps.
+HeatOfStep heat_of_step(const Scene& scene, const Model& model, const SemiSmoothSystem& system, const SystemEvaluation& at, const Vector& reaction,
+                        double time_step) {
   HeatOfStep result = heat_of_step(scene, model);
+  const FieldRows& rows = model.space().rows(model.heat().bodies->temperature());
+  const RCP<const Vector> unknowns = system.unknowns(at.x());
+  double mine = 0.0;
+  {
+    const auto theta = unknowns->getLocalViewHost(Tpetra::Access::ReadOnly);
+    for (LocalOrdinal node = 0; node < model.mesh()->owned_count(); ++node)
+      if (rows.lives(node)) mine += std::abs(theta(rows(node, 0), 0));
+  }
+  result.round_off = std::numeric_limits<double>::epsilon() * system.stiffness_scale(1) * sum_over_ranks(*model.mesh()->comm, mine);
   result.reaction = &reaction;
   result.time_step = time_step;
   return result;

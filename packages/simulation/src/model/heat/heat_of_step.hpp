@@ -13,6 +13,7 @@ HeatOfStep heat_of_step(const Scene& scene, const Model& model);
 
 /// After the step was committed.
 /// @param reaction  has to outlive the result
-HeatOfStep heat_of_step(const Scene& scene, const Model& model, const Vector& reaction, double time_step);
+HeatOfStep heat_of_step(const Scene& scene, const Model& model, const SemiSmoothSystem& system, const SystemEvaluation& at, const Vector& reaction,
+                        double time_step);
 
 }  // namespace mortise

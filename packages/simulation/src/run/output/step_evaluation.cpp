@@ -76,7 +76,7 @@ std::vector<double> StepEvaluation::quantities(const SystemEvaluation& at) {
   if (model_.connectors().dashpot_forces) context.connectors.dashpot_velocity = &model_.connectors().dashpot_forces->last_velocity();
   if (model_.connectors().stabilisation) context.connectors.stabilisation_force = &model_.connectors().stabilisation->force();
   context.reaction = reaction.get();
-  if (model_.heat().bodies) context.heat = heat_of_step(scene_, model_, *all_forces, time - last_time_);
+  if (model_.heat().bodies) context.heat = heat_of_step(scene_, model_, system_, at, *all_forces, time - last_time_);
   last_time_ = time;
   context.external_force = external.get();
   const std::optional<MotionOfStep> of_step = motion ? std::optional(motion->of_quantities()) : std::nullopt;

@@ -30,7 +30,7 @@ constexpr double weighing = 1.0 / 12.0;
 constexpr int most_in_one_place(int dimension) { return dimension == 2 ? 2 : 4; }
 
 /// A slave facet beside a closed node, as all ranks know it.
-struct Place {
+struct OnSurface {
   Eigen::Vector3d centre, normal;
   double radius = 0.0, length = 0.0;
 
@@ -48,7 +48,7 @@ struct Place {
 };
 
 // Few facets: those of at most four nodes.
-std::vector<Place> on_all_ranks(const Communicator& comm, const std::vector<Place>& mine) {
+std::vector<OnSurface> on_all_ranks(const Communicator& comm, const std::vector<OnSurface>& mine) {
   constexpr int numbers = 8;
   const int own = static_cast<int>(mine.size());
   int most = 0;
@@ -61,7 +61,7 @@ std::vector<Place> on_all_ranks(const Communicator& comm, const std::vector<Plac
     values[6] = mine[f].radius;
     values[7] = mine[f].length;
   }
-  std::vector<Place> all;
+  std::vector<OnSurface> all;
   if (most == 0) return all;
   Teuchos::gatherAll(comm, static_cast<int>(sent.size()), sent.data(), static_cast<int>(received.size()), received.data());
   for (std::size_t at = 0; at < received.size(); at += numbers)
@@ -99,16 +99,16 @@ std::optional<CoarsePlace> coarse_place(const Model& model, const ContactPairOpt
   const Mesh& mesh = *model.mesh();
   const SideSet &slave = require_side_set(mesh, options.slave), &master = require_side_set(mesh, options.master);
   const std::vector<char> does_act = on_local_nodes(mesh, Import(mesh.owned_nodes, mesh.local_nodes), acts);
-  std::vector<Place> mine;
+  std::vector<OnSurface> mine;
   for (LocalOrdinal s = 0; s < slave.owned; ++s) {
     const std::vector<LocalOrdinal> nodes = mesh.side_nodes(slave.sides[s]);
     if (std::none_of(nodes.begin(), nodes.end(), [&](LocalOrdinal node) { return does_act[node]; })) continue;
     const FacetPlaces facet = places_of(mesh, slave.sides[s], at);
-    Place place{facet_centre(facet), facet_normal(mesh.dimension, facet), 0.0, side_lengths(mesh, slave.sides[s], at).back()};
+    OnSurface place{facet_centre(facet), facet_normal(mesh.dimension, facet), 0.0, side_lengths(mesh, slave.sides[s], at).back()};
     for (const Eigen::Vector3d& x : facet) place.radius = std::max(place.radius, (x - place.centre).norm());
     mine.push_back(place);
   }
-  const std::vector<Place> places = on_all_ranks(*mesh.comm, mine);
+  const std::vector<OnSurface> places = on_all_ranks(*mesh.comm, mine);
 
   // Turn of the master over all of these facets: twice the largest angle from the mean.
   std::vector<Eigen::Vector3d> normals;
@@ -116,7 +116,7 @@ std::optional<CoarsePlace> coarse_place(const Model& model, const ContactPairOpt
   for (LocalOrdinal s = 0; s < master.owned; ++s) {
     const FacetPlaces facet = places_of(mesh, master.sides[s], at);
     const Eigen::Vector3d normal = facet_normal(mesh.dimension, facet);
-    if (std::none_of(places.begin(), places.end(), [&](const Place& place) { return place.is_opposite(mesh.dimension, facet, normal); })) continue;
+    if (std::none_of(places.begin(), places.end(), [&](const OnSurface& place) { return place.is_opposite(mesh.dimension, facet, normal); })) continue;
     normals.push_back(normal);
     sum += normal;
   }
@@ -125,9 +125,9 @@ std::optional<CoarsePlace> coarse_place(const Model& model, const ContactPairOpt
   double off = 0.0, turn = 0.0, length = 0.0;
   for (const Eigen::Vector3d& normal : normals) off = std::max(off, 2.0 * std::acos(std::clamp(normal.dot(mean.normalized()), -1.0, 1.0)));
   Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_MAX, off, Teuchos::outArg(turn));
-  for (const Place& place : places) length = std::max(length, place.length);
+  for (const OnSurface& place : places) length = std::max(length, place.length);
   const double side_by_side = std::pow(static_cast<double>(places.size()), 1.0 / (mesh.dimension - 1));
-  const Eigen::Vector3d& x = std::min_element(places.begin(), places.end(), [](const Place& one, const Place& other) {
+  const Eigen::Vector3d& x = std::min_element(places.begin(), places.end(), [](const OnSurface& one, const OnSurface& other) {
                                return std::lexicographical_compare(one.centre.begin(), one.centre.end(), other.centre.begin(), other.centre.end());
                              })->centre;
   return CoarsePlace{x, length, turn / side_by_side};

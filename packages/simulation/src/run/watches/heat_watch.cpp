@@ -8,7 +8,6 @@
 
 #include "model/heat/heat_of_scene.hpp"
 #include "mortise/core/over_ranks.hpp"
-#include "mortise/simulation/quantities/heat_balance.hpp"
 #include "model/heat/heat_of_step.hpp"
 
 namespace mortise {
@@ -85,7 +84,7 @@ void HeatWatch::look_for_undershoot(const SemiSmoothSystem& system, const System
 void HeatWatch::accept(const SemiSmoothSystem& system, const SystemEvaluation& at) {
   const double time = at.context().time;
   const RCP<const Vector> forces = at.forces();
-  const double imbalance = heat_balance(*model_.mesh(), heat_of_step(scene_, model_, *forces, time - last_time_)).imbalance();
+  const double imbalance = balance_.imbalance(*model_.mesh(), heat_of_step(scene_, model_, system, at, *forces, time - last_time_));
   last_time_ = time;
   if (imbalance > worst_) worst_ = imbalance, time_of_worst_ = time;
   look_for_undershoot(system, at);
@@ -94,12 +93,13 @@ void HeatWatch::accept(const SemiSmoothSystem& system, const SystemEvaluation& a
 std::optional<StepFailure> HeatWatch::end(const SemiSmoothSystem&, const EndOfSteps&) {
   if (!(worst_ > balanced)) return std::nullopt;
   return StepFailure(FailureKind::step_error,
-                     fmt::format("heat is not in balance: in the step to t = {:g} {:.2e} of its largest power is missing; allowed: {:.0e}. Please take a "
+                     fmt::format("heat is not in balance: in the step to t = {:g} {:.2e} of the largest power is missing; allowed: {:.0e}. Please take a "
                                  "smaller \"momentum tolerance\"",
                                  time_of_worst_, worst_, balanced));
 }
 
 void HeatWatch::serialize(StateArchive& archive) {
+  balance_.serialize(archive, "heat_watch");
   mortise::serialize(archive, "heat_watch.worst", worst_);
   mortise::serialize(archive, "heat_watch.time_of_worst", time_of_worst_);
   mortise::serialize(archive, "heat_watch.last_time", last_time_);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "mortise/simulation/model/model.hpp"
+#include "mortise/simulation/quantities/heat_balance.hpp"
 #include "mortise/simulation/scene/scene.hpp"
 #include "run/stepping/step_guard.hpp"
 
@@ -25,6 +26,7 @@ class HeatWatch final : public StepGuard {
   const Model& model_;
   const Scene& scene_;
   std::function<void(const std::string&)> warn_;
+  HeatBalance balance_;
   double worst_ = 0.0, time_of_worst_ = 0.0;  ///< imbalance over the largest power
   double last_time_ = 0.0;
   bool is_said_ = false;

@@ -72,6 +72,7 @@ struct HeatOfStep {
   const Vector* reaction = nullptr;       ///< on owned dofs: at prescribed temperatures the power into the bodies; null while evaluators are made
   const std::vector<LocalOrdinal>* prescribed = nullptr;  ///< rows of prescribed temperatures
   double time_step = 0.0;                 ///< length of the step
+  double round_off = 0.0;                 ///< what round-off of temperatures may leave of a sum of powers, over all ranks
 };
 
 /// What a quantity may look at. The vectors are null while evaluators are made.

@@ -8,6 +8,7 @@
 #include "mortise/contact/contact_pair.hpp"
 #include "mortise/core/parameters.hpp"
 #include "mortise/simulation/scene/contact_start.hpp"
+#include "mortise/simulation/scene/heat.hpp"
 
 namespace mortise {
 
@@ -21,6 +22,7 @@ struct AutomaticContactOptions {
   double angle = 30.0;                       ///< [degrees] between facets at the edges of patches
   ContactStartOptions start;                 ///< of all pairs that are found
   ContactOptions contact;                    ///< of all pairs that are found
+  ContactHeatOptions heat;                   ///< of all pairs that are found
   void describe(Parameters& parameters);
 };
 

@@ -1,0 +1,165 @@
+"""Heat of scenes against theory: balance on random scenes, roles exchanged, orders in the step, bad input, scenes without heat.
+
+usage: heat_test.py MORTISE INPUTS DIRECTORY [number of random scenes]
+"""
+import copy
+import json
+import math
+import os
+import subprocess
+import sys
+
+from heat_scenes import Runs, block, exchanged, material, pressed_pair, put, random_scene
+
+
+def orders(runs, check):
+    """A cos mode between insulated walls decays as exp(-k pi^2 t / (rho c L^2)); steps are halved."""
+    rate = 2.0 * math.pi ** 2 / (1.0 * 4.0)
+
+    def end(integration, steps):
+        scene = {"kinematics": "plane strain", "materials": {"a": material(2.0, density=1.0, capacity=4.0)},
+                 "bodies": {"bar": {"material": "a", "element": "Q8", "mesh": block(1, 0.1, 40, 1)}},
+                 "boundary conditions": {"foot": {"set": "bar/bottom", "x": 0, "y": 0}},
+                 "heat": {"analysis": "transient", "integration": integration, "initial temperature": "300 + 10*cos(pi*x)"},
+                 "stepping": {"step": 0.2 / steps, "end time": 0.2}, "output": {"fields": ""},
+                 "quantities": {"end": {"type": "temperature", "x": 0, "y": 0.05}}}
+        return runs.run(f"decay_{integration.replace(' ', '_')}_{steps}", scene)[2]["end"] - 300
+    exact = 10 * math.exp(-rate * 0.2)
+    for integration, order in (("backward euler", 1), ("trapezoidal", 2)):
+        errors = [abs(end(integration, steps) - exact) for steps in (8, 16, 32)]
+        found = math.log2(errors[1] / errors[2])
+        check(abs(found - order) < 0.15, f"{integration}: errors {errors[0]:.2e}, {errors[1]:.2e}, {errors[2]:.2e}, of order {found:.2f}; theory {order}")
+
+
+def random_scenes(runs, check, count):
+    """Balance to 1e-10 whatever the scene; what flows is that with slave and master exchanged, up to the error of the mesh."""
+    ran = 0
+    for seed in range(count):
+        scene = random_scene(seed)
+        code, said, values, columns = runs.run(f"random_{seed}", scene)
+        if code != 0:
+            check(code == 3 and "reason" in said or "error" not in said, f"random scene {seed} stops with {code}: {said.strip().splitlines()[-1]}")
+            continue
+        ran += 1
+        worst = max(columns["balance"])
+        check(worst < 1e-10, f"random scene {seed}: {worst:.1e} of the largest power is missing at most")
+        code, _, other, _ = runs.run(f"random_{seed}_exchanged", exchanged(scene))
+        if code == 0:
+            size = max(abs(values["stored"]), abs(values["across"]))
+            apart = abs(values["stored"] - other["stored"]) / size
+            check(apart < 0.03, f"random scene {seed}: stored heat with roles exchanged differs by {apart:.1e}")
+            check(abs(values["across"] + other["across"]) < 0.05 * size, f"random scene {seed}: heat across is {values['across']:.5g} and {other['across']:.5g}")
+    check(ran >= 0.8 * count, f"{ran} of {count} random scenes run to their end")
+
+
+def exact_cases(runs, check):
+    """Free expansion bears no stress; a quarter turn of everything creates no heat; insulated isothermal scenes pass at once."""
+    for law in ("hencky", "neo hooke", "ciarlet neo hooke", "st venant kirchhoff", "small strain linear"):
+        for element in ("Q4", "Q4 F-bar", "Q8"):
+            if law == "small strain linear" and element == "Q4 F-bar":
+                continue
+            scene = {"kinematics": "plane strain", "materials": {"a": material(expansion=2e-5, law=law)},
+                     "bodies": {"plate": {"material": "a", "element": element, "mesh": block(3, 2, 3, 2, angle=20)}},
+                     "sets": {"corner": {"of": "plate/bottom", "kind": "nodes", "where": "1e-6 - abs(x)"},
+                              "rim": {"of": "plate/bottom, plate/top, plate/left, plate/right", "kind": "sides", "where": "1"}},
+                     "boundary conditions": {"corner": {"set": "corner", "x": 0, "y": 0}, "side": {"set": "plate/bottom", "y": 0, "x axis": "0.9396926207859084, 0.3420201433256687"}},
+                     "heat": {"analysis": "steady", "initial temperature": 300, "temperatures": {"all": {"set": "plate/top", "temperature": "300 + 100*t"}}},
+                     "output": {"fields": ""}, "quantities": {"stress": {"type": "extremum", "field": "stress xy", "which": "maximum absolute"},
+                                                              "in plane": {"type": "extremum", "field": "stress xx", "which": "maximum absolute"}}}
+            scene["sets"].pop("rim")
+            code, said, values, _ = runs.run(f"free_{law.replace(' ', '_')}_{element.replace(' ', '_')}", scene)
+            check(code == 0 and values["stress"] < 1e-6 * 2e5 * 2e-3, f"free expansion, {law}, {element}: exit {code}, shear stress {values.get('stress', math.nan):.1e}")
+
+    turned = {"kinematics": "plane strain", "materials": {"a": material(expansion=2e-5)}, "bodies": {"plate": {"material": "a", "mesh": block(3, 2, 3, 2)}},
+              "boundary conditions": {"turn": {"set": "plate/bottom", "x": "x*(cos(pi/2*t) - 1) - y*sin(pi/2*t)", "y": "x*sin(pi/2*t) + y*(cos(pi/2*t) - 1)"}},
+              "heat": {"analysis": "transient", "initial temperature": 300}, "stepping": {"step": 0.5}, "output": {"fields": ""},
+              "quantities": {"hot": {"type": "extremum", "field": "temperature"}, "cold": {"type": "extremum", "field": "temperature", "which": "minimum"}}}
+    code, said, values, _ = runs.run("turned", turned)
+    check(code == 0 and abs(values["hot"] - 300) < 1e-9 and abs(values["cold"] - 300) < 1e-9, f"a quarter turn: exit {code}, temperatures {values}")
+
+
+def bad_input(runs, check):
+    """Each mistake has its message."""
+    cases = [
+        ({"materials/a/heat/conductivity": -3}, "conductivity"),
+        ({"materials/a/heat/specific heat": 0}, "specific heat"),
+        ({"materials/a/heat/conductivity": "50*(temperature - 400)"}, "conductivity"),
+        ({"materials/a/density": None}, "density"),
+        ({"materials/a/heat": None, "materials/a/thermomechanics": None}, "has no temperature"),
+        ({"materials/a/heat": None, "quantities": {}}, "thermomechanics"),
+        ({"materials/a/heat/conductivity": None}, "there is no conductivity"),
+        ({"materials/a/thermomechanics/reference temperature": None}, "reference temperature"),
+        ({"contact/joint/heat/slave share": 1.2}, "slave share"),
+        ({"contact/joint/heat/conductance/factor": -1}, "factor"),
+        ({"contact/joint/heat/gap conductance": {"type": "medium", "conductivity": 1, "distance": 0.1}}, "1 %"),
+        ({"heat/initial temperature": None}, "initial temperature"),
+        ({"heat/initial temperature": "1/(x - 3)"}, "finite"),
+        ({"heat/analysis": "none"}, "analysis"),
+        ({"heat/temperatures/hot/set": "upper/upside"}, "upside"),
+        ({"heat/temperatures/hot/temperature": "300 + sqrt(-t)"}, "hot"),
+        ({"heat/temperatures/again": {"set": "upper/top", "temperature": 20}}, "again"),
+        ({"heat/initial temperatures": {"of all": {"body": "middle", "temperature": 3}}}, "middle"),
+        ({"heat/loads": {"glow": {"type": "radiation", "set": "lower/right", "emissivity": 0.5, "stefan-boltzmann constant": 5.67e-8, "surroundings": -5}}}, "glow"),
+        ({"heat/loads": {"air": {"type": "convection", "set": "lower/right", "coefficient": -1, "surroundings": 300}}}, "coefficient"),
+        ({"heat/analysis": "steady", "heat/temperatures": None, "quantities": {}}, "nothing determines the temperature"),
+        ({"quantities/flow": {"type": "heat flow", "pair": "joint", "set": "upper/top"}}, "one of three"),
+        ({"quantities/flow": {"type": "heat flow", "load": "wind"}}, "wind"),
+        ({"heat": None, "quantities": {"balance": {"type": "heat balance"}}}, "no temperature"),
+        ({"heat": None, "quantities": {}}, "law of conductance"),
+    ]
+    for changes, expected in cases:
+        code, said, _, _ = runs.run("bad", pressed_pair(**changes))
+        words = [line for line in said.splitlines() if "error" in line or "reason" in line or "stopped" in line]
+        check(code in (2, 3) and expected in said, f"{changes}: exit {code}, {words[:1]}")
+    warned = [
+        ({"contact/joint/friction": None, "contact/joint/heat/slave share": 0.3, "boundary conditions/drive/x": 0}, "no friction"),
+        ({"contact/joint/heat/conductance": None}, "conduct no heat"),
+    ]
+    for changes, expected in warned:
+        code, said, _, _ = runs.run("warned", pressed_pair(**changes))
+        check(code == 0 and expected in said, f"{changes}: exit {code}, warned: {expected in said}")
+
+
+def without_heat(runs, check, inputs):
+    """Nothing of heat runs where the scene does not name it."""
+    done = subprocess.run([runs.mortise, "run", os.path.join(inputs, "paper", "patch_test.xml"), "-o", os.path.join(runs.directory, "off")], capture_output=True, text=True)
+    with open(os.path.join(runs.directory, "off", "summary.json")) as file:
+        text = json.dumps({key: value for key, value in json.load(file).items() if key in ("calls", "bytes", "effects", "seconds")})
+    check(done.returncode == 0 and "heat" not in text and "temperature" not in text, "a mechanical scene has no effect, call, byte or timer of heat")
+
+
+def restarts_and_ranks(runs, check):
+    scene = pressed_pair(**{"output/checkpoints": {"every step": 1}})
+    _, _, whole, _ = runs.run("whole", scene)
+    path, results = os.path.join(runs.directory, "whole.xml"), os.path.join(runs.directory, "whole_1")
+    done = subprocess.run([runs.mortise, "run", path, "-o", results, "--restart", "9"], capture_output=True, text=True)
+    with open(os.path.join(results, "summary.json")) as file:
+        again = json.load(file)["quantities"]
+    apart = max(abs(again[name] - whole[name]) / max(abs(whole[name]), 1e-9) for name in whole if name != "balance")
+    check(done.returncode == 0 and apart < 1e-9, f"restart: quantities differ by {apart:.1e}")
+    for ranks in (2, 3):
+        _, _, values, _ = runs.run("whole", scene, ranks)
+        apart = max(abs(values[name] - whole[name]) / max(abs(whole[name]), 1e-9) for name in whole if name != "balance")
+        check(apart < 1e-9, f"{ranks} ranks: quantities differ by {apart:.1e}")
+
+
+def main():
+    mortise, inputs, directory = sys.argv[1:4]
+    count = int(sys.argv[4]) if len(sys.argv) > 4 else 6
+    runs, failures = Runs(mortise, directory), 0
+
+    def check(holds, text):
+        nonlocal failures
+        failures += not holds
+        print(("ok      " if holds else "FAILED  ") + text, flush=True)
+
+    orders(runs, check)
+    exact_cases(runs, check)
+    random_scenes(runs, check, count)
+    bad_input(runs, check)
+    without_heat(runs, check, inputs)
+    restarts_and_ranks(runs, check)
+    sys.exit(failures > 0)
+
+
+main()
