@@ -31,8 +31,8 @@ struct ThermalList {
 };
 
 /// A function of the temperature has to agree at the reference temperature with the number that it stands for.
-void check_at_reference(Parameters& parameters, const ThermomechanicalProperties& thermal, const TemperatureFunction& function, const std::string& name,
-                        double expected) {
+void check_at_reference(Parameters& parameters, const ThermomechanicalProperties& thermal, const TemperatureFunction& function,
+                        const std::string& name, double expected) {
   if (!function.is_given() || function.fault() || !thermal.reference_temperature) return;
   constexpr double round_off_of_input = 1e-6;  // numbers are written with a few digits
   const double value = function.at(*thermal.reference_temperature);
@@ -48,7 +48,8 @@ void MaterialOptions::describe(Parameters& parameters) {
   parameters.add("poisson's ratio", poissons_ratio, Says("Poisson's ratio at zero strain").unit("-").above(-1.0).below(0.5).required());
   parameters.add("density", density, Says("mass per reference volume").unit("mass / volume").at_least(0.0));
   ThermalList list{*this};
-  parameters.list("thermomechanics", list, "thermal expansion, properties that depend on the temperature, heat of deformation; for models with a temperature");
+  parameters.list("thermomechanics", list,
+                  "thermal expansion, properties that depend on the temperature, heat of deformation; for models with a temperature");
 }
 
 void MaterialOptions::describe_thermomechanics(Parameters& parameters) {

@@ -295,7 +295,7 @@ std::string refused(MaterialOptions& material, const std::string& entries) {
     hardening = "<ParameterList name=\"hardening\">\n<Parameter name=\"type\" type=\"string\" value=\"perfect\"/>\n" + number("yield stress", "10") +
                 "</ParameterList>\n";
   const XmlList root = parse_xml("<ParameterList name=\"steel\">\n" + number("young's modulus", "1000") + number("poisson's ratio", "0.3") +
-                                     hardening + "<ParameterList name=\"thermal\">\n" + entries + "</ParameterList>\n</ParameterList>\n",
+                                     hardening + "<ParameterList name=\"thermomechanics\">\n" + entries + "</ParameterList>\n</ParameterList>\n",
                                  "law.xml");
   std::vector<Diagnostic> diagnostics;
   read_parameters(material, root, Symbols(), {}, diagnostics);
@@ -314,7 +314,7 @@ TEST(ThermalOptions, AreReadAndChecked) {
   EXPECT_EQ(refused(elastic, ""), "");
   EXPECT_FALSE(elastic.thermal.given());
   EXPECT_EQ(refused(elastic, reference + entry("expansion coefficient", "1e-5 * temperature")), "");
-  EXPECT_TRUE(elastic.thermal.given());
+  ASSERT_TRUE(elastic.thermal.given());
   EXPECT_NEAR(elastic.thermal.expansion.at(400.0), 4e-3, 1e-15);
   const auto expect_refused = [&](MaterialOptions&& material, const std::string& entries, const std::string& message) {
     const std::string text = refused(material, entries);

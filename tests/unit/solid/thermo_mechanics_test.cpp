@@ -183,7 +183,8 @@ TEST(PlasticHeat, IsTheShareOfThePlasticPower) {
   std::size_t n = 0;
   bodies->visit_points(x, [&](const MaterialPoint& point) {
     const double alpha = point.equivalent_plastic_strain;
-    expected += point.weight * ThermomechanicalProperties::usual_plastic_heat_share * hardening.yield_stress(alpha) * (alpha - before[n++]) / step_length;
+    expected +=
+        point.weight * ThermomechanicalProperties::usual_plastic_heat_share * hardening.yield_stress(alpha) * (alpha - before[n++]) / step_length;
   });
   EXPECT_GT(expected, 0.0);
   EXPECT_NEAR(bodies->heat_powers(x, step_length)[0], expected, 1e-12 * expected);

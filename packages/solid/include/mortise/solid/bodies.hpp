@@ -73,8 +73,8 @@ class Bodies {
   const FieldSpace& space() const { return *space_; }
   const std::shared_ptr<const FieldSpace>& shared_space() const { return space_; }
 
-  /// True if the law of a body takes the temperature: its material has ThermomechanicalProperties, and a field "temperature" of the space lives on its nodes.
-  /// Forces of such bodies depend on that field. The same on all ranks.
+  /// True if the law of a body takes the temperature: its material has ThermomechanicalProperties, and a field "temperature" of the space lives on
+  /// its nodes. Forces of such bodies depend on that field. The same on all ranks.
   bool know_temperature() const { return know_temperature_; }
 
   /// True if bodies add their heat to the rows of the temperature. The same on all ranks.
