@@ -54,6 +54,7 @@ const std::vector<Case> cases{
     {"spin", "dynamics/spinning_box.xml", {"stepping/end time=0.02"}},
     {"springs_and_dashpots", "verification/spring_bed.xml", {"stepping/end time=1"}},
     {"stabilisation", "verification/stabilised_block.xml", {}},
+    {"heat", "heat/hot_billet.xml", {"stepping/end time=0.05"}},
     {"oscillator", "dynamics/damped_oscillator.xml", {"stepping/end time=0.1"}},
     {"iterative_solver", "verification/3d/hertz_sphere.xml", {"variables/n=2", "linear solver/type=iterative"}},
     {"iterative_solver_with_friction", "verification/3d/bar_on_plane.xml", {"linear solver/type=iterative", "stepping/end time=0.5"}},

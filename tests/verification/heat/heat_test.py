@@ -78,6 +78,47 @@ def exact_cases(runs, check):
     check(code == 0 and abs(values["hot"] - 300) < 1e-9 and abs(values["cold"] - 300) < 1e-9, f"a quarter turn: exit {code}, temperatures {values}")
 
 
+def stored_and_determined(runs, check):
+    """Stored heat is a function of the temperature; what nothing determines is no result; free bodies of any element converge."""
+    cell = {"kinematics": "plane strain", "materials": {"a": material(50, density=1, capacity="1 + 0.002*(temperature - 300)")},
+            "bodies": {"cell": {"material": "a", "mesh": block(1, 1, 1, 1)}}, "boundary conditions": {"foot": {"set": "cell/bottom", "x": 0, "y": 0}},
+            "heat": {"analysis": "transient", "initial temperature": 300, "temperatures": {"all": {"set": "cell/surface", "temperature": "300 + 400*sin(pi*t)"}}},
+            "stepping": {"step": 0.25, "output times": "0.5"}, "output": {"fields": ""}, "quantities": {"stored": {"type": "stored heat"}}}
+    code, _, values, columns = runs.run("cycle", cell)
+    exact = 400 + 0.001 * 400 ** 2
+    check(code == 0 and abs(columns["stored"][1] - exact) < 1e-6 and abs(values["stored"]) < 1e-6,
+          f"a cycle of a specific heat that grows: {columns['stored'][1]:.6f} of {exact:g} is stored in the middle, {values['stored']:.1e} at the end")
+    table = copy.deepcopy(cell)
+    put(table, "materials/a/heat/specific heat", None)
+    put(table, "materials/a/heat/specific heat table", {"temperatures": "500, 505, 510", "values": "1, 101, 1"})
+    _, _, values, columns = runs.run("latent", table)
+    check(abs(columns["stored"][1] - 900) < 1e-6 and abs(values["stored"]) < 1e-6, f"a latent heat of 500: {columns['stored'][1]:.6f} of 900 is stored, {values['stored']:.1e} at the end")
+
+    open_pair = pressed_pair(**{"heat/analysis": "steady", "bodies/upper/mesh": block(4, 2, 7, 4, 3, 3.1), "boundary conditions/drive": {"set": "upper/top", "x": 0, "y": 0},
+                                "contact/joint/friction": None, "quantities": {}})
+    code, said, _, _ = runs.run("open", open_pair)
+    check(code == 3 and "nothing determines the temperature of" in said, f"a steady body behind an open gap: exit {code}")
+    put(open_pair, "heat/temperatures/cold", {"set": "lower/bottom", "temperature": 300})
+    code, _, _, _ = runs.run("open_determined", open_pair)
+    check(code == 0, f"the same with a temperature on either side: exit {code}")
+    scene = {"kinematics": "plane strain", "materials": {"a": material(expansion=1.2e-5)},
+             "bodies": {"plate": {"material": "a", "element": "Q8", "mesh": block(40, 10, 32, 8)}}, "sets": {"corner": {"of": "plate/left", "kind": "nodes", "where": "1e-6 - y"}},
+             "boundary conditions": {"foot": {"set": "plate/bottom", "y": 0}, "corner": {"set": "corner", "x": 0}},
+             "heat": {"analysis": "transient", "initial temperature": 300, "loads": {"air": {"type": "convection", "set": "plate/top", "coefficient": 0.5, "surroundings": 400}}},
+             "stepping": {"step": 2, "end time": 20}, "output": {"fields": ""}}
+    for element in ("Q8", "T6"):
+        scene["bodies"]["plate"]["element"] = element
+        code, said, _, _ = runs.run("free_" + element, scene)
+        check(code == 0, f"a free plate of {element} that warms up: exit {code}, {said.strip().splitlines()[-1][:60]}")
+    flow = {"kinematics": "plane strain", "materials": {"a": material(expansion=1e-5, law="j2 plasticity")}, "bodies": {"block": {"material": "a", "mesh": block(1, 1, 2, 2)}},
+            "boundary conditions": {"foot": {"set": "block/bottom", "x": 0, "y": 0}, "press": {"set": "block/top", "y": "-0.1*t/end"}}, "variables": {"end": 1},
+            "heat": {"analysis": "steady", "initial temperature": 300, "temperatures": {"foot": {"set": "block/bottom", "temperature": 300}}},
+            "stepping": {"step": "0.1*end", "end time": "end"}, "output": {"fields": ""}, "quantities": {"hot": {"type": "extremum", "field": "temperature"}}}
+    put(flow, "materials/a/hardening", {"type": "linear", "yield stress": 200, "modulus": 500})
+    hot = [runs.run("flow", {**flow, "variables": {"end": end}})[2]["hot"] for end in (1, 100)]
+    check(max(abs(value - 300) for value in hot) < 1e-9, f"plastic flow in a steady analysis heats nothing: {hot}")
+
+
 def bad_input(runs, check):
     """Each mistake has its message."""
     cases = [
@@ -91,7 +132,7 @@ def bad_input(runs, check):
         ({"materials/a/thermomechanics/reference temperature": None}, "reference temperature"),
         ({"contact/joint/heat/slave share": 1.2}, "slave share"),
         ({"contact/joint/heat/conductance/factor": -1}, "factor"),
-        ({"contact/joint/heat/gap conductance": {"type": "medium", "conductivity": 1, "distance": 0.1}}, "1 %"),
+        ({"contact/joint/heat/gap conductance": {"type": "medium", "conductivity": 1, "distance": 0.1}}, "do not meet"),
         ({"heat/initial temperature": None}, "initial temperature"),
         ({"heat/initial temperature": "1/(x - 3)"}, "finite"),
         ({"heat/analysis": "none"}, "analysis"),
@@ -104,6 +145,10 @@ def bad_input(runs, check):
         ({"heat/analysis": "steady", "heat/temperatures": None, "quantities": {}}, "nothing determines the temperature"),
         ({"quantities/flow": {"type": "heat flow", "pair": "joint", "set": "upper/top"}}, "one of three"),
         ({"quantities/flow": {"type": "heat flow", "load": "wind"}}, "wind"),
+        ({"quantities/flow": {"type": "heat flow", "set": "lower/bottom"}}, "no node of"),
+        ({"quantities/error": {"type": "energy error"}}, "thermal expansion"),
+        ({"heat/initial temperatures": {"one": {"body": "upper", "temperature": 3}, "two": {"body": "upper", "temperature": 4}}}, "two initial temperatures"),
+        ({"materials/a/heat": {"conductivity": 0}, "materials/a/thermomechanics": None, "heat/analysis": "steady", "quantities": {}}, "conducts no heat"),
         ({"heat": None, "quantities": {"balance": {"type": "heat balance"}}}, "no temperature"),
         ({"heat": None, "quantities": {}}, "law of conductance"),
     ]
@@ -156,6 +201,7 @@ def main():
     orders(runs, check)
     exact_cases(runs, check)
     random_scenes(runs, check, count)
+    stored_and_determined(runs, check)
     bad_input(runs, check)
     without_heat(runs, check, inputs)
     restarts_and_ranks(runs, check)

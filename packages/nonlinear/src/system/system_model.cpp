@@ -302,7 +302,9 @@ void SystemModel::add_norms(EvaluatedSystem& at) const {
     finite = finite && std::isfinite(force[field]);
     // Rows of further fields sum up to nothing where the field is uniform, however large: of a temperature of 300 K and 1 mK of difference, round-off
     // of its value is left.
-    const double round_off = field == 0 ? 0.0 : row_round_off * diagonal_scale(field, at.context.step.get()) * displacement[field];
+    // Of a displacement it is that of positions. Where a temperature is, all forces may be nothing beside it: bodies that expand freely bear none.
+    const double size = field == 0 ? position_norm() : displacement[field];
+    const double round_off = row_round_off * diagonal_scale(field, at.context.step.get()) * size;
     if (out_of_balance[field] > round_off) norms.momentum = std::max(norms.momentum, out_of_balance[field] / force[field]);
   }
   if (!std::isfinite(norms.momentum_absolute)) norms.momentum = norms.momentum_absolute;  // a maximum passes over what is no number
@@ -319,6 +321,16 @@ void SystemModel::add_norms(EvaluatedSystem& at) const {
   norms.finite = finite && std::isfinite(rows);
   if (!norms.finite) throw_if_any(comm(), failure);  // all ranks have the same norms
   norms.merit = norms.finite ? std::hypot(rows, violation) : std::numeric_limits<double>::infinity();
+}
+
+double SystemModel::position_norm() const {
+  if (sizes_.fields() == 1) return 0.0;
+  if (!position_norm_) {
+    Vector ones(parts_.dofs);
+    ones.putScalar(1.0);
+    position_norm_ = parts_.length * sizes_.norms(ones)[0];
+  }
+  return *position_norm_;
 }
 
 double SystemModel::diagonal_scale(std::size_t field, const TimeStep* step) const {

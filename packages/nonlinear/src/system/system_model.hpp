@@ -126,6 +126,8 @@ class SystemModel {
   /// Jacobians of all contributions, or of those that the matrix does not hold yet.
   void add_jacobians(const EvaluatedSystem& at, bool with_internal, std::optional<StepFailure>& failure) const;
   JacobianWeights weights_of_forces(const TimeStep* step) const;
+  /// Bound on |x| of all positions x, of a system of several fields; 0 with one, for which nothing is counted. Collective at the first call.
+  double position_norm() const;
   /// Mean |diagonal| of the matrix, of each field. Collective.
   std::vector<double> scales_of_diagonal() const;
 
@@ -145,7 +147,8 @@ class SystemModel {
   };
 
   mutable Vector local_unknowns_;
-  mutable RateBuffers rates_;                                ///< null in a system without time derivatives
+  mutable RateBuffers rates_;  ///< null in a system without time derivatives
+  mutable std::optional<double> position_norm_;
   mutable std::vector<double> stiffness_scales_;             ///< [fields]
   mutable std::vector<double> static_scales_, mass_scales_;  ///< [fields] of the first Jacobian; empty in a system without time derivatives
   mutable RCP<Matrix> matrix_;

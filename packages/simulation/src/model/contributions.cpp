@@ -4,26 +4,26 @@
 
 namespace mortise {
 
-BulkContribution::BulkContribution(std::shared_ptr<Bodies> bodies, double share_at_start, const Timers& timers)
+BulkContribution::BulkContribution(std::shared_ptr<Bodies> bodies, std::optional<double> share_at_start, const Timers& timers)
     : CountedContribution("bulk", timers), bodies_(std::move(bodies)), share_at_start_(share_at_start) {
-  if (bodies_->heat()) power_.assign(bodies_->mesh()->bodies.size(), 0.0);
+  if (heats()) power_.assign(bodies_->mesh()->bodies.size(), 0.0);
   energy_ = power_at_end_ = power_;
 }
 
 FieldUse BulkContribution::uses() const {
   FieldUse use;
   if (bodies_->know_temperature()) use.reads.emplace_back("temperature");
-  if (bodies_->heat()) use.writes.emplace_back("temperature");
+  if (heats()) use.writes.emplace_back("temperature");
   return use;
 }
 
-double BulkContribution::time_step(const Configuration& at) const { return at.time > time_ ? at.time - time_ : Bodies::without_rates; }
+double BulkContribution::time_step(const Configuration& at) const { return heats() && at.time > time_ ? at.time - time_ : Bodies::without_rates; }
 
 void BulkContribution::commit(const Configuration& at) {
-  if (bodies_->heat()) {
+  if (heats()) {
     const std::vector<double> now = bodies_->heat_powers(at.local_unknowns, time_step(at));
     for (std::size_t body = 0; body < now.size(); ++body) {
-      power_[body] = (1.0 - share_at_start_) * now[body] + share_at_start_ * power_at_end_[body];
+      power_[body] = (1.0 - *share_at_start_) * now[body] + *share_at_start_ * power_at_end_[body];
       energy_[body] += (at.time - time_) * power_[body];
     }
     power_at_end_ = now;
@@ -34,7 +34,7 @@ void BulkContribution::commit(const Configuration& at) {
 
 void BulkContribution::serialize(StateArchive& archive) {
   bodies_->serialize(archive);
-  if (!bodies_->heat()) return;
+  if (!heats()) return;
   mortise::serialize(archive, "bulk.time", time_);
   mortise::serialize(archive, "bulk.heat_power", power_);
   mortise::serialize(archive, "bulk.heat_power_at_end", power_at_end_);

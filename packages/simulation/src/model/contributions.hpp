@@ -2,6 +2,7 @@
 // Contributions to the nonlinear system that `solid` computes.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,11 +39,11 @@ class CountedContribution : public Contribution {
 /// f_int of all bodies, and the heat of those that heat: power over the step from the last committed state.
 class BulkContribution final : public CountedContribution {
  public:
-  /// @param share_at_start  of the power at the start of a step in what is in balance over it
-  BulkContribution(std::shared_ptr<Bodies> bodies, double share_at_start, const Timers& timers);
+  /// @param share_at_start  of the power at the start of a step in what is in balance over it; none: time is none, so that there are no powers
+  BulkContribution(std::shared_ptr<Bodies> bodies, std::optional<double> share_at_start, const Timers& timers);
   Kind kind() const override { return Kind::internal; }
   FieldUse uses() const override;
-  bool depends_on_time() const override { return bodies_->heat(); }
+  bool depends_on_time() const override { return heats(); }
   void add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) override;
   void add_jacobian(const Configuration& at, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>& failure) override;
   void add_residual_and_jacobian(const Configuration& at, const JacobianWeights& weights, Vector& residual, Matrix& jacobian,
@@ -56,11 +57,12 @@ class BulkContribution final : public CountedContribution {
   const std::vector<double>& heat_energy() const { return energy_; }
 
  private:
+  bool heats() const { return share_at_start_ && bodies_->heat(); }
   /// Length of the step that ends at `at`.
   double time_step(const Configuration& at) const;
 
   std::shared_ptr<Bodies> bodies_;
-  double share_at_start_;
+  std::optional<double> share_at_start_;
   double time_ = 0.0;  ///< of the last committed state
   std::vector<double> power_, energy_, power_at_end_;
 };

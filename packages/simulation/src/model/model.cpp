@@ -97,7 +97,7 @@ Model::Model(const RCP<const Communicator>& comm, const Scene& scene, const Time
   collect.throw_found(*comm);
   add_supports(meshed, scene, timers, solid);
   const std::vector<ThermalPair> conducting = thermal_pairs(meshed, scene, solid.heat);
-  refuse_undetermined(meshed, scene, solid.heat, bodies_that_conduct(meshed, scene, conducting));
+  refuse_undetermined(meshed, scene, solid.heat, bodies_that_conduct(*meshed.mesh, scene, conducting));
   ContactModel contact = make_contact(meshed, solid, scene, std::move(pairs), timers);
   if (!conducting.empty()) {
     solid.heat.contact = std::make_shared<ContactHeatBook>(meshed, scene, solid.heat, *contact.system, conducting, timers);

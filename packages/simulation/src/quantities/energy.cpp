@@ -231,6 +231,10 @@ class EnergyErrorEvaluator final : public QuantityEvaluator {
 };
 
 std::unique_ptr<QuantityEvaluator> EnergyError::make_evaluator(const QuantityContext& context) const {
+  if (context.bodies.know_temperature())
+    throw InputError(
+        Place{},
+        "the energy error does not know the work of thermal expansion; please take the \"heat balance\", or bodies without \"thermomechanics\"");
   using Of = Energy::Of;
   std::vector<Of> viscous;
   if (context.connectors.dashpots != nullptr && context.mass == nullptr) viscous.push_back(Of::dashpots);

@@ -93,7 +93,16 @@ struct HeatFlowQuantity : Quantity {
   std::unique_ptr<QuantityEvaluator> make_evaluator(const QuantityContext& context) const override {
     require_temperature(context);
     if (!set.value.empty()) {
-      require_node_set(context.mesh(), set);
+      const FieldRows& rows = context.space().rows(context.heat.bodies->temperature());
+      double count = 0.0;
+      for (const LocalOrdinal node : require_node_set(context.mesh(), set))
+        if (node < context.mesh().owned_count() && rows.lives(node) &&
+            std::binary_search(context.heat.prescribed->begin(), context.heat.prescribed->end(), rows(node, 0)))
+          count += 1.0;
+      if (sum_over_ranks(context.mesh(), count) == 0.0)
+        throw InputError(set.place, fmt::format("no node of \"{}\" has a prescribed temperature, so that no heat enters there; please name a thermal "
+                                                "\"load\", or a set of \"heat/temperatures\"",
+                                                set.value));
       return std::make_unique<SupportHeat>(set, measure);
     }
     if (!load.value.empty()) {
@@ -123,11 +132,9 @@ struct StoredHeatQuantity : Quantity {
   }
   std::unique_ptr<QuantityEvaluator> make_evaluator(const QuantityContext& context) const override {
     require_temperature(context);
-    if (!context.heat.stored)
-      throw InputError(body.place, "no body stores heat: the analysis is \"steady\", or no material has a \"specific heat\"");
-    return evaluator_of([measure = measure, body = find_optional_body(context, body)](const QuantityContext& at) {
-      return of(*at.heat.stored, measure, body);
-    });
+    if (!context.heat.stored) throw InputError(body.place, "no body stores heat: the analysis is \"steady\", or no material has a \"specific heat\"");
+    return evaluator_of(
+        [measure = measure, body = find_optional_body(context, body)](const QuantityContext& at) { return of(*at.heat.stored, measure, body); });
   }
 };
 
@@ -180,7 +187,7 @@ class BalanceEvaluator final : public QuantityEvaluator {
   HeatBalance balance_;
 };
 
-/// What is missing in the balance of heat of the last step, over the largest power so far. [-]
+/// Missing part of the balance of heat of the last step, over the largest power so far. [-]
 struct HeatBalanceQuantity : Quantity {
   void describe(Parameters&) override {}
   std::unique_ptr<QuantityEvaluator> make_evaluator(const QuantityContext& context) const override {

@@ -28,6 +28,7 @@ std::vector<Diagnostic> calculix_obstacles(const Scene& scene, const Model& mode
                         "no nodes with "
                         "multiple point constraints), and results at plane nodes hold no contact stresses",
                         to_string(scene.kinematics)));
+  if (scene.heat.acts()) say(scene.heat.place, "temperatures");
   const BodyProperties* first = nullptr;
   for (const auto& body : model.bodies()->properties()) {
     if (body.is_rigid()) {

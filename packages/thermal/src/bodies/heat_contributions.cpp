@@ -88,13 +88,15 @@ HeatCapacity::HeatCapacity(std::shared_ptr<const ThermalBodies> bodies)
     : bodies_(std::move(bodies)), ones_(local_id_count(*bodies_->space().local_dofs()), 1.0) {}
 
 void HeatCapacity::add_residual(const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) {
-  const StateViews views(at, nullptr, ones_);
+  StateViews views(at, nullptr, ones_);
+  views.state.time_step = time_step_;
   add_blocks(*bodies_, &residual, nullptr, 1.0,
              [&](const ThermalBlock& block, const AssemblyTarget& target) { block.add_capacity(views.state, 0.0, 0.0, target, failure); });
 }
 
 void HeatCapacity::add_jacobian(const Configuration& at, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>& failure) {
-  const StateViews views(at, weights.local_velocity_shares, ones_);
+  StateViews views(at, weights.local_velocity_shares, ones_);
+  views.state.time_step = time_step_;
   add_blocks(*bodies_, nullptr, &jacobian, 1.0, [&](const ThermalBlock& block, const AssemblyTarget& target) {
     block.add_capacity(views.state, weights.velocity, weights.unknowns, target, failure);
   });

@@ -28,11 +28,10 @@ const std::vector<std::pair<std::string, ConductivityActsIn>>& conductivity_name
 }
 
 void ThermalProperties::describe(Parameters& parameters) {
-  conductivity.describe(
-      parameters, "conductivity",
-      Says("k >= 0, heat per area and time over the gradient of the temperature, an expression of `temperature`; left out, without "
-           "\"conductivity table\": bodies of the material have no temperature")
-          .unit("power / (length temperature)"));
+  conductivity.describe(parameters, "conductivity",
+                        Says("k >= 0, heat per area and time over the gradient of the temperature, an expression of `temperature`; left out, without "
+                             "\"conductivity table\": bodies of the material have no temperature")
+                            .unit("power / (length temperature)"));
   specific_heat.describe(parameters, "specific heat",
                          Says("c > 0, per mass, an expression of `temperature`; left out, without \"specific heat table\": the body stores no heat")
                              .unit("energy / (mass temperature)"));
@@ -46,9 +45,9 @@ void ThermalProperties::describe(Parameters& parameters) {
                  Says("heat per reference volume and time, an expression of t, x, y, z and `temperature`; left out: none")
                      .unit("power / volume")
                      .arguments({"t", "x", "y", "z", "temperature"}));
-  if (conductivity.fault() || specific_heat.fault()) return;  // of tables, which they have said
+  if (conductivity.fault() || specific_heat.fault()) return;                                         // of tables, which they have said
   if (!conductivity.is_given() && !specific_heat.is_given() && !source && !lumped_capacity) return;  // nothing is said of heat
-  if (const auto wrong = fault()) parameters.error("conductivity", *wrong);
+  if (const auto wrong = fault()) parameters.error(wrong->rfind("the specific heat", 0) == 0 ? "specific heat" : "conductivity", *wrong);
 }
 
 std::optional<std::string> ThermalProperties::fault() const {

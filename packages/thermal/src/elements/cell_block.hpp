@@ -35,8 +35,8 @@ class ThermalCellBlock final : public ThermalBlock {
     const std::array fields{of(at.unknowns), of(at.velocity), of(at.velocity_shares)};
     if constexpr (Cell::nodes == Cell::corners)
       if (context_.properties->lumped_capacity)
-        return add(LumpedCapacity<Geometry>{c, context_.density, by_velocity, by_unknowns}, at, fields, target, failure);
-    add(ConsistentCapacity<Geometry>{c, context_.density, by_velocity, by_unknowns}, at, fields, target, failure);
+        return add(LumpedCapacity<Geometry>{c, context_.density, by_velocity, by_unknowns, at.time_step}, at, fields, target, failure);
+    add(ConsistentCapacity<Geometry>{c, context_.density, by_velocity, by_unknowns, at.time_step}, at, fields, target, failure);
   }
 
   void add_source(const ThermalState& at, const AssemblyTarget& target, std::optional<StepFailure>& failure) const override {

@@ -19,6 +19,12 @@ struct AtNodes {
 
 inline bool is_specific_heat(double c) { return c > 0.0 && std::isfinite(c); }
 
+/// c, or its mean between theta_n and theta where dtheta/dt = (theta - theta_n) / dt: what is stored over the step is then the exact integral of c.
+template <class Sums>
+ValueAndSlope specific_heat_over_step(const TemperatureFunction& c, double theta, double rate, double time_step) {
+  return time_step > 0.0 && !c.is_constant() ? c.mean(theta - rate * time_step, theta) : property_at<Sums>(c, theta);
+}
+
 /// r_a = integral of N_a rho0 c dtheta/dt dV0. Its Jacobian is, with weights beta s_b and omega,
 ///   integral of N_a rho0 (beta s_b c + omega c' dtheta/dt) N_b dV0.
 /// An integrand, see ElementLoop. Fields: temperatures, their rates, the shares s.
@@ -33,6 +39,7 @@ struct ConsistentCapacity {
   const TemperatureFunction& specific_heat;
   double density;                   ///< rho0
   double by_velocity, by_unknowns;  ///< beta, omega
+  double time_step;                 ///< over which rates are changes; 0: they are rates at a time
 
   template <class Points, class Sums>
   HeatTrouble add(const Points& points, Sums& sums) const {
@@ -40,7 +47,7 @@ struct ConsistentCapacity {
     for (int q = 0; q < point_count; ++q) {
       const auto at = points[q];
       const double theta = std::get<0>(at.fields).value[0], rate = std::get<1>(at.fields).value[0];
-      const ValueAndSlope c = property_at<Sums>(specific_heat, theta);
+      const ValueAndSlope c = specific_heat_over_step<Sums>(specific_heat, theta, rate, time_step);
       if (!is_specific_heat(c.value)) return {HeatTrouble::Kind::specific_heat, c.value, theta, position_of(points, at)};
       const double weight = density * at.weight;
       for (int a = 0; a < nodes; ++a) {
@@ -67,6 +74,7 @@ struct LumpedCapacity {
   const TemperatureFunction& specific_heat;
   double density;                   ///< rho0
   double by_velocity, by_unknowns;  ///< beta, omega
+  double time_step;                 ///< over which rates are changes; 0: they are rates at a time
 
   template <class Points, class Sums>
   HeatTrouble add(const Points& points, Sums& sums) const {
@@ -78,7 +86,7 @@ struct LumpedCapacity {
     }
     for (int a = 0; a < nodes; ++a) {
       const double theta = temperatures[a][0], rate = rates[a][0];
-      const ValueAndSlope c = property_at<Sums>(specific_heat, theta);
+      const ValueAndSlope c = specific_heat_over_step<Sums>(specific_heat, theta, rate, time_step);
       if (!is_specific_heat(c.value)) {
         HeatTrouble trouble{HeatTrouble::Kind::specific_heat, c.value, theta, {}};
         for (int i = 0; i < Geometry::dimension; ++i) trouble.position[i] = points.positions()[a][i];

@@ -34,6 +34,7 @@ struct ThermalState {
   const double* unknowns = nullptr;
   const double* velocity = nullptr;         ///< read by the capacity
   const double* velocity_shares = nullptr;  ///< likewise: factors of the velocity's weight in its Jacobian
+  double time_step = 0.0;                   ///< over which the velocity is a change; 0: it is one at a time
 };
 
 /// A quadrature point's flux of heat.

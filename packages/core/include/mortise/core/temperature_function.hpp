@@ -39,6 +39,9 @@ struct TemperatureFunction {
   double at(double temperature) const;
   /// Value and derivative: that of expressions is value_and_slope().
   ValueAndSlope with_slope(double temperature) const;
+  /// Mean between two temperatures, the integral over their difference, and its derivative by `to`. Exact for tables; of expressions by an adaptive
+  /// Gauss-Kronrod rule. The value at the temperature where both are equal.
+  ValueAndSlope mean(double from, double to) const;
   /// Error in the points of the table; nothing: they make a function, or none is given.
   std::optional<std::string> fault() const;
   /// As messages show it: the expression between quotes, or "of the table".

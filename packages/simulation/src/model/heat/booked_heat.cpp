@@ -90,8 +90,12 @@ std::vector<double> BookedHeat::sums(const Vector& flow) const {
   return sum_over_ranks(*mesh.comm, mine);
 }
 
-StoredHeat::StoredHeat(std::shared_ptr<const ThermalBodies> bodies, const Timers& timers)
-    : BookedHeat("stored heat", std::make_shared<HeatCapacity>(bodies), bodies, {}, timers),
+StoredHeat::StoredHeat(const std::shared_ptr<const ThermalBodies>& bodies, const Timers& timers)
+    : StoredHeat(bodies, std::make_shared<HeatCapacity>(bodies), timers) {}
+
+StoredHeat::StoredHeat(const std::shared_ptr<const ThermalBodies>& bodies, std::shared_ptr<HeatCapacity> capacity, const Timers& timers)
+    : BookedHeat("stored heat", capacity, bodies, {}, timers),
+      capacity_(std::move(capacity)),
       last_(rcp(new Vector(bodies->space().local_dofs()))),
       last_rate_(rcp(new Vector(bodies->space().local_dofs()))) {}
 
@@ -108,6 +112,7 @@ void StoredHeat::add_flow(const Configuration& at, Vector& residual, std::option
   Configuration with_rate{at.time, at.unknowns, at.local_unknowns};
   with_rate.velocity = owned.get();
   with_rate.local_velocity = local.get();
+  capacity_->set_time_step(time_step(at));
   flow().add_residual(with_rate, residual, failure);
 }
 
@@ -117,6 +122,7 @@ void StoredHeat::add_jacobian(const Configuration& at, const JacobianWeights& we
   Configuration with_rate{at.time, at.unknowns, at.local_unknowns};
   with_rate.velocity = owned.get();
   with_rate.local_velocity = local.get();
+  capacity_->set_time_step(time_step(at));
   flow().add_jacobian(with_rate, {0.0, per_time(at) * weights.unknowns, weights.unknowns, nullptr}, jacobian, failure);
 }
 
@@ -127,8 +133,10 @@ void StoredHeat::begin(const Configuration& at) {
 
 void StoredHeat::commit(const Configuration& at) {
   const RCP<const Vector> rate = this->rate(at);
+  const double step = time_step(at);
   BookedHeat::commit(at);
   last_rate_->assign(*rate);
+  last_step_ = step;
   last_->assign(at.local_unknowns);
 }
 
@@ -140,6 +148,7 @@ void StoredHeat::serialize_vector(StateArchive& archive, const std::string& name
 
 void StoredHeat::serialize(StateArchive& archive) {
   BookedHeat::serialize(archive);
+  mortise::serialize(archive, "heat.last_step", last_step_);
   serialize_vector(archive, "heat.last", *last_);
   serialize_vector(archive, "heat.last_rate", *last_rate_);
 }

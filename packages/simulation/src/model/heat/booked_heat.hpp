@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/contributions.hpp"
+#include "mortise/thermal/heat_contributions.hpp"
 #include "mortise/thermal/thermal_bodies.hpp"
 
 namespace mortise {
@@ -60,7 +61,7 @@ class BookedHeat : public CountedContribution {
 /// rate is that of the last one.
 class StoredHeat final : public BookedHeat {
  public:
-  StoredHeat(std::shared_ptr<const ThermalBodies> bodies, const Timers& timers);
+  StoredHeat(const std::shared_ptr<const ThermalBodies>& bodies, const Timers& timers);
   Kind kind() const override { return Kind::interaction; }
   FieldUse uses() const override { return {{"temperature"}, {"temperature"}, 0}; }
   void add_jacobian(const Configuration& at, const JacobianWeights& weights, Matrix& jacobian, std::optional<StepFailure>& failure) override;
@@ -72,11 +73,16 @@ class StoredHeat final : public BookedHeat {
   void add_flow(const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) override;
 
  private:
+  StoredHeat(const std::shared_ptr<const ThermalBodies>& bodies, std::shared_ptr<HeatCapacity> capacity, const Timers& timers);
   /// 1 / (t - t_n); 0 between two steps.
   double per_time(const Configuration& at) const { return at.time > start_time() ? 1.0 / (at.time - start_time()) : 0.0; }
+  /// Length of the step that ends at `at`; between two steps that of the last one.
+  double time_step(const Configuration& at) const { return at.time > start_time() ? at.time - start_time() : last_step_; }
   RCP<const Vector> rate(const Configuration& at) const;
   void serialize_vector(StateArchive& archive, const std::string& name, Vector& local) const;
 
+  std::shared_ptr<HeatCapacity> capacity_;
+  double last_step_ = 0.0;
   RCP<Vector> last_;       ///< theta_n, on the local dofs
   RCP<Vector> last_rate_;  ///< likewise
 };

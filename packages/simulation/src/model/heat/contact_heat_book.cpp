@@ -109,6 +109,14 @@ std::vector<ThermalPair> thermal_pairs(const MeshedScene& meshed, const Scene& s
       if (const auto fault = thermal.conductance->fault()) refuse(fmt::format("conductance of pair \"{}\": {}", pair.name, *fault));
     if (thermal.gap)
       if (const auto fault = thermal.gap->fault()) refuse(fmt::format("gap conductance of pair \"{}\": {}", pair.name, *fault));
+    if (thermal.conductance && thermal.gap && !thermal.conductance->fault() && !thermal.gap->fault()) {
+      const double start = value_or_nan(*scene.heat.initial_temperature, {0.0, 0.0, 0.0});
+      const double closed = thermal.conductance->at({0.0, start, 0.0, 1.0}).value, open = thermal.gap->at(0.0).value;
+      if (std::abs(closed - open) > 0.01 * std::max(std::abs(closed), std::abs(open)))
+        refuse(fmt::format(
+            "the laws of pair \"{}\" do not meet: the conductance is {:g} without pressure, and {:g} without a gap; they may differ by 1 %",
+            pair.name, closed, open));
+    }
     const bool rubs = pair.value.contact.friction.options && pair.value.contact.friction.options->acts();
     if (rubs && options.friction_heats && scene.heat.is_transient() && (slave.has_rows || master.has_rows))
       thermal.slave_share = share_of(options, slave, master);
@@ -118,8 +126,7 @@ std::vector<ThermalPair> thermal_pairs(const MeshedScene& meshed, const Scene& s
   return pairs;
 }
 
-std::vector<int> bodies_that_conduct(const MeshedScene& meshed, const Scene& scene, const std::vector<ThermalPair>& pairs) {
-  const Mesh& mesh = *meshed.mesh;
+std::vector<int> bodies_that_conduct(const Mesh& mesh, const Scene& scene, const std::vector<ThermalPair>& pairs) {
   std::vector<int> number = joined_bodies(mesh, scene);
   for (const ThermalPair& pair : pairs) {
     if (!pair.conductance && !pair.gap) continue;
@@ -210,6 +217,17 @@ void ContactHeatBook::commit(const ContactLaws& laws, const Configuration& at) {
   });
   if (at.time > time_) last_step_ = at.time - time_;
   time_ = at.time;
+}
+
+std::vector<ThermalPair> ContactHeatBook::conducting_now() const {
+  std::vector<int> mine;
+  for (const std::vector<NodeHeat>& nodes : nodes_)
+    mine.push_back(std::any_of(nodes.begin(), nodes.end(), [](const NodeHeat& node) { return node.conductance > 0.0; }) ? 1 : 0);
+  const std::vector<int> any = most_over_ranks(*mesh_->comm, mine);
+  std::vector<ThermalPair> result;
+  for (std::size_t pair = 0; pair < pairs_.size(); ++pair)
+    if (any[pair] != 0) result.push_back(pairs_[pair]);
+  return result;
 }
 
 void ContactHeatBook::serialize(StateArchive& archive) {

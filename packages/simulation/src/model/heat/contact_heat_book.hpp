@@ -34,6 +34,8 @@ class ContactHeatBook final : public ContactContribution {
   long calls() const { return calls_; }
   /// Index of a pair of the scene among pairs(); none: no heat flows across it.
   std::optional<std::size_t> index(std::size_t pair_of_scene) const;
+  /// Pairs across which heat is conducted in the state that was committed last. Collective.
+  std::vector<ThermalPair> conducting_now() const;
   const std::vector<Sums>& sums() const { return sums_; }  ///< [thermal pairs]
   /// Slave nodes of a pair in the state that was committed last.
   const std::vector<NodeHeat>& nodes(std::size_t thermal_pair) const { return nodes_[thermal_pair]; }
@@ -64,6 +66,6 @@ class ContactHeatBook final : public ContactContribution {
 std::vector<ThermalPair> thermal_pairs(const MeshedScene& meshed, const Scene& scene, const HeatOfModel& heat);
 
 /// [mesh bodies] a number that bodies share which ties or conducting pairs join. Collective.
-std::vector<int> bodies_that_conduct(const MeshedScene& meshed, const Scene& scene, const std::vector<ThermalPair>& pairs);
+std::vector<int> bodies_that_conduct(const Mesh& mesh, const Scene& scene, const std::vector<ThermalPair>& pairs);
 
 }  // namespace mortise

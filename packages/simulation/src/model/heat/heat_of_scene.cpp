@@ -126,15 +126,18 @@ void put_initial_temperatures(const Scene& scene, const FieldSpace& space, Vecto
   if (!scene.heat.acts()) return;
   const Mesh& mesh = *space.mesh();
   std::vector<Diagnostic> diagnostics;
-  std::vector<const ScalarFunction*> of_bodies(mesh.bodies.size(), scene.heat.initial_temperature ? &*scene.heat.initial_temperature : nullptr);
+  const ScalarFunction* of_all = scene.heat.initial_temperature ? &*scene.heat.initial_temperature : nullptr;
+  std::vector<const ScalarFunction*> of_bodies(mesh.bodies.size(), of_all);
   std::vector<std::string> names;
   for (const MeshBody& body : mesh.bodies) names.push_back(body.name);
   for (const auto& initial : scene.heat.initial_temperatures) {
     const auto found = std::find(names.begin(), names.end(), initial.value.body.value);
     if (found == names.end())
       diagnostics.push_back({initial.value.body.place, unknown_name("body", initial.value.body.value, names)});
+    else if (const ScalarFunction*& of_body = of_bodies[static_cast<std::size_t>(found - names.begin())]; of_body != nullptr && of_body != of_all)
+      diagnostics.push_back({initial.place, fmt::format("body \"{}\" has two initial temperatures; please remove one", initial.value.body.value)});
     else
-      of_bodies[static_cast<std::size_t>(found - names.begin())] = &initial.value.temperature;
+      of_body = &initial.value.temperature;
   }
   const FieldRows& rows = space.rows(1);
   const auto theta = unknowns.getLocalViewHost(Tpetra::Access::ReadWrite);
@@ -189,39 +192,56 @@ FurtherConstraints temperature_constraints(const MeshedScene& meshed, const Scen
   return result;
 }
 
-void refuse_undetermined(const MeshedScene& meshed, const Scene& scene, const HeatOfModel& heat, const std::vector<int>& joined) {
-  if (!heat.bodies) return;
-  const Mesh& mesh = *meshed.mesh;
+std::vector<int> undetermined_bodies(const Scene& scene, const FieldSpace& space, const HeatOfModel& heat, const std::vector<int>& joined) {
+  const Mesh& mesh = *space.mesh();
   std::vector<int> determined(mesh.bodies.size(), 0);
-  const FieldSpace& space = *meshed.space;
   for (const LocalOrdinal row : heat.prescribed->rows())
     determined[static_cast<std::size_t>(mesh.body_of_node[static_cast<std::size_t>(space.place(row).node)])] = 1;
-  for (const auto& load : scene.heat.loads)
-    if (load.value.load.options && load.value.load.type != "heat flux")
-      for (const SidesOfBody& sides : sides_by_body(mesh, require_side_set(mesh, load.value.load.options->set))) determined[sides.body] = 1;
-  std::vector<char> has_temperature(mesh.bodies.size(), 0), needs(mesh.bodies.size(), 0);
+  for (const auto& load : scene.heat.loads) {
+    const auto* convection = dynamic_cast<const ConvectionOptions*>(load.value.load.options.get());
+    const bool is_nothing =
+        convection != nullptr && convection->coefficient.is_constant() && value_or_nan(convection->coefficient, {0, 0, 0, 0, 0}) == 0.0;
+    if (!load.value.load.options || load.value.load.type == "heat flux" || is_nothing) continue;
+    for (const SidesOfBody& sides : sides_by_body(mesh, require_side_set(mesh, load.value.load.options->set))) determined[sides.body] = 1;
+  }
+  std::vector<char> needs(mesh.bodies.size(), 0);
   for (std::size_t block = 0; block < mesh.blocks.size(); ++block) {
     const auto& properties = heat.bodies->bodies()[block].properties;
     const auto body = static_cast<std::size_t>(mesh.blocks[block].body);
-    if (!properties) continue;
-    has_temperature[body] = 1;
-    if (properties->specific_heat.is_given())
+    if (properties && properties->specific_heat.is_given())
       determined[body] = 1;
-    else
+    else if (properties)
       needs[body] = 1;
   }
+  for (const auto& body : scene.bodies)
+    for (std::size_t b = 0; b < mesh.bodies.size(); ++b)
+      if (body.value.temperature && mesh.bodies[b].name == body.name) determined[b] = 1;  // a rigid one
   determined = most_over_ranks(*mesh.comm, determined);
-  std::vector<Diagnostic> diagnostics;
+  std::vector<int> result;
   for (std::size_t body = 0; body < mesh.bodies.size(); ++body) {
     bool is_determined = false;
     for (std::size_t other = 0; other < mesh.bodies.size(); ++other) is_determined |= joined[other] == joined[body] && determined[other] != 0;
-    if (needs[body] && !is_determined)
-      diagnostics.push_back(
-          {meshed.places[body],
-           fmt::format("nothing determines the temperature of body \"{}\", which stores no heat: please prescribe a temperature on a part of "
-                       "it, or give it convection, radiation, or a pair or tie that conducts to a body with one",
-                       mesh.bodies[body].name)});
+    if (needs[body] && !is_determined) result.push_back(static_cast<int>(body));
   }
+  return result;
+}
+
+void refuse_undetermined(const MeshedScene& meshed, const Scene& scene, const HeatOfModel& heat, const std::vector<int>& joined) {
+  if (!heat.bodies) return;
+  const Mesh& mesh = *meshed.mesh;
+  std::vector<Diagnostic> diagnostics;
+  for (std::size_t block = 0; block < mesh.blocks.size(); ++block)
+    if (const auto& properties = heat.bodies->bodies()[block].properties;
+        properties && !properties->specific_heat.is_given() && properties->conductivity.is_constant() && properties->conductivity.at(0.0) == 0.0)
+      diagnostics.push_back({heat.bodies->bodies()[block].place,
+                             fmt::format("body \"{}\" conducts no heat and stores none: its conductivity is 0; allowed: > 0 without a specific heat",
+                                         mesh.body_of(mesh.blocks[block]).name)});
+  for (const int body : undetermined_bodies(scene, *meshed.space, heat, joined))
+    diagnostics.push_back(
+        {meshed.places[static_cast<std::size_t>(body)],
+         fmt::format("nothing determines the temperature of body \"{}\", which stores no heat: please prescribe a temperature on a part of "
+                     "it, or give it convection, radiation, or a pair or tie that conducts to a body with one",
+                     mesh.bodies[static_cast<std::size_t>(body)].name)});
   throw_if_any(*mesh.comm, diagnostics);
 }
 

@@ -35,6 +35,11 @@ void put_initial_temperatures(const Scene& scene, const FieldSpace& space, Vecto
 /// Reference of changes of temperature: the largest one at the start or prescribed at the start or the end, at least 1. Collective.
 double size_of_temperatures(const Scene& scene, const MeshedScene& meshed, const HeatOfModel& heat);
 
+/// mesh.bodies indices of bodies that store no heat and whose temperature nothing determines: no prescribed one, no surroundings, no body that it
+/// conducts to. Collective.
+/// @param joined  [mesh bodies] number of the group of bodies that conduct to one another
+std::vector<int> undetermined_bodies(const Scene& scene, const FieldSpace& space, const HeatOfModel& heat, const std::vector<int>& joined);
+
 /// Refuses a steady analysis of a body whose temperature nothing determines. Collective.
 /// @param joined  [mesh bodies] number of the group of bodies that conduct to one another
 void refuse_undetermined(const MeshedScene& meshed, const Scene& scene, const HeatOfModel& heat, const std::vector<int>& joined);

@@ -39,14 +39,16 @@ SolidModel make_solid(const MeshedScene& meshed, const Scene& scene, const Timer
   parts.length = meshed.size.length;
   parts.near_null_space = near_null_space_of(bodies, meshed, scene);
   const FlowsAtStart at_start = flows_at_start(scene);
-  const auto bulk = std::make_shared<BulkContribution>(bodies, at_start.is_of_system ? at_start.share : 0.0, timers);
+  const std::optional<double> share =
+      scene.heat.acts() && !scene.heat.is_transient() ? std::nullopt : std::optional(at_start.is_of_system ? at_start.share : 0.0);
+  const auto bulk = std::make_shared<BulkContribution>(bodies, share, timers);
   parts.contributions.push_back(bulk);
   for (const auto& load : scene.loads)
     collect([&] { solid.loads.push_back(std::make_shared<LoadContribution>(load.name, load.value.load.options->make(solid.bodies), timers)); });
   parts.contributions.insert(parts.contributions.end(), solid.loads.begin(), solid.loads.end());
   collect([&] { solid.connectors = add_connectors(scene, solid.bodies, timers, parts); });
   collect([&] { solid.heat = add_heat(meshed, scene, timers, parts); });
-  if (bodies->heat()) solid.heat.bulk = bulk;
+  if (bodies->heat() && share) solid.heat.bulk = bulk;
   collect([&] { solid.motion = std::make_shared<const PrescribedMotion>(*bodies, scene.boundary_conditions); });
   solid.supports.ties = meshed.ties.tied;
   return solid;
@@ -55,7 +57,8 @@ SolidModel make_solid(const MeshedScene& meshed, const Scene& scene, const Timer
 void add_supports(const MeshedScene& meshed, const Scene& scene, const Timers& timers, SolidModel& solid) {
   const PrescribedMotion& motion = *solid.motion;
   if (!meshed.mesh->reference_points.empty()) solid.parts.rigid = std::make_shared<FollowingNodes>(*solid.bodies, motion.dofs());
-  const SupportConstraints supported = support_constraints(meshed.space, solid.supports.ties, solid.motion, temperature_constraints(meshed, scene, solid.heat));
+  const SupportConstraints supported =
+      support_constraints(meshed.space, solid.supports.ties, solid.motion, temperature_constraints(meshed, scene, solid.heat));
   solid.parts.constraints = supported.lines;
   solid.parts.put_support_forces = supported.put_support_forces;
   Supports& supports = solid.supports;

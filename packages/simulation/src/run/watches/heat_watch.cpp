@@ -6,15 +6,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/heat/contact_heat_book.hpp"
 #include "model/heat/heat_of_scene.hpp"
-#include "mortise/core/over_ranks.hpp"
 #include "model/heat/heat_of_step.hpp"
+#include "mortise/core/names.hpp"
+#include "mortise/core/over_ranks.hpp"
 
 namespace mortise {
 namespace {
 
 /// Residuals of heat are 1e-9 of the flows; sums of N rows leave sqrt(N) times as much, with 1e6 rows.
 constexpr double balanced = 1e-6;
+constexpr double round_off = 1e-9;  ///< of temperatures, in the range of all
 /// Of the range of temperatures that anything causes, by which others may fall below it.
 constexpr double noticeable = 0.01;
 
@@ -30,6 +33,8 @@ HeatWatch::HeatWatch(const Model& model, const Scene& scene, std::function<void(
     for (LocalOrdinal node = 0; node < model.mesh()->owned_count(); ++node)
       if (rows.lives(node)) lowest_ = std::min(lowest_, theta(rows(node, 0), 0)), highest_ = std::max(highest_, theta(rows(node, 0), 0));
   }
+  for (const ThermalBody& body : model.heat().bodies->bodies())
+    if (body.properties && !body.properties->specific_heat.is_given()) stores_everywhere_ = false;
   // What takes heat away at any temperature lowers it without a bound that is known.
   bool is_known = true;
   const auto see = [&](const ScalarFunction& function, double time) {
@@ -47,6 +52,8 @@ HeatWatch::HeatWatch(const Model& model, const Scene& scene, std::function<void(
       is_known = false;
   }
   if (model.heat().bodies->has_source()) is_known = false;
+  for (const auto& material : scene.materials)
+    if (material.value.law.options->thermal.thermoelastic_heating) is_known = false;  // what is stretched cools
   for (const auto& body : scene.bodies)
     if (body.value.temperature) see(*body.value.temperature, 0.0);
   if (!is_known) lowest_ = -std::numeric_limits<double>::infinity();
@@ -70,15 +77,16 @@ void HeatWatch::look_for_undershoot(const SemiSmoothSystem& system, const System
     if (theta(rows(node, 0), 0) < least) least = theta(rows(node, 0), 0), where = node;
   }
   const double least_of_all = least_over_ranks(*mesh.comm, least), range = std::max(highest_, most_over_ranks(*mesh.comm, most)) - lowest_;
-  if (is_said_ || !(least_of_all < lowest_ - noticeable * range)) return;
+  if (is_said_ || !(range > round_off * std::abs(lowest_)) || !(least_of_all < lowest_ - noticeable * range)) return;
   is_said_ = true;
   const int rank = least_over_ranks(*mesh.comm, least == least_of_all ? mesh.comm->getRank() : mesh.comm->getSize());
   std::array<double, 3> x{};
   if (mesh.comm->getRank() == rank) x = mesh.coordinates[static_cast<std::size_t>(where)];
   x = {sum_over_ranks(*mesh.comm, x[0]), sum_over_ranks(*mesh.comm, x[1]), sum_over_ranks(*mesh.comm, x[2])};
-  warn_(fmt::format("  the temperature {:.6g} at ({:.6g}, {:.6g}, {:.6g}) is below {:.6g}, the lowest of the start and of all that is prescribed: "
-                    "steps are too short for the mesh, or elements too large; please take a \"lumped capacity\", longer steps, or a finer mesh there",
-                    least_of_all, x[0], x[1], x[2], lowest_));
+  warn_(
+      fmt::format("  the temperature {:.6g} at ({:.6g}, {:.6g}, {:.6g}) is below {:.6g}, the lowest of the start and of all that is prescribed: "
+                  "steps are too short for the mesh, or elements too large; please take a \"lumped capacity\", longer steps, or a finer mesh there",
+                  least_of_all, x[0], x[1], x[2], lowest_));
 }
 
 void HeatWatch::accept(const SemiSmoothSystem& system, const SystemEvaluation& at) {
@@ -87,15 +95,30 @@ void HeatWatch::accept(const SemiSmoothSystem& system, const SystemEvaluation& a
   const double imbalance = balance_.imbalance(*model_.mesh(), heat_of_step(scene_, model_, system, at, *forces, time - last_time_));
   last_time_ = time;
   if (imbalance > worst_) worst_ = imbalance, time_of_worst_ = time;
-  look_for_undershoot(system, at);
+  if (stores_everywhere_) {
+    if (scene_.heat.is_transient()) look_for_undershoot(system, at);
+    return;
+  }
+  if (!undetermined_.empty()) return;
+  const std::vector<ThermalPair> conducting = model_.heat().contact ? model_.heat().contact->conducting_now() : std::vector<ThermalPair>{};
+  for (const int body : undetermined_bodies(scene_, model_.space(), model_.heat(), bodies_that_conduct(*model_.mesh(), scene_, conducting)))
+    undetermined_.push_back(model_.mesh()->bodies[static_cast<std::size_t>(body)].name);
+  time_undetermined_ = time;
 }
 
 std::optional<StepFailure> HeatWatch::end(const SemiSmoothSystem&, const EndOfSteps&) {
+  if (!undetermined_.empty())
+    return StepFailure(
+        FailureKind::step_error,
+        fmt::format("nothing determines the temperature of {} at t = {:g}: no pair conducts heat there, as it is open or its conductance is "
+                    "0. Please give a \"gap conductance\", convection, or a prescribed temperature",
+                    quoted_list(undetermined_), time_undetermined_));
   if (!(worst_ > balanced)) return std::nullopt;
-  return StepFailure(FailureKind::step_error,
-                     fmt::format("heat is not in balance: in the step to t = {:g} {:.2e} of the largest power is missing; allowed: {:.0e}. Please take a "
-                                 "smaller \"momentum tolerance\"",
-                                 time_of_worst_, worst_, balanced));
+  return StepFailure(
+      FailureKind::step_error,
+      fmt::format("heat is not in balance: in the step to t = {:g} {:.2e} of the largest power is missing; allowed: {:.0e}. Please take a "
+                  "smaller \"momentum tolerance\"",
+                  time_of_worst_, worst_, balanced));
 }
 
 void HeatWatch::serialize(StateArchive& archive) {
@@ -105,6 +128,7 @@ void HeatWatch::serialize(StateArchive& archive) {
   mortise::serialize(archive, "heat_watch.last_time", last_time_);
   mortise::serialize(archive, "heat_watch.lowest", lowest_);
   mortise::serialize(archive, "heat_watch.highest", highest_);
+  mortise::serialize(archive, "heat_watch.time_undetermined", time_undetermined_);
   int is_said = is_said_ ? 1 : 0;
   mortise::serialize(archive, "heat_watch.is_said", is_said);
   is_said_ = is_said != 0;

@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "mortise/simulation/model/model.hpp"
 #include "mortise/simulation/quantities/heat_balance.hpp"
@@ -30,6 +31,9 @@ class HeatWatch final : public StepGuard {
   double worst_ = 0.0, time_of_worst_ = 0.0;  ///< imbalance over the largest power
   double last_time_ = 0.0;
   bool is_said_ = false;
+  bool stores_everywhere_ = true;          ///< no body without a specific heat
+  std::vector<std::string> undetermined_;  ///< bodies whose temperature nothing determined in an accepted state
+  double time_undetermined_ = 0.0;
   double lowest_ = std::numeric_limits<double>::infinity(), highest_ = -lowest_;  ///< of what causes temperatures; infinite: not known
 };
 

@@ -32,6 +32,9 @@ class HeatConduction final : public Contribution {
 class HeatCapacity final : public Contribution {
  public:
   explicit HeatCapacity(std::shared_ptr<const ThermalBodies> bodies);
+  /// Rates are changes over a step of this length from now on: a c that depends on the temperature then has its mean between both ends of the step, so
+  /// that heat that is stored depends on the temperatures alone. 0: they are rates at a time.
+  void set_time_step(double time_step) { time_step_ = time_step; }
   std::string name() const override { return "heat capacity"; }
   Kind kind() const override { return Kind::internal; }
   FieldUse uses() const override { return {{"temperature"}, {"temperature"}, 1}; }
@@ -40,6 +43,7 @@ class HeatCapacity final : public Contribution {
 
  private:
   std::shared_ptr<const ThermalBodies> bodies_;
+  double time_step_ = 0.0;
   std::vector<double> ones_;  ///< [local dofs] shares of the velocity's weight where there are none
 };
 
