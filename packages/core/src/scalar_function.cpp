@@ -12,15 +12,16 @@ struct ScalarFunction::Content {
   Body body;     // of all others
   std::string source;
   Place place;
+  std::vector<char> reads;
 };
 
 ScalarFunction::ScalarFunction(double value) : ScalarFunction(value, fmt::format("{}", value), {}) {}
 
 ScalarFunction::ScalarFunction(double value, std::string source, Place place)
-    : content_(std::make_shared<const Content>(Content{value, {}, std::move(source), std::move(place)})) {}
+    : content_(std::make_shared<const Content>(Content{value, {}, std::move(source), std::move(place), {}})) {}
 
-ScalarFunction::ScalarFunction(Body body, std::string source, Place place)
-    : content_(std::make_shared<const Content>(Content{0.0, std::move(body), std::move(source), std::move(place)})) {
+ScalarFunction::ScalarFunction(Body body, std::string source, Place place, std::vector<char> reads)
+    : content_(std::make_shared<const Content>(Content{0.0, std::move(body), std::move(source), std::move(place), std::move(reads)})) {
   if (!content_->body) throw std::invalid_argument(fmt::format("the function \"{}\" has no body", content_->source));
 }
 
@@ -37,6 +38,9 @@ double ScalarFunction::operator()(double t, double x, double y, double z) const 
 }
 
 bool ScalarFunction::is_constant() const { return !content_->body; }
+bool ScalarFunction::depends_on(std::size_t argument) const {
+  return !is_constant() && (argument >= content_->reads.size() || content_->reads[argument] != 0);
+}
 const std::string& ScalarFunction::source() const { return content_->source; }
 const Place& ScalarFunction::place() const { return content_->place; }
 

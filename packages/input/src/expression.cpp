@@ -71,6 +71,7 @@ ScalarFunction parse_expression(const std::vector<std::string>& arguments, const
   mu::Parser& parser = parsed->parser;
   double value = 0.0;
   bool constant = true;
+  std::vector<char> reads;
   try {
     for (std::size_t i = 0; i < arguments.size(); ++i)
       if (!arguments[i].empty() && arguments[i].size() <= longest_name_in_expressions &&
@@ -86,14 +87,16 @@ ScalarFunction parse_expression(const std::vector<std::string>& arguments, const
     if (values > 1)
       throw InputError(
           place, fmt::format("\"{}\" holds {} values separated by commas, where one is asked for; the decimal sign is a point", source, values));
-    constant = parser.GetUsedVar().empty();
+    const auto& used = parser.GetUsedVar();
+    constant = used.empty();
+    for (const std::string& name : arguments) reads.push_back(used.count(name) > 0 ? 1 : 0);
   } catch (const mu::Parser::exception_type& error) {
     if (is_number_of_c(source)) throw InputError(place, fmt::format("\"{}\" is no finite decimal number; the largest is 1.797e308", source));
     if (error.GetCode() == mu::ecEXPRESSION_TOO_LONG)
       throw InputError(place, fmt::format("\"{}\" is an expression of {} characters; please write it in less than 20000", source, source.size()));
     throw InputError(place, fmt::format("cannot evaluate \"{}\": {}; known names: {}", source, error.GetMsg(), names_of(arguments, symbols)));
   }
-  if (!constant) return ScalarFunction([parsed](const std::vector<double>& values) { return (*parsed)(values); }, source, place);
+  if (!constant) return ScalarFunction([parsed](const std::vector<double>& values) { return (*parsed)(values); }, source, place, std::move(reads));
   if (!std::isfinite(value))
     throw InputError(place, fmt::format("\"{}\" is {}, not a finite number", source, std::isnan(value) ? std::abs(value) : value));
   return ScalarFunction(value, source, place);

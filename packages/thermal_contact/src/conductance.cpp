@@ -22,6 +22,12 @@ std::optional<std::string> ConstantConductance::fault() const {
   return fmt::format("the conductance is {:g}; give one that is finite and not negative", value);
 }
 
+PerfectConductance PerfectConductance::of(double conductivity, double facet) {
+  PerfectConductance law;
+  law.value = over_facet * conductivity / facet;
+  return law;
+}
+
 void PowerConductance::describe(Parameters& parameters) {
   parameters.add("factor", factor, Says("h_0 of h = h_g + h_0 (p / H)^m").unit("power / (area temperature)").at_least(0.0).required());
   parameters.add("hardness", hardness, Says("H, of the softer surface").unit("stress").above(0.0).required());
@@ -103,6 +109,7 @@ const Registry<ConductanceLaw>& conductance_registry() {
     Registry<ConductanceLaw> laws;
     laws.add<NoConductance>("none", "nothing flows");
     laws.add<ConstantConductance>("constant", "the same at any pressure");
+    laws.add<PerfectConductance>("perfect", "no resistance, at any pressure: both sides have one temperature");
     laws.add<PowerConductance>("power", "a power of the pressure over the hardness, as of rough surfaces");
     laws.add<TabulatedConductance>("table", "straight lines between given pressures");
     laws.add<ConductanceFunction>("function", "an expression of pressure, temperature and slip rate");

@@ -45,6 +45,20 @@ double largest_pressure(const ContactLaws& laws, std::size_t pair, const Communi
   return most_over_ranks(comm, mine);
 }
 
+// The mean of sum_k D_jk theta_k / w_j and sum_l M_jl theta_l / w_j; of one of them where the other side has no temperature.
+template <class View>
+double mean_of_sides(const FieldTransfer& transfer, const NodeTransfer& node, const View& theta, double own) {
+  double slave = 0.0, master = 0.0;
+  for (std::size_t m = 0; m < node.nodes.size(); ++m) {
+    if (node.loaded[m] == 0 || node.coefficients[m] == 0.0) continue;
+    (transfer.is_slave(node.nodes[m]) ? slave : master) += node.coefficients[m] * theta(node.nodes[m], 0);
+  }
+  slave /= node.weight.value;
+  master /= -node.weight.value;
+  if (!std::isfinite(slave)) return std::isfinite(master) ? master : own;
+  return std::isfinite(master) ? 0.5 * (slave + master) : slave;
+}
+
 // Collective. Every rank throws if any has something to say; the rank that has says it.
 void refuse_if_any(const Communicator& comm, const std::optional<std::string>& wrong) {
   if (most_over_ranks(comm, wrong ? 1 : 0) == 0) return;
@@ -154,6 +168,40 @@ ThermalContact::ThermalContact(const ContactSystem& contact, const NodalField& t
   model->pairs = std::move(pairs);
   model->interface_rows.resize(model->passes.size());
   model_ = model;
+}
+
+std::vector<ThermalContact::SurfaceTemperatures> ThermalContact::surface_temperatures(const ContactLaws& laws, const NodalTemperature& theta,
+                                                                                      std::size_t thermal_pair) const {
+  const RCP<MultiVector> owned = model_->on_owned_nodes(theta);
+  std::vector<SurfaceTemperatures> result;
+  for (const detail::ThermalPass& pass : model_->passes) {
+    if (pass.thermal_pair != thermal_pair) continue;
+    const FieldTransfer transfer(laws, pass.pair);
+    const RCP<MultiVector> on_nodes = transfer.on_nodes(*owned);
+    const auto values = on_nodes->getLocalViewHost(Tpetra::Access::ReadOnly);
+    SurfaceTemperatures of_pass{pass.pair, {}};
+    const std::vector<GlobalOrdinal> slaves = model_->contact.slave_ids(pass.pair);
+    for (std::size_t s = 0; s < transfer.size(); ++s) {
+      const double own = values(transfer.nodes()->getLocalElement(slaves[s]), 0);
+      of_pass.values.push_back(transfer.is_covered(s) ? detail::mean_of_sides(transfer, transfer[s], values, own) : own);
+    }
+    result.push_back(std::move(of_pass));
+  }
+  return result;
+}
+
+std::vector<ThermalContact::SurfaceTemperatures> ThermalContact::slave_temperatures(const NodalTemperature& theta, std::size_t thermal_pair) const {
+  const RCP<MultiVector> owned = model_->on_owned_nodes(theta);
+  const auto values = owned->getLocalViewHost(Tpetra::Access::ReadOnly);
+  std::vector<SurfaceTemperatures> result;
+  for (const detail::ThermalPass& pass : model_->passes) {
+    if (pass.thermal_pair != thermal_pair) continue;
+    SurfaceTemperatures of_pass{pass.pair, {}};
+    for (const GlobalOrdinal slave : model_->contact.slave_ids(pass.pair))
+      of_pass.values.push_back(values(owned->getMap()->getLocalElement(slave), 0));
+    result.push_back(std::move(of_pass));
+  }
+  return result;
 }
 
 ContactHeat ThermalContact::evaluate(const ContactLaws& laws, const NodalTemperature& theta, double time_step) const {

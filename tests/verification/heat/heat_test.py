@@ -188,6 +188,59 @@ def restarts_and_ranks(runs, check):
         check(apart < 1e-9, f"{ranks} ranks: quantities differ by {apart:.1e}")
 
 
+def options_of_contact(runs, check):
+    """Perfect conductance; friction that depends on the temperature; fields solved for in turn."""
+    wall = {"kinematics": "plane strain", "materials": {"a": material(15, modulus=1e9), "b": material(40, modulus=1e9)},
+            "bodies": {"upper": {"material": "a", "mesh": block(10, 7, 6, 4, 0, 12)}, "lower": {"material": "b", "mesh": block(10, 12, 5, 6)}},
+            "boundary conditions": {"foot": {"set": "lower/bottom", "x": 0, "y": 0}, "press": {"set": "upper/top", "x": 0, "y": "-1e-6*t"}},
+            "contact": {"joint": {"slave": "upper/bottom", "master": "lower/top", "heat": {"conductance": {"type": "perfect"}}}},
+            "heat": {"analysis": "steady", "initial temperature": 300, "temperatures": {"hot": {"set": "upper/top", "temperature": 400}, "cold": {"set": "lower/bottom", "temperature": 300}}},
+            "output": {"fields": ""}, "quantities": {"across": {"type": "heat flow", "pair": "joint"}, "slave": {"type": "mean", "field": "temperature", "set": "upper/bottom"},
+                                                     "master": {"type": "mean", "field": "temperature", "set": "lower/top"}}}
+    for roles in ("as given", "exchanged"):
+        code, said, values, _ = runs.run("perfect_" + roles.split()[0], wall)
+        exact = 10 * 100 / (7 / 15 + 12 / 40)
+        check(code == 0 and abs(abs(values["across"]) / exact - 1) < 2e-6 and abs(values["slave"] - values["master"]) < 1e-4,
+              f"perfect conductance, roles {roles}: exit {code}, flow {values.get('across', math.nan):.6f} of {exact:.6f}, jump {values['slave'] - values['master']:.1e}")
+        pair = wall["contact"]["joint"]
+        pair["slave"], pair["master"] = pair["master"], pair["slave"]
+
+    # Insulated bodies of 300 K and of 400 K rub with mu = 0.35; with a temperature that is prescribed mu is that of the start of the step.
+    rub = pressed_pair(**{"materials": {"a": material(60), "b": material(20)}, "contact/joint/friction/coefficient": "temperature/1000", "contact/joint/heat": {"friction heats": False},
+                          "heat/temperatures": None, "heat/initial temperatures": {"hot": {"body": "upper", "temperature": 400}},
+                          "quantities": {"shear": {"type": "contact force", "pair": "joint", "component": "x"}, "normal": {"type": "contact force", "pair": "joint", "component": "y"}}})
+    code, said, values, _ = runs.run("rub", rub)
+    check(code == 0 and abs(abs(values["shear"] / values["normal"]) - 0.35) < 1e-6, f"friction of 0.001 a kelvin between 300 and 400 K: exit {code}, ratio {values}")
+    for ranks in (1, 2):
+        code, _, parts, _ = runs.run("rub", rub, ranks)
+    check(code == 0 and abs(parts["shear"] / values["shear"] - 1) < 1e-9, f"on 2 ranks: exit {code}, {parts['shear']:.9g}")
+    put(rub, "heat/temperatures", {"all": {"set": "upper/surface", "temperature": "400 + 100*t"}, "below": {"set": "lower/surface", "temperature": "300 + 100*t"}})
+    put(rub, "bodies/upper/mesh", block(4, 1, 7, 1, 3, 3))
+    put(rub, "bodies/lower/mesh", block(10, 3, 13, 1))
+    put(rub, "output/checkpoints", {"every step": 1})
+    code, said, values, columns = runs.run("rub_warm", rub)
+    ratios = [abs(a / b) for a, b in zip(columns["shear"], columns["normal"])]
+    apart = max(abs(ratio - (0.35 + 0.1 * max(0, t - 0.1))) for ratio, t in zip(ratios[2:], columns["time"][2:]))
+    check(code == 0 and apart < 1e-6, f"with temperatures that rise: exit {code}, ratios off by {apart:.1e}")
+    done = subprocess.run([runs.mortise, "run", os.path.join(runs.directory, "rub_warm.xml"), "-o", os.path.join(runs.directory, "rub_warm_1"), "--restart", "7"], capture_output=True, text=True)
+    with open(os.path.join(runs.directory, "rub_warm_1", "summary.json")) as file:
+        again = json.load(file)["quantities"]
+    check(done.returncode == 0 and abs(again["shear"] / values["shear"] - 1) < 1e-9, f"after a restart: exit {done.returncode}, {again['shear'] / values['shear'] - 1:.1e}")
+    code, said, _, _ = runs.run("rub_cold", {**rub, "materials": {"a": material(60), "b": {**material(20), "heat": {}}}, "heat": {**rub["heat"], "temperatures": {}}})
+    check(code == 2 and "depends on the temperature" in said, f"friction of a temperature that one side has not: exit {code}")
+
+    together = pressed_pair()
+    _, _, exact, _ = runs.run("together", together)
+    for formulation in ("dual mortar", "penalty", "standard mortar"):
+        put(together, "contact/joint/formulation", {"type": formulation})
+        put(together, "newton/fields", "monolithic")
+        _, _, exact, _ = runs.run("together", together)
+        put(together, "newton/fields", "staggered")
+        code, said, values, _ = runs.run("in_turn", together)
+        apart = max(abs(values[name] - exact[name]) / max(abs(exact[name]), 1e-9) for name in exact if name != "balance") if code == 0 else math.nan
+        check(code == 0 and apart < 1e-6, f"fields in turn, {formulation}: exit {code}, quantities differ by {apart:.1e}")
+
+
 def main():
     mortise, inputs, directory = sys.argv[1:4]
     count = int(sys.argv[4]) if len(sys.argv) > 4 else 6
@@ -202,6 +255,7 @@ def main():
     exact_cases(runs, check)
     random_scenes(runs, check, count)
     stored_and_determined(runs, check)
+    options_of_contact(runs, check)
     bad_input(runs, check)
     without_heat(runs, check, inputs)
     restarts_and_ranks(runs, check)

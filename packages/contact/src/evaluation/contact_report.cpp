@@ -144,7 +144,7 @@ std::vector<ContactNodeState> node_states(const ContactLaws& laws, std::size_t p
     if (friction != nullptr && row.covered > 0.0) {
       state.slip = signed_size(of_pair.geometry()->slips[s].slip) / row.covered;
       state.slip_path = of_pair.slip_path(s, state.state);
-      if (state.closed) state.shear_bound = friction->bound(std::max(0.0, state.pressure), of_pair.history().slip->paths[s]).value;
+      if (state.closed) state.shear_bound = friction->bound(of_pair.friction_point(s, std::max(0.0, state.pressure))).value;
     }
     std::copy(force.begin(), force.end(), state.force.begin());
     states.push_back(state);

@@ -243,6 +243,11 @@ std::vector<GlobalOrdinal> ContactSystem::slave_ids(std::size_t pair) const {
   return ids;
 }
 
+const SurfaceFacets& ContactSystem::slave_facets(std::size_t pair) const {
+  detail::require_pair(*model_, pair);
+  return model_->pairs[pair]->definition().slave;
+}
+
 ContactEvaluation ContactSystem::evaluate(const NodalDisplacement& d, const ContactHistory& history) const {
   detail::Arguments(*model_, "evaluate").displacement(d).history(history).agree();
   return ContactEvaluation(model_->evaluate(model_, model_->positions(d), history, nullptr, false));

@@ -63,7 +63,7 @@ SurfaceForce surface_force(const ContactLaws& laws, std::size_t pair) {
       const SpatialVector force = of_pair.resultant(s, z), e = normals.at(s, row.normal), along = force - force.dot(e) * e;
       for (Eigen::Index i = 0; i < along.size(); ++i) mine[static_cast<std::size_t>(i)] += along[i];
       const double pressure = std::max(0.0, z.dot(row.normal)), weight = std::max(0.0, row.covered);
-      if (friction != nullptr) mine[3] += weight * friction->bound(pressure, of_pair.history().slip->paths[s]).value;
+      if (friction != nullptr) mine[3] += weight * friction->bound(of_pair.friction_point(s, pressure)).value;
       mine[4] += weight * pressure;
       mine[5] += weight * pressure * (row.normal - row.normal.dot(e) * e).norm();
     }

@@ -2,11 +2,14 @@
 
 #include "mortise/contact/contact_history.hpp"
 
+#include <fmt/format.h>
+
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "evaluation/arguments.hpp"
@@ -198,6 +201,17 @@ ContactHistory ContactSystem::with_clearances(const ContactHistory& history, dou
                      node.id, *least, time, -*least, reach, -*least)});
   }
   throw_if_any(model_->comm(), diagnostics);
+  return ContactHistory(std::move(changed));
+}
+
+ContactHistory ContactSystem::with_temperatures(const ContactHistory& history, std::size_t pair, std::vector<double> temperatures) const {
+  detail::require_pair(*model_, pair);
+  const std::size_t slaves = model_->pairs[pair]->slave_nodes().size();
+  if (temperatures.size() != slaves)
+    throw std::invalid_argument(fmt::format("contact: with_temperatures() with {} values for the {} slave nodes of pair '{}' on this rank",
+                                            temperatures.size(), slaves, pair_name(pair)));
+  AcceptedContact changed = *history;
+  changed.pairs[pair].temperatures = std::move(temperatures);
   return ContactHistory(std::move(changed));
 }
 

@@ -129,6 +129,7 @@ void serialize_accepted(StateArchive& archive, const ContactModel& model, Accept
       if (pair.corner_rule() == CornerRule::nearest_facet) serialize_nodes(archive, nodes, name + ".nearest", slaves, history.nearest_facets);
     }
     if (pair.friction() != nullptr) serialize_slip(archive, nodes, name + ".slip", slaves, dimension, history.slip);
+    if (pair.friction() != nullptr && pair.friction()->reads_temperature()) serialize(archive, name + ".temperatures", slaves, history.temperatures);
     if (pair.enforcement().starts_from_multipliers()) serialize_starts(archive, comm, name + ".start", slaves, dimension, history.starts);
     serialize(archive, name + ".hardening", history.settling.hardening);
     serialize(archive, name + ".ratio", history.settling.ratio);

@@ -7,8 +7,10 @@
 namespace mortise {
 
 FrictionBound NodeFriction::operator()(double pressure) const {
-  if (missing_bound != nullptr) *missing_bound = law->missing_bound(pressure, slip_path);
-  return law->bound(pressure, slip_path);
+  FrictionPoint point = at_start;
+  point.pressure = pressure;
+  if (missing_bound != nullptr) *missing_bound = law->missing_bound(point);
+  return law->bound(point);
 }
 
 SpatialVector Enforcement::return_map(const ContactNode&) const {

@@ -58,6 +58,12 @@ Eigen::Index PairEvaluation::held_tangents(std::size_t s) const {
   return std::count(node.fixed.begin(), node.fixed.end(), true);
 }
 
+FrictionPoint PairEvaluation::friction_point(std::size_t s, double pressure) const {
+  FrictionPoint point{pressure, history().slip->paths[s]};
+  if (!history().temperatures.empty()) point.temperature = history().temperatures[s];
+  return point;
+}
+
 // Of a node that was not covered the gap at the start is that of the surfaces alone. One that was covered slips from the start of the step on. Where
 // it is about to close it holds its body along the surface from the first iterate on, when it bears no pressure yet.
 double PairEvaluation::start_gap(std::size_t s) const {
@@ -84,7 +90,7 @@ ContactNode PairEvaluation::node(std::size_t s, const NodeMultiplier& multiplier
   node.size = pair_->size();
   node.tie = ties().compliance(s);
   if (history().slip != nullptr) {
-    node.friction = NodeFriction{pair_->friction(), history().slip->paths[s], missing_bound};
+    node.friction = NodeFriction{pair_->friction(), friction_point(s, 0.0), missing_bound};
     node.slip = slip(s, multiplier);
     node.start_gap = start_gap(s);
     node.held.count = held_tangents(s);

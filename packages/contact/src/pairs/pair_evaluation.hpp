@@ -95,6 +95,8 @@ class PairEvaluation {
   bool is_eliminated_by_law(std::size_t s) const {
     return !pair_->enforcement().needs_diagonal_coupling() || row(s).D * pair_->size() < ties().compliance(s) * pair_->definition().youngs_modulus;
   }
+  /// A slave node as the law of friction sees it. Friction only.
+  FrictionPoint friction_point(std::size_t s, double pressure) const;
   /// Slipped in all accepted steps and in this one [length]. Friction only.
   double slip_path(std::size_t s, ContactState state) const;
 

@@ -40,8 +40,9 @@ struct PairHistory {
   Settling settling;                           ///< of the updates of the multipliers
   double allowed_overlap = 0.0;                ///< overlap that the surfaces may have without pressure [length]
   std::vector<double> clearances;              ///< [owned slave nodes] added to the gap [length]; empty: none
-  std::vector<double> start_gaps;  ///< [owned slave nodes] mean gaps at the start of a step, 0: not covered; empty: conditions are on gaps
-  double constant_share = 1.0;     ///< factor of complementarity constants within the step
+  std::vector<double> start_gaps;    ///< [owned slave nodes] mean gaps at the start of a step, 0: not covered; empty: conditions are on gaps
+  std::vector<double> temperatures;  ///< [owned slave nodes] means of both sides at the start of the step; empty: none are known
+  double constant_share = 1.0;       ///< factor of complementarity constants within the step
 };
 
 }  // namespace mortise

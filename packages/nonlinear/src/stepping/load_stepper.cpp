@@ -66,6 +66,14 @@ namespace {
 /// The observer ends the run within a step.
 struct Interrupted {};
 
+/// True if F = 0 there to the tolerances: nothing that drives the bodies has changed. The Newton solve tests increments and states itself.
+bool is_solution(const SystemEvaluation& at, const NewtonOptions& options) {
+  const ResidualNorms& norms = at.norms();
+  const bool balanced = norms.momentum <= options.momentum_tolerance || norms.momentum_absolute <= norms.round_off;
+  return norms.finite && balanced && norms.prescribed <= options.increment_tolerance && norms.gap <= options.gap_tolerance &&
+         norms.complementarity <= options.complementarity_tolerance;
+}
+
 /// Newton's method as often as a step needs it; `report` is that of all of them.
 class StepSolver {
  public:
@@ -76,9 +84,25 @@ class StepSolver {
     report_.solves = 0;
   }
 
+  /// All fields together, or each by itself, with the others as they are, in turn until all are in balance.
+  SystemEvaluation solve(SystemEvaluation start) {
+    const std::size_t fields = system_.parts().fields.size();
+    if (options_.fields == FieldSolution::monolithic || fields < 2) return solve_together(std::move(start));
+    for (int turn = 1; turn <= options_.most_turns; ++turn) {
+      for (std::size_t field = 0; field < fields; ++field) start = solve_together(system_.solving_for(start, field));
+      start = system_.solving_for(start, std::nullopt);
+      if (is_solution(start, options_)) return start;
+    }
+    throw StepFailure(FailureKind::too_many_iterations,
+                      fmt::format("the fields are not in balance with one another after {} turns: the relative residual is {:.2e} of {:.1e}; take "
+                                  "\"fields\" \"monolithic\", or smaller steps",
+                                  options_.most_turns, start.norms().momentum, options_.momentum_tolerance));
+  }
+
+ private:
   /// And again as long as augmented Lagrange multipliers are updated. A solve that needed no Newton step found the conditions of the multipliers met
   /// as well as its tolerances tell: then further updates have no effect.
-  SystemEvaluation solve(SystemEvaluation start) {
+  SystemEvaluation solve_together(SystemEvaluation start) {
     NewtonReport next;
     for (int round = 0;; ++round) {
       const SystemEvaluation solution = solve_newton(system_, std::move(start), options_, next, observer_, &linearised_);
@@ -91,21 +115,12 @@ class StepSolver {
     }
   }
 
- private:
   const SemiSmoothSystem& system_;
   const NewtonOptions& options_;
   NewtonReport& report_;
   std::optional<LinearisedIterate>& linearised_;
   const std::function<void(const NewtonIteration&)>& observer_;
 };
-
-/// True if F = 0 there to the tolerances: nothing that drives the bodies has changed. The Newton solve tests increments and states itself.
-bool is_solution(const SystemEvaluation& at, const NewtonOptions& options) {
-  const ResidualNorms& norms = at.norms();
-  const bool balanced = norms.momentum <= options.momentum_tolerance || norms.momentum_absolute <= norms.round_off;
-  return norms.finite && balanced && norms.prescribed <= options.increment_tolerance && norms.gap <= options.gap_tolerance &&
-         norms.complementarity <= options.complementarity_tolerance;
-}
 
 /// Merit of a predicted start over that of the last state beyond which the prediction is not taken.
 constexpr double far_off = 1e3;

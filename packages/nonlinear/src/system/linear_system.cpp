@@ -22,6 +22,17 @@ RCP<Matrix> with_further_rows(const Matrix& B, const Matrix& further) {
   return Tpetra::MatrixMatrix::add(1.0, false, B, 1.0, false, further, B.getDomainMap(), B.getRangeMap());
 }
 
+// The owned dofs of other fields than the one that is solved for, but those that follow.
+std::vector<LocalOrdinal> dofs_of_other_fields(const SystemModel& model, std::size_t field) {
+  std::vector<char> follows(local_id_count(*model.parts().dofs), 0);
+  if (model.reduction())
+    for (const LocalOrdinal row : model.reduction()->dependents()) follows[static_cast<std::size_t>(row)] = 1;
+  std::vector<LocalOrdinal> rows;
+  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(follows.size()); ++row)
+    if (follows[static_cast<std::size_t>(row)] == 0 && model.sizes().field(row) != field) rows.push_back(row);
+  return rows;
+}
+
 }  // namespace
 
 // With followers F holds what is gathered from them; their own forces are wanted.
@@ -39,10 +50,13 @@ LinearSystem assembled(const SystemModel& model, const std::shared_ptr<const Eva
     const auto rows = residual->getLocalViewHost(Tpetra::Access::ReadOnly);
     for (const LocalOrdinal row : system.prescribed) step(row, 0) = -rows(row, 0) / model.stiffness_scale_of(row);
   }
-  if (!held.empty()) {
-    system.prescribed.insert(system.prescribed.end(), held.begin(), held.end());
+  const auto hold = [&](const std::vector<LocalOrdinal>& dofs) {
+    system.prescribed.insert(system.prescribed.end(), dofs.begin(), dofs.end());
     std::sort(system.prescribed.begin(), system.prescribed.end());
-  }
+    system.prescribed.erase(std::unique(system.prescribed.begin(), system.prescribed.end()), system.prescribed.end());
+  };
+  if (!held.empty()) hold(held);
+  if (at->context.field) hold(dofs_of_other_fields(model, *at->context.field));
   if (model.parts().near_null_space) system.multigrid.near_null_space = [&model, d = at->d] { return model.parts().near_null_space(*d); };
   system.recover = [](const Vector& u, Vector& dd, Vector&) { Tpetra::deep_copy(dd, u); };
   system.restricted = system.prolonged = [](const Vector& v) { return rcp(new Vector(v, Teuchos::Copy)); };
@@ -56,6 +70,13 @@ LinearSystem with_contact(const SystemModel& model, const EvaluatedSystem& at, c
   if (geometric_stiffness == GeometricContactStiffness::included) linearised.add_stiffness(*system.matrix);
   const ContactContribution::Derivatives further = model.derivatives_of_contact_contributions(at, linearised);
   if (!further.of_unknowns.is_null()) add_further(*further.of_unknowns, *system.matrix);
+  if (at.context.field && *at.context.field != 0) {  // multipliers keep their values
+    system.recover = [inner = system.recover](const Vector& u, Vector& dd, Vector& dz) {
+      inner(u, dd, dz);
+      dz.putScalar(0.0);
+    };
+    return system;
+  }
   if (model.parts().contact->keeps_multipliers()) {
     const auto rhs = rcp(new Vector(*model.z(F), Teuchos::Copy));
     rhs->elementWiseMultiply(-1.0, *model.parts().contact->weights(), *model.z(F), 0.0);

@@ -32,7 +32,7 @@ RCP<const Vector> SemiSmoothSystem::first_field(const Vector& of_dofs) const {
 double SemiSmoothSystem::largest_unknown(const Vector& x) const { return model_->sizes().largest(*unknowns(x)); }
 
 AcceptedState SemiSmoothSystem::initial_state(const Vector& x, double time) const {
-  AcceptedState state{rcp(new Vector(x, Teuchos::Copy)), {time, std::nullopt, {}, nullptr}, {}, std::nullopt};
+  AcceptedState state{rcp(new Vector(x, Teuchos::Copy)), {time, std::nullopt, {}, nullptr, std::nullopt}, {}, std::nullopt};
   if (!parts().contact) return state;
   state.context.contact = parts().contact->initial_history(*unknowns(x));
   state.context.states = (*state.context.contact)->states;
@@ -69,7 +69,7 @@ StepContext SemiSmoothSystem::step_from(const AcceptedState& state, double time)
 StepContext SemiSmoothSystem::start_step(const AcceptedState& state, double time, const Vector& d, Vector& z) const {
   if (!parts().contact) return step_from(state, time);
   const ContactHistory history = parts().contact->start_step(*state.context.contact, d, z);
-  return {time, history, history->states, time_step(*model_, state, time)};
+  return {time, history, history->states, time_step(*model_, state, time), std::nullopt};
 }
 
 StepContext SemiSmoothSystem::weigh_gaps(StepContext context, double share) const {
@@ -92,6 +92,13 @@ SystemEvaluation SemiSmoothSystem::with_multipliers(const SystemEvaluation& eval
   Vector x(at.x, Teuchos::Copy);
   Tpetra::deep_copy(*multipliers(x), z);
   return SystemEvaluation(model_->evaluate(x, at.context, {at.internal, at.contact}));
+}
+
+SystemEvaluation SemiSmoothSystem::solving_for(const SystemEvaluation& evaluation, std::optional<std::size_t> field) const {
+  const detail::EvaluatedSystem& at = detail::evaluated(evaluation);
+  StepContext context = at.context;
+  context.field = field;
+  return SystemEvaluation(model_->evaluate(at.x, context, {at.internal, at.contact}));
 }
 
 double SemiSmoothSystem::prescribed_deviation(const Vector& x, double time) const {
@@ -213,7 +220,7 @@ AcceptedState SemiSmoothSystem::restore(StateArchive& archive) const {
   serialize(archive, "has_internal_forces", has_forces);
   const RCP<Vector> internal = has_forces > 0.0 ? rcp(new Vector(parts().dofs)) : Teuchos::null;
   serialize_state(archive, *x, time, internal);
-  AcceptedState state{x, {time, std::nullopt, {}, nullptr}, internal, std::nullopt};
+  AcceptedState state{x, {time, std::nullopt, {}, nullptr, std::nullopt}, internal, std::nullopt};
   if (parts().time) serialize_rates(archive, parts().time->scheme, parts().dofs, state.rates.emplace());
   model_->serialize(archive);
   if (!parts().contact) return state;

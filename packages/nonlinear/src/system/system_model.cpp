@@ -254,6 +254,8 @@ void SystemModel::add_norms(EvaluatedSystem& at) const {
     const std::vector<double> contact_flow = sizes_.norms(*at.of_contact);
     for (std::size_t field = 0; field < force.size(); ++field) force[field] = std::max(force[field], contact_flow[field]);
   }
+  const std::optional<std::size_t>& alone = at.context.field;
+  const auto is_solved_for = [&](std::size_t field) { return !alone || *alone == field; };
   double other = 0.0, violation = 0.0;
   std::optional<StepFailure> failure;  // why something is not finite
   if (parts_.contact) {
@@ -262,12 +264,16 @@ void SystemModel::add_norms(EvaluatedSystem& at) const {
     other = C->norm2();
     if (!std::isfinite(other)) failure = at.laws->friction_failure();
     const ContactNorms contact = at.laws->norms(at.context.states);
-    norms.gap = contact.gap;
-    norms.complementarity = contact.complementarity;
-    violation = contact.violation;
     norms.active = contact.active;
     norms.sticking = contact.sticking;
-    norms.changed = contact.changed;
+    if (is_solved_for(0)) {
+      norms.gap = contact.gap;
+      norms.complementarity = contact.complementarity;
+      violation = contact.violation;
+      norms.changed = contact.changed;
+    } else {
+      C->putScalar(0.0);
+    }
     norms.active_set = active_set_hash(*parts_.contact, at.laws->states(), comm());
     force[0] = std::max(force[0], contact.force);
   }
@@ -279,14 +285,19 @@ void SystemModel::add_norms(EvaluatedSystem& at) const {
   if (parts_.constraints) deviation = parts_.constraints->prescribed_values(at.context.time, failure);
   if (at.follow && !failure) failure = at.follow->failure();
   {
-    if (at.follow) largest = at.follow->deviation(*at.d, 0.0, *r);
+    if (at.follow) {
+      const double of_followers = at.follow->deviation(*at.d, 0.0, *r);
+      if (!alone) largest = of_followers;
+    }
     const auto unknowns = at.d->getLocalViewHost(Tpetra::Access::ReadOnly);
     const auto rows = r->getLocalViewHost(Tpetra::Access::ReadWrite);
     for (std::size_t i = 0; i < prescribed_.size(); ++i) {
-      deviation[i] = unknowns(prescribed_[i], 0) - deviation[i];
+      deviation[i] = is_solved_for(sizes_.field(prescribed_[i])) ? unknowns(prescribed_[i], 0) - deviation[i] : 0.0;
       largest = std::max(largest, std::abs(deviation[i]) * parts_.length / sizes_.size(sizes_.field(prescribed_[i])));
       rows(prescribed_[i], 0) = 0.0;
     }
+    for (std::size_t row = 0; alone && row < rows.extent(0); ++row)
+      if (!is_solved_for(sizes_.field(static_cast<LocalOrdinal>(row)))) rows(row, 0) = 0.0;
   }
   const auto total = [&](const std::vector<double>& of_fields) {
     if (of_fields.size() == 1) return of_fields[0];
@@ -316,7 +327,7 @@ void SystemModel::add_norms(EvaluatedSystem& at) const {
     const auto rows = r->getLocalViewHost(Tpetra::Access::ReadWrite);
     for (std::size_t i = 0; i < prescribed_.size(); ++i) rows(prescribed_[i], 0) = stiffness_scale_of(prescribed_[i]) * deviation[i];
   }
-  if (at.follow) at.follow->deviation(*at.d, stiffness_scale(), *r);
+  if (at.follow && !alone) at.follow->deviation(*at.d, stiffness_scale(), *r);
   const double rows = total(sizes_.norms(*r));
   norms.finite = finite && std::isfinite(rows);
   if (!norms.finite) throw_if_any(comm(), failure);  // all ranks have the same norms

@@ -8,6 +8,8 @@
 #include <functional>
 #include <stdexcept>
 
+#include "quantities/surface_projection.hpp"
+
 namespace mortise {
 namespace {
 
@@ -114,7 +116,8 @@ Values heat_flux(const FieldState& state) {
   Values values;
   for (LocalOrdinal block = 0; block < static_cast<LocalOrdinal>(mesh.blocks.size()); ++block) {
     if (!has_heat(state)) {
-      values.insert(values.end(), static_cast<std::size_t>(mesh.dimension) * static_cast<std::size_t>(mesh.blocks[static_cast<std::size_t>(block)].owned), 0.0);
+      values.insert(values.end(),
+                    static_cast<std::size_t>(mesh.dimension) * static_cast<std::size_t>(mesh.blocks[static_cast<std::size_t>(block)].owned), 0.0);
       continue;
     }
     for (const std::array<double, 3>& flux : state.heat->bodies->element_heat_fluxes(state.local_displacement, block))
@@ -131,6 +134,41 @@ Values on_heated_nodes(const FieldState& state, const std::function<double(const
   for (const HeatOfStep::PairFlow& pair : state.heat->pairs)
     for (const NodeHeat& node : *pair.nodes) values[static_cast<std::size_t>(mesh.owned_nodes->getLocalElement(node.node))] = number(node);
   return values;
+}
+
+/// A number of the slave nodes of all pairs, projected on their surfaces. At a node of several pairs it is the sum.
+Values projected(const FieldState& state, const std::function<std::vector<double>(std::size_t pair)>& numbers) {
+  Values values(static_cast<std::size_t>(state.bodies.mesh()->owned_count()), 0.0);
+  if (state.contact == nullptr) return values;
+  for (std::size_t pair = 0; pair < state.contact->pairs(); ++pair) {
+    const std::vector<double> of_pair = numbers(pair);
+    const Values on_nodes = projected_on_slave(state, pair, [&](std::size_t s) { return of_pair[s]; });
+    for (std::size_t node = 0; node < values.size(); ++node) values[node] += on_nodes[node];
+  }
+  return values;
+}
+
+Values smooth_pressures(const FieldState& state) {
+  return projected(state, [&](std::size_t pair) {
+    std::vector<double> pressures;
+    for (const ContactNodeState& node : node_states(*state.laws, pair)) pressures.push_back(node.pressure);
+    return pressures;
+  });
+}
+
+Values smooth_heat_fluxes(const FieldState& state) {
+  return projected(state, [&](std::size_t pair) {
+    std::vector<double> fluxes(state.contact->slave_ids(pair).size(), 0.0);
+    if (!has_heat(state)) return fluxes;
+    const std::vector<GlobalOrdinal> ids = state.contact->slave_ids(pair);
+    for (const HeatOfStep::PairFlow& flow : state.heat->pairs) {
+      if (flow.pair != state.contact->pair_name(pair)) continue;
+      for (const NodeHeat& node : *flow.nodes)
+        if (const auto found = std::find(ids.begin(), ids.end(), node.node); found != ids.end())
+          fluxes[static_cast<std::size_t>(found - ids.begin())] = node.flux;
+    }
+    return fluxes;
+  });
 }
 
 struct Kind {
@@ -153,6 +191,9 @@ const std::vector<Kind>& kinds() {
        }},
       {"contact_pressure", "normal part of the contact traction of the slave nodes", Center::node, FieldKind::scalar, 1, 1,
        [](const FieldState& state) { return on_slave_nodes(state, 1, [](const ContactNodeState& node, double* v) { *v = node.pressure; }); }},
+      {"smooth_contact_pressure",
+       "contact pressure of the slave nodes, projected on the shape functions of their surface: more exact than contact_pressure where it is smooth",
+       Center::node, FieldKind::scalar, 1, 1, smooth_pressures},
       {"gap", "weighted gap over weight of the slave nodes; 0 on all others", Center::node, FieldKind::scalar, 1, 1,
        [](const FieldState& state) { return on_slave_nodes(state, 1, [](const ContactNodeState& node, double* v) { *v = node.gap; }); }},
       {"contact_shear", "tangential part of the contact traction, along the slave's normal turned by +90 degrees; in 3D its size", Center::node,
@@ -177,10 +218,12 @@ const std::vector<Kind>& kinds() {
       {"reaction_force", "force of the supports on each node, in prescribed directions; 0 in all others", Center::node, FieldKind::vector, 2, 3,
        reaction_force},
       {"temperature", "temperature of the nodes; 0 where there is none", Center::node, FieldKind::scalar, 1, 1, temperature},
-      {"heat_flux", "volume mean of the heat flux of each element, per current area; 0 in bodies without a temperature", Center::cell, FieldKind::vector, 2,
-       3, heat_flux},
+      {"heat_flux", "volume mean of the heat flux of each element, per current area; 0 in bodies without a temperature", Center::cell,
+       FieldKind::vector, 2, 3, heat_flux},
       {"contact_heat_flux", "heat that flows from the slave nodes to the master, per area; 0 on all others", Center::node, FieldKind::scalar, 1, 1,
        [](const FieldState& state) { return on_heated_nodes(state, [](const NodeHeat& node) { return node.flux; }); }},
+      {"smooth_contact_heat_flux", "contact_heat_flux, projected on the shape functions of the slave surface: more exact where it is smooth",
+       Center::node, FieldKind::scalar, 1, 1, smooth_heat_fluxes},
       {"conductance", "conductance of the pair at the slave nodes; 0 on all others", Center::node, FieldKind::scalar, 1, 1,
        [](const FieldState& state) { return on_heated_nodes(state, [](const NodeHeat& node) { return node.conductance; }); }},
       {"friction_heat", "power that friction takes at the slave nodes, per area; 0 on all others", Center::node, FieldKind::scalar, 1, 1,

@@ -66,6 +66,27 @@ LoadedSide side_of(const Mesh& mesh, const Side& side) {
   return {{nodes.begin(), nodes.end()}, mesh.dimension, &side_rule(mesh.side_shape(side))};
 }
 
+LoadedSide side_of(const Mesh& mesh, const SurfaceFacet& facet) {
+  const auto shape = [&] {
+    if (mesh.dimension == 2) return facet.size() == 2 ? CellShape::line2 : CellShape::line3;
+    switch (facet.size()) {
+      case 3:
+        return CellShape::triangle3;
+      case 4:
+        return CellShape::quadrilateral4;
+      case 6:
+        return CellShape::triangle6;
+      case 8:
+        return CellShape::quadrilateral8;
+      default:
+        throw std::logic_error("a facet of no shape");
+    }
+  }();
+  LoadedSide side{{}, mesh.dimension, &side_rule(shape)};
+  for (const GlobalOrdinal node : facet) side.nodes.push_back(mesh.local_nodes->getLocalElement(node));
+  return side;
+}
+
 std::vector<LoadedSide> owned_sides(const Mesh& mesh, const Located<std::string>& set) {
   std::vector<LoadedSide> sides;
   look_up(mesh, [&] {

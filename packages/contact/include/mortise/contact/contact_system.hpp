@@ -79,6 +79,8 @@ class ContactSystem {
   ContactGeometry geometry(std::size_t pair) const;
   /// Ids of the slave nodes of a pair that this rank owns, in the order of ContactStates.
   std::vector<GlobalOrdinal> slave_ids(std::size_t pair) const;
+  /// Slave facets of a pair on this rank, as they were given.
+  const SurfaceFacets& slave_facets(std::size_t pair) const;
   /// True if multipliers stay unknowns of the linear system: then ContactLinearisation::saddle_point_blocks() takes the place of condense().
   bool keeps_multipliers() const;
   /// Map of z: ids lie above all dof ids.
@@ -122,6 +124,12 @@ class ContactSystem {
   /// The history with the clearances of all pairs at a time, those that hold within the step that ends then.
   /// @throws InputError on every rank where a clearance is not finite
   ContactHistory with_clearances(const ContactHistory& history, double time) const;
+
+  /// The history with temperatures of a pair's slave nodes, those that friction sees within the step (FrictionLaw::reads_temperature()). A second
+  /// pass is a pair of its own.
+  /// @param temperatures  [slave_ids(pair)] means of both sides at the start of the step
+  /// @throws std::invalid_argument for another number of them, std::out_of_range for a pair that does not exist
+  ContactHistory with_temperatures(const ContactHistory& history, std::size_t pair, std::vector<double> temperatures) const;
 
   /// Updates the multipliers of augmented Lagrange pairs if those of any of them are not exact to its tolerance yet. `laws` are those of a Newton
   /// solve's end. `round` counts from 1 within a step.

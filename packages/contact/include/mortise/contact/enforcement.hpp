@@ -20,7 +20,7 @@ struct NodeStart {
 /// The law of friction at one slave node.
 struct NodeFriction {
   const FrictionLaw* law = nullptr;                    ///< of the pair
-  double slip_path = 0.0;                              ///< up to the start of the step [length]
+  FrictionPoint at_start;                              ///< at the start of the step, without pressure
   std::optional<Diagnostic>* missing_bound = nullptr;  ///< gets what the law says where it has no bound; null: nobody asks
   /// rho at a pressure.
   FrictionBound operator()(double pressure) const;

@@ -1,7 +1,16 @@
 #pragma once
-// What a law of friction gives to a node.
+// A slave node as a law of friction sees it, and what the law gives to it.
+
+#include <limits>
 
 namespace mortise {
+
+/// A closed node. But for the pressure, the values are those at the start of the step.
+struct FrictionPoint {
+  double pressure = 0.0;                                          ///< p >= 0 [stress]
+  double slip_path = 0.0;                                         ///< accumulated [length]
+  double temperature = std::numeric_limits<double>::quiet_NaN();  ///< mean of both sides; NaN: none is known
+};
 
 /// Largest shear traction of a node.
 struct FrictionBound {

@@ -23,7 +23,8 @@ class ScalarFunction {
   ScalarFunction(double value, std::string source, Place place);
 
   /// The function that `body` computes, which messages show as `source`, given at `place`.
-  ScalarFunction(Body body, std::string source, Place place = {});
+  /// @param reads  [arguments] 0 for one that it does not depend on; empty, or beyond its end: it may depend on it
+  ScalarFunction(Body body, std::string source, Place place = {}, std::vector<char> reads = {});
 
   /// Value at `arguments`; not finite where the function has none.
   double at(const std::vector<double>& arguments) const;
@@ -31,9 +32,10 @@ class ScalarFunction {
   /// Value of a function of t, x, y, z or the first of them. Throws InputError if it is not finite.
   double operator()(double t = 0.0, double x = 0.0, double y = 0.0, double z = 0.0) const;
 
-  bool is_constant() const;           ///< depends on none of its arguments
-  const std::string& source() const;  ///< as messages show it; of a constant its shortest exact text unless given
-  const Place& place() const;         ///< where it was given; may be empty
+  bool is_constant() const;                     ///< depends on none of its arguments
+  bool depends_on(std::size_t argument) const;  ///< may depend on one of them; false of those that it is known not to depend on
+  const std::string& source() const;            ///< as messages show it; of a constant its shortest exact text unless given
+  const Place& place() const;                   ///< where it was given; may be empty
 
  private:
   struct Content;

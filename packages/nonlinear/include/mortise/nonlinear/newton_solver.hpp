@@ -19,18 +19,26 @@ enum class LineSearch {
   backtrack  ///< the full step where it makes ResidualNorms::merit fall, else halved until it does
 };
 
+/// Order in which several fields are solved for.
+enum class FieldSolution {
+  monolithic,  ///< all at once
+  staggered    ///< one after the other, with the others as they are, in turn until all are in balance
+};
+
 /// When a Newton solve is done, and when it is given up.
 struct NewtonOptions {
-  int maximum_iterations = 30;                     ///< beyond them it goes on only while states of contact change and the residual falls
-  double momentum_tolerance = 1e-9;                ///< |r| / max(|f_int|, |f_ext|, |f_c|)
-  double gap_tolerance = 1e-9;                     ///< |g_j| / (A_j h) of closed nodes
-  double complementarity_tolerance = 1e-9;         ///< |C| / max |z|
-  double increment_tolerance = 1e-8;               ///< |du|_max / size of the model
-  double divergence = 1e8;                         ///< growth of |r| over max(|r_0|, |r_1|, s |du_1|) at which the solve is given up
-  int cycle_length = 6;                            ///< longest cycle of active sets that is looked for
-  LineSearch line_search = LineSearch::backtrack;  ///< use of directions
-  std::optional<double> largest_increment;         ///< [length] of any displacement in one iteration; longer corrections are shortened
-  void describe(Parameters& parameters);           ///< the list "newton"
+  int maximum_iterations = 30;                       ///< beyond them it goes on only while states of contact change and the residual falls
+  double momentum_tolerance = 1e-9;                  ///< |r| / max(|f_int|, |f_ext|, |f_c|)
+  double gap_tolerance = 1e-9;                       ///< |g_j| / (A_j h) of closed nodes
+  double complementarity_tolerance = 1e-9;           ///< |C| / max |z|
+  double increment_tolerance = 1e-8;                 ///< |du|_max / size of the model
+  double divergence = 1e8;                           ///< growth of |r| over max(|r_0|, |r_1|, s |du_1|) at which the solve is given up
+  int cycle_length = 6;                              ///< longest cycle of active sets that is looked for
+  LineSearch line_search = LineSearch::backtrack;    ///< use of directions
+  std::optional<double> largest_increment;           ///< [length] of any displacement in one iteration; longer corrections are shortened
+  FieldSolution fields = FieldSolution::monolithic;  ///< of several fields, as displacement and temperature
+  int most_turns = 50;                               ///< turns of a step that is staggered
+  void describe(Parameters& parameters);             ///< the list "newton"
 };
 
 /// One line of a table of Newton iterations.

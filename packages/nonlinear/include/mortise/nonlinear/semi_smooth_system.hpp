@@ -105,6 +105,8 @@ class SemiSmoothSystem {
   SystemEvaluation evaluate_at(const AcceptedState& state, const Vector& z, const StepContext& context) const;
   /// The same displacement with other multipliers: what is known of an evaluation is taken.
   SystemEvaluation with_multipliers(const SystemEvaluation& evaluation, const Vector& z) const;
+  /// The same x with another StepContext::field: what is known of an evaluation is taken.
+  SystemEvaluation solving_for(const SystemEvaluation& evaluation, std::optional<std::size_t> field) const;
   /// max |d - prescribed| of x at a time, relative to the size of the field; costs next to nothing.
   double prescribed_deviation(const Vector& x, double time) const;
   /// Changes of loads and prescribed displacements between two pseudo-times at x. Throws StepFailure on every rank.

@@ -43,6 +43,9 @@ struct StepContext {
   std::optional<ContactHistory> contact;  ///< the history that holds within the step; none without contact
   ContactStates states;                   ///< of the iterate that was linearised last: ResidualNorms::changed counts against them
   std::shared_ptr<const TimeStep> step;   ///< where it starts; null in a system without time derivatives
+  /// The field that is solved for, its index in SystemParts::fields, while the others keep their values, and contact its multipliers unless it is the
+  /// first. Their rows of F are 0, and norms leave them out. Nothing: all fields.
+  std::optional<std::size_t> field;
 };
 
 /// A state that was accepted: what the next step starts from.

@@ -12,6 +12,7 @@
 #include "mortise/core/guarded_value.hpp"
 #include "mortise/core/over_ranks.hpp"
 #include "mortise/mesh/sets.hpp"
+#include "scene/roles.hpp"
 #include "surfaces/body_surfaces.hpp"
 
 namespace mortise {
@@ -21,9 +22,10 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// What is known of one side of a pair, over all ranks.
 struct SideHeat {
-  bool has_rows = false;     ///< some node has a temperature among the unknowns
-  bool lacks = false;        ///< some node has no temperature at all
-  double effusivity = none;  ///< mean of its bodies, at the first temperature; NaN: of none
+  bool has_rows = false;      ///< some node has a temperature among the unknowns
+  bool lacks = false;         ///< some node has no temperature at all
+  double effusivity = none;   ///< mean of its bodies, at the first temperature; NaN: of none
+  double conductivity = 0.0;  ///< largest of its bodies there; 0: of none
 };
 
 const BodyOptions& body_of(const Scene& scene, const Mesh& mesh, std::size_t body) {
@@ -31,15 +33,23 @@ const BodyOptions& body_of(const Scene& scene, const Mesh& mesh, std::size_t bod
   return found->value;
 }
 
-/// sqrt(k rho c) of a body's first block with a temperature, at the temperature at the start in the origin. NaN where it has none.
-double effusivity(const HeatOfModel& heat, const Scene& scene, const Mesh& mesh, std::size_t body) {
+/// Numbers of a body's first block with a temperature, at the temperature at the start in the origin. NaN where it has none.
+struct BodyHeat {
+  double conductivity = none;
+  double effusivity = none;  ///< sqrt(k rho c); NaN where it stores no heat
+};
+
+BodyHeat heat_of(const HeatOfModel& heat, const Scene& scene, const Mesh& mesh, std::size_t body) {
   const double start = value_or_nan(*scene.heat.initial_temperature, {0.0, 0.0, 0.0});
   for (std::size_t block = 0; block < mesh.blocks.size(); ++block) {
     const ThermalBody& of_block = heat.bodies->bodies()[block];
-    if (static_cast<std::size_t>(mesh.blocks[block].body) != body || !of_block.properties || !of_block.properties->specific_heat.is_given()) continue;
-    return std::sqrt(of_block.properties->conductivity.at(start) * of_block.density * of_block.properties->specific_heat.at(start));
+    if (static_cast<std::size_t>(mesh.blocks[block].body) != body || !of_block.properties) continue;
+    BodyHeat result{of_block.properties->conductivity.at(start), none};
+    if (of_block.properties->specific_heat.is_given())
+      result.effusivity = std::sqrt(result.conductivity * of_block.density * of_block.properties->specific_heat.at(start));
+    return result;
   }
-  return none;
+  return {};
 }
 
 SideHeat side_of(const MeshedScene& meshed, const Scene& scene, const HeatOfModel& heat, const Located<std::string>& set) {
@@ -53,7 +63,9 @@ SideHeat side_of(const MeshedScene& meshed, const Scene& scene, const HeatOfMode
       if (!body_of(scene, mesh, sides.body).temperature) side.lacks = true;
       continue;
     }
-    if (const double e = effusivity(heat, scene, mesh, sides.body); std::isfinite(e)) sum += e, ++count;
+    const BodyHeat of_body = heat_of(heat, scene, mesh, sides.body);
+    if (std::isfinite(of_body.effusivity)) sum += of_body.effusivity, ++count;
+    if (of_body.conductivity > side.conductivity) side.conductivity = of_body.conductivity;
   }
   int lives = 0, lacks = 0;
   for (const LocalOrdinal node : require_node_set(mesh, set)) {
@@ -88,7 +100,14 @@ std::vector<ThermalPair> thermal_pairs(const MeshedScene& meshed, const Scene& s
     const auto& pair = scene.contact[p];
     const ContactHeatOptions& options = pair.value.heat;
     const auto refuse = [&](const std::string& words) { diagnostics.push_back({pair.place, words}); };
+    const auto& friction = pair.value.contact.friction.options;
+    const bool rubs = friction && friction->acts();
     if (!heat.bodies) {
+      if (rubs && friction->reads_temperature())
+        refuse(fmt::format(
+            "the friction of pair \"{}\" depends on the temperature, but the scene has none; please give the list \"heat\" of the scene an "
+            "\"analysis\"",
+            pair.name));
       if (options.conducts() || options.crosses_gaps())
         refuse(fmt::format(
             "pair \"{}\" has a law of conductance, but the scene no temperature; please give the list \"heat\" of the scene an \"analysis\"",
@@ -99,6 +118,9 @@ std::vector<ThermalPair> thermal_pairs(const MeshedScene& meshed, const Scene& s
     ThermalPair thermal;
     thermal.pair = p;
     if (options.conducts()) thermal.conductance = options.conductance.law.options;
+    if (dynamic_cast<const PerfectConductance*>(thermal.conductance.get()) != nullptr)
+      thermal.conductance = std::make_shared<PerfectConductance>(
+          PerfectConductance::of(std::max(slave.conductivity, master.conductivity), surface_traits(*meshed.mesh, scene, pair.value.slave).facet));
     if (options.crosses_gaps()) thermal.gap = options.gap.law.options;
     if ((thermal.conductance || thermal.gap) && (slave.lacks || master.lacks))
       refuse(fmt::format(
@@ -117,10 +139,15 @@ std::vector<ThermalPair> thermal_pairs(const MeshedScene& meshed, const Scene& s
             "the laws of pair \"{}\" do not meet: the conductance is {:g} without pressure, and {:g} without a gap; they may differ by 1 %",
             pair.name, closed, open));
     }
-    const bool rubs = pair.value.contact.friction.options && pair.value.contact.friction.options->acts();
     if (rubs && options.friction_heats && scene.heat.is_transient() && (slave.has_rows || master.has_rows))
       thermal.slave_share = share_of(options, slave, master);
-    if (thermal.conductance || thermal.gap || thermal.slave_share) pairs.push_back(std::move(thermal));
+    const bool reads_temperature = rubs && friction->reads_temperature();
+    if (reads_temperature && (slave.lacks || master.lacks))
+      refuse(
+          fmt::format("the friction of pair \"{}\" depends on the temperature, but {} has none; please give its materials a list \"heat\" with a "
+                      "\"conductivity\", or, of a rigid body, a \"temperature\"",
+                      pair.name, slave.lacks ? "its slave" : "its master"));
+    if (thermal.conductance || thermal.gap || thermal.slave_share || reads_temperature) pairs.push_back(std::move(thermal));
   }
   throw_if_any(*meshed.mesh->comm, diagnostics);
   return pairs;
@@ -147,7 +174,11 @@ ContactHeatBook::ContactHeatBook(const MeshedScene& meshed, const Scene& scene, 
       timers_(std::move(timers)),
       sums_(pairs_.size()),
       nodes_(pairs_.size()) {
-  for (const ThermalPair& pair : pairs_) pairs_of_scene_.push_back(pair.pair);
+  for (const ThermalPair& pair : pairs_) {
+    pairs_of_scene_.push_back(pair.pair);
+    const auto& friction = scene.contact[pair.pair].value.contact.friction.options;
+    rubs_by_temperature_.push_back(friction && friction->acts() && friction->reads_temperature() ? 1 : 0);
+  }
   for (std::size_t body = 0; body < mesh_->bodies.size(); ++body) {
     if (!mesh_->bodies[body].is_surface) continue;
     rigid_[body] = body_of(scene, *mesh_, body).temperature;
@@ -179,23 +210,23 @@ RCP<const Vector> ContactHeatBook::of_rigid_bodies(double time, std::optional<St
 }
 
 template <class Function>
-auto ContactHeatBook::with_temperatures(const Configuration& at, std::optional<StepFailure>& failure, const Function& function) const {
-  const RCP<const Vector> rigid = of_rigid_bodies(at.time, failure);
+auto ContactHeatBook::at_temperatures(double time, const Vector& unknowns, std::optional<StepFailure>& failure, const Function& function) const {
+  const RCP<const Vector> rigid = of_rigid_bodies(time, failure);
   throw_if_any(*mesh_->comm, failure);
-  return function(rigid.is_null() ? NodalTemperature(at.unknowns) : NodalTemperature(at.unknowns, *rigid));
+  return function(rigid.is_null() ? NodalTemperature(unknowns) : NodalTemperature(unknowns, *rigid));
 }
 
 void ContactHeatBook::add_residual(const ContactLaws& laws, const Configuration& at, Vector& residual, std::optional<StepFailure>& failure) {
   const auto timer = timers_.scope("contact heat");
   ++calls_;
-  with_temperatures(at, failure, [&](const NodalTemperature& theta) { heat_.evaluate(laws, theta, time_step(at)).add_to(residual); });
+  at_temperatures(at.time, at.unknowns, failure, [&](const NodalTemperature& theta) { heat_.evaluate(laws, theta, time_step(at)).add_to(residual); });
 }
 
 ContactContribution::Derivatives ContactHeatBook::differentiate(const ContactLinearisation& linearised, const Configuration& at,
                                                                 std::optional<StepFailure>& failure) {
   const auto timer = timers_.scope("contact heat");
   ++calls_;
-  return with_temperatures(at, failure, [&](const NodalTemperature& theta) {
+  return at_temperatures(at.time, at.unknowns, failure, [&](const NodalTemperature& theta) {
     const DifferentiatedHeat heat = heat_.differentiate(linearised, theta, time_step(at));
     return Derivatives{heat.of_dofs(), heat.of_multipliers()};
   });
@@ -203,9 +234,11 @@ ContactContribution::Derivatives ContactHeatBook::differentiate(const ContactLin
 
 void ContactHeatBook::commit(const ContactLaws& laws, const Configuration& at) {
   std::optional<StepFailure> failure;  // a converged state has none
-  with_temperatures(at, failure, [&](const NodalTemperature& theta) {
+  at_temperatures(at.time, at.unknowns, failure, [&](const NodalTemperature& theta) {
     const ContactHeat heat = heat_.evaluate(laws, theta, time_step(at));
     const double dt = at.time - time_;
+    surface_temperatures_.clear();
+    is_restored_ = false;
     for (std::size_t pair = 0; pair < pairs_.size(); ++pair) {
       Sums& sums = sums_[pair];
       sums.power = heat.flow(pair);
@@ -213,10 +246,27 @@ void ContactHeatBook::commit(const ContactLaws& laws, const Configuration& at) {
       for (const auto member : {&HeatFlow::conducted, &HeatFlow::friction, &HeatFlow::to_slave_without_rows, &HeatFlow::to_master_without_rows})
         add(member);
       nodes_[pair] = heat.nodes(pair);
+      if (rubs_by_temperature_[pair] == 0) continue;
+      for (auto& of_pass : heat_.surface_temperatures(laws, theta, pair)) surface_temperatures_.push_back(std::move(of_pass));
     }
   });
   if (at.time > time_) last_step_ = at.time - time_;
   time_ = at.time;
+}
+
+ContactHistory ContactHeatBook::with_temperatures(const ContactSystem& contact, ContactHistory history, double time, const Vector& unknowns) const {
+  if (std::find(rubs_by_temperature_.begin(), rubs_by_temperature_.end(), 1) == rubs_by_temperature_.end() || is_restored_) return history;
+  std::vector<ThermalContact::SurfaceTemperatures> temperatures = surface_temperatures_;
+  if (temperatures.empty()) {
+    std::optional<StepFailure> failure;
+    at_temperatures(time, unknowns, failure, [&](const NodalTemperature& theta) {
+      for (std::size_t pair = 0; pair < pairs_.size(); ++pair)
+        if (rubs_by_temperature_[pair] != 0)
+          for (auto& of_pass : heat_.slave_temperatures(theta, pair)) temperatures.push_back(std::move(of_pass));
+    });
+  }
+  for (auto& of_pass : temperatures) history = contact.with_temperatures(history, of_pass.pair, std::move(of_pass.values));
+  return history;
 }
 
 std::vector<ThermalPair> ContactHeatBook::conducting_now() const {
@@ -231,6 +281,7 @@ std::vector<ThermalPair> ContactHeatBook::conducting_now() const {
 }
 
 void ContactHeatBook::serialize(StateArchive& archive) {
+  is_restored_ = archive.restores();
   mortise::serialize(archive, "contact_heat.time", time_);
   mortise::serialize(archive, "contact_heat.last_step", last_step_);
   std::vector<double> numbers;

@@ -34,6 +34,10 @@ class ContactHeatBook final : public ContactContribution {
   long calls() const { return calls_; }
   /// Index of a pair of the scene among pairs(); none: no heat flows across it.
   std::optional<std::size_t> index(std::size_t pair_of_scene) const;
+  /// A history in which friction sees the temperatures of the state that was committed last; at the start those of the slave nodes themselves. Any
+  /// history where no law of friction reads them. Collective.
+  /// @param time, unknowns  of that state
+  ContactHistory with_temperatures(const ContactSystem& contact, ContactHistory history, double time, const Vector& unknowns) const;
   /// Pairs across which heat is conducted in the state that was committed last. Collective.
   std::vector<ThermalPair> conducting_now() const;
   const std::vector<Sums>& sums() const { return sums_; }  ///< [thermal pairs]
@@ -46,7 +50,7 @@ class ContactHeatBook final : public ContactContribution {
   /// Temperatures of rigid bodies at a time [owned nodes]; null: none has one.
   RCP<const Vector> of_rigid_bodies(double time, std::optional<StepFailure>& failure) const;
   template <class Function>
-  auto with_temperatures(const Configuration& at, std::optional<StepFailure>& failure, const Function& function) const;
+  auto at_temperatures(double time, const Vector& unknowns, std::optional<StepFailure>& failure, const Function& function) const;
 
   RCP<const Mesh> mesh_;
   std::vector<std::optional<ScalarFunction>> rigid_;  ///< [mesh bodies]
@@ -59,6 +63,9 @@ class ContactHeatBook final : public ContactContribution {
   double time_ = 0.0, last_step_ = 0.0;
   std::vector<Sums> sums_;
   std::vector<std::vector<NodeHeat>> nodes_;
+  std::vector<char> rubs_by_temperature_;                                  ///< [thermal pairs] friction reads the temperature
+  std::vector<ThermalContact::SurfaceTemperatures> surface_temperatures_;  ///< of these pairs' passes in that state; empty: none was committed
+  bool is_restored_ = false;                                               ///< nothing was committed since: the history has its temperatures
 };
 
 /// Pairs of the scene across which heat flows. Collective.

@@ -69,14 +69,18 @@ Lines lines_of(const std::string& fingerprint) {
 
 constexpr std::array<const char*, 6> free_lists{"stepping/", "newton/", "linear solver/", "output/", "checks/", "loads/"};
 
-/// Values of boundary conditions may change, which components are prescribed may not. Of contact that may which only says who works where.
+/// Values of boundary conditions may change, which components are prescribed may not; likewise prescribed temperatures and thermal loads. Of contact
+/// that may which only says who works where.
 bool may_differ(const std::string& path, const std::string& before, const std::string& now) {
   for (const char* list : free_lists)
     if (path.compare(0, std::string(list).size(), list) == 0) return true;
   const std::string name = path.substr(path.rfind('/') + 1);
   if (path.compare(0, 8, "contact/") == 0 && name == "balance") return true;
+  const bool is_kept = !before.empty() && !now.empty();
+  if (path.compare(0, 18, "heat/temperatures/") == 0 && name == "temperature" && is_kept) return true;
+  if (path.compare(0, 11, "heat/loads/") == 0 && name != "type" && name != "set" && is_kept) return true;
   const bool is_value = name == "x" || name == "y" || name == "z" || name.compare(0, 8, "rotation") == 0;
-  return path.compare(0, 20, "boundary conditions/") == 0 && is_value && !before.empty() && !now.empty();
+  return path.compare(0, 20, "boundary conditions/") == 0 && is_value && is_kept;
 }
 
 }  // namespace
@@ -88,8 +92,8 @@ std::string scene_fingerprint(const Scene& scene) {
 }
 
 std::string what_may_change() {
-  return "\"stepping\", \"newton\", \"linear solver\", \"output\", \"checks\", \"balance\" of contact, and the \"loads\" and values of "
-         "\"boundary conditions\" after the time of the checkpoint";
+  return "\"stepping\", \"newton\", \"linear solver\", \"output\", \"checks\", \"balance\" of contact, and the \"loads\", and the values of "
+         "\"boundary conditions\", prescribed temperatures and thermal loads after the time of the checkpoint";
 }
 
 std::vector<std::string> refused_changes(const std::string& fingerprint_before, const std::string& fingerprint_now) {

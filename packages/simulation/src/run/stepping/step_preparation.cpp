@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "model/edge_contact.hpp"
+#include "model/heat/contact_heat_book.hpp"
 
 namespace mortise {
 
@@ -15,7 +16,11 @@ StepPreparation::StepPreparation(const Model& model, const Scene& scene, const S
 
 AcceptedState StepPreparation::prepared(AcceptedState state, double time) const {
   if (model_.edges() != nullptr) model_.edges()->start_step(*system_.unknowns(*state.x));
-  if (auto& contact = state.context.contact) contact = model_.contact()->with_clearances(*contact, time);
+  auto& contact = state.context.contact;
+  if (!contact) return state;
+  contact = model_.contact()->with_clearances(*contact, time);
+  if (const auto& heat = model_.heat().contact)
+    contact = heat->with_temperatures(*model_.contact(), *contact, state.context.time, *system_.unknowns(*state.x));
   return state;
 }
 

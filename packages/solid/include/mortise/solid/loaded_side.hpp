@@ -49,6 +49,9 @@ double reference_area(const Bodies& bodies, const LoadedSide& side, const SidePo
 /// A side as it stands in a set.
 LoadedSide side_of(const Mesh& mesh, const Side& side);
 
+/// A facet of nodes that this rank knows, by their ids.
+LoadedSide side_of(const Mesh& mesh, const SurfaceFacet& facet);
+
 /// The sides of the set whose elements this rank owns. Collective; throws InputError on all ranks if there is no such set.
 std::vector<LoadedSide> owned_sides(const Mesh& mesh, const Located<std::string>& set);
 

@@ -67,6 +67,17 @@ class ThermalContact {
   /// @throws std::invalid_argument on every rank for a step of time that is not above 0, or a node that conducts and has no temperature
   /// @throws InputError on every rank where the laws of closed and open nodes differ by more than 1 % at p = 0, g = 0
   ContactHeat evaluate(const ContactLaws& laws, const NodalTemperature& theta, double time_step) const;
+  /// Temperatures at the slave nodes of a pass, as ContactSystem::with_temperatures() takes them for friction.
+  struct SurfaceTemperatures {
+    std::size_t pair = 0;        ///< of the contact system
+    std::vector<double> values;  ///< [ContactSystem::slave_ids(pair)]; NaN where there is none
+  };
+  /// Means of both sides, of one of the pairs that it was given, by its place in their list. A node that is not covered has its own.
+  /// @return  one for each pass of the pair
+  std::vector<SurfaceTemperatures> surface_temperatures(const ContactLaws& laws, const NodalTemperature& theta, std::size_t thermal_pair) const;
+  /// Those of the slave nodes themselves, as before anything was evaluated.
+  std::vector<SurfaceTemperatures> slave_temperatures(const NodalTemperature& theta, std::size_t thermal_pair) const;
+
   /// The rows with their derivatives, as evaluate().
   DifferentiatedHeat differentiate(const ContactLinearisation& at, const NodalTemperature& theta, double time_step) const;
 
