@@ -31,6 +31,36 @@ def orders(runs, check):
         check(abs(found - order) < 0.15, f"{integration}: errors {errors[0]:.2e}, {errors[1]:.2e}, {errors[2]:.2e}, of order {found:.2f}; theory {order}")
 
 
+def steps_by_error(runs, check):
+    """The mode of orders() with steps by their error: a tolerance a tenth as large leaves an error a tenth as large, in steps that get longer."""
+    rate = 2.0 * math.pi ** 2 / (1.0 * 4.0)
+    for integration, most in (("backward euler", 1), ("trapezoidal", 2)):
+        errors, counts = [], []
+        for tolerance in (1e-3, 1e-4):
+            scene = {"kinematics": "plane strain", "materials": {"a": material(2.0, density=1.0, capacity=4.0)},
+                     "bodies": {"bar": {"material": "a", "element": "Q8", "mesh": block(1, 0.1, 40, 1)}},
+                     "boundary conditions": {"foot": {"set": "bar/bottom", "x": 0, "y": 0}},
+                     "heat": {"analysis": "transient", "integration": integration, "initial temperature": "300 + 10*cos(pi*x)", "error tolerance": tolerance},
+                     "stepping": {"step": 0.01, "end time": 0.6, "maximum step": 0.6, "minimum step": 1e-6}, "output": {"fields": "", "checkpoints": {"every step": 1}},
+                     "quantities": {"end": {"type": "temperature", "x": 0, "y": 0.05}}}
+            name = f"by_error_{integration.replace(' ', '_')}_{tolerance:g}"
+            code, _, values, columns = runs.run(name, scene)
+            exact = [300 + 10 * math.exp(-rate * t) for t in columns["time"]]
+            errors.append(max(abs(a - b) for a, b in zip(columns["end"], exact)) / 20)
+            steps = [b - a for a, b in zip(columns["time"], columns["time"][1:])]
+            counts.append(len(steps))
+            check(code == 0 and steps[-2] > 2 * min(steps), f"steps by error, {integration}, {tolerance:g}: {len(steps)} steps of {min(steps):.2g} to {max(steps):.2g}")
+        # Errors of the steps add up: N of them, which are damped, so by less than N.
+        check(all(error < tolerance * count for error, tolerance, count in zip(errors, (1e-3, 1e-4), counts)), f"the error is {errors[0]:.1e}, {errors[1]:.1e}")
+        growth = math.log(counts[1] / counts[0]) / math.log(10)
+        check(abs(growth - 1 / (most + 1)) < 0.2, f"steps grow as tolerance^-{growth:.2f}; theory {1 / (most + 1):.2f}")
+        path, results = os.path.join(runs.directory, name + ".xml"), os.path.join(runs.directory, name + "_1")
+        done = subprocess.run([runs.mortise, "run", path, "-o", results, "--restart", str(counts[1] // 2)], capture_output=True, text=True)
+        with open(os.path.join(results, "summary.json")) as file:
+            again = json.load(file)["quantities"]["end"]
+        check(done.returncode == 0 and abs(again - values["end"]) < 1e-9, f"restart of steps by error: exit {done.returncode}, off by {again - values['end']:.1e}")
+
+
 def random_scenes(runs, check, count):
     """Balance to 1e-10 whatever the scene; what flows is that with slave and master exchanged, up to the error of the mesh."""
     ran = 0
@@ -252,6 +282,7 @@ def main():
         print(("ok      " if holds else "FAILED  ") + text, flush=True)
 
     orders(runs, check)
+    steps_by_error(runs, check)
     exact_cases(runs, check)
     random_scenes(runs, check, count)
     stored_and_determined(runs, check)

@@ -295,6 +295,14 @@ class PairMaker {
     return all.name;
   }
 
+  /// True if all bodies of the parts have a temperature.
+  bool have_temperatures(const std::set<int>& parts) const {
+    return std::all_of(parts.begin(), parts.end(), [&](int number) {
+      return std::all_of(mesh_.blocks.begin(), mesh_.blocks.end(),
+                         [&](const Block& block) { return block.body != part(number).body || has_temperature(scene_, mesh_, block); });
+    });
+  }
+
   void add_pair(const std::set<int>& slaves, const std::set<int>& masters) {
     std::vector<std::string> bodies;
     for (const int master : masters) {
@@ -315,6 +323,10 @@ class PairMaker {
     pair.value.start = scene_.automatic_contact.start;
     pair.value.contact = scene_.automatic_contact.contact;
     pair.value.heat = scene_.automatic_contact.heat;
+    if (!have_temperatures(slaves) || !have_temperatures(masters)) {  // heat does not enter a body without one
+      pair.value.heat.conductance = {};
+      pair.value.heat.gap = {};
+    }
     pair.value.reason = reason(slaves, masters);
     if (const auto behind = hidden_master(slaves, masters)) {
       auto& reach = pair.value.contact.mortar.search_reach;

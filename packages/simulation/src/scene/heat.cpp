@@ -20,6 +20,12 @@ void HeatOptions::describe(Parameters& parameters) {
                  "time. Bodies have a temperature whose materials have a list \"heat\" with a conductivity");
   parameters.add("integration", integration, {{"backward euler", Integration::at_end}, {"trapezoidal", Integration::trapezoidal}},
                  "of a transient analysis. backward euler: of first order, damps all; trapezoidal: of second order, lets sudden changes ring");
+  parameters.add("error tolerance", error_tolerance,
+                 Says("bound on the local error of the temperature in a step, over the range of temperatures; steps get as long as it allows, up to "
+                      "\"maximum step\"; default: it does not act on steps")
+                     .unit("-")
+                     .above(0.0));
+  if (error_tolerance && !is_transient()) parameters.error("error tolerance", "steps of time have an error in a \"transient\" analysis alone");
   parameters.add("initial temperature", initial_temperature,
                  Says("temperature of all bodies at the start, of the reference position").unit("temperature").arguments(of_position));
   parameters.named("initial temperatures", initial_temperatures, "temperatures of single bodies at the start, by names of your choice");
@@ -39,7 +45,8 @@ void ContactHeatOptions::Gap::describe(Parameters& parameters) { parameters.choo
 void ContactHeatOptions::describe(Parameters& parameters) {
   parameters.list("conductance", conductance, "heat per area, time and jump of temperature where surfaces touch");
   parameters.list("gap conductance", gap, "likewise where they do not touch, up to the search reach");
-  parameters.add("friction heats", friction_heats, "true: the work of friction becomes heat of the surfaces; counts with friction in a transient analysis");
+  parameters.add("friction heats", friction_heats,
+                 "true: the work of friction becomes heat of the surfaces; counts with friction in a transient analysis");
   parameters.add("slave share", slave_share,
                  Says("of the heat of friction; left out: that of two half spaces, of the materials' sqrt(conductivity density specific heat)")
                      .unit("-")

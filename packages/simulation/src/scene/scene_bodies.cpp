@@ -117,6 +117,14 @@ double youngs_modulus(const Scene& scene, const Mesh& mesh, const Block& block) 
   return find_material(scene, material_name(scene.bodies[static_cast<std::size_t>(block.body)].value, block.part))->youngs_modulus;
 }
 
+bool has_temperature(const Scene& scene, const Mesh& mesh, const Block& block) {
+  const BodyOptions& body = scene.bodies[static_cast<std::size_t>(block.body)].value;
+  if (mesh.body_of(block).is_surface) return body.temperature.has_value();
+  const std::string name = material_name(body, block.part);
+  return std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [&](const auto& material) { return material.name == name && material.value.heat.conductivity.is_given(); });
+}
+
 std::vector<std::string> contact_sides(const Scene& scene) {
   std::vector<std::string> sides;
   for (const auto& pair : scene.contact)

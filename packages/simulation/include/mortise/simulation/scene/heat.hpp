@@ -34,11 +34,12 @@ struct HeatOptions {
     transient  ///< rates are those of time
   };
   enum class Integration {
-    at_end,          ///< first order, damps all
-    trapezoidal      ///< second order, damps nothing
+    at_end,      ///< first order, damps all
+    trapezoidal  ///< second order, damps nothing
   };
   Analysis analysis = Analysis::none;
   Integration integration = Integration::at_end;
+  std::optional<double> error_tolerance;              ///< of a step's local error over the range of temperatures; none: steps do not follow it
   std::optional<ScalarFunction> initial_temperature;  ///< of x, y, z (reference position); no value: none was given
   std::vector<Named<InitialTemperatureOptions>> initial_temperatures;
   std::vector<Named<PrescribedTemperatureOptions>> temperatures;
@@ -70,8 +71,8 @@ struct ContactHeatOptions {
   std::optional<double> slave_share;  ///< of the heat of friction; none: that of the materials
   void describe(Parameters& parameters);
 
-  bool conducts() const { return conductance.law.type != "none"; }    ///< where surfaces touch
-  bool crosses_gaps() const { return gap.law.type != "none"; }        ///< where they do not
+  bool conducts() const { return conductance.law.type != "none"; }  ///< where surfaces touch
+  bool crosses_gaps() const { return gap.law.type != "none"; }      ///< where they do not
 };
 
 }  // namespace mortise

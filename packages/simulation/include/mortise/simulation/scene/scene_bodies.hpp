@@ -29,6 +29,9 @@ std::vector<BodyProperties> block_properties(const Scene& scene, const Mesh& mes
 /// Young's modulus of a block's material; infinite for a rigid body.
 double youngs_modulus(const Scene& scene, const Mesh& mesh, const Block& block);
 
+/// True if a block has a temperature in a scene with heat: its material has a conductivity, or it is rigid and has one of its own.
+bool has_temperature(const Scene& scene, const Mesh& mesh, const Block& block);
+
 /// The sides of all contact pairs, "body/side"; a set of the scene counts as the side that it is a part of.
 std::vector<std::string> contact_sides(const Scene& scene);
 
