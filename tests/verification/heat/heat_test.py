@@ -225,8 +225,8 @@ def options_of_contact(runs, check):
             "boundary conditions": {"foot": {"set": "lower/bottom", "x": 0, "y": 0}, "press": {"set": "upper/top", "x": 0, "y": "-1e-6*t"}},
             "contact": {"joint": {"slave": "upper/bottom", "master": "lower/top", "heat": {"conductance": {"type": "perfect"}}}},
             "heat": {"analysis": "steady", "initial temperature": 300, "temperatures": {"hot": {"set": "upper/top", "temperature": 400}, "cold": {"set": "lower/bottom", "temperature": 300}}},
-            "output": {"fields": ""}, "quantities": {"across": {"type": "heat flow", "pair": "joint"}, "slave": {"type": "mean", "field": "temperature", "set": "upper/bottom"},
-                                                     "master": {"type": "mean", "field": "temperature", "set": "lower/top"}}}
+            "output": {"fields": ""}, "quantities": {"across": {"type": "heat flow", "pair": "joint"}, "slave": {"type": "mean", "field": "temperature", "on": "upper/bottom"},
+                                                     "master": {"type": "mean", "field": "temperature", "on": "lower/top"}}}
     for roles in ("as given", "exchanged"):
         code, said, values, _ = runs.run("perfect_" + roles.split()[0], wall)
         exact = 10 * 100 / (7 / 15 + 12 / 40)
@@ -234,6 +234,13 @@ def options_of_contact(runs, check):
               f"perfect conductance, roles {roles}: exit {code}, flow {values.get('across', math.nan):.6f} of {exact:.6f}, jump {values['slave'] - values['master']:.1e}")
         pair = wall["contact"]["joint"]
         pair["slave"], pair["master"] = pair["master"], pair["slave"]
+
+    wall["heat"]["temperatures"]["hot"]["temperature"] = "400 - 5*abs(x - 2)"
+    wall["quantities"] = {axis: {"type": "extremum", "field": "temperature", "gives": axis} for axis in ("x", "y")}
+    wall["bodies"]["upper"]["mesh"] = block(10, 7, 10, 4, 0, 12)
+    for ranks in (1, 2):
+        _, _, values, _ = runs.run("hottest", wall, ranks)
+        check(abs(values["x"] - 2) < 1e-12 and abs(values["y"] - 19) < 1e-12, f"the hottest place on {ranks} ranks: {values}")
 
     # Insulated bodies of 300 K and of 400 K rub with mu = 0.35; with a temperature that is prescribed mu is that of the start of the step.
     rub = pressed_pair(**{"materials": {"a": material(60), "b": material(20)}, "contact/joint/friction/coefficient": "temperature/1000", "contact/joint/heat": {"friction heats": False},

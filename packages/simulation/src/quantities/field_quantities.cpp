@@ -61,22 +61,24 @@ class FieldPoints {
     if (kind == Carrier::slave_nodes) pair_ = find_pair(context, on_);
   }
 
-  /// Calls visit(value, weight) for the points of this rank. Weights: 1, current volume, or A_j.
-  void visit(const QuantityContext& context, const std::function<void(double, double)>& visit) const {
+  using Position = std::array<double, 3>;
+  /// Calls visit(value, weight, reference position) for the points of this rank. Weights: 1, current volume, or A_j.
+  void visit(const QuantityContext& context, const std::function<void(double, double, const Position&)>& visit) const {
     const Mesh& mesh = context.mesh();
+    const auto place = [&](LocalOrdinal node) -> const Position& { return mesh.coordinates[static_cast<std::size_t>(node)]; };
     switch (carrier(field_)) {
       case Carrier::nodes: {
         const auto displacement = context.displacement->getLocalViewHost(Tpetra::Access::ReadOnly);
         const auto visit_node = [&](LocalOrdinal node) {
           if (field_ == PointField::temperature) {
             const FieldRows& rows = context.space().rows(context.heat.bodies->temperature());
-            if (rows.lives(node)) visit(displacement(rows(node, 0), 0), 1.0);
+            if (rows.lives(node)) visit(displacement(rows(node, 0), 0), 1.0, place(node));
             return;
           }
           std::array<double, 3> u{};
           for (int i = 0; i < mesh.dimension; ++i) u[i] = displacement(context.space().row(node, i), 0);
           const auto component = static_cast<std::size_t>(field_) - static_cast<std::size_t>(PointField::displacement_x);
-          visit(field_ == PointField::displacement_magnitude ? std::hypot(u[0], u[1], u[2]) : u[component], 1.0);
+          visit(field_ == PointField::displacement_magnitude ? std::hypot(u[0], u[1], u[2]) : u[component], 1.0, place(node));
         };
         if (on_.value.empty()) {
           for (LocalOrdinal node = 0; node < mesh.owned_body_count(); ++node) visit_node(node);
@@ -88,13 +90,15 @@ class FieldPoints {
       }
       case Carrier::points:
         context.bodies.visit_points(*context.local_displacement, [&](const MaterialPoint& point) {
-          if (!body_ || context.mesh().blocks[point.block].body == *body_) visit(value_at(field_, point), point.weight * point.volume_ratio);
+          if (!body_ || context.mesh().blocks[point.block].body == *body_)
+            visit(value_at(field_, point), point.weight * point.volume_ratio, point.reference_position);
         });
         break;
       case Carrier::slave_nodes:
         for (std::size_t pair = 0; pair < context.pairs.size(); ++pair)
           if (!pair_ || pair == *pair_)
-            for (const auto& state : node_states(*context.laws, pair)) visit(field_ == PointField::gap ? state.gap : state.pressure, state.weight);
+            for (const auto& state : node_states(*context.laws, pair))
+              visit(field_ == PointField::gap ? state.gap : state.pressure, state.weight, place(state.owned_node));
         break;
     }
   }
@@ -109,30 +113,35 @@ class FieldPoints {
 }  // namespace
 
 void FieldQuantity::describe(Parameters& parameters) {
-  parameters.add("field", field,
-                 {{"displacement x", PointField::displacement_x},
-                  {"displacement y", PointField::displacement_y},
-                  {"displacement z", PointField::displacement_z},
-                  {"displacement magnitude", PointField::displacement_magnitude},
-                  {"temperature", PointField::temperature},
-                  {"stress xx", PointField::stress_xx},
-                  {"stress yy", PointField::stress_yy},
-                  {"stress zz", PointField::stress_zz},
-                  {"stress xy", PointField::stress_xy},
-                  {"stress yz", PointField::stress_yz},
-                  {"stress xz", PointField::stress_xz},
-                  {"von mises", PointField::von_mises},
-                  {"equivalent plastic strain", PointField::equivalent_plastic_strain},
-                  {"contact pressure", PointField::contact_pressure},
-                  {"gap", PointField::gap}},
-                 "displacement and temperature at nodes, Cauchy stress and accumulated plastic strain at quadrature points, pressure and gap at slave nodes");
-  parameters.add("on", on,
-                 "a set of nodes or a body (displacement, temperature), a body (stress, plastic strain), a contact pair (pressure, gap); empty: everywhere");
+  parameters.add(
+      "field", field,
+      {{"displacement x", PointField::displacement_x},
+       {"displacement y", PointField::displacement_y},
+       {"displacement z", PointField::displacement_z},
+       {"displacement magnitude", PointField::displacement_magnitude},
+       {"temperature", PointField::temperature},
+       {"stress xx", PointField::stress_xx},
+       {"stress yy", PointField::stress_yy},
+       {"stress zz", PointField::stress_zz},
+       {"stress xy", PointField::stress_xy},
+       {"stress yz", PointField::stress_yz},
+       {"stress xz", PointField::stress_xz},
+       {"von mises", PointField::von_mises},
+       {"equivalent plastic strain", PointField::equivalent_plastic_strain},
+       {"contact pressure", PointField::contact_pressure},
+       {"gap", PointField::gap}},
+      "displacement and temperature at nodes, Cauchy stress and accumulated plastic strain at quadrature points, pressure and gap at slave nodes");
+  parameters.add(
+      "on", on,
+      "a set of nodes or a body (displacement, temperature), a body (stress, plastic strain), a contact pair (pressure, gap); empty: everywhere");
 }
 
 void Extremum::describe(Parameters& parameters) {
   FieldQuantity::describe(parameters);
   parameters.add("which", which, names(), "kind of extremum");
+  parameters.add("gives", gives, {{"value", Gives::value}, {"x", Gives::x}, {"y", Gives::y}, {"z", Gives::z}},
+                 "the extremum itself, or a coordinate of the place where it is, in the reference configuration; of several places that with the "
+                 "smallest coordinates");
 }
 
 const std::vector<std::pair<std::string, Extremum::Which>>& Extremum::names() {
@@ -142,18 +151,35 @@ const std::vector<std::pair<std::string, Extremum::Which>>& Extremum::names() {
 }
 
 std::unique_ptr<QuantityEvaluator> Extremum::make_evaluator(const QuantityContext& context) const {
-  return evaluator_of([which = which, points = FieldPoints(*this, context)](const QuantityContext& at) {
+  return evaluator_of([which = which, gives = gives, points = FieldPoints(*this, context)](const QuantityContext& at) {
     const double sign = which == Which::minimum ? -1.0 : 1.0;
-    double largest = -std::numeric_limits<double>::infinity();
-    points.visit(at, [&](double value, double) { largest = std::max(largest, which == Which::maximum_absolute ? std::abs(value) : sign * value); });
-    return sign * largest_over_ranks(at.mesh(), largest);
+    const auto size = [&](double value) { return which == Which::maximum_absolute ? std::abs(value) : sign * value; };
+    double mine = -std::numeric_limits<double>::infinity();
+    std::array<double, 3> place{};
+    points.visit(at, [&](double value, double, const std::array<double, 3>& position) {
+      if (size(value) < mine || (size(value) == mine && !(position < place))) return;
+      mine = size(value);
+      place = position;
+    });
+    const double largest = largest_over_ranks(at.mesh(), mine);
+    if (gives == Gives::value) return sign * largest;
+    // Of the ranks that have it the one with the smallest coordinates.
+    constexpr double none = std::numeric_limits<double>::infinity();
+    bool has_it = mine == largest;
+    double coordinate = none;
+    for (std::size_t i = 0; i < place.size(); ++i) {
+      coordinate = -largest_over_ranks(at.mesh(), has_it ? -place[i] : -none);
+      has_it = has_it && place[i] == coordinate;
+      if (i + 1 == static_cast<std::size_t>(gives)) return coordinate;
+    }
+    return coordinate;
   });
 }
 
 std::unique_ptr<QuantityEvaluator> Mean::make_evaluator(const QuantityContext& context) const {
   return evaluator_of([points = FieldPoints(*this, context)](const QuantityContext& at) {
     double sum = 0.0, weights = 0.0;
-    points.visit(at, [&](double value, double weight) { sum += weight * value, weights += weight; });
+    points.visit(at, [&](double value, double weight, const auto&) { sum += weight * value, weights += weight; });
     return sum_over_ranks(at.mesh(), sum) / sum_over_ranks(at.mesh(), weights);
   });
 }

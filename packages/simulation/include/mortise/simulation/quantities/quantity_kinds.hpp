@@ -71,6 +71,8 @@ struct Extremum : FieldQuantity {
   enum class Which { maximum, minimum, maximum_absolute };
   static const std::vector<std::pair<std::string, Which>>& names();
   Which which = Which::maximum;
+  enum class Gives { value, x, y, z };
+  Gives gives = Gives::value;  ///< the extremum, or where it is
   void describe(Parameters& parameters) override;
   std::unique_ptr<QuantityEvaluator> make_evaluator(const QuantityContext& context) const override;
 };
