@@ -166,13 +166,14 @@ NOX::Abstract::Group::ReturnType SemiSmoothNewtonGroup::computeNewton(Teuchos::P
   const auto geometric_stiffness =
       norms_.changed <= settled * norms_.active ? GeometricContactStiffness::included : GeometricContactStiffness::left_out;
   const RCP<Vector> direction = tpetra_vector(*newton_);
+  const bool moves = shared_->context.field.value_or(0) == 0;  // else all displacements stay
   const auto& better_start = system_->parts().better_start;
   const auto held_at = [&](const SystemEvaluation& at) {
     const auto& held_motions = system_->parts().held_motions;
-    return held_motions ? held_motions(at) : std::nullopt;
+    return held_motions && moves ? held_motions(at) : std::nullopt;
   };
   const SystemEvaluation here = shared_->jacobian->evaluation();
-  if (const RCP<Vector> start = better_start ? better_start(here) : Teuchos::null; !start.is_null()) {
+  if (const RCP<Vector> start = better_start && moves ? better_start(here) : Teuchos::null; !start.is_null()) {
     // x + direction is where Newton's method gets to from there.
     starts_elsewhere_ = true;
     const SystemEvaluation there = system_->evaluate(*start, shared_->context, StiffnessIs::needed_next);
