@@ -123,6 +123,10 @@ std::shared_ptr<Contribution> SurfaceHeatFluxOptions::make(const std::shared_ptr
   return make_surface_heat(bodies, set, std::make_unique<GivenFlux>(flux));
 }
 
+bool ConvectionOptions::determines_temperature() const {
+  return !coefficient.is_constant() || value_or_nan(coefficient, {0.0, 0.0, 0.0, 0.0, 0.0}) != 0.0;
+}
+
 std::shared_ptr<Contribution> ConvectionOptions::make(const std::shared_ptr<const ThermalBodies>& bodies) const {
   return make_surface_heat(bodies, set, std::make_unique<Convection>(coefficient, surroundings));
 }

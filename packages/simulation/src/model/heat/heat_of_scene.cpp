@@ -198,10 +198,7 @@ std::vector<int> undetermined_bodies(const Scene& scene, const FieldSpace& space
   for (const LocalOrdinal row : heat.prescribed->rows())
     determined[static_cast<std::size_t>(mesh.body_of_node[static_cast<std::size_t>(space.place(row).node)])] = 1;
   for (const auto& load : scene.heat.loads) {
-    const auto* convection = dynamic_cast<const ConvectionOptions*>(load.value.load.options.get());
-    const bool is_nothing =
-        convection != nullptr && convection->coefficient.is_constant() && value_or_nan(convection->coefficient, {0, 0, 0, 0, 0}) == 0.0;
-    if (!load.value.load.options || load.value.load.type == "heat flux" || is_nothing) continue;
+    if (!load.value.load.options || !load.value.load.options->determines_temperature()) continue;
     for (const SidesOfBody& sides : sides_by_body(mesh, require_side_set(mesh, load.value.load.options->set))) determined[sides.body] = 1;
   }
   std::vector<char> needs(mesh.bodies.size(), 0);

@@ -17,6 +17,8 @@ struct ThermalLoadOptions : Described {
   /// Makes the load, of the kind external. A value q that is not finite is a failure (kind input) of the step. Collective.
   /// @throws InputError on all ranks for a set that does not exist, or has sides of bodies without a temperature
   virtual std::shared_ptr<Contribution> make(const std::shared_ptr<const ThermalBodies>& bodies) const = 0;
+  /// True if the heat depends on the temperature of the surface, as that to surroundings does: it determines the temperature of a steady body.
+  virtual bool determines_temperature() const = 0;
 };
 
 /// q as it is given.
@@ -24,6 +26,7 @@ struct SurfaceHeatFluxOptions : ThermalLoadOptions {
   ScalarFunction flux;  ///< into the body, of t, x, y, z (reference position), temperature [power / area]
   void describe(Parameters& parameters) override;
   std::shared_ptr<Contribution> make(const std::shared_ptr<const ThermalBodies>& bodies) const override;
+  bool determines_temperature() const override { return false; }
 };
 
 /// q = h (theta_s - theta).
@@ -32,6 +35,7 @@ struct ConvectionOptions : ThermalLoadOptions {
   ScalarFunction surroundings;  ///< theta_s of t, x, y, z
   void describe(Parameters& parameters) override;
   std::shared_ptr<Contribution> make(const std::shared_ptr<const ThermalBodies>& bodies) const override;
+  bool determines_temperature() const override;
 };
 
 /// q = e s (theta_s^4 - theta^4), with absolute temperatures: theta <= 0 or theta_s < 0 is a failure (kind input).
@@ -41,6 +45,7 @@ struct RadiationOptions : ThermalLoadOptions {
   ScalarFunction surroundings;    ///< theta_s of t, x, y, z
   void describe(Parameters& parameters) override;
   std::shared_ptr<Contribution> make(const std::shared_ptr<const ThermalBodies>& bodies) const override;
+  bool determines_temperature() const override { return true; }
 };
 
 /// All kinds by name: "heat flux", "convection", "radiation".
