@@ -19,7 +19,7 @@ struct OptionsOfHardening : HardeningOptions {
 };
 
 template <class... Laws>
-Registry<HardeningOptions> make_registry(const std::variant<Laws...>*) {
+Registry<HardeningOptions> make_hardening_registry(const std::variant<Laws...>*) {
   Registry<HardeningOptions> registry;
   (registry.add<OptionsOfHardening<Laws>>(Laws::name, Laws::sentence), ...);
   return registry;
@@ -102,7 +102,7 @@ PlasticIncrement return_map(const Hardening& hardening, double trial_stress, dou
 }
 
 const Registry<HardeningOptions>& hardening_registry() {
-  static const Registry<HardeningOptions> registry = make_registry(static_cast<const Hardening*>(nullptr));
+  static const Registry<HardeningOptions> registry = make_hardening_registry(static_cast<const Hardening*>(nullptr));
   return registry;
 }
 

@@ -18,7 +18,7 @@ struct OptionsOf<FiniteJ2> {
 
 /// One entry for each alternative of Law.
 template <class... Laws>
-Registry<MaterialOptions> make_registry(const std::variant<Laws...>*) {
+Registry<MaterialOptions> make_material_registry(const std::variant<Laws...>*) {
   Registry<MaterialOptions> registry;
   (registry.add<typename OptionsOf<Laws>::type>(Laws::name, Laws::sentence), ...);
   return registry;
@@ -102,7 +102,7 @@ void FiniteJ2Options::describe(Parameters& parameters) {
 }
 
 const Registry<MaterialOptions>& material_registry() {
-  static const Registry<MaterialOptions> registry = make_registry(static_cast<const Law*>(nullptr));
+  static const Registry<MaterialOptions> registry = make_material_registry(static_cast<const Law*>(nullptr));
   return registry;
 }
 

@@ -5,7 +5,8 @@
 // * times of contact where there is contact.
 //
 // Ranks may be followed by a linear solver, "2:iterative". Iterative solvers have to agree to 1e-8 and may need other numbers of Newton iterations.
-// verify_scene MPIEXEC MORTISE SCENE DIRECTORY RANKS[:SOLVER]... [--set path=value]... [--scale quantity=scale]...
+// With --reference the first run is one that an earlier call made in the same directory.
+// verify_scene MPIEXEC MORTISE SCENE DIRECTORY RANKS[:SOLVER]... [--reference RANKS[:SOLVER]] [--set path=value]... [--scale quantity=scale]...
 
 #include <fmt/format.h>
 
@@ -24,17 +25,19 @@ using Json = nlohmann::json;
 constexpr double tolerance = 1e-10, iterative_tolerance = 1e-8;
 
 struct Arguments {
-  std::string mpiexec, mortise, scene, directory;
+  std::string mpiexec, mortise, scene, directory, reference;
   std::vector<std::string> ranks, settings;
   std::map<std::string, double> scales;
 };
 
 Arguments parse(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
-  Arguments arguments{words.at(0), words.at(1), words.at(2), words.at(3), {}, {}, {}};
+  Arguments arguments{words.at(0), words.at(1), words.at(2), words.at(3), {}, {}, {}, {}};
   for (std::size_t i = 4; i < words.size(); ++i) {
     if (words[i] == "--set") {
       arguments.settings.push_back(words.at(++i));
+    } else if (words[i] == "--reference") {
+      arguments.reference = words.at(++i);
     } else if (words[i] == "--scale") {
       const std::string& scale = words.at(++i);
       const auto equals = scale.find('=');
@@ -44,6 +47,17 @@ Arguments parse(int argc, char** argv) {
     }
   }
   return arguments;
+}
+
+/// The linear solver of "2:iterative", empty for "2".
+std::string solver_of(const std::string& ranks) {
+  const auto colon = ranks.find(':');
+  return colon == std::string::npos ? "" : ranks.substr(colon + 1);
+}
+
+/// Where the run on "2:iterative" is written: np2iterative.
+std::string directory_of(const std::string& ranks, const Arguments& arguments) {
+  return arguments.directory + "/np" + ranks.substr(0, ranks.find(':')) + solver_of(ranks);
 }
 
 /// A last iteration that moves nothing by more than this share of the step's first correction only confirmed the iterate before it.
@@ -108,12 +122,11 @@ int main(int argc, char** argv) {
   const Arguments arguments = parse(argc, argv);
   int failures = 0;
   Json reference;
+  if (!arguments.reference.empty()) reference = Json::parse(read_file(directory_of(arguments.reference, arguments) + "/summary.json"));
   for (const auto& ranks : arguments.ranks) {
-    const auto colon = ranks.find(':');
-    const std::string solver = colon == std::string::npos ? "" : ranks.substr(colon + 1);
-    const std::string directory = arguments.directory + "/np" + ranks.substr(0, colon) + solver;
+    const std::string solver = solver_of(ranks), directory = directory_of(ranks, arguments);
     std::filesystem::remove_all(directory);
-    std::vector<std::string> command{arguments.mpiexec, "-n", ranks.substr(0, colon), arguments.mortise, "run", arguments.scene, "-o", directory};
+    std::vector<std::string> command{arguments.mpiexec, "-n", ranks.substr(0, ranks.find(':')), arguments.mortise, "run", arguments.scene, "-o", directory};
     for (const auto& setting : arguments.settings) command.insert(command.end(), {"--set", setting});
     if (!solver.empty()) command.insert(command.end(), {"--set", "linear solver/type=" + solver});
     const Ending ending = launch(command);

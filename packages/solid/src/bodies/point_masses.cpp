@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Map.hpp>
 #include <map>
 
 #include "loads/load_support.hpp"
+#include "mortise/core/over_ranks.hpp"
 #include "mortise/mesh/reference_point.hpp"
 #include "mortise/mesh/sets.hpp"
 #include "mortise/solid/loaded_side.hpp"
@@ -29,18 +29,12 @@ void PointMassOptions::describe(Parameters& parameters) {
 
 namespace {
 
-double sum_over_ranks(const Mesh& mesh, double mine) {
-  double all = 0.0;
-  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, mine, Teuchos::outArg(all));
-  return all;
-}
-
 void add_over_sides(const Bodies& bodies, const PointMassOptions& options, MassRows& rows) {
   const Mesh& mesh = *bodies.mesh();
   double mine = 0.0;
   for (const LoadedSide& side : owned_sides(mesh, options.set))
     for (const SidePoint& point : *side.rule) mine += reference_area(bodies, side, point);
-  const double area = sum_over_ranks(mesh, mine);
+  const double area = sum_over_ranks(*mesh.comm, mine);
   for (const LoadedSide& side : sides_at_owned_nodes(mesh, options.set))
     for (const SidePoint& point : *side.rule) {
       const double share = options.mass * reference_area(bodies, side, point) / area;
@@ -58,7 +52,7 @@ void add_at_nodes(const Mesh& mesh, const PointMassOptions& options, MassRows& r
   std::vector<LocalOrdinal> nodes;
   for (const LocalOrdinal node : require_node_set(mesh, options.set))
     if (node < mesh.owned_count()) nodes.push_back(node);
-  const double count = sum_over_ranks(mesh, static_cast<double>(nodes.size()));
+  const double count = sum_over_ranks(*mesh.comm, static_cast<double>(nodes.size()));
   for (const LocalOrdinal node : nodes) add_to_diagonal(mesh, node, options.mass / count, rows);
 }
 

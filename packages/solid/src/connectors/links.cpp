@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "mortise/core/over_ranks.hpp"
 #include "mortise/mesh/reference_point.hpp"
 #include "mortise/mesh/sets.hpp"
 #include "mortise/solid/loaded_side.hpp"
@@ -21,12 +22,6 @@ namespace {
 constexpr std::size_t most_nodes = 500;
 
 constexpr double no_length = 1e-12;  ///< of the positions of the ends
-
-double sum_over_ranks(const Mesh& mesh, double mine) {
-  double all = 0.0;
-  Teuchos::reduceAll(*mesh.comm, Teuchos::REDUCE_SUM, mine, Teuchos::outArg(all));
-  return all;
-}
 
 /// Entries of all ranks, in the order of ranks. Collective.
 std::vector<std::pair<GlobalOrdinal, double>> gathered(const Mesh& mesh, const std::vector<std::pair<GlobalOrdinal, double>>& mine) {
@@ -109,7 +104,7 @@ void LinkMaker::add_over_sides(const ConnectorOptions& options, const ConnectorL
   double mine = 0.0;
   for (const LoadedSide& side : owned_sides(mesh_, options.set))
     for (const SidePoint& point : *side.rule) mine += reference_area(bodies_, side, point);
-  const double area = sum_over_ranks(mesh_, mine);
+  const double area = sum_over_ranks(*mesh_.comm, mine);
   const SideSet& set = mesh_.side_sets.at(options.set.value);
   const auto add = [&](const LoadedSide& side, bool is_owned) {
     for (const SidePoint& point : *side.rule) {
@@ -135,7 +130,7 @@ void LinkMaker::add_at_nodes(const ConnectorOptions& options, const ConnectorLaw
   std::vector<LocalOrdinal> nodes;
   for (const LocalOrdinal node : require_node_set(mesh_, options.set))
     if (node < mesh_.owned_count()) nodes.push_back(node);
-  const double count = sum_over_ranks(mesh_, static_cast<double>(nodes.size()));
+  const double count = sum_over_ranks(*mesh_.comm, static_cast<double>(nodes.size()));
   for (const LocalOrdinal node : nodes) {
     ConnectorLink link;
     link.connector = number_;
@@ -160,7 +155,7 @@ void LinkMaker::add_mean(const Located<std::string>& set, double sign, Connector
     for (const LocalOrdinal node : require_node_set(mesh_, set))
       if (node < mesh_.owned_count()) weights[static_cast<std::size_t>(node)] = 1.0;
   }
-  const double all = sum_over_ranks(mesh_, std::accumulate(weights.begin(), weights.end(), 0.0));
+  const double all = sum_over_ranks(*mesh_.comm, std::accumulate(weights.begin(), weights.end(), 0.0));
   for (const LocalOrdinal node : require_node_set(mesh_, set))
     if (node < mesh_.owned_count()) link.shares.push_back({node, sign * weights[static_cast<std::size_t>(node)] / all});
 }
@@ -175,7 +170,7 @@ ConnectorLink LinkMaker::link_of_means(const ConnectorOptions& options) {
   if (!link.is_grounded) add_mean(options.to, 1.0, link);
   std::vector<std::pair<GlobalOrdinal, double>> mine;
   for (const ShareOfNode& share : link.shares) mine.emplace_back(mesh_.local_nodes->getGlobalElement(share.node), share.weight);
-  const double count = sum_over_ranks(mesh_, static_cast<double>(mine.size()));
+  const double count = sum_over_ranks(*mesh_.comm, static_cast<double>(mine.size()));
   if (count > static_cast<double>(most_nodes)) {
     diagnostics_.push_back({options.set.place, fmt::format("the ends have {:.0f} nodes together, of which each is coupled with each; at most {} are "
                                                            "allowed; please let the sets follow reference points, and name those",

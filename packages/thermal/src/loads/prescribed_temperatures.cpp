@@ -19,7 +19,7 @@ constexpr double compared_times[] = {0.0, 0.37, 1.0};
 /// To the round-off of expressions.
 bool agree(double a, double b) { return a == b || std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b)); }
 
-std::string shown(const std::array<double, 3>& X, int dimension) { return fmt::format("({:g})", fmt::join(X.begin(), X.begin() + dimension, ", ")); }
+std::string shown_position(const std::array<double, 3>& X, int dimension) { return fmt::format("({:g})", fmt::join(X.begin(), X.begin() + dimension, ", ")); }
 
 }  // namespace
 
@@ -45,7 +45,7 @@ PrescribedTemperatures::PrescribedTemperatures(const ThermalBodies& bodies, cons
         const Source source{n, mesh.coordinates[node]};
         if (!rows.lives(node)) {
           refuse(fmt::format("the node of \"{}\" at {} has no temperature; give its body thermal properties, or a set without it",
-                             condition.set.value, shown(source.position, mesh.dimension)));
+                             condition.set.value, shown_position(source.position, mesh.dimension)));
           break;
         }
         const auto [other, is_new] = of_rows.try_emplace(rows(node, 0), source);
@@ -55,7 +55,7 @@ PrescribedTemperatures::PrescribedTemperatures(const ThermalBodies& bodies, cons
                                       [&, &other = other](double t) { return agree(value(source, t, none), value(other->second, t, none)); });
         if (same) continue;
         refuse(fmt::format("it differs from \"{}\" at the node at {}, which both have; leave the node out of one of them",
-                           conditions_[other->second.condition].name, shown(source.position, mesh.dimension)));
+                           conditions_[other->second.condition].name, shown_position(source.position, mesh.dimension)));
         break;
       }
     } catch (const InputError& error) {

@@ -25,7 +25,7 @@ ValueAndSlope function_at(const ScalarFunction& function, const SurfacePoint& po
 }
 
 /// What messages say of a function's value, with why it has none.
-SurfaceFault fault_of(const char* name, const ScalarFunction& function, double value, const SurfacePoint& point, const char* allowed) {
+SurfaceFault surface_fault_of(const char* name, const ScalarFunction& function, double value, const SurfacePoint& point, const char* allowed) {
   std::string reason;
   value_or_nan(function, arguments_at(point), &reason);
   return {fmt::format("{} \"{}\" is {:g}{}", name, function.source(), value, reason.empty() ? "" : fmt::format(" ({})", reason)), allowed};
@@ -37,7 +37,7 @@ class GivenFlux final : public SurfaceFluxLaw {
   std::string name() const override { return "heat flux"; }
   ValueAndSlope at(const SurfacePoint& point, bool with_slope, std::optional<SurfaceFault>& fault) const override {
     const ValueAndSlope q = function_at(flux_, point, with_slope);
-    if (!std::isfinite(q.value)) fault = fault_of("flux", flux_, q.value, point, "finite");
+    if (!std::isfinite(q.value)) fault = surface_fault_of("flux", flux_, q.value, point, "finite");
     return q;
   }
 
@@ -53,9 +53,9 @@ class Convection final : public SurfaceFluxLaw {
   std::string name() const override { return "convection"; }
   ValueAndSlope at(const SurfacePoint& point, bool with_slope, std::optional<SurfaceFault>& fault) const override {
     const ValueAndSlope h = function_at(coefficient_, point, with_slope);
-    if (!(h.value >= 0.0) || !std::isfinite(h.value)) fault = fault_of("coefficient", coefficient_, h.value, point, ">= 0 and finite");
+    if (!(h.value >= 0.0) || !std::isfinite(h.value)) fault = surface_fault_of("coefficient", coefficient_, h.value, point, ">= 0 and finite");
     const double around = function_at(surroundings_, point, false).value;
-    if (!std::isfinite(around)) fault = fault_of("temperature of the surroundings", surroundings_, around, point, "finite");
+    if (!std::isfinite(around)) fault = surface_fault_of("temperature of the surroundings", surroundings_, around, point, "finite");
     const double difference = around - point.temperature;
     return {h.value * difference, h.slope * difference - h.value};
   }
@@ -72,7 +72,7 @@ class Radiation final : public SurfaceFluxLaw {
   ValueAndSlope at(const SurfacePoint& point, bool, std::optional<SurfaceFault>& fault) const override {
     const double around = function_at(surroundings_, point, false).value, theta = point.temperature;
     if (!(around >= 0.0) || !std::isfinite(around))
-      fault = fault_of("absolute temperature of the surroundings", surroundings_, around, point, ">= 0 and finite");
+      fault = surface_fault_of("absolute temperature of the surroundings", surroundings_, around, point, ">= 0 and finite");
     if (!(theta > 0.0) || !std::isfinite(theta))
       fault = SurfaceFault{fmt::format("absolute temperature of the surface is {:g}", theta), "> 0 and finite"};
     const double cube = theta * theta * theta;
