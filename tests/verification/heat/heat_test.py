@@ -1,4 +1,4 @@
-"""Heat of scenes against theory: balance on random scenes, roles exchanged, orders in the step, bad input, scenes without heat.
+"""Heat of scenes against theory: balance on random scenes, roles exchanged, orders in the step, homogeneous deformation, bad input, scenes without heat.
 
 usage: heat_test.py MORTISE INPUTS DIRECTORY [number of random scenes]
 """
@@ -9,6 +9,7 @@ import os
 import subprocess
 import sys
 
+import deformation_cases
 from heat_scenes import Runs, block, exchanged, material, pressed_pair, put, random_scene
 
 
@@ -294,6 +295,7 @@ def main():
     orders(runs, check)
     steps_by_error(runs, check)
     exact_cases(runs, check)
+    deformation_cases.all_of_them(runs, check)
     random_scenes(runs, check, count)
     stored_and_determined(runs, check)
     options_of_contact(runs, check)
