@@ -4,7 +4,7 @@ namespace mortise {
 namespace {
 
 template <int lanes>
-struct Triple {
+struct VectorOfLanes {
   typedef double Type __attribute__((vector_size(8 * lanes), aligned(8), may_alias));
 };
 
@@ -12,7 +12,7 @@ struct Triple {
 template <int nodes, int lanes>
 __attribute__((always_inline)) inline void add_products(const double (&g)[3][filled_up(nodes)], const double (&A)[9][filled_up(9)], const double* q,
                                                         double* rows, double* volumetric) {
-  using Lanes = typename Triple<lanes>::Type;
+  using Lanes = typename VectorOfLanes<lanes>::Type;
   constexpr int width = filled_up(nodes);
   for (int a = 0; a < nodes; ++a)
     for (int i = 0; i < 3; ++i) {
