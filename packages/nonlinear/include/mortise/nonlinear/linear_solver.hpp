@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "mortise/contact/decoupling.hpp"
 #include "mortise/core/error.hpp"
@@ -20,15 +21,23 @@ struct LinearSolveReport {
 
 /// Data for a multigrid hierarchy besides the matrix, on the current configuration.
 struct NearNullSpace {
-  RCP<const MultiVector> rigid_body_modes;  ///< on the dofs of the matrix
+  RCP<const MultiVector> rigid_body_modes;  ///< on the dofs of the matrix, 0 at those of other fields
   RCP<const MultiVector> coordinates;       ///< on the nodes, `dimension` columns, with bodies moved away from one another by `separation`
   double separation = 0.0;                  ///< a length beside which bodies are points, so that no aggregate crosses contact
 };
 
+/// The fields of a matrix with the equations of several: displacements first, then fields of one unknown at a node, as temperatures.
+struct FieldsOfRows {
+  std::vector<std::size_t> field_of_row;  ///< [owned rows]
+  std::vector<LocalOrdinal> node_of_row;  ///< [owned rows] local index of the owned node; those of a node are neighbours within a field
+  std::vector<double> weights;            ///< [fields] make residuals comparable: those that changes by the fields' sizes bring about are alike
+};
+
 /// Data that an iterative solver may ask of a system, each only if it is needed; any may be empty.
 struct MultigridInput {
-  std::function<NearNullSpace()> near_null_space;  ///< rigid body modes and coordinates
+  std::function<NearNullSpace()> near_null_space;  ///< rigid body modes and coordinates, of displacements
   std::function<Decoupling()> decoupling;          ///< of a condensed system with contact
+  std::function<FieldsOfRows()> fields = {};       ///< empty: the matrix has one
 };
 
 /// A way to solve linear systems of equations. Collective in all its members.
