@@ -22,7 +22,7 @@ double check_finite(const Matrix& matrix, const Vector& b, const std::string& so
   return norm;
 }
 
-double true_residual(const Matrix& matrix, const Vector& b, const Vector& x, Vector& r) {
+double true_residual(const Operator& matrix, const Vector& b, const Vector& x, Vector& r) {
   Tpetra::deep_copy(r, b);
   matrix.apply(x, r, Teuchos::NO_TRANS, -1.0, 1.0);
   return r.norm2();

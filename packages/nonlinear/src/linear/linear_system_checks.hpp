@@ -11,7 +11,7 @@ namespace mortise::detail {
 double check_finite(const Matrix& matrix, const Vector& b, const std::string& solver);
 
 /// r = b - A x; returns |r|.
-double true_residual(const Matrix& matrix, const Vector& b, const Vector& x, Vector& r);
+double true_residual(const Operator& matrix, const Vector& b, const Vector& x, Vector& r);
 
 /// |A|, the largest sum of a row's absolute values over all ranks: the norm that belongs to the largest component of vectors. Collective.
 double largest_row_sum(const Matrix& matrix);

@@ -33,7 +33,7 @@ RCP<Teuchos::ParameterList> belos_parameters(const LinearSolverOptions& options,
 
 }  // namespace
 
-GmresReport Gmres::solve(const RCP<const Matrix>& A, const RCP<const Operator>& preconditioner, const Vector& b, Vector& x, double tolerance,
+GmresReport Gmres::solve(const RCP<const Operator>& A, const RCP<const Operator>& preconditioner, const Vector& b, Vector& x, double tolerance,
                          double most_iterations) {
   const auto problem = rcp(new LinearProblem(A, rcp(&x, false), rcp(&b, false)));
   problem->setRightPrec(preconditioner);

@@ -27,7 +27,7 @@ class Gmres {
   /// Goes on from x towards the solution of A x = b. Collective.
   /// @param tolerance        of the residual over |b|
   /// @param most_iterations  bounds those of the options; may be infinite
-  GmresReport solve(const RCP<const Matrix>& A, const RCP<const Operator>& preconditioner, const Vector& b, Vector& x, double tolerance,
+  GmresReport solve(const RCP<const Operator>& A, const RCP<const Operator>& preconditioner, const Vector& b, Vector& x, double tolerance,
                     double most_iterations);
 
  private:

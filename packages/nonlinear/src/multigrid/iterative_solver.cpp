@@ -6,10 +6,11 @@
 #include <cmath>
 
 #include "linear/linear_system_checks.hpp"
-#include "multigrid/contact_preconditioner.hpp"
+#include "multigrid/field_preconditioner.hpp"
 #include "multigrid/gmres.hpp"
 #include "multigrid/multigrid_parameters.hpp"
 #include "multigrid/reuse_policy.hpp"
+#include "multigrid/weighted_equations.hpp"
 
 namespace mortise::detail {
 namespace {
@@ -26,9 +27,10 @@ class IterativeSolver : public LinearSolver {
   void set_matrix(const RCP<const Matrix>& matrix, bool, const MultigridInput& multigrid) override {
     matrix_ = matrix;
     multigrid_ = multigrid;
+    fields_ = multigrid.fields ? std::optional(multigrid.fields()) : std::nullopt;
     preconditioner_.reset();
     is_fresh_ = false;
-    if (reuse_.is_stale() || !hierarchy_ || !hierarchy_->cycle->getDomainMap()->isSameAs(*matrix->getDomainMap())) drop_hierarchy();
+    if (reuse_.is_stale() || hierarchies_.empty() || !hierarchy_rows_->isSameAs(*matrix->getDomainMap())) drop_hierarchy();
   }
 
   std::optional<Tolerances> tolerances() const override {
@@ -45,12 +47,13 @@ class IterativeSolver : public LinearSolver {
     const double size = check_finite(*matrix_, b, name());
     x.putScalar(0.0);
     if (size == 0.0) return {};
+    const WeightedEquations equations(matrix_, fields_ ? &*fields_ : nullptr, b);
     LinearSolveReport report;
     std::optional<StepFailure> failure;
     try {
       prepare();
       start(b, x);
-      report.iterations = iterate_until_converged(b, x, tolerance);
+      report.iterations = iterate_until_converged(equations, x, tolerance);
     } catch (const std::exception& error) {
       drop_hierarchy();
       failure = StepFailure(FailureKind::linear_solver, name() + ": " + error.what());
@@ -58,7 +61,7 @@ class IterativeSolver : public LinearSolver {
     throw_if_any(*matrix_->getComm(), failure);
 
     Vector r(b.getMap());
-    report.relative_residual = true_residual(*matrix_, b, x, r) / size;
+    report.relative_residual = true_residual(*equations.A(), equations.b(), x, r) / equations.size();
     if (report.relative_residual <= accepted_residual * tolerance) return report;
     drop_hierarchy();
     throw StepFailure(FailureKind::linear_solver, fmt::format("{}: the true relative residual is {:.1e} after {} iterations (tolerance {:.1e})",
@@ -67,23 +70,23 @@ class IterativeSolver : public LinearSolver {
 
  private:
   void drop_hierarchy() {
-    hierarchy_.reset();
+    hierarchies_.clear();
     preconditioner_.reset();
     reuse_ = {};
   }
 
-  /// Makes the preconditioner of the matrix at hand, and its hierarchy if there is none, unless it is there.
+  /// Makes the preconditioner of the matrix at hand, and the hierarchies of its fields if there are none, unless it is there.
   void prepare() {
     if (preconditioner_) return;
     const auto scope = timers_.scope("linear setup");
-    const auto decoupled = multigrid_.decoupling ? std::make_shared<const DecoupledSystem>(matrix_, multigrid_.decoupling()) : nullptr;
-    if (!hierarchy_) {
-      const NearNullSpace near_null_space = multigrid_.near_null_space ? multigrid_.near_null_space() : NearNullSpace{};
-      hierarchy_ = make_hierarchy(matrix_, decoupled.get(), near_null_space, options_.muelu.value, smoother_);
+    const EquationsOfFields equations(matrix_, multigrid_, fields_ ? &*fields_ : nullptr);
+    if (hierarchies_.empty()) {
+      hierarchies_ = equations.hierarchies(options_.muelu.value, smoother_);
+      hierarchy_rows_ = matrix_->getDomainMap();
       ++setups_;
       is_fresh_ = true;
     }
-    preconditioner_ = make_preconditioner(matrix_, decoupled, *hierarchy_);
+    preconditioner_ = equations.preconditioner(hierarchies_);
   }
 
   void start(const Vector& b, Vector& x) const {
@@ -93,13 +96,13 @@ class IterativeSolver : public LinearSolver {
   }
 
   /// A hierarchy of an earlier matrix that fails is replaced during the solve. A smoother that fails is replaced for good, and the solve starts anew.
-  int iterate_until_converged(const Vector& b, Vector& x, double tolerance) {
-    GmresReport report = iterate(b, x, tolerance);
+  int iterate_until_converged(const WeightedEquations& equations, Vector& x, double tolerance) {
+    GmresReport report = iterate(equations, x, tolerance);
     int iterations = report.iterations;
     const auto try_again = [&] {
       drop_hierarchy();
       prepare();
-      report = iterate(b, x, tolerance);
+      report = iterate(equations, x, tolerance);
       iterations += report.iterations;
     };
     if (!report.converged && !is_fresh_) try_again();
@@ -112,13 +115,13 @@ class IterativeSolver : public LinearSolver {
     return iterations;
   }
 
-  GmresReport iterate(const Vector& b, Vector& x, double tolerance) {
+  GmresReport iterate(const WeightedEquations& equations, Vector& x, double tolerance) {
     const auto scope = timers_.scope("linear solve");
-    Vector r(b.getMap());
-    const double digits = std::max(1.0, std::log10(true_residual(*matrix_, b, x, r) / (tolerance * b.norm2())));
+    Vector r(x.getMap());
+    const double digits = std::max(1.0, std::log10(true_residual(*equations.A(), equations.b(), x, r) / (tolerance * equations.size())));
     double most = most_iterations(smoother_);
     if (!is_fresh_) most = std::min(most, std::ceil(reuse_.most_iterations(digits)));
-    GmresReport report = gmres_.solve(matrix_, preconditioner_->inverse, b, x, tolerance, most);
+    GmresReport report = gmres_.solve(equations.A(), equations.preconditioner(preconditioner_->inverse), equations.b(), x, tolerance, most);
     if (report.error && !next_smoother(smoother_)) std::rethrow_exception(report.error);
     reuse_.record(report.iterations, digits);
     return report;
@@ -130,7 +133,9 @@ class IterativeSolver : public LinearSolver {
   Gmres gmres_;
   RCP<const Matrix> matrix_;
   MultigridInput multigrid_;
-  std::optional<MultigridHierarchy> hierarchy_;
+  std::optional<FieldsOfRows> fields_;                   ///< of the matrix; none: it has one
+  std::vector<MultigridHierarchy> hierarchies_;          ///< of the fields; empty: none yet
+  RCP<const Map> hierarchy_rows_;                        ///< of the matrix that they were made for
   std::optional<ContactPreconditioner> preconditioner_;  ///< of the matrix
   Smoother smoother_;                                    ///< of the next hierarchy
   ReusePolicy reuse_;                                    ///< of the hierarchy

@@ -52,7 +52,7 @@ RCP<MultiVector> modes_without_fixed_rows(const MultiVector& rigid_body_modes, c
 }  // namespace
 
 MultigridHierarchy make_hierarchy(const RCP<const Matrix>& A, const DecoupledSystem* decoupled, const NearNullSpace& near_null_space,
-                                  const Teuchos::ParameterList& given, Smoother smoother) {
+                                  const Teuchos::ParameterList& given, Smoother smoother, double weakest) {
   const bool has_coordinates = !near_null_space.coordinates.is_null();
   MultigridSize size;
   if (has_coordinates) size.equations = static_cast<int>(A->getGlobalNumRows() / near_null_space.coordinates->getGlobalLength());
@@ -67,7 +67,7 @@ MultigridHierarchy make_hierarchy(const RCP<const Matrix>& A, const DecoupledSys
     user_data.set("Coordinates", coordinates);
   } else {
     list.set("aggregation: drop scheme", "classical");
-    list.set("aggregation: drop tol", 0.0);
+    list.set("aggregation: drop tol", weakest);
     user_data.set("Coordinates", row_numbers(*matrix));
   }
   if (!near_null_space.rigid_body_modes.is_null())

@@ -14,8 +14,9 @@ struct MultigridHierarchy {
 };
 
 /// Sets up multigrid for A or, if `decoupled` is not null, for its matrix C. Collective.
-/// @param given  parameters of MueLu
+/// @param given    parameters of MueLu
+/// @param weakest  without coordinates: |a_ij| over the geometric mean of the diagonals below which aggregates do not reach from i to j
 MultigridHierarchy make_hierarchy(const RCP<const Matrix>& A, const DecoupledSystem* decoupled, const NearNullSpace& near_null_space,
-                                  const Teuchos::ParameterList& given, Smoother smoother);
+                                  const Teuchos::ParameterList& given, Smoother smoother, double weakest = 0.0);
 
 }  // namespace mortise::detail

@@ -18,12 +18,16 @@ FieldSizes::FieldSizes(const SystemParts& parts) : sizes_{parts.length} {
   if (parts.fields.size() < 2) return;
   sizes_.clear();
   field_of_row_.assign(local_id_count(*parts.dofs), parts.fields.size());
+  node_of_row_.assign(field_of_row_.size(), 0);
   for (const SystemField& of : parts.fields) {
     const NodalField& field = of.unknowns;
     for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(local_id_count(*field.nodes())); ++node)
       for (int i = 0; i < field.components(); ++i)
-        if (const GlobalOrdinal id = field.id(node, i); id != NodalField::none)
-          field_of_row_.at(static_cast<std::size_t>(parts.dofs->getLocalElement(id))) = sizes_.size();
+        if (const GlobalOrdinal id = field.id(node, i); id != NodalField::none) {
+          const auto row = static_cast<std::size_t>(parts.dofs->getLocalElement(id));
+          field_of_row_.at(row) = sizes_.size();
+          node_of_row_.at(row) = node;
+        }
     sizes_.push_back(of.size);
   }
   const auto none = std::find(field_of_row_.begin(), field_of_row_.end(), parts.fields.size());

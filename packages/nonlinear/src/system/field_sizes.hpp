@@ -17,6 +17,8 @@ class FieldSizes {
   std::size_t fields() const { return sizes_.size(); }
   /// Of an owned row of the dofs.
   std::size_t field(LocalOrdinal row) const { return field_of_row_.empty() ? 0 : field_of_row_[static_cast<std::size_t>(row)]; }
+  /// Local index of the node of an owned row, in a system of several fields.
+  LocalOrdinal node(LocalOrdinal row) const { return node_of_row_[static_cast<std::size_t>(row)]; }
   double size(std::size_t field) const { return sizes_[field]; }
 
   /// |v| of each field. Collective.
@@ -29,6 +31,7 @@ class FieldSizes {
  private:
   std::vector<double> sizes_;
   std::vector<std::size_t> field_of_row_;  ///< [owned dofs]; empty: there is one field
+  std::vector<LocalOrdinal> node_of_row_;  ///< likewise
 };
 
 }  // namespace mortise::detail

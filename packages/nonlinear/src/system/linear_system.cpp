@@ -58,6 +58,7 @@ LinearSystem assembled(const SystemModel& model, const std::shared_ptr<const Eva
   if (!held.empty()) hold(held);
   if (at->context.field) hold(dofs_of_other_fields(model, *at->context.field));
   if (model.parts().near_null_space) system.multigrid.near_null_space = [&model, d = at->d] { return model.parts().near_null_space(*d); };
+  if (model.sizes().fields() > 1) system.multigrid.fields = [&model] { return model.field_rows(); };
   system.recover = [](const Vector& u, Vector& dd, Vector&) { Tpetra::deep_copy(dd, u); };
   system.restricted = system.prolonged = [](const Vector& v) { return rcp(new Vector(v, Teuchos::Copy)); };
   return system;
@@ -125,6 +126,7 @@ LinearSystem reduced(const SystemModel& model, const EvaluatedSystem& at, Linear
   system.increment = reduction.unknown_part(*system.increment);
   const MultigridInput of_dofs = system.multigrid;
   if (of_dofs.near_null_space) system.multigrid.near_null_space = [&reduction, of_dofs] { return reduction.reduced(of_dofs.near_null_space()); };
+  if (of_dofs.fields) system.multigrid.fields = [&reduction, of_dofs] { return reduction.reduced(of_dofs.fields()); };
   if (of_dofs.decoupling) system.multigrid.decoupling = [&reduction, of_dofs] { return reduction.reduced(of_dofs.decoupling()); };
   system.restricted = [&follow](const Vector& rows) { return follow.reduced(rows); };
   system.prolonged = [&follow](const Vector& dq) { return follow.expanded(dq); };

@@ -154,7 +154,9 @@ NearNullSpace Reduction::reduced(const NearNullSpace& of_dofs) const {
   if (of_dofs.coordinates.is_null()) return result;
   const auto dimension = static_cast<LocalOrdinal>(of_dofs.coordinates->getNumVectors());
   const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
-  const auto nodes = rcp(new const Map(invalid, local_id_count(*unknowns_) / dimension, 0, dofs_->getComm()));
+  const std::size_t rows = dimension * of_dofs.coordinates->getLocalLength();  // the first ones
+  const auto following = std::count(place_of_.begin(), place_of_.begin() + static_cast<std::ptrdiff_t>(rows), -1);
+  const auto nodes = rcp(new const Map(invalid, (rows - static_cast<std::size_t>(following)) / dimension, 0, dofs_->getComm()));
   const auto coordinates = rcp(new MultiVector(nodes, of_dofs.coordinates->getNumVectors()));
   {
     const auto from = of_dofs.coordinates->getLocalViewHost(Tpetra::Access::ReadOnly);
@@ -167,6 +169,16 @@ NearNullSpace Reduction::reduced(const NearNullSpace& of_dofs) const {
   result.coordinates = coordinates;
   result.separation = of_dofs.separation;
   if (!of_dofs.rigid_body_modes.is_null()) result.rigid_body_modes = unknown_rows(*of_dofs.rigid_body_modes);
+  return result;
+}
+
+FieldsOfRows Reduction::reduced(const FieldsOfRows& of_dofs) const {
+  FieldsOfRows result{{}, {}, of_dofs.weights};
+  for (std::size_t dof = 0; dof < place_of_.size(); ++dof) {
+    if (place_of_[dof] < 0) continue;
+    result.field_of_row.push_back(of_dofs.field_of_row[dof]);
+    result.node_of_row.push_back(of_dofs.node_of_row[dof]);
+  }
   return result;
 }
 

@@ -35,6 +35,8 @@ class Reduction {
   RCP<Vector> unknown_part(const Vector& v) const;
   /// Data of the unknowns for multigrid, from that of the dofs. Every node has to follow as a whole or not at all.
   NearNullSpace reduced(const NearNullSpace& of_dofs) const;
+  /// Fields of the unknowns, from those of the dofs.
+  FieldsOfRows reduced(const FieldsOfRows& of_dofs) const;
   /// Decoupling of the unknowns, from that of the dofs, which has to leave followers out. Collective.
   Decoupling reduced(const Decoupling& of_dofs) const;
 

@@ -353,6 +353,16 @@ double SystemModel::weight(std::size_t field) const {
   return field == 0 ? 1.0 : stiffness_scale() * parts_.length / (stiffness_scale(field) * sizes_.size(field));
 }
 
+FieldsOfRows SystemModel::field_rows() const {
+  FieldsOfRows result;
+  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(local_id_count(*parts_.dofs)); ++row) {
+    result.field_of_row.push_back(sizes_.field(row));
+    result.node_of_row.push_back(sizes_.node(row));
+  }
+  for (std::size_t field = 0; field < sizes_.fields(); ++field) result.weights.push_back(weight(field));
+  return result;
+}
+
 const RCP<Matrix>& SystemModel::stiffness(const std::shared_ptr<const EvaluatedSystem>& at) const {
   if (!matrix_of_.owner_before(at) && !at.owner_before(matrix_of_)) return matrix_;
   matrix_of_.reset();

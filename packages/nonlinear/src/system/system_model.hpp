@@ -68,6 +68,8 @@ class SystemModel {
   double diagonal_scale(std::size_t field, const TimeStep* step) const;
   /// Of a residual of a field, in units of the first: residuals that changes by the fields' sizes bring about are alike.
   double weight(std::size_t field) const;
+  /// The fields of the owned dofs, with their weights.
+  FieldsOfRows field_rows() const;
   SaddlePointMatrix& saddle_point() const { return *saddle_point_; }  ///< with a contact that keeps multipliers
   Constraints& constraints() const { return constraints_; }
 

@@ -78,7 +78,6 @@ LinearSystemTraits traits_of(const Scene& scene, const Map& dofs) {
     if (tie.value.follows != TieOptions::Follows::all)
       traits.not_iterative = fmt::format(
           "the iterative solver needs all components of a node as unknowns, but nodes follow \"{}\" in one component; take \"mumps\"", tie.name);
-  if (scene.heat.acts()) traits.not_iterative = "the iterative solver does not know temperatures; take \"mumps\"";
   for (const auto& pair : scene.contact)
     if (pair.value.contact.formulation.options->enforcement()->keeps_multipliers())
       traits.not_iterative =

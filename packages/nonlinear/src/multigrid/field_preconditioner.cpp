@@ -1,0 +1,60 @@
+#include "multigrid/field_preconditioner.hpp"
+
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Map.hpp>
+#include <cstdlib>
+#include <utility>
+
+#include "multigrid/scalar_decoupling.hpp"
+
+namespace mortise::detail {
+
+EquationsOfFields::EquationsOfFields(const RCP<const Matrix>& matrix, const MultigridInput& multigrid, const FieldsOfRows* fields)
+    : rows_(matrix->getRowMap()) {
+  const auto decoupled = [](const RCP<const Matrix>& A, const Decoupling& decoupling) {
+    return std::make_shared<const DecoupledSystem>(A, decoupling);
+  };
+  if (fields == nullptr) {
+    fields_.push_back({matrix, multigrid.decoupling ? decoupled(matrix, multigrid.decoupling()) : nullptr, multigrid.near_null_space});
+    return;
+  }
+  blocks_ = std::make_shared<const FieldBlocks>(*matrix, *fields);
+  for (std::size_t field = 0; field < blocks_->fields(); ++field) fields_.push_back({blocks_->block(field, field), nullptr, {}});
+  if (multigrid.decoupling) {
+    const FieldPart& first = blocks_->part(0);
+    const Decoupling of_first = part_of(multigrid.decoupling(), first);
+    fields_[0].decoupled = decoupled(fields_[0].matrix, of_first);
+    static const bool off = std::getenv("MORTISE_NO_JOIN") != nullptr;
+    for (std::size_t field = 1; field < fields_.size() && !off; ++field)
+      fields_[field].decoupled = decoupled(fields_[field].matrix, scalar_decoupling(*fields_[field].matrix, blocks_->part(field), first, of_first));
+  }
+  if (multigrid.near_null_space)
+    fields_[0].near_null_space = [of_all = multigrid.near_null_space, blocks = blocks_] { return part_of(of_all(), blocks->part(0)); };
+}
+
+std::vector<MultigridHierarchy> EquationsOfFields::hierarchies(const Teuchos::ParameterList& given, Smoother smoother) const {
+  static const char* tol = std::getenv("MORTISE_TOL");
+  std::vector<MultigridHierarchy> result;
+  for (std::size_t field = 0; field < fields_.size(); ++field) {
+    const auto& [matrix, decoupled, near_null_space] = fields_[field];
+    const NearNullSpace modes = near_null_space ? near_null_space() : NearNullSpace{};
+    result.push_back(make_hierarchy(matrix, decoupled.get(), modes, given, smoother, field == 0 ? 0.0 : tol ? std::atof(tol) : 0.02));
+  }
+  return result;
+}
+
+ContactPreconditioner EquationsOfFields::preconditioner(const std::vector<MultigridHierarchy>& hierarchies) const {
+  std::vector<ContactPreconditioner> of_fields;
+  for (std::size_t field = 0; field < fields_.size(); ++field)
+    of_fields.push_back(make_preconditioner(fields_[field].matrix, fields_[field].decoupled, hierarchies[field]));
+  if (!blocks_) return of_fields[0];
+  std::vector<RCP<const Operator>> inverses;
+  for (const ContactPreconditioner& of_field : of_fields) inverses.push_back(of_field.inverse);
+  ContactPreconditioner result{rcp(new BlockGaussSeidel(rows_, blocks_, inverses)), Teuchos::null};
+  if (of_fields[0].start.is_null()) return result;
+  inverses[0] = of_fields[0].start;
+  result.start = rcp(new BlockGaussSeidel(rows_, blocks_, inverses));
+  return result;
+}
+
+}  // namespace mortise::detail
