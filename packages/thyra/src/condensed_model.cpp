@@ -61,7 +61,12 @@ class CondensedOperator : public TpetraOp, public SolvedByCondensing {
       if (4 * norms.changed <= norms.active) linearised.add_stiffness(A);
       Vector none(memory.dofs);
       elimination_ = linearised.condense(A, none);
-      matrix_.replace_rows(memory.prescribed, K, share, memory.displacements.prescribed ? memory.stiffness : 0.0);
+      if (iterate.heat) {
+        iterate.heat->add_slopes(A);
+        iterate.heat->add_substituted(*elimination_, A);
+      }
+      matrix_.replace_rows(memory.replaced, K, share, memory.stiffness);
+      matrix_.replace_rows(memory.kept, K, share, 0.0);
     }
     if (has_contact && weight != 1.0) A.scale(weight);
     A.fillComplete(memory.dofs, memory.dofs);
@@ -70,6 +75,7 @@ class CondensedOperator : public TpetraOp, public SolvedByCondensing {
     d_ = iterate.d;
     z_ = rcp(new Vector(iterate.z(), Teuchos::Copy));
     states_ = iterate.laws.states();
+    G_ = iterate.heat ? iterate.heat->of_multipliers() : Teuchos::null;
   }
 
   RCP<const ::Thyra::LinearOpBase<Scalar>> condensed() const override {
@@ -94,12 +100,12 @@ class CondensedOperator : public TpetraOp, public SolvedByCondensing {
       Vector rhs(*progress_->last->right, Teuchos::Copy);
       const NodeElimination elimination = elimination_->apply(rhs);
       rhs.update(-1.0, *progress_->last->condensed, 0.0);
-      elimination.solve(rhs, of_increments, *dd, *dz);
+      elimination.solve(rhs, of_increments, *dd, *dz, G_.get());
       solution->update(-share / weight_, *dd, 0.0);
       progress_->lines.add(lines_, {d_, z_, dd, dz, states_});
     } else {
       Vector none(memory_->dofs);
-      elimination_->apply(none, Vector(memory_->contact.multiplier_map())).solve(*right, of_increments, *dd, *dz);
+      elimination_->apply(none, Vector(memory_->contact.multiplier_map())).solve(*right, of_increments, *dd, *dz, G_.get());
       solution->update(1.0 / weight_, *dd, 0.0);
     }
   }
@@ -132,6 +138,7 @@ class CondensedOperator : public TpetraOp, public SolvedByCondensing {
   std::size_t lines_ = 0;
   RCP<const Vector> d_, z_;
   ContactStates states_;
+  RCP<const Matrix> G_;  ///< HeatOfIterate::of_multipliers(); null: none
 };
 
 class CondensedModel : public ModelWithContact {
@@ -191,6 +198,7 @@ class CondensedModel : public ModelWithContact {
       if (!f.is_null()) right->update(-1.0, *tpetra(*f), 0.0);
       Vector condensed(*right, Teuchos::Copy);
       const NodeElimination elimination = iterate_->at.linearise(iterate_->laws).condense(*scratch_.matrix(), condensed);
+      if (iterate_->heat) iterate_->heat->condense(elimination, condensed);
       if (!f.is_null()) take_residual(in, *tpetra(*f), right, condensed, elimination);
       for (const auto& columns : sensitivities) condense_columns(elimination, *columns);
     }
@@ -199,16 +207,9 @@ class CondensedModel : public ModelWithContact {
 
   void take_residual(const ThyraInArgs& in, Vector& f, const RCP<const Vector>& right, const Vector& condensed,
                      const NodeElimination& elimination) const {
-    const RCP<const Vector> values = memory().prescribed_values(in);
     const Vector of_model(f, Teuchos::Copy);
     f.update(-1.0, condensed, 0.0);
-    {
-      const auto rows = f.getLocalViewHost(Tpetra::Access::ReadWrite);
-      const auto before = of_model.getLocalViewHost(Tpetra::Access::ReadOnly), d = iterate_->d->getLocalViewHost(Tpetra::Access::ReadOnly);
-      for (const LocalOrdinal row : memory().prescribed)
-        rows(row, 0) =
-            values.is_null() ? before(row, 0) : memory().stiffness * (d(row, 0) - values->getLocalViewHost(Tpetra::Access::ReadOnly)(row, 0));
-    }
+    memory().prescribe(in, *iterate_->d, of_model, f);
     const auto z = rcp(new Vector(memory().contact.multiplier_map()));
     elimination.recover(Vector(memory().dofs), *z);
     progress_->last = Residual{iterate_->d, right, rcp(new Vector(f, Teuchos::Copy)), z};
@@ -220,7 +221,8 @@ class CondensedModel : public ModelWithContact {
       const RCP<Vector> column = tpetra(*columns.col(j));
       Vector condensed(memory().dofs);
       condensed.update(-1.0, *column, 0.0);
-      elimination.apply(condensed, none);
+      const NodeElimination of_column = elimination.apply(condensed, none);
+      if (iterate_->heat) iterate_->heat->take_constant(of_column, condensed);
       {
         const auto from = condensed.getLocalViewHost(Tpetra::Access::ReadWrite);
         const auto before = column->getLocalViewHost(Tpetra::Access::ReadOnly);
@@ -234,16 +236,18 @@ class CondensedModel : public ModelWithContact {
   PlaceOnLines evaluate_contact(const ThyraInArgs& in) const {
     const Vector& d = *tpetra(*in.get_x());
     memory().of_nodes = memory().eliminated(in);
+    if (memory().heat) memory().of_heat = memory().heat->conditions(in);
     PlaceOnLines place = progress_->lines.place(d);
     const bool is_kept = iterate_ && history_ == &*memory().history && are_equal(d, *iterate_->d) && are_equal(*place.z, *on_line_) &&
-                         (memory().of_nodes.is_null() || are_equal(*memory().of_nodes, *iterate_->of_nodes));
+                         (memory().of_nodes.is_null() || are_equal(*memory().of_nodes, *iterate_->of_nodes)) &&
+                         (!iterate_->heat || are_equal(memory().of_heat, iterate_->heat->conditions()));
     if (!is_kept) {
       iterate_.reset();  // its memory
       const auto copy = rcp(new Vector(d, Teuchos::Copy));
       const DifferentiatedContact at = memory().contact.differentiate(memory().displacement(*copy, memory().of_nodes), memory().history);
       Vector z(*place.z, Teuchos::Copy);
       if (!place.starts_line) at.follow_cover(progress_->lines.states_before(place.lines), z);
-      iterate_.emplace(ContactIterate{copy, memory().of_nodes, at, memory().laws(at, z)});
+      iterate_.emplace(memory().iterate(copy, at, z));
       on_line_ = place.z;
       history_ = &*memory().history;
     }

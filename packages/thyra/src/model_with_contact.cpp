@@ -35,6 +35,15 @@ ContactLaws ModelWithContact::laws_at(const ThyraVector& x) const {
   return memory_->laws(memory_->contact.evaluate(memory_->displacement(*d, memory_->of_nodes), memory_->history), *z);
 }
 
+ContactHeat ModelWithContact::heat_at(const ContactLaws& laws, const ThyraVector& x) const {
+  return memory_->heat->evaluate(laws, *displacements_of(x), memory_->of_heat);
+}
+
+ContactHeat ModelWithContact::heat(const ThyraVector& x) const {
+  if (!memory_->heat) throw std::logic_error("contact: heat() of a model without WithContactOptions::heat");
+  return heat_at(laws_at(x), x);
+}
+
 bool ModelWithContact::update_multipliers(const ThyraVector& x) {
   detail::StepMemory& memory = *memory_;
   const ContactLaws laws = laws_at(x);
@@ -53,15 +62,19 @@ bool ModelWithContact::update_multipliers(const ThyraVector& x) {
 void ModelWithContact::accept_step(const ThyraVector& x) {
   detail::StepMemory& memory = *memory_;
   const ContactLaws laws = laws_at(x);
+  std::optional<ContactHeat> heat;
+  if (memory.heat) heat = heat_at(laws, x);
   memory.accepted = memory.contact.commit(laws);
   memory.accepted_multipliers = rcp(new Vector(laws.multipliers(), Teuchos::Copy));
   memory.accepted_laws = laws;
+  memory.accepted_heat = heat;
   start(*displacements_of(x), std::nullopt);
 }
 
 const ContactSystem& ModelWithContact::contact() const { return memory_->contact; }
 RCP<const Vector> ModelWithContact::multipliers(const ThyraVector& x) const { return multipliers_of(x); }
 const std::optional<ContactLaws>& ModelWithContact::accepted_laws() const { return memory_->accepted_laws; }
+const std::optional<ContactHeat>& ModelWithContact::accepted_heat() const { return memory_->accepted_heat; }
 const std::optional<StepFailure>& ModelWithContact::failure() const { return memory_->failure; }
 const ContactHistory& ModelWithContact::history() const { return memory_->accepted; }
 const Vector& ModelWithContact::accepted_multipliers() const { return *memory_->accepted_multipliers; }
@@ -73,6 +86,7 @@ void ModelWithContact::resume(const ContactHistory& history, const Vector& multi
   memory.accepted = history;
   memory.accepted_multipliers = rcp(new Vector(multipliers, Teuchos::Copy));
   memory.accepted_laws.reset();
+  memory.accepted_heat.reset();
   start(*displacements_of(x), std::nullopt);
 }
 

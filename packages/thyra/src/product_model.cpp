@@ -6,6 +6,7 @@
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
+#include <optional>
 #include <stdexcept>
 
 #include "product_operator.hpp"
@@ -98,32 +99,30 @@ class ProductModel : public ModelWithContact {
     const auto d = rcp(new Vector(*tpetra(*of_displacements.get_x()), Teuchos::Copy));
     const RCP<const Vector> z = tpetra(*block(*in.get_x(), 1));
     memory().of_nodes = memory().eliminated(in);
+    if (memory().heat) memory().of_heat = memory().heat->conditions(in);
     const NodalDisplacement displacement = memory().displacement(*d, memory().of_nodes);
     if (W.is_null()) {
-      add_contact(in, *d, memory().laws(memory().contact.evaluate(displacement, memory().history), *z), *f);
+      const ContactLaws laws = memory().laws(memory().contact.evaluate(displacement, memory().history), *z);
+      std::optional<ContactHeat> heat;
+      if (memory().heat) heat = memory().heat->evaluate(laws, *d, memory().of_heat);
+      add_contact(in, *d, laws, heat, *f);
       return;
     }
     const DifferentiatedContact at = memory().contact.differentiate(displacement, memory().history);
-    const ContactIterate iterate{d, memory().of_nodes, at, memory().laws(at, *z)};
-    if (f != nullptr) add_contact(in, *d, iterate.laws, *f);
+    const ContactIterate iterate = memory().iterate(d, at, *z);
+    if (f != nullptr) add_contact(in, *d, iterate.laws, iterate.heat ? std::optional<ContactHeat>(iterate.heat->rows()) : std::nullopt, *f);
     const double weight = weight_of_displacements(of_displacements);
     if (weight == 0.0) throw std::invalid_argument("contact: W without df/dx has no rows for multipliers; take it of the application's own model");
     W->assemble(bulk_, weight, iterate);
   }
 
-  void add_contact(const ThyraInArgs& in, const Vector& d, const ContactLaws& laws, ProductVector& f) const {
+  void add_contact(const ThyraInArgs& in, const Vector& d, const ContactLaws& laws, const std::optional<ContactHeat>& heat, ProductVector& f) const {
     const RCP<Vector> of_d = TpetraOfThyra::getTpetraVector(f.getNonconstVectorBlock(0)),
                       of_z = TpetraOfThyra::getTpetraVector(f.getNonconstVectorBlock(1));
-    const RCP<const Vector> values = memory().prescribed_values(in);
     const Vector of_model(*of_d, Teuchos::Copy);
     laws.add_force(*of_d);
-    {
-      const auto rows = of_d->getLocalViewHost(Tpetra::Access::ReadWrite);
-      const auto before = of_model.getLocalViewHost(Tpetra::Access::ReadOnly), at = d.getLocalViewHost(Tpetra::Access::ReadOnly);
-      for (const LocalOrdinal row : memory().prescribed)
-        rows(row, 0) =
-            values.is_null() ? before(row, 0) : memory().stiffness * (at(row, 0) - values->getLocalViewHost(Tpetra::Access::ReadOnly)(row, 0));
-    }
+    if (heat) heat->add_to(*of_d);
+    memory().prescribe(in, d, of_model, *of_d);
     Vector C(of_z->getMap());
     laws.complementarity(C);
     of_z->elementWiseMultiply(1.0, *memory().contact.weights(), C, 0.0);

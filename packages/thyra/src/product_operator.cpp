@@ -68,7 +68,10 @@ void ProductOperator::assemble(const RCP<const Matrix>& K, double weight, const 
   if (whole_.open(memory_->contact, iterate.at, *K)) ++graph_number_;
   whole_.add(*K, 1.0 / weight);
   linearised_->add_stiffness(*whole_.matrix());
-  whole_.replace_rows(memory_->prescribed, *K, 1.0 / weight, diagonal());
+  heat_ = iterate.heat;
+  if (heat_) heat_->add_slopes(*whole_.matrix());
+  whole_.replace_rows(memory_->replaced, *K, 1.0 / weight, memory_->stiffness);
+  whole_.replace_rows(memory_->kept, *K, 1.0 / weight, 0.0);
   whole_.matrix()->fillComplete(memory_->dofs, memory_->dofs);
   blocks_ = linearised_->saddle_point_blocks();
 }
@@ -83,20 +86,22 @@ RCP<const ::Thyra::LinearOpBase<Scalar>> ProductOperator::condensed() const {
   for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(local_row_count(*graph)); ++row) copy_row(*whole_.matrix(), row, *solved_);
   Vector none(memory_->dofs);
   elimination_ = linearised_->condense(*solved_, none);
+  if (heat_) heat_->add_substituted(*elimination_, *solved_);
   for (const LocalOrdinal row : memory_->prescribed) copy_row(*whole_.matrix(), row, *solved_);
   solved_->fillComplete(memory_->dofs, memory_->dofs);
   return as_operator(solved_);
 }
 
 RCP<const ::Thyra::LinearOpBase<Scalar>> ProductOperator::merged() const {
-  const Matrix& K = *whole_.matrix();
+  const Matrix &K = *whole_.matrix(), *G = of_heat();
   const RCP<const Map>&dofs = memory_->dofs, &multipliers = memory_->contact.multiplier_map();
   std::vector<GlobalOrdinal> ids;  // those of multipliers lie above those of dofs
   for (const auto& map : {dofs, multipliers})
     for (const GlobalOrdinal id : local_ids(*map)) ids.push_back(id);
   std::vector<std::size_t> sizes;
   for (std::size_t row = 0; row < local_id_count(*dofs); ++row)
-    sizes.push_back(K.getNumEntriesInLocalRow(static_cast<LocalOrdinal>(row)) + blocks_.B->getNumEntriesInLocalRow(static_cast<LocalOrdinal>(row)));
+    sizes.push_back(K.getNumEntriesInLocalRow(static_cast<LocalOrdinal>(row)) + blocks_.B->getNumEntriesInLocalRow(static_cast<LocalOrdinal>(row)) +
+                    (G != nullptr ? G->getNumEntriesInLocalRow(static_cast<LocalOrdinal>(row)) : 0));
   for (std::size_t row = 0; row < local_id_count(*multipliers); ++row)
     sizes.push_back(blocks_.C_d->getNumEntriesInLocalRow(static_cast<LocalOrdinal>(row)) +
                     blocks_.C_z->getNumEntriesInLocalRow(static_cast<LocalOrdinal>(row)));
@@ -106,8 +111,9 @@ RCP<const ::Thyra::LinearOpBase<Scalar>> ProductOperator::merged() const {
   for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(local_id_count(*dofs)); ++row) {
     const GlobalOrdinal id = dofs->getGlobalElement(row);
     add_row(K, row, 1.0, id, *solved_);
-    if (std::find(memory_->prescribed.begin(), memory_->prescribed.end(), row) == memory_->prescribed.end())
-      add_row(*blocks_.B, row, 1.0, id, *solved_);
+    if (std::find(memory_->prescribed.begin(), memory_->prescribed.end(), row) != memory_->prescribed.end()) continue;
+    add_row(*blocks_.B, row, 1.0, id, *solved_);
+    if (G != nullptr) add_row(*G, row, 1.0, id, *solved_);
   }
   const RCP<const Vector> weights = memory_->contact.weights();
   for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(local_id_count(*multipliers)); ++row) {
@@ -132,12 +138,13 @@ void ProductOperator::solve(const ::Thyra::VectorBase<Scalar>& b, const NodeElim
       for (std::size_t i = 0; i < to.extent(0); ++i) to(i, 0) = -from(i, 0) / area(i, 0);
     }
     const NodeElimination elimination = elimination_->apply(rhs, C);
+    if (heat_) heat_->take_constant(elimination, rhs);
     {
       const auto rows = rhs.getLocalViewHost(Tpetra::Access::ReadWrite);
       const auto of_model = b_d->getLocalViewHost(Tpetra::Access::ReadOnly);
       for (const LocalOrdinal row : memory_->prescribed) rows(row, 0) = of_model(row, 0);
     }
-    elimination.solve(rhs, inner, *x_d, *x_z);
+    elimination.solve(rhs, inner, *x_d, *x_z, of_heat());
   } else {
     Vector right(solved_->getRangeMap()), solution(solved_->getDomainMap());
     const std::size_t rows = b_d->getLocalLength();
@@ -166,6 +173,7 @@ void ProductOperator::applyImpl(const ::Thyra::EOpTransp transposed, const ::Thy
     const RCP<const Vector> d = part(*column, 0), z = part(*column, 1);
     Vector of_d(d->getMap()), of_z(z->getMap()), scaled(z->getMap());
     blocks_.B->apply(*z, of_d);
+    if (of_heat() != nullptr) of_heat()->apply(*z, of_d, Teuchos::NO_TRANS, 1.0, 1.0);
     set_rows_to_zero(memory_->prescribed, of_d);
     whole_.matrix()->apply(*d, of_d, Teuchos::NO_TRANS, 1.0, 1.0);
     blocks_.C_d->apply(*d, of_z);

@@ -14,8 +14,8 @@
 
 namespace mortise::detail {
 
-/// weight [ K~ B ; A_j C_d  A_j C_z ], where weight K has the weights of time derivatives in it. Rows of prescribed dofs are the model's, or those
-/// that replace them.
+/// weight [ K~ B ; A_j C_d  A_j C_z ]. K~ and B have the rows of heat of contact too. weight K has the weights of time derivatives in
+/// it. Rows of prescribed dofs are the model's, or those that replace them.
 class ProductOperator : public ::Thyra::LinearOpDefaultBase<Scalar>, public SolvedByCondensing {
  public:
   ProductOperator(std::shared_ptr<StepMemory> memory, RCP<const ::Thyra::ProductVectorSpaceBase<Scalar>> space);
@@ -35,7 +35,7 @@ class ProductOperator : public ::Thyra::LinearOpDefaultBase<Scalar>, public Solv
 
  private:
   RCP<const ::Thyra::LinearOpBase<Scalar>> merged() const;
-  double diagonal() const { return memory_->displacements.prescribed ? memory_->stiffness : 0.0; }
+  const Matrix* of_heat() const { return heat_ ? heat_->of_multipliers().get() : nullptr; }  ///< the rows of heat in B; null: none
 
   std::shared_ptr<StepMemory> memory_;
   RCP<const ::Thyra::ProductVectorSpaceBase<Scalar>> space_;
@@ -43,6 +43,7 @@ class ProductOperator : public ::Thyra::LinearOpDefaultBase<Scalar>, public Solv
   CondensedMatrix whole_;  ///< K~
   SaddlePointBlocks blocks_;
   std::optional<ContactLinearisation> linearised_;
+  std::optional<HeatOfIterate> heat_;  ///< none: the model has no heat
   double weight_ = 1.0;
   long graph_number_ = 0;
   mutable RCP<Matrix> solved_;                          ///< the matrix of the solver: condensed or merged

@@ -28,7 +28,8 @@ StepMemory::StepMemory(HostDisplacements of_host, const RCP<const Map>& rows, st
                        const ThyraInArgs& nominal, const Vector& d)
     : displacements(std::move(of_host)),
       dofs(rows),
-      contact(displacements.field, dofs, displacements.reference, displacements.fixed, options.measure, pairs, options.timers),
+      contact(displacements.field, dofs, displacements.reference, displacements.fixed, options.measure, pairs, options.timers,
+              options.heat ? std::vector<NodalField>{options.heat->temperature} : std::vector<NodalField>{}),
       of_nodes(eliminated(nominal)),
       accepted(contact.initial_history(displacement(d, of_nodes))),
       accepted_multipliers(rcp(new Vector(contact.multiplier_map()))),
@@ -39,7 +40,14 @@ StepMemory::StepMemory(HostDisplacements of_host, const RCP<const Map>& rows, st
   for (LocalOrdinal node = 0; node < static_cast<LocalOrdinal>(marks.extent(0)); ++node)
     for (int i = 0; i < dimension; ++i)
       if (const GlobalOrdinal id = displacements.field.id(node, i); id != NodalField::none && marks(node, i) != 0.0)
-        prescribed.push_back(dofs->getLocalElement(id));
+        (displacements.prescribed ? replaced : kept).push_back(dofs->getLocalElement(id));
+  if (options.heat) {
+    heat.emplace(*options.heat, displacements.field, contact, dofs);
+    of_heat = heat->conditions(nominal);
+    kept.insert(kept.end(), heat->prescribed().begin(), heat->prescribed().end());
+  }
+  prescribed = replaced;
+  prescribed.insert(prescribed.end(), kept.begin(), kept.end());
   double modulus = 0.0;
   for (const ContactPair& pair : pairs) modulus = std::max(modulus, pair.youngs_modulus);
   const double area = contact.weights()->meanValue();
@@ -57,16 +65,28 @@ RCP<const MultiVector> StepMemory::eliminated(const ThyraInArgs& at) const {
   return values;
 }
 
-RCP<const Vector> StepMemory::prescribed_values(const ThyraInArgs& at) const {
-  if (!displacements.prescribed) return Teuchos::null;
-  const auto values = rcp(new Vector(dofs));
-  displacements.prescribed(at, *values);
-  return values;
+void StepMemory::prescribe(const ThyraInArgs& at, const Vector& x, const Vector& of_model, Vector& f) const {
+  const auto rows = f.getLocalViewHost(Tpetra::Access::ReadWrite);
+  {
+    const auto before = of_model.getLocalViewHost(Tpetra::Access::ReadOnly);
+    for (const LocalOrdinal row : kept) rows(row, 0) = before(row, 0);
+  }
+  if (!displacements.prescribed) return;
+  Vector values(dofs);
+  displacements.prescribed(at, values);
+  const auto d = x.getLocalViewHost(Tpetra::Access::ReadOnly), to = values.getLocalViewHost(Tpetra::Access::ReadOnly);
+  for (const LocalOrdinal row : replaced) rows(row, 0) = stiffness * (d(row, 0) - to(row, 0));
 }
 
 ContactLaws StepMemory::laws(const ContactEvaluation& at, const Vector& z) const {
   ContactLaws result = at.laws(z);
   throw_if_any(*dofs->getComm(), result.friction_failure());
+  return result;
+}
+
+ContactIterate StepMemory::iterate(const RCP<const Vector>& d, const DifferentiatedContact& at, const Vector& z) const {
+  ContactIterate result{d, of_nodes, at, laws(at, z), {}};
+  if (heat) result.heat = heat->differentiate(at.linearise(result.laws), *d, of_heat);
   return result;
 }
 

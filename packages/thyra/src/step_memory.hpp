@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "heat_of_model.hpp"
 #include "mortise/thyra/model_with_contact.hpp"
 
 namespace mortise::detail {
@@ -15,6 +16,7 @@ struct ContactIterate {
   RCP<const MultiVector> of_nodes;  ///< displacements of components without unknown; null: none
   DifferentiatedContact at;
   ContactLaws laws;
+  std::optional<HeatOfIterate> heat;  ///< none: the model has no heat
   const Vector& z() const { return laws.multipliers(); }
 };
 
@@ -25,13 +27,18 @@ struct StepMemory {
   HostDisplacements displacements;
   RCP<const Map> dofs;
   ContactSystem contact;
-  std::vector<LocalOrdinal> prescribed;  ///< rows of unknowns that are marked as prescribed
-  double stiffness = 0.0;                ///< E h^(dim - 2), of the rows that replace them
+  std::optional<HeatOfModel> heat;       ///< none: the model has no heat
+  std::vector<LocalOrdinal> prescribed;  ///< rows of unknowns that are marked as prescribed: those of the next two
+  std::vector<LocalOrdinal> replaced;    ///< of them, that HostDisplacements::prescribed replaces
+  std::vector<LocalOrdinal> kept;        ///< of them, that are the model's boundary conditions
+  double stiffness = 0.0;                ///< E h^(dim - 2), of the rows that are replaced
   RCP<const MultiVector> of_nodes;       ///< of the last evaluation; null: none
+  HeatConditions of_heat;                ///< of the last evaluation
 
   ContactHistory accepted;
   RCP<const Vector> accepted_multipliers;
   std::optional<ContactLaws> accepted_laws;
+  std::optional<ContactHeat> accepted_heat;
   ContactHistory history;              ///< that holds within the step
   RCP<const Vector> multipliers;       ///< at its start, or at the last update of multipliers
   double time = 0.0;                   ///< of clearances
@@ -42,10 +49,12 @@ struct StepMemory {
   NodalDisplacement displacement(const Vector& d, const RCP<const MultiVector>& at_nodes) const;
   /// Displacements of components without unknown; null if there are none.
   RCP<const MultiVector> eliminated(const ThyraInArgs& at) const;
-  /// Values of prescribed rows; null where they are the model's.
-  RCP<const Vector> prescribed_values(const ThyraInArgs& at) const;
+  /// Gives prescribed rows of f what they are: the model's, or s (x - prescribed).
+  void prescribe(const ThyraInArgs& at, const Vector& x, const Vector& of_model, Vector& f) const;
   /// Laws of an evaluation, with a bound of friction at all nodes.
   ContactLaws laws(const ContactEvaluation& at, const Vector& z) const;
+  /// Contact at an iterate, with heat at the conditions of the last evaluation.
+  ContactIterate iterate(const RCP<const Vector>& d, const DifferentiatedContact& at, const Vector& z) const;
 };
 
 /// Weight of df/dx in W: beta, and 1 of a model without time derivatives, for which solvers do not set it.

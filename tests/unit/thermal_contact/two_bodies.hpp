@@ -52,7 +52,6 @@ class TwoBodies {
         reference->replaceGlobalValue(id, i, points[id][i]);
         fixed->replaceGlobalValue(id, i, held && held(body_of[id], units[id]) ? 1.0 : 0.0);
       }
-    ContactPair pair;
     pair.name = "joint";
     pair.youngs_modulus = youngs_modulus;
     pair.options = options;
@@ -98,6 +97,7 @@ class TwoBodies {
   std::vector<int> body_of;
   RCP<const Map> nodes;
   std::unique_ptr<FieldTable> table;
+  ContactPair pair;
   std::unique_ptr<ContactSystem> contact;
 
  private:

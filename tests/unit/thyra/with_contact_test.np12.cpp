@@ -1,10 +1,8 @@
 // A host's model with contact: Newton's method by NOX against the loop of docs/embedding.md, steps, storage and misuse.
-#include <NOX_Solver_Generic.H>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Thyra_DefaultProductVector.hpp>
-#include <Thyra_NonlinearSolver_NOX.hpp>
 
 #include "../../install/consumer/solve_step.hpp"
 #include "blocks_model.hpp"
@@ -16,6 +14,7 @@
 #include "mortise/nonlinear/linear_solver_factory.hpp"
 #include "mortise/thyra/model_with_contact.hpp"
 #include "mortise/thyra/nox_observer.hpp"
+#include "nox_solve.hpp"
 #include "stored_numbers.hpp"
 
 namespace mortise {
@@ -61,25 +60,7 @@ struct Host {
 
   /// Solves from x on. @return the number of iterations; none if it does not converge
   std::optional<int> solve(ThyraVector& x, const RCP<NOX::Observer>& observer = Teuchos::null) const {
-    ::Thyra::NOXNonlinearSolver nox;
-    const auto list = Teuchos::parameterList();
-    list->set("Nonlinear Solver", "Line Search Based");
-    list->sublist("Line Search").set("Method", "Backtrack");
-    list->sublist("Direction").set("Method", "Newton");
-    list->sublist("Direction").sublist("Newton").sublist("Linear Solver").set("Tolerance", 1e-12);
-    list->sublist("Printing").set("Output Information", 0);
-    auto& tests = list->sublist("Status Tests");
-    tests.set("Test Type", "Combo").set("Combo Type", "OR").set("Number of Tests", 3);
-    tests.sublist("Test 0").set("Test Type", "NormF").set("Tolerance", 1e-11).set("Scale Type", "Unscaled");
-    tests.sublist("Test 1").set("Test Type", "MaxIters").set("Maximum Iterations", 30);
-    tests.sublist("Test 2").set("Test Type", "FiniteValue");
-    if (!observer.is_null()) list->sublist("Solver Options").set("User Defined Pre/Post Operator", observer);
-    nox.setParameterList(list);
-    nox.setModel(model);
-    nox.setBasePoint(model->getNominalValues());
-    const auto status = nox.solve(&x, nullptr, nullptr);
-    if (status.solveStatus != ::Thyra::SOLVE_STATUS_CONVERGED) return std::nullopt;
-    return nox.getNOXSolver()->getNumIterations();
+    return test::solve_by_nox(model, x, observer);
   }
 
   std::shared_ptr<host::Blocks> blocks;

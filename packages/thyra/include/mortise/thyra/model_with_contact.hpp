@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "mortise/contact/contact_system.hpp"
+#include "mortise/core/nodal_field.hpp"
+#include "mortise/thermal_contact/thermal_contact.hpp"
 
 namespace mortise {
 
@@ -34,6 +36,19 @@ struct HostDisplacements {
   std::function<void(const ThyraInArgs& at, MultiVector& of_nodes)> eliminated;
 };
 
+/// Temperatures of an application, and what flows between them across contact. Rows of heat of the model are conduction + storage - sources.
+struct HostHeat {
+  NodalField temperature;          ///< which entry of x the temperature at an owned node is; NodalField::none: no row of heat
+  std::vector<ThermalPair> pairs;  ///< by their places in the list of pairs that with_contact() gets
+  /// Time that the step takes, above 0. Needed where friction gives heat. Null: laws of conductance see no slip rate.
+  std::function<double(const ThyraInArgs& at)> time_step = {};
+  /// [owned nodes x 1] 1 where the temperature is prescribed, else 0; null: nowhere. The rows of the model's f and W that it marks are its boundary
+  /// conditions, and stay as they are: no heat of contact is added to them. Rows that are not marked get it.
+  RCP<const MultiVector> fixed = {};
+  /// [owned nodes] temperatures of nodes without a row of heat; NaN, which it begins with: the node has none. Null: no such node has one.
+  std::function<void(const ThyraInArgs& at, Vector& of_nodes)> eliminated = {};
+};
+
 /// Unknowns of a model with contact.
 enum class ContactUnknowns {
   displacements,                 ///< x of the application; multipliers are condensed, and follow Newton's steps
@@ -46,6 +61,7 @@ struct WithContactOptions {
   InterfaceMeasure measure;                                   ///< of interfaces in 2D
   Timers timers;                                              ///< of contact
   RCP<const ThyraSolverFactory> linear_solver;                ///< of condensed systems; null: get_W_factory() of the model
+  std::optional<HostHeat> heat = {};                          ///< heat across contact; none: f and W have contact alone
 };
 
 /// A model with contact. Its f and W have the forces and conditions of contact. All else is the application's and passes through: parameters,
@@ -80,6 +96,11 @@ class ModelWithContact : public ::Thyra::ModelEvaluatorDelegatorBase<Scalar> {
   RCP<const Vector> multipliers(const ThyraVector& x) const;
   /// Laws at the end of the last accepted step, for reports on it; none before the first one.
   const std::optional<ContactLaws>& accepted_laws() const;
+  /// Heat across contact at x within the step that is under way. Temperatures without rows and the time of the step are those of the last evaluation.
+  /// @throws std::logic_error without WithContactOptions::heat; what ThermalContact::evaluate() throws
+  ContactHeat heat(const ThyraVector& x) const;
+  /// Heat at the end of the last accepted step; none before the first one, and without WithContactOptions::heat.
+  const std::optional<ContactHeat>& accepted_heat() const;
   /// Reason why the last evaluation failed: its f is NaN. None where it did not. W without f throws the reason, a StepFailure, on every rank.
   const std::optional<StepFailure>& failure() const;
 
@@ -103,6 +124,7 @@ class ModelWithContact : public ::Thyra::ModelEvaluatorDelegatorBase<Scalar> {
   virtual RCP<const Vector> multipliers_of(const ThyraVector& x) const = 0;
   virtual void begin() = 0;  ///< a step, or a round of updates, at the multipliers of the memory
   ContactLaws laws_at(const ThyraVector& x) const;
+  ContactHeat heat_at(const ContactLaws& laws, const ThyraVector& x) const;
   void start(const Vector& d, std::optional<double> time);
 
   std::shared_ptr<detail::StepMemory> memory_;
@@ -111,7 +133,8 @@ class ModelWithContact : public ::Thyra::ModelEvaluatorDelegatorBase<Scalar> {
 /// The model with contact: the one line that an application changes.
 /// @param model  with Tpetra vectors and a W_op that is a Tpetra::CrsMatrix, on a graph that is complete
 /// @throws std::invalid_argument for a model that is not so, that has no solver for W, or with condensed multipliers whose formulation keeps them
-/// @throws what ContactSystem refuses
+/// @throws std::invalid_argument for heat whose marks are on other nodes, whose ids are those of displacements, or of friction without a time step
+/// @throws what ContactSystem and ThermalContact refuse
 RCP<ModelWithContact> with_contact(const RCP<ThyraModel>& model, const HostDisplacements& displacements, std::vector<ContactPair> pairs,
                                    const WithContactOptions& options = {});
 
