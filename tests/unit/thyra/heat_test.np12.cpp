@@ -367,7 +367,7 @@ TEST(HeatWithContact, WIsTheDerivativeOfF) {
   for (const Case& of : {Case{2, inside}, Case{3, inside}, Case{2, overhanging, product}, Case{3, overhanging, product},
                          Case{2, overhanging, product, standard_mortar()}}) {
     const Slipping host(of);
-    SCOPED_TRACE(::testing::Message() << of.dimension << "D " << of.formulation.name << (Host::is_product(*host.x) ? ", product" : ""));
+    SCOPED_TRACE(::testing::Message() << of.dimension << "D " << of.formulation.type << (Host::is_product(*host.x) ? ", product" : ""));
     Evaluations at(host.model);
     const auto x = host.x->clone_v();
     if (Host::is_product(*x)) ::Thyra::Vp_V(x.ptr(), *direction(host, *x, 1e-5));

@@ -38,7 +38,7 @@ void NewtonOptions::describe(Parameters& parameters) {
                  "backtrack: a step that does not make the residual fall is halved until it does; none: full Newton steps");
   parameters.add(
       "fields", fields, {{"monolithic", FieldSolution::monolithic}, {"staggered", FieldSolution::staggered}},
-      "of scenes with heat. monolithic: displacements and temperatures at once. staggered: displacements at fixed temperatures, temperatures "
+      "of several fields. monolithic: displacements and temperatures at once. staggered: displacements at fixed temperatures, temperatures "
       "at fixed displacements, in turn until both are in balance: smaller systems, more iterations");
   parameters.add("most turns", most_turns, Says("turns of a staggered step after which it is undone").at_least(1));
   parameters.add(

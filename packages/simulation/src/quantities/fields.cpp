@@ -8,7 +8,7 @@
 #include <functional>
 #include <stdexcept>
 
-#include "quantities/surface_projection.hpp"
+#include "surfaces/surface_projection.hpp"
 
 namespace mortise {
 namespace {
@@ -142,7 +142,8 @@ Values projected(const FieldState& state, const std::function<std::vector<double
   if (state.contact == nullptr) return values;
   for (std::size_t pair = 0; pair < state.contact->pairs(); ++pair) {
     const std::vector<double> of_pair = numbers(pair);
-    const Values on_nodes = projected_on_slave(state, pair, [&](std::size_t s) { return of_pair[s]; });
+    const Values on_nodes =
+        projected_on_slave(state.bodies, *state.contact, *state.laws, state.local_displacement, pair, [&](std::size_t s) { return of_pair[s]; });
     for (std::size_t node = 0; node < values.size(); ++node) values[node] += on_nodes[node];
   }
   return values;

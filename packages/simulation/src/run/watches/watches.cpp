@@ -1,8 +1,8 @@
 #include "run/watches/watches.hpp"
 
-#include "run/path/heat_error.hpp"
 #include "run/watches/coarse_crossing.hpp"
 #include "run/watches/coarse_slave.hpp"
+#include "run/watches/heat_error.hpp"
 #include "run/watches/heat_watch.hpp"
 #include "run/watches/surface_watch.hpp"
 

@@ -1,4 +1,4 @@
-#include "run/path/heat_error.hpp"
+#include "run/watches/heat_error.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "quantities/surface_projection.hpp"
+#include "surfaces/surface_projection.hpp"
 
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Export.hpp>
@@ -18,17 +18,17 @@ namespace {
 using MassRows = std::map<GlobalOrdinal, std::map<GlobalOrdinal, double>>;
 
 // Facets stand on each rank that owns a node of them: rows of owned nodes are whole.
-MassRows mass_rows(const FieldState& state, std::size_t pair) {
-  const Mesh& mesh = *state.bodies.mesh();
-  const auto view = state.local_displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
-  const bool moves = state.contact->geometry(pair) == ContactGeometry::current;
-  const FieldView<const double> displacement = moves ? FieldView<const double>{view.data(), state.bodies.space().rows(0)} : FieldView<const double>{};
+MassRows mass_rows(const Bodies& bodies, const ContactSystem& contact, const Vector& local_displacement, std::size_t pair) {
+  const Mesh& mesh = *bodies.mesh();
+  const auto view = local_displacement.getLocalViewHost(Tpetra::Access::ReadOnly);
+  const bool moves = contact.geometry(pair) == ContactGeometry::current;
+  const FieldView<const double> displacement = moves ? FieldView<const double>{view.data(), bodies.space().rows(0)} : FieldView<const double>{};
   MassRows rows;
-  for (const SurfaceFacet& facet : state.contact->slave_facets(pair)) {
+  for (const SurfaceFacet& facet : contact.slave_facets(pair)) {
     const LoadedSide side = side_of(mesh, facet);
     for (const SidePoint& point : *side.rule) {
       const SidePosition at = side.at(point, mesh, displacement);
-      const double area = point.weight * at.area.norm() * state.bodies.depth(at.position[0]);
+      const double area = point.weight * at.area.norm() * bodies.depth(at.position[0]);
       for (std::size_t a = 0; a < facet.size(); ++a) {
         if (!mesh.owned_nodes->isNodeGlobalElement(facet[a])) continue;
         for (std::size_t b = 0; b < facet.size(); ++b) rows[facet[a]][facet[b]] += area * point.N[a] * point.N[b];
@@ -55,8 +55,9 @@ RCP<const Matrix> mass_matrix(const Mesh& mesh, const MassRows& rows) {
 }
 
 /// sum_j D_jk q_j
-RCP<const Vector> moments(const FieldState& state, std::size_t pair, const RCP<const Map>& rows, const std::function<double(std::size_t)>& value) {
-  const FieldTransfer transfer(*state.laws, pair);
+RCP<const Vector> moments(const Mesh& mesh, const ContactLaws& laws, std::size_t pair, const RCP<const Map>& rows,
+                          const std::function<double(std::size_t)>& value) {
+  const FieldTransfer transfer(laws, pair);
   Vector on_nodes(transfer.nodes());
   {
     const auto sums = on_nodes.getLocalViewHost(Tpetra::Access::ReadWrite);
@@ -67,7 +68,7 @@ RCP<const Vector> moments(const FieldState& state, std::size_t pair, const RCP<c
         if (node.loaded[m] != 0 && transfer.is_slave(node.nodes[m])) sums(node.nodes[m], 0) += node.coefficients[m] * value(s);
     }
   }
-  const auto owned = rcp(new Vector(state.bodies.mesh()->owned_nodes)), result = rcp(new Vector(rows));
+  const auto owned = rcp(new Vector(mesh.owned_nodes)), result = rcp(new Vector(rows));
   owned->doExport(on_nodes, Export(transfer.nodes(), owned->getMap()), Tpetra::ADD);
   const auto from = owned->getLocalViewHost(Tpetra::Access::ReadOnly);
   const auto to = result->getLocalViewHost(Tpetra::Access::OverwriteAll);
@@ -78,11 +79,12 @@ RCP<const Vector> moments(const FieldState& state, std::size_t pair, const RCP<c
 
 }  // namespace
 
-std::vector<double> projected_on_slave(const FieldState& state, std::size_t pair, const std::function<double(std::size_t s)>& value) {
-  const Mesh& mesh = *state.bodies.mesh();
+std::vector<double> projected_on_slave(const Bodies& bodies, const ContactSystem& contact, const ContactLaws& laws, const Vector& local_displacement,
+                                       std::size_t pair, const std::function<double(std::size_t s)>& value) {
+  const Mesh& mesh = *bodies.mesh();
   std::vector<double> result(static_cast<std::size_t>(mesh.owned_count()), 0.0);
-  const RCP<const Matrix> mass = mass_matrix(mesh, mass_rows(state, pair));
-  const RCP<const Vector> b = moments(state, pair, mass->getRowMap(), value);
+  const RCP<const Matrix> mass = mass_matrix(mesh, mass_rows(bodies, contact, local_displacement, pair));
+  const RCP<const Vector> b = moments(mesh, laws, pair, mass->getRowMap(), value);
   Vector x(mass->getRowMap());
   const std::unique_ptr<LinearSolver> solver = make_linear_solver({}, mesh.comm, Timers());
   solver->set_matrix(mass, true, {});
